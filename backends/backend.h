@@ -1,0 +1,133 @@
+// The backend contract: what an API must do to run raingauge's passes.
+//
+// A backend is one folder with one `const struct rg_backend`. It is only ever called through
+// core/device.c, which has checked every argument: a backend contains no checks of its callers.
+// It reports what its driver says: an error is logged in one line with the call, its code and the
+// object's name (rg_error), and comes back as false or NULL. Nothing aborts, nothing prints else.
+//
+// Objects: a backend's own struct begins with the public one (struct gl_buf { struct rg_buf pub; })
+// and is allocated zeroed by the backend. core/device.c fills the public part after a create.
+// Destroy functions are never called with NULL, and only when the device is idle (after a sync).
+//
+// Threads: a device is used by one thread at a time. Several devices live side by side.
+// Order: pass_run, buf_write, image_write, image_clear and reads take effect in the order of their
+// calls, as if each had ended before the next began. Only sync, reads and time wait.
+#ifndef RG_BACKENDS_BACKEND_H
+#define RG_BACKENDS_BACKEND_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "core/kernel.h"
+
+struct rg_extent {
+    int width, height, depth; // items
+};
+
+// What a device can do. Data, set at creation: 0 means that it cannot.
+struct rg_limits {
+    int64_t max_buffer_bytes;
+    int max_image_px; // width and height
+    int max_image_layers;
+    int max_groups[3]; // work groups a dispatch, in x, y and z; INT_MAX: no limit
+    int group_items;   // items a work group, along x
+};
+
+struct rg_device_info {
+    char name[32];    // as the command line says it: "cpu:reference", "gl", "vulkan:1"
+    char device[128]; // what the driver calls it: "llvmpipe (LLVM 15.0.6, 256 bits)"
+    char driver[160]; // driver and version: "Mesa 22.3.6"
+    char api[64];     // "OpenGL 4.5 core", "Vulkan 1.3.230", "OpenCL 1.2", "C11, AVX-512"
+    bool software;    // runs on the CPU
+    struct rg_limits limits;
+};
+
+struct rg_device {
+    const struct rg_backend *backend;
+    struct rg_device_info info;
+    struct rg_work *work; // what core/device.c counts; not the backend's business
+};
+
+struct rg_buf {
+    struct rg_device *device;
+    size_t size;
+    const char *name; // for messages and debug labels; owned by core/device.c
+};
+
+struct rg_image_desc {
+    enum rg_format format;
+    int width, height, layers;
+    int levels; // 1 to 16; level l is max(1, width >> l) wide
+};
+
+struct rg_image {
+    struct rg_device *device;
+    struct rg_image_desc desc;
+    const char *name;
+};
+
+struct rg_pass {
+    struct rg_device *device;
+    const struct rg_kernel *kernel;
+};
+
+struct rg_binding {
+    struct rg_buf *buf; // one of the two, as the kernel's slot wants it
+    struct rg_image *image;
+};
+
+// One run of a pass over the items origin <= (x, y, z) < origin + extent, in any order.
+struct rg_run {
+    const void *params;                    // kernel->params_size bytes, copied during the call
+    struct rg_binding slots[RG_MAX_SLOTS]; // indexed by slot
+    struct rg_extent extent;               // at least 1 each
+    struct rg_extent origin;               // of the first item; 0 for most
+};
+
+struct rg_backend {
+    const char *name;    // "vulkan"
+    const char *package; // the Debian package whose absence explains a missing device
+
+    // Fills `infos` with up to `max` devices, best first, and returns their number; 0: none, and
+    // `why` (of `why_size` bytes) says so in one line. Quiet: it logs nothing and leaves nothing
+    // open.
+    int (*list)(struct rg_device_info *infos, int max, char *why, size_t why_size);
+
+    // Opens the device at `index` of the list. NULL and one logged line on failure.
+    struct rg_device *(*create)(int index);
+    void (*destroy)(struct rg_device *device);
+
+    // Contents are undefined until written. `size` is at most limits.max_buffer_bytes.
+    struct rg_buf *(*buf_create)(struct rg_device *device, size_t size, const char *name);
+    void (*buf_destroy)(struct rg_buf *buf);
+    bool (*buf_write)(struct rg_buf *buf, size_t offset, const void *data, size_t size);
+    bool (*buf_read)(struct rg_buf *buf, size_t offset, void *data, size_t size);
+
+    // Texels travel tightly packed, rows from y = 0, one layer of one level at a time, in the
+    // image's own format (kernels/format.h): rg_format_size(format) bytes each.
+    struct rg_image *(*image_create)(struct rg_device *device, const struct rg_image_desc *desc,
+                                     const char *name);
+    void (*image_destroy)(struct rg_image *image);
+    bool (*image_write)(struct rg_image *image, int layer, int level, const void *texels);
+    bool (*image_read)(struct rg_image *image, int layer, int level, void *texels);
+    // Sets every texel of every layer and level. `texel` is one packed texel.
+    bool (*image_clear)(struct rg_image *image, const void *texel);
+
+    // Compiles a kernel. The driver may go on compiling at the first run.
+    struct rg_pass *(*pass_create)(struct rg_device *device, const struct rg_kernel *kernel);
+    void (*pass_destroy)(struct rg_pass *pass);
+    // Runs a pass, or queues it. extent fits limits.max_groups.
+    bool (*pass_run)(struct rg_pass *pass, const struct rg_run *run);
+
+    // Returns when all that was queued has ended. False: some of it failed.
+    bool (*sync)(struct rg_device *device);
+    // The API's own clock, in nanoseconds from an arbitrary start, once all that was queued before
+    // has ended. Two readings make an interval. Drivers lie: callers compare with wall clock.
+    bool (*time)(struct rg_device *device, int64_t *time_ns);
+};
+
+// All backends, NULL-terminated, made by the build from the one list in backends/meson.build.
+extern const struct rg_backend *const rg_backends[];
+
+#endif

@@ -1,0 +1,82 @@
+// The cpu backend: kernels as C functions, run by cpu:reference in order and by cpu on all cores.
+#ifndef RG_BACKENDS_CPU_CPU_H
+#define RG_BACKENDS_CPU_CPU_H
+
+#include "backends/backend.h"
+#include "backends/cpu/fault.h"
+#include "kernels/image_memory.h"
+
+struct cpu_slot {
+    void *data;
+    int count;                   // elements, or words of an image
+    const rg_image_shape *shape; // of an image
+};
+
+// A block of items begin <= (x, y, z) < end, to be run by one thread.
+struct cpu_call {
+    const void *params;
+    struct cpu_slot slots[RG_MAX_SLOTS];
+    struct rg_extent begin, end;
+    struct rg_fault *fault; // noted by the reference level alone
+};
+
+typedef void (*cpu_kernel_fn)(const struct cpu_call *call);
+
+struct cpu_device {
+    struct rg_device pub;
+    const cpu_kernel_fn *kernels; // in the order of rg_kernel_all
+    bool reference;
+};
+
+struct cpu_buf {
+    struct rg_buf pub;
+    void *data;
+};
+
+struct cpu_image {
+    struct rg_image pub;
+    rg_image_shape shape;
+    int words; // of the whole image
+    uint *texels;
+};
+
+struct cpu_pass {
+    struct rg_pass pub;
+    cpu_kernel_fn function;
+};
+
+// The instruction sets that the kernels were built for, slowest first, "reference" before all.
+struct cpu_level {
+    const char *name;
+    const cpu_kernel_fn *kernels;
+};
+extern const struct cpu_level cpu_levels[];
+extern const int cpu_level_count;
+
+// buf.c
+struct rg_buf *cpu_buf_create(struct rg_device *device, size_t size, const char *name);
+void cpu_buf_destroy(struct rg_buf *buf);
+bool cpu_buf_write(struct rg_buf *buf, size_t offset, const void *data, size_t size);
+bool cpu_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size);
+
+// image.c
+struct rg_image *cpu_image_create(struct rg_device *device, const struct rg_image_desc *desc,
+                                  const char *name);
+void cpu_image_destroy(struct rg_image *image);
+bool cpu_image_write(struct rg_image *image, int layer, int level, const void *texels);
+bool cpu_image_read(struct rg_image *image, int layer, int level, void *texels);
+bool cpu_image_clear(struct rg_image *image, const void *texel);
+
+// pass.c
+struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
+void cpu_pass_destroy(struct rg_pass *pass);
+bool cpu_pass_run(struct rg_pass *pass, const struct rg_run *run);
+
+// time.c
+bool cpu_sync(struct rg_device *device);
+bool cpu_time(struct rg_device *device, int64_t *time_ns);
+
+// Memory for buffers and images, aligned to a cache line; NULL when there is none.
+void *cpu_alloc(size_t size);
+
+#endif

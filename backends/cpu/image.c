@@ -1,0 +1,71 @@
+#include "backends/cpu/cpu.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/device.h"
+#include "core/log.h"
+
+struct rg_image *cpu_image_create(struct rg_device *device, const struct rg_image_desc *desc,
+                                  const char *name)
+{
+    rg_image_shape shape;
+    int64_t words = rg_image_layout(desc, &shape) * rg_format_size(desc->format) / 4;
+    if (words > INT_MAX)
+        return rg_error_null("image '%s': %lld words exceed the 2147483647 that %s allows", name,
+                             (long long)words, device->info.name);
+    struct cpu_image *image = calloc(1, sizeof(*image));
+    image->shape = shape;
+    image->words = (int)words;
+    image->texels = cpu_alloc((size_t)words * sizeof(uint));
+    if (!image->texels) {
+        free(image);
+        return rg_error_null("image '%s': %s has no %lld bytes of memory left", name,
+                             device->info.name, (long long)words * 4);
+    }
+    return &image->pub;
+}
+
+void cpu_image_destroy(struct rg_image *image)
+{
+    struct cpu_image *cpu = (struct cpu_image *)image;
+    free(cpu->texels);
+    free(cpu);
+}
+
+// Where a layer of a level begins, and its size in bytes.
+static void *locate(struct rg_image *image, int layer, int level, size_t *size)
+{
+    struct cpu_image *cpu = (struct cpu_image *)image;
+    size_t words = (size_t)rg_format_size(image->desc.format) / sizeof(uint);
+    *size = (size_t)rg_level_size(image->desc.width, level) *
+            (size_t)rg_level_size(image->desc.height, level) * words * sizeof(uint);
+    return cpu->texels + (size_t)rg_texel_index(cpu->shape, 0, 0, layer, level) * words;
+}
+
+bool cpu_image_write(struct rg_image *image, int layer, int level, const void *texels)
+{
+    size_t size;
+    void *to = locate(image, layer, level, &size);
+    memcpy(to, texels, size);
+    return true;
+}
+
+bool cpu_image_read(struct rg_image *image, int layer, int level, void *texels)
+{
+    size_t size;
+    const void *from = locate(image, layer, level, &size);
+    memcpy(texels, from, size);
+    return true;
+}
+
+bool cpu_image_clear(struct rg_image *image, const void *texel)
+{
+    struct cpu_image *cpu = (struct cpu_image *)image;
+    size_t size = (size_t)rg_format_size(image->desc.format);
+    size_t texels = (size_t)cpu->words * sizeof(uint) / size;
+    for (size_t i = 0; i < texels; i++)
+        memcpy((char *)cpu->texels + i * size, texel, size);
+    return true;
+}

@@ -1,0 +1,109 @@
+#include "backends/cpu/cpu.h"
+
+#include <omp.h>
+#include <stdlib.h>
+
+#include "core/log.h"
+
+struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
+{
+    const struct rg_kernel *const *all;
+    int count = rg_kernel_all(&all), index = 0;
+    while (index < count && all[index] != kernel)
+        index++;
+    struct cpu_pass *pass = calloc(1, sizeof(*pass));
+    pass->function = ((struct cpu_device *)device)->kernels[index];
+    return &pass->pub;
+}
+
+void cpu_pass_destroy(struct rg_pass *pass)
+{
+    free(pass);
+}
+
+static struct cpu_call bind(const struct rg_kernel *kernel, const struct rg_run *run,
+                            struct rg_fault *fault)
+{
+    struct cpu_call call = {
+        .params = run->params,
+        .begin = run->origin,
+        .end = {run->origin.width + run->extent.width, run->origin.height + run->extent.height,
+                run->origin.depth + run->extent.depth},
+        .fault = fault,
+    };
+    for (int i = 0; i < kernel->slot_count; i++) {
+        const struct rg_slot_info *slot = &kernel->slots[i];
+        struct cpu_buf *buf = (struct cpu_buf *)run->slots[slot->slot].buf;
+        struct cpu_image *image = (struct cpu_image *)run->slots[slot->slot].image;
+        call.slots[slot->slot] =
+            buf ? (struct cpu_slot){buf->data, (int)(buf->pub.size / (size_t)slot->element_size),
+                                    NULL}
+                : (struct cpu_slot){image->texels, image->words, &image->shape};
+    }
+    return call;
+}
+
+// In order, one item after the other, on the calling thread.
+static bool run_in_order(struct cpu_pass *pass, const struct rg_run *run)
+{
+    struct rg_fault fault = {0};
+    struct cpu_call call = bind(pass->pub.kernel, run, &fault);
+    pass->function(&call);
+    if (fault.slot)
+        return rg_error("kernel '%s': %s[%d] is out of range; it holds %d", pass->pub.kernel->name,
+                        fault.slot, fault.index, fault.count);
+    return true;
+}
+
+static int part(int64_t count, int index, int parts)
+{
+    return (int)(count * index / parts);
+}
+
+// The block of one thread: a band of the longest axis, the same band in every pass of equal size,
+// so that what a core wrote is still in its cache when it reads it.
+static struct cpu_call block(const struct cpu_call *call, const struct rg_extent *extent, int index,
+                             int blocks)
+{
+    struct cpu_call mine = *call;
+    if (extent->height >= blocks) {
+        mine.begin.height = call->begin.height + part(extent->height, index, blocks);
+        mine.end.height = call->begin.height + part(extent->height, index + 1, blocks);
+    } else if (extent->depth >= blocks) {
+        mine.begin.depth = call->begin.depth + part(extent->depth, index, blocks);
+        mine.end.depth = call->begin.depth + part(extent->depth, index + 1, blocks);
+    } else {
+        mine.begin.width = call->begin.width + part(extent->width, index, blocks);
+        mine.end.width = call->begin.width + part(extent->width, index + 1, blocks);
+    }
+    return mine;
+}
+
+// Fewer items than this cost less than waking a thread.
+enum { MIN_ITEMS_A_THREAD = 4096 };
+
+static bool run_parallel(struct cpu_pass *pass, const struct rg_run *run)
+{
+    struct cpu_call call = bind(pass->pub.kernel, run, NULL);
+    int64_t items = (int64_t)run->extent.width * run->extent.height * run->extent.depth;
+    int blocks = omp_get_max_threads();
+    if (items / blocks < MIN_ITEMS_A_THREAD)
+        blocks = items < MIN_ITEMS_A_THREAD ? 1 : (int)(items / MIN_ITEMS_A_THREAD);
+    if (blocks == 1) {
+        pass->function(&call);
+        return true;
+    }
+#pragma omp parallel for schedule(static, 1) num_threads(blocks)
+    for (int i = 0; i < blocks; i++) {
+        struct cpu_call mine = block(&call, &run->extent, i, blocks);
+        pass->function(&mine);
+    }
+    return true;
+}
+
+bool cpu_pass_run(struct rg_pass *pass, const struct rg_run *run)
+{
+    struct cpu_pass *cpu = (struct cpu_pass *)pass;
+    return ((struct cpu_device *)pass->device)->reference ? run_in_order(cpu, run)
+                                                          : run_parallel(cpu, run);
+}

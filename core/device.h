@@ -1,0 +1,75 @@
+// The checked device: every call of a backend goes through here.
+//
+// Each function checks its arguments and refuses with one logged line that names the object and the
+// number; splits runs that exceed a device's work-group limits; counts work; and finds what was not
+// destroyed. create returns NULL and every other function false when it has failed and logged why.
+// Destroy functions accept NULL. Types are in backends/backend.h.
+#ifndef RG_CORE_DEVICE_H
+#define RG_CORE_DEVICE_H
+
+#include "backends/backend.h"
+
+struct rg_image_shape;
+
+enum { RG_MAX_DEVICES = 32 };
+
+// What was done on a device since it was opened.
+struct rg_work {
+    int64_t runs;                      // pass runs asked for
+    int64_t dispatches;                // pass runs after folding
+    int64_t items;                     // items run
+    int64_t bytes_written, bytes_read; // between host and device
+    int64_t live_buffers, live_images, live_passes;
+    int64_t live_bytes; // of buffers and images
+};
+
+// A backend's devices, or why there is none. Quiet.
+struct rg_device_list {
+    int count;
+    struct rg_device_info infos[RG_MAX_DEVICES];
+    int backend_index[RG_MAX_DEVICES]; // what backend->create takes
+    const struct rg_backend *backends[RG_MAX_DEVICES];
+    char missing[8][256]; // one line a backend without a device, "" after the last
+};
+void rg_device_list_all(struct rg_device_list *list);
+
+// How opening ended: a name that no backend knows is bad usage, an absent driver is "unsupported".
+enum rg_open_status { RG_OPEN_OK, RG_OPEN_UNKNOWN, RG_OPEN_UNSUPPORTED, RG_OPEN_FAILED };
+
+// Opens a device by name: "cpu", "cpu:reference", "gl", "gl:1", "vulkan:NVIDIA" (an index, or a
+// part of the device's name, case ignored). `status` may be NULL.
+struct rg_device *rg_device_open(const char *name, enum rg_open_status *status);
+// Waits, reports what still lives on it as an error, and closes it. Returns false on a leak.
+bool rg_device_close(struct rg_device *device);
+
+const struct rg_work *rg_device_work(const struct rg_device *device);
+
+struct rg_buf *rg_buf_create(struct rg_device *device, int64_t size, const char *name);
+void rg_buf_destroy(struct rg_buf *buf);
+bool rg_buf_write(struct rg_buf *buf, int64_t offset, const void *data, int64_t size);
+bool rg_buf_read(struct rg_buf *buf, int64_t offset, void *data, int64_t size);
+
+struct rg_image *rg_image_create(struct rg_device *device, const struct rg_image_desc *desc,
+                                 const char *name);
+void rg_image_destroy(struct rg_image *image);
+bool rg_image_write(struct rg_image *image, int layer, int level, const void *texels);
+bool rg_image_read(struct rg_image *image, int layer, int level, void *texels);
+bool rg_image_clear(struct rg_image *image, const void *texel);
+
+// Bytes a texel; 0 for RG_FORMAT_NONE. Name as in kernels ("RGBA16F").
+int rg_format_size(enum rg_format format);
+const char *rg_format_name(enum rg_format format);
+// Width or height of a level.
+int rg_level_size(int size, int level);
+// How the devices that keep images in plain memory lay them out (kernels/image_memory.h): fills
+// `shape` and returns the texels of all layers and levels.
+int64_t rg_image_layout(const struct rg_image_desc *desc, struct rg_image_shape *shape);
+
+struct rg_pass *rg_pass_create(struct rg_device *device, const char *kernel);
+void rg_pass_destroy(struct rg_pass *pass);
+bool rg_pass_run(struct rg_pass *pass, const struct rg_run *run);
+
+bool rg_device_sync(struct rg_device *device);
+bool rg_device_time(struct rg_device *device, int64_t *time_ns);
+
+#endif

@@ -1,0 +1,71 @@
+// What the host knows of a kernel: its parameters, its slots and its text for each driver.
+//
+// One table row a kernel, made by the build from kernels/*.h (kernels/meson.build lists them). A
+// kernel's C functions belong to the cpu backend and are not here.
+#ifndef RG_CORE_KERNEL_H
+#define RG_CORE_KERNEL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { RG_MAX_SLOTS = 16, RG_MAX_PARAMS_SIZE = 1024 };
+
+enum rg_format {
+    RG_FORMAT_NONE,
+    RG_RGBA8,
+    RG_RGBA16F,
+    RG_RGBA32F,
+    RG_R32F,
+    RG_RG11B10F,
+    RG_FORMAT_COUNT
+};
+
+enum rg_slot_kind {
+    RG_SLOT_IN = 1,
+    RG_SLOT_OUT,
+    RG_SLOT_INOUT,
+    RG_SLOT_ATOMIC,
+    RG_SLOT_IMAGE,
+    RG_SLOT_OUT_IMAGE,
+};
+
+struct rg_slot_info {
+    const char *name; // as the kernel calls it
+    int slot;         // 1 to RG_MAX_SLOTS - 1, the binding in every API
+    enum rg_slot_kind kind;
+    int element_size;      // of a buffer's element, in bytes; 0 for an image
+    enum rg_format format; // of an image; RG_FORMAT_NONE for a buffer
+};
+
+// One driver's form of a kernel. Text is not terminated by a zero.
+struct rg_kernel_code {
+    const unsigned char *bytes;
+    size_t size;
+};
+
+enum rg_code_kind { RG_CODE_GLSL, RG_CODE_SPIRV, RG_CODE_OPENCL, RG_CODE_COUNT };
+
+struct rg_kernel {
+    const char *name;
+    int params_size; // in bytes, a multiple of 4
+    int slot_count;
+    const struct rg_slot_info *slots;  // ascending by slot
+    const struct rg_kernel_code *code; // RG_CODE_COUNT of them
+};
+
+// The kernel of this name, or NULL (no message).
+const struct rg_kernel *rg_kernel_find(const char *name);
+
+// All kernels, in the order of the list; returns their number.
+int rg_kernel_all(const struct rg_kernel *const **kernels);
+
+// The code for a driver, as embedded at build time or, where RG_KERNEL_DIR names a folder, read
+// from NAME.glsl, NAME.spv or NAME.cl there. `owned` is what the caller frees when done, NULL if
+// nothing.
+bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind,
+                    struct rg_kernel_code *code, void **owned);
+
+// The folder that RG_KERNEL_DIR names, or NULL. Records say so.
+const char *rg_kernel_override(void);
+
+#endif

@@ -1,0 +1,29 @@
+// Turns the kernel header that was just included into its row for core/kernel.h. C only.
+#include "core/kernel.h"
+
+#define RG_CAT_(a, b)            a##b
+#define RG_CAT(a, b)             RG_CAT_(a, b)
+#define RG_STRING_(a)            #a
+#define RG_STRING(a)             RG_STRING_(a)
+#define IN(slot, T, name)        {#name, slot, RG_SLOT_IN, sizeof(T), RG_FORMAT_NONE},
+#define OUT(slot, T, name)       {#name, slot, RG_SLOT_OUT, sizeof(T), RG_FORMAT_NONE},
+#define INOUT(slot, T, name)     {#name, slot, RG_SLOT_INOUT, sizeof(T), RG_FORMAT_NONE},
+#define ATOMIC(slot, T, name)    {#name, slot, RG_SLOT_ATOMIC, sizeof(T), RG_FORMAT_NONE},
+#define IMAGE(slot, F, name)     {#name, slot, RG_SLOT_IMAGE, 0, RG_##F},
+#define OUT_IMAGE(slot, F, name) {#name, slot, RG_SLOT_OUT_IMAGE, 0, RG_##F},
+
+static const struct rg_slot_info slots[] = {RG_SLOTS};
+
+static_assert(sizeof(RG_PARAMS) % 4 == 0 && sizeof(RG_PARAMS) <= RG_MAX_PARAMS_SIZE,
+              "parameters are 4-byte scalars, at most RG_MAX_PARAMS_SIZE bytes");
+
+extern const struct rg_kernel_code RG_CAT(rg_code_, RG_KERNEL_NAME)[RG_CODE_COUNT];
+extern const struct rg_kernel RG_CAT(rg_kernel_, RG_KERNEL_NAME);
+
+const struct rg_kernel RG_CAT(rg_kernel_, RG_KERNEL_NAME) = {
+    .name = RG_STRING(RG_KERNEL_NAME),
+    .params_size = sizeof(RG_PARAMS),
+    .slot_count = sizeof(slots) / sizeof(slots[0]),
+    .slots = slots,
+    .code = RG_CAT(rg_code_, RG_KERNEL_NAME),
+};

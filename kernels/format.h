@@ -1,0 +1,112 @@
+// How image formats hold a colour, bit by bit, so that every device reads and writes the same
+// value.
+//
+// rg_rounded_F(c) is the colour that a format F can hold exactly, nearest below in magnitude for
+// floats. Kernels store only such colours, so a driver's own conversion has nothing left to round.
+// rg_fetched_F(c) mends what a driver's fetch may leave inexact. The packing and unpacking below
+// serve the devices that keep images in plain memory (cpu and opencl).
+#ifndef RG_KERNELS_FORMAT_H
+#define RG_KERNELS_FORMAT_H
+
+#include "lang.h"
+
+// --- RGBA8: unsigned normalised, 1 word a texel ---
+
+RG_FN uint rg_unorm8(float v)
+{
+    return rg_to_uint(rg_to_int(rg_floor(rg_clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f)));
+}
+
+RG_FN float rg_rounded_unorm8(float v)
+{
+    return rg_to_float(rg_unorm8(v)) / 255.0f;
+}
+
+RG_FN rgba rg_rounded_RGBA8(rgba c)
+{
+    return rg_rgba(rg_rounded_unorm8(c.r), rg_rounded_unorm8(c.g), rg_rounded_unorm8(c.b),
+                   rg_rounded_unorm8(c.a));
+}
+
+// Drivers may multiply by 1/255 where we divide by 255; the integer behind both is the same.
+RG_FN rgba rg_fetched_RGBA8(rgba c)
+{
+    return rg_rounded_RGBA8(c);
+}
+
+// --- RGBA16F: half floats, 2 words a texel. Subnormal halves are stored as zero. ---
+
+RG_FN float rg_rounded_half(float v)
+{
+    float kept = rg_bits_float(rg_float_bits(rg_clamp(v, -65504.0f, 65504.0f)) & 0xffffe000u);
+    return rg_abs(kept) < 6.103515625e-5f ? 0.0f : kept;
+}
+
+RG_FN rgba rg_rounded_RGBA16F(rgba c)
+{
+    return rg_rgba(rg_rounded_half(c.r), rg_rounded_half(c.g), rg_rounded_half(c.b),
+                   rg_rounded_half(c.a));
+}
+
+RG_FN rgba rg_fetched_RGBA16F(rgba c)
+{
+    return c;
+}
+
+RG_FN uint rg_pack_half(float rounded)
+{
+    uint bits = rg_float_bits(rounded);
+    uint magnitude = bits & 0x7fffffffu;
+    return ((bits >> 16) & 0x8000u) | (magnitude == 0u ? 0u : (magnitude >> 13) - 0x1c000u);
+}
+
+RG_FN float rg_unpack_half(uint half_bits)
+{
+    uint magnitude = half_bits & 0x7fffu;
+    float v = magnitude < 0x400u ? rg_to_float(magnitude) * 5.9604644775390625e-8f
+                                 : rg_bits_float((magnitude << 13) + 0x38000000u);
+    return (half_bits & 0x8000u) != 0u ? -v : v;
+}
+
+// --- RGBA32F and R32F: floats as they are, 4 words and 1 word a texel ---
+
+RG_FN rgba rg_rounded_RGBA32F(rgba c)
+{
+    return c;
+}
+
+RG_FN rgba rg_fetched_RGBA32F(rgba c)
+{
+    return c;
+}
+
+RG_FN rgba rg_rounded_R32F(rgba c)
+{
+    return rg_rgba(c.r, 0.0f, 0.0f, 1.0f);
+}
+
+RG_FN rgba rg_fetched_R32F(rgba c)
+{
+    return c;
+}
+
+// --- RG11B10F: unsigned floats of 11, 11 and 10 bits, 1 word a texel; fetched only ---
+
+RG_FN float rg_unpack_float11(uint bits)
+{
+    return bits < 64u ? rg_to_float(bits) * 9.5367431640625e-7f
+                      : rg_bits_float((bits << 17) + 0x38000000u);
+}
+
+RG_FN float rg_unpack_float10(uint bits)
+{
+    return bits < 32u ? rg_to_float(bits) * 1.9073486328125e-6f
+                      : rg_bits_float((bits << 18) + 0x38000000u);
+}
+
+RG_FN rgba rg_fetched_RG11B10F(rgba c)
+{
+    return c;
+}
+
+#endif

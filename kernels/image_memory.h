@@ -1,0 +1,89 @@
+// Images in plain memory, for C and OpenCL C: level 0 of all layers first, then level 1, and so on;
+// rows without padding; texels packed in 32-bit words as format.h says.
+#ifndef RG_KERNELS_IMAGE_MEMORY_H
+#define RG_KERNELS_IMAGE_MEMORY_H
+
+#include "format.h"
+
+#define RG_MAX_LEVELS 16
+
+typedef struct rg_image_shape {
+    int width;
+    int height;
+    int layers;
+    int levels;
+    int level_offset[RG_MAX_LEVELS]; // in texels
+} rg_image_shape;
+
+RG_FN int rg_texel_index(rg_image_shape s, int x, int y, int layer, int level)
+{
+    int width = rg_imax(s.width >> level, 1);
+    int height = rg_imax(s.height >> level, 1);
+    return s.level_offset[level] + (layer * height + y) * width + x;
+}
+
+#define RG_WORDS_RGBA8    1
+#define RG_WORDS_RGBA16F  2
+#define RG_WORDS_RGBA32F  4
+#define RG_WORDS_R32F     1
+#define RG_WORDS_RG11B10F 1
+
+RG_FN rgba rg_load_RGBA8(RG_GLOBAL const uint *texels, int i)
+{
+    uint t = texels[i];
+    return rg_rgba(rg_to_float(t & 255u) / 255.0f, rg_to_float((t >> 8) & 255u) / 255.0f,
+                   rg_to_float((t >> 16) & 255u) / 255.0f, rg_to_float(t >> 24) / 255.0f);
+}
+
+RG_PROC void rg_store_RGBA8(RG_GLOBAL uint *texels, int i, rgba c)
+{
+    texels[i] =
+        rg_unorm8(c.r) | (rg_unorm8(c.g) << 8) | (rg_unorm8(c.b) << 16) | (rg_unorm8(c.a) << 24);
+}
+
+RG_FN rgba rg_load_RGBA16F(RG_GLOBAL const uint *texels, int i)
+{
+    uint rg = texels[i];
+    uint ba = texels[i + 1];
+    return rg_rgba(rg_unpack_half(rg & 0xffffu), rg_unpack_half(rg >> 16),
+                   rg_unpack_half(ba & 0xffffu), rg_unpack_half(ba >> 16));
+}
+
+RG_PROC void rg_store_RGBA16F(RG_GLOBAL uint *texels, int i, rgba c)
+{
+    texels[i] = rg_pack_half(c.r) | (rg_pack_half(c.g) << 16);
+    texels[i + 1] = rg_pack_half(c.b) | (rg_pack_half(c.a) << 16);
+}
+
+RG_FN rgba rg_load_RGBA32F(RG_GLOBAL const uint *texels, int i)
+{
+    return rg_rgba(rg_bits_float(texels[i]), rg_bits_float(texels[i + 1]),
+                   rg_bits_float(texels[i + 2]), rg_bits_float(texels[i + 3]));
+}
+
+RG_PROC void rg_store_RGBA32F(RG_GLOBAL uint *texels, int i, rgba c)
+{
+    texels[i] = rg_float_bits(c.r);
+    texels[i + 1] = rg_float_bits(c.g);
+    texels[i + 2] = rg_float_bits(c.b);
+    texels[i + 3] = rg_float_bits(c.a);
+}
+
+RG_FN rgba rg_load_R32F(RG_GLOBAL const uint *texels, int i)
+{
+    return rg_rgba(rg_bits_float(texels[i]), 0.0f, 0.0f, 1.0f);
+}
+
+RG_PROC void rg_store_R32F(RG_GLOBAL uint *texels, int i, rgba c)
+{
+    texels[i] = rg_float_bits(c.r);
+}
+
+RG_FN rgba rg_load_RG11B10F(RG_GLOBAL const uint *texels, int i)
+{
+    uint t = texels[i];
+    return rg_rgba(rg_unpack_float11(t & 0x7ffu), rg_unpack_float11((t >> 11) & 0x7ffu),
+                   rg_unpack_float10(t >> 22), 1.0f);
+}
+
+#endif

@@ -1,0 +1,32 @@
+// The slots of one kernel: what it reads and writes, as plain accessor functions.
+//
+// A kernel header defines RG_PARAMS (its struct of parameters) and RG_SLOTS, then includes this:
+//
+//   IN(slot, T, name)        name_at(rg, i)                  a buffer of T, read
+//   OUT(slot, T, name)       name_put(rg, i, v)              a buffer of T, written
+//   INOUT(slot, T, name)     both                            an item touches its own elements only
+//   ATOMIC(slot, T, name)    name_add, _min, _max, _or, _store (rg, i, v); name_load(rg, i);
+//                            name_exchange_if(rg, i, expected, v) returns what was there
+//                                                            a buffer of int or uint, shared
+//   IMAGE(slot, F, name)     name_texel(rg, x, y, layer, level), name_width(rg, level), name_height
+//   OUT_IMAGE(slot, F, name) name_store(rg, x, y, layer, c)  level 0 of an image of format F
+//
+// Slots count from 1 and are one numbering for buffers and images. `rg` is the kernel's context: it
+// is passed along to every helper that reads or writes. The value that an atomic returns must never
+// influence a result, which is why add, min, max and or return none.
+#ifndef RG_KERNELS_SLOTS_H
+#define RG_KERNELS_SLOTS_H
+
+#include "format.h"
+
+#define RG_GRID_KERNEL(name)                                                                       \
+    RG_PROC void rg_kernel(rg_ctx rg RG_UNUSED, RG_PARAMS p RG_UNUSED, int x RG_UNUSED,            \
+                           int y RG_UNUSED, int z RG_UNUSED)
+
+#if RG_GLSL
+#include "slots_glsl.h"
+#else
+#include "slots_memory.h"
+#endif
+
+#endif

@@ -1,0 +1,100 @@
+// slots.h for GLSL: slots are global bindings, and the context carries the parameters alone.
+
+#define RG_UNUSED
+
+struct rg_ctx {
+    RG_PARAMS p;
+};
+
+#define RG_LAYOUT_RGBA8   rgba8
+#define RG_LAYOUT_RGBA16F rgba16f
+#define RG_LAYOUT_RGBA32F rgba32f
+#define RG_LAYOUT_R32F    r32f
+
+#define RG_BLOCK(slot, access, T, name)                                                            \
+    layout(std430, binding = slot) restrict access buffer rg_block_##name                          \
+    {                                                                                              \
+        T name##_data[];                                                                           \
+    };
+
+#define RG_AT(T, name)                                                                             \
+    T name##_at(rg_ctx rg, int i)                                                                  \
+    {                                                                                              \
+        return name##_data[i];                                                                     \
+    }
+
+#define RG_PUT(T, name)                                                                            \
+    void name##_put(rg_ctx rg, int i, T v)                                                         \
+    {                                                                                              \
+        name##_data[i] = v;                                                                        \
+    }
+
+#define IN(slot, T, name)                                                                          \
+    RG_BLOCK(slot, readonly, T, name)                                                              \
+    RG_AT(T, name)
+
+#define OUT(slot, T, name)                                                                         \
+    RG_BLOCK(slot, writeonly, T, name)                                                             \
+    RG_PUT(T, name)
+
+#define INOUT(slot, T, name)                                                                       \
+    RG_BLOCK(slot, , T, name)                                                                      \
+    RG_AT(T, name)                                                                                 \
+    RG_PUT(T, name)
+
+#define RG_ATOMIC_OP(T, name, op, call)                                                            \
+    void name##_##op(rg_ctx rg, int i, T v)                                                        \
+    {                                                                                              \
+        call(name##_data[i], v);                                                                   \
+    }
+
+#define ATOMIC(slot, T, name)                                                                      \
+    RG_BLOCK(slot, coherent, T, name)                                                              \
+    RG_ATOMIC_OP(T, name, add, atomicAdd)                                                          \
+    RG_ATOMIC_OP(T, name, min, atomicMin)                                                          \
+    RG_ATOMIC_OP(T, name, max, atomicMax)                                                          \
+    RG_ATOMIC_OP(T, name, or, atomicOr)                                                            \
+    RG_ATOMIC_OP(T, name, store, atomicExchange)                                                   \
+    T name##_load(rg_ctx rg, int i)                                                                \
+    {                                                                                              \
+        return atomicOr(name##_data[i], T(0));                                                     \
+    }                                                                                              \
+    T name##_exchange_if(rg_ctx rg, int i, T expected, T v)                                        \
+    {                                                                                              \
+        return atomicCompSwap(name##_data[i], expected, v);                                        \
+    }
+
+#define IMAGE(slot, F, name)                                                                       \
+    layout(binding = slot) uniform sampler2DArray name##_sampler;                                  \
+    rgba name##_texel(rg_ctx rg, int x, int y, int layer, int level)                               \
+    {                                                                                              \
+        vec4 t = texelFetch(name##_sampler, ivec3(x, y, layer), level);                            \
+        return rg_fetched_##F(rg_rgba(t.x, t.y, t.z, t.w));                                        \
+    }                                                                                              \
+    int name##_width(rg_ctx rg, int level)                                                         \
+    {                                                                                              \
+        return textureSize(name##_sampler, level).x;                                               \
+    }                                                                                              \
+    int name##_height(rg_ctx rg, int level)                                                        \
+    {                                                                                              \
+        return textureSize(name##_sampler, level).y;                                               \
+    }
+
+#define RG_OUT_IMAGE(slot, format, F, name)                                                        \
+    layout(format, binding = slot) restrict writeonly uniform image2DArray name##_image;           \
+    void name##_store(rg_ctx rg, int x, int y, int layer, rgba c)                                  \
+    {                                                                                              \
+        rgba v = rg_rounded_##F(c);                                                                \
+        imageStore(name##_image, ivec3(x, y, layer), vec4(v.r, v.g, v.b, v.a));                    \
+    }
+
+#define OUT_IMAGE(slot, F, name) RG_OUT_IMAGE(slot, RG_LAYOUT_##F, F, name)
+
+RG_SLOTS
+
+#undef IN
+#undef OUT
+#undef INOUT
+#undef ATOMIC
+#undef IMAGE
+#undef OUT_IMAGE
