@@ -1,0 +1,68 @@
+#include "backends/opencl/opencl.h"
+
+#include <stdlib.h>
+
+#include "core/device.h"
+#include "core/log.h"
+
+struct rg_image *opencl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
+                                     const char *name)
+{
+    rg_image_shape shape;
+    int64_t bytes = rg_image_layout(desc, &shape) * rg_format_size(desc->format);
+    if (bytes > device->info.limits.max_buffer_bytes)
+        return rg_error_null("image '%s': %lld bytes exceed the %lld that %s allows", name,
+                             (long long)bytes, (long long)device->info.limits.max_buffer_bytes,
+                             device->info.name);
+    struct opencl_image *image = calloc(1, sizeof(*image));
+    if (!image)
+        return rg_error_null("image '%s': no memory left", name);
+    image->shape = shape;
+    image->words = (int)(bytes / 4);
+    image->memory = (struct opencl_memory){NULL, (struct opencl_device *)device, "image", name};
+    if (opencl_memory_create(&image->memory, (size_t)bytes))
+        return &image->pub;
+    free(image);
+    return NULL;
+}
+
+void opencl_image_destroy(struct rg_image *image)
+{
+    clReleaseMemObject(((struct opencl_image *)image)->memory.mem);
+    free(image);
+}
+
+// Where a layer of a level begins, and its size, both in bytes.
+static size_t locate(const struct rg_image *image, int layer, int level, size_t *size)
+{
+    const struct opencl_image *opencl = (const struct opencl_image *)image;
+    size_t texel_size = (size_t)rg_format_size(image->desc.format);
+    *size = (size_t)rg_level_size(image->desc.width, level) *
+            (size_t)rg_level_size(image->desc.height, level) * texel_size;
+    return (size_t)rg_texel_index(opencl->shape, 0, 0, layer, level) * texel_size;
+}
+
+bool opencl_image_write(struct rg_image *image, int layer, int level, const void *texels)
+{
+    size_t size, offset = locate(image, layer, level, &size);
+    return opencl_memory_write(&((struct opencl_image *)image)->memory, offset, texels, size);
+}
+
+bool opencl_image_read(struct rg_image *image, int layer, int level, void *texels)
+{
+    size_t size, offset = locate(image, layer, level, &size);
+    return opencl_memory_read(&((struct opencl_image *)image)->memory, offset, texels, size);
+}
+
+bool opencl_image_clear(struct rg_image *image, const void *texel)
+{
+    struct opencl_image *opencl = (struct opencl_image *)image;
+    struct opencl_device *device = opencl->memory.device;
+    cl_int code = clEnqueueFillBuffer(device->queue, opencl->memory.mem, texel,
+                                      (size_t)rg_format_size(image->desc.format), 0,
+                                      (size_t)opencl->words * sizeof(cl_uint), 0, NULL, NULL);
+    if (!opencl_check(code, "clEnqueueFillBuffer", "image", image->name))
+        return false;
+    opencl_queued(device);
+    return true;
+}

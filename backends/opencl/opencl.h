@@ -1,0 +1,91 @@
+// The opencl backend: kernels as OpenCL C 1.2 on any driver that the ICD loader finds.
+//
+// One context and one in-order queue a device. Images lie in plain buffers
+// (kernels/image_memory.h).
+#ifndef RG_BACKENDS_OPENCL_OPENCL_H
+#define RG_BACKENDS_OPENCL_OPENCL_H
+
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+
+#include "backends/backend.h"
+#include "kernels/image_memory.h"
+
+// Data on its way to the device: a copy that lives until the queue has ended.
+struct opencl_staged {
+    struct opencl_staged *next;
+    unsigned char data[];
+};
+
+struct opencl_device {
+    struct rg_device pub;
+    cl_device_id id;
+    cl_context context;
+    cl_command_queue queue; // in order, with profiling
+    int queued;             // commands since the queue was last known to have ended
+    struct opencl_staged *staged;
+    size_t staged_bytes;
+};
+
+// A run of words in device memory, what buffers and images have in common.
+struct opencl_memory {
+    cl_mem mem;
+    struct opencl_device *device;
+    const char *kind, *name; // "buffer 'heights'" in messages
+};
+
+struct opencl_buf {
+    struct rg_buf pub;
+    struct opencl_memory memory;
+};
+
+struct opencl_image {
+    struct rg_image pub;
+    struct opencl_memory memory;
+    rg_image_shape shape;
+    int words; // of the whole image
+};
+
+struct opencl_pass {
+    struct rg_pass pub;
+    cl_program program;
+    cl_kernel kernel;
+};
+
+// error.c: an error code by its name in cl.h, "CL_INVALID_VALUE"; "error -9999" for others.
+const char *opencl_error_name(cl_int code);
+// True for CL_SUCCESS. Else logs one line that names object, call and code, and is false.
+bool opencl_check(cl_int code, const char *call, const char *kind, const char *name);
+
+// buf.c
+struct rg_buf *opencl_buf_create(struct rg_device *device, size_t size, const char *name);
+void opencl_buf_destroy(struct rg_buf *buf);
+bool opencl_buf_write(struct rg_buf *buf, size_t offset, const void *data, size_t size);
+bool opencl_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size);
+bool opencl_memory_create(struct opencl_memory *memory, size_t size);
+bool opencl_memory_write(const struct opencl_memory *memory, size_t offset, const void *data,
+                         size_t size);
+bool opencl_memory_read(const struct opencl_memory *memory, size_t offset, void *data, size_t size);
+
+// image.c
+struct rg_image *opencl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
+                                     const char *name);
+void opencl_image_destroy(struct rg_image *image);
+bool opencl_image_write(struct rg_image *image, int layer, int level, const void *texels);
+bool opencl_image_read(struct rg_image *image, int layer, int level, void *texels);
+bool opencl_image_clear(struct rg_image *image, const void *texel);
+
+// pass.c
+struct rg_pass *opencl_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
+void opencl_pass_destroy(struct rg_pass *pass);
+bool opencl_pass_run(struct rg_pass *pass, const struct rg_run *run);
+
+// time.c
+bool opencl_sync(struct rg_device *device);
+bool opencl_time(struct rg_device *device, int64_t *time_ns);
+// Call after each command that was queued: lets the driver begin.
+void opencl_queued(struct opencl_device *device);
+// Call when the queue is known to have ended.
+void opencl_ended(struct opencl_device *device);
+
+#endif

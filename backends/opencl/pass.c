@@ -1,0 +1,125 @@
+#include "backends/opencl/opencl.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/log.h"
+
+// Only options that change no value. FP contraction is off by a pragma in kernels/lang.h.
+static const char *build_options(cl_device_id id)
+{
+    cl_device_fp_config config = 0;
+    clGetDeviceInfo(id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof(config), &config, NULL);
+    return config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
+               ? "-w -cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt"
+               : "-w -cl-std=CL1.2";
+}
+
+// Logs what a driver's compiler had to say, in one line: its first error, else its first line.
+static bool build_failed(const struct opencl_device *device, cl_program program,
+                         const struct rg_kernel *kernel, cl_int code)
+{
+    size_t size = 0;
+    clGetProgramBuildInfo(program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size);
+    char *log = calloc(1, size + 1);
+    if (log)
+        clGetProgramBuildInfo(program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
+    const char *line = log ? log + strspn(log, "\r\n\t ") : "";
+    const char *error = strstr(line, "error:");
+    while (error && error > line && error[-1] != '\n')
+        error--;
+    line = error ? error : line;
+    rg_error("kernel '%s': clBuildProgram failed with %s on %s: %.*s", kernel->name,
+             opencl_error_name(code), device->pub.info.name, (int)strcspn(line, "\r\n"), line);
+    free(log);
+    return false;
+}
+
+static bool build(struct opencl_pass *pass, struct opencl_device *device,
+                  const struct rg_kernel *kernel)
+{
+    struct rg_kernel_code text;
+    void *owned;
+    if (!rg_kernel_code(kernel, RG_CODE_OPENCL, &text, &owned))
+        return false;
+    const char *source = (const char *)text.bytes;
+    cl_int code;
+    pass->program = clCreateProgramWithSource(device->context, 1, &source, &text.size, &code);
+    free(owned);
+    if (!opencl_check(code, "clCreateProgramWithSource", "kernel", kernel->name))
+        return false;
+    code = clBuildProgram(pass->program, 1, &device->id, build_options(device->id), NULL, NULL);
+    if (code != CL_SUCCESS)
+        return build_failed(device, pass->program, kernel, code);
+    pass->kernel = clCreateKernel(pass->program, "rg_grid", &code);
+    return opencl_check(code, "clCreateKernel", "kernel", kernel->name);
+}
+
+void opencl_pass_destroy(struct rg_pass *pass)
+{
+    struct opencl_pass *opencl = (struct opencl_pass *)pass;
+    if (opencl->kernel)
+        clReleaseKernel(opencl->kernel);
+    if (opencl->program)
+        clReleaseProgram(opencl->program);
+    free(opencl);
+}
+
+struct rg_pass *opencl_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
+{
+    struct opencl_pass *pass = calloc(1, sizeof(*pass));
+    if (!pass)
+        return rg_error_null("kernel '%s': no memory left", kernel->name);
+    if (build(pass, (struct opencl_device *)device, kernel))
+        return &pass->pub;
+    opencl_pass_destroy(&pass->pub);
+    return NULL;
+}
+
+// The arguments of shaders/grid.cl, in its order.
+static cl_int set_arguments(cl_kernel kernel, const struct rg_kernel *info,
+                            const struct rg_run *run)
+{
+    const cl_int4 origin = {{run->origin.width, run->origin.height, run->origin.depth, 0}};
+    const cl_int4 end = {{run->origin.width + run->extent.width,
+                          run->origin.height + run->extent.height,
+                          run->origin.depth + run->extent.depth, 0}};
+    cl_uint next = 0;
+    cl_int code = clSetKernelArg(kernel, next++, sizeof(origin), &origin);
+    code |= clSetKernelArg(kernel, next++, sizeof(end), &end);
+    code |= clSetKernelArg(kernel, next++, (size_t)info->params_size, run->params);
+    for (int i = 0; i < info->slot_count; i++) {
+        const struct rg_slot_info *slot = &info->slots[i];
+        const struct opencl_buf *buf = (struct opencl_buf *)run->slots[slot->slot].buf;
+        const struct opencl_image *image = (struct opencl_image *)run->slots[slot->slot].image;
+        const cl_int count =
+            buf ? (cl_int)(buf->pub.size / (size_t)slot->element_size) : image->words;
+        const struct opencl_memory *memory = buf ? &buf->memory : &image->memory;
+        code |= clSetKernelArg(kernel, next++, sizeof(cl_mem), &memory->mem);
+        code |= clSetKernelArg(kernel, next++, sizeof(count), &count);
+        if (image)
+            code |= clSetKernelArg(kernel, next++, sizeof(image->shape), &image->shape);
+    }
+    return code;
+}
+
+bool opencl_pass_run(struct rg_pass *pass, const struct rg_run *run)
+{
+    struct opencl_pass *opencl = (struct opencl_pass *)pass;
+    struct opencl_device *device = (struct opencl_device *)pass->device;
+    const char *name = pass->kernel->name;
+    if (!opencl_check(set_arguments(opencl->kernel, pass->kernel, run), "clSetKernelArg", "kernel",
+                      name))
+        return false;
+    const size_t group = (size_t)device->pub.info.limits.group_items;
+    const size_t local[3] = {group, 1, 1};
+    const size_t global[3] = {((size_t)run->extent.width + group - 1) / group * group,
+                              (size_t)run->extent.height, (size_t)run->extent.depth};
+    cl_int code = clEnqueueNDRangeKernel(device->queue, opencl->kernel, 3, NULL, global, local, 0,
+                                         NULL, NULL);
+    if (!opencl_check(code, "clEnqueueNDRangeKernel", "kernel", name))
+        return false;
+    opencl_queued(device);
+    return true;
+}
