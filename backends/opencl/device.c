@@ -10,6 +10,9 @@
 
 enum { MAX_PLATFORMS = 16, MAX_TEXT = 1024 };
 
+// As shaders/grid.cl has it. On PoCL, 64 to 512 along x are equally fast, fewer or squarer slower.
+enum { GROUP_ITEMS = 64 };
+
 static const char *device_text(cl_device_id id, cl_device_info what, char text[MAX_TEXT])
 {
     if (clGetDeviceInfo(id, what, MAX_TEXT, text, NULL) != CL_SUCCESS)
@@ -63,8 +66,11 @@ static int find_on_platform(cl_platform_id platform, cl_device_id *ids, int coun
     char name[MAX_TEXT];
     cl_int code = clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, RG_MAX_DEVICES, all, &found);
     if (code != CL_SUCCESS) {
-        snprintf(why, why_size, "no OpenCL device: clGetDeviceIDs failed with %s on %.60s",
-                 opencl_error_name(code), platform_text(platform, CL_PLATFORM_NAME, name));
+        platform_text(platform, CL_PLATFORM_NAME, name);
+        snprintf(why, why_size, "no OpenCL device: %s on %.60s%s", opencl_error_name(code), name,
+                 strcmp(name, "Portable Computing Language")
+                     ? ""
+                     : " (it obeys POCL_DEVICES and has to write to POCL_CACHE_DIR)");
         return count;
     }
     for (int i = 0; i < (int)found && i < RG_MAX_DEVICES && count < max; i++) {
@@ -78,8 +84,7 @@ static int find_on_platform(cl_platform_id platform, cl_device_id *ids, int coun
     return count;
 }
 
-// The usable devices in the loader's order (GPUs first); 0: none, and `why` says so.
-static int find_devices(cl_device_id *ids, int max, char *why, size_t why_size)
+static int find_on_platforms(cl_device_id *ids, int max, char *why, size_t why_size)
 {
     cl_platform_id platforms[MAX_PLATFORMS];
     cl_uint found = 0;
@@ -95,6 +100,18 @@ static int find_devices(cl_device_id *ids, int max, char *why, size_t why_size)
     return count;
 }
 
+// The usable devices in the loader's order (GPUs first); 0: none, and `why` says so.
+static int find_devices(cl_device_id *ids, int max, char *why, size_t why_size)
+{
+    const char *cache = getenv("POCL_CACHE_DIR");
+    if (cache && !*cache)
+        unsetenv("POCL_CACHE_DIR"); // PoCL 3.1 aborts on an empty one
+    int kept = opencl_hide_messages();
+    int count = find_on_platforms(ids, max, why, why_size);
+    opencl_show_messages(kept);
+    return count;
+}
+
 static struct rg_limits read_limits(cl_device_id id)
 {
     int64_t alloc = (int64_t)device_number(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof(cl_ulong));
@@ -103,8 +120,8 @@ static struct rg_limits read_limits(cl_device_id id)
         .max_buffer_bytes = alloc < countable ? alloc : countable,
         .max_image_px = 32768,
         .max_image_layers = 2048,
-        .max_groups = {INT_MAX, INT_MAX, INT_MAX},
-        .group_items = 64,
+        .max_groups = {INT_MAX / GROUP_ITEMS, 65535, 65535}, // CUDA's, which NVIDIA runs on
+        .group_items = GROUP_ITEMS,
     };
 }
 
@@ -120,14 +137,15 @@ static void describe(cl_device_id id, int index, struct rg_device_info *info)
     snprintf(info->name, sizeof(info->name), index ? "opencl:%d" : "opencl", index);
     snprintf(info->device, sizeof(info->device), "%.120s", device_text(id, CL_DEVICE_NAME, text));
     int api = version_number(device_text(id, CL_DEVICE_VERSION, version));
-    snprintf(info->api, sizeof(info->api), "OpenCL %d.%d, used as 1.2", api / 10, api % 10);
+    snprintf(info->api, sizeof(info->api), "OpenCL %d.%d, used as 1.2, %d compute units", api / 10,
+             api % 10, (int)device_number(id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof(cl_uint)));
     // A platform's version is "OpenCL 3.0 " and what the vendor adds, such as PoCL's LLVM.
     const char *vendor = platform_text(platform, CL_PLATFORM_VERSION, version);
     vendor += strcspn(vendor, " ");
     vendor += strspn(vendor, " ");
     vendor += strcspn(vendor, " ");
     vendor += strspn(vendor, " ");
-    snprintf(info->driver, sizeof(info->driver), "%.40s %.30s%s%.80s",
+    snprintf(info->driver, sizeof(info->driver), "%.30s %.24s%s%.100s",
              platform_text(platform, CL_PLATFORM_NAME, text),
              device_text(id, CL_DRIVER_VERSION, driver), *vendor ? ", " : "", vendor);
 }
@@ -174,6 +192,8 @@ static struct rg_device *opencl_create(int index)
         return rg_error_null("device 'opencl:%d': no memory left", index);
     device->id = ids[index];
     describe(device->id, index, &device->pub.info);
+    device->has_clock =
+        device_number(device->id, CL_DEVICE_PROFILING_TIMER_RESOLUTION, sizeof(size_t)) > 0;
     if (open_queue(device))
         return &device->pub;
     opencl_destroy(&device->pub);

@@ -1,6 +1,8 @@
 #include "backends/opencl/opencl.h"
 
+#include <fcntl.h>
 #include <stdio.h>
+#include <unistd.h>
 
 #include "core/log.h"
 
@@ -70,4 +72,24 @@ bool opencl_check(cl_int code, const char *call, const char *kind, const char *n
 {
     return code == CL_SUCCESS ||
            rg_error("%s '%s': %s failed with %s", kind, name, call, opencl_error_name(code));
+}
+
+int opencl_hide_messages(void)
+{
+    fflush(stderr);
+    int kept = dup(STDERR_FILENO);
+    int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (kept >= 0 && nowhere >= 0)
+        dup2(nowhere, STDERR_FILENO);
+    if (nowhere >= 0)
+        close(nowhere);
+    return kept;
+}
+
+void opencl_show_messages(int kept)
+{
+    if (kept < 0)
+        return;
+    dup2(kept, STDERR_FILENO);
+    close(kept);
 }

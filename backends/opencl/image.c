@@ -58,11 +58,9 @@ bool opencl_image_clear(struct rg_image *image, const void *texel)
 {
     struct opencl_image *opencl = (struct opencl_image *)image;
     struct opencl_device *device = opencl->memory.device;
+    opencl_will_queue(device);
     cl_int code = clEnqueueFillBuffer(device->queue, opencl->memory.mem, texel,
                                       (size_t)rg_format_size(image->desc.format), 0,
                                       (size_t)opencl->words * sizeof(cl_uint), 0, NULL, NULL);
-    if (!opencl_check(code, "clEnqueueFillBuffer", "image", image->name))
-        return false;
-    opencl_queued(device);
-    return true;
+    return opencl_check(code, "clEnqueueFillBuffer", "image", image->name);
 }

@@ -23,6 +23,7 @@ struct opencl_device {
     cl_context context;
     cl_command_queue queue; // in order, with profiling
     int queued;             // commands since the queue was last known to have ended
+    bool has_clock;
     struct opencl_staged *staged;
     size_t staged_bytes;
 };
@@ -57,6 +58,11 @@ const char *opencl_error_name(cl_int code);
 // True for CL_SUCCESS. Else logs one line that names object, call and code, and is false.
 bool opencl_check(cl_int code, const char *call, const char *kind, const char *name);
 
+// Drivers and their compilers talk to stderr when something is wrong. Between these two calls
+// nothing gets there; the second takes what the first returned.
+int opencl_hide_messages(void);
+void opencl_show_messages(int hidden);
+
 // buf.c
 struct rg_buf *opencl_buf_create(struct rg_device *device, size_t size, const char *name);
 void opencl_buf_destroy(struct rg_buf *buf);
@@ -83,8 +89,8 @@ bool opencl_pass_run(struct rg_pass *pass, const struct rg_run *run);
 // time.c
 bool opencl_sync(struct rg_device *device);
 bool opencl_time(struct rg_device *device, int64_t *time_ns);
-// Call after each command that was queued: lets the driver begin.
-void opencl_queued(struct opencl_device *device);
+// Call before each command that is queued without waiting for it.
+void opencl_will_queue(struct opencl_device *device);
 // Call when the queue is known to have ended.
 void opencl_ended(struct opencl_device *device);
 

@@ -2,14 +2,18 @@
 
 #include <stdlib.h>
 
+#include "core/log.h"
+
 // Some drivers begin only when told to. Telling them each time would cost as much as a small run.
 enum { COMMANDS_A_FLUSH = 16 };
 
-void opencl_queued(struct opencl_device *device)
+// Flushes before a command, never after it: rusticl's clFinish (Mesa 22.3.6) does not wait for what
+// was flushed when nothing came after.
+void opencl_will_queue(struct opencl_device *device)
 {
-    device->queued++;
-    if (device->queued % COMMANDS_A_FLUSH == 1)
+    if (device->queued && device->queued % COMMANDS_A_FLUSH == 0)
         clFlush(device->queue);
+    device->queued++;
 }
 
 void opencl_ended(struct opencl_device *device)
@@ -37,6 +41,10 @@ bool opencl_time(struct rg_device *device, int64_t *time_ns)
 {
     struct opencl_device *opencl = (struct opencl_device *)device;
     const char *name = device->info.name;
+    if (!opencl->has_clock)
+        return rg_error("device '%s': its driver measures no time "
+                        "(CL_DEVICE_PROFILING_TIMER_RESOLUTION is 0); use wall clock",
+                        name);
     cl_event marker;
     cl_int code = clEnqueueMarkerWithWaitList(opencl->queue, 0, NULL, &marker);
     if (!opencl_check(code, "clEnqueueMarkerWithWaitList", "device", name))

@@ -1,0 +1,313 @@
+// What is particular to the opencl backend. test_opencl runs on its first device; test_opencl
+// absent CODE expects that there is none, and that the reason names the code.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/device.h"
+#include "core/log.h"
+#include "kernels/test_copy_params.h"
+#include "kernels/test_image_copy_params.h"
+#include "kernels/test_rounding_params.h"
+
+static int open_device(void **state)
+{
+    *state = rg_device_open("opencl", NULL);
+    return *state ? 0 : -1;
+}
+
+static int close_device(void **state)
+{
+    return rg_device_close(*state) ? 0 : -1;
+}
+
+static uint32_t noise(uint32_t i)
+{
+    i = (i ^ i >> 16) * 0x7feb352du;
+    i = (i ^ i >> 15) * 0x846ca68bu;
+    return i ^ i >> 16;
+}
+
+// A float of either sign between 2^-8 and 2^8.
+static float noise_float(uint32_t i)
+{
+    uint32_t bits = (noise(i) & 0x807fffffu) | (119u + noise(~i) % 16u) << 23;
+    float f;
+    memcpy(&f, &bits, sizeof(f));
+    return f;
+}
+
+enum { KINDS = 6, INPUTS = 65536 };
+
+static void expect(const float *a, float results[KINDS])
+{
+    const float b = a[INPUTS], c = a[2 * INPUTS];
+    const volatile float product = *a * b; // a store rounds, whatever the compiler would like
+    results[0] = results[1] = product + c;
+    results[2] = product - c;
+    results[3] = c - product;
+    results[4] = *a / b;
+    results[5] = sqrtf(fabsf(*a));
+}
+
+static void every_operation_rounds(void **state)
+{
+    float *inputs = malloc(3 * INPUTS * sizeof(float));
+    float *results = malloc(KINDS * INPUTS * sizeof(float));
+    for (uint32_t i = 0; i < 3 * INPUTS; i++)
+        inputs[i] = noise_float(i);
+    struct rg_buf *in = rg_buf_create(*state, 3 * INPUTS * 4, "inputs");
+    struct rg_buf *out = rg_buf_create(*state, KINDS * INPUTS * 4, "results");
+    struct rg_pass *pass = rg_pass_create(*state, "test_rounding");
+    assert_true(in && out && pass && rg_buf_write(in, 0, inputs, 3 * INPUTS * 4));
+    const struct test_rounding_params params = {INPUTS};
+    assert_true(rg_pass_run(pass, &(struct rg_run){.params = &params,
+                                                   .slots = {[1].buf = in, [2].buf = out},
+                                                   .extent = {INPUTS, 1, 1}}));
+    assert_true(rg_buf_read(out, 0, results, KINDS * INPUTS * 4));
+    int differing[KINDS] = {0};
+    for (int i = 0; i < INPUTS; i++) {
+        float expected[KINDS];
+        expect(inputs + i, expected);
+        for (int kind = 0; kind < KINDS; kind++)
+            differing[kind] += memcmp(&results[kind * INPUTS + i], &expected[kind], 4) != 0;
+    }
+    for (int kind = 0; kind < KINDS; kind++)
+        if (differing[kind])
+            fail_msg("expression %d: %d of %d differ", kind, differing[kind], INPUTS);
+    rg_pass_destroy(pass);
+    rg_buf_destroy(in);
+    rg_buf_destroy(out);
+    free(inputs);
+    free(results);
+}
+
+// A device with two buffers and a pass that copies one into the other.
+struct copier {
+    struct rg_device *device;
+    struct rg_buf *source, *target;
+    struct rg_pass *pass;
+    int words;
+};
+
+static struct copier make_copier(struct rg_device *device, int words)
+{
+    struct copier c = {device, rg_buf_create(device, (int64_t)words * 4, "source"),
+                       rg_buf_create(device, (int64_t)words * 4, "target"),
+                       rg_pass_create(device, "test_copy"), words};
+    assert_true(c.source && c.target && c.pass);
+    return c;
+}
+
+static void destroy_copier(const struct copier *c)
+{
+    rg_pass_destroy(c->pass);
+    rg_buf_destroy(c->source);
+    rg_buf_destroy(c->target);
+}
+
+static void copy(const struct copier *c, uint32_t salt)
+{
+    const struct test_copy_params params = {c->words, 1, salt};
+    assert_true(
+        rg_pass_run(c->pass, &(struct rg_run){.params = &params,
+                                              .slots = {[1].buf = c->source, [2].buf = c->target},
+                                              .extent = {c->words, 1, 1}}));
+}
+
+static uint32_t word_of_target(const struct copier *c, int index)
+{
+    uint32_t word;
+    assert_true(rg_buf_read(c->target, (int64_t)index * 4, &word, 4));
+    return word;
+}
+
+static void data_is_the_callers_again_after_a_write(void **state)
+{
+    // Together more than the backend keeps copies of: the last writes wait.
+    enum { WORDS = 6 << 20, WRITES = 4 };
+    struct copier c = make_copier(*state, WORDS);
+    uint32_t *data = malloc((size_t)WORDS * 4);
+    for (uint32_t write = 1; write <= WRITES; write++) {
+        for (int i = 0; i < WORDS; i++)
+            data[i] = write + (uint32_t)i;
+        assert_true(rg_buf_write(c.source, 0, data, (int64_t)WORDS * 4));
+        copy(&c, 0);
+        memset(data, 0x99, (size_t)WORDS * 4);
+    }
+    for (int i = 0; i < WORDS; i += WORDS / 7)
+        assert_int_equal(word_of_target(&c, i), WRITES + i);
+    free(data);
+    destroy_copier(&c);
+}
+
+static void two_devices_live_side_by_side(void **state)
+{
+    struct rg_device *other_device = rg_device_open("opencl", NULL);
+    assert_non_null(other_device);
+    struct copier one = make_copier(*state, 1000), other = make_copier(other_device, 1000);
+    uint32_t data[1000] = {0};
+    assert_true(rg_buf_write(one.source, 0, data, sizeof(data)));
+    memset(data, 1, sizeof(data));
+    assert_true(rg_buf_write(other.source, 0, data, sizeof(data)));
+    for (uint32_t salt = 0; salt < 40; salt++) {
+        copy(&one, salt);
+        copy(&other, salt);
+    }
+    assert_int_equal(word_of_target(&one, 999), 39);
+    assert_int_equal(word_of_target(&other, 999), 0x01010101 ^ 39);
+    destroy_copier(&other);
+    assert_true(rg_device_close(other_device));
+    copy(&one, 7);
+    assert_int_equal(word_of_target(&one, 0), 7);
+    destroy_copier(&one);
+}
+
+static void runs_above_two_billion_items_are_split(void **state)
+{
+    struct rg_image_desc desc = {RG_RGBA32F, 1, 1, 1, 1};
+    struct rg_image *source = rg_image_create(*state, &desc, "source");
+    desc.layers = 3;
+    struct rg_image *target = rg_image_create(*state, &desc, "target");
+    struct rg_pass *pass = rg_pass_create(*state, "test_image_copy");
+    const float texel[4] = {1, 2, 3, 4}, nothing[4] = {0};
+    assert_true(source && target && pass && rg_image_write(source, 0, 0, texel) &&
+                rg_image_clear(target, nothing));
+    // All but one item a layer lie outside the image and end at once.
+    const struct test_image_copy_params params = {0, 0};
+    assert_true(
+        rg_pass_run(pass, &(struct rg_run){.params = &params,
+                                           .slots = {[1].image = source, [2].image = target},
+                                           .extent = {65536, 16384, 3}}));
+    for (int layer = 0; layer < 3; layer++) {
+        float got[4];
+        assert_true(rg_image_read(target, layer, 0, got));
+        assert_memory_equal(got, texel, sizeof(got));
+    }
+    rg_pass_destroy(pass);
+    rg_image_destroy(source);
+    rg_image_destroy(target);
+}
+
+static void the_clock_runs_on(void **state)
+{
+    struct copier c = make_copier(*state, 1 << 20);
+    int64_t before_ns = 0, between_ns = 0, after_ns = 0;
+    assert_true(rg_device_time(*state, &before_ns));
+    copy(&c, 1);
+    assert_true(rg_device_time(*state, &between_ns));
+    assert_true(rg_device_time(*state, &after_ns));
+    assert_true(before_ns > 0 && before_ns < between_ns && between_ns <= after_ns);
+    destroy_copier(&c);
+}
+
+static int lines;
+
+static void count_line(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)user;
+    (void)line;
+    lines++;
+}
+
+// Bytes that reached stderr since listen_to_stderr, which is given back to whom it belonged.
+static int own_stderr;
+static FILE *heard;
+
+static void listen_to_stderr(void)
+{
+    fflush(stderr);
+    heard = tmpfile();
+    assert_non_null(heard);
+    own_stderr = dup(STDERR_FILENO);
+    dup2(fileno(heard), STDERR_FILENO);
+}
+
+static long stop_listening(void)
+{
+    fflush(stderr);
+    dup2(own_stderr, STDERR_FILENO);
+    close(own_stderr);
+    fseek(heard, 0, SEEK_END);
+    long bytes = ftell(heard);
+    fclose(heard);
+    return bytes;
+}
+
+static void a_broken_kernel_is_one_line(void **state)
+{
+    char folder[] = "/tmp/raingauge-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof(path), "%s/test_copy.cl", folder);
+    FILE *file = fopen(path, "w");
+    fputs("__kernel void rg_grid(void)\n{\n    this_is_missing = 1;\n}\n", file);
+    fclose(file);
+    setenv("RG_KERNEL_DIR", folder, 1);
+    lines = 0;
+    rg_log_listen(count_line, NULL);
+    listen_to_stderr();
+    struct rg_pass *pass = rg_pass_create(*state, "test_copy");
+    assert_int_equal(stop_listening(), 0);
+    rg_log_listen(NULL, NULL);
+    unsetenv("RG_KERNEL_DIR");
+    unlink(path);
+    rmdir(folder);
+    assert_null(pass);
+    assert_int_equal(lines, 1);
+    assert_non_null(strstr(rg_last_error(), "kernel 'test_copy'"));
+    assert_non_null(strstr(rg_last_error(), "CL_BUILD_PROGRAM_FAILURE"));
+    assert_non_null(strstr(rg_last_error(), "this_is_missing"));
+}
+
+static const char *expected_code;
+
+static void absence_is_explained(void **state)
+{
+    (void)state;
+    static struct rg_device_list list;
+    listen_to_stderr();
+    rg_device_list_all(&list);
+    assert_int_equal(stop_listening(), 0);
+    for (int i = 0; i < list.count; i++)
+        assert_string_not_equal(list.infos[i].name, "opencl");
+    const char *why = NULL;
+    for (int i = 0; list.missing[i][0]; i++)
+        if (!strncmp(list.missing[i], "opencl:", 7))
+            why = list.missing[i];
+    assert_non_null(why);
+    assert_non_null(strstr(why, expected_code));
+    enum rg_open_status status;
+    lines = 0;
+    rg_log_listen(count_line, NULL);
+    listen_to_stderr();
+    assert_null(rg_device_open("opencl", &status));
+    assert_int_equal(stop_listening(), 0);
+    rg_log_listen(NULL, NULL);
+    assert_int_equal(lines, 1);
+    assert_int_equal(status, RG_OPEN_UNSUPPORTED);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest absent[] = {cmocka_unit_test(absence_is_explained)};
+    const struct CMUnitTest present[] = {
+        cmocka_unit_test(every_operation_rounds),
+        cmocka_unit_test(data_is_the_callers_again_after_a_write),
+        cmocka_unit_test(two_devices_live_side_by_side),
+        cmocka_unit_test(runs_above_two_billion_items_are_split),
+        cmocka_unit_test(the_clock_runs_on),
+        cmocka_unit_test(a_broken_kernel_is_one_line),
+    };
+    expected_code = argc > 2 ? argv[2] : "";
+    return argc > 2 ? cmocka_run_group_tests_name("opencl, absent", absent, NULL, NULL)
+                    : cmocka_run_group_tests_name("opencl", present, open_device, close_device);
+}
