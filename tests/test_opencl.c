@@ -132,16 +132,18 @@ static uint32_t word_of_target(const struct copier *c, int index)
 
 static void data_is_the_callers_again_after_a_write(void **state)
 {
-    // Together more than the backend keeps copies of: the last writes wait.
-    enum { WORDS = 6 << 20, WRITES = 4 };
+    // Together more than the backend keeps copies of: one of the writes waits.
+    enum { WORDS = 1 << 20, WRITES = 20, BUSY = 8 };
     struct copier c = make_copier(*state, WORDS);
     uint32_t *data = malloc((size_t)WORDS * 4);
     for (uint32_t write = 1; write <= WRITES; write++) {
         for (int i = 0; i < WORDS; i++)
             data[i] = write + (uint32_t)i;
+        for (uint32_t salt = 0; salt < BUSY; salt++)
+            copy(&c, salt);
         assert_true(rg_buf_write(c.source, 0, data, (int64_t)WORDS * 4));
-        copy(&c, 0);
         memset(data, 0x99, (size_t)WORDS * 4);
+        copy(&c, 0);
     }
     for (int i = 0; i < WORDS; i += WORDS / 7)
         assert_int_equal(word_of_target(&c, i), WRITES + i);
