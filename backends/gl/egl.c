@@ -128,6 +128,19 @@ void gl_search_begin(struct gl_search *search)
 
 // --- displays and contexts ---
 
+// Where a display is counted: its place if it is open, else a free one; -1: none is free.
+static int place_of(EGLDisplay display)
+{
+    int free_place = -1;
+    for (int i = 0; i < GL_MAX_TARGETS; i++) {
+        if (displays[i].users && displays[i].display == display)
+            return i;
+        if (!displays[i].users)
+            free_place = i;
+    }
+    return free_place;
+}
+
 static bool open_display(struct gl_search *search, const struct gl_target *target,
                          EGLDisplay *display)
 {
@@ -135,10 +148,8 @@ static bool open_display(struct gl_search *search, const struct gl_target *targe
     if (*display == EGL_NO_DISPLAY)
         return refuse(search, "no EGL display: eglGetPlatformDisplay failed with %s",
                       error_name(eglGetError()));
-    int at = 0;
-    while (at < GL_MAX_TARGETS && displays[at].users && displays[at].display != *display)
-        at++;
-    if (at == GL_MAX_TARGETS)
+    int at = place_of(*display);
+    if (at < 0)
         return refuse(search, "no EGL display: %d are open", GL_MAX_TARGETS);
     if (!displays[at].users && !eglInitialize(*display, NULL, NULL))
         return refuse(search, "no EGL display: eglInitialize failed with %s",
@@ -150,9 +161,8 @@ static bool open_display(struct gl_search *search, const struct gl_target *targe
 
 static void close_display(EGLDisplay display)
 {
-    for (int i = 0; i < GL_MAX_TARGETS; i++)
-        if (displays[i].display == display && displays[i].users && --displays[i].users == 0)
-            eglTerminate(display);
+    if (--displays[place_of(display)].users == 0)
+        eglTerminate(display);
 }
 
 static bool open_context(struct gl_search *search, struct gl_egl *egl)
