@@ -1,0 +1,56 @@
+#include "backends/gl/gl.h"
+
+#include <stdlib.h>
+
+struct rg_buf *gl_buf_create(struct rg_device *device, size_t size, const char *name)
+{
+    struct gl_device *gl = (struct gl_device *)device;
+    if (!gl_use(gl))
+        return NULL;
+    struct gl_buf *buf = calloc(1, sizeof(*buf));
+    glCreateBuffers(1, &buf->id);
+    gl_label(GL_BUFFER, buf->id, name);
+    glNamedBufferStorage(buf->id, (GLsizeiptr)size, NULL, GL_DYNAMIC_STORAGE_BIT);
+    if (!gl_check(gl, "glNamedBufferStorage", "buffer", name)) {
+        glDeleteBuffers(1, &buf->id);
+        free(buf);
+        return NULL;
+    }
+    return &buf->pub;
+}
+
+// Deleting an object unbinds it, and its number may come back for another one.
+static void forget(struct gl_bound *bound, GLuint id)
+{
+    for (int slot = 0; slot < RG_MAX_SLOTS; slot++)
+        if (bound->buffers[slot] == id)
+            bound->buffers[slot] = 0;
+}
+
+void gl_buf_destroy(struct rg_buf *buf)
+{
+    struct gl_device *gl = (struct gl_device *)buf->device;
+    struct gl_buf *mine = (struct gl_buf *)buf;
+    if (gl_use(gl))
+        glDeleteBuffers(1, &mine->id);
+    forget(&gl->bound, mine->id);
+    free(mine);
+}
+
+bool gl_buf_write(struct rg_buf *buf, size_t offset, const void *data, size_t size)
+{
+    struct gl_device *gl = (struct gl_device *)buf->device;
+    if (!gl_use(gl))
+        return false;
+    glNamedBufferSubData(((struct gl_buf *)buf)->id, (GLintptr)offset, (GLsizeiptr)size, data);
+    return gl_check(gl, "glNamedBufferSubData", "buffer", buf->name);
+}
+
+bool gl_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size)
+{
+    struct gl_device *gl = (struct gl_device *)buf->device;
+    if (!gl_use(gl))
+        return false;
+    glGetNamedBufferSubData(((struct gl_buf *)buf)->id, (GLintptr)offset, (GLsizeiptr)size, data);
+    return gl_check(gl, "glGetNamedBufferSubData", "buffer", buf->name);
+}

@@ -1,0 +1,144 @@
+// The gl backend: kernels as compute programs of OpenGL 4.5 core, on EGL without a window.
+//
+// A device is one context without a framebuffer. A context belongs to the thread that last used
+// it, so a device stays on the thread that opened it, and nothing else makes another context
+// current there.
+#ifndef RG_BACKENDS_GL_GL_H
+#define RG_BACKENDS_GL_GL_H
+
+#include <epoxy/gl.h>
+
+#include <epoxy/egl.h>
+
+#include "backends/backend.h"
+
+// Items a work group: local_size_x of shaders/grid.glsl.
+enum { GL_GROUP_ITEMS = 64 };
+
+enum { GL_MAX_TARGETS = 32 };
+
+// A place where EGL may find a driver: an EGL device, or the surfaceless platform.
+struct gl_target {
+    EGLenum platform;
+    void *native;
+    bool software; // EGL says so
+};
+
+// A walk over the targets that open, best first.
+struct gl_search {
+    struct gl_target targets[GL_MAX_TARGETS];
+    int count, next;
+    bool found;    // at least one has opened
+    char why[256]; // what the best target's driver refused, "" for nothing
+};
+
+// An open context and the display that it came from.
+struct gl_egl {
+    EGLDisplay display;
+    EGLContext context;
+    unsigned serial; // never 0, never used twice
+    bool software;
+};
+
+// What a slot number may reach: a slot is a binding in the shader.
+struct gl_slot_limits {
+    GLint buffers, texture_units, image_units;
+};
+
+// Parameters of queued runs, in memory that the driver reads. Two halves: while one is filled, the
+// runs that read the other are waited for.
+struct gl_params {
+    GLuint buffer;
+    unsigned char *memory; // mapped for the buffer's whole life
+    size_t alignment;
+    size_t next; // byte where the next run's block begins
+    int half;    // 0 or 1
+    GLsync read[2];
+};
+
+// What is bound, so that equal bindings cost no call. 0: nothing.
+struct gl_bound {
+    GLuint program;
+    GLuint buffers[RG_MAX_SLOTS], textures[RG_MAX_SLOTS], images[RG_MAX_SLOTS];
+};
+
+struct gl_device {
+    struct rg_device pub;
+    struct gl_egl egl;
+    struct gl_slot_limits slots;
+    struct gl_params params;
+    struct gl_bound bound;
+    GLuint timestamp; // query
+    char fault[256];  // the driver's first message since the last gl_check, "" for none
+};
+
+struct gl_buf {
+    struct rg_buf pub;
+    GLuint id;
+};
+
+struct gl_image {
+    struct rg_image pub;
+    GLuint id;
+};
+
+struct gl_pass {
+    struct rg_pass pub;
+    GLuint program;
+    size_t block_size;     // of the uniform block, in bytes
+    GLbitfield after_runs; // barriers that make this pass's writes visible
+};
+
+// egl.c
+void gl_search_begin(struct gl_search *search);
+// Opens the next target that works and makes its context current; false: there is none left.
+bool gl_search_next(struct gl_search *search, struct gl_egl *egl);
+void gl_egl_close(struct gl_egl *egl);
+// Makes the device's context current on this thread unless it is.
+bool gl_use(struct gl_device *device);
+
+// debug.c
+
+// Turns the driver's messages about errors into the text that gl_check logs.
+void gl_debug_begin(struct gl_device *device);
+// Whether all calls since the last check went well; if not, logs one line that names `call`, the
+// error's code and the object ("buffer 'heights'"). `kind` is "buffer", `name` is "heights".
+bool gl_check(struct gl_device *device, const char *call, const char *kind, const char *name);
+// As gl_check, but sees only what the driver reports by itself: costs no call.
+bool gl_check_reported(struct gl_device *device, const char *call, const char *kind,
+                       const char *name);
+// Names an object for debuggers.
+void gl_label(GLenum type, GLuint id, const char *name);
+
+// params.c
+bool gl_params_create(struct gl_device *device);
+void gl_params_destroy(struct gl_device *device);
+// Puts a run's uniform block where its dispatch finds it: binding 0.
+bool gl_params_bind(struct gl_device *device, const struct gl_pass *pass, const struct rg_run *run);
+
+// buf.c
+struct rg_buf *gl_buf_create(struct rg_device *device, size_t size, const char *name);
+void gl_buf_destroy(struct rg_buf *buf);
+bool gl_buf_write(struct rg_buf *buf, size_t offset, const void *data, size_t size);
+bool gl_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size);
+
+// image.c
+struct rg_image *gl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
+                                 const char *name);
+void gl_image_destroy(struct rg_image *image);
+bool gl_image_write(struct rg_image *image, int layer, int level, const void *texels);
+bool gl_image_read(struct rg_image *image, int layer, int level, void *texels);
+bool gl_image_clear(struct rg_image *image, const void *texel);
+// What OpenGL calls a format's memory.
+GLenum gl_internal_format(enum rg_format format);
+
+// pass.c
+struct rg_pass *gl_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
+void gl_pass_destroy(struct rg_pass *pass);
+bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run);
+
+// time.c
+bool gl_sync(struct rg_device *device);
+bool gl_time(struct rg_device *device, int64_t *time_ns);
+
+#endif

@@ -1,0 +1,108 @@
+#include "backends/gl/gl.h"
+
+#include <limits.h>
+#include <stdlib.h>
+
+#include "core/device.h"
+
+// How a format lies in the driver's memory and in ours. Every texel is a multiple of 4 bytes, so
+// rows packed tightly suit GL's default row alignment of 4.
+static const struct {
+    GLenum internal, format, type;
+} formats[RG_FORMAT_COUNT] = {
+    [RG_RGBA8] = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
+    [RG_RGBA16F] = {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT},
+    [RG_RGBA32F] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
+    [RG_R32F] = {GL_R32F, GL_RED, GL_FLOAT},
+    [RG_RG11B10F] = {GL_R11F_G11F_B10F, GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV},
+};
+
+GLenum gl_internal_format(enum rg_format format)
+{
+    return formats[format].internal;
+}
+
+struct rg_image *gl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
+                                 const char *name)
+{
+    struct gl_device *gl = (struct gl_device *)device;
+    if (!gl_use(gl))
+        return NULL;
+    struct gl_image *image = calloc(1, sizeof(*image));
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &image->id);
+    gl_label(GL_TEXTURE, image->id, name);
+    glTextureParameteri(image->id, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+    glTextureParameteri(image->id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureStorage3D(image->id, desc->levels, gl_internal_format(desc->format), desc->width,
+                       desc->height, desc->layers);
+    if (!gl_check(gl, "glTextureStorage3D", "image", name)) {
+        glDeleteTextures(1, &image->id);
+        free(image);
+        return NULL;
+    }
+    return &image->pub;
+}
+
+// Deleting an object unbinds it, and its number may come back for another one.
+static void forget(struct gl_bound *bound, GLuint id)
+{
+    for (int slot = 0; slot < RG_MAX_SLOTS; slot++) {
+        if (bound->textures[slot] == id)
+            bound->textures[slot] = 0;
+        if (bound->images[slot] == id)
+            bound->images[slot] = 0;
+    }
+}
+
+void gl_image_destroy(struct rg_image *image)
+{
+    struct gl_device *gl = (struct gl_device *)image->device;
+    struct gl_image *mine = (struct gl_image *)image;
+    if (gl_use(gl))
+        glDeleteTextures(1, &mine->id);
+    forget(&gl->bound, mine->id);
+    free(mine);
+}
+
+bool gl_image_write(struct rg_image *image, int layer, int level, const void *texels)
+{
+    struct gl_device *gl = (struct gl_device *)image->device;
+    const struct rg_image_desc *desc = &image->desc;
+    if (!gl_use(gl))
+        return false;
+    glTextureSubImage3D(((struct gl_image *)image)->id, level, 0, 0, layer,
+                        rg_level_size(desc->width, level), rg_level_size(desc->height, level), 1,
+                        formats[desc->format].format, formats[desc->format].type, texels);
+    return gl_check(gl, "glTextureSubImage3D", "image", image->name);
+}
+
+bool gl_image_read(struct rg_image *image, int layer, int level, void *texels)
+{
+    struct gl_device *gl = (struct gl_device *)image->device;
+    const struct rg_image_desc *desc = &image->desc;
+    if (!gl_use(gl))
+        return false;
+    int width = rg_level_size(desc->width, level), height = rg_level_size(desc->height, level);
+    int row_bytes = width * rg_format_size(desc->format);
+    // The call counts bytes in an int: what is larger comes in bands of rows.
+    int band_rows = INT_MAX / row_bytes;
+    for (int y = 0; y < height; y += band_rows) {
+        int rows = height - y < band_rows ? height - y : band_rows;
+        glGetTextureSubImage(((struct gl_image *)image)->id, level, 0, y, layer, width, rows, 1,
+                             formats[desc->format].format, formats[desc->format].type,
+                             rows * row_bytes, (char *)texels + (size_t)y * (size_t)row_bytes);
+    }
+    return gl_check(gl, "glGetTextureSubImage", "image", image->name);
+}
+
+bool gl_image_clear(struct rg_image *image, const void *texel)
+{
+    struct gl_device *gl = (struct gl_device *)image->device;
+    const struct rg_image_desc *desc = &image->desc;
+    if (!gl_use(gl))
+        return false;
+    for (int level = 0; level < desc->levels; level++)
+        glClearTexImage(((struct gl_image *)image)->id, level, formats[desc->format].format,
+                        formats[desc->format].type, texel);
+    return gl_check(gl, "glClearTexImage", "image", image->name);
+}

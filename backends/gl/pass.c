@@ -1,0 +1,176 @@
+#include "backends/gl/gl.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/log.h"
+
+static bool is_image(enum rg_slot_kind kind)
+{
+    return kind == RG_SLOT_IMAGE || kind == RG_SLOT_OUT_IMAGE;
+}
+
+// A slot is the binding of the same number, which the driver must have.
+static bool slots_fit(const struct gl_device *device, const struct rg_kernel *kernel)
+{
+    for (int i = 0; i < kernel->slot_count; i++) {
+        const struct rg_slot_info *slot = &kernel->slots[i];
+        int limit = slot->kind == RG_SLOT_OUT_IMAGE ? device->slots.image_units
+                    : slot->kind == RG_SLOT_IMAGE   ? device->slots.texture_units
+                                                    : device->slots.buffers;
+        if (slot->slot >= limit)
+            return rg_error("kernel '%s': slot %d, '%s', is beyond the %d %s that %s has",
+                            kernel->name, slot->slot, slot->name, limit,
+                            slot->kind == RG_SLOT_OUT_IMAGE ? "image units"
+                            : slot->kind == RG_SLOT_IMAGE   ? "texture units"
+                                                            : "storage buffer bindings",
+                            device->pub.info.name);
+    }
+    return true;
+}
+
+// The barriers that show a kernel's writes to whatever comes next: other passes, writes, reads.
+static GLbitfield barriers_after(const struct rg_kernel *kernel)
+{
+    GLbitfield barriers = 0;
+    for (int i = 0; i < kernel->slot_count; i++) {
+        enum rg_slot_kind kind = kernel->slots[i].kind;
+        if (kind == RG_SLOT_OUT_IMAGE)
+            barriers |= GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                        GL_TEXTURE_UPDATE_BARRIER_BIT;
+        else if (kind != RG_SLOT_IN && kind != RG_SLOT_IMAGE)
+            barriers |= GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT;
+    }
+    return barriers;
+}
+
+static bool refuse(const struct gl_device *device, const char *kernel, const char *step,
+                   const char *log)
+{
+    return rg_error("kernel '%s': %s failed on %s: %.*s", kernel, step, device->pub.info.name,
+                    (int)strcspn(log, "\r\n"), log[0] ? log : "the driver says nothing");
+}
+
+static bool compile(const struct gl_device *device, const struct rg_kernel *kernel, GLuint shader)
+{
+    struct rg_kernel_code code;
+    void *owned;
+    if (!rg_kernel_code(kernel, RG_CODE_GLSL, &code, &owned))
+        return false;
+    const GLchar *text = (const GLchar *)code.bytes;
+    const GLint length = (GLint)code.size;
+    glShaderSource(shader, 1, &text, &length);
+    glCompileShader(shader);
+    free(owned);
+    GLint compiled = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    char log[512] = "";
+    glGetShaderInfoLog(shader, sizeof(log), NULL, log);
+    return compiled || refuse(device, kernel->name, "glCompileShader", log);
+}
+
+static bool link(const struct gl_device *device, const struct rg_kernel *kernel, GLuint program)
+{
+    glLinkProgram(program);
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    char log[512] = "";
+    glGetProgramInfoLog(program, sizeof(log), NULL, log);
+    return linked || refuse(device, kernel->name, "glLinkProgram", log);
+}
+
+// 0 when it failed.
+static GLuint build(struct gl_device *device, const struct rg_kernel *kernel)
+{
+    GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
+    GLuint program = glCreateProgram();
+    bool built = compile(device, kernel, shader);
+    if (built) {
+        glAttachShader(program, shader);
+        built = link(device, kernel, program);
+    }
+    glDeleteShader(shader);
+    built = built && gl_check(device, "glCreateProgram", "kernel", kernel->name);
+    if (built)
+        return program;
+    glDeleteProgram(program);
+    return 0;
+}
+
+struct rg_pass *gl_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
+{
+    struct gl_device *gl = (struct gl_device *)device;
+    if (!slots_fit(gl, kernel) || !gl_use(gl))
+        return NULL;
+    GLuint program = build(gl, kernel);
+    if (!program)
+        return NULL;
+    gl_label(GL_PROGRAM, program, kernel->name);
+    struct gl_pass *pass = calloc(1, sizeof(*pass));
+    pass->program = program;
+    pass->block_size = 32 + ((size_t)kernel->params_size + 15) / 16 * 16; // std140
+    pass->after_runs = barriers_after(kernel);
+    return &pass->pub;
+}
+
+void gl_pass_destroy(struct rg_pass *pass)
+{
+    struct gl_device *gl = (struct gl_device *)pass->device;
+    struct gl_pass *mine = (struct gl_pass *)pass;
+    if (gl->bound.program == mine->program)
+        gl->bound.program = 0;
+    if (gl_use(gl)) {
+        if (!gl->bound.program)
+            glUseProgram(0);
+        glDeleteProgram(mine->program);
+    }
+    free(mine);
+}
+
+static void bind_image(struct gl_bound *bound, const struct rg_slot_info *slot,
+                       const struct gl_image *image)
+{
+    if (slot->kind == RG_SLOT_IMAGE) {
+        if (bound->textures[slot->slot] != image->id)
+            glBindTextureUnit((GLuint)slot->slot, image->id);
+        bound->textures[slot->slot] = image->id;
+        return;
+    }
+    if (bound->images[slot->slot] != image->id)
+        glBindImageTexture((GLuint)slot->slot, image->id, 0, GL_TRUE, 0, GL_WRITE_ONLY,
+                           gl_internal_format(slot->format));
+    bound->images[slot->slot] = image->id;
+}
+
+static void bind_slots(struct gl_bound *bound, const struct rg_kernel *kernel,
+                       const struct rg_run *run)
+{
+    for (int i = 0; i < kernel->slot_count; i++) {
+        const struct rg_slot_info *slot = &kernel->slots[i];
+        const struct rg_binding *binding = &run->slots[slot->slot];
+        if (is_image(slot->kind)) {
+            bind_image(bound, slot, (const struct gl_image *)binding->image);
+            continue;
+        }
+        GLuint id = ((const struct gl_buf *)binding->buf)->id;
+        if (bound->buffers[slot->slot] != id)
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, (GLuint)slot->slot, id);
+        bound->buffers[slot->slot] = id;
+    }
+}
+
+bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run)
+{
+    struct gl_device *gl = (struct gl_device *)pass->device;
+    struct gl_pass *mine = (struct gl_pass *)pass;
+    if (!gl_use(gl) || !gl_params_bind(gl, mine, run))
+        return false;
+    if (gl->bound.program != mine->program)
+        glUseProgram(mine->program);
+    gl->bound.program = mine->program;
+    bind_slots(&gl->bound, pass->kernel, run);
+    const int64_t columns = ((int64_t)run->extent.width + GL_GROUP_ITEMS - 1) / GL_GROUP_ITEMS;
+    glDispatchCompute((GLuint)columns, (GLuint)run->extent.height, (GLuint)run->extent.depth);
+    glMemoryBarrier(mine->after_runs);
+    return gl_check_reported(gl, "glDispatchCompute", "kernel", pass->kernel->name);
+}
