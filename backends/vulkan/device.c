@@ -1,0 +1,155 @@
+#include "backends/vulkan/vulkan.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/log.h"
+
+enum { MAX_LISTED = 32 };
+
+static int vk_list(struct rg_device_info *infos, int max, char *why, size_t why_size)
+{
+    struct vk_instance instance;
+    if (!vk_instance_open(&instance, false, why, why_size))
+        return 0;
+    VkPhysicalDevice devices[MAX_LISTED];
+    int count =
+        vk_physical_devices(&instance, devices, max < MAX_LISTED ? max : MAX_LISTED, why, why_size);
+    for (int i = 0; i < count; i++)
+        vk_describe(devices[i], i, &infos[i]);
+    vk_instance_close(&instance);
+    return count;
+}
+
+static bool validation_wanted(void)
+{
+    const char *wanted = getenv("RG_VK_VALIDATION");
+    return wanted && !strcmp(wanted, "1");
+}
+
+static bool choose_physical(struct vk_device *device, int index)
+{
+    char why[160];
+    VkPhysicalDevice devices[MAX_LISTED];
+    int count = vk_physical_devices(&device->instance, devices, MAX_LISTED, why, sizeof(why));
+    if (count == 0)
+        return rg_error("device 'vulkan': %s", why);
+    if (index >= count)
+        return rg_error("device 'vulkan:%d': it is gone; %d are left", index, count);
+    device->physical = devices[index];
+    vk_describe(device->physical, index, &device->pub.info);
+    VkPhysicalDeviceMaintenance3Properties allocation = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &allocation};
+    vkGetPhysicalDeviceProperties2(device->physical, &properties);
+    device->limits = properties.properties.limits;
+    device->max_allocation_bytes = allocation.maxMemoryAllocationSize;
+    vkGetPhysicalDeviceMemoryProperties(device->physical, &device->memory);
+    device->direct = vk_memory_is_direct(&device->memory);
+    uint32_t bits;
+    vk_compute_family(device->physical, &device->family, &bits);
+    device->ticks_mask = bits == 0 ? 0 : UINT64_MAX >> (64 - bits);
+    return true;
+}
+
+static bool create_logical(struct vk_device *device)
+{
+    const float priority = 1.0f;
+    const VkDeviceQueueCreateInfo queue = {
+        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+        .queueFamilyIndex = device->family,
+        .queueCount = 1,
+        .pQueuePriorities = &priority,
+    };
+    const VkDeviceCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+        .queueCreateInfoCount = 1,
+        .pQueueCreateInfos = &queue,
+    };
+    if (!vk_try("device", device->pub.info.name, vkCreateDevice, device->physical, &info, NULL,
+                &device->handle))
+        return false;
+    vkGetDeviceQueue(device->handle, device->family, 0, &device->queue);
+    if (device->instance.messenger)
+        device->set_name = (PFN_vkSetDebugUtilsObjectNameEXT)vkGetInstanceProcAddr(
+            device->instance.handle, "vkSetDebugUtilsObjectNameEXT");
+    return true;
+}
+
+static bool create_shared_objects(struct vk_device *device)
+{
+    const VkSamplerCreateInfo sampler = {
+        .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+        .magFilter = VK_FILTER_NEAREST,
+        .minFilter = VK_FILTER_NEAREST,
+        .mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST,
+        .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+        .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+        .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+        .maxLod = VK_LOD_CLAMP_NONE,
+    };
+    const VkQueryPoolCreateInfo queries = {
+        .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+        .queryType = VK_QUERY_TYPE_TIMESTAMP,
+        .queryCount = 1,
+    };
+    const char *name = device->pub.info.name;
+    return vk_try("device", name, vkCreateSampler, device->handle, &sampler, NULL,
+                  &device->sampler) &&
+           (!device->ticks_mask || vk_try("device", name, vkCreateQueryPool, device->handle,
+                                          &queries, NULL, &device->queries)) &&
+           vk_batches_create(device);
+}
+
+static void vk_destroy(struct rg_device *device)
+{
+    struct vk_device *vk = (struct vk_device *)device;
+    if (vk->handle) {
+        vkDeviceWaitIdle(vk->handle);
+        vk_batches_destroy(vk);
+        vkDestroyQueryPool(vk->handle, vk->queries, NULL);
+        vkDestroySampler(vk->handle, vk->sampler, NULL);
+        vkDestroyDevice(vk->handle, NULL);
+    }
+    vk_instance_close(&vk->instance);
+    free(vk);
+}
+
+static struct rg_device *vk_create(int index)
+{
+    struct vk_device *device = calloc(1, sizeof(*device));
+    char why[256];
+    if (!vk_instance_open(&device->instance, validation_wanted(), why, sizeof(why))) {
+        free(device);
+        return rg_error_null("device 'vulkan': %s", why);
+    }
+    bool created =
+        choose_physical(device, index) && create_logical(device) && create_shared_objects(device);
+    if (vk_healthy(device) && created)
+        return &device->pub;
+    vk_destroy(&device->pub);
+    return NULL;
+}
+
+const struct rg_backend rg_backend_vulkan = {
+    .name = "vulkan",
+    .package = "mesa-vulkan-drivers",
+    .list = vk_list,
+    .create = vk_create,
+    .destroy = vk_destroy,
+    .buf_create = vk_buf_create,
+    .buf_destroy = vk_buf_destroy,
+    .buf_write = vk_buf_write,
+    .buf_read = vk_buf_read,
+    .image_create = vk_image_create,
+    .image_destroy = vk_image_destroy,
+    .image_write = vk_image_write,
+    .image_read = vk_image_read,
+    .image_clear = vk_image_clear,
+    .pass_create = vk_pass_create,
+    .pass_destroy = vk_pass_destroy,
+    .pass_run = vk_pass_run,
+    .sync = vk_sync,
+    .time = vk_time,
+};

@@ -1,0 +1,220 @@
+#include "backends/vulkan/vulkan.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/log.h"
+
+enum { MAX_PHYSICAL = 64 };
+
+static VKAPI_ATTR VkBool32 VKAPI_CALL complain(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
+                                               VkDebugUtilsMessageTypeFlagsEXT types,
+                                               const VkDebugUtilsMessengerCallbackDataEXT *data,
+                                               void *user)
+{
+    (void)severity;
+    (void)types;
+    struct vk_instance *instance = user;
+    instance->complaints++;
+    rg_error("Vulkan validation: %s", data->pMessage);
+    return VK_FALSE;
+}
+
+// Validation alone: what the loader says of absent drivers is not about us, and the general layout is
+// our choice, whatever the performance hints say.
+static VkDebugUtilsMessengerCreateInfoEXT messenger_info(struct vk_instance *instance)
+{
+    return (VkDebugUtilsMessengerCreateInfoEXT){
+        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+        .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                           VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+        .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
+        .pfnUserCallback = complain,
+        .pUserData = instance,
+    };
+}
+
+static VkResult create_instance(struct vk_instance *instance, bool validate)
+{
+    static const char *const layers[] = {"VK_LAYER_KHRONOS_validation"};
+    static const char *const extensions[] = {"VK_EXT_debug_utils", "VK_EXT_validation_features"};
+    static const VkValidationFeatureEnableEXT enabled[] = {
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(instance);
+    const VkValidationFeaturesEXT features = {
+        .sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+        .pNext = &messenger,
+        .enabledValidationFeatureCount = 1,
+        .pEnabledValidationFeatures = enabled,
+    };
+    const VkApplicationInfo application = {
+        .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+        .pApplicationName = "raingauge",
+        .apiVersion = VK_API_VERSION_1_2,
+    };
+    const VkInstanceCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+        .pNext = validate ? &features : NULL,
+        .pApplicationInfo = &application,
+        .enabledLayerCount = validate,
+        .ppEnabledLayerNames = layers,
+        .enabledExtensionCount = validate ? 2 : 0,
+        .ppEnabledExtensionNames = extensions,
+    };
+    return vkCreateInstance(&info, NULL, &instance->handle);
+}
+
+// The variable that names the drivers, for the message that none was found.
+static void say_no_instance(VkResult result, char *why, size_t why_size)
+{
+    if (result == VK_ERROR_LAYER_NOT_PRESENT || result == VK_ERROR_EXTENSION_NOT_PRESENT) {
+        snprintf(why, why_size,
+                 "no validation layer for RG_VK_VALIDATION=1: vkCreateInstance failed with %s; "
+                 "the Debian package vulkan-validationlayers brings it",
+                 vk_result_name(result));
+        return;
+    }
+    static const char *const variables[] = {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"};
+    const char *variable = "", *value = NULL;
+    for (int i = 0; i < 2 && !value; i++)
+        value = getenv(variable = variables[i]);
+    if (value)
+        snprintf(why, why_size, "no Vulkan driver: vkCreateInstance failed with %s (%s=%.60s)",
+                 vk_result_name(result), variable, value);
+    else
+        snprintf(why, why_size, "no Vulkan driver: vkCreateInstance failed with %s",
+                 vk_result_name(result));
+}
+
+bool vk_instance_open(struct vk_instance *instance, bool validate, char *why, size_t why_size)
+{
+    // lavapipe and others announce themselves on stderr; 0: what the user set stays.
+    setenv("MESA_VK_IGNORE_CONFORMANCE_WARNING", "1", 0);
+    memset(instance, 0, sizeof(*instance));
+    uint32_t version = VK_API_VERSION_1_0;
+    vkEnumerateInstanceVersion(&version);
+    if (version < VK_API_VERSION_1_2) {
+        snprintf(why, why_size, "the Vulkan loader is %u.%u and 1.2 is needed",
+                 VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version));
+        return false;
+    }
+    VkResult result = create_instance(instance, validate);
+    if (result != VK_SUCCESS) {
+        say_no_instance(result, why, why_size);
+        instance->handle = VK_NULL_HANDLE;
+        return false;
+    }
+    PFN_vkCreateDebugUtilsMessengerEXT create =
+        (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(instance->handle,
+                                                                  "vkCreateDebugUtilsMessengerEXT");
+    const VkDebugUtilsMessengerCreateInfoEXT info = messenger_info(instance);
+    if (validate && create)
+        create(instance->handle, &info, NULL, &instance->messenger);
+    return true;
+}
+
+void vk_instance_close(struct vk_instance *instance)
+{
+    PFN_vkDestroyDebugUtilsMessengerEXT destroy =
+        instance->messenger ? (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
+                                  instance->handle, "vkDestroyDebugUtilsMessengerEXT")
+                            : NULL;
+    if (destroy)
+        destroy(instance->handle, instance->messenger, NULL);
+    if (instance->handle)
+        vkDestroyInstance(instance->handle, NULL);
+}
+
+bool vk_compute_family(VkPhysicalDevice device, uint32_t *family, uint32_t *timestamp_bits)
+{
+    VkQueueFamilyProperties families[32];
+    uint32_t count = 32;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families);
+    for (uint32_t i = 0; i < count; i++) {
+        if (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) {
+            *family = i;
+            *timestamp_bits = families[i].timestampValidBits;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_usable(VkPhysicalDevice device, const VkPhysicalDeviceProperties *properties)
+{
+    uint32_t family, bits;
+    return properties->apiVersion >= VK_API_VERSION_1_2 &&
+           vk_compute_family(device, &family, &bits);
+}
+
+int vk_physical_devices(const struct vk_instance *instance, VkPhysicalDevice *devices, int max,
+                        char *why, size_t why_size)
+{
+    VkPhysicalDevice all[MAX_PHYSICAL];
+    VkPhysicalDeviceProperties properties[MAX_PHYSICAL];
+    uint32_t all_count = MAX_PHYSICAL;
+    VkResult result = vkEnumeratePhysicalDevices(instance->handle, &all_count, all);
+    if (result < 0 || all_count == 0) {
+        snprintf(why, why_size, "no Vulkan device: vkEnumeratePhysicalDevices %s%s",
+                 result < 0 ? "failed with " : "found none",
+                 result < 0 ? vk_result_name(result) : "");
+        return 0;
+    }
+    for (uint32_t i = 0; i < all_count; i++)
+        vkGetPhysicalDeviceProperties(all[i], &properties[i]);
+    int count = 0;
+    for (int software = 0; software < 2; software++)
+        for (uint32_t i = 0; i < all_count && count < max; i++)
+            if ((properties[i].deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU) == software &&
+                is_usable(all[i], &properties[i]))
+                devices[count++] = all[i];
+    if (count == 0)
+        snprintf(why, why_size, "'%.80s' has Vulkan %u.%u or no compute queue; 1.2 is needed",
+                 properties[0].deviceName, VK_API_VERSION_MAJOR(properties[0].apiVersion),
+                 VK_API_VERSION_MINOR(properties[0].apiVersion));
+    return count;
+}
+
+static int at_most_int(uint64_t value)
+{
+    return value < INT_MAX ? (int)value : INT_MAX;
+}
+
+void vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info)
+{
+    VkPhysicalDeviceDriverProperties driver = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceMaintenance3Properties allocation = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES, .pNext = &driver};
+    VkPhysicalDeviceProperties2 all = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                       .pNext = &allocation};
+    vkGetPhysicalDeviceProperties2(device, &all);
+    const VkPhysicalDeviceProperties *p = &all.properties;
+    const VkPhysicalDeviceLimits *l = &p->limits;
+    const uint64_t max_bytes = l->maxStorageBufferRange < allocation.maxMemoryAllocationSize
+                                   ? l->maxStorageBufferRange
+                                   : allocation.maxMemoryAllocationSize;
+    memset(info, 0, sizeof(*info));
+    if (index == 0)
+        snprintf(info->name, sizeof(info->name), "vulkan");
+    else
+        snprintf(info->name, sizeof(info->name), "vulkan:%d", index);
+    snprintf(info->device, sizeof(info->device), "%.*s", (int)sizeof(info->device) - 1,
+             p->deviceName);
+    // NVIDIA's driverInfo is a bare version, Mesa's begins with "Mesa".
+    snprintf(info->driver, sizeof(info->driver), "%.70s %.80s", driver.driverName,
+             driver.driverInfo);
+    snprintf(info->api, sizeof(info->api), "Vulkan %u.%u.%u", VK_API_VERSION_MAJOR(p->apiVersion),
+             VK_API_VERSION_MINOR(p->apiVersion), VK_API_VERSION_PATCH(p->apiVersion));
+    info->software = p->deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    info->limits = (struct rg_limits){
+        .max_buffer_bytes = (int64_t)(max_bytes / 4 * 4),
+        .max_image_px = at_most_int(l->maxImageDimension2D),
+        .max_image_layers = at_most_int(l->maxImageArrayLayers),
+        .group_items = 64,
+    };
+    for (int i = 0; i < 3; i++)
+        info->limits.max_groups[i] = at_most_int(l->maxComputeWorkGroupCount[i]);
+}

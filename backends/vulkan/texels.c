@@ -1,0 +1,193 @@
+// Texels between the host and images, through staging memory, in bands of whole rows.
+#include "backends/vulkan/vulkan.h"
+
+#include <string.h>
+
+#include "core/device.h"
+#include "kernels/image_memory.h"
+
+// Part of one layer of one level.
+struct band {
+    int layer, level;
+    int width; // of the level
+    int y, rows;
+};
+
+static VkBufferImageCopy copy_of(const struct band *band, VkDeviceSize offset)
+{
+    return (VkBufferImageCopy){
+        .bufferOffset = offset,
+        .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, (uint32_t)band->level,
+                             (uint32_t)band->layer, 1},
+        .imageOffset = {0, band->y, 0},
+        .imageExtent = {(uint32_t)band->width, (uint32_t)band->rows, 1},
+    };
+}
+
+static int smaller(int64_t a, int64_t b)
+{
+    return (int)(a < b ? a : b);
+}
+
+// The band below `above`, of as many rows as fit `max_bytes`; 0 rows at the end.
+static struct band next_band(const struct rg_image *image, const struct band *above,
+                             size_t max_bytes)
+{
+    struct band band = *above;
+    band.width = rg_level_size(image->desc.width, band.level);
+    band.y += above->rows;
+    int64_t row_bytes = (int64_t)band.width * rg_format_size(image->desc.format);
+    int64_t fit = (int64_t)max_bytes / row_bytes;
+    band.rows = smaller(fit > 1 ? fit : 1, rg_level_size(image->desc.height, band.level) - band.y);
+    return band;
+}
+
+static size_t band_bytes(const struct rg_image *image, const struct band *band)
+{
+    return (size_t)band->width * (size_t)band->rows * (size_t)rg_format_size(image->desc.format);
+}
+
+static bool write_band(struct rg_image *image, const struct band *band, const char *texels)
+{
+    struct vk_device *device = (struct vk_device *)image->device;
+    size_t size = band_bytes(image, band);
+    VkDeviceSize offset;
+    void *staged;
+    struct vk_batch *batch = vk_record_staged(device, size, &offset, &staged);
+    if (!batch)
+        return false;
+    memcpy(staged, texels, size);
+    const VkBufferImageCopy copy = copy_of(band, offset);
+    vk_barrier(batch);
+    vkCmdCopyBufferToImage(batch->commands, batch->staging.buffer,
+                           ((struct vk_image *)image)->handle, VK_IMAGE_LAYOUT_GENERAL, 1, &copy);
+    return true;
+}
+
+static bool read_band(struct rg_image *image, const struct band *band, char *texels)
+{
+    struct vk_device *device = (struct vk_device *)image->device;
+    size_t size = band_bytes(image, band);
+    VkDeviceSize offset;
+    void *staged;
+    struct vk_batch *batch = vk_record_staged(device, size, &offset, &staged);
+    if (!batch)
+        return false;
+    const VkBufferImageCopy copy = copy_of(band, offset);
+    vk_barrier(batch);
+    vkCmdCopyImageToBuffer(batch->commands, ((struct vk_image *)image)->handle,
+                           VK_IMAGE_LAYOUT_GENERAL, batch->staging.buffer, 1, &copy);
+    if (!vk_wait(device))
+        return false;
+    memcpy(texels, staged, size);
+    return true;
+}
+
+bool vk_image_write(struct rg_image *image, int layer, int level, const void *texels)
+{
+    const char *from = texels;
+    struct band band = {.layer = layer, .level = level};
+    for (;;) {
+        band = next_band(image, &band, VK_MAX_STAGING_BYTES);
+        if (band.rows == 0)
+            return vk_healthy((struct vk_device *)image->device);
+        if (!write_band(image, &band, from))
+            return false;
+        from += band_bytes(image, &band);
+    }
+}
+
+bool vk_image_read(struct rg_image *image, int layer, int level, void *texels)
+{
+    char *to = texels;
+    struct band band = {.layer = layer, .level = level};
+    for (;;) {
+        band = next_band(image, &band, VK_MAX_STAGING_BYTES);
+        if (band.rows == 0)
+            return vk_healthy((struct vk_device *)image->device);
+        if (!read_band(image, &band, to))
+            return false;
+        to += band_bytes(image, &band);
+    }
+}
+
+// --- clear ---
+
+static rgba unpack(enum rg_format format, const void *texel)
+{
+    uint words[4] = {0};
+    memcpy(words, texel, (size_t)rg_format_size(format));
+    switch (format) {
+    case RG_RGBA8:
+        return rg_load_RGBA8(words, 0);
+    case RG_RGBA16F:
+        return rg_load_RGBA16F(words, 0);
+    case RG_RGBA32F:
+        return rg_load_RGBA32F(words, 0);
+    case RG_R32F:
+        return rg_load_R32F(words, 0);
+    default:
+        return rg_load_RG11B10F(words, 0);
+    }
+}
+
+// Whether any driver turns the number into the very bits it was unpacked from: not so for
+// subnormals, infinities and NaN of the small formats, nor for -0.
+static bool is_plain(float v)
+{
+    const float smallest_normal_half = 6.103515625e-5f, above_largest_half = 65536.0f;
+    float magnitude = rg_abs(v);
+    return rg_float_bits(v) == 0 ||
+           (magnitude >= smallest_normal_half && magnitude < above_largest_half);
+}
+
+static bool clear_by_colour(struct vk_device *device, struct vk_image *image, rgba c)
+{
+    struct vk_batch *batch = vk_record(device);
+    if (!batch)
+        return false;
+    const VkClearColorValue colour = {.float32 = {c.r, c.g, c.b, c.a}};
+    const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
+                                         VK_REMAINING_ARRAY_LAYERS};
+    vk_barrier(batch);
+    vkCmdClearColorImage(batch->commands, image->handle, VK_IMAGE_LAYOUT_GENERAL, &colour, 1, &all);
+    return true;
+}
+
+// Copies one band of equal texels to every place, for texels that a driver would not convert
+// exactly.
+static bool clear_by_copies(struct vk_device *device, struct rg_image *image, const void *texel)
+{
+    const size_t band_size = 512 * 1024; // at least a row of the largest image
+    size_t texel_size = (size_t)rg_format_size(image->desc.format);
+    VkDeviceSize offset;
+    void *staged;
+    struct vk_batch *batch = vk_record_staged(device, band_size, &offset, &staged);
+    if (!batch)
+        return false;
+    for (size_t i = 0; i < band_size; i += texel_size)
+        memcpy((char *)staged + i, texel, texel_size);
+    vk_barrier(batch);
+    for (int layer = 0; layer < image->desc.layers; layer++) {
+        for (int level = 0; level < image->desc.levels; level++) {
+            struct band band = {.layer = layer, .level = level};
+            while ((band = next_band(image, &band, band_size)).rows) {
+                const VkBufferImageCopy copy = copy_of(&band, offset);
+                vkCmdCopyBufferToImage(batch->commands, batch->staging.buffer,
+                                       ((struct vk_image *)image)->handle, VK_IMAGE_LAYOUT_GENERAL,
+                                       1, &copy);
+            }
+        }
+    }
+    return true;
+}
+
+bool vk_image_clear(struct rg_image *image, const void *texel)
+{
+    struct vk_device *device = (struct vk_device *)image->device;
+    rgba c = unpack(image->desc.format, texel);
+    bool cleared = is_plain(c.r) && is_plain(c.g) && is_plain(c.b) && is_plain(c.a)
+                       ? clear_by_colour(device, (struct vk_image *)image, c)
+                       : clear_by_copies(device, image, texel);
+    return vk_healthy(device) && cleared;
+}

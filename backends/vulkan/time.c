@@ -1,0 +1,41 @@
+#include "backends/vulkan/vulkan.h"
+
+#include "core/log.h"
+
+bool vk_sync(struct rg_device *device)
+{
+    struct vk_device *vk = (struct vk_device *)device;
+    bool ended = vk_wait(vk);
+    return vk_healthy(vk) && ended;
+}
+
+static bool read_ticks(struct vk_device *device, uint64_t *ticks)
+{
+    struct vk_batch *batch = vk_record(device);
+    if (!batch)
+        return false;
+    vk_barrier(batch);
+    vkCmdResetQueryPool(batch->commands, device->queries, 0, 1);
+    vkCmdWriteTimestamp(batch->commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, device->queries, 0);
+    return vk_wait(device) &&
+           vk_try("device", device->pub.info.name, vkGetQueryPoolResults, device->handle,
+                  device->queries, 0, 1, sizeof(*ticks), ticks, sizeof(*ticks),
+                  VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+}
+
+bool vk_time(struct rg_device *device, int64_t *time_ns)
+{
+    struct vk_device *vk = (struct vk_device *)device;
+    if (!vk->ticks_mask)
+        return rg_error("device '%s': %s has no timestamps (timestampValidBits is 0); use wall "
+                        "clock",
+                        device->info.name, device->info.device);
+    uint64_t ticks;
+    if (!read_ticks(vk, &ticks))
+        return false;
+    // Counters of few bits wrap within minutes: what has passed since the last reading is added up.
+    vk->ticks_total += (ticks - vk->ticks_last) & vk->ticks_mask;
+    vk->ticks_last = ticks;
+    *time_ns = (int64_t)((long double)vk->ticks_total * vk->limits.timestampPeriod);
+    return vk_healthy(vk);
+}
