@@ -1,0 +1,124 @@
+// Comparing two pictures of one shape: what differs, by how much, whether one would see it, and the
+// agreement tier they hold.
+//
+// Two domains. *Linear* figures are taken from the texels as they are. *Encoded* figures are taken
+// from one fixed encoding: colours times the exposure, clamped to 0..1, sRGB-encoded, 8 bits; alpha
+// straight, 8 bits. Encoded differences are quoted in codes (1 code = 1/255). FLIP is LDR-FLIP of
+// the encoded pictures, for HDR files too.
+//
+// Every figure is the same for any number of threads and on any processor.
+#ifndef RG_CORE_IMAGE_COMPARE_H
+#define RG_CORE_IMAGE_COMPARE_H
+
+#include "core/image/picture.h"
+
+enum { RG_ABOVE_COUNT = 4 };
+
+// The absolute linear differences above which values and pixels are counted.
+extern const float rg_above_thresholds[RG_ABOVE_COUNT];
+
+// OpenImageIO's figures, by its definitions: linear, over all values of all channels. Where both
+// values are NaN, or both infinite with one sign, they agree; another value that is not finite
+// is a mismatch and makes `max` infinite. Neither enters mean and rms, which divide by all values.
+struct rg_metrics {
+    double mean;                   // of |A - B|
+    double rms;                    // of A - B
+    double psnr_db;                // 20 log10(largest |value| / rms); infinite when rms is 0
+    double max;                    // of |A - B|
+    int max_x, max_y, max_channel; // of the first value in row order that has it; 0 when equal
+    int64_t values;                // compared
+    int64_t differing_values;      // not equal to the bit (0 and -0 differ)
+    int64_t differing_pixels;      // with a differing value
+    int64_t values_above[RG_ABOVE_COUNT];
+    int64_t pixels_above[RG_ABOVE_COUNT]; // with a value above: OpenImageIO's nfail and nwarn
+    int64_t nonfinite_a, nonfinite_b;     // values that are NaN or infinite
+    int64_t nonfinite_mismatches;
+};
+
+// FLIP (Andersson et al. 2020), LDR, encoded: 0 the same, 1 as different as can be.
+struct rg_flip {
+    double mean, max;
+    double weighted_median;     // pixels below it hold half of the sum
+    double p99;                 // 99 % of the pixels are at or below it (nearest rank)
+    double mask_mean, mask_p99; // over the rain mask; 0 when it is empty
+};
+
+// What a tier's verdict says, with the first condition that failed, "" when none.
+struct rg_verdict {
+    bool holds;
+    char why[120];
+};
+
+// Encoded, but for the relative errors. The rain mask: pixels of which a colour is more than 1 code
+// from the background's in A or B. Without a background it is the whole picture.
+struct rg_tiers {
+    int64_t mask_pixels;
+    bool mask_is_whole; // no background was given
+    struct rg_verdict t0, t1, t2;
+    // T1
+    int max_codes;               // largest difference anywhere, alpha included
+    double above_one_fraction;   // of the mask: pixels with a difference above 1 code
+    double bias_codes;           // mean of B - A over the mask, of the colour where it is largest
+    int64_t coverage_mismatches; // pixels that rain covers in one (above 1 code) and leaves exactly
+                                 // the background in the other; 0 without a background
+    // T2
+    double matched_a, matched_b; // of the mask: pixels of A (of B) whose colour is found, to 8
+                                 // codes, within 1 pixel in B (in A)
+    double energy_ratio;         // sum of |B - background| / sum of |A - background|; 1 when 0 / 0
+    double tile_max_codes;       // largest |mean of B - A| of a colour in a 16 x 16 tile
+    // Beside them: linear, over the mask's colours.
+    double relative_mean; // sum of |A - B| / sum of max(|A|, |B|)
+    double relative_max;  // largest of the same of one pixel
+};
+
+struct rg_compare_options {
+    float exposure;          // 0: 1
+    float pixels_per_degree; // 0: 67.02, a 0.7 m wide 3840 pixel screen seen from 0.7 m
+};
+
+struct rg_comparison {
+    int width, height, channels;
+    float exposure, pixels_per_degree;
+    const char *tier; // "T0", "T1", "T2" (the strictest that holds) or "none"
+    struct rg_metrics metrics;
+    struct rg_flip flip;
+    struct rg_tiers tiers;
+    float *flip_map; // width * height FLIP values, row 0 on top; owned
+};
+
+// Compares B with A. `background` (NULL: none) is the picture without rain. Pictures of different
+// sizes or channel counts, or options out of range, are logged as `name_a`, `name_b`.
+// The caller calls rg_comparison_destroy on success.
+bool rg_compare(const struct rg_picture *a, const char *name_a, const struct rg_picture *b,
+                const char *name_b, const struct rg_picture *background,
+                const struct rg_compare_options *options, struct rg_comparison *comparison);
+
+// NULL and a zeroed struct are accepted.
+void rg_comparison_destroy(struct rg_comparison *comparison);
+
+// --- the parts, for tests and for callers that want one figure ---
+
+// The fixed encoding: 4 codes a pixel (red, green, blue, alpha; grey thrice; no alpha: 255) into
+// width * height * 4 bytes.
+void rg_encode(const struct rg_picture *picture, float exposure, uint8_t *codes);
+
+bool rg_metrics_compute(const struct rg_picture *a, const struct rg_picture *b,
+                        struct rg_metrics *metrics);
+
+// `mask` receives 1 for a pixel of the rain mask, 0 for another (width * height bytes).
+// `background_codes`: NULL for none.
+bool rg_tiers_compute(const struct rg_picture *a, const struct rg_picture *b,
+                      const uint8_t *a_codes, const uint8_t *b_codes,
+                      const uint8_t *background_codes, const struct rg_metrics *metrics,
+                      uint8_t *mask, struct rg_tiers *tiers);
+
+// FLIP of each pixel into width * height floats. pixels_per_degree: 1 to 200.
+bool rg_flip_map(const uint8_t *a_codes, const uint8_t *b_codes, int width, int height,
+                 float pixels_per_degree, float *map);
+bool rg_flip_pool(const float *map, const uint8_t *mask, int64_t pixels, struct rg_flip *flip);
+
+// FLIP's own cube root and power, for positive arguments: relative errors below 4e-7 and 4e-6.
+float rg_flip_cbrt(float x);
+float rg_flip_pow(float x, float y);
+
+#endif

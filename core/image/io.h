@@ -1,0 +1,30 @@
+// Picture files: EXR, PNG, Radiance HDR and TIFF, chosen by the file's extension.
+//
+// EXR and PNG go through their own C libraries, because pictures are compared all the time and
+// OpenImageIO takes a quarter of a second to load (it pulls 260 shared libraries in); the other
+// formats, and OpenImageIO's comparison, go through OpenImageIO, loaded when first asked for.
+#ifndef RG_CORE_IMAGE_IO_H
+#define RG_CORE_IMAGE_IO_H
+
+#include "core/image/picture.h"
+
+// How a picture is written. Zeroed: half floats for EXR and TIFF, exposure 1.
+struct rg_write_options {
+    bool full_float; // EXR and TIFF: 32-bit floats, which keep every bit, instead of half floats
+    float exposure;  // PNG: linear colours are multiplied by this, clamped and sRGB-encoded; 0: 1
+};
+
+// Reads a file of 8-bit codes (PNG, TIFF of integers) from sRGB to linear light, one of floats as
+// it is. A file that cannot be read leaves `picture` zeroed and logs one line: file, what is wrong,
+// how to mend it. NaN and infinite texels are kept, with a warning that counts them.
+bool rg_picture_read(const char *path, struct rg_picture *picture);
+
+// Reads several files at once, on as many threads. All are read or none: then one line is logged.
+bool rg_pictures_read(const char *const *paths, struct rg_picture *pictures, int count);
+
+// Writes beside `path` and renames, so that a failure leaves nothing behind and what was there
+// untouched; it logs one line. The folder has to be there.
+bool rg_picture_write(const char *path, const struct rg_picture *picture,
+                      const struct rg_write_options *options);
+
+#endif

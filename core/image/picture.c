@@ -1,0 +1,54 @@
+#include "core/image/picture.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/log.h"
+
+bool rg_picture_allocate(struct rg_picture *picture, int64_t width, int64_t height,
+                         int64_t channels, char *why, size_t why_size)
+{
+    memset(picture, 0, sizeof(*picture));
+    if (width < 1 || height < 1 || channels < 1 || channels > 4) {
+        snprintf(why, why_size,
+                 "%lld x %lld pixels of %lld channels is no picture; it needs a pixel, and 1 to 4 "
+                 "channels",
+                 (long long)width, (long long)height, (long long)channels);
+        return false;
+    }
+    if (width > RG_PICTURE_MAX_SIDE_PX || height > RG_PICTURE_MAX_SIDE_PX ||
+        width * height * channels * 4 > RG_PICTURE_MAX_BYTES) {
+        snprintf(why, why_size,
+                 "%lld x %lld pixels of %lld channels is above the limit of %d pixels a side and "
+                 "16 GiB; crop it",
+                 (long long)width, (long long)height, (long long)channels, RG_PICTURE_MAX_SIDE_PX);
+        return false;
+    }
+    int64_t bytes = width * height * channels * 4;
+    float *texels = malloc((size_t)bytes);
+    if (!texels) {
+        snprintf(why, why_size, "no memory for %lld x %lld pixels (%lld MiB); make it smaller",
+                 (long long)width, (long long)height, (long long)(bytes >> 20));
+        return false;
+    }
+    *picture = (struct rg_picture){(int)width, (int)height, (int)channels, texels};
+    return true;
+}
+
+bool rg_picture_create(struct rg_picture *picture, int width, int height, int channels,
+                       const char *name)
+{
+    char why[256];
+    if (!rg_picture_allocate(picture, width, height, channels, why, sizeof(why)))
+        return rg_error("%s: %s", name, why);
+    return true;
+}
+
+void rg_picture_destroy(struct rg_picture *picture)
+{
+    if (!picture)
+        return;
+    free(picture->texels);
+    memset(picture, 0, sizeof(*picture));
+}

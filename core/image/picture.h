@@ -1,0 +1,45 @@
+// A picture in memory: what is read from a file, written to one, and compared.
+#ifndef RG_CORE_IMAGE_PICTURE_H
+#define RG_CORE_IMAGE_PICTURE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// Refused above these before memory is taken.
+#define RG_PICTURE_MAX_SIDE_PX 65536
+#define RG_PICTURE_MAX_BYTES   ((int64_t)16 << 30)
+
+// Texels are linear light, row 0 on top, tightly packed: texels[(y * width + x) * channels + c].
+// Channels: 1 grey; 2 grey, alpha; 3 red, green, blue; 4 red, green, blue, alpha. Alpha is not
+// multiplied into the colours by reading or writing. The owner calls rg_picture_destroy.
+struct rg_picture {
+    int width, height, channels;
+    float *texels;
+};
+
+// Makes a picture of undefined texels. A size outside the limits, or memory that is not there, is
+// logged with the size and `name` (a file or a role, for the message); `picture` is zeroed then.
+bool rg_picture_create(struct rg_picture *picture, int width, int height, int channels,
+                       const char *name);
+
+// Frees the texels and zeroes the struct. NULL and a zeroed struct are accepted.
+void rg_picture_destroy(struct rg_picture *picture);
+
+// As rg_picture_create, but says into `why` what is wrong instead of logging it, so that several
+// files can be read at once and one line be logged.
+bool rg_picture_allocate(struct rg_picture *picture, int64_t width, int64_t height,
+                         int64_t channels, char *why, size_t why_size);
+
+static inline int64_t rg_picture_values(const struct rg_picture *picture)
+{
+    return (int64_t)picture->width * picture->height * picture->channels;
+}
+
+// How many of the channels are colour: the others are alpha.
+static inline int rg_picture_colours(const struct rg_picture *picture)
+{
+    return picture->channels > 2 ? 3 : 1;
+}
+
+#endif

@@ -1,0 +1,202 @@
+#include <errno.h>
+#include <png.h>
+#include <setjmp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/image/format.h"
+#include "core/image/srgb.h"
+
+// Everything a read or a write holds: kept outside the frames that libpng's longjmp leaves.
+struct png_job {
+    png_structp png;
+    png_infop info;
+    FILE *file;
+    png_byte *bytes;
+    png_bytep *rows;
+    struct rg_why *why;
+};
+
+static void on_error(png_structp png, png_const_charp message)
+{
+    struct png_job *job = png_get_error_ptr(png);
+    rg_why_set(job->why, "PNG: %s%s%s", message, errno ? ": " : "; write it again",
+               errno ? strerror(errno) : "");
+    longjmp(png_jmpbuf(png), 1);
+}
+
+static void on_warning(png_structp png, png_const_charp message)
+{
+    (void)png;
+    (void)message;
+}
+
+static void release(struct png_job *job)
+{
+    if (job->file)
+        fclose(job->file);
+    free(job->bytes);
+    free(job->rows);
+}
+
+// A deflated byte holds at most 1032 others, so a header that promises more is a lie that need not
+// be believed with memory.
+static bool plausible(int64_t file_bytes, int64_t raw_bytes, struct rg_why *why)
+{
+    if (raw_bytes / 1040 <= file_bytes)
+        return true;
+    return rg_why_set(why,
+                      "promises %lld MiB of pixels, more than its %lld bytes can hold; write "
+                      "it again",
+                      (long long)(raw_bytes >> 20), (long long)file_bytes);
+}
+
+// Makes room for 8- or 16-bit rows; false with `why` set.
+static bool allocate_rows(struct png_job *job, size_t row_bytes, size_t height)
+{
+    job->bytes = malloc(row_bytes * height);
+    job->rows = malloc(height * sizeof(*job->rows));
+    if (!job->bytes || !job->rows)
+        return rg_why_set(job->why, "no memory for its rows; make it smaller");
+    for (size_t y = 0; y < height; y++)
+        job->rows[y] = job->bytes + y * row_bytes;
+    return true;
+}
+
+static bool read_rows(struct png_job *job, int64_t file_bytes, struct rg_picture *picture)
+{
+    if (setjmp(png_jmpbuf(job->png)))
+        return false;
+    png_set_user_limits(job->png, RG_PICTURE_MAX_SIDE_PX, RG_PICTURE_MAX_SIDE_PX);
+    png_init_io(job->png, job->file);
+    png_read_info(job->png, job->info);
+    int64_t height = png_get_image_height(job->png, job->info);
+    if (!plausible(file_bytes, (int64_t)png_get_rowbytes(job->png, job->info) * height, job->why))
+        return false;
+    png_set_expand(job->png);
+    if (png_get_bit_depth(job->png, job->info) == 16)
+        png_set_swap(job->png);
+    png_set_interlace_handling(job->png);
+    png_read_update_info(job->png, job->info);
+    size_t row_bytes = png_get_rowbytes(job->png, job->info);
+    return rg_picture_allocate(picture, png_get_image_width(job->png, job->info), height,
+                               png_get_channels(job->png, job->info), job->why->text,
+                               sizeof(job->why->text)) &&
+           allocate_rows(job, row_bytes, (size_t)height) &&
+           (png_read_image(job->png, job->rows), png_read_end(job->png, NULL), true);
+}
+
+static void decode8(const png_byte *codes, struct rg_picture *picture)
+{
+    const float *linear = rg_srgb()->linear;
+    int channels = picture->channels, colours = rg_picture_colours(picture);
+    int64_t texels = (int64_t)picture->width * picture->height;
+    float *to = picture->texels;
+    if (channels == 3 || channels == 1) {
+        for (int64_t i = 0; i < texels * channels; i++)
+            to[i] = linear[codes[i]];
+        return;
+    }
+    for (int64_t i = 0; i < texels; i++, codes += channels, to += channels) {
+        for (int c = 0; c < colours; c++)
+            to[c] = linear[codes[c]];
+        to[colours] = codes[colours] / 255.0f;
+    }
+}
+
+static bool decode16(const png_byte *bytes, struct rg_picture *picture, struct rg_why *why)
+{
+    float *linear = malloc(65536 * sizeof(*linear));
+    if (!linear)
+        return rg_why_set(why, "no memory for the 16-bit curve");
+    for (int c = 0; c < 65536; c++)
+        linear[c] = (float)rg_srgb_decode(c / 65535.0);
+    const uint16_t *codes = (const uint16_t *)(const void *)bytes;
+    int colours = rg_picture_colours(picture);
+    int64_t values = rg_picture_values(picture);
+    for (int64_t i = 0; i < values; i++)
+        picture->texels[i] =
+            i % picture->channels < colours ? linear[codes[i]] : codes[i] / 65535.0f;
+    free(linear);
+    return true;
+}
+
+bool rg_png_read(const char *path, int64_t file_bytes, struct rg_picture *picture,
+                 struct rg_why *why)
+{
+    struct png_job job = {.file = fopen(path, "rb"), .why = why};
+    if (!job.file)
+        return rg_why_set(why, "%s; check the path", strerror(errno));
+    errno = 0;
+    job.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
+    job.info = job.png ? png_create_info_struct(job.png) : NULL;
+    bool good = job.info ? read_rows(&job, file_bytes, picture)
+                         : rg_why_set(why, "no memory for the PNG reader");
+    if (good && png_get_bit_depth(job.png, job.info) == 16)
+        good = decode16(job.bytes, picture, why);
+    else if (good)
+        decode8(job.bytes, picture);
+    png_destroy_read_struct(&job.png, &job.info, NULL);
+    release(&job);
+    if (!good)
+        rg_picture_destroy(picture);
+    return good;
+}
+
+static void encode_row(const struct rg_picture *picture, int y, float exposure, png_byte *codes)
+{
+    const struct rg_srgb *srgb = rg_srgb();
+    int channels = picture->channels, colours = rg_picture_colours(picture);
+    const float *from = picture->texels + (int64_t)y * picture->width * channels;
+    for (int x = 0; x < picture->width; x++, from += channels, codes += channels) {
+        for (int c = 0; c < colours; c++)
+            codes[c] = rg_srgb_code(srgb, from[c] * exposure);
+        if (channels > colours)
+            codes[colours] = rg_alpha_code(from[colours]);
+    }
+}
+
+static bool write_rows(struct png_job *job, const struct rg_picture *picture, float exposure)
+{
+    static const int types[] = {0, PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
+                                PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
+    job->bytes = malloc((size_t)picture->width * (size_t)picture->channels);
+    if (!job->bytes)
+        return rg_why_set(job->why, "no memory for its rows");
+    if (setjmp(png_jmpbuf(job->png)))
+        return false;
+    png_init_io(job->png, job->file);
+    // Level 3 writes four times as fast as the default, for a tenth more bytes.
+    png_set_compression_level(job->png, 3);
+    png_set_IHDR(job->png, job->info, (png_uint_32)picture->width, (png_uint_32)picture->height, 8,
+                 types[picture->channels], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB_gAMA_and_cHRM(job->png, job->info, PNG_sRGB_INTENT_RELATIVE);
+    png_write_info(job->png, job->info);
+    for (int y = 0; y < picture->height; y++) {
+        encode_row(picture, y, exposure, job->bytes);
+        png_write_row(job->png, job->bytes);
+    }
+    png_write_end(job->png, NULL);
+    return true;
+}
+
+bool rg_png_write(const char *path, const struct rg_picture *picture,
+                  const struct rg_write_options *options, struct rg_why *why)
+{
+    struct png_job job = {.file = fopen(path, "wb"), .why = why};
+    if (!job.file)
+        return rg_why_set(why, "cannot be written: %s", strerror(errno));
+    errno = 0;
+    job.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
+    job.info = job.png ? png_create_info_struct(job.png) : NULL;
+    bool good = job.info ? write_rows(&job, picture, options->exposure)
+                         : rg_why_set(why, "no memory for the PNG writer");
+    png_destroy_write_struct(&job.png, &job.info);
+    if (fclose(job.file) && good)
+        good = rg_why_set(why, "cannot be written: %s; make room", strerror(errno));
+    job.file = NULL;
+    release(&job);
+    return good;
+}

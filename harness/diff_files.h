@@ -1,0 +1,21 @@
+// The comparison of two picture files: what `raingauge diff A B` prints.
+#ifndef RG_HARNESS_DIFF_FILES_H
+#define RG_HARNESS_DIFF_FILES_H
+
+#include <stdbool.h>
+
+#include "core/image/compare.h"
+
+struct rg_diff_request {
+    const char *a, *b;          // files
+    const char *background;     // NULL: none; the rain mask is the whole picture then
+    const char *heatmap_prefix; // NULL: none; else PREFIX-flip.png and PREFIX-difference.png
+    bool json;                  // instead of a table
+    struct rg_compare_options options;
+};
+
+// Prints the comparison of `b` with `a` to stdout. Returns the exit status: 0 the same to the bit
+// (T0), 1 not, 2 bad input or a heat map that cannot be written, with one line logged.
+int rg_diff_files(const struct rg_diff_request *request);
+
+#endif
