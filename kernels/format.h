@@ -94,14 +94,12 @@ RG_FN rgba rg_fetched_R32F(rgba c)
 
 RG_FN float rg_unpack_float11(uint bits)
 {
-    return bits < 64u ? rg_to_float(bits) * 9.5367431640625e-7f
-                      : rg_bits_float((bits << 17) + 0x38000000u);
+    return rg_bits_float(bits << 17) * 5.192296858534828e33f; // 2^112, exactly
 }
 
 RG_FN float rg_unpack_float10(uint bits)
 {
-    return bits < 32u ? rg_to_float(bits) * 1.9073486328125e-6f
-                      : rg_bits_float((bits << 18) + 0x38000000u);
+    return rg_bits_float(bits << 18) * 5.192296858534828e33f;
 }
 
 RG_FN rgba rg_fetched_RG11B10F(rgba c)

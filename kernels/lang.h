@@ -71,6 +71,7 @@ RG_FN uint rg_mul_hi(uint a, uint b)
 #include <assert.h>
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 

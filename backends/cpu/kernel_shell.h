@@ -25,14 +25,16 @@ void RG_CAT(RG_LEVEL, RG_KERNEL_NAME)(const struct cpu_call *call)
     RG_SLOTS
     rg.fault = call->fault;
     const RG_PARAMS p = *(const RG_PARAMS *)call->params;
-    for (int z = call->begin.depth; z < call->end.depth; z++) {
-        for (int y = call->begin.height; y < call->end.height; y++) {
+    // Copies, because a kernel's stores might otherwise be taken to change the call itself.
+    const struct rg_extent begin = call->begin, end = call->end;
+    for (int z = begin.depth; z < end.depth; z++) {
+        for (int y = begin.height; y < end.height; y++) {
 // Items of a run are independent (docs/dialect.md), so they may run side by side in a vector. The
-// reference is built without -fopenmp-simd and runs them one by one.
+// reference runs them one by one.
 #if !RG_CHECKED
 #pragma omp simd
 #endif
-            for (int x = call->begin.width; x < call->end.width; x++)
+            for (int x = begin.width; x < end.width; x++)
                 rg_kernel(rg, p, x, y, z);
         }
     }

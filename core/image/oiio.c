@@ -39,6 +39,7 @@ const struct rg_oiio_functions *rg_oiio(char *why, int why_size)
 // Values of integer files are sRGB-encoded: bends them to linear light, alpha excepted.
 static bool decode(struct rg_picture *picture)
 {
+    picture->decoded = true;
     int colours = rg_picture_colours(picture);
     int64_t values = rg_picture_values(picture);
     for (int64_t i = 0; i < values; i++)

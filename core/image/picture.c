@@ -32,7 +32,7 @@ bool rg_picture_allocate(struct rg_picture *picture, int64_t width, int64_t heig
                  (long long)width, (long long)height, (long long)(bytes >> 20));
         return false;
     }
-    *picture = (struct rg_picture){(int)width, (int)height, (int)channels, texels};
+    *picture = (struct rg_picture){(int)width, (int)height, (int)channels, texels, false};
     return true;
 }
 

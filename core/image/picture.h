@@ -16,6 +16,7 @@
 struct rg_picture {
     int width, height, channels;
     float *texels;
+    bool decoded; // read from integer codes, which were taken for sRGB and made linear
 };
 
 // Makes a picture of undefined texels. A size outside the limits, or memory that is not there, is

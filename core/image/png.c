@@ -137,6 +137,7 @@ bool rg_png_read(const char *path, int64_t file_bytes, struct rg_picture *pictur
         good = decode16(job.bytes, picture, why);
     else if (good)
         decode8(job.bytes, picture);
+    picture->decoded = good;
     png_destroy_read_struct(&job.png, &job.info, NULL);
     release(&job);
     if (!good)

@@ -1,0 +1,33 @@
+#include "core/techniques/technique.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+extern const struct rg_technique rg_technique_flow;
+
+// THE list of techniques.
+const struct rg_technique *const rg_techniques[] = {&rg_technique_flow, NULL};
+
+const struct rg_technique *rg_technique_find(const char *name)
+{
+    for (int i = 0; rg_techniques[i]; i++)
+        if (!strcmp(rg_techniques[i]->name, name))
+            return rg_techniques[i];
+    return NULL;
+}
+
+bool rg_instance_run(struct rg_instance *instance, struct rg_pass *pass, const struct rg_run *run)
+{
+    if (!rg_pass_run(pass, run))
+        return false;
+    if (instance->after_pass)
+        instance->after_pass(pass->kernel->name, instance->user);
+    return true;
+}
+
+void *rg_settings_create(const struct rg_technique *technique)
+{
+    void *settings = malloc(technique->params->settings_size);
+    rg_params_reset(technique->params, settings);
+    return settings;
+}

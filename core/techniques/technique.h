@@ -1,0 +1,68 @@
+// A technique: one paper's simulation and rendering, written once for all backends.
+//
+// An instance is a technique opened on a device: its buffers, images and passes. A frame is a step
+// of the simulation and a drawing of it, both lists of passes in one order for all devices.
+#ifndef RG_CORE_TECHNIQUES_TECHNIQUE_H
+#define RG_CORE_TECHNIQUES_TECHNIQUE_H
+
+#include "core/device.h"
+#include "core/params.h"
+
+enum { RG_MAX_STATE = 8, RG_MAX_COUNTERS = 16 };
+
+struct rg_instance;
+
+// A buffer that is part of the simulation's state: what `verify` compares byte by byte.
+struct rg_state {
+    const char *name;
+    struct rg_buf *buf;
+};
+
+// An exact count of work since the instance was opened.
+struct rg_counter {
+    const char *name; // "drops", "texels_simulated"
+    int64_t value;
+};
+
+struct rg_technique {
+    const char *name;  // "flow"
+    const char *paper; // key of the paper: "stuppacher"
+    const char *about; // one line
+    const struct rg_param_table *params;
+
+    // Opens the technique on a device with a target of width x height pixels, at frame 0.
+    // `settings` is copied. NULL, with one logged line, on failure.
+    struct rg_instance *(*create)(struct rg_device *device, const void *settings, int width,
+                                  int height);
+    void (*destroy)(struct rg_instance *instance);
+    // Simulates one frame.
+    bool (*step)(struct rg_instance *instance);
+    // Draws the present state into instance->target.
+    bool (*draw)(struct rg_instance *instance);
+};
+
+struct rg_instance {
+    const struct rg_technique *technique;
+    struct rg_device *device;
+    int64_t frame;           // frames simulated
+    struct rg_image *target; // RGBA16F, linear, row 0 on top
+    int state_count;
+    struct rg_state state[RG_MAX_STATE]; // valid until the next step
+    int counter_count;
+    struct rg_counter counters[RG_MAX_COUNTERS];
+    // Called after each pass, with its name, by those who measure passes; NULL for nobody.
+    void (*after_pass)(const char *pass, void *user);
+    void *user;
+};
+
+// The technique of this name, or NULL. All of them, NULL-terminated.
+const struct rg_technique *rg_technique_find(const char *name);
+extern const struct rg_technique *const rg_techniques[];
+
+// Runs a pass of an instance and tells after_pass of it.
+bool rg_instance_run(struct rg_instance *instance, struct rg_pass *pass, const struct rg_run *run);
+
+// Settings with every default; the caller frees them.
+void *rg_settings_create(const struct rg_technique *technique);
+
+#endif

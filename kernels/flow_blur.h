@@ -1,0 +1,19 @@
+// flow: the mean of a texel and its eight neighbours, against the steps that thresholds leave
+// (section 4.3, figures 14 and 15). Beyond the edge the pane is dry.
+#include "flow.h"
+
+#define RG_PARAMS flow_params
+#define RG_SLOTS  IN(1, float, water) OUT(2, float, blurred)
+#include "slots.h"
+
+RG_FN float row_sum(rg_ctx rg, flow_params p, int x, int y)
+{
+    int i = flow_index(p.size, x, y);
+    return (water_at(rg, i - 1) + water_at(rg, i)) + water_at(rg, i + 1);
+}
+
+RG_GRID_KERNEL(flow_blur)
+{
+    float sum = (row_sum(rg, p, x, y - 1) + row_sum(rg, p, x, y)) + row_sum(rg, p, x, y + 1);
+    blurred_put(rg, flow_index(p.size, x, y), sum * (1.0f / 9.0f));
+}
