@@ -88,13 +88,6 @@ static void devices_and_lists_live_side_by_side(void **state)
     assert_int_equal(walk(*state, 7, 3), expected_walk(7, 3));
 }
 
-// Numbers of deleted objects come back: what was bound under them is not taken for the new ones.
-static void new_buffers_are_bound_in_place_of_old_ones(void **state)
-{
-    for (uint32_t salt = 1; salt < 20; salt++)
-        assert_int_equal(walk(*state, 3, salt), expected_walk(3, salt));
-}
-
 static void a_kernel_that_does_not_compile_is_one_line(void **state)
 {
     char folder[] = "/tmp/test_gl.XXXXXX", path[64];
@@ -164,8 +157,6 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(queued_runs_keep_their_parameters, open_device,
                                         close_device),
         cmocka_unit_test_setup_teardown(devices_and_lists_live_side_by_side, open_device,
-                                        close_device),
-        cmocka_unit_test_setup_teardown(new_buffers_are_bound_in_place_of_old_ones, open_device,
                                         close_device),
         cmocka_unit_test_setup_teardown(a_kernel_that_does_not_compile_is_one_line, open_device,
                                         close_device),

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-enum { HALF_BYTES = 256 * 1024 };
+enum { HALF_BYTES = 64 * 1024 };
 
 // The start of the uniform block in shaders/grid.glsl; the kernel's parameters follow.
 struct block_head {
