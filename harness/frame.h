@@ -1,0 +1,24 @@
+// Running a technique to a frame and bringing its image to the host.
+#ifndef RG_HARNESS_FRAME_H
+#define RG_HARNESS_FRAME_H
+
+#include "core/image/picture.h"
+#include "core/techniques/technique.h"
+
+// Opens a technique on a device, simulates `frames` frames and draws the last. The caller destroys
+// it with rg_technique->destroy. NULL, and one logged line, on failure.
+struct rg_instance *rg_frame_run(const struct rg_technique *technique, const void *settings,
+                                 struct rg_device *device, int width, int height, int frames);
+
+// The target's texels as the device holds them: *size bytes, which the caller frees. NULL on
+// failure.
+void *rg_frame_read(struct rg_instance *instance, size_t *size);
+
+// The same as a picture of 4 channels; `texels` as rg_frame_read gave them.
+bool rg_frame_picture(const struct rg_instance *instance, const void *texels,
+                      struct rg_picture *picture);
+
+// Size and frame that options leave open.
+enum { RG_FRAME_SIZE_PX = 512, RG_FRAME_COUNT = 60 };
+
+#endif

@@ -1,0 +1,67 @@
+// raingauge: the instrument by which rain on a screen is measured.
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/log.h"
+#include "harness/command.h"
+
+extern const struct rg_command rg_command_list, rg_command_render;
+
+const struct rg_command *const rg_commands[] = {
+    &rg_command_list,
+    &rg_command_render,
+    NULL,
+};
+
+static void print_usage(void)
+{
+    printf("raingauge COMMAND [OPTION]...\n"
+           "Runs the rain of five papers on every graphics API, compares, and measures.\n\n");
+    for (int i = 0; rg_commands[i]; i++)
+        printf("  %-8s %s\n", rg_commands[i]->name, rg_commands[i]->about);
+    printf("\n`raingauge COMMAND --help` prints a command's options.\n");
+}
+
+static const struct rg_command *find(const char *name)
+{
+    for (int i = 0; rg_commands[i]; i++)
+        if (!strcmp(rg_commands[i]->name, name))
+            return rg_commands[i];
+    return NULL;
+}
+
+static int run(const struct rg_command *command, int argc, char **argv)
+{
+    struct rg_options options;
+    int exit = rg_options_parse(command, argc - 1, (const char **)argv + 1, &options);
+    if (exit == RG_EXIT_PASS)
+        exit = command->run(&options);
+    rg_options_free(&options);
+    // A full disk shows itself at the last write.
+    if ((fflush(stdout) || ferror(stdout)) && exit <= RG_EXIT_PASS) {
+        rg_error("standard output: cannot be written; is the disk full?");
+        exit = RG_EXIT_USAGE;
+    }
+    return exit < 0 ? RG_EXIT_PASS : exit;
+}
+
+int main(int argc, char **argv)
+{
+    // A write past a file-size limit then fails with EFBIG and is reported, instead of killing us.
+    signal(SIGXFSZ, SIG_IGN);
+    if (argc < 2 || !strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) {
+        print_usage();
+        return argc < 2 ? RG_EXIT_USAGE : RG_EXIT_PASS;
+    }
+    if (!strcmp(argv[1], "--version")) {
+        printf("raingauge %s\n", RG_VERSION);
+        return RG_EXIT_PASS;
+    }
+    const struct rg_command *command = find(argv[1]);
+    if (!command) {
+        rg_error("command '%s': unknown; `raingauge --help` lists them", argv[1]);
+        return RG_EXIT_USAGE;
+    }
+    return run(command, argc, argv);
+}

@@ -1,0 +1,263 @@
+#include "harness/command.h"
+
+#include <popt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/log.h"
+
+enum { MAX_SIZE_PX = 16384 };
+
+// What popt hands back for options that need more than a store.
+enum { VALUE_SET = 1000, VALUE_SIZE, VALUE_ROWS, VALUE_HELP };
+
+struct row {
+    unsigned bit;
+    struct poptOption option;
+};
+
+// The options of one command as popt wants them, pointing into `options`.
+static int build(const struct rg_command *command, struct rg_options *o, int *flags,
+                 struct poptOption *table)
+{
+    const struct row rows[] = {
+        {RG_OPT_DEVICE,
+         {"device", 0, POPT_ARG_STRING, &o->device, 0,
+          "devices to use; `raingauge list devices` prints the names", "D,...|all"}},
+        {RG_OPT_SET,
+         {"set", 0, POPT_ARG_STRING, NULL, VALUE_SET,
+          "sets a parameter; `raingauge list params TECHNIQUE` prints them", "KEY=VALUE"}},
+        {RG_OPT_SIZE,
+         {"size", 0, POPT_ARG_STRING, NULL, VALUE_SIZE, "size of the image in pixels", "WxH"}},
+        {RG_OPT_FRAME,
+         {"frame", 0, POPT_ARG_INT, &o->frame, 0, "frames to simulate before drawing", "N"}},
+        {RG_OPT_OUTPUT, {"output", 'o', POPT_ARG_STRING, &o->output, 0, "where to write", "PATH"}},
+        {RG_OPT_FORMAT,
+         {"format", 0, POPT_ARG_STRING, &o->format, 0, "what to print", "md|csv|json|tex"}},
+        {RG_OPT_ROWS,
+         {"rows", 0, POPT_ARG_STRING, NULL, VALUE_ROWS, "only these rows, counted from 1", "A-B"}},
+        {RG_OPT_EXPOSURE,
+         {"exposure", 0, POPT_ARG_DOUBLE, &o->exposure, 0, "brightness of 8-bit images, a factor",
+          "X"}},
+        {RG_OPT_BACKGROUND,
+         {"background", 0, POPT_ARG_STRING, &o->background, 0,
+          "the picture without rain: differences are gated where it rains", "FILE"}},
+        {RG_OPT_LENGTH,
+         {"quick", 0, POPT_ARG_NONE, &flags[0], 0, "few samples (the default)", NULL}},
+        {RG_OPT_LENGTH, {"full", 0, POPT_ARG_NONE, &flags[1], 0, "many samples", NULL}},
+        {RG_OPT_JSON,
+         {"json", 0, POPT_ARG_NONE, &flags[2], 0, "results in machine form (docs/records.md)",
+          NULL}},
+        {~0u, {"help", 'h', POPT_ARG_NONE, NULL, VALUE_HELP, "prints this", NULL}},
+    };
+    int count = 0;
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
+        if ((rows[i].bit & command->options) || rows[i].bit == ~0u)
+            table[count++] = rows[i].option;
+    table[count] = (struct poptOption)POPT_TABLEEND;
+    return count;
+}
+
+static bool parse_size(const char *text, struct rg_options *o)
+{
+    char end;
+    if (sscanf(text, "%dx%d%c", &o->width, &o->height, &end) != 2)
+        return rg_error("--size %s: write it as WIDTHxHEIGHT, as in 1280x720", text);
+    if (o->width < 1 || o->height < 1 || o->width > MAX_SIZE_PX || o->height > MAX_SIZE_PX)
+        return rg_error("--size %s: each side must be 1 to %d pixels", text, MAX_SIZE_PX);
+    return true;
+}
+
+static bool parse_rows(const char *text, struct rg_options *o)
+{
+    char end;
+    if (sscanf(text, "%d-%d%c", &o->first_row, &o->last_row, &end) != 2) {
+        if (sscanf(text, "%d%c", &o->first_row, &end) != 1)
+            return rg_error("--rows %s: write it as FIRST-LAST, as in 2-4", text);
+        o->last_row = o->first_row;
+    }
+    if (o->first_row < 1 || o->last_row < o->first_row)
+        return rg_error("--rows %s: rows count from 1, the first not after the last", text);
+    return true;
+}
+
+static bool take(int value, char *text, struct rg_options *o)
+{
+    if (value == VALUE_SIZE)
+        return parse_size(text, o);
+    if (value == VALUE_ROWS)
+        return parse_rows(text, o);
+    if (o->set_count == RG_MAX_SETS)
+        return rg_error("--set %s: more than %d of them", text, RG_MAX_SETS);
+    o->sets[o->set_count++] = strdup(text);
+    return true;
+}
+
+static bool check(const struct rg_options *o, bool frame_given)
+{
+    static const char *const formats[] = {"md", "csv", "json", "tex"};
+    if (frame_given && (o->frame < 0 || o->frame > 10000000))
+        return rg_error("--frame %d: must be 0 to 10000000", o->frame);
+    if (o->exposure < 0 || o->exposure > 1e6 || o->exposure != o->exposure)
+        return rg_error("--exposure %g: must be above 0, at most 1000000", o->exposure);
+    if (o->quick && o->full)
+        return rg_error("--quick and --full: choose one");
+    bool known = !o->format;
+    for (int i = 0; i < 4 && !known; i++)
+        known = !strcmp(o->format, formats[i]);
+    if (!known)
+        return rg_error("--format %s: choose md, csv, json or tex", o->format);
+    return true;
+}
+
+static bool take_arguments(poptContext context, struct rg_options *o)
+{
+    const char *arg;
+    while ((arg = poptGetArg(context))) {
+        if (o->arg_count == RG_MAX_ARGS)
+            return rg_error("'%s': more than %d arguments", arg, RG_MAX_ARGS);
+        o->args[o->arg_count++] = arg;
+    }
+    return true;
+}
+
+static void print_help(const struct rg_command *command, poptContext context)
+{
+    printf("raingauge %s %s\n%s\n\n", command->name, command->usage, command->about);
+    poptPrintHelp(context, stdout, 0);
+}
+
+int rg_options_parse(const struct rg_command *command, int argc, const char **argv,
+                     struct rg_options *o)
+{
+    struct poptOption table[32];
+    int flags[3] = {0};
+    const int unset = -1;
+    *o = (struct rg_options){.frame = unset};
+    build(command, o, flags, table);
+    poptContext context = poptGetContext("raingauge", argc, argv, table, 0);
+    o->context = context;
+    int value;
+    while ((value = poptGetNextOpt(context)) > 0) {
+        if (value == VALUE_HELP) {
+            print_help(command, context);
+            return -1;
+        }
+        char *text = poptGetOptArg(context);
+        bool good = take(value, text, o);
+        free(text);
+        if (!good)
+            return RG_EXIT_USAGE;
+    }
+    if (value < -1) {
+        rg_error("%s: %s; `raingauge %s --help` prints the options", poptBadOption(context, 0),
+                 poptStrerror(value), command->name);
+        return RG_EXIT_USAGE;
+    }
+    o->quick = flags[0];
+    o->full = flags[1];
+    o->json = flags[2];
+    bool good = check(o, o->frame != unset) && take_arguments(context, o);
+    return good ? RG_EXIT_PASS : RG_EXIT_USAGE;
+}
+
+void rg_options_free(struct rg_options *o)
+{
+    for (int i = 0; i < o->set_count; i++)
+        free(o->sets[i]);
+    free(o->device);
+    free(o->output);
+    free(o->format);
+    free(o->background);
+    poptFreeContext(o->context);
+}
+
+const struct rg_technique *rg_options_technique(const struct rg_options *o, void **settings)
+{
+    if (o->arg_count < 1)
+        return rg_error_null("no technique named; `raingauge list techniques` prints them");
+    const struct rg_technique *technique = rg_technique_find(o->args[0]);
+    if (!technique)
+        return rg_error_null("technique '%s': unknown; `raingauge list techniques` prints them",
+                             o->args[0]);
+    *settings = rg_settings_create(technique);
+    for (int i = 0; i < o->set_count; i++) {
+        if (!rg_params_set(technique->params, *settings, o->sets[i])) {
+            free(*settings);
+            return NULL;
+        }
+    }
+    return technique;
+}
+
+// --- devices ---
+
+static int exit_of(enum rg_open_status status)
+{
+    static const int exits[] = {[RG_OPEN_OK] = RG_EXIT_PASS,
+                                [RG_OPEN_UNKNOWN] = RG_EXIT_USAGE,
+                                [RG_OPEN_UNSUPPORTED] = RG_EXIT_UNSUPPORTED,
+                                [RG_OPEN_FAILED] = RG_EXIT_UNSUPPORTED};
+    return exits[status];
+}
+
+static int open_all(struct rg_devices *devices)
+{
+    struct rg_device_list *list = malloc(sizeof(*list));
+    rg_device_list_all(list);
+    for (int i = 0; list->missing[i][0]; i++)
+        rg_warning("unsupported here: %s", list->missing[i]);
+    for (int i = 0; i < list->count; i++) {
+        struct rg_device *device = rg_device_open(list->infos[i].name, NULL);
+        if (device)
+            devices->devices[devices->count++] = device;
+    }
+    free(list);
+    return devices->count ? RG_EXIT_PASS : RG_EXIT_UNSUPPORTED;
+}
+
+static int open_named(const char *names, struct rg_devices *devices)
+{
+    char *copy = strdup(names), *rest = NULL;
+    int exit = RG_EXIT_PASS;
+    for (char *name = strtok_r(copy, ",", &rest); name && exit == RG_EXIT_PASS;
+         name = strtok_r(NULL, ",", &rest)) {
+        enum rg_open_status status = RG_OPEN_UNKNOWN;
+        struct rg_device *device = NULL;
+        if (devices->count == RG_MAX_DEVICES)
+            rg_error("--device: more than %d names", RG_MAX_DEVICES);
+        else
+            device = rg_device_open(name, &status);
+        if (device)
+            devices->devices[devices->count++] = device;
+        else
+            exit = exit_of(status);
+    }
+    free(copy);
+    if (exit == RG_EXIT_PASS && !devices->count) {
+        rg_error("--device '%s': names no device", names);
+        exit = RG_EXIT_USAGE;
+    }
+    return exit;
+}
+
+int rg_devices_open(const struct rg_options *options, const char *fallback,
+                    struct rg_devices *devices)
+{
+    const char *names = options->device ? options->device : fallback;
+    devices->count = 0;
+    int exit = !strcmp(names, "all") ? open_all(devices) : open_named(names, devices);
+    if (exit != RG_EXIT_PASS)
+        rg_devices_close(devices);
+    return exit;
+}
+
+bool rg_devices_close(struct rg_devices *devices)
+{
+    bool clean = true;
+    for (int i = 0; i < devices->count; i++)
+        clean = rg_device_close(devices->devices[i]) && clean;
+    devices->count = 0;
+    return clean;
+}
