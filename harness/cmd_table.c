@@ -1,0 +1,118 @@
+// raingauge table: regenerates the papers' tables.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/log.h"
+#include "harness/output.h"
+#include "harness/table.h"
+
+static void print_json(const struct rg_table_run *run, FILE *out)
+{
+    json_t *json = rg_table_json(run);
+    json_dumpf(json, out, JSON_INDENT(1) | JSON_REAL_PRECISION(9));
+    fprintf(out, "\n");
+    json_decref(json);
+}
+
+static void print_as(const struct rg_table_run *run, const char *format, FILE *out)
+{
+    if (!strcmp(format, "json")) {
+        print_json(run, out);
+        return;
+    }
+    struct rg_grid grid;
+    rg_table_grid(run, &grid);
+    if (!strcmp(format, "csv"))
+        rg_grid_print_csv(&grid, out);
+    else if (!strcmp(format, "tex"))
+        rg_grid_print_tex(&grid, out);
+    else
+        rg_grid_print_md(&grid, out);
+    rg_grid_free(&grid);
+}
+
+// Writes the table in every format into a folder.
+static bool write_all(const struct rg_table_run *run, const char *folder)
+{
+    static const char *const formats[] = {"md", "csv", "json", "tex"};
+    bool ok = true;
+    for (int i = 0; ok && i < 4; i++) {
+        char *text = NULL, name[64];
+        size_t size;
+        FILE *out = open_memstream(&text, &size);
+        print_as(run, formats[i], out);
+        fclose(out);
+        snprintf(name, sizeof(name), "%s.%s", run->table->id, formats[i]);
+        ok = rg_output_write(folder, name, text);
+        free(text);
+    }
+    return ok;
+}
+
+// Pass when every cell was measured, fail when one disagreed, nothing when none was measured.
+static int judge(const struct rg_table_run *run)
+{
+    int ok = 0, failed = 0;
+    for (int i = 0; i < run->cell_count; i++) {
+        ok += run->cells[i].status == RG_CELL_OK;
+        failed += run->cells[i].status == RG_CELL_FAIL || run->cells[i].status == RG_CELL_ERROR;
+    }
+    return failed ? RG_EXIT_FAIL : ok ? RG_EXIT_PASS : RG_EXIT_NOTHING;
+}
+
+static int run_table(const struct rg_table *table, const struct rg_devices *devices,
+                     const struct rg_options *o)
+{
+    struct rg_table_run run = {.table = table,
+                               .devices = devices,
+                               .first_row = o->first_row ? o->first_row - 1 : 0,
+                               .last_row = o->last_row ? o->last_row - 1 : table->row_count - 1,
+                               .full = o->full};
+    if (run.last_row >= table->row_count) {
+        rg_error("--rows %d-%d: %s has rows 1-%d", o->first_row, o->last_row, table->id,
+                 table->row_count);
+        return RG_EXIT_USAGE;
+    }
+    int exit = RG_EXIT_FAIL;
+    if (rg_table_measure(&run)) {
+        exit = judge(&run);
+        print_as(&run, o->json ? "json" : o->format ? o->format : "md", stdout);
+        fflush(stdout);
+        if (o->output && !write_all(&run, o->output))
+            exit = RG_EXIT_USAGE;
+    }
+    rg_table_run_free(&run);
+    return exit;
+}
+
+static bool names_are_known(const struct rg_options *o)
+{
+    for (int i = 0; i < o->arg_count; i++)
+        if (!rg_table_find(o->args[i]))
+            return rg_error("table '%s': unknown; `raingauge list tables` prints them", o->args[i]);
+    return true;
+}
+
+static int table(const struct rg_options *o)
+{
+    if (!names_are_known(o))
+        return RG_EXIT_USAGE;
+    struct rg_devices devices;
+    int exit = rg_devices_open(o, "all", &devices);
+    for (int i = 0; exit == RG_EXIT_PASS && rg_tables[i] && !o->arg_count; i++)
+        exit = run_table(rg_tables[i], &devices, o);
+    for (int i = 0; exit == RG_EXIT_PASS && i < o->arg_count; i++)
+        exit = run_table(rg_table_find(o->args[i]), &devices, o);
+    rg_devices_close(&devices);
+    return exit;
+}
+
+const struct rg_command rg_command_table = {
+    .name = "table",
+    .usage = "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--format F] [-o DIR]",
+    .about = "regenerates the papers' tables: published beside measured, on every device",
+    .options =
+        RG_OPT_DEVICE | RG_OPT_LENGTH | RG_OPT_ROWS | RG_OPT_FORMAT | RG_OPT_OUTPUT | RG_OPT_JSON,
+    .run = table,
+};

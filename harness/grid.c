@@ -1,0 +1,123 @@
+#include "harness/grid.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+char (*rg_grid_row(struct rg_grid *grid))[RG_GRID_CELL]
+{
+    if (grid->row_count == grid->row_capacity) {
+        grid->row_capacity = grid->row_capacity ? grid->row_capacity * 2 : 16;
+        grid->cells = realloc(grid->cells, (size_t)grid->row_capacity * sizeof(*grid->cells));
+    }
+    memset(grid->cells[grid->row_count], 0, sizeof(*grid->cells));
+    return grid->cells[grid->row_count++];
+}
+
+void rg_grid_note(struct rg_grid *grid, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(grid->notes[grid->note_count++], sizeof(grid->notes[0]), format, args);
+    va_end(args);
+}
+
+void rg_grid_free(struct rg_grid *grid)
+{
+    free(grid->cells);
+}
+
+// --- Markdown, with columns aligned for those who read it as text ---
+
+static void print_md_row(FILE *out, const struct rg_grid *grid, const int *widths, int row)
+{
+    for (int c = 0; c < grid->column_count; c++)
+        fprintf(out, c ? " %*s |" : "| %*s |", widths[c],
+                row < 0 ? grid->columns[c] : grid->cells[row][c]);
+    fprintf(out, "\n");
+}
+
+void rg_grid_print_md(const struct rg_grid *grid, FILE *out)
+{
+    int widths[RG_GRID_COLUMNS];
+    for (int c = 0; c < grid->column_count; c++) {
+        widths[c] = (int)strlen(grid->columns[c]);
+        for (int r = 0; r < grid->row_count; r++)
+            if ((int)strlen(grid->cells[r][c]) > widths[c])
+                widths[c] = (int)strlen(grid->cells[r][c]);
+    }
+    fprintf(out, "## %s\n\n", grid->title);
+    print_md_row(out, grid, widths, -1);
+    for (int c = 0; c < grid->column_count; c++) {
+        fprintf(out, c ? "" : "|");
+        for (int i = 0; i < widths[c] + 1; i++)
+            fprintf(out, "-");
+        fprintf(out, ":|");
+    }
+    fprintf(out, "\n");
+    for (int r = 0; r < grid->row_count; r++)
+        print_md_row(out, grid, widths, r);
+    fprintf(out, "\n");
+    for (int n = 0; n < grid->note_count; n++)
+        fprintf(out, "- %s\n", grid->notes[n]);
+}
+
+// --- CSV: RFC 4180 ---
+
+static void print_csv_cell(FILE *out, const char *text)
+{
+    if (!text[strcspn(text, ",\"\n")]) {
+        fprintf(out, "%s", text);
+        return;
+    }
+    fputc('"', out);
+    for (; *text; text++)
+        fprintf(out, *text == '"' ? "\"\"" : "%c", *text);
+    fputc('"', out);
+}
+
+void rg_grid_print_csv(const struct rg_grid *grid, FILE *out)
+{
+    for (int r = -1; r < grid->row_count; r++) {
+        for (int c = 0; c < grid->column_count; c++) {
+            fprintf(out, c ? "," : "");
+            print_csv_cell(out, r < 0 ? grid->columns[c] : grid->cells[r][c]);
+        }
+        fprintf(out, "\n");
+    }
+}
+
+// --- LaTeX: a tabular in a table, needing no package ---
+
+static void print_tex_text(FILE *out, const char *text)
+{
+    for (; *text; text++) {
+        if (strchr("_%&#$", *text))
+            fputc('\\', out);
+        fputc(*text, out);
+    }
+}
+
+void rg_grid_print_tex(const struct rg_grid *grid, FILE *out)
+{
+    fprintf(out, "\\begin{table}\n\\caption{");
+    print_tex_text(out, grid->title);
+    fprintf(out, "}\n\\begin{tabular}{");
+    for (int c = 0; c < grid->column_count; c++)
+        fputc('r', out);
+    fprintf(out, "}\n\\hline\n");
+    for (int r = -1; r < grid->row_count; r++) {
+        for (int c = 0; c < grid->column_count; c++) {
+            fprintf(out, c ? " & " : "");
+            print_tex_text(out, r < 0 ? grid->columns[c] : grid->cells[r][c]);
+        }
+        fprintf(out, r < 0 ? " \\\\\n\\hline\n" : " \\\\\n");
+    }
+    fprintf(out, "\\hline\n\\end{tabular}\n");
+    for (int n = 0; n < grid->note_count; n++) {
+        fprintf(out, "\n\\noindent ");
+        print_tex_text(out, grid->notes[n]);
+        fprintf(out, "\n");
+    }
+    fprintf(out, "\\end{table}\n");
+}

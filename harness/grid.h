@@ -1,0 +1,29 @@
+// A table of text cells, printed as Markdown, CSV or LaTeX.
+#ifndef RG_HARNESS_GRID_H
+#define RG_HARNESS_GRID_H
+
+#include <stdio.h>
+
+enum { RG_GRID_COLUMNS = 16, RG_GRID_CELL = 64 };
+
+struct rg_grid {
+    const char *title;
+    int column_count;
+    const char *columns[RG_GRID_COLUMNS];
+    int row_count, row_capacity;
+    char (*cells)[RG_GRID_COLUMNS][RG_GRID_CELL]; // owned
+    int note_count;
+    char notes[32][400]; // printed below, in Markdown and LaTeX
+};
+
+// Adds a row of empty cells and returns them.
+char (*rg_grid_row(struct rg_grid *grid))[RG_GRID_CELL];
+void rg_grid_note(struct rg_grid *grid, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+void rg_grid_free(struct rg_grid *grid);
+
+void rg_grid_print_md(const struct rg_grid *grid, FILE *out);
+void rg_grid_print_csv(const struct rg_grid *grid, FILE *out);
+void rg_grid_print_tex(const struct rg_grid *grid, FILE *out);
+
+#endif

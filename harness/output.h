@@ -1,0 +1,11 @@
+// Writing results: a file is there whole or not at all.
+#ifndef RG_HARNESS_OUTPUT_H
+#define RG_HARNESS_OUTPUT_H
+
+#include <stdbool.h>
+
+// Writes `text` to FOLDER/NAME by a temporary file that is renamed. The folder is made if only its
+// last part is missing. False, with one logged line and nothing left behind, on failure.
+bool rg_output_write(const char *folder, const char *name, const char *text);
+
+#endif
