@@ -45,9 +45,10 @@ RG_MULTIVERSION static bool sum_finite_row(const float *a, const float *b, int v
         largest[l] = fmaxf(largest[l], fmaxf(fabsf(a[i]), fabsf(b[i])));
         poison[l] += a[i] * 0.0f + b[i] * 0.0f;
     }
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < LANES; l++)
         if (poison[l] != 0.0f)
             return false;
+    for (int l = 0; l < LANES; l++) {
         row->sum += sum[l];
         row->square_sum += squares[l];
         row->max = fmaxf(row->max, max[l]);
