@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/image/exr_unpack.h"
 #include "core/image/format.h"
 
 // What OpenEXRCore's callbacks and the chunk loop share.
@@ -131,66 +132,8 @@ static void aim(const struct exr_job *job, exr_decode_pipeline_t *decode, int64_
     }
 }
 
-// Exact, for every half: zeros, subnormals, infinities and NaN too.
-static float float_of_half(uint16_t half)
-{
-    uint32_t magnitude = half & 0x7fffu, bits = magnitude << 13;
-    float value;
-    memcpy(&value, &bits, 4);
-    value *= 0x1p112f;
-    memcpy(&bits, &value, 4);
-    bits |= (magnitude >= 0x7c00 ? 0x7f800000u : 0) | (uint32_t)(half & 0x8000) << 16;
-    memcpy(&value, &bits, 4);
-    return value;
-}
-
-// Converts `count` values of one channel of one line, and spreads them over texels.
-static void convert_line(const uint8_t *from, int type, int count, float *to, int stride)
-{
-    enum { PART = 256 };
-    union {
-        uint16_t half[PART];
-        uint32_t integer[PART];
-    } raw;
-    float values[PART];
-    int size = type == EXR_PIXEL_HALF ? 2 : 4;
-    for (int start = 0; start < count; start += PART, from += PART * size) {
-        int part = count - start < PART ? count - start : PART;
-        memcpy(type == EXR_PIXEL_FLOAT ? (void *)values : (void *)&raw, from,
-               (size_t)part * (size_t)size);
-        for (int i = 0; type == EXR_PIXEL_HALF && i < part; i++)
-            values[i] = float_of_half(raw.half[i]);
-        for (int i = 0; type == EXR_PIXEL_UINT && i < part; i++)
-            values[i] = (float)raw.integer[i];
-        for (int i = 0; i < part; i++)
-            to[(int64_t)(start + i) * stride] = values[i];
-    }
-}
-
-// Takes the place of the library's routine, which reverses the channels of RGBA halves (3.1.5).
-static exr_result_t unpack(exr_decode_pipeline_t *decode)
-{
-    const uint8_t *from = decode->unpacked_buffer, *end = from + decode->chunk.unpacked_size;
-    for (int line = 0; line < decode->chunk.height; line++)
-        for (int c = 0; c < decode->channel_count; c++) {
-            const exr_coding_channel_info_t *channel = &decode->channels[c];
-            if (channel->y_samples > 1 && (decode->chunk.start_y + line) % channel->y_samples)
-                continue;
-            int64_t bytes = (int64_t)channel->width * channel->bytes_per_element;
-            if (end - from < bytes)
-                return EXR_ERR_CORRUPT_CHUNK;
-            if (channel->decode_to_ptr)
-                convert_line(from, channel->data_type, channel->width,
-                             (float *)(void *)(channel->decode_to_ptr +
-                                               (int64_t)line * channel->user_line_stride),
-                             channel->user_pixel_stride / 4);
-            from += bytes;
-        }
-    return EXR_ERR_SUCCESS;
-}
-
-static exr_result_t read_chunk(const struct exr_job *job, exr_decode_pipeline_t *decode, int chunk,
-                               bool *started)
+static exr_result_t read_chunk(const struct exr_job *job, exr_decode_pipeline_t *decode,
+                               struct rg_exr_unpacker *unpacker, int chunk, bool *started)
 {
     int column = chunk % job->across, row = chunk / job->across;
     int64_t x = (int64_t)column * job->chunk_width, y = (int64_t)row * job->chunk_height;
@@ -209,7 +152,7 @@ static exr_result_t read_chunk(const struct exr_job *job, exr_decode_pipeline_t 
     aim(job, decode, x, y);
     if (first) {
         code = exr_decoding_choose_default_routines(job->exr, 0, decode);
-        decode->unpack_and_convert_fn = unpack;
+        rg_exr_take_over(unpacker, decode);
     }
     return code != EXR_ERR_SUCCESS ? code : exr_decoding_run(job->exr, 0, decode);
 }
@@ -221,14 +164,16 @@ static bool read_chunks(struct exr_job *job)
 #pragma omp parallel
     {
         exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
+        struct rg_exr_unpacker unpacker = {0};
         bool started = false;
         exr_result_t code = EXR_ERR_SUCCESS;
 #pragma omp for schedule(dynamic)
         for (int chunk = 0; chunk < chunks; chunk++)
             if (code == EXR_ERR_SUCCESS)
-                code = read_chunk(job, &decode, chunk, &started);
+                code = read_chunk(job, &decode, &unpacker, chunk, &started);
         if (started)
             exr_decoding_destroy(job->exr, &decode);
+        rg_exr_unpacker_release(&unpacker);
 #pragma omp critical
         worst = code != EXR_ERR_SUCCESS ? code : worst;
     }
