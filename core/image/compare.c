@@ -59,7 +59,8 @@ static bool compute(const struct rg_picture *a, const struct rg_picture *b,
                             &c->metrics, planes->mask, &c->tiers) &&
            rg_flip_map(planes->a, planes->b, a->width, a->height, c->pixels_per_degree,
                        c->flip_map) &&
-           rg_flip_pool(c->flip_map, planes->mask, (int64_t)a->width * a->height, &c->flip);
+           rg_flip_pool(c->flip_map, background ? planes->mask : NULL,
+                        (int64_t)a->width * a->height, &c->flip);
 }
 
 static const char *tier_name(const struct rg_tiers *tiers)

@@ -115,6 +115,7 @@ bool rg_tiers_compute(const struct rg_picture *a, const struct rg_picture *b,
 // FLIP of each pixel into width * height floats. pixels_per_degree: 1 to 200.
 bool rg_flip_map(const uint8_t *a_codes, const uint8_t *b_codes, int width, int height,
                  float pixels_per_degree, float *map);
+// `mask`: NULL for the whole map.
 bool rg_flip_pool(const float *map, const uint8_t *mask, int64_t pixels, struct rg_flip *flip);
 
 // FLIP's own cube root and power, for positive arguments: relative errors below 4e-7 and 4e-6.

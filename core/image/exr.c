@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/image/exr_unpack.h"
 #include "core/image/format.h"
 
 // What OpenEXRCore's callbacks and the chunk loop share.
@@ -131,8 +132,8 @@ static void aim(const struct exr_job *job, exr_decode_pipeline_t *decode, int64_
     }
 }
 
-static exr_result_t read_chunk(const struct exr_job *job, exr_decode_pipeline_t *decode, int chunk,
-                               bool *started)
+static exr_result_t read_chunk(const struct exr_job *job, exr_decode_pipeline_t *decode,
+                               struct rg_exr_unpacker *unpacker, int chunk, bool *started)
 {
     int column = chunk % job->across, row = chunk / job->across;
     int64_t x = (int64_t)column * job->chunk_width, y = (int64_t)row * job->chunk_height;
@@ -149,24 +150,32 @@ static exr_result_t read_chunk(const struct exr_job *job, exr_decode_pipeline_t 
         return code;
     *started = true;
     aim(job, decode, x, y);
-    if (first)
+    if (first) {
         code = exr_decoding_choose_default_routines(job->exr, 0, decode);
+        rg_exr_take_over(unpacker, decode);
+    }
     return code != EXR_ERR_SUCCESS ? code : exr_decoding_run(job->exr, 0, decode);
 }
 
 static bool read_chunks(struct exr_job *job)
 {
-    int chunks = job->across * job->down, worst = EXR_ERR_SUCCESS;
-#pragma omp parallel reduction(max : worst)
+    int chunks = job->across * job->down;
+    exr_result_t worst = EXR_ERR_SUCCESS;
+#pragma omp parallel
     {
         exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
+        struct rg_exr_unpacker unpacker = {0};
         bool started = false;
+        exr_result_t code = EXR_ERR_SUCCESS;
 #pragma omp for schedule(dynamic)
         for (int chunk = 0; chunk < chunks; chunk++)
-            if (worst == EXR_ERR_SUCCESS)
-                worst = read_chunk(job, &decode, chunk, &started);
+            if (code == EXR_ERR_SUCCESS)
+                code = read_chunk(job, &decode, &unpacker, chunk, &started);
         if (started)
             exr_decoding_destroy(job->exr, &decode);
+        rg_exr_unpacker_release(&unpacker);
+#pragma omp critical
+        worst = code != EXR_ERR_SUCCESS ? code : worst;
     }
     return worst == EXR_ERR_SUCCESS || failed(job->why, "pixels", worst);
 }

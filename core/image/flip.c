@@ -251,11 +251,11 @@ static inline float log_2(float x)
     return exponent + s * (2.8853901f + q * (0.33333333f + q * series) * 2.8853901f);
 }
 
+// For -126 < x < 127: no branch, for the vectoriser's sake.
 static inline float exp_2(float x)
 {
-    float clamped = x < -126.0f ? -126.0f : x;
-    int32_t whole = (int32_t)(clamped + 1024.5f) - 1024; // truncation of a positive value
-    float t = (clamped - (float)whole) * 0.69314718f;
+    int32_t whole = (int32_t)(x + 1024.5f) - 1024; // truncation of a positive value
+    float t = (x - (float)whole) * 0.69314718f;
     float series = 1.0f / 24 + t * (1.0f / 120 + t * (1.0f / 720));
     float power = 1.0f + t * (1.0f + t * (0.5f + t * (1.0f / 6 + t * series)));
     return power * from_bits((whole + 127) << 23);
@@ -316,14 +316,16 @@ RG_MULTIVERSION static void difference_row(const struct filtered *restrict a,
                                            const struct filtered *restrict b, int width, float cmax,
                                            float *restrict map)
 {
+    // Plain pointers: members of a struct that vectors were stored to are not vectorised.
+    const float *ay = a->y, *acx = a->cx, *acz = a->cz, *a_edge = a->edge, *a_point = a->point;
+    const float *by = b->y, *bcx = b->cx, *bcz = b->cz, *b_edge = b->edge, *b_point = b->point;
     float knee = 0.4f * cmax, below = 0.95f / knee, above = 0.05f / (cmax - knee);
 #pragma omp simd
     for (int x = 0; x < width; x++) {
-        float distance =
-            hyab(perceived(a->y[x], a->cx[x], a->cz[x]), perceived(b->y[x], b->cx[x], b->cz[x]));
+        float distance = hyab(perceived(ay[x], acx[x], acz[x]), perceived(by[x], bcx[x], bcz[x]));
         float power = exp_2(0.7f * log_2(distance));
         float colour = power < knee ? below * power : 0.95f + (power - knee) * above;
-        float edge = fabsf(a->edge[x] - b->edge[x]), point = fabsf(a->point[x] - b->point[x]);
+        float edge = fabsf(a_edge[x] - b_edge[x]), point = fabsf(a_point[x] - b_point[x]);
         float feature = sqrtf(0.70710678f * (edge > point ? edge : point));
         float flip = exp_2((1.0f - feature) * log_2(colour));
         map[x] = distance > 0.0f ? clamp01(flip) : 0.0f;

@@ -11,6 +11,12 @@ const float rg_above_thresholds[RG_ABOVE_COUNT] = {1e-6f, 1e-4f, 1e-3f, 1e-2f};
 // Sums run in LANES fixed lanes and are added row by row, whatever the vector width and threads.
 enum { LANES = 16 };
 
+// fmaxf without its care for NaN, which costs a call a value.
+static inline float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
 struct row_metrics {
     double sum, square_sum;
     float max, largest_value;
@@ -30,28 +36,29 @@ RG_MULTIVERSION static bool sum_finite_row(const float *a, const float *b, int v
     for (; i + LANES <= values; i += LANES)
         for (int l = 0; l < LANES; l++) {
             float d = fabsf(a[i + l] - b[i + l]);
-            float v = fmaxf(fabsf(a[i + l]), fabsf(b[i + l]));
+            float v = larger(fabsf(a[i + l]), fabsf(b[i + l]));
             sum[l] += (double)d;
             squares[l] += (double)d * (double)d;
-            max[l] = d > max[l] ? d : max[l];
-            largest[l] = v > largest[l] ? v : largest[l];
+            max[l] = larger(d, max[l]);
+            largest[l] = larger(v, largest[l]);
             poison[l] += a[i + l] * 0.0f + b[i + l] * 0.0f;
         }
     for (int l = 0; i < values; i++, l++) {
         float d = fabsf(a[i] - b[i]);
         sum[l] += (double)d;
         squares[l] += (double)d * (double)d;
-        max[l] = fmaxf(max[l], d);
-        largest[l] = fmaxf(largest[l], fmaxf(fabsf(a[i]), fabsf(b[i])));
+        max[l] = larger(max[l], d);
+        largest[l] = larger(largest[l], larger(fabsf(a[i]), fabsf(b[i])));
         poison[l] += a[i] * 0.0f + b[i] * 0.0f;
     }
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < LANES; l++)
         if (poison[l] != 0.0f)
             return false;
+    for (int l = 0; l < LANES; l++) {
         row->sum += sum[l];
         row->square_sum += squares[l];
-        row->max = fmaxf(row->max, max[l]);
-        row->largest_value = fmaxf(row->largest_value, largest[l]);
+        row->max = larger(row->max, max[l]);
+        row->largest_value = larger(row->largest_value, largest[l]);
     }
     return true;
 }
@@ -67,8 +74,8 @@ static void sum_any_row(const float *a, const float *b, int values, struct row_m
             float d = fabsf(a[i] - b[i]);
             row->sum += (double)d;
             row->square_sum += (double)d * (double)d;
-            row->max = fmaxf(row->max, d);
-            row->largest_value = fmaxf(row->largest_value, fmaxf(fabsf(a[i]), fabsf(b[i])));
+            row->max = larger(row->max, d);
+            row->largest_value = larger(row->largest_value, larger(fabsf(a[i]), fabsf(b[i])));
         } else if (!(isnan(a[i]) && isnan(b[i])) && a[i] != b[i]) {
             row->mismatches++;
             row->max = INFINITY;
@@ -144,7 +151,7 @@ static void add_rows(const struct row_metrics *rows, int height, int channels, s
         const struct row_metrics *row = &rows[y];
         sum += row->sum;
         squares += row->square_sum;
-        largest = fmaxf(largest, row->largest_value);
+        largest = larger(largest, row->largest_value);
         if (row->max > m->max) {
             m->max = (double)row->max;
             m->max_x = row->max_index / channels;

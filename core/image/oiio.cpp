@@ -51,7 +51,8 @@ try {
 bool read_file(rg_oiio_file *file, float *texels) noexcept
 try {
     auto *input = static_cast<ImageInput *>(file->input);
-    if (input->read_image(0, 0, 0, file->channels, TypeDesc::FLOAT, texels))
+    if (input->read_image(0, 0, 0, file->channels, TypeDesc::FLOAT, texels) &&
+        !input->has_error())
         return true;
     say(file->why, sizeof(file->why), input->geterror());
     return false;

@@ -1,10 +1,28 @@
+#define _DEFAULT_SOURCE // madvise
 #include "core/image/picture.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 #include "core/log.h"
+
+// Memory for large pictures comes in huge pages where the system gives them: touching it for the
+// first time is otherwise a tenth of a comparison's time.
+static float *allocate_texels(size_t bytes)
+{
+    const size_t huge_page = (size_t)2 << 20;
+    if (bytes < 4 * huge_page)
+        return malloc(bytes);
+    size_t rounded = (bytes + huge_page - 1) / huge_page * huge_page;
+    float *texels = aligned_alloc(huge_page, rounded);
+#ifdef MADV_HUGEPAGE
+    if (texels)
+        madvise(texels, rounded, MADV_HUGEPAGE); // advice: nothing is lost when it is not taken
+#endif
+    return texels;
+}
 
 bool rg_picture_allocate(struct rg_picture *picture, int64_t width, int64_t height,
                          int64_t channels, char *why, size_t why_size)
@@ -26,7 +44,7 @@ bool rg_picture_allocate(struct rg_picture *picture, int64_t width, int64_t heig
         return false;
     }
     int64_t bytes = width * height * channels * 4;
-    float *texels = malloc((size_t)bytes);
+    float *texels = allocate_texels((size_t)bytes);
     if (!texels) {
         snprintf(why, why_size, "no memory for %lld x %lld pixels (%lld MiB); make it smaller",
                  (long long)width, (long long)height, (long long)(bytes >> 20));

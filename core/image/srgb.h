@@ -12,7 +12,7 @@ enum { RG_SRGB_STEPS = 13 * 128, RG_SRGB_LOWEST_BITS = 114 << 23 };
 struct rg_srgb {
     float linear[256];    // of a code
     float threshold[257]; // the smallest linear value that rounds to a code, or above it
-    uint8_t code[RG_SRGB_STEPS];
+    uint8_t code[2048];   // at the start of each step; the rest is never asked for
 };
 
 // The tables; made on the first call, from any thread.
@@ -32,7 +32,7 @@ static inline uint8_t rg_srgb_code(const struct rg_srgb *srgb, float linear)
         return 255;
     uint32_t bits;
     memcpy(&bits, &linear, sizeof(bits));
-    uint8_t code = srgb->code[(bits - RG_SRGB_LOWEST_BITS) >> 16];
+    uint8_t code = srgb->code[(bits - RG_SRGB_LOWEST_BITS) >> 16 & 2047];
     return (uint8_t)(code + (linear >= srgb->threshold[code + 1]));
 }
 

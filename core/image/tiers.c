@@ -157,14 +157,16 @@ static void relative_row(const struct pictures *p, int y, double sums[2], double
             continue;
         double difference = 0, size = 0;
         for (int c = 0; c < colours; c++) {
+            double va = fabs((double)a[c]), vb = fabs((double)b[c]);
             difference += fabs((double)a[c] - (double)b[c]);
-            size += fmax(fabs((double)a[c]), fabs((double)b[c]));
+            size += va > vb ? va : vb;
         }
         if (!isfinite(size) || size == 0)
             continue;
         sums[0] += difference;
         sums[1] += size;
-        *max = fmax(*max, difference / size);
+        if (difference > *max * size)
+            *max = difference / size;
     }
 }
 
