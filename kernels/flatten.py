@@ -23,14 +23,25 @@ def preprocess(language, kernel, shell, compiler):
     return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
-def end_of_block(text, start):
-    """The index behind the brace that closes the one at `start`."""
+def closing(text, start):
+    """The index of the bracket that closes the one at `start`."""
     depth = 0
     for at in range(start, len(text)):
-        depth += {"{": 1, "}": -1}.get(text[at], 0)
+        depth += {"(": 1, "{": 1, ")": -1, "}": -1}.get(text[at], 0)
         if depth == 0:
-            return at + 1
-    raise ValueError("a brace is not closed")
+            return at
+    raise ValueError(f"a bracket is not closed: {text[start:start + 60]}")
+
+
+def split_top(text, separator):
+    """The parts of `text` between separators that stand in no bracket."""
+    parts, depth, start = [], 0, 0
+    for at, char in enumerate(text):
+        depth += {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}.get(char, 0)
+        if char == separator and depth == 0:
+            parts.append(text[start:at])
+            start = at + 1
+    return parts + [text[start:]]
 
 
 def make_returns_precise(text, types):
@@ -39,23 +50,74 @@ def make_returns_precise(text, types):
     returned = re.compile(r"\breturn\b([^;]*);")
     done, at = [], 0
     while match := function.search(text, at):
-        end = end_of_block(text, match.end())
+        end = closing(text, match.end()) + 1
         local = rf"{{ {match.group(1)} rg_result =\1; return rg_result; }}"
         done += [text[at : match.end()], returned.sub(local, text[match.end() : end])]
         at = end
     return "".join(done) + text[at:]
 
 
+class PreciseExpressions:
+    """Conditions and arguments that compute pass through precise globals, one for each place:
+    `precise` reaches what a variable is assigned, and neither is assigned to any."""
+
+    scalars = {"float", "int", "uint", "bool"}
+    literal = re.compile(r"\s*-?[\d.]+(e-?\d+)?[fu]?\s*")
+
+    def __init__(self, text, types):
+        self.globals = []
+        header = re.compile(rf"\b(?:void|{types})\s+(\w+)\s*\(([^()]*)\)\s*\{{")
+        self.headers = {match.start(1) for match in header.finditer(text)}
+        self.parameters = {
+            match.group(1): [p.split()[0] for p in match.group(2).split(",") if p.strip()]
+            for match in header.finditer(text)
+        }
+        self.text = self.rewrite(text, self.headers)
+
+    def through(self, kind, expression):
+        if not re.search(r"[-+*/]", expression) or self.literal.fullmatch(expression):
+            return expression
+        self.globals.append(f"precise {kind} rg_exact_{len(self.globals)};")
+        space = expression[: len(expression) - len(expression.lstrip())]
+        return f"{space}rg_exact_{len(self.globals) - 1} = ({expression.strip()})"
+
+    def inside(self, name, text):
+        """What stands in the brackets behind `name`, rewritten."""
+        if name in ("if", "while"):
+            return self.through("bool", self.rewrite(text))
+        if name == "for":
+            first, condition, step = map(self.rewrite, split_top(text, ";"))
+            return f"{first};{self.through('bool', condition)};{step}"
+        arguments = [self.rewrite(part) for part in split_top(text, ",")]
+        kinds = self.parameters.get(name, [])
+        return ",".join(
+            self.through(kinds[i], part) if i < len(kinds) and kinds[i] in self.scalars else part
+            for i, part in enumerate(arguments)
+        )
+
+    def rewrite(self, text, headers=frozenset()):
+        done, at = [], 0
+        for match in re.finditer(r"\b(\w+)\s*\(", text):
+            if match.start() < at or match.start(1) in headers:
+                continue
+            end = closing(text, match.end() - 1)
+            done += [text[at : match.end()], self.inside(match.group(1), text[match.end() : end])]
+            at = end
+        return "".join(done) + text[at:]
+
+
 def make_precise(text):
-    """`precise` before every local that holds floats, results of functions included."""
+    """All that is computed becomes `precise`: locals, results, conditions and arguments, of
+    integers and truths too, since floats may stand behind them."""
     structs = re.findall(r"\bstruct\s+(\w+)\s*\{", text)
-    types = "|".join(["float"] + [s for s in structs if s != "rg_ctx"])
+    types = "|".join(["float", "int", "uint", "bool"] + [s for s in structs if s != "rg_ctx"])
+    expressions = PreciseExpressions(text, types)
     local = re.compile(rf"(^|[;{{}}(]\s*)((?:{types})\s+\w+\s*[=;])", re.M)
     parts = re.split(
         r"(struct\s+\w+\s*\{[^}]*\};|buffer\s+\w+\s*\{[^}]*\}|uniform\s+\w+\s*\{[^}]*\})",
-        make_returns_precise(text, types),
+        make_returns_precise(expressions.text, types),
     )
-    return "".join(
+    return "\n".join(expressions.globals + [""]) + "".join(
         part if index % 2 else local.sub(r"\1precise \2", part)
         for index, part in enumerate(parts)
     )

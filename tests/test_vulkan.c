@@ -1,0 +1,225 @@
+// What is particular to the vulkan backend: validation, batches, staging, absent drivers.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/device.h"
+#include "core/log.h"
+#include "kernels/test_copy_params.h"
+
+static int errors;
+
+static void count_errors(enum rg_log_level level, const char *line, void *user)
+{
+    (void)user;
+    errors += level == RG_LOG_ERROR;
+    print_message("%s\n", line);
+}
+
+static int open_device(void **state)
+{
+    errors = 0;
+    *state = rg_device_open("vulkan", NULL);
+    return *state ? 0 : -1;
+}
+
+// What the driver or the validation layer says while all is destroyed counts too.
+static int close_silently(void **state)
+{
+    return rg_device_close(*state) && errors == 0 ? 0 : -1;
+}
+
+static int close_device(void **state)
+{
+    return rg_device_close(*state) ? 0 : -1;
+}
+
+static bool run_copy(struct rg_pass *pass, struct rg_buf *from, struct rg_buf *to, int words,
+                     uint32_t salt)
+{
+    const struct test_copy_params params = {words, 1, salt};
+    return rg_pass_run(pass, &(struct rg_run){.params = &params,
+                                              .slots = {[1].buf = from, [2].buf = to},
+                                              .extent = {words, 1, 1}});
+}
+
+// More runs than several batches hold, with writes between them that must not overtake.
+static void writes_keep_their_place_among_runs(void **state)
+{
+    enum { WORDS = 1000, RUNS = 500 };
+    struct rg_buf *bufs[3];
+    for (int i = 0; i < 3; i++)
+        assert_non_null(bufs[i] = rg_buf_create(*state, WORDS * 4, "chain"));
+    struct rg_pass *pass = rg_pass_create(*state, "test_copy");
+    assert_non_null(pass);
+    uint32_t expected[WORDS] = {0}, back[WORDS];
+    assert_true(rg_buf_write(bufs[0], 0, expected, sizeof(expected)));
+    for (int run = 0; run < RUNS; run++) {
+        assert_true(run_copy(pass, bufs[run % 3], bufs[(run + 1) % 3], WORDS, (uint32_t)run));
+        for (int i = 0; i < WORDS; i++)
+            expected[i] ^= (uint32_t)run;
+        if (run % 7 == 0) {
+            expected[run] = (uint32_t)run * 2654435761u;
+            assert_true(rg_buf_write(bufs[(run + 1) % 3], run * 4, &expected[run], 4));
+        }
+    }
+    assert_true(rg_buf_read(bufs[RUNS % 3], 0, back, sizeof(back)));
+    assert_memory_equal(back, expected, sizeof(back));
+    rg_pass_destroy(pass);
+    for (int i = 0; i < 3; i++)
+        rg_buf_destroy(bufs[i]);
+}
+
+// Larger than a staging buffer ever grows, so that they travel in parts.
+static void large_images_travel_in_parts(void **state)
+{
+    const struct rg_image_desc desc = {RG_RGBA32F, 1025, 1030, 1, 1};
+    size_t floats = (size_t)desc.width * (size_t)desc.height * 4;
+    float *data = malloc(floats * 4), *back = calloc(floats, 4);
+    for (size_t i = 0; i < floats; i++)
+        data[i] = (float)i;
+    struct rg_image *image = rg_image_create(*state, &desc, "large");
+    assert_non_null(image);
+    assert_true(rg_image_write(image, 0, 0, data));
+    assert_true(rg_image_read(image, 0, 0, back));
+    assert_memory_equal(back, data, floats * 4);
+    rg_image_destroy(image);
+    free(data);
+    free(back);
+}
+
+// Ordinary texels, and those that a driver's conversion from float would not keep.
+static void clears_keep_every_bit(void **state)
+{
+    static const struct {
+        enum rg_format format;
+        uint32_t texel[4];
+    } cases[] = {
+        {RG_RGBA8, {0x01fe807f}},
+        {RG_RGBA16F, {0x3c000000, 0x3555c000}},
+        {RG_RGBA16F, {0x00018000, 0x7e017c00}}, // subnormal, -0, NaN, infinity
+        {RG_RGBA32F, {0x3f800000, 0x00000001, 0x7fc12345, 0x80000000}},
+        {RG_R32F, {0x7f812345}},
+        {RG_RG11B10F, {0x781e03c0}},
+        {RG_RG11B10F, {0x00400801}}, // subnormals
+    };
+    for (size_t c = 0; c < sizeof(cases) / sizeof(cases[0]); c++) {
+        const struct rg_image_desc desc = {cases[c].format, 7, 5, 2, 3};
+        size_t size = (size_t)rg_format_size(desc.format);
+        struct rg_image *image = rg_image_create(*state, &desc, "cleared");
+        assert_non_null(image);
+        assert_true(rg_image_clear(image, cases[c].texel));
+        char back[7 * 5 * 16];
+        for (int layer = 0; layer < desc.layers; layer++) {
+            for (int level = 0; level < desc.levels; level++) {
+                assert_true(rg_image_read(image, layer, level, back));
+                int texels = rg_level_size(desc.width, level) * rg_level_size(desc.height, level);
+                for (int i = 0; i < texels; i++)
+                    assert_memory_equal(back + (size_t)i * size, cases[c].texel, size);
+            }
+        }
+        rg_image_destroy(image);
+    }
+}
+
+static void time_never_goes_back(void **state)
+{
+    int64_t before_ns, after_ns;
+    assert_true(rg_device_time(*state, &before_ns));
+    assert_true(rg_device_time(*state, &after_ns));
+    assert_true(after_ns >= before_ns);
+}
+
+// --- kernels from a folder that are not what they should be ---
+
+// Loads `size` bytes as test_copy's SPIR-V; true if the device took them.
+static bool takes_kernel(struct rg_device *device, const void *bytes, size_t size)
+{
+    char folder[] = "/tmp/raingauge-test-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof(path), "%s/test_copy.spv", folder);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    fclose(file);
+    setenv("RG_KERNEL_DIR", folder, 1);
+    struct rg_pass *pass = rg_pass_create(device, "test_copy");
+    unsetenv("RG_KERNEL_DIR");
+    unlink(path);
+    rmdir(folder);
+    rg_pass_destroy(pass);
+    return pass != NULL;
+}
+
+static void files_that_are_no_spirv_are_refused(void **state)
+{
+    assert_false(takes_kernel(*state, "#version 450 core\n", 18));
+    assert_non_null(strstr(rg_last_error(), "are no SPIR-V"));
+    assert_int_equal(errors, 1);
+}
+
+// Binds slot 2 to 9, which the pipeline's layout lacks. A complaint fails one call, not the next.
+static void complaints_of_validation_fail_calls(void **state)
+{
+    const struct rg_kernel_code *code = &rg_kernel_find("test_copy")->code[RG_CODE_SPIRV];
+    const uint32_t op_decorate = 4u << 16 | 71, binding = 33;
+    uint32_t *words = malloc(code->size);
+    memcpy(words, code->bytes, code->size);
+    for (size_t i = 5; i + 3 < code->size / 4; i++)
+        if (words[i] == op_decorate && words[i + 2] == binding && words[i + 3] == 2)
+            words[i + 3] = 9;
+    assert_false(takes_kernel(*state, words, code->size));
+    assert_non_null(strstr(rg_last_error(), "Vulkan validation: "));
+    free(words);
+    assert_true(takes_kernel(*state, code->bytes, code->size));
+}
+
+static void absent_drivers_are_explained(void **state)
+{
+    (void)state;
+    char *kept = getenv("VK_DRIVER_FILES") ? strdup(getenv("VK_DRIVER_FILES")) : NULL;
+    setenv("VK_DRIVER_FILES", "/nonexistent.json", 1);
+    enum rg_open_status status;
+    errors = 0;
+    struct rg_device *device = rg_device_open("vulkan", &status);
+    if (kept)
+        setenv("VK_DRIVER_FILES", kept, 1);
+    else
+        unsetenv("VK_DRIVER_FILES");
+    free(kept);
+    assert_null(device);
+    assert_int_equal(status, RG_OPEN_UNSUPPORTED);
+    assert_int_equal(errors, 1);
+    assert_non_null(strstr(rg_last_error(), "VK_ERROR_INCOMPATIBLE_DRIVER"));
+    assert_non_null(strstr(rg_last_error(), "VK_DRIVER_FILES=/nonexistent.json"));
+}
+
+int main(void)
+{
+    setenv("RG_VK_VALIDATION", "1", 1);
+    rg_log_listen(count_errors, NULL);
+    enum rg_open_status status;
+    rg_device_close(rg_device_open("vulkan", &status));
+    const int skipped = 77;
+    if (status == RG_OPEN_UNSUPPORTED)
+        return skipped;
+#define SILENT(test) cmocka_unit_test_setup_teardown(test, open_device, close_silently)
+#define LOUD(test)   cmocka_unit_test_setup_teardown(test, open_device, close_device)
+    const struct CMUnitTest tests[] = {
+        SILENT(writes_keep_their_place_among_runs),
+        SILENT(large_images_travel_in_parts),
+        SILENT(clears_keep_every_bit),
+        SILENT(time_never_goes_back),
+        LOUD(files_that_are_no_spirv_are_refused),
+        LOUD(complaints_of_validation_fail_calls),
+        cmocka_unit_test(absent_drivers_are_explained),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
