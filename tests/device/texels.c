@@ -5,14 +5,11 @@
 
 #include "tests/device/suite.h"
 
-// A float of `mantissa` bits, an exponent of five and perhaps a sign, never infinite or subnormal.
+// A float of `mantissa` bits, an exponent of five and perhaps a sign: any but infinity and NaN.
 static uint32_t random_small_float(uint32_t noise_bits, int mantissa, bool is_signed)
 {
-    uint32_t exponent = (noise_bits >> 16) % 31;
-    uint32_t bits = exponent << mantissa;
-    if (exponent > 0)
-        bits |= noise_bits & ((1u << mantissa) - 1);
-    return is_signed && exponent > 0 ? bits | (noise_bits >> 31) << (mantissa + 5) : bits;
+    const uint32_t magnitude = (noise_bits >> 8) % (31u << mantissa);
+    return magnitude | (is_signed && magnitude > 0 ? (noise_bits & 1) << (mantissa + 5) : 0);
 }
 
 static uint32_t random_word(enum rg_format format, uint32_t n)

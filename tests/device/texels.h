@@ -11,7 +11,8 @@ struct colour {
     float r, g, b, a;
 };
 
-// Fills `texels` with seeded texels of a format: every number finite and normal, or 0.
+// Fills `texels` with seeded texels of a format: every number finite, and normal as a 32-bit float
+// or 0.
 void random_texels(enum rg_format format, uint32_t seed, int count, void *texels);
 
 // The colour that a kernel fetches of a packed texel.
