@@ -45,27 +45,34 @@ uint32_t *read_words(struct rg_buf *buf, int count)
     return words;
 }
 
-static char line_heard[1024];
+static char lines[8192];
 static int lines_heard;
 
 static void hear(enum rg_log_level level, const char *line, void *user)
 {
     (void)level, (void)user;
-    snprintf(line_heard, sizeof(line_heard), "%s", line);
+    const size_t used = strlen(lines);
+    snprintf(lines + used, sizeof(lines) - used, "%s%s", lines_heard ? "\n" : "", line);
     lines_heard++;
 }
 
 void listen(void)
 {
     lines_heard = 0;
-    line_heard[0] = 0;
+    lines[0] = 0;
     rg_log_listen(hear, NULL);
+}
+
+const char *heard_all(void)
+{
+    rg_log_listen(NULL, NULL);
+    return lines;
 }
 
 const char *heard(void)
 {
-    rg_log_listen(NULL, NULL);
+    heard_all();
     if (lines_heard > 1)
-        fail_msg("%d messages instead of one; the last: %s", lines_heard, line_heard);
-    return line_heard;
+        fail_msg("%d messages instead of one: %s", lines_heard, lines);
+    return lines;
 }

@@ -36,10 +36,11 @@ struct rg_buf *make_buf(struct rg_device *device, const void *words, int count, 
 struct rg_buf *filled_buf(struct rg_device *device, uint32_t value, int count, const char *name);
 uint32_t *read_words(struct rg_buf *buf, int count); // to be freed
 
-// Collects messages from here on instead of printing them; heard() is what came since, the last
-// line, and stops. More than one line fails the test.
+// Collects messages from here on instead of printing them. heard() stops and returns the line that
+// came since; more than one fails the test. heard_all() returns any number, one below the other.
 void listen(void);
 const char *heard(void);
+const char *heard_all(void);
 
 // The call fails and says so in one line that contains `part`, which names the object.
 #define assert_refused(call, part)                                                                 \
