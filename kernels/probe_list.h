@@ -4,7 +4,8 @@
 //
 // `expression` is over the floats a, b, c and their bits ua, ub, uc; `result` says what it gives,
 // FLOAT or UINT; `inputs` names where a, b and c are drawn from (core/probe.c). Numbers count from
-// 0 in each list. No operation of the first list may make a subnormal number, an infinity or a NaN.
+// 0 in each list. No operation of the first list may result in a subnormal number, an infinity or a
+// NaN; the ones called _far leave the domain of their function.
 #ifndef RG_KERNELS_PROBE_LIST_H
 #define RG_KERNELS_PROBE_LIST_H
 
@@ -54,7 +55,11 @@
     X(41, unpack_float11, WORDS, FLOAT, rg_unpack_float11(ua % 0x7c0u))                            \
     X(42, unpack_float10, WORDS, FLOAT, rg_unpack_float10(ua % 0x3e0u))                            \
     X(43, unorm8, SMALL, UINT, rg_unorm8(a))                                                       \
-    X(44, rounded_unorm8, SMALL, FLOAT, rg_rounded_unorm8(a))
+    X(44, rounded_unorm8, SMALL, FLOAT, rg_rounded_unorm8(a))                                      \
+    X(45, rg_sin_far, WIDE, FLOAT, rg_sin(a))                                                      \
+    X(46, rg_exp_far, WIDE, FLOAT, rg_exp(a))                                                      \
+    X(47, rg_exp2_far, WIDE, FLOAT, rg_exp2(a))                                                    \
+    X(48, rg_pow_far, WIDE, FLOAT, rg_pow(rg_abs(a), b))
 
 // What the dialect forbids, because each language's own differs from driver to driver: how much?
 #define RG_PROBE_BUILTINS(X)                                                                       \
