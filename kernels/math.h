@@ -1,5 +1,5 @@
 // The dialect's mathematics, from exactly rounded operations alone, so that every device computes
-// the same bits. No branches and no tables: a C compiler runs 4 to 16 of each in a vector.
+// the same bits. No branches and no tables, so that a C compiler can run several in one vector.
 //
 // Bounds are measured against double precision over all exponents and millions of values, and
 // tests/test_math.c measures them again. An ulp is the distance of two neighbouring floats at the
