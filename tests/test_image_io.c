@@ -69,7 +69,7 @@ static void write_bytes(const char *name, const void *bytes, size_t size)
 
 static void assert_refused(const char *name, const char *word)
 {
-    struct rg_picture picture = {1, 1, 1, (float *)1};
+    struct rg_picture picture = {1, 1, 1, (float *)1, false};
     error_count = 0;
     assert_false(rg_picture_read(path_of(name), &picture));
     if (error_count != 1 || !strstr(errors, word) || !strstr(errors, name))
