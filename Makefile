@@ -1,0 +1,57 @@
+# raingauge: `make tables` regenerates the papers' tables, `make test` runs every test. Both install
+# what Debian packages are missing, build, say what they do, and can be run again at no cost.
+.POSIX:
+.PHONY: all setup build tables test clean format
+
+BUILD = build
+ASAN = build-asan
+RESULTS = results/tables
+
+all: build
+
+# Installs the packages of packages.txt that are missing, with sudo unless root.
+setup:
+	@missing=; for package in $$(sed 's/#.*//' packages.txt); do \
+	  dpkg-query -W -f '$${Status}' $$package 2>/dev/null | grep -q 'ok installed' || \
+	    missing="$$missing $$package"; \
+	done; \
+	if [ -n "$$missing" ]; then \
+	  echo "== installing Debian packages:$$missing"; \
+	  as_root=; [ "$$(id -u)" = 0 ] || as_root=sudo; \
+	  $$as_root apt-get update -q && \
+	  $$as_root env DEBIAN_FRONTEND=noninteractive \
+	    apt-get install -qy --no-install-recommends $$missing; \
+	fi
+
+$(BUILD)/build.ninja:
+	@$(MAKE) --no-print-directory setup
+	@echo "== configuring $(BUILD)"
+	@meson setup $(BUILD) >/dev/null || { cat $(BUILD)/meson-logs/meson-log.txt; exit 1; }
+
+$(ASAN)/build.ninja:
+	@echo "== configuring $(ASAN), with address and undefined-behaviour sanitizers"
+	@meson setup $(ASAN) -Dbuildtype=debugoptimized -Db_sanitize=address,undefined \
+	  -Db_lundef=false >/dev/null || { cat $(ASAN)/meson-logs/meson-log.txt; exit 1; }
+
+build: setup $(BUILD)/build.ninja
+	@echo "== building in $(BUILD)"
+	@ninja -C $(BUILD)
+
+tables: build
+	@echo "== regenerating the tables on every device, quick mode, into $(RESULTS)"
+	@$(BUILD)/harness/raingauge table --quick -o $(RESULTS)
+
+test: build $(ASAN)/build.ninja
+	@echo "== building in $(ASAN)"
+	@ninja -C $(ASAN)
+	@echo "== testing, all devices"
+	@meson test -C $(BUILD) --no-rebuild --print-errorlogs || true
+	@echo "== testing under sanitizers, the CPU devices and the harness"
+	@meson test -C $(ASAN) --no-rebuild --print-errorlogs --suite sanitized || true
+	@python3 tests/summary.py $(BUILD)/meson-logs/testlog.json $(ASAN)/meson-logs/testlog.json
+
+format:
+	@git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i
+
+clean:
+	rm -rf $(BUILD) $(ASAN)
