@@ -59,8 +59,11 @@ RG_GRID_KERNEL(test_precise)
     for (int i = 0; i < 8 && sum * a + b < p.scale; i++)
         sum += a * b + rg_to_float(i);
     target_put(rg, to + 4, sum);
-    while (sum * 1.5f + a < p.offset)
+    int steps = 0;
+    while (steps < 8 && sum * 1.5f + a < p.offset) {
         sum = sum * 1.25f + 0.5f;
+        steps++;
+    }
     target_put(rg, to + 5, rg_max(a * p.scale + b, sum));
     target_put(rg, to + 6, a * b + p.offset < p.scale ? rg_fused(a, b, a * p.scale - b) : a / b);
     target_put(rg, to + 7, rg_sqrt(rg_abs(a * a - b * b)));
