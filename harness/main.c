@@ -6,13 +6,11 @@
 #include "core/log.h"
 #include "harness/command.h"
 
-extern const struct rg_command rg_command_list, rg_command_render, rg_command_table;
+extern const struct rg_command rg_command_diff, rg_command_list, rg_command_render,
+    rg_command_table;
 
 const struct rg_command *const rg_commands[] = {
-    &rg_command_list,
-    &rg_command_render,
-    &rg_command_table,
-    NULL,
+    &rg_command_list, &rg_command_render, &rg_command_table, &rg_command_diff, NULL,
 };
 
 static void print_usage(void)

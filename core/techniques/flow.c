@@ -264,11 +264,14 @@ static bool flow_draw(struct rg_instance *instance)
                                .extent = {target->width, target->height, 1}});
 }
 
+static const char *const rainless[] = {"drops=0", "rain_drops_s=0", NULL};
+
 const struct rg_technique rg_technique_flow = {
     .name = "flow",
     .paper = "stuppacher",
     .about = "water flowing down a mirror pane, on a height map (Stuppacher & Supan 2007)",
     .params = &flow_param_table,
+    .rainless = rainless,
     .create = flow_create,
     .destroy = flow_destroy,
     .step = flow_step,

@@ -29,6 +29,9 @@ struct rg_technique {
     const char *paper; // key of the paper: "stuppacher"
     const char *about; // one line
     const struct rg_param_table *params;
+    // Assignments of parameters that take the rain away, NULL-terminated: what a picture then shows
+    // is the background that rain is told from.
+    const char *const *rainless;
 
     // Opens the technique on a device with a target of width x height pixels, at frame 0.
     // `settings` is copied. NULL, with one logged line, on failure.

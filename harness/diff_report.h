@@ -1,0 +1,23 @@
+// What is said of a pair of pictures that were compared: for people, for machines, and as heat
+// maps.
+#ifndef RG_HARNESS_DIFF_REPORT_H
+#define RG_HARNESS_DIFF_REPORT_H
+
+#include <jansson.h>
+#include <stdbool.h>
+
+#include "core/image/compare.h"
+
+// Every figure of a pair, to stdout.
+void rg_pair_print(const char *a, const char *b, const struct rg_comparison *comparison);
+
+// The same for machines (docs/records.md); the caller owns it. NULL when a name is not UTF-8.
+json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *comparison);
+// Prints an array of pairs with its format number, and frees it.
+bool rg_pairs_print_json(json_t *pairs);
+
+// Writes PREFIX-flip.png and PREFIX-difference.png. False, and one logged line, on failure.
+bool rg_pair_heatmaps(const char *prefix, const struct rg_picture *a, const struct rg_picture *b,
+                      const struct rg_comparison *comparison);
+
+#endif
