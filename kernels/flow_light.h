@@ -29,15 +29,15 @@ RG_FN wet_normal normal_between(rg_ctx rg, flow_light_params p, float s, float t
     return wet_normal_lerp(top, bottom, t - rg_to_float(y));
 }
 
-// The environment's light from a direction in the pane's tangent space, of any length. The nearest
-// texel will do: the host resamples the environment to about a texel a pixel.
-RG_FN v3 light_from(rg_ctx rg, flow_light_params p, v3 d)
+// The environment's light from a direction in the pane's tangent space, of any length, in one of
+// its levels, which is `size` texels along a face. The nearest texel will do: the host resamples
+// the environment so that the mirror shows about a texel a pixel, and drops a small picture of it.
+RG_FN v3 light_from(rg_ctx rg, flow_light_params p, v3 d, int level, int size)
 {
     v3 world = v3_make(d.x * p.tx + d.y * p.bx + d.z * p.nx, d.x * p.ty + d.y * p.by + d.z * p.ny,
                        d.x * p.tz + d.y * p.bz + d.z * p.nz);
-    cube_point c = cube_locate(world, p.environment_size);
-    rgba light = environment_texel(rg, cube_texel(c.x, p.environment_size),
-                                   cube_texel(c.y, p.environment_size), c.face, 0);
+    cube_point c = cube_locate(world, size);
+    rgba light = environment_texel(rg, cube_texel(c.x, size), cube_texel(c.y, size), c.face, level);
     return v3_make(light.r, light.g, light.b);
 }
 
@@ -53,12 +53,14 @@ RG_GRID_KERNEL(flow_light)
     v3 view = v3_make(px * p.view_x - p.view_left, py * p.view_y - p.view_top, -1.0f);
     float towards = v3_dot(view, n);
     float grazing = rg_clamp(1.0f + towards / rg_sqrt(v3_dot(view, view)), 0.0f, 1.0f);
-    float fresnel = p.fresnel_bias + p.fresnel_scale * rg_pow(grazing, p.fresnel_power);
+    float fresnel = p.fresnel_bias + p.fresnel_scale * rg_pow_whole(grazing, p.fresnel_power);
     float reflectance = wetness * rg_min(fresnel, 1.0f);
     v3 mirrored = v3_add(view, v3_scale(n, -2.0f * towards));
     v3 bent =
         v3_make(view.x - nx * p.refraction_strength, view.y - ny * p.refraction_strength, 1.0f);
-    v3 light = v3_add(v3_scale(light_from(rg, p, mirrored), reflectance),
-                      v3_scale(light_from(rg, p, bent), (1.0f - reflectance) * p.reflectivity));
+    v3 light = v3_add(
+        v3_scale(light_from(rg, p, mirrored, p.reflection_level, p.reflection_size), reflectance),
+        v3_scale(light_from(rg, p, bent, 0, p.environment_size),
+                 (1.0f - reflectance) * p.reflectivity));
     target_store(rg, x, y, 0, rg_rgba(light.x, light.y, light.z, 1.0f));
 }

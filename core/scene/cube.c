@@ -71,6 +71,25 @@ void rg_environment_fill(struct rg_environment *environment, rg_light_fn fn, con
     }
 }
 
+struct rg_environment *rg_environment_halve(const struct rg_environment *environment)
+{
+    const int size = environment->size > 1 ? environment->size / 2 : 1;
+    struct rg_environment *half = rg_environment_create(size);
+    for (int face = 0; face < 6; face++) {
+        for (int y = 0; y < size; y++) {
+            for (int x = 0; x < size; x++) {
+                const float *top = rg_environment_texel(environment, face, 2 * x, 2 * y);
+                const float *bottom = rg_environment_texel(environment, face, 2 * x, 2 * y + 1);
+                float *texel = rg_environment_texel(half, face, x, y);
+                for (int i = 0; i < 3; i++)
+                    texel[i] = 0.25f * ((top[i] + top[i + 3]) + (bottom[i] + bottom[i + 3]));
+            }
+        }
+    }
+    rg_environment_close_borders(half);
+    return half;
+}
+
 // An unsigned float with 5 bits of exponent: drops `dropped` bits of a float's mantissa, rounded up
 // when the noise, of as many bits, says so. What would be subnormal becomes 0.
 static uint32_t pack_unsigned_float(float value, int dropped, uint32_t noise)

@@ -20,6 +20,10 @@ void rg_environment_close_borders(struct rg_environment *environment);
 typedef void (*rg_light_fn)(const double direction[3], const void *user, double light[3]);
 void rg_environment_fill(struct rg_environment *environment, rg_light_fn fn, const void *user);
 
+// The same at half the size, each texel the mean of four; of a size below 2, a copy. The caller
+// destroys it.
+struct rg_environment *rg_environment_halve(const struct rg_environment *environment);
+
 // One face resampled bilinearly to size_px^2 texels of RG11B10F. The format is coarse (6 bits of
 // mantissa), so a seeded noise dithers what it rounds. Light that is negative or no number becomes
 // 0.

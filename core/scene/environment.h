@@ -22,9 +22,9 @@ struct rg_environment {
 struct rg_environment *rg_environment_load(const char *name);
 void rg_environment_destroy(struct rg_environment *environment);
 
-// A device's image of it in RG11B10F, 6 layers, each face resampled to size_px texels a side. The
-// caller destroys it.
+// A device's image of it in RG11B10F, 6 layers and `levels` levels, each face resampled to size_px
+// texels a side in level 0. The caller destroys it.
 struct rg_image *rg_environment_upload(const struct rg_environment *environment, int size_px,
-                                       struct rg_device *device);
+                                       int levels, struct rg_device *device);
 
 #endif

@@ -122,7 +122,8 @@ static bool create_images(struct flow *flow, int width, int height)
     if (!environment)
         return false;
     flow->environment =
-        rg_environment_upload(environment, flow->settings.environment_px, flow->base.device);
+        rg_environment_upload(environment, flow->settings.environment_px,
+                              flow_reflection_level(&flow->settings) + 1, flow->base.device);
     rg_environment_destroy(environment);
     flow->base.target = rg_image_create(
         flow->base.device, &(struct rg_image_desc){RG_RGBA16F, width, height, 1, 1}, "target");

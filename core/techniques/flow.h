@@ -26,9 +26,9 @@ struct flow_settings {
     double rain_drops_s, step_s, pane_mm, drop_radius_min_mm, drop_radius_max_mm, height_per_mm;
     // lighting
     double relief, wet_height, view_angle_deg;
-    double fresnel_bias, fresnel_scale, fresnel_power, refraction_strength, reflectivity;
+    double fresnel_bias, fresnel_scale, refraction_strength, reflectivity;
     char environment[RG_PATH_SIZE];
-    int environment_px;
+    int environment_px, reflection_px, fresnel_power;
 };
 
 extern const struct rg_param_table flow_param_table;
@@ -42,6 +42,9 @@ flow_params flow_params_at(const struct flow_settings *settings, int noise_size,
 
 // The parameters of the lighting's kernels for a target of width x height pixels.
 flow_light_params flow_light_params_of(const struct flow_settings *settings, int width, int height);
+
+// The level of the environment that drops reflect, by the settings' sizes.
+int flow_reflection_level(const struct flow_settings *settings);
 
 // The drop of this number: of the seeded ones (`frame` is -1), or of those that fall in a frame.
 flow_splat_params flow_drop(const struct flow_settings *settings, int64_t frame, int number);

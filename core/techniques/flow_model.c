@@ -84,6 +84,14 @@ flow_params flow_params_at(const struct flow_settings *s, int noise_size, int64_
     return p;
 }
 
+int flow_reflection_level(const struct flow_settings *s)
+{
+    int level = 0;
+    while (s->environment_px >> (level + 1) >= s->reflection_px)
+        level++;
+    return level;
+}
+
 flow_light_params flow_light_params_of(const struct flow_settings *s, int width, int height)
 {
     double frame[3][3];
@@ -102,10 +110,12 @@ flow_light_params flow_light_params_of(const struct flow_settings *s, int width,
         .view_top = (float)half,
         .fresnel_bias = (float)s->fresnel_bias,
         .fresnel_scale = (float)s->fresnel_scale,
-        .fresnel_power = (float)s->fresnel_power,
+        .fresnel_power = s->fresnel_power,
         .refraction_strength = (float)s->refraction_strength,
         .reflectivity = (float)s->reflectivity,
         .environment_size = s->environment_px,
+        .reflection_level = flow_reflection_level(s),
+        .reflection_size = s->environment_px >> flow_reflection_level(s),
         .tx = (float)frame[0][0],
         .ty = (float)frame[0][1],
         .tz = (float)frame[0][2],
