@@ -1,22 +1,13 @@
 // What every device must do: device_suite DEVICE runs the same tests on any of them.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "tests/device/suite.h"
 
-#include <cmocka.h>
-#include <stdlib.h>
-#include <string.h>
+#include <stdio.h>
 
-#include "core/device.h"
-#include "core/log.h"
-#include "kernels/test_copy_params.h"
-
-static const char *device_name;
+enum { MAX_TESTS = 64, EXIT_UNSUPPORTED = 77 };
 
 static int open_device(void **state)
 {
-    *state = rg_device_open(device_name, NULL);
+    *state = rg_device_open(suite_device, NULL);
     return *state ? 0 : -1;
 }
 
@@ -25,64 +16,31 @@ static int close_device(void **state)
     return rg_device_close(*state) ? 0 : -1;
 }
 
-static uint32_t noise(uint32_t i)
+// 77: this machine has no such device.
+static int device_is_missing(void)
 {
-    return i * 2654435761u ^ 0x9e3779b9u;
-}
-
-static void buffers_keep_what_was_written(void **state)
-{
-    static const int words[] = {1, 3, 64, 257, 65537};
-    for (size_t s = 0; s < sizeof(words) / sizeof(words[0]); s++) {
-        int n = words[s];
-        uint32_t *data = malloc((size_t)n * 4), *back = calloc((size_t)n, 4);
-        for (int i = 0; i < n; i++)
-            data[i] = noise((uint32_t)i);
-        struct rg_buf *buf = rg_buf_create(*state, n * 4, "words");
-        assert_non_null(buf);
-        assert_true(rg_buf_write(buf, 0, data, n * 4));
-        assert_true(rg_buf_write(buf, (n - 1) * 4, data, 4));
-        data[n - 1] = data[0];
-        assert_true(rg_buf_read(buf, 0, back, n * 4));
-        assert_memory_equal(back, data, (size_t)n * 4);
-        rg_buf_destroy(buf);
-        free(data);
-        free(back);
-    }
-}
-
-static void grids_are_folded(void **state)
-{
-    enum { ITEMS = 70000 * 64 };
-    uint32_t *data = malloc(ITEMS * 4), *back = malloc(ITEMS * 4);
-    for (int i = 0; i < ITEMS; i++)
-        data[i] = noise((uint32_t)i);
-    struct rg_buf *source = rg_buf_create(*state, ITEMS * 4, "source");
-    struct rg_buf *target = rg_buf_create(*state, ITEMS * 4, "target");
-    struct rg_pass *pass = rg_pass_create(*state, "test_copy");
-    assert_true(source && target && pass);
-    assert_true(rg_buf_write(source, 0, data, ITEMS * 4));
-    struct test_copy_params params = {ITEMS, 1, 0x5eed};
-    assert_true(rg_pass_run(pass, &(struct rg_run){.params = &params,
-                                                   .slots = {[1].buf = source, [2].buf = target},
-                                                   .extent = {ITEMS, 1, 1}}));
-    assert_true(rg_buf_read(target, 0, back, ITEMS * 4));
-    for (int i = 0; i < ITEMS; i++)
-        if (back[i] != (data[i] ^ 0x5eed))
-            fail_msg("item %d", i);
-    rg_pass_destroy(pass);
-    rg_buf_destroy(source);
-    rg_buf_destroy(target);
-    free(data);
-    free(back);
+    enum rg_open_status status;
+    struct rg_device *device = rg_device_open(suite_device, &status);
+    if (device)
+        return rg_device_close(device) ? 0 : 1;
+    return status == RG_OPEN_UNSUPPORTED ? EXIT_UNSUPPORTED : 1;
 }
 
 int main(int argc, char **argv)
 {
-    device_name = argc > 1 ? argv[1] : "cpu:reference";
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(buffers_keep_what_was_written),
-        cmocka_unit_test(grids_are_folded),
+    if (argc > 1)
+        suite_device = argv[1];
+    int missing = device_is_missing();
+    if (missing)
+        return missing;
+    const struct suite_tests *const files[] = {
+        &buffer_tests,  &image_tests,    &texel_tests, &kernel_tests,
+        &refusal_tests, &lifetime_tests, &scan_tests,  &probe_tests,
     };
-    return cmocka_run_group_tests_name(device_name, tests, open_device, close_device);
+    struct CMUnitTest tests[MAX_TESTS];
+    size_t count = 0;
+    for (int f = 0; f < COUNT_OF(files); f++)
+        for (int t = 0; t < files[f]->count && count < MAX_TESTS; t++)
+            tests[count++] = files[f]->tests[t];
+    return _cmocka_run_group_tests(suite_device, tests, count, open_device, close_device);
 }

@@ -1,0 +1,33 @@
+// The floating-point probe: does a device compute what the dialect promises, to the last bit?
+#ifndef RG_CORE_PROBE_H
+#define RG_CORE_PROBE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "kernels/probe_list.h"
+
+struct rg_device;
+
+#define RG_PROBE_COUNT_ROW(number, name, inputs, result, expression) +1
+enum {
+    RG_PROBE_OP_COUNT = 0 RG_PROBE_OPS(RG_PROBE_COUNT_ROW),
+    RG_PROBE_BUILTIN_COUNT = 0 RG_PROBE_BUILTINS(RG_PROBE_COUNT_ROW),
+    RG_PROBE_COUNT = RG_PROBE_OP_COUNT + RG_PROBE_BUILTIN_COUNT,
+    RG_PROBE_INPUTS = 65536, // an operation
+};
+
+struct rg_probe_result {
+    const char *name;
+    bool builtin;          // the driver's own function, which kernels do not use: it may differ
+    int compared;          // inputs
+    int different;         // results whose bits differ
+    uint32_t largest_ulps; // distance in neighbouring floats, or of integers
+};
+
+// Runs every operation of kernels/probe_list.h on seeded inputs and compares: plain operations with
+// C computed on the host, what the kernels compose of them and the builtins with cpu:reference.
+// False when the device or cpu:reference failed.
+bool rg_probe_run(struct rg_device *device, struct rg_probe_result results[RG_PROBE_COUNT]);
+
+#endif

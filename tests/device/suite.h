@@ -1,0 +1,55 @@
+// What the files of the device suite share. A test's *state is the open device.
+#ifndef RG_TESTS_DEVICE_SUITE_H
+#define RG_TESTS_DEVICE_SUITE_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/device.h"
+#include "core/log.h"
+
+#define COUNT_OF(array) ((int)(sizeof(array) / sizeof((array)[0])))
+
+extern const char *suite_device; // as the command line says it
+
+// Each file's tests.
+struct suite_tests {
+    const struct CMUnitTest *tests;
+    int count;
+};
+extern const struct suite_tests buffer_tests, image_tests, texel_tests, kernel_tests, refusal_tests,
+    lifetime_tests, scan_tests, probe_tests;
+
+// Seeded words that look random.
+uint32_t noise(uint32_t i);
+uint32_t *noise_words(int count, uint32_t seed); // to be freed
+
+struct rg_buf *make_buf(struct rg_device *device, const void *words, int count, const char *name);
+// A buffer of `count` words set to `value`.
+struct rg_buf *filled_buf(struct rg_device *device, uint32_t value, int count, const char *name);
+uint32_t *read_words(struct rg_buf *buf, int count); // to be freed
+
+// Collects messages from here on instead of printing them; heard() is what came since, the last
+// line, and stops. More than one line fails the test.
+void listen(void);
+const char *heard(void);
+
+// The call fails and says so in one line that contains `part`, which names the object.
+#define assert_refused(call, part)                                                                 \
+    do {                                                                                           \
+        listen();                                                                                  \
+        bool accepted_ = (call);                                                                   \
+        const char *line_ = heard();                                                               \
+        if (accepted_ || !strstr(line_, part))                                                     \
+            fail_msg("%s: %s, '%s' does not say '%s'", #call, accepted_ ? "accepted" : "refused",  \
+                     line_, part);                                                                 \
+    } while (0)
+
+#endif

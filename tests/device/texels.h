@@ -1,0 +1,24 @@
+// Image formats as the host understands them, apart from kernels/format.h.
+#ifndef RG_TESTS_DEVICE_TEXELS_H
+#define RG_TESTS_DEVICE_TEXELS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "core/kernel.h"
+
+struct colour {
+    float r, g, b, a;
+};
+
+// Fills `texels` with seeded texels of a format: every number finite, and normal as a 32-bit float
+// or 0.
+void random_texels(enum rg_format format, uint32_t seed, int count, void *texels);
+
+// The colour that a kernel fetches of a packed texel.
+struct colour decode_texel(enum rg_format format, const void *texel);
+
+// The packed texel that a kernel's store of a colour leaves behind.
+void encode_texel(enum rg_format format, struct colour colour, void *texel);
+
+#endif
