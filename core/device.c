@@ -64,23 +64,28 @@ static int64_t image_bytes(const struct rg_image_desc *desc)
 
 // --- devices: listing and opening ---
 
+void rg_device_list_add(struct rg_device_list *list, const struct rg_backend *backend)
+{
+    char why[160] = "no device";
+    int found =
+        backend->list(list->infos + list->count, RG_MAX_DEVICES - list->count, why, sizeof(why));
+    for (int i = 0; i < found; i++) {
+        list->backends[list->count] = backend;
+        list->backend_index[list->count++] = i;
+    }
+    int missing = 0;
+    while (list->missing[missing][0])
+        missing++;
+    if (found == 0)
+        snprintf(list->missing[missing], sizeof(list->missing[0]),
+                 "%s: %s; the Debian package %s brings one", backend->name, why, backend->package);
+}
+
 void rg_device_list_all(struct rg_device_list *list)
 {
     memset(list, 0, sizeof(*list));
-    int missing = 0;
-    for (int b = 0; rg_backends[b]; b++) {
-        char why[160] = "no device";
-        int found = rg_backends[b]->list(list->infos + list->count, RG_MAX_DEVICES - list->count,
-                                         why, sizeof(why));
-        for (int i = 0; i < found; i++) {
-            list->backends[list->count] = rg_backends[b];
-            list->backend_index[list->count++] = i;
-        }
-        if (found == 0)
-            snprintf(list->missing[missing++], sizeof(list->missing[0]),
-                     "%s: %s; the Debian package %s brings one", rg_backends[b]->name, why,
-                     rg_backends[b]->package);
-    }
+    for (int b = 0; rg_backends[b]; b++)
+        rg_device_list_add(list, rg_backends[b]);
 }
 
 static const struct rg_backend *find_backend(const char *name, size_t length)

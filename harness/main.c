@@ -4,11 +4,13 @@
 #include <string.h>
 
 #include "core/log.h"
+#include "harness/build_info.h"
 #include "harness/command.h"
 
-extern const struct rg_command rg_command_list, rg_command_render;
+extern const struct rg_command rg_command_doctor, rg_command_list, rg_command_render;
 
 const struct rg_command *const rg_commands[] = {
+    &rg_command_doctor,
     &rg_command_list,
     &rg_command_render,
     NULL,
@@ -55,7 +57,7 @@ int main(int argc, char **argv)
         return argc < 2 ? RG_EXIT_USAGE : RG_EXIT_PASS;
     }
     if (!strcmp(argv[1], "--version")) {
-        printf("raingauge %s\n", RG_VERSION);
+        printf("raingauge %s\n", rg_build_version);
         return RG_EXIT_PASS;
     }
     const struct rg_command *command = find(argv[1]);
