@@ -77,8 +77,9 @@ void rg_device_list_add(struct rg_device_list *list, const struct rg_backend *ba
     while (list->missing[missing][0])
         missing++;
     if (found == 0)
-        snprintf(list->missing[missing], sizeof(list->missing[0]),
-                 "%s: %s; the Debian package %s brings one", backend->name, why, backend->package);
+        snprintf(list->missing[missing], sizeof(list->missing[0]), "%s: %s%s%s%s", backend->name,
+                 why, backend->package ? "; the Debian package " : "",
+                 backend->package ? backend->package : "", backend->package ? " brings one" : "");
 }
 
 void rg_device_list_all(struct rg_device_list *list)
@@ -145,7 +146,9 @@ struct rg_device *rg_device_open(const char *name, enum rg_open_status *status)
     char why[160] = "no device";
     int count = backend->list(infos, RG_MAX_DEVICES, why, sizeof(why));
     if (count == 0) {
-        rg_error("device '%s': %s; install the Debian package %s", name, why, backend->package);
+        rg_error("device '%s': %s%s%s", name, why,
+                 backend->package ? "; install the Debian package " : "",
+                 backend->package ? backend->package : "");
         return open_failed(status, RG_OPEN_UNSUPPORTED);
     }
     int index = choose(infos, count, name, colon ? colon + 1 : NULL);
