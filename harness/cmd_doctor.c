@@ -72,27 +72,41 @@ static bool examine(struct rg_doctor_report *report)
     return true;
 }
 
+// One line on stderr for each device that is not well.
+static void complain(const struct rg_doctor_report *report)
+{
+    for (int i = 0; i < report->count; i++) {
+        const struct rg_examination *e = &report->examinations[i];
+        if (e->status == RG_EXAMINED_OK)
+            continue;
+        if (!strncmp(e->why, "device '", strlen("device '")))
+            rg_error("%s", e->why);
+        else
+            rg_error("device '%s': %s", e->info.name, e->why);
+    }
+}
+
+static int run(struct rg_doctor_report *report, const struct rg_options *o)
+{
+    if (!rg_options_at_most(o, "doctor", 0))
+        return RG_EXIT_USAGE;
+    rg_doctor_list(&report->list);
+    if (!take_names(report, o->device) || !examine(report))
+        return RG_EXIT_USAGE;
+    describe(report);
+    if (o->json)
+        rg_doctor_print_json(report);
+    else
+        rg_doctor_print_text(report);
+    complain(report);
+    return verdict(report);
+}
+
 static int doctor(const struct rg_options *o)
 {
     struct rg_doctor_report *report = calloc(1, sizeof(*report));
     report->examinations = calloc(RG_MAX_DEVICES, sizeof(*report->examinations));
-    int exit = RG_EXIT_USAGE;
-    if (o->arg_count)
-        rg_error("doctor '%s': takes no arguments; name devices with --device", o->args[0]);
-    else {
-        rg_doctor_list(&report->list);
-        if (take_names(report, o->device) && examine(report)) {
-            describe(report);
-            if (o->json)
-                rg_doctor_print_json(report);
-            else
-                rg_doctor_print_text(report);
-            exit = verdict(report);
-        }
-    }
-    for (int i = 0; exit != RG_EXIT_USAGE && i < report->count; i++)
-        if (report->examinations[i].status != RG_EXAMINED_OK)
-            rg_error("%s", report->examinations[i].why);
+    int exit = run(report, o);
     json_decref(report->passport);
     json_decref(report->warnings);
     free(report->examinations);

@@ -65,6 +65,9 @@ int rg_options_parse(const struct rg_command *command, int argc, const char **ar
                      struct rg_options *options);
 void rg_options_free(struct rg_options *options);
 
+// Refuses with one logged line what is given beyond so many arguments of a command.
+bool rg_options_at_most(const struct rg_options *options, const char *command, int arguments);
+
 // The technique that `options` name first and its settings with every --set applied; the caller
 // frees the settings. NULL, and one logged line, when there is none or a value is refused.
 const struct rg_technique *rg_options_technique(const struct rg_options *options, void **settings);

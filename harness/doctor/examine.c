@@ -36,9 +36,10 @@ void rg_doctor_list(struct rg_device_list *list)
         int missing = 0;
         while (list->missing[missing][0])
             missing++;
-        snprintf(list->missing[missing], sizeof(list->missing[0]),
-                 "%s: %.140s; reinstall the Debian package %s", rg_backends[b]->name, why,
-                 rg_backends[b]->package);
+        snprintf(list->missing[missing], sizeof(list->missing[0]), "%s: %.140s%s%s",
+                 rg_backends[b]->name, why,
+                 rg_backends[b]->package ? "; reinstall the Debian package " : "",
+                 rg_backends[b]->package ? rg_backends[b]->package : "");
     }
     rg_shared_destroy(listing, sizeof(*listing));
 }

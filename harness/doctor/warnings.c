@@ -1,4 +1,5 @@
 // What makes measurements or comparisons mislead, as far as it shows from outside the drivers.
+#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,11 +47,21 @@ static void check_cores(json_t *warnings, const struct rg_machine *machine)
 // --- threads ---
 
 struct pool {
-    const char *devices;
+    const char *backends[3];  // whose software devices run on these threads
     const char *variables[3]; // the first that is set counts
     const char *set;          // the variable that is set, or NULL
     int threads;
 };
+
+static const struct rg_device_info *software_of(const struct rg_device_list *list,
+                                                const struct pool *pool)
+{
+    for (int i = 0; i < list->count; i++)
+        for (int b = 0; pool->backends[b]; b++)
+            if (list->infos[i].software && !strcmp(list->backends[i]->name, pool->backends[b]))
+                return &list->infos[i];
+    return NULL;
+}
 
 static void read_pool(struct pool *pool, int cores)
 {
@@ -66,31 +77,36 @@ static void read_pool(struct pool *pool, int cores)
 }
 
 // Where a variable makes one driver run on other threads than the rest, times do not compare.
-static void check_threads(json_t *warnings, const struct rg_machine *machine)
+static void check_threads(json_t *warnings, const struct rg_device_list *list,
+                          const struct rg_machine *machine)
 {
     struct pool pools[] = {
-        {.devices = "cpu", .variables = {"OMP_NUM_THREADS", "OMP_THREAD_LIMIT"}},
-        {.devices = "gl and vulkan in software", .variables = {"LP_NUM_THREADS"}},
-        {.devices = "opencl in software",
-         .variables = {"POCL_CPU_MAX_CU_COUNT", "POCL_MAX_PTHREAD_COUNT"}}};
-    enum { POOLS = sizeof(pools) / sizeof(pools[0]) };
-    char text[300];
+        {.backends = {"cpu"}, .variables = {"OMP_NUM_THREADS", "OMP_THREAD_LIMIT"}},
+        {.backends = {"gl", "vulkan"}, .variables = {"LP_NUM_THREADS"}},
+        {.backends = {"opencl"}, .variables = {"POCL_CPU_MAX_CU_COUNT", "POCL_MAX_PTHREAD_COUNT"}}};
+    char text[300] = "";
     size_t used = 0;
-    bool equal = true;
-    for (int i = 0; i < POOLS; i++) {
-        read_pool(&pools[i], machine->cores_allowed);
-        equal = equal && pools[i].threads == pools[0].threads;
-        used += (size_t)snprintf(text + used, sizeof(text) - used, "%s%s on %d (%s%s)",
-                                 i ? ", " : "", pools[i].devices, pools[i].threads,
-                                 pools[i].set ? pools[i].set : pools[i].variables[0],
-                                 pools[i].set ? "" : " is not set");
+    int least = INT_MAX, most = 0;
+    for (size_t i = 0; i < sizeof(pools) / sizeof(pools[0]); i++) {
+        struct pool *pool = &pools[i];
+        if (!software_of(list, pool))
+            continue;
+        read_pool(pool, machine->cores_allowed);
+        least = pool->threads < least ? pool->threads : least;
+        most = pool->threads > most ? pool->threads : most;
+        used += (size_t)snprintf(
+            text + used, sizeof(text) - used, "%s%s%s%s on %d (%s%s)", used ? ", " : "",
+            pool->backends[0], pool->backends[1] ? " and " : "",
+            pool->backends[1] ? pool->backends[1] : "", pool->threads,
+            pool->set ? pool->set : pool->variables[0], pool->set ? "" : " is not set");
     }
-    if (!equal)
-        warn(warnings, "devices run on different numbers of threads: %s; set them alike to compare",
+    if (least < most)
+        warn(warnings,
+             "software devices run on different numbers of threads: %s; set them alike to compare",
              text);
-    else if (pools[0].set && pools[0].threads != machine->cores_allowed)
-        warn(warnings, "%s=%s: cpu runs on %d threads where %d cores are allowed", pools[0].set,
-             getenv(pools[0].set), pools[0].threads, machine->cores_allowed);
+    else if (most && machine->cores_allowed && most != machine->cores_allowed)
+        warn(warnings, "software devices run on other threads than the %d cores allowed: %s",
+             machine->cores_allowed, text);
 }
 
 // --- variables ---
@@ -161,7 +177,7 @@ json_t *rg_doctor_warnings(const struct rg_device_list *list)
     rg_machine_read(&machine, "");
     json_t *warnings = json_array();
     check_cores(warnings, &machine);
-    check_threads(warnings, &machine);
+    check_threads(warnings, list, &machine);
     check_variables(warnings);
     check_software(warnings, list, &machine);
     return warnings;
