@@ -146,6 +146,19 @@ static void print_help(const struct rg_command *command, poptContext context)
     poptPrintHelp(context, stdout, 0);
 }
 
+// popt names the value that it refuses; say whose value it is.
+static void report_refusal(const struct rg_command *command, int argc, const char **argv,
+                           poptContext context, int code)
+{
+    const char *refused = poptBadOption(context, POPT_BADOPTION_NOALIAS);
+    const char *option = "";
+    for (int i = 1; i < argc; i++)
+        if (code != POPT_ERROR_BADOPT && !strcmp(argv[i], refused) && strncmp(refused, "--", 2))
+            option = argv[i - 1];
+    rg_error("%s%s%s: %s; `raingauge %s --help` prints the options", option, *option ? " " : "",
+             refused, poptStrerror(code), command->name);
+}
+
 int rg_options_parse(const struct rg_command *command, int argc, const char **argv,
                      struct rg_options *o)
 {
@@ -169,8 +182,7 @@ int rg_options_parse(const struct rg_command *command, int argc, const char **ar
             return RG_EXIT_USAGE;
     }
     if (value < -1) {
-        rg_error("%s: %s; `raingauge %s --help` prints the options", poptBadOption(context, 0),
-                 poptStrerror(value), command->name);
+        report_refusal(command, argc, argv, context, value);
         return RG_EXIT_USAGE;
     }
     o->quick = flags[0];

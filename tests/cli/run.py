@@ -77,9 +77,10 @@ CASES = [
     Case(RENDER + "--size 4294967297x1 -o {tmp}/a.png", 2, r"--size 4294967297x1: each side"),
     Case(RENDER + "--size 5 -o {tmp}/a.png", 2, r"--size 5: write it as WIDTHxHEIGHT"),
     Case(RENDER + "--frame -1 -o {tmp}/a.png", 2, r"--frame -1: must be 0 to 10000000"),
-    Case(RENDER + "--frame 99999999999999999999 -o {tmp}/a.png", 2, r"--frame: .*`raingauge render --help`"),
-    Case(RENDER + "--frame x -o {tmp}/a.png", 2, r"x: .*`raingauge render --help`"),
+    Case(RENDER + "--frame 99999999999999999999 -o {tmp}/a.png", 2, r"--frame 9{20}: .*`raingauge render --help`"),
+    Case(RENDER + "--frame x -o {tmp}/a.png", 2, r"--frame x: .*`raingauge render --help`"),
     Case(RENDER + "--exposure nan -o {tmp}/a.png", 2, r"--exposure nan: must be above 0"),
+    Case(RENDER + "-o {tmp}/a.png -z", 2, r"-z: unknown option"),
     Case(RENDER + "--output", 2, r"--output: .*`raingauge render --help`"),
 
     # render: what it reads
