@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 # Variables that change what raingauge or a driver does; tests set what they mean to.
-CHANGES = re.compile(r"^(RG_|LP_|OMP_|POCL_|VK_|MESA_|GALLIUM|GALLIVM|LIBGL_|EGL_|__EGL_|OCL_|LD_PRELOAD)")
+CHANGES = re.compile(r"^(RG_|LP_|OMP_|POCL_|VK_|MESA_|GALLIUM|GALLIVM|LIBGL_|EGL_|__EGL_|OCL_|LD_)")
 NO_DRIVERS = {
     "VK_DRIVER_FILES": "/nonexistent",
     "OCL_ICD_VENDORS": "/nonexistent",
@@ -119,7 +119,7 @@ CASES = [
 
 class Runner:
     def __init__(self, raingauge, kernels, crasher):
-        self.raingauge, self.kernels, self.crasher = raingauge, kernels, crasher
+        self.raingauge, self.kernels, self.crasher = map(os.path.abspath, (raingauge, kernels, crasher))
         self.count = self.failed = 0
 
     def run(self, args, env={}, limit=None):
