@@ -87,7 +87,7 @@ struct rg_run {
 
 struct rg_backend {
     const char *name;    // "vulkan"
-    const char *package; // the Debian package whose absence explains a missing device
+    const char *package; // the Debian package whose absence explains a missing device; NULL: none
 
     // Fills `infos` with up to `max` devices, best first, and returns their number; 0: none, and
     // `why` (of `why_size` bytes) says so in one line. Quiet: it logs nothing and leaves nothing

@@ -64,23 +64,29 @@ static int64_t image_bytes(const struct rg_image_desc *desc)
 
 // --- devices: listing and opening ---
 
+void rg_device_list_add(struct rg_device_list *list, const struct rg_backend *backend)
+{
+    char why[160] = "no device";
+    int found =
+        backend->list(list->infos + list->count, RG_MAX_DEVICES - list->count, why, sizeof(why));
+    for (int i = 0; i < found; i++) {
+        list->backends[list->count] = backend;
+        list->backend_index[list->count++] = i;
+    }
+    int missing = 0;
+    while (list->missing[missing][0])
+        missing++;
+    if (found == 0)
+        snprintf(list->missing[missing], sizeof(list->missing[0]), "%s: %s%s%s%s", backend->name,
+                 why, backend->package ? "; the Debian package " : "",
+                 backend->package ? backend->package : "", backend->package ? " brings one" : "");
+}
+
 void rg_device_list_all(struct rg_device_list *list)
 {
     memset(list, 0, sizeof(*list));
-    int missing = 0;
-    for (int b = 0; rg_backends[b]; b++) {
-        char why[160] = "no device";
-        int found = rg_backends[b]->list(list->infos + list->count, RG_MAX_DEVICES - list->count,
-                                         why, sizeof(why));
-        for (int i = 0; i < found; i++) {
-            list->backends[list->count] = rg_backends[b];
-            list->backend_index[list->count++] = i;
-        }
-        if (found == 0)
-            snprintf(list->missing[missing++], sizeof(list->missing[0]),
-                     "%s: %s; the Debian package %s brings one", rg_backends[b]->name, why,
-                     rg_backends[b]->package);
-    }
+    for (int b = 0; rg_backends[b]; b++)
+        rg_device_list_add(list, rg_backends[b]);
 }
 
 static const struct rg_backend *find_backend(const char *name, size_t length)
@@ -140,7 +146,9 @@ struct rg_device *rg_device_open(const char *name, enum rg_open_status *status)
     char why[160] = "no device";
     int count = backend->list(infos, RG_MAX_DEVICES, why, sizeof(why));
     if (count == 0) {
-        rg_error("device '%s': %s; install the Debian package %s", name, why, backend->package);
+        rg_error("device '%s': %s%s%s", name, why,
+                 backend->package ? "; install the Debian package " : "",
+                 backend->package ? backend->package : "");
         return open_failed(status, RG_OPEN_UNSUPPORTED);
     }
     int index = choose(infos, count, name, colon ? colon + 1 : NULL);

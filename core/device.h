@@ -32,6 +32,8 @@ struct rg_device_list {
     char missing[8][256]; // one line a backend without a device, "" after the last
 };
 void rg_device_list_all(struct rg_device_list *list);
+// Adds one backend's to a list that began zeroed.
+void rg_device_list_add(struct rg_device_list *list, const struct rg_backend *backend);
 
 // How opening ended: a name that no backend knows is bad usage, an absent driver is "unsupported".
 enum rg_open_status { RG_OPEN_OK, RG_OPEN_UNKNOWN, RG_OPEN_UNSUPPORTED, RG_OPEN_FAILED };

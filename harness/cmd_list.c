@@ -105,7 +105,10 @@ static int list_params_of(const struct rg_options *o)
     const struct rg_technique *technique = o->arg_count > 1 ? rg_technique_find(o->args[1]) : NULL;
     if (technique)
         return print(list_params(technique), "params", fields, o->json);
-    rg_error("list params: name a technique; `raingauge list techniques` prints them");
+    if (o->arg_count > 1)
+        rg_error("technique '%s': unknown; `raingauge list techniques` prints them", o->args[1]);
+    else
+        rg_error("list params: name a technique; `raingauge list techniques` prints them");
     return RG_EXIT_USAGE;
 }
 
@@ -114,6 +117,8 @@ static int list(const struct rg_options *o)
     static const char *const about_fields[] = {"name", "about", NULL};
     static const char *const device_fields[] = {"name", "api", "device", "driver", NULL};
     const char *what = o->arg_count ? o->args[0] : "";
+    if (!rg_options_at_most(o, "list", !strcmp(what, "params") ? 2 : 1))
+        return RG_EXIT_USAGE;
     if (!strcmp(what, "techniques"))
         return print(list_techniques(), what, about_fields, o->json);
     if (!strcmp(what, "tables"))

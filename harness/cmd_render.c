@@ -1,8 +1,10 @@
 // raingauge render: one frame of a technique as an image file.
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/image/io.h"
+#include "core/log.h"
 #include "harness/command.h"
 #include "harness/frame.h"
 
@@ -38,9 +40,19 @@ static int render_on(struct rg_device *device, const struct rg_technique *techni
     return ok ? RG_EXIT_PASS : RG_EXIT_USAGE;
 }
 
+static bool names_one_device(const char *names)
+{
+    if (!names || (strcmp(names, "all") != 0 && !strchr(names, ',')))
+        return true;
+    return rg_error("--device %s: render draws on one device; `raingauge diff` compares several",
+                    names);
+}
+
 static int render(const struct rg_options *o)
 {
     void *settings;
+    if (!rg_options_at_most(o, "render", 1) || !names_one_device(o->device))
+        return RG_EXIT_USAGE;
     const struct rg_technique *technique = rg_options_technique(o, &settings);
     if (!technique)
         return RG_EXIT_USAGE;

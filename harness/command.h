@@ -56,7 +56,7 @@ struct rg_command {
     int (*run)(const struct rg_options *options); // returns an enum rg_exit
 };
 
-// THE list of commands, in harness/main.c; NULL-terminated.
+// All commands, NULL-terminated, made by the build from the list in harness/meson.build.
 extern const struct rg_command *const rg_commands[];
 
 // Parses a command's options. RG_EXIT_PASS: run it. -1: help was printed, exit 0. Else the exit
@@ -64,6 +64,9 @@ extern const struct rg_command *const rg_commands[];
 int rg_options_parse(const struct rg_command *command, int argc, const char **argv,
                      struct rg_options *options);
 void rg_options_free(struct rg_options *options);
+
+// Refuses with one logged line what is given beyond so many arguments of a command.
+bool rg_options_at_most(const struct rg_options *options, const char *command, int arguments);
 
 // The technique that `options` name first and its settings with every --set applied; the caller
 // frees the settings. NULL, and one logged line, when there is none or a value is refused.

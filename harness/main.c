@@ -6,14 +6,15 @@
 #include <unistd.h>
 
 #include "core/log.h"
+#include "harness/build_info.h"
 #include "harness/command.h"
+#include "harness/lists.h"
 
-extern const struct rg_command rg_command_diff, rg_command_list, rg_command_render,
-    rg_command_table;
+#define DECLARE(name) extern const struct rg_command rg_command_##name;
+#define ENTRY(name)   &rg_command_##name,
 
-const struct rg_command *const rg_commands[] = {
-    &rg_command_list, &rg_command_render, &rg_command_table, &rg_command_diff, NULL,
-};
+RG_COMMANDS(DECLARE)
+const struct rg_command *const rg_commands[] = {RG_COMMANDS(ENTRY) NULL};
 
 static void print_usage(void)
 {
@@ -68,7 +69,7 @@ int main(int argc, char **argv)
         return argc < 2 ? RG_EXIT_USAGE : RG_EXIT_PASS;
     }
     if (!strcmp(argv[1], "--version")) {
-        printf("raingauge %s\n", RG_VERSION);
+        printf("raingauge %s\n", rg_build_version);
         return RG_EXIT_PASS;
     }
     const struct rg_command *command = find(argv[1]);

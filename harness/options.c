@@ -1,5 +1,6 @@
 #include "harness/command.h"
 
+#include <limits.h>
 #include <popt.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -59,10 +60,27 @@ static int build(const struct rg_command *command, struct rg_options *o, int *fl
     return count;
 }
 
+// A whole number at *text, which moves behind it; what does not fit becomes the nearest int.
+static bool take_int(const char **text, int *number)
+{
+    char *end;
+    long value = strtol(*text, &end, 10);
+    if (end == *text)
+        return false;
+    *number = value > INT_MAX ? INT_MAX : value < INT_MIN ? INT_MIN : (int)value;
+    *text = end;
+    return true;
+}
+
+// Two numbers with a sign between them, and nothing else.
+static bool take_pair(const char *text, char sign, int *first, int *second)
+{
+    return take_int(&text, first) && *text++ == sign && take_int(&text, second) && !*text;
+}
+
 static bool parse_size(const char *text, struct rg_options *o)
 {
-    char end;
-    if (sscanf(text, "%dx%d%c", &o->width, &o->height, &end) != 2)
+    if (!take_pair(text, 'x', &o->width, &o->height))
         return rg_error("--size %s: write it as WIDTHxHEIGHT, as in 1280x720", text);
     if (o->width < 1 || o->height < 1 || o->width > MAX_SIZE_PX || o->height > MAX_SIZE_PX)
         return rg_error("--size %s: each side must be 1 to %d pixels", text, MAX_SIZE_PX);
@@ -71,9 +89,9 @@ static bool parse_size(const char *text, struct rg_options *o)
 
 static bool parse_rows(const char *text, struct rg_options *o)
 {
-    char end;
-    if (sscanf(text, "%d-%d%c", &o->first_row, &o->last_row, &end) != 2) {
-        if (sscanf(text, "%d%c", &o->first_row, &end) != 1)
+    const char *rest = text;
+    if (!take_pair(text, '-', &o->first_row, &o->last_row)) {
+        if (!take_int(&rest, &o->first_row) || *rest)
             return rg_error("--rows %s: write it as FIRST-LAST, as in 2-4", text);
         o->last_row = o->first_row;
     }
@@ -128,12 +146,25 @@ static void print_help(const struct rg_command *command, poptContext context)
     poptPrintHelp(context, stdout, 0);
 }
 
+// popt names the value that it refuses; say whose value it is.
+static void report_refusal(const struct rg_command *command, int argc, const char **argv,
+                           poptContext context, int code)
+{
+    const char *refused = poptBadOption(context, POPT_BADOPTION_NOALIAS);
+    const char *option = "";
+    for (int i = 1; i < argc; i++)
+        if (code != POPT_ERROR_BADOPT && !strcmp(argv[i], refused) && strncmp(refused, "--", 2))
+            option = argv[i - 1];
+    rg_error("%s%s%s: %s; `raingauge %s --help` prints the options", option, *option ? " " : "",
+             refused, poptStrerror(code), command->name);
+}
+
 int rg_options_parse(const struct rg_command *command, int argc, const char **argv,
                      struct rg_options *o)
 {
     struct poptOption table[32];
     int flags[3] = {0};
-    const int unset = -1;
+    const int unset = INT_MIN;
     *o = (struct rg_options){.frame = unset};
     build(command, o, flags, table);
     poptContext context = poptGetContext("raingauge", argc, argv, table, 0);
@@ -151,14 +182,15 @@ int rg_options_parse(const struct rg_command *command, int argc, const char **ar
             return RG_EXIT_USAGE;
     }
     if (value < -1) {
-        rg_error("%s: %s; `raingauge %s --help` prints the options", poptBadOption(context, 0),
-                 poptStrerror(value), command->name);
+        report_refusal(command, argc, argv, context, value);
         return RG_EXIT_USAGE;
     }
     o->quick = flags[0];
     o->full = flags[1];
     o->json = flags[2];
     bool good = check(o, o->frame != unset) && take_arguments(context, o);
+    if (o->frame == unset)
+        o->frame = -1;
     return good ? RG_EXIT_PASS : RG_EXIT_USAGE;
 }
 
@@ -171,6 +203,14 @@ void rg_options_free(struct rg_options *o)
     free(o->format);
     free(o->background);
     poptFreeContext(o->context);
+}
+
+bool rg_options_at_most(const struct rg_options *o, const char *command, int arguments)
+{
+    if (o->arg_count <= arguments)
+        return true;
+    return rg_error("%s: '%s' is one argument too many; `raingauge %s --help` prints the usage",
+                    command, o->args[arguments], command);
 }
 
 const struct rg_technique *rg_options_technique(const struct rg_options *o, void **settings)

@@ -1,11 +1,20 @@
+// The passport: what a record says of the machine, the drivers and this binary, so that its numbers
+// can be understood elsewhere. Documented field by field in docs/records.md.
 #ifndef RG_HARNESS_PASSPORT_H
 #define RG_HARNESS_PASSPORT_H
+
 #include <jansson.h>
-#include "core/device.h"
-static inline json_t *rg_passport_json(const struct rg_device_info *infos, int count)
-{
-    (void)infos;
-    (void)count;
-    return json_object();
-}
+
+#include "backends/backend.h"
+
+// The passport of this process with these devices; the caller releases it. Holds nothing that
+// changes from run to run on one machine (no clock frequencies, no load, no host name).
+json_t *rg_passport_json(const struct rg_device_info *infos, int count);
+
+// The same of one device: name, api, device, driver, software.
+json_t *rg_passport_device(const struct rg_device_info *info);
+
+// A JSON string of text from outside; bytes of what is no UTF-8 become question marks.
+json_t *rg_json_text(const char *text);
+
 #endif

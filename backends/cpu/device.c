@@ -118,7 +118,6 @@ static void cpu_destroy(struct rg_device *device)
 
 const struct rg_backend rg_backend_cpu = {
     .name = "cpu",
-    .package = "libgomp1",
     .list = cpu_list,
     .create = cpu_create,
     .destroy = cpu_destroy,

@@ -3,9 +3,13 @@
 #include <stddef.h>
 #include <string.h>
 
-extern const struct rg_table rg_table_stuppacher_2;
+#include "harness/lists.h"
 
-const struct rg_table *const rg_tables[] = {&rg_table_stuppacher_2, NULL};
+#define DECLARE(id) extern const struct rg_table rg_table_##id;
+#define ENTRY(id)   &rg_table_##id,
+
+RG_TABLES(DECLARE)
+const struct rg_table *const rg_tables[] = {RG_TABLES(ENTRY) NULL};
 
 const struct rg_table *rg_table_find(const char *id)
 {

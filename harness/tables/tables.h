@@ -22,7 +22,7 @@ struct rg_table {
     const char *note; // what a reader of the table must know, one line
 };
 
-// THE list of tables, in harness/tables/tables.c; NULL-terminated.
+// All tables, NULL-terminated, made by the build from the list in harness/meson.build.
 extern const struct rg_table *const rg_tables[];
 
 // The table of this id, or NULL.

@@ -1,0 +1,21 @@
+// Work in a child process, so that a driver that crashes, hangs or prints harms nothing else.
+//
+// The child is a fork: fork before this process has used a driver or OpenMP, never after.
+#ifndef RG_HARNESS_CHILD_H
+#define RG_HARNESS_CHILD_H
+
+#include <stddef.h>
+
+enum rg_child_end { RG_CHILD_DONE, RG_CHILD_CRASHED, RG_CHILD_TIMEOUT, RG_CHILD_NOT_STARTED };
+
+// Memory that a child's writes reach us through, zeroed; NULL and one logged line when there is
+// none.
+void *rg_shared_create(size_t size);
+void rg_shared_destroy(void *shared, size_t size);
+
+// Runs work(shared) in a child for up to `timeout_s` seconds. Nothing of what it prints is shown.
+// When it did not end well, `why` says how, in one line, with the last line that it printed.
+enum rg_child_end rg_child_run(void (*work)(void *shared), void *shared, int timeout_s, char *why,
+                               size_t why_size);
+
+#endif

@@ -1,0 +1,143 @@
+// Listing and examining devices, each in a child process.
+#include <stdio.h>
+#include <string.h>
+
+#include "core/log.h"
+#include "harness/child.h"
+#include "harness/doctor/report.h"
+
+// A probe of a software driver takes seconds; compilers under a sanitizer or a loaded machine more.
+enum { LIST_TIMEOUT_S = 60, EXAMINE_TIMEOUT_S = 180 };
+
+// --- listing ---
+
+struct listing {
+    const struct rg_backend *backend;
+    struct rg_device_list list;
+};
+
+static void list_one(void *shared)
+{
+    struct listing *listing = shared;
+    rg_device_list_add(&listing->list, listing->backend);
+}
+
+void rg_doctor_list(struct rg_device_list *list)
+{
+    memset(list, 0, sizeof(*list));
+    struct listing *listing = rg_shared_create(sizeof(*listing));
+    for (int b = 0; listing && rg_backends[b]; b++) {
+        char why[256];
+        *listing = (struct listing){rg_backends[b], *list};
+        if (rg_child_run(list_one, listing, LIST_TIMEOUT_S, why, sizeof(why)) == RG_CHILD_DONE) {
+            *list = listing->list;
+            continue;
+        }
+        int missing = 0;
+        while (list->missing[missing][0])
+            missing++;
+        snprintf(list->missing[missing], sizeof(list->missing[0]), "%s: %.140s%s%s",
+                 rg_backends[b]->name, why,
+                 rg_backends[b]->package ? "; reinstall the Debian package " : "",
+                 rg_backends[b]->package ? rg_backends[b]->package : "");
+    }
+    rg_shared_destroy(listing, sizeof(*listing));
+}
+
+// --- examining ---
+
+int rg_examination_failures(const struct rg_examination *examination)
+{
+    int failures = 0;
+    for (int i = 0; i < RG_PROBE_COUNT; i++)
+        failures += !examination->probe[i].builtin && examination->probe[i].different > 0;
+    return failures;
+}
+
+// What a crash happens in, is written before it happens.
+static void begin(struct rg_examination *examination, const char *step)
+{
+    snprintf(examination->why, sizeof(examination->why), "%s", step);
+}
+
+static void fail(struct rg_examination *examination, enum rg_examination_status status)
+{
+    examination->status = status;
+    snprintf(examination->why, sizeof(examination->why), "%.500s", rg_last_error());
+}
+
+static struct rg_device *open_device(struct rg_examination *examination)
+{
+    static const enum rg_examination_status statuses[] = {[RG_OPEN_UNKNOWN] = RG_EXAMINED_UNKNOWN,
+                                                          [RG_OPEN_UNSUPPORTED] =
+                                                              RG_EXAMINED_UNSUPPORTED,
+                                                          [RG_OPEN_FAILED] = RG_EXAMINED_ERROR};
+    enum rg_open_status status;
+    begin(examination, "opening the device");
+    struct rg_device *device = rg_device_open(examination->info.name, &status);
+    if (!device) {
+        fail(examination, statuses[status]);
+        return NULL;
+    }
+    examination->info = device->info;
+    examination->opened = true;
+    return device;
+}
+
+static void examine(void *shared)
+{
+    struct rg_examination *examination = shared;
+    struct rg_device *device = open_device(examination);
+    if (!device)
+        return;
+    begin(examination, "probing its arithmetic");
+    examination->probed = rg_probe_run(device, examination->probe);
+    if (!examination->probed) {
+        fail(examination, RG_EXAMINED_ERROR);
+        return;
+    }
+    const int failures = rg_examination_failures(examination);
+    begin(examination, "auditing its timer");
+    examination->audited = rg_timer_audit(device, &examination->timer);
+    if (!examination->audited || !rg_device_close(device)) {
+        fail(examination, RG_EXAMINED_ERROR);
+        return;
+    }
+    examination->status = failures ? RG_EXAMINED_FAIL : RG_EXAMINED_OK;
+    examination->why[0] = 0;
+    if (failures)
+        snprintf(examination->why, sizeof(examination->why),
+                 "%d of %d operations that kernels use give other bits than C", failures,
+                 RG_PROBE_OP_COUNT);
+}
+
+void rg_doctor_examine(struct rg_examination *examination)
+{
+    static const enum rg_examination_status statuses[] = {[RG_CHILD_CRASHED] = RG_EXAMINED_CRASH,
+                                                          [RG_CHILD_TIMEOUT] = RG_EXAMINED_TIMEOUT,
+                                                          [RG_CHILD_NOT_STARTED] =
+                                                              RG_EXAMINED_ERROR};
+    char why[256];
+    struct rg_examination *shared = rg_shared_create(sizeof(*shared));
+    if (!shared) {
+        fail(examination, RG_EXAMINED_ERROR);
+        return;
+    }
+    *shared = (struct rg_examination){.info = examination->info};
+    enum rg_child_end end = rg_child_run(examine, shared, EXAMINE_TIMEOUT_S, why, sizeof(why));
+    *examination = *shared;
+    rg_shared_destroy(shared, sizeof(*shared));
+    if (end == RG_CHILD_DONE)
+        return;
+    char step[64];
+    snprintf(step, sizeof(step), "%.60s", examination->why);
+    examination->status = statuses[end];
+    snprintf(examination->why, sizeof(examination->why), "%s%s%s", step, *step ? ": " : "", why);
+}
+
+const char *rg_examination_status_name(enum rg_examination_status status)
+{
+    static const char *const names[] = {"ok",      "fail",  "error",  "unsupported",
+                                        "unknown", "crash", "timeout"};
+    return names[status];
+}

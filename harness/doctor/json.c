@@ -1,0 +1,71 @@
+// The report as JSON; docs/records.md describes it.
+#include <limits.h>
+#include <stdio.h>
+
+#include "harness/doctor/report.h"
+#include "harness/passport.h"
+
+static json_t *limit(int64_t value)
+{
+    return value == INT_MAX ? json_null() : json_integer((json_int_t)value);
+}
+
+static json_t *limits(const struct rg_limits *l)
+{
+    return json_pack("{sIsisis[ooo]si}", "max_buffer_bytes", (json_int_t)l->max_buffer_bytes,
+                     "max_image_px", l->max_image_px, "max_image_layers", l->max_image_layers,
+                     "max_groups", limit(l->max_groups[0]), limit(l->max_groups[1]),
+                     limit(l->max_groups[2]), "group_items", l->group_items);
+}
+
+static json_t *probe(const struct rg_probe_result *results, bool builtin)
+{
+    json_t *rows = json_array();
+    for (int i = 0; i < RG_PROBE_COUNT; i++)
+        if (results[i].builtin == builtin)
+            json_array_append_new(rows,
+                                  json_pack("{sssisisI}", "name", results[i].name, "compared",
+                                            results[i].compared, "different", results[i].different,
+                                            "largest_ulps", (json_int_t)results[i].largest_ulps));
+    return rows;
+}
+
+static json_t *timer(const struct rg_timer_audit *t)
+{
+    return json_pack("{sisfsososbsfsfsf}", "passes", t->passes, "wall_ms", t->wall_ms, "api_ms",
+                     t->has_timer ? json_real(t->api_ms) : json_null(), "ratio",
+                     t->has_timer ? json_real(t->ratio) : json_null(), "trusted", t->trusted,
+                     "sync_us", t->sync_us, "dispatch_us", t->dispatch_us, "round_trip_us",
+                     t->round_trip_us);
+}
+
+static json_t *device(const struct rg_examination *e)
+{
+    json_t *row = e->opened ? rg_passport_device(&e->info)
+                            : json_pack("{so}", "name", rg_json_text(e->info.name));
+    json_object_set_new(row, "status", json_string(rg_examination_status_name(e->status)));
+    json_object_set_new(row, "why", rg_json_text(e->why));
+    if (e->opened)
+        json_object_set_new(row, "limits", limits(&e->info.limits));
+    if (e->probed) {
+        json_object_set_new(row, "operations", probe(e->probe, false));
+        json_object_set_new(row, "builtins", probe(e->probe, true));
+    }
+    if (e->audited)
+        json_object_set_new(row, "timer", timer(&e->timer));
+    return row;
+}
+
+void rg_doctor_print_json(const struct rg_doctor_report *report)
+{
+    json_t *devices = json_array(), *missing = json_array();
+    for (int i = 0; i < report->count; i++)
+        json_array_append_new(devices, device(&report->examinations[i]));
+    for (int i = 0; report->list.missing[i][0]; i++)
+        json_array_append_new(missing, rg_json_text(report->list.missing[i]));
+    json_t *root = json_pack("{sisOsososO}", "format", 1, "passport", report->passport, "devices",
+                             devices, "missing", missing, "warnings", report->warnings);
+    json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
+    printf("\n");
+    json_decref(root);
+}

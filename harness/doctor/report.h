@@ -1,0 +1,57 @@
+// What `raingauge doctor` finds out, and the two forms that it is told in.
+#ifndef RG_HARNESS_DOCTOR_REPORT_H
+#define RG_HARNESS_DOCTOR_REPORT_H
+
+#include <jansson.h>
+
+#include "core/device.h"
+#include "core/probe.h"
+#include "harness/timer_audit.h"
+
+enum rg_examination_status {
+    RG_EXAMINED_OK,
+    RG_EXAMINED_FAIL,        // an operation of the kernel dialect gives other bits than C
+    RG_EXAMINED_ERROR,       // the driver reported an error
+    RG_EXAMINED_UNSUPPORTED, // absent on this machine
+    RG_EXAMINED_UNKNOWN,     // no such name
+    RG_EXAMINED_CRASH,
+    RG_EXAMINED_TIMEOUT,
+};
+
+// One device. Holds what was found until the driver failed, if it did.
+struct rg_examination {
+    enum rg_examination_status status;
+    char why[512];              // in one line; "" when all is well
+    struct rg_device_info info; // until `opened`, only info.name is certain
+    bool opened, probed, audited;
+    struct rg_probe_result probe[RG_PROBE_COUNT]; // when probed
+    struct rg_timer_audit timer;                  // when audited
+};
+
+struct rg_doctor_report {
+    struct rg_device_list list; // all devices, asked for or not, and what is missing
+    int count;
+    struct rg_examination *examinations; // `count` of them
+    json_t *passport;                    // harness/passport.h
+    json_t *warnings;                    // array of strings
+};
+
+// Lists the devices of every backend, each in a child process: a driver that crashes is missing.
+void rg_doctor_list(struct rg_device_list *list);
+
+// Opens the device that info.name names, probes its arithmetic and audits its timer, in a child
+// process. The result takes the place of what was there.
+void rg_doctor_examine(struct rg_examination *examination);
+
+// Traps that are visible from outside: one sentence each. The caller releases the array.
+json_t *rg_doctor_warnings(const struct rg_device_list *list);
+
+const char *rg_examination_status_name(enum rg_examination_status status);
+
+// Operations of the dialect that differ.
+int rg_examination_failures(const struct rg_examination *examination);
+
+void rg_doctor_print_text(const struct rg_doctor_report *report);
+void rg_doctor_print_json(const struct rg_doctor_report *report);
+
+#endif
