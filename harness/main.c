@@ -6,11 +6,12 @@
 #include "core/log.h"
 #include "harness/command.h"
 
-extern const struct rg_command rg_command_list, rg_command_render;
+extern const struct rg_command rg_command_list, rg_command_render, rg_command_verify;
 
 const struct rg_command *const rg_commands[] = {
     &rg_command_list,
     &rg_command_render,
+    &rg_command_verify,
     NULL,
 };
 
