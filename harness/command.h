@@ -72,12 +72,17 @@ bool rg_options_at_most(const struct rg_options *options, const char *command, i
 // frees the settings. NULL, and one logged line, when there is none or a value is refused.
 const struct rg_technique *rg_options_technique(const struct rg_options *options, void **settings);
 
+// A technique's settings with every --set applied; the caller frees them. NULL, and one logged
+// line, when a value is refused.
+void *rg_options_settings(const struct rg_options *options, const struct rg_technique *technique);
+
 // The devices that --device names, or `fallback` where it is absent: "all", or names separated by
 // commas. Opened, in order. A name that is unknown is bad usage; a driver that is absent is
 // unsupported, and skipped with its line when the list was "all". Returns an enum rg_exit.
 struct rg_devices {
     int count;
     struct rg_device *devices[RG_MAX_DEVICES];
+    char missing[8][256]; // with "all": one line a backend without a device, "" after the last
 };
 int rg_devices_open(const struct rg_options *options, const char *fallback,
                     struct rg_devices *devices);

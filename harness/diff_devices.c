@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/log.h"
+#include "core/techniques/proof.h"
 #include "harness/diff_report.h"
 #include "harness/frame.h"
 #include "harness/progress.h"
@@ -45,12 +46,8 @@ static bool take_picture(const struct session *s, struct rg_device *device, cons
 static bool take_background(struct session *s)
 {
     struct rg_device *device = rg_device_open("cpu", NULL);
-    void *settings = malloc(s->technique->params->settings_size);
-    memcpy(settings, s->settings, s->technique->params->settings_size);
-    bool ok = device != NULL;
-    for (int i = 0; ok && s->technique->rainless[i]; i++)
-        ok = rg_params_set(s->technique->params, settings, s->technique->rainless[i]);
-    ok = ok && take_picture(s, device, settings, &s->background);
+    void *settings = rg_settings_copy(s->technique, s->settings, s->technique->proof->dry);
+    bool ok = device && settings && take_picture(s, device, settings, &s->background);
     free(settings);
     return rg_device_close(device) && ok;
 }
@@ -58,10 +55,10 @@ static bool take_background(struct session *s)
 static bool take_pictures(struct session *s, const struct rg_devices *devices)
 {
     struct rg_progress progress;
-    rg_progress_begin(&progress, "rendering", devices->count + 1);
+    rg_progress_start(&progress, devices->count + 1);
     bool ok = take_background(s);
     for (int d = 0; ok && d < devices->count; d++) {
-        rg_progress_step(&progress);
+        rg_progress_add(&progress, 1);
         struct shot *shot = &s->shots[s->shot_count++];
         shot->info = &devices->devices[d]->info;
         ok = take_picture(s, devices->devices[d], s->settings, &shot->picture);

@@ -48,9 +48,10 @@ static int run(const struct rg_command *command, int argc, char **argv)
     return exit < 0 ? RG_EXIT_PASS : exit;
 }
 
-// libgomp's threads spin for tens of milliseconds before they sleep, and on a busy machine keep from
-// running what they wait for: frames take twenty times as long. It reads how long to spin once, when
-// it is loaded, so raingauge starts itself again with a millisecond, unless the user has chosen.
+// libgomp's threads spin for tens of milliseconds before they sleep, and on a busy machine keep
+// from running what they wait for: frames take twenty times as long. It reads how long to spin
+// once, when it is loaded, so raingauge starts itself again with a millisecond, unless the user has
+// chosen.
 static void spin_briefly(char **argv)
 {
     if (getenv("GOMP_SPINCOUNT") || getenv("OMP_WAIT_POLICY"))

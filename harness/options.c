@@ -213,6 +213,18 @@ bool rg_options_at_most(const struct rg_options *o, const char *command, int arg
                     command, o->args[arguments], command);
 }
 
+void *rg_options_settings(const struct rg_options *o, const struct rg_technique *technique)
+{
+    void *settings = rg_settings_create(technique);
+    for (int i = 0; i < o->set_count; i++) {
+        if (!rg_params_set(technique->params, settings, o->sets[i])) {
+            free(settings);
+            return NULL;
+        }
+    }
+    return settings;
+}
+
 const struct rg_technique *rg_options_technique(const struct rg_options *o, void **settings)
 {
     if (o->arg_count < 1)
@@ -221,14 +233,8 @@ const struct rg_technique *rg_options_technique(const struct rg_options *o, void
     if (!technique)
         return rg_error_null("technique '%s': unknown; `raingauge list techniques` prints them",
                              o->args[0]);
-    *settings = rg_settings_create(technique);
-    for (int i = 0; i < o->set_count; i++) {
-        if (!rg_params_set(technique->params, *settings, o->sets[i])) {
-            free(*settings);
-            return NULL;
-        }
-    }
-    return technique;
+    *settings = rg_options_settings(o, technique);
+    return *settings ? technique : NULL;
 }
 
 // --- devices ---
@@ -246,6 +252,7 @@ static int open_all(struct rg_devices *devices)
 {
     struct rg_device_list *list = malloc(sizeof(*list));
     rg_device_list_all(list);
+    memcpy(devices->missing, list->missing, sizeof(devices->missing));
     for (int i = 0; list->missing[i][0]; i++)
         rg_warning("unsupported here: %s", list->missing[i]);
     for (int i = 0; i < list->count; i++) {
@@ -286,7 +293,7 @@ int rg_devices_open(const struct rg_options *options, const char *fallback,
                     struct rg_devices *devices)
 {
     const char *names = options->device ? options->device : fallback;
-    devices->count = 0;
+    *devices = (struct rg_devices){0};
     int exit = !strcmp(names, "all") ? open_all(devices) : open_named(names, devices);
     if (exit != RG_EXIT_PASS)
         rg_devices_close(devices);

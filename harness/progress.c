@@ -1,43 +1,88 @@
 #include "harness/progress.h"
 
+#include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
+#include <time.h>
 #include <unistd.h>
 
-#include "harness/measure.h"
+#include "core/log.h"
 
-enum { BAR_WIDTH = 30, REDRAW_MS = 100 };
+enum { BAR_COLUMNS = 24, DRAW_EVERY_NS = 100000000 };
+
+static int64_t now_ns(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (int64_t)time.tv_sec * 1000000000 + time.tv_nsec;
+}
+
+static void wipe(void)
+{
+    fputs("\r\033[K", stderr);
+}
 
 static void draw(struct rg_progress *p)
 {
-    const double elapsed_ms = rg_now_ms() - p->start_ms;
-    const double left_s = p->done ? elapsed_ms * (p->total - p->done) / p->done / 1000 : 0;
-    const int filled = p->total ? BAR_WIDTH * p->done / p->total : 0;
-    static const char bar[] = "##############################";
-    fprintf(stderr, "\r%s [%-*.*s] %d/%d", p->what, BAR_WIDTH, filled, bar, p->done, p->total);
-    if (p->done)
-        fprintf(stderr, ", %.0f s left  ", left_s);
+    char bar[BAR_COLUMNS + 1];
+    const double part = p->total > 0 ? (double)p->done / (double)p->total : 0;
+    const int filled = (int)(part * BAR_COLUMNS);
+    memset(bar, '.', BAR_COLUMNS);
+    memset(bar, '#', (size_t)(filled > BAR_COLUMNS ? BAR_COLUMNS : filled));
+    bar[BAR_COLUMNS] = 0;
+    p->drawn_ns = now_ns();
+    const double passed_s = (double)(p->drawn_ns - p->start_ns) * 1e-9;
+    wipe();
+    fprintf(stderr, "[%s] %3d %%", bar, (int)(part * 100));
+    // The first moments say nothing about the rest.
+    if (part > 0.01 && passed_s > 1) {
+        const int left_s = (int)(passed_s / part - passed_s + 0.5);
+        fprintf(stderr, "  %d:%02d left", left_s / 60, left_s % 60);
+    }
+    fprintf(stderr, "  %s", p->label);
     fflush(stderr);
 }
 
-void rg_progress_begin(struct rg_progress *p, const char *what, int total)
+// A message takes the bar's line; the bar is drawn anew below it.
+static void print_above(enum rg_log_level level, const char *line, void *user)
 {
-    *p = (struct rg_progress){.what = what, .total = total, .start_ms = rg_now_ms()};
-    p->visible = isatty(STDERR_FILENO);
-    if (p->visible)
+    wipe();
+    fprintf(stderr, "raingauge: %s%s\n", level == RG_LOG_WARNING ? "warning: " : "", line);
+    draw(user);
+}
+
+void rg_progress_start(struct rg_progress *p, int64_t total)
+{
+    *p = (struct rg_progress){.shown = isatty(STDERR_FILENO), .total = total, .start_ns = now_ns()};
+    if (!p->shown)
+        return;
+    rg_log_listen(print_above, p);
+    draw(p);
+}
+
+void rg_progress_label(struct rg_progress *p, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(p->label, sizeof(p->label), format, args);
+    va_end(args);
+    if (p->shown)
         draw(p);
 }
 
-void rg_progress_step(struct rg_progress *p)
+void rg_progress_add(struct rg_progress *p, int64_t units)
 {
-    p->done++;
-    if (!p->visible || rg_now_ms() - p->drawn_ms < REDRAW_MS)
-        return;
-    p->drawn_ms = rg_now_ms();
-    draw(p);
+    p->done += units;
+    if (p->shown && now_ns() - p->drawn_ns > DRAW_EVERY_NS)
+        draw(p);
 }
 
 void rg_progress_end(struct rg_progress *p)
 {
-    if (p->visible)
-        fprintf(stderr, "\r\033[K");
+    if (!p->shown)
+        return;
+    wipe();
+    fflush(stderr);
+    rg_log_listen(NULL, NULL);
+    p->shown = false;
 }

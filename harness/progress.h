@@ -1,20 +1,26 @@
-// A progress bar with the time left, on stderr when that is a terminal, and nothing in a pipe.
+// A progress bar with the time left, on stderr, where that is a terminal; nothing in a pipe.
 #ifndef RG_HARNESS_PROGRESS_H
 #define RG_HARNESS_PROGRESS_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 struct rg_progress {
-    const char *what;
-    int done, total;
-    double start_ms, drawn_ms;
-    bool visible;
+    bool shown; // stderr is a terminal
+    int64_t total, done;
+    int64_t start_ns, drawn_ns;
+    char label[64];
 };
 
-void rg_progress_begin(struct rg_progress *progress, const char *what, int total);
-// One more of `total` is done.
-void rg_progress_step(struct rg_progress *progress);
-// Wipes the bar.
+// Starts a bar over `total` units of work of like length. While one is shown, messages go to the
+// line above it. One bar at a time.
+void rg_progress_start(struct rg_progress *progress, int64_t total);
+// What is being done, at the bar's right.
+void rg_progress_label(struct rg_progress *progress, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+// So many units more are done. Cheap: it draws ten times a second at most.
+void rg_progress_add(struct rg_progress *progress, int64_t units);
+// Wipes the bar away.
 void rg_progress_end(struct rg_progress *progress);
 
 #endif

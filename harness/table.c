@@ -59,7 +59,7 @@ static bool prepare_row(struct rg_table_run *run, int row, struct rg_progress *p
                                  .width = table->width,
                                  .height = table->height};
         rg_cell_prepare(cell, reference, size);
-        rg_progress_step(progress);
+        rg_progress_add(progress, 1);
     }
     free(reference);
     return true;
@@ -69,7 +69,7 @@ static void show_round(int done, int total, void *user)
 {
     (void)done;
     (void)total;
-    rg_progress_step(user);
+    rg_progress_add(user, 1);
 }
 
 bool rg_table_measure(struct rg_table_run *run)
@@ -80,7 +80,8 @@ bool rg_table_measure(struct rg_table_run *run)
     run->cells = calloc((size_t)run->cell_count, sizeof(*run->cells));
     run->settings = calloc((size_t)rows, sizeof(*run->settings));
     struct rg_progress progress;
-    rg_progress_begin(&progress, run->table->id, run->cell_count + options.samples);
+    rg_progress_start(&progress, run->cell_count + options.samples);
+    rg_progress_label(&progress, "%s", run->table->id);
     bool ok = true;
     for (int row = run->first_row; ok && row <= run->last_row; row++)
         ok = prepare_row(run, row, &progress);

@@ -132,9 +132,15 @@ static bool create_images(struct flow *flow, int width, int height)
 
 static void show_state(struct flow *flow)
 {
-    flow->base.state_count = 2;
-    flow->base.state[0] = (struct rg_state){"water", flow->water};
-    flow->base.state[1] = (struct rg_state){"ledger", flow->ledger};
+    flow->base.state_count = FLOW_STATE_COUNT;
+    flow->base.state[FLOW_STATE_WATER] = (struct rg_state){
+        .name = "water",
+        .buf = flow->water,
+        .is_float = true,
+        .row = flow->settings.resolution_px + 2 * FLOW_MARGIN,
+        .margin = FLOW_MARGIN,
+    };
+    flow->base.state[FLOW_STATE_LEDGER] = (struct rg_state){.name = "ledger", .buf = flow->ledger};
 }
 
 static bool land(struct flow *flow, int64_t frame, int count);
@@ -265,14 +271,12 @@ static bool flow_draw(struct rg_instance *instance)
                                .extent = {target->width, target->height, 1}});
 }
 
-static const char *const rainless[] = {"drops=0", "rain_drops_s=0", NULL};
-
 const struct rg_technique rg_technique_flow = {
     .name = "flow",
     .paper = "stuppacher",
     .about = "water flowing down a mirror pane, on a height map (Stuppacher & Supan 2007)",
     .params = &flow_param_table,
-    .rainless = rainless,
+    .proof = &flow_proof,
     .create = flow_create,
     .destroy = flow_destroy,
     .step = flow_step,

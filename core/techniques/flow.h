@@ -32,6 +32,10 @@ struct flow_settings {
 };
 
 extern const struct rg_param_table flow_param_table;
+extern const struct rg_proof flow_proof;
+
+// What an instance's state holds, in this order.
+enum flow_state { FLOW_STATE_WATER, FLOW_STATE_LEDGER, FLOW_STATE_COUNT };
 
 // A pane's frame in the world: tangent (right), binormal (down) and normal (towards the viewer),
 // each of unit length, for its three angles. Row-major: the matrix of the paper's equation 1.

@@ -31,3 +31,19 @@ void *rg_settings_create(const struct rg_technique *technique)
     rg_params_reset(technique->params, settings);
     return settings;
 }
+
+void *rg_settings_copy(const struct rg_technique *technique, const void *settings,
+                       const char *assignments)
+{
+    char *copy = malloc(technique->params->settings_size);
+    char *words = strdup(assignments), *rest = NULL;
+    memcpy(copy, settings, technique->params->settings_size);
+    bool ok = true;
+    for (char *one = strtok_r(words, " ", &rest); one && ok; one = strtok_r(NULL, " ", &rest))
+        ok = rg_params_set(technique->params, copy, one);
+    free(words);
+    if (ok)
+        return copy;
+    free(copy);
+    return NULL;
+}

@@ -11,11 +11,16 @@
 enum { RG_MAX_STATE = 8, RG_MAX_COUNTERS = 16 };
 
 struct rg_instance;
+struct rg_proof;
 
-// A buffer that is part of the simulation's state: what `verify` compares byte by byte.
+// A buffer that is part of the simulation's state: what `verify` compares byte by byte. The rest
+// is there to name an element in a message: (index % row - margin, index / row - margin).
 struct rg_state {
     const char *name;
     struct rg_buf *buf;
+    bool is_float; // 4-byte floats, or uints
+    int row;       // elements a row; 0: a plain list
+    int margin;    // elements before the first of a row, and rows before the first
 };
 
 // An exact count of work since the instance was opened.
@@ -29,9 +34,7 @@ struct rg_technique {
     const char *paper; // key of the paper: "stuppacher"
     const char *about; // one line
     const struct rg_param_table *params;
-    // Assignments of parameters that take the rain away, NULL-terminated: what a picture then shows
-    // is the background that rain is told from.
-    const char *const *rainless;
+    const struct rg_proof *proof; // core/techniques/proof.h
 
     // Opens the technique on a device with a target of width x height pixels, at frame 0.
     // `settings` is copied. NULL, with one logged line, on failure.
@@ -67,5 +70,9 @@ bool rg_instance_run(struct rg_instance *instance, struct rg_pass *pass, const s
 
 // Settings with every default; the caller frees them.
 void *rg_settings_create(const struct rg_technique *technique);
+// A copy with these "key=value key=value" over it; the caller frees it. NULL, with one logged line,
+// where one is refused.
+void *rg_settings_copy(const struct rg_technique *technique, const void *settings,
+                       const char *assignments);
 
 #endif

@@ -1,0 +1,33 @@
+// What `raingauge verify` proves a technique with: scenes to run it on, laws that its state obeys,
+// and small changes of the model that a comparison of images must notice. Data, one a technique.
+#ifndef RG_CORE_TECHNIQUES_PROOF_H
+#define RG_CORE_TECHNIQUES_PROOF_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct rg_instance;
+
+// A law that the state obeys on every device, whatever happened before.
+struct rg_law {
+    const char *name; // "conservation"
+    // Whether it holds now; else `detail` says in one line what is wrong.
+    bool (*holds)(const struct rg_instance *instance, char *detail, size_t size);
+};
+
+// A model that is a little off: a numeric parameter becomes value * factor + offset.
+struct rg_mutant {
+    const char *about; // "one drop fewer"
+    const char *param;
+    double factor, offset;
+};
+
+// Assignments are "key=value key=value", "" for none; they go over what the user sets.
+struct rg_proof {
+    const char *const *poses;        // of the scene, NULL-terminated
+    const char *dry;                 // takes all rain away: the background of the rain mask
+    const struct rg_law *laws;       // the last has no name
+    const struct rg_mutant *mutants; // likewise, no about
+};
+
+#endif

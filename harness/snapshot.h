@@ -1,0 +1,30 @@
+// What an instance holds at one moment, on the host: its state, and the image it drew.
+#ifndef RG_HARNESS_SNAPSHOT_H
+#define RG_HARNESS_SNAPSHOT_H
+
+#include "core/techniques/technique.h"
+
+struct rg_snapshot {
+    int state_count;
+    struct rg_state layout[RG_MAX_STATE]; // names and rows; `buf` is NULL
+    void *state[RG_MAX_STATE];
+    size_t state_bytes[RG_MAX_STATE];
+    void *texels; // of the target, as the device holds them; NULL: not taken
+    size_t texels_bytes;
+};
+
+// Reads the state, and the image where `with_image`. False, with one logged line, on failure; the
+// snapshot is empty then. The caller calls rg_snapshot_free.
+bool rg_snapshot_take(struct rg_instance *instance, bool with_image, struct rg_snapshot *snapshot);
+// A zeroed snapshot is accepted.
+void rg_snapshot_free(struct rg_snapshot *snapshot);
+
+bool rg_snapshot_same_state(const struct rg_snapshot *a, const struct rg_snapshot *b);
+bool rg_snapshot_same_image(const struct rg_snapshot *a, const struct rg_snapshot *b);
+
+// Names the first element of the state that differs, with both values: "water (17, 3) is 0.25, not
+// 0.5". "" when none does.
+void rg_snapshot_describe(const struct rg_snapshot *a, const struct rg_snapshot *expected,
+                          char *text, size_t size);
+
+#endif

@@ -1,0 +1,107 @@
+// Mutants: a comparison that accepts a model that is a little off proves nothing. Each is drawn on
+// one device and compared with the true model's image, at the loosest tier that verify accepts, T1.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/image/compare.h"
+#include "core/log.h"
+#include "harness/verify.h"
+
+// The parameter's value as the mutant has it. False where that is out of its range.
+static bool mutate(const struct rg_verify *v, const struct rg_mutant *mutant, char *text,
+                   size_t size)
+{
+    const struct rg_param *param = rg_params_find(v->technique->params, mutant->param);
+    char value[RG_PATH_SIZE];
+    rg_params_text(param, v->settings, value, sizeof(value));
+    const double mutated = strtod(value, NULL) * mutant->factor + mutant->offset;
+    snprintf(text, size, "%s=%.17g", mutant->param, mutated);
+    return mutated >= param->min && mutated <= param->max;
+}
+
+// The image of these settings, with `assignments` over them.
+static bool draw(struct rg_verify *v, const char *assignments, int steps,
+                 struct rg_picture *picture)
+{
+    void *settings = rg_settings_copy(v->technique, v->settings, assignments);
+    struct rg_instance *instance =
+        settings ? rg_verify_run(v, v->mutant_device, settings, steps) : NULL;
+    bool ok = instance && rg_verify_draw(instance, picture);
+    if (instance)
+        v->technique->destroy(instance);
+    free(settings);
+    return ok;
+}
+
+struct verdicts {
+    int run, killed;
+    bool error;
+    char alive[400]; // what survived, separated by ", "
+};
+
+static void judge(const struct rg_mutant *mutant, const struct rg_picture *truth,
+                  const struct rg_picture *mutated, const struct rg_picture *dry,
+                  struct verdicts *verdicts)
+{
+    struct rg_comparison comparison;
+    if (!rg_compare(truth, "the model", mutated, mutant->about, dry,
+                    &(struct rg_compare_options){0}, &comparison)) {
+        verdicts->error = true;
+        return;
+    }
+    verdicts->run++;
+    if (!comparison.tiers.t1.holds) {
+        verdicts->killed++;
+    } else {
+        const size_t used = strlen(verdicts->alive);
+        snprintf(verdicts->alive + used, sizeof(verdicts->alive) - used, "%s%s", used ? ", " : "",
+                 mutant->about);
+    }
+    rg_comparison_destroy(&comparison);
+}
+
+static void run_all(struct rg_verify *v, const struct rg_picture *truth,
+                    const struct rg_picture *dry, struct verdicts *verdicts)
+{
+    for (const struct rg_mutant *m = v->technique->proof->mutants; m->about; m++) {
+        char assignment[256];
+        struct rg_picture mutated = {0};
+        rg_progress_label(v->progress, "%s: mutant: %s", v->technique->name, m->about);
+        if (!mutate(v, m, assignment, sizeof(assignment)))
+            continue;
+        if (draw(v, assignment, v->steps, &mutated))
+            judge(m, truth, &mutated, dry, verdicts);
+        else
+            verdicts->error = true;
+        rg_picture_destroy(&mutated);
+    }
+}
+
+static void report(struct rg_verify *v, const struct verdicts *verdicts)
+{
+    const char *technique = v->technique->name, *device = v->mutant_device->info.name;
+    if (verdicts->error)
+        rg_checks_add(v->checks, technique, "mutants", device, RG_STATUS_ERROR, "%s",
+                      rg_last_error());
+    else if (verdicts->killed == verdicts->run && verdicts->run)
+        rg_checks_add(v->checks, technique, "mutants", device, RG_STATUS_OK, "killed %d/%d",
+                      verdicts->killed, verdicts->run);
+    else
+        rg_checks_add(v->checks, technique, "mutants", device, RG_STATUS_FAIL,
+                      "killed %d/%d; T1 accepts: %s", verdicts->killed, verdicts->run,
+                      *verdicts->alive ? verdicts->alive : "none was in its parameter's range");
+}
+
+void rg_verify_mutants(struct rg_verify *v)
+{
+    struct verdicts verdicts = {0};
+    struct rg_picture truth = {0}, dry = {0};
+    if (draw(v, "", v->steps, &truth) && draw(v, v->technique->proof->dry, 0, &dry))
+        run_all(v, &truth, &dry, &verdicts);
+    else
+        verdicts.error = true;
+    report(v, &verdicts);
+    rg_picture_destroy(&truth);
+    rg_picture_destroy(&dry);
+}

@@ -1,0 +1,64 @@
+// An independent model of water on a pane, in double precision and whole droplets.
+//
+// Written from the equations of Stuppacher & Supan (2007) and the rules of docs/flow.md, without
+// anything of kernels/ or core/techniques/: it pushes water where the kernels pull it, has no
+// margins, counts droplets in integers, and turns the pane by rotating vectors. What both share are
+// inputs: the maps' values and the list of drops.
+#ifndef FLOW_ORACLE_H
+#define FLOW_ORACLE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// Droplets a unit of height.
+#define ORACLE_DROPLETS 65536
+
+struct oracle_settings {
+    int size;         // texels along a side of the pane
+    double threshold; // L
+    double fast;      // M
+    double far_share; // r
+    double capacity;
+    bool split; // between two directions, or all into the nearest
+    double pitch_deg, yaw_deg, roll_deg;
+    const float *remainder; // borrowed: evenly spaced over 0 to remainder_max_height
+    int remainder_entries;
+    double remainder_max_height;
+    const float *noise; // borrowed: noise_size x noise_size
+    int noise_size;
+    double noise_window, noise_scroll_x, noise_scroll_y;
+};
+
+struct oracle {
+    struct oracle_settings settings;
+    int64_t *water;           // size x size, droplets
+    int64_t sourced, drained; // droplets since the start
+    int64_t frame;
+};
+
+struct oracle_lighting {
+    double pane_mm, relief, wet_height, view_angle_deg;
+    double fresnel_bias, fresnel_scale, fresnel_power;
+    double refraction_strength, reflectivity;
+    const float *environment; // borrowed: [face][y][x][rgb], faces +x -x +y -y +z -z as in OpenGL
+    int environment_size;
+};
+
+// A dry pane at frame 0. The caller calls oracle_close.
+void oracle_open(struct oracle *oracle, const struct oracle_settings *settings);
+void oracle_close(struct oracle *oracle);
+
+// A drop lands: a cap whose profile is a half ellipse, centre and radius in texels.
+void oracle_land(struct oracle *oracle, double x, double y, double radius, double height);
+
+// Moves the water by one frame.
+void oracle_step(struct oracle *oracle);
+
+// The lit pane: width x height x 3 values of linear light.
+void oracle_draw(const struct oracle *oracle, const struct oracle_lighting *lighting, int width,
+                 int height, double *light);
+
+// The pane's tangent (right), binormal (down) and normal in the world.
+void oracle_frame(const struct oracle_settings *settings, double frame[3][3]);
+
+#endif
