@@ -10,8 +10,8 @@
 // The variables that change what runs, where, or on how many threads. Only these are recorded.
 static const char *const variables[] = {
     // threads
-    "GOMP_CPU_AFFINITY", "LP_NUM_THREADS", "OMP_DYNAMIC", "OMP_NUM_THREADS", "OMP_PLACES",
-    "OMP_PROC_BIND", "OMP_THREAD_LIMIT", "OMP_WAIT_POLICY", "POCL_AFFINITY",
+    "GOMP_CPU_AFFINITY", "GOMP_SPINCOUNT", "LP_NUM_THREADS", "OMP_DYNAMIC", "OMP_NUM_THREADS",
+    "OMP_PLACES", "OMP_PROC_BIND", "OMP_THREAD_LIMIT", "OMP_WAIT_POLICY", "POCL_AFFINITY",
     "POCL_CPU_MAX_CU_COUNT", "POCL_MAX_PTHREAD_COUNT",
     // which driver
     "EGL_PLATFORM", "GALLIUM_DRIVER", "LIBGL_ALWAYS_SOFTWARE", "LIBGL_DRIVERS_PATH",

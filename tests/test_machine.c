@@ -95,6 +95,8 @@ static void version_2_quotas_are_found(void **state)
     assert_true(read_machine().quota_cpus == 1.5);
     put("/sys/fs/cgroup/outer/inner/cpu.max", "50000 100000\n");
     assert_true(read_machine().quota_cpus == 0.5);
+    put("/sys/fs/cgroup/outer/cpu.max", "25000 100000\n");
+    assert_true(read_machine().quota_cpus == 0.25);
 }
 
 static void version_1_quotas_are_found(void **state)
