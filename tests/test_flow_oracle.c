@@ -199,23 +199,19 @@ static void test_mutants_are_rejected(void **state)
 
 // --- light ---
 
-static float *unpack_environment(const struct flow_settings *s)
+static float *unpack_environment(const struct flow_settings *s, int n)
 {
-    const int n = s->environment_px;
     const size_t texels = (size_t)n * (size_t)n;
     struct rg_environment *environment = rg_environment_load(s->environment);
     assert_non_null(environment);
     float *light = malloc(6 * texels * 3 * sizeof(*light));
-    uint32_t *packed = malloc(texels * sizeof(*packed));
-    for (int face = 0; face < 6; face++) {
-        rg_environment_pack_face(environment, face, n, packed);
-        for (size_t i = 0; i < texels; i++) {
-            const rgba c = rg_load_RG11B10F(packed, (int)i);
-            float *to = light + ((size_t)face * texels + i) * 3;
-            to[0] = c.r;
-            to[1] = c.g;
-            to[2] = c.b;
-        }
+    uint32_t *packed = malloc(6 * texels * sizeof(*packed));
+    rg_environment_pack(environment, n, packed);
+    for (size_t i = 0; i < 6 * texels; i++) {
+        const rgba c = rg_load_RG11B10F(packed, (int)i);
+        light[3 * i] = c.r;
+        light[3 * i + 1] = c.g;
+        light[3 * i + 2] = c.b;
     }
     free(packed);
     rg_environment_destroy(environment);
@@ -225,7 +221,9 @@ static float *unpack_environment(const struct flow_settings *s)
 static double *draw_oracle(struct pair *pair)
 {
     const struct flow_settings *s = &pair->rig.settings;
-    float *environment = unpack_environment(s);
+    const int reflection_px = s->environment_px >> flow_reflection_level(s);
+    float *environment = unpack_environment(s, s->environment_px);
+    float *reflection = unpack_environment(s, reflection_px);
     double *light = malloc((size_t)pair->rig.width * (size_t)pair->rig.height * 3 * sizeof(*light));
     oracle_draw(&pair->oracle,
                 &(struct oracle_lighting){
@@ -238,11 +236,12 @@ static double *draw_oracle(struct pair *pair)
                     .fresnel_power = s->fresnel_power,
                     .refraction_strength = s->refraction_strength,
                     .reflectivity = s->reflectivity,
-                    .environment = environment,
-                    .environment_size = s->environment_px,
+                    .environment = {environment, s->environment_px},
+                    .reflection = {reflection, reflection_px},
                 },
                 pair->rig.width, pair->rig.height, light);
     free(environment);
+    free(reflection);
     return light;
 }
 
@@ -293,7 +292,8 @@ static void test_light(void **state)
     char text[256];
     for (int p = 0; p < POSES; p++) {
         snprintf(text, sizeof(text),
-                 "resolution_px=64 environment_px=64 environment=%s drops=300 seed=%d %s",
+                 "resolution_px=64 environment_px=64 reflection_px=16 environment=%s drops=300 "
+                 "seed=%d %s",
                  p % 2 ? "crossroads" : "sky", p + 1, poses[p]);
         compare_light(text);
     }

@@ -120,8 +120,8 @@ static int source_of(int i, int size_px, int size, float *weight)
     return first;
 }
 
-void rg_environment_pack_face(const struct rg_environment *environment, int face, int size_px,
-                              uint32_t *texels)
+static void pack_face(const struct rg_environment *environment, int face, int size_px,
+                      uint32_t *texels)
 {
     for (int y = 0; y < size_px; y++) {
         float fx, fy;
@@ -142,4 +142,20 @@ void rg_environment_pack_face(const struct rg_environment *environment, int face
             texels[(size_t)y * (size_t)size_px + (size_t)x] = pack_rg11b10f(light, noise >> 14);
         }
     }
+}
+
+void rg_environment_pack(const struct rg_environment *environment, int size_px, uint32_t *texels)
+{
+    // Bilinear filtering alone would skip texels of a larger map.
+    struct rg_environment *halved = NULL;
+    while ((halved ? halved : environment)->size >= 2 * size_px) {
+        struct rg_environment *smaller = rg_environment_halve(halved ? halved : environment);
+        rg_environment_destroy(halved);
+        halved = smaller;
+    }
+    const size_t face_texels = (size_t)size_px * (size_t)size_px;
+    for (int face = 0; face < 6; face++)
+        pack_face(halved ? halved : environment, face, size_px,
+                  texels + (size_t)face * face_texels);
+    rg_environment_destroy(halved);
 }

@@ -24,10 +24,9 @@ void rg_environment_fill(struct rg_environment *environment, rg_light_fn fn, con
 // destroys it.
 struct rg_environment *rg_environment_halve(const struct rg_environment *environment);
 
-// One face resampled bilinearly to size_px^2 texels of RG11B10F. The format is coarse (6 bits of
-// mantissa), so a seeded noise dithers what it rounds. Light that is negative or no number becomes
-// 0.
-void rg_environment_pack_face(const struct rg_environment *environment, int face, int size_px,
-                              uint32_t *texels);
+// All six faces resampled to size_px^2 texels of RG11B10F each: halved while they are twice as
+// large or more, then bilinearly. The format is coarse (6 bits of mantissa), so a seeded noise
+// dithers what it rounds. Light that is negative or no number becomes 0.
+void rg_environment_pack(const struct rg_environment *environment, int size_px, uint32_t *texels);
 
 #endif

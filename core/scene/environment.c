@@ -137,25 +137,18 @@ struct rg_environment *rg_environment_load(const char *name)
     return read_packaged(name);
 }
 
-// Writes one level, from a copy of the environment that is halved until it is less than twice as
-// large: bilinear filtering alone would skip texels.
-static bool write_level(const struct rg_environment *environment, int size_px, int level,
-                        struct rg_image *image)
+static bool write_level(const struct rg_environment *environment, int level, struct rg_image *image)
 {
-    struct rg_environment *halved = NULL;
-    while ((halved ? halved : environment)->size >= 2 * size_px) {
-        struct rg_environment *smaller = rg_environment_halve(halved ? halved : environment);
-        rg_environment_destroy(halved);
-        halved = smaller;
-    }
-    uint32_t *texels = malloc((size_t)size_px * (size_t)size_px * sizeof(uint32_t));
-    bool ok = texels != NULL;
-    for (int face = 0; ok && face < 6; face++) {
-        rg_environment_pack_face(halved ? halved : environment, face, size_px, texels);
-        ok = rg_image_write(image, face, level, texels);
-    }
+    const int size_px = rg_level_size(image->desc.width, level);
+    const size_t face_texels = (size_t)size_px * (size_t)size_px;
+    uint32_t *texels = malloc(6 * face_texels * sizeof(uint32_t));
+    if (!texels)
+        return rg_error("environment: no memory for faces of %d texels", size_px);
+    rg_environment_pack(environment, size_px, texels);
+    bool ok = true;
+    for (int face = 0; ok && face < 6; face++)
+        ok = rg_image_write(image, face, level, texels + (size_t)face * face_texels);
     free(texels);
-    rg_environment_destroy(halved);
     return ok;
 }
 
@@ -165,7 +158,7 @@ struct rg_image *rg_environment_upload(const struct rg_environment *environment,
     struct rg_image *image = rg_image_create(
         device, &(struct rg_image_desc){RG_RG11B10F, size_px, size_px, 6, levels}, "environment");
     for (int level = 0; image && level < levels; level++) {
-        if (!write_level(environment, rg_level_size(size_px, level), level, image)) {
+        if (!write_level(environment, level, image)) {
             rg_image_destroy(image);
             image = NULL;
         }

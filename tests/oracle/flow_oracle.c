@@ -213,7 +213,7 @@ static void normal_between(const struct oracle *o, const struct oracle_lighting 
 }
 
 // The environment from a direction in the world: OpenGL's table of cube map faces.
-static void environment_at(const struct oracle_lighting *l, const double d[3], double light[3])
+static void environment_at(const struct oracle_cube *cube, const double d[3], double light[3])
 {
     static const struct {
         int major, sign, s_axis, s_sign, t_axis, t_sign;
@@ -223,26 +223,26 @@ static void environment_at(const struct oracle_lighting *l, const double d[3], d
     for (int f = 1; f < 6; f++)
         if (d[faces[f].major] * faces[f].sign > d[faces[face].major] * faces[face].sign)
             face = f;
-    const int n = l->environment_size;
+    const int n = cube->size;
     const double major = fabs(d[faces[face].major]);
     double s = (d[faces[face].s_axis] * faces[face].s_sign / major + 1) / 2 * n;
     double t = (d[faces[face].t_axis] * faces[face].t_sign / major + 1) / 2 * n;
     const int x = s < n ? (int)s : n - 1, y = t < n ? (int)t : n - 1;
     for (int c = 0; c < 3; c++)
         light[c] =
-            (double)l
-                ->environment[(((size_t)face * (size_t)n + (size_t)y) * (size_t)n + (size_t)x) * 3 +
-                              (size_t)c];
+            (double)
+                cube->light[(((size_t)face * (size_t)n + (size_t)y) * (size_t)n + (size_t)x) * 3 +
+                            (size_t)c];
 }
 
-static void light_from(const struct oracle *o, const struct oracle_lighting *l,
+static void light_from(const struct oracle *o, const struct oracle_cube *cube,
                        const double tangent[3], double light[3])
 {
     double frame[3][3], world[3];
     oracle_frame(&o->settings, frame);
     for (int i = 0; i < 3; i++)
         world[i] = tangent[0] * frame[0][i] + tangent[1] * frame[1][i] + tangent[2] * frame[2][i];
-    environment_at(l, world, light);
+    environment_at(cube, world, light);
 }
 
 // One pixel whose view has this direction in the pane's frame.
@@ -261,8 +261,8 @@ static void shade(const struct oracle *o, const struct oracle_lighting *l, const
     // The dry mirror's reflection, bent by the normal.
     const double bent[3] = {view[0] - nx * l->refraction_strength,
                             view[1] - ny * l->refraction_strength, -view[2]};
-    light_from(o, l, mirrored, reflected);
-    light_from(o, l, bent, refracted);
+    light_from(o, &l->reflection, mirrored, reflected);
+    light_from(o, &l->environment, bent, refracted);
     for (int i = 0; i < 3; i++)
         light[i] = wetness * fresnel * reflected[i] +
                    (1 - wetness * fresnel) * l->reflectivity * refracted[i];

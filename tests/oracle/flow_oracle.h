@@ -36,12 +36,17 @@ struct oracle {
     int64_t frame;
 };
 
+// A cube map, borrowed: [face][y][x][rgb], faces +x -x +y -y +z -z as in OpenGL.
+struct oracle_cube {
+    const float *light;
+    int size;
+};
+
 struct oracle_lighting {
     double pane_mm, relief, wet_height, view_angle_deg;
     double fresnel_bias, fresnel_scale, fresnel_power;
     double refraction_strength, reflectivity;
-    const float *environment; // borrowed: [face][y][x][rgb], faces +x -x +y -y +z -z as in OpenGL
-    int environment_size;
+    struct oracle_cube environment, reflection; // what the mirror shows, and what drops reflect
 };
 
 // A dry pane at frame 0. The caller calls oracle_close.
