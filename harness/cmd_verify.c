@@ -71,7 +71,7 @@ static void verify_all(struct rg_verify *v, const struct subject *subjects, int 
     int64_t work = 0;
     for (int i = 0; i < count; i++) {
         v->technique = subjects[i].technique;
-        work += rg_verify_work(v);
+        work += rg_verify_device_work(v) + rg_verify_mutant_work(v);
     }
     struct rg_progress progress;
     v->progress = &progress;

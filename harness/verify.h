@@ -22,8 +22,9 @@ struct rg_verify {
     struct rg_progress *progress;
 };
 
-// Steps that both parts below run, for the progress bar.
-int64_t rg_verify_work(const struct rg_verify *verify);
+// Steps that each of the parts below runs, for the progress bar.
+int64_t rg_verify_device_work(const struct rg_verify *verify);
+int64_t rg_verify_mutant_work(const struct rg_verify *verify);
 
 // State, image and laws on every device, over seeds and poses.
 void rg_verify_devices(struct rg_verify *verify);
