@@ -29,6 +29,7 @@ RG_STRUCT(flow_params)
     float move_threshold;   // L: a texel with more water than this gives some away
     float fast_threshold;   // M: one with more than this also reaches the texel two below
     float far_share;        // r: the share of what it gives that goes there
+    float capacity;          // water that a texel never keeps more of
     float speed;            // cos(alpha) of equation 2: scales what is given
     int ax, ay;             // the direction down, in whole texels (figure 8)
     int bx, by;             // a second direction, where gravity lies between two of the eight
@@ -38,7 +39,7 @@ RG_STRUCT(flow_params)
     float noise_step;       // noise texels a pane texel
     float noise_x, noise_y; // where the window begins, in noise texels
 };
-RG_STRUCT_SIZE(flow_params, 15)
+RG_STRUCT_SIZE(flow_params, 16)
 
 RG_FN float flow_whole_droplets(float amount)
 {
@@ -53,11 +54,12 @@ RG_FN int flow_noise_index(float begin, float step, int x, int noise_size)
 }
 
 // What a texel gives away in one step, by its water and the remainder and noise found for it:
-// the second line of equation 3, scaled by the pane's inclination (equation 2).
+// the second line of equation 3, scaled by the pane's inclination (equation 2). Water above the
+// capacity spills whatever the maps say: a dam of the user's would pile it up without end.
 RG_FN float flow_given(flow_params p, float water, float remainder, float noise)
 {
     float given = flow_whole_droplets(water * (1.0f - remainder * noise) * p.speed);
-    return water > p.move_threshold ? given : 0.0f;
+    return water > p.move_threshold ? rg_max(given, water - p.capacity) : 0.0f;
 }
 
 // The parts of what a texel gives: into each of two directions, to the next texel and to the one

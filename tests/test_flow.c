@@ -67,6 +67,23 @@ static void test_much_water_reaches_two_texels(void **state)
     }
 }
 
+// A remainder map that keeps everything is a dam; only what is above the capacity runs over.
+static void test_a_full_texel_spills(void **state)
+{
+    (void)state;
+    struct rig rig;
+    open_plain(&rig, "remainder_low=1 capacity=2 far_share=0");
+    rig_put_one(&rig, MIDDLE, MIDDLE, 5 * UNIT);
+    rig_step(&rig, 1);
+    rig_expect(&rig, MIDDLE, MIDDLE, 2 * UNIT);
+    rig_expect(&rig, MIDDLE, MIDDLE + 1, 3 * UNIT);
+    rig_step(&rig, 1);
+    rig_expect(&rig, MIDDLE, MIDDLE, 2 * UNIT);
+    rig_expect(&rig, MIDDLE, MIDDLE + 1, 2 * UNIT);
+    rig_expect(&rig, MIDDLE, MIDDLE + 2, UNIT);
+    rig_close(&rig);
+}
+
 // One texel of water on a pane of these settings, after a step: none has moved.
 static void expect_still(const char *assignments, int64_t droplets)
 {
@@ -344,6 +361,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_one_texel_falls),
         cmocka_unit_test(test_much_water_reaches_two_texels),
+        cmocka_unit_test(test_a_full_texel_spills),
         cmocka_unit_test(test_nothing_moves_on_a_level_pane),
         cmocka_unit_test(test_little_water_stays),
         cmocka_unit_test(test_eight_directions),

@@ -74,6 +74,7 @@ flow_params flow_params_at(const struct flow_settings *s, int noise_size, int64_
         .move_threshold = (float)s->move_threshold,
         .fast_threshold = (float)s->fast_threshold,
         .far_share = (float)s->far_share,
+        .capacity = (float)s->capacity,
         .remainder_scale = (float)((FLOW_REMAINDER_ENTRIES - 1) / s->remainder_max_height),
         .noise_size = noise_size,
         .noise_step = (float)(noise_size * s->noise_window / s->resolution_px),

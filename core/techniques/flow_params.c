@@ -9,7 +9,7 @@ static const struct rg_param rows[] = {
     {"move_threshold", RG_PARAM_FLOAT, AT(move_threshold), 0.15, 0, 16, "height", "L: a texel with more water than this starts to give it away", NULL},
     {"fast_threshold", RG_PARAM_FLOAT, AT(fast_threshold), 0.6, 0, 16, "height", "M: a texel with more water than this also reaches the texel two below", NULL},
     {"far_share", RG_PARAM_FLOAT, AT(far_share), 0.5, 0, 1, "1", "r: the share of the given water that goes two texels below", NULL},
-    {"capacity", RG_PARAM_FLOAT, AT(capacity), 8, 1, 64, "height", "water above which a texel takes no more drops", NULL},
+    {"capacity", RG_PARAM_FLOAT, AT(capacity), 8, 1, 64, "height", "water above which a texel takes no more drops, and keeps none", NULL},
     {"direction", RG_PARAM_CHOICE, AT(direction), FLOW_NEAREST, 0, 1, "1", "of the flow: to the nearest of eight neighbours, or split between the two nearest", "nearest split"},
     {"pane_pitch_deg", RG_PARAM_FLOAT, AT(pitch_deg), 0, -180, 180, "deg", "turns the pane about its horizontal axis; 90 lays it flat, face up", NULL},
     {"pane_yaw_deg", RG_PARAM_FLOAT, AT(yaw_deg), 0, -180, 180, "deg", "turns the pane about the vertical", NULL},

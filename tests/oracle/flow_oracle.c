@@ -139,6 +139,9 @@ static void flow_from(struct oracle *o, const struct descent *d, int64_t *moved,
     const double water = (double)droplets / ORACLE_DROPLETS;
     double leaves = 1 - remainder_at(s, water) * noise_at(o, x, y);
     int64_t given = (int64_t)floor((double)droplets * leaves * d->speed);
+    int64_t spilled = droplets - (int64_t)(s->capacity * ORACLE_DROPLETS);
+    if (given < spilled)
+        given = spilled;
     if (!(water > s->threshold))
         given = 0;
     put(o, moved, x, y, droplets - given);
