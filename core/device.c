@@ -7,7 +7,6 @@
 #include <strings.h>
 
 #include "core/log.h"
-#include "kernels/image_memory.h"
 
 // Refuses a call: `if (!check) return refuse(...)`, one line that names object and number.
 #define require(check, ...)                                                                        \
@@ -44,22 +43,22 @@ int rg_level_size(int size, int level)
     return size >> level > 1 ? size >> level : 1;
 }
 
-int64_t rg_image_layout(const struct rg_image_desc *desc, struct rg_image_shape *shape)
+int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX_LEVELS])
 {
-    *shape = (struct rg_image_shape){desc->width, desc->height, desc->layers, desc->levels, {0}};
-    int64_t texels = 0;
+    int64_t words = RG_MAX_LEVELS;
+    memset(header, 0, RG_MAX_LEVELS * sizeof(*header));
     for (int level = 0; level < desc->levels; level++) {
-        shape->level_offset[level] = (int)texels;
-        texels += (int64_t)rg_level_size(desc->width, level) * rg_level_size(desc->height, level) *
-                  desc->layers;
+        header[level] = (uint32_t)words;
+        words += (int64_t)rg_level_size(desc->width, level) * rg_level_size(desc->height, level) *
+                 desc->layers * rg_format_size(desc->format) / 4;
     }
-    return texels;
+    return words;
 }
 
 static int64_t image_bytes(const struct rg_image_desc *desc)
 {
-    struct rg_image_shape shape;
-    return rg_image_layout(desc, &shape) * rg_format_size(desc->format);
+    uint32_t header[RG_MAX_LEVELS];
+    return (rg_image_layout(desc, header) - RG_MAX_LEVELS) * 4;
 }
 
 // --- devices: listing and opening ---

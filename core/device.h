@@ -8,8 +8,7 @@
 #define RG_CORE_DEVICE_H
 
 #include "backends/backend.h"
-
-struct rg_image_shape;
+#include "kernels/image_memory.h"
 
 enum { RG_MAX_DEVICES = 32 };
 
@@ -63,9 +62,10 @@ int rg_format_size(enum rg_format format);
 const char *rg_format_name(enum rg_format format);
 // Width or height of a level.
 int rg_level_size(int size, int level);
-// How the devices that keep images in plain memory lay them out (kernels/image_memory.h): fills
-// `shape` and returns the texels of all layers and levels.
-int64_t rg_image_layout(const struct rg_image_desc *desc, struct rg_image_shape *shape);
+// How the devices that keep images in plain memory lay them out (kernels/image_memory.h): the word
+// at which each level begins, which is also the image's header, and the words of the whole image,
+// header included.
+int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX_LEVELS]);
 
 struct rg_pass *rg_pass_create(struct rg_device *device, const char *kernel);
 void rg_pass_destroy(struct rg_pass *pass);

@@ -1,5 +1,8 @@
-// Images in plain memory, for C and OpenCL C: level 0 of all layers first, then level 1, and so on;
-// rows without padding; texels packed in 32-bit words as format.h says.
+// Images in plain memory, for C and OpenCL C: a header that says at which word each level begins,
+// then level 0 of all layers, then level 1, and so on; rows without padding; texels packed in
+// 32-bit words as format.h says. The header lies in memory, not in the shape, so that the shape
+// stays small enough for compilers to keep in registers, and items of one vector may read different
+// levels.
 #ifndef RG_KERNELS_IMAGE_MEMORY_H
 #define RG_KERNELS_IMAGE_MEMORY_H
 
@@ -12,14 +15,21 @@ typedef struct rg_image_shape {
     int height;
     int layers;
     int levels;
-    int level_offset[RG_MAX_LEVELS]; // in texels
 } rg_image_shape;
 
-RG_FN int rg_texel_index(rg_image_shape s, int x, int y, int layer, int level)
+// The word at which a texel of `words` words begins.
+RG_FN int rg_texel_word(RG_GLOBAL const uint *image, rg_image_shape s, int x, int y, int layer,
+                        int level, int words)
 {
     int width = rg_imax(s.width >> level, 1);
     int height = rg_imax(s.height >> level, 1);
-    return s.level_offset[level] + (layer * height + y) * width + x;
+    return rg_to_int(image[level]) + ((layer * height + y) * width + x) * words;
+}
+
+// The same of level 0, which comes right after the header.
+RG_FN int rg_first_level_word(rg_image_shape s, int x, int y, int layer, int words)
+{
+    return RG_MAX_LEVELS + ((layer * s.height + y) * s.width + x) * words;
 }
 
 #define RG_WORDS_RGBA8    1

@@ -117,13 +117,13 @@ typedef struct rg_ctx {
     RG_IMAGE_SIZES(name)                                                                           \
     RG_FN rgba name##_texel(rg_ctx rg, int x, int y, int layer, int level)                         \
     {                                                                                              \
-        int i = rg_texel_index(rg.name##_shape, x, y, layer, level) * RG_WORDS_##F;                \
+        int i = rg_texel_word(rg.name, rg.name##_shape, x, y, layer, level, RG_WORDS_##F);         \
         return rg_load_##F(rg.name, RG_INDEX(rg, name, i));                                        \
     }
 #define OUT_IMAGE(slot, F, name)                                                                   \
     RG_PROC void name##_store(rg_ctx rg, int x, int y, int layer, rgba c)                          \
     {                                                                                              \
-        int i = rg_texel_index(rg.name##_shape, x, y, layer, 0) * RG_WORDS_##F;                    \
+        int i = rg_first_level_word(rg.name##_shape, x, y, layer, RG_WORDS_##F);                   \
         rg_store_##F(rg.name, RG_INDEX(rg, name, i), rg_rounded_##F(c));                           \
     }
 

@@ -10,13 +10,13 @@
 struct rg_image *cpu_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                   const char *name)
 {
-    rg_image_shape shape;
-    int64_t words = rg_image_layout(desc, &shape) * rg_format_size(desc->format) / 4;
+    uint32_t header[RG_MAX_LEVELS];
+    int64_t words = rg_image_layout(desc, header);
     if (words > INT_MAX)
         return rg_error_null("image '%s': %lld words exceed the 2147483647 that %s allows", name,
                              (long long)words, device->info.name);
     struct cpu_image *image = calloc(1, sizeof(*image));
-    image->shape = shape;
+    image->shape = (rg_image_shape){desc->width, desc->height, desc->layers, desc->levels};
     image->words = (int)words;
     image->texels = cpu_alloc((size_t)words * sizeof(uint));
     if (!image->texels) {
@@ -24,6 +24,7 @@ struct rg_image *cpu_image_create(struct rg_device *device, const struct rg_imag
         return rg_error_null("image '%s': %s has no %lld bytes of memory left", name,
                              device->info.name, (long long)words * 4);
     }
+    memcpy(image->texels, header, sizeof(header));
     return &image->pub;
 }
 
@@ -38,10 +39,10 @@ void cpu_image_destroy(struct rg_image *image)
 static void *locate(struct rg_image *image, int layer, int level, size_t *size)
 {
     struct cpu_image *cpu = (struct cpu_image *)image;
-    size_t words = (size_t)rg_format_size(image->desc.format) / sizeof(uint);
+    const int words = rg_format_size(image->desc.format) / (int)sizeof(uint);
     *size = (size_t)rg_level_size(image->desc.width, level) *
-            (size_t)rg_level_size(image->desc.height, level) * words * sizeof(uint);
-    return cpu->texels + (size_t)rg_texel_index(cpu->shape, 0, 0, layer, level) * words;
+            (size_t)rg_level_size(image->desc.height, level) * (size_t)words * sizeof(uint);
+    return cpu->texels + rg_texel_word(cpu->texels, cpu->shape, 0, 0, layer, level, words);
 }
 
 bool cpu_image_write(struct rg_image *image, int layer, int level, const void *texels)
@@ -64,8 +65,9 @@ bool cpu_image_clear(struct rg_image *image, const void *texel)
 {
     struct cpu_image *cpu = (struct cpu_image *)image;
     size_t size = (size_t)rg_format_size(image->desc.format);
-    size_t texels = (size_t)cpu->words * sizeof(uint) / size;
+    char *first = (char *)(cpu->texels + RG_MAX_LEVELS);
+    size_t texels = ((size_t)cpu->words - RG_MAX_LEVELS) * sizeof(uint) / size;
     for (size_t i = 0; i < texels; i++)
-        memcpy((char *)cpu->texels + i * size, texel, size);
+        memcpy(first + i * size, texel, size);
     return true;
 }

@@ -1,6 +1,7 @@
 #include "backends/opencl/opencl.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/device.h"
 #include "core/log.h"
@@ -8,8 +9,8 @@
 struct rg_image *opencl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                      const char *name)
 {
-    rg_image_shape shape;
-    int64_t bytes = rg_image_layout(desc, &shape) * rg_format_size(desc->format);
+    uint32_t header[RG_MAX_LEVELS];
+    int64_t bytes = rg_image_layout(desc, header) * (int64_t)sizeof(cl_uint);
     if (bytes > device->info.limits.max_buffer_bytes)
         return rg_error_null("image '%s': %lld bytes exceed the %lld that %s allows", name,
                              (long long)bytes, (long long)device->info.limits.max_buffer_bytes,
@@ -17,12 +18,17 @@ struct rg_image *opencl_image_create(struct rg_device *device, const struct rg_i
     struct opencl_image *image = calloc(1, sizeof(*image));
     if (!image)
         return rg_error_null("image '%s': no memory left", name);
-    image->shape = shape;
+    image->shape = (rg_image_shape){desc->width, desc->height, desc->layers, desc->levels};
+    memcpy(image->header, header, sizeof(header));
     image->words = (int)(bytes / 4);
     image->memory = (struct opencl_memory){NULL, (struct opencl_device *)device, "image", name};
-    if (opencl_memory_create(&image->memory, (size_t)bytes))
+    if (!opencl_memory_create(&image->memory, (size_t)bytes)) {
+        free(image);
+        return NULL;
+    }
+    if (opencl_memory_write(&image->memory, 0, image->header, sizeof(image->header)))
         return &image->pub;
-    free(image);
+    opencl_image_destroy(&image->pub);
     return NULL;
 }
 
@@ -39,7 +45,7 @@ static size_t locate(const struct rg_image *image, int layer, int level, size_t 
     size_t texel_size = (size_t)rg_format_size(image->desc.format);
     *size = (size_t)rg_level_size(image->desc.width, level) *
             (size_t)rg_level_size(image->desc.height, level) * texel_size;
-    return (size_t)rg_texel_index(opencl->shape, 0, 0, layer, level) * texel_size;
+    return opencl->header[level] * sizeof(cl_uint) + (size_t)layer * *size;
 }
 
 bool opencl_image_write(struct rg_image *image, int layer, int level, const void *texels)
@@ -59,8 +65,9 @@ bool opencl_image_clear(struct rg_image *image, const void *texel)
     struct opencl_image *opencl = (struct opencl_image *)image;
     struct opencl_device *device = opencl->memory.device;
     opencl_will_queue(device);
-    cl_int code = clEnqueueFillBuffer(device->queue, opencl->memory.mem, texel,
-                                      (size_t)rg_format_size(image->desc.format), 0,
-                                      (size_t)opencl->words * sizeof(cl_uint), 0, NULL, NULL);
+    cl_int code = clEnqueueFillBuffer(
+        device->queue, opencl->memory.mem, texel, (size_t)rg_format_size(image->desc.format),
+        sizeof(opencl->header), (size_t)opencl->words * sizeof(cl_uint) - sizeof(opencl->header), 0,
+        NULL, NULL);
     return opencl_check(code, "clEnqueueFillBuffer", "image", image->name);
 }

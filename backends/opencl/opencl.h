@@ -44,6 +44,7 @@ struct opencl_image {
     struct rg_image pub;
     struct opencl_memory memory;
     rg_image_shape shape;
+    uint32_t header[RG_MAX_LEVELS]; // kernels/image_memory.h
     int words; // of the whole image
 };
 

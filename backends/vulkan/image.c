@@ -44,8 +44,8 @@ static bool check_supported(const struct vk_device *device, const VkImageCreateI
     if (!vk_try("image", name, vkGetPhysicalDeviceImageFormatProperties, device->physical,
                 info->format, info->imageType, info->tiling, info->usage, info->flags, &most))
         return false;
-    struct rg_image_shape shape;
-    int64_t bytes = rg_image_layout(desc, &shape) * rg_format_size(desc->format);
+    uint32_t header[RG_MAX_LEVELS];
+    int64_t bytes = rg_image_layout(desc, header) * 4;
     if (info->extent.width > most.maxExtent.width || info->extent.height > most.maxExtent.height ||
         info->mipLevels > most.maxMipLevels || info->arrayLayers > most.maxArrayLayers ||
         (uint64_t)bytes > most.maxResourceSize)
