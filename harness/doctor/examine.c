@@ -99,7 +99,11 @@ static void examine(void *shared)
     const int failures = rg_examination_failures(examination);
     begin(examination, "auditing its timer");
     examination->audited = rg_timer_audit(device, &examination->timer);
-    if (!examination->audited || !rg_device_close(device)) {
+    if (examination->audited) {
+        begin(examination, "measuring its ceilings");
+        examination->measured = rg_ceilings_measure(device, &examination->ceilings);
+    }
+    if (!examination->measured || !rg_device_close(device)) {
         fail(examination, RG_EXAMINED_ERROR);
         return;
     }

@@ -53,6 +53,11 @@ static json_t *device(const struct rg_examination *e)
     }
     if (e->audited)
         json_object_set_new(row, "timer", timer(&e->timer));
+    if (e->measured)
+        json_object_set_new(row, "ceilings",
+                            json_pack("{sfsfsf}", "memory_gb_s", e->ceilings.memory_gb_s,
+                                      "cache_gb_s", e->ceilings.cache_gb_s, "arithmetic_gop_s",
+                                      e->ceilings.arithmetic_gop_s));
     return row;
 }
 

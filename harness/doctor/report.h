@@ -6,6 +6,7 @@
 
 #include "core/device.h"
 #include "core/probe.h"
+#include "harness/ceilings.h"
 #include "harness/timer_audit.h"
 
 enum rg_examination_status {
@@ -23,9 +24,10 @@ struct rg_examination {
     enum rg_examination_status status;
     char why[512];              // in one line; "" when all is well
     struct rg_device_info info; // until `opened`, only info.name is certain
-    bool opened, probed, audited;
+    bool opened, probed, audited, measured;
     struct rg_probe_result probe[RG_PROBE_COUNT]; // when probed
     struct rg_timer_audit timer;                  // when audited
+    struct rg_ceilings ceilings;                  // when measured
 };
 
 struct rg_doctor_report {

@@ -122,6 +122,14 @@ static void print_timer(const struct rg_timer_audit *timer)
     print_field("costs", text);
 }
 
+static void print_ceilings(const struct rg_ceilings *ceilings)
+{
+    char text[200];
+    snprintf(text, sizeof(text), "copies %.1f GB/s in memory, %.1f GB/s in cache; %.1f Gop/s",
+             ceilings->memory_gb_s, ceilings->cache_gb_s, ceilings->arithmetic_gop_s);
+    print_field("ceilings", text);
+}
+
 static void print_arithmetic(const struct rg_examination *e)
 {
     char text[200];
@@ -158,6 +166,8 @@ static void print_device(const struct rg_examination *e)
         print_arithmetic(e);
     if (e->audited)
         print_timer(&e->timer);
+    if (e->measured)
+        print_ceilings(&e->ceilings);
     if (*e->why) {
         snprintf(text, sizeof(text), "%s: %s", rg_examination_status_name(e->status), e->why);
         print_field("PROBLEM", text);
