@@ -36,10 +36,19 @@ RG_FN rgba rg_fetched_RGBA8(rgba c)
 
 // --- RGBA16F: half floats, 2 words a texel. Subnormal halves are stored as zero. ---
 
+// The magnitude that a half can hold, cut off, as a float's bits: at most 65504, and so for what is
+// no number.
+RG_FN uint rg_half_magnitude(uint float_bits)
+{
+    uint magnitude = float_bits & 0x7fffffffu;
+    return magnitude < 0x477fe000u ? magnitude & 0xffffe000u : 0x477fe000u;
+}
+
 RG_FN float rg_rounded_half(float v)
 {
-    float kept = rg_bits_float(rg_float_bits(rg_clamp(v, -65504.0f, 65504.0f)) & 0xffffe000u);
-    return rg_abs(kept) < 6.103515625e-5f ? 0.0f : kept;
+    uint bits = rg_float_bits(v);
+    uint magnitude = rg_half_magnitude(bits);
+    return magnitude < 0x38800000u ? 0.0f : rg_bits_float(magnitude | (bits & 0x80000000u));
 }
 
 RG_FN rgba rg_rounded_RGBA16F(rgba c)
@@ -53,11 +62,13 @@ RG_FN rgba rg_fetched_RGBA16F(rgba c)
     return c;
 }
 
-RG_FN uint rg_pack_half(float rounded)
+// The bits of rg_rounded_half(v) as a half.
+RG_FN uint rg_pack_half(float v)
 {
-    uint bits = rg_float_bits(rounded);
-    uint magnitude = bits & 0x7fffffffu;
-    return ((bits >> 16) & 0x8000u) | (magnitude == 0u ? 0u : (magnitude >> 13) - 0x1c000u);
+    uint bits = rg_float_bits(v);
+    uint magnitude = rg_half_magnitude(bits);
+    uint half_bits = ((magnitude >> 13) - 0x1c000u) | ((bits >> 16) & 0x8000u);
+    return magnitude < 0x38800000u ? 0u : half_bits;
 }
 
 RG_FN float rg_unpack_half(uint half_bits)

@@ -124,7 +124,7 @@ typedef struct rg_ctx {
     RG_PROC void name##_store(rg_ctx rg, int x, int y, int layer, rgba c)                          \
     {                                                                                              \
         int i = rg_first_level_word(rg.name##_shape, x, y, layer, RG_WORDS_##F);                   \
-        rg_store_##F(rg.name, RG_INDEX(rg, name, i), rg_rounded_##F(c));                           \
+        rg_store_##F(rg.name, RG_INDEX(rg, name, i), c);                                           \
     }
 
 RG_SLOTS
