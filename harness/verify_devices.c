@@ -332,6 +332,9 @@ static void report(struct rg_verify *v, const struct row *row, int check)
                       t->failed, t->runs, t->first);
     else if (t->errors)
         rg_checks_add(v->checks, technique, name, device, RG_STATUS_ERROR, "%s", t->first);
+    else if (!t->runs)
+        rg_checks_add(v->checks, technique, name, device, RG_STATUS_ERROR,
+                      "not run: %s, which it is compared with, failed", v->reference->info.name);
     else if (check >= LAWS)
         rg_checks_add(v->checks, technique, name, device, RG_STATUS_OK,
                       "holds after %d runs of %d steps", t->runs, v->steps);
