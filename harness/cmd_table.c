@@ -104,6 +104,8 @@ static int table(const struct rg_options *o)
         exit = run_table(rg_tables[i], &devices, o);
     for (int i = 0; exit == RG_EXIT_PASS && i < o->arg_count; i++)
         exit = run_table(rg_table_find(o->args[i]), &devices, o);
+    if (exit == RG_EXIT_PASS && devices.broken_count)
+        exit = RG_EXIT_FAIL;
     rg_devices_close(&devices);
     return exit;
 }

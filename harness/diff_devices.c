@@ -136,10 +136,13 @@ int rg_diff_devices(const struct rg_options *options)
     struct rg_devices devices = {0};
     int exit = s->technique ? rg_devices_open(options, "all", &devices) : RG_EXIT_USAGE;
     if (exit == RG_EXIT_PASS && devices.count < 2) {
-        rg_error("--device %s: a comparison takes two devices", options->device);
+        rg_error("--device %s: a comparison takes two devices",
+                 options->device ? options->device : "all");
         exit = RG_EXIT_USAGE;
     } else if (exit == RG_EXIT_PASS) {
         exit = take_pictures(s, &devices) ? compare_all(s) : RG_EXIT_USAGE;
+        if (exit == RG_EXIT_PASS && devices.broken_count)
+            exit = RG_EXIT_FAIL;
     }
     for (int i = 0; i < s->shot_count; i++)
         rg_picture_destroy(&s->shots[i].picture);

@@ -248,9 +248,20 @@ static int exit_of(enum rg_open_status status)
     return exits[status];
 }
 
+static void note_broken(struct rg_devices *devices, const char *name)
+{
+    struct rg_broken_device *broken = &devices->broken[devices->broken_count++];
+    snprintf(broken->name, sizeof(broken->name), "%s", name);
+    snprintf(broken->why, sizeof(broken->why), "%.255s", rg_last_error());
+}
+
 static int open_all(struct rg_devices *devices)
 {
     struct rg_device_list *list = malloc(sizeof(*list));
+    if (!list) {
+        rg_error("no memory for the list of devices");
+        return RG_EXIT_FAIL;
+    }
     rg_device_list_all(list);
     memcpy(devices->missing, list->missing, sizeof(devices->missing));
     for (int i = 0; list->missing[i][0]; i++)
@@ -259,6 +270,8 @@ static int open_all(struct rg_devices *devices)
         struct rg_device *device = rg_device_open(list->infos[i].name, NULL);
         if (device)
             devices->devices[devices->count++] = device;
+        else
+            note_broken(devices, list->infos[i].name);
     }
     free(list);
     return devices->count ? RG_EXIT_PASS : RG_EXIT_UNSUPPORTED;
