@@ -60,8 +60,9 @@ static int part(int64_t count, int index, int parts)
     return (int)(count * index / parts);
 }
 
-// The block of one thread: a band of the longest axis, the same band in every pass of equal size,
-// so that what a core wrote is still in its cache when it reads it.
+// The block of one thread: a band of rows, of layers where there are fewer rows than blocks, or of
+// columns; the same band in every pass of equal size, so that what a core wrote is still in its
+// cache when it reads it.
 static struct cpu_call block(const struct cpu_call *call, const struct rg_extent *extent, int index,
                              int blocks)
 {

@@ -73,7 +73,7 @@ void rg_environment_fill(struct rg_environment *environment, rg_light_fn fn, con
 
 struct rg_environment *rg_environment_halve(const struct rg_environment *environment)
 {
-    const int size = environment->size > 1 ? environment->size / 2 : 1;
+    const int size = environment->size / 2;
     struct rg_environment *half = rg_environment_create(size);
     for (int face = 0; face < 6; face++) {
         for (int y = 0; y < size; y++) {

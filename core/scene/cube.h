@@ -20,8 +20,8 @@ void rg_environment_close_borders(struct rg_environment *environment);
 typedef void (*rg_light_fn)(const double direction[3], const void *user, double light[3]);
 void rg_environment_fill(struct rg_environment *environment, rg_light_fn fn, const void *user);
 
-// The same at half the size, each texel the mean of four; of a size below 2, a copy. The caller
-// destroys it.
+// The same at half the size, each texel the mean of four; an odd last row or column is left out.
+// From size 2 on. The caller destroys it.
 struct rg_environment *rg_environment_halve(const struct rg_environment *environment);
 
 // All six faces resampled to size_px^2 texels of RG11B10F each: halved while they are twice as
