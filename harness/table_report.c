@@ -108,6 +108,8 @@ static void add_row(const struct rg_table_run *run, struct rg_grid *grid, int ro
     const struct rg_table_row *printed = &run->table->rows[row];
     const struct rg_cell *cell = rg_table_cell(run, row, device);
     char(*cells)[RG_GRID_CELL] = rg_grid_row(grid);
+    if (!cells)
+        return;
     snprintf(cells[AXIS], RG_GRID_CELL, "%.10g", printed->axis);
     snprintf(cells[PUBLISHED], RG_GRID_CELL, "%.10g", printed->fps);
     snprintf(cells[DEVICE], RG_GRID_CELL, "%s", cell->device->info.name);
