@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 #include "core/techniques/proof.h"
 #include "harness/diff_report.h"
@@ -130,7 +131,9 @@ static int compare_all(struct session *s)
 
 int rg_diff_devices(const struct rg_options *options)
 {
-    struct session *s = calloc(1, sizeof(*s));
+    struct session *s = rg_alloc(1, sizeof(*s), "diff");
+    if (!s)
+        return RG_EXIT_FAIL;
     s->options = options;
     s->technique = rg_options_technique(options, &s->settings);
     struct rg_devices devices = {0};

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/image/compare.h"
+#include "core/alloc.h"
 #include "core/log.h"
 #include "harness/frame.h"
 #include "harness/snapshot.h"
@@ -361,7 +362,12 @@ static int list_rows(const struct rg_verify *v, struct row *rows)
 
 void rg_verify_devices(struct rg_verify *v)
 {
-    struct row *rows = calloc(RG_MAX_DEVICES + 1, sizeof(*rows));
+    struct row *rows = rg_alloc(RG_MAX_DEVICES + 1, sizeof(*rows), "verify");
+    if (!rows) {
+        rg_checks_add(v->checks, v->technique->name, "state", v->reference->info.name,
+                      RG_STATUS_ERROR, "%s", rg_last_error());
+        return;
+    }
     const int count = list_rows(v, rows);
     const char *const *poses = v->technique->proof->poses;
     for (int pose = 0; poses[pose]; pose++) {
