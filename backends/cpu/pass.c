@@ -3,6 +3,7 @@
 #include <omp.h>
 #include <stdlib.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 
 struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
@@ -11,7 +12,9 @@ struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel
     int count = rg_kernel_all(&all), index = 0;
     while (index < count && all[index] != kernel)
         index++;
-    struct cpu_pass *pass = calloc(1, sizeof(*pass));
+    struct cpu_pass *pass = rg_alloc(1, sizeof(*pass), kernel->name);
+    if (!pass)
+        return NULL;
     pass->function = ((struct cpu_device *)device)->kernels[index];
     return &pass->pub;
 }
