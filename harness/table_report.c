@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "harness/passport.h"
+#include "harness/timer_audit.h"
 
 static double fps_of(const struct rg_cell *cell)
 {
@@ -99,7 +100,7 @@ static void fill_measured(char (*cells)[RG_GRID_CELL], const struct rg_cell *cel
     if (reference && reference->status == RG_CELL_OK)
         snprintf(cells[TIMES], RG_GRID_CELL, "%.1f", fps_of(cell) / fps_of(reference));
     snprintf(cells[FIRST], RG_GRID_CELL, "%.1f", cell->first_frame_ms);
-    const bool trusted = cell->api_over_wall >= 0.8 && cell->api_over_wall <= 1.05;
+    const bool trusted = rg_timer_is_trusted(cell->api_over_wall);
     snprintf(cells[API], RG_GRID_CELL, "%.2f%s", cell->api_over_wall, trusted ? "" : " untrusted");
 }
 
