@@ -6,6 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 
 // Refuses a call: `if (!check) return refuse(...)`, one line that names object and number.
@@ -156,11 +157,14 @@ struct rg_device *rg_device_open(const char *name, enum rg_open_status *status)
                  name, backend->name);
         return open_failed(status, RG_OPEN_UNKNOWN);
     }
-    struct rg_device *device = backend->create(index);
-    if (!device)
+    struct rg_work *work = rg_alloc(1, sizeof(*work), name);
+    struct rg_device *device = work ? backend->create(index) : NULL;
+    if (!device) {
+        free(work);
         return open_failed(status, RG_OPEN_FAILED);
+    }
     device->backend = backend;
-    device->work = calloc(1, sizeof(*device->work));
+    device->work = work;
     *status = RG_OPEN_OK;
     return device;
 }

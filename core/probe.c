@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
 #include "core/device.h"
 #include "kernels/probe_ops_params.h"
 
@@ -293,8 +294,8 @@ static bool probe_list(struct rg_device *device, struct rg_device *reference, bo
 bool rg_probe_run(struct rg_device *device, struct rg_probe_result results[RG_PROBE_COUNT])
 {
     struct rg_device *reference = rg_device_open("cpu:reference", NULL);
-    struct workspace *work = calloc(1, sizeof(*work));
-    bool ok = reference && probe_list(device, reference, false, work, results) &&
+    struct workspace *work = rg_alloc(1, sizeof(*work), "probe");
+    bool ok = reference && work && probe_list(device, reference, false, work, results) &&
               probe_list(device, reference, true, work, results + RG_PROBE_OP_COUNT);
     free(work);
     return rg_device_close(reference) && ok;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "core/device.h"
+#include "core/alloc.h"
 #include "core/log.h"
 #include "kernels/scan_params.h"
 
@@ -42,7 +43,9 @@ struct rg_scan *rg_scan_create(struct rg_device *device, int max_count)
 {
     if (max_count < 1 || max_count > MAX_COUNT)
         return rg_error_null("scan: %d elements; at least 1 and at most %d", max_count, MAX_COUNT);
-    struct rg_scan *scan = calloc(1, sizeof(*scan));
+    struct rg_scan *scan = rg_alloc(1, sizeof(*scan), "scan");
+    if (!scan)
+        return NULL;
     scan->device = device;
     scan->max_count = max_count;
     const unsigned zero = 0;

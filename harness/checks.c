@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/log.h"
 #include "harness/command.h"
 
 static const char *const names[] = {"ok", "fail", "unsupported", "error"};
@@ -13,8 +14,13 @@ static const char *const names[] = {"ok", "fail", "unsupported", "error"};
 void rg_checks_add(struct rg_checks *checks, const char *technique, const char *check,
                    const char *device, enum rg_status status, const char *format, ...)
 {
-    checks->rows = realloc(checks->rows, (size_t)(checks->count + 1) * sizeof(*checks->rows));
-    struct rg_check *row = &checks->rows[checks->count++];
+    struct rg_check *rows = realloc(checks->rows, (size_t)(checks->count + 1) * sizeof(*rows));
+    if (!rows) {
+        checks->incomplete = !rg_error("%s on %s: no memory for its result", check, device);
+        return;
+    }
+    checks->rows = rows;
+    struct rg_check *row = &rows[checks->count++];
     memset(row, 0, sizeof(*row));
     row->status = status;
     snprintf(row->technique, sizeof(row->technique), "%s", technique);
@@ -76,7 +82,7 @@ int rg_checks_exit(const struct rg_checks *checks)
     int counts[4] = {0};
     for (int i = 0; i < checks->count; i++)
         counts[checks->rows[i].status]++;
-    if (counts[RG_STATUS_FAIL] || counts[RG_STATUS_ERROR])
+    if (counts[RG_STATUS_FAIL] || counts[RG_STATUS_ERROR] || checks->incomplete)
         return RG_EXIT_FAIL;
     if (counts[RG_STATUS_OK])
         return RG_EXIT_PASS;

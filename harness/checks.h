@@ -16,6 +16,7 @@ struct rg_check {
 struct rg_checks {
     int count;
     struct rg_check *rows;
+    bool incomplete; // a result was lost for want of memory, which one logged line said
 };
 
 void rg_checks_add(struct rg_checks *checks, const char *technique, const char *check,
@@ -25,7 +26,8 @@ void rg_checks_add(struct rg_checks *checks, const char *technique, const char *
 // To stdout: a line a check, or one JSON object {"format":1, "checks":[...]}.
 void rg_checks_print(const struct rg_checks *checks, bool json);
 
-// An enum rg_exit: failed or in error, nothing but unsupported, nothing at all, or passed.
+// An enum rg_exit: failed, in error or incomplete, nothing but unsupported, nothing at all, or
+// passed.
 int rg_checks_exit(const struct rg_checks *checks);
 
 void rg_checks_free(struct rg_checks *checks);

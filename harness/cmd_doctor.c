@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 #include "harness/command.h"
 #include "harness/doctor/report.h"
@@ -104,9 +105,11 @@ static int run(struct rg_doctor_report *report, const struct rg_options *o)
 
 static int doctor(const struct rg_options *o)
 {
-    struct rg_doctor_report *report = calloc(1, sizeof(*report));
-    report->examinations = calloc(RG_MAX_DEVICES, sizeof(*report->examinations));
-    int exit = run(report, o);
+    struct rg_doctor_report *report = rg_alloc(1, sizeof(*report), "report");
+    if (!report)
+        return RG_EXIT_FAIL;
+    report->examinations = rg_alloc(RG_MAX_DEVICES, sizeof(*report->examinations), "report");
+    int exit = report->examinations ? run(report, o) : RG_EXIT_FAIL;
     json_decref(report->passport);
     json_decref(report->warnings);
     free(report->examinations);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 #include "harness/command.h"
 #include "harness/tables/tables.h"
@@ -51,9 +52,11 @@ static json_t *list_tables(void)
 
 static json_t *list_devices(void)
 {
-    struct rg_device_list *list = malloc(sizeof(*list));
-    rg_device_list_all(list);
     json_t *rows = json_array();
+    struct rg_device_list *list = rg_alloc(1, sizeof(*list), "list of devices");
+    if (!list)
+        return rows;
+    rg_device_list_all(list);
     for (int i = 0; i < list->count; i++)
         json_array_append_new(rows, json_pack("{ssssssss}", "name", list->infos[i].name, "api",
                                               list->infos[i].api, "device", list->infos[i].device,
@@ -68,7 +71,7 @@ static json_t *list_params(const struct rg_technique *technique)
 {
     json_t *rows = json_array();
     void *settings = rg_settings_create(technique);
-    for (int i = 0; i < technique->params->count; i++) {
+    for (int i = 0; settings && i < technique->params->count; i++) {
         const struct rg_param *p = &technique->params->rows[i];
         char value[RG_PATH_SIZE], range[128];
         rg_params_text(p, settings, value, sizeof(value));

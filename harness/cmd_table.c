@@ -15,11 +15,12 @@ static void print_json(const struct rg_table_run *run, FILE *out)
     json_decref(json);
 }
 
-static void print_as(const struct rg_table_run *run, const char *format, FILE *out)
+// False, and one logged line, when the table found no memory.
+static bool print_as(const struct rg_table_run *run, const char *format, FILE *out)
 {
     if (!strcmp(format, "json")) {
         print_json(run, out);
-        return;
+        return true;
     }
     struct rg_grid grid;
     rg_table_grid(run, &grid);
@@ -30,6 +31,23 @@ static void print_as(const struct rg_table_run *run, const char *format, FILE *o
     else
         rg_grid_print_md(&grid, out);
     rg_grid_free(&grid);
+    return !grid.incomplete;
+}
+
+static bool write_as(const struct rg_table_run *run, const char *format, const char *folder)
+{
+    char *text = NULL, name[64];
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return rg_error("table '%s': no memory to print it", run->table->id);
+    bool ok = print_as(run, format, out);
+    if (fclose(out))
+        ok = rg_error("table '%s': no memory to print it", run->table->id);
+    snprintf(name, sizeof(name), "%s.%s", run->table->id, format);
+    ok = ok && rg_output_write(folder, name, text);
+    free(text);
+    return ok;
 }
 
 // Writes the table in every format into a folder.
@@ -37,16 +55,8 @@ static bool write_all(const struct rg_table_run *run, const char *folder)
 {
     static const char *const formats[] = {"md", "csv", "json", "tex"};
     bool ok = true;
-    for (int i = 0; ok && i < 4; i++) {
-        char *text = NULL, name[64];
-        size_t size;
-        FILE *out = open_memstream(&text, &size);
-        print_as(run, formats[i], out);
-        fclose(out);
-        snprintf(name, sizeof(name), "%s.%s", run->table->id, formats[i]);
-        ok = rg_output_write(folder, name, text);
-        free(text);
-    }
+    for (int i = 0; ok && i < 4; i++)
+        ok = write_as(run, formats[i], folder);
     return ok;
 }
 
@@ -77,7 +87,8 @@ static int run_table(const struct rg_table *table, const struct rg_devices *devi
     int exit = RG_EXIT_FAIL;
     if (rg_table_measure(&run)) {
         exit = judge(&run);
-        print_as(&run, o->json ? "json" : o->format ? o->format : "md", stdout);
+        if (!print_as(&run, o->json ? "json" : o->format ? o->format : "md", stdout))
+            exit = RG_EXIT_FAIL;
         fflush(stdout);
         if (o->output && !write_all(&run, o->output))
             exit = RG_EXIT_USAGE;
@@ -104,6 +115,8 @@ static int table(const struct rg_options *o)
         exit = run_table(rg_tables[i], &devices, o);
     for (int i = 0; exit == RG_EXIT_PASS && i < o->arg_count; i++)
         exit = run_table(rg_table_find(o->args[i]), &devices, o);
+    if (exit == RG_EXIT_PASS && devices.broken_count)
+        exit = RG_EXIT_FAIL;
     rg_devices_close(&devices);
     return exit;
 }

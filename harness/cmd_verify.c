@@ -51,6 +51,16 @@ static struct rg_device *find_or_open(const struct rg_devices *devices, const ch
     return *extra = rg_device_open(name, NULL);
 }
 
+// A driver that is there and does not open its device is no lack, but a failure.
+static void note_broken(const struct rg_devices *devices, const struct subject *subjects, int count,
+                        struct rg_checks *checks)
+{
+    for (int s = 0; s < count; s++)
+        for (int i = 0; i < devices->broken_count; i++)
+            rg_checks_add(checks, subjects[s].technique->name, "device", devices->broken[i].name,
+                          RG_STATUS_ERROR, "%s", devices->broken[i].why);
+}
+
 // What the machine lacks is said, not passed over.
 static void note_missing(const struct rg_devices *devices, const struct subject *subjects,
                          int count, struct rg_checks *checks)
@@ -104,6 +114,7 @@ static int verify_on(const struct rg_options *o, const struct rg_devices *device
     int exit = RG_EXIT_UNSUPPORTED;
     if (v.reference && v.mutant_device) {
         note_missing(devices, subjects, count, &checks);
+        note_broken(devices, subjects, count, &checks);
         verify_all(&v, subjects, count);
         rg_checks_print(&checks, o->json);
         exit = rg_checks_exit(&checks);

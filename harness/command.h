@@ -78,11 +78,16 @@ void *rg_options_settings(const struct rg_options *options, const struct rg_tech
 
 // The devices that --device names, or `fallback` where it is absent: "all", or names separated by
 // commas. Opened, in order. A name that is unknown is bad usage; a driver that is absent is
-// unsupported, and skipped with its line when the list was "all". Returns an enum rg_exit.
+// unsupported, and skipped with its line when the list was "all". So is one that is there and does
+// not open, which the command reports as a failure. Returns an enum rg_exit.
 struct rg_devices {
     int count;
     struct rg_device *devices[RG_MAX_DEVICES];
     char missing[8][256]; // with "all": one line a backend without a device, "" after the last
+    int broken_count;     // with "all": devices that are listed and do not open
+    struct rg_broken_device {
+        char name[32], why[256];
+    } broken[RG_MAX_DEVICES];
 };
 int rg_devices_open(const struct rg_options *options, const char *fallback,
                     struct rg_devices *devices);

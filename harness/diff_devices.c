@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 #include "core/techniques/proof.h"
 #include "harness/diff_report.h"
@@ -130,16 +131,21 @@ static int compare_all(struct session *s)
 
 int rg_diff_devices(const struct rg_options *options)
 {
-    struct session *s = calloc(1, sizeof(*s));
+    struct session *s = rg_alloc(1, sizeof(*s), "diff");
+    if (!s)
+        return RG_EXIT_FAIL;
     s->options = options;
     s->technique = rg_options_technique(options, &s->settings);
     struct rg_devices devices = {0};
     int exit = s->technique ? rg_devices_open(options, "all", &devices) : RG_EXIT_USAGE;
     if (exit == RG_EXIT_PASS && devices.count < 2) {
-        rg_error("--device %s: a comparison takes two devices", options->device);
+        rg_error("--device %s: a comparison takes two devices",
+                 options->device ? options->device : "all");
         exit = RG_EXIT_USAGE;
     } else if (exit == RG_EXIT_PASS) {
         exit = take_pictures(s, &devices) ? compare_all(s) : RG_EXIT_USAGE;
+        if (exit == RG_EXIT_PASS && devices.broken_count)
+            exit = RG_EXIT_FAIL;
     }
     for (int i = 0; i < s->shot_count; i++)
         rg_picture_destroy(&s->shots[i].picture);

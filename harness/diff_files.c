@@ -8,9 +8,8 @@ enum { SAME = 0, DIFFERS = 1, BAD_INPUT = 2 };
 static bool print_json(const struct rg_diff_request *request,
                        const struct rg_comparison *comparison)
 {
-    json_t *pairs = json_array();
-    json_array_append_new(pairs, rg_pair_json(request->a, request->b, comparison));
-    return rg_pairs_print_json(pairs);
+    json_t *pair = rg_pair_json(request->a, request->b, comparison);
+    return pair && rg_pairs_print_json(json_pack("[o]", pair));
 }
 
 int rg_diff_files(const struct rg_diff_request *request)

@@ -118,7 +118,7 @@ static json_t *metrics_json(const struct rg_metrics *m)
 json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *c)
 {
     const struct rg_flip *f = &c->flip;
-    return json_pack(
+    json_t *pair = json_pack(
         "{s:s, s:s, s:s, s:i, s:I, s:I, s:f, s:o, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:o, "
         "s:o}",
         "a", a, "b", b, "tier", c->tier, "max", c->tiers.max_codes, "differing",
@@ -128,6 +128,10 @@ json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *c
         "flip_mask_p99", f->mask_p99, "exposure", (double)c->exposure, "pixels_per_degree",
         (double)c->pixels_per_degree, "relative_mean", c->tiers.relative_mean, "tiers",
         tiers_json(&c->tiers), "linear", metrics_json(&c->metrics));
+    if (!pair)
+        return rg_error_null("diff --json: '%s' or '%s' is not UTF-8; give the file another name",
+                             a, b);
+    return pair;
 }
 
 bool rg_pairs_print_json(json_t *pairs)
@@ -136,7 +140,7 @@ bool rg_pairs_print_json(json_t *pairs)
     bool good = all && json_dumpf(all, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0;
     printf("\n");
     json_decref(all);
-    return good || rg_error("diff --json: a name is not UTF-8");
+    return good || rg_error("standard output: cannot be written; is the disk full?");
 }
 
 // Draws `values` and writes them as PREFIX-name.png.

@@ -11,9 +11,11 @@
 // Every figure of a pair, to stdout.
 void rg_pair_print(const char *a, const char *b, const struct rg_comparison *comparison);
 
-// The same for machines (docs/records.md); the caller owns it. NULL when a name is not UTF-8.
+// The same for machines (docs/records.md); the caller owns it. NULL, and one logged
+// line, when a name is not UTF-8.
 json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *comparison);
-// Prints an array of pairs with its format number, and frees it.
+// Prints an array of pairs with its format number, and frees it. False, and one logged line, on
+// failure.
 bool rg_pairs_print_json(json_t *pairs);
 
 // Writes PREFIX-flip.png and PREFIX-difference.png. False, and one logged line, on failure.

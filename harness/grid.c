@@ -4,18 +4,41 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/log.h"
+
+// `array` with room for one element more; NULL, with the array as it was, without memory for it.
+static void *grow(struct rg_grid *grid, void *array, int count, int *capacity, size_t size)
+{
+    if (count < *capacity)
+        return array;
+    const int wanted = *capacity ? *capacity * 2 : 16;
+    void *grown = realloc(array, (size_t)wanted * size);
+    if (!grown) {
+        grid->incomplete = !rg_error("table '%s': no memory for %d rows", grid->title, wanted);
+        return NULL;
+    }
+    *capacity = wanted;
+    return grown;
+}
+
 char (*rg_grid_row(struct rg_grid *grid))[RG_GRID_CELL]
 {
-    if (grid->row_count == grid->row_capacity) {
-        grid->row_capacity = grid->row_capacity ? grid->row_capacity * 2 : 16;
-        grid->cells = realloc(grid->cells, (size_t)grid->row_capacity * sizeof(*grid->cells));
-    }
+    void *cells =
+        grow(grid, grid->cells, grid->row_count, &grid->row_capacity, sizeof(*grid->cells));
+    if (!cells)
+        return NULL;
+    grid->cells = cells;
     memset(grid->cells[grid->row_count], 0, sizeof(*grid->cells));
     return grid->cells[grid->row_count++];
 }
 
 void rg_grid_note(struct rg_grid *grid, const char *format, ...)
 {
+    void *notes =
+        grow(grid, grid->notes, grid->note_count, &grid->note_capacity, sizeof(*grid->notes));
+    if (!notes)
+        return;
+    grid->notes = notes;
     va_list args;
     va_start(args, format);
     vsnprintf(grid->notes[grid->note_count++], sizeof(grid->notes[0]), format, args);
@@ -25,6 +48,7 @@ void rg_grid_note(struct rg_grid *grid, const char *format, ...)
 void rg_grid_free(struct rg_grid *grid)
 {
     free(grid->cells);
+    free(grid->notes);
 }
 
 // --- Markdown, with columns aligned for those who read it as text ---

@@ -2,9 +2,10 @@
 #ifndef RG_HARNESS_GRID_H
 #define RG_HARNESS_GRID_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
-enum { RG_GRID_COLUMNS = 16, RG_GRID_CELL = 64 };
+enum { RG_GRID_COLUMNS = 16, RG_GRID_CELL = 64, RG_GRID_NOTE = 400 };
 
 struct rg_grid {
     const char *title;
@@ -12,11 +13,12 @@ struct rg_grid {
     const char *columns[RG_GRID_COLUMNS];
     int row_count, row_capacity;
     char (*cells)[RG_GRID_COLUMNS][RG_GRID_CELL]; // owned
-    int note_count;
-    char notes[32][400]; // printed below, in Markdown and LaTeX
+    int note_count, note_capacity;
+    char (*notes)[RG_GRID_NOTE]; // owned; printed below, in Markdown and LaTeX
+    bool incomplete;             // what was added found no memory, which one logged line said
 };
 
-// Adds a row of empty cells and returns them.
+// Adds a row of empty cells and returns them; NULL without memory for it.
 char (*rg_grid_row(struct rg_grid *grid))[RG_GRID_CELL];
 void rg_grid_note(struct rg_grid *grid, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

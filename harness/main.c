@@ -57,7 +57,8 @@ static void spin_briefly(char **argv)
     if (getenv("GOMP_SPINCOUNT") || getenv("OMP_WAIT_POLICY"))
         return;
     if (!setenv("GOMP_SPINCOUNT", "8000", 0))
-        execv("/proc/self/exe", argv); // where that fails, it runs as it is
+        execv("/proc/self/exe", argv);
+    unsetenv("GOMP_SPINCOUNT"); // it could not: the passport must not claim what libgomp never read
 }
 
 int main(int argc, char **argv)

@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "core/image/compare.h"
+#include "core/alloc.h"
 #include "core/log.h"
 #include "harness/frame.h"
 #include "kernels/rng.h"
@@ -134,7 +135,9 @@ static void calibrate(struct rg_cell *cell, const struct rg_measure_options *opt
 {
     const double ms = fmin(time_frames(cell, 2), time_frames(cell, 2));
     cell->frames_a_sample = (int)fmin(fmax(ceil(options->sample_ms / ms), 1), 100000);
-    cell->samples_ms = calloc((size_t)options->samples, sizeof(double));
+    cell->samples_ms = rg_alloc((size_t)options->samples, sizeof(double), "samples");
+    if (!cell->samples_ms)
+        end_cell(cell, RG_CELL_ERROR, rg_last_error());
 }
 
 // Shuffled by the project's own generator, so that a run's order can be had again.
@@ -155,28 +158,32 @@ static void take_sample(struct rg_cell *cell)
     cell->samples_ms[cell->sample_count++] = time_frames(cell, cell->frames_a_sample);
 }
 
-static void audit_timer(struct rg_cell *cell)
+// False when the frames failed; a device without a timer is none of that.
+static bool audit_timer(struct rg_cell *cell)
 {
     int64_t begin, end;
     if (!rg_device_time(cell->device, &begin))
-        return;
+        return true;
     const double start = rg_now_ms();
-    run_frames(cell, cell->frames_a_sample);
+    if (!run_frames(cell, cell->frames_a_sample))
+        return false;
     const double wall_ms = rg_now_ms() - start;
     if (rg_device_time(cell->device, &end))
         cell->api_over_wall = (double)(end - begin) * 1e-6 / wall_ms;
+    return true;
 }
 
 struct pass_clock {
     struct rg_cell *cell;
     double last_ms;
+    bool ok;
 };
 
 static void after_pass(const char *name, void *user)
 {
     struct pass_clock *clock = user;
     struct rg_cell *cell = clock->cell;
-    rg_device_sync(cell->device);
+    clock->ok = rg_device_sync(cell->device) && clock->ok;
     const double now = rg_now_ms();
     int i = 0;
     while (i < cell->pass_count && strcmp(cell->passes[i].name, name))
@@ -189,29 +196,36 @@ static void after_pass(const char *name, void *user)
     clock->last_ms = now;
 }
 
-static void measure_passes(struct rg_cell *cell)
+static bool measure_passes(struct rg_cell *cell)
 {
-    struct pass_clock clock = {cell, rg_now_ms()};
+    struct pass_clock clock = {cell, rg_now_ms(), true};
     cell->instance->after_pass = after_pass;
     cell->instance->user = &clock;
-    run_frames(cell, PASS_FRAMES);
+    const bool ok = run_frames(cell, PASS_FRAMES);
     cell->instance->after_pass = NULL;
+    return ok && clock.ok;
 }
 
 static void finish(struct rg_cell *cell)
 {
-    double *sorted = malloc((size_t)cell->sample_count * sizeof(double));
+    double *sorted = rg_alloc((size_t)cell->sample_count, sizeof(double), "samples");
+    if (!sorted) {
+        end_cell(cell, RG_CELL_ERROR, rg_last_error());
+        return;
+    }
     memcpy(sorted, cell->samples_ms, (size_t)cell->sample_count * sizeof(double));
     cell->frame_ms = rg_median(sorted, cell->sample_count);
     free(sorted);
-    audit_timer(cell);
-    measure_passes(cell);
+    if (!audit_timer(cell) || !measure_passes(cell))
+        end_cell(cell, RG_CELL_ERROR, rg_last_error());
 }
 
 void rg_cells_measure(struct rg_cell *cells, int count, const struct rg_measure_options *options)
 {
-    int *order = malloc((size_t)count * sizeof(int)), ready = 0;
+    int *order = rg_alloc((size_t)count, sizeof(int), "cells"), ready = 0;
     for (int i = 0; i < count; i++) {
+        if (cells[i].status == RG_CELL_OK && !order)
+            end_cell(&cells[i], RG_CELL_ERROR, rg_last_error());
         if (cells[i].status != RG_CELL_OK)
             continue;
         calibrate(&cells[i], options);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 
 enum { MAX_SIZE_PX = 16384 };
@@ -108,8 +109,8 @@ static bool take(int value, char *text, struct rg_options *o)
         return parse_rows(text, o);
     if (o->set_count == RG_MAX_SETS)
         return rg_error("--set %s: more than %d of them", text, RG_MAX_SETS);
-    o->sets[o->set_count++] = strdup(text);
-    return true;
+    o->sets[o->set_count] = strdup(text);
+    return o->sets[o->set_count++] || rg_error("--set %s: no memory for it", text);
 }
 
 static bool check(const struct rg_options *o, bool frame_given)
@@ -216,7 +217,7 @@ bool rg_options_at_most(const struct rg_options *o, const char *command, int arg
 void *rg_options_settings(const struct rg_options *o, const struct rg_technique *technique)
 {
     void *settings = rg_settings_create(technique);
-    for (int i = 0; i < o->set_count; i++) {
+    for (int i = 0; settings && i < o->set_count; i++) {
         if (!rg_params_set(technique->params, settings, o->sets[i])) {
             free(settings);
             return NULL;
@@ -248,9 +249,18 @@ static int exit_of(enum rg_open_status status)
     return exits[status];
 }
 
+static void note_broken(struct rg_devices *devices, const char *name)
+{
+    struct rg_broken_device *broken = &devices->broken[devices->broken_count++];
+    snprintf(broken->name, sizeof(broken->name), "%s", name);
+    snprintf(broken->why, sizeof(broken->why), "%.255s", rg_last_error());
+}
+
 static int open_all(struct rg_devices *devices)
 {
-    struct rg_device_list *list = malloc(sizeof(*list));
+    struct rg_device_list *list = rg_alloc(1, sizeof(*list), "list of devices");
+    if (!list)
+        return RG_EXIT_FAIL;
     rg_device_list_all(list);
     memcpy(devices->missing, list->missing, sizeof(devices->missing));
     for (int i = 0; list->missing[i][0]; i++)
@@ -259,6 +269,8 @@ static int open_all(struct rg_devices *devices)
         struct rg_device *device = rg_device_open(list->infos[i].name, NULL);
         if (device)
             devices->devices[devices->count++] = device;
+        else
+            note_broken(devices, list->infos[i].name);
     }
     free(list);
     return devices->count ? RG_EXIT_PASS : RG_EXIT_UNSUPPORTED;
@@ -267,8 +279,10 @@ static int open_all(struct rg_devices *devices)
 static int open_named(const char *names, struct rg_devices *devices)
 {
     char *copy = strdup(names), *rest = NULL;
-    int exit = RG_EXIT_PASS;
-    for (char *name = strtok_r(copy, ",", &rest); name && exit == RG_EXIT_PASS;
+    int exit = copy ? RG_EXIT_PASS : RG_EXIT_FAIL;
+    if (!copy)
+        rg_error("--device: no memory for its names");
+    for (char *name = !copy ? NULL : strtok_r(copy, ",", &rest); name && exit == RG_EXIT_PASS;
          name = strtok_r(NULL, ",", &rest)) {
         enum rg_open_status status = RG_OPEN_UNKNOWN;
         struct rg_device *device = NULL;

@@ -38,7 +38,9 @@ bool rg_output_write(const char *folder, const char *name, const char *text)
     if (mkdir(folder, 0777) && errno != EEXIST)
         return rg_error("%s: cannot be made: %s; name a folder that can be written", folder,
                         strerror(errno));
-    snprintf(path, sizeof(path), "%s/%s", folder, name);
+    if (snprintf(path, sizeof(path), "%s/%s", folder, name) >= (int)sizeof(path))
+        return rg_error("%.80s...: its name is too long; name a folder of at most %zu bytes",
+                        folder, sizeof(path) - strlen(name) - 2);
     snprintf(temporary, sizeof(temporary), "%s.XXXXXX", path);
     int fd = mkstemp(temporary);
     if (fd < 0)

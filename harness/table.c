@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 #include "harness/frame.h"
 #include "harness/progress.h"
@@ -46,7 +47,7 @@ static bool prepare_row(struct rg_table_run *run, int row, struct rg_progress *p
     void *settings = rg_settings_create(technique);
     run->settings[row - run->first_row] = settings;
     size_t size;
-    void *reference = rg_params_set(technique->params, settings, table->rows[row].set)
+    void *reference = settings && rg_params_set(technique->params, settings, table->rows[row].set)
                           ? make_reference(table, technique, settings, &size)
                           : NULL;
     if (!reference)
@@ -76,9 +77,12 @@ bool rg_table_measure(struct rg_table_run *run)
 {
     const int rows = run->last_row - run->first_row + 1;
     struct rg_measure_options options = run->full ? full : quick;
-    run->cell_count = rows * run->devices->count;
-    run->cells = calloc((size_t)run->cell_count, sizeof(*run->cells));
-    run->settings = calloc((size_t)rows, sizeof(*run->settings));
+    const int cells = rows * run->devices->count;
+    run->cells = rg_alloc((size_t)cells, sizeof(*run->cells), run->table->id);
+    run->settings = rg_alloc((size_t)rows, sizeof(*run->settings), run->table->id);
+    if (!run->cells || !run->settings)
+        return false;
+    run->cell_count = cells;
     struct rg_progress progress;
     rg_progress_start(&progress, run->cell_count + options.samples);
     rg_progress_label(&progress, "%s", run->table->id);

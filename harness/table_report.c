@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "harness/passport.h"
+#include "harness/timer_audit.h"
 
 static double fps_of(const struct rg_cell *cell)
 {
@@ -99,7 +100,7 @@ static void fill_measured(char (*cells)[RG_GRID_CELL], const struct rg_cell *cel
     if (reference && reference->status == RG_CELL_OK)
         snprintf(cells[TIMES], RG_GRID_CELL, "%.1f", fps_of(cell) / fps_of(reference));
     snprintf(cells[FIRST], RG_GRID_CELL, "%.1f", cell->first_frame_ms);
-    const bool trusted = cell->api_over_wall >= 0.8 && cell->api_over_wall <= 1.05;
+    const bool trusted = rg_timer_is_trusted(cell->api_over_wall);
     snprintf(cells[API], RG_GRID_CELL, "%.2f%s", cell->api_over_wall, trusted ? "" : " untrusted");
 }
 
@@ -108,6 +109,8 @@ static void add_row(const struct rg_table_run *run, struct rg_grid *grid, int ro
     const struct rg_table_row *printed = &run->table->rows[row];
     const struct rg_cell *cell = rg_table_cell(run, row, device);
     char(*cells)[RG_GRID_CELL] = rg_grid_row(grid);
+    if (!cells)
+        return;
     snprintf(cells[AXIS], RG_GRID_CELL, "%.10g", printed->axis);
     snprintf(cells[PUBLISHED], RG_GRID_CELL, "%.10g", printed->fps);
     snprintf(cells[DEVICE], RG_GRID_CELL, "%s", cell->device->info.name);

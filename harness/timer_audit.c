@@ -12,6 +12,11 @@ enum { REPETITIONS = 7, SYNCS = 51, DISPATCHES = 100, MAX_PASSES = 20000 };
 static const double load_ns = 50e6;
 static const double lowest_ratio = 0.8, highest_ratio = 1.05;
 
+bool rg_timer_is_trusted(double ratio)
+{
+    return ratio >= lowest_ratio && ratio <= highest_ratio;
+}
+
 struct load {
     struct rg_device *device;
     struct rg_buf *source, *target;
@@ -128,7 +133,7 @@ static bool audit_timer(struct load *load, struct rg_timer_audit *audit)
         return true;
     audit->api_ms = median(apis_ms, REPETITIONS);
     audit->ratio = median(ratios, REPETITIONS);
-    audit->trusted = audit->ratio >= lowest_ratio && audit->ratio <= highest_ratio;
+    audit->trusted = rg_timer_is_trusted(audit->ratio);
     return true;
 }
 

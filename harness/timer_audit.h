@@ -22,4 +22,7 @@ struct rg_timer_audit {
 // line, when the device failed. A timer that cannot be read is a result, not a failure.
 bool rg_timer_audit(struct rg_device *device, struct rg_timer_audit *audit);
 
+// Whether an API's time by wall clock is one that an honest timer gives: 0.8 to 1.05.
+bool rg_timer_is_trusted(double ratio);
+
 #endif

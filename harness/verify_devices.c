@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/image/compare.h"
+#include "core/alloc.h"
 #include "core/log.h"
 #include "harness/frame.h"
 #include "harness/snapshot.h"
@@ -332,6 +333,9 @@ static void report(struct rg_verify *v, const struct row *row, int check)
                       t->failed, t->runs, t->first);
     else if (t->errors)
         rg_checks_add(v->checks, technique, name, device, RG_STATUS_ERROR, "%s", t->first);
+    else if (!t->runs)
+        rg_checks_add(v->checks, technique, name, device, RG_STATUS_ERROR,
+                      "not run: %s, which it is compared with, failed", v->reference->info.name);
     else if (check >= LAWS)
         rg_checks_add(v->checks, technique, name, device, RG_STATUS_OK,
                       "holds after %d runs of %d steps", t->runs, v->steps);
@@ -358,7 +362,12 @@ static int list_rows(const struct rg_verify *v, struct row *rows)
 
 void rg_verify_devices(struct rg_verify *v)
 {
-    struct row *rows = calloc(RG_MAX_DEVICES + 1, sizeof(*rows));
+    struct row *rows = rg_alloc(RG_MAX_DEVICES + 1, sizeof(*rows), "verify");
+    if (!rows) {
+        rg_checks_add(v->checks, v->technique->name, "state", v->reference->info.name,
+                      RG_STATUS_ERROR, "%s", rg_last_error());
+        return;
+    }
     const int count = list_rows(v, rows);
     const char *const *poses = v->technique->proof->poses;
     for (int pose = 0; poses[pose]; pose++) {

@@ -24,16 +24,17 @@ int64_t rg_verify_mutant_work(const struct rg_verify *v)
     return runs * steps_of(v);
 }
 
-// The parameter's value as the mutant has it. False where that is out of its range.
+// The parameter's value as the mutant has it. False where that is out of its range, or the user's
+// own value: 1 % less of nothing is no mutant.
 static bool mutate(const struct rg_verify *v, const struct rg_mutant *mutant, char *text,
                    size_t size)
 {
     const struct rg_param *param = rg_params_find(v->technique->params, mutant->param);
     char value[RG_PATH_SIZE];
     rg_params_text(param, v->settings, value, sizeof(value));
-    const double mutated = strtod(value, NULL) * mutant->factor + mutant->offset;
+    const double own = strtod(value, NULL), mutated = own * mutant->factor + mutant->offset;
     snprintf(text, size, "%s=%.17g", mutant->param, mutated);
-    return mutated >= param->min && mutated <= param->max;
+    return mutated != own && mutated >= param->min && mutated <= param->max;
 }
 
 // The image of these settings, with `assignments` over them.

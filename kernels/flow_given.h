@@ -1,5 +1,5 @@
-// flow: what every texel gives away in this step (equation 3, with rain.md's single predicate for
-// giver and taker, so that nothing is lost between them).
+// flow: what every texel gives away in this step (equation 3, with one predicate for giver and
+// taker, so that nothing is lost between them).
 #include "flow.h"
 
 #define RG_PARAMS flow_params

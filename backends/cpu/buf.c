@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 
 void *cpu_alloc(size_t size)
@@ -13,7 +14,9 @@ void *cpu_alloc(size_t size)
 
 struct rg_buf *cpu_buf_create(struct rg_device *device, size_t size, const char *name)
 {
-    struct cpu_buf *buf = calloc(1, sizeof(*buf));
+    struct cpu_buf *buf = rg_alloc(1, sizeof(*buf), name);
+    if (!buf)
+        return NULL;
     buf->data = cpu_alloc(size);
     if (!buf->data) {
         free(buf);

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 
 enum { INDEX_CPU, INDEX_REFERENCE, CPU_DEVICES };
@@ -104,7 +105,9 @@ static struct rg_device *cpu_create(int index)
         return rg_error_null(
             "device 'cpu': this thread rounds or flushes floats in another way than "
             "IEEE 754's default; start raingauge without such settings");
-    struct cpu_device *device = calloc(1, sizeof(*device));
+    struct cpu_device *device = rg_alloc(1, sizeof(*device), "device 'cpu'");
+    if (!device)
+        return NULL;
     describe(index, &device->pub.info);
     device->reference = index == INDEX_REFERENCE;
     device->kernels = device->reference ? cpu_levels[0].kernels : choose_level()->kernels;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/device.h"
+#include "core/alloc.h"
 #include "core/log.h"
 
 struct rg_image *cpu_image_create(struct rg_device *device, const struct rg_image_desc *desc,
@@ -15,7 +16,9 @@ struct rg_image *cpu_image_create(struct rg_device *device, const struct rg_imag
     if (words > INT_MAX)
         return rg_error_null("image '%s': %lld words exceed the 2147483647 that %s allows", name,
                              (long long)words, device->info.name);
-    struct cpu_image *image = calloc(1, sizeof(*image));
+    struct cpu_image *image = rg_alloc(1, sizeof(*image), name);
+    if (!image)
+        return NULL;
     image->shape = (rg_image_shape){desc->width, desc->height, desc->layers, desc->levels};
     image->words = (int)words;
     image->texels = cpu_alloc((size_t)words * sizeof(uint));

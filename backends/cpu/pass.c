@@ -3,6 +3,7 @@
 #include <omp.h>
 #include <stdlib.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 
 struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
@@ -11,7 +12,9 @@ struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel
     int count = rg_kernel_all(&all), index = 0;
     while (index < count && all[index] != kernel)
         index++;
-    struct cpu_pass *pass = calloc(1, sizeof(*pass));
+    struct cpu_pass *pass = rg_alloc(1, sizeof(*pass), kernel->name);
+    if (!pass)
+        return NULL;
     pass->function = ((struct cpu_device *)device)->kernels[index];
     return &pass->pub;
 }
@@ -60,8 +63,9 @@ static int part(int64_t count, int index, int parts)
     return (int)(count * index / parts);
 }
 
-// The block of one thread: a band of the longest axis, the same band in every pass of equal size,
-// so that what a core wrote is still in its cache when it reads it.
+// The block of one thread: a band of rows, of layers where there are fewer rows than blocks, or of
+// columns; the same band in every pass of equal size, so that what a core wrote is still in its
+// cache when it reads it.
 static struct cpu_call block(const struct cpu_call *call, const struct rg_extent *extent, int index,
                              int blocks)
 {

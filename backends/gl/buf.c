@@ -2,12 +2,16 @@
 
 #include <stdlib.h>
 
+#include "core/alloc.h"
+
 struct rg_buf *gl_buf_create(struct rg_device *device, size_t size, const char *name)
 {
     struct gl_device *gl = (struct gl_device *)device;
     if (!gl_use(gl))
         return NULL;
-    struct gl_buf *buf = calloc(1, sizeof(*buf));
+    struct gl_buf *buf = rg_alloc(1, sizeof(*buf), name);
+    if (!buf)
+        return NULL;
     glCreateBuffers(1, &buf->id);
     gl_label(GL_BUFFER, buf->id, name);
     glNamedBufferStorage(buf->id, (GLsizeiptr)size, NULL, GL_DYNAMIC_STORAGE_BIT);

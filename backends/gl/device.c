@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 
 static int integer(GLenum what)
@@ -106,7 +107,9 @@ static void gl_destroy(struct rg_device *device)
 
 static struct rg_device *gl_create(int index)
 {
-    struct gl_device *gl = calloc(1, sizeof(*gl));
+    struct gl_device *gl = rg_alloc(1, sizeof(*gl), "device 'gl'");
+    if (!gl)
+        return NULL;
     if (!open_at(index, &gl->egl)) {
         free(gl);
         return NULL;

@@ -3,6 +3,7 @@
 #include <limits.h>
 #include <stdlib.h>
 
+#include "core/alloc.h"
 #include "core/device.h"
 
 // How a format lies in the driver's memory and in ours. Every texel is a multiple of 4 bytes, so
@@ -28,7 +29,9 @@ struct rg_image *gl_image_create(struct rg_device *device, const struct rg_image
     struct gl_device *gl = (struct gl_device *)device;
     if (!gl_use(gl))
         return NULL;
-    struct gl_image *image = calloc(1, sizeof(*image));
+    struct gl_image *image = rg_alloc(1, sizeof(*image), name);
+    if (!image)
+        return NULL;
     glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &image->id);
     gl_label(GL_TEXTURE, image->id, name);
     glTextureParameteri(image->id, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 
 static bool is_image(enum rg_slot_kind kind)
@@ -102,12 +103,15 @@ struct rg_pass *gl_pass_create(struct rg_device *device, const struct rg_kernel 
     struct gl_device *gl = (struct gl_device *)device;
     if (!slots_fit(gl, kernel) || !gl_use(gl))
         return NULL;
-    GLuint program = build(gl, kernel);
-    if (!program)
+    struct gl_pass *pass = rg_alloc(1, sizeof(*pass), kernel->name);
+    if (!pass)
         return NULL;
-    gl_label(GL_PROGRAM, program, kernel->name);
-    struct gl_pass *pass = calloc(1, sizeof(*pass));
-    pass->program = program;
+    pass->program = build(gl, kernel);
+    if (!pass->program) {
+        free(pass);
+        return NULL;
+    }
+    gl_label(GL_PROGRAM, pass->program, kernel->name);
     pass->block_size = 32 + ((size_t)kernel->params_size + 15) / 16 * 16; // std140
     pass->after_runs = barriers_after(kernel);
     return &pass->pub;

@@ -3,10 +3,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
+
 struct rg_buf *vk_buf_create(struct rg_device *device, size_t size, const char *name)
 {
     struct vk_device *vk = (struct vk_device *)device;
-    struct vk_buf *buf = calloc(1, sizeof(*buf));
+    struct vk_buf *buf = rg_alloc(1, sizeof(*buf), name);
+    if (!buf)
+        return NULL;
     const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT;

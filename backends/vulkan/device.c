@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 
 enum { MAX_LISTED = 32 };
@@ -118,7 +119,9 @@ static void vk_destroy(struct rg_device *device)
 
 static struct rg_device *vk_create(int index)
 {
-    struct vk_device *device = calloc(1, sizeof(*device));
+    struct vk_device *device = rg_alloc(1, sizeof(*device), "device 'vulkan'");
+    if (!device)
+        return NULL;
     char why[256];
     if (!vk_instance_open(&device->instance, validation_wanted(), why, sizeof(why))) {
         free(device);

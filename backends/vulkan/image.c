@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include "core/alloc.h"
 #include "core/device.h"
 #include "core/log.h"
 #include "kernels/image_memory.h"
@@ -132,7 +133,9 @@ struct rg_image *vk_image_create(struct rg_device *device, const struct rg_image
                                  const char *name)
 {
     struct vk_device *vk = (struct vk_device *)device;
-    struct vk_image *image = calloc(1, sizeof(*image));
+    struct vk_image *image = rg_alloc(1, sizeof(*image), name);
+    if (!image)
+        return NULL;
     bool created = create(vk, image, desc, name);
     if (vk_healthy(vk) && created)
         return &image->pub;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 
 // The uniform block of shaders/grid.glsl: where the items lie, then the kernel's parameters.
@@ -157,7 +158,9 @@ static VkDeviceSize aligned(VkDeviceSize size, VkDeviceSize alignment)
 struct rg_pass *vk_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
 {
     struct vk_device *vk = (struct vk_device *)device;
-    struct vk_pass *pass = calloc(1, sizeof(*pass));
+    struct vk_pass *pass = rg_alloc(1, sizeof(*pass), kernel->name);
+    if (!pass)
+        return NULL;
     const VkDeviceSize std140_struct = 16;
     pass->run_bytes =
         aligned(sizeof(struct run_block) + (VkDeviceSize)kernel->params_size, std140_struct);

@@ -1,7 +1,6 @@
 #include "core/scene/cube.h"
 
-#include <stdlib.h>
-
+#include "core/alloc.h"
 #include "kernels/cube.h"
 
 void rg_cube_direction(int face, int x, int y, int size, double direction[3])
@@ -16,10 +15,16 @@ void rg_cube_direction(int face, int x, int y, int size, double direction[3])
 
 struct rg_environment *rg_environment_create(int size)
 {
-    struct rg_environment *environment = calloc(1, sizeof(*environment));
+    const size_t texels = (size_t)(size + 2) * (size_t)(size + 2);
+    struct rg_environment *environment = rg_alloc(1, sizeof(*environment), "environment");
+    if (!environment)
+        return NULL;
     environment->size = size;
-    environment->light = calloc((size_t)(size + 2) * (size_t)(size + 2), 6 * 3 * sizeof(float));
-    return environment;
+    environment->light = rg_alloc(texels, 6 * 3 * sizeof(float), "environment");
+    if (environment->light)
+        return environment;
+    rg_environment_destroy(environment);
+    return NULL;
 }
 
 float *rg_environment_texel(const struct rg_environment *environment, int face, int x, int y)
@@ -73,8 +78,10 @@ void rg_environment_fill(struct rg_environment *environment, rg_light_fn fn, con
 
 struct rg_environment *rg_environment_halve(const struct rg_environment *environment)
 {
-    const int size = environment->size > 1 ? environment->size / 2 : 1;
+    const int size = environment->size / 2;
     struct rg_environment *half = rg_environment_create(size);
+    if (!half)
+        return NULL;
     for (int face = 0; face < 6; face++) {
         for (int y = 0; y < size; y++) {
             for (int x = 0; x < size; x++) {
@@ -144,7 +151,7 @@ static void pack_face(const struct rg_environment *environment, int face, int si
     }
 }
 
-void rg_environment_pack(const struct rg_environment *environment, int size_px, uint32_t *texels)
+bool rg_environment_pack(const struct rg_environment *environment, int size_px, uint32_t *texels)
 {
     // Bilinear filtering alone would skip texels of a larger map.
     struct rg_environment *halved = NULL;
@@ -152,10 +159,13 @@ void rg_environment_pack(const struct rg_environment *environment, int size_px, 
         struct rg_environment *smaller = rg_environment_halve(halved ? halved : environment);
         rg_environment_destroy(halved);
         halved = smaller;
+        if (!halved)
+            return false;
     }
     const size_t face_texels = (size_t)size_px * (size_t)size_px;
     for (int face = 0; face < 6; face++)
         pack_face(halved ? halved : environment, face, size_px,
                   texels + (size_t)face * face_texels);
     rg_environment_destroy(halved);
+    return true;
 }

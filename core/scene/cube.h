@@ -9,7 +9,8 @@
 // The direction through the centre of a texel of a face; x and y may lie one outside 0..size-1.
 void rg_cube_direction(int face, int x, int y, int size, double direction[3]);
 
-// An environment of this size, dark.
+// An environment of this size, dark; the caller destroys it. NULL, and one logged line, without
+// memory for it; so do rg_environment_halve and, with false, rg_environment_pack.
 struct rg_environment *rg_environment_create(int size);
 // The red, green and blue of a texel; x and y from -1 to size, the border included.
 float *rg_environment_texel(const struct rg_environment *environment, int face, int x, int y);
@@ -20,13 +21,13 @@ void rg_environment_close_borders(struct rg_environment *environment);
 typedef void (*rg_light_fn)(const double direction[3], const void *user, double light[3]);
 void rg_environment_fill(struct rg_environment *environment, rg_light_fn fn, const void *user);
 
-// The same at half the size, each texel the mean of four; of a size below 2, a copy. The caller
-// destroys it.
+// The same at half the size, each texel the mean of four; an odd last row or column is left out.
+// From size 2 on. The caller destroys it.
 struct rg_environment *rg_environment_halve(const struct rg_environment *environment);
 
 // All six faces resampled to size_px^2 texels of RG11B10F each: halved while they are twice as
 // large or more, then bilinearly. The format is coarse (6 bits of mantissa), so a seeded noise
 // dithers what it rounds. Light that is negative or no number becomes 0.
-void rg_environment_pack(const struct rg_environment *environment, int size_px, uint32_t *texels);
+bool rg_environment_pack(const struct rg_environment *environment, int size_px, uint32_t *texels);
 
 #endif

@@ -52,7 +52,8 @@ static void sky_light(const double d[3], const void *user, double light[3])
 static struct rg_environment *make_sky(void)
 {
     struct rg_environment *environment = rg_environment_create(SKY_SIZE);
-    rg_environment_fill(environment, sky_light, NULL);
+    if (environment)
+        rg_environment_fill(environment, sky_light, NULL);
     return environment;
 }
 
@@ -97,7 +98,8 @@ static struct rg_environment *read_lat_long(const char *path)
     int size = picture.height / 2;
     size = size < MIN_SIZE ? MIN_SIZE : size > MAX_SIZE ? MAX_SIZE : size;
     struct rg_environment *environment = rg_environment_create(size);
-    rg_environment_fill(environment, lat_long_light, &picture);
+    if (environment)
+        rg_environment_fill(environment, lat_long_light, &picture);
     rg_picture_destroy(&picture);
     return environment;
 }
@@ -144,8 +146,7 @@ static bool write_level(const struct rg_environment *environment, int level, str
     uint32_t *texels = malloc(6 * face_texels * sizeof(uint32_t));
     if (!texels)
         return rg_error("environment: no memory for faces of %d texels", size_px);
-    rg_environment_pack(environment, size_px, texels);
-    bool ok = true;
+    bool ok = rg_environment_pack(environment, size_px, texels);
     for (int face = 0; ok && face < 6; face++)
         ok = rg_image_write(image, face, level, texels + (size_t)face * face_texels);
     free(texels);

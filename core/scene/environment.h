@@ -17,7 +17,7 @@ struct rg_environment {
 //   "crossroads"     a map that Debian's open3d-gui-data installs, without its "_skybox.ktx"; where
 //                    the package is absent, the sky, with a warning
 //   "FILE.ktx"       a KTX 1 cube map in R11F_G11F_B10F
-//   any other path   a lat-long image that OpenImageIO reads (EXR, HDR), twice as wide as high
+//   any other path   a lat-long image (EXR, HDR, PNG: core/image/io.h), twice as wide as high
 // NULL, and one logged line, on failure. The caller destroys it.
 struct rg_environment *rg_environment_load(const char *name);
 void rg_environment_destroy(struct rg_environment *environment);

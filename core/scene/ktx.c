@@ -78,6 +78,8 @@ static struct rg_environment *read_file(const char *path, FILE *file)
     if (!check_header(path, magic, &header))
         return NULL;
     struct rg_environment *environment = rg_environment_create((int)header.width);
+    if (!environment)
+        return NULL;
     if (fseek(file, (long)header.key_value_bytes, SEEK_CUR) || !read_faces(file, environment)) {
         rg_environment_destroy(environment);
         return rg_error_null("%s: truncated: it does not hold six faces of %ux%u texels", path,

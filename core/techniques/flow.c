@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 #include "core/scene/environment.h"
 #include "core/techniques/technique.h"
@@ -65,9 +66,10 @@ static bool create_passes(struct flow *flow)
 static struct rg_buf *create_filled(struct rg_device *device, int64_t count, const void *data,
                                     const char *name)
 {
-    struct rg_buf *buf = rg_buf_create(device, count * 4, name);
-    void *zeroes = data ? NULL : calloc((size_t)count, 4);
-    if (buf && !rg_buf_write(buf, 0, data ? data : zeroes, count * 4)) {
+    void *zeroes = data ? NULL : rg_alloc((size_t)count, 4, name);
+    const void *contents = data ? data : zeroes;
+    struct rg_buf *buf = contents ? rg_buf_create(device, count * 4, name) : NULL;
+    if (buf && !rg_buf_write(buf, 0, contents, count * 4)) {
         rg_buf_destroy(buf);
         buf = NULL;
     }
@@ -86,7 +88,9 @@ static bool create_map(struct rg_device *device, float *values, int64_t count, c
 // The normal map's margin is never written, and reads as flat and dry.
 static bool create_normals(struct flow *flow, int64_t texels)
 {
-    uint32_t *flat = malloc((size_t)texels * sizeof(*flat));
+    uint32_t *flat = rg_alloc((size_t)texels, sizeof(*flat), "normal map");
+    if (!flat)
+        return false;
     for (int64_t i = 0; i < texels; i++)
         flat[i] = wet_normal_pack(0, 0, 0);
     flow->normals = create_filled(flow->base.device, texels, flat, "normal map");
@@ -148,7 +152,9 @@ static bool land(struct flow *flow, int64_t frame, int count);
 static struct rg_instance *flow_create(struct rg_device *device, const void *settings, int width,
                                        int height)
 {
-    struct flow *flow = calloc(1, sizeof(*flow));
+    struct flow *flow = rg_alloc(1, sizeof(*flow), "flow");
+    if (!flow)
+        return NULL;
     flow->base.technique = rg_technique_find("flow");
     flow->base.device = device;
     flow->settings = *(const struct flow_settings *)settings;

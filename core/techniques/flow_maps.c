@@ -6,6 +6,7 @@
 
 #include "core/image/io.h"
 #include "core/image/srgb.h"
+#include "core/alloc.h"
 #include "core/log.h"
 #include "kernels/rng.h"
 
@@ -39,8 +40,8 @@ static float *read_remainder(const char *path)
     struct rg_picture picture;
     if (!rg_picture_read(path, &picture))
         return NULL;
-    float *map = malloc(FLOW_REMAINDER_ENTRIES * sizeof(float));
-    for (int i = 0; i < FLOW_REMAINDER_ENTRIES; i++)
+    float *map = rg_alloc(FLOW_REMAINDER_ENTRIES, sizeof(float), path);
+    for (int i = 0; map && i < FLOW_REMAINDER_ENTRIES; i++)
         map[i] = clamp_unit(grey_at(&picture, i * picture.width / FLOW_REMAINDER_ENTRIES, 0));
     rg_picture_destroy(&picture);
     return map;
@@ -50,8 +51,8 @@ float *flow_remainder_map(const struct flow_settings *s)
 {
     if (*s->remainder_map)
         return read_remainder(s->remainder_map);
-    float *map = malloc(FLOW_REMAINDER_ENTRIES * sizeof(float));
-    for (int i = 0; i < FLOW_REMAINDER_ENTRIES; i++) {
+    float *map = rg_alloc(FLOW_REMAINDER_ENTRIES, sizeof(float), "remainder map");
+    for (int i = 0; map && i < FLOW_REMAINDER_ENTRIES; i++) {
         double height = s->remainder_max_height * i / (FLOW_REMAINDER_ENTRIES - 1);
         double fall = fmax(s->remainder_low_height - s->move_threshold, 1e-9);
         map[i] =
@@ -73,8 +74,8 @@ static float *read_noise(const char *path, int *size)
         rg_picture_destroy(&picture);
         return NULL;
     }
-    float *map = malloc((size_t)*size * (size_t)*size * sizeof(float));
-    for (int y = 0; y < *size; y++)
+    float *map = rg_alloc((size_t)*size * (size_t)*size, sizeof(float), path);
+    for (int y = 0; map && y < *size; y++)
         for (int x = 0; x < *size; x++)
             map[(size_t)y * (size_t)*size + (size_t)x] = clamp_unit(
                 grey_at(&picture, x * picture.width / *size, y * picture.height / *size));
@@ -85,8 +86,8 @@ static float *read_noise(const char *path, int *size)
 // One octave's lattice of cells x cells random values.
 static float *make_lattice(int cells, int octave, int seed)
 {
-    float *values = malloc((size_t)cells * (size_t)cells * sizeof(float));
-    for (int i = 0; i < cells * cells; i++)
+    float *values = rg_alloc((size_t)cells * (size_t)cells, sizeof(float), "noise map");
+    for (int i = 0; values && i < cells * cells; i++)
         values[i] = rg_uniform(rg_random((uint)seed, (uint)i, (uint)octave, STREAM_NOISE).x);
     return values;
 }
@@ -103,16 +104,19 @@ static double lattice_at(const float *values, int cells, double x, double y)
     return top * (1 - fy) + bottom * fy;
 }
 
-static void add_octave(float *map, int octave, double weight, int seed)
+static bool add_octave(float *map, int octave, double weight, int seed)
 {
     const int cells = NOISE_COARSEST << octave;
     const double step = (double)cells / NOISE_SIZE;
     float *values = make_lattice(cells, octave, seed);
+    if (!values)
+        return false;
     for (int y = 0; y < NOISE_SIZE; y++)
         for (int x = 0; x < NOISE_SIZE; x++)
             map[y * NOISE_SIZE + x] +=
                 (float)(weight * lattice_at(values, cells, x * step, y * step));
     free(values);
+    return true;
 }
 
 float *flow_noise_map(const struct flow_settings *s, int *size)
@@ -120,11 +124,16 @@ float *flow_noise_map(const struct flow_settings *s, int *size)
     if (*s->noise_map)
         return read_noise(s->noise_map, size);
     *size = NOISE_SIZE;
-    float *map = calloc(NOISE_SIZE * NOISE_SIZE, sizeof(float));
+    float *map = rg_alloc(NOISE_SIZE * NOISE_SIZE, sizeof(float), "noise map");
+    bool ok = map != NULL;
     double weight = 1, total = 0;
-    for (int octave = 0; octave < NOISE_OCTAVES; octave++, weight *= 0.6) {
-        add_octave(map, octave, weight, s->seed);
+    for (int octave = 0; ok && octave < NOISE_OCTAVES; octave++, weight *= 0.6) {
+        ok = add_octave(map, octave, weight, s->seed);
         total += weight;
+    }
+    if (!ok) {
+        free(map);
+        return NULL;
     }
     // Octaves average out: the middle half of their range is stretched over the whole.
     for (int i = 0; i < NOISE_SIZE * NOISE_SIZE; i++)

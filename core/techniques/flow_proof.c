@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/alloc.h"
 #include "core/log.h"
 #include "core/techniques/flow.h"
 #include "core/techniques/proof.h"
@@ -21,8 +22,8 @@ static bool read_state(const struct rg_instance *instance, struct reading *r)
     const struct rg_state *water = &instance->state[FLOW_STATE_WATER];
     r->row = water->row;
     r->length = (int64_t)(water->buf->size / sizeof(*r->water));
-    r->water = malloc(water->buf->size);
-    return rg_buf_read(water->buf, 0, r->water, (int64_t)water->buf->size) &&
+    r->water = rg_alloc(1, water->buf->size, water->name);
+    return r->water && rg_buf_read(water->buf, 0, r->water, (int64_t)water->buf->size) &&
            rg_buf_read(instance->state[FLOW_STATE_LEDGER].buf, 0, r->ledger, sizeof(r->ledger));
 }
 

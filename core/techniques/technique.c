@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
+
 extern const struct rg_technique rg_technique_flow;
 
 // THE list of techniques.
@@ -27,19 +29,25 @@ bool rg_instance_run(struct rg_instance *instance, struct rg_pass *pass, const s
 
 void *rg_settings_create(const struct rg_technique *technique)
 {
-    void *settings = malloc(technique->params->settings_size);
-    rg_params_reset(technique->params, settings);
+    void *settings = rg_alloc(1, technique->params->settings_size, technique->name);
+    if (settings)
+        rg_params_reset(technique->params, settings);
     return settings;
 }
 
 void *rg_settings_copy(const struct rg_technique *technique, const void *settings,
                        const char *assignments)
 {
-    char *copy = malloc(technique->params->settings_size);
-    char *words = strdup(assignments), *rest = NULL;
-    memcpy(copy, settings, technique->params->settings_size);
-    bool ok = true;
-    for (char *one = strtok_r(words, " ", &rest); one && ok; one = strtok_r(NULL, " ", &rest))
+    const size_t length = strlen(assignments) + 1;
+    char *copy = rg_alloc(1, technique->params->settings_size, technique->name);
+    char *words = copy ? rg_alloc(1, length, technique->name) : NULL, *rest = NULL;
+    bool ok = words != NULL;
+    if (ok) {
+        memcpy(copy, settings, technique->params->settings_size);
+        memcpy(words, assignments, length);
+    }
+    for (char *one = ok ? strtok_r(words, " ", &rest) : NULL; one && ok;
+         one = strtok_r(NULL, " ", &rest))
         ok = rg_params_set(technique->params, copy, one);
     free(words);
     if (ok)

@@ -68,7 +68,7 @@ extern const struct rg_technique *const rg_techniques[];
 // Runs a pass of an instance and tells after_pass of it.
 bool rg_instance_run(struct rg_instance *instance, struct rg_pass *pass, const struct rg_run *run);
 
-// Settings with every default; the caller frees them.
+// Settings with every default; the caller frees them. NULL, with one logged line, without memory.
 void *rg_settings_create(const struct rg_technique *technique);
 // A copy with these "key=value key=value" over it; the caller frees it. NULL, with one logged line,
 // where one is refused.
