@@ -82,7 +82,8 @@ void *rg_options_settings(const struct rg_options *options, const struct rg_tech
 struct rg_devices {
     int count;
     struct rg_device *devices[RG_MAX_DEVICES];
-    char missing[8][256]; // with "all": one line a backend without a device, "" after the last
+    // With "all": one line a backend without a device, "" after the last.
+    char missing[RG_MAX_BACKENDS + 1][256];
 };
 int rg_devices_open(const struct rg_options *options, const char *fallback,
                     struct rg_devices *devices);
