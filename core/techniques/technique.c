@@ -3,10 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-extern const struct rg_technique rg_technique_flow;
+#include "core/lists.h"
 
-// THE list of techniques.
-const struct rg_technique *const rg_techniques[] = {&rg_technique_flow, NULL};
+#define DECLARE(name) extern const struct rg_technique rg_technique_##name;
+#define ENTRY(name)   &rg_technique_##name,
+
+RG_TECHNIQUES(DECLARE)
+const struct rg_technique *const rg_techniques[] = {RG_TECHNIQUES(ENTRY) NULL};
 
 const struct rg_technique *rg_technique_find(const char *name)
 {
