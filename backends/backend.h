@@ -52,7 +52,7 @@ struct rg_device {
 struct rg_buf {
     struct rg_device *device;
     size_t size;
-    const char *name; // for messages and debug labels; owned by core/device.c
+    const char *name; // for messages and debug labels; the caller's, for the object's life
 };
 
 struct rg_image_desc {
@@ -64,7 +64,7 @@ struct rg_image_desc {
 struct rg_image {
     struct rg_device *device;
     struct rg_image_desc desc;
-    const char *name;
+    const char *name; // as a buffer's
 };
 
 struct rg_pass {
@@ -129,5 +129,6 @@ struct rg_backend {
 
 // All backends, NULL-terminated, made by the build from the one list in backends/meson.build.
 extern const struct rg_backend *const rg_backends[];
+enum { RG_MAX_BACKENDS = 16 }; // the build checks it
 
 #endif

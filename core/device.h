@@ -28,10 +28,11 @@ struct rg_device_list {
     struct rg_device_info infos[RG_MAX_DEVICES];
     int backend_index[RG_MAX_DEVICES]; // what backend->create takes
     const struct rg_backend *backends[RG_MAX_DEVICES];
-    char missing[8][256]; // one line a backend without a device, "" after the last
+    // One line a backend without a device, "" after the last.
+    char missing[RG_MAX_BACKENDS + 1][256];
 };
 void rg_device_list_all(struct rg_device_list *list);
-// Adds one backend's to a list that began zeroed.
+// Adds one backend's to a list that began zeroed; each backend once.
 void rg_device_list_add(struct rg_device_list *list, const struct rg_backend *backend);
 
 // How opening ended: a name that no backend knows is bad usage, an absent driver is "unsupported".
@@ -45,6 +46,8 @@ bool rg_device_close(struct rg_device *device);
 
 const struct rg_work *rg_device_work(const struct rg_device *device);
 
+// An object's name, for messages and debug labels, is not copied: it outlives the object, as a
+// string literal does.
 struct rg_buf *rg_buf_create(struct rg_device *device, int64_t size, const char *name);
 void rg_buf_destroy(struct rg_buf *buf);
 bool rg_buf_write(struct rg_buf *buf, int64_t offset, const void *data, int64_t size);

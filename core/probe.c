@@ -67,6 +67,8 @@ HOST_FLOAT(sqrt, sqrtf(a))
 HOST_FLOAT(one_over_sqrt, 1.0f / sqrtf(a))
 HOST_FLOAT(floor, floorf(a))
 HOST_FLOAT(multiply_add, a *b + c)
+HOST_FLOAT(minus_product, c - a * b)
+HOST_FLOAT(member_multiply_add, a *b + c)
 HOST_FLOAT(modulo, a - b * floorf(a / b))
 HOST_FLOAT(lerp, a *(1.0f - c) + b * c)
 HOST_FLOAT(sum_of_squares, (a * a + b * b) + c * c)
@@ -89,34 +91,16 @@ HOST_FLOAT(clamp, a < -1.0f ? -1.0f : (a > 1.0f ? 1.0f : a))
 // Missing rows are what the kernels compose: cpu:reference is the measure for them.
 #define HOST_ROW(name) [OP_##name] = host_##name
 static uint32_t (*const host[RG_PROBE_OP_COUNT])(struct input) = {
-    HOST_ROW(add),
-    HOST_ROW(subtract),
-    HOST_ROW(multiply),
-    HOST_ROW(divide),
-    HOST_ROW(negate),
-    HOST_ROW(abs),
-    HOST_ROW(sqrt),
-    HOST_ROW(one_over_sqrt),
-    HOST_ROW(floor),
-    HOST_ROW(multiply_add),
-    HOST_ROW(modulo),
-    HOST_ROW(lerp),
-    HOST_ROW(sum_of_squares),
-    HOST_ROW(less),
-    HOST_ROW(int_to_float),
-    HOST_ROW(uint_to_float),
-    HOST_ROW(float_to_int),
-    HOST_ROW(bits_of_float),
-    HOST_ROW(float_of_bits),
-    HOST_ROW(shift_left),
-    HOST_ROW(shift_right),
-    HOST_ROW(multiply_low),
-    HOST_ROW(multiply_high),
-    HOST_ROW(divide_uint),
-    HOST_ROW(modulo_uint),
-    HOST_ROW(min),
-    HOST_ROW(max),
-    HOST_ROW(clamp),
+    HOST_ROW(add),           HOST_ROW(subtract),      HOST_ROW(multiply),
+    HOST_ROW(divide),        HOST_ROW(negate),        HOST_ROW(abs),
+    HOST_ROW(sqrt),          HOST_ROW(one_over_sqrt), HOST_ROW(floor),
+    HOST_ROW(multiply_add),  HOST_ROW(minus_product), HOST_ROW(member_multiply_add),
+    HOST_ROW(modulo),        HOST_ROW(lerp),          HOST_ROW(sum_of_squares),
+    HOST_ROW(less),          HOST_ROW(int_to_float),  HOST_ROW(uint_to_float),
+    HOST_ROW(float_to_int),  HOST_ROW(bits_of_float), HOST_ROW(float_of_bits),
+    HOST_ROW(shift_left),    HOST_ROW(shift_right),   HOST_ROW(multiply_low),
+    HOST_ROW(multiply_high), HOST_ROW(divide_uint),   HOST_ROW(modulo_uint),
+    HOST_ROW(min),           HOST_ROW(max),           HOST_ROW(clamp),
 };
 
 // --- inputs ---

@@ -83,8 +83,9 @@ void *rg_options_settings(const struct rg_options *options, const struct rg_tech
 struct rg_devices {
     int count;
     struct rg_device *devices[RG_MAX_DEVICES];
-    char missing[8][256]; // with "all": one line a backend without a device, "" after the last
-    int broken_count;     // with "all": devices that are listed and do not open
+    // With "all": one line a backend without a device, "" after the last.
+    char missing[RG_MAX_BACKENDS + 1][256];
+    int broken_count; // with "all": devices that are listed and do not open
     struct rg_broken_device {
         char name[32], why[256];
     } broken[RG_MAX_DEVICES];

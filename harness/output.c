@@ -35,7 +35,8 @@ static bool open_up(int fd)
 bool rg_output_write(const char *folder, const char *name, const char *text)
 {
     char path[2048], temporary[2112];
-    if (mkdir(folder, 0777) && errno != EEXIST)
+    const bool made = mkdir(folder, 0777) == 0;
+    if (!made && errno != EEXIST)
         return rg_error("%s: cannot be made: %s; name a folder that can be written", folder,
                         strerror(errno));
     if (snprintf(path, sizeof(path), "%s/%s", folder, name) >= (int)sizeof(path))
@@ -49,9 +50,11 @@ bool rg_output_write(const char *folder, const char *name, const char *text)
     bool ok = write_all(fd, text) && open_up(fd);
     ok = close(fd) == 0 && ok;
     ok = ok && rename(temporary, path) == 0;
-    if (!ok) {
-        rg_error("%s: cannot be written: %s; nothing was changed", path, strerror(errno));
-        unlink(temporary);
-    }
-    return ok;
+    if (ok)
+        return true;
+    rg_error("%s: cannot be written: %s; nothing was changed", path, strerror(errno));
+    unlink(temporary);
+    if (made)
+        rmdir(folder);
+    return false;
 }

@@ -59,7 +59,9 @@
     X(45, rg_sin_far, WIDE, FLOAT, rg_sin(a))                                                      \
     X(46, rg_exp_far, WIDE, FLOAT, rg_exp(a))                                                      \
     X(47, rg_exp2_far, WIDE, FLOAT, rg_exp2(a))                                                    \
-    X(48, rg_pow_far, WIDE, FLOAT, rg_pow(rg_abs(a), b))
+    X(48, rg_pow_far, WIDE, FLOAT, rg_pow(rg_abs(a), b))                                           \
+    X(49, minus_product, WIDE, FLOAT, c - a * b)                                                   \
+    X(50, member_multiply_add, WIDE, FLOAT, probe_member_multiply_add(rg_rgba(a, b, c, 1.0f)))
 
 // What the dialect forbids, because each language's own differs from driver to driver: how much?
 #define RG_PROBE_BUILTINS(X)                                                                       \

@@ -9,6 +9,12 @@ RG_FN float probe_multiply_add(float a, float b, float c)
     return a * b + c;
 }
 
+// The same, of a struct's members.
+RG_FN float probe_member_multiply_add(rgba v)
+{
+    return rg_rgba(v.r * v.g + v.b, v.g, v.b, v.a).r;
+}
+
 RG_FN float probe_modulo(float a, float b)
 {
     return a - b * rg_floor(a / b);

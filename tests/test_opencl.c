@@ -6,7 +6,6 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +15,6 @@
 #include "core/log.h"
 #include "kernels/test_copy_params.h"
 #include "kernels/test_image_copy_params.h"
-#include "kernels/test_rounding_params.h"
 
 static int open_device(void **state)
 {
@@ -27,67 +25,6 @@ static int open_device(void **state)
 static int close_device(void **state)
 {
     return rg_device_close(*state) ? 0 : -1;
-}
-
-static uint32_t noise(uint32_t i)
-{
-    i = (i ^ i >> 16) * 0x7feb352du;
-    i = (i ^ i >> 15) * 0x846ca68bu;
-    return i ^ i >> 16;
-}
-
-// A float of either sign between 2^-8 and 2^8.
-static float noise_float(uint32_t i)
-{
-    uint32_t bits = (noise(i) & 0x807fffffu) | (119u + noise(~i) % 16u) << 23;
-    float f;
-    memcpy(&f, &bits, sizeof(f));
-    return f;
-}
-
-enum { KINDS = 6, INPUTS = 65536 };
-
-static void expect(const float *a, float results[KINDS])
-{
-    const float b = a[INPUTS], c = a[2 * INPUTS];
-    const volatile float product = *a * b; // a store rounds, whatever the compiler would like
-    results[0] = results[1] = product + c;
-    results[2] = product - c;
-    results[3] = c - product;
-    results[4] = *a / b;
-    results[5] = sqrtf(fabsf(*a));
-}
-
-static void every_operation_rounds(void **state)
-{
-    float *inputs = malloc(3 * INPUTS * sizeof(float));
-    float *results = malloc(KINDS * INPUTS * sizeof(float));
-    for (uint32_t i = 0; i < 3 * INPUTS; i++)
-        inputs[i] = noise_float(i);
-    struct rg_buf *in = rg_buf_create(*state, 3 * INPUTS * 4, "inputs");
-    struct rg_buf *out = rg_buf_create(*state, KINDS * INPUTS * 4, "results");
-    struct rg_pass *pass = rg_pass_create(*state, "test_rounding");
-    assert_true(in && out && pass && rg_buf_write(in, 0, inputs, 3 * INPUTS * 4));
-    const struct test_rounding_params params = {INPUTS};
-    assert_true(rg_pass_run(pass, &(struct rg_run){.params = &params,
-                                                   .slots = {[1].buf = in, [2].buf = out},
-                                                   .extent = {INPUTS, 1, 1}}));
-    assert_true(rg_buf_read(out, 0, results, KINDS * INPUTS * 4));
-    int differing[KINDS] = {0};
-    for (int i = 0; i < INPUTS; i++) {
-        float expected[KINDS];
-        expect(inputs + i, expected);
-        for (int kind = 0; kind < KINDS; kind++)
-            differing[kind] += memcmp(&results[kind * INPUTS + i], &expected[kind], 4) != 0;
-    }
-    for (int kind = 0; kind < KINDS; kind++)
-        if (differing[kind])
-            fail_msg("expression %d: %d of %d differ", kind, differing[kind], INPUTS);
-    rg_pass_destroy(pass);
-    rg_buf_destroy(in);
-    rg_buf_destroy(out);
-    free(inputs);
-    free(results);
 }
 
 // A device with two buffers and a pass that copies one into the other.
@@ -302,7 +239,6 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest absent[] = {cmocka_unit_test(absence_is_explained)};
     const struct CMUnitTest present[] = {
-        cmocka_unit_test(every_operation_rounds),
         cmocka_unit_test(data_is_the_callers_again_after_a_write),
         cmocka_unit_test(two_devices_live_side_by_side),
         cmocka_unit_test(runs_above_two_billion_items_are_split),

@@ -4,11 +4,13 @@
 #include <string.h>
 
 #include "core/alloc.h"
+#include "core/lists.h"
 
-extern const struct rg_technique rg_technique_flow;
+#define DECLARE(name) extern const struct rg_technique rg_technique_##name;
+#define ENTRY(name)   &rg_technique_##name,
 
-// THE list of techniques.
-const struct rg_technique *const rg_techniques[] = {&rg_technique_flow, NULL};
+RG_TECHNIQUES(DECLARE)
+const struct rg_technique *const rg_techniques[] = {RG_TECHNIQUES(ENTRY) NULL};
 
 const struct rg_technique *rg_technique_find(const char *name)
 {

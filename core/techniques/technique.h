@@ -61,7 +61,8 @@ struct rg_instance {
     void *user;
 };
 
-// The technique of this name, or NULL. All of them, NULL-terminated.
+// The technique of this name, or NULL. All of them, NULL-terminated, made by the build from the
+// list in core/meson.build.
 const struct rg_technique *rg_technique_find(const char *name);
 extern const struct rg_technique *const rg_techniques[];
 

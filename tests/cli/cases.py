@@ -1,0 +1,229 @@
+"""CASES: a command line, its exit status, its message, the files it leaves. A new command adds rows."""
+import collections
+import os
+import re
+import tempfile
+
+from runner import NO_DRIVERS
+
+# args: one string, split at spaces; {tmp} is an empty folder of the case's own, {data} the inputs.
+# exit: the status. error: what the one line on stderr must match; several lines: a tuple; None: stderr is empty.
+# env: variables for the command. limit: largest file in bytes that may be written, as on a full disk.
+# made: files that must be in {tmp} afterwards, and no others.
+Case = collections.namedtuple("Case", "args exit error env limit made", defaults=({}, None, ()))
+
+UNKNOWN_DEVICE = r"device '.*': unknown; `raingauge list devices` prints the names"
+NO_CONTEXT = r"device 'gl': no OpenGL 4\.5 core: eglCreateContext failed"
+OLD_GL = {"MESA_GL_VERSION_OVERRIDE": "3.3"}
+ABSENT = tuple(r"warning: unsupported here: %s: .*package %s" % pair for pair in (
+    ("gl", "libegl-mesa0"), ("vulkan", "mesa-vulkan-drivers"), ("opencl", "pocl-opencl-icd")))
+SMALL = "--set environment_px=64 --set resolution_px=96 --size 96x96 "
+TABLE = "table stuppacher-2 --rows 1-1 --device cpu "
+TABLE_FILES = tuple("stuppacher-2." + format for format in ("csv", "json", "md", "tex"))
+DIFF = "diff flow --frame 5 --device cpu,cpu:reference " + SMALL
+VERIFY = "verify flow --frame 5 --device cpu " + SMALL
+RENDER = "render flow --set environment=sky --set environment_px=16 --set resolution_px=32 --size 32x32 --frame 1 "
+
+ON_CPU = [
+    # every command
+    Case("", 2, None),
+    Case("--help", 0, None),
+    Case("--version", 0, None),
+    Case("nonsense", 2, r"command 'nonsense': unknown; `raingauge --help` lists them"),
+    Case("list --nonsense", 2, r"--nonsense: unknown option; `raingauge list --help`"),
+    Case("render --help", 0, None),
+    Case("doctor --help", 0, None),
+
+    # list
+    Case("list techniques", 0, None),
+    Case("list tables", 0, None),
+    Case("list params flow", 0, None),
+    Case("list", 2, r"list '': list techniques, tables, devices, or params TECHNIQUE"),
+    Case("list nonsense", 2, r"list 'nonsense': list techniques"),
+    Case("list params", 2, r"name a technique; `raingauge list techniques`"),
+    Case("list params nonsense", 2, r"technique 'nonsense': unknown"),
+    Case("list devices twice", 2, r"'twice' is one argument too many"),
+
+    # render: what it is asked
+    Case("render", 2, r"no technique named; `raingauge list techniques`"),
+    Case("render nonsense", 2, r"technique 'nonsense': unknown; `raingauge list techniques`"),
+    Case("render flow flow", 2, r"'flow' is one argument too many"),
+    Case(RENDER + "--device nonsense -o {tmp}/a.png", 2, UNKNOWN_DEVICE),
+    Case(RENDER + "--device cpu:nonsense -o {tmp}/a.png", 2, r"device 'cpu:nonsense': cpu has no such device"),
+    Case(RENDER + "--device , -o {tmp}/a.png", 2, r"--device ,: render draws on one device"),
+    Case(RENDER + "--device cpu,gl -o {tmp}/a.png", 2, r"--device cpu,gl: render draws on one device"),
+    Case(RENDER + "--device all -o {tmp}/a.png", 2, r"--device all: render draws on one device"),
+    Case(RENDER + "--set nonsense=1 -o {tmp}/a.png", 2, r"parameter 'nonsense': flow has none .*`raingauge list params flow`"),
+    Case(RENDER + "--set drops -o {tmp}/a.png", 2, r"parameter 'drops': write it as KEY=VALUE"),
+    Case(RENDER + "--set drops=many -o {tmp}/a.png", 2, r"parameter 'drops': "),
+    Case(RENDER + "--set drops=-1 -o {tmp}/a.png", 2, r"parameter 'drops': -1 is out of range; 0 to 100000"),
+    Case(RENDER + "--set drops=1e99 -o {tmp}/a.png", 2, r"parameter 'drops': "),
+    Case(RENDER + "--set step_s=nan -o {tmp}/a.png", 2, r"parameter 'step_s': "),
+    Case(RENDER + "--size -1x-1 -o {tmp}/a.png", 2, r"--size -1x-1: each side must be 1 to 16384 pixels"),
+    Case(RENDER + "--size 0x5 -o {tmp}/a.png", 2, r"--size 0x5: each side"),
+    Case(RENDER + "--size 1000000x2 -o {tmp}/a.png", 2, r"--size 1000000x2: each side"),
+    Case(RENDER + "--size 99999999999999999999x2 -o {tmp}/a.png", 2, r"--size 9{20}x2: each side"),
+    Case(RENDER + "--size 4294967297x1 -o {tmp}/a.png", 2, r"--size 4294967297x1: each side"),
+    Case(RENDER + "--size 5 -o {tmp}/a.png", 2, r"--size 5: write it as WIDTHxHEIGHT"),
+    Case(RENDER + "--frame -1 -o {tmp}/a.png", 2, r"--frame -1: must be 0 to 10000000"),
+    Case(RENDER + "--frame 99999999999999999999 -o {tmp}/a.png", 2, r"--frame 9{20}: .*`raingauge render --help`"),
+    Case(RENDER + "--frame x -o {tmp}/a.png", 2, r"--frame x: .*`raingauge render --help`"),
+    Case(RENDER + "--exposure nan -o {tmp}/a.png", 2, r"--exposure nan: must be above 0"),
+    Case(RENDER + "-o {tmp}/a.png -z", 2, r"-z: unknown option"),
+    Case(RENDER + "--output", 2, r"--output: .*`raingauge render --help`"),
+
+    # render: what it reads
+    Case(RENDER + "--set environment=/nonexistent.exr -o {tmp}/a.png", 2, r"/nonexistent\.exr: .*check the name"),
+    Case(RENDER + "--set environment={data}/short.ktx -o {tmp}/a.png", 2, r"short\.ktx: .*truncated"),
+    Case(RENDER + "--set environment={data}/half.ktx -o {tmp}/a.png", 2, r"half\.ktx: "),
+    Case(RENDER + "--set environment={data}/short.exr -o {tmp}/a.png", 2, r"short\.exr: "),
+    Case(RENDER + "--set environment={data}/folder.exr -o {tmp}/a.png", 2, r"folder\.exr: "),
+
+    # render: what it writes
+    Case(RENDER + "-o {tmp}/a.png", 0, None, made=("a.png",)),
+    Case(RENDER + "-o {tmp}/a.exr", 0, None, made=("a.exr",)),
+    Case(RENDER + "-o {tmp}/none/a.png", 2, r"none/a\.png: its folder is not there; make it first"),
+    Case(RENDER + "-o {data}/folder.exr", 2, r"folder\.exr: "),
+    Case(RENDER + "-o {tmp}/a.nonsense", 2, r"a\.nonsense: "),
+    Case(RENDER + "-o /dev/full/a.png", 2, r"/dev/full/a\.png: "),
+    Case(RENDER + "--size 256x256 -o {tmp}/a.png", 2, r"a\.png: ", limit=64),
+    Case(RENDER + "--size 256x256 -o {tmp}/a.exr", 2, r"a\.exr: ", limit=64),
+
+    # doctor
+    Case("doctor --device nonsense", 2, UNKNOWN_DEVICE),
+    Case("doctor --device cpu:7", 2, r"device 'cpu:7': cpu has no such device"),
+    Case("doctor --device " + 40 * "x", 2, UNKNOWN_DEVICE),
+    Case("doctor --device ,", 2, r"--device ',': names no device"),
+    Case("doctor cpu", 2, r"doctor: 'cpu' is one argument too many"),
+    Case("doctor --device cpu", 0, None),
+
+    # table: what it is asked
+    Case("table nonsense", 2, r"table 'nonsense': unknown; `raingauge list tables` prints them"),
+    Case("table --rows 0-1", 2, r"--rows 0-1: rows count from 1, the first not after the last"),
+    Case("table --rows 3-2", 2, r"--rows 3-2: rows count from 1, the first not after the last"),
+    Case("table --rows 9-9 --device cpu", 2, r"--rows 9-9: stuppacher-2 has rows 1-3"),
+    Case("table --rows 1-4 --device cpu", 2, r"--rows 1-4: stuppacher-2 has rows 1-3"),
+    Case("table --rows 99999999999999999999 --device cpu", 2, r"--rows \d+-\d+: stuppacher-2 has rows 1-3"),
+    Case("table --rows abc", 2, r"--rows abc: write it as FIRST-LAST, as in 2-4"),
+    Case("table --rows 1-", 2, r"--rows 1-: write it as FIRST-LAST, as in 2-4"),
+    Case("table --quick --full", 2, r"--quick and --full: choose one"),
+    Case("table --format nonsense", 2, r"--format nonsense: choose md, csv, json or tex"),
+    Case("table --set drops=1", 2, r"--set: unknown option; `raingauge table --help`"),
+    Case("table --device nonsense", 2, UNKNOWN_DEVICE),
+    Case("table --device ,", 2, r"--device ',': names no device"),
+
+    # table: what it writes
+    Case(TABLE, 0, None),
+    Case(TABLE + "-o {tmp}", 0, None, made=TABLE_FILES),
+    Case(TABLE + "-o {tmp}/none/out", 2, r"none/out: cannot be made: No such file or directory; name a folder"),
+    Case(TABLE + "-o {data}/a.png", 2, r"a\.png/stuppacher-2\.md: cannot be written: Not a directory; name a folder"),
+    Case(TABLE + "-o /proc/out", 2, r"/proc/out: cannot be made: .*; name a folder that can be written"),
+    Case(TABLE + "-o {tmp}", 2, r"stuppacher-2\.md: cannot be written: File too large; nothing was changed", limit=64),
+    Case(TABLE + "-o {tmp}/out", 2, r"stuppacher-2\.md: cannot be written: File too large", limit=64),
+
+    # diff: files
+    Case("diff {data}/a.png {data}/a.png", 0, None),
+    Case("diff {data}/a.exr {data}/a.exr", 0, None),
+    Case("diff {data}/a.png {data}/b.png", 1, None),
+    Case("diff {data}/a.png {data}/b.png -o {tmp}/heat", 1, None, made=("heat-difference.png", "heat-flip.png")),
+    Case("diff {data}/a.png {data}/wide.png", 2, r"wide\.png: is 48 x 32 pixels but .*a\.png is 32 x 32; compare pictures of one size"),
+    Case("diff {data}/a.png {data}/none.png", 2, r"none\.png: .*check the name"),
+    Case("diff {data}/none.png {data}/none.png", 2, r"none\.png: .*check the name"),
+    Case("diff {data}/a.png {data}/half.png", 2, r"half\.png: "),
+    Case("diff {data}/half.exr {data}/a.exr", 2, r"half\.exr: "),
+    Case("diff {data}/short.exr {data}/a.exr", 2, r"short\.exr: "),
+    Case("diff {data}/folder.exr {data}/a.exr", 2, r"folder\.exr: "),
+    Case("diff {data} {data}/a.exr", 2, r"the extension is missing; use \.exr, \.png"),
+    Case("diff {data}/a.nonsense {data}/a.png", 2, r"a\.nonsense: the extension .* is not a known picture's"),
+    Case("diff {data}/a.png {data}/a.png --background {data}/wide.png", 2, r"the background: is 48 x 32 pixels but .*a\.png is 32 x 32"),
+    Case("diff {data}/a.png {data}/b.png -o {tmp}/none/heat", 2, r"none/heat-flip\.png: its folder is not there"),
+    Case("diff {data}/a.png {data}/b.png -o {tmp}/heat", 2, r"heat-flip\.png: ", limit=64),
+    Case("diff {data}/a.png", 2, r"technique '.*a\.png': unknown"),
+    Case("diff", 2, r"diff: name a technique, or two image files; `raingauge diff --help`"),
+    Case("diff a.png b.png c.png", 2, r"diff: name a technique, or two image files"),
+
+    # diff: devices
+    Case(DIFF, 0, None),
+    Case(DIFF + "-o {tmp}/heat", 0, None, made=("heat-cpu-cpu_reference-difference.png", "heat-cpu-cpu_reference-flip.png")),
+    Case(DIFF + "-o {tmp}/none/heat", 2, r"none/heat-cpu-cpu_reference-flip\.png: its folder is not there"),
+    Case("diff nonsense", 2, r"technique 'nonsense': unknown; `raingauge list techniques`"),
+    Case("diff flow --device cpu", 2, r"--device cpu: a comparison takes two devices"),
+    Case("diff flow --device cpu,nonsense", 2, UNKNOWN_DEVICE),
+    Case("diff flow --set drops=-1 --device cpu,cpu:reference", 2, r"parameter 'drops': -1 is out of range"),
+
+    # verify
+    Case(VERIFY, 0, None),
+    Case("verify nonsense", 2, r"technique 'nonsense': unknown; `raingauge list techniques`"),
+    Case("verify flow --set drops=100001 --device cpu", 2, r"parameter 'drops': 100001 is out of range; 0 to 100000"),
+    Case("verify flow --set nonsense=1 --device cpu", 2, r"parameter 'nonsense': flow has none"),
+    Case("verify flow --device nonsense", 2, UNKNOWN_DEVICE),
+    Case("verify flow --quick --full", 2, r"--quick and --full: choose one"),
+    Case("verify flow --frame -1", 2, r"--frame -1: must be 0 to 10000000"),
+    Case(VERIFY + "--set drops=0 --set rain_drops_s=0", 1, None),
+]
+
+WITH_DRIVERS = [
+    Case("list devices", 0, None),
+    Case("list devices", 0, r"vulkan: .*package mesa-vulkan-drivers", {"VK_DRIVER_FILES": "/nonexistent"}),
+    Case("list devices", 0, r"cpu: RG_CPU_LEVEL=v9 is no level .*; use plain, v2, v3 or v4$", {"RG_CPU_LEVEL": "v9"}),
+
+    # what is absent
+    Case(RENDER + "--device vulkan -o {tmp}/a.png", 77, r"install the Debian package mesa-vulkan-drivers", NO_DRIVERS),
+    Case(RENDER + "--device opencl -o {tmp}/a.png", 77, r"install the Debian package pocl-opencl-icd", NO_DRIVERS),
+    Case(RENDER + "--device gl -o {tmp}/a.png", 77, r"install the Debian package libegl-mesa0", NO_DRIVERS),
+    Case("doctor --device vulkan", 77, r"install the Debian package mesa-vulkan-drivers", NO_DRIVERS),
+    Case("doctor --device gl --json", 77, r"install the Debian package libegl-mesa0", NO_DRIVERS),
+    Case("diff flow --device cpu,vulkan", 77, r"install the Debian package mesa-vulkan-drivers", NO_DRIVERS),
+    Case("verify flow --device opencl", 77, r"install the Debian package pocl-opencl-icd", NO_DRIVERS),
+    Case("table --device gl", 77, r"install the Debian package libegl-mesa0", NO_DRIVERS),
+    Case("table --rows 1-1 --device all -o {tmp}", 0, ABSENT, NO_DRIVERS, made=TABLE_FILES),
+    Case("diff flow --frame 1 " + SMALL, 0, ABSENT, NO_DRIVERS),
+    Case("verify flow --frame 3 " + SMALL, 0, ABSENT, NO_DRIVERS),
+
+    # a driver that creates no context
+    Case(RENDER + "--device gl -o {tmp}/a.png", 77, NO_CONTEXT, OLD_GL),
+    Case("table --device gl", 77, NO_CONTEXT, OLD_GL),
+    Case("table --rows 1-1 --device cpu,gl", 77, NO_CONTEXT, OLD_GL),
+]
+
+
+def write_inputs(runner, data):
+    """Pictures and environments, whole and cut short."""
+    for name, more in (("a.png", ""), ("b.png", "--exposure 2"), ("wide.png", "--size 48x32"), ("a.exr", "")):
+        runner.run((RENDER + "-o %s/%s %s" % (data, name, more)).split())
+    for whole, half in (("a.png", "half.png"), ("a.exr", "half.exr")):
+        with open(os.path.join(data, whole), "rb") as source, open(os.path.join(data, half), "wb") as file:
+            content = source.read()
+            file.write(content[:len(content) // 2])
+    packaged = "/usr/share/open3d-gui/resources/crossroads_skybox.ktx"
+    start = open(packaged, "rb").read(4096) if os.path.exists(packaged) else b"\xabKTX 11\xbb\r\n\x1a\n" + bytes(52)
+    for name, content in (("short.ktx", start[:20]), ("half.ktx", start), ("short.exr", b"\x76\x2f\x31\x01\x02")):
+        with open(os.path.join(data, name), "wb") as file:
+            file.write(content)
+    os.mkdir(os.path.join(data, "folder.exr"))
+
+
+def check_case(runner, case, data, tmp):
+    result = runner.run(case.args.format(tmp=tmp, data=data).split(), case.env, case.limit)
+    lines = result.stderr.splitlines()
+    wanted = () if case.error is None else (case.error,) if isinstance(case.error, str) else case.error
+    problems = []
+    if result.returncode != case.exit:
+        problems.append("exit status %d, not %d" % (result.returncode, case.exit))
+    if len(lines) != len(wanted):
+        problems.append("%d lines on stderr" % len(lines))
+    for line, pattern in zip(lines, wanted):
+        if not (line.startswith("raingauge: ") and re.search(pattern, line)):
+            problems.append("no match for " + pattern)
+    if sorted(os.listdir(tmp)) != sorted(case.made):
+        problems.append("left behind: %s" % os.listdir(tmp))
+    return problems + ["stderr: " + line for line in lines if problems]
+
+
+def run(runner, cases):
+    with tempfile.TemporaryDirectory() as data:
+        write_inputs(runner, data)
+        for case in cases:
+            with tempfile.TemporaryDirectory() as tmp:
+                name = " ".join(["%s=%s" % item for item in case.env.items()] + [case.args])
+                runner.report(name + (" (full disk)" if case.limit else ""), check_case(runner, case, data, tmp))

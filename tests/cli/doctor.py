@@ -1,0 +1,123 @@
+"""`raingauge doctor`: what its report says of this machine and of broken ones."""
+import json
+import os
+import re
+import tempfile
+
+from runner import NO_DRIVERS
+
+
+def examine(runner, args, env={}):
+    """A doctor's report as JSON, its exit status and its messages."""
+    result = runner.run(["doctor", "--json"] + args, env)
+    return json.loads(result.stdout), result.returncode, result.stderr
+
+
+def by_name(report):
+    return {device["name"]: device for device in report["devices"]}
+
+
+def check_devices(runner):
+    """Every device that `list` names is examined, and is well."""
+    listed = json.loads(runner.run(["list", "devices", "--json"]).stdout)["devices"]
+    report, status, errors = examine(runner, [])
+    problems = []
+    if report["format"] != 1 or status != 0 or errors:
+        problems.append("format %s, exit status %d, stderr: %s" % (report["format"], status, errors))
+    if [d["name"] for d in listed] != [d["name"] for d in report["devices"]]:
+        problems.append("list and doctor name different devices")
+    if [d["name"] for d in report["passport"]["devices"]] != [d["name"] for d in listed]:
+        problems.append("the passport names other devices")
+    for device in report["devices"]:
+        if device["status"] != "ok" or any(o["different"] for o in device["operations"]):
+            problems.append("%s: %s %s" % (device["name"], device["status"], device["why"]))
+        if len(device["operations"]) < 40 or len(device["builtins"]) < 10 or device["timer"]["wall_ms"] <= 0:
+            problems.append("%s: not examined in full" % device["name"])
+    return problems
+
+
+def check_passport(runner):
+    """The passport says where numbers come from, and nothing that changes by itself."""
+    # GOMP_SPINCOUNT: raingauge sets it where it is not set.
+    variables = {"GOMP_SPINCOUNT": "8000", "LP_NUM_THREADS": "3", "RG_KERNEL_DIR": "/nonexistent"}
+    passport, again = (examine(runner, ["--device", "cpu"], variables)[0]["passport"] for _ in range(2))
+    problems = [] if passport == again else ["two passports of one machine differ"]
+    if passport["environment"] != variables:
+        problems.append("environment: %s" % passport["environment"])
+    if passport["raingauge"]["kernel_dir"] != "/nonexistent":
+        problems.append("kernel_dir: %s" % passport["raingauge"]["kernel_dir"])
+    if not re.match(r"[0-9a-f]{40}(-dirty)?$|unknown$", passport["raingauge"]["commit"]):
+        problems.append("commit: %s" % passport["raingauge"]["commit"])
+    if passport["machine"]["cores_allowed"] != len(os.sched_getaffinity(0)):
+        problems.append("cores_allowed: %d" % passport["machine"]["cores_allowed"])
+    return problems
+
+
+def check_missing(runner):
+    """Where drivers are absent, the report names the packages that bring them."""
+    result = runner.run(["doctor"], NO_DRIVERS)
+    text = " ".join(result.stdout.split())
+    problems = [package + " is not named" for package in ("libegl-mesa0", "mesa-vulkan-drivers", "pocl-opencl-icd")
+                if "the Debian package " + package not in text]
+    problems += ["%d columns: %s" % (len(line), line) for line in result.stdout.splitlines() if len(line) > 100]
+    if result.returncode != 0 or result.stderr:
+        problems.append("exit status %d, stderr: %s" % (result.returncode, result.stderr))
+    return problems
+
+
+def check_warnings(runner):
+    """Thread variables that differ, and a kernel folder, are warned of."""
+    report = examine(runner, ["--device", "cpu"], {"LP_NUM_THREADS": "1", "POCL_MAX_PTHREAD_COUNT": "2", "OMP_NUM_THREADS": "2",
+                                                   "RG_KERNEL_DIR": "/nonexistent"})[0]
+    warnings = "\n".join(report["warnings"])
+    problems = []
+    for expected in (r"different numbers of threads: cpu on 2 \(OMP_NUM_THREADS\), gl and vulkan on 1 \(LP_NUM_THREADS\), "
+                     r"opencl on 2 \(POCL_MAX_PTHREAD_COUNT\)", r"RG_KERNEL_DIR=/nonexistent: .*cannot be read"):
+        if not re.search(expected, warnings):
+            problems.append("no warning matches %s in:\n%s" % (expected, warnings))
+    return problems
+
+
+def check_crash(runner):
+    """A driver that crashes is named, and harms no other device."""
+    with tempfile.TemporaryDirectory() as tmp:
+        driver = os.path.join(tmp, "crash.json")
+        with open(driver, "w") as file:
+            json.dump({"file_format_version": "1.0.0",
+                       "ICD": {"library_path": runner.crasher, "api_version": "1.3.0"}}, file)
+        report, status, errors = examine(runner, ["--device", "cpu,vulkan"], {"VK_DRIVER_FILES": driver})
+    devices = by_name(report)
+    problems = []
+    if devices["cpu"]["status"] != "ok":
+        problems.append("cpu: " + devices["cpu"]["status"])
+    if devices["vulkan"]["status"] != "crash" or "opening the device: its driver crashed (Aborted)" not in devices["vulkan"]["why"]:
+        problems.append("vulkan: %s, %s" % (devices["vulkan"]["status"], devices["vulkan"]["why"]))
+    if not any(line.startswith("vulkan: its driver crashed (Aborted)") for line in report["missing"]):
+        problems.append("missing: %s" % report["missing"])
+    if status != 1 or len(errors.splitlines()) != 1:
+        problems.append("exit status %d, stderr: %s" % (status, errors))
+    return problems
+
+
+def check_wrong_arithmetic(runner):
+    """One operation that is wrong on one device is found and named, and the exit status is 1."""
+    right, wrong = "floatBitsToUint(a *b)", "(floatBitsToUint(a *b) ^ 1u)"
+    with tempfile.TemporaryDirectory() as tmp:
+        kernels = runner.kernels_with(tmp, "probe_ops.glsl", right, wrong)
+        report, status, errors = examine(runner, ["--device", "gl"], kernels)
+        text = runner.run(["doctor", "--device", "gl"], kernels).stdout
+    device = by_name(report)["gl"]
+    if device["status"] == "unsupported":
+        return []
+    different = [o for o in device["operations"] if o["different"]]
+    problems = []
+    if [(o["name"], o["different"], o["largest_ulps"]) for o in different] != [("multiply", 65536, 1)]:
+        problems.append("different: %s" % different)
+    if device["status"] != "fail" or status != 1 or "'gl': 1 of" not in errors:
+        problems.append("%s, exit status %d, stderr: %s" % (device["status"], status, errors))
+    if not re.search(r"FAIL multiply: 65536 of 65536 results differ from C, the largest by 1 ulp", text):
+        problems.append("the text does not say so:\n" + text)
+    return problems
+
+
+CHECKS = [check_devices, check_passport, check_missing, check_warnings, check_crash, check_wrong_arithmetic]

@@ -1,0 +1,188 @@
+"""What table, diff and verify print: each form well-formed, the machine forms as docs/records.md has them."""
+import csv
+import io
+import json
+import os
+import re
+import tempfile
+
+from cases import DIFF, RENDER, SMALL, TABLE, VERIFY
+
+
+def run_json(runner, args, env={}):
+    """What the command prints as JSON, its exit status, and its messages as a list of problems."""
+    result = runner.run((args + " --json").split(), env)
+    return json.loads(result.stdout), result.returncode, ["stderr: " + line for line in result.stderr.splitlines()]
+
+
+def lacking(where, record, fields):
+    """Problems: what a record lacks of `fields`, and where a value is of another type."""
+    return ["%s: %s is %r" % (where, name, record.get(name)) for name, kind in fields.items()
+            if not isinstance(record.get(name), kind) or isinstance(record.get(name), bool) != (kind is bool)]
+
+
+def check_table_json(runner):
+    """table --json holds the passport, and for each cell what was published, measured and counted"""
+    report, status, problems = run_json(runner, TABLE)
+    problems += lacking("table", report, {"format": int, "table": str, "passport": dict, "cells": list})
+    if (report["format"], report["table"], status, len(report["cells"])) != (1, "stuppacher-2", 0, 1):
+        problems.append("format %s, table %s, exit status %d" % (report["format"], report["table"], status))
+    for cell in report["cells"]:
+        problems += lacking("cell", cell, {"row": dict, "device": str, "variant": str, "status": str, "published": dict,
+                                           "measured": dict, "counters": dict})
+        problems += lacking("measured", cell["measured"], {name: float for name in ("fps", "ms", "ms_low", "ms_high")})
+        if (cell["status"], cell["device"], cell["row"], cell["published"]) != ("ok", "cpu", {"texture_px": 128}, {"fps": 480}):
+            problems.append("cell: %s" % cell)
+        if not cell["counters"] or not all(isinstance(n, int) and n > 0 for n in cell["counters"].values()):
+            problems.append("counters: %s" % cell["counters"])
+    return problems
+
+
+def check_table_files(runner):
+    """table -o writes what it prints: csv of equal lines, balanced tex, an md table of equal columns"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        runner.run(TABLE.split() + ["-o", tmp])
+        texts = {}
+        for name in os.listdir(tmp):
+            with open(os.path.join(tmp, name)) as file:
+                texts[name.split(".")[-1]] = file.read()
+    if json.loads(texts["json"])["table"] != "stuppacher-2":
+        problems.append("json: " + texts["json"])
+    for form, check in (("csv", check_csv), ("tex", check_tex), ("md", check_md)):
+        printed = runner.run(TABLE.split() + ["--format", form]).stdout
+        problems += check(texts[form]) + check(printed)
+    return problems
+
+
+def check_csv(text):
+    lines = list(csv.reader(io.StringIO(text), strict=True))
+    equal = len(lines) == 2 and len({len(line) for line in lines}) == 1 and len(lines[0]) > 5
+    return [] if equal and lines[1][:3] == ["128", "480", "cpu"] else ["csv:\n" + text]
+
+
+def check_tex(text):
+    open_environments = []
+    for kind, name in re.findall(r"\\(begin|end)\{(\w+)\}", text):
+        if kind == "begin":
+            open_environments.append(name)
+        elif not open_environments or open_environments.pop() != name:
+            return ["tex: \\end{%s} ends nothing:\n%s" % (name, text)]
+    columns = len(re.search(r"\\begin\{tabular\}\{(\w+)\}", text).group(1))
+    rows = [line for line in text.splitlines() if line.endswith(r"\\")]
+    bare = re.findall(r"(?<!\\)[%#_$]", text)
+    if open_environments or bare or len(rows) != 2 or any(len(re.findall(r"(?<!\\)&", row)) != columns - 1 for row in rows):
+        return ["tex: unbalanced, or a bare %s:\n%s" % (bare, text)]
+    return []
+
+
+def check_md(text):
+    rows = [line for line in text.splitlines() if line.startswith("|")]
+    equal = len(rows) == 3 and len({row.count("|") for row in rows}) == 1 and len({len(row) for row in rows}) == 1
+    return [] if equal and set(rows[1]) <= set("|-:") else ["md:\n" + text]
+
+
+PAIR = {"a": str, "b": str, "tier": str, "max": int, "differing": int, "mask": int, "flip_mean": float}
+
+
+def check_diff_json(runner):
+    """diff --json has a record for every pair, of devices and of files"""
+    report, status, problems = run_json(runner, DIFF)
+    pair = report["pairs"][0]
+    problems += lacking("pair", pair, PAIR)
+    if (report["format"], len(report["pairs"]), status) != (1, 1, 0):
+        problems.append("format %s, %d pairs, exit status %d" % (report["format"], len(report["pairs"]), status))
+    found = tuple(pair[key] for key in ("a", "b", "tier", "max", "differing", "psnr"))
+    if found != ("cpu", "cpu:reference", "T0", 0, 0, None) or not 0 < pair["mask"] < 96 * 96:
+        problems.append("pair: %s, mask %s" % (found, pair["mask"]))
+    with tempfile.TemporaryDirectory() as tmp:
+        for name, exposure in (("a", "1"), ("b", "2")):
+            runner.run((RENDER + "--exposure %s -o %s/%s.png" % (exposure, tmp, name)).split())
+        report, status, messages = run_json(runner, "diff {0}/a.png {0}/b.png".format(tmp))
+    pair = report["pairs"][0]
+    problems += messages + lacking("files", pair, dict(PAIR, psnr=float))
+    if status != 1 or pair["tier"] == "T0" or pair["max"] == 0 or pair["differing"] == 0:
+        problems.append("files: exit status %d, %s" % (status, pair))
+    return problems
+
+
+def check_verify_json(runner):
+    """verify --json has a record for every check on every device"""
+    report, status, problems = run_json(runner, VERIFY)
+    for check in report["checks"]:
+        problems += lacking("check", check, dict.fromkeys(("technique", "check", "device", "status", "detail"), str))
+    named = {(check["check"], check["device"], check["status"]) for check in report["checks"]}
+    if (report["format"], status) != (1, 0) or not {("state", "cpu", "ok"), ("image", "cpu", "ok"), ("mutants", "cpu", "ok")} <= named:
+        problems.append("format %s, exit status %d, checks %s" % (report["format"], status, sorted(named)))
+    return problems
+
+
+def check_full_stdout(runner):
+    """results that do not fit on standard output are an error"""
+    problems = []
+    for args in ("list techniques", "list params flow --json", VERIFY, DIFF + "--json"):
+        with open("/dev/full", "w") as full:
+            result = runner.run(args.split(), stdout=full)
+        if result.returncode != 2 or not re.fullmatch(r"raingauge: standard output: .*\n", result.stderr):
+            problems.append("%s: exit status %d, stderr: %s" % (args, result.returncode, result.stderr))
+    return problems
+
+
+CHECKS = [check_table_json, check_table_files, check_diff_json, check_verify_json, check_full_stdout]
+
+
+# --- a driver that draws wrongly: its kernel is another ---
+
+RIGHT, TWICE_AS_BRIGHT = "rg_rgba(light.x,", "rg_rgba(light.x * 2.0f,"
+
+
+def with_wrong_light(check):
+    """Runs a check with kernels that gl draws wrongly with; a machine without gl has nothing to show."""
+    def run(runner):
+        devices = json.loads(runner.run(["list", "devices", "--json"]).stdout)["devices"]
+        if not any(device["name"] == "gl" for device in devices):
+            return []
+        with tempfile.TemporaryDirectory() as tmp:
+            return check(runner, runner.kernels_with(tmp, "flow_light.glsl", RIGHT, TWICE_AS_BRIGHT))
+    run.__doc__ = check.__doc__
+    return run
+
+
+@with_wrong_light
+def check_wrong_table(runner, kernels):
+    """a table does not time a device whose image is wrong, and fails"""
+    report, status, problems = run_json(runner, "table --rows 1-1 --device cpu,gl", kernels)
+    cpu, gl = report["cells"]
+    if status != 1 or cpu["status"] != "ok" or "measured" not in cpu:
+        problems.append("exit status %d, cpu: %s" % (status, cpu))
+    if gl["status"] != "fail" or "measured" in gl or "differs from cpu:reference" not in gl["detail"]:
+        problems.append("gl: %s" % gl)
+    if report["passport"]["raingauge"]["kernel_dir"] != kernels["RG_KERNEL_DIR"]:
+        problems.append("the passport does not name the kernels' folder")
+    return problems
+
+
+@with_wrong_light
+def check_wrong_diff(runner, kernels):
+    """diff fails the pairs of a device whose image is wrong, and no others"""
+    report, status, problems = run_json(runner, "diff flow --frame 5 --device cpu,cpu:reference,gl " + SMALL, kernels)
+    same = [(pair["a"], pair["b"]) for pair in report["pairs"] if pair["tier"] == "T0"]
+    text = runner.run(("diff flow --frame 5 --device cpu,gl " + SMALL).split(), kernels).stdout
+    if status != 1 or same != [("cpu", "cpu:reference")]:
+        problems.append("exit status %d, identical: %s" % (status, same))
+    if not re.search(r"(?m)^cpu, gl +fail ", text):
+        problems.append("the text does not say so:\n" + text)
+    return problems
+
+
+@with_wrong_light
+def check_wrong_verify(runner, kernels):
+    """verify fails the image of a device that draws wrongly, and nothing else"""
+    report, status, problems = run_json(runner, "verify flow --frame 5 --device cpu,gl " + SMALL, kernels)
+    failed = [(check["check"], check["device"]) for check in report["checks"] if check["status"] != "ok"]
+    if status != 1 or failed != [("image", "gl")]:
+        problems.append("exit status %d, failed: %s" % (status, failed))
+    return problems
+
+
+WRONG = [check_wrong_table, check_wrong_diff, check_wrong_verify]

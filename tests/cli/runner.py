@@ -1,0 +1,63 @@
+"""Runs raingauge as a person would, and prints TAP."""
+import os
+import re
+import resource
+import shutil
+import subprocess
+
+# Variables that change what raingauge or a driver does; tests set what they mean to.
+CHANGES = re.compile(r"^(RG_|LP_|OMP_|GOMP_|POCL_|VK_|MESA_|GALLIUM|GALLIVM|LIBGL_|EGL_|__EGL_|OCL_|LD_)")
+NO_DRIVERS = {
+    "VK_DRIVER_FILES": "/nonexistent",
+    "OCL_ICD_VENDORS": "/nonexistent",
+    "__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent",
+}
+
+
+class Runner:
+    def __init__(self, raingauge, kernels, crasher):
+        self.raingauge, self.kernels, self.crasher = map(os.path.abspath, (raingauge, kernels, crasher))
+        self.count = self.failed = 0
+
+    def run(self, args, env={}, limit=None, stdout=subprocess.PIPE):
+        """A command with these variables, which can write files of up to `limit` bytes."""
+        variables = {k: v for k, v in os.environ.items() if not CHANGES.match(k)}
+        variables.update(env)
+
+        def restrict():
+            if limit is not None:
+                resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+        return subprocess.run([self.raingauge] + args, env=variables, preexec_fn=restrict, timeout=300,
+                              stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE,
+                              encoding="utf-8")
+
+    def report(self, name, problems):
+        self.count += 1
+        self.failed += bool(problems)
+        print("%s %d - %s" % ("not ok" if problems else "ok", self.count, name.replace("#", "")))
+        for problem in problems:
+            print("# " + problem.replace("\n", "\n# "), flush=True)
+
+    def check_all(self, checks):
+        """Functions that return a list of problems; their first lines say what holds."""
+        for check in checks:
+            self.report(check.__doc__, check(self))
+
+    def finish(self):
+        print("1..%d" % self.count)
+        return 1 if self.failed else 0
+
+    def kernels_with(self, folder, name, right, wrong):
+        """Copies the kernels into `folder`, with one piece of one file's text made another."""
+        for file in os.listdir(self.kernels):
+            if file.endswith((".glsl", ".cl", ".spv")):
+                shutil.copy(os.path.join(self.kernels, file), folder)
+        path = os.path.join(folder, name)
+        with open(path) as file:
+            source = file.read()
+        if right not in source:
+            raise ValueError("%s no longer holds %s" % (name, right))
+        with open(path, "w") as file:
+            file.write(source.replace(right, wrong))
+        return {"RG_KERNEL_DIR": folder}
