@@ -418,10 +418,13 @@ static bool check_aliases(const struct rg_kernel *kernel, const struct rg_run *r
     return true;
 }
 
+// Drivers pad the last work group; its items must not overflow an int either.
+enum { MAX_ITEMS = INT_MAX - 1024 };
+
 static bool check_span(const struct rg_kernel *kernel, char axis, int64_t origin, int64_t count)
 {
-    require(count > 0 && origin >= 0 && origin + count <= INT_MAX,
-            "kernel '%s': %lld items in %c from %lld; at least 1, and within 2147483647",
+    require(count > 0 && origin >= 0 && origin + count <= MAX_ITEMS,
+            "kernel '%s': %lld items in %c from %lld; at least 1, and within 2147482623",
             kernel->name, (long long)count, axis, (long long)origin);
     return true;
 }

@@ -105,16 +105,28 @@ static bool names_are_known(const struct rg_options *o)
     return true;
 }
 
+// Bad input outweighs a failure, and a failure nothing measured.
+static int worse(int a, int b)
+{
+    static const int order[] = {RG_EXIT_USAGE, RG_EXIT_FAIL, RG_EXIT_NOTHING};
+    for (int i = 0; i < 3; i++)
+        if (a == order[i] || b == order[i])
+            return order[i];
+    return RG_EXIT_PASS;
+}
+
 static int table(const struct rg_options *o)
 {
     if (!names_are_known(o))
         return RG_EXIT_USAGE;
     struct rg_devices devices;
     int exit = rg_devices_open(o, "all", &devices);
-    for (int i = 0; exit == RG_EXIT_PASS && rg_tables[i] && !o->arg_count; i++)
-        exit = run_table(rg_tables[i], &devices, o);
-    for (int i = 0; exit == RG_EXIT_PASS && i < o->arg_count; i++)
-        exit = run_table(rg_table_find(o->args[i]), &devices, o);
+    // A table that fails keeps none of the others from being measured and written.
+    const bool opened = exit == RG_EXIT_PASS;
+    for (int i = 0; opened && rg_tables[i] && !o->arg_count; i++)
+        exit = worse(exit, run_table(rg_tables[i], &devices, o));
+    for (int i = 0; opened && i < o->arg_count; i++)
+        exit = worse(exit, run_table(rg_table_find(o->args[i]), &devices, o));
     if (exit == RG_EXIT_PASS && devices.broken_count)
         exit = RG_EXIT_FAIL;
     rg_devices_close(&devices);

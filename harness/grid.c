@@ -116,9 +116,12 @@ void rg_grid_print_csv(const struct rg_grid *grid, FILE *out)
 static void print_tex_text(FILE *out, const char *text)
 {
     for (; *text; text++) {
-        if (strchr("_%&#$", *text))
-            fputc('\\', out);
-        fputc(*text, out);
+        if (*text == '\\')
+            fprintf(out, "\\textbackslash{}");
+        else if (strchr("^~", *text))
+            fprintf(out, "\\%c{}", *text);
+        else
+            fprintf(out, strchr("_%&#${}", *text) ? "\\%c" : "%c", *text);
     }
 }
 

@@ -1,30 +1,28 @@
 // Mutants: a comparison that accepts a model that is a little off proves nothing. Each is drawn on
 // one device and compared with the true model's image, at the loosest tier that verify accepts, T1.
-// They are young pictures: by step 1,000 a drop that was missing at the start has run off the pane.
+// They have a scene of their own, the technique's defaults, whatever the user sets: a mutant of a
+// pane without drops would live. And they are young pictures: by step 1,000 a drop that was missing
+// at the start has run off the pane.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/image/compare.h"
 #include "core/log.h"
+#include "harness/frame.h"
 #include "harness/verify.h"
 
 enum { MUTANT_STEPS = 100 };
-
-static int steps_of(const struct rg_verify *v)
-{
-    return v->steps < MUTANT_STEPS ? v->steps : MUTANT_STEPS;
-}
 
 int64_t rg_verify_mutant_work(const struct rg_verify *v)
 {
     int64_t runs = 1;
     while (v->technique->proof->mutants[runs - 1].about)
         runs++;
-    return runs * steps_of(v);
+    return runs * MUTANT_STEPS;
 }
 
-// The parameter's value as the mutant has it. False where that is out of its range, or the user's
+// The parameter's value as the mutant has it. False where that is out of its range, or the model's
 // own value: 1 % less of nothing is no mutant.
 static bool mutate(const struct rg_verify *v, const struct rg_mutant *mutant, char *text,
                    size_t size)
@@ -95,7 +93,7 @@ static void run_all(struct rg_verify *v, const struct rg_picture *truth,
         rg_progress_label(v->progress, "%s: mutant: %s", v->technique->name, m->about);
         if (!mutate(v, m, assignment, sizeof(assignment)))
             continue;
-        if (draw(v, assignment, steps_of(v), &mutated))
+        if (draw(v, assignment, MUTANT_STEPS, &mutated))
             judge(m, truth, &mutated, dry, verdicts);
         else
             verdicts->error = true;
@@ -118,15 +116,21 @@ static void report(struct rg_verify *v, const struct verdicts *verdicts)
                       *verdicts->alive ? verdicts->alive : "none was in its parameter's range");
 }
 
-void rg_verify_mutants(struct rg_verify *v)
+void rg_verify_mutants(struct rg_verify *verify)
 {
+    struct rg_verify scene = *verify;
+    void *settings = rg_settings_create(verify->technique);
+    scene.settings = settings;
+    scene.width = scene.height = RG_FRAME_SIZE_PX;
     struct verdicts verdicts = {0};
     struct rg_picture truth = {0}, dry = {0};
-    if (draw(v, "", steps_of(v), &truth) && draw(v, v->technique->proof->dry, 0, &dry))
-        run_all(v, &truth, &dry, &verdicts);
+    if (settings && draw(&scene, "", MUTANT_STEPS, &truth) &&
+        draw(&scene, scene.technique->proof->dry, 0, &dry))
+        run_all(&scene, &truth, &dry, &verdicts);
     else
         verdicts.error = true;
-    report(v, &verdicts);
+    report(&scene, &verdicts);
     rg_picture_destroy(&truth);
     rg_picture_destroy(&dry);
+    free(settings);
 }

@@ -222,7 +222,8 @@ RG_FN float rg_pow(float x, float y)
     return t < -126.0f || (x < RG_SMALLEST_NORMAL && y > 0.0f) ? 0.0f : v;
 }
 
-// x to a whole power from 0 to 15, by squaring: at most 6 roundings, so below 8 ulp.
+// x to a whole power from 0 to 15, by squaring. Roundings that squaring doubles add up to a relative
+// error of 14 * 2^-24 at most, for the power 15: below 14 ulp, 9.7 ulp seen.
 RG_FN float rg_pow_whole(float x, int power)
 {
     float x2 = x * x;

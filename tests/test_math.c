@@ -154,6 +154,22 @@ static void power_holds(void **state)
     assert_true(worst.error > 0.0 && worst.error <= 8.0);
 }
 
+static void whole_power_holds(void **state)
+{
+    (void)state;
+    struct worst worst = {0};
+    uint64_t seed = 5;
+    for (int i = 0; i < PAIRS; i++) {
+        const float x = random_within(&seed, 0.01f, 4.0f);
+        const int power = (int)(random_bits(&seed) % 16u);
+        keep_worst(&worst, ulps(rg_pow_whole(x, power), pow((double)x, power)), x, (float)power);
+    }
+    print_message("rg_pow_whole: %.3f ulp at %a, %a\n", worst.error, (double)worst.x,
+                  (double)worst.y);
+    assert_true(worst.error > 0.0 && worst.error <= 14.0);
+    assert_true(rg_pow_whole(0.0f, 0) == 1.0f && rg_pow_whole(3.0f, 5) == 243.0f);
+}
+
 static void hypot_holds(void **state)
 {
     (void)state;
@@ -220,13 +236,10 @@ static void results_are_normal_or_zero(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bounds_in_ulp_hold),
-        cmocka_unit_test(logarithms_hold_near_one),
-        cmocka_unit_test(sine_and_cosine_hold),
-        cmocka_unit_test(power_holds),
-        cmocka_unit_test(hypot_holds),
-        cmocka_unit_test(exact_where_the_answer_is),
-        cmocka_unit_test(edges_are_as_documented),
+        cmocka_unit_test(bounds_in_ulp_hold),         cmocka_unit_test(logarithms_hold_near_one),
+        cmocka_unit_test(sine_and_cosine_hold),       cmocka_unit_test(power_holds),
+        cmocka_unit_test(whole_power_holds),          cmocka_unit_test(hypot_holds),
+        cmocka_unit_test(exact_where_the_answer_is),  cmocka_unit_test(edges_are_as_documented),
         cmocka_unit_test(results_are_normal_or_zero),
     };
     return cmocka_run_group_tests_name("math", tests, NULL, NULL);
