@@ -27,6 +27,14 @@ struct rg_environment *rg_environment_create(int size)
     return NULL;
 }
 
+void rg_environment_destroy(struct rg_environment *environment)
+{
+    if (!environment)
+        return;
+    free(environment->light);
+    free(environment);
+}
+
 float *rg_environment_texel(const struct rg_environment *environment, int face, int x, int y)
 {
     const size_t side = (size_t)environment->size + 2;

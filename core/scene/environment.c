@@ -18,14 +18,6 @@
 
 enum { SKY_SIZE = 256, MIN_SIZE = 16, MAX_SIZE = 1024 };
 
-void rg_environment_destroy(struct rg_environment *environment)
-{
-    if (!environment)
-        return;
-    free(environment->light);
-    free(environment);
-}
-
 // --- the procedural sky: overcast, brighter towards the horizon, over dark ground ---
 
 static double mix_by(double low, double high, double t)
