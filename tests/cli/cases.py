@@ -184,6 +184,7 @@ WITH_DRIVERS = [
     Case(RENDER + "--device gl -o {tmp}/a.png", 77, NO_CONTEXT, OLD_GL),
     Case("table --device gl", 77, NO_CONTEXT, OLD_GL),
     Case("table --rows 1-1 --device cpu,gl", 77, NO_CONTEXT, OLD_GL),
+    Case("table --rows 1-1 --device all", 0, r"warning: unsupported here: gl: no OpenGL 4\.5 core", OLD_GL),
 ]
 
 
