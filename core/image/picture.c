@@ -70,3 +70,18 @@ void rg_picture_destroy(struct rg_picture *picture)
     free(picture->texels);
     memset(picture, 0, sizeof(*picture));
 }
+
+void rg_picture_drop_opaque_alpha(struct rg_picture *picture)
+{
+    const int64_t pixels = (int64_t)picture->width * picture->height;
+    const int channels = picture->channels, colours = rg_picture_colours(picture);
+    if (colours == channels)
+        return;
+    for (int64_t i = 0; i < pixels; i++)
+        if (picture->texels[i * channels + colours] != 1.0f)
+            return;
+    for (int64_t i = 0; i < pixels; i++)
+        for (int c = 0; c < colours; c++)
+            picture->texels[i * colours + c] = picture->texels[i * channels + c];
+    picture->channels = colours;
+}

@@ -32,6 +32,9 @@ void rg_picture_destroy(struct rg_picture *picture);
 bool rg_picture_allocate(struct rg_picture *picture, int64_t width, int64_t height,
                          int64_t channels, char *why, size_t why_size);
 
+// Leaves out an alpha that is 1 everywhere: files are smaller, and HDR holds none. In place.
+void rg_picture_drop_opaque_alpha(struct rg_picture *picture);
+
 static inline int64_t rg_picture_values(const struct rg_picture *picture)
 {
     return (int64_t)picture->width * picture->height * picture->channels;

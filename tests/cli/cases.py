@@ -82,6 +82,8 @@ ON_CPU = [
     # render: what it writes
     Case(RENDER + "-o {tmp}/a.png", 0, None, made=("a.png",)),
     Case(RENDER + "-o {tmp}/a.exr", 0, None, made=("a.exr",)),
+    Case(RENDER + "-o {tmp}/a.hdr", 0, None, made=("a.hdr",)),
+    Case(RENDER + "-o {tmp}/a.tif", 0, None, made=("a.tif",)),
     Case(RENDER + "-o {tmp}/none/a.png", 2, r"none/a\.png: its folder is not there; make it first"),
     Case(RENDER + "-o {data}/folder.exr", 2, r"folder\.exr: "),
     Case(RENDER + "-o {tmp}/a.nonsense", 2, r"a\.nonsense: "),
