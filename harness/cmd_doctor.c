@@ -5,6 +5,7 @@
 #include "core/alloc.h"
 #include "core/log.h"
 #include "harness/command.h"
+#include "harness/devices.h"
 #include "harness/doctor/report.h"
 #include "harness/passport.h"
 
@@ -91,7 +92,7 @@ static int run(struct rg_doctor_report *report, const struct rg_options *o)
 {
     if (!rg_options_at_most(o, "doctor", 0))
         return RG_EXIT_USAGE;
-    rg_doctor_list(&report->list);
+    rg_devices_list(&report->list);
     if (!take_names(report, o->device) || !examine(report))
         return RG_EXIT_USAGE;
     describe(report);

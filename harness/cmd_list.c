@@ -7,6 +7,7 @@
 #include "core/alloc.h"
 #include "core/log.h"
 #include "harness/command.h"
+#include "harness/devices.h"
 #include "harness/tables/tables.h"
 
 // Every listing is an array of objects; without --json, its fields are printed as columns.
@@ -56,7 +57,7 @@ static json_t *list_devices(void)
     struct rg_device_list *list = rg_alloc(1, sizeof(*list), "list of devices");
     if (!list)
         return rows;
-    rg_device_list_all(list);
+    rg_devices_list(list);
     for (int i = 0; i < list->count; i++)
         json_array_append_new(rows, json_pack("{ssssssss}", "name", list->infos[i].name, "api",
                                               list->infos[i].api, "device", list->infos[i].device,

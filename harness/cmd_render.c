@@ -6,6 +6,7 @@
 #include "core/image/io.h"
 #include "core/log.h"
 #include "harness/command.h"
+#include "harness/devices.h"
 #include "harness/frame.h"
 
 static bool write_frame(struct rg_instance *instance, const char *path, double exposure)

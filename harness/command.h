@@ -76,23 +76,4 @@ const struct rg_technique *rg_options_technique(const struct rg_options *options
 // line, when a value is refused.
 void *rg_options_settings(const struct rg_options *options, const struct rg_technique *technique);
 
-// The devices that --device names, or `fallback` where it is absent: "all", or names separated by
-// commas. Opened, in order. A name that is unknown is bad usage; a driver that is absent is
-// unsupported, and skipped with its line when the list was "all". So is one that is there and does
-// not open, which the command reports as a failure. Returns an enum rg_exit.
-struct rg_devices {
-    int count;
-    struct rg_device *devices[RG_MAX_DEVICES];
-    // With "all": one line a backend without a device, "" after the last.
-    char missing[RG_MAX_BACKENDS + 1][256];
-    int broken_count; // with "all": devices that are listed and do not open
-    struct rg_broken_device {
-        char name[32], why[256];
-    } broken[RG_MAX_DEVICES];
-};
-int rg_devices_open(const struct rg_options *options, const char *fallback,
-                    struct rg_devices *devices);
-// Closes them; false on a leak.
-bool rg_devices_close(struct rg_devices *devices);
-
 #endif

@@ -7,6 +7,7 @@
 #include "core/alloc.h"
 #include "core/log.h"
 #include "core/techniques/proof.h"
+#include "harness/devices.h"
 #include "harness/diff_report.h"
 #include "harness/frame.h"
 #include "harness/progress.h"

@@ -5,6 +5,7 @@
 #include <jansson.h>
 
 #include "harness/command.h"
+#include "harness/devices.h"
 #include "harness/grid.h"
 #include "harness/measure.h"
 #include "harness/tables/tables.h"

@@ -7,6 +7,7 @@
 #include "core/techniques/technique.h"
 #include "harness/checks.h"
 #include "harness/command.h"
+#include "harness/devices.h"
 #include "harness/progress.h"
 
 enum { RG_VERIFY_SEEDS = 3 };

@@ -1,4 +1,4 @@
-// Listing and examining devices, each in a child process.
+// Examining devices, each in a child process.
 #include <stdio.h>
 #include <string.h>
 
@@ -7,44 +7,7 @@
 #include "harness/doctor/report.h"
 
 // A probe of a software driver takes seconds; compilers under a sanitizer or a loaded machine more.
-enum { LIST_TIMEOUT_S = 60, EXAMINE_TIMEOUT_S = 180 };
-
-// --- listing ---
-
-struct listing {
-    const struct rg_backend *backend;
-    struct rg_device_list list;
-};
-
-static void list_one(void *shared)
-{
-    struct listing *listing = shared;
-    rg_device_list_add(&listing->list, listing->backend);
-}
-
-void rg_doctor_list(struct rg_device_list *list)
-{
-    memset(list, 0, sizeof(*list));
-    struct listing *listing = rg_shared_create(sizeof(*listing));
-    for (int b = 0; listing && rg_backends[b]; b++) {
-        char why[256];
-        *listing = (struct listing){rg_backends[b], *list};
-        if (rg_child_run(list_one, listing, LIST_TIMEOUT_S, why, sizeof(why)) == RG_CHILD_DONE) {
-            *list = listing->list;
-            continue;
-        }
-        int missing = 0;
-        while (list->missing[missing][0])
-            missing++;
-        snprintf(list->missing[missing], sizeof(list->missing[0]), "%s: %.140s%s%s",
-                 rg_backends[b]->name, why,
-                 rg_backends[b]->package ? "; reinstall the Debian package " : "",
-                 rg_backends[b]->package ? rg_backends[b]->package : "");
-    }
-    rg_shared_destroy(listing, sizeof(*listing));
-}
-
-// --- examining ---
+enum { EXAMINE_TIMEOUT_S = 180 };
 
 int rg_examination_failures(const struct rg_examination *examination)
 {

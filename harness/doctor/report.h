@@ -38,9 +38,6 @@ struct rg_doctor_report {
     json_t *warnings;                    // array of strings
 };
 
-// Lists the devices of every backend, each in a child process: a driver that crashes is missing.
-void rg_doctor_list(struct rg_device_list *list);
-
 // Opens the device that info.name names, probes its arithmetic and audits its timer, in a child
 // process. The result takes the place of what was there.
 void rg_doctor_examine(struct rg_examination *examination);
