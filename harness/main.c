@@ -19,7 +19,7 @@ const struct rg_command *const rg_commands[] = {RG_COMMANDS(ENTRY) NULL};
 static void print_usage(void)
 {
     printf("raingauge COMMAND [OPTION]...\n"
-           "Runs the rain of five papers on every graphics API, compares, and measures.\n\n");
+           "Runs the rain of published papers on every graphics API, compares, and measures.\n\n");
     for (int i = 0; rg_commands[i]; i++)
         printf("  %-8s %s\n", rg_commands[i]->name, rg_commands[i]->about);
     printf("\n`raingauge COMMAND --help` prints a command's options.\n");

@@ -142,8 +142,18 @@ static bool take_arguments(poptContext context, struct rg_options *o)
 
 static void print_help(const struct rg_command *command, poptContext context)
 {
-    printf("raingauge %s %s\n%s\n\n", command->name, command->usage, command->about);
-    poptPrintHelp(context, stdout, 0);
+    // popt prints its own usage line first, which names neither the program nor the arguments.
+    char *text = NULL;
+    size_t size;
+    FILE *help = open_memstream(&text, &size);
+    if (!help)
+        return;
+    poptPrintHelp(context, help, 0);
+    fclose(help);
+    const char *options = strchr(text, '\n');
+    printf("raingauge %s %s\n%s\n%s", command->name, command->usage, command->about,
+           options ? options : "\n");
+    free(text);
 }
 
 // popt names the value that it refuses; say whose value it is.
