@@ -16,6 +16,16 @@ const struct rg_kernel *rg_kernel_find(const char *name)
     return NULL;
 }
 
+int rg_kernel_index(const struct rg_kernel *kernel)
+{
+    const struct rg_kernel *const *all;
+    const int count = rg_kernel_all(&all);
+    int index = 0;
+    while (index < count && all[index] != kernel)
+        index++;
+    return index;
+}
+
 const char *rg_kernel_override(void)
 {
     const char *folder = getenv("RG_KERNEL_DIR");

@@ -59,6 +59,9 @@ const struct rg_kernel *rg_kernel_find(const char *name);
 // All kernels, in the order of the list; returns their number.
 int rg_kernel_all(const struct rg_kernel *const **kernels);
 
+// A kernel's place among rg_kernel_all: what a device may keep a table by.
+int rg_kernel_index(const struct rg_kernel *kernel);
+
 // The code for a driver, as embedded at build time or, where RG_KERNEL_DIR names a folder, read
 // from NAME.glsl, NAME.spv or NAME.cl there. `owned` is what the caller frees when done, NULL if
 // nothing.

@@ -184,6 +184,9 @@ static long stop_listening(void)
 
 static void a_broken_kernel_is_one_line(void **state)
 {
+    (void)state;
+    struct rg_device *device = rg_device_open("opencl", NULL); // one that has built nothing yet
+    assert_non_null(device);
     char folder[] = "/tmp/raingauge-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof(path), "%s/test_copy.cl", folder);
@@ -194,7 +197,7 @@ static void a_broken_kernel_is_one_line(void **state)
     lines = 0;
     rg_log_listen(count_line, NULL);
     listen_to_stderr();
-    struct rg_pass *pass = rg_pass_create(*state, "test_copy");
+    struct rg_pass *pass = rg_pass_create(device, "test_copy");
     assert_int_equal(stop_listening(), 0);
     rg_log_listen(NULL, NULL);
     unsetenv("RG_KERNEL_DIR");
@@ -205,6 +208,7 @@ static void a_broken_kernel_is_one_line(void **state)
     assert_non_null(strstr(rg_last_error(), "kernel 'test_copy'"));
     assert_non_null(strstr(rg_last_error(), "CL_BUILD_PROGRAM_FAILURE"));
     assert_non_null(strstr(rg_last_error(), "this_is_missing"));
+    assert_true(rg_device_close(device));
 }
 
 static const char *expected_code;

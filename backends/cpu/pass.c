@@ -8,14 +8,10 @@
 
 struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
 {
-    const struct rg_kernel *const *all;
-    int count = rg_kernel_all(&all), index = 0;
-    while (index < count && all[index] != kernel)
-        index++;
     struct cpu_pass *pass = rg_alloc(1, sizeof(*pass), kernel->name);
     if (!pass)
         return NULL;
-    pass->function = ((struct cpu_device *)device)->kernels[index];
+    pass->function = ((struct cpu_device *)device)->kernels[rg_kernel_index(kernel)];
     return &pass->pub;
 }
 

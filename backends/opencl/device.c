@@ -159,9 +159,19 @@ static int opencl_list(struct rg_device_info *infos, int max, char *why, size_t 
     return count;
 }
 
+static int kernel_count(void)
+{
+    const struct rg_kernel *const *all;
+    return rg_kernel_all(&all);
+}
+
 static void opencl_destroy(struct rg_device *device)
 {
     struct opencl_device *opencl = (struct opencl_device *)device;
+    for (int i = 0; opencl->programs && i < kernel_count(); i++)
+        if (opencl->programs[i])
+            clReleaseProgram(opencl->programs[i]);
+    free(opencl->programs);
     if (opencl->queue)
         clReleaseCommandQueue(opencl->queue);
     if (opencl->context)
@@ -188,8 +198,12 @@ static struct rg_device *opencl_create(int index)
     if (find_devices(ids, RG_MAX_DEVICES, why, sizeof(why)) <= index)
         return rg_error_null("device 'opencl:%d': it is gone; %s", index, why);
     struct opencl_device *device = calloc(1, sizeof(*device));
-    if (!device)
+    if (device)
+        device->programs = calloc((size_t)kernel_count(), sizeof(cl_program));
+    if (!device || !device->programs) {
+        free(device);
         return rg_error_null("device 'opencl:%d': no memory left", index);
+    }
     device->id = ids[index];
     describe(device->id, index, &device->pub.info);
     device->has_clock =

@@ -24,6 +24,8 @@ struct opencl_device {
     cl_command_queue queue; // in order, with profiling
     int queued;             // commands since the queue was last known to have ended
     bool has_clock;
+    cl_program
+        *programs; // of the kernels built so far, by rg_kernel_index: PoCL takes 30 ms for one
     struct opencl_staged *staged;
     size_t staged_bytes;
 };
@@ -45,12 +47,11 @@ struct opencl_image {
     struct opencl_memory memory;
     rg_image_shape shape;
     uint32_t header[RG_MAX_LEVELS]; // kernels/image_memory.h
-    int words; // of the whole image
+    int words;                      // of the whole image
 };
 
 struct opencl_pass {
     struct rg_pass pub;
-    cl_program program;
     cl_kernel kernel;
 };
 

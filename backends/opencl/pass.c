@@ -17,7 +17,7 @@ static const char *build_options(cl_device_id id)
 }
 
 // Logs what a driver's compiler had to say, in one line: its first error, else its first line.
-static bool build_failed(const struct opencl_device *device, cl_program program,
+static void build_failed(const struct opencl_device *device, cl_program program,
                          const struct rg_kernel *kernel, cl_int code)
 {
     size_t size = 0;
@@ -33,28 +33,38 @@ static bool build_failed(const struct opencl_device *device, cl_program program,
     rg_error("kernel '%s': clBuildProgram failed with %s on %s: %.*s", kernel->name,
              opencl_error_name(code), device->pub.info.name, (int)strcspn(line, "\r\n"), line);
     free(log);
-    return false;
 }
 
-static bool build(struct opencl_pass *pass, struct opencl_device *device,
-                  const struct rg_kernel *kernel)
+static cl_program build(struct opencl_device *device, const struct rg_kernel *kernel)
 {
     struct rg_kernel_code text;
     void *owned;
     if (!rg_kernel_code(kernel, RG_CODE_OPENCL, &text, &owned))
-        return false;
+        return NULL;
     const char *source = (const char *)text.bytes;
     cl_int code;
-    pass->program = clCreateProgramWithSource(device->context, 1, &source, &text.size, &code);
+    cl_program program = clCreateProgramWithSource(device->context, 1, &source, &text.size, &code);
     free(owned);
     if (!opencl_check(code, "clCreateProgramWithSource", "kernel", kernel->name))
-        return false;
+        return NULL;
     int hidden = opencl_hide_messages();
-    code = clBuildProgram(pass->program, 1, &device->id, build_options(device->id), NULL, NULL);
+    code = clBuildProgram(program, 1, &device->id, build_options(device->id), NULL, NULL);
     opencl_show_messages(hidden);
-    if (code != CL_SUCCESS)
-        return build_failed(device, pass->program, kernel, code);
-    pass->kernel = clCreateKernel(pass->program, "rg_grid", &code);
+    if (code == CL_SUCCESS)
+        return program;
+    build_failed(device, program, kernel, code);
+    clReleaseProgram(program);
+    return NULL;
+}
+
+static bool create_kernel(struct opencl_pass *pass, struct opencl_device *device,
+                          const struct rg_kernel *kernel)
+{
+    cl_program *program = &device->programs[rg_kernel_index(kernel)];
+    if (!*program && !(*program = build(device, kernel)))
+        return false;
+    cl_int code;
+    pass->kernel = clCreateKernel(*program, "rg_grid", &code);
     return opencl_check(code, "clCreateKernel", "kernel", kernel->name);
 }
 
@@ -63,8 +73,6 @@ void opencl_pass_destroy(struct rg_pass *pass)
     struct opencl_pass *opencl = (struct opencl_pass *)pass;
     if (opencl->kernel)
         clReleaseKernel(opencl->kernel);
-    if (opencl->program)
-        clReleaseProgram(opencl->program);
     free(opencl);
 }
 
@@ -73,7 +81,7 @@ struct rg_pass *opencl_pass_create(struct rg_device *device, const struct rg_ker
     struct opencl_pass *pass = calloc(1, sizeof(*pass));
     if (!pass)
         return rg_error_null("kernel '%s': no memory left", kernel->name);
-    if (build(pass, (struct opencl_device *)device, kernel))
+    if (create_kernel(pass, (struct opencl_device *)device, kernel))
         return &pass->pub;
     opencl_pass_destroy(&pass->pub);
     return NULL;
