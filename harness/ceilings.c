@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "core/device.h"
-#include "harness/measure.h"
+#include "harness/clock.h"
 #include "kernels/probe_arithmetic_params.h"
 #include "kernels/test_copy_params.h"
 

@@ -4,11 +4,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "core/image/compare.h"
 #include "core/alloc.h"
 #include "core/log.h"
+#include "harness/clock.h"
 #include "harness/frame.h"
 #include "kernels/rng.h"
 
@@ -16,15 +16,8 @@ enum { MAX_WARM_UP_SAMPLES = 20, MIN_WARM_UP_SAMPLES = 3, PASS_FRAMES = 10 };
 
 const char *rg_cell_status_name(enum rg_cell_status status)
 {
-    static const char *const names[] = {"ok", "fail", "unsupported", "error"};
+    static const char *const names[] = {"ok", "fail", "error"};
     return names[status];
-}
-
-double rg_now_ms(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }
 
 static bool end_cell(struct rg_cell *cell, enum rg_cell_status status, const char *detail)

@@ -11,7 +11,7 @@
 
 enum { RG_MAX_CELL_PASSES = 16, RG_CELL_CHECK_FRAMES = 10 };
 
-enum rg_cell_status { RG_CELL_OK, RG_CELL_FAIL, RG_CELL_UNSUPPORTED, RG_CELL_ERROR };
+enum rg_cell_status { RG_CELL_OK, RG_CELL_FAIL, RG_CELL_ERROR };
 const char *rg_cell_status_name(enum rg_cell_status status); // "ok", "fail", ...
 
 struct rg_cell_pass {
@@ -58,8 +58,5 @@ void rg_cells_measure(struct rg_cell *cells, int count, const struct rg_measure_
 
 // Closes what prepare opened and frees the samples.
 void rg_cell_close(struct rg_cell *cell);
-
-// Milliseconds of a clock that only goes forward.
-double rg_now_ms(void);
 
 #endif

@@ -3,19 +3,12 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "core/log.h"
+#include "harness/clock.h"
 
-enum { BAR_COLUMNS = 24, DRAW_EVERY_NS = 100000000 };
-
-static int64_t now_ns(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (int64_t)time.tv_sec * 1000000000 + time.tv_nsec;
-}
+enum { BAR_COLUMNS = 24, DRAW_EVERY_MS = 100 };
 
 static void wipe(void)
 {
@@ -30,8 +23,8 @@ static void draw(struct rg_progress *p)
     memset(bar, '.', BAR_COLUMNS);
     memset(bar, '#', (size_t)(filled > BAR_COLUMNS ? BAR_COLUMNS : filled));
     bar[BAR_COLUMNS] = 0;
-    p->drawn_ns = now_ns();
-    const double passed_s = (double)(p->drawn_ns - p->start_ns) * 1e-9;
+    p->drawn_ms = rg_now_ms();
+    const double passed_s = (p->drawn_ms - p->start_ms) * 1e-3;
     wipe();
     fprintf(stderr, "[%s] %3d %%", bar, (int)(part * 100));
     // The first moments say nothing about the rest.
@@ -53,7 +46,8 @@ static void print_above(enum rg_log_level level, const char *line, void *user)
 
 void rg_progress_start(struct rg_progress *p, int64_t total)
 {
-    *p = (struct rg_progress){.shown = isatty(STDERR_FILENO), .total = total, .start_ns = now_ns()};
+    *p = (struct rg_progress){
+        .shown = isatty(STDERR_FILENO), .total = total, .start_ms = rg_now_ms()};
     if (!p->shown)
         return;
     rg_log_listen(print_above, p);
@@ -73,7 +67,7 @@ void rg_progress_label(struct rg_progress *p, const char *format, ...)
 void rg_progress_add(struct rg_progress *p, int64_t units)
 {
     p->done += units;
-    if (p->shown && now_ns() - p->drawn_ns > DRAW_EVERY_NS)
+    if (p->shown && rg_now_ms() - p->drawn_ms > DRAW_EVERY_MS)
         draw(p);
 }
 

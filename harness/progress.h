@@ -8,7 +8,7 @@
 struct rg_progress {
     bool shown; // stderr is a terminal
     int64_t total, done;
-    int64_t start_ns, drawn_ns;
+    double start_ms, drawn_ms;
     char label[64];
 };
 

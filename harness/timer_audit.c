@@ -1,9 +1,10 @@
 #include "harness/timer_audit.h"
 
 #include <stdlib.h>
-#include <time.h>
 
 #include "core/device.h"
+#include "harness/clock.h"
+#include "harness/stats.h"
 #include "kernels/test_copy_params.h"
 
 // Large enough to leave the caches of one core, small enough for every device.
@@ -22,25 +23,6 @@ struct load {
     struct rg_buf *source, *target;
     struct rg_pass *copy;
 };
-
-static double now_ns(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec * 1e9 + (double)now.tv_nsec;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *samples, int count)
-{
-    qsort(samples, (size_t)count, sizeof(*samples), by_value);
-    return samples[count / 2];
-}
 
 static bool load_init(struct load *load, struct rg_device *device)
 {
@@ -78,10 +60,10 @@ static bool time_wall(struct load *load, int passes, int side, double *wall_ns)
 {
     if (!rg_device_sync(load->device))
         return false;
-    const double start_ns = now_ns();
+    const double start_ms = rg_now_ms();
     if (!run(load, passes, side) || !rg_device_sync(load->device))
         return false;
-    *wall_ns = now_ns() - start_ns;
+    *wall_ns = (rg_now_ms() - start_ms) * 1e6;
     return true;
 }
 
@@ -128,11 +110,11 @@ static bool audit_timer(struct load *load, struct rg_timer_audit *audit)
         apis_ms[i] = (double)(end - start) * 1e-6;
         ratios[i] = apis_ms[i] / walls_ms[i];
     }
-    audit->wall_ms = median(walls_ms, REPETITIONS);
+    audit->wall_ms = rg_median(walls_ms, REPETITIONS).median;
     if (!audit->has_timer)
         return true;
-    audit->api_ms = median(apis_ms, REPETITIONS);
-    audit->ratio = median(ratios, REPETITIONS);
+    audit->api_ms = rg_median(apis_ms, REPETITIONS).median;
+    audit->ratio = rg_median(ratios, REPETITIONS).median;
     audit->trusted = rg_timer_is_trusted(audit->ratio);
     return true;
 }
@@ -143,15 +125,15 @@ static bool audit_costs(struct load *load, struct rg_timer_audit *audit)
     for (int i = 0; i < SYNCS; i++)
         if (!time_wall(load, 0, 1, &samples_ns[i]))
             return false;
-    audit->sync_us = median(samples_ns, SYNCS) * 1e-3;
+    audit->sync_us = rg_median(samples_ns, SYNCS).median * 1e-3;
     for (int i = 0; i < SYNCS; i++)
         if (!time_wall(load, 1, 1, &samples_ns[i]))
             return false;
-    audit->round_trip_us = median(samples_ns, SYNCS) * 1e-3;
+    audit->round_trip_us = rg_median(samples_ns, SYNCS).median * 1e-3;
     for (int i = 0; i < REPETITIONS; i++)
         if (!time_wall(load, DISPATCHES, 1, &samples_ns[i]))
             return false;
-    audit->dispatch_us = median(samples_ns, REPETITIONS) * 1e-3 / DISPATCHES;
+    audit->dispatch_us = rg_median(samples_ns, REPETITIONS).median * 1e-3 / DISPATCHES;
     return true;
 }
 
