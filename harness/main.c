@@ -49,7 +49,7 @@ static int run(const struct rg_command *command, int argc, char **argv)
 }
 
 // libgomp's threads spin for tens of milliseconds before they sleep, and on a busy machine keep
-// from running what they wait for: frames take twenty times as long. It reads how long to spin
+// from running what they wait for: frames can take ten times as long. It reads how long to spin
 // once, when it is loaded, so raingauge starts itself again with a millisecond, unless the user has
 // chosen.
 static void spin_briefly(char **argv)
