@@ -46,7 +46,8 @@ struct rg_device_info {
 struct rg_device {
     const struct rg_backend *backend;
     struct rg_device_info info;
-    struct rg_work *work; // what core/device.c counts; not the backend's business
+    struct rg_work *work;       // what core/device.c counts; not the backend's business
+    struct rg_packing *packing; // core/draw.c's; likewise
 };
 
 struct rg_buf {
@@ -70,11 +71,48 @@ struct rg_image {
 struct rg_pass {
     struct rg_device *device;
     const struct rg_kernel *kernel;
+    struct rg_packer *packer; // core/draw.c's, of a DRAW pass; NULL for others
 };
 
 struct rg_binding {
     struct rg_buf *buf; // one of the two, as the kernel's slot wants it
     struct rg_image *image;
+};
+
+enum rg_blend {
+    RG_BLEND_OFF,
+    RG_BLEND_OVER, // premultiplied: source + target (1 - alpha of the source)
+    RG_BLEND_ADD,
+};
+enum rg_depth_mode {
+    RG_DEPTH_OFF,
+    RG_DEPTH_TEST,
+    RG_DEPTH_WRITE
+}; // nearer wins; ties keep the first
+enum rg_cull {
+    RG_CULL_NONE,
+    RG_CULL_BACK, // leaves out what turns clockwise on the screen
+    RG_CULL_FRONT,
+};
+
+// Where and how a DRAW pass draws. Items blend in the order of their index on every backend.
+struct rg_draw {
+    struct rg_image *colour; // RGBA8, RGBA16F or RGBA32F; NULL: depth alone
+    struct rg_image *depth;  // D32F, of the same size at `level`; NULL: without
+    int layer, level;        // of both
+    enum rg_blend blend;
+    enum rg_depth_mode depth_mode;
+    enum rg_cull cull;
+    int x0, y0, x1, y1; // scissor: x0 <= x < x1, y0 <= y < y1; all 0: the whole target
+    struct rg_buf
+        *samples; // uints; the element of each item grows by its visible samples. NULL: none
+};
+
+// A DRAW pass's primitives, packed by core/draw.c, for backends whose `packed` asks for it.
+struct rg_packed {
+    struct rg_buf *prims; // rg_prim of kernels/draw.h, drawn in this order
+    struct rg_buf *args;  // 5 uints: vertices, 1, 0, 0 (an indirect draw), then the number of prims
+    int capacity;         // the most that `prims` holds
 };
 
 // One run of a pass over the items origin <= (x, y, z) < origin + extent, in any order.
@@ -83,11 +121,14 @@ struct rg_run {
     struct rg_binding slots[RG_MAX_SLOTS]; // indexed by slot
     struct rg_extent extent;               // at least 1 each
     struct rg_extent origin;               // of the first item; 0 for most
+    const struct rg_draw *draw;            // of a DRAW pass, whose items lie along x; else NULL
+    const struct rg_packed *packed;        // set by core/draw.c, NULL for its callers
 };
 
 struct rg_backend {
     const char *name;    // "vulkan"
     const char *package; // the Debian package whose absence explains a missing device; NULL: none
+    bool packed;         // draws what core/draw.c has packed, rather than items
 
     // Fills `infos` with up to `max` devices, best first, and returns their number; 0: none, and
     // `why` (of `why_size` bytes) says so in one line. Quiet: it logs nothing and leaves nothing
@@ -117,7 +158,8 @@ struct rg_backend {
     // Compiles a kernel. The driver may go on compiling at the first run.
     struct rg_pass *(*pass_create)(struct rg_device *device, const struct rg_kernel *kernel);
     void (*pass_destroy)(struct rg_pass *pass);
-    // Runs a pass, or queues it. extent fits limits.max_groups.
+    // Runs a pass, or queues it. extent fits limits.max_groups. Of a DRAW pass, `params` is the
+    // program's rg_draw_call (kernels/draw.h): the draw's state, then the parameters.
     bool (*pass_run)(struct rg_pass *pass, const struct rg_run *run);
 
     // Returns when all that was queued has ended. False: some of it failed.

@@ -7,6 +7,7 @@
 #include <strings.h>
 
 #include "core/alloc.h"
+#include "core/draw.h"
 #include "core/log.h"
 
 // Refuses a call: `if (!check) return refuse(...)`, one line that names object and number.
@@ -27,6 +28,7 @@ static const struct {
 } formats[RG_FORMAT_COUNT] = {
     [RG_FORMAT_NONE] = {"none", 0}, [RG_RGBA8] = {"RGBA8", 4}, [RG_RGBA16F] = {"RGBA16F", 8},
     [RG_RGBA32F] = {"RGBA32F", 16}, [RG_R32F] = {"R32F", 4},   [RG_RG11B10F] = {"RG11B10F", 4},
+    [RG_D32F] = {"D32F", 4},
 };
 
 int rg_format_size(enum rg_format format)
@@ -173,6 +175,7 @@ bool rg_device_close(struct rg_device *device)
 {
     if (!device)
         return true;
+    rg_packing_destroy(device);
     device->backend->sync(device);
     const struct rg_work *w = device->work;
     bool clean = !w->live_buffers && !w->live_images && !w->live_passes;
@@ -355,6 +358,10 @@ struct rg_pass *rg_pass_create(struct rg_device *device, const char *name)
     pass->device = device;
     pass->kernel = kernel;
     device->work->live_passes++;
+    if (kernel->draw && device->backend->packed && !rg_packer_create(pass)) {
+        rg_pass_destroy(pass);
+        return NULL;
+    }
     return pass;
 }
 
@@ -362,6 +369,7 @@ void rg_pass_destroy(struct rg_pass *pass)
 {
     if (!pass)
         return;
+    rg_packer_destroy(pass);
     pass->device->backend->sync(pass->device);
     pass->device->work->live_passes--;
     pass->device->backend->pass_destroy(pass);
@@ -440,7 +448,9 @@ static bool check_run(const struct rg_pass *pass, const struct rg_run *run)
     for (int i = 0; i < kernel->slot_count; i++)
         if (!check_slot(pass, &kernel->slots[i], &run->slots[kernel->slots[i].slot]))
             return false;
-    return check_aliases(kernel, run);
+    require(kernel->draw || !run->draw, "kernel '%s': a GRID kernel, and the run names a target",
+            kernel->name);
+    return check_aliases(kernel, run) && (!kernel->draw || rg_draw_check(pass, run));
 }
 
 static int smaller(int64_t a, int b)
@@ -480,5 +490,5 @@ bool rg_pass_run(struct rg_pass *pass, const struct rg_run *run)
     struct rg_work *work = pass->device->work;
     work->runs++;
     work->items += (int64_t)run->extent.width * run->extent.height * run->extent.depth;
-    return run_folded(pass, run);
+    return pass->kernel->draw ? rg_draw_run(pass, run) : run_folded(pass, run);
 }

@@ -50,7 +50,8 @@ static unsigned char *read_whole(FILE *file, size_t *size)
 bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind,
                     struct rg_kernel_code *code, void **owned)
 {
-    static const char *const extensions[RG_CODE_COUNT] = {"glsl", "spv", "cl"};
+    static const char *const extensions[RG_CODE_COUNT] = {"glsl",     "spv",  "cl",      "vert",
+                                                          "vert.spv", "frag", "frag.spv"};
     *owned = NULL;
     *code = kernel->code[kind];
     const char *folder = rg_kernel_override();

@@ -17,6 +17,7 @@ enum rg_format {
     RG_RGBA32F,
     RG_R32F,
     RG_RG11B10F,
+    RG_D32F, // depth of a DRAW pass's target; fetched by later passes
     RG_FORMAT_COUNT
 };
 
@@ -43,7 +44,34 @@ struct rg_kernel_code {
     size_t size;
 };
 
-enum rg_code_kind { RG_CODE_GLSL, RG_CODE_SPIRV, RG_CODE_OPENCL, RG_CODE_COUNT };
+// A GRID kernel has the first three, a DRAW program the others and OpenCL C.
+enum rg_code_kind {
+    RG_CODE_GLSL,
+    RG_CODE_SPIRV,
+    RG_CODE_OPENCL,
+    RG_CODE_VERTEX_GLSL,
+    RG_CODE_VERTEX_SPIRV,
+    RG_CODE_FRAGMENT_GLSL,
+    RG_CODE_FRAGMENT_SPIRV,
+    RG_CODE_COUNT
+};
+
+// The slots of a DRAW program's own stages (kernels/draw.h); its other slots are below them.
+enum {
+    RG_SLOT_PRIMS = 12,   // packed primitives
+    RG_SLOT_COUNTS = 13,  // primitives a chunk of items, or before it
+    RG_SLOT_ARGS = 14,    // of emit: arguments of the draw
+    RG_SLOT_SAMPLES = 14, // of fragments: visible samples an item
+    RG_SLOT_BEHIND = 15,  // the depth that counted samples are held against
+};
+
+// What a DRAW program has that a GRID kernel has not.
+struct rg_draw_info {
+    int corners;              // of an item: 3 or 4
+    int prim_size;            // of a packed primitive, in bytes
+    int call_size;            // of rg_draw_call: the draw's state and the parameters, in bytes
+    const char *count, *emit; // the GRID kernels that pack it
+};
 
 struct rg_kernel {
     const char *name;
@@ -51,6 +79,7 @@ struct rg_kernel {
     int slot_count;
     const struct rg_slot_info *slots;  // ascending by slot
     const struct rg_kernel_code *code; // RG_CODE_COUNT of them
+    const struct rg_draw_info *draw;   // NULL: a GRID kernel
 };
 
 // The kernel of this name, or NULL (no message).
@@ -63,8 +92,8 @@ int rg_kernel_all(const struct rg_kernel *const **kernels);
 int rg_kernel_index(const struct rg_kernel *kernel);
 
 // The code for a driver, as embedded at build time or, where RG_KERNEL_DIR names a folder, read
-// from NAME.glsl, NAME.spv or NAME.cl there. `owned` is what the caller frees when done, NULL if
-// nothing.
+// from NAME.glsl, NAME.spv, NAME.cl and so on there. `owned` is what the caller frees when done,
+// NULL if nothing.
 bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind,
                     struct rg_kernel_code *code, void **owned);
 

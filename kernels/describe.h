@@ -12,17 +12,33 @@
 #define IMAGE(slot, F, name)     {#name, slot, RG_SLOT_IMAGE, 0, RG_##F},
 #define OUT_IMAGE(slot, F, name) {#name, slot, RG_SLOT_OUT_IMAGE, 0, RG_##F},
 
-static const struct rg_slot_info slots[] = {RG_SLOTS};
+static const struct rg_slot_info slots[] = {RG_ALL_SLOTS};
 
-static_assert(sizeof(RG_PARAMS) % 4 == 0 && sizeof(RG_PARAMS) <= RG_MAX_PARAMS_SIZE,
+static_assert(sizeof(RG_RUN_PARAMS) % 4 == 0 && sizeof(RG_RUN_PARAMS) <= RG_MAX_PARAMS_SIZE,
               "parameters are 4-byte scalars, at most RG_MAX_PARAMS_SIZE bytes");
+
+#if RG_IS_PROGRAM
+static const struct rg_draw_info draw = {
+    .corners = RG_CORNERS,
+    .prim_size = sizeof(rg_prim),
+    .call_size = sizeof(rg_draw_call),
+    .count = RG_STRING(RG_KERNEL_NAME) "_count",
+    .emit = RG_STRING(RG_KERNEL_NAME) "_emit",
+};
+static_assert(RG_CORNERS == 3 || RG_CORNERS == 4, "items have 3 or 4 corners");
+#endif
 
 extern const struct rg_kernel_code RG_CAT(rg_code_, RG_KERNEL_NAME)[RG_CODE_COUNT];
 extern const struct rg_kernel RG_CAT(rg_kernel_, RG_KERNEL_NAME);
 
 const struct rg_kernel RG_CAT(rg_kernel_, RG_KERNEL_NAME) = {
     .name = RG_STRING(RG_KERNEL_NAME),
+#if RG_IS_PROGRAM
     .params_size = sizeof(RG_PARAMS),
+    .draw = &draw,
+#else
+    .params_size = sizeof(RG_RUN_PARAMS),
+#endif
     .slot_count = sizeof(slots) / sizeof(slots[0]),
     .slots = slots,
     .code = RG_CAT(rg_code_, RG_KERNEL_NAME),

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Writes a C file that holds every kernel's code: embed.py OUTPUT FILE...
 
-The files are NAME.glsl, NAME.spv and NAME.cl; each kernel gets `rg_code_NAME`, in the order of
-enum rg_code_kind.
+The files are NAME.glsl, NAME.spv, NAME.cl and so on; each kernel gets `rg_code_NAME`, in the order of
+enum rg_code_kind, with nothing where it has no such file.
 """
 import os
 import sys
 
-KINDS = [".glsl", ".spv", ".cl"]
+KINDS = ["glsl", "spv", "cl", "vert", "vert.spv", "frag", "frag.spv"]
 
 
 def c_array(name, data):
@@ -20,17 +20,22 @@ def main():
     output, files = sys.argv[1], sys.argv[2:]
     by_kernel = {}
     for path in files:
-        kernel, kind = os.path.splitext(os.path.basename(path))
+        kernel, kind = os.path.basename(path).split(".", 1)
         by_kernel.setdefault(kernel, {})[kind] = path
     with open(output, "w", encoding="utf-8") as out:
         out.write('#include "core/kernel.h"\n')
         for kernel, paths in by_kernel.items():
+            entries = []
             for kind in KINDS:
+                if kind not in paths:
+                    entries.append("{NULL, 0}")
+                    continue
+                name = f"{kernel}_{kind.replace('.', '_')}"
                 with open(paths[kind], "rb") as file:
-                    out.write(c_array(f"{kernel}_{kind[1:]}", file.read()))
-            entries = ", ".join(f"{{{kernel}_{k[1:]}, sizeof({kernel}_{k[1:]})}}" for k in KINDS)
+                    out.write(c_array(name, file.read()))
+                entries.append(f"{{{name}, sizeof({name})}}")
             out.write(f"extern const struct rg_kernel_code rg_code_{kernel}[];\n")
-            out.write(f"const struct rg_kernel_code rg_code_{kernel}[] = {{{entries}}};\n")
+            out.write(f"const struct rg_kernel_code rg_code_{kernel}[] = {{{', '.join(entries)}}};\n")
 
 
 main()

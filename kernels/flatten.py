@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Turns one kernel header into the text that a driver compiles.
 
-flatten.py LANGUAGE KERNEL SHELL OUTPUT -- COMPILER...
+flatten.py LANGUAGE HEADER SHELL OUTPUT -- COMPILER...
 
 Runs the C preprocessor over SHELL (shaders/*.glsl, shaders/*.cl), which includes the kernel, so that
 what is embedded is one flat file without includes or macros. For GLSL it then makes every float
@@ -13,11 +13,21 @@ import subprocess
 import sys
 
 
-def preprocess(language, kernel, shell, compiler):
+# OpenGL and Vulkan name one thing differently.
+VERSION = """#version 450 core
+#ifdef VULKAN
+#define RG_VERTEX_INDEX gl_VertexIndex
+#else
+#define RG_VERTEX_INDEX gl_VertexID
+#endif
+"""
+
+
+def preprocess(language, header, shell, compiler):
     command = compiler + [
         "-E", "-P", "-undef", "-nostdinc", "-x", "c",
         f"-DRG_{language.upper()}=1",
-        f'-DRG_KERNEL_HEADER="{kernel}.h"',
+        f'-DRG_KERNEL_HEADER="{header}"',
         shell,
     ]
     return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
@@ -124,10 +134,10 @@ def make_precise(text):
 
 
 def main():
-    language, kernel, shell, output = sys.argv[1:5]
-    text = preprocess(language, kernel, shell, sys.argv[6:])
+    language, header, shell, output = sys.argv[1:5]
+    text = preprocess(language, header, shell, sys.argv[6:])
     if language == "glsl":
-        text = "#version 450 core\n" + make_precise(text)
+        text = VERSION + make_precise(text)
     with open(output, "w", encoding="utf-8") as file:
         file.write(text)
 

@@ -101,6 +101,14 @@ RG_FN rgba rg_fetched_R32F(rgba c)
     return c;
 }
 
+// --- D32F: the depth of a DRAW pass's target, a float from 0 to 1, 1 word a texel; fetched as R32F
+// ---
+
+RG_FN rgba rg_fetched_D32F(rgba c)
+{
+    return rg_rgba(c.r, 0.0f, 0.0f, 1.0f);
+}
+
 // --- RG11B10F: unsigned floats of 11, 11 and 10 bits, 1 word a texel; fetched only ---
 
 RG_FN float rg_unpack_float11(uint bits)

@@ -36,6 +36,7 @@ RG_FN int rg_first_level_word(rg_image_shape s, int x, int y, int layer, int wor
 #define RG_WORDS_RGBA16F  2
 #define RG_WORDS_RGBA32F  4
 #define RG_WORDS_R32F     1
+#define RG_WORDS_D32F     1
 #define RG_WORDS_RG11B10F 1
 
 RG_FN rgba rg_load_RGBA8(RG_GLOBAL const uint *texels, int i)
@@ -87,6 +88,11 @@ RG_FN rgba rg_load_R32F(RG_GLOBAL const uint *texels, int i)
 RG_PROC void rg_store_R32F(RG_GLOBAL uint *texels, int i, rgba c)
 {
     texels[i] = rg_float_bits(c.r);
+}
+
+RG_FN rgba rg_load_D32F(RG_GLOBAL const uint *texels, int i)
+{
+    return rg_load_R32F(texels, i);
 }
 
 RG_FN rgba rg_load_RG11B10F(RG_GLOBAL const uint *texels, int i)

@@ -19,8 +19,18 @@
 
 #include "format.h"
 
+// What a run's parameters are, and what is bound beside the kernel's own: the stages of DRAW
+// programs add to both (draw.h).
+#ifndef RG_RUN_PARAMS
+#define RG_RUN_PARAMS RG_PARAMS
+#endif
+#ifndef RG_STAGE_SLOTS
+#define RG_STAGE_SLOTS
+#endif
+#define RG_ALL_SLOTS RG_SLOTS RG_STAGE_SLOTS
+
 #define RG_GRID_KERNEL(name)                                                                       \
-    RG_PROC void rg_kernel(rg_ctx rg RG_UNUSED, RG_PARAMS p RG_UNUSED, int x RG_UNUSED,            \
+    RG_PROC void rg_kernel(rg_ctx rg RG_UNUSED, RG_RUN_PARAMS p RG_UNUSED, int x RG_UNUSED,        \
                            int y RG_UNUSED, int z RG_UNUSED)
 
 #if RG_GLSL

@@ -3,7 +3,7 @@
 #define RG_UNUSED
 
 struct rg_ctx {
-    RG_PARAMS p;
+    RG_RUN_PARAMS p;
 };
 
 #define RG_LAYOUT_RGBA8   rgba8
@@ -90,7 +90,7 @@ struct rg_ctx {
 
 #define OUT_IMAGE(slot, F, name) RG_OUT_IMAGE(slot, RG_LAYOUT_##F, F, name)
 
-RG_SLOTS
+RG_ALL_SLOTS
 
 #undef IN
 #undef OUT

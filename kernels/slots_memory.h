@@ -26,7 +26,7 @@
 #define OUT_IMAGE(slot, F, name) RG_ARRAY(uint, name) rg_image_shape name##_shape;
 
 typedef struct rg_ctx {
-    RG_SLOTS
+    RG_ALL_SLOTS
 #if !RG_OPENCL
     struct rg_fault *fault;
 #endif
@@ -127,7 +127,7 @@ typedef struct rg_ctx {
         rg_store_##F(rg.name, RG_INDEX(rg, name, i), c);                                           \
     }
 
-RG_SLOTS
+RG_ALL_SLOTS
 
 #undef IN
 #undef OUT

@@ -11,7 +11,7 @@
 #define OUT_IMAGE(slot, F, name) RG_ARRAY_ARG(uint, name), rg_image_shape name##_shape
 
 __attribute__((reqd_work_group_size(64, 1, 1)))
-__kernel void rg_grid(int4 origin, int4 end, RG_PARAMS params RG_SLOTS)
+__kernel void rg_grid(int4 origin, int4 end, RG_RUN_PARAMS params RG_ALL_SLOTS)
 {
 #undef IN
 #undef OUT
@@ -27,7 +27,7 @@ __kernel void rg_grid(int4 origin, int4 end, RG_PARAMS params RG_SLOTS)
 #define IMAGE(slot, F, name)     RG_ARRAY_BIND(name) rg.name##_shape = name##_shape;
 #define OUT_IMAGE(slot, F, name) RG_ARRAY_BIND(name) rg.name##_shape = name##_shape;
     rg_ctx rg;
-    RG_SLOTS
+    RG_ALL_SLOTS
     int x = origin.x + (int)get_global_id(0);
     int y = origin.y + (int)get_global_id(1);
     int z = origin.z + (int)get_global_id(2);

@@ -7,7 +7,7 @@ layout(std140, binding = 0) uniform rg_run_block
 {
     ivec4 origin;
     ivec4 end;
-    RG_PARAMS params;
+    RG_RUN_PARAMS params;
 } rg_run;
 
 void main()

@@ -12,12 +12,19 @@ struct cpu_slot {
     const rg_image_shape *shape; // of an image
 };
 
+// What a DRAW program draws to: the texels of one layer of one level.
+struct cpu_target {
+    uint *colour, *depth; // NULL: none
+    uint *samples;        // by item; NULL: not counted
+};
+
 // A block of items begin <= (x, y, z) < end, to be run by one thread.
 struct cpu_call {
     const void *params;
     struct cpu_slot slots[RG_MAX_SLOTS];
     struct rg_extent begin, end;
-    struct rg_fault *fault; // noted by the reference level alone
+    struct rg_fault *fault;   // noted by the reference level alone
+    struct cpu_target target; // of a DRAW program
 };
 
 typedef void (*cpu_kernel_fn)(const struct cpu_call *call);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "core/alloc.h"
+#include "core/device.h"
 #include "core/log.h"
 
 struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
@@ -20,6 +21,23 @@ void cpu_pass_destroy(struct rg_pass *pass)
     free(pass);
 }
 
+static uint *texels_of(struct rg_image *image, const struct rg_draw *draw)
+{
+    struct cpu_image *cpu = (struct cpu_image *)image;
+    return image ? cpu->texels + rg_texel_word(cpu->texels, cpu->shape, 0, 0, draw->layer,
+                                               draw->level, rg_format_size(image->desc.format) / 4)
+                 : NULL;
+}
+
+static struct cpu_target target_of(const struct rg_draw *draw)
+{
+    return (struct cpu_target){
+        .colour = texels_of(draw->colour, draw),
+        .depth = texels_of(draw->depth, draw),
+        .samples = draw->samples ? ((struct cpu_buf *)draw->samples)->data : NULL,
+    };
+}
+
 static struct cpu_call bind(const struct rg_kernel *kernel, const struct rg_run *run,
                             struct rg_fault *fault)
 {
@@ -30,6 +48,8 @@ static struct cpu_call bind(const struct rg_kernel *kernel, const struct rg_run 
                 run->origin.depth + run->extent.depth},
         .fault = fault,
     };
+    if (run->draw)
+        call.target = target_of(run->draw);
     for (int i = 0; i < kernel->slot_count; i++) {
         const struct rg_slot_info *slot = &kernel->slots[i];
         struct cpu_buf *buf = (struct cpu_buf *)run->slots[slot->slot].buf;
@@ -104,6 +124,8 @@ static bool run_parallel(struct cpu_pass *pass, const struct rg_run *run)
 bool cpu_pass_run(struct rg_pass *pass, const struct rg_run *run)
 {
     struct cpu_pass *cpu = (struct cpu_pass *)pass;
+    if (pass->kernel->draw)
+        return run_in_order(cpu, run);
     return ((struct cpu_device *)pass->device)->reference ? run_in_order(cpu, run)
                                                           : run_parallel(cpu, run);
 }

@@ -16,6 +16,7 @@ static const struct {
     [RG_RGBA32F] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
     [RG_R32F] = {GL_R32F, GL_RED, GL_FLOAT},
     [RG_RG11B10F] = {GL_R11F_G11F_B10F, GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV},
+    [RG_D32F] = {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT},
 };
 
 GLenum gl_internal_format(enum rg_format format)

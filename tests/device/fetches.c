@@ -7,8 +7,8 @@
 #include "tests/device/suite.h"
 #include "tests/device/texels.h"
 
-static const char *const format_names[RG_FORMAT_COUNT] = {NULL,      "rgba8", "rgba16f",
-                                                          "rgba32f", "r32f",  "rg11b10f"};
+static const char *const format_names[RG_FORMAT_COUNT] = {NULL,   "rgba8",    "rgba16f", "rgba32f",
+                                                          "r32f", "rg11b10f", "d32f"};
 
 static struct rg_pass *format_pass(struct rg_device *device, const char *verb, int format)
 {

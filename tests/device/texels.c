@@ -12,6 +12,15 @@ static uint32_t random_small_float(uint32_t noise_bits, int mantissa, bool is_si
     return magnitude | (is_signed && magnitude > 0 ? (noise_bits & 1) << (mantissa + 5) : 0);
 }
 
+// A float from 0 to 1.
+static uint32_t random_depth(uint32_t n)
+{
+    const float depth = (float)(n >> 8) / 16777215.0f;
+    uint32_t word;
+    memcpy(&word, &depth, 4);
+    return word;
+}
+
 static uint32_t random_word(enum rg_format format, uint32_t n)
 {
     switch (format) {
@@ -23,6 +32,8 @@ static uint32_t random_word(enum rg_format format, uint32_t n)
     case RG_RGBA32F:
     case RG_R32F:
         return (n & 0x807fffffu) | (1 + noise(n) % 254) << 23;
+    case RG_D32F:
+        return random_depth(n);
     default:
         return n;
     }

@@ -1,0 +1,26 @@
+// Makes the context of the kernel that was just included from what a call binds.
+#include "backends/cpu/cpu.h"
+
+#define RG_CAT_(a, b, c) rg_cpu_##a##_##b
+#define RG_CAT(a, b)     RG_CAT_(a, b, )
+
+#define RG_BIND_ARRAY(slot, name)                                                                  \
+    rg.name = call->slots[slot].data;                                                              \
+    rg.name##_count = call->slots[slot].count;
+#define RG_BIND_IMAGE(slot, name)                                                                  \
+    RG_BIND_ARRAY(slot, name)                                                                      \
+    rg.name##_shape = *call->slots[slot].shape;
+#define IN(slot, T, name)        RG_BIND_ARRAY(slot, name)
+#define OUT(slot, T, name)       RG_BIND_ARRAY(slot, name)
+#define INOUT(slot, T, name)     RG_BIND_ARRAY(slot, name)
+#define ATOMIC(slot, T, name)    RG_BIND_ARRAY(slot, name)
+#define IMAGE(slot, F, name)     RG_BIND_IMAGE(slot, name)
+#define OUT_IMAGE(slot, F, name) RG_BIND_IMAGE(slot, name)
+
+static inline __attribute__((always_inline)) rg_ctx bind_context(const struct cpu_call *call)
+{
+    rg_ctx rg;
+    RG_ALL_SLOTS
+    rg.fault = call->fault;
+    return rg;
+}

@@ -1,0 +1,35 @@
+// The vertex stage of a DRAW program: three or six vertices a packed primitive, placed on its
+// corners. In a viewport of RG_VIEWPORT_PX every step below is exact, so the driver snaps to the very
+// integers that were packed.
+#define RG_STAGE_VERTEX 1
+#include RG_KERNEL_HEADER
+
+layout(std140, binding = 0) uniform rg_run_block
+{
+    ivec4 origin;
+    ivec4 end;
+    RG_RUN_PARAMS params;
+} rg_run;
+
+layout(location = 0) flat out int rg_prim_index;
+
+float rg_place(int snapped, int size)
+{
+    int margin = (RG_VIEWPORT_PX - size) / 2;
+    return float(snapped + margin * RG_SUBPIXELS) * (2.0 / (RG_SUBPIXELS * RG_VIEWPORT_PX)) - 1.0;
+}
+
+void main()
+{
+    int vertices = RG_CORNERS == 3 ? 3 : 6;
+    int prim = RG_VERTEX_INDEX / vertices;
+    int corner = RG_VERTEX_INDEX - prim * vertices;
+    corner = corner > 2 ? (corner == 3 ? 0 : corner - 2) : corner; // 0 1 2, 0 2 3
+    rg_ctx rg;
+    rg_snapped s = rg_prims_at(rg, prim).corners;
+    int x = corner == 0 ? s.x0 : corner == 1 ? s.x1 : corner == 2 ? s.x2 : s.x3;
+    int y = corner == 0 ? s.y0 : corner == 1 ? s.y1 : corner == 2 ? s.y2 : s.y3;
+    rg_prim_index = prim;
+    gl_Position = vec4(rg_place(x, rg_run.params.draw.width),
+                       rg_place(y, rg_run.params.draw.height), 0.0, 1.0);
+}
