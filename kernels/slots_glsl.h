@@ -78,6 +78,10 @@ struct rg_ctx {
     int name##_height(rg_ctx rg, int level)                                                        \
     {                                                                                              \
         return textureSize(name##_sampler, level).y;                                               \
+    }                                                                                              \
+    int name##_levels(rg_ctx rg)                                                                   \
+    {                                                                                              \
+        return textureQueryLevels(name##_sampler);                                                 \
     }
 
 #define RG_OUT_IMAGE(slot, format, F, name)                                                        \
