@@ -1,12 +1,12 @@
 // Water on a pane: the formulas of flow, after Stuppacher & Supan, "Rendering of Water Drops in
 // Real-Time" (2007), sections 4.2 and 4.3. docs/flow.md says how the paper's gaps are filled.
 //
-// A pane is a square of `size` texels, row 0 on top; x runs right, y down. Its maps carry a margin of
-// FLOW_MARGIN texels on every side that stays dry, so that no pass needs to ask where the pane ends;
-// flow_index knows the layout. Maps of several panes lie one behind the other. Each texel holds an
-// amount of water in units of height, a whole number of droplets of 2^-16 ("droplets are atomic and
-// therefore the smallest amount of water", section 3). Amounts below 256 add and subtract exactly in
-// a float, so water is conserved to the last droplet, and is never subnormal.
+// A pane is a square of `size` texels, row 0 on top; x runs right, y down. Its maps carry a margin
+// of FLOW_MARGIN texels on every side that stays dry, so that no pass needs to ask where the pane
+// ends; flow_index knows the layout. Maps of several panes lie one behind the other. Each texel
+// holds an amount of water in units of height, a whole number of droplets of 2^-16 ("droplets are
+// atomic and therefore the smallest amount of water", section 3). Amounts below 256 add and
+// subtract exactly in a float, so water is conserved to the last droplet, and is never subnormal.
 #ifndef RG_KERNELS_FLOW_H
 #define RG_KERNELS_FLOW_H
 
@@ -15,10 +15,10 @@
 #define FLOW_DROPLETS_PER_UNIT 65536.0f
 #define FLOW_DROPLET           1.52587890625e-5f
 #define FLOW_REMAINDER_ENTRIES 1024 // of the remainder map, evenly spaced over the water amount
-#define FLOW_MARGIN            4 // the farthest that water goes in a step
+#define FLOW_MARGIN            4    // the farthest that water goes in a step
 
-#define FLOW_MAX_PANES         6
-#define FLOW_NO_PANE           -1
+#define FLOW_MAX_PANES 6
+#define FLOW_NO_PANE   -1
 
 // Words of the ledger, of all panes together: droplets that came and that left, modulo 2^32.
 #define FLOW_LEDGER_SOURCED 0
@@ -53,11 +53,12 @@ RG_STRUCT(flow_neighbour)
 // What distinguishes the panes of a scene.
 RG_STRUCT(flow_pane)
 {
-    int ax, ay;        // the direction down, in whole texels (figure 8)
-    int bx, by;        // a second direction, where gravity lies between two of the eight
-    float b_share;     // the share of what is given that goes that way, 0 to 1
-    float speed;       // cos(alpha) of equation 2: scales what is given
-    float noise_shift; // of the noise map's window, in noise texels, so that no two panes move alike
+    int ax, ay;    // the direction down, in whole texels (figure 8)
+    int bx, by;    // a second direction, where gravity lies between two of the eight
+    float b_share; // the share of what is given that goes that way, 0 to 1
+    float speed;   // cos(alpha) of equation 2: scales what is given
+    float
+        noise_shift; // of the noise map's window, in noise texels, so that no two panes move alike
     flow_neighbour top, bottom, left, right;
     // Tangent (right), binormal (down) and normal (outwards) in the world.
     v3 t, b, n;

@@ -14,6 +14,7 @@ RG_FN float row_sum(rg_ctx rg, flow_params p, int z, int x, int y)
 
 RG_GRID_KERNEL(flow_blur)
 {
-    float sum = (row_sum(rg, p, z, x, y - 1) + row_sum(rg, p, z, x, y)) + row_sum(rg, p, z, x, y + 1);
+    float sum =
+        (row_sum(rg, p, z, x, y - 1) + row_sum(rg, p, z, x, y)) + row_sum(rg, p, z, x, y + 1);
     blurred_put(rg, flow_pane_index(p.size, z, x, y), sum * (1.0f / 9.0f));
 }

@@ -1,12 +1,12 @@
-// flow: what leaves each pane over its edges, droplet by droplet: on to the pane beyond the edge, or,
-// where there is none, off, which the ledger counts.
+// flow: what leaves each pane over its edges, droplet by droplet: on to the pane beyond the edge,
+// or, where there is none, off, which the ledger counts.
 #include "flow.h"
 #include "flow_strip.h"
 
 #define RG_PARAMS flow_params
 #define RG_SLOTS                                                                                   \
-    IN(1, float, water) IN(2, float, given) ATOMIC(3, uint, ledger) IN(4, flow_pane, panes)        \
-    ATOMIC(5, uint, arriving)
+    IN(1, float, water)                                                                            \
+    IN(2, float, given) ATOMIC(3, uint, ledger) IN(4, flow_pane, panes) ATOMIC(5, uint, arriving)
 #include "slots.h"
 
 // A part that goes to (x, y) of pane z, if that lies off the pane. What leaves over a corner leaves

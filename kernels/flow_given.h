@@ -4,8 +4,8 @@
 
 #define RG_PARAMS flow_params
 #define RG_SLOTS                                                                                   \
-    IN(1, float, water) IN(2, float, remainder) IN(3, float, noise) OUT(4, float, given)           \
-    IN(5, flow_pane, panes)
+    IN(1, float, water)                                                                            \
+    IN(2, float, remainder) IN(3, float, noise) OUT(4, float, given) IN(5, flow_pane, panes)
 #include "slots.h"
 
 // The remainder map is read at the water amount: its nearest entry.

@@ -1,13 +1,13 @@
-// flow: panes of glass, blended over what lies behind them. Glass and water reflect the environment by
-// the Fresnel model (section 4.3); water shows what lies behind it, the picture of all that does not
-// refract, displaced by its normal (GPU Gems 2, chapter 19).
+// flow: panes of glass, blended over what lies behind them. Glass and water reflect the environment
+// by the Fresnel model (section 4.3); water shows what lies behind it, the picture of all that does
+// not refract, displaced by its normal (GPU Gems 2, chapter 19).
 #include "flow_panes.h"
 #include "math.h"
 
 #define RG_PARAMS flow_view_params
 #define RG_SLOTS                                                                                   \
-    IN(1, uint, normals) IMAGE(2, RG11B10F, environment) IN(3, flow_pane, panes)                   \
-    IMAGE(4, RGBA16F, behind)
+    IN(1, uint, normals)                                                                           \
+    IMAGE(2, RG11B10F, environment) IN(3, flow_pane, panes) IMAGE(4, RGBA16F, behind)
 #define RG_CORNERS 4
 #define RG_RECORD  flow_pane_record
 #include "draw.h"

@@ -17,7 +17,7 @@ RG_DRAW_RECORD(flow_glow)
 
 RG_DRAW_FRAGMENT(flow_glow)
 {
-    rgba c = glow_linear(rg, (rg_to_float(px) + 0.5f) / p.width, (rg_to_float(py) + 0.5f) / p.height,
-                         0, 0);
+    rgba c = glow_linear(rg, (rg_to_float(px) + 0.5f) / p.width,
+                         (rg_to_float(py) + 0.5f) / p.height, 0, 0);
     return rg_fragment_make(rg_rgba(c.r, c.g, c.b, 0.0f), 0.0f);
 }

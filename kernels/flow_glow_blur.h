@@ -1,5 +1,5 @@
-// flow: spreads the glow along one direction. Weights fall off with the square of the distance to the
-// blur's end and sum to 1, so that light is spread, not made.
+// flow: spreads the glow along one direction. Weights fall off with the square of the distance to
+// the blur's end and sum to 1, so that light is spread, not made.
 #include "flow_glow_params.h"
 
 #define RG_PARAMS flow_glow_params

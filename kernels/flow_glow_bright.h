@@ -1,5 +1,5 @@
-// flow: the light above a threshold, at a quarter of the target's size: what glows (section 1, figure
-// 1(c): the optics of a camera spread the light of bright reflections).
+// flow: the light above a threshold, at a quarter of the target's size: what glows (section 1,
+// figure 1(c): the optics of a camera spread the light of bright reflections).
 #include "flow_glow_params.h"
 
 #define RG_PARAMS flow_glow_params

@@ -9,11 +9,11 @@
 
 RG_STRUCT(flow_glow_params)
 {
-    float threshold;       // light above this glows
-    float strength;        // share of it that is spread
-    int step_x, step_y;    // the blur's direction
-    int last_x, last_y;    // of the image that is read
-    float width, height;   // of the target, in pixels
+    float threshold;     // light above this glows
+    float strength;      // share of it that is spread
+    int step_x, step_y;  // the blur's direction
+    int last_x, last_y;  // of the image that is read
+    float width, height; // of the target, in pixels
 };
 RG_STRUCT_SIZE(flow_glow_params, 8)
 

@@ -1,5 +1,5 @@
-// flow: panes of mirror, lit by the Fresnel model (section 4.3): the water reflects the environment at
-// its own normal, and shows the mirror's reflection behind it, bent by the normal (GPU Gems 2,
+// flow: panes of mirror, lit by the Fresnel model (section 4.3): the water reflects the environment
+// at its own normal, and shows the mirror's reflection behind it, bent by the normal (GPU Gems 2,
 // chapter 19).
 #include "flow_panes.h"
 #include "math.h"

@@ -6,8 +6,9 @@
 
 #define RG_PARAMS flow_view_params
 #define RG_SLOTS                                                                                   \
-    IN(1, float, positions) IN(2, uint, normals) IN(3, uint, indices)                              \
-    IMAGE(4, RG11B10F, environment) IN(5, flow_pane, panes) IN(6, float, blurred)
+    IN(1, float, positions)                                                                        \
+    IN(2, uint, normals) IN(3, uint, indices) IMAGE(4, RG11B10F, environment)                      \
+        IN(5, flow_pane, panes) IN(6, float, blurred)
 #define RG_CORNERS 3
 #define RG_RECORD  mesh_record
 #include "draw.h"
@@ -48,8 +49,9 @@ RG_FN float water_before_lamp(rg_ctx rg, flow_view_params p, v3 at)
     float by_y = to_side(y, dy);
     float by_z = to_side(z, dz);
     float way = rg_min(by_x, rg_min(by_y, by_z));
-    int pane = by_z == way ? (dz < 0.0f ? 1 : 0)
-                           : by_x == way ? (dx < 0.0f ? 3 : 2) : (dy < 0.0f ? 4 : 5);
+    int pane = by_z == way   ? (dz < 0.0f ? 1 : 0)
+               : by_x == way ? (dx < 0.0f ? 3 : 2)
+                             : (dy < 0.0f ? 4 : 5);
     flow_pane q = panes_at(rg, pane);
     v3 hit = v3_add(at, v3_scale(lamp, way));
     float n = rg_to_float(p.size);

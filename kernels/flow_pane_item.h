@@ -5,8 +5,7 @@
 // The corner of a pane at (right, down), each -1 or 1.
 RG_FN rg_corner pane_corner(m4 to_clip, flow_pane q, float right, float down)
 {
-    return m4_project(to_clip,
-                      v3_add(q.n, v3_add(v3_scale(q.t, right), v3_scale(q.b, down))));
+    return m4_project(to_clip, v3_add(q.n, v3_add(v3_scale(q.t, right), v3_scale(q.b, down))));
 }
 
 // Counter-clockwise on the screen where the pane is seen from outside.

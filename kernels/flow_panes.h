@@ -44,8 +44,8 @@ RG_FN bool flow_on_frame(flow_point at, float frame)
     return rg_min(rg_min(at.u, 1.0f - at.u), rg_min(at.v, 1.0f - at.v)) < frame;
 }
 
-// The Fresnel term of a view along `ray` onto a surface that it meets with `towards` = ray . normal,
-// which is negative (Fernando & Kilgard, The Cg Tutorial, p. 189).
+// The Fresnel term of a view along `ray` onto a surface that it meets with `towards` = ray .
+// normal, which is negative (Fernando & Kilgard, The Cg Tutorial, p. 189).
 RG_FN float flow_fresnel(flow_view_params p, v3 ray, float towards)
 {
     float grazing = rg_clamp(1.0f + towards / rg_sqrt(v3_dot(ray, ray)), 0.0f, 1.0f);

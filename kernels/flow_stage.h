@@ -1,5 +1,5 @@
-// flow: an intermediate step on the panes, as the paper's figure 17 shows it: the water's height, the
-// blurred height, or the normals.
+// flow: an intermediate step on the panes, as the paper's figure 17 shows it: the water's height,
+// the blurred height, or the normals.
 #include "flow_panes.h"
 #include "math.h"
 

@@ -1,4 +1,5 @@
-// The strips along a pane's edges that water crosses in a step: FLOW_MARGIN rows and columns a side.
+// The strips along a pane's edges that water crosses in a step: FLOW_MARGIN rows and columns a
+// side.
 #ifndef RG_KERNELS_FLOW_STRIP_H
 #define RG_KERNELS_FLOW_STRIP_H
 
@@ -10,8 +11,8 @@ RG_STRUCT(flow_texel)
     int y;
 };
 
-// Texel i of strip s, 0 <= s < FLOW_STRIPS; x is -1 where there is none. Rows come first, near and far
-// edge in turn; columns leave the corners to them. Panes are at least 4 FLOW_MARGIN wide.
+// Texel i of strip s, 0 <= s < FLOW_STRIPS; x is -1 where there is none. Rows come first, near and
+// far edge in turn; columns leave the corners to them. Panes are at least 4 FLOW_MARGIN wide.
 RG_FN flow_texel flow_strip_texel(int size, int i, int s)
 {
     int row = s < 2 * FLOW_MARGIN ? 1 : 0;

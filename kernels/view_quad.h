@@ -1,5 +1,5 @@
-// One quad that fills the view, for programs whose fragments need nothing but their place: included in
-// draw.h's stead, behind RG_PARAMS and RG_SLOTS.
+// One quad that fills the view, for programs whose fragments need nothing but their place: included
+// in draw.h's stead, behind RG_PARAMS and RG_SLOTS.
 #ifndef RG_KERNELS_VIEW_QUAD_H
 #define RG_KERNELS_VIEW_QUAD_H
 
