@@ -102,7 +102,7 @@ static const struct rg_mutant mutants[] = {
     {"relief 1 % higher", "relief", 1.01, 0},
     {"camera turned by 0.2 degrees", "camera_azimuth_deg", 1, 0.2},
     {"model 1 % larger", "model_size", 1.01, 0},
-    {"lamp 1 % brighter", "light", 1.01, 0},
+    {"lamp 5 % brighter", "light", 1.05, 0},
     {NULL, NULL, 0, 0},
 };
 
