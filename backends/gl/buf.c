@@ -29,6 +29,8 @@ static void forget(struct gl_bound *bound, GLuint id)
     for (int slot = 0; slot < RG_MAX_SLOTS; slot++)
         if (bound->buffers[slot] == id)
             bound->buffers[slot] = 0;
+    if (bound->arguments == id)
+        bound->arguments = 0;
 }
 
 void gl_buf_destroy(struct rg_buf *buf)

@@ -99,6 +99,7 @@ static void gl_destroy(struct rg_device *device)
     struct gl_device *gl = (struct gl_device *)device;
     if (gl_use(gl)) {
         gl_params_destroy(gl);
+        gl_draw_end(gl);
         glDeleteQueries(1, &gl->timestamp);
     }
     gl_egl_close(&gl->egl);
@@ -122,7 +123,7 @@ static struct rg_device *gl_create(int index)
     };
     gl_debug_begin(gl);
     glCreateQueries(GL_TIMESTAMP, 1, &gl->timestamp);
-    if (!gl_params_create(gl)) {
+    if (!gl_params_create(gl) || !gl_draw_begin(gl)) {
         gl_destroy(&gl->pub);
         return NULL;
     }
@@ -132,6 +133,7 @@ static struct rg_device *gl_create(int index)
 const struct rg_backend rg_backend_gl = {
     .name = "gl",
     .package = "libegl-mesa0",
+    .packed = true,
     .list = gl_list,
     .create = gl_create,
     .destroy = gl_destroy,
