@@ -9,14 +9,14 @@ RG_GRID_KERNEL(draw_count)
     int begin = p.draw.item_begin + x * RG_DRAW_CHUNK;
     int end = rg_imin(begin + RG_DRAW_CHUNK, p.draw.item_end);
     int prims = 0;
-    uint seen = 0u;
+    uint alive = 0u;
     uint clipped = 0u;
     for (int i = begin; i < end; i++) {
         rg_item t = rg_item_closed(rg_program_item(rg, p.draw, p.program, i), RG_CORNERS);
         int fate = rg_project(p.draw, t).fate;
         uint bit = 1u << rg_to_uint(i - begin);
         prims += fate == RG_FATE_WHOLE ? 1 : 0;
-        seen |= fate != RG_FATE_DEAD ? bit : 0u;
+        alive |= fate != RG_FATE_DEAD ? bit : 0u;
         clipped |= fate == RG_FATE_CLIP ? bit : 0u;
     }
     for (uint left = clipped; left != 0u; left &= left - 1u) {
@@ -25,5 +25,5 @@ RG_GRID_KERNEL(draw_count)
         prims += rg_polygon_prims(rg_clip(p.draw, t, RG_CORNERS, RG_FATE_CLIP), RG_CORNERS);
     }
     rg_counts_put(rg, x, rg_to_uint(prims));
-    rg_seen_put(rg, x, seen);
+    rg_alive_put(rg, x, alive);
 }

@@ -15,7 +15,7 @@ RG_GRID_KERNEL(draw_emit)
 {
     int begin = p.draw.item_begin + x * RG_DRAW_CHUNK;
     int place = rg_to_int(rg_before_at(rg, x));
-    for (uint left = rg_seen_at(rg, x); left != 0u; left &= left - 1u) {
+    for (uint left = rg_alive_at(rg, x); left != 0u; left &= left - 1u) {
         int i = begin + rg_lowest_bit(left);
         rg_item t = rg_item_closed(rg_program_item(rg, p.draw, p.program, i), RG_CORNERS);
         rg_polygon g = rg_clip(p.draw, t, RG_CORNERS, rg_project(p.draw, t).fate);

@@ -17,10 +17,11 @@ static int integer(GLenum what)
 
 static struct rg_limits read_limits(void)
 {
-    GLint64 storage_bytes = 0;
+    GLint64 storage_bytes = 0, words = 0; // kernels read buffers as either
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &storage_bytes);
+    glGetInteger64v(GL_MAX_TEXTURE_BUFFER_SIZE, &words);
     struct rg_limits limits = {
-        .max_buffer_bytes = storage_bytes,
+        .max_buffer_bytes = words * 4 < storage_bytes ? words * 4 : storage_bytes,
         .max_image_px = integer(GL_MAX_TEXTURE_SIZE),
         .max_image_layers = integer(GL_MAX_ARRAY_TEXTURE_LAYERS),
         .group_items = GL_GROUP_ITEMS,

@@ -40,8 +40,7 @@ static void release(struct gl_device *gl, struct gl_framebuffer *framebuffer)
     if (gl->bound.framebuffer == framebuffer->id)
         gl->bound.framebuffer = 0;
     glDeleteTextures(1, &framebuffer->behind);
-    if (framebuffer->behind)
-        gl_texture_forget(&gl->bound, framebuffer->behind);
+    gl_texture_forget(&gl->bound, framebuffer->behind);
     *framebuffer = (struct gl_framebuffer){0};
 }
 

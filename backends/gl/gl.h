@@ -110,6 +110,7 @@ struct gl_device {
 struct gl_buf {
     struct rg_buf pub;
     GLuint id;
+    GLuint words; // the buffer as a texture of words; 0 until a kernel reads it so
 };
 
 struct gl_image {
@@ -120,6 +121,7 @@ struct gl_image {
 struct gl_pass {
     struct rg_pass pub;
     GLuint program;
+    unsigned word_slots;   // a bit each: read as a texture of words
     size_t params_size;    // of what a run brings, in bytes
     size_t block_size;     // of the uniform block, in bytes
     GLbitfield after_runs; // barriers that make this pass's writes visible
@@ -157,6 +159,8 @@ struct rg_buf *gl_buf_create(struct rg_device *device, size_t size, const char *
 void gl_buf_destroy(struct rg_buf *buf);
 bool gl_buf_write(struct rg_buf *buf, size_t offset, const void *data, size_t size);
 bool gl_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size);
+// The buffer as a texture of words; 0 and one logged line on failure.
+GLuint gl_buf_words(struct rg_buf *buf);
 
 // image.c
 struct rg_image *gl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
@@ -174,6 +178,8 @@ void gl_texture_forget(struct gl_bound *bound, GLuint id);
 
 // Compiles and links a kernel's stages; 0 and one logged line on failure.
 GLuint gl_program_create(struct gl_device *device, const struct rg_kernel *kernel);
+// The slots whose buffers the program reads as textures of words, a bit each.
+unsigned gl_program_word_slots(GLuint program, const struct rg_kernel *kernel);
 
 // framebuffer.c
 

@@ -43,8 +43,8 @@ static GLbitfield barriers_after(const struct rg_kernel *kernel)
             barriers |= GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                         GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT;
         else if (kind != RG_SLOT_IN && kind != RG_SLOT_IMAGE)
-            barriers |= GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
-                        GL_COMMAND_BARRIER_BIT;
+            barriers |= GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                        GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT;
     }
     return barriers;
 }
@@ -63,6 +63,7 @@ struct rg_pass *gl_pass_create(struct rg_device *device, const struct rg_kernel 
         return NULL;
     }
     gl_label(GL_PROGRAM, pass->program, kernel->name);
+    pass->word_slots = gl_program_word_slots(pass->program, kernel);
     pass->params_size = (size_t)(kernel->draw ? kernel->draw->call_size : kernel->params_size);
     pass->block_size = 32 + (pass->params_size + 15) / 16 * 16; // std140
     pass->after_runs = barriers_after(kernel);
@@ -96,17 +97,28 @@ static void bind_image(struct gl_bound *bound, const struct rg_slot_info *slot,
     bound->images[slot->slot] = image->id;
 }
 
-static void bind_slots(struct gl_bound *bound, const struct rg_kernel *kernel,
-                       const struct rg_run *run)
+static bool bind_words(struct gl_bound *bound, int slot, struct rg_buf *buf)
 {
+    const GLuint words = gl_buf_words(buf);
+    if (words)
+        gl_bind_texture(bound, slot, words);
+    return words != 0;
+}
+
+static bool bind_slots(struct gl_bound *bound, const struct gl_pass *pass, const struct rg_run *run)
+{
+    const struct rg_kernel *kernel = pass->pub.kernel;
     for (int i = 0; i < kernel->slot_count; i++) {
         const struct rg_slot_info *slot = &kernel->slots[i];
         const struct rg_binding *binding = &run->slots[slot->slot];
         if (is_image(slot->kind))
             bind_image(bound, slot, (const struct gl_image *)binding->image);
-        else
+        else if (!(pass->word_slots >> slot->slot & 1))
             gl_bind_buffer(bound, slot->slot, binding->buf);
+        else if (!bind_words(bound, slot->slot, binding->buf))
+            return false;
     }
+    return true;
 }
 
 void gl_bind_buffer(struct gl_bound *bound, int slot, const struct rg_buf *buf)
@@ -133,7 +145,8 @@ bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run)
     if (gl->bound.program != mine->program)
         glUseProgram(mine->program);
     gl->bound.program = mine->program;
-    bind_slots(&gl->bound, pass->kernel, run);
+    if (!bind_slots(&gl->bound, mine, run))
+        return false;
     if (pass->kernel->draw)
         return gl_draw(gl, pass->kernel, run);
     const int64_t columns = ((int64_t)run->extent.width + GL_GROUP_ITEMS - 1) / GL_GROUP_ITEMS;

@@ -1,5 +1,6 @@
 #include "backends/gl/gl.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -78,4 +79,17 @@ GLuint gl_program_create(struct gl_device *device, const struct rg_kernel *kerne
         return program;
     glDeleteProgram(program);
     return 0;
+}
+
+// kernels/slots_glsl.h declares such slots as the sampler NAME_words.
+unsigned gl_program_word_slots(GLuint program, const struct rg_kernel *kernel)
+{
+    unsigned slots = 0;
+    for (int i = 0; i < kernel->slot_count; i++) {
+        char sampler[128];
+        snprintf(sampler, sizeof(sampler), "%s_words", kernel->slots[i].name);
+        if (glGetUniformLocation(program, sampler) >= 0)
+            slots |= 1u << kernel->slots[i].slot;
+    }
+    return slots;
 }
