@@ -48,17 +48,36 @@ static struct rg_image *cleared(struct rg_device *device, struct rg_image_desc d
     return image;
 }
 
+// Depth that differs from texel to texel, layer to layer and level to level.
+static struct rg_image *uneven(struct rg_device *device, struct rg_image_desc desc)
+{
+    desc.format = RG_D32F;
+    struct rg_image *image = rg_image_create(device, &desc, "depth");
+    assert_non_null(image);
+    float *texels = malloc((size_t)desc.width * (size_t)desc.height * sizeof(float));
+    for (int layer = 0; layer < desc.layers; layer++) {
+        for (int level = 0; level < desc.levels; level++) {
+            const uint32_t seed = (uint32_t)(layer * desc.levels + level) << 20;
+            const int count = rg_level_size(desc.width, level) * rg_level_size(desc.height, level);
+            for (int i = 0; i < count; i++)
+                texels[i] = 0.25f + 0.75f * 0x1p-24f * (float)(noise(seed + (uint32_t)i) >> 8);
+            assert_true(rg_image_write(image, layer, level, texels));
+        }
+    }
+    free(texels);
+    return image;
+}
+
 static struct rig make_rig(struct rg_device *device, const struct place *place, const float *quads,
                            int count)
 {
     const uint32_t dark[4] = {0};
-    const float far_away = 0.75f;
     struct rig rig = {
         .device = device,
         .pass = rg_pass_create(device, "test_quads"),
         .quads = make_buf(device, quads, count * TEST_QUAD_WORDS, "quads"),
         .samples = filled_buf(device, 0, count, "samples"),
-        .depth = cleared(device, place->colour, RG_D32F, &far_away, "depth"),
+        .depth = uneven(device, place->colour),
     };
     assert_non_null(rig.pass);
     if (place->colour.format != RG_FORMAT_NONE)
