@@ -238,6 +238,14 @@ static void fill_state(const struct rg_draw *draw, rg_draw_state *state)
     state->half_height = 0.5f * (float)state->height;
 }
 
+// Past the checks: they have been done, and programs whose primitives differ in size share a buffer
+// that is no whole number of each. A batch's chunks are fewer than any device's work groups.
+static bool run_stage(struct rg_pass *stage, const struct rg_run *run)
+{
+    stage->device->work->dispatches++;
+    return stage->device->backend->pass_run(stage, run);
+}
+
 static bool run_packed(struct rg_pass *pass, const struct rg_run *run, rg_draw_state *state,
                        int batch)
 {
@@ -250,20 +258,19 @@ static bool run_packed(struct rg_pass *pass, const struct rg_run *run, rg_draw_s
     pack.extent = (struct rg_extent){chunks, 1, 1};
     pack.slots[RG_SLOT_COUNTS].buf = packing->counts;
     pack.slots[RG_SLOT_ALIVE].buf = packing->alive;
-    if (!rg_pass_run(pass->packer->count, &pack) ||
+    if (!run_stage(pass->packer->count, &pack) ||
         !rg_scan_sum(packing->scan, packing->counts, packing->before, chunks))
         return false;
     pack.slots[RG_SLOT_COUNTS].buf = packing->before;
     pack.slots[RG_SLOT_PRIMS].buf = packing->prims;
     pack.slots[RG_SLOT_ARGS].buf = packing->args;
-    if (!rg_pass_run(pass->packer->emit, &pack))
+    if (!run_stage(pass->packer->emit, &pack))
         return false;
     struct rg_run packed = *run;
     packed.packed = &(struct rg_packed){packing->prims, packing->args, state->capacity};
     packed.origin.width = state->item_begin;
     packed.extent.width = batch;
-    device->work->dispatches++;
-    return device->backend->pass_run(pass, &packed);
+    return run_stage(pass, &packed);
 }
 
 bool rg_draw_run(struct rg_pass *pass, const struct rg_run *run)
