@@ -168,6 +168,7 @@ static int kernel_count(void)
 static void opencl_destroy(struct rg_device *device)
 {
     struct opencl_device *opencl = (struct opencl_device *)device;
+    opencl_bins_destroy(opencl);
     for (int i = 0; opencl->programs && i < kernel_count(); i++)
         if (opencl->programs[i])
             clReleaseProgram(opencl->programs[i]);
@@ -217,6 +218,7 @@ static struct rg_device *opencl_create(int index)
 const struct rg_backend rg_backend_opencl = {
     .name = "opencl",
     .package = "pocl-opencl-icd",
+    .packed = true,
     .list = opencl_list,
     .create = opencl_create,
     .destroy = opencl_destroy,
