@@ -54,8 +54,8 @@ RG_FN uint rg_mul_hi(uint a, uint b)
 #define RG_STRUCT_SIZE(name, words)
 #define RG_GLOBAL __global // memory that slots lie in
 // Inlined early: else structs that functions return keep LLVM from vectorising.
-#define RG_FN   static inline __attribute__((always_inline))
-#define RG_PROC static inline __attribute__((always_inline))
+#define RG_FN     static inline __attribute__((always_inline))
+#define RG_PROC   static inline __attribute__((always_inline))
 
 #define rg_to_float(i)   convert_float(i)
 #define rg_to_int(f)     convert_int(f)

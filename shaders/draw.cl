@@ -15,7 +15,7 @@ typedef struct rg_shading {
     int x0, y0, x1, y1; // the block
 } rg_shading;
 
-static inline void rg_blend(const rg_shading *s, int texel, rgba c)
+RG_PROC void rg_blend(const rg_shading *s, int texel, rgba c)
 {
     int blend = s->p.draw.blend;
     if (s->p.draw.colour_format == RG_RGBA8_FORMAT)
@@ -27,7 +27,7 @@ static inline void rg_blend(const rg_shading *s, int texel, rgba c)
 }
 
 // Draws a pixel that is covered; 1 where it is visible.
-static inline uint rg_draw_pixel(const rg_shading *s, RG_RECORD record, int px, int py)
+RG_FN uint rg_draw_pixel(const rg_shading *s, RG_RECORD record, int px, int py)
 {
     int texel = py * s->p.draw.width + px;
     rg_fragment f = rg_settled(rg_program_fragment(s->rg, s->p.program, record, px, py));
@@ -43,7 +43,7 @@ static inline uint rg_draw_pixel(const rg_shading *s, RG_RECORD record, int px, 
 }
 
 // The block's pixels that one or both of two triangles cover, each once. Returns the visible.
-static inline uint rg_draw_triangles(const rg_shading *s, RG_RECORD record, rg_triangle a,
+RG_FN uint rg_draw_triangles(const rg_shading *s, RG_RECORD record, rg_triangle a,
                                      rg_triangle b)
 {
     int x0 = rg_imax(rg_imin(a.first_x, b.first_x), s->x0);
@@ -53,21 +53,24 @@ static inline uint rg_draw_triangles(const rg_shading *s, RG_RECORD record, rg_t
     rg_block_triangle ta = rg_block_triangle_make(a, x0, y0);
     rg_block_triangle tb = rg_block_triangle_make(b, x0, y0);
     uint seen = 0;
-    for (int y = 0; y < y1 - y0; y++)
+    for (int y = 0; y < y1 - y0; y++) {
+// Pixels touch no memory in common. Wider than 8 is more than most rows hold.
+#pragma clang loop vectorize(assume_safety) vectorize_width(8) interleave_count(1)
         for (int x = 0; x < x1 - x0; x++)
-            if (rg_block_inside(ta, x, y) >= 0 || rg_block_inside(tb, x, y) >= 0)
+            if ((rg_block_inside(ta, x, y) & rg_block_inside(tb, x, y)) >= 0)
                 seen += rg_draw_pixel(s, record, x0 + x, y0 + y);
+    }
     return seen;
 }
 
-static inline rg_long rg_area(int x0, int y0, int x1, int y1, int x2, int y2)
+RG_FN rg_long rg_area(int x0, int y0, int x1, int y1, int x2, int y2)
 {
     return (rg_long)(x0 - x1) * (y2 - y0) - (rg_long)(x2 - x0) * (y0 - y1);
 }
 
 // The two triangles of a quad share no pixel unless they turn differently: the quad is folded then,
 // and they are drawn one after the other.
-static inline uint rg_draw_prim(const rg_shading *s, rg_snapped c, RG_RECORD record)
+RG_FN uint rg_draw_prim(const rg_shading *s, rg_snapped c, RG_RECORD record)
 {
     rg_triangle a = rg_triangle_make(s->p.draw, c.x0, c.y0, c.x1, c.y1, c.x2, c.y2);
     rg_triangle b = a;
@@ -112,6 +115,10 @@ __kernel void rg_draw(RG_RUN_PARAMS params, rg_bins bins, __global const rg_prim
     uint k = tile == 0 ? 0u : ends[tile * bins.lanes - 1];
     uint end = ends[(tile + 1) * bins.lanes - 1];
     s.p = params;
+    // The build options say how the draw blends: nothing is left to decide for a pixel.
+    s.p.draw.colour_format = RG_VARIANT_FORMAT;
+    s.p.draw.blend = RG_VARIANT_BLEND;
+    s.p.draw.depth_mode = RG_VARIANT_DEPTH;
     s.colour = colour + colour_word;
     s.depth = depth + depth_word;
     s.x0 = params.draw.x0 + tile % bins.tiles_x * RG_TILE_PX + block % blocks_x * bins.block_px;

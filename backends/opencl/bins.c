@@ -50,7 +50,7 @@ struct opencl_bins *opencl_bins_of(struct opencl_device *device)
     bins->places = (struct opencl_memory){NULL, device, "buffer", "bins"};
     bins->list = (struct opencl_memory){NULL, device, "buffer", "binned primitives"};
     bins->round = (struct opencl_memory){NULL, device, "buffer", "round of bins"};
-    bins->program = opencl_build(device, &rg_code_bins[RG_CODE_OPENCL], "bins");
+    bins->program = opencl_build(device, &rg_code_bins[RG_CODE_OPENCL], "", "bins");
     if (bins->program && make_kernel(bins, &bins->walk, "rg_bins_walk") &&
         make_kernel(bins, &bins->scan, "rg_bins_scan") &&
         opencl_memory_create(&bins->round, RG_ROUND_WORDS * sizeof(cl_uint)) &&
@@ -191,6 +191,9 @@ bool opencl_bins_sort(struct opencl_bins *bins, const struct rg_run *run, bool *
         bool fits;
         if (!grow_list(bins, round[RG_ROUND_PAIRS], &fits))
             return false;
+        if (!fits && shape->end_prim - shape->first_prim == 1)
+            return rg_error("device '%s': a primitive meets %u tiles, more than a buffer holds",
+                            bins->device->pub.info.name, round[RG_ROUND_PAIRS]);
         if (fits)
             return !round[RG_ROUND_PAIRS] || walk(bins, run, true);
         shape->end_prim = shape->first_prim + (shape->end_prim - shape->first_prim + 1) / 2;

@@ -169,7 +169,7 @@ static void opencl_destroy(struct rg_device *device)
 {
     struct opencl_device *opencl = (struct opencl_device *)device;
     opencl_bins_destroy(opencl);
-    for (int i = 0; opencl->programs && i < kernel_count(); i++)
+    for (int i = 0; opencl->programs && i < kernel_count() * OPENCL_VARIANTS; i++)
         if (opencl->programs[i])
             clReleaseProgram(opencl->programs[i]);
     free(opencl->programs);
@@ -200,7 +200,7 @@ static struct rg_device *opencl_create(int index)
         return rg_error_null("device 'opencl:%d': it is gone; %s", index, why);
     struct opencl_device *device = calloc(1, sizeof(*device));
     if (device)
-        device->programs = calloc((size_t)kernel_count(), sizeof(cl_program));
+        device->programs = calloc((size_t)kernel_count() * OPENCL_VARIANTS, sizeof(cl_program));
     if (!device || !device->programs) {
         free(device);
         return rg_error_null("device 'opencl:%d': no memory left", index);

@@ -1,9 +1,29 @@
 #include "backends/opencl/opencl.h"
 
+#include <stdio.h>
+
 #include "kernels/draw_state.h"
 
 // Work items a group: of a processor, tiles, few so that all cores get some; of a GPU, a tile.
 enum { TILES_A_GROUP_CPU = 4 };
+
+// The kernel for the draw's state, which its text takes as constants: PoCL then runs several pixels
+// of a row side by side.
+static cl_kernel variant_of(struct opencl_pass *pass, const struct rg_draw *draw)
+{
+    static const enum rg_format formats[4] = {RG_FORMAT_NONE, RG_RGBA8, RG_RGBA16F, RG_RGBA32F};
+    const enum rg_format format = draw->colour ? draw->colour->desc.format : RG_FORMAT_NONE;
+    int place = 0;
+    while (formats[place] != format)
+        place++;
+    const int blend = draw->colour ? (int)draw->blend : (int)RG_BLEND_OFF;
+    char defines[96];
+    snprintf(defines, sizeof(defines),
+             " -DRG_VARIANT_FORMAT=%d -DRG_VARIANT_BLEND=%d -DRG_VARIANT_DEPTH=%d", (int)format,
+             blend, (int)draw->depth_mode);
+    return opencl_kernel_of(pass, (place * 3 + blend) * 3 + (int)draw->depth_mode, "rg_draw",
+                            defines);
+}
 
 static cl_int set_target(cl_kernel kernel, cl_uint *next, const struct rg_image *image,
                          const struct rg_draw *draw)
@@ -16,11 +36,9 @@ static cl_int set_target(cl_kernel kernel, cl_uint *next, const struct rg_image 
 }
 
 // The arguments of shaders/draw.cl, in its order.
-static cl_int set_arguments(const struct opencl_pass *pass, const struct opencl_bins *bins,
-                            const struct rg_run *run)
+static cl_int set_arguments(cl_kernel kernel, const struct rg_kernel *info,
+                            const struct opencl_bins *bins, const struct rg_run *run)
 {
-    const cl_kernel kernel = pass->kernel;
-    const struct rg_kernel *info = pass->pub.kernel;
     const struct opencl_buf *prims = (struct opencl_buf *)run->packed->prims;
     const struct opencl_buf *samples = (struct opencl_buf *)run->draw->samples;
     cl_uint next = 0;
@@ -37,31 +55,32 @@ static cl_int set_arguments(const struct opencl_pass *pass, const struct opencl_
     return code ? code : opencl_set_slots(kernel, next, info, run);
 }
 
-static bool shade(const struct opencl_pass *pass, const struct opencl_bins *bins,
+static bool shade(cl_kernel kernel, const struct rg_kernel *info, const struct opencl_bins *bins,
                   const struct rg_run *run)
 {
-    const char *name = pass->pub.kernel->name;
-    if (!opencl_check(set_arguments(pass, bins, run), "clSetKernelArg", "kernel", name))
+    if (!opencl_check(set_arguments(kernel, info, bins, run), "clSetKernelArg", "kernel",
+                      info->name))
         return false;
     const size_t a_side = RG_TILE_PX / (size_t)bins->shape.block_px, blocks = a_side * a_side;
     const size_t local = blocks == 1 ? TILES_A_GROUP_CPU : blocks;
     const size_t items = ((size_t)bins->shape.tiles * blocks + local - 1) / local * local;
     opencl_will_queue(bins->device);
-    return opencl_check(clEnqueueNDRangeKernel(bins->device->queue, pass->kernel, 1, NULL, &items,
-                                               &local, 0, NULL, NULL),
-                        "clEnqueueNDRangeKernel", "kernel", name);
+    return opencl_check(
+        clEnqueueNDRangeKernel(bins->device->queue, kernel, 1, NULL, &items, &local, 0, NULL, NULL),
+        "clEnqueueNDRangeKernel", "kernel", info->name);
 }
 
 bool opencl_draw(struct rg_pass *pass, const struct rg_run *run)
 {
     struct opencl_bins *bins = opencl_bins_of((struct opencl_device *)pass->device);
-    if (!bins || !opencl_bins_begin(bins, pass->kernel, run))
+    const cl_kernel kernel = bins ? variant_of((struct opencl_pass *)pass, run->draw) : NULL;
+    if (!kernel || !opencl_bins_begin(bins, pass->kernel, run))
         return false;
     for (bool more = true; more; bins->shape.first_prim = bins->shape.end_prim) {
         if (!opencl_bins_sort(bins, run, &more))
             return false;
         if (bins->shape.end_prim > bins->shape.first_prim &&
-            !shade((struct opencl_pass *)pass, bins, run))
+            !shade(kernel, pass->kernel, bins, run))
             return false;
     }
     return true;

@@ -25,8 +25,8 @@ struct opencl_device {
     cl_command_queue queue; // in order, with profiling
     int queued;             // commands since the queue was last known to have ended
     bool has_clock;
-    cl_program
-        *programs; // of the kernels built so far, by rg_kernel_index: PoCL takes 30 ms for one
+    // Of the kernels built so far, by rg_kernel_index and variant: PoCL takes 30 ms for one.
+    cl_program *programs;
     struct opencl_staged *staged;
     size_t staged_bytes;
     struct opencl_bins *bins; // of DRAW passes; NULL before the first
@@ -52,9 +52,15 @@ struct opencl_image {
     int words;                      // of the whole image
 };
 
+// A GRID kernel has one variant; a DRAW program one for each way to blend and to test depth, built
+// when first drawn with (draw.c).
+enum { OPENCL_VARIANTS = 4 * 3 * 3 };
+
 struct opencl_pass {
     struct rg_pass pub;
-    cl_kernel kernel;
+    struct opencl_device *device;
+    const struct rg_kernel *info;
+    cl_kernel variants[OPENCL_VARIANTS];
 };
 
 // error.c: an error code by its name in cl.h, "CL_INVALID_VALUE"; "error -9999" for others.
@@ -91,9 +97,12 @@ int opencl_image_word(const struct rg_image *image, int layer, int level);
 struct rg_pass *opencl_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
 void opencl_pass_destroy(struct rg_pass *pass);
 bool opencl_pass_run(struct rg_pass *pass, const struct rg_run *run);
-// Builds a program; NULL and one logged line that names it on failure.
+// Builds a program with -D options (" -DX=1"); NULL and one logged line that names it on failure.
 cl_program opencl_build(struct opencl_device *device, const struct rg_kernel_code *text,
-                        const char *name);
+                        const char *defines, const char *name);
+// A pass's kernel in a variant, built with `defines` at the first call; NULL and one logged line.
+cl_kernel opencl_kernel_of(struct opencl_pass *pass, int variant, const char *entry,
+                           const char *defines);
 // Sets what a kernel's slots are bound to, from argument `next` on: a buffer and its element count,
 // and an image's shape.
 cl_int opencl_set_slots(cl_kernel kernel, cl_uint next, const struct rg_kernel *info,
