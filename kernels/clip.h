@@ -126,7 +126,8 @@ RG_FN float rg_turn(rg_item t)
 // RG_CULL_FRONT 2 (the others).
 RG_FN int rg_faces(rg_draw_state draw, float turn)
 {
-    return draw.cull == 0 || (draw.cull == 1 ? turn < 0.0f : turn > 0.0f) ? 1 : 0;
+    float facing = draw.cull == 1 ? -turn : turn;
+    return (draw.cull == 0 ? 1 : 0) | (facing > 0.0f ? 1 : 0);
 }
 
 // The place of the lowest bit that is set, of at least one.

@@ -53,8 +53,9 @@ RG_FN uint rg_mul_hi(uint a, uint b)
     struct name
 #define RG_STRUCT_SIZE(name, words)
 #define RG_GLOBAL __global // memory that slots lie in
-#define RG_FN     static inline
-#define RG_PROC   static inline
+// Inlined early: else structs that functions return keep LLVM from vectorising.
+#define RG_FN     static inline __attribute__((always_inline))
+#define RG_PROC   static inline __attribute__((always_inline))
 
 #define rg_to_float(i)   convert_float(i)
 #define rg_to_int(f)     convert_int(f)
