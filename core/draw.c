@@ -18,7 +18,7 @@ enum { MAX_BATCH_CHUNKS = 32768, ARGS = 5 };
 
 // Scratch of a device's packing.
 struct rg_packing {
-    struct rg_buf *prims, *counts, *before, *alive, *args;
+    struct rg_buf *prims, *counts, *fates, *before, *args;
     struct rg_scan *scan;
 };
 
@@ -170,7 +170,7 @@ void rg_packing_destroy(struct rg_device *device)
     rg_scan_destroy(packing->scan);
     rg_buf_destroy(packing->prims);
     rg_buf_destroy(packing->counts);
-    rg_buf_destroy(packing->alive);
+    rg_buf_destroy(packing->fates);
     rg_buf_destroy(packing->before);
     rg_buf_destroy(packing->args);
     free(packing);
@@ -185,7 +185,7 @@ static struct rg_packing *packing_of(struct rg_device *device)
         rg_alloc(1, sizeof(*packing), "packed primitives");
     if (packing &&
         (packing->counts = rg_buf_create(device, MAX_BATCH_CHUNKS * 4, "packing counts")) &&
-        (packing->alive = rg_buf_create(device, MAX_BATCH_CHUNKS * 4, "packing bits")) &&
+        (packing->fates = rg_buf_create(device, MAX_BATCH_CHUNKS * 8, "packing fates")) &&
         (packing->before = rg_buf_create(device, (MAX_BATCH_CHUNKS + 1) * 4, "packing places")) &&
         (packing->args = rg_buf_create(device, ARGS * 4, "draw arguments")) &&
         (packing->scan = rg_scan_create(device, MAX_BATCH_CHUNKS)))
@@ -257,7 +257,7 @@ static bool run_packed(struct rg_pass *pass, const struct rg_run *run, rg_draw_s
     pack.origin = (struct rg_extent){0};
     pack.extent = (struct rg_extent){chunks, 1, 1};
     pack.slots[RG_SLOT_COUNTS].buf = packing->counts;
-    pack.slots[RG_SLOT_ALIVE].buf = packing->alive;
+    pack.slots[RG_SLOT_FATES].buf = packing->fates;
     if (!run_stage(pass->packer->count, &pack) ||
         !rg_scan_sum(packing->scan, packing->counts, packing->before, chunks))
         return false;

@@ -130,13 +130,6 @@ RG_FN int rg_faces(rg_draw_state draw, float turn)
     return (draw.cull == 0 ? 1 : 0) | (facing > 0.0f ? 1 : 0);
 }
 
-// The place of the lowest bit that is set, of at least one.
-RG_FN int rg_lowest_bit(uint bits)
-{
-    uint lowest = bits & (~bits + 1u);
-    return rg_to_int(rg_float_bits(rg_to_float(lowest)) >> 23) - 127;
-}
-
 // Whether a box of snapped corners holds a pixel centre inside the scissor.
 RG_FN int rg_covers_centre(int low, int high, int first, int end)
 {
@@ -355,7 +348,7 @@ RG_FN int rg_polygon_prims(rg_polygon g, int corners)
 #define RG_MOST_PRIMS(corners) ((corners) == 3 ? 6 : 4)
 
 // The k-th primitive: a triangle, or a quad whose last two corners coincide where the polygon's
-// number of corners is odd.
+// number of corners is odd. Beyond the last one: corners of no area.
 RG_FN rg_snapped rg_polygon_prim(rg_draw_state draw, rg_polygon g, int corners, int k)
 {
     int step = corners - 2;
@@ -363,10 +356,31 @@ RG_FN rg_snapped rg_polygon_prim(rg_draw_state draw, rg_polygon g, int corners, 
     rg_item part;
     part.alive = 1;
     part.a = g.c0;
-    part.b = rg_polygon_at(g, step * k + 1);
-    part.c = rg_polygon_at(g, step * k + 2);
+    part.b = rg_polygon_at(g, rg_imin(step * k + 1, last));
+    part.c = rg_polygon_at(g, rg_imin(step * k + 2, last));
     part.d = rg_polygon_at(g, rg_imin(step * k + corners - 1, last));
     return rg_project_whole(draw, part);
+}
+
+// --- the fates of a chunk of items, a bit each ---
+
+RG_FN int rg_ones(uint bits)
+{
+    uint pairs = bits - ((bits >> 1) & 0x55555555u);
+    uint fours = (pairs & 0x33333333u) + ((pairs >> 2) & 0x33333333u);
+    return rg_to_int((((fours + (fours >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24);
+}
+
+// The bits below the lowest one.
+RG_FN uint rg_bits_below(uint bits)
+{
+    return (bits & (0u - bits)) - 1u;
+}
+
+// Primitives to leave room for: as many as a clipped item can fall into.
+RG_FN int rg_chunk_prims(uint whole, uint clipped, int corners)
+{
+    return rg_ones(whole) + RG_MOST_PRIMS(corners) * rg_ones(clipped);
 }
 
 #endif
