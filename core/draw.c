@@ -14,11 +14,11 @@ static_assert((int)RG_RGBA8_FORMAT == (int)RG_RGBA8 && (int)RG_RGBA16F_FORMAT ==
 // Primitives of a batch take no more than this, whatever a device would allow.
 #define MAX_PACKED_BYTES ((int64_t)128 << 20)
 
-enum { MAX_BATCH_CHUNKS = 16384, ARGS = 5 };
+enum { MAX_BATCH_CHUNKS = 32768, ARGS = 5 };
 
 // Scratch of a device's packing.
 struct rg_packing {
-    struct rg_buf *prims, *counts, *before, *args;
+    struct rg_buf *prims, *counts, *seen, *before, *args;
     struct rg_scan *scan;
 };
 
@@ -170,6 +170,7 @@ void rg_packing_destroy(struct rg_device *device)
     rg_scan_destroy(packing->scan);
     rg_buf_destroy(packing->prims);
     rg_buf_destroy(packing->counts);
+    rg_buf_destroy(packing->seen);
     rg_buf_destroy(packing->before);
     rg_buf_destroy(packing->args);
     free(packing);
@@ -184,6 +185,7 @@ static struct rg_packing *packing_of(struct rg_device *device)
         rg_alloc(1, sizeof(*packing), "packed primitives");
     if (packing &&
         (packing->counts = rg_buf_create(device, MAX_BATCH_CHUNKS * 4, "packing counts")) &&
+        (packing->seen = rg_buf_create(device, MAX_BATCH_CHUNKS * 4, "packing seen")) &&
         (packing->before = rg_buf_create(device, (MAX_BATCH_CHUNKS + 1) * 4, "packing places")) &&
         (packing->args = rg_buf_create(device, ARGS * 4, "draw arguments")) &&
         (packing->scan = rg_scan_create(device, MAX_BATCH_CHUNKS)))
@@ -255,6 +257,7 @@ static bool run_packed(struct rg_pass *pass, const struct rg_run *run, rg_draw_s
     pack.origin = (struct rg_extent){0};
     pack.extent = (struct rg_extent){chunks, 1, 1};
     pack.slots[RG_SLOT_COUNTS].buf = packing->counts;
+    pack.slots[RG_SLOT_SEEN].buf = packing->seen;
     if (!run_stage(pass->packer->count, &pack) ||
         !rg_scan_sum(packing->scan, packing->counts, packing->before, chunks))
         return false;

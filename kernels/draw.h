@@ -36,10 +36,11 @@ RG_STRUCT(rg_draw_call)
 
 // What a stage binds beside the program's own slots.
 #if defined(RG_STAGE_COUNT)
-#define RG_STAGE_SLOTS OUT(13, uint, rg_counts)
+#define RG_STAGE_SLOTS OUT(13, uint, rg_counts) OUT(15, uint, rg_seen)
 #elif defined(RG_STAGE_EMIT)
 #define RG_STAGE_SLOTS                                                                             \
-    OUT(12, rg_prim, rg_prims) IN(13, uint, rg_before) OUT(14, uint, rg_draw_args)
+    OUT(12, rg_prim, rg_prims)                                                                     \
+    IN(13, uint, rg_before) OUT(14, uint, rg_draw_args) IN(15, uint, rg_seen)
 #elif defined(RG_STAGE_VERTEX)
 #define RG_STAGE_SLOTS IN(12, rg_prim, rg_prims)
 #elif defined(RG_STAGE_FRAGMENT)
