@@ -63,7 +63,8 @@ enum {
     RG_SLOT_FATES = 15,   // of count and emit: which items of a chunk are whole, which clipped
     RG_SLOT_ARGS = 14,    // of emit: arguments of the draw
     RG_SLOT_SAMPLES = 14, // of fragments: visible samples an item
-    RG_SLOT_BEHIND = 15,  // the depth that counted samples are held against
+    RG_SLOT_SEEN = 15,    // of count and emit: the items of a chunk that are seen, a bit each
+    RG_SLOT_BEHIND = 15,  // of fragments: the depth that counted samples are held against
 };
 
 // What a DRAW program has that a GRID kernel has not.
