@@ -9,7 +9,7 @@
 extern const struct rg_kernel_code rg_code_bins[RG_CODE_COUNT];
 
 // Lanes keep several cores busy and leave little to scan. Places take MAX_PLACES words at most.
-enum { MAX_LANES = 64, PRIMS_A_LANE = 64, MAX_PLACES = 4 << 20 };
+enum { MAX_LANES = 64, ITEMS_A_LANE = 64, MAX_PLACES = 4 << 20 };
 
 // The list begins with the first and doubles up to the second. What needs more takes rounds.
 enum { MIN_LIST_BYTES = 256 << 10, MAX_LIST_BYTES = 64 << 20 };
@@ -95,8 +95,7 @@ bool opencl_bins_begin(struct opencl_bins *bins, const struct rg_kernel *kernel,
     const rg_draw_state *draw = state_of(run);
     const int tiles_x = (draw->x1 - draw->x0 + RG_TILE_PX - 1) / RG_TILE_PX;
     const int tiles = tiles_x * ((draw->y1 - draw->y0 + RG_TILE_PX - 1) / RG_TILE_PX);
-    int lanes =
-        at_most(run->packed->capacity / PRIMS_A_LANE, at_most(MAX_LANES, MAX_PLACES / tiles));
+    int lanes = at_most(run->extent.width / ITEMS_A_LANE, at_most(MAX_LANES, MAX_PLACES / tiles));
     lanes = lanes < 1 ? 1 : lanes;
     bins->shape = (rg_bins){
         .tiles_x = tiles_x,
