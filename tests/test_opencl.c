@@ -166,6 +166,21 @@ static uint32_t *read_texels(struct rg_image *image)
     return texels;
 }
 
+// Quads of all kinds, and a few in a row that fill the target.
+static float *make_quads(void)
+{
+    static const float corners[8] = {-1, -1, 1, -1, 1, 1, -1, 1};
+    float *quads = malloc(QUADS * TEST_QUAD_WORDS * sizeof(float));
+    quads_fill(quads, QUADS, LEVEL_PX, LEVEL_PX, QUAD_KINDS, 11);
+    for (int i = 1000; i < 1004; i++) {
+        float *quad = quads + (ptrdiff_t)i * TEST_QUAD_WORDS;
+        for (int k = 0; k < 4; k++)
+            memcpy(quad + 4 * k, (float[]){corners[2 * k], corners[2 * k + 1], 0.1f, 1},
+                   4 * sizeof(float));
+    }
+    return quads;
+}
+
 // Counts samples against depth, or, without colour, writes depth. Scratch memory grows by buffers
 // of `max_buffer_bytes` at most.
 static struct drawn draw(struct rg_device *device, bool with_colour, int64_t max_buffer_bytes)
@@ -173,8 +188,7 @@ static struct drawn draw(struct rg_device *device, bool with_colour, int64_t max
     const test_quads_params p = {.gradient = 1.0f / 64, .slope_x = 0.0005f, .slope_y = -0.0004f};
     const uint32_t black = 0;
     const float far_half = 0.5f;
-    float *quads = malloc(QUADS * TEST_QUAD_WORDS * sizeof(float));
-    quads_fill(quads, QUADS, LEVEL_PX, LEVEL_PX, QUAD_KINDS, 11);
+    float *quads = make_quads();
     uint32_t *zeros = calloc(QUADS, 4);
     struct rg_image_desc desc = {RG_RGBA8, TARGET_PX, TARGET_PX, LAYERS, LEVEL + 1};
     struct rg_image *colour = rg_image_create(device, &desc, "colour");
@@ -252,7 +266,7 @@ static void tiles_are_shared_as_on_a_gpu(void **state)
     assert_true(rg_device_close(device));
 }
 
-// A list of 1,000 elements holds what one primitive may touch, and seldom more than a few.
+// A list of 1,024 elements holds the tiles of one quad that fills the target, not those of two.
 static void little_memory_takes_rounds(void **state)
 {
     struct drawn whole = draw(*state, true, ENOUGH_BYTES), parts = draw(*state, true, 4096);
