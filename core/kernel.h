@@ -62,8 +62,8 @@ enum {
     RG_SLOT_COUNTS = 13,  // primitives a chunk of items, or before it
     RG_SLOT_ARGS = 14,    // of emit: arguments of the draw
     RG_SLOT_SAMPLES = 14, // of fragments: visible samples an item
-    RG_SLOT_ALIVE = 15,   // of packing: a bit an item, two words a chunk
-    RG_SLOT_BEHIND = 15,  // the depth that counted samples are held against
+    RG_SLOT_ALIVE = 15,   // of packing: a bit an item, a word a chunk
+    RG_SLOT_BEHIND = 15,  // of fragments: the depth that counted samples are held against
 };
 
 // What a DRAW program has that a GRID kernel has not.
