@@ -220,7 +220,7 @@ RG_STRUCT(rg_polygon)
     rg_corner c8;
 };
 
-RG_FN rg_corner rg_polygon_at(rg_polygon g, int i)
+RG_SELDOM rg_corner rg_polygon_at(rg_polygon g, int i)
 {
     rg_corner c = g.c0;
     if (i == 1)
@@ -242,7 +242,7 @@ RG_FN rg_corner rg_polygon_at(rg_polygon g, int i)
     return c;
 }
 
-RG_FN rg_polygon rg_polygon_with(rg_polygon g, rg_corner c)
+RG_SELDOM rg_polygon rg_polygon_with(rg_polygon g, rg_corner c)
 {
     rg_polygon more = g;
     if (g.count == 0)
@@ -310,7 +310,7 @@ RG_FN rg_corner rg_cut(rg_corner inner, float inner_by, rg_corner outer, float o
                           inner.z + (outer.z - inner.z) * t, inner.w + (outer.w - inner.w) * t);
 }
 
-RG_FN rg_polygon rg_clip_by(rg_draw_state draw, rg_polygon g, int plane)
+RG_SELDOM rg_polygon rg_clip_by(rg_draw_state draw, rg_polygon g, int plane)
 {
     rg_polygon kept = rg_polygon_empty(g.c0);
     rg_corner from = rg_polygon_at(g, g.count - 1);

@@ -9,7 +9,7 @@
 extern const struct rg_kernel_code rg_code_bins[RG_CODE_COUNT];
 
 // Lanes keep several cores busy and leave little to scan. Places take MAX_PLACES words at most.
-enum { MAX_LANES = 64, PRIMS_A_LANE = 64, MAX_PLACES = 4 << 20 };
+enum { MAX_LANES = 64, ITEMS_A_LANE = 64, MAX_PLACES = 4 << 20 };
 
 // The list begins with the first and doubles up to the second. What needs more takes rounds.
 enum { MIN_LIST_BYTES = 256 << 10, MAX_LIST_BYTES = 64 << 20 };
@@ -95,9 +95,9 @@ bool opencl_bins_begin(struct opencl_bins *bins, const struct rg_kernel *kernel,
     const rg_draw_state *draw = state_of(run);
     const int tiles_x = (draw->x1 - draw->x0 + RG_TILE_PX - 1) / RG_TILE_PX;
     const int tiles = tiles_x * ((draw->y1 - draw->y0 + RG_TILE_PX - 1) / RG_TILE_PX);
-    int lanes =
-        at_most(run->packed->capacity / PRIMS_A_LANE, at_most(MAX_LANES, MAX_PLACES / tiles));
+    int lanes = at_most(run->extent.width / ITEMS_A_LANE, at_most(MAX_LANES, MAX_PLACES / tiles));
     lanes = lanes < 1 ? 1 : lanes;
+    bins->tried_prims = run->packed->capacity;
     bins->shape = (rg_bins){
         .tiles_x = tiles_x,
         .tiles = tiles,
@@ -179,8 +179,8 @@ static bool grow_list(struct opencl_bins *bins, cl_uint pairs, bool *fits)
 bool opencl_bins_sort(struct opencl_bins *bins, const struct rg_run *run, bool *more)
 {
     rg_bins *shape = &bins->shape;
-    shape->end_prim = run->packed->capacity;
     for (;;) {
+        shape->end_prim = at_most(shape->first_prim + bins->tried_prims, run->packed->capacity);
         cl_uint round[RG_ROUND_WORDS];
         if (!clear_places(bins) || !walk(bins, run, false) || !scan(bins, run) ||
             !opencl_memory_read(&bins->round, 0, round, sizeof(round)))
@@ -194,8 +194,10 @@ bool opencl_bins_sort(struct opencl_bins *bins, const struct rg_run *run, bool *
         if (!fits && shape->end_prim - shape->first_prim == 1)
             return rg_error("device '%s': a primitive meets %u tiles, more than a buffer holds",
                             bins->device->pub.info.name, round[RG_ROUND_PAIRS]);
-        if (fits)
+        if (fits) {
+            bins->tried_prims = at_most(2 * bins->tried_prims, run->packed->capacity);
             return !round[RG_ROUND_PAIRS] || walk(bins, run, true);
-        shape->end_prim = shape->first_prim + (shape->end_prim - shape->first_prim + 1) / 2;
+        }
+        bins->tried_prims = (shape->end_prim - shape->first_prim + 1) / 2;
     }
 }

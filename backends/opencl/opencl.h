@@ -115,7 +115,8 @@ struct opencl_bins {
     cl_kernel walk, scan;
     struct opencl_memory places, list, round;
     size_t places_bytes, list_bytes;
-    rg_bins shape; // of the draw at hand
+    rg_bins shape;   // of the draw at hand
+    int tried_prims; // primitives that the next round is tried with
 };
 
 struct opencl_bins *opencl_bins_of(struct opencl_device *device); // made at the first call
