@@ -23,9 +23,8 @@ enum {
     CPU_PARTS = 64,                     // room for what clipped items of a batch fall into
     CPU_PLACES = CPU_BATCH + CPU_PARTS, // a multiple of CPU_LANES
     CPU_MOST_PARTS = RG_MOST_PRIMS(3),  // of one item
-    CPU_FRAGMENTS = 512,                // a list of pixels holds
+    CPU_FRAGMENTS = 256,                // a list of pixels holds
     CPU_BLOCK_PX = 64,                  // side of the block of pixels that spans are made for
-    CPU_ROW = CPU_BLOCK_PX,             // pixels
     CPU_MOST_CHUNKS = 256,
 };
 
@@ -52,22 +51,20 @@ struct cpu_shapes {
     uint64_t mask[CPU_PLACES];
 };
 
-// Pixels of several primitives, and their fragments.
+// Pixels of several primitives, all different.
 struct cpu_list {
     int count;
     int x[CPU_FRAGMENTS], y[CPU_FRAGMENTS];
-    int prim[CPU_FRAGMENTS]; // whose record it is
-    rgba colour[CPU_FRAGMENTS];
-    float depth[CPU_FRAGMENTS];
-    int kept[CPU_FRAGMENTS];
+    int prim[CPU_FRAGMENTS];
+    int record[CPU_FRAGMENTS]; // the byte where it begins
 };
 
-// The fragments of neighbouring pixels of one primitive. Alike, but colours lie apart.
-struct cpu_row {
-    int x, y, count;
-    float r[CPU_ROW], g[CPU_ROW], b[CPU_ROW], a[CPU_ROW];
-    float depth[CPU_ROW];
-    int kept[CPU_ROW];
+// Their fragments, or those of neighbouring pixels of one primitive.
+struct cpu_fragments {
+    int count;
+    float r[CPU_FRAGMENTS], g[CPU_FRAGMENTS], b[CPU_FRAGMENTS], a[CPU_FRAGMENTS];
+    float depth[CPU_FRAGMENTS];
+    int kept[CPU_FRAGMENTS];
 };
 
 // The stages of a DRAW program. All get the call, whose parameters are its rg_draw_call.
@@ -81,9 +78,12 @@ struct cpu_program {
     int (*clip)(const struct cpu_call *call, int item, rg_snapped parts[CPU_MOST_PARTS]);
     // The records of some items.
     void (*records)(const struct cpu_call *call, const int *items, int count, void *records);
-    // The fragments of a list, whose pixels go on to a multiple of CPU_LANES, and of a row.
-    void (*list)(const struct cpu_call *call, const void *records, struct cpu_list *list);
-    void (*row)(const struct cpu_call *call, const void *record, struct cpu_row *row);
+    // The fragments of a list, whose pixels go on to a multiple of CPU_LANES, and of `count` pixels
+    // from (x, y) on.
+    void (*list)(const struct cpu_call *call, const void *records, const struct cpu_list *list,
+                 struct cpu_fragments *fragments);
+    void (*row)(const struct cpu_call *call, const void *record, int x, int y, int count,
+                struct cpu_fragments *fragments);
 };
 
 // A primitive in a tile.

@@ -1,7 +1,7 @@
 // A tile of the target: its primitives become pixels, in order.
 //
-// Pixels of small primitives and short spans are gathered in a list that many primitives share.
-// Wide spans are shaded at once, when what is listed has been drawn.
+// Pixels of small primitives and short spans are gathered in a list that many primitives share,
+// until one comes again. Wide spans are shaded at once, when what is listed has been drawn.
 #ifndef RG_BACKENDS_CPU_DRAW_SHADE_H
 #define RG_BACKENDS_CPU_DRAW_SHADE_H
 
@@ -14,18 +14,82 @@ struct shader {
     const struct cpu_program *program;
     const struct cpu_call *call;
     const struct cpu_bins *bins;
+    struct cpu_target target;
     rg_draw_state draw;
+    int texel_words;    // of the colour target; 0: none
     int x0, y0, x1, y1; // the tile's pixels
     struct cpu_list list;
-    struct cpu_row row;
-    struct passed passed;
+    struct cpu_fragments fragments;
+    struct pixels pixels;
+    // The list that each pixel was last in, by the low bits of x and y: pixels that share an entry
+    // pass for the same.
+    uint listing;
+    uint listed[CPU_BLOCK_PX][CPU_BLOCK_PX];
 };
 
-static void count_passed(const struct shader *s)
+// Depth test and blending of the fragments, once their pixels are gathered.
+static void meet(struct shader *s)
 {
-    for (int i = 0; i < s->passed.count; i++) {
-        const int item = s->bins->items[s->list.prim[s->passed.which[i]]];
-        __atomic_fetch_add(&s->call->target.samples[item], 1u, __ATOMIC_RELAXED);
+    test_fragments(&s->fragments, &s->pixels, s->draw.depth_mode);
+    if (s->texel_words)
+        blend_fragments(&s->fragments, &s->pixels, s->draw.colour_format, s->draw.blend);
+}
+
+static void count_sample(const struct shader *s, int prim, int samples)
+{
+    if (samples)
+        __atomic_fetch_add(&s->target.samples[s->bins->items[prim]], (uint)samples,
+                           __ATOMIC_RELAXED);
+}
+
+// --- lists ---
+
+// `words` is a constant where this is called.
+static inline __attribute__((always_inline)) void gather(uint *to, const uint *from,
+                                                         const size_t *texel, int count, int words)
+{
+    for (int i = 0; i < count; i++)
+        memcpy(to + i * words, from + texel[i] * (size_t)words, (size_t)words * sizeof(uint));
+}
+
+static inline __attribute__((always_inline)) void scatter(uint *to, const uint *from,
+                                                          const size_t *texel, int count, int words)
+{
+    for (int i = 0; i < count; i++)
+        memcpy(to + texel[i] * (size_t)words, from + i * words, (size_t)words * sizeof(uint));
+}
+
+static void gather_texels(struct shader *s, const size_t *texel, int count)
+{
+    if (s->texel_words == 1)
+        gather(s->pixels.texels, s->target.colour, texel, count, 1);
+    else if (s->texel_words == 2)
+        gather(s->pixels.texels, s->target.colour, texel, count, 2);
+    else if (s->texel_words == 4)
+        gather(s->pixels.texels, s->target.colour, texel, count, 4);
+    if (s->draw.depth_mode != RG_DEPTH_OFF)
+        gather(s->pixels.depth, s->target.depth, texel, count, 1);
+}
+
+static void scatter_texels(struct shader *s, const size_t *texel, int count)
+{
+    if (s->texel_words == 1)
+        scatter(s->target.colour, s->pixels.texels, texel, count, 1);
+    else if (s->texel_words == 2)
+        scatter(s->target.colour, s->pixels.texels, texel, count, 2);
+    else if (s->texel_words == 4)
+        scatter(s->target.colour, s->pixels.texels, texel, count, 4);
+    if (s->draw.depth_mode == RG_DEPTH_WRITE)
+        scatter(s->target.depth, s->pixels.depth, texel, count, 1);
+}
+
+// Repeats the last pixel up to a multiple of CPU_LANES.
+static void pad_list(struct cpu_list *list)
+{
+    for (int i = list->count; i < cpu_padded(list->count); i++) {
+        list->x[i] = list->x[i - 1];
+        list->y[i] = list->y[i - 1];
+        list->record[i] = list->record[i - 1];
     }
 }
 
@@ -33,69 +97,70 @@ static void count_passed(const struct shader *s)
 static void flush(struct shader *s)
 {
     struct cpu_list *list = &s->list;
-    if (!list->count)
+    const int count = list->count;
+    size_t texel[CPU_FRAGMENTS];
+    if (!count)
         return;
-    for (int i = list->count; i < cpu_padded(list->count); i++) {
-        list->x[i] = list->x[i - 1];
-        list->y[i] = list->y[i - 1];
-        list->prim[i] = list->prim[i - 1];
-    }
-    s->program->list(s->call, s->bins->records, list);
-    test_list(list, s->call->target.depth, s->draw.width, s->draw.depth_mode, &s->passed);
+    pad_list(list);
+    s->program->list(s->call, s->bins->records, list, &s->fragments);
+    for (int i = 0; i < count; i++)
+        texel[i] = (size_t)list->y[i] * (size_t)s->draw.width + (size_t)list->x[i];
+    gather_texels(s, texel, count);
+    meet(s);
+    scatter_texels(s, texel, count);
     if (s->draw.counted)
-        count_passed(s);
-    if (s->call->target.colour)
-        blend_list(s->call->target.colour, list, &s->passed, s->draw.colour_format, s->draw.blend);
+        for (int i = 0; i < count; i++)
+            count_sample(s, list->prim[i], s->fragments.kept[i]);
     list->count = 0;
+    s->listing++;
 }
 
-static void draw_row(struct shader *s, int prim, int x, int y, int count)
+static inline void list_pixel(struct shader *s, int prim, int x, int y)
 {
-    const struct cpu_bins *bins = s->bins;
-    const struct cpu_target *target = &s->call->target;
-    const size_t first = (size_t)y * (size_t)s->draw.width + (size_t)x;
-    s->row.x = x;
-    s->row.y = y;
-    s->row.count = count;
-    s->program->row(s->call, bins->records + (size_t)prim * bins->record_size, &s->row);
-    const int passing =
-        test_row(&s->row, target->depth ? target->depth + first : NULL, s->draw.depth_mode);
-    if (s->draw.counted && passing)
-        __atomic_fetch_add(&target->samples[bins->items[prim]], (uint)passing, __ATOMIC_RELAXED);
-    if (target->colour && passing)
-        blend_row(target->colour, first, &s->row, s->draw.colour_format, s->draw.blend);
+    struct cpu_list *list = &s->list;
+    uint *listed = &s->listed[y & (CPU_BLOCK_PX - 1)][x & (CPU_BLOCK_PX - 1)];
+    if (*listed == s->listing || list->count == CPU_FRAGMENTS)
+        flush(s);
+    *listed = s->listing;
+    list->x[list->count] = x;
+    list->y[list->count] = y;
+    list->prim[list->count] = prim;
+    list->record[list->count] = prim * (int)s->bins->record_size;
+    list->count++;
 }
 
 static void list_mask(struct shader *s, const struct cpu_ref *ref)
 {
-    struct cpu_list *list = &s->list;
-    const int log2_width = ref->place & 3;
+    const int log2_width = ref->place & 3, last_column = (1 << log2_width) - 1;
     const int x = (ref->place >> 2) & 0x3fff, y = ref->place >> 16;
-    const int last_column = (1 << log2_width) - 1;
-    if (list->count > CPU_FRAGMENTS - 64)
-        flush(s);
-    int count = list->count;
     for (uint64_t rest = ref->mask; rest; rest &= rest - 1) {
         const int bit = __builtin_ctzll(rest);
-        list->x[count] = x + (bit & last_column);
-        list->y[count] = y + (bit >> log2_width);
-        list->prim[count] = ref->prim;
-        count++;
+        list_pixel(s, ref->prim, x + (bit & last_column), y + (bit >> log2_width));
     }
-    list->count = count;
 }
 
-static void list_span(struct shader *s, int prim, int x, int y, int count)
+// --- rows ---
+
+static void draw_row(struct shader *s, int prim, int x, int y, int count)
 {
-    struct cpu_list *list = &s->list;
-    if (list->count + count > CPU_FRAGMENTS)
-        flush(s);
-    for (int i = 0; i < count; i++) {
-        list->x[list->count + i] = x + i;
-        list->y[list->count + i] = y;
-        list->prim[list->count + i] = prim;
+    const size_t first = (size_t)y * (size_t)s->draw.width + (size_t)x;
+    const size_t words = (size_t)s->texel_words, size = (size_t)count * sizeof(uint);
+    struct pixels *pixels = &s->pixels;
+    s->program->row(s->call, s->bins->records + (size_t)prim * s->bins->record_size, x, y, count,
+                    &s->fragments);
+    memcpy(pixels->texels, s->target.colour + first * words, size * words);
+    if (s->draw.depth_mode != RG_DEPTH_OFF)
+        memcpy(pixels->depth, s->target.depth + first, size);
+    meet(s);
+    memcpy(s->target.colour + first * words, pixels->texels, size * words);
+    if (s->draw.depth_mode == RG_DEPTH_WRITE)
+        memcpy(s->target.depth + first, pixels->depth, size);
+    if (s->draw.counted) {
+        int samples = 0;
+        for (int i = 0; i < count; i++)
+            samples += s->fragments.kept[i];
+        count_sample(s, prim, samples);
     }
-    list->count += count;
 }
 
 // A triangle's pixels do not coincide, so that only what was listed before it comes before its
@@ -113,7 +178,8 @@ static void draw_block(struct shader *s, int prim, const rg_triangle *t, int x, 
             *flushed = true;
             draw_row(s, prim, x + begin, y + row, count);
         } else if (count > 0) {
-            list_span(s, prim, x + begin, y + row, count);
+            for (int i = 0; i < count; i++)
+                list_pixel(s, prim, x + begin + i, y + row);
         }
     }
 }
@@ -137,21 +203,45 @@ static void draw_corners(struct shader *s, int prim)
         draw_triangle(s, prim, rg_triangle_make(s->draw, c.x0, c.y0, c.x2, c.y2, c.x3, c.y3));
 }
 
+static int texel_words(int format)
+{
+    return format == RG_RGBA8 ? 1 : format == RG_RGBA16F ? 2 : format == RG_RGBA32F ? 4 : 0;
+}
+
+static void begin_tile(struct shader *s, int tile)
+{
+    const struct cpu_tiling *tiling = &s->bins->tiling;
+    const int side = 1 << tiling->log2_side;
+    s->target = s->call->target;
+    s->draw = *(const rg_draw_state *)s->call->params;
+    s->texel_words = texel_words(s->draw.colour_format);
+    s->x0 = tile % tiling->across * side;
+    s->y0 = tile / tiling->across * side;
+    s->x1 = s->x0 + side;
+    s->y1 = s->y0 + side;
+    s->list.count = 0;
+    s->listing = 1;
+    memset(s->listed, 0, sizeof(s->listed));
+}
+
+static bool is_empty(const struct cpu_bins *bins, int tile)
+{
+    for (int c = 0; c < bins->chunk_count; c++)
+        if (bins->chunks[c].first[tile] < bins->chunks[c].first[tile + 1])
+            return false;
+    return true;
+}
+
 static void shade_tile(const struct cpu_program *program, const struct cpu_call *call,
                        const struct cpu_bins *bins, int tile)
 {
     struct shader s;
-    const struct cpu_tiling *tiling = &bins->tiling;
-    const int side = 1 << tiling->log2_side;
+    if (is_empty(bins, tile))
+        return;
     s.program = program;
     s.call = call;
     s.bins = bins;
-    s.draw = *(const rg_draw_state *)call->params;
-    s.x0 = tile % tiling->across * side;
-    s.y0 = tile / tiling->across * side;
-    s.x1 = s.x0 + side;
-    s.y1 = s.y0 + side;
-    s.list.count = 0;
+    begin_tile(&s, tile);
     for (int c = 0; c < bins->chunk_count; c++) {
         const int *first = bins->chunks[c].first;
         for (int i = first[tile]; i < first[tile + 1]; i++) {

@@ -49,39 +49,43 @@ static void make_records(const struct cpu_call *call, const int *items, int coun
         made[i] = rg_program_record(rg, p.draw, p.program, items[i]);
 }
 
-static void shade_list(const struct cpu_call *call, const void *records, struct cpu_list *list)
+static inline __attribute__((always_inline)) void put_fragment(struct cpu_fragments *to, int i,
+                                                               rg_fragment fragment)
+{
+    const rg_fragment f = rg_settled(fragment);
+    to->r[i] = f.colour.r;
+    to->g[i] = f.colour.g;
+    to->b[i] = f.colour.b;
+    to->a[i] = f.colour.a;
+    to->depth[i] = f.depth;
+    to->kept[i] = f.kept;
+}
+
+static void shade_list(const struct cpu_call *call, const void *records,
+                       const struct cpu_list *list, struct cpu_fragments *fragments)
 {
     const rg_ctx rg = bind_context(call);
     const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
-    const RG_RECORD *made = records;
     const int padded = cpu_padded(list->count);
+    fragments->count = list->count;
 #pragma omp simd
     for (int i = 0; i < padded; i++) {
-        const rg_fragment f =
-            rg_settled(rg_program_fragment(rg, p, made[list->prim[i]], list->x[i], list->y[i]));
-        list->colour[i] = f.colour;
-        list->depth[i] = f.depth;
-        list->kept[i] = f.kept;
+        const RG_RECORD *r = (const RG_RECORD *)((const char *)records + list->record[i]);
+        put_fragment(fragments, i, rg_program_fragment(rg, p, *r, list->x[i], list->y[i]));
     }
 }
 
-static void shade_row(const struct cpu_call *call, const void *record, struct cpu_row *row)
+static void shade_row(const struct cpu_call *call, const void *record, int x, int y, int count,
+                      struct cpu_fragments *fragments)
 {
     const rg_ctx rg = bind_context(call);
     const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
     const RG_RECORD r = *(const RG_RECORD *)record;
-    const int x = row->x, y = row->y, last = row->count - 1;
-    const int padded = cpu_padded(row->count);
+    const int last = count - 1, padded = cpu_padded(count);
+    fragments->count = count;
 #pragma omp simd
-    for (int i = 0; i < padded; i++) {
-        const rg_fragment f = rg_settled(rg_program_fragment(rg, p, r, x + rg_imin(i, last), y));
-        row->r[i] = f.colour.r;
-        row->g[i] = f.colour.g;
-        row->b[i] = f.colour.b;
-        row->a[i] = f.colour.a;
-        row->depth[i] = f.depth;
-        row->kept[i] = f.kept;
-    }
+    for (int i = 0; i < padded; i++)
+        put_fragment(fragments, i, rg_program_fragment(rg, p, r, x + rg_imin(i, last), y));
 }
 
 static const struct cpu_program program = {
