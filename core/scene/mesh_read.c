@@ -211,9 +211,9 @@ struct rg_mesh *rg_mesh_read(const char *path, const char *member)
     int64_t bytes = 0;
     if (!check_file(path, &bytes) || !find_importer(program, sizeof(program)))
         return NULL;
-    // The importer allows itself a fourth of this in CPU time.
+    // Long enough for the CPU time that the importer allows itself, however busy the machine is.
     struct rg_mesh *mesh =
-        rg_mesh_read_by(program, (int)(4 * (10 + bytes / 1000000)), path, path, member);
+        rg_mesh_read_by(program, (int)(60 + 10 * bytes / 1000000), path, path, member);
     if (mesh) {
         const char *file = member ? member : path, *slash = strrchr(file, '/');
         snprintf(mesh->name, sizeof(mesh->name), "%s", slash ? slash + 1 : file);

@@ -2,7 +2,7 @@
 //
 // Assimp reads 40 formats and crashes or loops on some damaged files of them. Here that harms
 // nobody.
-#define _GNU_SOURCE // environ-free limits: prctl
+#define _DEFAULT_SOURCE // RLIMIT_AS
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
 #include <errno.h>
@@ -25,15 +25,26 @@ bool import_refuse(struct import *import, const char *format, ...)
     return false;
 }
 
-// Bounds what one file may take: a second a megabyte and ten more, and the memory of reply.h.
+#ifdef __SANITIZE_ADDRESS__ // slower, and its shadow alone takes terabytes of addresses
+enum { SLOWNESS = 10, LIMITS_MEMORY = 0 };
+#else
+enum { SLOWNESS = 1, LIMITS_MEMORY = 1 };
+#endif
+
+// Bounds what one file may take: two seconds of CPU time and one more a megabyte, of which Assimp
+// reads ten or more in a second, and the memory of reply.h.
 static void set_limits(size_t file_bytes)
 {
-    const rlim_t seconds = 10 + file_bytes / 1000000;
-    setrlimit(RLIMIT_CPU, &(struct rlimit){seconds, seconds});
+    const rlim_t seconds = SLOWNESS * (2 + file_bytes / 1000000);
+    struct rlimit cpu;
+    if (!getrlimit(RLIMIT_CPU, &cpu) && (cpu.rlim_max == RLIM_INFINITY || cpu.rlim_max > seconds)) {
+        cpu.rlim_cur = seconds; // the harder limit stays: at the soft one comes SIGXCPU
+        setrlimit(RLIMIT_CPU, &cpu);
+    }
     setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
-#ifndef __SANITIZE_ADDRESS__ // its shadow alone takes terabytes of addresses
-    setrlimit(RLIMIT_AS, &(struct rlimit){RG_IMPORT_MAX_MEMORY_BYTES, RG_IMPORT_MAX_MEMORY_BYTES});
-#endif
+    if (LIMITS_MEMORY)
+        setrlimit(RLIMIT_AS,
+                  &(struct rlimit){RG_IMPORT_MAX_MEMORY_BYTES, RG_IMPORT_MAX_MEMORY_BYTES});
 }
 
 static bool load(struct import *import)

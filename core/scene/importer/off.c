@@ -7,19 +7,20 @@
 #include "core/scene/importer/importer.h"
 #include "core/scene/mesh.h"
 
-// The lines of a text that ends in a 0, without comments and blank lines.
+// The lines of a text without comments and blank lines; `end` can be written to.
 struct text {
-    char *next;
+    char *next, *end;
     int line; // number of the last one, from 1
 };
 
+// The next line, ended by a 0; NULL after the last.
 static char *next_line(struct text *text)
 {
-    while (*text->next) {
-        char *line = text->next;
-        text->next += strcspn(line, "\n");
-        if (*text->next)
-            *text->next++ = 0;
+    while (text->next < text->end) {
+        char *line = text->next, *line_end = memchr(line, '\n', (size_t)(text->end - line));
+        line_end = line_end ? line_end : text->end;
+        *line_end = 0;
+        text->next = line_end + 1;
         text->line++;
         line[strcspn(line, "#\r")] = 0;
         line += strspn(line, " \t");
@@ -117,8 +118,8 @@ bool import_off_as_obj(struct import *import)
     char *result = NULL;
     size_t size = 0;
     FILE *obj = open_memstream(&result, &size);
-    import->bytes[import->size] = 0;
-    struct text text = {(char *)import->bytes, 0};
+    char *bytes = (char *)import->bytes;
+    struct text text = {bytes, bytes + import->size, 0};
     if (!obj || !copy(import, &text, obj))
         return obj ? false : import_refuse(import, "no memory to read it");
     if (fclose(obj))
