@@ -18,13 +18,21 @@ RG_GRID_KERNEL(draw_emit)
     for (uint left = rg_alive_at(rg, x); left != 0u; left &= left - 1u) {
         int i = begin + rg_lowest_bit(left);
         rg_item t = rg_item_closed(rg_program_item(rg, p.draw, p.program, i), RG_CORNERS);
-        rg_polygon g = rg_clip(p.draw, t, RG_CORNERS, rg_project(p.draw, t).fate);
+        rg_projected s = rg_project(p.draw, t);
         RG_RECORD record = rg_program_record(rg, p.draw, p.program, i);
-        int prims = rg_polygon_prims(g, RG_CORNERS);
-        for (int k = 0; k < prims; k++)
-            rg_prims_put(rg, place + k,
-                         rg_prim_of(rg_polygon_prim(p.draw, g, RG_CORNERS, k), i, record));
-        place += prims;
+        if (s.fate == RG_FATE_WHOLE) {
+            rg_prims_put(rg, place, rg_prim_of(s.corners, i, record));
+            place++;
+        }
+        // For the few that are clipped: a loop that no other item enters.
+        for (int clip = s.fate; clip == RG_FATE_CLIP; clip = RG_FATE_DEAD) {
+            rg_polygon g = rg_clip(p.draw, t, RG_CORNERS, RG_FATE_CLIP);
+            int prims = rg_polygon_prims(g, RG_CORNERS);
+            for (int k = 0; k < prims; k++)
+                rg_prims_put(rg, place + k,
+                             rg_prim_of(rg_polygon_prim(p.draw, g, RG_CORNERS, k), i, record));
+            place += prims;
+        }
     }
     if (begin + RG_DRAW_CHUNK >= p.draw.item_end) {
         rg_draw_args_put(rg, 0, rg_to_uint(place * (RG_CORNERS == 3 ? 3 : 6)));
