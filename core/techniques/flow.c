@@ -152,6 +152,12 @@ static bool draw_model(struct flow *flow, const flow_view_params *view)
                                .draw = &onto});
 }
 
+// What the panes are drawn onto.
+static struct rg_image *canvas(struct flow *flow)
+{
+    return flow->lit ? flow->lit : flow->base.target;
+}
+
 // The paper's first pass: all that does not refract, as a picture for those that do; and a copy of
 // it to draw the panes onto.
 static bool draw_behind(struct flow *flow, const flow_view_params *view)
@@ -167,7 +173,7 @@ static bool draw_behind(struct flow *flow, const flow_view_params *view)
            (!flow->passes[FLOW_MODEL] || draw_model(flow, view)) &&
            run(flow, FLOW_COPY,
                (struct rg_run){.params = view,
-                               .slots = {[1].image = flow->behind, [2].image = flow->base.target},
+                               .slots = {[1].image = flow->behind, [2].image = canvas(flow)},
                                .extent = {target->width, target->height, 1}});
 }
 
@@ -175,7 +181,7 @@ static bool draw_behind(struct flow *flow, const flow_view_params *view)
 static bool draw_panes(struct flow *flow, const flow_view_params *view, enum rg_cull cull)
 {
     const bool glass = flow->settings.panes == FLOW_GLASS;
-    const struct rg_draw onto = {.colour = flow->base.target,
+    const struct rg_draw onto = {.colour = canvas(flow),
                                  .depth = flow->behind ? flow->depth : NULL,
                                  .blend = glass ? RG_BLEND_OVER : RG_BLEND_OFF,
                                  .depth_mode = flow->behind ? RG_DEPTH_TEST : RG_DEPTH_OFF,
@@ -228,28 +234,26 @@ static bool blur_glow(struct flow *flow, flow_glow_params p, int step_x, int ste
                                .extent = {to->desc.width, to->desc.height, 1}});
 }
 
+// Spreads some of the bright light of the lit panes on its way to the target.
 static bool draw_glow(struct flow *flow)
 {
-    const struct rg_image_desc *target = &flow->base.target->desc;
+    const struct rg_image_desc *target = &flow->base.target->desc, *small = &flow->bright->desc;
     const flow_glow_params p = {.threshold = (float)flow->settings.glow_threshold,
                                 .strength = (float)flow->settings.glow,
                                 .last_x = target->width - 1,
-                                .last_y = target->height - 1,
-                                .width = (float)target->width,
-                                .height = (float)target->height};
-    const struct rg_image_desc *small = &flow->bright->desc;
+                                .last_y = target->height - 1};
     return run(flow, FLOW_GLOW_BRIGHT,
                (struct rg_run){.params = &p,
-                               .slots = {[1].image = flow->base.target, [2].image = flow->bright},
+                               .slots = {[1].image = flow->lit, [2].image = flow->bright},
                                .extent = {small->width, small->height, 1}}) &&
            blur_glow(flow, p, 1, 0, flow->bright, flow->spread) &&
            blur_glow(flow, p, 0, 1, flow->spread, flow->bright) &&
            run(flow, FLOW_GLOW,
-               (struct rg_run){
-                   .params = &p,
-                   .slots = {[1].image = flow->bright},
-                   .extent = {1, 1, 1},
-                   .draw = &(struct rg_draw){.colour = flow->base.target, .blend = RG_BLEND_ADD}});
+               (struct rg_run){.params = &p,
+                               .slots = {[1].image = flow->lit,
+                                         [2].image = flow->bright,
+                                         [3].image = flow->base.target},
+                               .extent = {target->width, target->height, 1}});
 }
 
 static bool flow_draw(struct rg_instance *instance)

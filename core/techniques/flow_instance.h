@@ -43,8 +43,8 @@ struct flow {
     struct rg_image *environment;
     // The picture of what does not refract, with its depth; NULL where one pane fills the view.
     struct rg_image *behind, *depth;
-    // A quarter of the target's size; NULL without glow.
-    struct rg_image *bright, *spread;
+    // Without glow NULL: the image before it, and, at a quarter of the size, what is spread.
+    struct rg_image *lit, *bright, *spread;
     // A model in a box of glass; no faces: none.
     struct rg_buf *positions, *model_normals, *indices;
     int model_faces;

@@ -27,7 +27,7 @@ void flow_close(struct rg_instance *instance)
         flow->positions, flow->model_normals, flow->indices};
     for (size_t i = 0; i < sizeof(bufs) / sizeof(bufs[0]); i++)
         rg_buf_destroy(bufs[i]);
-    struct rg_image *const images[] = {flow->environment, flow->behind, flow->depth,
+    struct rg_image *const images[] = {flow->environment, flow->behind, flow->depth,      flow->lit,
                                        flow->bright,      flow->spread, flow->base.target};
     for (size_t i = 0; i < sizeof(images) / sizeof(images[0]); i++)
         rg_image_destroy(images[i]);
@@ -175,7 +175,8 @@ static bool create_glow(struct flow *flow, int width, int height)
 {
     const int w = (width + FLOW_GLOW_REDUCTION - 1) / FLOW_GLOW_REDUCTION;
     const int h = (height + FLOW_GLOW_REDUCTION - 1) / FLOW_GLOW_REDUCTION;
-    return (flow->bright = create_image(flow, RG_RGBA16F, w, h, "bright light")) &&
+    return (flow->lit = create_image(flow, RG_RGBA16F, width, height, "lit panes")) &&
+           (flow->bright = create_image(flow, RG_RGBA16F, w, h, "bright light")) &&
            (flow->spread = create_image(flow, RG_RGBA16F, w, h, "spread light"));
 }
 
@@ -192,10 +193,10 @@ static bool create_images(struct flow *flow, int width, int height)
         !(flow->base.target = create_image(flow, RG_RGBA16F, width, height, "target")))
         return false;
     if (flow_has_behind(&flow->settings) &&
-        !(flow->behind = create_image(flow, RG_RGBA16F, width, height, "behind")))
+        (!(flow->behind = create_image(flow, RG_RGBA16F, width, height, "behind")) ||
+         !(flow->depth = create_image(flow, RG_D32F, width, height, "depth"))))
         return false;
-    return (flow->depth = create_image(flow, RG_D32F, width, height, "depth")) &&
-           (!flow->passes[FLOW_GLOW] || create_glow(flow, width, height));
+    return !flow->passes[FLOW_GLOW] || create_glow(flow, width, height);
 }
 
 // --- the model ---
