@@ -41,7 +41,7 @@ struct flow {
     struct rg_buf *given, *arriving, *blurred, *normals;
     struct rg_buf *ledger, *remainder, *noise, *panes;
     struct rg_image *environment;
-    // The picture of what does not refract, with its depth; NULL where one pane fills the view.
+    // The picture of what does not refract, with its depth; NULL without glass.
     struct rg_image *behind, *depth;
     // Without glow NULL: the image before it, and, at a quarter of the size, what is spread.
     struct rg_image *lit, *bright, *spread;
@@ -51,7 +51,7 @@ struct flow {
     float model_low[3], model_high[3];
 };
 
-// Whether what does not refract is drawn apart: in a box, and behind glass.
+// Whether what does not refract is drawn apart, as a picture for glass to show.
 bool flow_has_behind(const struct flow_settings *settings);
 
 struct rg_instance *flow_open(struct rg_device *device, const void *settings, int width,

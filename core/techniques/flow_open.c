@@ -38,13 +38,12 @@ void flow_close(struct rg_instance *instance)
 
 bool flow_has_behind(const struct flow_settings *s)
 {
-    return s->stage == FLOW_STAGE_FINAL && (s->view == FLOW_BOX || s->panes == FLOW_GLASS);
+    return s->stage == FLOW_STAGE_FINAL && s->panes == FLOW_GLASS;
 }
 
 static bool has_model(const struct flow_settings *s)
 {
-    return flow_has_behind(s) && s->view == FLOW_BOX && s->panes == FLOW_GLASS &&
-           strcmp(s->model, "none") && s->model[0];
+    return flow_has_behind(s) && s->view == FLOW_BOX && strcmp(s->model, "none") && s->model[0];
 }
 
 static const char *kernel_of(const struct flow_settings *s, enum flow_pass pass)
@@ -68,7 +67,7 @@ static const char *kernel_of(const struct flow_settings *s, enum flow_pass pass)
     case FLOW_NORMALS:
         return "flow_normals";
     case FLOW_SKY:
-        return flow_has_behind(s) ? "flow_sky" : NULL;
+        return final && (s->view == FLOW_BOX || flow_has_behind(s)) ? "flow_sky" : NULL;
     case FLOW_MODEL:
         return has_model(s) ? "flow_model" : NULL;
     case FLOW_COPY:
