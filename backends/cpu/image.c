@@ -69,8 +69,14 @@ bool cpu_image_clear(struct rg_image *image, const void *texel)
     struct cpu_image *cpu = (struct cpu_image *)image;
     size_t size = (size_t)rg_format_size(image->desc.format);
     char *first = (char *)(cpu->texels + RG_MAX_LEVELS);
-    size_t texels = ((size_t)cpu->words - RG_MAX_LEVELS) * sizeof(uint) / size;
-    for (size_t i = 0; i < texels; i++)
-        memcpy(first + i * size, texel, size);
+    const size_t total = ((size_t)cpu->words - RG_MAX_LEVELS) * sizeof(uint);
+    memcpy(first, texel, size);
+    // Twice as much each time, until pieces fill a cache: further ones come from there.
+    const size_t most = 16384 / size * size;
+    for (size_t done = size, piece; done < total; done += piece) {
+        piece = done < most ? done : most;
+        piece = piece < total - done ? piece : total - done;
+        memcpy(first + done, first, piece);
+    }
     return true;
 }
