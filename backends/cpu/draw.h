@@ -25,6 +25,7 @@ enum {
     CPU_MOST_PARTS = RG_MOST_PRIMS(3),  // of one item
     CPU_FRAGMENTS = 256,                // a list of pixels holds
     CPU_BLOCK_PX = 64,                  // side of the block of pixels that spans are made for
+    CPU_MASKS = 4,                      // of a shape
     CPU_MOST_CHUNKS = 256,
 };
 
@@ -46,17 +47,18 @@ struct cpu_shapes {
     int place[CPU_PLACES]; // in cpu_items
     int item[CPU_PLACES];
     int cover[CPU_PLACES]; // enum cpu_cover
-    // A mask's box of pixels: its corner, and its width, a power of two. Bit (y << log2_width) + x.
-    int x[CPU_PLACES], y[CPU_PLACES], log2_width[CPU_PLACES];
-    uint64_t mask[CPU_PLACES];
+    // Where the pixels begin, and masks of eight by eight from there on, one below the other.
+    // Bit 8 y + x.
+    int x[CPU_PLACES], y[CPU_PLACES];
+    int masks[CPU_PLACES];
+    uint64_t mask[CPU_MASKS][CPU_PLACES];
 };
 
 // Pixels of several primitives, all different.
 struct cpu_list {
     int count;
-    int x[CPU_FRAGMENTS], y[CPU_FRAGMENTS];
+    int at[CPU_FRAGMENTS]; // y << 16 | x
     int prim[CPU_FRAGMENTS];
-    int record[CPU_FRAGMENTS]; // the byte where it begins
 };
 
 // Their fragments, or those of neighbouring pixels of one primitive.
@@ -89,7 +91,7 @@ struct cpu_program {
 // A primitive in a tile.
 struct cpu_ref {
     int prim;
-    int place;     // of its mask: y << 16 | x << 2 | log2_width; -1: its corners say what it covers
+    int place;     // of its mask: y << 16 | x; -1: its corners say what it covers
     uint64_t mask; // of the tile's pixels alone
 };
 
@@ -170,8 +172,8 @@ bool cpu_bins_prepare(struct cpu_bins *bins, const rg_draw_state *draw, size_t r
 // Numbers for `count` primitives or references, the first one; -1: no room.
 int cpu_bins_prims(struct cpu_bins *bins, int count);
 int cpu_bins_refs(struct cpu_bins *bins, int count);
-// Adds a reference; false: no memory.
-bool cpu_sorter_add(struct cpu_sorter *sorter, int tile, struct cpu_ref ref);
+// Twice the room for references; false: no memory.
+bool cpu_sorter_grow(struct cpu_sorter *sorter);
 // Drops the references from number `count` on.
 void cpu_sorter_drop(struct cpu_sorter *sorter, int count);
 // Moves the references to the bins, sorted by tile; false: no room.

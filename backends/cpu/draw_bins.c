@@ -10,7 +10,7 @@ enum { LEAST_SIDE_LOG2 = 6, MOST_TILES = 4096, FIRST_ROOM = 1 << 16 };
 
 // --- sorting a chunk's references by tile ---
 
-static bool grow(struct cpu_sorter *sorter)
+bool cpu_sorter_grow(struct cpu_sorter *sorter)
 {
     const int room = sorter->room ? 2 * sorter->room : FIRST_ROOM;
     int *tile = realloc(sorter->tile, (size_t)room * sizeof(*tile));
@@ -22,17 +22,6 @@ static bool grow(struct cpu_sorter *sorter)
     if (!tile || !ref)
         return false;
     sorter->room = room;
-    return true;
-}
-
-bool cpu_sorter_add(struct cpu_sorter *sorter, int tile, struct cpu_ref ref)
-{
-    if (sorter->count == sorter->room && !grow(sorter))
-        return false;
-    sorter->tile[sorter->count] = tile;
-    sorter->ref[sorter->count] = ref;
-    sorter->count++;
-    sorter->of_tile[tile]++;
     return true;
 }
 

@@ -16,7 +16,7 @@
 
 #include "backends/cpu/draw.h"
 
-enum { MOST_ROWS = 32, SMALL = 1 << 14 };
+enum { SMALL = 1 << 14, MOST_GROUPS = CPU_MASKS * 2 };
 
 // CPU_LANES shapes.
 struct lanes {
@@ -24,8 +24,7 @@ struct lanes {
     int width[CPU_LANES], height[CPU_LANES]; // of the box, in pixels; 0: covers nothing
     int turned[CPU_LANES];                   // -1: corners turn the other way; else 0
     int dx[4][CPU_LANES], dy[4][CPU_LANES], at[4][CPU_LANES];
-    int rows[MOST_ROWS][CPU_LANES]; // which pixels of a row are covered
-    int any[CPU_LANES];             // of all rows
+    uint rows[MOST_GROUPS][CPU_LANES]; // which pixels are covered: four rows of eight a word
 };
 
 static inline int cross(int ax, int ay, int bx, int by, int cx, int cy)
@@ -51,13 +50,11 @@ static void box_lanes(const rg_draw_state *state, const struct cpu_items *items,
         const int py = rg_imax((low_y + 127) >> 8, draw.y0);
         const int width = rg_imin(((high_x - 128) >> 8) + 1, draw.x1) - px;
         const int height = rg_imin(((high_y - 128) >> 8) + 1, draw.y1) - py;
-        const int log2_width = 1 + (width > 2 ? 1 : 0) + (width > 4 ? 1 : 0);
         const int some = (width > 0 ? 1 : 0) & (height > 0 ? 1 : 0);
-        const int small = (width <= 8 ? 1 : 0) & (height <= 64 >> log2_width ? 1 : 0) &
+        const int small = (width <= 8 ? 1 : 0) & (height <= 8 * CPU_MASKS ? 1 : 0) &
                           (high_x - low_x < SMALL ? 1 : 0) & (high_y - low_y < SMALL ? 1 : 0);
         shapes->x[first + i] = px;
         shapes->y[first + i] = py;
-        shapes->log2_width[first + i] = log2_width;
         shapes->cover[first + i] = some * (small != 0 ? CPU_COVERS_MASK : CPU_COVERS_MORE);
         const int mask = -(some & small); // others must not overflow
         const int ox = 256 * px + 128, oy = 256 * py + 128;
@@ -116,29 +113,36 @@ static void edge_lanes(struct lanes *l, int k)
     }
 }
 
-// A row's pixels, `columns` at most, and on to the next row.
-static inline __attribute__((always_inline)) void row_lanes(struct lanes *l, int row, int columns)
+// Which of `columns` columns are covered at most, in four rows; and on to the next ones.
+static inline __attribute__((always_inline)) void group_lanes(struct lanes *l, int group,
+                                                              int columns)
 {
-    int *bits_of = l->rows[row];
+    uint *rows = l->rows[group];
 #pragma omp simd
     for (int i = 0; i < CPU_LANES; i++) {
         int a = l->at[0][i], b = l->at[1][i], c = l->at[2][i], d = l->at[3][i];
         const int dxa = l->dx[0][i], dxb = l->dx[1][i], dxc = l->dx[2][i], dxd = l->dx[3][i];
-        l->at[0][i] = a + l->dy[0][i];
-        l->at[1][i] = b + l->dy[1][i];
-        l->at[2][i] = c + l->dy[2][i];
-        l->at[3][i] = d + l->dy[3][i];
-        int outside = 0;
-        for (int column = 0; column < columns; column++) {
-            outside |= (int)((uint)(a | b | c | d) >> 31) << column;
-            a -= dxa;
-            b -= dxb;
-            c -= dxc;
-            d -= dxd;
+        const int dya = l->dy[0][i], dyb = l->dy[1][i], dyc = l->dy[2][i], dyd = l->dy[3][i];
+        const int width = l->width[i], height = l->height[i] - 4 * group;
+        uint covered = 0;
+#pragma GCC unroll 4
+        for (int row = 0; row < 4; row++) {
+#pragma GCC unroll 8
+            for (int column = 0; column < columns; column++) {
+                const int outside = (a - dxa * column) | (b - dxb * column) | (c - dxc * column) |
+                                    (d - dxd * column) | (width - 1 - column) | (height - 1 - row);
+                covered |= ((uint)~outside >> 31) << (8 * row + column);
+            }
+            a += dya;
+            b += dyb;
+            c += dyc;
+            d += dyd;
         }
-        const int inside_box = ((1 << l->width[i]) - 1) & -(row < l->height[i] ? 1 : 0);
-        bits_of[i] = ~outside & inside_box;
-        l->any[i] |= bits_of[i];
+        rows[i] = covered;
+        l->at[0][i] = a;
+        l->at[1][i] = b;
+        l->at[2][i] = c;
+        l->at[3][i] = d;
     }
 }
 
@@ -150,35 +154,37 @@ static int most_of(const int *values)
     return most;
 }
 
-static void cover_lanes(struct lanes *l)
+static void cover_lanes(struct lanes *l, int masks)
 {
-    const int width = most_of(l->width), height = most_of(l->height);
-    for (int i = 0; i < CPU_LANES; i++)
-        l->any[i] = 0;
+    const int width = most_of(l->width);
     if (width <= 2)
-        for (int row = 0; row < height; row++)
-            row_lanes(l, row, 2);
+        for (int group = 0; group < 2 * masks; group++)
+            group_lanes(l, group, 2);
     else if (width <= 4)
-        for (int row = 0; row < height; row++)
-            row_lanes(l, row, 4);
+        for (int group = 0; group < 2 * masks; group++)
+            group_lanes(l, group, 4);
     else
-        for (int row = 0; row < height; row++)
-            row_lanes(l, row, 8);
+        for (int group = 0; group < 2 * masks; group++)
+            group_lanes(l, group, 8);
 }
 
-static void take_masks(struct cpu_shapes *shapes, int first, const struct lanes *l)
+static void take_masks(struct cpu_shapes *shapes, int first, const struct lanes *l, int masks)
 {
-    for (int i = 0; i < CPU_LANES; i++) {
-        if (shapes->cover[first + i] != CPU_COVERS_MASK)
-            continue;
-        if (!l->any[i]) {
-            shapes->cover[first + i] = CPU_COVERS_NONE;
-            continue;
+    uint any[CPU_LANES] = {0};
+    for (int mask = 0; mask < masks; mask++) {
+#pragma omp simd
+        for (int i = 0; i < CPU_LANES; i++) {
+            const uint low = l->rows[2 * mask][i], high = l->rows[2 * mask + 1][i];
+            shapes->mask[mask][first + i] = (uint64_t)high << 32 | low;
+            any[i] |= low | high;
         }
-        uint64_t mask = 0;
-        for (int row = 0; row < l->height[i]; row++)
-            mask |= (uint64_t)(uint)l->rows[row][i] << (row << shapes->log2_width[first + i]);
-        shapes->mask[first + i] = mask;
+    }
+#pragma omp simd
+    for (int i = 0; i < CPU_LANES; i++) {
+        const int cover = shapes->cover[first + i];
+        const int none = (cover == CPU_COVERS_MASK ? 1 : 0) & (any[i] == 0 ? 1 : 0);
+        shapes->cover[first + i] = none != 0 ? CPU_COVERS_NONE : cover;
+        shapes->masks[first + i] = (l->height[i] + 7) >> 3;
     }
 }
 
@@ -193,8 +199,9 @@ static void cover_shapes(const rg_draw_state *draw, const struct cpu_items *item
         turn_lanes(shapes, first, &l);
         for (int k = 0; k < 4; k++)
             edge_lanes(&l, k);
-        cover_lanes(&l);
-        take_masks(shapes, first, &l);
+        const int masks = (most_of(l.height) + 7) / 8;
+        cover_lanes(&l, masks);
+        take_masks(shapes, first, &l, masks);
     }
 }
 

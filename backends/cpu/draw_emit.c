@@ -7,56 +7,61 @@
 // A chunk that leaves more references than this ends.
 enum { MOST_REFS = 1 << 18 };
 
-// Bit i of column 0 in each row of a mask, by its log2_width.
-static const uint64_t first_columns[] = {
-    UINT64_MAX,
-    UINT64_C(0x5555555555555555),
-    UINT64_C(0x1111111111111111),
-    UINT64_C(0x0101010101010101),
-};
-
-// Bits [begin, end) of 64.
-static uint64_t bits_between(int begin, int end)
+static bool add_ref(struct cpu_sorter *sorter, int tile, struct cpu_ref ref)
 {
-    const uint64_t below_end = end < 64 ? (UINT64_C(1) << end) - 1 : UINT64_MAX;
-    return below_end & ~((UINT64_C(1) << begin) - 1);
+    if (sorter->count == sorter->room && !cpu_sorter_grow(sorter))
+        return false;
+    sorter->tile[sorter->count] = tile;
+    sorter->ref[sorter->count] = ref;
+    sorter->count++;
+    sorter->of_tile[tile]++;
+    return true;
 }
 
-// What of a mask lies in columns and rows [x0, x1), [y0, y1) of its box.
-static uint64_t cut_mask(uint64_t mask, int log2_width, int x0, int y0, int x1, int y1)
+// What of a mask of eight by eight lies in its columns and rows [x0, x1), [y0, y1): some of each.
+static uint64_t cut_mask(uint64_t mask, int x0, int y0, int x1, int y1)
 {
-    const uint64_t columns = first_columns[log2_width] * (((UINT64_C(1) << (x1 - x0)) - 1) << x0);
-    return mask & columns & bits_between(y0 << log2_width, y1 << log2_width);
+    const uint64_t columns = (UINT64_C(0xff) << x0) & (UINT64_C(0xff) >> (8 - x1));
+    const uint64_t rows = (UINT64_MAX << 8 * y0) & (UINT64_MAX >> 8 * (8 - y1));
+    return mask & rows & columns * UINT64_C(0x0101010101010101);
 }
 
-// A mask goes to the one tile that it lies in, or in parts to up to four.
-static bool bin_mask(const struct cpu_emitter *e, int shape, int prim)
+// A mask that lies in several tiles goes to each in part.
+static bool bin_cut(const struct cpu_emitter *e, int prim, uint64_t mask, int x, int y)
 {
-    const struct cpu_shapes *shapes = &e->sorter->shapes;
     const struct cpu_tiling *tiling = &e->bins->tiling;
-    const int log2_side = tiling->log2_side, log2_width = shapes->log2_width[shape];
-    const int x = shapes->x[shape], y = shapes->y[shape];
-    const int width = 1 << log2_width, height = 64 >> log2_width;
-    const uint64_t mask = shapes->mask[shape];
-    const int place = y << 16 | x << 2 | log2_width;
-    const int first_x = x >> log2_side, last_x = (x + width - 1) >> log2_side;
-    const int first_y = y >> log2_side, last_y = (y + height - 1) >> log2_side;
-    if (first_x == last_x && first_y == last_y)
-        return cpu_sorter_add(e->sorter, first_y * tiling->across + first_x,
-                              (struct cpu_ref){prim, place, mask});
-    for (int ty = first_y; ty <= last_y; ty++) {
-        for (int tx = first_x; tx <= last_x; tx++) {
+    const int log2_side = tiling->log2_side, side = 1 << log2_side;
+    for (int ty = y >> log2_side; ty <= (y + 7) >> log2_side; ty++) {
+        for (int tx = x >> log2_side; tx <= (x + 7) >> log2_side; tx++) {
             const int left = (tx << log2_side) - x, top = (ty << log2_side) - y;
-            const int side = 1 << log2_side;
-            const uint64_t part =
-                cut_mask(mask, log2_width, rg_imax(left, 0), rg_imax(top, 0),
-                         rg_imin(left + side, width), rg_imin(top + side, height));
-            if (part && !cpu_sorter_add(e->sorter, ty * tiling->across + tx,
-                                        (struct cpu_ref){prim, place, part}))
+            const uint64_t part = cut_mask(mask, rg_imax(left, 0), rg_imax(top, 0),
+                                           rg_imin(left + side, 8), rg_imin(top + side, 8));
+            if (part && !add_ref(e->sorter, ty * tiling->across + tx,
+                                 (struct cpu_ref){prim, y << 16 | x, part}))
                 return false;
         }
     }
     return true;
+}
+
+static bool bin_masks(const struct cpu_emitter *e, int shape, int prim)
+{
+    const struct cpu_shapes *shapes = &e->sorter->shapes;
+    const struct cpu_tiling *tiling = &e->bins->tiling;
+    const int side = tiling->log2_side, x = shapes->x[shape];
+    bool added = true;
+    for (int i = 0; i < shapes->masks[shape]; i++) {
+        const uint64_t mask = shapes->mask[i][shape];
+        const int y = shapes->y[shape] + 8 * i;
+        if (!mask)
+            continue;
+        if (x >> side == (x + 7) >> side && y >> side == (y + 7) >> side)
+            added &= add_ref(e->sorter, (y >> side) * tiling->across + (x >> side),
+                             (struct cpu_ref){prim, y << 16 | x, mask});
+        else
+            added &= bin_cut(e, prim, mask, x, y);
+    }
+    return added;
 }
 
 // Whether some pixel centre of the box may lie inside an edge.
@@ -90,7 +95,7 @@ static bool bin_corners(const struct cpu_emitter *e, const rg_snapped *c, int pr
             const int x1 = (tx + 1) << side, y1 = (ty + 1) << side;
             if (!triangle_reaches(&near, x0, y0, x1, y1) && !triangle_reaches(&far, x0, y0, x1, y1))
                 continue;
-            if (!cpu_sorter_add(e->sorter, ty * tiling->across + tx, ref))
+            if (!add_ref(e->sorter, ty * tiling->across + tx, ref))
                 return false;
             *pixels += INT64_C(1) << (2 * side - 2); // a quarter of the tile, say
         }
@@ -111,7 +116,7 @@ static bool bin_shape(const struct cpu_emitter *e, struct cpu_chunk *chunk, int 
     const struct cpu_shapes *shapes = &e->sorter->shapes;
     if (shapes->cover[shape] == CPU_COVERS_MASK) {
         chunk->pixels += 8;
-        return bin_mask(e, shape, prim);
+        return bin_masks(e, shape, prim);
     }
     e->bins->corners[prim] = corners_at(&e->sorter->items, shapes->place[shape]);
     return bin_corners(e, &e->bins->corners[prim], prim, &chunk->pixels);

@@ -87,9 +87,8 @@ static void scatter_texels(struct shader *s, const size_t *texel, int count)
 static void pad_list(struct cpu_list *list)
 {
     for (int i = list->count; i < cpu_padded(list->count); i++) {
-        list->x[i] = list->x[i - 1];
-        list->y[i] = list->y[i - 1];
-        list->record[i] = list->record[i - 1];
+        list->at[i] = list->at[i - 1];
+        list->prim[i] = list->prim[i - 1];
     }
 }
 
@@ -104,7 +103,7 @@ static void flush(struct shader *s)
     pad_list(list);
     s->program->list(s->call, s->bins->records, list, &s->fragments);
     for (int i = 0; i < count; i++)
-        texel[i] = (size_t)list->y[i] * (size_t)s->draw.width + (size_t)list->x[i];
+        texel[i] = (size_t)((list->at[i] >> 16) * s->draw.width + (list->at[i] & 0xffff));
     gather_texels(s, texel, count);
     meet(s);
     scatter_texels(s, texel, count);
@@ -122,20 +121,18 @@ static inline void list_pixel(struct shader *s, int prim, int x, int y)
     if (*listed == s->listing || list->count == CPU_FRAGMENTS)
         flush(s);
     *listed = s->listing;
-    list->x[list->count] = x;
-    list->y[list->count] = y;
+    list->at[list->count] = y << 16 | x;
     list->prim[list->count] = prim;
-    list->record[list->count] = prim * (int)s->bins->record_size;
     list->count++;
 }
 
 static void list_mask(struct shader *s, const struct cpu_ref *ref)
 {
-    const int log2_width = ref->place & 3, last_column = (1 << log2_width) - 1;
-    const int x = (ref->place >> 2) & 0x3fff, y = ref->place >> 16;
+    const int x = ref->place & 0xffff, y = ref->place >> 16;
+    __builtin_prefetch(s->bins->records + (size_t)ref->prim * s->bins->record_size);
     for (uint64_t rest = ref->mask; rest; rest &= rest - 1) {
         const int bit = __builtin_ctzll(rest);
-        list_pixel(s, ref->prim, x + (bit & last_column), y + (bit >> log2_width));
+        list_pixel(s, ref->prim, x + (bit & 7), y + (bit >> 3));
     }
 }
 

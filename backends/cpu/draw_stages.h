@@ -70,8 +70,10 @@ static void shade_list(const struct cpu_call *call, const void *records,
     fragments->count = list->count;
 #pragma omp simd
     for (int i = 0; i < padded; i++) {
-        const RG_RECORD *r = (const RG_RECORD *)((const char *)records + list->record[i]);
-        put_fragment(fragments, i, rg_program_fragment(rg, p, *r, list->x[i], list->y[i]));
+        // In 32 bits, as gather instructions want it.
+        const int begin = list->prim[i] * (int)sizeof(RG_RECORD), at = list->at[i];
+        const RG_RECORD *r = (const RG_RECORD *)((const char *)records + begin);
+        put_fragment(fragments, i, rg_program_fragment(rg, p, *r, at & 0xffff, at >> 16));
     }
 }
 
