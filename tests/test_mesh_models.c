@@ -301,6 +301,28 @@ static void test_packaged_models(void **state)
     expect_model("cow", "cow.off", 0, 5804); // not in the table
 }
 
+// A cat lies, a head stands: which of the bounds' sides is the longest, and which the shortest.
+static void test_packaged_models_are_upright(void **state)
+{
+    (void)state;
+    struct rg_mesh *cat = rg_mesh_load("cat"), *head = rg_mesh_load("mannequin");
+    struct rg_mesh *as_it_lies = rg_mesh_read("/usr/share/glmark2/models/cat.3ds", NULL);
+    check_mesh(cat);
+    check_mesh(head);
+    assert_true(head->high[1] - head->low[1] > 1.1f * (head->high[2] - head->low[2]));
+    // about x by a quarter: y became z, z became -y
+    assert_int_equal(cat->vertex_count, as_it_lies->vertex_count);
+    for (int i = 0; i < 3 * cat->vertex_count; i += 3) {
+        assert_true(cat->positions[i] == as_it_lies->positions[i]);
+        assert_true(cat->positions[i + 1] == -as_it_lies->positions[i + 2]);
+        assert_true(cat->positions[i + 2] == as_it_lies->positions[i + 1]);
+        assert_true(fabsf(cat->normals[i + 1] + as_it_lies->normals[i + 2]) < 1e-6f);
+    }
+    rg_mesh_destroy(cat);
+    rg_mesh_destroy(head);
+    rg_mesh_destroy(as_it_lies);
+}
+
 // The numbers of faces of Stuppacher and Supan's scenes.
 static void test_stand_ins_have_the_published_counts(void **state)
 {
@@ -310,8 +332,9 @@ static void test_stand_ins_have_the_published_counts(void **state)
                  100000);
     expect_model("buddha", "refined_elephant.off, refined to 100000 faces, in place of the buddha",
                  0, 100000);
-    expect_model("planck", "mannequin-devil.off, refined to 50801 faces, in place of the planck", 0,
-                 50801);
+    expect_model("planck",
+                 "mannequin-devil.off, refined to 50801 faces, in place of the bust of Max Planck",
+                 0, 50801);
 }
 
 static void expect_no_model(const char *name, const char *why)
@@ -357,6 +380,7 @@ int main(void)
         cmocka_unit_test(test_refinement_of_an_open_surface),
         cmocka_unit_test(test_numbers_that_are_refused),
         cmocka_unit_test(test_packaged_models),
+        cmocka_unit_test(test_packaged_models_are_upright),
         cmocka_unit_test(test_stand_ins_have_the_published_counts),
         cmocka_unit_test(test_names),
     };

@@ -2,6 +2,7 @@
 #include <assimp/postprocess.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 #include <strings.h>
 
 #include "core/scene/importer/importer.h"
@@ -15,6 +16,19 @@ bool import_refuse(struct import *import, const char *format, ...)
     return false;
 }
 
+static bool refuse_for_assimp(struct import *import, const char *error)
+{
+    if (strstr(error, "bad_alloc"))
+        return import_refuse(import,
+                             "Assimp takes more memory for it than the %lld GB that it "
+                             "may; decimate it first",
+                             (long long)(RG_IMPORT_MAX_MEMORY_BYTES >> 30));
+    return import_refuse(import,
+                         "Assimp cannot read it (%s); use a sound OBJ, PLY, STL, glTF, 3DS or OFF "
+                         "file",
+                         error);
+}
+
 bool import_load(struct import *import)
 {
     int64_t claimed = -1;
@@ -25,10 +39,7 @@ bool import_load(struct import *import)
     struct aiFileIO files = import_files(import);
     const struct aiScene *scene = import->scene = aiImportFileEx(import->name, 0, &files);
     if (!scene)
-        return import_refuse(import,
-                             "Assimp cannot read it (%s); use a sound OBJ, PLY, STL, glTF, "
-                             "3DS or OFF file",
-                             aiGetErrorString());
+        return refuse_for_assimp(import, aiGetErrorString());
     if (!import_check_scene(import, scene))
         return false;
     const int64_t polygons = import_count_polygons(scene);
