@@ -112,12 +112,12 @@ static bool wait_for_end(pid_t child, int alive, int timeout_s, int *status)
     return ended > 0;
 }
 
-static struct rg_mesh *judge(const char *name, int status, bool ended, int timeout_s, int reply)
+static struct rg_mesh *judge(const char *name, int status, bool ended, int reply)
 {
     if (!ended || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
-        return rg_error_null("%s: Assimp did not come to an end with it within %d s; the file is "
+        return rg_error_null("%s: Assimp did not come to an end with it in time; the file is "
                              "damaged or too large: repair, convert or decimate it",
-                             name, timeout_s);
+                             name);
     if (WIFSIGNALED(status))
         return rg_error_null("%s: Assimp crashed on it (%s); the file is damaged: repair or "
                              "convert it",
@@ -155,7 +155,7 @@ struct rg_mesh *rg_mesh_read_by(const char *program, int timeout_s, const char *
         rg_error("%s: %s could not be started: %s", name, program, strerror(error));
     } else {
         const bool ended = wait_for_end(child, alive[0], timeout_s, &status);
-        mesh = judge(name, status, ended, timeout_s, reply);
+        mesh = judge(name, status, ended, reply);
     }
     if (alive[0] >= 0)
         close(alive[0]);

@@ -15,18 +15,18 @@
 // The last three stand for scans that no package brings, with the face counts of Stuppacher and
 // Supan's table of scenes.
 static const struct rg_model models[] = {
-    {"bunny", "bunny.obj", false, 0, NULL},
-    {"horse", "horse.3ds", false, 0, NULL},
-    {"cat", "cat.3ds", false, 0, NULL},
-    {"asteroid", "asteroid-high.3ds", false, 0, NULL},
-    {"elephant", "refined_elephant.off", true, 0, NULL},
-    {"armadillo", "armadillo.off", true, 0, NULL},
-    {"diplodocus", "diplodocus.off", true, 0, NULL},
-    {"chinese-dragon", "ChineseDragon-10kv.off", true, 0, NULL},
-    {"mannequin", "mannequin-devil.off", true, 0, NULL},
-    {"dragon", "ChineseDragon-10kv.off", true, 100000, "dragon"},
-    {"buddha", "refined_elephant.off", true, 100000, "buddha"},
-    {"planck", "mannequin-devil.off", true, 50801, "planck"},
+    {"bunny", "bunny.obj", false, 0, 0, NULL},
+    {"horse", "horse.3ds", false, 1, 0, NULL}, // Assimp takes z for up in 3DS files
+    {"cat", "cat.3ds", false, 1, 0, NULL},
+    {"asteroid", "asteroid-high.3ds", false, 0, 0, NULL},
+    {"elephant", "refined_elephant.off", true, 0, 0, NULL},
+    {"armadillo", "armadillo.off", true, 0, 0, NULL},
+    {"diplodocus", "diplodocus.off", true, 0, 0, NULL},
+    {"chinese-dragon", "ChineseDragon-10kv.off", true, 0, 0, NULL},
+    {"mannequin", "mannequin-devil.off", true, -1, 0, NULL},
+    {"dragon", "ChineseDragon-10kv.off", true, 0, 100000, "dragon"},
+    {"buddha", "refined_elephant.off", true, 0, 100000, "buddha"},
+    {"planck", "mannequin-devil.off", true, -1, 50801, "bust of Max Planck"},
 };
 enum { MODEL_COUNT = sizeof(models) / sizeof(models[0]) };
 
@@ -98,14 +98,41 @@ static struct rg_mesh *stand_in(struct rg_mesh *mesh, const struct rg_model *mod
     return resized;
 }
 
+static void turn_vectors(float *vectors, int count, int quarter_turns)
+{
+    const float sign = (float)quarter_turns;
+    for (int i = 0; i < count; i++) {
+        float *v = vectors + 3 * (size_t)i, y = v[1];
+        v[1] = -sign * v[2];
+        v[2] = sign * y;
+    }
+}
+
+// Destroys the mesh and returns it turned by one quarter, forward or back.
+static struct rg_mesh *turn(struct rg_mesh *mesh, int quarter_turns)
+{
+    turn_vectors(mesh->positions, mesh->vertex_count, quarter_turns);
+    turn_vectors(mesh->normals, mesh->vertex_count, quarter_turns);
+    struct rg_mesh *turned = rg_mesh_create(mesh->name, mesh->vertex_count, mesh->face_count,
+                                            mesh->positions, mesh->normals, mesh->indices);
+    rg_mesh_destroy(mesh);
+    return turned;
+}
+
+static struct rg_mesh *load_packaged(const char *name, const struct rg_model *model)
+{
+    if (!model)
+        return read_archived(name, NULL);
+    struct rg_mesh *mesh = model->in_archive ? read_archived(name, model) : read_file(name, model);
+    return mesh && model->quarter_turns ? turn(mesh, model->quarter_turns) : mesh;
+}
+
 static struct rg_mesh *load_named(const char *name)
 {
     char path[4096];
     const struct rg_model *model = find_model(name);
     const bool own = find_own(name, path, sizeof(path));
-    struct rg_mesh *mesh = own                           ? rg_mesh_read(path, NULL)
-                           : model && !model->in_archive ? read_file(name, model)
-                                                         : read_archived(name, model);
+    struct rg_mesh *mesh = own ? rg_mesh_read(path, NULL) : load_packaged(name, model);
     return model && model->faces ? stand_in(mesh, model, own) : mesh;
 }
 

@@ -76,23 +76,20 @@ static bool read_member(struct import *import, const char *path, const char *mem
                          member);
 }
 
-static bool read_bytes(struct import *import, const char *path, const char *member)
+void import_name(struct import *import, const char *name)
 {
-    if (member)
-        return read_member(import, path, member);
-    import->bytes = read_whole(path, &import->size);
-    return import->bytes ? true : import_refuse(import, "%s; check the path", strerror(errno));
+    const char *base = strrchr(name, '/'), *dot = strrchr(base ? base : name, '.');
+    import->name = name;
+    import->extension = dot ? dot + 1 : "";
 }
 
 bool import_read(struct import *import, const char *path, const char *member)
 {
-    import->name = member ? member : path;
-    const char *base = strrchr(import->name, '/');
-    const char *dot = strrchr(base ? base : import->name, '.');
-    import->extension = dot ? dot + 1 : "";
-    if (!read_bytes(import, path, member))
-        return false;
-    return strcasecmp(import->extension, "off") ? true : import_off_as_obj(import);
+    import_name(import, member ? member : path);
+    if (member)
+        return read_member(import, path, member);
+    import->bytes = read_whole(path, &import->size);
+    return import->bytes ? true : import_refuse(import, "%s; check the path", strerror(errno));
 }
 
 // --- Assimp's callbacks ---

@@ -15,8 +15,9 @@
 struct import {
     const char *name;      // as Assimp is told it: the path, or the archive's member
     const char *extension; // of the name, without its dot; "" for none
-    unsigned char *bytes;
+    unsigned char *bytes;  // `size` of them, in memory of a byte more
     size_t size;
+    const struct aiScene *scene;
     struct rg_import_reply reply;
     float *positions, *normals;
     uint32_t *indices;
@@ -26,8 +27,13 @@ struct import {
 bool import_refuse(struct import *import, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+// Sets the name and the extension.
+void import_name(struct import *import, const char *name);
 // Reads the file, or the archive's member if that is not NULL.
 bool import_read(struct import *import, const char *path, const char *member);
+
+// From the file's bytes to the arrays and their counts in the reply.
+bool import_load(struct import *import);
 
 // Files for Assimp: the one that was read, out of memory, and glTF's buffers (.bin) beside it.
 // Nothing else is opened: no materials, no textures, nothing to write.

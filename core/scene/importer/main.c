@@ -3,11 +3,8 @@
 // Assimp reads 40 formats and crashes or loops on some damaged files of them. Here that harms
 // nobody.
 #define _DEFAULT_SOURCE // RLIMIT_AS
-#include <assimp/cimport.h>
-#include <assimp/postprocess.h>
 #include <errno.h>
 #include <signal.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/prctl.h>
@@ -16,17 +13,13 @@
 
 #include "core/scene/importer/importer.h"
 
-bool import_refuse(struct import *import, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    vsnprintf(import->reply.error, sizeof(import->reply.error), format, args);
-    va_end(args);
-    return false;
-}
-
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) // clang's name for it
+#define __SANITIZE_ADDRESS__
+#endif
+#endif
 #ifdef __SANITIZE_ADDRESS__ // slower, and its shadow alone takes terabytes of addresses
-enum { SLOWNESS = 10, LIMITS_MEMORY = 0 };
+enum { SLOWNESS = 3, LIMITS_MEMORY = 0 };
 #else
 enum { SLOWNESS = 1, LIMITS_MEMORY = 1 };
 #endif
@@ -45,32 +38,6 @@ static void set_limits(size_t file_bytes)
     if (LIMITS_MEMORY)
         setrlimit(RLIMIT_AS,
                   &(struct rlimit){RG_IMPORT_MAX_MEMORY_BYTES, RG_IMPORT_MAX_MEMORY_BYTES});
-}
-
-static bool load(struct import *import)
-{
-    int64_t claimed;
-    if (!import_check_claim(import, &claimed))
-        return false;
-    struct aiFileIO files = import_files(import);
-    const struct aiScene *scene = aiImportFileEx(import->name, 0, &files);
-    if (!scene)
-        return import_refuse(import,
-                             "Assimp cannot read it (%s); use a sound OBJ, PLY, STL, glTF, "
-                             "3DS or OFF file",
-                             aiGetErrorString());
-    if (!import_check_scene(import, scene))
-        return false;
-    const int64_t polygons = import_count_polygons(scene);
-    if (polygons < claimed)
-        return import_refuse(import,
-                             "only %lld of the %lld faces that its header promises could be "
-                             "read; it is cut short or unusual: export it again, as triangles",
-                             (long long)polygons, (long long)claimed);
-    scene = aiApplyPostProcessing(scene, aiProcess_Triangulate);
-    if (!scene)
-        return import_refuse(import, "Assimp cannot triangulate it; export triangles");
-    return import_check_scene(import, scene) && import_gather(import, scene);
 }
 
 static bool put(const void *data, size_t bytes)
@@ -104,7 +71,7 @@ int main(int argc, char **argv)
     set_limits(0);
     const bool read = import_read(&import, argv[1], argc > 2 ? argv[2] : NULL);
     set_limits(import.size);
-    if (!read || !load(&import))
+    if (!read || !import_load(&import))
         import.reply.vertex_count = import.reply.face_count = 0;
     // Not exit: destructors of libraries are not part of the work.
     _exit(put_reply(&import) ? 0 : 1);

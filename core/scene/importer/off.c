@@ -115,18 +115,21 @@ static bool copy(struct import *import, struct text *text, FILE *obj)
 
 bool import_off_as_obj(struct import *import)
 {
-    char *result = NULL;
+    char *result = NULL, *bytes = (char *)import->bytes;
     size_t size = 0;
     FILE *obj = open_memstream(&result, &size);
-    char *bytes = (char *)import->bytes;
     struct text text = {bytes, bytes + import->size, 0};
-    if (!obj || !copy(import, &text, obj))
-        return obj ? false : import_refuse(import, "no memory to read it");
-    if (fclose(obj))
-        return import_refuse(import, "no memory to read it; decimate it first");
+    const bool copied = obj && copy(import, &text, obj);
+    const bool closed = obj && !fclose(obj);
+    if (!closed)
+        import_refuse(import, "no memory to read it; decimate it first");
+    if (!copied || !closed) {
+        free(result);
+        return false;
+    }
+    free(import->bytes);
     import->bytes = (unsigned char *)result;
     import->size = size;
-    import->name = "off.obj";
-    import->extension = "obj";
+    import_name(import, "off.obj");
     return true;
 }

@@ -11,9 +11,10 @@
 
 enum { RG_REPLY_FD = 3, RG_REPLY_MAGIC = 0x4d524731 }; // "1GRM"
 
-// The largest file that is read, and what the importer may take for it.
+// The largest file that is read, and the memory that may be taken for it: ten million faces take
+// Assimp 3 GB, as OBJ.
 #define RG_IMPORT_MAX_FILE_BYTES   ((int64_t)1 << 30)
-#define RG_IMPORT_MAX_MEMORY_BYTES ((int64_t)8 << 30)
+#define RG_IMPORT_MAX_MEMORY_BYTES ((int64_t)4 << 30)
 
 struct rg_import_reply {
     uint32_t magic, vertex_count, face_count, reserved;
