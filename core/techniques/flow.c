@@ -90,9 +90,11 @@ static bool take(struct flow *flow, const flow_params *p)
            (!flow->passes[FLOW_REACH] || run(flow, FLOW_REACH, moving)) &&
            (!flow->passes[FLOW_ARRIVE] ||
             run(flow, FLOW_ARRIVE,
-                (struct rg_run){.params = p,
-                                .slots = {[1].buf = flow->moved, [2].buf = flow->arriving},
-                                .extent = {n, FLOW_STRIPS, flow->pane_count}}));
+                (struct rg_run){
+                    .params = p,
+                    .slots =
+                        {[1].buf = flow->moved, [2].buf = flow->arriving, [3].buf = flow->ledger},
+                    .extent = {n, FLOW_STRIPS, flow->pane_count}}));
 }
 
 static bool flow_step(struct rg_instance *instance)
