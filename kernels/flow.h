@@ -16,6 +16,7 @@
 #define FLOW_DROPLET           1.52587890625e-5f
 #define FLOW_REMAINDER_ENTRIES 1024 // of the remainder map, evenly spaced over the water amount
 #define FLOW_MARGIN            4    // the farthest that water goes in a step
+#define FLOW_EDGE_HOLDS        64.0f // units of water up to which a texel takes in what crosses an edge
 
 #define FLOW_MAX_PANES 6
 #define FLOW_NO_PANE   -1

@@ -80,6 +80,8 @@ struct rg_ctx {
         return atomicCompSwap(name##_data[i], expected, v);                                        \
     }
 
+// A level's size is reckoned from the first: llvmpipe and lavapipe answer textureSize with the size
+// of the first item's level for all items of a vector.
 #define IMAGE(slot, F, name)                                                                       \
     layout(binding = slot) uniform sampler2DArray name##_sampler;                                  \
     rgba name##_texel(rg_ctx rg, int x, int y, int layer, int level)                               \
@@ -89,11 +91,11 @@ struct rg_ctx {
     }                                                                                              \
     int name##_width(rg_ctx rg, int level)                                                         \
     {                                                                                              \
-        return textureSize(name##_sampler, level).x;                                               \
+        return rg_imax(textureSize(name##_sampler, 0).x >> level, 1);                              \
     }                                                                                              \
     int name##_height(rg_ctx rg, int level)                                                        \
     {                                                                                              \
-        return textureSize(name##_sampler, level).y;                                               \
+        return rg_imax(textureSize(name##_sampler, 0).y >> level, 1);                              \
     }                                                                                              \
     int name##_levels(rg_ctx rg)                                                                   \
     {                                                                                              \

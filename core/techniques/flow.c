@@ -111,7 +111,9 @@ static bool move(struct flow *flow)
     return !flow->passes[FLOW_ARRIVE] ||
            run(flow, FLOW_ARRIVE,
                (struct rg_run){.params = &p,
-                               .slots = {[1].buf = flow->moved, [2].buf = flow->arriving},
+                               .slots = {[1].buf = flow->moved,
+                                         [2].buf = flow->arriving,
+                                         [3].buf = flow->ledger},
                                .extent = {n, FLOW_STRIPS, flow->pane_count}});
 }
 

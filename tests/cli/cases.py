@@ -22,7 +22,8 @@ TABLE = "table stuppacher-2 --rows 1-1 --device cpu "
 TABLE_FILES = tuple("stuppacher-2." + format for format in ("csv", "json", "md", "tex"))
 DIFF = "diff flow --frame 5 --device cpu,cpu:reference " + SMALL
 VERIFY = "verify flow --frame 5 --device cpu " + SMALL
-RENDER = "render flow --set environment=sky --set environment_px=16 --set resolution_px=32 --size 32x32 --frame 1 "
+RENDER = ("render flow --set environment=sky --set environment_px=16 --set resolution_px=32 --set model=none "
+          "--size 32x32 --frame 1 ")
 
 ON_CPU = [
     # every command
@@ -78,6 +79,31 @@ ON_CPU = [
     Case(RENDER + "--set environment={data}/half.ktx -o {tmp}/a.png", 2, r"half\.ktx: "),
     Case(RENDER + "--set environment={data}/short.exr -o {tmp}/a.png", 2, r"short\.exr: "),
     Case(RENDER + "--set environment={data}/folder.exr -o {tmp}/a.png", 2, r"folder\.exr: "),
+
+    Case(RENDER + "--set model=nonsense -o {tmp}/a.png", 2, r"nonsense.*check the name"),
+    Case(RENDER + "--set model=/nonexistent.obj -o {tmp}/a.png", 2, r"/nonexistent\.obj: .*check the name"),
+    Case(RENDER + "--set model={data}/a.png -o {tmp}/a.png", 2, r"a\.png: Assimp cannot read it"),
+    Case(RENDER + "--set model={data}/folder.exr -o {tmp}/a.png", 2, r"folder\.exr: "),
+    Case(RENDER + "--set model=sphere --set model_faces=1 -o {tmp}/a.png", 2, r"sphere: .*1 faces; ask for more"),
+    # a model stands in a box of glass alone, and is not looked for elsewhere
+    Case(RENDER + "--set panes=mirror --set model=nonsense -o {tmp}/a.png", 0, None, made=("a.png",)),
+    Case(RENDER + "--set view=pane --set model=nonsense -o {tmp}/a.png", 0, None, made=("a.png",)),
+
+    # render: the scene's absurd values
+    Case(RENDER + "--set panes=wood -o {tmp}/a.png", 2, r"parameter 'panes': 'wood' is none of: glass mirror"),
+    Case(RENDER + "--set view=room -o {tmp}/a.png", 2, r"parameter 'view': 'room' is none of: box pane"),
+    Case(RENDER + "--set stage=last -o {tmp}/a.png", 2, r"parameter 'stage': 'last' is none of: height blurred normals final"),
+    Case(RENDER + "--set run_on=maybe -o {tmp}/a.png", 2, r"parameter 'run_on': 'maybe' is none of: off on"),
+    Case(RENDER + "--set reach_texels=5 -o {tmp}/a.png", 2, r"parameter 'reach_texels': 5 is out of range; 2 to 4"),
+    Case(RENDER + "--set distance_mm=0 -o {tmp}/a.png", 2, r"parameter 'distance_mm': 0 is out of range; 1 to 1000000 mm"),
+    Case(RENDER + "--set distance_mm=nan -o {tmp}/a.png", 2, r"parameter 'distance_mm': 'nan' is no number"),
+    Case(RENDER + "--set camera_elevation_deg=90 -o {tmp}/a.png", 2, r"parameter 'camera_elevation_deg': 90 is out of range; -89 to 89 deg"),
+    Case(RENDER + "--set spin_roll_deg_s=1e9 -o {tmp}/a.png", 2, r"parameter 'spin_roll_deg_s': 1e9 is out of range"),
+    Case(RENDER + "--set glow=2 -o {tmp}/a.png", 2, r"parameter 'glow': 2 is out of range; 0 to 1"),
+    Case(RENDER + "--set model_size=0 -o {tmp}/a.png", 2, r"parameter 'model_size': 0 is out of range; 0\.01 to 1"),
+    # the camera inside the box, and far off
+    Case(RENDER + "--set model=sphere --set distance_mm=1 -o {tmp}/a.png", 0, None, made=("a.png",)),
+    Case(RENDER + "--set model=sphere --set distance_mm=1000000 --set pane_mm=1 -o {tmp}/a.png", 0, None, made=("a.png",)),
 
     # render: what it writes
     Case(RENDER + "-o {tmp}/a.png", 0, None, made=("a.png",)),
