@@ -7,7 +7,9 @@
 #include "core/log.h"
 #include "harness/command.h"
 #include "harness/devices.h"
+#include "harness/facts.h"
 #include "harness/frame.h"
+#include "harness/passport.h"
 
 static bool write_frame(struct rg_instance *instance, const char *path, double exposure)
 {
@@ -25,6 +27,45 @@ static bool write_frame(struct rg_instance *instance, const char *path, double e
     return ok;
 }
 
+// Every parameter with its value, as --set takes it.
+static json_t *settings_json(const struct rg_technique *technique, const void *settings)
+{
+    json_t *json = json_object();
+    for (int i = 0; i < technique->params->count; i++) {
+        char value[RG_PATH_SIZE];
+        rg_params_text(&technique->params->rows[i], settings, value, sizeof(value));
+        json_object_set_new(json, technique->params->rows[i].name, rg_json_text(value));
+    }
+    return json;
+}
+
+// What was drawn (docs/records.md).
+static void print_json(const struct rg_instance *instance, const void *settings, const char *path)
+{
+    const struct rg_image_desc *desc = &instance->target->desc;
+    json_t *json =
+        json_pack("{sisosssssisisIsosososo}", "format", 1, "file", rg_json_text(path), "technique",
+                  instance->technique->name, "device", instance->device->info.name, "width",
+                  desc->width, "height", desc->height, "frame", (json_int_t)instance->frame,
+                  "settings", settings_json(instance->technique, settings), "facts",
+                  rg_facts_json(instance->facts, instance->fact_count), "counters",
+                  rg_counters_json(instance->counters, instance->counter_count), "passport",
+                  rg_passport_json(&instance->device->info, 1));
+    json_dumpf(json, stdout, JSON_INDENT(1));
+    printf("\n");
+    json_decref(json);
+}
+
+static void print_text(const struct rg_instance *instance, const char *path)
+{
+    const struct rg_device_info *info = &instance->device->info;
+    char facts[RG_FACTS_TEXT];
+    rg_facts_text(instance->facts, instance->fact_count, NULL, facts, sizeof(facts));
+    printf("%s: %s, frame %lld, %dx%d, on %s (%s)%s%s\n", path, instance->technique->name,
+           (long long)instance->frame, instance->target->desc.width, instance->target->desc.height,
+           info->name, info->device, *facts ? "; " : "", facts);
+}
+
 static int render_on(struct rg_device *device, const struct rg_technique *technique,
                      const void *settings, const struct rg_options *o)
 {
@@ -36,9 +77,10 @@ static int render_on(struct rg_device *device, const struct rg_technique *techni
     const char *output = o->output ? o->output : path;
     struct rg_instance *instance = rg_frame_run(technique, settings, device, width, height, frames);
     bool ok = instance && write_frame(instance, output, o->exposure);
-    if (ok)
-        printf("%s: %s, frame %d, %dx%d, on %s (%s)\n", output, technique->name, frames, width,
-               height, device->info.name, device->info.device);
+    if (ok && o->json)
+        print_json(instance, settings, output);
+    else if (ok)
+        print_text(instance, output);
     if (instance)
         technique->destroy(instance);
     return ok ? RG_EXIT_PASS : RG_EXIT_USAGE;
@@ -71,9 +113,10 @@ static int render(const struct rg_options *o)
 
 const struct rg_command rg_command_render = {
     .name = "render",
-    .usage = "TECHNIQUE [--device D] [--frame N] [--size WxH] [--set KEY=VALUE]... [-o FILE]",
+    .usage = "TECHNIQUE [--device D] [--frame N] [--size WxH] [--set KEY=VALUE]... [-o FILE] "
+             "[--json]",
     .about = "draws one frame of a technique into an image file (PNG, EXR, HDR, TIFF)",
-    .options =
-        RG_OPT_DEVICE | RG_OPT_FRAME | RG_OPT_SIZE | RG_OPT_SET | RG_OPT_OUTPUT | RG_OPT_EXPOSURE,
+    .options = RG_OPT_DEVICE | RG_OPT_FRAME | RG_OPT_SIZE | RG_OPT_SET | RG_OPT_OUTPUT |
+               RG_OPT_EXPOSURE | RG_OPT_JSON,
     .run = render,
 };

@@ -77,13 +77,10 @@ static int run_table(const struct rg_table *table, const struct rg_devices *devi
     struct rg_table_run run = {.table = table,
                                .devices = devices,
                                .first_row = o->first_row ? o->first_row - 1 : 0,
-                               .last_row = o->last_row ? o->last_row - 1 : table->row_count - 1,
+                               .last_row = table->row_count - 1,
                                .full = o->full};
-    if (run.last_row >= table->row_count) {
-        rg_error("--rows %d-%d: %s has rows 1-%d", o->first_row, o->last_row, table->id,
-                 table->row_count);
-        return RG_EXIT_USAGE;
-    }
+    if (o->last_row && o->last_row < table->row_count)
+        run.last_row = o->last_row - 1;
     int exit = RG_EXIT_FAIL;
     if (rg_table_measure(&run)) {
         exit = judge(&run);
@@ -97,12 +94,30 @@ static int run_table(const struct rg_table *table, const struct rg_devices *devi
     return exit;
 }
 
-static bool names_are_known(const struct rg_options *o)
+// The tables that are named, or all. False, and one logged line, where one is unknown.
+static bool choose(const struct rg_options *o, const struct rg_table *chosen[], int *count)
 {
-    for (int i = 0; i < o->arg_count; i++)
-        if (!rg_table_find(o->args[i]))
+    *count = 0;
+    for (int i = 0; i < o->arg_count; i++) {
+        chosen[(*count)++] = rg_table_find(o->args[i]);
+        if (!chosen[i])
             return rg_error("table '%s': unknown; `raingauge list tables` prints them", o->args[i]);
+    }
+    for (int i = 0; rg_tables[i] && !o->arg_count && i < RG_MAX_ARGS; i++)
+        chosen[(*count)++] = rg_tables[i];
     return true;
+}
+
+// Whether a table has all the rows that are asked for; the others then give those that they have.
+static bool have_rows(const struct rg_options *o, const struct rg_table *const chosen[], int count)
+{
+    const struct rg_table *longest = chosen[0];
+    for (int i = 1; i < count; i++)
+        longest = chosen[i]->row_count > longest->row_count ? chosen[i] : longest;
+    if (o->last_row <= longest->row_count)
+        return true;
+    return rg_error("--rows %d-%d: %s has rows 1-%d", o->first_row, o->last_row, longest->id,
+                    longest->row_count);
 }
 
 // Bad input outweighs a failure, and a failure nothing measured.
@@ -117,16 +132,22 @@ static int worse(int a, int b)
 
 static int table(const struct rg_options *o)
 {
-    if (!names_are_known(o))
+    const struct rg_table *chosen[RG_MAX_ARGS];
+    int count;
+    if (!choose(o, chosen, &count) || !have_rows(o, chosen, count))
         return RG_EXIT_USAGE;
     struct rg_devices devices;
     int exit = rg_devices_open(o, "all", &devices);
     // A table that fails keeps none of the others from being measured and written.
     const bool opened = exit == RG_EXIT_PASS;
-    for (int i = 0; opened && rg_tables[i] && !o->arg_count; i++)
-        exit = worse(exit, run_table(rg_tables[i], &devices, o));
-    for (int i = 0; opened && i < o->arg_count; i++)
-        exit = worse(exit, run_table(rg_table_find(o->args[i]), &devices, o));
+    int printed = 0;
+    for (int i = 0; opened && i < count; i++) {
+        if (o->first_row > chosen[i]->row_count)
+            continue;
+        if (printed++)
+            printf("\n");
+        exit = worse(exit, run_table(chosen[i], &devices, o));
+    }
     if (exit == RG_EXIT_PASS && devices.broken_count)
         exit = RG_EXIT_FAIL;
     rg_devices_close(&devices);

@@ -6,7 +6,6 @@
 
 #include "core/alloc.h"
 #include "core/log.h"
-#include "core/techniques/proof.h"
 #include "harness/devices.h"
 #include "harness/diff_report.h"
 #include "harness/frame.h"
@@ -27,30 +26,24 @@ struct session {
     json_t *pairs; // with --json
 };
 
-static bool take_picture(const struct session *s, struct rg_device *device, const void *settings,
-                         struct rg_picture *picture)
+// Size and frame, as the options have them.
+struct view {
+    int width, height, frames;
+};
+
+static struct view view_of(const struct rg_options *o)
 {
-    const struct rg_options *o = s->options;
-    struct rg_instance *instance = rg_frame_run(
-        s->technique, settings, device, o->width ? o->width : RG_FRAME_SIZE_PX,
-        o->height ? o->height : RG_FRAME_SIZE_PX, o->frame >= 0 ? o->frame : RG_FRAME_COUNT);
-    if (!instance)
-        return false;
-    size_t size;
-    void *texels = rg_frame_read(instance, &size);
-    bool ok = texels && rg_frame_picture(instance, texels, picture);
-    free(texels);
-    s->technique->destroy(instance);
-    return ok;
+    return (struct view){.width = o->width ? o->width : RG_FRAME_SIZE_PX,
+                         .height = o->height ? o->height : RG_FRAME_SIZE_PX,
+                         .frames = o->frame >= 0 ? o->frame : RG_FRAME_COUNT};
 }
 
 // The same frame without rain: where a picture differs from it, it rains.
-static bool take_background(struct session *s)
+static bool take_background(struct session *s, struct view view)
 {
     struct rg_device *device = rg_device_open("cpu", NULL);
-    void *settings = rg_settings_copy(s->technique, s->settings, s->technique->proof->dry);
-    bool ok = device && settings && take_picture(s, device, settings, &s->background);
-    free(settings);
+    bool ok = device && rg_frame_draw_dry(s->technique, s->settings, device, view.width,
+                                          view.height, view.frames, &s->background);
     return rg_device_close(device) && ok;
 }
 
@@ -58,12 +51,14 @@ static bool take_pictures(struct session *s, const struct rg_devices *devices)
 {
     struct rg_progress progress;
     rg_progress_start(&progress, devices->count + 1);
-    bool ok = take_background(s);
+    const struct view view = view_of(s->options);
+    bool ok = take_background(s, view);
     for (int d = 0; ok && d < devices->count; d++) {
         rg_progress_add(&progress, 1);
         struct shot *shot = &s->shots[s->shot_count++];
         shot->info = &devices->devices[d]->info;
-        ok = take_picture(s, devices->devices[d], s->settings, &shot->picture);
+        ok = rg_frame_draw(s->technique, s->settings, devices->devices[d], view.width, view.height,
+                           view.frames, &shot->picture);
     }
     rg_progress_end(&progress);
     return ok;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "core/log.h"
+#include "core/techniques/proof.h"
 #include "kernels/format.h"
 
 struct rg_instance *rg_frame_run(const struct rg_technique *technique, const void *settings,
@@ -42,4 +43,29 @@ bool rg_frame_picture(const struct rg_instance *instance, const void *texels,
     for (int64_t i = 0; i < rg_picture_values(picture); i++)
         picture->texels[i] = rg_unpack_half(halves[i]);
     return true;
+}
+
+bool rg_frame_draw(const struct rg_technique *technique, const void *settings,
+                   struct rg_device *device, int width, int height, int frames,
+                   struct rg_picture *picture)
+{
+    struct rg_instance *instance = rg_frame_run(technique, settings, device, width, height, frames);
+    if (!instance)
+        return false;
+    size_t size;
+    void *texels = rg_frame_read(instance, &size);
+    const bool ok = texels && rg_frame_picture(instance, texels, picture);
+    free(texels);
+    technique->destroy(instance);
+    return ok;
+}
+
+bool rg_frame_draw_dry(const struct rg_technique *technique, const void *settings,
+                       struct rg_device *device, int width, int height, int frames,
+                       struct rg_picture *picture)
+{
+    void *dry = rg_settings_copy(technique, settings, technique->proof->dry);
+    const bool ok = dry && rg_frame_draw(technique, dry, device, width, height, frames, picture);
+    free(dry);
+    return ok;
 }

@@ -18,6 +18,18 @@ void *rg_frame_read(struct rg_instance *instance, size_t *size);
 bool rg_frame_picture(const struct rg_instance *instance, const void *texels,
                       struct rg_picture *picture);
 
+// Runs to a frame as rg_frame_run does and brings its picture, which the caller destroys. False,
+// and one logged line, on failure.
+bool rg_frame_draw(const struct rg_technique *technique, const void *settings,
+                   struct rg_device *device, int width, int height, int frames,
+                   struct rg_picture *picture);
+
+// The same of the settings without rain, as the technique's proof takes it away: the background of
+// the rain mask.
+bool rg_frame_draw_dry(const struct rg_technique *technique, const void *settings,
+                       struct rg_device *device, int width, int height, int frames,
+                       struct rg_picture *picture);
+
 // Size and frame that options leave open.
 enum { RG_FRAME_SIZE_PX = 512, RG_FRAME_COUNT = 60 };
 

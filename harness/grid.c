@@ -21,6 +21,21 @@ static void *grow(struct rg_grid *grid, void *array, int count, int *capacity, s
     return grown;
 }
 
+int rg_grid_column(struct rg_grid *grid, const char *format, ...)
+{
+    const int column = grid->column_count;
+    if (column == RG_GRID_COLUMNS) {
+        grid->incomplete = !rg_error("table '%s': more than %d columns; raise RG_GRID_COLUMNS",
+                                     grid->title, RG_GRID_COLUMNS);
+        return column - 1;
+    }
+    va_list args;
+    va_start(args, format);
+    vsnprintf(grid->columns[column], sizeof(grid->columns[column]), format, args);
+    va_end(args);
+    return grid->column_count++;
+}
+
 char (*rg_grid_row(struct rg_grid *grid))[RG_GRID_CELL]
 {
     void *cells =
@@ -39,19 +54,44 @@ void rg_grid_note(struct rg_grid *grid, const char *format, ...)
     if (!notes)
         return;
     grid->notes = notes;
+    char *note = NULL;
+    size_t size;
+    FILE *text = open_memstream(&note, &size);
     va_list args;
     va_start(args, format);
-    vsnprintf(grid->notes[grid->note_count++], sizeof(grid->notes[0]), format, args);
+    const bool printed = text && vfprintf(text, format, args) >= 0;
     va_end(args);
+    if (text && fclose(text) == 0 && printed) {
+        grid->notes[grid->note_count++] = note;
+        return;
+    }
+    grid->incomplete = !rg_error("table '%s': no memory for a note", grid->title);
+    free(note);
 }
 
 void rg_grid_free(struct rg_grid *grid)
 {
+    for (int n = 0; n < grid->note_count; n++)
+        free(grid->notes[n]);
     free(grid->cells);
     free(grid->notes);
 }
 
 // --- Markdown, with columns aligned for those who read it as text ---
+
+// A column's width steps by so many characters, so that a digit more or less in a new measurement
+// does not move what it has beside it.
+enum { WIDTH_STEP = 8 };
+
+static int width_of(const struct rg_grid *grid, int column)
+{
+    size_t widest = strlen(grid->columns[column]);
+    for (int r = 0; r < grid->row_count; r++) {
+        const size_t width = strlen(grid->cells[r][column]);
+        widest = width > widest ? width : widest;
+    }
+    return (int)(widest + WIDTH_STEP - 1) / WIDTH_STEP * WIDTH_STEP;
+}
 
 static void print_md_row(FILE *out, const struct rg_grid *grid, const int *widths, int row)
 {
@@ -64,12 +104,8 @@ static void print_md_row(FILE *out, const struct rg_grid *grid, const int *width
 void rg_grid_print_md(const struct rg_grid *grid, FILE *out)
 {
     int widths[RG_GRID_COLUMNS];
-    for (int c = 0; c < grid->column_count; c++) {
-        widths[c] = (int)strlen(grid->columns[c]);
-        for (int r = 0; r < grid->row_count; r++)
-            if ((int)strlen(grid->cells[r][c]) > widths[c])
-                widths[c] = (int)strlen(grid->cells[r][c]);
-    }
+    for (int c = 0; c < grid->column_count; c++)
+        widths[c] = width_of(grid, c);
     fprintf(out, "## %s\n\n", grid->title);
     print_md_row(out, grid, widths, -1);
     for (int c = 0; c < grid->column_count; c++) {

@@ -52,43 +52,45 @@ static bool open_cell(struct rg_cell *cell)
     return true;
 }
 
-// Whether two images hold tier T1, which other drivers than the software ones are held to.
-static bool holds_t1(struct rg_cell *cell, const void *reference, const void *texels)
+// Whether an image holds tier T1, which other drivers than the software ones are held to.
+static bool holds_t1(struct rg_cell *cell, const struct rg_expected *expected, const void *texels)
 {
-    struct rg_picture a = {0}, b = {0};
+    struct rg_picture picture = {0};
     struct rg_comparison comparison = {0};
-    bool ok = rg_frame_picture(cell->instance, reference, &a) &&
-              rg_frame_picture(cell->instance, texels, &b) &&
-              rg_compare(&a, "cpu:reference", &b, cell->device->info.name, NULL,
-                         &(struct rg_compare_options){0}, &comparison);
+    const struct rg_picture *dry = expected->dry.texels ? &expected->dry : NULL;
+    bool ok = rg_frame_picture(cell->instance, texels, &picture) &&
+              rg_compare(&expected->picture, "cpu:reference", &picture, cell->device->info.name,
+                         dry, &(struct rg_compare_options){0}, &comparison);
     bool holds = ok && comparison.tiers.t1.holds;
     if (!holds)
-        end_cell(cell, RG_CELL_FAIL, ok ? comparison.tiers.t1.why : rg_last_error());
+        end_cell(cell, ok ? RG_CELL_FAIL : RG_CELL_ERROR,
+                 ok ? comparison.tiers.t1.why : rg_last_error());
     rg_comparison_destroy(&comparison);
-    rg_picture_destroy(&a);
-    rg_picture_destroy(&b);
+    rg_picture_destroy(&picture);
     return holds;
 }
 
-static bool agrees(struct rg_cell *cell, const void *reference, const void *texels, size_t size)
+static bool agrees(struct rg_cell *cell, const struct rg_expected *expected, const void *texels)
 {
-    if (!memcmp(reference, texels, size))
+    if (!memcmp(expected->texels, texels, expected->size))
         return true;
     if (!cell->device->info.software)
-        return holds_t1(cell, reference, texels);
+        return holds_t1(cell, expected, texels);
     return end_cell(cell, RG_CELL_FAIL,
                     "its image differs from cpu:reference's (T0); `raingauge diff` shows where");
 }
 
-static bool check_image(struct rg_cell *cell, const void *reference, size_t reference_size)
+static bool check_image(struct rg_cell *cell, const struct rg_expected *expected)
 {
-    if (!run_frames(cell, RG_CELL_CHECK_FRAMES - 1))
+    if (!run_frames(cell, RG_CHECK_FRAMES - 1))
         return end_cell(cell, RG_CELL_ERROR, rg_last_error());
     cell->counter_count = cell->instance->counter_count;
     memcpy(cell->counters, cell->instance->counters, sizeof(cell->counters));
+    cell->fact_count = cell->instance->fact_count;
+    memcpy(cell->facts, cell->instance->facts, sizeof(cell->facts));
     size_t size;
     void *texels = rg_frame_read(cell->instance, &size);
-    bool ok = texels && size == reference_size ? agrees(cell, reference, texels, size)
+    bool ok = texels && size == expected->size ? agrees(cell, expected, texels)
                                                : end_cell(cell, RG_CELL_ERROR, rg_last_error());
     free(texels);
     return ok;
@@ -114,10 +116,10 @@ static void warm_up(struct rg_cell *cell)
     }
 }
 
-void rg_cell_prepare(struct rg_cell *cell, const void *reference, size_t reference_size)
+void rg_cell_prepare(struct rg_cell *cell, const struct rg_expected *expected)
 {
     cell->status = RG_CELL_OK;
-    if (open_cell(cell) && check_image(cell, reference, reference_size))
+    if (open_cell(cell) && check_image(cell, expected))
         warm_up(cell);
 }
 
@@ -172,20 +174,26 @@ struct pass_clock {
     bool ok;
 };
 
+// Where the time of a pass is kept.
+static struct rg_cell_pass *pass_of(struct rg_cell *cell, const char *name)
+{
+    for (int i = 0; i < cell->pass_count; i++)
+        if (!strcmp(cell->passes[i].name, name))
+            return &cell->passes[i];
+    if (cell->pass_count == RG_MAX_CELL_PASSES)
+        return &cell->passes[RG_MAX_CELL_PASSES - 1];
+    if (cell->pass_count == RG_MAX_CELL_PASSES - 1)
+        name = "other";
+    cell->passes[cell->pass_count] = (struct rg_cell_pass){name, 0};
+    return &cell->passes[cell->pass_count++];
+}
+
 static void after_pass(const char *name, void *user)
 {
     struct pass_clock *clock = user;
-    struct rg_cell *cell = clock->cell;
-    clock->ok = rg_device_sync(cell->device) && clock->ok;
+    clock->ok = rg_device_sync(clock->cell->device) && clock->ok;
     const double now = rg_now_ms();
-    int i = 0;
-    while (i < cell->pass_count && strcmp(cell->passes[i].name, name))
-        i++;
-    if (i == RG_MAX_CELL_PASSES)
-        return;
-    if (i == cell->pass_count)
-        cell->passes[cell->pass_count++] = (struct rg_cell_pass){name, 0};
-    cell->passes[i].ms += (now - clock->last_ms) / PASS_FRAMES;
+    pass_of(clock->cell, name)->ms += (now - clock->last_ms) / PASS_FRAMES;
     clock->last_ms = now;
 }
 
@@ -236,6 +244,14 @@ void rg_cells_measure(struct rg_cell *cells, int count, const struct rg_measure_
         if (cells[order[i]].status == RG_CELL_OK)
             finish(&cells[order[i]]);
     free(order);
+}
+
+double rg_cell_passes_ms(const struct rg_cell *cell)
+{
+    double sum = 0;
+    for (int i = 0; i < cell->pass_count; i++)
+        sum += cell->passes[i].ms;
+    return sum;
 }
 
 void rg_cell_close(struct rg_cell *cell)

@@ -7,9 +7,11 @@
 #define RG_HARNESS_MEASURE_H
 
 #include "core/techniques/technique.h"
+#include "harness/expected.h"
 #include "harness/stats.h"
 
-enum { RG_MAX_CELL_PASSES = 16, RG_CELL_CHECK_FRAMES = 10 };
+// Passes of so many names are told apart; what all others take is summed as "other".
+enum { RG_MAX_CELL_PASSES = 32 };
 
 enum rg_cell_status { RG_CELL_OK, RG_CELL_FAIL, RG_CELL_ERROR };
 const char *rg_cell_status_name(enum rg_cell_status status); // "ok", "fail", ...
@@ -36,9 +38,12 @@ struct rg_cell {
     struct rg_interval frame_ms;
     double api_over_wall; // the API's own clock by wall clock; trusted from 0.8 to 1.05
     int pass_count;
-    struct rg_cell_pass passes[RG_MAX_CELL_PASSES];
-    struct rg_counter counters[RG_MAX_COUNTERS]; // of the first RG_CELL_CHECK_FRAMES frames
+    struct rg_cell_pass passes[RG_MAX_CELL_PASSES]; // each name once, in the order of the frame
+    // Of the first RG_CHECK_FRAMES frames:
     int counter_count;
+    struct rg_counter counters[RG_MAX_COUNTERS];
+    int fact_count;
+    struct rg_fact facts[RG_MAX_FACTS];
 };
 
 struct rg_measure_options {
@@ -48,13 +53,15 @@ struct rg_measure_options {
     void *user;
 };
 
-// Opens, checks and warms up a cell. `reference` opens nothing on the cell's device: it is the
-// image's texels after RG_CELL_CHECK_FRAMES frames on cpu:reference, and their size. Sets the
-// status.
-void rg_cell_prepare(struct rg_cell *cell, const void *reference, size_t reference_size);
+// Opens, checks and warms up a cell, and sets its status. A device that is no software must hold
+// tier T1, by the rain mask where `expected` has the background.
+void rg_cell_prepare(struct rg_cell *cell, const struct rg_expected *expected);
 
 // Times all prepared cells whose status is ok.
 void rg_cells_measure(struct rg_cell *cells, int count, const struct rg_measure_options *options);
+
+// What all passes of a measured cell take together, in the run that syncs after every pass.
+double rg_cell_passes_ms(const struct rg_cell *cell);
 
 // Closes what prepare opened and frees the samples.
 void rg_cell_close(struct rg_cell *cell);

@@ -10,34 +10,61 @@
 #include "harness/measure.h"
 #include "harness/tables/tables.h"
 
-// The cells of rows first_row..last_row (from 0) of a table on some devices, row by row.
+// How far a row's image is from the table's truth: 8-bit encoded, over the rain mask and the whole.
+struct rg_table_error {
+    double flip_mask_mean, flip_mean; // 0 the same, 1 as different as can be
+    int max_codes;                    // largest difference, of 255
+};
+
+// What a row's cells of one variant have in common.
+struct rg_table_group {
+    void *settings; // owned
+    bool has_error; // the table has a truth, and it could be drawn
+    struct rg_table_error error;
+};
+
+// The cells of rows first_row..last_row (from 0) of a table on some devices: row by row, variant by
+// variant, device by device.
 struct rg_table_run {
     const struct rg_table *table;
     const struct rg_devices *devices;
     int first_row, last_row;
     bool full;
+    int samples; // a cell
     int cell_count;
     struct rg_cell *cells;
-    void **settings; // one a row
+    struct rg_table_group *groups; // one a row and variant
 };
 
-// Prepares and measures; false, with one logged line, when the reference itself cannot be had. The
-// caller calls rg_table_run_free in either case.
+// Prepares and measures. What cannot be had is the status of its cells. False, with one logged
+// line, without memory for them. The caller calls rg_table_run_free in either case.
 bool rg_table_measure(struct rg_table_run *run);
 void rg_table_run_free(struct rg_table_run *run);
 
-// The cell of a row and a device, and its row.
-const struct rg_cell *rg_table_cell(const struct rg_table_run *run, int row, int device);
+struct rg_cell *rg_table_cell(const struct rg_table_run *run, int row, int variant, int device);
+struct rg_table_group *rg_table_group(const struct rg_table_run *run, int row, int variant);
+
+// Frames a second of a measured cell, and of a row and variant in print.
+double rg_cell_fps(const struct rg_cell *cell);
+double rg_table_published_fps(const struct rg_table *table, int row, int variant);
 
 // Whether a device's numbers fall as the published ones do.
-enum rg_shape_verdict { RG_SHAPE_REPRODUCED, RG_SHAPE_TREND, RG_SHAPE_NOT, RG_SHAPE_UNKNOWN };
+enum rg_shape_verdict {
+    RG_SHAPE_REPRODUCED, // same order of the rows, and same slope along the axis
+    RG_SHAPE_TREND,      // same order, another slope
+    RG_SHAPE_ORDER,      // same order, of rows without an axis
+    RG_SHAPE_NOT,        // another order
+    RG_SHAPE_UNKNOWN,
+};
 struct rg_shape {
     enum rg_shape_verdict verdict;
-    bool same_ranking;
+    int pairs;                     // of rows whose published numbers differ
+    int pairs_in_order;            // so many of them stand in the published order
+    bool has_slope;                // the rows have an axis
     double slope, published_slope; // of log(fps) over log(axis)
 };
 const char *rg_shape_verdict_text(enum rg_shape_verdict verdict);
-struct rg_shape rg_table_shape(const struct rg_table_run *run, int device);
+struct rg_shape rg_table_shape(const struct rg_table_run *run, int variant, int device);
 
 // The machine form (docs/records.md); the caller owns it.
 json_t *rg_table_json(const struct rg_table_run *run);

@@ -37,7 +37,4 @@ void rg_verify_mutants(struct rg_verify *verify);
 struct rg_instance *rg_verify_run(struct rg_verify *verify, struct rg_device *device,
                                   const void *settings, int steps);
 
-// The image that an instance draws now. The caller destroys the picture.
-bool rg_verify_draw(struct rg_instance *instance, struct rg_picture *picture);
-
 #endif

@@ -97,15 +97,6 @@ struct rg_instance *rg_verify_run(struct rg_verify *v, struct rg_device *device,
     return NULL;
 }
 
-bool rg_verify_draw(struct rg_instance *instance, struct rg_picture *picture)
-{
-    size_t bytes;
-    void *texels = instance->technique->draw(instance) ? rg_frame_read(instance, &bytes) : NULL;
-    bool ok = texels && rg_frame_picture(instance, texels, picture);
-    free(texels);
-    return ok;
-}
-
 // --- state ---
 
 // Runs both devices side by side and describes the first difference, with the step that made it.
@@ -245,17 +236,6 @@ static void check_device(struct rg_verify *v, struct row *row, struct one_case *
     v->technique->destroy(instance);
 }
 
-static bool draw_dry(struct rg_verify *v, struct one_case *c)
-{
-    void *settings = rg_settings_copy(v->technique, c->settings, v->technique->proof->dry);
-    struct rg_instance *instance = settings ? rg_verify_run(v, v->reference, settings, 0) : NULL;
-    bool ok = instance && rg_verify_draw(instance, &c->dry);
-    if (instance)
-        v->technique->destroy(instance);
-    free(settings);
-    return ok;
-}
-
 // What the others are compared with. False, and noted in the reference's row, on failure.
 static bool expect(struct rg_verify *v, struct row *reference, struct one_case *c)
 {
@@ -264,7 +244,8 @@ static bool expect(struct rg_verify *v, struct row *reference, struct one_case *
         return false;
     check_laws(v, reference, c, instance);
     bool ok = rg_frame_picture(instance, c->expected.texels, &c->expected_picture) &&
-              (!c->with_dry || draw_dry(v, c));
+              (!c->with_dry || rg_frame_draw_dry(v->technique, c->settings, v->reference, v->width,
+                                                 v->height, 0, &c->dry));
     v->technique->destroy(instance);
     if (!ok)
         note_errors(v, reference);

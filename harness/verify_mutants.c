@@ -36,13 +36,16 @@ static bool mutate(const struct rg_verify *v, const struct rg_mutant *mutant, ch
 }
 
 // The image of these settings, with `assignments` over them.
-static bool draw(struct rg_verify *v, const char *assignments, int steps,
-                 struct rg_picture *picture)
+static bool draw(struct rg_verify *v, const char *assignments, struct rg_picture *picture)
 {
     void *settings = rg_settings_copy(v->technique, v->settings, assignments);
     struct rg_instance *instance =
-        settings ? rg_verify_run(v, v->mutant_device, settings, steps) : NULL;
-    bool ok = instance && rg_verify_draw(instance, picture);
+        settings ? rg_verify_run(v, v->mutant_device, settings, MUTANT_STEPS) : NULL;
+    size_t bytes;
+    void *texels =
+        instance && v->technique->draw(instance) ? rg_frame_read(instance, &bytes) : NULL;
+    bool ok = texels && rg_frame_picture(instance, texels, picture);
+    free(texels);
     if (instance)
         v->technique->destroy(instance);
     free(settings);
@@ -93,7 +96,7 @@ static void run_all(struct rg_verify *v, const struct rg_picture *truth,
         rg_progress_label(v->progress, "%s: mutant: %s", v->technique->name, m->about);
         if (!mutate(v, m, assignment, sizeof(assignment)))
             continue;
-        if (draw(v, assignment, MUTANT_STEPS, &mutated))
+        if (draw(v, assignment, &mutated))
             judge(m, truth, &mutated, dry, verdicts);
         else
             verdicts->error = true;
@@ -124,8 +127,9 @@ void rg_verify_mutants(struct rg_verify *verify)
     scene.width = scene.height = RG_FRAME_SIZE_PX;
     struct verdicts verdicts = {0};
     struct rg_picture truth = {0}, dry = {0};
-    if (settings && draw(&scene, "", MUTANT_STEPS, &truth) &&
-        draw(&scene, scene.technique->proof->dry, 0, &dry))
+    if (settings && draw(&scene, "", &truth) &&
+        rg_frame_draw_dry(scene.technique, settings, scene.mutant_device, scene.width, scene.height,
+                          0, &dry))
         run_all(&scene, &truth, &dry, &verdicts);
     else
         verdicts.error = true;

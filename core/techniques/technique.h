@@ -8,7 +8,7 @@
 #include "core/device.h"
 #include "core/params.h"
 
-enum { RG_MAX_STATE = 8, RG_MAX_COUNTERS = 16 };
+enum { RG_MAX_STATE = 8, RG_MAX_COUNTERS = 16, RG_MAX_FACTS = 8, RG_FACT_SIZE = 128 };
 
 struct rg_instance;
 struct rg_proof;
@@ -27,6 +27,14 @@ struct rg_state {
 struct rg_counter {
     const char *name; // "drops", "texels_simulated"
     int64_t value;
+};
+
+// What a reader of a result must know of an instance's inputs: which model stood in, its hash, how
+// many faces it has. Where a table prints a number of the same name, the two stand side by side.
+struct rg_fact {
+    const char *name;        // "model", "faces"
+    char text[RG_FACT_SIZE]; // UTF-8; "": the fact is the number
+    double number;
 };
 
 struct rg_technique {
@@ -56,6 +64,8 @@ struct rg_instance {
     struct rg_state state[RG_MAX_STATE]; // valid until the next step
     int counter_count;
     struct rg_counter counters[RG_MAX_COUNTERS];
+    int fact_count;
+    struct rg_fact facts[RG_MAX_FACTS]; // true of the present frame
     // Called after each pass, with its name, by those who measure passes; NULL for nobody.
     void (*after_pass)(const char *pass, void *user);
     void *user;

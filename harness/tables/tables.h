@@ -2,22 +2,41 @@
 #ifndef RG_HARNESS_TABLES_TABLES_H
 #define RG_HARNESS_TABLES_TABLES_H
 
-// One row: a setting of the technique, as --set would take it, and what the paper printed.
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { RG_TABLE_ROWS = 64, RG_TABLE_VALUES = 8, RG_TABLE_VARIANTS = 8 };
+
+// One row: settings of the technique and what the paper printed. Assignments are "key=value
+// key=value", as --set takes each; "" for none.
 struct rg_table_row {
-    const char *label; // as the paper names it
-    const char *set;   // "resolution_px=128"
-    double axis;       // the row's place on the axis of the shape verdict
-    double fps;        // published
+    const char *set;                // "panes=glass model=bunny"
+    double values[RG_TABLE_VALUES]; // in the order of the table's columns
+    const char *name;               // "glass with bunny", in tables whose rows have names
+};
+
+// What is timed of each row: "full", and the frames with less in them that the paper also timed.
+struct rg_table_variant {
+    const char *name; // "no_geometry"
+    const char *set;  // over the row's
+    const char *fps;  // the column that its frame rate is compared with: "fps_no_geometry"
 };
 
 struct rg_table {
-    const char *id;        // "stuppacher-2"
-    const char *technique; // "flow"
-    const char *about;     // one line
-    const char *hardware;  // what the paper measured on
-    const char *axis;      // name of the rows' column: "texture_px"
-    int width, height;     // of the image, in pixels
-    int row_count;
+    const char *id;                           // "stuppacher-2"
+    const char *technique;                    // "flow"
+    const char *about;                        // one line
+    const char *hardware;                     // what the paper measured on
+    const char *names;                        // what the rows' names are: "scene"; NULL: none
+    const char *columns[RG_TABLE_VALUES + 1]; // as in results/published/ID.csv, NULL after the last
+    // So many columns, the first, are settings and tell rows apart. The first of them is the axis
+    // along which frame rates fall. 0: there is none, and only the order of rows can be reproduced.
+    int key_count;
+    struct rg_table_variant variants[RG_TABLE_VARIANTS + 1]; // the last has no name
+    const char *truth; // over a row's: an image without its approximations, which gives the error
+                       // of the row's own; NULL: no column for that
+    int width, height; // of the image, in pixels
+    int row_count;     // at most RG_TABLE_ROWS
     const struct rg_table_row *rows;
     const char *note; // what a reader of the table must know, one line
 };
@@ -27,5 +46,13 @@ extern const struct rg_table *const rg_tables[];
 
 // The table of this id, or NULL.
 const struct rg_table *rg_table_find(const char *id);
+
+int rg_table_variant_count(const struct rg_table *table);
+// The number in a row's column; NAN where the table has no such column.
+double rg_table_value(const struct rg_table *table, int row, const char *column);
+// Whether a column is neither a key nor a frame rate: "vertices".
+bool rg_table_is_extra(const struct rg_table *table, int column);
+// What a row is called: "glass with bunny", "texture_px 128", "local_height_m 5, camera 1".
+void rg_table_row_name(const struct rg_table *table, int row, char *text, size_t size);
 
 #endif

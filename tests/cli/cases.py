@@ -103,9 +103,10 @@ ON_CPU = [
     Case("table nonsense", 2, r"table 'nonsense': unknown; `raingauge list tables` prints them"),
     Case("table --rows 0-1", 2, r"--rows 0-1: rows count from 1, the first not after the last"),
     Case("table --rows 3-2", 2, r"--rows 3-2: rows count from 1, the first not after the last"),
-    Case("table --rows 9-9 --device cpu", 2, r"--rows 9-9: stuppacher-2 has rows 1-3"),
-    Case("table --rows 1-4 --device cpu", 2, r"--rows 1-4: stuppacher-2 has rows 1-3"),
-    Case("table --rows 99999999999999999999 --device cpu", 2, r"--rows \d+-\d+: stuppacher-2 has rows 1-3"),
+    Case("table stuppacher-2 --rows 9-9 --device cpu", 2, r"--rows 9-9: stuppacher-2 has rows 1-3"),
+    Case("table stuppacher-2 --rows 1-4 --device cpu", 2, r"--rows 1-4: stuppacher-2 has rows 1-3"),
+    Case("table --rows 99999999999999999999 --device cpu", 2, r"--rows \d+-\d+: stuppacher-\d has rows 1-\d$"),
+    Case("table stuppacher-2 nonsense --device cpu -o {tmp}", 2, r"table 'nonsense': unknown"),
     Case("table --rows abc", 2, r"--rows abc: write it as FIRST-LAST, as in 2-4"),
     Case("table --rows 1-", 2, r"--rows 1-: write it as FIRST-LAST, as in 2-4"),
     Case("table --quick --full", 2, r"--quick and --full: choose one"),
@@ -117,6 +118,7 @@ ON_CPU = [
     # table: what it writes
     Case(TABLE, 0, None),
     Case(TABLE + "-o {tmp}", 0, None, made=TABLE_FILES),
+    Case(TABLE + "stuppacher-2 -o {tmp}", 0, None, made=TABLE_FILES),
     Case(TABLE + "-o {tmp}/none/out", 2, r"none/out: cannot be made: No such file or directory; name a folder"),
     Case(TABLE + "-o {data}/a.png", 2, r"a\.png/stuppacher-2\.md: cannot be written: Not a directory; name a folder"),
     Case(TABLE + "-o /proc/out", 2, r"/proc/out: cannot be made: .*; name a folder that can be written"),
@@ -178,7 +180,7 @@ WITH_DRIVERS = [
     Case("diff flow --device cpu,vulkan", 77, r"install the Debian package mesa-vulkan-drivers", NO_DRIVERS),
     Case("verify flow --device opencl", 77, r"install the Debian package pocl-opencl-icd", NO_DRIVERS),
     Case("table --device gl", 77, r"install the Debian package libegl-mesa0", NO_DRIVERS),
-    Case("table --rows 1-1 --device all -o {tmp}", 0, ABSENT, NO_DRIVERS, made=TABLE_FILES),
+    Case("table stuppacher-2 --rows 1-1 --device all -o {tmp}", 0, ABSENT, NO_DRIVERS, made=TABLE_FILES),
     Case("diff flow --frame 1 " + SMALL, 0, ABSENT, NO_DRIVERS),
     Case("verify flow --frame 3 " + SMALL, 0, ABSENT, NO_DRIVERS),
 
@@ -186,7 +188,7 @@ WITH_DRIVERS = [
     Case(RENDER + "--device gl -o {tmp}/a.png", 77, NO_CONTEXT, OLD_GL),
     Case("table --device gl", 77, NO_CONTEXT, OLD_GL),
     Case("table --rows 1-1 --device cpu,gl", 77, NO_CONTEXT, OLD_GL),
-    Case("table --rows 1-1 --device all", 0, r"warning: unsupported here: gl: no OpenGL 4\.5 core", OLD_GL),
+    Case("table stuppacher-2 --rows 1-1 --device all", 0, r"warning: unsupported here: gl: no OpenGL 4\.5 core", OLD_GL),
 ]
 
 

@@ -28,13 +28,45 @@ def check_table_json(runner):
     if (report["format"], report["table"], status, len(report["cells"])) != (1, "stuppacher-2", 0, 1):
         problems.append("format %s, table %s, exit status %d" % (report["format"], report["table"], status))
     for cell in report["cells"]:
-        problems += lacking("cell", cell, {"row": dict, "device": str, "variant": str, "status": str, "published": dict,
-                                           "measured": dict, "counters": dict})
+        problems += lacking("cell", cell, {"row": dict, "set": str, "device": str, "variant": str, "status": str,
+                                           "published": dict, "measured": dict, "counters": dict, "facts": dict})
         problems += lacking("measured", cell["measured"], {name: float for name in ("fps", "ms", "ms_low", "ms_high")})
         if (cell["status"], cell["device"], cell["row"], cell["published"]) != ("ok", "cpu", {"texture_px": 128}, {"fps": 480}):
             problems.append("cell: %s" % cell)
         if not cell["counters"] or not all(isinstance(n, int) and n > 0 for n in cell["counters"].values()):
             problems.append("counters: %s" % cell["counters"])
+        shares, passes = cell["measured"]["passes_share"], cell["measured"]["passes_ms"]
+        if list(shares) != list(passes) or abs(sum(shares.values()) - 1) > 1e-6 or "flow_light" not in shares:
+            problems.append("passes: %s, shares: %s" % (passes, shares))
+    return problems
+
+
+def check_tables_in_a_row(runner):
+    """table with several names prints each, apart"""
+    problems = []
+    text = runner.run((TABLE + "stuppacher-2").split()).stdout
+    if not re.fullmatch(r"## stuppacher-2\n\n.*\n\n## stuppacher-2\n\n.*", text, re.S):
+        problems.append("md:\n" + text)
+    parts = runner.run((TABLE + "stuppacher-2 --format csv").split()).stdout.split("\n\n")
+    if len(parts) != 2:
+        problems.append("csv: %s" % parts)
+    for part in parts:
+        problems += check_csv(part)
+    return problems
+
+
+def check_render_json(runner):
+    """render --json says what it drew, with every parameter's value"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        record, status, problems = run_json(runner, RENDER + "-o %s/a.png" % tmp)
+        problems += lacking("render", record, {"format": int, "settings": dict, "facts": dict, "counters": dict, "passport": dict})
+        found = tuple(record.get(key) for key in ("file", "technique", "device", "width", "height", "frame"))
+        if status or found != (tmp + "/a.png", "flow", "cpu", 32, 32, 1):
+            problems.append("exit status %d, %s" % (status, found))
+    params = json.loads(runner.run("list params flow --json".split()).stdout)["params"]
+    if [param["name"] for param in params] != list(record["settings"]) or record["settings"]["resolution_px"] != "32":
+        problems.append("settings: %s" % record["settings"])
     return problems
 
 
@@ -128,30 +160,48 @@ def check_full_stdout(runner):
     return problems
 
 
-CHECKS = [check_table_json, check_table_files, check_diff_json, check_verify_json, check_full_stdout]
+CHECKS = [check_table_json, check_table_files, check_tables_in_a_row, check_render_json, check_diff_json, check_verify_json, check_full_stdout]
 
 
 # --- a driver that draws wrongly: its kernel is another ---
 
-RIGHT, TWICE_AS_BRIGHT = "rg_rgba(light.x,", "rg_rgba(light.x * 2.0f,"
+RIGHT, TWICE_AS_BRIGHT, NO_GLSL = "rg_rgba(light.x,", "rg_rgba(light.x * 2.0f,", "nonsense(light.x,"
 
 
-def with_wrong_light(check):
-    """Runs a check with kernels that gl draws wrongly with; a machine without gl has nothing to show."""
-    def run(runner):
-        devices = json.loads(runner.run(["list", "devices", "--json"]).stdout)["devices"]
-        if not any(device["name"] == "gl" for device in devices):
-            return []
-        with tempfile.TemporaryDirectory() as tmp:
-            return check(runner, runner.kernels_with(tmp, "flow_light.glsl", RIGHT, TWICE_AS_BRIGHT))
-    run.__doc__ = check.__doc__
-    return run
+def with_light(wrong):
+    """Runs a check with kernels that are wrong on gl; a machine without gl has nothing to show."""
+    def decorate(check):
+        def run(runner):
+            devices = json.loads(runner.run(["list", "devices", "--json"]).stdout)["devices"]
+            if not any(device["name"] == "gl" for device in devices):
+                return []
+            with tempfile.TemporaryDirectory() as tmp:
+                return check(runner, runner.kernels_with(tmp, "flow_light.glsl", RIGHT, wrong))
+        run.__doc__ = check.__doc__
+        return run
+    return decorate
+
+
+with_wrong_light = with_light(TWICE_AS_BRIGHT)
+
+
+@with_light(NO_GLSL)
+def check_broken_table(runner, kernels):
+    """a table reports a device whose driver refuses a kernel, measures the others, and fails"""
+    report, status, messages = run_json(runner, "table stuppacher-2 --rows 1-1 --device gl,cpu", kernels)
+    gl, cpu = report["cells"]
+    problems = [] if len(messages) == 1 else messages + ["%d lines on stderr" % len(messages)]
+    if status != 1 or gl["status"] != "error" or "measured" in gl or "flow_light" not in gl["detail"]:
+        problems.append("exit status %d, gl: %s" % (status, gl))
+    if cpu["status"] != "ok" or "measured" not in cpu:
+        problems.append("cpu: %s" % cpu)
+    return problems
 
 
 @with_wrong_light
 def check_wrong_table(runner, kernels):
     """a table does not time a device whose image is wrong, and fails"""
-    report, status, problems = run_json(runner, "table --rows 1-1 --device cpu,gl", kernels)
+    report, status, problems = run_json(runner, "table stuppacher-2 --rows 1-1 --device cpu,gl", kernels)
     cpu, gl = report["cells"]
     if status != 1 or cpu["status"] != "ok" or "measured" not in cpu:
         problems.append("exit status %d, cpu: %s" % (status, cpu))
@@ -185,4 +235,4 @@ def check_wrong_verify(runner, kernels):
     return problems
 
 
-WRONG = [check_wrong_table, check_wrong_diff, check_wrong_verify]
+WRONG = [check_broken_table, check_wrong_table, check_wrong_diff, check_wrong_verify]

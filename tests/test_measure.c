@@ -1,0 +1,226 @@
+// Cells: by what a device's image is judged, what a cell keeps of its instance, where a pass's time
+// goes, and a table from its settings to its machine form.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/image/compare.h"
+#include "core/log.h"
+#include "harness/table.h"
+
+#define CHEAP "environment=sky environment_px=16 reflection_px=16 resolution_px=64"
+
+enum { SIZE_PX = 128 };
+
+static void *settings_of(const char *assignments)
+{
+    const struct rg_technique *flow = rg_technique_find("flow");
+    void *defaults = rg_settings_create(flow);
+    void *settings = rg_settings_copy(flow, defaults, assignments);
+    assert_non_null(settings);
+    free(defaults);
+    return settings;
+}
+
+// --- tier T1 goes by the rain mask ---
+
+// So many pixels on which it rains become two codes brighter in red.
+static void brighten(struct rg_picture *picture, const struct rg_picture *dry, int pixels)
+{
+    for (int i = 0; i < SIZE_PX * SIZE_PX && pixels > 0; i++) {
+        float *texel = picture->texels + (size_t)i * 4;
+        const double red = texel[0], encoded = 1.055 * pow(red, 1 / 2.4) - 0.055;
+        if (fabs(red - dry->texels[(size_t)i * 4]) < 0.1 || encoded < 0.1 || encoded > 0.9)
+            continue;
+        const double code = floor(encoded * 255 + 0.5) + 2;
+        texel[0] = (float)pow((code / 255 + 0.055) / 1.055, 2.4);
+        pixels--;
+    }
+    assert_int_equal(pixels, 0);
+}
+
+static enum rg_cell_status judge(struct rg_device *device, const void *settings,
+                                 const struct rg_expected *expected, char *detail, size_t size)
+{
+    struct rg_cell cell = {.technique = rg_technique_find("flow"),
+                           .settings = settings,
+                           .device = device,
+                           .width = SIZE_PX,
+                           .height = SIZE_PX};
+    rg_cell_prepare(&cell, expected);
+    snprintf(detail, size, "%s", cell.detail);
+    rg_cell_close(&cell);
+    return cell.status;
+}
+
+static void test_t1_by_the_mask(void **state)
+{
+    (void)state;
+    enum { PIXELS = 12 }; // below 0.1 % of the picture, above 0.1 % of where it rains
+    char detail[256];
+    void *settings = settings_of(CHEAP " drops=20");
+    struct rg_device *device = rg_device_open("cpu", NULL);
+    struct rg_expected expected;
+    assert_true(
+        rg_expected_make(&expected, rg_technique_find("flow"), settings, SIZE_PX, SIZE_PX, true));
+    assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_CELL_OK);
+    brighten(&expected.picture, &expected.dry, PIXELS);
+    ((char *)expected.texels)[0] ^= 1; // what the device draws is no longer identical
+    assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_CELL_FAIL);
+    assert_non_null(strstr(detail, "(T0)"));
+    device->info.software = false;
+    assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_CELL_FAIL);
+    if (!strstr(detail, "of the mask is above 1/255"))
+        fail_msg("failed for another reason: %s", detail);
+    rg_picture_destroy(&expected.dry); // without a background the whole picture is the mask
+    assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_CELL_OK);
+    rg_expected_free(&expected);
+    assert_true(rg_device_close(device));
+    free(settings);
+}
+
+// --- a technique that tells facts and runs many passes: flow, with more said of it ---
+
+static struct rg_instance *create_talker(struct rg_device *device, const void *settings, int width,
+                                         int height)
+{
+    struct rg_instance *instance =
+        rg_technique_find("flow")->create(device, settings, width, height);
+    if (instance)
+        instance->facts[instance->fact_count++] = (struct rg_fact){.name = "panes", .number = 6};
+    return instance;
+}
+
+// 40 passes more, each named twice a frame.
+static bool step_talker(struct rg_instance *instance)
+{
+    static char names[40][16];
+    for (int i = 0; i < 80; i++) {
+        snprintf(names[i % 40], sizeof(names[0]), "pass %d", i % 40);
+        if (instance->after_pass)
+            instance->after_pass(names[i % 40], instance->user);
+    }
+    for (struct rg_fact *f = instance->facts; f < instance->facts + instance->fact_count; f++)
+        f->number += 1;
+    return rg_technique_find("flow")->step(instance);
+}
+
+static void test_what_a_cell_keeps(void **state)
+{
+    (void)state;
+    struct rg_technique talker = *rg_technique_find("flow");
+    talker.create = create_talker;
+    talker.step = step_talker;
+    void *settings = settings_of(CHEAP);
+    struct rg_device *device = rg_device_open("cpu", NULL);
+    struct rg_expected expected;
+    assert_true(rg_expected_make(&expected, &talker, settings, SIZE_PX, SIZE_PX, false));
+    struct rg_cell cell = {.technique = &talker,
+                           .settings = settings,
+                           .device = device,
+                           .width = SIZE_PX,
+                           .height = SIZE_PX};
+    rg_cell_prepare(&cell, &expected);
+    rg_cells_measure(&cell, 1, &(struct rg_measure_options){.samples = 3, .sample_ms = 1});
+    assert_int_equal(cell.status, RG_CELL_OK);
+    assert_int_equal(cell.fact_count, 1);
+    assert_string_equal(cell.facts[0].name, "panes");
+    assert_true(cell.facts[0].number == 6 + RG_CHECK_FRAMES);
+    // Every name once; flow's own passes came too late for a name of their own.
+    assert_int_equal(cell.pass_count, RG_MAX_CELL_PASSES);
+    for (int i = 0; i < RG_MAX_CELL_PASSES - 1; i++) {
+        char name[16];
+        snprintf(name, sizeof(name), "pass %d", i);
+        assert_string_equal(cell.passes[i].name, name);
+    }
+    const struct rg_cell_pass *other = &cell.passes[RG_MAX_CELL_PASSES - 1];
+    assert_string_equal(other->name, "other");
+    assert_true(other->ms > 0.9 * rg_cell_passes_ms(&cell)); // it has all the work there is
+    rg_cell_close(&cell);
+    rg_expected_free(&expected);
+    assert_true(rg_device_close(device));
+    free(settings);
+}
+
+// --- a table ---
+
+static const struct rg_table_row rows[] = {
+    {"resolution_px=64 drops=40", {6, 160}, "small"},
+    {"environment=/nonexistent.exr", {7, 100}, "broken"},
+    {"resolution_px=96 drops=0", {8, 50}, "dry"},
+};
+static const struct rg_table table = {
+    .id = "test",
+    .technique = "flow",
+    .about = "a test",
+    .hardware = "paper",
+    .names = "scene",
+    .columns = {"faces", "fps"},
+    .variants = {{"full", "environment_px=16 environment=sky", "fps"},
+                 {"bare", "environment_px=16 rain_drops_s=0", "fps"}},
+    .truth = "drops=20",
+    .width = 64,
+    .height = 64,
+    .row_count = 3,
+    .rows = rows,
+    .note = "a note",
+};
+
+static void keep_quiet(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)line;
+    (*(int *)user)++;
+}
+
+// A row whose file is missing takes no other row with it.
+static void test_table(void **state)
+{
+    (void)state;
+    int messages = 0;
+    struct rg_devices devices = {.count = 1};
+    devices.devices[0] = rg_device_open("cpu", NULL);
+    struct rg_table_run run = {.table = &table, .devices = &devices, .last_row = 2};
+    rg_log_listen(keep_quiet, &messages);
+    assert_true(rg_table_measure(&run));
+    rg_log_listen(NULL, NULL);
+    assert_int_equal(messages, 1);
+    assert_int_equal(run.cell_count, 6);
+    for (int row = 0; row < 3; row++) {
+        for (int variant = 0; variant < 2; variant++) {
+            const struct rg_cell *cell = rg_table_cell(&run, row, variant, 0);
+            const struct rg_table_group *group = rg_table_group(&run, row, variant);
+            // The variant's sky goes over the row's file.
+            const bool broken = row == 1 && variant == 1;
+            assert_int_equal(cell->status, broken ? RG_CELL_ERROR : RG_CELL_OK);
+            assert_int_equal(group->has_error, !broken);
+            assert_true(broken || group->error.flip_mask_mean > 0.001);
+        }
+    }
+    const struct rg_cell *broken = rg_table_cell(&run, 1, 1, 0);
+    if (!strstr(broken->detail, "/nonexistent.exr"))
+        fail_msg("the file is not named: %s", broken->detail);
+    // Both assignments of a row are taken, the number of texels and that of drops.
+    const int64_t small = rg_table_cell(&run, 0, 1, 0)->counters[0].value;
+    const int64_t dry = rg_table_cell(&run, 2, 1, 0)->counters[0].value;
+    assert_true(small == 40 && dry == 0);
+    rg_table_run_free(&run);
+    assert_true(rg_device_close(devices.devices[0]));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_t1_by_the_mask),
+        cmocka_unit_test(test_what_a_cell_keeps),
+        cmocka_unit_test(test_table),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
