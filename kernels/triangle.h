@@ -71,6 +71,8 @@ RG_FN rg_plane rg_plane_sum(rg_plane p, float a, rg_plane q, float b, rg_plane r
     return s;
 }
 
+// Depth is reckoned from that of the first corner: what differs is small, and so are its roundings,
+// though the triangle be thin.
 RG_FN rg_planes rg_planes_of(rg_draw_state draw, rg_item t)
 {
     rg_planes s;
@@ -88,8 +90,11 @@ RG_FN rg_planes rg_planes_of(rg_draw_state draw, rg_item t)
     s.inverse_w = rg_plane_sum(for_a, inverse, for_b, inverse, for_c, inverse);
     s.b = rg_plane_sum(for_b, inverse, for_b, 0.0f, for_b, 0.0f);
     s.c = rg_plane_sum(for_c, inverse, for_c, 0.0f, for_c, 0.0f);
-    s.depth = rg_plane_sum(for_a, a.z * inverse, for_b, b.z * inverse, for_c, c.z * inverse);
     float za = a.z * over_w;
+    float base = a.w > RG_LEAST_W ? rg_clamp(za, 0.0f, 1.0f) : 1.0f;
+    s.depth = rg_plane_sum(for_a, (a.z - base * a.w) * inverse, for_b, (b.z - base * b.w) * inverse,
+                           for_c, (c.z - base * c.w) * inverse);
+    s.depth.at = s.depth.at + base;
     float zb = b.z / rg_max(b.w, RG_LEAST_W);
     float zc = c.z / rg_max(c.w, RG_LEAST_W);
     bool in_front = rg_min(rg_min(a.w, b.w), c.w) > RG_LEAST_W;
