@@ -22,10 +22,10 @@ RG_FN float raster_wrapped(float start, float fallen)
 
 RG_FN v3 raster_head(rg_ctx rg, raster_streaks_params p, int i)
 {
-    return v3_make(
-        p.corner.x + p.size.x * raster_wrapped(drops_at(rg, i), p.fallen.x),
-        p.corner.y + p.size.y * raster_wrapped(drops_at(rg, p.count + i), p.fallen.y),
-        p.corner.z + p.size.z * raster_wrapped(drops_at(rg, 2 * p.count + i), p.fallen.z));
+    return v3_make(p.corner.x + p.size.x * raster_wrapped(drops_at(rg, i), p.fallen.x),
+                   p.corner.y + p.size.y * raster_wrapped(drops_at(rg, p.count + i), p.fallen.y),
+                   p.corner.z +
+                       p.size.z * raster_wrapped(drops_at(rg, 2 * p.count + i), p.fallen.z));
 }
 
 // From a streak's axis to its rim, beside the axis as the eye sees it.
