@@ -10,14 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernels/mesh_normal.h"
 #include "kernels/rng.h"
-#include "tests/faces.h"
 #include "tests/oracle/raster_oracle.h"
-
-enum { EXIT_UNSUPPORTED = 77 };
-
-static const char *device_name = "cpu:reference";
+#include "tests/mesh_scene.h"
 
 // --- chance ---
 
@@ -421,29 +416,11 @@ static void a_box_around_the_eye_covers_each_pixel_once(void **state)
     }
     free(due);
     print_message("depth in %d boxes: at most %.2g off\n", BOXES, worst);
-    assert_true(worst < 2e-6);
-}
-
-static int open_device(void **state)
-{
-    *state = rg_device_open(device_name, NULL);
-    return *state ? 0 : -1;
-}
-
-static int close_device(void **state)
-{
-    return rg_device_close(*state) ? 0 : -1;
+    assert_true(worst < 1e-6);
 }
 
 int main(int argc, char **argv)
 {
-    if (argc > 1)
-        device_name = argv[1];
-    enum rg_open_status status;
-    struct rg_device *device = rg_device_open(device_name, &status);
-    if (!device)
-        return status == RG_OPEN_UNSUPPORTED ? EXIT_UNSUPPORTED : 1;
-    rg_device_close(device);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_screen_of_two_faces_covers_each_pixel_once),
         cmocka_unit_test(neighbours_cover_each_pixel_once),
@@ -451,5 +428,5 @@ int main(int argc, char **argv)
         cmocka_unit_test(huge_neighbours_cover_each_pixel_once),
         cmocka_unit_test(a_box_around_the_eye_covers_each_pixel_once),
     };
-    return cmocka_run_group_tests_name(device_name, tests, open_device, close_device);
+    return raster_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
 }
