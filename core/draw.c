@@ -14,11 +14,11 @@ static_assert((int)RG_RGBA8_FORMAT == (int)RG_RGBA8 && (int)RG_RGBA16F_FORMAT ==
 // Primitives of a batch take no more than this, whatever a device would allow.
 #define MAX_PACKED_BYTES ((int64_t)128 << 20)
 
-enum { MAX_BATCH_CHUNKS = 16384, ARGS = 5 };
+enum { MAX_BATCH_CHUNKS = 32768, ARGS = 5 };
 
 // Scratch of a device's packing.
 struct rg_packing {
-    struct rg_buf *prims, *counts, *before, *args;
+    struct rg_buf *prims, *counts, *fates, *before, *args;
     struct rg_scan *scan;
 };
 
@@ -170,6 +170,7 @@ void rg_packing_destroy(struct rg_device *device)
     rg_scan_destroy(packing->scan);
     rg_buf_destroy(packing->prims);
     rg_buf_destroy(packing->counts);
+    rg_buf_destroy(packing->fates);
     rg_buf_destroy(packing->before);
     rg_buf_destroy(packing->args);
     free(packing);
@@ -184,6 +185,7 @@ static struct rg_packing *packing_of(struct rg_device *device)
         rg_alloc(1, sizeof(*packing), "packed primitives");
     if (packing &&
         (packing->counts = rg_buf_create(device, MAX_BATCH_CHUNKS * 4, "packing counts")) &&
+        (packing->fates = rg_buf_create(device, MAX_BATCH_CHUNKS * 8, "packing fates")) &&
         (packing->before = rg_buf_create(device, (MAX_BATCH_CHUNKS + 1) * 4, "packing places")) &&
         (packing->args = rg_buf_create(device, ARGS * 4, "draw arguments")) &&
         (packing->scan = rg_scan_create(device, MAX_BATCH_CHUNKS)))
@@ -236,6 +238,14 @@ static void fill_state(const struct rg_draw *draw, rg_draw_state *state)
     state->half_height = 0.5f * (float)state->height;
 }
 
+// Past the checks: they have been done, and programs whose primitives differ in size share a buffer
+// that is no whole number of each. A batch's chunks are fewer than any device's work groups.
+static bool run_stage(struct rg_pass *stage, const struct rg_run *run)
+{
+    stage->device->work->dispatches++;
+    return stage->device->backend->pass_run(stage, run);
+}
+
 static bool run_packed(struct rg_pass *pass, const struct rg_run *run, rg_draw_state *state,
                        int batch)
 {
@@ -247,20 +257,20 @@ static bool run_packed(struct rg_pass *pass, const struct rg_run *run, rg_draw_s
     pack.origin = (struct rg_extent){0};
     pack.extent = (struct rg_extent){chunks, 1, 1};
     pack.slots[RG_SLOT_COUNTS].buf = packing->counts;
-    if (!rg_pass_run(pass->packer->count, &pack) ||
+    pack.slots[RG_SLOT_FATES].buf = packing->fates;
+    if (!run_stage(pass->packer->count, &pack) ||
         !rg_scan_sum(packing->scan, packing->counts, packing->before, chunks))
         return false;
     pack.slots[RG_SLOT_COUNTS].buf = packing->before;
     pack.slots[RG_SLOT_PRIMS].buf = packing->prims;
     pack.slots[RG_SLOT_ARGS].buf = packing->args;
-    if (!rg_pass_run(pass->packer->emit, &pack))
+    if (!run_stage(pass->packer->emit, &pack))
         return false;
     struct rg_run packed = *run;
     packed.packed = &(struct rg_packed){packing->prims, packing->args, state->capacity};
     packed.origin.width = state->item_begin;
     packed.extent.width = batch;
-    device->work->dispatches++;
-    return device->backend->pass_run(pass, &packed);
+    return run_stage(pass, &packed);
 }
 
 bool rg_draw_run(struct rg_pass *pass, const struct rg_run *run)

@@ -126,7 +126,15 @@ RG_FN float rg_turn(rg_item t)
 // RG_CULL_FRONT 2 (the others).
 RG_FN int rg_faces(rg_draw_state draw, float turn)
 {
-    return draw.cull == 0 || (draw.cull == 1 ? turn < 0.0f : turn > 0.0f) ? 1 : 0;
+    float facing = draw.cull == 1 ? -turn : turn;
+    return (draw.cull == 0 ? 1 : 0) | (facing > 0.0f ? 1 : 0);
+}
+
+// The place of the lowest bit that is set, of at least one.
+RG_FN int rg_lowest_bit(uint bits)
+{
+    uint lowest = bits & (~bits + 1u);
+    return rg_to_int(rg_float_bits(rg_to_float(lowest)) >> 23) - 127;
 }
 
 // Whether a box of snapped corners holds a pixel centre inside the scissor.
@@ -212,7 +220,7 @@ RG_STRUCT(rg_polygon)
     rg_corner c8;
 };
 
-RG_FN rg_corner rg_polygon_at(rg_polygon g, int i)
+RG_SELDOM rg_corner rg_polygon_at(rg_polygon g, int i)
 {
     rg_corner c = g.c0;
     if (i == 1)
@@ -234,7 +242,7 @@ RG_FN rg_corner rg_polygon_at(rg_polygon g, int i)
     return c;
 }
 
-RG_FN rg_polygon rg_polygon_with(rg_polygon g, rg_corner c)
+RG_SELDOM rg_polygon rg_polygon_with(rg_polygon g, rg_corner c)
 {
     rg_polygon more = g;
     if (g.count == 0)
@@ -302,7 +310,7 @@ RG_FN rg_corner rg_cut(rg_corner inner, float inner_by, rg_corner outer, float o
                           inner.z + (outer.z - inner.z) * t, inner.w + (outer.w - inner.w) * t);
 }
 
-RG_FN rg_polygon rg_clip_by(rg_draw_state draw, rg_polygon g, int plane)
+RG_SELDOM rg_polygon rg_clip_by(rg_draw_state draw, rg_polygon g, int plane)
 {
     rg_polygon kept = rg_polygon_empty(g.c0);
     rg_corner from = rg_polygon_at(g, g.count - 1);
@@ -347,7 +355,7 @@ RG_FN int rg_polygon_prims(rg_polygon g, int corners)
 #define RG_MOST_PRIMS(corners) ((corners) == 3 ? 6 : 4)
 
 // The k-th primitive: a triangle, or a quad whose last two corners coincide where the polygon's
-// number of corners is odd.
+// number of corners is odd. Beyond the last one: corners of no area.
 RG_FN rg_snapped rg_polygon_prim(rg_draw_state draw, rg_polygon g, int corners, int k)
 {
     int step = corners - 2;
@@ -355,10 +363,31 @@ RG_FN rg_snapped rg_polygon_prim(rg_draw_state draw, rg_polygon g, int corners, 
     rg_item part;
     part.alive = 1;
     part.a = g.c0;
-    part.b = rg_polygon_at(g, step * k + 1);
-    part.c = rg_polygon_at(g, step * k + 2);
+    part.b = rg_polygon_at(g, rg_imin(step * k + 1, last));
+    part.c = rg_polygon_at(g, rg_imin(step * k + 2, last));
     part.d = rg_polygon_at(g, rg_imin(step * k + corners - 1, last));
     return rg_project_whole(draw, part);
+}
+
+// --- the fates of a chunk of items, a bit each ---
+
+RG_FN int rg_ones(uint bits)
+{
+    uint pairs = bits - ((bits >> 1) & 0x55555555u);
+    uint fours = (pairs & 0x33333333u) + ((pairs >> 2) & 0x33333333u);
+    return rg_to_int((((fours + (fours >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24);
+}
+
+// The bits below the lowest one.
+RG_FN uint rg_bits_below(uint bits)
+{
+    return (bits & (0u - bits)) - 1u;
+}
+
+// Primitives to leave room for: as many as a clipped item can fall into.
+RG_FN int rg_chunk_prims(uint whole, uint clipped, int corners)
+{
+    return rg_ones(whole) + RG_MOST_PRIMS(corners) * rg_ones(clipped);
 }
 
 #endif

@@ -34,14 +34,14 @@ RG_STRUCT(rg_draw_call)
 };
 #define RG_RUN_PARAMS rg_draw_call
 
-// What a stage binds beside the program's own slots.
+// What a stage binds beside the program's own slots. The vertex stage has slot 12 in a form of its
+// own (shaders/draw.vert).
 #if defined(RG_STAGE_COUNT)
-#define RG_STAGE_SLOTS OUT(13, uint, rg_counts)
+#define RG_STAGE_SLOTS OUT(13, uint, rg_counts) OUT(15, uint, rg_fates)
 #elif defined(RG_STAGE_EMIT)
 #define RG_STAGE_SLOTS                                                                             \
-    OUT(12, rg_prim, rg_prims) IN(13, uint, rg_before) OUT(14, uint, rg_draw_args)
-#elif defined(RG_STAGE_VERTEX)
-#define RG_STAGE_SLOTS IN(12, rg_prim, rg_prims)
+    OUT(12, rg_prim, rg_prims)                                                                     \
+    IN(13, uint, rg_before) OUT(14, uint, rg_draw_args) IN(15, uint, rg_fates)
 #elif defined(RG_STAGE_FRAGMENT)
 #define RG_STAGE_SLOTS                                                                             \
     IN(12, rg_prim, rg_prims) ATOMIC(14, uint, rg_samples) IMAGE(15, D32F, rg_behind)

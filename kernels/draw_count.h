@@ -1,17 +1,20 @@
-// The first stage of packing: the primitives of a chunk of items. Included behind a DRAW program.
+// The first stage of packing: the fates of a chunk's items, and the primitives to leave room for.
+// Included behind a DRAW program.
 
 RG_GRID_KERNEL(draw_count)
 {
     int begin = p.draw.item_begin + x * RG_DRAW_CHUNK;
     int end = rg_imin(begin + RG_DRAW_CHUNK, p.draw.item_end);
-    int prims = 0;
+    uint whole = 0u;
+    uint clipped = 0u;
     for (int i = begin; i < end; i++) {
         rg_item t = rg_item_closed(rg_program_item(rg, p.draw, p.program, i), RG_CORNERS);
         rg_projected s = rg_project(p.draw, t);
-        prims += s.fate == RG_FATE_WHOLE ? 1 : 0;
-        // For the few that are clipped: a loop that no other item enters.
-        for (int clip = s.fate; clip == RG_FATE_CLIP; clip = RG_FATE_DEAD)
-            prims += rg_polygon_prims(rg_clip(p.draw, t, RG_CORNERS, RG_FATE_CLIP), RG_CORNERS);
+        uint bit = 1u << rg_to_uint(i - begin);
+        whole |= s.fate == RG_FATE_WHOLE ? bit : 0u;
+        clipped |= s.fate == RG_FATE_CLIP ? bit : 0u;
     }
-    rg_counts_put(rg, x, rg_to_uint(prims));
+    rg_fates_put(rg, 2 * x, whole);
+    rg_fates_put(rg, 2 * x + 1, clipped);
+    rg_counts_put(rg, x, rg_to_uint(rg_chunk_prims(whole, clipped, RG_CORNERS)));
 }

@@ -1,6 +1,9 @@
 // The second stage of packing: a chunk's primitives, each at its place, in the order of the items.
 // Included behind a DRAW program. rg_draw_args becomes what an indirect draw takes: vertices,
 // instances, first vertex, first instance; then the number of primitives.
+//
+// Whole items and clipped ones have a loop each, over the items that are so: software drivers run
+// a loop's body once for all items side by side, even where none of them enters it.
 
 RG_FN rg_prim rg_prim_of(rg_ctx rg, rg_draw_call p, rg_snapped corners, int i)
 {
@@ -11,33 +14,44 @@ RG_FN rg_prim rg_prim_of(rg_ctx rg, rg_draw_call p, rg_snapped corners, int i)
     return prim;
 }
 
+RG_FN rg_item rg_closed_item(rg_ctx rg, rg_draw_call p, int i)
+{
+    return rg_item_closed(rg_program_item(rg, p.draw, p.program, i), RG_CORNERS);
+}
+
+// A clipped item fills all the room that was left for it; what it does not need has no area.
+RG_PROC void rg_put_clipped(rg_ctx rg, rg_draw_call p, int place, int i)
+{
+    rg_polygon g = rg_clip(p.draw, rg_closed_item(rg, p, i), RG_CORNERS, RG_FATE_CLIP);
+    for (int k = 0; k < RG_MOST_PRIMS(RG_CORNERS); k++)
+        rg_prims_put(rg, place + k,
+                     rg_prim_of(rg, p, rg_polygon_prim(p.draw, g, RG_CORNERS, k), i));
+}
+
 RG_GRID_KERNEL(draw_emit)
 {
     int begin = p.draw.item_begin + x * RG_DRAW_CHUNK;
-    int end = rg_imin(begin + RG_DRAW_CHUNK, p.draw.item_end);
-    int place = rg_to_int(rg_before_at(rg, x));
-    for (int i = begin; i < end; i++) {
-        rg_item t = rg_item_closed(rg_program_item(rg, p.draw, p.program, i), RG_CORNERS);
-        rg_projected s = rg_project(p.draw, t);
-        for (int whole = s.fate; whole == RG_FATE_WHOLE; whole = RG_FATE_DEAD) {
-            rg_prims_put(rg, place, rg_prim_of(rg, p, s.corners, i));
-            place++;
-        }
-        for (int clip = s.fate; clip == RG_FATE_CLIP; clip = RG_FATE_DEAD) {
-            rg_polygon g = rg_clip(p.draw, t, RG_CORNERS, RG_FATE_CLIP);
-            int prims = rg_polygon_prims(g, RG_CORNERS);
-            for (int k = 0; k < prims; k++) {
-                rg_prims_put(rg, place,
-                             rg_prim_of(rg, p, rg_polygon_prim(p.draw, g, RG_CORNERS, k), i));
-                place++;
-            }
-        }
+    int first = rg_to_int(rg_before_at(rg, x));
+    uint whole = rg_fates_at(rg, 2 * x);
+    uint clipped = rg_fates_at(rg, 2 * x + 1);
+    for (uint left = whole; left != 0u; left = left & (left - 1u)) {
+        uint earlier = rg_bits_below(left);
+        int i = begin + rg_ones(earlier);
+        int place = first + rg_chunk_prims(whole & earlier, clipped & earlier, RG_CORNERS);
+        rg_projected s = rg_project(p.draw, rg_closed_item(rg, p, i));
+        rg_prims_put(rg, place, rg_prim_of(rg, p, s.corners, i));
     }
-    if (end == p.draw.item_end) {
-        rg_draw_args_put(rg, 0, rg_to_uint(place * (RG_CORNERS == 3 ? 3 : 6)));
+    for (uint left = clipped; left != 0u; left = left & (left - 1u)) {
+        uint earlier = rg_bits_below(left);
+        int place = first + rg_chunk_prims(whole & earlier, clipped & earlier, RG_CORNERS);
+        rg_put_clipped(rg, p, place, begin + rg_ones(earlier));
+    }
+    if (begin + RG_DRAW_CHUNK >= p.draw.item_end) {
+        int prims = first + rg_chunk_prims(whole, clipped, RG_CORNERS);
+        rg_draw_args_put(rg, 0, rg_to_uint(prims * (RG_CORNERS == 3 ? 3 : 6)));
         rg_draw_args_put(rg, 1, 1u);
         rg_draw_args_put(rg, 2, 0u);
         rg_draw_args_put(rg, 3, 0u);
-        rg_draw_args_put(rg, 4, rg_to_uint(place));
+        rg_draw_args_put(rg, 4, rg_to_uint(prims));
     }
 }

@@ -4,8 +4,8 @@
 
 #include "lang.h"
 
-// Items that one work item of the packing stages counts and packs, in order.
-#define RG_DRAW_CHUNK 64
+// Items that one work item of the packing stages counts and packs, in order: a bit each of a word.
+#define RG_DRAW_CHUNK 32
 
 // enum rg_format of core/kernel.h.
 #define RG_RGBA8_FORMAT   1

@@ -13,12 +13,22 @@ import subprocess
 import sys
 
 
-# OpenGL and Vulkan name one thing differently.
+# OpenGL and Vulkan name one thing differently, and OpenGL reads words from buffer textures: llvmpipe
+# fetches those side by side, and goes through a storage buffer lane by lane.
 VERSION = """#version 450 core
 #ifdef VULKAN
 #define RG_VERTEX_INDEX gl_VertexIndex
+#define RG_WORDS(slot, T, block, words) \\
+    layout(std430, binding = slot) restrict readonly buffer block { T words[]; };
+#define RG_FLOAT_OF(words, i) words[i]
+#define RG_INT_OF(words, i) words[i]
+#define RG_UINT_OF(words, i) words[i]
 #else
 #define RG_VERTEX_INDEX gl_VertexID
+#define RG_WORDS(slot, T, block, words) layout(binding = slot) uniform usamplerBuffer words;
+#define RG_FLOAT_OF(words, i) uintBitsToFloat(texelFetch(words, i).x)
+#define RG_INT_OF(words, i) int(texelFetch(words, i).x)
+#define RG_UINT_OF(words, i) texelFetch(words, i).x
 #endif
 """
 

@@ -6,14 +6,15 @@
 #define RG_SLOTS  IN(1, float, water) OUT(2, float, blurred)
 #include "slots.h"
 
-RG_FN float row_sum(rg_ctx rg, flow_params p, int x, int y)
+RG_FN float row_sum(rg_ctx rg, flow_params p, int z, int x, int y)
 {
-    int i = flow_index(p.size, x, y);
+    int i = flow_pane_index(p.size, z, x, y);
     return (water_at(rg, i - 1) + water_at(rg, i)) + water_at(rg, i + 1);
 }
 
 RG_GRID_KERNEL(flow_blur)
 {
-    float sum = (row_sum(rg, p, x, y - 1) + row_sum(rg, p, x, y)) + row_sum(rg, p, x, y + 1);
-    blurred_put(rg, flow_index(p.size, x, y), sum * (1.0f / 9.0f));
+    float sum =
+        (row_sum(rg, p, z, x, y - 1) + row_sum(rg, p, z, x, y)) + row_sum(rg, p, z, x, y + 1);
+    blurred_put(rg, flow_pane_index(p.size, z, x, y), sum * (1.0f / 9.0f));
 }

@@ -3,23 +3,20 @@
 #include "flow.h"
 
 #define RG_PARAMS flow_params
-#define RG_SLOTS  IN(1, float, water) IN(2, float, given) OUT(3, float, moved)
+#define RG_SLOTS                                                                                   \
+    IN(1, float, water) IN(2, float, given) OUT(3, float, moved) IN(4, flow_pane, panes)
 #include "slots.h"
 
-// What the texel at (x, y) divides: nothing in the margin, which gives nothing.
-RG_FN flow_parts parts_from(rg_ctx rg, flow_params p, int x, int y)
-{
-    int i = flow_index(p.size, x, y);
-    return flow_divide(p, water_at(rg, i), given_at(rg, i));
-}
+#include "flow_taken.h"
 
 RG_GRID_KERNEL(flow_move)
 {
-    int i = flow_index(p.size, x, y);
-    flow_parts near_a = parts_from(rg, p, x - p.ax, y - p.ay);
-    flow_parts far_a = parts_from(rg, p, x - 2 * p.ax, y - 2 * p.ay);
-    flow_parts near_b = parts_from(rg, p, x - p.bx, y - p.by);
-    flow_parts far_b = parts_from(rg, p, x - 2 * p.bx, y - 2 * p.by);
+    int i = flow_pane_index(p.size, z, x, y);
+    flow_pane q = panes_at(rg, z);
+    flow_parts near_a = parts_from(rg, p, q, z, x - q.ax, y - q.ay);
+    flow_parts far_a = parts_from(rg, p, q, z, x - 2 * q.ax, y - 2 * q.ay);
+    flow_parts near_b = parts_from(rg, p, q, z, x - q.bx, y - q.by);
+    flow_parts far_b = parts_from(rg, p, q, z, x - 2 * q.bx, y - 2 * q.by);
     float taken = (near_a.near_a + far_a.far_a) + (near_b.near_b + far_b.far_b);
     moved_put(rg, i, (water_at(rg, i) - given_at(rg, i)) + taken);
 }

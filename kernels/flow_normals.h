@@ -1,16 +1,16 @@
 // flow: the normal map of the blurred water (section 4.3), by central differences.
 #include "flow.h"
-#include "flow_light_params.h"
+#include "flow_normals_params.h"
 #include "normal_map.h"
 
-#define RG_PARAMS flow_light_params
+#define RG_PARAMS flow_normals_params
 #define RG_SLOTS  IN(1, float, blurred) OUT(2, uint, normals)
 #include "slots.h"
 
 RG_GRID_KERNEL(flow_normals)
 {
-    int i = flow_index(p.size, x, y);
-    int stride = flow_index(p.size, x, y + 1) - i;
+    int i = flow_pane_index(p.size, z, x, y);
+    int stride = p.size + 2 * FLOW_MARGIN;
     float slope_x = (blurred_at(rg, i + 1) - blurred_at(rg, i - 1)) * p.slope_per_height;
     float slope_y = (blurred_at(rg, i + stride) - blurred_at(rg, i - stride)) * p.slope_per_height;
     float scale = 1.0f / rg_sqrt(slope_x * slope_x + slope_y * slope_y + 1.0f);

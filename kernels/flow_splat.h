@@ -13,7 +13,7 @@ RG_GRID_KERNEL(flow_splat)
     float dy = (rg_to_float(y) + 0.5f - p.centre_y) / p.radius_px;
     float inside = 1.0f - (dx * dx + dy * dy);
     float cap = p.height * rg_sqrt(rg_max(inside, 0.0f));
-    int i = flow_index(p.size, x, y);
+    int i = flow_pane_index(p.size, p.pane, x, y);
     float before = water_at(rg, i);
     float added = flow_whole_droplets(rg_max(rg_min(cap, p.capacity - before), 0.0f));
     if (added > 0.0f) {

@@ -79,4 +79,70 @@ RG_FN bool rg_triangle_covers(rg_triangle t, int px, int py)
            rg_edge_at(t.c, px, py) > 0;
 }
 
+// --- over a block of pixels, in 32 bits ---
+
+// The most pixels a side of a block.
+#define RG_MOST_BLOCK_PX 64
+
+// An edge function over a block, scaled down by 256, which loses nothing for steps are multiples of
+// it: not negative inside. at is the block's first pixel; one pixel on adds a step. Far from the
+// edge, at is clamped: no step within a block changes its sign.
+typedef struct rg_block_edge {
+    int at;
+    int step_x;
+    int step_y;
+} rg_block_edge;
+
+typedef struct rg_block_triangle {
+    rg_block_edge a;
+    rg_block_edge b;
+    rg_block_edge c;
+} rg_block_triangle;
+
+RG_FN rg_block_edge rg_block_edge_make(rg_edge e, int px, int py)
+{
+    const rg_long far = (rg_long)1 << 30; // steps are below 2^22, so a block's below 2^29
+    rg_long at = ((e.origin - 1) >> 8) - (rg_long)e.dx * px + (rg_long)e.dy * py;
+    rg_block_edge b;
+    b.at = (int)(at < -far ? -far : at > far ? far : at);
+    b.step_x = -e.dx;
+    b.step_y = e.dy;
+    return b;
+}
+
+RG_FN rg_block_triangle rg_block_triangle_make(rg_triangle t, int px, int py)
+{
+    rg_block_triangle b;
+    b.a = rg_block_edge_make(t.a, px, py);
+    b.b = rg_block_edge_make(t.b, px, py);
+    b.c = rg_block_edge_make(t.c, px, py);
+    return b;
+}
+
+RG_FN int rg_block_edge_at(rg_block_edge e, int x, int y)
+{
+    return e.at + e.step_x * x + e.step_y * y;
+}
+
+// Pixel (x, y) of the block: not negative where the triangle covers it.
+RG_FN int rg_block_inside(rg_block_triangle t, int x, int y)
+{
+    return rg_block_edge_at(t.a, x, y) | rg_block_edge_at(t.b, x, y) | rg_block_edge_at(t.c, x, y);
+}
+
+// The most that an edge function reaches in a block of width x height pixels.
+RG_FN int rg_block_edge_most(rg_block_edge e, int width, int height)
+{
+    return e.at + rg_imax(e.step_x * (width - 1), 0) + rg_imax(e.step_y * (height - 1), 0);
+}
+
+// Whether a triangle may cover a pixel of a block: no for most blocks that it misses.
+RG_FN bool rg_triangle_touches(rg_triangle t, int px, int py, int width, int height)
+{
+    rg_block_triangle b = rg_block_triangle_make(t, px, py);
+    return t.first_x < px + width && t.end_x > px && t.first_y < py + height && t.end_y > py &&
+           (rg_block_edge_most(b.a, width, height) | rg_block_edge_most(b.b, width, height) |
+            rg_block_edge_most(b.c, width, height)) >= 0;
+}
+
 #endif

@@ -8,7 +8,11 @@
 //   ATOMIC(slot, T, name)    name_add, _min, _max, _or, _store (rg, i, v); name_load(rg, i);
 //                            name_exchange_if(rg, i, expected, v) returns what was there
 //                                                            a buffer of int or uint, shared
-//   IMAGE(slot, F, name)     name_texel(rg, x, y, layer, level), name_width(rg, level), name_height
+//   IMAGE(slot, F, name)     name_texel(rg, x, y, layer, level), name_width(rg, level),
+//   name_height,
+//                            name_levels(rg); filtered at (u, v), 0 to 1 across the image:
+//                            name_nearest(rg, u, v, layer, level), name_linear (four texels),
+//                            name_trilinear(rg, u, v, layer, lod), clamped at the edges
 //   OUT_IMAGE(slot, F, name) name_store(rg, x, y, layer, c)  level 0 of an image of format F
 //
 // Slots count from 1 and are one numbering for buffers and images. `rg` is the kernel's context: it
@@ -38,5 +42,7 @@
 #else
 #include "slots_memory.h"
 #endif
+
+#include "filter.h"
 
 #endif

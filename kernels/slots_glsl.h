@@ -29,9 +29,25 @@ struct rg_ctx {
         name##_data[i] = v;                                                                        \
     }
 
-#define IN(slot, T, name)                                                                          \
+// A buffer that is only read: of words (RG_WORDS and its like differ between OpenGL and Vulkan,
+// flatten.py has them), or of structs.
+#define RG_IN_WORDS(slot, T, name, word)                                                           \
+    RG_WORDS(slot, T, rg_block_##name, name##_words)                                               \
+    T name##_at(rg_ctx rg, int i)                                                                  \
+    {                                                                                              \
+        return word(name##_words, i);                                                              \
+    }
+
+#define RG_IN_STRUCTS(slot, T, name, none)                                                         \
     RG_BLOCK(slot, readonly, T, name)                                                              \
     RG_AT(T, name)
+
+#define RG_WORD_float                                , RG_IN_WORDS, RG_FLOAT_OF
+#define RG_WORD_int                                  , RG_IN_WORDS, RG_INT_OF
+#define RG_WORD_uint                                 , RG_IN_WORDS, RG_UINT_OF
+#define RG_IN_OF(slot, T, name, type, in, word, ...) in(slot, T, name, word)
+#define RG_IN(slot, T, name, ...)                    RG_IN_OF(slot, T, name, __VA_ARGS__)
+#define IN(slot, T, name)                            RG_IN(slot, T, name, RG_WORD_##T, RG_IN_STRUCTS, )
 
 #define OUT(slot, T, name)                                                                         \
     RG_BLOCK(slot, writeonly, T, name)                                                             \
@@ -78,6 +94,10 @@ struct rg_ctx {
     int name##_height(rg_ctx rg, int level)                                                        \
     {                                                                                              \
         return textureSize(name##_sampler, level).y;                                               \
+    }                                                                                              \
+    int name##_levels(rg_ctx rg)                                                                   \
+    {                                                                                              \
+        return textureQueryLevels(name##_sampler);                                                 \
     }
 
 #define RG_OUT_IMAGE(slot, format, F, name)                                                        \

@@ -112,6 +112,10 @@ typedef struct rg_ctx {
     RG_FN int name##_height(rg_ctx rg, int level)                                                  \
     {                                                                                              \
         return rg_imax(rg.name##_shape.height >> level, 1);                                        \
+    }                                                                                              \
+    RG_FN int name##_levels(rg_ctx rg)                                                             \
+    {                                                                                              \
+        return rg.name##_shape.levels;                                                             \
     }
 #define IMAGE(slot, F, name)                                                                       \
     RG_IMAGE_SIZES(name)                                                                           \

@@ -11,6 +11,18 @@ layout(std140, binding = 0) uniform rg_run_block
     RG_RUN_PARAMS params;
 } rg_run;
 
+// Packed primitives with their corners as an array, so that a vertex reads its own alone.
+struct rg_prim_corners
+{
+    int at[8];
+    int item;
+    RG_RECORD record;
+};
+layout(std430, binding = 12) restrict readonly buffer rg_block_corners
+{
+    rg_prim_corners rg_corners[];
+};
+
 layout(location = 0) flat out int rg_prim_index;
 
 float rg_place(int snapped, int size)
@@ -25,10 +37,8 @@ void main()
     int prim = RG_VERTEX_INDEX / vertices;
     int corner = RG_VERTEX_INDEX - prim * vertices;
     corner = corner > 2 ? (corner == 3 ? 0 : corner - 2) : corner; // 0 1 2, 0 2 3
-    rg_ctx rg;
-    rg_snapped s = rg_prims_at(rg, prim).corners;
-    int x = corner == 0 ? s.x0 : corner == 1 ? s.x1 : corner == 2 ? s.x2 : s.x3;
-    int y = corner == 0 ? s.y0 : corner == 1 ? s.y1 : corner == 2 ? s.y2 : s.y3;
+    int x = rg_corners[prim].at[2 * corner];
+    int y = rg_corners[prim].at[2 * corner + 1];
     rg_prim_index = prim;
     gl_Position = vec4(rg_place(x, rg_run.params.draw.width),
                        rg_place(y, rg_run.params.draw.height), 0.0, 1.0);

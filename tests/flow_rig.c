@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-static const char *const cheap = "environment=sky environment_px=16";
+static const char *const cheap = "environment=sky environment_px=16 view=pane panes=mirror";
 
 static void set(struct flow_settings *settings, const char *assignments)
 {

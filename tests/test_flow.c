@@ -285,8 +285,8 @@ static void test_drops_do_not_depend_on_resolution(void **state)
     fine.resolution_px = 1024;
     for (int frame = -1; frame < 20; frame++) {
         for (int i = 0; i < 20; i++) {
-            const flow_splat_params a = flow_drop(&coarse, frame, i);
-            const flow_splat_params b = flow_drop(&fine, frame, i);
+            const flow_splat_params a = flow_drop(&coarse, 0, frame, i);
+            const flow_splat_params b = flow_drop(&fine, 0, frame, i);
             assert_true(a.centre_x * 8 == b.centre_x && a.centre_y * 8 == b.centre_y);
             assert_true(fabs((double)(a.radius_px * 8 / b.radius_px) - 1) < 1e-6);
             assert_true(a.height == b.height);
@@ -340,7 +340,7 @@ static void test_a_drop_holds_its_volume(void **state)
                  seed);
         struct rig rig;
         rig_open(&rig, device, text);
-        const flow_splat_params drop = flow_drop(&rig.settings, -1, 0);
+        const flow_splat_params drop = flow_drop(&rig.settings, 0, -1, 0);
         const double x = (double)drop.centre_x, y = (double)drop.centre_y;
         const double r = (double)drop.radius_px;
         if (x > r && y > r && x < 128 - r && y < 128 - r) {

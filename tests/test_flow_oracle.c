@@ -27,7 +27,7 @@ struct pair {
 static void land(struct pair *pair, int64_t frame, int count)
 {
     for (int i = 0; i < count; i++) {
-        const flow_splat_params drop = flow_drop(&pair->rig.settings, frame, i);
+        const flow_splat_params drop = flow_drop(&pair->rig.settings, 0, frame, i);
         oracle_land(&pair->oracle, (double)drop.centre_x, (double)drop.centre_y,
                     (double)drop.radius_px, (double)drop.height);
     }

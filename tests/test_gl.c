@@ -12,9 +12,11 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "backends/gl/gl.h"
 #include "core/device.h"
 #include "core/log.h"
 #include "kernels/test_copy_params.h"
+#include "kernels/test_quads_params.h"
 
 static const char *reason; // why there is no device; NULL: there is one
 static int errors;         // lines logged as errors
@@ -88,23 +90,175 @@ static void devices_and_lists_live_side_by_side(void **state)
     assert_int_equal(walk(*state, 7, 3), expected_walk(7, 3));
 }
 
-static void a_kernel_that_does_not_compile_is_one_line(void **state)
+struct text {
+    const char *file, *code;
+};
+
+static void in_folder(char path[64], const char *folder, const struct text *text)
+{
+    snprintf(path, 64, "%s/%s", folder, text->file);
+}
+
+// Opens a kernel whose code is what `texts` say, up to the first without a file.
+static struct rg_pass *open_changed(struct rg_device *device, const char *kernel,
+                                    const struct text *texts)
 {
     char folder[] = "/tmp/test_gl.XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof(path), "%s/test_copy.glsl", folder);
-    FILE *file = fopen(path, "w");
-    fputs("#version 450 core\nvoid main() { missing(1);\nmissing(2); }\n", file);
-    fclose(file);
+    for (const struct text *text = texts; text->file; text++) {
+        in_folder(path, folder, text);
+        FILE *file = fopen(path, "w");
+        fputs(text->code, file);
+        fclose(file);
+    }
     setenv("RG_KERNEL_DIR", folder, 1);
-    struct rg_pass *pass = rg_pass_create(*state, "test_copy");
+    struct rg_pass *pass = rg_pass_create(device, kernel);
     unsetenv("RG_KERNEL_DIR");
-    unlink(path);
+    for (const struct text *text = texts; text->file; text++) {
+        in_folder(path, folder, text);
+        unlink(path);
+    }
     rmdir(folder);
-    assert_null(pass);
+    return pass;
+}
+
+static void a_kernel_that_does_not_compile_is_one_line(void **state)
+{
+    const struct text texts[] = {
+        {"test_copy.glsl", "#version 450 core\nvoid main() { missing(1);\nmissing(2); }\n"}, {0}};
+    assert_null(open_changed(*state, "test_copy", texts));
     assert_int_equal(errors, 1);
     assert_non_null(strstr(rg_last_error(), "kernel 'test_copy': glCompileShader failed on gl: "));
     assert_non_null(strstr(rg_last_error(), "missing"));
+}
+
+static void a_program_that_does_not_link_is_one_line(void **state)
+{
+    const struct text texts[] = {
+        {"test_quads.vert", "#version 450 core\nlayout(location = 0) out vec4 a;\n"
+                            "void main() { a = gl_Position = vec4(1); }\n"},
+        {"test_quads.frag", "#version 450 core\nlayout(location = 0) flat in int a;\n"
+                            "out vec4 c;\nvoid main() { c = vec4(a); }\n"},
+        {0}};
+    assert_null(open_changed(*state, "test_quads", texts));
+    assert_int_equal(errors, 1);
+    assert_non_null(strstr(rg_last_error(), "kernel 'test_quads': glLinkProgram failed on gl: "));
+}
+
+// --- targets ---
+
+// A pass that fills its target, and what that takes.
+struct filler {
+    struct rg_device *device;
+    struct rg_pass *pass;
+    struct rg_buf *quad, *samples;
+};
+
+static struct filler make_filler(struct rg_device *device)
+{
+    const float quad[TEST_QUAD_WORDS] = {-1,   -1, 0.5f, 1, 1,    -1, 0.5f,  1,    1,     1,
+                                         0.5f, 1,  -1,   1, 0.5f, 1,  0.25f, 0.5f, 0.75f, 1};
+    struct filler f = {device, rg_pass_create(device, "test_quads"),
+                       rg_buf_create(device, sizeof(quad), "one quad"),
+                       rg_buf_create(device, 4, "samples")};
+    assert_true(f.pass && f.quad && f.samples && rg_buf_write(f.quad, 0, quad, sizeof(quad)));
+    return f;
+}
+
+static void destroy_filler(struct filler *f)
+{
+    rg_pass_destroy(f->pass);
+    rg_buf_destroy(f->quad);
+    rg_buf_destroy(f->samples);
+}
+
+// test_quads leaves out pixels of the first item where px ^ py ends in 15.
+static int kept_of(int size)
+{
+    int kept = 0;
+    for (int i = 0; i < size * size; i++)
+        kept += ((i % size) ^ (i / size)) % 16 != 15;
+    return kept;
+}
+
+// Fills a layer, and returns how many of its pixels have changed from `before`.
+static int fill_layer(const struct filler *f, struct rg_draw to, const float before[4])
+{
+    const test_quads_params p = {0};
+    assert_true(rg_pass_run(f->pass, &(struct rg_run){.params = &p,
+                                                      .slots = {[1].buf = f->quad},
+                                                      .extent = {1, 1, 1},
+                                                      .draw = &to}));
+    const int count = to.colour->desc.width * to.colour->desc.height;
+    float *texels = malloc((size_t)count * 16);
+    assert_true(rg_image_read(to.colour, to.layer, 0, texels));
+    int changed = 0;
+    for (int i = 0; i < count; i++)
+        changed += memcmp(texels + 4 * i, before, 16) != 0;
+    free(texels);
+    return changed;
+}
+
+static struct rg_image *cleared(struct rg_device *device, enum rg_format format, int size,
+                                int layers, const float *texel)
+{
+    struct rg_image *image =
+        rg_image_create(device, &(struct rg_image_desc){format, size, size, layers, 1}, "target");
+    assert_true(image && rg_image_clear(image, texel));
+    return image;
+}
+
+static int kept_framebuffers(const struct rg_device *device)
+{
+    int kept = 0;
+    for (int i = 0; i < GL_MAX_FRAMEBUFFERS; i++)
+        kept += ((const struct gl_device *)device)->framebuffers.kept[i].id != 0;
+    return kept;
+}
+
+// A driver may give the numbers of dead images to new ones: no framebuffer outlives its images.
+static void framebuffers_go_with_their_images(void **state)
+{
+    const float black[4] = {0};
+    struct filler f = make_filler(*state);
+    enum { SIZE = 20 };
+    for (int round = 0; round < 8; round++) {
+        const float depth = round % 2 ? 0.75f : 0.25f; // the quad lies at 0.5
+        const bool visible = depth > 0.5f;
+        struct rg_image *colour = cleared(*state, RG_RGBA32F, SIZE, 1, black);
+        struct rg_image *behind = cleared(*state, RG_D32F, SIZE, 1, &depth);
+        struct rg_draw to = {.colour = colour, .depth = behind, .depth_mode = RG_DEPTH_TEST};
+        assert_int_equal(fill_layer(&f, to, black), visible ? kept_of(SIZE) : 0);
+        uint32_t samples = 0;
+        assert_true(rg_buf_write(f.samples, 0, &samples, 4));
+        to.samples = f.samples;
+        fill_layer(&f, to, black);
+        assert_true(rg_buf_read(f.samples, 0, &samples, 4));
+        assert_int_equal(samples, visible ? kept_of(SIZE) : 0);
+        assert_int_equal(kept_framebuffers(*state), 2);
+        rg_image_destroy(behind);
+        assert_int_equal(kept_framebuffers(*state), 0);
+        rg_image_destroy(colour);
+    }
+    destroy_filler(&f);
+    assert_int_equal(errors, 0);
+}
+
+// More targets than are kept at once, each twice.
+static void more_targets_than_are_kept(void **state)
+{
+    enum { LAYERS = 150, SIZE = 4 };
+    const float black[4] = {0};
+    struct filler f = make_filler(*state);
+    struct rg_image *colour = cleared(*state, RG_RGBA32F, SIZE, LAYERS, black);
+    for (int i = 0; i < 2 * LAYERS; i++) {
+        const struct rg_draw to = {.colour = colour, .layer = i % LAYERS, .blend = RG_BLEND_ADD};
+        assert_int_equal(fill_layer(&f, to, black), kept_of(SIZE));
+    }
+    assert_int_equal(kept_framebuffers(*state), GL_MAX_FRAMEBUFFERS);
+    rg_image_destroy(colour);
+    destroy_filler(&f);
+    assert_int_equal(errors, 0);
 }
 
 static void what_the_driver_refuses_is_one_line(void **state)
@@ -160,6 +314,11 @@ int main(int argc, char **argv)
                                         close_device),
         cmocka_unit_test_setup_teardown(a_kernel_that_does_not_compile_is_one_line, open_device,
                                         close_device),
+        cmocka_unit_test_setup_teardown(a_program_that_does_not_link_is_one_line, open_device,
+                                        close_device),
+        cmocka_unit_test_setup_teardown(framebuffers_go_with_their_images, open_device,
+                                        close_device),
+        cmocka_unit_test_setup_teardown(more_targets_than_are_kept, open_device, close_device),
         cmocka_unit_test_setup_teardown(what_the_driver_refuses_is_one_line, open_device,
                                         close_device),
         cmocka_unit_test(drivers_are_silent),

@@ -15,6 +15,7 @@
 #include "core/log.h"
 #include "kernels/test_copy_params.h"
 #include "kernels/test_image_copy_params.h"
+#include "tests/quads.h"
 
 static int open_device(void **state)
 {
@@ -148,6 +149,133 @@ static void the_clock_runs_on(void **state)
     destroy_copier(&c);
 }
 
+// --- drawing ---
+
+enum { TARGET_PX = 1000, LAYERS = 3, LEVEL = 1, LEVEL_PX = TARGET_PX / 2, QUADS = 3000 };
+enum { ENOUGH_BYTES = 64 << 20 };
+
+// What a draw of quads left: colours and depths of one layer of one level, and visible samples.
+struct drawn {
+    uint32_t *colour, *depth, *samples;
+};
+
+static uint32_t *read_texels(struct rg_image *image)
+{
+    uint32_t *texels = malloc(LEVEL_PX * LEVEL_PX * 4);
+    assert_true(rg_image_read(image, LAYERS - 1, LEVEL, texels));
+    return texels;
+}
+
+// Quads of all kinds, and a few in a row that fill the target.
+static float *make_quads(void)
+{
+    static const float corners[8] = {-1, -1, 1, -1, 1, 1, -1, 1};
+    float *quads = malloc(QUADS * TEST_QUAD_WORDS * sizeof(float));
+    quads_fill(quads, QUADS, LEVEL_PX, LEVEL_PX, QUAD_KINDS, 11);
+    for (int i = 1000; i < 1004; i++) {
+        float *quad = quads + (ptrdiff_t)i * TEST_QUAD_WORDS;
+        for (int k = 0; k < 4; k++)
+            memcpy(quad + 4 * k, (float[]){corners[2 * k], corners[2 * k + 1], 0.1f, 1},
+                   4 * sizeof(float));
+    }
+    return quads;
+}
+
+// Counts samples against depth, or, without colour, writes depth. Scratch memory grows by buffers
+// of `max_buffer_bytes` at most.
+static struct drawn draw(struct rg_device *device, bool with_colour, int64_t max_buffer_bytes)
+{
+    const test_quads_params p = {.gradient = 1.0f / 64, .slope_x = 0.0005f, .slope_y = -0.0004f};
+    const uint32_t black = 0;
+    const float far_half = 0.5f;
+    float *quads = make_quads();
+    uint32_t *zeros = calloc(QUADS, 4);
+    struct rg_image_desc desc = {RG_RGBA8, TARGET_PX, TARGET_PX, LAYERS, LEVEL + 1};
+    struct rg_image *colour = rg_image_create(device, &desc, "colour");
+    desc.format = RG_D32F;
+    struct rg_image *depth = rg_image_create(device, &desc, "depth");
+    struct rg_buf *input = rg_buf_create(device, QUADS * TEST_QUAD_WORDS * 4, "quads");
+    struct rg_buf *samples = rg_buf_create(device, QUADS * 4, "samples");
+    struct rg_pass *pass = rg_pass_create(device, "test_quads");
+    assert_true(colour && depth && input && samples && pass && rg_image_clear(colour, &black) &&
+                rg_image_clear(depth, &far_half) &&
+                rg_buf_write(input, 0, quads, QUADS * TEST_QUAD_WORDS * 4) &&
+                rg_buf_write(samples, 0, zeros, QUADS * 4));
+    const struct rg_draw to = {
+        .colour = with_colour ? colour : NULL,
+        .depth = depth,
+        .layer = LAYERS - 1,
+        .level = LEVEL,
+        .blend = RG_BLEND_OVER,
+        .depth_mode = with_colour ? RG_DEPTH_TEST : RG_DEPTH_WRITE,
+        .samples = with_colour ? samples : NULL,
+    };
+    const int64_t allowed = device->info.limits.max_buffer_bytes;
+    device->info.limits.max_buffer_bytes = max_buffer_bytes;
+    assert_true(rg_pass_run(
+        pass, &(struct rg_run){
+                  .params = &p, .slots = {[1].buf = input}, .extent = {QUADS, 1, 1}, .draw = &to}));
+    device->info.limits.max_buffer_bytes = allowed;
+    struct drawn drawn = {read_texels(colour), read_texels(depth), zeros};
+    assert_true(rg_buf_read(samples, 0, drawn.samples, QUADS * 4));
+    rg_pass_destroy(pass);
+    rg_buf_destroy(input);
+    rg_buf_destroy(samples);
+    rg_image_destroy(colour);
+    rg_image_destroy(depth);
+    free(quads);
+    return drawn;
+}
+
+static void release(struct drawn *drawn)
+{
+    free(drawn->colour);
+    free(drawn->depth);
+    free(drawn->samples);
+}
+
+static void draws_as_the_reference(struct rg_device *device)
+{
+    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    for (int with_colour = 0; with_colour <= 1; with_colour++) {
+        struct drawn due = draw(reference, with_colour, ENOUGH_BYTES),
+                     got = draw(device, with_colour, ENOUGH_BYTES);
+        assert_memory_equal(got.colour, due.colour, LEVEL_PX * LEVEL_PX * 4);
+        assert_memory_equal(got.depth, due.depth, LEVEL_PX * LEVEL_PX * 4);
+        assert_memory_equal(got.samples, due.samples, QUADS * 4);
+        release(&due);
+        release(&got);
+    }
+    assert_true(rg_device_close(reference));
+}
+
+static void a_layer_of_a_level_is_drawn_to(void **state)
+{
+    draws_as_the_reference(*state);
+}
+
+// A GPU shades a tile by a work group, a processor by a work item; told that it is the former, the
+// latter draws the same.
+static void tiles_are_shared_as_on_a_gpu(void **state)
+{
+    (void)state;
+    struct rg_device *device = rg_device_open("opencl", NULL);
+    assert_non_null(device);
+    device->info.software = !device->info.software;
+    draws_as_the_reference(device);
+    assert_true(rg_device_close(device));
+}
+
+// A list of 1,024 elements holds the tiles of one quad that fills the target, not those of two.
+static void little_memory_takes_rounds(void **state)
+{
+    struct drawn whole = draw(*state, true, ENOUGH_BYTES), parts = draw(*state, true, 4096);
+    assert_memory_equal(parts.colour, whole.colour, LEVEL_PX * LEVEL_PX * 4);
+    assert_memory_equal(parts.samples, whole.samples, QUADS * 4);
+    release(&whole);
+    release(&parts);
+}
+
 static int lines;
 
 static void count_line(enum rg_log_level level, const char *line, void *user)
@@ -247,6 +375,9 @@ int main(int argc, char **argv)
         cmocka_unit_test(two_devices_live_side_by_side),
         cmocka_unit_test(runs_above_two_billion_items_are_split),
         cmocka_unit_test(the_clock_runs_on),
+        cmocka_unit_test(a_layer_of_a_level_is_drawn_to),
+        cmocka_unit_test(tiles_are_shared_as_on_a_gpu),
+        cmocka_unit_test(little_memory_takes_rounds),
         cmocka_unit_test(a_broken_kernel_is_one_line),
     };
     expected_code = argc > 2 ? argv[2] : "";

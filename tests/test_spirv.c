@@ -1,5 +1,6 @@
-// What no driver may do to a kernel's floats stands in its SPIR-V: every float operation is
-// decorated NoContraction, and nothing is called whose rounding is a driver's own choice.
+// What no driver may do to a kernel's floats stands in its SPIR-V, in every stage: each float
+// operation is decorated NoContraction, and nothing is called whose rounding is a driver's own
+// choice.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -42,6 +43,12 @@ static const struct {
     {148, "OpDot"},
 };
 
+// Drivers filter and derive as they see fit. Texels are fetched, one by one.
+static const struct {
+    int first, last;
+    const char *name;
+} refused_ops[] = {{87, 94, "OpImageSample"}, {96, 97, "OpImageGather"}, {207, 215, "OpDPdx"}};
+
 // The instructions of GLSL.std.450 that are exact on every driver; all others are refused.
 static const struct {
     uint32_t number;
@@ -63,6 +70,14 @@ static const char *float_op_name(int op)
     for (size_t i = 0; i < sizeof(float_ops) / sizeof(float_ops[0]); i++)
         if (float_ops[i].op == op)
             return float_ops[i].name;
+    return NULL;
+}
+
+static const char *refused_op_name(int op)
+{
+    for (size_t i = 0; i < sizeof(refused_ops) / sizeof(refused_ops[0]); i++)
+        if (op >= refused_ops[i].first && op <= refused_ops[i].last)
+            return refused_ops[i].name;
     return NULL;
 }
 
@@ -94,6 +109,8 @@ static void inspect(const uint32_t *at, bool *exact, uint32_t bound, uint32_t *i
         if (at[2] >= bound || !exact[at[2]])
             note(found, float_op_name(op), (int)at[2]);
     }
+    if (refused_op_name(op))
+        note(found, refused_op_name(op), op);
     if (op == OP_EXT_INST && at[3] == *imported) {
         found->instructions++;
         if (!is_exact(at[4]))
@@ -117,10 +134,21 @@ static struct findings inspect_module(const uint32_t *words, size_t count)
     return found;
 }
 
-static struct findings inspect_kernel(const struct rg_kernel *kernel)
+static const struct {
+    enum rg_code_kind kind;
+    const char *stage;
+} stages[] = {{RG_CODE_SPIRV, "compute"},
+              {RG_CODE_VERTEX_SPIRV, "vertex"},
+              {RG_CODE_FRAGMENT_SPIRV, "fragment"}};
+
+enum { STAGES = sizeof(stages) / sizeof(stages[0]) };
+
+// Nothing is found in a stage that the kernel does not have.
+static struct findings inspect_stage(const struct rg_kernel *kernel, enum rg_code_kind kind)
 {
-    const struct rg_kernel_code *code = &kernel->code[RG_CODE_SPIRV];
-    return inspect_module((const uint32_t *)(const void *)code->bytes, code->size / 4);
+    const struct rg_kernel_code *code = &kernel->code[kind];
+    return code->bytes ? inspect_module((const uint32_t *)(const void *)code->bytes, code->size / 4)
+                       : (struct findings){0};
 }
 
 // Kernels that probe what a driver makes of its built-in functions call them on purpose.
@@ -136,55 +164,94 @@ static void every_kernel_is_exact(void **state)
     int count = rg_kernel_all(&all);
     assert_true(count > 0);
     for (int i = 0; i < count; i++) {
-        struct findings found = inspect_kernel(all[i]);
-        if (found.fault[0] && !is_probe(all[i]))
-            fail_msg("kernel '%s': %s may be rounded otherwise; see kernels/flatten.py",
-                     all[i]->name, found.fault);
+        for (int s = 0; s < STAGES; s++) {
+            struct findings found = inspect_stage(all[i], stages[s].kind);
+            if (found.fault[0] && !is_probe(all[i]))
+                fail_msg("kernel '%s', %s stage: %s may be rounded otherwise; see "
+                         "kernels/flatten.py",
+                         all[i]->name, stages[s].stage, found.fault);
+        }
     }
+}
+
+// A GRID kernel has one stage, a DRAW program the two others.
+static void every_kernel_has_its_stages(void **state)
+{
+    (void)state;
+    const struct rg_kernel *const *all;
+    int count = rg_kernel_all(&all);
+    for (int i = 0; i < count; i++)
+        for (int s = 0; s < STAGES; s++)
+            assert_int_equal(all[i]->code[stages[s].kind].size > 0,
+                             !all[i]->draw == (stages[s].kind == RG_CODE_SPIRV));
 }
 
 static void the_inspection_sees_operations(void **state)
 {
     (void)state;
-    struct findings found = inspect_kernel(rg_kernel_find("test_precise"));
+    struct findings found = inspect_stage(rg_kernel_find("test_precise"), RG_CODE_SPIRV);
     assert_true(found.operations >= 25);
     assert_true(found.instructions >= 3);
+    const struct rg_kernel *program = rg_kernel_find("test_quads");
+    assert_true(inspect_stage(program, RG_CODE_VERTEX_SPIRV).operations >= 2);
+    assert_true(inspect_stage(program, RG_CODE_FRAGMENT_SPIRV).operations >= 5);
 }
 
-// The module of test_precise with one decoration, then one instruction, made another.
-static void the_inspection_finds_faults(void **state)
+// How often a fault was found in a module with one decoration, one square root or one fetch made
+// another.
+struct faults {
+    int decorations, roots, fetches;
+};
+
+static bool faulty_with(uint32_t *words, size_t count, uint32_t *changed, uint32_t value)
 {
-    (void)state;
-    const struct rg_kernel_code *code = &rg_kernel_find("test_precise")->code[RG_CODE_SPIRV];
-    size_t count = code->size / 4;
-    const uint32_t restrict_decoration = 19, glsl_fma = 50, glsl_sqrt = 31;
+    const uint32_t was = *changed;
+    *changed = value;
+    const bool faulty = inspect_module(words, count).fault[0];
+    *changed = was;
+    return faulty;
+}
+
+static struct faults spoil(const struct rg_kernel *kernel, enum rg_code_kind kind)
+{
+    const uint32_t restrict_decoration = 19, glsl_fma = 50, glsl_sqrt = 31, image_fetch = 95,
+                   image_sample = 88;
+    const struct rg_kernel_code *code = &kernel->code[kind];
+    const size_t count = code->size / 4;
+    struct faults faults = {0};
     uint32_t *words = malloc(code->size);
-    int faults = 0, roots = 0;
     memcpy(words, code->bytes, code->size);
     for (size_t at = HEADER_WORDS; at < count; at += words[at] >> 16) {
         uint32_t *word = &words[at];
-        bool decoration = (word[0] & 0xffff) == OP_DECORATE && word[2] == DECORATION_NO_CONTRACTION;
-        bool root = (word[0] & 0xffff) == OP_EXT_INST && word[4] == glsl_sqrt;
-        if (!decoration && !root)
-            continue;
-        uint32_t *changed = decoration ? &word[2] : &word[4], was = *changed;
-        *changed = decoration ? restrict_decoration : glsl_fma;
-        bool fault = inspect_module(words, count).fault[0];
-        *changed = was;
-        faults += fault && decoration;
-        roots += fault && root;
+        const uint32_t op = word[0] & 0xffff;
+        if (op == OP_DECORATE && word[2] == DECORATION_NO_CONTRACTION)
+            faults.decorations += faulty_with(words, count, &word[2], restrict_decoration);
+        if (op == OP_EXT_INST && word[4] == glsl_sqrt)
+            faults.roots += faulty_with(words, count, &word[4], glsl_fma);
+        if (op == image_fetch)
+            faults.fetches +=
+                faulty_with(words, count, &word[0], (word[0] & 0xffff0000u) | image_sample);
     }
-    struct findings intact = inspect_module(words, count);
-    assert_int_equal(faults, intact.operations); // glslang decorates some other operations too
-    assert_true(roots >= 1);
+    const struct findings intact = inspect_module(words, count);
     assert_string_equal(intact.fault, "");
+    assert_int_equal(faults.decorations, intact.operations); // glslang decorates some others too
     free(words);
+    return faults;
+}
+
+static void the_inspection_finds_faults(void **state)
+{
+    (void)state;
+    assert_true(spoil(rg_kernel_find("test_precise"), RG_CODE_SPIRV).roots >= 1);
+    assert_true(spoil(rg_kernel_find("test_quads"), RG_CODE_VERTEX_SPIRV).decorations >= 2);
+    assert_true(spoil(rg_kernel_find("test_quads"), RG_CODE_FRAGMENT_SPIRV).fetches >= 1);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kernel_is_exact),
+        cmocka_unit_test(every_kernel_has_its_stages),
         cmocka_unit_test(the_inspection_sees_operations),
         cmocka_unit_test(the_inspection_finds_faults),
     };

@@ -109,6 +109,9 @@ static void clears_keep_every_bit(void **state)
         {RG_R32F, {0x7f812345}},
         {RG_RG11B10F, {0x781e03c0}},
         {RG_RG11B10F, {0x00400801}}, // subnormals
+        {RG_D32F, {0x3f2aaaab}},
+        {RG_D32F, {0x3f800000}},
+        {RG_D32F, {0x00000001}}, // subnormal
     };
     for (size_t c = 0; c < sizeof(cases) / sizeof(cases[0]); c++) {
         const struct rg_image_desc desc = {cases[c].format, 7, 5, 2, 3};

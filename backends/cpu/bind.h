@@ -1,8 +1,13 @@
 // Makes the context of the kernel that was just included from what a call binds.
 #include "backends/cpu/cpu.h"
 
-#define RG_CAT_(a, b, c) rg_cpu_##a##_##b
-#define RG_CAT(a, b)     RG_CAT_(a, b, )
+#define RG_CAT_(a, b) rg_cpu_##a##_##b
+#define RG_CAT(a, b)  RG_CAT_(a, b)
+
+// Begins the definition of what the kernel's file hands out.
+#define RG_EXPORT_KERNEL                                                                           \
+    extern const struct cpu_kernel RG_CAT(RG_LEVEL, RG_KERNEL_NAME);                               \
+    const struct cpu_kernel RG_CAT(RG_LEVEL, RG_KERNEL_NAME)
 
 #define RG_BIND_ARRAY(slot, name)                                                                  \
     rg.name = call->slots[slot].data;                                                              \

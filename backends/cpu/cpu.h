@@ -27,12 +27,26 @@ struct cpu_call {
     struct cpu_target target; // of a DRAW program
 };
 
-typedef void (*cpu_kernel_fn)(const struct cpu_call *call);
+// A kernel of one instruction set.
+struct cpu_kernel {
+    void (*run)(const struct cpu_call *call); // NULL: a DRAW program, run by its stages (draw.h)
+    const struct cpu_program *program;        // those stages; else NULL
+};
+
+// The instruction sets that the kernels were built for, slowest first, "reference" before all.
+struct cpu_level {
+    const char *name;
+    const struct cpu_kernel *const *kernels; // in the order of rg_kernel_all
+    const struct cpu_raster *raster;         // what all its DRAW programs share; NULL: none
+};
+extern const struct cpu_level cpu_levels[];
+extern const int cpu_level_count;
 
 struct cpu_device {
     struct rg_device pub;
-    const cpu_kernel_fn *kernels; // in the order of rg_kernel_all
+    const struct cpu_level *level;
     bool reference;
+    struct cpu_bins *bins; // what drawing keeps from run to run; NULL before the first
 };
 
 struct cpu_buf {
@@ -49,16 +63,8 @@ struct cpu_image {
 
 struct cpu_pass {
     struct rg_pass pub;
-    cpu_kernel_fn function;
+    const struct cpu_kernel *code;
 };
-
-// The instruction sets that the kernels were built for, slowest first, "reference" before all.
-struct cpu_level {
-    const char *name;
-    const cpu_kernel_fn *kernels;
-};
-extern const struct cpu_level cpu_levels[];
-extern const int cpu_level_count;
 
 // buf.c
 struct rg_buf *cpu_buf_create(struct rg_device *device, size_t size, const char *name);

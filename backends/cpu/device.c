@@ -1,4 +1,4 @@
-#include "backends/cpu/cpu.h"
+#include "backends/cpu/draw.h"
 
 #include <fenv.h>
 #include <limits.h>
@@ -110,12 +110,13 @@ static struct rg_device *cpu_create(int index)
         return NULL;
     describe(index, &device->pub.info);
     device->reference = index == INDEX_REFERENCE;
-    device->kernels = device->reference ? cpu_levels[0].kernels : choose_level()->kernels;
+    device->level = device->reference ? &cpu_levels[0] : choose_level();
     return &device->pub;
 }
 
 static void cpu_destroy(struct rg_device *device)
 {
+    cpu_bins_destroy(((struct cpu_device *)device)->bins);
     free(device);
 }
 

@@ -1,9 +1,7 @@
 // Makes a C function of the GRID kernel that was just included: one call runs a block of items.
 #include "backends/cpu/bind.h"
 
-void RG_CAT(RG_LEVEL, RG_KERNEL_NAME)(const struct cpu_call *call);
-
-void RG_CAT(RG_LEVEL, RG_KERNEL_NAME)(const struct cpu_call *call)
+static void run_block(const struct cpu_call *call)
 {
     const rg_ctx rg = bind_context(call);
     const RG_RUN_PARAMS p = *(const RG_RUN_PARAMS *)call->params;
@@ -21,3 +19,5 @@ void RG_CAT(RG_LEVEL, RG_KERNEL_NAME)(const struct cpu_call *call)
         }
     }
 }
+
+RG_EXPORT_KERNEL = {.run = run_block};

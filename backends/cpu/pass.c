@@ -1,4 +1,4 @@
-#include "backends/cpu/cpu.h"
+#include "backends/cpu/draw.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@ struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel
     struct cpu_pass *pass = rg_alloc(1, sizeof(*pass), kernel->name);
     if (!pass)
         return NULL;
-    pass->function = ((struct cpu_device *)device)->kernels[rg_kernel_index(kernel)];
+    pass->code = ((struct cpu_device *)device)->level->kernels[rg_kernel_index(kernel)];
     return &pass->pub;
 }
 
@@ -67,7 +67,7 @@ static bool run_in_order(struct cpu_pass *pass, const struct rg_run *run)
 {
     struct rg_fault fault = {0};
     struct cpu_call call = bind(pass->pub.kernel, run, &fault);
-    pass->function(&call);
+    pass->code->run(&call);
     if (fault.slot)
         return rg_error("kernel '%s': %s[%d] is out of range; it holds %d", pass->pub.kernel->name,
                         fault.slot, fault.index, fault.count);
@@ -110,13 +110,13 @@ static bool run_parallel(struct cpu_pass *pass, const struct rg_run *run)
     if (items / blocks < MIN_ITEMS_A_THREAD)
         blocks = items < MIN_ITEMS_A_THREAD ? 1 : (int)(items / MIN_ITEMS_A_THREAD);
     if (blocks == 1) {
-        pass->function(&call);
+        pass->code->run(&call);
         return true;
     }
 #pragma omp parallel for schedule(static, 1) num_threads(blocks)
     for (int i = 0; i < blocks; i++) {
         struct cpu_call mine = block(&call, &run->extent, i, blocks);
-        pass->function(&mine);
+        pass->code->run(&mine);
     }
     return true;
 }
@@ -124,8 +124,12 @@ static bool run_parallel(struct cpu_pass *pass, const struct rg_run *run)
 bool cpu_pass_run(struct rg_pass *pass, const struct rg_run *run)
 {
     struct cpu_pass *cpu = (struct cpu_pass *)pass;
-    if (pass->kernel->draw)
+    struct cpu_device *device = (struct cpu_device *)pass->device;
+    if (device->reference)
         return run_in_order(cpu, run);
-    return ((struct cpu_device *)pass->device)->reference ? run_in_order(cpu, run)
-                                                          : run_parallel(cpu, run);
+    if (cpu->code->program) {
+        const struct cpu_call call = bind(pass->kernel, run, NULL);
+        return cpu_draw(device, pass->kernel->name, cpu->code->program, &call);
+    }
+    return run_parallel(cpu, run);
 }

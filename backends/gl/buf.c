@@ -23,20 +23,39 @@ struct rg_buf *gl_buf_create(struct rg_device *device, size_t size, const char *
     return &buf->pub;
 }
 
+GLuint gl_buf_words(struct rg_buf *buf)
+{
+    struct gl_buf *mine = (struct gl_buf *)buf;
+    if (mine->words)
+        return mine->words;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &mine->words);
+    gl_label(GL_TEXTURE, mine->words, buf->name);
+    glTextureBuffer(mine->words, GL_R32UI, mine->id);
+    if (gl_check((struct gl_device *)buf->device, "glTextureBuffer", "buffer", buf->name))
+        return mine->words;
+    glDeleteTextures(1, &mine->words);
+    return mine->words = 0;
+}
+
 // Deleting an object unbinds it, and its number may come back for another one.
 static void forget(struct gl_bound *bound, GLuint id)
 {
     for (int slot = 0; slot < RG_MAX_SLOTS; slot++)
         if (bound->buffers[slot] == id)
             bound->buffers[slot] = 0;
+    if (bound->arguments == id)
+        bound->arguments = 0;
 }
 
 void gl_buf_destroy(struct rg_buf *buf)
 {
     struct gl_device *gl = (struct gl_device *)buf->device;
     struct gl_buf *mine = (struct gl_buf *)buf;
-    if (gl_use(gl))
+    if (gl_use(gl)) {
+        glDeleteTextures(1, &mine->words);
         glDeleteBuffers(1, &mine->id);
+    }
+    gl_texture_forget(&gl->bound, mine->words);
     forget(&gl->bound, mine->id);
     free(mine);
 }

@@ -17,10 +17,11 @@ static int integer(GLenum what)
 
 static struct rg_limits read_limits(void)
 {
-    GLint64 storage_bytes = 0;
+    GLint64 storage_bytes = 0, words = 0; // kernels read buffers as either
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &storage_bytes);
+    glGetInteger64v(GL_MAX_TEXTURE_BUFFER_SIZE, &words);
     struct rg_limits limits = {
-        .max_buffer_bytes = storage_bytes,
+        .max_buffer_bytes = words * 4 < storage_bytes ? words * 4 : storage_bytes,
         .max_image_px = integer(GL_MAX_TEXTURE_SIZE),
         .max_image_layers = integer(GL_MAX_ARRAY_TEXTURE_LAYERS),
         .group_items = GL_GROUP_ITEMS,
@@ -99,6 +100,7 @@ static void gl_destroy(struct rg_device *device)
     struct gl_device *gl = (struct gl_device *)device;
     if (gl_use(gl)) {
         gl_params_destroy(gl);
+        gl_draw_end(gl);
         glDeleteQueries(1, &gl->timestamp);
     }
     gl_egl_close(&gl->egl);
@@ -122,7 +124,7 @@ static struct rg_device *gl_create(int index)
     };
     gl_debug_begin(gl);
     glCreateQueries(GL_TIMESTAMP, 1, &gl->timestamp);
-    if (!gl_params_create(gl)) {
+    if (!gl_params_create(gl) || !gl_draw_begin(gl)) {
         gl_destroy(&gl->pub);
         return NULL;
     }
@@ -132,6 +134,7 @@ static struct rg_device *gl_create(int index)
 const struct rg_backend rg_backend_gl = {
     .name = "gl",
     .package = "libegl-mesa0",
+    .packed = true,
     .list = gl_list,
     .create = gl_create,
     .destroy = gl_destroy,

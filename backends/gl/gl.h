@@ -1,4 +1,4 @@
-// The gl backend: kernels as compute programs of OpenGL 4.5 core, on EGL without a window.
+// The gl backend: kernels as programs of OpenGL 4.5 core, on EGL without a window.
 //
 // A device is one context without a framebuffer. A context belongs to the thread that last used
 // it, so a device stays on the thread that opened it, and nothing else makes another context
@@ -56,10 +56,43 @@ struct gl_params {
     GLsync read[2];
 };
 
+// Images that are drawn to together; 0 for what a draw is without.
+struct gl_framebuffer_key {
+    GLuint colour, depth;
+    GLuint behind; // a depth image that fragments fetch
+    int layer, level;
+    int width, height; // of the level
+};
+
+struct gl_framebuffer {
+    struct gl_framebuffer_key key;
+    GLuint id;     // 0: free
+    GLuint behind; // one layer and level of key.behind
+};
+
+enum { GL_MAX_FRAMEBUFFERS = 64 };
+
+// Framebuffers of the latest targets, the oldest of which makes room for a new one.
+struct gl_framebuffers {
+    struct gl_framebuffer kept[GL_MAX_FRAMEBUFFERS];
+    int next;
+};
+
+// What a draw sets beside its bindings.
+struct gl_draw_state {
+    int width, height; // of the target
+    GLint scissor[4];
+    enum rg_blend blend;
+    enum rg_depth_mode depth;
+};
+
 // What is bound, so that equal bindings cost no call. 0: nothing.
 struct gl_bound {
     GLuint program;
     GLuint buffers[RG_MAX_SLOTS], textures[RG_MAX_SLOTS], images[RG_MAX_SLOTS];
+    GLuint framebuffer;
+    GLuint arguments; // buffer of an indirect draw's
+    struct gl_draw_state draw;
 };
 
 struct gl_device {
@@ -68,13 +101,16 @@ struct gl_device {
     struct gl_slot_limits slots;
     struct gl_params params;
     struct gl_bound bound;
-    GLuint timestamp; // query
-    char fault[256];  // the driver's first message since the last gl_check, "" for none
+    struct gl_framebuffers framebuffers;
+    GLuint no_vertices; // vertex array
+    GLuint timestamp;   // query
+    char fault[256];    // the driver's first message since the last gl_check, "" for none
 };
 
 struct gl_buf {
     struct rg_buf pub;
     GLuint id;
+    GLuint words; // the buffer as a texture of words; 0 until a kernel reads it so
 };
 
 struct gl_image {
@@ -85,6 +121,8 @@ struct gl_image {
 struct gl_pass {
     struct rg_pass pub;
     GLuint program;
+    unsigned word_slots;   // a bit each: read as a texture of words
+    size_t params_size;    // of what a run brings, in bytes
     size_t block_size;     // of the uniform block, in bytes
     GLbitfield after_runs; // barriers that make this pass's writes visible
 };
@@ -121,6 +159,8 @@ struct rg_buf *gl_buf_create(struct rg_device *device, size_t size, const char *
 void gl_buf_destroy(struct rg_buf *buf);
 bool gl_buf_write(struct rg_buf *buf, size_t offset, const void *data, size_t size);
 bool gl_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size);
+// The buffer as a texture of words; 0 and one logged line on failure.
+GLuint gl_buf_words(struct rg_buf *buf);
 
 // image.c
 struct rg_image *gl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
@@ -131,11 +171,37 @@ bool gl_image_read(struct rg_image *image, int layer, int level, void *texels);
 bool gl_image_clear(struct rg_image *image, const void *texel);
 // What OpenGL calls a format's memory.
 GLenum gl_internal_format(enum rg_format format);
+// Deleting an object unbinds it, and its number may come back for another one.
+void gl_texture_forget(struct gl_bound *bound, GLuint id);
+
+// program.c
+
+// Compiles and links a kernel's stages; 0 and one logged line on failure.
+GLuint gl_program_create(struct gl_device *device, const struct rg_kernel *kernel);
+// The slots whose buffers the program reads as textures of words, a bit each.
+unsigned gl_program_word_slots(GLuint program, const struct rg_kernel *kernel);
+
+// framebuffer.c
+
+// The framebuffer of a draw's images, and the depth that it counts against; NULL and one logged
+// line on failure. Valid until the next call.
+const struct gl_framebuffer *gl_framebuffer_of(struct gl_device *device,
+                                               const struct rg_draw *draw);
+// Drops the framebuffers that an image is part of, before it goes; 0 drops all.
+void gl_framebuffers_forget(struct gl_device *device, GLuint image);
+
+// draw.c
+bool gl_draw_begin(struct gl_device *device);
+void gl_draw_end(struct gl_device *device);
+// Draws packed primitives; the pass's program, parameters and slots are bound.
+bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const struct rg_run *run);
 
 // pass.c
 struct rg_pass *gl_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
 void gl_pass_destroy(struct rg_pass *pass);
 bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run);
+void gl_bind_buffer(struct gl_bound *bound, int slot, const struct rg_buf *buf);
+void gl_bind_texture(struct gl_bound *bound, int slot, GLuint id);
 
 // time.c
 bool gl_sync(struct rg_device *device);

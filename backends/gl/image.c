@@ -47,8 +47,7 @@ struct rg_image *gl_image_create(struct rg_device *device, const struct rg_image
     return &image->pub;
 }
 
-// Deleting an object unbinds it, and its number may come back for another one.
-static void forget(struct gl_bound *bound, GLuint id)
+void gl_texture_forget(struct gl_bound *bound, GLuint id)
 {
     for (int slot = 0; slot < RG_MAX_SLOTS; slot++) {
         if (bound->textures[slot] == id)
@@ -62,9 +61,11 @@ void gl_image_destroy(struct rg_image *image)
 {
     struct gl_device *gl = (struct gl_device *)image->device;
     struct gl_image *mine = (struct gl_image *)image;
-    if (gl_use(gl))
+    if (gl_use(gl)) {
+        gl_framebuffers_forget(gl, mine->id);
         glDeleteTextures(1, &mine->id);
-    forget(&gl->bound, mine->id);
+    }
+    gl_texture_forget(&gl->bound, mine->id);
     free(mine);
 }
 

@@ -4,7 +4,7 @@
 
 enum { HALF_BYTES = 64 * 1024 };
 
-// The start of the uniform block in shaders/grid.glsl; the kernel's parameters follow.
+// The start of the uniform block in shaders/grid.glsl and draw.*; the kernel's parameters follow.
 struct block_head {
     int32_t origin[4], end[4];
 };
@@ -59,7 +59,7 @@ bool gl_params_bind(struct gl_device *device, const struct gl_pass *pass, const 
     };
     unsigned char *block = params->memory + params->next;
     memcpy(block, &head, sizeof(head));
-    memcpy(block + sizeof(head), run->params, (size_t)pass->pub.kernel->params_size);
+    memcpy(block + sizeof(head), run->params, pass->params_size);
     glBindBufferRange(GL_UNIFORM_BUFFER, 0, params->buffer, (GLintptr)params->next,
                       (GLsizeiptr)pass->block_size);
     const size_t aligned = (pass->block_size + params->alignment - 1) / params->alignment;

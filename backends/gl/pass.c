@@ -1,7 +1,6 @@
 #include "backends/gl/gl.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/alloc.h"
 #include "core/log.h"
@@ -14,6 +13,10 @@ static bool is_image(enum rg_slot_kind kind)
 // A slot is the binding of the same number, which the driver must have.
 static bool slots_fit(const struct gl_device *device, const struct rg_kernel *kernel)
 {
+    if (kernel->draw && device->slots.buffers <= RG_SLOT_SAMPLES)
+        return rg_error("kernel '%s': drawing needs storage buffer binding %d, and %s has %d",
+                        kernel->name, RG_SLOT_SAMPLES, device->pub.info.name,
+                        device->slots.buffers);
     for (int i = 0; i < kernel->slot_count; i++) {
         const struct rg_slot_info *slot = &kernel->slots[i];
         int limit = slot->kind == RG_SLOT_OUT_IMAGE ? device->slots.image_units
@@ -38,64 +41,12 @@ static GLbitfield barriers_after(const struct rg_kernel *kernel)
         enum rg_slot_kind kind = kernel->slots[i].kind;
         if (kind == RG_SLOT_OUT_IMAGE)
             barriers |= GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                        GL_TEXTURE_UPDATE_BARRIER_BIT;
+                        GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT;
         else if (kind != RG_SLOT_IN && kind != RG_SLOT_IMAGE)
-            barriers |= GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT;
+            barriers |= GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                        GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT;
     }
     return barriers;
-}
-
-static bool refuse(const struct gl_device *device, const char *kernel, const char *step,
-                   const char *log)
-{
-    return rg_error("kernel '%s': %s failed on %s: %.*s", kernel, step, device->pub.info.name,
-                    (int)strcspn(log, "\r\n"), log[0] ? log : "the driver says nothing");
-}
-
-static bool compile(const struct gl_device *device, const struct rg_kernel *kernel, GLuint shader)
-{
-    struct rg_kernel_code code;
-    void *owned;
-    if (!rg_kernel_code(kernel, RG_CODE_GLSL, &code, &owned))
-        return false;
-    const GLchar *text = (const GLchar *)code.bytes;
-    const GLint length = (GLint)code.size;
-    glShaderSource(shader, 1, &text, &length);
-    glCompileShader(shader);
-    free(owned);
-    GLint compiled = GL_FALSE;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
-    char log[512] = "";
-    glGetShaderInfoLog(shader, sizeof(log), NULL, log);
-    return compiled || refuse(device, kernel->name, "glCompileShader", log);
-}
-
-static bool link(const struct gl_device *device, const struct rg_kernel *kernel, GLuint program)
-{
-    glLinkProgram(program);
-    GLint linked = GL_FALSE;
-    glGetProgramiv(program, GL_LINK_STATUS, &linked);
-    char log[512] = "";
-    glGetProgramInfoLog(program, sizeof(log), NULL, log);
-    return linked || refuse(device, kernel->name, "glLinkProgram", log);
-}
-
-// 0 when it failed.
-static GLuint build(struct gl_device *device, const struct rg_kernel *kernel)
-{
-    GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
-    GLuint program = glCreateProgram();
-    bool built = compile(device, kernel, shader);
-    if (built) {
-        glAttachShader(program, shader);
-        built = link(device, kernel, program);
-    }
-    glDeleteShader(shader);
-    built = built && gl_check(device, "glCreateProgram", "kernel", kernel->name);
-    if (built)
-        return program;
-    glDeleteProgram(program);
-    return 0;
 }
 
 struct rg_pass *gl_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
@@ -106,13 +57,15 @@ struct rg_pass *gl_pass_create(struct rg_device *device, const struct rg_kernel 
     struct gl_pass *pass = rg_alloc(1, sizeof(*pass), kernel->name);
     if (!pass)
         return NULL;
-    pass->program = build(gl, kernel);
+    pass->program = gl_program_create(gl, kernel);
     if (!pass->program) {
         free(pass);
         return NULL;
     }
     gl_label(GL_PROGRAM, pass->program, kernel->name);
-    pass->block_size = 32 + ((size_t)kernel->params_size + 15) / 16 * 16; // std140
+    pass->word_slots = gl_program_word_slots(pass->program, kernel);
+    pass->params_size = (size_t)(kernel->draw ? kernel->draw->call_size : kernel->params_size);
+    pass->block_size = 32 + (pass->params_size + 15) / 16 * 16; // std140
     pass->after_runs = barriers_after(kernel);
     return &pass->pub;
 }
@@ -135,9 +88,7 @@ static void bind_image(struct gl_bound *bound, const struct rg_slot_info *slot,
                        const struct gl_image *image)
 {
     if (slot->kind == RG_SLOT_IMAGE) {
-        if (bound->textures[slot->slot] != image->id)
-            glBindTextureUnit((GLuint)slot->slot, image->id);
-        bound->textures[slot->slot] = image->id;
+        gl_bind_texture(bound, slot->slot, image->id);
         return;
     }
     if (bound->images[slot->slot] != image->id)
@@ -146,21 +97,43 @@ static void bind_image(struct gl_bound *bound, const struct rg_slot_info *slot,
     bound->images[slot->slot] = image->id;
 }
 
-static void bind_slots(struct gl_bound *bound, const struct rg_kernel *kernel,
-                       const struct rg_run *run)
+static bool bind_words(struct gl_bound *bound, int slot, struct rg_buf *buf)
 {
+    const GLuint words = gl_buf_words(buf);
+    if (words)
+        gl_bind_texture(bound, slot, words);
+    return words != 0;
+}
+
+static bool bind_slots(struct gl_bound *bound, const struct gl_pass *pass, const struct rg_run *run)
+{
+    const struct rg_kernel *kernel = pass->pub.kernel;
     for (int i = 0; i < kernel->slot_count; i++) {
         const struct rg_slot_info *slot = &kernel->slots[i];
         const struct rg_binding *binding = &run->slots[slot->slot];
-        if (is_image(slot->kind)) {
+        if (is_image(slot->kind))
             bind_image(bound, slot, (const struct gl_image *)binding->image);
-            continue;
-        }
-        GLuint id = ((const struct gl_buf *)binding->buf)->id;
-        if (bound->buffers[slot->slot] != id)
-            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, (GLuint)slot->slot, id);
-        bound->buffers[slot->slot] = id;
+        else if (!(pass->word_slots >> slot->slot & 1))
+            gl_bind_buffer(bound, slot->slot, binding->buf);
+        else if (!bind_words(bound, slot->slot, binding->buf))
+            return false;
     }
+    return true;
+}
+
+void gl_bind_buffer(struct gl_bound *bound, int slot, const struct rg_buf *buf)
+{
+    const GLuint id = ((const struct gl_buf *)buf)->id;
+    if (bound->buffers[slot] != id)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, (GLuint)slot, id);
+    bound->buffers[slot] = id;
+}
+
+void gl_bind_texture(struct gl_bound *bound, int slot, GLuint id)
+{
+    if (bound->textures[slot] != id)
+        glBindTextureUnit((GLuint)slot, id);
+    bound->textures[slot] = id;
 }
 
 bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run)
@@ -172,7 +145,10 @@ bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run)
     if (gl->bound.program != mine->program)
         glUseProgram(mine->program);
     gl->bound.program = mine->program;
-    bind_slots(&gl->bound, pass->kernel, run);
+    if (!bind_slots(&gl->bound, mine, run))
+        return false;
+    if (pass->kernel->draw)
+        return gl_draw(gl, pass->kernel, run);
     const int64_t columns = ((int64_t)run->extent.width + GL_GROUP_ITEMS - 1) / GL_GROUP_ITEMS;
     glDispatchCompute((GLuint)columns, (GLuint)run->extent.height, (GLuint)run->extent.depth);
     glMemoryBarrier(mine->after_runs);

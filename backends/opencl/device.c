@@ -168,7 +168,8 @@ static int kernel_count(void)
 static void opencl_destroy(struct rg_device *device)
 {
     struct opencl_device *opencl = (struct opencl_device *)device;
-    for (int i = 0; opencl->programs && i < kernel_count(); i++)
+    opencl_bins_destroy(opencl);
+    for (int i = 0; opencl->programs && i < kernel_count() * OPENCL_VARIANTS; i++)
         if (opencl->programs[i])
             clReleaseProgram(opencl->programs[i]);
     free(opencl->programs);
@@ -199,7 +200,7 @@ static struct rg_device *opencl_create(int index)
         return rg_error_null("device 'opencl:%d': it is gone; %s", index, why);
     struct opencl_device *device = calloc(1, sizeof(*device));
     if (device)
-        device->programs = calloc((size_t)kernel_count(), sizeof(cl_program));
+        device->programs = calloc((size_t)kernel_count() * OPENCL_VARIANTS, sizeof(cl_program));
     if (!device || !device->programs) {
         free(device);
         return rg_error_null("device 'opencl:%d': no memory left", index);
@@ -217,6 +218,7 @@ static struct rg_device *opencl_create(int index)
 const struct rg_backend rg_backend_opencl = {
     .name = "opencl",
     .package = "pocl-opencl-icd",
+    .packed = true,
     .list = opencl_list,
     .create = opencl_create,
     .destroy = opencl_destroy,

@@ -48,6 +48,12 @@ static size_t locate(const struct rg_image *image, int layer, int level, size_t 
     return opencl->header[level] * sizeof(cl_uint) + (size_t)layer * *size;
 }
 
+int opencl_image_word(const struct rg_image *image, int layer, int level)
+{
+    size_t size;
+    return (int)(locate(image, layer, level, &size) / sizeof(cl_uint));
+}
+
 bool opencl_image_write(struct rg_image *image, int layer, int level, const void *texels)
 {
     size_t size, offset = locate(image, layer, level, &size);

@@ -9,6 +9,7 @@
 #include <CL/cl.h>
 
 #include "backends/backend.h"
+#include "kernels/bins.h"
 #include "kernels/image_memory.h"
 
 // Data on its way to the device: a copy that lives until the queue has ended.
@@ -24,10 +25,11 @@ struct opencl_device {
     cl_command_queue queue; // in order, with profiling
     int queued;             // commands since the queue was last known to have ended
     bool has_clock;
-    cl_program
-        *programs; // of the kernels built so far, by rg_kernel_index: PoCL takes 30 ms for one
+    // Of the kernels built so far, by rg_kernel_index and variant: PoCL takes 30 ms for one.
+    cl_program *programs;
     struct opencl_staged *staged;
     size_t staged_bytes;
+    struct opencl_bins *bins; // of DRAW passes; NULL before the first
 };
 
 // A run of words in device memory, what buffers and images have in common.
@@ -50,9 +52,15 @@ struct opencl_image {
     int words;                      // of the whole image
 };
 
+// A GRID kernel has one variant; a DRAW program one for each way to blend and to test depth, built
+// when first drawn with (draw.c).
+enum { OPENCL_VARIANTS = 4 * 3 * 3 };
+
 struct opencl_pass {
     struct rg_pass pub;
-    cl_kernel kernel;
+    struct opencl_device *device;
+    const struct rg_kernel *info;
+    cl_kernel variants[OPENCL_VARIANTS];
 };
 
 // error.c: an error code by its name in cl.h, "CL_INVALID_VALUE"; "error -9999" for others.
@@ -82,11 +90,46 @@ void opencl_image_destroy(struct rg_image *image);
 bool opencl_image_write(struct rg_image *image, int layer, int level, const void *texels);
 bool opencl_image_read(struct rg_image *image, int layer, int level, void *texels);
 bool opencl_image_clear(struct rg_image *image, const void *texel);
+// The word of the image's memory at which a layer of a level begins.
+int opencl_image_word(const struct rg_image *image, int layer, int level);
 
 // pass.c
 struct rg_pass *opencl_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
 void opencl_pass_destroy(struct rg_pass *pass);
 bool opencl_pass_run(struct rg_pass *pass, const struct rg_run *run);
+// Builds a program with -D options (" -DX=1"); NULL and one logged line that names it on failure.
+cl_program opencl_build(struct opencl_device *device, const struct rg_kernel_code *text,
+                        const char *defines, const char *name);
+// A pass's kernel in a variant, built with `defines` at the first call; NULL and one logged line.
+cl_kernel opencl_kernel_of(struct opencl_pass *pass, int variant, const char *entry,
+                           const char *defines);
+// Sets what a kernel's slots are bound to, from argument `next` on: a buffer and its element count,
+// and an image's shape.
+cl_int opencl_set_slots(cl_kernel kernel, cl_uint next, const struct rg_kernel *info,
+                        const struct rg_run *run);
+
+// bins.c: sorts a draw's packed primitives into tiles (kernels/bins.h). Scratch of a device.
+struct opencl_bins {
+    struct opencl_device *device;
+    cl_program program;
+    cl_kernel walk, scan;
+    struct opencl_memory places, list, round;
+    size_t places_bytes, list_bytes;
+    rg_bins shape;   // of the draw at hand
+    int tried_prims; // primitives that the next round is tried with
+};
+
+struct opencl_bins *opencl_bins_of(struct opencl_device *device); // made at the first call
+void opencl_bins_destroy(struct opencl_device *device);
+// Begins a draw: lays tiles over its scissor.
+bool opencl_bins_begin(struct opencl_bins *bins, const struct rg_kernel *kernel,
+                       const struct rg_run *run);
+// Sorts the primitives from shape.first_prim on, as many as the list has memory for, and says in
+// shape.end_prim where it stopped. *more: there may be others behind them.
+bool opencl_bins_sort(struct opencl_bins *bins, const struct rg_run *run, bool *more);
+
+// draw.c
+bool opencl_draw(struct rg_pass *pass, const struct rg_run *run);
 
 // time.c
 bool opencl_sync(struct rg_device *device);

@@ -11,9 +11,9 @@ struct rg_buf *vk_buf_create(struct rg_device *device, size_t size, const char *
     struct vk_buf *buf = rg_alloc(1, sizeof(*buf), name);
     if (!buf)
         return NULL;
-    const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                     VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkBufferUsageFlags usage =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     bool created = vk_block_create(vk, size, usage, VK_USE_DEVICE, name, &buf->block);
     if (created && vk_healthy(vk))
         return &buf->pub;

@@ -48,8 +48,8 @@ static bool choose_physical(struct vk_device *device, int index)
     device->max_allocation_bytes = allocation.maxMemoryAllocationSize;
     vkGetPhysicalDeviceMemoryProperties(device->physical, &device->memory);
     device->direct = vk_memory_is_direct(&device->memory);
-    uint32_t bits;
-    vk_compute_family(device->physical, &device->family, &bits);
+    vk_queue_family(device->physical, &device->family);
+    const uint32_t bits = device->family.timestamp_bits;
     device->ticks_mask = bits == 0 ? 0 : UINT64_MAX >> (64 - bits);
     return true;
 }
@@ -59,19 +59,25 @@ static bool create_logical(struct vk_device *device)
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue = {
         .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
-        .queueFamilyIndex = device->family,
+        .queueFamilyIndex = device->family.index,
         .queueCount = 1,
         .pQueuePriorities = &priority,
     };
+    VkPhysicalDeviceFeatures able;
+    vkGetPhysicalDeviceFeatures(device->physical, &able);
+    device->counts_samples = able.fragmentStoresAndAtomics;
+    const VkPhysicalDeviceFeatures wanted = {.fragmentStoresAndAtomics =
+                                                 able.fragmentStoresAndAtomics};
     const VkDeviceCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
         .queueCreateInfoCount = 1,
         .pQueueCreateInfos = &queue,
+        .pEnabledFeatures = &wanted,
     };
     if (!vk_try("device", device->pub.info.name, vkCreateDevice, device->physical, &info, NULL,
                 &device->handle))
         return false;
-    vkGetDeviceQueue(device->handle, device->family, 0, &device->queue);
+    vkGetDeviceQueue(device->handle, device->family.index, 0, &device->queue);
     if (device->instance.messenger)
         device->set_name = (PFN_vkSetDebugUtilsObjectNameEXT)vkGetInstanceProcAddr(
             device->instance.handle, "vkSetDebugUtilsObjectNameEXT");
@@ -108,6 +114,7 @@ static void vk_destroy(struct rg_device *device)
     struct vk_device *vk = (struct vk_device *)device;
     if (vk->handle) {
         vkDeviceWaitIdle(vk->handle);
+        vk_draw_close(vk);
         vk_batches_destroy(vk);
         vkDestroyQueryPool(vk->handle, vk->queries, NULL);
         vkDestroySampler(vk->handle, vk->sampler, NULL);
@@ -138,6 +145,7 @@ static struct rg_device *vk_create(int index)
 const struct rg_backend rg_backend_vulkan = {
     .name = "vulkan",
     .package = "mesa-vulkan-drivers",
+    .packed = true,
     .list = vk_list,
     .create = vk_create,
     .destroy = vk_destroy,

@@ -13,14 +13,39 @@ static const VkFormat formats[RG_FORMAT_COUNT] = {
     [RG_RGBA32F] = VK_FORMAT_R32G32B32A32_SFLOAT,
     [RG_R32F] = VK_FORMAT_R32_SFLOAT,
     [RG_RG11B10F] = VK_FORMAT_B10G11R11_UFLOAT_PACK32,
+    [RG_D32F] = VK_FORMAT_D32_SFLOAT,
 };
+
+VkFormat vk_format(enum rg_format format)
+{
+    return formats[format];
+}
+
+VkImageAspectFlags vk_aspect(enum rg_format format)
+{
+    return format == RG_D32F ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
+// All that this backend may do with images of the format.
+static VkImageUsageFlags usage(const struct vk_device *device, enum rg_format format)
+{
+    VkFormatProperties properties;
+    vkGetPhysicalDeviceFormatProperties(device->physical, formats[format], &properties);
+    const VkFormatFeatureFlags able = properties.optimalTilingFeatures;
+    VkImageUsageFlags flags = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                              VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    if (able & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT)
+        flags |= VK_IMAGE_USAGE_STORAGE_BIT;
+    if (able & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT)
+        flags |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    if (able & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT)
+        flags |= VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+    return flags;
+}
 
 static VkImageCreateInfo image_info(const struct vk_device *device,
                                     const struct rg_image_desc *desc)
 {
-    VkFormatProperties format;
-    vkGetPhysicalDeviceFormatProperties(device->physical, formats[desc->format], &format);
-    bool storage = format.optimalTilingFeatures & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
     return (VkImageCreateInfo){
         .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
         .imageType = VK_IMAGE_TYPE_2D,
@@ -30,8 +55,7 @@ static VkImageCreateInfo image_info(const struct vk_device *device,
         .arrayLayers = (uint32_t)desc->layers,
         .samples = VK_SAMPLE_COUNT_1_BIT,
         .tiling = VK_IMAGE_TILING_OPTIMAL,
-        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                 VK_IMAGE_USAGE_TRANSFER_DST_BIT | (storage ? VK_IMAGE_USAGE_STORAGE_BIT : 0),
+        .usage = usage(device, desc->format),
         .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
         .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
     };
@@ -42,6 +66,9 @@ static bool check_supported(const struct vk_device *device, const VkImageCreateI
                             const struct rg_image_desc *desc, const char *name)
 {
     VkImageFormatProperties most;
+    if (desc->format == RG_D32F && !device->family.draws)
+        return rg_error("image '%s': %s has no queue that draws, and so no images of depth", name,
+                        device->pub.info.name);
     if (!vk_try("image", name, vkGetPhysicalDeviceImageFormatProperties, device->physical,
                 info->format, info->imageType, info->tiling, info->usage, info->flags, &most))
         return false;
@@ -60,15 +87,15 @@ static bool check_supported(const struct vk_device *device, const VkImageCreateI
 }
 
 static bool create_view(struct vk_device *device, const struct vk_image *image,
-                        const VkImageCreateInfo *info, uint32_t levels, const char *name,
-                        VkImageView *view)
+                        const VkImageCreateInfo *info, uint32_t levels, VkImageAspectFlags aspect,
+                        const char *name, VkImageView *view)
 {
     const VkImageViewCreateInfo view_info = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
         .image = image->handle,
         .viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY,
         .format = info->format,
-        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, levels, 0, info->arrayLayers},
+        .subresourceRange = {aspect, 0, levels, 0, info->arrayLayers},
     };
     return vk_try("image", name, vkCreateImageView, device->handle, &view_info, NULL, view);
 }
@@ -83,7 +110,8 @@ static bool create_memory(struct vk_device *device, struct vk_image *image, cons
 }
 
 // Images stay in the general layout, which everything may read and write.
-static bool make_general(struct vk_device *device, const struct vk_image *image)
+static bool make_general(struct vk_device *device, const struct vk_image *image,
+                         VkImageAspectFlags aspect)
 {
     struct vk_batch *batch = vk_record(device);
     if (!batch)
@@ -96,8 +124,7 @@ static bool make_general(struct vk_device *device, const struct vk_image *image)
         .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .image = image->handle,
-        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
-                             VK_REMAINING_ARRAY_LAYERS},
+        .subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS},
     };
     vkCmdPipelineBarrier(batch->commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT,
                          VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT, 0,
@@ -113,15 +140,17 @@ static bool create(struct vk_device *device, struct vk_image *image,
         !vk_try("image", name, vkCreateImage, device->handle, &info, NULL, &image->handle))
         return false;
     vk_name(device, VK_OBJECT_TYPE_IMAGE, VK_HANDLE(image->handle), name);
+    const VkImageAspectFlags aspect = vk_aspect(desc->format);
     bool storage = info.usage & VK_IMAGE_USAGE_STORAGE_BIT;
     return create_memory(device, image, name) &&
-           create_view(device, image, &info, info.mipLevels, name, &image->sampled) &&
-           (!storage || create_view(device, image, &info, 1, name, &image->stored)) &&
-           make_general(device, image);
+           create_view(device, image, &info, info.mipLevels, aspect, name, &image->sampled) &&
+           (!storage || create_view(device, image, &info, 1, aspect, name, &image->stored)) &&
+           make_general(device, image, aspect);
 }
 
 static void destroy(struct vk_device *device, struct vk_image *image)
 {
+    vk_target_forget(device, image);
     vkDestroyImageView(device->handle, image->stored, NULL);
     vkDestroyImageView(device->handle, image->sampled, NULL);
     vkDestroyImage(device->handle, image->handle, NULL);

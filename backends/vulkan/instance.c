@@ -22,8 +22,8 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL complain(VkDebugUtilsMessageSeverityFlagBi
     return VK_FALSE;
 }
 
-// Validation alone: what the loader says of absent drivers is not about us, and the general layout is
-// our choice, whatever the performance hints say.
+// Validation alone: what the loader says of absent drivers is not about us, and the general layout
+// is our choice, whatever the performance hints say.
 static VkDebugUtilsMessengerCreateInfoEXT messenger_info(struct vk_instance *instance)
 {
     return (VkDebugUtilsMessengerCreateInfoEXT){
@@ -127,16 +127,19 @@ void vk_instance_close(struct vk_instance *instance)
         vkDestroyInstance(instance->handle, NULL);
 }
 
-bool vk_compute_family(VkPhysicalDevice device, uint32_t *family, uint32_t *timestamp_bits)
+bool vk_queue_family(VkPhysicalDevice device, struct vk_family *family)
 {
+    static const VkQueueFlags wishes[] = {VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT,
+                                          VK_QUEUE_COMPUTE_BIT};
     VkQueueFamilyProperties families[32];
     uint32_t count = 32;
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families);
-    for (uint32_t i = 0; i < count; i++) {
-        if (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) {
-            *family = i;
-            *timestamp_bits = families[i].timestampValidBits;
-            return true;
+    for (int wish = 0; wish < 2; wish++) {
+        for (uint32_t i = 0; i < count; i++) {
+            if ((families[i].queueFlags & wishes[wish]) == wishes[wish]) {
+                *family = (struct vk_family){i, families[i].timestampValidBits, wish == 0};
+                return true;
+            }
         }
     }
     return false;
@@ -144,9 +147,8 @@ bool vk_compute_family(VkPhysicalDevice device, uint32_t *family, uint32_t *time
 
 static bool is_usable(VkPhysicalDevice device, const VkPhysicalDeviceProperties *properties)
 {
-    uint32_t family, bits;
-    return properties->apiVersion >= VK_API_VERSION_1_2 &&
-           vk_compute_family(device, &family, &bits);
+    struct vk_family family;
+    return properties->apiVersion >= VK_API_VERSION_1_2 && vk_queue_family(device, &family);
 }
 
 int vk_physical_devices(const struct vk_instance *instance, VkPhysicalDevice *devices, int max,

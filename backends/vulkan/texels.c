@@ -13,11 +13,12 @@ struct band {
     int y, rows;
 };
 
-static VkBufferImageCopy copy_of(const struct band *band, VkDeviceSize offset)
+static VkBufferImageCopy copy_of(const struct rg_image *image, const struct band *band,
+                                 VkDeviceSize offset)
 {
     return (VkBufferImageCopy){
         .bufferOffset = offset,
-        .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, (uint32_t)band->level,
+        .imageSubresource = {vk_aspect(image->desc.format), (uint32_t)band->level,
                              (uint32_t)band->layer, 1},
         .imageOffset = {0, band->y, 0},
         .imageExtent = {(uint32_t)band->width, (uint32_t)band->rows, 1},
@@ -57,7 +58,7 @@ static bool write_band(struct rg_image *image, const struct band *band, const ch
     if (!batch)
         return false;
     memcpy(staged, texels, size);
-    const VkBufferImageCopy copy = copy_of(band, offset);
+    const VkBufferImageCopy copy = copy_of(image, band, offset);
     vk_barrier(batch);
     vkCmdCopyBufferToImage(batch->commands, batch->staging.buffer,
                            ((struct vk_image *)image)->handle, VK_IMAGE_LAYOUT_GENERAL, 1, &copy);
@@ -73,7 +74,7 @@ static bool read_band(struct rg_image *image, const struct band *band, char *tex
     struct vk_batch *batch = vk_record_staged(device, size, &offset, &staged);
     if (!batch)
         return false;
-    const VkBufferImageCopy copy = copy_of(band, offset);
+    const VkBufferImageCopy copy = copy_of(image, band, offset);
     vk_barrier(batch);
     vkCmdCopyImageToBuffer(batch->commands, ((struct vk_image *)image)->handle,
                            VK_IMAGE_LAYOUT_GENERAL, batch->staging.buffer, 1, &copy);
@@ -125,6 +126,7 @@ static rgba unpack(enum rg_format format, const void *texel)
     case RG_RGBA32F:
         return rg_load_RGBA32F(words, 0);
     case RG_R32F:
+    case RG_D32F:
         return rg_load_R32F(words, 0);
     default:
         return rg_load_RG11B10F(words, 0);
@@ -139,6 +141,20 @@ static bool is_plain(float v)
     float magnitude = rg_abs(v);
     return rg_float_bits(v) == 0 ||
            (magnitude >= smallest_normal_half && magnitude < above_largest_half);
+}
+
+static bool clear_by_depth(struct vk_device *device, struct vk_image *image, float depth)
+{
+    struct vk_batch *batch = vk_record(device);
+    if (!batch)
+        return false;
+    const VkClearDepthStencilValue value = {.depth = depth};
+    const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
+                                         VK_REMAINING_ARRAY_LAYERS};
+    vk_barrier(batch);
+    vkCmdClearDepthStencilImage(batch->commands, image->handle, VK_IMAGE_LAYOUT_GENERAL, &value, 1,
+                                &all);
+    return true;
 }
 
 static bool clear_by_colour(struct vk_device *device, struct vk_image *image, rgba c)
@@ -172,7 +188,7 @@ static bool clear_by_copies(struct vk_device *device, struct rg_image *image, co
         for (int level = 0; level < image->desc.levels; level++) {
             struct band band = {.layer = layer, .level = level};
             while ((band = next_band(image, &band, band_size)).rows) {
-                const VkBufferImageCopy copy = copy_of(&band, offset);
+                const VkBufferImageCopy copy = copy_of(image, &band, offset);
                 vkCmdCopyBufferToImage(batch->commands, batch->staging.buffer,
                                        ((struct vk_image *)image)->handle, VK_IMAGE_LAYOUT_GENERAL,
                                        1, &copy);
@@ -185,9 +201,15 @@ static bool clear_by_copies(struct vk_device *device, struct rg_image *image, co
 bool vk_image_clear(struct rg_image *image, const void *texel)
 {
     struct vk_device *device = (struct vk_device *)image->device;
-    rgba c = unpack(image->desc.format, texel);
-    bool cleared = is_plain(c.r) && is_plain(c.g) && is_plain(c.b) && is_plain(c.a)
-                       ? clear_by_colour(device, (struct vk_image *)image, c)
-                       : clear_by_copies(device, image, texel);
+    struct vk_image *vk = (struct vk_image *)image;
+    const rgba c = unpack(image->desc.format, texel);
+    const bool plain = is_plain(c.r) && is_plain(c.g) && is_plain(c.b) && is_plain(c.a);
+    bool cleared;
+    if (image->desc.format == RG_D32F && plain && c.r >= 0.0f && c.r <= 1.0f)
+        cleared = clear_by_depth(device, vk, c.r);
+    else if (image->desc.format != RG_D32F && plain)
+        cleared = clear_by_colour(device, vk, c);
+    else
+        cleared = clear_by_copies(device, image, texel);
     return vk_healthy(device) && cleared;
 }

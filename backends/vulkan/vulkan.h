@@ -1,4 +1,4 @@
-// The vulkan backend: Vulkan 1.2 through the loader, compute only.
+// The vulkan backend: Vulkan 1.2 through the loader, without a window.
 //
 // Commands are recorded into batches, handed over when one is full or when somebody waits, so that
 // the driver runs one while the next is recorded. Everything that a batch needs for a while (its
@@ -49,6 +49,19 @@ struct vk_instance {
     int complaints, complaints_told; // those that made a call of ours return false
 };
 
+// The queues to work on.
+struct vk_family {
+    uint32_t index;
+    uint32_t timestamp_bits; // valid ones; 0: there are no timestamps
+    bool draws;
+};
+
+// How a render pass is told apart: enum rg_format of the colour or RG_FORMAT_NONE, and whether
+// depth is attached.
+enum { VK_COLOURS = RG_RGBA32F + 1, VK_DEPTHS = 2 };
+
+struct vk_framebuffer;
+
 struct vk_device {
     struct rg_device pub;
     struct vk_instance instance;
@@ -60,15 +73,20 @@ struct vk_device {
     bool direct;          // the host reads and writes device memory at full speed
     VkDevice handle;
     VkQueue queue;
-    uint32_t family;
+    struct vk_family family;
+    bool counts_samples; // fragments may add to buffers
     VkSampler sampler;
     VkQueryPool queries; // one timestamp
     uint64_t ticks_mask; // the valid bits of a timestamp; 0: there are none
     uint64_t ticks_last, ticks_total;
     struct vk_batch batches[VK_BATCHES];
     int current;
-    uint64_t serial; // of the batch being recorded; each has its own
-    VkPipeline bound;
+    uint64_t serial;  // of the batch being recorded; each has its own
+    VkPipeline bound; // to compute
+    VkRenderPass render_passes[VK_COLOURS][VK_DEPTHS]; // made when first drawn with
+    struct vk_framebuffer *framebuffers;               // likewise; a list
+    struct rg_buf *no_samples; // what draws that count nothing bind; from the first DRAW pass on
+    struct rg_image *no_depth;
     PFN_vkSetDebugUtilsObjectNameEXT set_name; // NULL without the validation layer
 };
 
@@ -83,6 +101,7 @@ struct vk_image {
     struct vk_memory memory;
     VkImageView sampled; // every level
     VkImageView stored;  // level 0; none for a format that cannot be stored to
+    VkImageView *places; // of one layer of one level each, made when first drawn to; NULL: none yet
 };
 
 union vk_descriptor {
@@ -90,17 +109,28 @@ union vk_descriptor {
     VkDescriptorImageInfo image;
 };
 
+// What a DRAW program's pass has: its shaders, and a pipeline for each way to draw, made when first
+// used.
+struct vk_drawing {
+    VkShaderModule vertex, fragment;
+    VkPipeline pipelines[VK_COLOURS][RG_BLEND_ADD + 1][RG_DEPTH_WRITE + 1];
+};
+
 struct vk_pass {
     struct rg_pass pub;
+    struct rg_slot_info slots[RG_MAX_SLOTS]; // the kernel's, then those of the stages that draw
+    int slot_count;
     VkDescriptorSetLayout set_layout;
     VkPipelineLayout layout;
-    VkPipeline pipeline;
     VkDescriptorUpdateTemplate update; // from union vk_descriptor[RG_MAX_SLOTS]
-    VkDeviceSize run_bytes;            // of the uniform block
+    VkPipeline pipeline;               // of a GRID kernel
+    struct vk_drawing *drawing;        // of a DRAW program
+    size_t params_bytes;
+    VkDeviceSize run_bytes; // of the uniform block
     // The last set, good for another run in the same batch with the same objects bound.
     VkDescriptorSet set;
     uint64_t set_serial;
-    struct rg_binding bound[RG_MAX_SLOTS];
+    union vk_descriptor bound[RG_MAX_SLOTS];
 };
 
 // instance.c
@@ -111,8 +141,8 @@ void vk_instance_close(struct vk_instance *instance);
 // in `why` the reason when it is 0.
 int vk_physical_devices(const struct vk_instance *instance, VkPhysicalDevice *devices, int max,
                         char *why, size_t why_size);
-// The family to compute on, and a timestamp's valid bits there. False: there is none.
-bool vk_compute_family(VkPhysicalDevice device, uint32_t *family, uint32_t *timestamp_bits);
+// The first family that computes and draws, else the first that computes. False: there is none.
+bool vk_queue_family(VkPhysicalDevice device, struct vk_family *family);
 void vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info);
 
 // error.c
@@ -153,8 +183,11 @@ bool vk_submit(struct vk_device *device);
 // Hands the commands over and waits until all have ended.
 bool vk_wait(struct vk_device *device);
 bool vk_is_idle(const struct vk_device *device);
-// What is recorded next sees what was recorded before.
+// What is recorded next, draws apart, sees what was recorded before.
 void vk_barrier(const struct vk_batch *batch);
+// The same about a draw: it sees what came before, and whatever follows sees what it drew.
+void vk_barrier_before_draw(const struct vk_batch *batch);
+void vk_barrier_after_draw(const struct vk_batch *batch);
 
 // buf.c
 struct rg_buf *vk_buf_create(struct rg_device *device, size_t size, const char *name);
@@ -163,6 +196,8 @@ bool vk_buf_write(struct rg_buf *buf, size_t offset, const void *data, size_t si
 bool vk_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size);
 
 // image.c
+VkFormat vk_format(enum rg_format format);
+VkImageAspectFlags vk_aspect(enum rg_format format);
 struct rg_image *vk_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                  const char *name);
 void vk_image_destroy(struct rg_image *image);
@@ -172,10 +207,56 @@ bool vk_image_write(struct rg_image *image, int layer, int level, const void *te
 bool vk_image_read(struct rg_image *image, int layer, int level, void *texels);
 bool vk_image_clear(struct rg_image *image, const void *texel);
 
+// slots.c
+// The layouts of pass->slots.
+bool vk_slots_create(struct vk_device *device, struct vk_pass *pass,
+                     const struct rg_kernel *kernel);
+void vk_slots_destroy(struct vk_device *device, struct vk_pass *pass);
+// What the kernel's own slots are bound to; the other descriptors are zero.
+void vk_slots_fill(const struct vk_device *device, const struct rg_kernel *kernel,
+                   const struct rg_run *run, union vk_descriptor descriptors[RG_MAX_SLOTS]);
+void vk_slot_buffer(union vk_descriptor *descriptor, const struct rg_buf *buf);
+void vk_slot_image(union vk_descriptor *descriptor, const struct vk_device *device,
+                   VkImageView view);
+// Makes pass->set a descriptor set of these.
+bool vk_slots_bind(struct vk_device *device, struct vk_batch *batch, struct vk_pass *pass,
+                   union vk_descriptor descriptors[RG_MAX_SLOTS]);
+
 // pass.c
 struct rg_pass *vk_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
 void vk_pass_destroy(struct rg_pass *pass);
 bool vk_pass_run(struct rg_pass *pass, const struct rg_run *run);
+bool vk_module_create(struct vk_device *device, const struct rg_kernel *kernel,
+                      enum rg_code_kind kind, VkShaderModule *module);
+
+// draw.c
+// Adds to pass->slots those of the stages that draw.
+void vk_draw_slots(struct vk_pass *pass);
+bool vk_draw_create(struct vk_device *device, const struct rg_kernel *kernel, struct vk_pass *pass);
+void vk_draw_destroy(struct vk_device *device, struct vk_pass *pass);
+// What the stages' slots are bound to. False: the driver failed.
+bool vk_draw_fill(struct vk_device *device, const struct rg_run *run,
+                  union vk_descriptor descriptors[RG_MAX_SLOTS]);
+// Records the draw, with pass->set.
+bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_pass *pass,
+             const struct rg_run *run, uint32_t params_offset);
+void vk_draw_close(struct vk_device *device); // what all passes share, before the device closes
+
+// target.c
+// What a run draws to: colour, or RG_FORMAT_NONE, and whether depth is attached.
+struct vk_target {
+    enum rg_format colour;
+    bool depth;
+};
+struct vk_target vk_target_of(const struct rg_draw *draw);
+// A view of one layer of one level; VK_NULL_HANDLE where the driver failed. The image keeps it.
+VkImageView vk_place(struct vk_device *device, struct rg_image *image, int layer, int level);
+// Both are kept by the device; VK_NULL_HANDLE where the driver failed.
+VkRenderPass vk_render_pass(struct vk_device *device, struct vk_target target, const char *name);
+VkFramebuffer vk_framebuffer(struct vk_device *device, const struct rg_draw *draw);
+// Destroys the views and framebuffers of an image.
+void vk_target_forget(struct vk_device *device, struct vk_image *image);
+void vk_targets_close(struct vk_device *device);
 
 // time.c
 bool vk_sync(struct rg_device *device);

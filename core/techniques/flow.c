@@ -1,176 +1,16 @@
-// flow: water on a mirror pane as a cellular automaton on a height map. Stuppacher & Supan,
-// "Rendering of Water Drops in Real-Time" (2007). This file holds the order of the passes; formulas
-// are in kernels/flow*.h, what the host computes in flow_model.c, and docs/flow.md explains.
-#include "core/techniques/flow.h"
+// flow: water on panes of glass or mirror as a cellular automaton on height maps. Stuppacher &
+// Supan, "Rendering of Water Drops in Real-Time" (2007). This file holds the order of the passes;
+// formulas are in kernels/flow*.h, what the host computes in flow_model.c and flow_view.c, and
+// docs/flow.md explains.
+#include "core/techniques/flow_instance.h"
+#include "kernels/flow_glow_params.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/alloc.h"
-#include "core/log.h"
-#include "core/scene/environment.h"
-#include "core/techniques/technique.h"
-#include "kernels/normal_map.h"
-
-enum flow_pass { SPLAT, GIVEN, DRAIN, MOVE, BLUR, NORMALS, LIGHT, PASS_COUNT };
-
-static const char *const kernels[PASS_COUNT] = {
-    "flow_splat", "flow_given",   "flow_drain", "flow_move",
-    "flow_blur",  "flow_normals", "flow_light",
-};
-
-enum flow_counter { DROPS, TEXELS, PIXELS, COUNTER_COUNT };
-
-static const char *const counter_names[COUNTER_COUNT] = {"drops_landed", "texels_moved",
-                                                         "pixels_lit"};
-
-struct flow {
-    struct rg_instance base;
-    struct flow_settings settings;
-    int noise_size;
-    struct rg_pass *passes[PASS_COUNT];
-    struct rg_buf *water, *moved; // of this frame, and scratch for the next
-    struct rg_buf *given, *ledger, *remainder, *noise, *blurred, *normals;
-    struct rg_image *environment;
-};
-
-static void flow_destroy(struct rg_instance *instance)
+static bool run(struct flow *flow, enum flow_pass pass, struct rg_run run)
 {
-    struct flow *flow = (struct flow *)instance;
-    for (int i = 0; i < PASS_COUNT; i++)
-        rg_pass_destroy(flow->passes[i]);
-    rg_buf_destroy(flow->water);
-    rg_buf_destroy(flow->moved);
-    rg_buf_destroy(flow->given);
-    rg_buf_destroy(flow->ledger);
-    rg_buf_destroy(flow->remainder);
-    rg_buf_destroy(flow->noise);
-    rg_buf_destroy(flow->blurred);
-    rg_buf_destroy(flow->normals);
-    rg_image_destroy(flow->environment);
-    rg_image_destroy(flow->base.target);
-    free(flow);
+    return rg_instance_run(&flow->base, flow->passes[pass], &run);
 }
 
-// --- opening ---
-
-static bool create_passes(struct flow *flow)
-{
-    for (int i = 0; i < PASS_COUNT; i++)
-        if (!(flow->passes[i] = rg_pass_create(flow->base.device, kernels[i])))
-            return false;
-    return true;
-}
-
-// A buffer of 4-byte elements with these contents; zeroes where `data` is NULL.
-static struct rg_buf *create_filled(struct rg_device *device, int64_t count, const void *data,
-                                    const char *name)
-{
-    void *zeroes = data ? NULL : rg_alloc((size_t)count, 4, name);
-    const void *contents = data ? data : zeroes;
-    struct rg_buf *buf = contents ? rg_buf_create(device, count * 4, name) : NULL;
-    if (buf && !rg_buf_write(buf, 0, contents, count * 4)) {
-        rg_buf_destroy(buf);
-        buf = NULL;
-    }
-    free(zeroes);
-    return buf;
-}
-
-static bool create_map(struct rg_device *device, float *values, int64_t count, const char *name,
-                       struct rg_buf **buf)
-{
-    *buf = values ? create_filled(device, count, values, name) : NULL;
-    free(values);
-    return *buf != NULL;
-}
-
-// The normal map's margin is never written, and reads as flat and dry.
-static bool create_normals(struct flow *flow, int64_t texels)
-{
-    uint32_t *flat = rg_alloc((size_t)texels, sizeof(*flat), "normal map");
-    if (!flat)
-        return false;
-    for (int64_t i = 0; i < texels; i++)
-        flat[i] = wet_normal_pack(0, 0, 0);
-    flow->normals = create_filled(flow->base.device, texels, flat, "normal map");
-    free(flat);
-    return flow->normals;
-}
-
-static bool create_buffers(struct flow *flow)
-{
-    struct rg_device *device = flow->base.device;
-    const int64_t texels = flow_map_length(flow->settings.resolution_px);
-    return (flow->water = create_filled(device, texels, NULL, "water")) &&
-           (flow->moved = create_filled(device, texels, NULL, "moved water")) &&
-           (flow->given = create_filled(device, texels, NULL, "given water")) &&
-           (flow->blurred = create_filled(device, texels, NULL, "blurred water")) &&
-           create_normals(flow, texels) &&
-           (flow->ledger = create_filled(device, FLOW_LEDGER_WORDS, NULL, "ledger"));
-}
-
-static bool create_maps(struct flow *flow)
-{
-    float *remainder = flow_remainder_map(&flow->settings);
-    float *noise = flow_noise_map(&flow->settings, &flow->noise_size);
-    const int64_t noise_texels = (int64_t)flow->noise_size * flow->noise_size;
-    bool ok = create_map(flow->base.device, remainder, FLOW_REMAINDER_ENTRIES, "remainder map",
-                         &flow->remainder);
-    return create_map(flow->base.device, noise, noise_texels, "noise map", &flow->noise) && ok;
-}
-
-static bool create_images(struct flow *flow, int width, int height)
-{
-    struct rg_environment *environment = rg_environment_load(flow->settings.environment);
-    if (!environment)
-        return false;
-    flow->environment =
-        rg_environment_upload(environment, flow->settings.environment_px,
-                              flow_reflection_level(&flow->settings) + 1, flow->base.device);
-    rg_environment_destroy(environment);
-    flow->base.target = rg_image_create(
-        flow->base.device, &(struct rg_image_desc){RG_RGBA16F, width, height, 1, 1}, "target");
-    return flow->environment && flow->base.target;
-}
-
-static void show_state(struct flow *flow)
-{
-    flow->base.state_count = FLOW_STATE_COUNT;
-    flow->base.state[FLOW_STATE_WATER] = (struct rg_state){
-        .name = "water",
-        .buf = flow->water,
-        .is_float = true,
-        .row = flow->settings.resolution_px + 2 * FLOW_MARGIN,
-        .margin = FLOW_MARGIN,
-    };
-    flow->base.state[FLOW_STATE_LEDGER] = (struct rg_state){.name = "ledger", .buf = flow->ledger};
-}
-
-static bool land(struct flow *flow, int64_t frame, int count);
-
-static struct rg_instance *flow_create(struct rg_device *device, const void *settings, int width,
-                                       int height)
-{
-    struct flow *flow = rg_alloc(1, sizeof(*flow), "flow");
-    if (!flow)
-        return NULL;
-    flow->base.technique = rg_technique_find("flow");
-    flow->base.device = device;
-    flow->settings = *(const struct flow_settings *)settings;
-    flow->base.counter_count = COUNTER_COUNT;
-    for (int i = 0; i < COUNTER_COUNT; i++)
-        flow->base.counters[i].name = counter_names[i];
-    if (!create_passes(flow) || !create_buffers(flow) || !create_maps(flow) ||
-        !create_images(flow, width, height) || !land(flow, -1, flow->settings.drops)) {
-        flow_destroy(&flow->base);
-        return NULL;
-    }
-    show_state(flow);
-    return &flow->base;
-}
-
-// --- a frame ---
+// --- a step ---
 
 static int clamp(double value, int low, int high)
 {
@@ -187,104 +27,253 @@ static bool land_drop(struct flow *flow, const flow_splat_params *drop)
     const int y1 = clamp((double)drop->centre_y + reach, 0, drop->size);
     if (x0 >= x1 || y0 >= y1)
         return true;
-    flow->base.counters[DROPS].value++;
-    return rg_instance_run(&flow->base, flow->passes[SPLAT],
-                           &(struct rg_run){
-                               .params = drop,
+    flow->base.counters[FLOW_DROPS].value++;
+    return run(flow, FLOW_SPLAT,
+               (struct rg_run){.params = drop,
                                .slots = {[1].buf = flow->water, [2].buf = flow->ledger},
                                .origin = {x0, y0, 0},
-                               .extent = {x1 - x0, y1 - y0, 1},
-                           });
+                               .extent = {x1 - x0, y1 - y0, 1}});
 }
 
-static bool land(struct flow *flow, int64_t frame, int count)
+bool flow_land(struct flow *flow, int64_t frame, int count)
 {
-    for (int i = 0; i < count; i++) {
-        flow_splat_params drop = flow_drop(&flow->settings, frame, i);
-        if (!land_drop(flow, &drop))
-            return false;
+    for (int pane = 0; pane < flow->pane_count; pane++) {
+        for (int i = 0; i < count; i++) {
+            flow_splat_params drop = flow_drop(&flow->settings, pane, frame, i);
+            if (!land_drop(flow, &drop))
+                return false;
+        }
     }
     return true;
 }
 
-static bool run(struct flow *flow, enum flow_pass pass, struct rg_run run)
+// How the panes stand at the present frame.
+static bool turn_panes(struct flow *flow)
 {
-    return rg_instance_run(&flow->base, flow->passes[pass], &run);
+    flow_pane panes[FLOW_MAX_PANES];
+    flow_panes_at(&flow->settings, flow->noise_size, flow->base.frame, panes);
+    return rg_buf_write(flow->panes, 0, panes, flow->pane_count * (int64_t)sizeof(flow_pane));
 }
 
-static bool move(struct flow *flow)
+// What leaves each texel, and what leaves each pane.
+static bool give(struct flow *flow, const flow_params *p)
 {
     const int n = flow->settings.resolution_px;
-    const struct rg_extent pane = {n, n, 1};
-    const flow_params p = flow_params_at(&flow->settings, flow->noise_size, flow->base.frame);
-    bool ok =
-        run(flow, GIVEN,
-            (struct rg_run){.params = &p,
-                            .slots = {[1].buf = flow->water,
-                                      [2].buf = flow->remainder,
-                                      [3].buf = flow->noise,
-                                      [4].buf = flow->given},
-                            .extent = pane}) &&
-        run(flow, DRAIN,
-            (struct rg_run){
-                .params = &p,
-                .slots = {[1].buf = flow->water, [2].buf = flow->given, [3].buf = flow->ledger},
-                .extent = {n, FLOW_DRAIN_SIDES, 1}}) &&
-        run(flow, MOVE,
-            (struct rg_run){
-                .params = &p,
-                .slots = {[1].buf = flow->water, [2].buf = flow->given, [3].buf = flow->moved},
-                .extent = pane});
-    struct rg_buf *moved = flow->moved;
-    flow->moved = flow->water;
-    flow->water = moved;
-    flow->base.counters[TEXELS].value += (int64_t)n * n;
-    return ok;
+    return run(flow, FLOW_GIVEN,
+               (struct rg_run){.params = p,
+                               .slots = {[1].buf = flow->water,
+                                         [2].buf = flow->remainder,
+                                         [3].buf = flow->noise,
+                                         [4].buf = flow->given,
+                                         [5].buf = flow->panes},
+                               .extent = {n, n, flow->pane_count}}) &&
+           run(flow, FLOW_DRAIN,
+               (struct rg_run){.params = p,
+                               .slots = {[1].buf = flow->water,
+                                         [2].buf = flow->given,
+                                         [3].buf = flow->ledger,
+                                         [4].buf = flow->panes,
+                                         [5].buf = flow->arriving},
+                               .extent = {n, FLOW_STRIPS, flow->pane_count}});
+}
+
+static bool take(struct flow *flow, const flow_params *p)
+{
+    const int n = flow->settings.resolution_px;
+    const struct rg_run moving = {.params = p,
+                                  .slots = {[1].buf = flow->water,
+                                            [2].buf = flow->given,
+                                            [3].buf = flow->moved,
+                                            [4].buf = flow->panes},
+                                  .extent = {n, n, flow->pane_count}};
+    return run(flow, FLOW_MOVE, moving) &&
+           (!flow->passes[FLOW_REACH] || run(flow, FLOW_REACH, moving)) &&
+           (!flow->passes[FLOW_ARRIVE] ||
+            run(flow, FLOW_ARRIVE,
+                (struct rg_run){.params = p,
+                                .slots = {[1].buf = flow->moved, [2].buf = flow->arriving},
+                                .extent = {n, FLOW_STRIPS, flow->pane_count}}));
 }
 
 static bool flow_step(struct rg_instance *instance)
 {
     struct flow *flow = (struct flow *)instance;
-    bool ok =
-        land(flow, instance->frame, flow_drops_at(&flow->settings, instance->frame)) && move(flow);
+    const int n = flow->settings.resolution_px;
+    const flow_params p = flow_params_at(&flow->settings, flow->noise_size, instance->frame);
+    const bool ok =
+        turn_panes(flow) &&
+        flow_land(flow, instance->frame, flow_drops_at(&flow->settings, instance->frame)) &&
+        give(flow, &p) && take(flow, &p);
+    struct rg_buf *moved = flow->moved;
+    flow->moved = flow->water;
+    flow->water = moved;
+    instance->counters[FLOW_TEXELS].value += (int64_t)flow->pane_count * n * n;
     instance->frame++;
-    show_state(flow);
+    flow_show_state(flow);
     return ok;
+}
+
+// --- drawing ---
+
+static bool draw_surface(struct flow *flow)
+{
+    const int n = flow->settings.resolution_px;
+    const flow_params p = flow_params_at(&flow->settings, flow->noise_size, flow->base.frame);
+    const flow_normals_params normals = flow_normals_params_of(&flow->settings);
+    const struct rg_extent maps = {n, n, flow->pane_count};
+    return run(flow, FLOW_BLUR,
+               (struct rg_run){.params = &p,
+                               .slots = {[1].buf = flow->water, [2].buf = flow->blurred},
+                               .extent = maps}) &&
+           run(flow, FLOW_NORMALS,
+               (struct rg_run){.params = &normals,
+                               .slots = {[1].buf = flow->blurred, [2].buf = flow->normals},
+                               .extent = maps});
+}
+
+static bool draw_model(struct flow *flow, const flow_view_params *view)
+{
+    flow_view_params model = *view;
+    flow_view_model(&flow->settings, flow->base.frame, flow->model_low, flow->model_high, &model);
+    flow->base.counters[FLOW_TRIANGLES].value += flow->model_faces;
+    const struct rg_draw onto = {.colour = flow->behind,
+                                 .depth = flow->depth,
+                                 .depth_mode = RG_DEPTH_WRITE,
+                                 .cull = RG_CULL_NONE};
+    return run(flow, FLOW_MODEL,
+               (struct rg_run){.params = &model,
+                               .slots = {[1].buf = flow->positions,
+                                         [2].buf = flow->model_normals,
+                                         [3].buf = flow->indices,
+                                         [4].image = flow->environment,
+                                         [5].buf = flow->panes,
+                                         [6].buf = flow->blurred},
+                               .extent = {flow->model_faces, 1, 1},
+                               .draw = &onto});
+}
+
+// The paper's first pass: all that does not refract, as a picture for those that do; and a copy of
+// it to draw the panes onto.
+static bool draw_behind(struct flow *flow, const flow_view_params *view)
+{
+    const struct rg_image_desc *target = &flow->base.target->desc;
+    const float farthest = 1;
+    return rg_image_clear(flow->depth, &farthest) &&
+           run(flow, FLOW_SKY,
+               (struct rg_run){.params = view,
+                               .slots = {[1].image = flow->environment},
+                               .extent = {1, 1, 1},
+                               .draw = &(struct rg_draw){.colour = flow->behind}}) &&
+           (!flow->passes[FLOW_MODEL] || draw_model(flow, view)) &&
+           run(flow, FLOW_COPY,
+               (struct rg_run){.params = view,
+                               .slots = {[1].image = flow->behind, [2].image = flow->base.target},
+                               .extent = {target->width, target->height, 1}});
+}
+
+// The panes whose front or back is seen.
+static bool draw_panes(struct flow *flow, const flow_view_params *view, enum rg_cull cull)
+{
+    const bool glass = flow->settings.panes == FLOW_GLASS;
+    const struct rg_draw onto = {.colour = flow->base.target,
+                                 .depth = flow->behind ? flow->depth : NULL,
+                                 .blend = glass ? RG_BLEND_OVER : RG_BLEND_OFF,
+                                 .depth_mode = flow->behind ? RG_DEPTH_TEST : RG_DEPTH_OFF,
+                                 .cull = cull};
+    return run(flow, FLOW_PANES,
+               (struct rg_run){.params = view,
+                               .slots = {[1].buf = flow->normals,
+                                         [2].image = flow->environment,
+                                         [3].buf = flow->panes,
+                                         [4].image = glass ? flow->behind : NULL},
+                               .extent = {flow->pane_count, 1, 1},
+                               .draw = &onto});
+}
+
+// The last pass: through glass the far panes first; of mirrors only those that face the viewer.
+static bool draw_final(struct flow *flow, const flow_view_params *view)
+{
+    const struct rg_image_desc *target = &flow->base.target->desc;
+    flow->base.counters[FLOW_PIXELS].value += (int64_t)target->width * target->height;
+    return (!flow->behind || draw_behind(flow, view)) &&
+           (flow->settings.panes == FLOW_MIRROR || draw_panes(flow, view, RG_CULL_FRONT)) &&
+           draw_panes(flow, view, RG_CULL_BACK);
+}
+
+static bool draw_stage(struct flow *flow, const flow_view_params *view)
+{
+    const uint32_t black[2] = {0, 0x3c000000}; // opaque
+    return rg_image_clear(flow->base.target, black) &&
+           run(flow, FLOW_SHOW_STAGE,
+               (struct rg_run){
+                   .params = view,
+                   .slots = {[1].buf = flow->normals,
+                             [2].buf = flow->water,
+                             [3].buf = flow->panes,
+                             [4].buf = flow->blurred},
+                   .extent = {flow->pane_count, 1, 1},
+                   .draw = &(struct rg_draw){.colour = flow->base.target, .cull = RG_CULL_BACK}});
+}
+
+static bool blur_glow(struct flow *flow, flow_glow_params p, int step_x, int step_y,
+                      struct rg_image *from, struct rg_image *to)
+{
+    p.step_x = step_x;
+    p.step_y = step_y;
+    p.last_x = from->desc.width - 1;
+    p.last_y = from->desc.height - 1;
+    return run(flow, FLOW_GLOW_BLUR,
+               (struct rg_run){.params = &p,
+                               .slots = {[1].image = from, [2].image = to},
+                               .extent = {to->desc.width, to->desc.height, 1}});
+}
+
+static bool draw_glow(struct flow *flow)
+{
+    const struct rg_image_desc *target = &flow->base.target->desc;
+    const flow_glow_params p = {.threshold = (float)flow->settings.glow_threshold,
+                                .strength = (float)flow->settings.glow,
+                                .last_x = target->width - 1,
+                                .last_y = target->height - 1,
+                                .width = (float)target->width,
+                                .height = (float)target->height};
+    const struct rg_image_desc *small = &flow->bright->desc;
+    return run(flow, FLOW_GLOW_BRIGHT,
+               (struct rg_run){.params = &p,
+                               .slots = {[1].image = flow->base.target, [2].image = flow->bright},
+                               .extent = {small->width, small->height, 1}}) &&
+           blur_glow(flow, p, 1, 0, flow->bright, flow->spread) &&
+           blur_glow(flow, p, 0, 1, flow->spread, flow->bright) &&
+           run(flow, FLOW_GLOW,
+               (struct rg_run){
+                   .params = &p,
+                   .slots = {[1].image = flow->bright},
+                   .extent = {1, 1, 1},
+                   .draw = &(struct rg_draw){.colour = flow->base.target, .blend = RG_BLEND_ADD}});
 }
 
 static bool flow_draw(struct rg_instance *instance)
 {
     struct flow *flow = (struct flow *)instance;
-    const int n = flow->settings.resolution_px;
     const struct rg_image_desc *target = &instance->target->desc;
-    const flow_params p = flow_params_at(&flow->settings, flow->noise_size, instance->frame);
-    const flow_light_params l =
-        flow_light_params_of(&flow->settings, target->width, target->height);
-    instance->counters[PIXELS].value += (int64_t)target->width * target->height;
-    return run(flow, BLUR,
-               (struct rg_run){.params = &p,
-                               .slots = {[1].buf = flow->water, [2].buf = flow->blurred},
-                               .extent = {n, n, 1}}) &&
-           run(flow, NORMALS,
-               (struct rg_run){.params = &l,
-                               .slots = {[1].buf = flow->blurred, [2].buf = flow->normals},
-                               .extent = {n, n, 1}}) &&
-           run(flow, LIGHT,
-               (struct rg_run){.params = &l,
-                               .slots = {[1].buf = flow->normals,
-                                         [2].image = flow->environment,
-                                         [3].image = instance->target},
-                               .extent = {target->width, target->height, 1}});
+    flow_view_params view;
+    if (!flow_view_params_at(&flow->settings, instance->frame, target->width, target->height,
+                             &view) ||
+        !turn_panes(flow) || !draw_surface(flow))
+        return false;
+    if (flow->settings.stage != FLOW_STAGE_FINAL)
+        return draw_stage(flow, &view);
+    return draw_final(flow, &view) && (!flow->passes[FLOW_GLOW] || draw_glow(flow));
 }
 
 const struct rg_technique rg_technique_flow = {
     .name = "flow",
     .paper = "stuppacher",
-    .about = "water flowing down a mirror pane, on a height map (Stuppacher & Supan 2007)",
+    .about = "water flowing down panes of glass or mirror (Stuppacher & Supan 2007)",
     .params = &flow_param_table,
     .proof = &flow_proof,
-    .create = flow_create,
-    .destroy = flow_destroy,
+    .create = flow_open,
+    .destroy = flow_close,
     .step = flow_step,
     .draw = flow_draw,
 };

@@ -11,7 +11,7 @@
 
 // All that a law looks at.
 struct reading {
-    int64_t length; // of the map, in texels
+    int64_t length; // of all panes' maps, in texels
     int row;        // texels a row, margins included
     float *water;
     uint32_t ledger[FLOW_LEDGER_WORDS];
@@ -31,7 +31,8 @@ static bool read_state(const struct rg_instance *instance, struct reading *r)
 static bool droplets_are_whole(const struct reading *r, char *detail, size_t size)
 {
     for (int64_t i = 0; i < r->length; i++) {
-        const int x = (int)(i % r->row) - FLOW_MARGIN, y = (int)(i / r->row) - FLOW_MARGIN;
+        const int at = (int)(i % ((int64_t)r->row * r->row)); // of its pane
+        const int x = at % r->row - FLOW_MARGIN, y = at / r->row - FLOW_MARGIN;
         const float droplets = r->water[i] * FLOW_DROPLETS_PER_UNIT;
         const bool whole =
             droplets >= 0 && droplets < 16777216.0f && (float)(int32_t)droplets == droplets;
@@ -72,8 +73,10 @@ static bool water_is_conserved(const struct rg_instance *instance, char *detail,
 
 static const char *const poses[] = {
     "",
-    "pane_pitch_deg=40 pane_roll_deg=30 direction=split",
-    "pane_pitch_deg=-20 pane_roll_deg=180",
+    "pane_pitch_deg=40 pane_roll_deg=30 direction=split run_on=on reach_texels=4",
+    "panes=mirror pane_pitch_deg=-20 pane_roll_deg=180 spin_yaw_deg_s=90 glow=0.5 "
+    "glow_threshold=0.3",
+    "view=pane panes=mirror",
     NULL,
 };
 
@@ -97,6 +100,9 @@ static const struct rg_mutant mutants[] = {
     {"refraction 1 % weaker", "refraction_strength", 0.99, 0},
     {"Fresnel bias twice as high", "fresnel_bias", 2, 0},
     {"relief 1 % higher", "relief", 1.01, 0},
+    {"camera turned by 0.2 degrees", "camera_azimuth_deg", 1, 0.2},
+    {"model 1 % larger", "model_size", 1.01, 0},
+    {"lamp 5 % brighter", "light", 1.05, 0},
     {NULL, NULL, 0, 0},
 };
 

@@ -8,7 +8,7 @@
 #include "core/device.h"
 #include "core/params.h"
 
-enum { RG_MAX_STATE = 8, RG_MAX_COUNTERS = 16, RG_MAX_FACTS = 8, RG_FACT_SIZE = 128 };
+enum { RG_MAX_STATE = 8, RG_MAX_COUNTERS = 16, RG_MAX_FACTS = 8, RG_FACT_SIZE = 192 };
 
 struct rg_instance;
 struct rg_proof;

@@ -1,4 +1,5 @@
 // DRAW passes: every device draws what cpu:reference draws, to the last bit.
+#include <math.h>
 #include <stdio.h>
 
 #include "tests/device/suite.h"
@@ -149,9 +150,88 @@ static void each_kind_is_drawn_alike(void **state)
     }
 }
 
+// --- blending ---
+
+enum { ROW_PX = 256, ROWS = 8192 };
+
+static uint32_t word_at(int at, enum rg_format format)
+{
+    if (format == RG_RGBA8)
+        return (uint32_t)(at % ROW_PX) * 0x01010101u;               // each byte along a row
+    const uint32_t low = (uint32_t)at * 2 & 0xffff, high = low + 1; // each half in turn
+    const uint32_t finite =
+        ~((low & 0x7c00) == 0x7c00 ? 0x4000u : 0) & ~((high & 0x7c00) == 0x7c00 ? 0x40000000u : 0);
+    return (low | high << 16) & finite;
+}
+
+// A row of the target in one colour: magnitudes from 1e-9 to 1e6, or eighths of a byte's steps.
+static void fill_row(float *quad, int row, enum rg_format format)
+{
+    const float top = 2.0f * (float)row / ROWS - 1, bottom = 2.0f * (float)(row + 1) / ROWS - 1;
+    const float corners[16] = {-1, top, 0, 1, 1, top, 0, 1, 1, bottom, 0, 1, -1, bottom, 0, 1};
+    memcpy(quad, corners, sizeof(corners));
+    for (int c = 0; c < 4; c++) {
+        const uint32_t random = noise((uint32_t)(4 * row + c));
+        const float unit = (float)(random >> 8) / (1 << 24);
+        const float scale = c < 3 ? powf(10, (float)(random & 15) - 9) : 1;
+        quad[16 + c] = format == RG_RGBA8 ? floorf(unit * 2041) / 2040 : unit * scale;
+    }
+}
+
+static uint32_t *blend_rows(struct rg_device *device, enum rg_format format, enum rg_blend blend,
+                            const float *quads, const uint32_t *target)
+{
+    const test_quads_params p = {0};
+    struct rg_pass *pass = rg_pass_create(device, "test_quads");
+    struct rg_buf *input = make_buf(device, quads, ROWS * TEST_QUAD_WORDS, "rows");
+    struct rg_image *colour =
+        rg_image_create(device, &(struct rg_image_desc){format, ROW_PX, ROWS, 1, 1}, "every value");
+    assert_true(pass && input && colour && rg_image_write(colour, 0, 0, target));
+    assert_true(rg_pass_run(
+        pass, &(struct rg_run){.params = &p,
+                               .slots = {[1].buf = input},
+                               .extent = {ROWS, 1, 1},
+                               .draw = &(struct rg_draw){.colour = colour, .blend = blend}}));
+    uint32_t *blended = malloc((size_t)ROW_PX * ROWS * (size_t)rg_format_size(format));
+    assert_true(rg_image_read(colour, 0, 0, blended));
+    rg_pass_destroy(pass);
+    rg_buf_destroy(input);
+    rg_image_destroy(colour);
+    return blended;
+}
+
+static void check_rows(struct rg_device *device, enum rg_format format, enum rg_blend blend)
+{
+    const int words = ROW_PX * ROWS * rg_format_size(format) / 4;
+    float *quads = malloc(ROWS * TEST_QUAD_WORDS * sizeof(float));
+    uint32_t *target = malloc((size_t)words * 4);
+    for (int row = 0; row < ROWS; row++)
+        fill_row(quads + row * TEST_QUAD_WORDS, row, format);
+    for (int i = 0; i < words; i++)
+        target[i] = word_at(i, format);
+    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    uint32_t *due = blend_rows(reference, format, blend, quads, target);
+    uint32_t *blended = blend_rows(device, format, blend, quads, target);
+    compare(rg_format_name(format), "every value", due, blended, words, words / ROWS);
+    assert_true(rg_device_close(reference));
+    free(quads);
+    free(target);
+    free(due);
+    free(blended);
+}
+
+static void every_value_of_a_target_blends_alike(void **state)
+{
+    for (enum rg_blend blend = RG_BLEND_OVER; blend <= RG_BLEND_ADD; blend++) {
+        check_rows(*state, RG_RGBA8, blend);
+        check_rows(*state, RG_RGBA16F, blend);
+    }
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(each_kind_is_drawn_alike),
     cmocka_unit_test(quads_of_all_kinds_are_drawn_alike),
+    cmocka_unit_test(every_value_of_a_target_blends_alike),
 };
 
 const struct suite_tests draw_tests = {tests, COUNT_OF(tests)};

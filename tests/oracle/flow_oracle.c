@@ -215,6 +215,16 @@ static void normal_between(const struct oracle *o, const struct oracle_lighting 
     }
 }
 
+static double face_value(const struct oracle_cube *cube, int face, int x, int y, int channel)
+{
+    const int n = cube->size;
+    x = x < 0 ? 0 : x < n ? x : n - 1;
+    y = y < 0 ? 0 : y < n ? y : n - 1;
+    return (double)
+        cube->light[(((size_t)face * (size_t)n + (size_t)y) * (size_t)n + (size_t)x) * 3 +
+                    (size_t)channel];
+}
+
 // The environment from a direction in the world: OpenGL's table of cube map faces.
 static void environment_at(const struct oracle_cube *cube, const double d[3], double light[3])
 {
@@ -230,12 +240,17 @@ static void environment_at(const struct oracle_cube *cube, const double d[3], do
     const double major = fabs(d[faces[face].major]);
     double s = (d[faces[face].s_axis] * faces[face].s_sign / major + 1) / 2 * n;
     double t = (d[faces[face].t_axis] * faces[face].t_sign / major + 1) / 2 * n;
-    const int x = s < n ? (int)s : n - 1, y = t < n ? (int)t : n - 1;
-    for (int c = 0; c < 3; c++)
-        light[c] =
-            (double)
-                cube->light[(((size_t)face * (size_t)n + (size_t)y) * (size_t)n + (size_t)x) * 3 +
-                            (size_t)c];
+    // Between four texels of the face; at its edges its own texels go on.
+    s -= 0.5;
+    t -= 0.5;
+    const int x = (int)floor(s), y = (int)floor(t);
+    for (int c = 0; c < 3; c++) {
+        const double above = face_value(cube, face, x, y, c) * (1 - (s - x)) +
+                             face_value(cube, face, x + 1, y, c) * (s - x);
+        const double below = face_value(cube, face, x, y + 1, c) * (1 - (s - x)) +
+                             face_value(cube, face, x + 1, y + 1, c) * (s - x);
+        light[c] = above * (1 - (t - y)) + below * (t - y);
+    }
 }
 
 static void light_from(const struct oracle *o, const struct oracle_cube *cube,

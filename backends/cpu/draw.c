@@ -1,0 +1,99 @@
+#include "backends/cpu/draw.h"
+
+#include <omp.h>
+
+#include "core/alloc.h"
+#include "core/log.h"
+
+// Chunks are large enough to be worth a thread, and small enough to share out the work.
+enum { LEAST_CHUNK = 4 * CPU_BATCH, MOST_CHUNK = 64 * CPU_BATCH, CHUNKS_A_THREAD = 16 };
+
+// Fewer pixels than this cost less than waking a thread.
+enum { LEAST_PIXELS = 8192 };
+
+struct drawing {
+    struct cpu_emitter emitter; // of any thread: without its sorter
+    int begin, end;             // items of the round
+    int threads;
+};
+
+static int chunk_items(const struct drawing *d)
+{
+    const int share = (d->end - d->begin) / (d->threads * CHUNKS_A_THREAD);
+    return rg_iclamp(share / CPU_BATCH * CPU_BATCH, LEAST_CHUNK, MOST_CHUNK);
+}
+
+// The first step of a round: `most` chunks at most.
+static void emit_items(const struct drawing *d, int most)
+{
+    struct cpu_bins *bins = d->emitter.bins;
+    const int size = chunk_items(d);
+    const int64_t wanted = ((int64_t)d->end - d->begin + size - 1) / size;
+    const int chunks = wanted < most ? (int)wanted : most;
+    for (int i = 0; i < chunks; i++)
+        bins->chunks[i].begin = bins->chunks[i].end = d->begin + i * size;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(rg_imin(chunks, d->threads))
+    for (int i = 0; i < chunks; i++) {
+        struct cpu_emitter mine = d->emitter;
+        mine.sorter = bins->sorters[omp_get_thread_num()];
+        const int begin = bins->chunks[i].begin;
+        cpu_emit(&mine, i, d->end - begin > size ? begin + size : d->end);
+    }
+    // What comes behind items that are left for the next round waits with them.
+    bins->chunk_count = 0;
+    while (bins->chunk_count < chunks && bins->chunks[bins->chunk_count++].whole)
+        ;
+}
+
+// The second step.
+static void shade_tiles(const struct drawing *d)
+{
+    const struct cpu_bins *bins = d->emitter.bins;
+    const int tiles = bins->tiling.across * bins->tiling.down;
+    int64_t pixels = 0;
+    for (int i = 0; i < bins->chunk_count; i++)
+        pixels += bins->chunks[i].pixels;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(pixels < LEAST_PIXELS ? 1 : d->threads)
+    for (int t = 0; t < tiles; t++)
+        d->emitter.raster->shade(d->emitter.program, d->emitter.call, bins, t);
+}
+
+static bool draw_rounds(struct drawing *d)
+{
+    struct cpu_bins *bins = d->emitter.bins;
+    const rg_draw_state *draw = d->emitter.draw;
+    int most = CPU_MOST_CHUNKS;
+    while (d->begin < d->end) {
+        if (!cpu_bins_prepare(bins, draw, d->emitter.program->record_size, d->threads))
+            return false;
+        emit_items(d, most);
+        if (bins->failed)
+            return false;
+        shade_tiles(d);
+        const int done = bins->chunks[bins->chunk_count - 1].end;
+        // One chunk alone has all the room.
+        most = done > d->begin ? CPU_MOST_CHUNKS : 1;
+        d->begin = done;
+    }
+    return true;
+}
+
+bool cpu_draw(struct cpu_device *device, const char *name, const struct cpu_program *program,
+              const struct cpu_call *call)
+{
+    const rg_draw_state *draw = call->params;
+    if (!device->bins)
+        device->bins = rg_alloc(1, sizeof(*device->bins), name);
+    if (!device->bins)
+        return false;
+    struct drawing d = {
+        .emitter = {program, device->level->raster, call, draw, device->bins, NULL},
+        .begin = draw->item_begin,
+        .end = draw->item_end,
+        .threads = omp_get_max_threads(),
+    };
+    return draw_rounds(&d) ||
+           rg_error("kernel '%s': no memory for the primitives that it draws; close other "
+                    "programs, or draw fewer items",
+                    name);
+}

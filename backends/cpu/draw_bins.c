@@ -1,0 +1,201 @@
+#include "backends/cpu/draw.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// A round's primitives and references take no more than this each.
+#define MOST_BYTES ((size_t)128 << 20)
+
+enum { LEAST_SIDE_LOG2 = 6, MOST_TILES = 4096, FIRST_ROOM = 1 << 16 };
+
+// --- sorting a chunk's references by tile ---
+
+static bool grow(struct cpu_sorter *sorter)
+{
+    const int room = sorter->room ? 2 * sorter->room : FIRST_ROOM;
+    int *tile = realloc(sorter->tile, (size_t)room * sizeof(*tile));
+    if (tile)
+        sorter->tile = tile;
+    struct cpu_ref *ref = realloc(sorter->ref, (size_t)room * sizeof(*ref));
+    if (ref)
+        sorter->ref = ref;
+    if (!tile || !ref)
+        return false;
+    sorter->room = room;
+    return true;
+}
+
+bool cpu_sorter_add(struct cpu_sorter *sorter, int tile, struct cpu_ref ref)
+{
+    if (sorter->count == sorter->room && !grow(sorter))
+        return false;
+    sorter->tile[sorter->count] = tile;
+    sorter->ref[sorter->count] = ref;
+    sorter->count++;
+    sorter->of_tile[tile]++;
+    return true;
+}
+
+void cpu_sorter_drop(struct cpu_sorter *sorter, int count)
+{
+    for (int i = count; i < sorter->count; i++)
+        sorter->of_tile[sorter->tile[i]]--;
+    sorter->count = count;
+}
+
+bool cpu_sorter_sort(struct cpu_sorter *sorter, struct cpu_bins *bins, int *first)
+{
+    const int tiles = bins->tiling.across * bins->tiling.down;
+    int place = cpu_bins_refs(bins, sorter->count);
+    const bool fits = place >= 0;
+    for (int t = 0; t < tiles; t++) {
+        const int count = fits ? sorter->of_tile[t] : 0;
+        first[t] = sorter->of_tile[t] = place;
+        place += count;
+    }
+    first[tiles] = place;
+    for (int i = 0; fits && i < sorter->count; i++)
+        bins->refs[sorter->of_tile[sorter->tile[i]]++] = sorter->ref[i];
+    return fits;
+}
+
+// --- room ---
+
+// Threads take room without waiting for each other. Where it ends, the round does.
+static int take(int *taken, int count, int room, bool *full)
+{
+    const int first = __atomic_fetch_add(taken, count, __ATOMIC_RELAXED);
+    if (count <= room && first <= room - count)
+        return first;
+    __atomic_store_n(full, true, __ATOMIC_RELAXED);
+    return -1;
+}
+
+int cpu_bins_prims(struct cpu_bins *bins, int count)
+{
+    return take(&bins->prim_count, count, bins->prim_room, &bins->full);
+}
+
+int cpu_bins_refs(struct cpu_bins *bins, int count)
+{
+    return take(&bins->ref_count, count, bins->ref_room, &bins->full);
+}
+
+// Frees what was there: nothing is kept from round to round.
+static bool renew(void *memory, size_t size)
+{
+    void **held = memory;
+    free(*held);
+    *held = cpu_alloc(size);
+    return *held != NULL;
+}
+
+// Twice the room where the last round lacked it.
+static int wanted(int room, int asked_for, size_t size)
+{
+    const int most = (int)(MOST_BYTES / size);
+    int64_t more = room ? room : FIRST_ROOM;
+    while (more < asked_for)
+        more *= 2;
+    return more < most ? (int)more : most;
+}
+
+static bool make_room(struct cpu_bins *bins, size_t record_size)
+{
+    const size_t prim_size = record_size + sizeof(int) + sizeof(rg_snapped);
+    const int refs = wanted(bins->ref_room, bins->ref_count, sizeof(*bins->refs));
+    const int prims =
+        wanted(record_size == bins->record_size ? bins->prim_room : 0, bins->prim_count, prim_size);
+    if (refs != bins->ref_room) {
+        bins->ref_room = 0;
+        if (!renew(&bins->refs, (size_t)refs * sizeof(*bins->refs)))
+            return false;
+        bins->ref_room = refs;
+    }
+    if (prims != bins->prim_room || record_size != bins->record_size) {
+        bins->prim_room = 0;
+        if (!renew(&bins->records, (size_t)prims * record_size) ||
+            !renew(&bins->items, (size_t)prims * sizeof(*bins->items)) ||
+            !renew(&bins->corners, (size_t)prims * sizeof(*bins->corners)))
+            return false;
+        bins->prim_room = prims;
+        bins->record_size = record_size;
+    }
+    return true;
+}
+
+static void choose_tiles(struct cpu_tiling *tiling, const rg_draw_state *draw)
+{
+    tiling->log2_side = LEAST_SIDE_LOG2 - 1;
+    do {
+        const int side = 1 << ++tiling->log2_side;
+        tiling->across = (draw->width + side - 1) / side;
+        tiling->down = (draw->height + side - 1) / side;
+    } while (tiling->across * tiling->down > MOST_TILES);
+}
+
+static bool make_chunks(struct cpu_bins *bins)
+{
+    const int tiles = bins->tiling.across * bins->tiling.down;
+    if (bins->chunks && tiles <= bins->tile_room)
+        return true;
+    bins->tile_room = 0;
+    if (!renew(&bins->chunks, CPU_MOST_CHUNKS * sizeof(*bins->chunks)) ||
+        !renew(&bins->firsts, CPU_MOST_CHUNKS * ((size_t)tiles + 1) * sizeof(*bins->firsts)))
+        return false;
+    bins->tile_room = tiles;
+    return true;
+}
+
+static bool make_sorters(struct cpu_bins *bins, int threads)
+{
+    if (bins->sorter_count < threads) {
+        struct cpu_sorter **more = realloc(bins->sorters, (size_t)threads * sizeof(*more));
+        if (!more)
+            return false;
+        bins->sorters = more;
+    }
+    for (; bins->sorter_count < threads; bins->sorter_count++) {
+        struct cpu_sorter *sorter = cpu_alloc(sizeof(*sorter));
+        if (!sorter)
+            return false;
+        memset(sorter, 0, sizeof(*sorter));
+        bins->sorters[bins->sorter_count] = sorter;
+        sorter->of_tile = malloc(MOST_TILES * sizeof(int));
+    }
+    for (int i = 0; i < threads; i++)
+        if (!bins->sorters[i]->of_tile)
+            return false;
+    return true;
+}
+
+bool cpu_bins_prepare(struct cpu_bins *bins, const rg_draw_state *draw, size_t record_size,
+                      int threads)
+{
+    choose_tiles(&bins->tiling, draw);
+    if (!make_room(bins, record_size) || !make_chunks(bins) || !make_sorters(bins, threads))
+        return false;
+    bins->prim_count = bins->ref_count = bins->chunk_count = 0;
+    bins->full = bins->failed = false;
+    return true;
+}
+
+void cpu_bins_destroy(struct cpu_bins *bins)
+{
+    if (!bins)
+        return;
+    for (int i = 0; i < bins->sorter_count; i++) {
+        free(bins->sorters[i]->tile);
+        free(bins->sorters[i]->ref);
+        free(bins->sorters[i]->of_tile);
+        free(bins->sorters[i]);
+    }
+    free(bins->sorters);
+    free(bins->records);
+    free(bins->items);
+    free(bins->corners);
+    free(bins->refs);
+    free(bins->chunks);
+    free(bins->firsts);
+    free(bins);
+}

@@ -1,0 +1,201 @@
+// Which pixels small shapes cover, CPU_LANES shapes side by side, in 32 bits.
+//
+// Edge functions are those of kernels/raster.h, divided by 256: its at(px, py) > 0 has the terms
+// 256 dx px and 256 dy py, so that it says the same as
+//   floor((origin - 1) / 256) - dx px + dy py >= 0.
+//
+// A convex polygon's two triangles cover together what lies inside its four edges, ties included:
+// the edge that they share gives each centre on it to one of them. A polygon is convex, perhaps
+// with corners that coincide or lie on one line, where no three consecutive corners turn the other
+// way.
+//
+// Bounds: a small shape's corners lie within 2^14 of each other (64 pixels), and of a pixel of its
+// box, so that products are below 2^28, and sums of four of them below 2^30.
+#ifndef RG_BACKENDS_CPU_DRAW_COVER_H
+#define RG_BACKENDS_CPU_DRAW_COVER_H
+
+#include "backends/cpu/draw.h"
+
+enum { MOST_ROWS = 32, SMALL = 1 << 14 };
+
+// CPU_LANES shapes.
+struct lanes {
+    int x[4][CPU_LANES], y[4][CPU_LANES];    // corners from the centre of the box's first pixel
+    int width[CPU_LANES], height[CPU_LANES]; // of the box, in pixels; 0: covers nothing
+    int turned[CPU_LANES];                   // -1: corners turn the other way; else 0
+    int dx[4][CPU_LANES], dy[4][CPU_LANES], at[4][CPU_LANES];
+    int rows[MOST_ROWS][CPU_LANES]; // which pixels of a row are covered
+    int any[CPU_LANES];             // of all rows
+};
+
+static inline int cross(int ax, int ay, int bx, int by, int cx, int cy)
+{
+    return (ax - bx) * (cy - ay) - (cx - ax) * (ay - by);
+}
+
+// Boxes of pixels, which small shapes are told by, and corners from there.
+static void box_lanes(const rg_draw_state *state, const struct cpu_items *items,
+                      struct cpu_shapes *shapes, int first, struct lanes *l)
+{
+    const rg_draw_state draw = *state;
+#pragma omp simd
+    for (int i = 0; i < CPU_LANES; i++) {
+        const int place = shapes->place[first + i];
+        const int x0 = items->x[0][place], x1 = items->x[1][place];
+        const int x2 = items->x[2][place], x3 = items->x[3][place];
+        const int y0 = items->y[0][place], y1 = items->y[1][place];
+        const int y2 = items->y[2][place], y3 = items->y[3][place];
+        const int low_x = rg_ileast4(x0, x1, x2, x3), high_x = rg_imost4(x0, x1, x2, x3);
+        const int low_y = rg_ileast4(y0, y1, y2, y3), high_y = rg_imost4(y0, y1, y2, y3);
+        const int px = rg_imax((low_x + 127) >> 8, draw.x0);
+        const int py = rg_imax((low_y + 127) >> 8, draw.y0);
+        const int width = rg_imin(((high_x - 128) >> 8) + 1, draw.x1) - px;
+        const int height = rg_imin(((high_y - 128) >> 8) + 1, draw.y1) - py;
+        const int log2_width = 1 + (width > 2 ? 1 : 0) + (width > 4 ? 1 : 0);
+        const int some = (width > 0 ? 1 : 0) & (height > 0 ? 1 : 0);
+        const int small = (width <= 8 ? 1 : 0) & (height <= 64 >> log2_width ? 1 : 0) &
+                          (high_x - low_x < SMALL ? 1 : 0) & (high_y - low_y < SMALL ? 1 : 0);
+        shapes->x[first + i] = px;
+        shapes->y[first + i] = py;
+        shapes->log2_width[first + i] = log2_width;
+        shapes->cover[first + i] = some * (small != 0 ? CPU_COVERS_MASK : CPU_COVERS_MORE);
+        const int mask = -(some & small); // others must not overflow
+        const int ox = 256 * px + 128, oy = 256 * py + 128;
+        l->x[0][i] = (x0 - ox) & mask;
+        l->x[1][i] = (x1 - ox) & mask;
+        l->x[2][i] = (x2 - ox) & mask;
+        l->x[3][i] = (x3 - ox) & mask;
+        l->y[0][i] = (y0 - oy) & mask;
+        l->y[1][i] = (y1 - oy) & mask;
+        l->y[2][i] = (y2 - oy) & mask;
+        l->y[3][i] = (y3 - oy) & mask;
+        l->width[i] = width & mask;
+        l->height[i] = height & mask;
+    }
+}
+
+// Which way corners turn. Folded shapes are left to their triangles; those without area are
+// dropped.
+static void turn_lanes(struct cpu_shapes *shapes, int first, struct lanes *l)
+{
+#pragma omp simd
+    for (int i = 0; i < CPU_LANES; i++) {
+        const int x0 = l->x[0][i], x1 = l->x[1][i], x2 = l->x[2][i], x3 = l->x[3][i];
+        const int y0 = l->y[0][i], y1 = l->y[1][i], y2 = l->y[2][i], y3 = l->y[3][i];
+        const int near = cross(x0, y0, x1, y1, x2, y2), far = cross(x0, y0, x2, y2, x3, y3);
+        const int at_0 = cross(x3, y3, x0, y0, x1, y1), at_2 = cross(x1, y1, x2, y2, x3, y3);
+        const int turned = (near + far) >> 31;
+        const int convex = ((near ^ turned) - turned) | ((far ^ turned) - turned) |
+                           ((at_0 ^ turned) - turned) | ((at_2 ^ turned) - turned);
+        const int cover = shapes->cover[first + i];
+        const int small = cover == CPU_COVERS_MASK ? 1 : 0;
+        const int folded = small & (convex < 0 ? 1 : 0);
+        const int mask = -((1 - folded) & (near + far != 0 ? 1 : 0));
+        shapes->cover[first + i] = folded != 0 ? CPU_COVERS_MORE : cover;
+        l->width[i] &= mask;
+        l->height[i] &= mask;
+        l->turned[i] = turned;
+    }
+}
+
+// The edge from corner k to the next one, at the box's first pixel.
+static void edge_lanes(struct lanes *l, int k)
+{
+    const int n = (k + 1) & 3;
+#pragma omp simd
+    for (int i = 0; i < CPU_LANES; i++) {
+        const int turned = l->turned[i];
+        const int dx = ((l->y[k][i] - l->y[n][i]) ^ turned) - turned;
+        const int dy = ((l->x[k][i] - l->x[n][i]) ^ turned) - turned;
+        // Everything lies inside an edge without length, which a corner makes that is there twice:
+        // the last one of triangles.
+        const int tie = (dx < 0 ? 1 : 0) | ((dx == 0 ? 1 : 0) & (dy >= 0 ? 1 : 0));
+        l->dx[k][i] = dx;
+        l->dy[k][i] = dy;
+        l->at[k][i] = (dx * l->x[k][i] - dy * l->y[k][i] + tie - 1) >> 8;
+    }
+}
+
+// A row's pixels, `columns` at most, and on to the next row.
+static inline __attribute__((always_inline)) void row_lanes(struct lanes *l, int row, int columns)
+{
+    int *bits_of = l->rows[row];
+#pragma omp simd
+    for (int i = 0; i < CPU_LANES; i++) {
+        int a = l->at[0][i], b = l->at[1][i], c = l->at[2][i], d = l->at[3][i];
+        const int dxa = l->dx[0][i], dxb = l->dx[1][i], dxc = l->dx[2][i], dxd = l->dx[3][i];
+        l->at[0][i] = a + l->dy[0][i];
+        l->at[1][i] = b + l->dy[1][i];
+        l->at[2][i] = c + l->dy[2][i];
+        l->at[3][i] = d + l->dy[3][i];
+        int outside = 0;
+        for (int column = 0; column < columns; column++) {
+            outside |= (int)((uint)(a | b | c | d) >> 31) << column;
+            a -= dxa;
+            b -= dxb;
+            c -= dxc;
+            d -= dxd;
+        }
+        const int inside_box = ((1 << l->width[i]) - 1) & -(row < l->height[i] ? 1 : 0);
+        bits_of[i] = ~outside & inside_box;
+        l->any[i] |= bits_of[i];
+    }
+}
+
+static int most_of(const int *values)
+{
+    int most = 0;
+    for (int i = 0; i < CPU_LANES; i++)
+        most = rg_imax(most, values[i]);
+    return most;
+}
+
+static void cover_lanes(struct lanes *l)
+{
+    const int width = most_of(l->width), height = most_of(l->height);
+    for (int i = 0; i < CPU_LANES; i++)
+        l->any[i] = 0;
+    if (width <= 2)
+        for (int row = 0; row < height; row++)
+            row_lanes(l, row, 2);
+    else if (width <= 4)
+        for (int row = 0; row < height; row++)
+            row_lanes(l, row, 4);
+    else
+        for (int row = 0; row < height; row++)
+            row_lanes(l, row, 8);
+}
+
+static void take_masks(struct cpu_shapes *shapes, int first, const struct lanes *l)
+{
+    for (int i = 0; i < CPU_LANES; i++) {
+        if (shapes->cover[first + i] != CPU_COVERS_MASK)
+            continue;
+        if (!l->any[i]) {
+            shapes->cover[first + i] = CPU_COVERS_NONE;
+            continue;
+        }
+        uint64_t mask = 0;
+        for (int row = 0; row < l->height[i]; row++)
+            mask |= (uint64_t)(uint)l->rows[row][i] << (row << shapes->log2_width[first + i]);
+        shapes->mask[first + i] = mask;
+    }
+}
+
+static void cover_shapes(const rg_draw_state *draw, const struct cpu_items *items,
+                         struct cpu_shapes *shapes)
+{
+    struct lanes l;
+    for (int i = shapes->count; i < cpu_padded(shapes->count); i++)
+        shapes->place[i] = shapes->place[shapes->count - 1];
+    for (int first = 0; first < shapes->count; first += CPU_LANES) {
+        box_lanes(draw, items, shapes, first, &l);
+        turn_lanes(shapes, first, &l);
+        for (int k = 0; k < 4; k++)
+            edge_lanes(&l, k);
+        cover_lanes(&l);
+        take_masks(shapes, first, &l);
+    }
+}
+
+#endif

@@ -1,0 +1,237 @@
+#include "backends/cpu/draw.h"
+
+#include <string.h>
+
+#include "kernels/raster.h"
+
+// A chunk that leaves more references than this ends.
+enum { MOST_REFS = 1 << 18 };
+
+// Bit i of column 0 in each row of a mask, by its log2_width.
+static const uint64_t first_columns[] = {
+    UINT64_MAX,
+    UINT64_C(0x5555555555555555),
+    UINT64_C(0x1111111111111111),
+    UINT64_C(0x0101010101010101),
+};
+
+// Bits [begin, end) of 64.
+static uint64_t bits_between(int begin, int end)
+{
+    const uint64_t below_end = end < 64 ? (UINT64_C(1) << end) - 1 : UINT64_MAX;
+    return below_end & ~((UINT64_C(1) << begin) - 1);
+}
+
+// What of a mask lies in columns and rows [x0, x1), [y0, y1) of its box.
+static uint64_t cut_mask(uint64_t mask, int log2_width, int x0, int y0, int x1, int y1)
+{
+    const uint64_t columns = first_columns[log2_width] * (((UINT64_C(1) << (x1 - x0)) - 1) << x0);
+    return mask & columns & bits_between(y0 << log2_width, y1 << log2_width);
+}
+
+// A mask goes to the one tile that it lies in, or in parts to up to four.
+static bool bin_mask(const struct cpu_emitter *e, int shape, int prim)
+{
+    const struct cpu_shapes *shapes = &e->sorter->shapes;
+    const struct cpu_tiling *tiling = &e->bins->tiling;
+    const int log2_side = tiling->log2_side, log2_width = shapes->log2_width[shape];
+    const int x = shapes->x[shape], y = shapes->y[shape];
+    const int width = 1 << log2_width, height = 64 >> log2_width;
+    const uint64_t mask = shapes->mask[shape];
+    const int place = y << 16 | x << 2 | log2_width;
+    const int first_x = x >> log2_side, last_x = (x + width - 1) >> log2_side;
+    const int first_y = y >> log2_side, last_y = (y + height - 1) >> log2_side;
+    if (first_x == last_x && first_y == last_y)
+        return cpu_sorter_add(e->sorter, first_y * tiling->across + first_x,
+                              (struct cpu_ref){prim, place, mask});
+    for (int ty = first_y; ty <= last_y; ty++) {
+        for (int tx = first_x; tx <= last_x; tx++) {
+            const int left = (tx << log2_side) - x, top = (ty << log2_side) - y;
+            const int side = 1 << log2_side;
+            const uint64_t part =
+                cut_mask(mask, log2_width, rg_imax(left, 0), rg_imax(top, 0),
+                         rg_imin(left + side, width), rg_imin(top + side, height));
+            if (part && !cpu_sorter_add(e->sorter, ty * tiling->across + tx,
+                                        (struct cpu_ref){prim, place, part}))
+                return false;
+        }
+    }
+    return true;
+}
+
+// Whether some pixel centre of the box may lie inside an edge.
+static bool reaches(rg_edge e, int x0, int y0, int x1, int y1)
+{
+    return rg_edge_at(e, e.dx < 0 ? x1 - 1 : x0, e.dy > 0 ? y1 - 1 : y0) > 0;
+}
+
+static bool triangle_reaches(const rg_triangle *t, int x0, int y0, int x1, int y1)
+{
+    return t->first_x < x1 && t->first_y < y1 && t->end_x > x0 && t->end_y > y0 &&
+           reaches(t->a, x0, y0, x1, y1) && reaches(t->b, x0, y0, x1, y1) &&
+           reaches(t->c, x0, y0, x1, y1);
+}
+
+// To the tiles that one of its two triangles may cover pixels of.
+static bool bin_corners(const struct cpu_emitter *e, const rg_snapped *c, int prim, int64_t *pixels)
+{
+    const struct cpu_tiling *tiling = &e->bins->tiling;
+    const struct cpu_ref ref = {prim, -1, 0};
+    const rg_triangle near = rg_triangle_make(*e->draw, c->x0, c->y0, c->x1, c->y1, c->x2, c->y2);
+    const rg_triangle far = rg_triangle_make(*e->draw, c->x0, c->y0, c->x2, c->y2, c->x3, c->y3);
+    const int side = tiling->log2_side;
+    const int first_x = rg_imin(near.first_x, far.first_x) >> side;
+    const int first_y = rg_imin(near.first_y, far.first_y) >> side;
+    const int last_x = (rg_imax(near.end_x, far.end_x) - 1) >> side;
+    const int last_y = (rg_imax(near.end_y, far.end_y) - 1) >> side;
+    for (int ty = first_y; ty <= last_y; ty++) {
+        for (int tx = first_x; tx <= last_x; tx++) {
+            const int x0 = tx << side, y0 = ty << side;
+            const int x1 = (tx + 1) << side, y1 = (ty + 1) << side;
+            if (!triangle_reaches(&near, x0, y0, x1, y1) && !triangle_reaches(&far, x0, y0, x1, y1))
+                continue;
+            if (!cpu_sorter_add(e->sorter, ty * tiling->across + tx, ref))
+                return false;
+            *pixels += INT64_C(1) << (2 * side - 2); // a quarter of the tile, say
+        }
+    }
+    return true;
+}
+
+static rg_snapped corners_at(const struct cpu_items *items, int place)
+{
+    return (rg_snapped){
+        items->x[0][place], items->y[0][place], items->x[1][place], items->y[1][place],
+        items->x[2][place], items->y[2][place], items->x[3][place], items->y[3][place],
+    };
+}
+
+static bool bin_shape(const struct cpu_emitter *e, struct cpu_chunk *chunk, int shape, int prim)
+{
+    const struct cpu_shapes *shapes = &e->sorter->shapes;
+    if (shapes->cover[shape] == CPU_COVERS_MASK) {
+        chunk->pixels += 8;
+        return bin_mask(e, shape, prim);
+    }
+    e->bins->corners[prim] = corners_at(&e->sorter->items, shapes->place[shape]);
+    return bin_corners(e, &e->bins->corners[prim], prim, &chunk->pixels);
+}
+
+// Makes primitives of the shapes that cover pixels.
+static bool take_shapes(const struct cpu_emitter *e, struct cpu_chunk *chunk)
+{
+    struct cpu_shapes *shapes = &e->sorter->shapes;
+    struct cpu_bins *bins = e->bins;
+    int which[CPU_PLACES], item[CPU_PLACES], count = 0;
+    if (!shapes->count)
+        return true;
+    e->raster->cover(e->draw, &e->sorter->items, shapes);
+    for (int i = 0; i < shapes->count; i++) {
+        which[count] = i;
+        item[count] = shapes->item[i];
+        count += shapes->cover[i] != CPU_COVERS_NONE ? 1 : 0;
+    }
+    shapes->count = 0;
+    const int first = count ? cpu_bins_prims(bins, count) : 0;
+    if (first < 0)
+        return false;
+    e->program->records(e->call, item, count, bins->records + (size_t)first * bins->record_size);
+    memcpy(bins->items + first, item, (size_t)count * sizeof(*item));
+    for (int i = 0; i < count; i++) {
+        if (!bin_shape(e, chunk, which[i], first + i)) {
+            __atomic_store_n(&bins->failed, true, __ATOMIC_RELAXED);
+            return false;
+        }
+    }
+    return true;
+}
+
+static void add_shape(struct cpu_shapes *shapes, int place, int item)
+{
+    shapes->place[shapes->count] = place;
+    shapes->item[shapes->count] = item;
+    shapes->count++;
+}
+
+static void put_part(struct cpu_items *items, int place, const rg_snapped *part)
+{
+    items->x[0][place] = part->x0;
+    items->y[0][place] = part->y0;
+    items->x[1][place] = part->x1;
+    items->y[1][place] = part->y1;
+    items->x[2][place] = part->x2;
+    items->y[2][place] = part->y2;
+    items->x[3][place] = part->x3;
+    items->y[3][place] = part->y3;
+}
+
+// A batch some of whose items have to be clipped.
+static bool take_clipped(const struct cpu_emitter *e, struct cpu_chunk *chunk, int begin, int count)
+{
+    struct cpu_items *items = &e->sorter->items;
+    struct cpu_shapes *shapes = &e->sorter->shapes;
+    int place = CPU_BATCH;
+    for (int i = 0; i < count; i++) {
+        if (items->fate[i] == RG_FATE_WHOLE)
+            add_shape(shapes, i, begin + i);
+        if (items->fate[i] != RG_FATE_CLIP)
+            continue;
+        rg_snapped parts[CPU_MOST_PARTS];
+        const int part_count = e->program->clip(e->call, begin + i, parts);
+        if (place + part_count > CPU_PLACES) {
+            if (!take_shapes(e, chunk))
+                return false;
+            place = CPU_BATCH;
+        }
+        for (int k = 0; k < part_count; k++) {
+            put_part(items, place, &parts[k]);
+            add_shape(shapes, place++, begin + i);
+        }
+    }
+    return take_shapes(e, chunk);
+}
+
+static bool take_batch(const struct cpu_emitter *e, struct cpu_chunk *chunk, int begin, int count)
+{
+    struct cpu_items *items = &e->sorter->items;
+    struct cpu_shapes *shapes = &e->sorter->shapes;
+    shapes->count = 0;
+    e->program->items(e->call, begin, count, items);
+    int whole = 0, clipped = 0;
+    for (int i = 0; i < count; i++) {
+        shapes->place[whole] = i;
+        shapes->item[whole] = begin + i;
+        whole += items->fate[i] != RG_FATE_DEAD ? 1 : 0;
+        clipped |= items->fate[i] & RG_FATE_CLIP;
+    }
+    if (clipped)
+        return take_clipped(e, chunk, begin, count);
+    shapes->count = whole;
+    return take_shapes(e, chunk);
+}
+
+void cpu_emit(const struct cpu_emitter *e, int index, int end)
+{
+    struct cpu_bins *bins = e->bins;
+    struct cpu_sorter *sorter = e->sorter;
+    struct cpu_chunk *chunk = &bins->chunks[index];
+    const int tiles = bins->tiling.across * bins->tiling.down;
+    int *first = bins->firsts + (size_t)index * ((size_t)tiles + 1);
+    memset(sorter->of_tile, 0, (size_t)tiles * sizeof(*sorter->of_tile));
+    sorter->count = 0;
+    chunk->first = first;
+    chunk->pixels = 0;
+    while (chunk->end < end && sorter->count < MOST_REFS &&
+           !__atomic_load_n(&bins->full, __ATOMIC_RELAXED)) {
+        const int count = rg_imin(end - chunk->end, CPU_BATCH);
+        const int before = sorter->count;
+        if (!take_batch(e, chunk, chunk->end, count)) {
+            cpu_sorter_drop(sorter, before);
+            break;
+        }
+        chunk->end += count;
+    }
+    if (!cpu_sorter_sort(sorter, bins, first))
+        chunk->end = chunk->begin;
+    chunk->whole = chunk->end == end;
+}

@@ -1,0 +1,258 @@
+// A tile of the target: its primitives become pixels, in order.
+//
+// Pixels of small primitives and short spans are gathered in a list that many primitives share,
+// until one comes again. Wide spans are shaded at once, when what is listed has been drawn.
+#ifndef RG_BACKENDS_CPU_DRAW_SHADE_H
+#define RG_BACKENDS_CPU_DRAW_SHADE_H
+
+#include "backends/cpu/draw_blend.h"
+#include "backends/cpu/draw_span.h"
+
+enum { WIDE_SPAN = 24 }; // pixels that are worth a row of their own
+
+struct shader {
+    const struct cpu_program *program;
+    const struct cpu_call *call;
+    const struct cpu_bins *bins;
+    struct cpu_target target;
+    rg_draw_state draw;
+    int texel_words;    // of the colour target; 0: none
+    int x0, y0, x1, y1; // the tile's pixels
+    struct cpu_list list;
+    struct cpu_fragments fragments;
+    struct pixels pixels;
+    // The list that each pixel was last in, by the low bits of x and y: pixels that share an entry
+    // pass for the same.
+    uint listing;
+    uint listed[CPU_BLOCK_PX][CPU_BLOCK_PX];
+};
+
+// Depth test and blending of the fragments, once their pixels are gathered.
+static void meet(struct shader *s)
+{
+    test_fragments(&s->fragments, &s->pixels, s->draw.depth_mode);
+    if (s->texel_words)
+        blend_fragments(&s->fragments, &s->pixels, s->draw.colour_format, s->draw.blend);
+}
+
+static void count_sample(const struct shader *s, int prim, int samples)
+{
+    if (samples)
+        __atomic_fetch_add(&s->target.samples[s->bins->items[prim]], (uint)samples,
+                           __ATOMIC_RELAXED);
+}
+
+// --- lists ---
+
+// `words` is a constant where this is called.
+static inline __attribute__((always_inline)) void gather(uint *to, const uint *from,
+                                                         const size_t *texel, int count, int words)
+{
+    for (int i = 0; i < count; i++)
+        memcpy(to + i * words, from + texel[i] * (size_t)words, (size_t)words * sizeof(uint));
+}
+
+static inline __attribute__((always_inline)) void scatter(uint *to, const uint *from,
+                                                          const size_t *texel, int count, int words)
+{
+    for (int i = 0; i < count; i++)
+        memcpy(to + texel[i] * (size_t)words, from + i * words, (size_t)words * sizeof(uint));
+}
+
+static void gather_texels(struct shader *s, const size_t *texel, int count)
+{
+    if (s->texel_words == 1)
+        gather(s->pixels.texels, s->target.colour, texel, count, 1);
+    else if (s->texel_words == 2)
+        gather(s->pixels.texels, s->target.colour, texel, count, 2);
+    else if (s->texel_words == 4)
+        gather(s->pixels.texels, s->target.colour, texel, count, 4);
+    if (s->draw.depth_mode != RG_DEPTH_OFF)
+        gather(s->pixels.depth, s->target.depth, texel, count, 1);
+}
+
+static void scatter_texels(struct shader *s, const size_t *texel, int count)
+{
+    if (s->texel_words == 1)
+        scatter(s->target.colour, s->pixels.texels, texel, count, 1);
+    else if (s->texel_words == 2)
+        scatter(s->target.colour, s->pixels.texels, texel, count, 2);
+    else if (s->texel_words == 4)
+        scatter(s->target.colour, s->pixels.texels, texel, count, 4);
+    if (s->draw.depth_mode == RG_DEPTH_WRITE)
+        scatter(s->target.depth, s->pixels.depth, texel, count, 1);
+}
+
+// Repeats the last pixel up to a multiple of CPU_LANES.
+static void pad_list(struct cpu_list *list)
+{
+    for (int i = list->count; i < cpu_padded(list->count); i++) {
+        list->x[i] = list->x[i - 1];
+        list->y[i] = list->y[i - 1];
+        list->record[i] = list->record[i - 1];
+    }
+}
+
+// Draws what is listed.
+static void flush(struct shader *s)
+{
+    struct cpu_list *list = &s->list;
+    const int count = list->count;
+    size_t texel[CPU_FRAGMENTS];
+    if (!count)
+        return;
+    pad_list(list);
+    s->program->list(s->call, s->bins->records, list, &s->fragments);
+    for (int i = 0; i < count; i++)
+        texel[i] = (size_t)list->y[i] * (size_t)s->draw.width + (size_t)list->x[i];
+    gather_texels(s, texel, count);
+    meet(s);
+    scatter_texels(s, texel, count);
+    if (s->draw.counted)
+        for (int i = 0; i < count; i++)
+            count_sample(s, list->prim[i], s->fragments.kept[i]);
+    list->count = 0;
+    s->listing++;
+}
+
+static inline void list_pixel(struct shader *s, int prim, int x, int y)
+{
+    struct cpu_list *list = &s->list;
+    uint *listed = &s->listed[y & (CPU_BLOCK_PX - 1)][x & (CPU_BLOCK_PX - 1)];
+    if (*listed == s->listing || list->count == CPU_FRAGMENTS)
+        flush(s);
+    *listed = s->listing;
+    list->x[list->count] = x;
+    list->y[list->count] = y;
+    list->prim[list->count] = prim;
+    list->record[list->count] = prim * (int)s->bins->record_size;
+    list->count++;
+}
+
+static void list_mask(struct shader *s, const struct cpu_ref *ref)
+{
+    const int log2_width = ref->place & 3, last_column = (1 << log2_width) - 1;
+    const int x = (ref->place >> 2) & 0x3fff, y = ref->place >> 16;
+    for (uint64_t rest = ref->mask; rest; rest &= rest - 1) {
+        const int bit = __builtin_ctzll(rest);
+        list_pixel(s, ref->prim, x + (bit & last_column), y + (bit >> log2_width));
+    }
+}
+
+// --- rows ---
+
+static void draw_row(struct shader *s, int prim, int x, int y, int count)
+{
+    const size_t first = (size_t)y * (size_t)s->draw.width + (size_t)x;
+    const size_t words = (size_t)s->texel_words, size = (size_t)count * sizeof(uint);
+    struct pixels *pixels = &s->pixels;
+    s->program->row(s->call, s->bins->records + (size_t)prim * s->bins->record_size, x, y, count,
+                    &s->fragments);
+    memcpy(pixels->texels, s->target.colour + first * words, size * words);
+    if (s->draw.depth_mode != RG_DEPTH_OFF)
+        memcpy(pixels->depth, s->target.depth + first, size);
+    meet(s);
+    memcpy(s->target.colour + first * words, pixels->texels, size * words);
+    if (s->draw.depth_mode == RG_DEPTH_WRITE)
+        memcpy(s->target.depth + first, pixels->depth, size);
+    if (s->draw.counted) {
+        int samples = 0;
+        for (int i = 0; i < count; i++)
+            samples += s->fragments.kept[i];
+        count_sample(s, prim, samples);
+    }
+}
+
+// A triangle's pixels do not coincide, so that only what was listed before it comes before its
+// rows.
+static void draw_block(struct shader *s, int prim, const rg_triangle *t, int x, int y, int width,
+                       int height, bool *flushed)
+{
+    struct spans spans;
+    make_spans(&spans, t, x, y, width, height);
+    for (int row = 0; row < height; row++) {
+        const int begin = spans.begin[row], count = spans.end[row] - begin;
+        if (count >= WIDE_SPAN) {
+            if (!*flushed)
+                flush(s);
+            *flushed = true;
+            draw_row(s, prim, x + begin, y + row, count);
+        } else if (count > 0) {
+            for (int i = 0; i < count; i++)
+                list_pixel(s, prim, x + begin + i, y + row);
+        }
+    }
+}
+
+static void draw_triangle(struct shader *s, int prim, rg_triangle t)
+{
+    const int begin_x = rg_imax(t.first_x, s->x0), end_x = rg_imin(t.end_x, s->x1);
+    const int begin_y = rg_imax(t.first_y, s->y0), end_y = rg_imin(t.end_y, s->y1);
+    bool flushed = false;
+    for (int y = begin_y; y < end_y; y += CPU_BLOCK_PX)
+        for (int x = begin_x; x < end_x; x += CPU_BLOCK_PX)
+            draw_block(s, prim, &t, x, y, rg_imin(end_x - x, CPU_BLOCK_PX),
+                       rg_imin(end_y - y, CPU_BLOCK_PX), &flushed);
+}
+
+static void draw_corners(struct shader *s, int prim)
+{
+    const rg_snapped c = s->bins->corners[prim];
+    draw_triangle(s, prim, rg_triangle_make(s->draw, c.x0, c.y0, c.x1, c.y1, c.x2, c.y2));
+    if (s->program->corners == 4)
+        draw_triangle(s, prim, rg_triangle_make(s->draw, c.x0, c.y0, c.x2, c.y2, c.x3, c.y3));
+}
+
+static int texel_words(int format)
+{
+    return format == RG_RGBA8 ? 1 : format == RG_RGBA16F ? 2 : format == RG_RGBA32F ? 4 : 0;
+}
+
+static void begin_tile(struct shader *s, int tile)
+{
+    const struct cpu_tiling *tiling = &s->bins->tiling;
+    const int side = 1 << tiling->log2_side;
+    s->target = s->call->target;
+    s->draw = *(const rg_draw_state *)s->call->params;
+    s->texel_words = texel_words(s->draw.colour_format);
+    s->x0 = tile % tiling->across * side;
+    s->y0 = tile / tiling->across * side;
+    s->x1 = s->x0 + side;
+    s->y1 = s->y0 + side;
+    s->list.count = 0;
+    s->listing = 1;
+    memset(s->listed, 0, sizeof(s->listed));
+}
+
+static bool is_empty(const struct cpu_bins *bins, int tile)
+{
+    for (int c = 0; c < bins->chunk_count; c++)
+        if (bins->chunks[c].first[tile] < bins->chunks[c].first[tile + 1])
+            return false;
+    return true;
+}
+
+static void shade_tile(const struct cpu_program *program, const struct cpu_call *call,
+                       const struct cpu_bins *bins, int tile)
+{
+    struct shader s;
+    if (is_empty(bins, tile))
+        return;
+    s.program = program;
+    s.call = call;
+    s.bins = bins;
+    begin_tile(&s, tile);
+    for (int c = 0; c < bins->chunk_count; c++) {
+        const int *first = bins->chunks[c].first;
+        for (int i = first[tile]; i < first[tile + 1]; i++) {
+            const struct cpu_ref *ref = &bins->refs[i];
+            if (ref->place < 0)
+                draw_corners(&s, ref->prim);
+            else
+                list_mask(&s, ref);
+        }
+    }
+    flush(&s);
+}
+
+#endif

@@ -1,0 +1,101 @@
+// The loops of the DRAW program that was just included: what of cpu's drawing depends on it.
+//
+// They run to a multiple of CPU_LANES, which spares them a remainder. What is added repeats the
+// last element, for nothing else may be read.
+#include "backends/cpu/bind.h"
+#include "backends/cpu/draw.h"
+
+static void make_items(const struct cpu_call *call, int begin, int count, struct cpu_items *items)
+{
+    const rg_ctx rg = bind_context(call);
+    const rg_draw_call p = *(const rg_draw_call *)call->params;
+    const int last = count - 1, padded = cpu_padded(count);
+#pragma omp simd
+    for (int i = 0; i < padded; i++) {
+        const int item = begin + rg_imin(i, last);
+        const rg_item t = rg_item_closed(rg_program_item(rg, p.draw, p.program, item), RG_CORNERS);
+        const rg_projected s = rg_project(p.draw, t);
+        items->fate[i] = s.fate;
+        items->x[0][i] = s.corners.x0;
+        items->y[0][i] = s.corners.y0;
+        items->x[1][i] = s.corners.x1;
+        items->y[1][i] = s.corners.y1;
+        items->x[2][i] = s.corners.x2;
+        items->y[2][i] = s.corners.y2;
+        items->x[3][i] = s.corners.x3;
+        items->y[3][i] = s.corners.y3;
+    }
+}
+
+static int clip_item(const struct cpu_call *call, int item, rg_snapped parts[CPU_MOST_PARTS])
+{
+    const rg_ctx rg = bind_context(call);
+    const rg_draw_call p = *(const rg_draw_call *)call->params;
+    const rg_item t = rg_item_closed(rg_program_item(rg, p.draw, p.program, item), RG_CORNERS);
+    const rg_polygon g = rg_clip(p.draw, t, RG_CORNERS, RG_FATE_CLIP);
+    const int count = rg_polygon_prims(g, RG_CORNERS);
+    for (int k = 0; k < count; k++)
+        parts[k] = rg_polygon_prim(p.draw, g, RG_CORNERS, k);
+    return count;
+}
+
+static void make_records(const struct cpu_call *call, const int *items, int count, void *records)
+{
+    const rg_ctx rg = bind_context(call);
+    const rg_draw_call p = *(const rg_draw_call *)call->params;
+    RG_RECORD *made = records;
+#pragma omp simd
+    for (int i = 0; i < count; i++)
+        made[i] = rg_program_record(rg, p.draw, p.program, items[i]);
+}
+
+static inline __attribute__((always_inline)) void put_fragment(struct cpu_fragments *to, int i,
+                                                               rg_fragment fragment)
+{
+    const rg_fragment f = rg_settled(fragment);
+    to->r[i] = f.colour.r;
+    to->g[i] = f.colour.g;
+    to->b[i] = f.colour.b;
+    to->a[i] = f.colour.a;
+    to->depth[i] = f.depth;
+    to->kept[i] = f.kept;
+}
+
+static void shade_list(const struct cpu_call *call, const void *records,
+                       const struct cpu_list *list, struct cpu_fragments *fragments)
+{
+    const rg_ctx rg = bind_context(call);
+    const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
+    const int padded = cpu_padded(list->count);
+    fragments->count = list->count;
+#pragma omp simd
+    for (int i = 0; i < padded; i++) {
+        const RG_RECORD *r = (const RG_RECORD *)((const char *)records + list->record[i]);
+        put_fragment(fragments, i, rg_program_fragment(rg, p, *r, list->x[i], list->y[i]));
+    }
+}
+
+static void shade_row(const struct cpu_call *call, const void *record, int x, int y, int count,
+                      struct cpu_fragments *fragments)
+{
+    const rg_ctx rg = bind_context(call);
+    const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
+    const RG_RECORD r = *(const RG_RECORD *)record;
+    const int last = count - 1, padded = cpu_padded(count);
+    fragments->count = count;
+#pragma omp simd
+    for (int i = 0; i < padded; i++)
+        put_fragment(fragments, i, rg_program_fragment(rg, p, r, x + rg_imin(i, last), y));
+}
+
+static const struct cpu_program program = {
+    .corners = RG_CORNERS,
+    .record_size = sizeof(RG_RECORD),
+    .items = make_items,
+    .clip = clip_item,
+    .records = make_records,
+    .list = shade_list,
+    .row = shade_row,
+};
+
+RG_EXPORT_KERNEL = {.program = &program};

@@ -1,0 +1,106 @@
+#include "backends/gl/gl.h"
+
+#include <string.h>
+
+#include "kernels/clip.h"
+
+// Memory row 0 is our row 0, which clip control and viewport leave as they are.
+bool gl_draw_begin(struct gl_device *device)
+{
+    glCreateVertexArrays(1, &device->no_vertices);
+    glBindVertexArray(device->no_vertices);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glDisable(GL_DITHER);
+    glEnable(GL_SCISSOR_TEST);
+    glDepthFunc(GL_LESS);
+    return gl_check(device, "glClipControl", "device", device->pub.info.name);
+}
+
+void gl_draw_end(struct gl_device *device)
+{
+    gl_framebuffers_forget(device, 0);
+    glDeleteVertexArrays(1, &device->no_vertices);
+}
+
+static void set_blend(enum rg_blend blend)
+{
+    if (blend == RG_BLEND_OFF) {
+        glDisable(GL_BLEND);
+        return;
+    }
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, blend == RG_BLEND_ADD ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
+}
+
+static void set_depth(enum rg_depth_mode depth)
+{
+    if (depth == RG_DEPTH_OFF) {
+        glDisable(GL_DEPTH_TEST);
+        return;
+    }
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(depth == RG_DEPTH_WRITE);
+}
+
+// shaders/draw.vert places vertices in it.
+static void set_viewport(int width, int height)
+{
+    glViewport(-((RG_VIEWPORT_PX - width) / 2), -((RG_VIEWPORT_PX - height) / 2), RG_VIEWPORT_PX,
+               RG_VIEWPORT_PX);
+}
+
+static void set_state(struct gl_draw_state *now, const struct gl_draw_state *wanted)
+{
+    if (now->width != wanted->width || now->height != wanted->height)
+        set_viewport(wanted->width, wanted->height);
+    if (memcmp(now->scissor, wanted->scissor, sizeof(now->scissor)) != 0)
+        glScissor(wanted->scissor[0], wanted->scissor[1], wanted->scissor[2], wanted->scissor[3]);
+    if (now->blend != wanted->blend)
+        set_blend(wanted->blend);
+    if (now->depth != wanted->depth)
+        set_depth(wanted->depth);
+    *now = *wanted;
+}
+
+static struct gl_draw_state state_of(const struct rg_draw *draw,
+                                     const struct gl_framebuffer *framebuffer)
+{
+    struct gl_draw_state state = {
+        .width = framebuffer->key.width,
+        .height = framebuffer->key.height,
+        .scissor = {draw->x0, draw->y0, draw->x1 - draw->x0, draw->y1 - draw->y0},
+        .blend = draw->blend,
+        .depth = framebuffer->key.depth ? draw->depth_mode : RG_DEPTH_OFF,
+    };
+    if (!draw->x1) { // the whole target
+        state.scissor[2] = state.width;
+        state.scissor[3] = state.height;
+    }
+    return state;
+}
+
+bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const struct rg_run *run)
+{
+    const struct rg_draw *draw = run->draw;
+    const struct gl_framebuffer *framebuffer = gl_framebuffer_of(device, draw);
+    if (!framebuffer)
+        return false;
+    struct gl_bound *bound = &device->bound;
+    const struct gl_draw_state state = state_of(draw, framebuffer);
+    set_state(&bound->draw, &state);
+    if (bound->framebuffer != framebuffer->id)
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer->id);
+    bound->framebuffer = framebuffer->id;
+    const GLuint arguments = ((const struct gl_buf *)run->packed->args)->id;
+    if (bound->arguments != arguments)
+        glBindBuffer(GL_DRAW_INDIRECT_BUFFER, arguments);
+    bound->arguments = arguments;
+    gl_bind_buffer(bound, RG_SLOT_PRIMS, run->packed->prims);
+    gl_bind_texture(bound, RG_SLOT_BEHIND, framebuffer->behind);
+    if (draw->samples)
+        gl_bind_buffer(bound, RG_SLOT_SAMPLES, draw->samples);
+    glDrawArraysIndirect(GL_TRIANGLES, NULL);
+    // The next run may write what this one reads, and read what it counts.
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    return gl_check_reported(device, "glDrawArraysIndirect", "kernel", kernel->name);
+}

@@ -1,0 +1,95 @@
+#include "backends/gl/gl.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/log.h"
+
+struct stage {
+    GLenum type;
+    enum rg_code_kind code;
+};
+
+enum { MAX_STAGES = 2 };
+
+static const struct stage grid_stages[MAX_STAGES] = {{GL_COMPUTE_SHADER, RG_CODE_GLSL}};
+static const struct stage draw_stages[MAX_STAGES] = {
+    {GL_VERTEX_SHADER, RG_CODE_VERTEX_GLSL},
+    {GL_FRAGMENT_SHADER, RG_CODE_FRAGMENT_GLSL},
+};
+
+static bool refuse(const struct gl_device *device, const char *kernel, const char *step,
+                   const char *log)
+{
+    return rg_error("kernel '%s': %s failed on %s: %.*s", kernel, step, device->pub.info.name,
+                    (int)strcspn(log, "\r\n"), log[0] ? log : "the driver says nothing");
+}
+
+static bool compile(const struct gl_device *device, const struct rg_kernel *kernel,
+                    enum rg_code_kind kind, GLuint shader)
+{
+    struct rg_kernel_code code;
+    void *owned;
+    if (!rg_kernel_code(kernel, kind, &code, &owned))
+        return false;
+    const GLchar *text = (const GLchar *)code.bytes;
+    const GLint length = (GLint)code.size;
+    glShaderSource(shader, 1, &text, &length);
+    glCompileShader(shader);
+    free(owned);
+    GLint compiled = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    char log[512] = "";
+    glGetShaderInfoLog(shader, sizeof(log), NULL, log);
+    return compiled || refuse(device, kernel->name, "glCompileShader", log);
+}
+
+static bool attach(const struct gl_device *device, const struct rg_kernel *kernel,
+                   const struct stage *stage, GLuint program)
+{
+    GLuint shader = glCreateShader(stage->type);
+    bool compiled = compile(device, kernel, stage->code, shader);
+    if (compiled)
+        glAttachShader(program, shader);
+    glDeleteShader(shader); // once the program is
+    return compiled;
+}
+
+static bool link(const struct gl_device *device, const struct rg_kernel *kernel, GLuint program)
+{
+    glLinkProgram(program);
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    char log[512] = "";
+    glGetProgramInfoLog(program, sizeof(log), NULL, log);
+    return linked || refuse(device, kernel->name, "glLinkProgram", log);
+}
+
+GLuint gl_program_create(struct gl_device *device, const struct rg_kernel *kernel)
+{
+    const struct stage *stages = kernel->draw ? draw_stages : grid_stages;
+    GLuint program = glCreateProgram();
+    bool built = true;
+    for (int i = 0; built && i < MAX_STAGES && stages[i].type; i++)
+        built = attach(device, kernel, &stages[i], program);
+    built = built && link(device, kernel, program) &&
+            gl_check(device, "glCreateProgram", "kernel", kernel->name);
+    if (built)
+        return program;
+    glDeleteProgram(program);
+    return 0;
+}
+
+// kernels/slots_glsl.h declares such slots as the sampler NAME_words.
+unsigned gl_program_word_slots(GLuint program, const struct rg_kernel *kernel)
+{
+    unsigned slots = 0;
+    for (int i = 0; i < kernel->slot_count; i++) {
+        char sampler[128];
+        snprintf(sampler, sizeof(sampler), "%s_words", kernel->slots[i].name);
+        if (glGetUniformLocation(program, sampler) >= 0)
+            slots |= 1u << kernel->slots[i].slot;
+    }
+    return slots;
+}

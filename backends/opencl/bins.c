@@ -1,0 +1,203 @@
+#include "backends/opencl/opencl.h"
+
+#include <stdlib.h>
+
+#include "core/alloc.h"
+#include "core/log.h"
+#include "kernels/draw_state.h"
+
+extern const struct rg_kernel_code rg_code_bins[RG_CODE_COUNT];
+
+// Lanes keep several cores busy and leave little to scan. Places take MAX_PLACES words at most.
+enum { MAX_LANES = 64, ITEMS_A_LANE = 64, MAX_PLACES = 4 << 20 };
+
+// The list begins with the first and doubles up to the second. What needs more takes rounds.
+enum { MIN_LIST_BYTES = 256 << 10, MAX_LIST_BYTES = 64 << 20 };
+
+// Pixels a work item shades, squared: a processor's core walks a tile alone, a GPU gives a tile a
+// work group.
+enum { BLOCK_PX_CPU = RG_TILE_PX, BLOCK_PX_GPU = 2 };
+
+static bool make_kernel(struct opencl_bins *bins, cl_kernel *kernel, const char *name)
+{
+    cl_int code;
+    *kernel = clCreateKernel(bins->program, name, &code);
+    return opencl_check(code, "clCreateKernel", "kernel", name);
+}
+
+static bool grow(struct opencl_memory *memory, size_t *bytes, size_t wanted)
+{
+    if (*bytes >= wanted)
+        return true;
+    if (memory->mem)
+        clReleaseMemObject(memory->mem); // queued commands keep it until they have ended
+    memory->mem = NULL;
+    *bytes = 0;
+    if (!opencl_memory_create(memory, wanted))
+        return false;
+    *bytes = wanted;
+    return true;
+}
+
+struct opencl_bins *opencl_bins_of(struct opencl_device *device)
+{
+    if (device->bins)
+        return device->bins;
+    struct opencl_bins *bins = device->bins = rg_alloc(1, sizeof(*bins), "bins");
+    if (!bins)
+        return NULL;
+    bins->device = device;
+    bins->places = (struct opencl_memory){NULL, device, "buffer", "bins"};
+    bins->list = (struct opencl_memory){NULL, device, "buffer", "binned primitives"};
+    bins->round = (struct opencl_memory){NULL, device, "buffer", "round of bins"};
+    bins->program = opencl_build(device, &rg_code_bins[RG_CODE_OPENCL], "", "bins");
+    if (bins->program && make_kernel(bins, &bins->walk, "rg_bins_walk") &&
+        make_kernel(bins, &bins->scan, "rg_bins_scan") &&
+        opencl_memory_create(&bins->round, RG_ROUND_WORDS * sizeof(cl_uint)) &&
+        grow(&bins->list, &bins->list_bytes, MIN_LIST_BYTES))
+        return bins;
+    opencl_bins_destroy(device);
+    return NULL;
+}
+
+void opencl_bins_destroy(struct opencl_device *device)
+{
+    struct opencl_bins *bins = device->bins;
+    if (!bins)
+        return;
+    if (bins->walk)
+        clReleaseKernel(bins->walk);
+    if (bins->scan)
+        clReleaseKernel(bins->scan);
+    if (bins->program)
+        clReleaseProgram(bins->program);
+    const struct opencl_memory *all[] = {&bins->places, &bins->list, &bins->round};
+    for (int i = 0; i < 3; i++)
+        if (all[i]->mem)
+            clReleaseMemObject(all[i]->mem);
+    free(bins);
+    device->bins = NULL;
+}
+
+static int at_most(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static const rg_draw_state *state_of(const struct rg_run *run)
+{
+    return run->params; // rg_draw_call begins with it
+}
+
+bool opencl_bins_begin(struct opencl_bins *bins, const struct rg_kernel *kernel,
+                       const struct rg_run *run)
+{
+    const rg_draw_state *draw = state_of(run);
+    const int tiles_x = (draw->x1 - draw->x0 + RG_TILE_PX - 1) / RG_TILE_PX;
+    const int tiles = tiles_x * ((draw->y1 - draw->y0 + RG_TILE_PX - 1) / RG_TILE_PX);
+    int lanes = at_most(run->extent.width / ITEMS_A_LANE, at_most(MAX_LANES, MAX_PLACES / tiles));
+    lanes = lanes < 1 ? 1 : lanes;
+    bins->tried_prims = run->packed->capacity;
+    bins->shape = (rg_bins){
+        .tiles_x = tiles_x,
+        .tiles = tiles,
+        .lanes = lanes,
+        .prim_words = kernel->draw->prim_size / 4,
+        .corners = kernel->draw->corners,
+        .block_px = bins->device->pub.info.software ? BLOCK_PX_CPU : BLOCK_PX_GPU,
+    };
+    return grow(&bins->places, &bins->places_bytes,
+                (size_t)tiles * (size_t)lanes * sizeof(cl_uint));
+}
+
+// --- one round ---
+
+static bool walk(struct opencl_bins *bins, const struct rg_run *run, cl_int scatter)
+{
+    const struct opencl_buf *prims = (struct opencl_buf *)run->packed->prims;
+    const struct opencl_buf *args = (struct opencl_buf *)run->packed->args;
+    const struct {
+        size_t size;
+        const void *value;
+    } all[] = {
+        {sizeof(bins->shape), &bins->shape}, {sizeof(rg_draw_state), run->params},
+        {sizeof(scatter), &scatter},         {sizeof(cl_mem), &prims->memory.mem},
+        {sizeof(cl_mem), &args->memory.mem}, {sizeof(cl_mem), &bins->places.mem},
+        {sizeof(cl_mem), &bins->list.mem},
+    };
+    cl_int code = CL_SUCCESS;
+    for (cl_uint i = 0; i < sizeof(all) / sizeof(all[0]) && !code; i++)
+        code = clSetKernelArg(bins->walk, i, all[i].size, all[i].value);
+    if (!opencl_check(code, "clSetKernelArg", "kernel", "rg_bins_walk"))
+        return false;
+    const size_t lanes = (size_t)bins->shape.lanes, one = 1;
+    opencl_will_queue(bins->device);
+    code = clEnqueueNDRangeKernel(bins->device->queue, bins->walk, 1, NULL, &lanes, &one, 0, NULL,
+                                  NULL);
+    return opencl_check(code, "clEnqueueNDRangeKernel", "kernel", "rg_bins_walk");
+}
+
+static bool clear_places(struct opencl_bins *bins)
+{
+    const cl_uint zero = 0;
+    const size_t words = (size_t)bins->shape.tiles * (size_t)bins->shape.lanes;
+    opencl_will_queue(bins->device);
+    cl_int code = clEnqueueFillBuffer(bins->device->queue, bins->places.mem, &zero, sizeof(zero), 0,
+                                      words * sizeof(zero), 0, NULL, NULL);
+    return opencl_check(code, "clEnqueueFillBuffer", "buffer", "bins");
+}
+
+static bool scan(struct opencl_bins *bins, const struct rg_run *run)
+{
+    const struct opencl_buf *args = (struct opencl_buf *)run->packed->args;
+    cl_int code = clSetKernelArg(bins->scan, 0, sizeof(bins->shape), &bins->shape);
+    code = code ? code : clSetKernelArg(bins->scan, 1, sizeof(cl_mem), &args->memory.mem);
+    code = code ? code : clSetKernelArg(bins->scan, 2, sizeof(cl_mem), &bins->places.mem);
+    code = code ? code : clSetKernelArg(bins->scan, 3, sizeof(cl_mem), &bins->round.mem);
+    if (!opencl_check(code, "clSetKernelArg", "kernel", "rg_bins_scan"))
+        return false;
+    const size_t items = RG_SCAN_ITEMS;
+    opencl_will_queue(bins->device);
+    code = clEnqueueNDRangeKernel(bins->device->queue, bins->scan, 1, NULL, &items, &items, 0, NULL,
+                                  NULL);
+    return opencl_check(code, "clEnqueueNDRangeKernel", "kernel", "rg_bins_scan");
+}
+
+// Sees to a list of `pairs` elements. *fits: there is memory for it.
+static bool grow_list(struct opencl_bins *bins, cl_uint pairs, bool *fits)
+{
+    const int64_t allowed = bins->device->pub.info.limits.max_buffer_bytes;
+    const size_t most = allowed < MAX_LIST_BYTES ? (size_t)allowed : MAX_LIST_BYTES;
+    const size_t wanted = pairs * sizeof(cl_uint);
+    *fits = wanted <= most;
+    size_t bytes = bins->list_bytes;
+    while (*fits && bytes < wanted)
+        bytes = 2 * bytes < most ? 2 * bytes : most;
+    return grow(&bins->list, &bins->list_bytes, bytes);
+}
+
+bool opencl_bins_sort(struct opencl_bins *bins, const struct rg_run *run, bool *more)
+{
+    rg_bins *shape = &bins->shape;
+    for (;;) {
+        shape->end_prim = at_most(shape->first_prim + bins->tried_prims, run->packed->capacity);
+        cl_uint round[RG_ROUND_WORDS];
+        if (!clear_places(bins) || !walk(bins, run, false) || !scan(bins, run) ||
+            !opencl_memory_read(&bins->round, 0, round, sizeof(round)))
+            return false;
+        const int prims = (int)round[RG_ROUND_PRIMS];
+        shape->end_prim = at_most(shape->end_prim, prims);
+        *more = shape->end_prim < prims;
+        bool fits;
+        if (!grow_list(bins, round[RG_ROUND_PAIRS], &fits))
+            return false;
+        if (!fits && shape->end_prim - shape->first_prim == 1)
+            return rg_error("device '%s': a primitive meets %u tiles, more than a buffer holds",
+                            bins->device->pub.info.name, round[RG_ROUND_PAIRS]);
+        if (fits) {
+            bins->tried_prims = at_most(2 * bins->tried_prims, run->packed->capacity);
+            return !round[RG_ROUND_PAIRS] || walk(bins, run, true);
+        }
+        bins->tried_prims = (shape->end_prim - shape->first_prim + 1) / 2;
+    }
+}

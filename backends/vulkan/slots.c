@@ -1,0 +1,174 @@
+// The slots of a pass in Vulkan's terms: one descriptor set, whose binding 0 is the uniform block.
+#include "backends/vulkan/vulkan.h"
+
+#include <string.h>
+
+#include "core/log.h"
+
+static VkDescriptorType descriptor_type(enum rg_slot_kind kind)
+{
+    if (kind == RG_SLOT_IMAGE)
+        return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    if (kind == RG_SLOT_OUT_IMAGE)
+        return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+static bool check_slots(const struct vk_device *device, const struct vk_pass *pass,
+                        const struct rg_kernel *kernel)
+{
+    uint32_t buffers = 0, sampled = 0, stored = 0;
+    for (int i = 0; i < pass->slot_count; i++) {
+        VkDescriptorType type = descriptor_type(pass->slots[i].kind);
+        buffers += type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        sampled += type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        stored += type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    }
+    const VkPhysicalDeviceLimits *most = &device->limits;
+    uint32_t max_sampled = most->maxPerStageDescriptorSampledImages;
+    if (max_sampled > most->maxPerStageDescriptorSamplers)
+        max_sampled = most->maxPerStageDescriptorSamplers;
+    if (buffers > most->maxPerStageDescriptorStorageBuffers || sampled > max_sampled ||
+        stored > most->maxPerStageDescriptorStorageImages)
+        return rg_error("kernel '%s': %u buffers, %u images and %u images to store to; %s allows "
+                        "%u, %u and %u",
+                        kernel->name, buffers, sampled, stored, device->pub.info.name,
+                        most->maxPerStageDescriptorStorageBuffers, max_sampled,
+                        most->maxPerStageDescriptorStorageImages);
+    return true;
+}
+
+// Who reads the uniform block, and who reads a slot: no program's vertices read its own.
+static VkShaderStageFlags block_stages(const struct rg_kernel *kernel)
+{
+    return kernel->draw ? VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT
+                        : VK_SHADER_STAGE_COMPUTE_BIT;
+}
+
+static VkShaderStageFlags slot_stages(const struct rg_kernel *kernel, int slot)
+{
+    return kernel->draw && slot != RG_SLOT_PRIMS ? VK_SHADER_STAGE_FRAGMENT_BIT
+                                                 : block_stages(kernel);
+}
+
+static bool create_set_layout(struct vk_device *device, const struct rg_kernel *kernel,
+                              struct vk_pass *pass)
+{
+    VkDescriptorSetLayoutBinding bindings[RG_MAX_SLOTS] = {
+        {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1, block_stages(kernel), NULL}};
+    for (int i = 0; i < pass->slot_count; i++)
+        bindings[i + 1] = (VkDescriptorSetLayoutBinding){
+            .binding = (uint32_t)pass->slots[i].slot,
+            .descriptorType = descriptor_type(pass->slots[i].kind),
+            .descriptorCount = 1,
+            .stageFlags = slot_stages(kernel, pass->slots[i].slot),
+        };
+    const VkDescriptorSetLayoutCreateInfo set = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+        .bindingCount = (uint32_t)pass->slot_count + 1,
+        .pBindings = bindings,
+    };
+    if (!vk_try("kernel", kernel->name, vkCreateDescriptorSetLayout, device->handle, &set, NULL,
+                &pass->set_layout))
+        return false;
+    const VkPipelineLayoutCreateInfo layout = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+        .setLayoutCount = 1,
+        .pSetLayouts = &pass->set_layout,
+    };
+    return vk_try("kernel", kernel->name, vkCreatePipelineLayout, device->handle, &layout, NULL,
+                  &pass->layout);
+}
+
+static bool create_update(struct vk_device *device, const struct rg_kernel *kernel,
+                          struct vk_pass *pass)
+{
+    VkDescriptorUpdateTemplateEntry entries[RG_MAX_SLOTS] = {
+        {.descriptorCount = 1, .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC}};
+    for (int i = 0; i < pass->slot_count; i++)
+        entries[i + 1] = (VkDescriptorUpdateTemplateEntry){
+            .dstBinding = (uint32_t)pass->slots[i].slot,
+            .descriptorCount = 1,
+            .descriptorType = descriptor_type(pass->slots[i].kind),
+            .offset = (size_t)pass->slots[i].slot * sizeof(union vk_descriptor),
+        };
+    const VkDescriptorUpdateTemplateCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_UPDATE_TEMPLATE_CREATE_INFO,
+        .descriptorUpdateEntryCount = (uint32_t)pass->slot_count + 1,
+        .pDescriptorUpdateEntries = entries,
+        .templateType = VK_DESCRIPTOR_UPDATE_TEMPLATE_TYPE_DESCRIPTOR_SET,
+        .descriptorSetLayout = pass->set_layout,
+    };
+    return vk_try("kernel", kernel->name, vkCreateDescriptorUpdateTemplate, device->handle, &info,
+                  NULL, &pass->update);
+}
+
+bool vk_slots_create(struct vk_device *device, struct vk_pass *pass, const struct rg_kernel *kernel)
+{
+    return check_slots(device, pass, kernel) && create_set_layout(device, kernel, pass) &&
+           create_update(device, kernel, pass);
+}
+
+void vk_slots_destroy(struct vk_device *device, struct vk_pass *pass)
+{
+    vkDestroyDescriptorUpdateTemplate(device->handle, pass->update, NULL);
+    vkDestroyPipelineLayout(device->handle, pass->layout, NULL);
+    vkDestroyDescriptorSetLayout(device->handle, pass->set_layout, NULL);
+}
+
+// --- what is bound ---
+
+// Member by member, so that the bytes between them stay zero and descriptors can be compared.
+void vk_slot_buffer(union vk_descriptor *descriptor, const struct rg_buf *buf)
+{
+    descriptor->buffer.buffer = ((const struct vk_buf *)buf)->block.buffer;
+    descriptor->buffer.range = VK_WHOLE_SIZE;
+}
+
+void vk_slot_image(union vk_descriptor *descriptor, const struct vk_device *device,
+                   VkImageView view)
+{
+    descriptor->image.sampler = device->sampler;
+    descriptor->image.imageView = view;
+    descriptor->image.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
+}
+
+void vk_slots_fill(const struct vk_device *device, const struct rg_kernel *kernel,
+                   const struct rg_run *run, union vk_descriptor descriptors[RG_MAX_SLOTS])
+{
+    memset(descriptors, 0, RG_MAX_SLOTS * sizeof(*descriptors));
+    for (int i = 0; i < kernel->slot_count; i++) {
+        const struct rg_binding *bound = &run->slots[kernel->slots[i].slot];
+        const struct vk_image *image = (const struct vk_image *)bound->image;
+        union vk_descriptor *descriptor = &descriptors[kernel->slots[i].slot];
+        if (bound->buf)
+            vk_slot_buffer(descriptor, bound->buf);
+        else
+            vk_slot_image(descriptor, device,
+                          kernel->slots[i].kind == RG_SLOT_IMAGE ? image->sampled : image->stored);
+    }
+}
+
+bool vk_slots_bind(struct vk_device *device, struct vk_batch *batch, struct vk_pass *pass,
+                   union vk_descriptor descriptors[RG_MAX_SLOTS])
+{
+    if (pass->set_serial == device->serial &&
+        !memcmp(pass->bound, descriptors, sizeof(pass->bound)))
+        return true;
+    const VkDescriptorSetAllocateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+        .descriptorPool = batch->descriptor_pool,
+        .descriptorSetCount = 1,
+        .pSetLayouts = &pass->set_layout,
+    };
+    pass->set_serial = 0;
+    if (!vk_try("kernel", pass->pub.kernel->name, vkAllocateDescriptorSets, device->handle, &info,
+                &pass->set))
+        return false;
+    batch->descriptors += pass->slot_count;
+    memcpy(pass->bound, descriptors, sizeof(pass->bound));
+    descriptors[0].buffer = (VkDescriptorBufferInfo){batch->params.buffer, 0, pass->run_bytes};
+    vkUpdateDescriptorSetWithTemplate(device->handle, pass->set, pass->update, descriptors);
+    pass->set_serial = device->serial;
+    return true;
+}

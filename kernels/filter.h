@@ -1,0 +1,67 @@
+// Filtered images: written out in plain arithmetic, so that no device's own filtering, which rounds
+// as it likes, takes part. Texel x of a level has its centre at (x + 0.5) / width; beyond the edge
+// the edge's texels go on.
+
+RG_FN rgba rgba_lerp(rgba a, rgba b, float t)
+{
+    return rg_rgba(a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t,
+                   a.a + (b.a - a.a) * t);
+}
+
+// The texel that a coordinate lies in, and the first of the two that it lies between.
+RG_FN int rg_filter_texel(float at, int size)
+{
+    return rg_iclamp(rg_to_int(rg_floor(at)), 0, size - 1);
+}
+
+#define RG_FILTERS(name)                                                                           \
+    RG_FN rgba name##_nearest(rg_ctx rg, float u, float v, int layer, int level)                   \
+    {                                                                                              \
+        int width = name##_width(rg, level);                                                       \
+        int height = name##_height(rg, level);                                                     \
+        return name##_texel(rg, rg_filter_texel(u * rg_to_float(width), width),                    \
+                            rg_filter_texel(v * rg_to_float(height), height), layer, level);       \
+    }                                                                                              \
+    RG_FN rgba name##_linear(rg_ctx rg, float u, float v, int layer, int level)                    \
+    {                                                                                              \
+        int width = name##_width(rg, level);                                                       \
+        int height = name##_height(rg, level);                                                     \
+        float x = rg_clamp(u * rg_to_float(width), 0.0f, rg_to_float(width)) - 0.5f;               \
+        float y = rg_clamp(v * rg_to_float(height), 0.0f, rg_to_float(height)) - 0.5f;             \
+        float left = rg_floor(x);                                                                  \
+        float top = rg_floor(y);                                                                   \
+        int x0 = rg_filter_texel(left, width);                                                     \
+        int x1 = rg_filter_texel(left + 1.0f, width);                                              \
+        int y0 = rg_filter_texel(top, height);                                                     \
+        int y1 = rg_filter_texel(top + 1.0f, height);                                              \
+        rgba above = rgba_lerp(name##_texel(rg, x0, y0, layer, level),                             \
+                               name##_texel(rg, x1, y0, layer, level), x - left);                  \
+        rgba below = rgba_lerp(name##_texel(rg, x0, y1, layer, level),                             \
+                               name##_texel(rg, x1, y1, layer, level), x - left);                  \
+        return rgba_lerp(above, below, y - top);                                                   \
+    }                                                                                              \
+    RG_FN rgba name##_trilinear(rg_ctx rg, float u, float v, int layer, float lod)                 \
+    {                                                                                              \
+        int last = name##_levels(rg) - 1;                                                          \
+        float level = rg_clamp(lod, 0.0f, rg_to_float(last));                                      \
+        int fine = rg_to_int(level);                                                               \
+        int coarse = rg_imin(fine + 1, last);                                                      \
+        return rgba_lerp(name##_linear(rg, u, v, layer, fine),                                     \
+                         name##_linear(rg, u, v, layer, coarse), level - rg_to_float(fine));       \
+    }
+
+#define IN(slot, T, name)
+#define OUT(slot, T, name)
+#define INOUT(slot, T, name)
+#define ATOMIC(slot, T, name)
+#define IMAGE(slot, F, name) RG_FILTERS(name)
+#define OUT_IMAGE(slot, F, name)
+
+RG_ALL_SLOTS
+
+#undef IN
+#undef OUT
+#undef INOUT
+#undef ATOMIC
+#undef IMAGE
+#undef OUT_IMAGE

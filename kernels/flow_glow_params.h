@@ -1,0 +1,20 @@
+// The parameters of flow's glow: flow_glow_bright.h, flow_glow_blur.h and flow_glow.h.
+#ifndef RG_KERNELS_FLOW_GLOW_PARAMS_H
+#define RG_KERNELS_FLOW_GLOW_PARAMS_H
+
+#include "lang.h"
+
+#define FLOW_GLOW_REDUCTION 4  // target pixels a side of a pixel of the glow
+#define FLOW_GLOW_RADIUS    12 // of the blur, in pixels of the glow
+
+RG_STRUCT(flow_glow_params)
+{
+    float threshold;     // light above this glows
+    float strength;      // share of it that is spread
+    int step_x, step_y;  // the blur's direction
+    int last_x, last_y;  // of the image that is read
+    float width, height; // of the target, in pixels
+};
+RG_STRUCT_SIZE(flow_glow_params, 8)
+
+#endif

@@ -1,0 +1,89 @@
+// flow: a model inside the box, matt with a sheen, lit by the environment and a lamp, before whose
+// light the drops on the panes cast shadows (Tatarchuk 2006, which the paper points to).
+#include "flow_panes.h"
+#include "math.h"
+#include "mesh.h"
+
+#define RG_PARAMS flow_view_params
+#define RG_SLOTS                                                                                   \
+    IN(1, float, positions)                                                                        \
+    IN(2, uint, normals) IN(3, uint, indices) IMAGE(4, RG11B10F, environment)                      \
+        IN(5, flow_pane, panes) IN(6, float, blurred)
+#define RG_CORNERS 3
+#define RG_RECORD  mesh_record
+#include "draw.h"
+
+#include "flow_optics.h"
+#include "mesh_item.h"
+
+RG_DRAW_ITEM(flow_model)
+{
+    return mesh_item(rg, p.to_clip, i);
+}
+
+RG_DRAW_RECORD(flow_model)
+{
+    return mesh_record_of(rg, draw, p.to_clip, i);
+}
+
+// How far along `d` from `at`, both of one axis, the box's side is.
+RG_FN float to_side(float at, float d)
+{
+    float side = d < 0.0f ? -1.0f : 1.0f;
+    return (side - at) / (rg_abs(d) > 1e-6f ? d : side * 1e-6f);
+}
+
+// The height of the water where the way to the lamp leaves the box. Panes 0 to 5 are front, back,
+// right, left, top and bottom; pane 0's frame is the box's own.
+RG_FN float water_before_lamp(rg_ctx rg, flow_view_params p, v3 at)
+{
+    flow_pane front = panes_at(rg, 0);
+    v3 lamp = v3_make(p.light_x, p.light_y, p.light_z);
+    float x = v3_dot(at, front.t);
+    float y = v3_dot(at, front.b);
+    float z = v3_dot(at, front.n);
+    float dx = v3_dot(lamp, front.t);
+    float dy = v3_dot(lamp, front.b);
+    float dz = v3_dot(lamp, front.n);
+    float by_x = to_side(x, dx);
+    float by_y = to_side(y, dy);
+    float by_z = to_side(z, dz);
+    float way = rg_min(by_x, rg_min(by_y, by_z));
+    int pane = by_z == way   ? (dz < 0.0f ? 1 : 0)
+               : by_x == way ? (dx < 0.0f ? 3 : 2)
+                             : (dy < 0.0f ? 4 : 5);
+    flow_pane q = panes_at(rg, pane);
+    v3 hit = v3_add(at, v3_scale(lamp, way));
+    float n = rg_to_float(p.size);
+    int tx = rg_iclamp(rg_to_int((0.5f * v3_dot(hit, q.t) + 0.5f) * n), 0, p.size - 1);
+    int ty = rg_iclamp(rg_to_int((0.5f * v3_dot(hit, q.b) + 0.5f) * n), 0, p.size - 1);
+    return blurred_at(rg, flow_pane_index(p.size, pane, tx, ty));
+}
+
+RG_FN v3 surface_at(flow_view_params p, mesh_record r, v3 ray, int px, int py)
+{
+    float dx = rg_to_float(px) + 0.5f - r.planes.origin_x;
+    float dy = rg_to_float(py) + 0.5f - r.planes.origin_y;
+    float w = 1.0f / rg_max(rg_plane_at(r.planes.inverse_w, dx, dy), RG_LEAST_W);
+    return v3_add(v3_make(p.rays.xw, p.rays.yw, p.rays.zw), v3_scale(ray, w));
+}
+
+RG_DRAW_FRAGMENT(flow_model)
+{
+    v3 turned = m4_turn(p.turn, mesh_normal_at(r, px, py));
+    v3 n = v3_scale(turned, 1.0f / rg_sqrt(rg_max(v3_dot(turned, turned), 1e-12f)));
+    v3 ray = m4_turn(p.rays, v3_make(rg_to_float(px), rg_to_float(py), 1.0f));
+    float towards = rg_min(v3_dot(ray, n), 0.0f);
+    v3 around = light_from(rg, n, p.ambient_level, p.ambient_size);
+    v3 sheen = light_from(rg, v3_add(ray, v3_scale(n, -2.0f * towards)), p.reflection_level,
+                          p.reflection_size);
+    float lamp = p.light * rg_max(v3_dot(n, v3_make(p.light_x, p.light_y, p.light_z)), 0.0f);
+    float water = water_before_lamp(rg, p, surface_at(p, r, ray, px, py));
+    lamp = lamp * (1.0f - p.drop_shadow * rg_min(water * p.wet_per_height, 1.0f));
+    float reflectance = 0.5f * flow_fresnel(p, ray, towards);
+    float matt = 1.0f - reflectance;
+    rgba c = rg_rgba((around.x + lamp) * p.model_r * matt + sheen.x * reflectance,
+                     (around.y + lamp) * p.model_g * matt + sheen.y * reflectance,
+                     (around.z + lamp) * p.model_b * matt + sheen.z * reflectance, 1.0f);
+    return rg_fragment_make(c, rg_planes_depth(r.planes, px, py));
+}

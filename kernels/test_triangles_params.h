@@ -1,0 +1,14 @@
+// The parameters of test_triangles.h.
+#ifndef RG_KERNELS_TEST_TRIANGLES_PARAMS_H
+#define RG_KERNELS_TEST_TRIANGLES_PARAMS_H
+
+#include "lang.h"
+
+RG_STRUCT(test_triangles_params)
+{
+    int layer; // of the image of depth
+    int level;
+};
+RG_STRUCT_SIZE(test_triangles_params, 2)
+
+#endif
