@@ -47,8 +47,11 @@ RG_GRID_KERNEL(flow_drain)
     if (at.x < 0)
         return;
     int i = flow_pane_index(p.size, z, at.x, at.y);
+    float given = given_at(rg, i);
+    if (given == 0.0f)
+        return;
     flow_pane q = panes_at(rg, z);
-    flow_parts parts = flow_divide(p, q, water_at(rg, i), given_at(rg, i));
+    flow_parts parts = flow_divide(p, q, water_at(rg, i), given);
     leave(rg, p, q, at.x + q.ax, at.y + q.ay, parts.near_a);
     leave(rg, p, q, at.x + 2 * q.ax, at.y + 2 * q.ay, parts.far_a);
     leave(rg, p, q, at.x + 3 * q.ax, at.y + 3 * q.ay, parts.third_a);

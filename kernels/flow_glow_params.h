@@ -9,12 +9,17 @@
 
 RG_STRUCT(flow_glow_params)
 {
-    float threshold;     // light above this glows
-    float strength;      // share of it that is spread
-    int step_x, step_y;  // the blur's direction
-    int last_x, last_y;  // of the image that is read
-    float width, height; // of the target, in pixels
+    float threshold;    // light above this glows
+    float strength;     // share of it that is spread
+    int step_x, step_y; // the blur's direction
+    int last_x, last_y; // of the image that is read
 };
-RG_STRUCT_SIZE(flow_glow_params, 8)
+RG_STRUCT_SIZE(flow_glow_params, 6)
+
+// What of a channel's light is spread.
+RG_FN float flow_glowing(flow_glow_params p, float light)
+{
+    return p.strength * rg_max(light - p.threshold, 0.0f);
+}
 
 #endif

@@ -27,7 +27,7 @@ RG_STRUCT(flow_water)
 {
     float wetness; // 0 dry to 1
     v3 bend;       // what of the normal lies in the pane, in the world
-    v3 normal;     // of unit length, towards the viewer
+    v3 normal;     // of unit length, towards the viewer: from inside the box drops are hollow
 };
 
 RG_FN flow_water water_on(rg_ctx rg, flow_pane_record r, int size, flow_point at)
@@ -35,11 +35,11 @@ RG_FN flow_water water_on(rg_ctx rg, flow_pane_record r, int size, flow_point at
     wet_normal w = normal_between(rg, r.first, size, at);
     float x = wet_normal_component(w.x);
     float y = wet_normal_component(w.y);
-    float z = rg_sqrt(rg_max(1.0f - (x * x + y * y), 0.0f)) * r.facing;
+    float z = rg_sqrt(rg_max(1.0f - (x * x + y * y), 0.0f));
     flow_water f;
     f.wetness = wet_normal_wetness(w);
     f.bend = v3_add(v3_scale(r.t, x), v3_scale(r.b, y));
-    f.normal = v3_add(f.bend, v3_scale(r.n, z));
+    f.normal = v3_scale(v3_add(f.bend, v3_scale(r.n, z)), r.facing);
     return f;
 }
 

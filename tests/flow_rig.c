@@ -9,6 +9,9 @@
 
 #include <cmocka.h>
 
+#include "core/techniques/flow_instance.h"
+#include "kernels/format.h"
+
 static const char *const cheap = "environment=sky environment_px=16 view=pane panes=mirror";
 
 static void set(struct flow_settings *settings, const char *assignments)
@@ -19,19 +22,32 @@ static void set(struct flow_settings *settings, const char *assignments)
     free(copy);
 }
 
-void rig_open(struct rig *rig, const char *device, const char *assignments)
+void rig_open_sized(struct rig *rig, const char *device, const char *assignments, int width,
+                    int height)
 {
     rg_params_reset(&flow_param_table, &rig->settings);
     set(&rig->settings, cheap);
     set(&rig->settings, assignments);
-    rig->size = rig->settings.resolution_px;
     rig->device = rg_device_open(device, NULL);
     assert_non_null(rig->device);
-    rig->width = rig->size * 3 / 2;
-    rig->height = rig->size * 5 / 4;
+    rig->width = width > 0 ? width : rig->settings.resolution_px * 3 / 2;
+    rig->height = height > 0 ? height : rig->settings.resolution_px * 5 / 4;
     rig->instance =
         rg_technique_find("flow")->create(rig->device, &rig->settings, rig->width, rig->height);
     assert_non_null(rig->instance);
+    const struct flow *flow = (const struct flow *)rig->instance;
+    rig->size = flow->settings.resolution_px;
+    rig->panes = flow->pane_count;
+}
+
+void rig_open(struct rig *rig, const char *device, const char *assignments)
+{
+    rig_open_sized(rig, device, assignments, 0, 0);
+}
+
+void rig_set(struct rig *rig, const char *assignments)
+{
+    set(&((struct flow *)rig->instance)->settings, assignments);
 }
 
 void rig_close(struct rig *rig)
@@ -46,51 +62,70 @@ void rig_step(struct rig *rig, int steps)
         assert_true(rig->instance->technique->step(rig->instance));
 }
 
-static float *read_map(const struct rig *rig)
+static size_t map_bytes(const struct rig *rig)
 {
-    const size_t bytes = (size_t)flow_map_length(rig->size) * sizeof(float);
-    float *map = malloc(bytes);
-    assert_true(rg_buf_read(rig->instance->state[0].buf, 0, map, (int64_t)bytes));
-    return map;
+    return (size_t)rig->panes * (size_t)flow_map_length(rig->size) * sizeof(float);
+}
+
+static float *read_maps(const struct rig *rig)
+{
+    float *maps = malloc(map_bytes(rig));
+    assert_true(rg_buf_read(rig->instance->state[0].buf, 0, maps, (int64_t)map_bytes(rig)));
+    return maps;
+}
+
+int rig_texel(const struct rig *rig, int pane, int x, int y)
+{
+    return (pane * rig->size + y) * rig->size + x;
+}
+
+static int64_t droplets_of(float water, int pane, int x, int y)
+{
+    const double droplets = (double)water * 65536;
+    const int64_t whole = (int64_t)droplets;
+    if ((double)whole != droplets || whole < 0)
+        fail_msg("pane %d, texel (%d, %d) holds %.17g droplets", pane, x, y, droplets);
+    return whole;
 }
 
 int64_t *rig_water(const struct rig *rig)
 {
     const int n = rig->size, m = FLOW_MARGIN;
-    float *map = read_map(rig);
-    int64_t *water = malloc((size_t)n * (size_t)n * sizeof(*water));
-    for (int y = -m; y < n + m; y++) {
-        for (int x = -m; x < n + m; x++) {
-            const double droplets = (double)map[flow_index(n, x, y)] * 65536;
-            const int64_t whole = (int64_t)droplets;
-            if ((double)whole != droplets || whole < 0)
-                fail_msg("texel (%d, %d) holds %.17g droplets", x, y, droplets);
-            if (flow_on_pane(n, x, y))
-                water[y * n + x] = whole;
-            else if (whole)
-                fail_msg("the margin is wet at (%d, %d)", x, y);
+    float *maps = read_maps(rig);
+    int64_t *water = malloc((size_t)(rig->panes * n * n) * sizeof(*water));
+    for (int pane = 0; pane < rig->panes; pane++) {
+        for (int y = -m; y < n + m; y++) {
+            for (int x = -m; x < n + m; x++) {
+                const int64_t droplets =
+                    droplets_of(maps[flow_pane_index(n, pane, x, y)], pane, x, y);
+                if (flow_on_pane(n, x, y))
+                    water[rig_texel(rig, pane, x, y)] = droplets;
+                else if (droplets)
+                    fail_msg("the margin of pane %d is wet at (%d, %d)", pane, x, y);
+            }
         }
     }
-    free(map);
+    free(maps);
     return water;
 }
 
 void rig_put(struct rig *rig, const int64_t *water)
 {
     const int n = rig->size;
-    float *map = calloc((size_t)flow_map_length(n), sizeof(*map));
-    for (int y = 0; y < n; y++)
-        for (int x = 0; x < n; x++)
-            map[flow_index(n, x, y)] = (float)((double)water[y * n + x] / 65536);
-    assert_true(rg_buf_write(rig->instance->state[0].buf, 0, map,
-                             (int64_t)flow_map_length(n) * (int64_t)sizeof(*map)));
-    free(map);
+    float *maps = calloc(1, map_bytes(rig));
+    for (int pane = 0; pane < rig->panes; pane++)
+        for (int y = 0; y < n; y++)
+            for (int x = 0; x < n; x++)
+                maps[flow_pane_index(n, pane, x, y)] =
+                    (float)((double)water[rig_texel(rig, pane, x, y)] / 65536);
+    assert_true(rg_buf_write(rig->instance->state[0].buf, 0, maps, (int64_t)map_bytes(rig)));
+    free(maps);
 }
 
 int64_t rig_sum(const struct rig *rig)
 {
     int64_t *water = rig_water(rig), sum = 0;
-    for (int i = 0; i < rig->size * rig->size; i++)
+    for (int i = 0; i < rig->panes * rig->size * rig->size; i++)
         sum += water[i];
     free(water);
     return sum;
@@ -105,7 +140,7 @@ uint32_t rig_ledger(const struct rig *rig, int word)
 
 void rig_put_one(struct rig *rig, int x, int y, int64_t droplets)
 {
-    int64_t *water = calloc((size_t)rig->size * (size_t)rig->size, sizeof(*water));
+    int64_t *water = calloc((size_t)(rig->panes * rig->size * rig->size), sizeof(*water));
     water[y * rig->size + x] = droplets;
     rig_put(rig, water);
     free(water);
@@ -119,4 +154,17 @@ void rig_expect(const struct rig *rig, int x, int y, int64_t droplets)
     if (found != droplets)
         fail_msg("texel (%d, %d) holds %lld droplets, expected %lld", x, y, (long long)found,
                  (long long)droplets);
+}
+
+float *rig_draw(struct rig *rig)
+{
+    const int channels = rig->width * rig->height * 4;
+    uint16_t *halves = malloc((size_t)channels * sizeof(*halves));
+    float *light = malloc((size_t)channels * sizeof(*light));
+    assert_true(rig->instance->technique->draw(rig->instance));
+    assert_true(rg_image_read(rig->instance->target, 0, 0, halves));
+    for (int i = 0; i < channels; i++)
+        light[i] = rg_unpack_half(halves[i]);
+    free(halves);
+    return light;
 }

@@ -279,6 +279,43 @@ static void test_borders_come_from_the_neighbour(void **state)
     rg_environment_destroy(environment);
 }
 
+static double red_of(uint32_t texel)
+{
+    return ldexp(64 + (texel & 63), (int)(texel >> 6 & 31) - 21);
+}
+
+// The outermost texels of a packed face hold the light of the cube's edge itself, so that both
+// faces hold the same: half a texel beside it, light differs by up to 1/PX.
+static void test_packed_faces_end_on_the_edges(void **state)
+{
+    (void)state;
+    enum { PX = 6 };
+    struct rg_environment *environment = rg_environment_create(SIZE);
+    rg_environment_fill(environment, unit_light, NULL);
+    uint32_t(*faces)[PX * PX] = malloc(6 * sizeof(*faces));
+    assert_true(rg_environment_pack(environment, PX, faces[0]));
+    for (int face = 0; face < 6; face++) {
+        for (int i = 0; i < PX * PX; i++) {
+            // From the centres of a face of four texels.
+            double corner[3], next[3], down[3], d[3], light[3];
+            const double x = (double)(i % PX) / (PX - 1), y = (double)(i / PX) / (PX - 1);
+            rg_cube_direction(face, 0, 0, 2, corner);
+            rg_cube_direction(face, 1, 0, 2, next);
+            rg_cube_direction(face, 0, 1, 2, down);
+            for (int c = 0; c < 3; c++)
+                d[c] = corner[c] + (next[c] - corner[c]) * (2 * x - 0.5) +
+                       (down[c] - corner[c]) * (2 * y - 0.5);
+            unit_light(d, NULL, light);
+            // 6 bits of red, dithered; and the mean of a few texels of the map.
+            if (fabs(red_of(faces[face][i]) - light[0]) > 1.0 / 32 + 0.01)
+                fail_msg("face %d, texel %d: %g, not %g", face, i, red_of(faces[face][i]),
+                         light[0]);
+        }
+    }
+    free(faces);
+    rg_environment_destroy(environment);
+}
+
 // Walks along all 12 edges and reads both sides: as near as neighbours within a face are.
 static void test_light_is_smooth_across_edges(void **state)
 {
@@ -303,8 +340,7 @@ static void test_light_is_smooth_across_edges(void **state)
                 double wide[3] = {(double)d[0], (double)d[1], (double)d[2]}, light[3];
                 unit_light(wide, NULL, light);
                 // RG11B10F keeps 6 bits of red and green: 1/32 at 2 to 3, dithered either way.
-                const double red = ldexp(64 + (texel & 63), (int)(texel >> 6 & 31) - 21);
-                assert_true(fabs(red - light[0]) < 2.0 / SIZE + 1.0 / 32);
+                assert_true(fabs(red_of(texel) - light[0]) < 2.0 / SIZE + 1.0 / 32);
             }
         }
     }
@@ -323,6 +359,7 @@ int main(void)
         cmocka_unit_test(test_locating_inverts_direction),
         cmocka_unit_test(test_seams_are_on_a_face),
         cmocka_unit_test(test_borders_come_from_the_neighbour),
+        cmocka_unit_test(test_packed_faces_end_on_the_edges),
         cmocka_unit_test(test_light_is_smooth_across_edges),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

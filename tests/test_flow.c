@@ -67,6 +67,65 @@ static void test_much_water_reaches_two_texels(void **state)
     }
 }
 
+// With L = 0.25 and M = 0.5 the third texel is reached above 0.75, the fourth above 1: each takes M
+// - L more. Of what goes to a texel or beyond, r goes beyond.
+static void test_reach(void **state)
+{
+    (void)state;
+    enum { GIVEN = 3 }; // quarters of the water
+    static const struct {
+        int reach;
+        int64_t water, to[4]; // sixteenths of a unit; what is given, in 64ths of it
+    } cases[] = {
+        {2, 24, {32, 32, 0, 0}},  {3, 24, {32, 16, 16, 0}}, {4, 24, {32, 16, 8, 8}},
+        {4, 16, {32, 16, 16, 0}}, // as much as the fourth threshold is not more
+        {4, 12, {32, 32, 0, 0}},  {4, 8, {64, 0, 0, 0}},    {3, 20, {32, 16, 16, 0}},
+        {4, 17, {32, 16, 8, 8}},
+    };
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        char text[160];
+        snprintf(text, sizeof(text),
+                 "far_share=0.5 move_threshold=0.25 fast_threshold=0.5 reach_texels=%d",
+                 cases[i].reach);
+        struct rig rig;
+        open_plain(&rig, text);
+        const int64_t droplets = cases[i].water * UNIT / 16, given = droplets * GIVEN / 4;
+        rig_put_one(&rig, MIDDLE, MIDDLE, droplets);
+        rig_step(&rig, 1);
+        rig_expect(&rig, MIDDLE, MIDDLE, droplets - given);
+        for (int k = 0; k < 4; k++)
+            rig_expect(&rig, MIDDLE, MIDDLE + 1 + k, given * cases[i].to[k] / 64);
+        rig_close(&rig);
+    }
+}
+
+// Water below the further thresholds goes as it does without them, in both directions of a split.
+static void test_reach_leaves_little_water_alone(void **state)
+{
+    (void)state;
+    int64_t *water[3];
+    for (int reach = 2; reach <= 4; reach++) {
+        char text[160];
+        snprintf(text, sizeof(text),
+                 "pane_roll_deg=30 direction=split capacity=1 reach_texels=%d fast_threshold=0.6",
+                 reach);
+        struct rig rig;
+        open_plain(&rig, text);
+        int64_t *put = calloc(SIZE * SIZE, sizeof(*put));
+        for (int i = 0; i < SIZE * SIZE; i++)
+            put[i] = i % 7 ? 0 : i * (int64_t)UNIT / (SIZE * SIZE);
+        rig_put(&rig, put);
+        free(put);
+        rig_step(&rig, 1);
+        water[reach - 2] = rig_water(&rig);
+        rig_close(&rig);
+    }
+    for (int i = 1; i < 3; i++)
+        assert_memory_equal(water[0], water[i], SIZE * SIZE * sizeof(int64_t));
+    for (int i = 0; i < 3; i++)
+        free(water[i]);
+}
+
 // A remainder map that keeps everything is a dam; only what is above the capacity runs over.
 static void test_a_full_texel_spills(void **state)
 {
@@ -361,6 +420,8 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_one_texel_falls),
         cmocka_unit_test(test_much_water_reaches_two_texels),
+        cmocka_unit_test(test_reach),
+        cmocka_unit_test(test_reach_leaves_little_water_alone),
         cmocka_unit_test(test_a_full_texel_spills),
         cmocka_unit_test(test_nothing_moves_on_a_level_pane),
         cmocka_unit_test(test_little_water_stays),

@@ -1,4 +1,4 @@
-// flow on cpu:reference against the independent oracle: the state, and one lit image.
+// The water of flow on cpu:reference against the independent oracle.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/scene/cube.h"
-#include "kernels/image_memory.h"
 #include "tests/flow_rig.h"
 #include "tests/oracle/flow_oracle.h"
 
@@ -224,115 +222,12 @@ static void test_mutants_are_rejected(void **state)
 #undef REJECT
 }
 
-// --- light ---
-
-static float *unpack_environment(const struct flow_settings *s, int n)
-{
-    const size_t texels = (size_t)n * (size_t)n;
-    struct rg_environment *environment = rg_environment_load(s->environment);
-    assert_non_null(environment);
-    float *light = malloc(6 * texels * 3 * sizeof(*light));
-    uint32_t *packed = malloc(6 * texels * sizeof(*packed));
-    rg_environment_pack(environment, n, packed);
-    for (size_t i = 0; i < 6 * texels; i++) {
-        const rgba c = rg_load_RG11B10F(packed, (int)i);
-        light[3 * i] = c.r;
-        light[3 * i + 1] = c.g;
-        light[3 * i + 2] = c.b;
-    }
-    free(packed);
-    rg_environment_destroy(environment);
-    return light;
-}
-
-static double *draw_oracle(struct pair *pair)
-{
-    const struct flow_settings *s = &pair->rig.settings;
-    const int reflection_px = s->environment_px >> flow_reflection_level(s);
-    float *environment = unpack_environment(s, s->environment_px);
-    float *reflection = unpack_environment(s, reflection_px);
-    double *light = malloc((size_t)pair->rig.width * (size_t)pair->rig.height * 3 * sizeof(*light));
-    oracle_draw(&pair->oracle,
-                &(struct oracle_lighting){
-                    .pane_mm = s->pane_mm,
-                    .relief = s->relief,
-                    .wet_height = s->wet_height,
-                    .view_angle_deg = s->view_angle_deg,
-                    .fresnel_bias = s->fresnel_bias,
-                    .fresnel_scale = s->fresnel_scale,
-                    .fresnel_power = s->fresnel_power,
-                    .refraction_strength = s->refraction_strength,
-                    .reflectivity = s->reflectivity,
-                    .environment = {environment, s->environment_px},
-                    .reflection = {reflection, reflection_px},
-                },
-                pair->rig.width, pair->rig.height, light);
-    free(environment);
-    free(reflection);
-    return light;
-}
-
-// Of the pixels, how many have a channel that is off by more than `tolerance`, relatively.
-static int count_off(struct pair *pair, const double *light, double tolerance)
-{
-    const int pixels = pair->rig.width * pair->rig.height;
-    uint16_t *texels = malloc((size_t)pixels * 4 * sizeof(*texels));
-    assert_true(rg_image_read(pair->rig.instance->target, 0, 0, texels));
-    int off = 0;
-    for (int i = 0; i < pixels; i++) {
-        bool bad = false;
-        for (int c = 0; c < 3; c++) {
-            const double a = (double)rg_unpack_half(texels[4 * i + c]), b = light[3 * i + c];
-            bad = bad || !(fabs(a - b) <= tolerance * fmax(a, b));
-        }
-        off += bad;
-    }
-    free(texels);
-    return off;
-}
-
-// A target's half floats are cut off, not rounded: one part in 2^10. Beyond that single precision
-// sends a pixel now and then to another texel of the environment, or rounds the normal map the
-// other way: 2 of 7,680 pixels at most in 12 images.
-static const double LIGHT_TOLERANCE = 1.0 / 1000, LIGHT_FRACTION = 0.001;
-
-static void compare_light(const char *assignments)
-{
-    struct pair pair;
-    pair_open(&pair, assignments);
-    rig_step(&pair.rig, 30);
-    // The same water to the droplet, so that light alone is compared.
-    free(pair.oracle.water);
-    pair.oracle.water = rig_water(&pair.rig);
-    assert_true(pair.rig.instance->technique->draw(pair.rig.instance));
-    double *light = draw_oracle(&pair);
-    const int off = count_off(&pair, light, LIGHT_TOLERANCE);
-    if (off > LIGHT_FRACTION * pair.rig.width * pair.rig.height)
-        fail_msg("%s: %d pixels are off by more than %g", assignments, off, LIGHT_TOLERANCE);
-    free(light);
-    pair_close(&pair);
-}
-
-static void test_light(void **state)
-{
-    (void)state;
-    char text[256];
-    for (int p = 0; p < POSES; p++) {
-        snprintf(text, sizeof(text),
-                 "resolution_px=64 environment_px=64 reflection_px=16 environment=%s drops=300 "
-                 "seed=%d %s",
-                 p % 2 ? "crossroads" : "sky", p + 1, poses[p]);
-        compare_light(text);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_state_at_128),
         cmocka_unit_test(test_state_of_many_poses),
         cmocka_unit_test(test_mutants_are_rejected),
-        cmocka_unit_test(test_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -64,13 +64,25 @@ bool cpu_image_read(struct rg_image *image, int layer, int level, void *texels)
     return true;
 }
 
+// Texels a step of clearing: what one thread copies at a time, from a pattern that stays in its
+// cache.
+enum { CLEAR_TEXELS = 1024, MAX_TEXEL_WORDS = 4 };
+
 bool cpu_image_clear(struct rg_image *image, const void *texel)
 {
     struct cpu_image *cpu = (struct cpu_image *)image;
-    size_t size = (size_t)rg_format_size(image->desc.format);
+    const size_t texel_size = (size_t)rg_format_size(image->desc.format);
+    const size_t total = ((size_t)cpu->words - RG_MAX_LEVELS) * sizeof(uint);
+    uint pattern[CLEAR_TEXELS * MAX_TEXEL_WORDS];
+    const size_t step = CLEAR_TEXELS * texel_size;
+    for (size_t at = 0; at < step; at += texel_size)
+        memcpy((char *)pattern + at, texel, texel_size);
     char *first = (char *)(cpu->texels + RG_MAX_LEVELS);
-    size_t texels = ((size_t)cpu->words - RG_MAX_LEVELS) * sizeof(uint) / size;
-    for (size_t i = 0; i < texels; i++)
-        memcpy(first + i * size, texel, size);
+    const int64_t steps = (int64_t)((total + step - 1) / step);
+#pragma omp parallel for schedule(static) if (steps > 64)
+    for (int64_t i = 0; i < steps; i++) {
+        const size_t at = (size_t)i * step;
+        memcpy(first + at, pattern, total - at < step ? total - at : step);
+    }
     return true;
 }

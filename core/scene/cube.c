@@ -126,10 +126,11 @@ static uint32_t pack_rg11b10f(const float light[3], uint32_t noise)
 }
 
 // Where texel `i` of `size_px` reads a face of `size` texels: the first of two, and the weight of
-// the second.
+// the second. The first and the last texel lie on the face's edges.
 static int source_of(int i, int size_px, int size, float *weight)
 {
-    const double at = (i + 0.5) * size / size_px - 0.5;
+    const double along = size_px > 1 ? (double)i / (size_px - 1) : 0.5;
+    const double at = along * size - 0.5;
     const int first = (int)(at + 1) - 1;
     *weight = (float)(at - first);
     return first;

@@ -26,8 +26,10 @@ void rg_environment_fill(struct rg_environment *environment, rg_light_fn fn, con
 struct rg_environment *rg_environment_halve(const struct rg_environment *environment);
 
 // All six faces resampled to size_px^2 texels of RG11B10F each: halved while they are twice as
-// large or more, then bilinearly. The format is coarse (6 bits of mantissa), so a seeded noise
-// dithers what it rounds. Light that is negative or no number becomes 0.
+// large or more, then bilinearly. The outermost texels' centres lie on the cube's edges, so that
+// neighbouring faces hold the same light there, and who filters within a face sees no seam. The
+// format is coarse (6 bits of mantissa), so a seeded noise dithers what it rounds. Light that is
+// negative or no number becomes 0.
 bool rg_environment_pack(const struct rg_environment *environment, int size_px, uint32_t *texels);
 
 #endif

@@ -55,8 +55,16 @@ static bool turn_panes(struct flow *flow)
     return rg_buf_write(flow->panes, 0, panes, flow->pane_count * (int64_t)sizeof(flow_pane));
 }
 
+// Panes that a pass runs over at once: all of them where their maps are small, one after the other
+// where what a pass has written of one is still in a processor's cache when the next pass reads it.
+static int panes_at_once(const struct flow *flow)
+{
+    const int large_px = 384;
+    return flow->settings.resolution_px < large_px ? flow->pane_count : 1;
+}
+
 // What leaves each texel, and what leaves each pane.
-static bool give(struct flow *flow, const flow_params *p)
+static bool give(struct flow *flow, const flow_params *p, int first, int count)
 {
     const int n = flow->settings.resolution_px;
     return run(flow, FLOW_GIVEN,
@@ -66,7 +74,8 @@ static bool give(struct flow *flow, const flow_params *p)
                                          [3].buf = flow->noise,
                                          [4].buf = flow->given,
                                          [5].buf = flow->panes},
-                               .extent = {n, n, flow->pane_count}}) &&
+                               .origin = {0, 0, first},
+                               .extent = {n, n, count}}) &&
            run(flow, FLOW_DRAIN,
                (struct rg_run){.params = p,
                                .slots = {[1].buf = flow->water,
@@ -74,10 +83,11 @@ static bool give(struct flow *flow, const flow_params *p)
                                          [3].buf = flow->ledger,
                                          [4].buf = flow->panes,
                                          [5].buf = flow->arriving},
-                               .extent = {n, FLOW_STRIPS, flow->pane_count}});
+                               .origin = {0, 0, first},
+                               .extent = {n, FLOW_STRIPS, count}});
 }
 
-static bool take(struct flow *flow, const flow_params *p)
+static bool take(struct flow *flow, const flow_params *p, int first, int count)
 {
     const int n = flow->settings.resolution_px;
     const struct rg_run moving = {.params = p,
@@ -85,25 +95,34 @@ static bool take(struct flow *flow, const flow_params *p)
                                             [2].buf = flow->given,
                                             [3].buf = flow->moved,
                                             [4].buf = flow->panes},
-                                  .extent = {n, n, flow->pane_count}};
+                                  .origin = {0, 0, first},
+                                  .extent = {n, n, count}};
     return run(flow, FLOW_MOVE, moving) &&
-           (!flow->passes[FLOW_REACH] || run(flow, FLOW_REACH, moving)) &&
-           (!flow->passes[FLOW_ARRIVE] ||
-            run(flow, FLOW_ARRIVE,
-                (struct rg_run){.params = p,
-                                .slots = {[1].buf = flow->moved, [2].buf = flow->arriving},
-                                .extent = {n, FLOW_STRIPS, flow->pane_count}}));
+           (!flow->passes[FLOW_REACH] || run(flow, FLOW_REACH, moving));
+}
+
+static bool move(struct flow *flow)
+{
+    const int n = flow->settings.resolution_px, at_once = panes_at_once(flow);
+    const flow_params p = flow_params_at(&flow->settings, flow->noise_size, flow->base.frame);
+    for (int first = 0; first < flow->pane_count; first += at_once)
+        if (!give(flow, &p, first, at_once) || !take(flow, &p, first, at_once))
+            return false;
+    return !flow->passes[FLOW_ARRIVE] ||
+           run(flow, FLOW_ARRIVE,
+               (struct rg_run){.params = &p,
+                               .slots = {[1].buf = flow->moved, [2].buf = flow->arriving},
+                               .extent = {n, FLOW_STRIPS, flow->pane_count}});
 }
 
 static bool flow_step(struct rg_instance *instance)
 {
     struct flow *flow = (struct flow *)instance;
     const int n = flow->settings.resolution_px;
-    const flow_params p = flow_params_at(&flow->settings, flow->noise_size, instance->frame);
     const bool ok =
         turn_panes(flow) &&
         flow_land(flow, instance->frame, flow_drops_at(&flow->settings, instance->frame)) &&
-        give(flow, &p) && take(flow, &p);
+        move(flow);
     struct rg_buf *moved = flow->moved;
     flow->moved = flow->water;
     flow->water = moved;
@@ -117,18 +136,23 @@ static bool flow_step(struct rg_instance *instance)
 
 static bool draw_surface(struct flow *flow)
 {
-    const int n = flow->settings.resolution_px;
+    const int n = flow->settings.resolution_px, at_once = panes_at_once(flow);
     const flow_params p = flow_params_at(&flow->settings, flow->noise_size, flow->base.frame);
     const flow_normals_params normals = flow_normals_params_of(&flow->settings);
-    const struct rg_extent maps = {n, n, flow->pane_count};
-    return run(flow, FLOW_BLUR,
-               (struct rg_run){.params = &p,
-                               .slots = {[1].buf = flow->water, [2].buf = flow->blurred},
-                               .extent = maps}) &&
-           run(flow, FLOW_NORMALS,
-               (struct rg_run){.params = &normals,
-                               .slots = {[1].buf = flow->blurred, [2].buf = flow->normals},
-                               .extent = maps});
+    for (int first = 0; first < flow->pane_count; first += at_once) {
+        struct rg_run maps = {.origin = {0, 0, first}, .extent = {n, n, at_once}};
+        maps.params = &p;
+        maps.slots[1].buf = flow->water;
+        maps.slots[2].buf = flow->blurred;
+        if (!run(flow, FLOW_BLUR, maps))
+            return false;
+        maps.params = &normals;
+        maps.slots[1].buf = flow->blurred;
+        maps.slots[2].buf = flow->normals;
+        if (!run(flow, FLOW_NORMALS, maps))
+            return false;
+    }
+    return true;
 }
 
 static bool draw_model(struct flow *flow, const flow_view_params *view)
@@ -139,7 +163,9 @@ static bool draw_model(struct flow *flow, const flow_view_params *view)
     const struct rg_draw onto = {.colour = flow->behind,
                                  .depth = flow->depth,
                                  .depth_mode = RG_DEPTH_WRITE,
-                                 .cull = RG_CULL_NONE};
+                                 .cull = flow->settings.model_sides == FLOW_FRONT_SIDES
+                                             ? RG_CULL_BACK
+                                             : RG_CULL_NONE};
     return run(flow, FLOW_MODEL,
                (struct rg_run){.params = &model,
                                .slots = {[1].buf = flow->positions,
@@ -152,22 +178,32 @@ static bool draw_model(struct flow *flow, const flow_view_params *view)
                                .draw = &onto});
 }
 
+// What the panes are drawn onto.
+static struct rg_image *canvas(struct flow *flow)
+{
+    return flow->lit ? flow->lit : flow->base.target;
+}
+
+static bool draw_sky(struct flow *flow, const flow_view_params *view, struct rg_image *onto)
+{
+    return run(flow, FLOW_SKY,
+               (struct rg_run){.params = view,
+                               .slots = {[1].image = flow->environment},
+                               .extent = {1, 1, 1},
+                               .draw = &(struct rg_draw){.colour = onto}});
+}
+
 // The paper's first pass: all that does not refract, as a picture for those that do; and a copy of
 // it to draw the panes onto.
 static bool draw_behind(struct flow *flow, const flow_view_params *view)
 {
     const struct rg_image_desc *target = &flow->base.target->desc;
     const float farthest = 1;
-    return rg_image_clear(flow->depth, &farthest) &&
-           run(flow, FLOW_SKY,
-               (struct rg_run){.params = view,
-                               .slots = {[1].image = flow->environment},
-                               .extent = {1, 1, 1},
-                               .draw = &(struct rg_draw){.colour = flow->behind}}) &&
+    return rg_image_clear(flow->depth, &farthest) && draw_sky(flow, view, flow->behind) &&
            (!flow->passes[FLOW_MODEL] || draw_model(flow, view)) &&
            run(flow, FLOW_COPY,
                (struct rg_run){.params = view,
-                               .slots = {[1].image = flow->behind, [2].image = flow->base.target},
+                               .slots = {[1].image = flow->behind, [2].image = canvas(flow)},
                                .extent = {target->width, target->height, 1}});
 }
 
@@ -175,7 +211,7 @@ static bool draw_behind(struct flow *flow, const flow_view_params *view)
 static bool draw_panes(struct flow *flow, const flow_view_params *view, enum rg_cull cull)
 {
     const bool glass = flow->settings.panes == FLOW_GLASS;
-    const struct rg_draw onto = {.colour = flow->base.target,
+    const struct rg_draw onto = {.colour = canvas(flow),
                                  .depth = flow->behind ? flow->depth : NULL,
                                  .blend = glass ? RG_BLEND_OVER : RG_BLEND_OFF,
                                  .depth_mode = flow->behind ? RG_DEPTH_TEST : RG_DEPTH_OFF,
@@ -195,7 +231,10 @@ static bool draw_final(struct flow *flow, const flow_view_params *view)
 {
     const struct rg_image_desc *target = &flow->base.target->desc;
     flow->base.counters[FLOW_PIXELS].value += (int64_t)target->width * target->height;
-    return (!flow->behind || draw_behind(flow, view)) &&
+    // Nothing is seen through mirrors: the sky around them is drawn where it is shown.
+    const bool sky = flow->passes[FLOW_SKY] && !flow->behind;
+    return (!sky || draw_sky(flow, view, flow->base.target)) &&
+           (!flow->behind || draw_behind(flow, view)) &&
            (flow->settings.panes == FLOW_MIRROR || draw_panes(flow, view, RG_CULL_FRONT)) &&
            draw_panes(flow, view, RG_CULL_BACK);
 }
@@ -228,28 +267,26 @@ static bool blur_glow(struct flow *flow, flow_glow_params p, int step_x, int ste
                                .extent = {to->desc.width, to->desc.height, 1}});
 }
 
+// Spreads some of the bright light of the lit panes on its way to the target.
 static bool draw_glow(struct flow *flow)
 {
-    const struct rg_image_desc *target = &flow->base.target->desc;
+    const struct rg_image_desc *target = &flow->base.target->desc, *small = &flow->bright->desc;
     const flow_glow_params p = {.threshold = (float)flow->settings.glow_threshold,
                                 .strength = (float)flow->settings.glow,
                                 .last_x = target->width - 1,
-                                .last_y = target->height - 1,
-                                .width = (float)target->width,
-                                .height = (float)target->height};
-    const struct rg_image_desc *small = &flow->bright->desc;
+                                .last_y = target->height - 1};
     return run(flow, FLOW_GLOW_BRIGHT,
                (struct rg_run){.params = &p,
-                               .slots = {[1].image = flow->base.target, [2].image = flow->bright},
+                               .slots = {[1].image = flow->lit, [2].image = flow->bright},
                                .extent = {small->width, small->height, 1}}) &&
            blur_glow(flow, p, 1, 0, flow->bright, flow->spread) &&
            blur_glow(flow, p, 0, 1, flow->spread, flow->bright) &&
            run(flow, FLOW_GLOW,
-               (struct rg_run){
-                   .params = &p,
-                   .slots = {[1].image = flow->bright},
-                   .extent = {1, 1, 1},
-                   .draw = &(struct rg_draw){.colour = flow->base.target, .blend = RG_BLEND_ADD}});
+               (struct rg_run){.params = &p,
+                               .slots = {[1].image = flow->lit,
+                                         [2].image = flow->bright,
+                                         [3].image = flow->base.target},
+                               .extent = {target->width, target->height, 1}});
 }
 
 static bool flow_draw(struct rg_instance *instance)

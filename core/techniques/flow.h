@@ -12,6 +12,7 @@
 
 enum flow_direction { FLOW_NEAREST, FLOW_SPLIT };
 enum flow_scene { FLOW_BOX, FLOW_ONE_PANE };
+enum flow_sides { FLOW_FRONT_SIDES, FLOW_BOTH_SIDES };
 enum flow_material { FLOW_GLASS, FLOW_MIRROR };
 enum flow_stage { FLOW_STAGE_HEIGHT, FLOW_STAGE_BLURRED, FLOW_STAGE_NORMALS, FLOW_STAGE_FINAL };
 
@@ -19,7 +20,7 @@ struct flow_settings {
     // scene
     int view, panes, stage;
     char model[RG_PATH_SIZE];
-    int model_faces;
+    int model_faces, model_sides;
     double model_size, model_grey;
     double distance_mm, camera_azimuth_deg, camera_elevation_deg, view_angle_deg;
     double pitch_deg, yaw_deg, roll_deg;

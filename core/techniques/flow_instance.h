@@ -41,17 +41,17 @@ struct flow {
     struct rg_buf *given, *arriving, *blurred, *normals;
     struct rg_buf *ledger, *remainder, *noise, *panes;
     struct rg_image *environment;
-    // The picture of what does not refract, with its depth; NULL where one pane fills the view.
+    // The picture of what does not refract, with its depth; NULL without glass.
     struct rg_image *behind, *depth;
-    // A quarter of the target's size; NULL without glow.
-    struct rg_image *bright, *spread;
+    // Without glow NULL: the image before it, and, at a quarter of the size, what is spread.
+    struct rg_image *lit, *bright, *spread;
     // A model in a box of glass; no faces: none.
     struct rg_buf *positions, *model_normals, *indices;
     int model_faces;
     float model_low[3], model_high[3];
 };
 
-// Whether what does not refract is drawn apart: in a box, and behind glass.
+// Whether what does not refract is drawn apart, as a picture for glass to show.
 bool flow_has_behind(const struct flow_settings *settings);
 
 struct rg_instance *flow_open(struct rg_device *device, const void *settings, int width,

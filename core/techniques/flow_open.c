@@ -27,7 +27,7 @@ void flow_close(struct rg_instance *instance)
         flow->positions, flow->model_normals, flow->indices};
     for (size_t i = 0; i < sizeof(bufs) / sizeof(bufs[0]); i++)
         rg_buf_destroy(bufs[i]);
-    struct rg_image *const images[] = {flow->environment, flow->behind, flow->depth,
+    struct rg_image *const images[] = {flow->environment, flow->behind, flow->depth,      flow->lit,
                                        flow->bright,      flow->spread, flow->base.target};
     for (size_t i = 0; i < sizeof(images) / sizeof(images[0]); i++)
         rg_image_destroy(images[i]);
@@ -38,13 +38,12 @@ void flow_close(struct rg_instance *instance)
 
 bool flow_has_behind(const struct flow_settings *s)
 {
-    return s->stage == FLOW_STAGE_FINAL && (s->view == FLOW_BOX || s->panes == FLOW_GLASS);
+    return s->stage == FLOW_STAGE_FINAL && s->panes == FLOW_GLASS;
 }
 
 static bool has_model(const struct flow_settings *s)
 {
-    return flow_has_behind(s) && s->view == FLOW_BOX && s->panes == FLOW_GLASS &&
-           strcmp(s->model, "none") && s->model[0];
+    return flow_has_behind(s) && s->view == FLOW_BOX && strcmp(s->model, "none") && s->model[0];
 }
 
 static const char *kernel_of(const struct flow_settings *s, enum flow_pass pass)
@@ -68,7 +67,7 @@ static const char *kernel_of(const struct flow_settings *s, enum flow_pass pass)
     case FLOW_NORMALS:
         return "flow_normals";
     case FLOW_SKY:
-        return flow_has_behind(s) ? "flow_sky" : NULL;
+        return final && (s->view == FLOW_BOX || flow_has_behind(s)) ? "flow_sky" : NULL;
     case FLOW_MODEL:
         return has_model(s) ? "flow_model" : NULL;
     case FLOW_COPY:
@@ -175,7 +174,8 @@ static bool create_glow(struct flow *flow, int width, int height)
 {
     const int w = (width + FLOW_GLOW_REDUCTION - 1) / FLOW_GLOW_REDUCTION;
     const int h = (height + FLOW_GLOW_REDUCTION - 1) / FLOW_GLOW_REDUCTION;
-    return (flow->bright = create_image(flow, RG_RGBA16F, w, h, "bright light")) &&
+    return (flow->lit = create_image(flow, RG_RGBA16F, width, height, "lit panes")) &&
+           (flow->bright = create_image(flow, RG_RGBA16F, w, h, "bright light")) &&
            (flow->spread = create_image(flow, RG_RGBA16F, w, h, "spread light"));
 }
 
@@ -192,10 +192,10 @@ static bool create_images(struct flow *flow, int width, int height)
         !(flow->base.target = create_image(flow, RG_RGBA16F, width, height, "target")))
         return false;
     if (flow_has_behind(&flow->settings) &&
-        !(flow->behind = create_image(flow, RG_RGBA16F, width, height, "behind")))
+        (!(flow->behind = create_image(flow, RG_RGBA16F, width, height, "behind")) ||
+         !(flow->depth = create_image(flow, RG_D32F, width, height, "depth"))))
         return false;
-    return (flow->depth = create_image(flow, RG_D32F, width, height, "depth")) &&
-           (!flow->passes[FLOW_GLOW] || create_glow(flow, width, height));
+    return !flow->passes[FLOW_GLOW] || create_glow(flow, width, height);
 }
 
 // --- the model ---

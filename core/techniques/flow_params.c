@@ -9,6 +9,7 @@ static const struct rg_param rows[] = {
     {"stage", RG_PARAM_CHOICE, AT(stage), FLOW_STAGE_FINAL, 0, 3, "1", "the step that is shown: the water's height, blurred, its normals, or the final image", "height blurred normals final"},
     {"model", RG_PARAM_FILE, AT(model), 0, 0, 0, "file", "what stands in a box of glass: a model by name, a mesh file, or 'none'", "bunny"},
     {"model_faces", RG_PARAM_INT, AT(model_faces), 0, 0, 10000000, "1", "faces that the model is brought to; 0: as it is", NULL},
+    {"model_sides", RG_PARAM_CHOICE, AT(model_sides), FLOW_FRONT_SIDES, 0, 1, "1", "the faces' sides that are drawn: the outer ones will do for a closed surface", "front both"},
     {"model_size", RG_PARAM_FLOAT, AT(model_size), 0.62, 0.01, 1, "1", "the model's longest side, in sides of the box", NULL},
     {"model_grey", RG_PARAM_FLOAT, AT(model_grey), 0.8, 0, 1, "1", "share of the light that the model reflects", NULL},
     {"distance_mm", RG_PARAM_FLOAT, AT(distance_mm), 400, 1, 1000000, "mm", "from the camera to the middle of the box", NULL},

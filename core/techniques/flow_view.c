@@ -75,8 +75,8 @@ static m4 rays_of(double right[3], double down[3], double ahead[3], double eye[3
     for (int i = 0; i < 3; i++) {
         m[4 * i] = (float)right[i];
         m[4 * i + 1] = (float)down[i];
-        m[4 * i + 2] = (float)(ahead[i] - right[i] * (0.5 * width - 0.5) -
-                               down[i] * (0.5 * height - 0.5));
+        m[4 * i + 2] =
+            (float)(ahead[i] - right[i] * (0.5 * width - 0.5) - down[i] * (0.5 * height - 0.5));
         m[4 * i + 3] = (float)eye[i];
     }
     return m4_of(m);

@@ -36,19 +36,6 @@ struct oracle {
     int64_t frame;
 };
 
-// A cube map, borrowed: [face][y][x][rgb], faces +x -x +y -y +z -z as in OpenGL.
-struct oracle_cube {
-    const float *light;
-    int size;
-};
-
-struct oracle_lighting {
-    double pane_mm, relief, wet_height, view_angle_deg;
-    double fresnel_bias, fresnel_scale, fresnel_power;
-    double refraction_strength, reflectivity;
-    struct oracle_cube environment, reflection; // what the mirror shows, and what drops reflect
-};
-
 // A dry pane at frame 0. The caller calls oracle_close.
 void oracle_open(struct oracle *oracle, const struct oracle_settings *settings);
 void oracle_close(struct oracle *oracle);
@@ -58,10 +45,6 @@ void oracle_land(struct oracle *oracle, double x, double y, double radius, doubl
 
 // Moves the water by one frame.
 void oracle_step(struct oracle *oracle);
-
-// The lit pane: width x height x 3 values of linear light.
-void oracle_draw(const struct oracle *oracle, const struct oracle_lighting *lighting, int width,
-                 int height, double *light);
 
 // The pane's tangent (right), binormal (down) and normal in the world.
 void oracle_frame(const struct oracle_settings *settings, double frame[3][3]);
