@@ -36,9 +36,9 @@ static double between(double low, double high)
     return low + (high - low) * uniform();
 }
 
-static int whole(int low, int high)
+static int whole(int64_t low, int64_t high)
 {
-    return low + (int)(uniform() * (high - low + 1));
+    return (int)(low + (int64_t)(uniform() * (double)(high - low + 1)));
 }
 
 // --- faces of corners on the grid ---
@@ -259,6 +259,23 @@ static struct pair huge_pair(void)
     return p;
 }
 
+// The same off the upper left corner of the screen, into which one corner reaches.
+static struct pair huge_pair_off_the_corner(void)
+{
+    const double reach_px = pow(10, between(2, 6));
+    struct pair p;
+    do {
+        p.a = (struct oracle_point){whole(0, 256 * SMALL - 1), whole(0, 256 * SMALL - 1)};
+        p.b = (struct oracle_point){(int64_t)(between(-1, -0.5) * reach_px * 256),
+                                    (int64_t)(between(-1, -0.5) * reach_px * 256)};
+        p.c =
+            (struct oracle_point){(int64_t)(between(-1, 0) * reach_px * 256), whole(-9999, p.a.y)};
+        p.d =
+            (struct oracle_point){whole(-9999, p.a.x), (int64_t)(between(-1, 0) * reach_px * 256)};
+    } while (side_of(p.a, p.b, p.c) * side_of(p.a, p.b, p.d) >= 0);
+    return p;
+}
+
 // Each corner where a float of clip space puts it, to the grid.
 static void put_huge(struct faces *faces, int vertex, struct oracle_point *at)
 {
@@ -292,7 +309,7 @@ static void huge_neighbours_cover_each_pixel_once(void **state)
     struct expected *due = malloc(HUGE_PAIRS * sizeof(*due));
     for (int i = 0; i < HUGE_PAIRS; i++) {
         seed((uint32_t)i);
-        struct pair p = huge_pair();
+        const struct pair p = i % 4 ? huge_pair() : huge_pair_off_the_corner();
         struct oracle_point corners[4] = {p.a, p.b, p.c, p.d};
         for (int k = 0; k < 4; k++)
             put_huge(&faces, 4 * i + k, &corners[k]);
