@@ -30,7 +30,8 @@ double rg_cell_fps(const struct rg_cell *cell)
 
 double rg_table_published_fps(const struct rg_table *table, int row, int variant)
 {
-    return rg_table_value(table, row, table->variants[variant].fps);
+    return rg_table_is_published(table) ? rg_table_value(table, row, table->variants[variant].fps)
+                                        : NAN;
 }
 
 static bool make_settings(const struct rg_table_run *run, int row, int variant,

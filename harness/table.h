@@ -44,7 +44,7 @@ void rg_table_run_free(struct rg_table_run *run);
 struct rg_cell *rg_table_cell(const struct rg_table_run *run, int row, int variant, int device);
 struct rg_table_group *rg_table_group(const struct rg_table_run *run, int row, int variant);
 
-// Frames a second of a measured cell, and of a row and variant in print.
+// Frames a second of a measured cell, and of a row and variant in print, NAN where nothing is.
 double rg_cell_fps(const struct rg_cell *cell);
 double rg_table_published_fps(const struct rg_table *table, int row, int variant);
 

@@ -35,6 +35,7 @@ static bool is_told(const struct rg_table_run *run, const char *name)
 static void add_columns(const struct rg_table_run *run, struct rg_grid *grid, struct columns *at)
 {
     const struct rg_table *table = run->table;
+    const bool is_published = rg_table_is_published(table);
     at->name = table->names ? rg_grid_column(grid, "%s", table->names) : -1;
     at->keys = grid->column_count;
     for (int c = 0; c < table->key_count; c++)
@@ -43,13 +44,13 @@ static void add_columns(const struct rg_table_run *run, struct rg_grid *grid, st
     for (int c = 0; table->columns[c]; c++)
         if (rg_table_is_extra(table, c))
             rg_grid_column(grid, "published %s", table->columns[c]);
-    at->published_fps = rg_grid_column(grid, "published fps");
+    at->published_fps = is_published ? rg_grid_column(grid, "published fps") : -1;
     at->variant = rg_table_variant_count(table) > 1 ? rg_grid_column(grid, "variant") : -1;
     at->device = rg_grid_column(grid, "device");
     at->fps = rg_grid_column(grid, "fps");
     at->ms = rg_grid_column(grid, "ms");
     at->ms_range = rg_grid_column(grid, "ms, 95 %%");
-    at->ratio = rg_grid_column(grid, "fps / published");
+    at->ratio = is_published ? rg_grid_column(grid, "fps / published") : -1;
     at->times = rg_grid_column(grid, "x cpu:reference");
     at->first = rg_grid_column(grid, "first frame ms");
     at->api = rg_grid_column(grid, "API / wall clock");
@@ -115,7 +116,8 @@ static void fill_measured(const struct rg_table_run *run, const struct columns *
     snprintf(cells[at->ms], RG_GRID_CELL, "%.3f", cell->frame_ms.median);
     snprintf(cells[at->ms_range], RG_GRID_CELL, "%.3f to %.3f", cell->frame_ms.low,
              cell->frame_ms.high);
-    snprintf(cells[at->ratio], RG_GRID_CELL, "%.2f", rg_cell_fps(cell) / published);
+    if (at->ratio >= 0)
+        snprintf(cells[at->ratio], RG_GRID_CELL, "%.2f", rg_cell_fps(cell) / published);
     snprintf(cells[at->first], RG_GRID_CELL, "%.1f", cell->first_frame_ms);
     const bool trusted = rg_timer_is_trusted(cell->api_over_wall);
     snprintf(cells[at->api], RG_GRID_CELL, "%.2f%s", cell->api_over_wall,
@@ -141,8 +143,9 @@ static void fill_published(const struct rg_table_run *run, const struct columns 
     for (int c = 0; table->columns[c]; c++)
         if (rg_table_is_extra(table, c))
             snprintf(cells[extra++], RG_GRID_CELL, "%.10g", printed->values[c]);
-    snprintf(cells[at->published_fps], RG_GRID_CELL, "%.10g",
-             rg_table_published_fps(table, row, variant));
+    if (at->published_fps >= 0)
+        snprintf(cells[at->published_fps], RG_GRID_CELL, "%.10g",
+                 rg_table_published_fps(table, row, variant));
     if (at->variant >= 0)
         snprintf(cells[at->variant], RG_GRID_CELL, "%s", table->variants[variant].name);
 }
@@ -279,10 +282,10 @@ void rg_table_grid(const struct rg_table_run *run, struct rg_grid *grid)
     for (int i = 0; i < variants * devices; i++)
         note_shape(run, grid, i / devices, i % devices);
     note_facts(run, &at, grid);
-    rg_grid_note(
-        grid,
-        "Published on %s. Times are wall clock between full syncs, medians of %d samples (%s).",
-        run->table->hardware, run->samples, run->full ? "full" : "quick");
+    const bool is_published = rg_table_is_published(run->table);
+    rg_grid_note(grid, "%s%s%sTimes are wall clock between full syncs, medians of %d samples (%s).",
+                 is_published ? "Published on " : "", is_published ? run->table->hardware : "",
+                 is_published ? ". " : "", run->samples, run->full ? "full" : "quick");
     rg_grid_note(grid, "Shares of the passes come from a run of its own that syncs after every "
                        "pass.");
     if (run->table->truth)

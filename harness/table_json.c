@@ -53,7 +53,9 @@ static json_t *row_json(const struct rg_table *table, int row)
 static json_t *published_json(const struct rg_table *table, int row, int variant)
 {
     json_t *json = json_object();
-    json_object_set_new(json, "fps", rg_number_json(rg_table_published_fps(table, row, variant)));
+    if (rg_table_is_published(table))
+        json_object_set_new(json, "fps",
+                            rg_number_json(rg_table_published_fps(table, row, variant)));
     for (int c = 0; table->columns[c]; c++)
         if (rg_table_is_extra(table, c))
             json_object_set_new(json, table->columns[c],
@@ -127,7 +129,7 @@ json_t *rg_table_json(const struct rg_table_run *run)
         json_array_append_new(shapes, shape_json(run, i / devices, i % devices));
     for (int d = 0; d < devices; d++)
         infos[d] = run->devices->devices[d]->info;
-    return json_pack("{sisssssssosososo}", "format", 1, "table", run->table->id, "hardware",
+    return json_pack("{sissss?sssosososo}", "format", 1, "table", run->table->id, "hardware",
                      run->table->hardware, "length", run->full ? "full" : "quick", "passport",
                      rg_passport_json(infos, devices), "missing", missing_json(run->devices),
                      "cells", cells, "shapes", shapes);

@@ -2,7 +2,7 @@
 // one device and compared with the true model's image, at the loosest tier that verify accepts, T1.
 // They have a scene of their own, the technique's defaults, whatever the user sets: a mutant of a
 // pane without drops would live. And they are young pictures: by step 1,000 a drop that was missing
-// at the start has run off the pane.
+// at the start has run off the pane. Contrasts are mutants that bring their scene along.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,6 +19,8 @@ int64_t rg_verify_mutant_work(const struct rg_verify *v)
     int64_t runs = 1;
     while (v->technique->proof->mutants[runs - 1].about)
         runs++;
+    for (const struct rg_contrast *c = v->technique->proof->contrasts; c && c->about; c++)
+        runs += 2;
     return runs * MUTANT_STEPS;
 }
 
@@ -73,7 +75,7 @@ static bool is_rejected(const struct rg_picture *truth, const struct rg_picture 
     return rejected;
 }
 
-static void judge(const struct rg_mutant *mutant, const struct rg_picture *truth,
+static void judge(const char *about, const struct rg_picture *truth,
                   const struct rg_picture *mutated, const struct rg_picture *dry,
                   struct verdicts *verdicts)
 {
@@ -84,7 +86,7 @@ static void judge(const struct rg_mutant *mutant, const struct rg_picture *truth
     }
     const size_t used = strlen(verdicts->alive);
     snprintf(verdicts->alive + used, sizeof(verdicts->alive) - used, "%s%s", used ? ", " : "",
-             mutant->about);
+             about);
 }
 
 static void run_all(struct rg_verify *v, const struct rg_picture *truth,
@@ -97,11 +99,36 @@ static void run_all(struct rg_verify *v, const struct rg_picture *truth,
         if (!mutate(v, m, assignment, sizeof(assignment)))
             continue;
         if (draw(v, assignment, &mutated))
-            judge(m, truth, &mutated, dry, verdicts);
+            judge(m->about, truth, &mutated, dry, verdicts);
         else
             verdicts->error = true;
         rg_picture_destroy(&mutated);
     }
+}
+
+static bool draw_dry(struct rg_verify *v, struct rg_picture *dry)
+{
+    return rg_frame_draw_dry(v->technique, v->settings, v->mutant_device, v->width, v->height, 0,
+                             dry);
+}
+
+static void run_contrast(const struct rg_verify *defaults, const struct rg_contrast *contrast,
+                         struct verdicts *verdicts)
+{
+    struct rg_verify v = *defaults;
+    void *settings = rg_settings_copy(v.technique, v.settings, contrast->truth);
+    struct rg_picture truth = {0}, dry = {0}, mutated = {0};
+    rg_progress_label(v.progress, "%s: mutant: %s", v.technique->name, contrast->about);
+    v.settings = settings;
+    if (settings && draw(&v, "", &truth) && draw_dry(&v, &dry) &&
+        draw(&v, contrast->mutant, &mutated))
+        judge(contrast->about, &truth, &mutated, &dry, verdicts);
+    else
+        verdicts->error = true;
+    rg_picture_destroy(&truth);
+    rg_picture_destroy(&dry);
+    rg_picture_destroy(&mutated);
+    free(settings);
 }
 
 static void report(struct rg_verify *v, const struct verdicts *verdicts)
@@ -127,12 +154,13 @@ void rg_verify_mutants(struct rg_verify *verify)
     scene.width = scene.height = RG_FRAME_SIZE_PX;
     struct verdicts verdicts = {0};
     struct rg_picture truth = {0}, dry = {0};
-    if (settings && draw(&scene, "", &truth) &&
-        rg_frame_draw_dry(scene.technique, settings, scene.mutant_device, scene.width, scene.height,
-                          0, &dry))
+    if (settings && draw(&scene, "", &truth) && draw_dry(&scene, &dry))
         run_all(&scene, &truth, &dry, &verdicts);
     else
         verdicts.error = true;
+    for (const struct rg_contrast *c = scene.technique->proof->contrasts;
+         c && c->about && !verdicts.error; c++)
+        run_contrast(&scene, c, &verdicts);
     report(&scene, &verdicts);
     rg_picture_destroy(&truth);
     rg_picture_destroy(&dry);

@@ -4,7 +4,7 @@
 //
 // Clip space is as matrices make it: pixel = (x / w + 1) * width / 2, likewise y, which grows
 // downwards; depth = z / w, 0 at the near plane. Items are clipped where z < 0 and at the guard
-// band, RG_GUARD_PX from the target's centre. Depth beyond 1 is clamped, not clipped.
+// band, RG_GUARD_PX beyond the target. Depth beyond 1 is clamped, not clipped.
 #ifndef RG_KERNELS_CLIP_H
 #define RG_KERNELS_CLIP_H
 
@@ -12,9 +12,12 @@
 
 // A driver draws in a viewport of RG_VIEWPORT_PX around the target's centre. Snapped coordinates
 // need 22 bits there, so it computes them without rounding, and clips nothing itself
-// (docs/drawing.md).
+// (docs/drawing.md). The guard band is narrower: llvmpipe loses triangles of more than 4 million
+// pixels that reach off the target's upper left corner and end within 64 pixels of it, for it cuts
+// their edge functions to 32 bits.
 #define RG_VIEWPORT_PX 16384
-#define RG_GUARD_PX    8190.0f
+#define RG_FARTHEST_PX 8190.0f // of the guard band from the target's centre
+#define RG_GUARD_PX    2048.0f
 #define RG_SUBPIXELS   256
 #define RG_LEAST_W     1e-9f
 
@@ -75,10 +78,17 @@ RG_FN rg_corner rg_corner_make(float x, float y, float z, float w)
     return c;
 }
 
+// How far the guard band reaches from the target's centre, in pixels.
+RG_FN float rg_reach_px(float half_size)
+{
+    return rg_min(half_size + RG_GUARD_PX, RG_FARTHEST_PX);
+}
+
 // A coordinate of clip space over w in 1/256 pixel, within the guard band whatever comes in.
 RG_FN int rg_snap(float over_w, float half_size)
 {
-    float from_centre = rg_clamp(over_w * half_size, -RG_GUARD_PX, RG_GUARD_PX);
+    float reach = rg_reach_px(half_size);
+    float from_centre = rg_clamp(over_w * half_size, -reach, reach);
     return rg_to_int(rg_floor((from_centre + half_size) * 256.0f + 0.5f));
 }
 
@@ -105,8 +115,9 @@ RG_FN int rg_imost4(int a, int b, int c, int d)
 // How far a corner lies inside the guard band, in pixels times w; negative outside.
 RG_FN float rg_guard_slack(rg_draw_state draw, rg_corner c)
 {
-    float band = RG_GUARD_PX * c.w;
-    return rg_min(band - rg_abs(c.x) * draw.half_width, band - rg_abs(c.y) * draw.half_height);
+    float across = rg_reach_px(draw.half_width) * c.w - rg_abs(c.x) * draw.half_width;
+    float down = rg_reach_px(draw.half_height) * c.w - rg_abs(c.y) * draw.half_height;
+    return rg_min(across, down);
 }
 
 RG_FN float rg_extent_of(rg_corner c)
@@ -288,16 +299,17 @@ RG_FN rg_polygon rg_polygon_empty(rg_corner c)
 
 RG_FN float rg_inside(rg_draw_state draw, rg_corner c, int plane)
 {
-    float band = RG_GUARD_PX * c.w;
+    float across = rg_reach_px(draw.half_width) * c.w;
+    float down = rg_reach_px(draw.half_height) * c.w;
     float inside = c.z;
     if (plane == 1)
-        inside = band + c.x * draw.half_width;
+        inside = across + c.x * draw.half_width;
     if (plane == 2)
-        inside = band - c.x * draw.half_width;
+        inside = across - c.x * draw.half_width;
     if (plane == 3)
-        inside = band + c.y * draw.half_height;
+        inside = down + c.y * draw.half_height;
     if (plane == 4)
-        inside = band - c.y * draw.half_height;
+        inside = down - c.y * draw.half_height;
     return inside;
 }
 

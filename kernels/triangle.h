@@ -18,7 +18,7 @@ RG_STRUCT_SIZE(rg_plane, 3)
 
 RG_STRUCT(rg_planes)
 {
-    float origin_x; // pixels; where the first corner lies
+    float origin_x; // pixels; rg_origin of the first corner
     float origin_y;
     rg_plane inverse_w; // 1 / w
     rg_plane b;         // weight of the second corner, over w
@@ -44,6 +44,15 @@ RG_FN rg_corner rg_from_origin(rg_draw_state draw, rg_corner c, float origin_x, 
                           c.y * draw.half_height + (draw.half_height - origin_y) * c.w, c.z, c.w);
 }
 
+// Where the planes of a corner's triangle start: at the corner, so that tiny triangles are precise,
+// but on the target, since what is reckoned from far away is not; in its middle where the corner is
+// behind the eye.
+RG_FN float rg_origin(float x, float w, float half_size)
+{
+    float from_centre = w > RG_LEAST_W ? x / rg_max(w, RG_LEAST_W) * half_size : 0.0f;
+    return rg_clamp(from_centre, -half_size, half_size) + half_size;
+}
+
 RG_FN rg_plane rg_plane_cross(rg_corner p, rg_corner q)
 {
     rg_plane e;
@@ -62,14 +71,14 @@ RG_FN rg_plane rg_plane_sum(rg_plane p, float a, rg_plane q, float b, rg_plane r
     return s;
 }
 
+// Depth is reckoned from that of the first corner: what differs is small, and so are its roundings,
+// though the triangle be thin.
 RG_FN rg_planes rg_planes_of(rg_draw_state draw, rg_item t)
 {
     rg_planes s;
     float over_w = 1.0f / rg_max(t.a.w, RG_LEAST_W);
-    s.origin_x =
-        rg_clamp(t.a.x * over_w * draw.half_width, -RG_GUARD_PX, RG_GUARD_PX) + draw.half_width;
-    s.origin_y =
-        rg_clamp(t.a.y * over_w * draw.half_height, -RG_GUARD_PX, RG_GUARD_PX) + draw.half_height;
+    s.origin_x = rg_origin(t.a.x, t.a.w, draw.half_width);
+    s.origin_y = rg_origin(t.a.y, t.a.w, draw.half_height);
     rg_corner a = rg_from_origin(draw, t.a, s.origin_x, s.origin_y);
     rg_corner b = rg_from_origin(draw, t.b, s.origin_x, s.origin_y);
     rg_corner c = rg_from_origin(draw, t.c, s.origin_x, s.origin_y);
@@ -81,8 +90,11 @@ RG_FN rg_planes rg_planes_of(rg_draw_state draw, rg_item t)
     s.inverse_w = rg_plane_sum(for_a, inverse, for_b, inverse, for_c, inverse);
     s.b = rg_plane_sum(for_b, inverse, for_b, 0.0f, for_b, 0.0f);
     s.c = rg_plane_sum(for_c, inverse, for_c, 0.0f, for_c, 0.0f);
-    s.depth = rg_plane_sum(for_a, a.z * inverse, for_b, b.z * inverse, for_c, c.z * inverse);
     float za = a.z * over_w;
+    float base = a.w > RG_LEAST_W ? rg_clamp(za, 0.0f, 1.0f) : 1.0f;
+    s.depth = rg_plane_sum(for_a, (a.z - base * a.w) * inverse, for_b, (b.z - base * b.w) * inverse,
+                           for_c, (c.z - base * c.w) * inverse);
+    s.depth.at = s.depth.at + base;
     float zb = b.z / rg_max(b.w, RG_LEAST_W);
     float zc = c.z / rg_max(c.w, RG_LEAST_W);
     bool in_front = rg_min(rg_min(a.w, b.w), c.w) > RG_LEAST_W;

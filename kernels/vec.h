@@ -36,6 +36,11 @@ RG_FN float v3_dot(v3 a, v3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+RG_FN v3 v3_cross(v3 a, v3 b)
+{
+    return v3_make(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
 RG_FN v3 v3_unit(v3 a)
 {
     return v3_scale(a, 1.0f / rg_sqrt(v3_dot(a, a)));

@@ -75,7 +75,8 @@ static void test_published(void **state)
     assert_non_null(rg_table_find("stuppacher-2"));
     compare(&rg_table_stuppacher_1);
     for (int i = 0; rg_tables[i]; i++)
-        compare(rg_tables[i]);
+        if (rg_table_is_published(rg_tables[i]))
+            compare(rg_tables[i]);
 }
 
 // Every assignment of every table is one that its technique takes, and every variant has its
@@ -97,7 +98,8 @@ static void test_settings(void **state)
             assert_non_null(of_row);
             void *all = rg_settings_copy(technique, of_row, table->variants[variant].set);
             assert_non_null(all);
-            assert_true(rg_table_published_fps(table, row, variant) > 0);
+            assert_true(!rg_table_is_published(table) ||
+                        rg_table_published_fps(table, row, variant) > 0);
             free(all);
             free(of_row);
         }

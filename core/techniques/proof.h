@@ -22,12 +22,21 @@ struct rg_mutant {
     double factor, offset;
 };
 
+// A mutant in a scene of its own, or one that no factor makes: assignments over the defaults, and
+// what the mutant has over these.
+struct rg_contrast {
+    const char *about;  // "culling turned round"
+    const char *truth;  // "scene=mesh"
+    const char *mutant; // "cull=front"
+};
+
 // Assignments are "key=value key=value", "" for none; they go over what the user sets.
 struct rg_proof {
-    const char *const *poses;        // of the scene, NULL-terminated
-    const char *dry;                 // takes all rain away: the background of the rain mask
-    const struct rg_law *laws;       // the last has no name
-    const struct rg_mutant *mutants; // likewise, no about
+    const char *const *poses;            // of the scene, NULL-terminated
+    const char *dry;                     // takes all rain away: the background of the rain mask
+    const struct rg_law *laws;           // the last has no name
+    const struct rg_mutant *mutants;     // likewise, no about
+    const struct rg_contrast *contrasts; // likewise; NULL: none
 };
 
 #endif

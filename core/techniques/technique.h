@@ -39,7 +39,7 @@ struct rg_fact {
 
 struct rg_technique {
     const char *name;  // "flow"
-    const char *paper; // key of the paper: "stuppacher"
+    const char *paper; // key of the paper: "stuppacher"; "" for none
     const char *about; // one line
     const struct rg_param_table *params;
     const struct rg_proof *proof; // core/techniques/proof.h

@@ -20,6 +20,11 @@ const struct rg_table *rg_table_find(const char *id)
     return NULL;
 }
 
+bool rg_table_is_published(const struct rg_table *table)
+{
+    return table->hardware != NULL;
+}
+
 int rg_table_variant_count(const struct rg_table *table)
 {
     int count = 0;
@@ -39,7 +44,7 @@ double rg_table_value(const struct rg_table *table, int row, const char *column)
 bool rg_table_is_extra(const struct rg_table *table, int column)
 {
     for (int v = 0; table->variants[v].name; v++)
-        if (!strcmp(table->variants[v].fps, table->columns[column]))
+        if (table->variants[v].fps && !strcmp(table->variants[v].fps, table->columns[column]))
             return false;
     return column >= table->key_count;
 }

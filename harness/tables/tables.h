@@ -19,15 +19,17 @@ struct rg_table_row {
 struct rg_table_variant {
     const char *name; // "no_geometry"
     const char *set;  // over the row's
-    const char *fps;  // the column that its frame rate is compared with: "fps_no_geometry"
+    const char *fps;  // the column that its frame rate is compared with: "fps_no_geometry"; NULL
+                      // where nothing is published
 };
 
 struct rg_table {
-    const char *id;                           // "stuppacher-2"
-    const char *technique;                    // "flow"
-    const char *about;                        // one line
-    const char *hardware;                     // what the paper measured on
-    const char *names;                        // what the rows' names are: "scene"; NULL: none
+    const char *id;        // "stuppacher-2"
+    const char *technique; // "flow"
+    const char *about;     // one line
+    const char *hardware;  // what the paper measured on; NULL: nothing is published, and all
+                           // columns are keys
+    const char *names;     // what the rows' names are: "scene"; NULL: none
     const char *columns[RG_TABLE_VALUES + 1]; // as in results/published/ID.csv, NULL after the last
     // So many columns, the first, are settings and tell rows apart. The first of them is the axis
     // along which frame rates fall. 0: there is none, and only the order of rows can be reproduced.
@@ -47,6 +49,7 @@ extern const struct rg_table *const rg_tables[];
 // The table of this id, or NULL.
 const struct rg_table *rg_table_find(const char *id);
 
+bool rg_table_is_published(const struct rg_table *table);
 int rg_table_variant_count(const struct rg_table *table);
 // The number in a row's column; NAN where the table has no such column.
 double rg_table_value(const struct rg_table *table, int row, const char *column);
