@@ -187,6 +187,17 @@ static void test_what_is_no_mesh(void **state)
     expect_text_refused("noextension.", "Dear reader,\n", "Assimp cannot read it");
 }
 
+static void test_strips(void **state)
+{
+    (void)state;
+    expect_text_refused("strip.ply",
+                        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                        "property float y\nproperty float z\nelement tristrips 1\n"
+                        "property list int int vertex_indices\nend_header\n"
+                        "0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 3\n",
+                        "strips of triangles");
+}
+
 static void test_no_faces(void **state)
 {
     (void)state;
@@ -438,6 +449,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_the_hash_is_the_geometrys),
         cmocka_unit_test(test_what_is_no_file),
         cmocka_unit_test(test_what_is_no_mesh),
+        cmocka_unit_test(test_strips),
         cmocka_unit_test(test_no_faces),
         cmocka_unit_test(test_coordinates_that_are_none),
         cmocka_unit_test(test_indices_out_of_range),

@@ -81,6 +81,10 @@ static bool claim_of_ply(struct import *import, struct claim *claim)
     *end = 0;
     if (!check_ply_header(import, header))
         return false;
+    if (strstr(header, "\nelement tristrips"))
+        return import_refuse(import,
+                             "holds strips of triangles, of which Assimp loses some; export "
+                             "single triangles");
     const int64_t elements = read_elements(header, claim);
     if (elements < 0)
         return import_refuse(import, "its header does not count its elements; export it again");
