@@ -45,20 +45,46 @@ static int64_t count_lines(const unsigned char *c, const unsigned char *end)
     return lines;
 }
 
-// Assimp (5.2) searches forever for an end of the header, and repeats the last line of a text that
-// is cut short.
+// Assimp (5.2) loops on lines that are not of a header, without an end of it, and repeats the last
+// line of a text that is cut short: so all that is looked at here.
+static bool check_ply_header(struct import *import, const char *header)
+{
+    static const char *const words[] = {"ply",      "format ",  "comment",
+                                        "obj_info", "element ", "property "};
+    int number = 1;
+    for (const char *line = header; *line; number++) {
+        bool known = false;
+        for (size_t i = 0; i < sizeof(words) / sizeof(words[0]); i++)
+            known = known || !strncmp(line, words[i], strlen(words[i]));
+        if (!known)
+            return import_refuse(import, "line %d does not belong into its header; export it again",
+                                 number);
+        line += strcspn(line, "\n");
+        line += *line == '\n';
+    }
+    return true;
+}
+
 static bool claim_of_ply(struct import *import, struct claim *claim)
 {
+    static const char end_words[] = "\nend_header";
     char header[HEADER_BYTES];
     const size_t bytes = import->size < HEADER_BYTES - 1 ? import->size : HEADER_BYTES - 1;
     memcpy(header, import->bytes, bytes);
     header[bytes] = 0;
-    char *end = strstr(header, "\nend_header");
-    if (strncmp(header, "ply", 3) || !end)
+    char *end = strstr(header, end_words);
+    const char *rest = end ? end + strlen(end_words) : "";
+    if (strncmp(header, "ply", 3) || rest[strspn(rest, " \t\r")] != '\n')
         return import_refuse(import, "does not begin with ply or has no end_header; copy or "
                                      "export it again");
+    const unsigned char *body = import->bytes + (rest - header);
     *end = 0;
-    const unsigned char *body = import->bytes + (end - header) + strlen("\nend_header");
+    if (!check_ply_header(import, header))
+        return false;
+    if (strstr(header, "\nelement tristrips"))
+        return import_refuse(import,
+                             "holds strips of triangles, of which Assimp loses some; export "
+                             "single triangles");
     const int64_t elements = read_elements(header, claim);
     if (elements < 0)
         return import_refuse(import, "its header does not count its elements; export it again");
