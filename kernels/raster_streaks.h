@@ -1,6 +1,7 @@
 // raster: streaks of falling drops in a box of air ahead of the eye, as billboards that turn about
 // their axis towards the eye. No branches in the item: compilers run several side by side.
 #include "raster_streaks_params.h"
+#include "vec.h"
 
 #define RG_PARAMS  raster_streaks_params
 #define RG_SLOTS   IN(1, float, drops)
@@ -22,10 +23,10 @@ RG_FN float raster_wrapped(float start, float fallen)
 
 RG_FN v3 raster_head(rg_ctx rg, raster_streaks_params p, int i)
 {
-    return v3_make(p.corner.x + p.size.x * raster_wrapped(drops_at(rg, i), p.fallen.x),
-                   p.corner.y + p.size.y * raster_wrapped(drops_at(rg, p.count + i), p.fallen.y),
-                   p.corner.z +
-                       p.size.z * raster_wrapped(drops_at(rg, 2 * p.count + i), p.fallen.z));
+    return v3_make(p.corner_x + p.size_x * raster_wrapped(drops_at(rg, i), p.fallen_x),
+                   p.corner_y + p.size_y * raster_wrapped(drops_at(rg, p.count + i), p.fallen_y),
+                   p.corner_z +
+                       p.size_z * raster_wrapped(drops_at(rg, 2 * p.count + i), p.fallen_z));
 }
 
 // From a streak's axis to its rim, beside the axis as the eye sees it.
@@ -44,8 +45,9 @@ RG_FN rg_corner raster_to_clip(raster_streaks_params p, v3 v)
 RG_DRAW_ITEM(raster_streaks)
 {
     v3 head = raster_head(rg, p, i);
-    v3 tail = v3_add(head, p.streak);
-    v3 side = raster_side(head, p.streak, p.radius_m);
+    v3 streak = v3_make(p.streak_x, p.streak_y, p.streak_z);
+    v3 tail = v3_add(head, streak);
+    v3 side = raster_side(head, streak, p.radius_m);
     v3 other = v3_scale(side, -1.0f);
     rg_item t;
     t.alive = 1;
@@ -66,5 +68,5 @@ RG_DRAW_RECORD(raster_streaks)
 
 RG_DRAW_FRAGMENT(raster_streaks)
 {
-    return rg_fragment_make(p.colour, r.depth);
+    return rg_fragment_make(rg_rgba(p.light, p.light, p.light, p.opacity), r.depth);
 }

@@ -34,20 +34,24 @@ raster_streaks_params raster_streaks_at(const struct raster_settings *s, int wid
     const double length_s = s->streak_length_mm / 1000 / speed; // how long a streak's fall takes
     const double scale = 1 / tan(radians(s->view_angle_deg) / 2);
     const double near_m = 0.1, far_m = 2 * s->reach_m;
-    const float light = 0.7f * (float)s->opacity;
     return (raster_streaks_params){
         .count = s->billboards,
-        .corner = {(float)(-s->air_width_m / 2), (float)(-s->air_height_m / 2), 0},
-        .size = {(float)s->air_width_m, (float)s->air_height_m, (float)s->reach_m},
-        .fallen = {fallen(s->wind_m_s, seconds, s->air_width_m),
-                   fallen(s->fall_m_s, seconds, s->air_height_m), 0},
-        .streak = {(float)(-s->wind_m_s * length_s), (float)(-s->fall_m_s * length_s), 0},
+        .corner_x = (float)(-s->air_width_m / 2),
+        .corner_y = (float)(-s->air_height_m / 2),
+        .size_x = (float)s->air_width_m,
+        .size_y = (float)s->air_height_m,
+        .size_z = (float)s->reach_m,
+        .fallen_x = fallen(s->wind_m_s, seconds, s->air_width_m),
+        .fallen_y = fallen(s->fall_m_s, seconds, s->air_height_m),
+        .streak_x = (float)(-s->wind_m_s * length_s),
+        .streak_y = (float)(-s->fall_m_s * length_s),
         .radius_m = (float)(s->streak_radius_mm / 1000),
         .scale_x = (float)(scale * height / width),
         .scale_y = (float)scale,
         .depth_scale = (float)(far_m / (far_m - near_m)),
         .depth_offset = (float)(-far_m * near_m / (far_m - near_m)),
-        .colour = {light, light, light, (float)s->opacity},
+        .light = 0.7f * (float)s->opacity,
+        .opacity = (float)s->opacity,
     };
 }
 
