@@ -83,7 +83,7 @@ static int64_t droplets_of(float water, int pane, int x, int y)
 {
     const double droplets = (double)water * 65536;
     const int64_t whole = (int64_t)droplets;
-    if ((double)whole != droplets || whole < 0)
+    if ((double)whole != droplets || whole < 0 || whole > 1 << 24)
         fail_msg("pane %d, texel (%d, %d) holds %.17g droplets", pane, x, y, droplets);
     return whole;
 }

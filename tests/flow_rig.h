@@ -27,7 +27,8 @@ void rig_set(struct rig *rig, const char *assignments);
 void rig_step(struct rig *rig, int steps);
 
 // The water in droplets, pane after pane, row by row, without margins, for the caller to free.
-// Fails the test where an amount is no whole number of droplets, or a margin is wet.
+// Fails the test where an amount is no whole number of droplets, or more than a float counts, or a
+// margin is wet.
 int64_t *rig_water(const struct rig *rig);
 // Replaces the water of all panes.
 void rig_put(struct rig *rig, const int64_t *water);

@@ -289,9 +289,9 @@ static void test_water_is_conserved_on_the_box(void **state)
     balance("run_on=on reach_texels=4 pane_pitch_deg=17 pane_roll_deg=18 direction=split");
     balance("run_on=on reach_texels=3 pane_pitch_deg=-72 pane_roll_deg=-135");
     // More rain than panes carry, led to the edge between two of them.
-    balance("run_on=on reach_texels=4 pane_pitch_deg=-20 pane_roll_deg=20 direction=split "
-            "rain_drops_s=6000 drop_radius_max_mm=40 drop_height_per_mm=16 capacity=64 "
-            "remainder_low=1");
+    balance("run_on=on reach_texels=4 pane_pitch_deg=20 pane_roll_deg=20 direction=split "
+            "rain_drops_s=60000 drop_radius_max_mm=40 drop_height_per_mm=16 capacity=64 "
+            "remainder_low=1 far_share=0.5 resolution_px=64");
     balance("run_on=on reach_texels=4 spin_roll_deg_s=400 spin_pitch_deg_s=250 direction=split");
 }
 

@@ -357,6 +357,53 @@ static void test_the_model_stands_in_glass_alone(void **state)
     assert_false(told);
 }
 
+// Where a point of a model of these bounds is seen, right, down and away of its middle.
+static void see_point(const struct flow_settings *s, const float point[3], double seen[3])
+{
+    static const float low[3] = {-1, -1, -1}, high[3] = {1, 1, 1};
+    flow_view_params p;
+    assert_true(flow_view_params_at(s, 0, VIEW, VIEW, &p));
+    flow_view_model(s, 0, low, high, &p);
+    const rg_corner at = m4_project(p.to_clip, v3_make(point[0], point[1], point[2]));
+    const rg_corner middle = m4_project(p.to_clip, v3_make(0, 0, 0));
+    seen[0] = (double)(at.x / at.w - middle.x / middle.w);
+    seen[1] = (double)(at.y / at.w - middle.y / middle.w);
+    seen[2] = (double)(at.w - middle.w);
+}
+
+// A model's x, y and z are the front's right, up and outwards; its normals turn as it does.
+static void test_the_model_stands_upright(void **state)
+{
+    (void)state;
+    static const float axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    static const struct {
+        double pitch_deg, yaw_deg, roll_deg;
+        int way[3], axis[3]; // where each axis is seen: towards or against right, down or away
+    } cases[] = {
+        {0, 0, 0, {1, -1, -1}, {0, 1, 2}},
+        {0, 0, 90, {1, 1, -1}, {1, 0, 2}}, // clockwise: what was right is down
+        {90, 0, 0, {1, 1, -1}, {0, 2, 1}}, // the front faces up
+        {0, 90, 0, {1, -1, 1}, {2, 1, 0}}, // the front faces right
+    };
+    struct flow_settings s;
+    rg_params_reset(&flow_param_table, &s);
+    s.camera_azimuth_deg = s.camera_elevation_deg = 0;
+    for (int i = 0; i < 4; i++) {
+        s.pitch_deg = cases[i].pitch_deg;
+        s.yaw_deg = cases[i].yaw_deg;
+        s.roll_deg = cases[i].roll_deg;
+        for (int axis = 0; axis < 3; axis++) {
+            double seen[3];
+            see_point(&s, axes[axis], seen);
+            for (int k = 0; k < 3; k++)
+                if (k == cases[i].axis[axis] ? seen[k] * cases[i].way[axis] < 0.05
+                                             : fabs(seen[k]) > 1e-5)
+                    fail_msg("case %d: axis %d is seen at (%g, %g, %g)", i, axis, seen[0], seen[1],
+                             seen[2]);
+        }
+    }
+}
+
 // --- what changes with the frame and the distance ---
 
 // A box that spins stands at a frame as one that was turned so far.
@@ -459,6 +506,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_what_is_dark_does_not_glow),
         cmocka_unit_test(test_drops_shade_the_model),
         cmocka_unit_test(test_the_model_stands_in_glass_alone),
+        cmocka_unit_test(test_the_model_stands_upright),
         cmocka_unit_test(test_spin),
         cmocka_unit_test(test_water_follows_the_spin),
         cmocka_unit_test(test_resolution_follows_the_distance),
