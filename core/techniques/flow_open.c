@@ -280,7 +280,7 @@ struct rg_instance *flow_open(struct rg_device *device, const void *settings, in
     flow->settings = *(const struct flow_settings *)settings;
     flow->settings.resolution_px = flow_texels(&flow->settings, height);
     flow->pane_count = flow_pane_count(&flow->settings);
-    flow->base.counter_count = FLOW_COUNTER_COUNT;
+    flow->base.counter_count = has_model(&flow->settings) ? FLOW_COUNTER_COUNT : FLOW_TRIANGLES;
     for (int i = 0; i < FLOW_COUNTER_COUNT; i++)
         flow->base.counters[i].name = counter_names[i];
     if (!create_passes(flow) || !create_buffers(flow) || !create_maps(flow) ||

@@ -36,7 +36,7 @@ def check_table_json(runner):
         if not cell["counters"] or not all(isinstance(n, int) and n > 0 for n in cell["counters"].values()):
             problems.append("counters: %s" % cell["counters"])
         shares, passes = cell["measured"]["passes_share"], cell["measured"]["passes_ms"]
-        if list(shares) != list(passes) or abs(sum(shares.values()) - 1) > 1e-6 or "flow_light" not in shares:
+        if list(shares) != list(passes) or abs(sum(shares.values()) - 1) > 1e-6 or "flow_mirror" not in shares:
             problems.append("passes: %s, shares: %s" % (passes, shares))
     return problems
 
@@ -165,10 +165,10 @@ CHECKS = [check_table_json, check_table_files, check_tables_in_a_row, check_rend
 
 # --- a driver that draws wrongly: its kernel is another ---
 
-RIGHT, TWICE_AS_BRIGHT, NO_GLSL = "rg_rgba(light.x,", "rg_rgba(light.x * 2.0f,", "nonsense(light.x,"
+RIGHT, TURNED, NO_GLSL = "(-slope_x * scale)", "(slope_x * scale)", "(nonsense * scale)"
 
 
-def with_light(wrong):
+def with_normals(wrong):
     """Runs a check with kernels that are wrong on gl; a machine without gl has nothing to show."""
     def decorate(check):
         def run(runner):
@@ -176,29 +176,29 @@ def with_light(wrong):
             if not any(device["name"] == "gl" for device in devices):
                 return []
             with tempfile.TemporaryDirectory() as tmp:
-                return check(runner, runner.kernels_with(tmp, "flow_light.glsl", RIGHT, wrong))
+                return check(runner, runner.kernels_with(tmp, "flow_normals.glsl", RIGHT, wrong))
         run.__doc__ = check.__doc__
         return run
     return decorate
 
 
-with_wrong_light = with_light(TWICE_AS_BRIGHT)
+with_wrong_normals = with_normals(TURNED)
 
 
-@with_light(NO_GLSL)
+@with_normals(NO_GLSL)
 def check_broken_table(runner, kernels):
     """a table reports a device whose driver refuses a kernel, measures the others, and fails"""
     report, status, messages = run_json(runner, "table stuppacher-2 --rows 1-1 --device gl,cpu", kernels)
     gl, cpu = report["cells"]
     problems = [] if len(messages) == 1 else messages + ["%d lines on stderr" % len(messages)]
-    if status != 1 or gl["status"] != "error" or "measured" in gl or "flow_light" not in gl["detail"]:
+    if status != 1 or gl["status"] != "error" or "measured" in gl or "flow_normals" not in gl["detail"]:
         problems.append("exit status %d, gl: %s" % (status, gl))
     if cpu["status"] != "ok" or "measured" not in cpu:
         problems.append("cpu: %s" % cpu)
     return problems
 
 
-@with_wrong_light
+@with_wrong_normals
 def check_wrong_table(runner, kernels):
     """a table does not time a device whose image is wrong, and fails"""
     report, status, problems = run_json(runner, "table stuppacher-2 --rows 1-1 --device cpu,gl", kernels)
@@ -212,7 +212,7 @@ def check_wrong_table(runner, kernels):
     return problems
 
 
-@with_wrong_light
+@with_wrong_normals
 def check_wrong_diff(runner, kernels):
     """diff fails the pairs of a device whose image is wrong, and no others"""
     report, status, problems = run_json(runner, "diff flow --frame 5 --device cpu,cpu:reference,gl " + SMALL, kernels)
@@ -225,7 +225,7 @@ def check_wrong_diff(runner, kernels):
     return problems
 
 
-@with_wrong_light
+@with_wrong_normals
 def check_wrong_verify(runner, kernels):
     """verify fails the image of a device that draws wrongly, and nothing else"""
     report, status, problems = run_json(runner, "verify flow --frame 5 --device cpu,gl " + SMALL, kernels)
