@@ -235,7 +235,7 @@ static bool draw_final(struct flow *flow, const flow_view_params *view)
     flow->base.counters[FLOW_PIXELS].value += (int64_t)target->width * target->height;
     // Nothing is seen through mirrors: the sky around them is drawn where it is shown.
     const bool sky = flow->passes[FLOW_SKY] && !flow->behind;
-    return (!sky || draw_sky(flow, view, flow->base.target)) &&
+    return (!sky || draw_sky(flow, view, canvas(flow))) &&
            (!flow->behind || draw_behind(flow, view)) &&
            (flow->settings.panes == FLOW_MIRROR || draw_panes(flow, view, RG_CULL_FRONT)) &&
            draw_panes(flow, view, RG_CULL_BACK);

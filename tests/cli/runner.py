@@ -51,7 +51,7 @@ class Runner:
     def kernels_with(self, folder, name, right, wrong):
         """Copies the kernels into `folder`, with one piece of one file's text made another."""
         for file in os.listdir(self.kernels):
-            if file.endswith((".glsl", ".cl", ".spv")):
+            if file.endswith((".glsl", ".vert", ".frag", ".cl", ".spv")):
                 shutil.copy(os.path.join(self.kernels, file), folder)
         path = os.path.join(folder, name)
         with open(path) as file:
