@@ -177,6 +177,14 @@ static void many_items_are_drawn(void **state)
                           RG_DEPTH_OFF});
 }
 
+// Room ends amid a batch whose items are clipped, and the batch is drawn again as a whole.
+static void many_clipped_items_are_drawn(void **state)
+{
+    (void)state;
+    check(&(struct scene){40, 30, 1, 1, 0, 0, 0, 150000, QUAD_BEHIND, RG_RGBA32F, RG_BLEND_ADD,
+                          RG_DEPTH_OFF});
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -186,6 +194,7 @@ int main(void)
         cmocka_unit_test(many_pixels_are_drawn_to),
         cmocka_unit_test(some_items_of_a_buffer_are_drawn),
         cmocka_unit_test(many_items_are_drawn),
+        cmocka_unit_test(many_clipped_items_are_drawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
