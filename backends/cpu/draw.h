@@ -103,10 +103,9 @@ struct cpu_tiling {
 
 // A range of items, and the references that it left, by tile.
 struct cpu_chunk {
-    int begin, end;   // the items that are done
-    bool whole;       // all that were wanted; else there was no room for more
-    int64_t pixels;   // that are covered, about
-    const int *first; // of each tile, into cpu_bins.refs; then the end of the last one's
+    int begin, end; // the items that are done
+    bool whole;     // all that were wanted; else there was no room for more
+    int64_t pixels; // that are covered, about
 };
 
 // A thread's batch, and its chunk's references before they are sorted.
@@ -131,10 +130,10 @@ struct cpu_bins {
     // References, each chunk's in one piece.
     int ref_room, ref_count;
     struct cpu_ref *refs;
-    int chunk_room, chunk_count;
+    int chunk_count;
     struct cpu_chunk *chunks;
     int tile_room;
-    int *firsts; // chunk_room times tile_room + 1
+    int *firsts; // of each tile, and behind the last, the first reference of each chunk
     int sorter_count;
     struct cpu_sorter **sorters; // one a thread
     bool full;                   // the round ran out of room
@@ -176,8 +175,8 @@ int cpu_bins_refs(struct cpu_bins *bins, int count);
 bool cpu_sorter_grow(struct cpu_sorter *sorter);
 // Drops the references from number `count` on.
 void cpu_sorter_drop(struct cpu_sorter *sorter, int count);
-// Moves the references to the bins, sorted by tile; false: no room.
-bool cpu_sorter_sort(struct cpu_sorter *sorter, struct cpu_bins *bins, int *first);
+// Moves the references to the bins, a chunk's, sorted by tile; false: no room.
+bool cpu_sorter_sort(struct cpu_sorter *sorter, struct cpu_bins *bins, int chunk);
 void cpu_bins_destroy(struct cpu_bins *bins);
 
 #endif

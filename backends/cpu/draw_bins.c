@@ -32,17 +32,19 @@ void cpu_sorter_drop(struct cpu_sorter *sorter, int count)
     sorter->count = count;
 }
 
-bool cpu_sorter_sort(struct cpu_sorter *sorter, struct cpu_bins *bins, int *first)
+bool cpu_sorter_sort(struct cpu_sorter *sorter, struct cpu_bins *bins, int chunk)
 {
     const int tiles = bins->tiling.across * bins->tiling.down;
-    int place = cpu_bins_refs(bins, sorter->count);
-    const bool fits = place >= 0;
+    int *first = bins->firsts + chunk;
+    const int begin = cpu_bins_refs(bins, sorter->count);
+    const bool fits = begin >= 0;
+    int place = fits ? begin : 0;
     for (int t = 0; t < tiles; t++) {
         const int count = fits ? sorter->of_tile[t] : 0;
-        first[t] = sorter->of_tile[t] = place;
+        first[t * CPU_MOST_CHUNKS] = sorter->of_tile[t] = place;
         place += count;
     }
-    first[tiles] = place;
+    first[tiles * CPU_MOST_CHUNKS] = place;
     for (int i = 0; fits && i < sorter->count; i++)
         bins->refs[sorter->of_tile[sorter->tile[i]]++] = sorter->ref[i];
     return fits;

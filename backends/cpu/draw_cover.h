@@ -22,6 +22,7 @@ enum { SMALL = 1 << 14, MOST_GROUPS = CPU_MASKS * 2 };
 struct lanes {
     int x[4][CPU_LANES], y[4][CPU_LANES];    // corners from the centre of the box's first pixel
     int width[CPU_LANES], height[CPU_LANES]; // of the box, in pixels; 0: covers nothing
+    uint columns[CPU_LANES];                 // the box's columns in each row of a group
     int turned[CPU_LANES];                   // -1: corners turn the other way; else 0
     int dx[4][CPU_LANES], dy[4][CPU_LANES], at[4][CPU_LANES];
     uint rows[MOST_GROUPS][CPU_LANES]; // which pixels are covered: four rows of eight a word
@@ -123,22 +124,24 @@ static inline __attribute__((always_inline)) void group_lanes(struct lanes *l, i
         int a = l->at[0][i], b = l->at[1][i], c = l->at[2][i], d = l->at[3][i];
         const int dxa = l->dx[0][i], dxb = l->dx[1][i], dxc = l->dx[2][i], dxd = l->dx[3][i];
         const int dya = l->dy[0][i], dyb = l->dy[1][i], dyc = l->dy[2][i], dyd = l->dy[3][i];
-        const int width = l->width[i], height = l->height[i] - 4 * group;
+        const int height = l->height[i] - 4 * group;
         uint covered = 0;
 #pragma GCC unroll 4
         for (int row = 0; row < 4; row++) {
 #pragma GCC unroll 8
             for (int column = 0; column < columns; column++) {
                 const int outside = (a - dxa * column) | (b - dxb * column) | (c - dxc * column) |
-                                    (d - dxd * column) | (width - 1 - column) | (height - 1 - row);
-                covered |= ((uint)~outside >> 31) << (8 * row + column);
+                                    (d - dxd * column);
+                covered |= outside < 0 ? 0u : 1u << (8 * row + column);
             }
             a += dya;
             b += dyb;
             c += dyc;
             d += dyd;
         }
-        rows[i] = covered;
+        rows[i] = covered & l->columns[i] &
+                  ((height > 0 ? 0xffu : 0u) | (height > 1 ? 0xff00u : 0u) |
+                   (height > 2 ? 0xff0000u : 0u) | (height > 3 ? 0xff000000u : 0u));
         l->at[0][i] = a;
         l->at[1][i] = b;
         l->at[2][i] = c;
@@ -154,17 +157,22 @@ static int most_of(const int *values)
     return most;
 }
 
+// Makes `masks` masks for all lanes.
 static void cover_lanes(struct lanes *l, int masks)
 {
-    const int width = most_of(l->width);
+    const int width = most_of(l->width), groups = (most_of(l->height) + 3) / 4;
+    for (int i = 0; i < CPU_LANES; i++) {
+        l->columns[i] = ((1u << l->width[i]) - 1) * 0x01010101u;
+        l->rows[2 * masks - 1][i] = 0;
+    }
     if (width <= 2)
-        for (int group = 0; group < 2 * masks; group++)
+        for (int group = 0; group < groups; group++)
             group_lanes(l, group, 2);
     else if (width <= 4)
-        for (int group = 0; group < 2 * masks; group++)
+        for (int group = 0; group < groups; group++)
             group_lanes(l, group, 4);
     else
-        for (int group = 0; group < 2 * masks; group++)
+        for (int group = 0; group < groups; group++)
             group_lanes(l, group, 8);
 }
 
@@ -200,7 +208,8 @@ static void cover_shapes(const rg_draw_state *draw, const struct cpu_items *item
         for (int k = 0; k < 4; k++)
             edge_lanes(&l, k);
         const int masks = (most_of(l.height) + 7) / 8;
-        cover_lanes(&l, masks);
+        if (masks)
+            cover_lanes(&l, masks);
         take_masks(shapes, first, &l, masks);
     }
 }

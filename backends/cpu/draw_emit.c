@@ -221,10 +221,8 @@ void cpu_emit(const struct cpu_emitter *e, int index, int end)
     struct cpu_sorter *sorter = e->sorter;
     struct cpu_chunk *chunk = &bins->chunks[index];
     const int tiles = bins->tiling.across * bins->tiling.down;
-    int *first = bins->firsts + (size_t)index * ((size_t)tiles + 1);
     memset(sorter->of_tile, 0, (size_t)tiles * sizeof(*sorter->of_tile));
     sorter->count = 0;
-    chunk->first = first;
     chunk->pixels = 0;
     while (chunk->end < end && sorter->count < MOST_REFS &&
            !__atomic_load_n(&bins->full, __ATOMIC_RELAXED)) {
@@ -236,7 +234,7 @@ void cpu_emit(const struct cpu_emitter *e, int index, int end)
         }
         chunk->end += count;
     }
-    if (!cpu_sorter_sort(sorter, bins, first))
+    if (!cpu_sorter_sort(sorter, bins, index))
         chunk->end = chunk->begin;
     chunk->whole = chunk->end == end;
 }

@@ -129,7 +129,9 @@ static inline void list_pixel(struct shader *s, int prim, int x, int y)
 static void list_mask(struct shader *s, const struct cpu_ref *ref)
 {
     const int x = ref->place & 0xffff, y = ref->place >> 16;
-    __builtin_prefetch(s->bins->records + (size_t)ref->prim * s->bins->record_size);
+    const char *record = s->bins->records + (size_t)ref->prim * s->bins->record_size;
+    __builtin_prefetch(record);
+    __builtin_prefetch(record + s->bins->record_size - 1);
     for (uint64_t rest = ref->mask; rest; rest &= rest - 1) {
         const int bit = __builtin_ctzll(rest);
         list_pixel(s, ref->prim, x + (bit & 7), y + (bit >> 3));
@@ -141,15 +143,17 @@ static void list_mask(struct shader *s, const struct cpu_ref *ref)
 static void draw_row(struct shader *s, int prim, int x, int y, int count)
 {
     const size_t first = (size_t)y * (size_t)s->draw.width + (size_t)x;
-    const size_t words = (size_t)s->texel_words, size = (size_t)count * sizeof(uint);
+    const size_t size = (size_t)count * sizeof(uint), words = (size_t)s->texel_words;
     struct pixels *pixels = &s->pixels;
     s->program->row(s->call, s->bins->records + (size_t)prim * s->bins->record_size, x, y, count,
                     &s->fragments);
-    memcpy(pixels->texels, s->target.colour + first * words, size * words);
+    if (words)
+        memcpy(pixels->texels, s->target.colour + first * words, size * words);
     if (s->draw.depth_mode != RG_DEPTH_OFF)
         memcpy(pixels->depth, s->target.depth + first, size);
     meet(s);
-    memcpy(s->target.colour + first * words, pixels->texels, size * words);
+    if (words)
+        memcpy(s->target.colour + first * words, pixels->texels, size * words);
     if (s->draw.depth_mode == RG_DEPTH_WRITE)
         memcpy(s->target.depth + first, pixels->depth, size);
     if (s->draw.counted) {
@@ -221,33 +225,35 @@ static void begin_tile(struct shader *s, int tile)
     memset(s->listed, 0, sizeof(s->listed));
 }
 
-static bool is_empty(const struct cpu_bins *bins, int tile)
+static void draw_refs(struct shader *s, const struct cpu_ref *ref, const struct cpu_ref *end)
 {
-    for (int c = 0; c < bins->chunk_count; c++)
-        if (bins->chunks[c].first[tile] < bins->chunks[c].first[tile + 1])
-            return false;
-    return true;
+    for (; ref < end; ref++) {
+        if (ref->place < 0)
+            draw_corners(s, ref->prim);
+        else
+            list_mask(s, ref);
+    }
 }
 
 static void shade_tile(const struct cpu_program *program, const struct cpu_call *call,
                        const struct cpu_bins *bins, int tile)
 {
     struct shader s;
-    if (is_empty(bins, tile))
+    const int *first = bins->firsts + tile * CPU_MOST_CHUNKS, *end = first + CPU_MOST_CHUNKS;
+    int refs = 0;
+    for (int c = 0; c < bins->chunk_count; c++)
+        refs += end[c] - first[c];
+    if (!refs)
         return;
     s.program = program;
     s.call = call;
     s.bins = bins;
     begin_tile(&s, tile);
     for (int c = 0; c < bins->chunk_count; c++) {
-        const int *first = bins->chunks[c].first;
-        for (int i = first[tile]; i < first[tile + 1]; i++) {
-            const struct cpu_ref *ref = &bins->refs[i];
-            if (ref->place < 0)
-                draw_corners(&s, ref->prim);
-            else
-                list_mask(&s, ref);
-        }
+        if (c + 2 < bins->chunk_count)
+            for (int i = first[c + 2]; i < end[c + 2]; i += 4)
+                __builtin_prefetch(bins->refs + i);
+        draw_refs(&s, bins->refs + first[c], bins->refs + end[c]);
     }
     flush(&s);
 }
