@@ -5,8 +5,8 @@
 //      pixels become primitives, which have a number, a record and, for every tile of the target
 //      that they touch, a reference. A chunk sorts its references by tile.
 //   2. Tiles (draw_shade.h): each walks the chunks in order, so that primitives meet a pixel in the
-//      order of their items, whoever made them. Pixels are listed, their fragments computed side by
-//      side, then tested and blended one after the other.
+//      order of their items, whoever made them. Different pixels of many primitives are listed, and
+//      their fragments computed, tested and blended side by side.
 // A round ends where the room for primitives or references does (draw_bins.c).
 //
 // What depends on the program are five loops (draw_stages.h), compiled once a program and level.
@@ -122,8 +122,8 @@ struct cpu_sorter {
 struct cpu_bins {
     struct cpu_tiling tiling;
     // Primitives, by number: their records, items, and corners where no mask serves.
-    int prim_room, prim_count;
-    size_t record_size;
+    int prim_room, prim_limit, prim_count;
+    size_t record_room, record_size; // in bytes
     char *records;
     int *items;
     rg_snapped *corners;

@@ -3,10 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A round's primitives and references take no more than this each.
+// A round's records take no more than this, its primitives otherwise and its references about as
+// much.
 #define MOST_BYTES ((size_t)128 << 20)
 
-enum { LEAST_SIDE_LOG2 = 6, MOST_TILES = 4096, FIRST_ROOM = 1 << 16 };
+enum { LEAST_SIDE_LOG2 = 6, MOST_TILES = 4096 };
+enum { FIRST_ROOM = 1 << 16, MOST_PRIMS = 1 << 21, MOST_REFS = 1 << 23 };
 
 // --- sorting a chunk's references by tile ---
 
@@ -64,7 +66,7 @@ static int take(int *taken, int count, int room, bool *full)
 
 int cpu_bins_prims(struct cpu_bins *bins, int count)
 {
-    return take(&bins->prim_count, count, bins->prim_room, &bins->full);
+    return take(&bins->prim_count, count, bins->prim_limit, &bins->full);
 }
 
 int cpu_bins_refs(struct cpu_bins *bins, int count)
@@ -73,46 +75,52 @@ int cpu_bins_refs(struct cpu_bins *bins, int count)
 }
 
 // Frees what was there: nothing is kept from round to round.
-static bool renew(void *memory, size_t size)
+static void *renewed(void *held, size_t size)
 {
-    void **held = memory;
-    free(*held);
-    *held = cpu_alloc(size);
-    return *held != NULL;
+    free(held);
+    return cpu_alloc(size);
 }
 
 // Twice the room where the last round lacked it.
-static int wanted(int room, int asked_for, size_t size)
+static int wanted(int room, int asked_for, int most)
 {
-    const int most = (int)(MOST_BYTES / size);
     int64_t more = room ? room : FIRST_ROOM;
     while (more < asked_for)
         more *= 2;
     return more < most ? (int)more : most;
 }
 
-static bool make_room(struct cpu_bins *bins, size_t record_size)
+static bool make_ref_room(struct cpu_bins *bins)
 {
-    const size_t prim_size = record_size + sizeof(int) + sizeof(rg_snapped);
-    const int refs = wanted(bins->ref_room, bins->ref_count, sizeof(*bins->refs));
-    const int prims =
-        wanted(record_size == bins->record_size ? bins->prim_room : 0, bins->prim_count, prim_size);
-    if (refs != bins->ref_room) {
-        bins->ref_room = 0;
-        if (!renew(&bins->refs, (size_t)refs * sizeof(*bins->refs)))
-            return false;
-        bins->ref_room = refs;
+    const int refs = wanted(bins->ref_room, bins->ref_count, MOST_REFS);
+    if (refs == bins->ref_room)
+        return true;
+    bins->refs = renewed(bins->refs, (size_t)refs * sizeof(*bins->refs));
+    bins->ref_room = bins->refs ? refs : 0;
+    return bins->refs != NULL;
+}
+
+static bool make_record_room(struct cpu_bins *bins, size_t size)
+{
+    if (size <= bins->record_room)
+        return true;
+    bins->records = renewed(bins->records, size);
+    bins->record_room = bins->records ? size : 0;
+    return bins->records != NULL;
+}
+
+// Programs with records of different size take turns in the same memory.
+static bool make_prim_room(struct cpu_bins *bins, size_t record_size)
+{
+    const int prims = wanted(bins->prim_room, bins->prim_count, MOST_PRIMS);
+    if (prims != bins->prim_room) {
+        bins->items = renewed(bins->items, (size_t)prims * sizeof(*bins->items));
+        bins->corners = renewed(bins->corners, (size_t)prims * sizeof(*bins->corners));
+        bins->prim_room = bins->items && bins->corners ? prims : 0;
     }
-    if (prims != bins->prim_room || record_size != bins->record_size) {
-        bins->prim_room = 0;
-        if (!renew(&bins->records, (size_t)prims * record_size) ||
-            !renew(&bins->items, (size_t)prims * sizeof(*bins->items)) ||
-            !renew(&bins->corners, (size_t)prims * sizeof(*bins->corners)))
-            return false;
-        bins->prim_room = prims;
-        bins->record_size = record_size;
-    }
-    return true;
+    bins->record_size = record_size;
+    bins->prim_limit = rg_imin(bins->prim_room, (int)(MOST_BYTES / record_size));
+    return bins->prim_limit && make_record_room(bins, (size_t)bins->prim_limit * record_size);
 }
 
 static void choose_tiles(struct cpu_tiling *tiling, const rg_draw_state *draw)
@@ -128,11 +136,13 @@ static void choose_tiles(struct cpu_tiling *tiling, const rg_draw_state *draw)
 static bool make_chunks(struct cpu_bins *bins)
 {
     const int tiles = bins->tiling.across * bins->tiling.down;
-    if (bins->chunks && tiles <= bins->tile_room)
+    if (tiles <= bins->tile_room)
         return true;
     bins->tile_room = 0;
-    if (!renew(&bins->chunks, CPU_MOST_CHUNKS * sizeof(*bins->chunks)) ||
-        !renew(&bins->firsts, CPU_MOST_CHUNKS * ((size_t)tiles + 1) * sizeof(*bins->firsts)))
+    const size_t firsts = CPU_MOST_CHUNKS * ((size_t)tiles + 1);
+    bins->chunks = renewed(bins->chunks, CPU_MOST_CHUNKS * sizeof(*bins->chunks));
+    bins->firsts = renewed(bins->firsts, firsts * sizeof(*bins->firsts));
+    if (!bins->chunks || !bins->firsts)
         return false;
     bins->tile_room = tiles;
     return true;
@@ -164,7 +174,8 @@ bool cpu_bins_prepare(struct cpu_bins *bins, const rg_draw_state *draw, size_t r
                       int threads)
 {
     choose_tiles(&bins->tiling, draw);
-    if (!make_room(bins, record_size) || !make_chunks(bins) || !make_sorters(bins, threads))
+    if (!make_ref_room(bins) || !make_prim_room(bins, record_size) || !make_chunks(bins) ||
+        !make_sorters(bins, threads))
         return false;
     bins->prim_count = bins->ref_count = bins->chunk_count = 0;
     bins->full = bins->failed = false;

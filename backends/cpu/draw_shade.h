@@ -251,8 +251,7 @@ static void shade_tile(const struct cpu_program *program, const struct cpu_call 
     begin_tile(&s, tile);
     for (int c = 0; c < bins->chunk_count; c++) {
         if (c + 2 < bins->chunk_count)
-            for (int i = first[c + 2]; i < end[c + 2]; i += 4)
-                __builtin_prefetch(bins->refs + i);
+            __builtin_prefetch(bins->refs + first[c + 2]);
         draw_refs(&s, bins->refs + first[c], bins->refs + end[c]);
     }
     flush(&s);
