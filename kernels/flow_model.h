@@ -7,8 +7,9 @@
 #define RG_PARAMS flow_view_params
 #define RG_SLOTS                                                                                   \
     IN(1, float, positions)                                                                        \
-    IN(2, uint, normals) IN(3, uint, indices) IMAGE(4, RG11B10F, environment)                      \
-        IN(5, flow_pane, panes) IN(6, float, blurred)
+    IN(2, uint, normals)                                                                           \
+    IN(3, uint, indices)                                                                           \
+    IMAGE(4, RG11B10F, environment) IN(5, float, blurred)
 #define RG_CORNERS 3
 #define RG_RECORD  mesh_record
 #include "draw.h"
@@ -30,42 +31,42 @@ RG_DRAW_RECORD(flow_model)
 RG_FN float to_side(float at, float d)
 {
     float side = d < 0.0f ? -1.0f : 1.0f;
-    return (side - at) / (rg_abs(d) > 1e-6f ? d : side * 1e-6f);
+    float away = rg_abs(d) > 1e-6f ? d : side * 1e-6f;
+    return (side - at) / away;
 }
 
 // The height of the water where the way to the lamp leaves the box. Panes 0 to 5 are front, back,
-// right, left, top and bottom; pane 0's frame is the box's own.
+// right, left, top and bottom; pane 0's frame is the box's own, from which the others' places
+// follow. Selects between numbers alone: compilers run pixels side by side.
 RG_FN float water_before_lamp(rg_ctx rg, flow_view_params p, v3 at)
 {
-    flow_pane front = panes_at(rg, 0);
+    v3 right = v3_make(p.turn.xx, p.turn.yx, p.turn.zx);
+    v3 down = v3_make(-p.turn.xy, -p.turn.yy, -p.turn.zy);
+    v3 out_of = v3_make(p.turn.xz, p.turn.yz, p.turn.zz);
     v3 lamp = v3_make(p.light_x, p.light_y, p.light_z);
-    float x = v3_dot(at, front.t);
-    float y = v3_dot(at, front.b);
-    float z = v3_dot(at, front.n);
-    float dx = v3_dot(lamp, front.t);
-    float dy = v3_dot(lamp, front.b);
-    float dz = v3_dot(lamp, front.n);
-    float by_x = to_side(x, dx);
-    float by_y = to_side(y, dy);
-    float by_z = to_side(z, dz);
+    float dx = v3_dot(lamp, right);
+    float dy = v3_dot(lamp, down);
+    float dz = v3_dot(lamp, out_of);
+    float by_x = to_side(v3_dot(at, right), dx);
+    float by_y = to_side(v3_dot(at, down), dy);
+    float by_z = to_side(v3_dot(at, out_of), dz);
     float way = rg_min(by_x, rg_min(by_y, by_z));
-    int pane = by_z == way   ? (dz < 0.0f ? 1 : 0)
-               : by_x == way ? (dx < 0.0f ? 3 : 2)
-                             : (dy < 0.0f ? 4 : 5);
-    flow_pane q = panes_at(rg, pane);
-    v3 hit = v3_add(at, v3_scale(lamp, way));
+    float x = v3_dot(at, right) + dx * way;
+    float y = v3_dot(at, down) + dy * way;
+    float z = v3_dot(at, out_of) + dz * way;
+    float turned_x = dz < 0.0f ? -x : x;
+    float side_z = dx < 0.0f ? z : -z;
+    float level_z = dy < 0.0f ? z : -z;
+    float u = by_z == way ? turned_x : by_x == way ? side_z : x;
+    float v = by_z == way ? y : by_x == way ? y : level_z;
+    int facing_z = dz < 0.0f ? 1 : 0;
+    int facing_x = dx < 0.0f ? 3 : 2;
+    int facing_y = dy < 0.0f ? 4 : 5;
+    int pane = by_z == way ? facing_z : by_x == way ? facing_x : facing_y;
     float n = rg_to_float(p.size);
-    int tx = rg_iclamp(rg_to_int((0.5f * v3_dot(hit, q.t) + 0.5f) * n), 0, p.size - 1);
-    int ty = rg_iclamp(rg_to_int((0.5f * v3_dot(hit, q.b) + 0.5f) * n), 0, p.size - 1);
+    int tx = rg_iclamp(rg_to_int((0.5f * u + 0.5f) * n), 0, p.size - 1);
+    int ty = rg_iclamp(rg_to_int((0.5f * v + 0.5f) * n), 0, p.size - 1);
     return blurred_at(rg, flow_pane_index(p.size, pane, tx, ty));
-}
-
-RG_FN v3 surface_at(flow_view_params p, mesh_record r, v3 ray, int px, int py)
-{
-    float dx = rg_to_float(px) + 0.5f - r.planes.origin_x;
-    float dy = rg_to_float(py) + 0.5f - r.planes.origin_y;
-    float w = 1.0f / rg_max(rg_plane_at(r.planes.inverse_w, dx, dy), RG_LEAST_W);
-    return v3_add(v3_make(p.rays.xw, p.rays.yw, p.rays.zw), v3_scale(ray, w));
 }
 
 RG_DRAW_FRAGMENT(flow_model)
@@ -78,7 +79,9 @@ RG_DRAW_FRAGMENT(flow_model)
     v3 sheen = light_from(rg, v3_add(ray, v3_scale(n, -2.0f * towards)), p.reflection_level,
                           p.reflection_size);
     float lamp = p.light * rg_max(v3_dot(n, v3_make(p.light_x, p.light_y, p.light_z)), 0.0f);
-    float water = water_before_lamp(rg, p, surface_at(p, r, ray, px, py));
+    v3 at = v3_add(v3_make(p.rays.xw, p.rays.yw, p.rays.zw),
+                   v3_scale(ray, rg_planes_w(r.planes, px, py)));
+    float water = water_before_lamp(rg, p, at);
     lamp = lamp * (1.0f - p.drop_shadow * rg_min(water * p.wet_per_height, 1.0f));
     float reflectance = 0.5f * flow_fresnel(p, ray, towards);
     float matt = 1.0f - reflectance;

@@ -115,13 +115,21 @@ RG_FN float rg_planes_depth(rg_planes s, int px, int py)
     return rg_clamp(rg_plane_at(s.depth, dx, dy), s.nearest, s.farthest);
 }
 
+// w at a pixel's centre.
+RG_FN float rg_planes_w(rg_planes s, int px, int py)
+{
+    float dx = rg_to_float(px) + 0.5f - s.origin_x;
+    float dy = rg_to_float(py) + 0.5f - s.origin_y;
+    return 1.0f / rg_max(rg_plane_at(s.inverse_w, dx, dy), RG_LEAST_W);
+}
+
 // Perspective-correct weights at a pixel's centre, within 0 to 1 though a centre on the rim may lie
 // a little outside of the corners before they were snapped.
 RG_FN rg_weights rg_planes_weights(rg_planes s, int px, int py)
 {
     float dx = rg_to_float(px) + 0.5f - s.origin_x;
     float dy = rg_to_float(py) + 0.5f - s.origin_y;
-    float w = 1.0f / rg_max(rg_plane_at(s.inverse_w, dx, dy), RG_LEAST_W);
+    float w = rg_planes_w(s, px, py);
     rg_weights k;
     k.b = rg_clamp(rg_plane_at(s.b, dx, dy) * w, 0.0f, 1.0f);
     k.c = rg_clamp(rg_plane_at(s.c, dx, dy) * w, 0.0f, 1.0f - k.b);

@@ -110,11 +110,11 @@ static bool move(struct flow *flow)
             return false;
     return !flow->passes[FLOW_ARRIVE] ||
            run(flow, FLOW_ARRIVE,
-               (struct rg_run){.params = &p,
-                               .slots = {[1].buf = flow->moved,
-                                         [2].buf = flow->arriving,
-                                         [3].buf = flow->ledger},
-                               .extent = {n, FLOW_STRIPS, flow->pane_count}});
+               (struct rg_run){
+                   .params = &p,
+                   .slots =
+                       {[1].buf = flow->moved, [2].buf = flow->arriving, [3].buf = flow->ledger},
+                   .extent = {n, FLOW_STRIPS, flow->pane_count}});
 }
 
 static bool flow_step(struct rg_instance *instance)
@@ -162,20 +162,18 @@ static bool draw_model(struct flow *flow, const flow_view_params *view)
     flow_view_params model = *view;
     flow_view_model(&flow->settings, flow->base.frame, flow->model_low, flow->model_high, &model);
     flow->base.counters[FLOW_TRIANGLES].value += flow->model_faces;
-    const struct rg_draw onto = {.colour = flow->behind,
-                                 .depth = flow->depth,
-                                 .depth_mode = RG_DEPTH_WRITE,
-                                 .cull = flow->settings.model_sides == FLOW_FRONT_SIDES
-                                             ? RG_CULL_BACK
-                                             : RG_CULL_NONE};
+    const struct rg_draw onto = {
+        .colour = flow->behind,
+        .depth = flow->depth,
+        .depth_mode = RG_DEPTH_WRITE,
+        .cull = flow->settings.model_sides == FLOW_FRONT_SIDES ? RG_CULL_BACK : RG_CULL_NONE};
     return run(flow, FLOW_MODEL,
                (struct rg_run){.params = &model,
                                .slots = {[1].buf = flow->positions,
                                          [2].buf = flow->model_normals,
                                          [3].buf = flow->indices,
                                          [4].image = flow->environment,
-                                         [5].buf = flow->panes,
-                                         [6].buf = flow->blurred},
+                                         [5].buf = flow->blurred},
                                .extent = {flow->model_faces, 1, 1},
                                .draw = &onto});
 }
