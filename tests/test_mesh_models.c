@@ -258,6 +258,22 @@ static void test_refinement_of_an_open_surface(void **state)
     rg_mesh_destroy(open);
 }
 
+// A face that is a line to and fro has the longest edge of all, which cannot be halved. It holds
+// nothing up: one edge a round, instead of half of them, would take hours here.
+static void test_refinement_beside_a_line(void **state)
+{
+    (void)state;
+    uint32_t indices[3 * (BOX_FACES + 1)] = {0, 7, 0};
+    memcpy(indices + 3, box_indices, sizeof(box_indices));
+    struct rg_mesh *box =
+        rg_mesh_create("box", BOX_VERTICES, BOX_FACES + 1, box_positions, NULL, indices);
+    struct rg_mesh *fine = rg_mesh_refine(box, 100001);
+    check_mesh(fine);
+    assert_int_equal(fine->face_count, 100001);
+    rg_mesh_destroy(box);
+    rg_mesh_destroy(fine);
+}
+
 static void expect_count_refused(const struct rg_mesh *mesh, int faces, const char *why)
 {
     listen_now();
@@ -378,6 +394,7 @@ int main(void)
         cmocka_unit_test(test_decimation_against_the_topology),
         cmocka_unit_test(test_refinement),
         cmocka_unit_test(test_refinement_of_an_open_surface),
+        cmocka_unit_test(test_refinement_beside_a_line),
         cmocka_unit_test(test_numbers_that_are_refused),
         cmocka_unit_test(test_packaged_models),
         cmocka_unit_test(test_packaged_models_are_upright),

@@ -176,19 +176,23 @@ static void halve(struct refinement *r, const struct edge *edge)
     }
 }
 
-// One round: the edges from the longest down to half its length, and in any case one. False when
-// no edge could be halved without going beyond the wanted number.
+// One round: from the longest edge that can be halved down to half its length. False when there is
+// none that does not lead beyond the wanted number.
 static bool run_round(struct refinement *r)
 {
     const int before = r->face_count;
     const size_t edges = find_edges(r);
+    double limit2 = 0;
     memset(r->taken, 0, (size_t)r->face_count * sizeof(*r->taken));
     for (size_t i = 0; i < edges && r->face_count < r->wanted; i++) {
         const struct edge *edge = &r->edges[i];
-        if (r->face_count > before && edge->length2 < r->edges[0].length2 / 4)
+        if (edge->length2 < limit2)
             break;
-        if (edge->count <= (uint32_t)(r->wanted - r->face_count) && is_free(r, edge))
-            halve(r, edge);
+        if (edge->count > (uint32_t)(r->wanted - r->face_count) || !is_free(r, edge))
+            continue;
+        if (r->face_count == before)
+            limit2 = edge->length2 / 4;
+        halve(r, edge);
     }
     return r->face_count > before;
 }
