@@ -1,8 +1,9 @@
 // Mutants: a comparison that accepts a model that is a little off proves nothing. Each is drawn on
 // one device and compared with the true model's image, at the loosest tier that verify accepts, T1.
-// They have a scene of their own, the technique's defaults, whatever the user sets: a mutant of a
-// pane without drops would live. And they are young pictures: by step 1,000 a drop that was missing
-// at the start has run off the pane. Contrasts are mutants that bring their scene along.
+// They have a scene of their own, the proof's over the technique's defaults, whatever the user
+// sets: a mutant of a pane without drops would live. And they are young pictures: by step 1,000 a
+// drop that was missing at the start has run off the pane. Contrasts are mutants that bring their
+// scene along.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,10 +38,13 @@ static bool mutate(const struct rg_verify *v, const struct rg_mutant *mutant, ch
     return mutated != own && mutated >= param->min && mutated <= param->max;
 }
 
-// The image of these settings, with `assignments` over them.
+// The image of the mutants' scene, with `assignments` over it.
 static bool draw(struct rg_verify *v, const char *assignments, struct rg_picture *picture)
 {
-    void *settings = rg_settings_copy(v->technique, v->settings, assignments);
+    const char *scene = v->technique->proof->mutant_scene;
+    char all[256];
+    snprintf(all, sizeof(all), "%s %s", scene ? scene : "", assignments);
+    void *settings = rg_settings_copy(v->technique, v->settings, all);
     struct rg_instance *instance =
         settings ? rg_verify_run(v, v->mutant_device, settings, MUTANT_STEPS) : NULL;
     size_t bytes;

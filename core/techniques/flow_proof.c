@@ -110,6 +110,7 @@ static const struct rg_mutant mutants[] = {
 const struct rg_proof flow_proof = {
     .poses = poses,
     .dry = "drops=0 rain_drops_s=0",
+    .mutant_scene = "resolution_px=160 environment_px=256",
     .laws = laws,
     .mutants = mutants,
 };

@@ -32,10 +32,11 @@ struct rg_contrast {
 
 // Assignments are "key=value key=value", "" for none; they go over what the user sets.
 struct rg_proof {
-    const char *const *poses;            // of the scene, NULL-terminated
-    const char *dry;                     // takes all rain away: the background of the rain mask
-    const struct rg_law *laws;           // the last has no name
-    const struct rg_mutant *mutants;     // likewise, no about
+    const char *const *poses;        // of the scene, NULL-terminated
+    const char *dry;                 // takes all rain away: the background of the rain mask
+    const char *mutant_scene;        // over the defaults, where the mutants are drawn; NULL: none
+    const struct rg_law *laws;       // the last has no name
+    const struct rg_mutant *mutants; // likewise, no about
     const struct rg_contrast *contrasts; // likewise; NULL: none
 };
 
