@@ -22,12 +22,12 @@ RG_FN int rg_filter_texel(float at, int size)
         return name##_texel(rg, rg_filter_texel(u * rg_to_float(width), width),                    \
                             rg_filter_texel(v * rg_to_float(height), height), layer, level);       \
     }                                                                                              \
-    RG_FN rgba name##_linear(rg_ctx rg, float u, float v, int layer, int level)                    \
+    RG_FN rgba name##_between(rg_ctx rg, float px, float py, int layer, int level)                 \
     {                                                                                              \
         int width = name##_width(rg, level);                                                       \
         int height = name##_height(rg, level);                                                     \
-        float x = rg_clamp(u * rg_to_float(width), 0.0f, rg_to_float(width)) - 0.5f;               \
-        float y = rg_clamp(v * rg_to_float(height), 0.0f, rg_to_float(height)) - 0.5f;             \
+        float x = rg_clamp(px, 0.0f, rg_to_float(width)) - 0.5f;                                   \
+        float y = rg_clamp(py, 0.0f, rg_to_float(height)) - 0.5f;                                  \
         float left = rg_floor(x);                                                                  \
         float top = rg_floor(y);                                                                   \
         int x0 = rg_filter_texel(left, width);                                                     \
@@ -39,6 +39,11 @@ RG_FN int rg_filter_texel(float at, int size)
         rgba below = rgba_lerp(name##_texel(rg, x0, y1, layer, level),                             \
                                name##_texel(rg, x1, y1, layer, level), x - left);                  \
         return rgba_lerp(above, below, y - top);                                                   \
+    }                                                                                              \
+    RG_FN rgba name##_linear(rg_ctx rg, float u, float v, int layer, int level)                    \
+    {                                                                                              \
+        return name##_between(rg, u * rg_to_float(name##_width(rg, level)),                        \
+                              v * rg_to_float(name##_height(rg, level)), layer, level);            \
     }                                                                                              \
     RG_FN rgba name##_trilinear(rg_ctx rg, float u, float v, int layer, float lod)                 \
     {                                                                                              \

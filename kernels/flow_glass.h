@@ -33,7 +33,7 @@ RG_FN rgba seen_through(rg_ctx rg, flow_view_params p, v3 bend, int px, int py)
     v3 down = v3_make(p.rays.xy, p.rays.yy, p.rays.zy);
     float x = rg_to_float(px) + 0.5f - v3_dot(bend, right) * p.refraction_px;
     float y = rg_to_float(py) + 0.5f - v3_dot(bend, down) * p.refraction_px;
-    return behind_linear(rg, x / p.width, y / p.height, 0, 0);
+    return behind_between(rg, x, y, 0, 0);
 }
 
 RG_DRAW_FRAGMENT(flow_glass)

@@ -12,7 +12,8 @@
 //   name_height,
 //                            name_levels(rg); filtered at (u, v), 0 to 1 across the image:
 //                            name_nearest(rg, u, v, layer, level), name_linear (four texels),
-//                            name_trilinear(rg, u, v, layer, lod), clamped at the edges
+//                            name_trilinear(rg, u, v, layer, lod), clamped at the edges;
+//                            name_between(rg, x, y, layer, level): linear, at a place in texels
 //   OUT_IMAGE(slot, F, name) name_store(rg, x, y, layer, c)  level 0 of an image of format F
 //
 // Slots count from 1 and are one numbering for buffers and images. `rg` is the kernel's context: it

@@ -211,10 +211,12 @@ static bool draw_behind(struct flow *flow, const flow_view_params *view)
 static bool draw_panes(struct flow *flow, const flow_view_params *view, enum rg_cull cull)
 {
     const bool glass = flow->settings.panes == FLOW_GLASS;
+    // Nothing stands before the near panes.
+    const bool hidden = flow->behind && cull == RG_CULL_FRONT;
     const struct rg_draw onto = {.colour = canvas(flow),
-                                 .depth = flow->behind ? flow->depth : NULL,
+                                 .depth = hidden ? flow->depth : NULL,
                                  .blend = glass ? RG_BLEND_OVER : RG_BLEND_OFF,
-                                 .depth_mode = flow->behind ? RG_DEPTH_TEST : RG_DEPTH_OFF,
+                                 .depth_mode = hidden ? RG_DEPTH_TEST : RG_DEPTH_OFF,
                                  .cull = cull};
     return run(flow, FLOW_PANES,
                (struct rg_run){.params = view,

@@ -152,8 +152,6 @@ bool flow_view_params_at(const struct flow_settings *s, int64_t frame, int width
         .reflectivity = (float)s->reflectivity,
         .frame = s->view == FLOW_BOX ? (float)(s->frame_mm / s->pane_mm) : 0,
         .stage = s->stage,
-        .width = (float)width,
-        .height = (float)height,
         .model_r = (float)s->model_grey,
         .model_g = (float)s->model_grey,
         .model_b = (float)s->model_grey,
