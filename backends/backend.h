@@ -84,11 +84,8 @@ enum rg_blend {
     RG_BLEND_OVER, // premultiplied: source + target (1 - alpha of the source)
     RG_BLEND_ADD,
 };
-enum rg_depth_mode {
-    RG_DEPTH_OFF,
-    RG_DEPTH_TEST,
-    RG_DEPTH_WRITE
-}; // nearer wins; ties keep the first
+// Nearer wins; of equal depths the first stays.
+enum rg_depth_mode { RG_DEPTH_OFF, RG_DEPTH_TEST, RG_DEPTH_WRITE };
 enum rg_cull {
     RG_CULL_NONE,
     RG_CULL_BACK, // leaves out what turns clockwise on the screen
@@ -104,8 +101,7 @@ struct rg_draw {
     enum rg_depth_mode depth_mode;
     enum rg_cull cull;
     int x0, y0, x1, y1; // scissor: x0 <= x < x1, y0 <= y < y1; all 0: the whole target
-    struct rg_buf
-        *samples; // uints; the element of each item grows by its visible samples. NULL: none
+    struct rg_buf *samples; // uints, by item: grow by its visible samples. NULL: not counted
 };
 
 // A DRAW pass's primitives, packed by core/draw.c, for backends whose `packed` asks for it.

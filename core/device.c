@@ -9,18 +9,7 @@
 #include "core/alloc.h"
 #include "core/draw.h"
 #include "core/log.h"
-
-// Refuses a call: `if (!check) return refuse(...)`, one line that names object and number.
-#define require(check, ...)                                                                        \
-    do {                                                                                           \
-        if (!(check))                                                                              \
-            return rg_error(__VA_ARGS__);                                                          \
-    } while (0)
-#define require_or_null(check, ...)                                                                \
-    do {                                                                                           \
-        if (!(check))                                                                              \
-            return rg_error_null(__VA_ARGS__);                                                     \
-    } while (0)
+#include "core/require.h"
 
 static const struct {
     const char *name;

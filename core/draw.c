@@ -5,6 +5,7 @@
 
 #include "core/alloc.h"
 #include "core/device.h"
+#include "core/require.h"
 #include "core/scan.h"
 #include "kernels/clip.h"
 
@@ -23,12 +24,6 @@ struct rg_packing {
 };
 
 // --- checks ---
-
-#define require(check, ...)                                                                        \
-    do {                                                                                           \
-        if (!(check))                                                                              \
-            return rg_error(__VA_ARGS__);                                                          \
-    } while (0)
 
 static bool check_target(const struct rg_pass *pass, const struct rg_draw *draw,
                          const struct rg_image *image)

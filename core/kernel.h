@@ -60,10 +60,9 @@ enum rg_code_kind {
 enum {
     RG_SLOT_PRIMS = 12,   // packed primitives
     RG_SLOT_COUNTS = 13,  // primitives a chunk of items, or before it
-    RG_SLOT_FATES = 15,   // of count and emit: which items of a chunk are whole, which clipped
     RG_SLOT_ARGS = 14,    // of emit: arguments of the draw
     RG_SLOT_SAMPLES = 14, // of fragments: visible samples an item
-    RG_SLOT_SEEN = 15,    // of count and emit: the items of a chunk that are seen, a bit each
+    RG_SLOT_FATES = 15,   // of count and emit: which items of a chunk are whole, which clipped
     RG_SLOT_BEHIND = 15,  // of fragments: the depth that counted samples are held against
 };
 

@@ -141,13 +141,6 @@ RG_FN int rg_faces(rg_draw_state draw, float turn)
     return (draw.cull == 0 ? 1 : 0) | (facing > 0.0f ? 1 : 0);
 }
 
-// The place of the lowest bit that is set, of at least one.
-RG_FN int rg_lowest_bit(uint bits)
-{
-    uint lowest = bits & (~bits + 1u);
-    return rg_to_int(rg_float_bits(rg_to_float(lowest)) >> 23) - 127;
-}
-
 // Whether a box of snapped corners holds a pixel centre inside the scissor.
 RG_FN int rg_covers_centre(int low, int high, int first, int end)
 {

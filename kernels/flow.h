@@ -16,7 +16,7 @@
 #define FLOW_DROPLET           1.52587890625e-5f
 #define FLOW_REMAINDER_ENTRIES 1024 // of the remainder map, evenly spaced over the water amount
 #define FLOW_MARGIN            4    // the farthest that water goes in a step
-#define FLOW_EDGE_HOLDS        64.0f // units of water up to which a texel takes in what crosses an edge
+#define FLOW_EDGE_HOLDS        64.0f // water up to which a texel takes in what crosses an edge
 
 #define FLOW_MAX_PANES 6
 #define FLOW_NO_PANE   -1
@@ -58,8 +58,7 @@ RG_STRUCT(flow_pane)
     int bx, by;    // a second direction, where gravity lies between two of the eight
     float b_share; // the share of what is given that goes that way, 0 to 1
     float speed;   // cos(alpha) of equation 2: scales what is given
-    float
-        noise_shift; // of the noise map's window, in noise texels, so that no two panes move alike
+    float noise_shift; // of the noise map's window, in noise texels: no two panes move alike
     flow_neighbour top, bottom, left, right;
     // Tangent (right), binormal (down) and normal (outwards) in the world.
     v3 t, b, n;

@@ -31,7 +31,7 @@ RG_FN flow_point flow_point_at(rg_planes s, int px, int py)
 {
     float dx = rg_to_float(px) + 0.5f - s.origin_x;
     float dy = rg_to_float(py) + 0.5f - s.origin_y;
-    float w = 1.0f / rg_max(rg_plane_at(s.inverse_w, dx, dy), RG_LEAST_W);
+    float w = rg_planes_w(s, px, py);
     flow_point at;
     at.u = rg_clamp(rg_plane_at(s.b, dx, dy) * w, 0.0f, 1.0f);
     at.v = rg_clamp(rg_plane_at(s.c, dx, dy) * w, 0.0f, 1.0f);

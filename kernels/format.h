@@ -101,8 +101,7 @@ RG_FN rgba rg_fetched_R32F(rgba c)
     return c;
 }
 
-// --- D32F: the depth of a DRAW pass's target, a float from 0 to 1, 1 word a texel; fetched as R32F
-// ---
+// --- D32F: the depth of a DRAW pass's target, a float from 0 to 1, 1 word a texel ---
 
 RG_FN rgba rg_fetched_D32F(rgba c)
 {

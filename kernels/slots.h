@@ -9,8 +9,8 @@
 //                            name_exchange_if(rg, i, expected, v) returns what was there
 //                                                            a buffer of int or uint, shared
 //   IMAGE(slot, F, name)     name_texel(rg, x, y, layer, level), name_width(rg, level),
-//   name_height,
-//                            name_levels(rg); filtered at (u, v), 0 to 1 across the image:
+//                            name_height(rg, level), name_levels(rg); and filtered at (u, v),
+//                            0 to 1 across the image:
 //                            name_nearest(rg, u, v, layer, level), name_linear (four texels),
 //                            name_trilinear(rg, u, v, layer, lod), clamped at the edges;
 //                            name_between(rg, x, y, layer, level): linear, at a place in texels

@@ -55,16 +55,8 @@ static bool turn_panes(struct flow *flow)
     return rg_buf_write(flow->panes, 0, panes, flow->pane_count * (int64_t)sizeof(flow_pane));
 }
 
-// Panes that a pass runs over at once: all of them where their maps are small, one after the other
-// where what a pass has written of one is still in a processor's cache when the next pass reads it.
-static int panes_at_once(const struct flow *flow)
-{
-    const int large_px = 384;
-    return flow->settings.resolution_px < large_px ? flow->pane_count : 1;
-}
-
 // What leaves each texel, and what leaves each pane.
-static bool give(struct flow *flow, const flow_params *p, int first, int count)
+static bool give(struct flow *flow, const flow_params *p)
 {
     const int n = flow->settings.resolution_px;
     return run(flow, FLOW_GIVEN,
@@ -74,8 +66,7 @@ static bool give(struct flow *flow, const flow_params *p, int first, int count)
                                          [3].buf = flow->noise,
                                          [4].buf = flow->given,
                                          [5].buf = flow->panes},
-                               .origin = {0, 0, first},
-                               .extent = {n, n, count}}) &&
+                               .extent = {n, n, flow->pane_count}}) &&
            run(flow, FLOW_DRAIN,
                (struct rg_run){.params = p,
                                .slots = {[1].buf = flow->water,
@@ -83,11 +74,10 @@ static bool give(struct flow *flow, const flow_params *p, int first, int count)
                                          [3].buf = flow->ledger,
                                          [4].buf = flow->panes,
                                          [5].buf = flow->arriving},
-                               .origin = {0, 0, first},
-                               .extent = {n, FLOW_STRIPS, count}});
+                               .extent = {n, FLOW_STRIPS, flow->pane_count}});
 }
 
-static bool take(struct flow *flow, const flow_params *p, int first, int count)
+static bool take(struct flow *flow, const flow_params *p)
 {
     const int n = flow->settings.resolution_px;
     const struct rg_run moving = {.params = p,
@@ -95,26 +85,21 @@ static bool take(struct flow *flow, const flow_params *p, int first, int count)
                                             [2].buf = flow->given,
                                             [3].buf = flow->moved,
                                             [4].buf = flow->panes},
-                                  .origin = {0, 0, first},
-                                  .extent = {n, n, count}};
+                                  .extent = {n, n, flow->pane_count}};
     return run(flow, FLOW_MOVE, moving) &&
            (!flow->passes[FLOW_REACH] || run(flow, FLOW_REACH, moving));
 }
 
 static bool move(struct flow *flow)
 {
-    const int n = flow->settings.resolution_px, at_once = panes_at_once(flow);
+    const int n = flow->settings.resolution_px;
     const flow_params p = flow_params_at(&flow->settings, flow->noise_size, flow->base.frame);
-    for (int first = 0; first < flow->pane_count; first += at_once)
-        if (!give(flow, &p, first, at_once) || !take(flow, &p, first, at_once))
-            return false;
-    return !flow->passes[FLOW_ARRIVE] ||
-           run(flow, FLOW_ARRIVE,
-               (struct rg_run){
-                   .params = &p,
-                   .slots =
-                       {[1].buf = flow->moved, [2].buf = flow->arriving, [3].buf = flow->ledger},
-                   .extent = {n, FLOW_STRIPS, flow->pane_count}});
+    const struct rg_run arriving = {
+        .params = &p,
+        .slots = {[1].buf = flow->moved, [2].buf = flow->arriving, [3].buf = flow->ledger},
+        .extent = {n, FLOW_STRIPS, flow->pane_count}};
+    return give(flow, &p) && take(flow, &p) &&
+           (!flow->passes[FLOW_ARRIVE] || run(flow, FLOW_ARRIVE, arriving));
 }
 
 static bool flow_step(struct rg_instance *instance)
@@ -138,23 +123,16 @@ static bool flow_step(struct rg_instance *instance)
 
 static bool draw_surface(struct flow *flow)
 {
-    const int n = flow->settings.resolution_px, at_once = panes_at_once(flow);
+    const int n = flow->settings.resolution_px;
     const flow_params p = flow_params_at(&flow->settings, flow->noise_size, flow->base.frame);
     const flow_normals_params normals = flow_normals_params_of(&flow->settings);
-    for (int first = 0; first < flow->pane_count; first += at_once) {
-        struct rg_run maps = {.origin = {0, 0, first}, .extent = {n, n, at_once}};
-        maps.params = &p;
-        maps.slots[1].buf = flow->water;
-        maps.slots[2].buf = flow->blurred;
-        if (!run(flow, FLOW_BLUR, maps))
-            return false;
-        maps.params = &normals;
-        maps.slots[1].buf = flow->blurred;
-        maps.slots[2].buf = flow->normals;
-        if (!run(flow, FLOW_NORMALS, maps))
-            return false;
-    }
-    return true;
+    const struct rg_run blurring = {.params = &p,
+                                    .slots = {[1].buf = flow->water, [2].buf = flow->blurred},
+                                    .extent = {n, n, flow->pane_count}};
+    const struct rg_run deriving = {.params = &normals,
+                                    .slots = {[1].buf = flow->blurred, [2].buf = flow->normals},
+                                    .extent = {n, n, flow->pane_count}};
+    return run(flow, FLOW_BLUR, blurring) && run(flow, FLOW_NORMALS, deriving);
 }
 
 static bool draw_model(struct flow *flow, const flow_view_params *view)

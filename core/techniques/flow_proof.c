@@ -73,9 +73,9 @@ static bool water_is_conserved(const struct rg_instance *instance, char *detail,
 
 // The box with small panes, for there are six of them; one pane as large as the user asks.
 static const char *const poses[] = {
-    "resolution_px=128",
-    "resolution_px=128 pane_pitch_deg=40 pane_roll_deg=30 direction=split run_on=on reach_texels=4",
-    "resolution_px=128 panes=mirror pane_pitch_deg=-20 pane_roll_deg=180 spin_yaw_deg_s=90 "
+    "resolution_px=96",
+    "resolution_px=96 pane_pitch_deg=40 pane_roll_deg=30 direction=split run_on=on reach_texels=4",
+    "resolution_px=96 panes=mirror pane_pitch_deg=-20 pane_roll_deg=180 spin_yaw_deg_s=90 "
     "glow=0.5 glow_threshold=0.3",
     "view=pane panes=mirror",
     NULL,
