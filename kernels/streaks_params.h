@@ -41,7 +41,8 @@ RG_STRUCT(streaks_params)
     float sky_r, sky_g, sky_b; // light from all around
     float gain, opacity;       // of streaks
     float splash_gain, splash_opacity;
+    int first_place; // of states
 };
-RG_STRUCT_SIZE(streaks_params, 57)
+RG_STRUCT_SIZE(streaks_params, 58)
 
 #endif

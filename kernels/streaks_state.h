@@ -12,11 +12,12 @@
 RG_GRID_KERNEL(streaks_state)
 {
     streaks_particle t = streaks_particle_at(rg, p, x);
+    int word = 6 * (p.first_place + x);
     bool seen = t.state != STREAKS_NOTHING;
-    places_put(rg, 6 * x, seen ? t.x : 0.0f);
-    places_put(rg, 6 * x + 1, seen ? t.y : 0.0f);
-    places_put(rg, 6 * x + 2, seen ? t.s : 0.0f);
-    places_put(rg, 6 * x + 3, seen ? t.hit : 0.0f);
-    places_put(rg, 6 * x + 4, t.state == STREAKS_SPLASH ? t.age : 0.0f);
-    places_put(rg, 6 * x + 5, rg_to_float(t.state));
+    places_put(rg, word, seen ? t.x : 0.0f);
+    places_put(rg, word + 1, seen ? t.y : 0.0f);
+    places_put(rg, word + 2, seen ? t.s : 0.0f);
+    places_put(rg, word + 3, seen ? t.hit : 0.0f);
+    places_put(rg, word + 4, t.state == STREAKS_SPLASH ? t.age : 0.0f);
+    places_put(rg, word + 5, rg_to_float(t.state));
 }

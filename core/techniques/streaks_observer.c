@@ -1,4 +1,4 @@
-#include "core/techniques/streaks_view.h"
+#include "core/techniques/streaks_observer.h"
 
 #include <math.h>
 #include <string.h>
@@ -71,25 +71,12 @@ static void find_rays(const struct axes *axes, double half_width, double half_he
     }
 }
 
-static void find_corners(const struct rg_camera *camera, const struct axes *axes, double half_width,
-                         double half_height, float corners_m[24])
-{
-    for (int k = 0; k < 8; k++) {
-        const double distance = (double)(k & 4 ? camera->far_plane : camera->near_plane);
-        const double x = (k & 1 ? 1 : -1) * half_width, y = (k & 2 ? 1 : -1) * half_height;
-        for (int i = 0; i < 3; i++)
-            corners_m[3 * k + i] =
-                (float)((double)camera->position[i] +
-                        distance * (axes->ahead[i] + axes->right[i] * x + axes->up[i] * y));
-    }
-}
-
-bool streaks_view_at(const struct streaks_settings *settings, const struct rg_camera *camera,
-                     int width, int height, int64_t frame, struct streaks_view *view)
+bool streaks_observer_at(const struct streaks_settings *settings, const struct rg_camera *camera,
+                         int width, int height, int64_t frame, struct streaks_observer *observer)
 {
     struct rg_camera moved = *camera;
     walk(&moved, settings->walk_m_s * settings->step_s * (double)frame);
-    if (!rg_camera_matrix(&moved, (float)width / (float)height, view->world_to_clip))
+    if (!rg_camera_matrix(&moved, (float)width / (float)height, observer->world_to_clip))
         return false;
     if (moved.position[1] < 0)
         return rg_error("camera: its eye is %.3g m below the ground; raise eye_y_m",
@@ -97,9 +84,8 @@ bool streaks_view_at(const struct streaks_settings *settings, const struct rg_ca
     const struct axes axes = axes_of(&moved);
     const double half_height = tan((double)moved.angle_deg / 360 * pi);
     const double half_width = half_height * width / height;
-    memcpy(view->eye_m, moved.position, sizeof(view->eye_m));
-    view->focal_px = (float)(height / (2 * half_height));
-    find_rays(&axes, half_width, half_height, width, height, view->rays);
-    find_corners(&moved, &axes, half_width, half_height, view->corners_m);
+    observer->focal_px = (float)(height / (2 * half_height));
+    find_rays(&axes, half_width, half_height, width, height, observer->rays);
+    observer->camera = moved;
     return true;
 }
