@@ -20,5 +20,7 @@ RG_GRID_KERNEL(test_streaks_lights)
     here.share = reach.share;
     here.unshadowed = streaks_unshadowed(rg, light, at);
     here.soft = streaks_unshadowed_soft(rg, light, at);
+    here.surface = streaks_unshadowed_soft(
+        rg, light, streaks_off_surface(light, at, v3_make(0.0f, 1.0f, 0.0f)));
     lit_put(rg, y * p.points + x, here);
 }

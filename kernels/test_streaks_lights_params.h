@@ -17,7 +17,8 @@ RG_STRUCT(test_streaks_lit)
     float share;
     float unshadowed;
     float soft;
+    float surface; // unshadowed, of a floor at the point
 };
-RG_STRUCT_SIZE(test_streaks_lit, 6)
+RG_STRUCT_SIZE(test_streaks_lit, 7)
 
 #endif
