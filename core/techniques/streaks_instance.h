@@ -5,6 +5,7 @@
 #include "core/techniques/streaks.h"
 #include "core/techniques/streaks_lights.h"
 #include "core/techniques/streaks_observer.h"
+#include "core/techniques/streaks_overlay.h"
 #include "core/techniques/streaks_packets.h"
 #include "core/techniques/streaks_scene.h"
 #include "core/techniques/streaks_textures.h"
@@ -39,6 +40,7 @@ struct streaks {
     struct streaks_scene *scene;
     struct streaks_textures *textures;
     struct streaks_lights *lights;
+    struct streaks_overlay *overlay; // NULL: none
     struct rg_camera camera;    // at frame 0
     struct rg_image *depth_map; // the scene seen along the fall
     struct rg_image *depth;     // the target's
@@ -59,5 +61,7 @@ void streaks_close(struct rg_instance *instance);
 // Moves the observer to the present frame, and makes what it draws: the selection, its blocks, the
 // parameters, the depth map where it is due. False, and one logged line, on failure.
 bool streaks_look(struct streaks *streaks);
+// Draws the overlay of the present frame.
+bool streaks_show(struct streaks *streaks);
 
 #endif

@@ -25,6 +25,7 @@ void streaks_close(struct rg_instance *instance)
     rg_image_destroy(s->depth_map);
     rg_image_destroy(s->depth);
     rg_image_destroy(s->base.target);
+    streaks_overlay_close(s->overlay);
     streaks_lights_close(s->lights);
     if (s->scene)
         streaks_scene_put(s->scene);
@@ -173,8 +174,10 @@ static bool create_passes(struct streaks *s)
 {
     static const char *const programs[] = {"streaks_rain_2", "streaks_rain_4", "streaks_rain_8"};
     s->rain = rg_pass_create(s->base.device, programs[s->settings.taps]);
-    return s->rain && (!s->settings.keeps_state ||
-                       (s->state = rg_pass_create(s->base.device, "streaks_state")));
+    return s->rain &&
+           (!s->settings.keeps_state ||
+            (s->state = rg_pass_create(s->base.device, "streaks_state"))) &&
+           (!s->settings.overlay || (s->overlay = streaks_overlay_open(s->base.device)));
 }
 
 // --- what is told of it ---
