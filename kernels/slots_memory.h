@@ -122,6 +122,11 @@ typedef struct rg_ctx {
     {                                                                                              \
         int i = rg_texel_word(rg.name, rg.name##_shape, x, y, layer, level, RG_WORDS_##F);         \
         return rg_load_##F(rg.name, RG_INDEX(rg, name, i));                                        \
+    }                                                                                              \
+    RG_FN uint name##_bytes(rg_ctx rg, int x, int y, int layer, int level)                         \
+    {                                                                                              \
+        int i = rg_texel_word(rg.name, rg.name##_shape, x, y, layer, level, RG_WORDS_##F);         \
+        return rg.name[RG_INDEX(rg, name, i)];                                                     \
     }
 #define RG_TEXEL_OF_HALVES(F, name)                                                                \
     RG_FN rgba name##_texel(rg_ctx rg, int x, int y, int layer, int level)                         \
