@@ -15,6 +15,7 @@ RG_STRUCT(streaks_particle)
     float age; // of a splash, in seconds
     int oscillation;
     int state;
+    uint number; // in its buffer
 };
 
 // s of the first surface at a place, and of the ground where the map does not reach.
@@ -52,7 +53,8 @@ RG_FN streaks_particle streaks_particle_at(rg_ctx rg, streaks_params p, int i)
 {
     int block = (i >> 5) * STREAKS_BLOCK_WORDS;
     int in_block = i & 31;
-    int at = 3 * (rg_to_int(blocks_at(rg, block)) + in_block);
+    uint number = blocks_at(rg, block) + rg_to_uint(in_block);
+    int at = 3 * rg_to_int(number);
     float both = particles_at(rg, at + 2);
     float oscillation = rg_floor(both);
     float fallen = (both - oscillation) + rg_bits_float(blocks_at(rg, block + 4));
@@ -61,6 +63,7 @@ RG_FN streaks_particle streaks_particle_at(rg_ctx rg, streaks_params p, int i)
     t.y = (particles_at(rg, at + 1) + rg_bits_float(blocks_at(rg, block + 3))) * p.half_y;
     t.s = p.top + p.local_height * (fallen - rg_floor(fallen));
     t.oscillation = rg_to_int(oscillation);
+    t.number = number;
     t.hit = streaks_hit(rg, p, t.x, t.y);
     t.age = 0.0f;
     t = streaks_state(p, t);

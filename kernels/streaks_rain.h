@@ -57,10 +57,10 @@ RG_FN float streaks_size(uint random)
     return 0.85f + 0.3f * rg_to_float(rg_to_int(random & 1023u)) / 1023.0f;
 }
 
-RG_FN streaks_shape streaks_shape_of(rg_ctx rg, streaks_params p, streaks_particle t, int i)
+RG_FN streaks_shape streaks_shape_of(streaks_params p, streaks_particle t)
 {
     bool splash = t.state == STREAKS_SPLASH;
-    float size = streaks_size(streaks_hash(rg_to_uint(i)));
+    float size = streaks_size(streaks_hash(t.number));
     float tall = p.splash_height * size;
     streaks_shape shape;
     shape.base = v3_make(t.x, t.y, splash ? t.hit : t.s + p.ahead);
@@ -147,11 +147,11 @@ RG_FN streaks_billboard streaks_look(streaks_params p, streaks_billboard of, str
 RG_FN streaks_billboard streaks_billboard_of(rg_ctx rg, rg_draw_state draw, streaks_params p, int i)
 {
     streaks_particle t = streaks_particle_at(rg, p, i);
-    streaks_shape shape = streaks_shape_of(rg, p, t, i);
+    streaks_shape shape = streaks_shape_of(p, t);
     rg_item item = streaks_item_of(p, shape);
     rg_item corner = item;
     corner.c = item.d;
-    uint random = streaks_hash(rg_to_uint(i));
+    uint random = streaks_hash(t.number);
     streaks_billboard r;
     r.planes = rg_planes_of(draw, corner);
     r.base = shape.base;

@@ -318,7 +318,8 @@ static bool streaks_draw(struct rg_instance *instance)
     memcpy(view.eye, s->observer.camera.position, sizeof(view.eye));
     instance->counters[STREAKS_PARTICLES].value += s->selection.particles;
     instance->counters[STREAKS_PACKETS].value += s->selection.packets;
-    return streaks_scene_draw(s->scene, instance, &view, &look, s->settings.geometry) &&
+    const struct streaks_scene_lights lights = {s->lights->count, s->lights->in_world, s->lights->shadows};
+    return streaks_scene_draw(s->scene, instance, &view, &look, &lights, s->settings.geometry) &&
            draw_rain(s) && (!s->overlay || streaks_show(s));
 }
 

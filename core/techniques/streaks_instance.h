@@ -41,9 +41,9 @@ struct streaks {
     struct streaks_textures *textures;
     struct streaks_lights *lights;
     struct streaks_overlay *overlay; // NULL: none
-    struct rg_camera camera;    // at frame 0
-    struct rg_image *depth_map; // the scene seen along the fall
-    struct rg_image *depth;     // the target's
+    struct rg_camera camera;         // at frame 0
+    struct rg_image *depth_map;      // the scene seen along the fall
+    struct rg_image *depth;          // the target's
     struct rg_pass *rain, *state;
     int buffer_count;
     struct rg_buf *particles[STREAKS_MAX_BUFFERS], *blocks, *places;

@@ -6,7 +6,6 @@
 
 #include "core/alloc.h"
 #include "core/log.h"
-#include "core/shared.h"
 #include "core/techniques/streaks_instance.h"
 
 static const char *const counter_names[STREAKS_COUNTERS] = {"particles_selected",

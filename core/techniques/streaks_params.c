@@ -29,7 +29,7 @@ static const struct rg_param rows[] = {
     {"city", RG_PARAM_CHOICE, AT(city), 0, 0, 1, "1", "the city of 779,287 triangles, or a simpler one", "full small"},
     {"city_seed", RG_PARAM_INT, AT(city_seed), 1, 0, 2147483647, "1", "of the city", NULL},
     {"geometry", RG_PARAM_CHOICE, AT(geometry), 1, 0, 1, "1", "whether the scene is drawn", "off on"},
-    {"time", RG_PARAM_CHOICE, AT(time), STREAKS_DAY, 0, 1, "1", "of the day", "day night"},
+    {"time", RG_PARAM_CHOICE, AT(time), 0, 0, 1, "1", "of the day", "day night"},
     {"camera", RG_PARAM_CHOICE, AT(camera), STREAKS_FIRST, 0, 2, "1", "the thesis's two views, or eye and target as given", "first second free"},
     {"eye_x_m", RG_PARAM_FLOAT, AT(eye_x_m), 0, -1e6, 1e6, "m", "the free camera's place", NULL},
     {"eye_y_m", RG_PARAM_FLOAT, AT(eye_y_m), 1.7, -1e6, 1e6, "m", "above the ground", NULL},

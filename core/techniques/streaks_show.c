@@ -79,8 +79,7 @@ static void show_packets(const struct streaks *s)
     int next = 0;
     for (int place = 0; place < info->places && info->places <= most; place++) {
         double r[4];
-        const bool selected =
-            next < s->selection.packets && s->selection.selected[next] == place;
+        const bool selected = next < s->selection.packets && s->selection.selected[next] == place;
         next += selected;
         if (!streaks_packets_count(s->packets, place))
             continue;

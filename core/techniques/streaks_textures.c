@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "core/alloc.h"
-#include "core/shared.h"
 #include "kernels/streaks_cells.h"
 
 static struct rg_image *upload(struct rg_device *device, const struct rg_atlas *atlas,
@@ -76,16 +75,13 @@ static void *make(struct rg_device *device, const void *arg)
     return NULL;
 }
 
-static const struct rg_shared_kind kind = {.make = make, .destroy = destroy};
-
 struct streaks_textures *streaks_textures_get(struct rg_device *device, enum rg_atlas_size size)
 {
-    char key[32];
-    snprintf(key, sizeof(key), "streak textures, %d", (int)size);
-    return rg_shared_get(device, key, &kind, &size);
+    return make(device, &size);
 }
 
 void streaks_textures_put(struct rg_device *device, struct streaks_textures *textures)
 {
-    rg_shared_put(device, textures);
+    (void)device;
+    destroy(textures);
 }
