@@ -58,7 +58,7 @@ static bool folder_path(char folder[RG_ATLAS_PATH_SIZE], char why[256])
 bool rg_atlas_cache_path(enum rg_atlas_size size, char path[RG_ATLAS_PATH_SIZE], char why[256])
 {
     static const char *const names[] = {"streaks-full.atlas", "streaks-small.atlas",
-                                        "streaks-cave.atlas"};
+                                        "streaks-cave.atlas", "streaks-cave-small.atlas"};
     if (!folder_path(path, why))
         return false;
     const size_t length = strlen(path);

@@ -10,14 +10,14 @@ struct rg_atlas *rg_atlas_load(enum rg_atlas_size size, const struct rg_atlas_pr
     struct rg_atlas *atlas = rg_atlas_cache_read(size, &state, gone);
     if (atlas)
         return atlas;
-    if (size == RG_ATLAS_CAVE)
+    if (size == RG_ATLAS_CAVE || size == RG_ATLAS_CAVE_SMALL)
         return rg_error_null("%s: %s; `raingauge atlas --from DIR` packs the database again", path,
                              gone);
     if (state != RG_ATLAS_ABSENT)
         rg_warning("%s: %s; the streak atlas is made anew", path, gone);
     else if (size == RG_ATLAS_FULL)
-        rg_info("the streak atlas is made, which takes a minute or two, and kept as %s",
-                kept ? path : "nothing: there is no cache");
+        rg_info("the streak atlas is made, which takes a minute or two%s%s",
+                kept ? ", and kept as " : "", kept ? path : "");
     atlas = rg_atlas_make(size, progress);
     if (atlas && !rg_atlas_cache_write(atlas, why))
         rg_warning("the streak atlas is not kept: %s", why);

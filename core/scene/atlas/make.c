@@ -80,6 +80,11 @@ static bool shrink_streaks(struct rg_atlas *atlas)
     return true;
 }
 
+bool rg_atlas_finish(struct rg_atlas *atlas)
+{
+    return shrink_streaks(atlas) && make_splashes(atlas) && rg_atlas_find_hash(atlas);
+}
+
 static bool fill(struct rg_atlas *atlas, const struct rg_lobes *lobes,
                  const struct rg_atlas_progress *progress)
 {
@@ -91,7 +96,7 @@ static bool fill(struct rg_atlas *atlas, const struct rg_lobes *lobes,
         if (progress)
             progress->tell(progress->user, ++done, STREAK_SETS);
     }
-    return !failed && shrink_streaks(atlas) && make_splashes(atlas) && rg_atlas_find_hash(atlas);
+    return !failed && rg_atlas_finish(atlas);
 }
 
 struct rg_atlas *rg_atlas_make(enum rg_atlas_size size, const struct rg_atlas_progress *progress)

@@ -48,7 +48,7 @@ uint64_t rg_atlas_sample(enum rg_atlas_size size)
     if (!state)
         return 0;
     XXH3_64bits_reset(state);
-    const bool made = (size == RG_ATLAS_CAVE || add_streaks(state, size)) && add_splashes(state);
+    const bool made = (size >= RG_ATLAS_CAVE || add_streaks(state, size)) && add_splashes(state);
     const uint64_t hash = made ? XXH3_64bits_digest(state) : 0;
     XXH3_freeState(state);
     return hash;
