@@ -43,10 +43,7 @@ enum {
 };
 
 // The first texel of each view's row of cells in level 0 of the full size, and the end.
-#define RG_ATLAS_ROWS                                                                              \
-    {                                                                                              \
-        0, 1050, 2038, 2848, 3392, 3606                                                            \
-    }
+#define RG_ATLAS_ROWS 0, 1050, 2038, 2848, 3392, 3606
 
 // What the billboard of a cell spans: 32 / RG_ATLAS_DROP_PX diameters of the drop across, and
 // (height of the cell in level 0 of the full size) / RG_ATLAS_DROP_PX diameters along. The drop
@@ -55,8 +52,11 @@ enum {
 #define RG_ATLAS_DROP_MM 3.2f
 
 enum rg_atlas_size {
-    RG_ATLAS_FULL,  // 2880 x 3606, 12 levels; 280 MB
-    RG_ATLAS_SMALL, // levels 2 to 11 of such an atlas, traced coarsely: 720 x 901; 18 MB
+    RG_ATLAS_FULL,       // 2880 x 3606, 12 levels; 280 MB
+    RG_ATLAS_SMALL,      // levels 2 to 11 of such an atlas, traced coarsely: 720 x 901; 18 MB
+    RG_ATLAS_CAVE,       // full and small, packed from the original database by
+    RG_ATLAS_CAVE_SMALL, // `raingauge atlas --from DIR`
+    RG_ATLAS_SIZE_COUNT
 };
 
 enum rg_atlas_part { RG_ATLAS_POINT, RG_ATLAS_ENV, RG_ATLAS_SPLASH, RG_ATLAS_PART_COUNT };
@@ -83,9 +83,15 @@ struct rg_atlas_progress {
     void *user;
 };
 
-// The atlas of a size: traced, in parallel. Neither the number of threads nor the vectors of the
-// processor change its bits. `progress` may be NULL. NULL, and one logged line, on failure. The
-// caller destroys it.
+// The atlas of a size, from the user's cache or, where it is not there or not sound, made and put
+// there (core/scene/atlas/cache.h); a cache that cannot be used costs a warning. What comes from
+// the original database is not made: it has to be there. `progress` may be NULL. NULL, and one
+// logged line, on failure. The caller destroys it.
+struct rg_atlas *rg_atlas_load(enum rg_atlas_size size, const struct rg_atlas_progress *progress);
+
+// The same without a cache: traced, in parallel, in about two minutes of one core, or four seconds
+// for the small size. Neither the number of threads nor the vectors of the processor change its
+// bits. `size` is RG_ATLAS_FULL or RG_ATLAS_SMALL.
 struct rg_atlas *rg_atlas_make(enum rg_atlas_size size, const struct rg_atlas_progress *progress);
 void rg_atlas_destroy(struct rg_atlas *atlas);
 

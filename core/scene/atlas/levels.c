@@ -8,7 +8,7 @@
 #include "core/scene/atlas/splash.h"
 #include "kernels/format.h"
 
-static const int rows[RG_ATLAS_VIEWS + 1] = RG_ATLAS_ROWS;
+static const int rows[RG_ATLAS_VIEWS + 1] = {RG_ATLAS_ROWS};
 
 static int level_px(int size, int level)
 {
@@ -54,7 +54,7 @@ struct rg_atlas *rg_atlas_allocate(enum rg_atlas_size size)
     struct rg_atlas *atlas = rg_alloc(1, sizeof(*atlas), "streak atlas");
     if (!atlas)
         return NULL;
-    const int first = size == RG_ATLAS_SMALL ? 2 : 0;
+    const int first = size == RG_ATLAS_SMALL || size == RG_ATLAS_CAVE_SMALL ? 2 : 0;
     atlas->size = size;
     atlas->first_level = first;
     for (int part = 0; part < 2; part++)

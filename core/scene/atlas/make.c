@@ -8,10 +8,6 @@
 
 enum { STREAK_SETS = RG_ATLAS_OSCILLATIONS * RG_ATLAS_VIEWS };
 
-// As coarse as leaves no step and no noise to be seen.
-static const struct rg_streak_detail full_detail = {.moments = 384, .rays = 160};
-static const struct rg_streak_detail small_detail = {.moments = 32, .rays = 96};
-
 // Divides a picture by its largest value, which is returned; a dark one stays.
 static float normalise(float *texels, int count)
 {
@@ -48,10 +44,10 @@ static bool put_streaks(struct rg_atlas *atlas, int oscillation, int view, struc
 static bool make_streaks(struct rg_atlas *atlas, int set, const struct rg_lobes *lobes)
 {
     const int oscillation = set % RG_ATLAS_OSCILLATIONS, view = set / RG_ATLAS_OSCILLATIONS;
-    const struct rg_streak_detail *detail = atlas->first_level ? &small_detail : &full_detail;
+    const struct rg_streak_detail detail = rg_streak_detail(atlas->size);
     struct rg_streaks streaks;
     const bool made =
-        rg_streaks_trace(oscillation, view, atlas->first_level, detail, lobes, &streaks) &&
+        rg_streaks_trace(oscillation, view, atlas->first_level, &detail, lobes, &streaks) &&
         put_streaks(atlas, oscillation, view, &streaks);
     rg_streaks_free(&streaks);
     return made;
@@ -84,6 +80,11 @@ static bool shrink_streaks(struct rg_atlas *atlas)
     return true;
 }
 
+bool rg_atlas_finish(struct rg_atlas *atlas)
+{
+    return shrink_streaks(atlas) && make_splashes(atlas) && rg_atlas_find_hash(atlas);
+}
+
 static bool fill(struct rg_atlas *atlas, const struct rg_lobes *lobes,
                  const struct rg_atlas_progress *progress)
 {
@@ -95,7 +96,7 @@ static bool fill(struct rg_atlas *atlas, const struct rg_lobes *lobes,
         if (progress)
             progress->tell(progress->user, ++done, STREAK_SETS);
     }
-    return !failed && shrink_streaks(atlas) && make_splashes(atlas) && rg_atlas_find_hash(atlas);
+    return !failed && rg_atlas_finish(atlas);
 }
 
 struct rg_atlas *rg_atlas_make(enum rg_atlas_size size, const struct rg_atlas_progress *progress)

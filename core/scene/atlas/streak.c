@@ -33,6 +33,12 @@ struct tracing {
     struct rg_drop_row row;
 };
 
+struct rg_streak_detail rg_streak_detail(enum rg_atlas_size size)
+{
+    return size == RG_ATLAS_SMALL ? (struct rg_streak_detail){.moments = 32, .rays = 96}
+                                  : (struct rg_streak_detail){.moments = 384, .rays = 160};
+}
+
 // The share of a moment's time for which a point that is at row `at` in its middle is above row y:
 // the integral of a tent that reaches `fall` to both sides.
 static double share_above(double y, double at, double fall)

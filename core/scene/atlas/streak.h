@@ -12,6 +12,9 @@ struct rg_streak_detail {
     int rays;    // across the diameter of the drop at rest
 };
 
+// How finely the streaks of a size are traced: no step and no noise is to be seen.
+struct rg_streak_detail rg_streak_detail(enum rg_atlas_size size);
+
 // Pictures of width x height, row 0 on top, tightly packed. The caller frees both.
 struct rg_streaks {
     int width, height;
