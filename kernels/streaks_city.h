@@ -5,7 +5,7 @@
 #include "triangle.h"
 
 #define RG_PARAMS  streaks_city_params
-#define RG_SLOTS   IN(1, float, faces) IN(2, uint, surface_of)
+#define RG_SLOTS   IN(1, float, faces) IN(2, uint, surface_of) IN(3, uint, blocks)
 #define RG_CORNERS 4
 
 // What depth needs of rg_planes.
@@ -27,7 +27,12 @@ RG_FN rg_corner streaks_city_corner(rg_ctx rg, m4 to_clip, int first_word)
                                        faces_at(rg, first_word + 2)));
 }
 
-RG_FN rg_item streaks_city_face(rg_ctx rg, m4 to_clip, int face)
+RG_FN int streaks_city_face(rg_ctx rg, int i)
+{
+    return rg_to_int(blocks_at(rg, i / STREAKS_BLOCK_FACES * 2)) + i % STREAKS_BLOCK_FACES;
+}
+
+RG_FN rg_item streaks_city_item(rg_ctx rg, m4 to_clip, int face)
 {
     int word = face * STREAKS_FACE_WORDS;
     rg_item t;
@@ -41,12 +46,19 @@ RG_FN rg_item streaks_city_face(rg_ctx rg, m4 to_clip, int face)
 
 RG_DRAW_ITEM(streaks_city)
 {
-    return streaks_city_face(rg, p.to_clip, i);
+    int count = rg_to_int(blocks_at(rg, i / STREAKS_BLOCK_FACES * 2 + 1));
+    int k = i % STREAKS_BLOCK_FACES;
+    rg_item t = streaks_city_item(rg, p.to_clip,
+                                  rg_to_int(blocks_at(rg, i / STREAKS_BLOCK_FACES * 2)) +
+                                      rg_imin(k, count - 1));
+    t.alive = k < count ? 1 : 0;
+    return t;
 }
 
 RG_DRAW_RECORD(streaks_city)
 {
-    rg_item t = streaks_city_face(rg, p.to_clip, i);
+    int face = streaks_city_face(rg, i);
+    rg_item t = streaks_city_item(rg, p.to_clip, face);
     rg_planes s = rg_planes_of(draw, t);
     streaks_city_record r;
     r.origin_x = s.origin_x;
@@ -54,7 +66,7 @@ RG_DRAW_RECORD(streaks_city)
     r.depth = s.depth;
     r.nearest = s.nearest;
     r.farthest = s.farthest;
-    r.surface = surface_of_at(rg, i);
+    r.surface = surface_of_at(rg, face);
     return r;
 }
 

@@ -14,4 +14,8 @@ RG_STRUCT_SIZE(streaks_city_params, 16)
 // in one plane. A triangle has its last corner twice.
 #define STREAKS_FACE_WORDS 12
 
+// What is drawn are blocks of faces: items 32 k and on are the faces of block k, the first one of
+// which, and their number, are two words.
+#define STREAKS_BLOCK_FACES 32
+
 #endif

@@ -5,6 +5,7 @@
 
 #include "core/alloc.h"
 #include "core/log.h"
+#include "core/techniques/streaks_scene_cull.h"
 #include "kernels/streaks_city_shade_params.h"
 
 enum { TEXTURE_LEVELS_MOST = 10, PAINTED_AT_ONCE = 8 };
@@ -13,11 +14,14 @@ struct streaks_scene {
     struct rg_device *device;
     struct city *city;
     struct rg_buf *faces, *surface_of, *surfaces;
+    struct rg_buf *block_words; // of the last draw
     struct rg_image *textures;
     struct rg_image *numbers; // of the last target's size
     struct rg_pass *draw, *shade;
     int levels;
-    bool *seen; // a chunk: in the present draw
+    struct streaks_cull cull;
+    bool *seen;       // by chunk: in the present draw
+    uint32_t *blocks; // two words each
     struct streaks_scene_work work;
 };
 
@@ -118,8 +122,16 @@ static bool create_buffers(struct streaks_scene *s)
 {
     const struct city_faces *f = &s->city->faces;
     const int64_t faces = f->face_count;
+    int blocks = 0;
+    for (int i = 0; i < f->chunk_count; i++)
+        blocks += (f->chunks[i].count + STREAKS_BLOCK_FACES - 1) / STREAKS_BLOCK_FACES;
     s->seen = rg_alloc((size_t)f->chunk_count, sizeof(*s->seen), "scene");
-    return s->seen &&
+    s->blocks = rg_alloc((size_t)blocks, 2 * sizeof(*s->blocks), "scene");
+    s->cull.faces = f;
+    s->cull.box_count = s->city->box_count;
+    s->cull.boxes = s->city->boxes;
+    return s->seen && s->blocks &&
+           (s->block_words = rg_buf_create(s->device, (int64_t)blocks * 8, "blocks of faces")) &&
            (s->faces =
                 filled(s->device, f->corners, faces * STREAKS_FACE_WORDS, "scene's faces")) &&
            (s->surface_of = filled(s->device, f->surface_of, faces, "faces' surfaces")) &&
@@ -137,10 +149,12 @@ void streaks_scene_put(struct streaks_scene *s)
     rg_buf_destroy(s->faces);
     rg_buf_destroy(s->surface_of);
     rg_buf_destroy(s->surfaces);
+    rg_buf_destroy(s->block_words);
     rg_image_destroy(s->textures);
     rg_image_destroy(s->numbers);
     city_destroy(s->city);
     free(s->seen);
+    free(s->blocks);
     free(s);
 }
 
@@ -185,110 +199,50 @@ struct streaks_scene_work streaks_scene_last(const struct streaks_scene *s)
     return s->work;
 }
 
-// --- what is seen ---
-
-// Homogeneous coordinates of the eye: w is 0 where rays are parallel.
-static void find_eye(const m4 *m, double eye[4])
-{
-    const double r[3][4] = {{(double)m->xx, (double)m->xy, (double)m->xz, (double)m->xw},
-                            {(double)m->yx, (double)m->yy, (double)m->yz, (double)m->yw},
-                            {(double)m->wx, (double)m->wy, (double)m->wz, (double)m->ww}};
-    for (int i = 0; i < 4; i++) {
-        const int a = (i + 1) % 4, b = (i + 2) % 4, c = (i + 3) % 4;
-        const double det = r[0][a] * (r[1][b] * r[2][c] - r[1][c] * r[2][b]) -
-                           r[0][b] * (r[1][a] * r[2][c] - r[1][c] * r[2][a]) +
-                           r[0][c] * (r[1][a] * r[2][b] - r[1][b] * r[2][a]);
-        eye[i] = i % 2 ? det : -det;
-    }
-    // Towards where depth is less, or of positive w.
-    const double depth = (double)m->zx * eye[0] + (double)m->zy * eye[1] + (double)m->zz * eye[2];
-    const double turn = fabs(eye[3]) > 1e-12 ? eye[3] : -depth;
-    for (int i = 0; turn < 0 && i < 4; i++)
-        eye[i] = -eye[i];
-}
-
-// Whether all faces of a chunk turn away: the eye lies behind all their planes.
-static bool turns_away(const struct city_chunk *chunk, const double eye[4])
-{
-    double towards = 0; // of the corner of the bounds whose plane lies furthest back
-    for (int c = 0; c < 3; c++) {
-        const double n = (double)chunk->normal[c];
-        const double corner = (double)(n > 0 ? chunk->low[c] : chunk->high[c]);
-        towards += n * (eye[c] - eye[3] * corner);
-    }
-    const float *n = chunk->normal;
-    return (n[0] != 0 || n[1] != 0 || n[2] != 0) && towards < 0;
-}
-
-// Whether a row of the matrix, times sign, plus w's share, is negative all over the bounds.
-static bool outside(const struct city_chunk *chunk, const float plane[4])
-{
-    double most = (double)plane[3];
-    for (int c = 0; c < 3; c++)
-        most += (double)plane[c] * (double)(plane[c] > 0 ? chunk->high[c] : chunk->low[c]);
-    return most < 0;
-}
-
-static bool in_view(const struct city_chunk *chunk, const m4 *m)
-{
-    const float planes[5][4] = {{m->wx + m->xx, m->wy + m->xy, m->wz + m->xz, m->ww + m->xw},
-                                {m->wx - m->xx, m->wy - m->xy, m->wz - m->xz, m->ww - m->xw},
-                                {m->wx + m->yx, m->wy + m->yy, m->wz + m->yz, m->ww + m->yw},
-                                {m->wx - m->yx, m->wy - m->yy, m->wz - m->yz, m->ww - m->yw},
-                                {m->zx, m->zy, m->zz, m->zw}};
-    for (int i = 0; i < 5; i++)
-        if (outside(chunk, planes[i]))
-            return false;
-    return true;
-}
-
-static void find_seen(struct streaks_scene *s, const m4 *to_clip)
-{
-    const struct city_faces *f = &s->city->faces;
-    double eye[4];
-    find_eye(to_clip, eye);
-    s->work = (struct streaks_scene_work){.chunks = f->chunk_count};
-    for (int i = 0; i < f->chunk_count; i++) {
-        s->seen[i] = in_view(&f->chunks[i], to_clip) && !turns_away(&f->chunks[i], eye);
-        s->work.chunks_drawn += s->seen[i];
-    }
-}
-
 // --- drawing ---
 
-// A gap of so few faces between two that are seen costs less than another draw.
-enum { BRIDGED_FACES = 2048 };
+// The blocks of the chunks that are seen; returns how many. All that is known of a block's words is
+// in kernels/streaks_city_params.h.
+static int list_blocks(struct streaks_scene *s)
+{
+    const struct city_faces *f = &s->city->faces;
+    int blocks = 0;
+    for (int i = 0; i < f->chunk_count; i++) {
+        const struct city_chunk *chunk = &f->chunks[i];
+        for (int k = 0; s->seen[i] && k < chunk->count; k += STREAKS_BLOCK_FACES) {
+            const int rest = chunk->count - k;
+            s->blocks[2 * blocks] = (uint32_t)(chunk->first + k);
+            s->blocks[2 * blocks + 1] =
+                (uint32_t)(rest < STREAKS_BLOCK_FACES ? rest : STREAKS_BLOCK_FACES);
+            blocks++;
+        }
+    }
+    return blocks;
+}
 
 static bool draw_faces(struct streaks_scene *s, struct rg_instance *instance, m4 to_clip,
                        const struct rg_draw *onto)
 {
-    const struct city_faces *f = &s->city->faces;
     const streaks_city_params params = {to_clip};
     struct rg_draw draw = *onto;
     draw.blend = RG_BLEND_OFF;
     draw.depth_mode = RG_DEPTH_WRITE;
     draw.cull = RG_CULL_BACK;
-    struct rg_run run = {
-        .params = &params, .slots = {[1].buf = s->faces, [2].buf = s->surface_of}, .draw = &draw};
-    find_seen(s, &to_clip);
-    for (int i = 0; i < f->chunk_count;) {
-        if (!s->seen[i]) {
-            i++;
-            continue;
-        }
-        const int first = f->chunks[i].first;
-        int end = first;
-        for (; i < f->chunk_count && f->chunks[i].first - end < BRIDGED_FACES; i++)
-            if (s->seen[i])
-                end = f->chunks[i].first + f->chunks[i].count;
-        run.origin.width = first;
-        run.extent = (struct rg_extent){end - first, 1, 1};
-        s->work.draws++;
-        s->work.faces_drawn += end - first;
-        if (!rg_instance_run(instance, s->draw, &run))
-            return false;
-    }
-    return true;
+    streaks_cull(&s->cull, to_clip, s->seen);
+    const int blocks = list_blocks(s);
+    s->work = (struct streaks_scene_work){.chunks = s->city->faces.chunk_count, .blocks = blocks};
+    for (int i = 0; i < s->work.chunks; i++)
+        s->work.chunks_drawn += s->seen[i] ? 1 : 0;
+    if (!blocks)
+        return true;
+    return rg_buf_write(s->block_words, 0, s->blocks, (int64_t)blocks * 8) &&
+           rg_instance_run(
+               instance, s->draw,
+               &(struct rg_run){
+                   .params = &params,
+                   .slots = {[1].buf = s->faces, [2].buf = s->surface_of, [3].buf = s->block_words},
+                   .extent = {blocks * STREAKS_BLOCK_FACES, 1, 1},
+                   .draw = &draw});
 }
 
 bool streaks_scene_depth(struct streaks_scene *scene, struct rg_instance *instance, m4 to_clip,

@@ -1,8 +1,8 @@
 // The scene that rain falls on: the city, or a user's mesh in its place, on one device.
 //
-// Its faces lie in chunks; a draw leaves out those that the view does not touch or that all turn
-// away. Faces leave the number of their surface in each pixel; then every pixel is lit once
-// (kernels/streaks_city.h, streaks_city_shade.h).
+// Its faces lie in chunks; a draw leaves out those that the view does not touch, that all turn
+// away, or that buildings hide. Faces leave the number of their surface in each pixel; then every
+// pixel is lit once (kernels/streaks_city.h, streaks_city_shade.h).
 #ifndef RG_CORE_TECHNIQUES_STREAKS_SCENE_H
 #define RG_CORE_TECHNIQUES_STREAKS_SCENE_H
 
@@ -73,8 +73,8 @@ bool streaks_scene_numbers(struct streaks_scene *scene, struct rg_instance *inst
 
 // What the last draw left out, of how many.
 struct streaks_scene_work {
-    int chunks_drawn, chunks, draws;
-    int64_t faces_drawn;
+    int chunks_drawn, chunks;
+    int blocks; // of STREAKS_BLOCK_FACES faces
 };
 struct streaks_scene_work streaks_scene_last(const struct streaks_scene *scene);
 

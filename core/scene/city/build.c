@@ -223,3 +223,13 @@ void city_lamp_add(struct city_builder *b, enum city_lamp_kind kind, point at, p
     put_corner(lamp->position, at);
     put_corner(lamp->direction, direction);
 }
+
+void city_box_add(struct city_builder *b, point low, point high)
+{
+    struct city *city = b->city;
+    if (!grow(b, &city->boxes, city->box_count, &b->box_room, sizeof(*city->boxes)))
+        return;
+    struct city_box *box = &city->boxes[city->box_count++];
+    put_corner(box->low, low);
+    put_corner(box->high, high);
+}

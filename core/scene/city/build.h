@@ -26,7 +26,7 @@ struct mapping {
 struct city_builder {
     struct city_settings settings;
     struct city *city;
-    int face_room, surface_room, lamp_room;
+    int face_room, surface_room, lamp_room, box_room;
     bool failed; // no memory: one line is logged, and what follows is left out
     // Surfaces by what they are, so that equal ones are one.
     int *places;
@@ -65,6 +65,7 @@ void city_box(struct city_builder *b, point low, point high, int sides, const st
 // point.
 void city_post(struct city_builder *b, double x, double z, double y0, double y1, double radius0,
                double radius1, int sides, const struct look *look);
+void city_box_add(struct city_builder *b, point low, point high);
 void city_lamp_add(struct city_builder *b, enum city_lamp_kind kind, point at, point direction);
 
 // The plan of the streets (plan.c). Lines of streets, and blocks between them.

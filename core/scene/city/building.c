@@ -10,6 +10,7 @@ enum { CHANCE_HEIGHT = 300, CHANCE_STYLE, CHANCE_TIER, CHANCE_ROOF, CHANCE_SHOP 
 
 #define SHOP_M    4.4 // a ground floor's height
 #define CORNICE_M 0.35
+#define WITHIN_M  0.6 // what is so far from a tier's sides lies behind its faces
 
 // A building that is being made.
 struct building {
@@ -257,6 +258,9 @@ static void build_tier(struct building *t, const struct tier *r, bool top)
     for (int side = BOX_X0; side <= BOX_Z1; side <<= 1)
         if (side & BOX_WALLS)
             build_side(t, r, side);
+    const double in = WITHIN_M;
+    city_box_add(t->b, (point){r->x0 + in, r->y0, r->z0 + in},
+                 (point){r->x1 - in, r->y1 - in, r->z1 - in});
     if (t->b->settings.size == CITY_FULL)
         build_cornice(t, r);
     else

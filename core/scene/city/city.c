@@ -38,6 +38,7 @@ void city_destroy(struct city *city)
         return;
     city_faces_free(&city->faces);
     free(city->lamps);
+    free(city->boxes);
     free(city);
 }
 

@@ -29,6 +29,12 @@ struct city_settings {
     enum city_size size;
 };
 
+// A box that faces enclose: what lies behind it is not seen. At y0 it stands on the ground or on
+// such a box.
+struct city_box {
+    float low[3], high[3];
+};
+
 // Faces that lie together: a part of the face arrays, and what holds them.
 struct city_chunk {
     int first, count;
@@ -62,6 +68,8 @@ struct city {
     struct city_faces faces;
     int lamp_count;
     struct city_lamp *lamps;
+    int box_count;
+    struct city_box *boxes; // within the buildings
     int texture_count, texture_px;
     uint64_t hash; // XXH3 of the faces, their surfaces and the settings that paint the textures
 };
