@@ -98,8 +98,16 @@ static void test_settings(void **state)
             assert_non_null(of_row);
             void *all = rg_settings_copy(technique, of_row, table->variants[variant].set);
             assert_non_null(all);
-            assert_true(!rg_table_is_published(table) ||
-                        rg_table_published_fps(table, row, variant) > 0);
+            void *quick = rg_settings_copy(technique, all, table->quick ? table->quick : "");
+            assert_non_null(quick);
+            void *truth = rg_settings_copy(technique, quick, table->truth ? table->truth : "");
+            assert_non_null(truth);
+            if (table->is_of_textures)
+                assert_true(table->rows[row].name && rg_table_value(table, row, "level") >= 0);
+            else if (rg_table_is_published(table))
+                assert_true(rg_table_published_fps(table, row, variant) > 0);
+            free(truth);
+            free(quick);
             free(all);
             free(of_row);
         }
@@ -136,6 +144,7 @@ static const struct rg_table axis_table = {
     .columns = {"radius_m", "camera", "particles", "fps", "fps_no_geometry"},
     .key_count = 2,
     .variants = {{"full", "", "fps"}, {"no_geometry", "geometry=off", "fps_no_geometry"}},
+    .truth = "radius_m=0",
     .row_count = 3,
     .rows = radii,
     .note = "a note",
@@ -264,7 +273,7 @@ static void test_grid(void **state)
     assert_true(has_note(&grid, "Inputs of radius_m 5, camera 1, full: model city.obj."));
     assert_true(has_note(&grid, "Shape on cpu, no_geometry: "));
     assert_false(has_note(&grid, "Shape on cpu, full"));
-    assert_null(text_at(&grid, 0, "error, FLIP"));
+    expect_text(&grid, 0, "error, FLIP", "0.0000");
     rg_grid_free(&grid);
 }
 
@@ -283,6 +292,7 @@ static void test_grid_of_names(void **state)
     expect_text(&grid, 1, "scene", "dragon");
     expect_text(&grid, 1, "published faces", "100000");
     assert_null(text_at(&grid, 0, "variant"));
+    assert_null(text_at(&grid, 0, "error, FLIP"));
     assert_true(has_note(&grid, "Inputs of every row: seed 7."));
     assert_true(has_note(&grid, "same order. fps keeps the published order (5 of 5 pairs"));
     rg_grid_free(&grid);
@@ -334,14 +344,15 @@ static void test_json(void **state)
     rig.cells[1].pass_count = 2;
     rig.cells[1].passes[0] = (struct rg_cell_pass){"a", 3};
     rig.cells[1].passes[1] = (struct rg_cell_pass){"b", 1};
-    rig.groups[1].has_error = true;
+    rig.groups[0].error_status = RG_CELL_UNSUPPORTED;
+    snprintf(rig.groups[0].error_detail, sizeof(rig.groups[0].error_detail), "too much");
     rig.groups[1].error.flip_mask_mean = 0.5;
     snprintf(rig.devices.missing[0], sizeof(rig.devices.missing[0]), "gl: none");
     rig.devices.broken_count = 1;
     snprintf(rig.devices.broken[0].why, sizeof(rig.devices.broken[0].why), "vulkan: broken");
     json_t *json = rg_table_json(&rig.run);
     assert_non_null(json);
-    const char *set, *variant, *model, *detail, *missing, *broken;
+    const char *set, *variant, *model, *detail, *missing, *broken, *status;
     json_int_t radius, camera, fps, printed, told, fact;
     double a, b, measured_fps, flip;
     json_t *cells = json_object_get(json, "cells");
@@ -366,7 +377,10 @@ static void test_json(void **state)
     assert_string_equal(detail, "differs");
     assert_float_equal(measured_fps, 80, 1e-9);
     assert_true(a == 0.75 && b == 0.25 && flip == 0.5);
-    assert_null(json_object_get(json_array_get(cells, 0), "error"));
+    assert_int_equal(0, json_unpack(json_array_get(cells, 0), "{s{ss, ss}}", "error", "status",
+                                    &status, "detail", &detail));
+    assert_string_equal(status, "unsupported");
+    assert_string_equal(detail, "too much");
     assert_null(json_object_get(json_array_get(cells, 4), "measured"));
     json_decref(json);
 }
