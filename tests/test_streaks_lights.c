@@ -506,9 +506,9 @@ static void nothing_shades_where_no_map_is(void **state)
 
 // --- the list of a scene ---
 
-static const struct streaks_lamp lamps[] = {
-    {STREAKS_STREET_LAMP, {9, 8, 11}, {0, -1, 0}},
-    {STREAKS_TRAFFIC_RED, {3, 2, 3}, {0.6f, 0, 0.8f}},
+static const struct city_lamp lamps[] = {
+    {CITY_STREET_LAMP, {9, 8, 11}, {0, -1, 0}},
+    {CITY_TRAFFIC_RED, {3, 2, 3}, {0.6f, 0, 0.8f}},
 };
 
 static struct streaks_lights_settings three_lights(void)
