@@ -80,8 +80,8 @@ static struct faces make_boxes(void)
         }
         for (int side = 0; side < 6; side++) {
             const int *s = sides[side];
-            put_face(&faces, 12 * i + 2 * side, 8 * i + s[0], 8 * i + s[1], 8 * i + s[2]);
-            put_face(&faces, 12 * i + 2 * side + 1, 8 * i + s[0], 8 * i + s[2], 8 * i + s[3]);
+            put_face(&faces, 12 * i + 2 * side, 8 * i + s[0], 8 * i + s[2], 8 * i + s[1]);
+            put_face(&faces, 12 * i + 2 * side + 1, 8 * i + s[0], 8 * i + s[3], 8 * i + s[2]);
         }
     }
     return faces;
@@ -172,9 +172,12 @@ struct rig {
     streaks_light lights[LIGHTS];
 };
 
+// Faces that turn away are left out: a matrix that mirrored would leave the wrong ones.
 static bool draw_scene(void *user, const float to_clip[16], const struct rg_draw *onto)
 {
     const struct rig *rig = user;
+    struct rg_draw draw = *onto;
+    draw.cull = RG_CULL_BACK;
     raster_mesh_params p = {0};
     memcpy(&p.to_clip, to_clip, sizeof(p.to_clip));
     return rg_pass_run(rig->scene.raster, &(struct rg_run){.params = &p,
@@ -182,7 +185,7 @@ static bool draw_scene(void *user, const float to_clip[16], const struct rg_draw
                                                                      [2].buf = rig->scene.normals,
                                                                      [3].buf = rig->scene.indices},
                                                            .extent = {rig->scene.face_count, 1, 1},
-                                                           .draw = onto});
+                                                           .draw = &draw});
 }
 
 static struct rig rig_open(struct rg_device *device)

@@ -39,7 +39,7 @@ struct streaks_lights *streaks_lights_open(struct rg_device *device,
 void streaks_lights_close(struct streaks_lights *lights);
 
 // Draws the scene's depth with a matrix from the world to clip space onto a layer of an image: what
-// casts shadows. Both sides of a face do.
+// casts shadows. Faces keep their turn, as a camera's matrix leaves it.
 typedef bool (*streaks_depth_fn)(void *user, const float to_clip[16], const struct rg_draw *onto);
 // Draws all shadow maps: once, or again where the scene has changed.
 bool streaks_lights_shade(struct streaks_lights *lights, streaks_depth_fn draw, void *user);
