@@ -28,9 +28,7 @@
 
 #include "core/scene/density.h"
 #include "core/techniques/streaks_rain_space.h"
-
-#define STREAKS_BLOCK       32
-#define STREAKS_BLOCK_WORDS 5
+#include "kernels/streaks_params.h"
 
 enum {
     STREAKS_BUFFER_PARTICLES = (128 << 20) / 12 / 32 * 32, // of 128 MiB, which every device takes

@@ -109,7 +109,7 @@ static bool lay_out(const struct streaks_packets *p, struct streaks_selection *s
                     int64_t count)
 {
     const int buffers = streaks_packets_buffers(p);
-    int64_t next[STREAKS_MAX_BUFFERS] = {0}, first = 0;
+    int64_t next[STREAKS_BUFFER_LIMIT] = {0}, first = 0;
     for (int64_t i = 0; i < count; i++)
         next[buffer_of(runs[i].slot)] += blocks_in(&runs[i]);
     for (int buffer = 0; buffer < buffers; buffer++) {
@@ -130,8 +130,8 @@ static bool lay_out(const struct streaks_packets *p, struct streaks_selection *s
 bool streaks_list_by_packet(const struct streaks_packets *p, const struct streaks_view *view,
                             struct streaks_selection *s)
 {
-    if (!streaks_reserve(s, STREAKS_RUNS, &s->scratch[0], (int64_t)s->packets + STREAKS_MAX_BUFFERS,
-                         sizeof(struct run), false))
+    if (!streaks_reserve(s, STREAKS_RUNS, &s->scratch[0],
+                         (int64_t)s->packets + STREAKS_BUFFER_LIMIT, sizeof(struct run), false))
         return false;
     struct run *runs = s->scratch[0];
     int64_t count = 0;

@@ -121,7 +121,7 @@ static struct streaks_plan plan_grid(const struct streaks_grid *grid)
 static bool fits(const struct streaks_packets_settings *settings, const struct streaks_plan *plan)
 {
     return plan->peak_bytes <= settings->memory_bytes &&
-           plan->slots <= (int64_t)STREAKS_MAX_BUFFERS * STREAKS_BUFFER_PARTICLES;
+           plan->slots <= (int64_t)STREAKS_BUFFER_LIMIT * STREAKS_BUFFER_PARTICLES;
 }
 
 static bool refuse(const struct streaks_packets_settings *settings, const struct streaks_plan *plan,

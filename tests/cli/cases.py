@@ -19,7 +19,8 @@ ABSENT = tuple(r"warning: unsupported here: %s: .*package %s" % pair for pair in
     ("gl", "libegl-mesa0"), ("vulkan", "mesa-vulkan-drivers"), ("opencl", "pocl-opencl-icd")))
 SMALL = "--set environment_px=64 --set resolution_px=96 --size 96x96 "
 TABLE = "table stuppacher-2 --rows 1-1 --device cpu "
-TABLE_FILES = tuple("stuppacher-2." + format for format in ("csv", "json", "md", "tex"))
+FORMATS = ("csv", "json", "md", "tex")
+TABLE_FILES = tuple("stuppacher-2." + format for format in FORMATS)
 DIFF = "diff flow --frame 5 --device cpu,cpu:reference " + SMALL
 VERIFY = "verify flow --frame 5 --device cpu " + SMALL
 RENDER = ("render flow --set environment=sky --set environment_px=16 --set resolution_px=32 --set model=none "
@@ -145,6 +146,7 @@ ON_CPU = [
     Case(TABLE, 0, None),
     Case(TABLE + "-o {tmp}", 0, None, made=TABLE_FILES),
     Case(TABLE + "stuppacher-2 -o {tmp}", 0, None, made=TABLE_FILES),
+    Case(TABLE + "--fresh -o {tmp}", 0, None, made=TABLE_FILES),
     Case(TABLE + "-o {tmp}/none/out", 2, r"none/out: cannot be made: No such file or directory; name a folder"),
     Case(TABLE + "-o {data}/a.png", 2, r"a\.png/stuppacher-2\.md: cannot be written: Not a directory; name a folder"),
     Case(TABLE + "-o /proc/out", 2, r"/proc/out: cannot be made: .*; name a folder that can be written"),
