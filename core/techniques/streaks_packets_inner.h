@@ -6,9 +6,9 @@
 #include "core/techniques/streaks_packets_scatter.h"
 
 enum {
-    STREAKS_LEVELS = 256,           // of a grid's density, as an 8-bit map has; 0 is dry
-    STREAKS_MAX_CELLS = 1 << 26,    // of a grid, a byte each
-    STREAKS_BUFFER_LIMIT = 1 << 10, // 128 GiB
+    STREAKS_LEVELS = 256,        // of a grid's density, as an 8-bit map has; 0 is dry
+    STREAKS_MAX_CELLS = 1 << 26, // of a grid, a byte each
+    STREAKS_BUFFER_LIMIT = 512,  // 64 GiB; so a tree's nodes have 31 bits, too
     STREAKS_PARTICLE_BYTES = 12,
     STREAKS_ID_BYTES = 4
 };

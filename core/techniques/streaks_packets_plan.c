@@ -118,20 +118,27 @@ static struct streaks_plan plan_grid(const struct streaks_grid *grid)
                                      (int64_t)grid->across * grid->down};
 }
 
+// What may be taken: numbers of packets and buffers are sure to suffice for that.
+static int64_t allowed(const struct streaks_packets_settings *settings)
+{
+    const int64_t most =
+        (int64_t)STREAKS_BUFFER_LIMIT * STREAKS_BUFFER_PARTICLES * STREAKS_PARTICLE_BYTES;
+    return settings->memory_bytes < most ? settings->memory_bytes : most;
+}
+
 static bool fits(const struct streaks_packets_settings *settings, const struct streaks_plan *plan)
 {
-    return plan->peak_bytes <= settings->memory_bytes &&
-           plan->slots <= (int64_t)STREAKS_BUFFER_LIMIT * STREAKS_BUFFER_PARTICLES;
+    return plan->peak_bytes <= allowed(settings);
 }
 
 static bool refuse(const struct streaks_packets_settings *settings, const struct streaks_plan *plan,
                    int64_t total)
 {
-    return rg_error(
-        "rain: %lld particles in %lld packets (%s) take %.1f MiB, more than the %.1f MiB "
-        "allowed; lower drops_m2_s or local_height_m, choose other packets, or allow more",
-        (long long)total, (long long)plan->packets, streaks_scheme_name(plan->scheme),
-        (double)plan->peak_bytes / (1 << 20), (double)settings->memory_bytes / (1 << 20));
+    return rg_error("rain: %lld particles in %lld packets (%s) take %.1f MiB, more than the %.1f "
+                    "MiB allowed; lower drops_m2_s or local_height_m, choose other packets, or "
+                    "allow more",
+                    (long long)total, (long long)plan->packets, streaks_scheme_name(plan->scheme),
+                    (double)plan->peak_bytes / (1 << 20), (double)allowed(settings) / (1 << 20));
 }
 
 static bool refuse_cells(const struct streaks_packets_settings *settings)
