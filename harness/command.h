@@ -29,6 +29,7 @@ enum rg_option_bits {
     RG_OPT_ROWS = 1 << 8,        // --rows A-B
     RG_OPT_EXPOSURE = 1 << 9,    // --exposure X
     RG_OPT_BACKGROUND = 1 << 10, // --background FILE
+    RG_OPT_FROM = 1 << 11,       // --from DIR
 };
 
 enum { RG_MAX_SETS = 64, RG_MAX_ARGS = 64 };
@@ -39,7 +40,7 @@ struct rg_options {
     int set_count;
     int width, height; // 0: not given
     int frame;         // -1: not given
-    char *output, *format, *background;
+    char *output, *format, *background, *from;
     bool json, quick, full;
     int first_row, last_row;       // from 1; 0: not given
     double exposure;               // 0: not given
