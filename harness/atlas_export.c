@@ -9,6 +9,10 @@
 #include "core/scene/atlas/levels.h"
 #include "harness/output.h"
 
+// How much brighter than the brightest cell's scale a sheet shows cells times their factors: most
+// are a hundred times darker.
+#define SHEET_EXPOSURE 4.0f
+
 enum { PATH_SIZE = 2048, GAP = 12, ZOOM = 4, FRAMES_A_ROW = 7 };
 
 const char *const rg_atlas_part_names[RG_ATLAS_PART_COUNT] = {"point", "env", "splash"};
@@ -74,8 +78,7 @@ static int sheet_level(const struct rg_atlas *atlas)
     return 2 - atlas->first_level;
 }
 
-// Copies a view's row of cells to column x of a sheet; with `scaled`, times the cells' factors over
-// the largest of them.
+// Copies a view's row of cells to column x of a sheet; with `scaled`, times the cells' factors.
 static void draw_row(const struct rg_atlas *atlas, enum rg_atlas_part part, int layer, int view,
                      bool scaled, struct rg_picture *sheet, int x)
 {
@@ -84,14 +87,14 @@ static void draw_row(const struct rg_atlas *atlas, enum rg_atlas_part part, int 
     const float *all = part == RG_ATLAS_POINT ? &atlas->point_factor[layer][0][0][0]
                                               : &atlas->env_factor[layer][0];
     const size_t count = RG_ATLAS_VIEWS * (part == RG_ATLAS_POINT ? RG_ATLAS_CELLS : 1);
-    const float largest = (float)rg_atlas_range(all, count).largest;
+    const float exposure = SHEET_EXPOSURE / (float)rg_atlas_range(all, count).largest;
     const int level = sheet_level(atlas);
     const int width = rg_level_size(atlas->images[part].width, level);
     const int first = rg_atlas_row_start(view, 2), rows = rg_atlas_row_height(view, 2);
     const uint16_t *texels = rg_atlas_texels(atlas, part, layer, level);
     for (int r = first; r < first + rows; r++) {
         for (int c = 0; c < width; c++) {
-            const float factor = scaled ? factors[c / (RG_ATLAS_CELL_PX >> 2)] / largest : 1;
+            const float factor = scaled ? factors[c / (RG_ATLAS_CELL_PX >> 2)] * exposure : 1;
             sheet->texels[r * sheet->width + x + c] = factor * rg_half_value(texels[r * width + c]);
         }
     }

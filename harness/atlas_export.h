@@ -18,7 +18,7 @@ struct rg_atlas_range rg_atlas_range(const float *factors, size_t count);
 //   PART-LAYER-level-LEVEL.exr  the texels, half floats as they are
 //   sheet-LAYER.png             an oscillation as the thesis's figures 4.8 and 4.9 show it: point
 //                               and env, each cell with a largest value of 1; then the same times
-//                               its factor
+//                               its factor, four times as bright
 //   splash.png                  the frames, a material in three rows
 // False, and one logged line, when something cannot be written.
 bool rg_atlas_export(const struct rg_atlas *atlas, const char *folder);
