@@ -36,7 +36,7 @@ struct tracing {
 struct rg_streak_detail rg_streak_detail(enum rg_atlas_size size)
 {
     return size == RG_ATLAS_SMALL
-               ? (struct rg_streak_detail){.moments = 40, .column = 24, .along = 48}
+               ? (struct rg_streak_detail){.moments = 40, .column = 20, .along = 64}
                : (struct rg_streak_detail){.moments = 256, .column = 8, .along = 128};
 }
 
@@ -51,7 +51,6 @@ static void scatter(struct tracing *t, int way, int i, int column)
 {
     const float share = t->row.share[way][i];
     const float x = t->row.x[way][i], y = t->row.y[way][i], z = t->row.z[way][i];
-    t->env[column] += share;
     const int square = rg_lobes_square(x, y, z);
     for (int k = 0; k < t->lobes->listed[square]; k++) {
         const int l = t->lobes->list[square][k];
@@ -104,6 +103,9 @@ static void trace_row(struct tracing *t, const struct rg_drop_shape *shape, int 
     const int half = (int)ceilf(reach / t->step_u), left = t->rays / 2 - half;
     rg_drop_trace(shape, &t->view, v, t->step_u * (0.5f - (float)half), t->step_u, 2 * half,
                   &t->row);
+    // Where the light is 1 from everywhere, so it is inside, and after any number of reflections.
+    for (int i = 0; i < 2 * half; i++)
+        t->env[t->column[left + i]] += t->row.hit[i];
     for (int way = 0; way < RG_DROP_WAYS; way++)
         for (int i = 0; i < 2 * half; i++)
             if (t->row.share[way][i] > 0)
