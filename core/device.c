@@ -15,9 +15,9 @@ static const struct {
     const char *name;
     int size;
 } formats[RG_FORMAT_COUNT] = {
-    [RG_FORMAT_NONE] = {"none", 0}, [RG_RGBA8] = {"RGBA8", 4}, [RG_RGBA16F] = {"RGBA16F", 8},
-    [RG_RGBA32F] = {"RGBA32F", 16}, [RG_R32F] = {"R32F", 4},   [RG_RG11B10F] = {"RG11B10F", 4},
-    [RG_D32F] = {"D32F", 4},
+    [RG_FORMAT_NONE] = {"none", 0},  [RG_RGBA8] = {"RGBA8", 4}, [RG_RGBA16F] = {"RGBA16F", 8},
+    [RG_RGBA32F] = {"RGBA32F", 16},  [RG_R32F] = {"R32F", 4},   [RG_R16F] = {"R16F", 2},
+    [RG_RG11B10F] = {"RG11B10F", 4}, [RG_D32F] = {"D32F", 4},
 };
 
 int rg_format_size(enum rg_format format)
@@ -41,10 +41,32 @@ int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX
     memset(header, 0, RG_MAX_LEVELS * sizeof(*header));
     for (int level = 0; level < desc->levels; level++) {
         header[level] = (uint32_t)words;
-        words += (int64_t)rg_level_size(desc->width, level) * rg_level_size(desc->height, level) *
-                 desc->layers * rg_format_size(desc->format) / 4;
+        const int64_t texels = (int64_t)rg_level_size(desc->width, level) *
+                               rg_level_size(desc->height, level) * desc->layers;
+        words += (texels * rg_format_size(desc->format) + 3) / 4;
     }
     return words;
+}
+
+bool rg_image_layout_fits(const struct rg_device *device, const struct rg_image_desc *desc,
+                          const char *name)
+{
+    uint32_t header[RG_MAX_LEVELS];
+    const int64_t words = rg_image_layout(desc, header);
+    const int64_t most = rg_format_size(desc->format) < 4 ? INT_MAX / 2 : INT_MAX;
+    require(words <= most,
+            "image '%s': %lld bytes exceed the %lld bytes that %s allows an image of %s", name,
+            (long long)words * 4, (long long)most * 4, device->info.name,
+            rg_format_name(desc->format));
+    return true;
+}
+
+size_t rg_image_locate(const struct rg_image_desc *desc, const uint32_t header[RG_MAX_LEVELS],
+                       int layer, int level, size_t *size)
+{
+    *size = (size_t)rg_level_size(desc->width, level) * (size_t)rg_level_size(desc->height, level) *
+            (size_t)rg_format_size(desc->format);
+    return header[level] * sizeof(*header) + (size_t)layer * *size;
 }
 
 static int64_t image_bytes(const struct rg_image_desc *desc)

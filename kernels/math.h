@@ -76,6 +76,24 @@ RG_FN float rg_cos(float x)
     return rg_sin_quadrant(a.quadrant + 1, a.rest);
 }
 
+// TEMP
+RG_FN float rg_atan2(float y, float x)
+{
+    float ax = rg_abs(x);
+    float ay = rg_abs(y);
+    float t = rg_min(ax, ay) / rg_max(rg_max(ax, ay), 1e-30f);
+    float z = t * t;
+    float a = -0.0117212f;
+    a = a * z + 0.05265332f;
+    a = a * z - 0.11643287f;
+    a = a * z + 0.19354346f;
+    a = a * z - 0.33262347f;
+    a = (a * z + 0.99997726f) * t;
+    a = ay > ax ? 0.5f * RG_PI - a : a;
+    a = x < 0.0f ? RG_PI - a : a;
+    return y < 0.0f ? -a : a;
+}
+
 // --- powers ---
 
 // v 2^n for v within 0.7 to 1.42 and n within -126 to 128; 0 where that is no normal number.

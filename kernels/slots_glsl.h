@@ -89,6 +89,11 @@ struct rg_ctx {
         vec4 t = texelFetch(name##_sampler, ivec3(x, y, layer), level);                            \
         return rg_fetched_##F(rg_rgba(t.x, t.y, t.z, t.w));                                        \
     }                                                                                              \
+    uint name##_bytes(rg_ctx rg, int x, int y, int layer, int level)                               \
+    {                                                                                              \
+        uvec4 t = uvec4(texelFetch(name##_sampler, ivec3(x, y, layer), level) * 255.0f + 0.5f);    \
+        return t.x | (t.y << 8) | (t.z << 16) | (t.w << 24);                                       \
+    }                                                                                              \
     int name##_width(rg_ctx rg, int level)                                                         \
     {                                                                                              \
         return rg_imax(textureSize(name##_sampler, 0).x >> level, 1);                              \

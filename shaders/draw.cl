@@ -2,6 +2,7 @@
 // sorted. A work item owns a block of pixels of one tile and draws the tile's primitives there, in
 // order.
 #include RG_KERNEL_HEADER
+#include "draw_lit.h"
 #include "blend.h"
 #include "raster.h"
 #include "bins.h"
@@ -30,7 +31,7 @@ RG_PROC void rg_blend(const rg_shading *s, int texel, rgba c)
 RG_FN uint rg_draw_pixel(const rg_shading *s, RG_RECORD record, int px, int py)
 {
     int texel = py * s->p.draw.width + px;
-    rg_fragment f = rg_settled(rg_program_fragment(s->rg, s->p.program, record, px, py));
+    rg_fragment f = rg_drawn_fragment(s->rg, s->p.program, record, px, py);
     bool seen = f.kept != 0;
     if (s->p.draw.depth_mode != 0)
         seen = seen && f.depth < as_float(s->depth[texel]);

@@ -163,6 +163,9 @@ bool gl_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size);
 GLuint gl_buf_words(struct rg_buf *buf);
 
 // image.c
+
+// Makes a new context take and give rows as texels travel: tightly packed.
+void gl_images_begin(void);
 struct rg_image *gl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                  const char *name);
 void gl_image_destroy(struct rg_image *image);

@@ -1,0 +1,81 @@
+// The scene that rain falls on: the city, or a user's mesh in its place, on one device.
+//
+// Its faces lie in chunks; a draw leaves out those that the view does not touch, that all turn
+// away, or that buildings hide. Faces leave the number of their surface in each pixel; then every
+// pixel is lit once (kernels/streaks_city.h, streaks_city_shade.h).
+#ifndef RG_CORE_TECHNIQUES_STREAKS_SCENE_H
+#define RG_CORE_TECHNIQUES_STREAKS_SCENE_H
+
+#include "core/scene/city/city.h"
+#include "core/techniques/technique.h"
+#include "kernels/matrix.h"
+#include "kernels/streaks_sky.h"
+
+struct streaks_scene_settings {
+    struct city_settings city;
+    char model[RG_PATH_SIZE]; // a user's mesh instead, as rg_mesh_load takes it; "": the city
+};
+
+struct streaks_scene;
+
+// NULL, and one logged line, on failure. streaks_scene_put when it is no longer needed, before the
+// device closes.
+struct streaks_scene *streaks_scene_get(struct rg_device *device,
+                                        const struct streaks_scene_settings *settings);
+void streaks_scene_put(struct streaks_scene *scene);
+
+// What is known of it: triangles, surfaces, bounds, chunks; its lamps (none on a user's mesh); its
+// hash. They live as long as the scene.
+const struct city_faces *streaks_scene_faces(const struct streaks_scene *scene);
+int streaks_scene_lamps(const struct streaks_scene *scene, const struct city_lamp **lamps);
+uint64_t streaks_scene_hash(const struct streaks_scene *scene);
+// The surfaces' words (kernels/streaks_surface.h), for kernels.
+struct rg_buf *streaks_scene_surfaces(const struct streaks_scene *scene);
+
+// How it looks at a time.
+struct streaks_scene_look {
+    streaks_sky sky;
+    float ambient;           // share of the sky's light from above that surfaces get
+    float glow;              // light of lit windows and lamps
+    float sun[3], sun_light; // the way to the sun, of unit length
+};
+// Overcast day, or night with the lights of the city.
+struct streaks_scene_look streaks_scene_day(void);
+struct streaks_scene_look streaks_scene_night(void);
+
+// Where colour and depth go: level 0, layer 0 of both, of one size.
+struct streaks_scene_view {
+    m4 to_clip; // from the world, as rg_camera_matrix makes it: faces keep their turn
+    float eye[3];
+    struct rg_image *colour, *depth; // RGBA16F and such; D32F
+};
+
+// The lights that shine on it, in the world's space (kernels/streaks_light.h), and their shadow
+// maps. A count of 0: none.
+struct streaks_scene_lights {
+    int count;
+    struct rg_buf *lights;
+    struct rg_image *shadows;
+};
+
+// Draws colour and depth; with `geometry` false, the sky alone, and depth 1. The images need not be
+// cleared.
+bool streaks_scene_draw(struct streaks_scene *scene, struct rg_instance *instance,
+                        const struct streaks_scene_view *view,
+                        const struct streaks_scene_look *look,
+                        const struct streaks_scene_lights *lights, bool geometry);
+// Draws depth alone: `onto` names the image and its layer. It is not cleared.
+bool streaks_scene_depth(struct streaks_scene *scene, struct rg_instance *instance, m4 to_clip,
+                         const struct rg_draw *onto);
+// The same, and the number of each pixel's surface into onto->colour, an image of RGBA8.
+bool streaks_scene_numbers(struct streaks_scene *scene, struct rg_instance *instance, m4 to_clip,
+                           const struct rg_draw *onto);
+
+// What the last draw left out, of how many.
+struct streaks_scene_work {
+    int chunks_drawn, chunks;
+    int blocks; // of STREAKS_BLOCK_FACES faces
+};
+struct streaks_scene_work streaks_scene_last(const struct streaks_scene *scene);
+
+#endif
