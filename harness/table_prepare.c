@@ -7,6 +7,7 @@
 #include "core/image/compare.h"
 #include "core/log.h"
 #include "harness/frame.h"
+#include "harness/interrupt.h"
 #include "harness/table.h"
 
 // A row's variant, while its cells are prepared.
@@ -99,7 +100,7 @@ static bool compare_with_truth(struct preparation *p, const void *settings)
 // How far the expected image is from the table's truth. Cells are timed without it, too.
 static void measure_error(struct preparation *p)
 {
-    if (!p->table->truth)
+    if (!p->table->truth || rg_interrupted())
         return;
     void *settings = rg_settings_copy(p->technique, p->group->settings, p->table->truth);
     if (!settings || !compare_with_truth(p, settings)) {
@@ -126,7 +127,7 @@ static void give_up(struct preparation *p)
 
 static void prepare_cells(struct preparation *p, const struct rg_measure_options *options)
 {
-    for (int d = 0; d < p->run->devices->count; d++) {
+    for (int d = 0; d < p->run->devices->count && !rg_interrupted(); d++) {
         struct rg_cell *cell = &p->cells[d];
         const bool is_open = cell->instance != NULL; // it made what is expected
         if (is_open || (rg_cell_open(cell) && rg_cell_check(cell, &p->expected)))
