@@ -202,7 +202,7 @@ static bool hidden(const struct streaks_cull *cull, const struct corner corners[
     return true;
 }
 
-void streaks_cull(struct streaks_cull *cull, m4 to_clip, bool *seen)
+void streaks_cull(struct streaks_cull *cull, m4 to_clip, bool backs_culled, bool *seen)
 {
     const struct city_faces *f = cull->faces;
     double eye[4];
@@ -220,6 +220,6 @@ void streaks_cull(struct streaks_cull *cull, m4 to_clip, bool *seen)
             corners[k] = corner_of(chunk->low, chunk->high, k, &to_clip);
             all &= outside(&corners[k]);
         }
-        seen[i] = !all && !turns_away(chunk, eye) && !hidden(cull, corners);
+        seen[i] = !all && !(backs_culled && turns_away(chunk, eye)) && !hidden(cull, corners);
     }
 }

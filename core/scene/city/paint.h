@@ -1,6 +1,9 @@
-// The city's textures by number, and what of them the geometry has to know: for this folder alone.
+// The city's textures by number, what of them the geometry has to know, and what painters share:
+// for this folder alone.
 #ifndef RG_CORE_SCENE_CITY_PAINT_H
 #define RG_CORE_SCENE_CITY_PAINT_H
+
+#include <assert.h>
 
 #include "core/scene/city/city.h"
 
@@ -8,7 +11,7 @@
 enum {
     PAINT_FACADE = 0, // walls with windows: PAINT_CELLS x PAINT_CELLS bays
     PAINT_CURTAIN = 72,
-    PAINT_SHOP = 96, // ground floors: two bays
+    PAINT_SHOP = 96, // ground floors: a shop
     PAINT_WALL = 108,
     PAINT_ROOF = 124,
     PAINT_ASPHALT = 130, // plain, a street's width, the avenue's width
@@ -22,6 +25,7 @@ enum {
     PAINT_LIGHT = 147,
     PAINT_WATER = 148,
     PAINT_CELLS = 4,
+    PAINT_WALLS = PAINT_ROOF - PAINT_WALL,
 };
 static_assert(PAINT_WATER + 1 == CITY_TEXTURES, "every texture has a painter");
 
@@ -32,5 +36,50 @@ struct facade_style {
     double depth_m;                  // how far windows lie behind the wall
 };
 struct facade_style city_facade_style(const struct city_settings *settings, int texture);
+
+// --- for painters ---
+
+// A colour as square roots of light, and the share of a lamp behind it.
+struct paint {
+    float r, g, b, a;
+};
+
+// Noise that all textures share, in squares as large as they, which repeat. All 0 to 1.
+struct city_painter {
+    struct city_settings settings;
+    uint32_t seed;
+    int size;     // texels a side
+    float *fine;  // each texel for itself
+    float *cloud; // from a quarter of the square down to a few texels
+    float *stain; // drawn out downwards, as water leaves it
+};
+
+// A texel that is painted.
+struct spot {
+    const struct city_painter *painter;
+    int texture;
+    struct facade_style style; // of facades and curtain walls
+    int x, y;
+    float u, v; // 0 to 1, v from the top
+};
+
+// Noise at the spot; textures see different parts of it.
+float paint_fine(const struct spot *s);
+float paint_cloud(const struct spot *s, int part);
+float paint_stain(const struct spot *s);
+// A number in [0, 1) for the k-th thing of a texture.
+float paint_chance(const struct spot *s, int k);
+struct paint paint_mix(struct paint a, struct paint b, float t);
+struct paint paint_scaled(struct paint p, float by);
+// The distance of `at` from the middle of the nearest line, lines being `every` apart, in `every`.
+float paint_line(float at, float every);
+
+// paint_walls.c: a wall's kind at (u, v) in whole walls of `across` x `down` bricks.
+struct paint paint_wall(const struct spot *s, int wall, float u, float v, int across, int down);
+struct paint paint_facade(const struct spot *s);
+struct paint paint_curtain(const struct spot *s);
+struct paint paint_shop(const struct spot *s);
+// paint_ground.c
+struct paint paint_ground(const struct spot *s);
 
 #endif
