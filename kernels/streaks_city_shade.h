@@ -78,7 +78,10 @@ RG_FN float streaks_float(rg_ctx rg, streaks_seen s, int word)
 RG_FN float streaks_is_ground(uint look)
 {
     uint kind = (look >> 8) & 255u;
-    return kind == STREAKS_KIND_ASPHALT ? 1.0f : kind == STREAKS_KIND_PAVING ? 0.6f : 0.0f;
+    // A sum, for of one choice within another gcc makes branches, and no vectors.
+    float asphalt = kind == STREAKS_KIND_ASPHALT ? 1.0f : 0.0f;
+    float paving = kind == STREAKS_KIND_PAVING ? 0.6f : 0.0f;
+    return asphalt + paving;
 }
 
 // --- lights ---

@@ -28,14 +28,18 @@ RG_FN float streaks_openness(rg_ctx rg, v3 at)
     float z = rg_clamp((at.z - STREAKS_OPEN_LOW_M) * (1.0f / STREAKS_OPEN_CELL_M), 0.0f, side);
     float y = rg_clamp(at.y * (1.0f / STREAKS_OPEN_CELL_M), 0.0f,
                        rg_to_float(STREAKS_OPEN_LEVELS - 1) - 0.001f);
-    int ix = rg_to_int(x);
-    int iz = rg_to_int(z);
-    int iy = rg_to_int(y);
-    float fx = x - rg_to_float(ix);
-    float fz = z - rg_to_float(iz);
+    // Floored before they are whole numbers: else gcc makes branches of the clamps, and no vectors.
+    float lx = rg_floor(x);
+    float lz = rg_floor(z);
+    float ly = rg_floor(y);
+    int ix = rg_to_int(lx);
+    int iz = rg_to_int(lz);
+    int iy = rg_to_int(ly);
+    float fx = x - lx;
+    float fz = z - lz;
     float lower = streaks_openness_level(rg, ix, iz, iy, fx, fz);
     float upper = streaks_openness_level(rg, ix, iz, iy + 1, fx, fz);
-    return (lower + (upper - lower) * (y - rg_to_float(iy))) * (1.0f / 255.0f);
+    return (lower + (upper - lower) * (y - ly)) * (1.0f / 255.0f);
 }
 
 #endif
