@@ -21,7 +21,7 @@ static void find_heights(const struct city *city, float heights[SIDE][SIDE])
                 const struct city_box *b = &city->boxes[i];
                 if (at[0] >= b->low[0] && at[0] <= b->high[0] && at[1] >= b->low[2] &&
                     at[1] <= b->high[2])
-                    heights[z][x] = fmaxf(heights[z][x], b->high[1]);
+                    heights[z][x] = rg_max(heights[z][x], b->high[1]);
             }
         }
     }
@@ -46,7 +46,7 @@ static void find_column(float heights[SIDE][SIDE], int x, int z, float open[LEVE
             const float over = 1 / (STREAKS_OPEN_CELL_M * (float)step);
             for (int level = 0; level < LEVELS; level++)
                 steepest[level] =
-                    fmaxf(steepest[level], (height - STREAKS_OPEN_CELL_M * (float)level) * over);
+                    rg_max(steepest[level], (height - STREAKS_OPEN_CELL_M * (float)level) * over);
         }
         for (int level = 0; level < LEVELS; level++)
             open[level] += 1 - steepest[level] / sqrtf(1 + steepest[level] * steepest[level]);

@@ -1,7 +1,6 @@
 // Paints the city's textures: shared noise, and which painter paints what.
 #include "core/scene/city/paint.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "core/alloc.h"
@@ -23,15 +22,6 @@ struct facade_style city_facade_style(const struct city_settings *settings, int 
 
 // --- noise ---
 
-// 0 to 1, of a point of a lattice.
-static float lattice(int x, int y, uint32_t seed)
-{
-    uint32_t h = (uint32_t)x * 0x9e3779b1u ^ (uint32_t)y * 0x85ebca77u ^ seed * 0xc2b2ae3du;
-    h = (h ^ h >> 15) * 0x2c1b3c6du;
-    h = (h ^ h >> 12) * 0x297a2d39u;
-    return (float)((h ^ h >> 15) >> 8) * 0x1p-24f;
-}
-
 // Smooth noise of `across` x `down` cells over the unit square; it repeats.
 static float smooth(float u, float v, int across, int down, uint32_t seed)
 {
@@ -40,8 +30,8 @@ static float smooth(float u, float v, int across, int down, uint32_t seed)
     const int x0 = ix % across, x1 = (ix + 1) % across, y0 = iy % down, y1 = (iy + 1) % down;
     const float fx = x - (float)ix, fy = y - (float)iy;
     const float wx = fx * fx * (3 - 2 * fx), wy = fy * fy * (3 - 2 * fy);
-    const float a = lattice(x0, y0, seed), b = lattice(x1, y0, seed);
-    const float c = lattice(x0, y1, seed), d = lattice(x1, y1, seed);
+    const float a = paint_lattice(x0, y0, seed), b = paint_lattice(x1, y0, seed);
+    const float c = paint_lattice(x0, y1, seed), d = paint_lattice(x1, y1, seed);
     return a + (b - a) * wx + ((c + (d - c) * wx) - (a + (b - a) * wx)) * wy;
 }
 
@@ -88,7 +78,7 @@ struct city_painter *city_painter_create(const struct city_settings *settings)
         for (int x = 0; x < size; x++) {
             const float u = (float)x / (float)size, v = (float)y / (float)size;
             const size_t i = (size_t)y * (size_t)size + (size_t)x;
-            p->fine[i] = lattice(x, y, seed);
+            p->fine[i] = paint_lattice(x, y, seed);
             p->cloud[i] = octaves(u, v, 4, 4, seed + 1, 6);
             p->stain[i] = octaves(u, v, 48, 3, seed + 9, 3);
         }
@@ -96,54 +86,11 @@ struct city_painter *city_painter_create(const struct city_settings *settings)
     return p;
 }
 
-// --- what painters share ---
-
-static size_t shifted(const struct spot *s, int part)
-{
-    const int size = s->painter->size, shift = s->texture * 101 + part * 57;
-    return (size_t)((s->y + shift * 3) % size) * (size_t)size + (size_t)((s->x + shift) % size);
-}
-
-float paint_fine(const struct spot *s)
-{
-    return s->painter->fine[shifted(s, 0)];
-}
-
-float paint_cloud(const struct spot *s, int part)
-{
-    return s->painter->cloud[shifted(s, part)];
-}
-
-float paint_stain(const struct spot *s)
-{
-    return s->painter->stain[shifted(s, 0)];
-}
-
-float paint_chance(const struct spot *s, int k)
-{
-    return lattice(s->texture, k, s->painter->seed);
-}
-
-struct paint paint_mix(struct paint a, struct paint b, float t)
-{
-    return (struct paint){a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t,
-                          a.a + (b.a - a.a) * t};
-}
-
-struct paint paint_scaled(struct paint p, float by)
-{
-    return (struct paint){p.r * by, p.g * by, p.b * by, p.a};
-}
-
-float paint_line(float at, float every)
-{
-    const float share = at / every - floorf(at / every);
-    return fminf(share, 1 - share);
-}
+// --- texels ---
 
 static uint32_t byte_of(float v)
 {
-    return (uint32_t)(fminf(fmaxf(v, 0), 1) * 255 + 0.5f);
+    return (uint32_t)(rg_clamp(v, 0, 1) * 255 + 0.5f);
 }
 
 static struct paint paint_of(const struct spot *s)
@@ -162,7 +109,10 @@ static struct paint paint_of(const struct spot *s)
 void city_paint(const struct city_painter *painter, int texture, uint32_t *texels)
 {
     const int size = painter->size;
-    struct spot s = {.painter = painter, .texture = texture};
+    struct spot s = {.painter = painter,
+                     .texture = texture,
+                     .shift_x = texture * 101 % (size / 2),
+                     .shift_y = texture * 67 % (size / 2)};
     if (texture < PAINT_SHOP)
         s.style = city_facade_style(&painter->settings, texture);
     for (s.y = 0; s.y < size; s.y++) {

@@ -1,5 +1,4 @@
 // Roofs, roads, pavements, metal and plants.
-#include <math.h>
 
 #include "core/scene/city/paint.h"
 
@@ -15,7 +14,7 @@ static struct paint grey(float v)
 static struct paint asphalt(const struct spot *s)
 {
     const float cloud = paint_cloud(s, 0), fine = paint_fine(s);
-    const float crack = fabsf(paint_cloud(s, 3) - 0.5f) < 0.004f ? 0.75f : 1;
+    const float crack = rg_abs(paint_cloud(s, 3) - 0.5f) < 0.004f ? 0.75f : 1;
     const float v = (0.26f + 0.12f * cloud + 0.07f * (fine - 0.5f)) * crack;
     return (struct paint){v, v * 0.995f, v * 0.985f, 0};
 }
@@ -30,20 +29,23 @@ static struct paint lined(const struct spot *s, struct paint ground, struct pain
 // Lanes run along v. Distances in metres from the road's middle.
 static struct paint lanes(const struct spot *s, float width_m)
 {
-    const float from_middle = fabsf(s->u - 0.5f) * width_m, to_edge = width_m / 2 - from_middle;
+    const float from_middle = rg_abs(s->u - 0.5f) * width_m, to_edge = width_m / 2 - from_middle;
     const float along = s->v * width_m;
     const bool wide = width_m > 10;
     struct paint p = asphalt(s);
     // Tyres polish their tracks, and water runs along the kerb.
-    const float track = fabsf(paint_line(from_middle - 0.75f, 2.25f) - 0.25f);
+    const float track = rg_abs(paint_line(from_middle - 0.75f, 2.25f) - 0.25f);
     p = paint_scaled(p, 0.93f + 0.28f * track);
     if (to_edge < 0.5f)
         p = paint_scaled(p, 0.78f);
-    p = lined(s, p, white_line, fabsf(to_edge - 0.62f) / 0.06f);
+    p = lined(s, p, white_line, rg_abs(to_edge - 0.62f) / 0.06f);
     if (!wide)
-        return fmodf(along, 9) < 3 ? lined(s, p, white_line, from_middle / 0.07f) : p;
-    p = lined(s, p, yellow_line, fabsf(from_middle - 0.16f) / 0.06f);
-    return fmodf(along, 9) < 3 ? lined(s, p, white_line, fabsf(from_middle - 4.5f) / 0.07f) : p;
+        return along - 9 * rg_floor(along / 9) < 3 ? lined(s, p, white_line, from_middle / 0.07f)
+                                                   : p;
+    p = lined(s, p, yellow_line, rg_abs(from_middle - 0.16f) / 0.06f);
+    return along - 9 * rg_floor(along / 9) < 3
+               ? lined(s, p, white_line, rg_abs(from_middle - 4.5f) / 0.07f)
+               : p;
 }
 
 static struct paint crossing(const struct spot *s)
@@ -54,8 +56,8 @@ static struct paint crossing(const struct spot *s)
 
 static struct paint stop(const struct spot *s)
 {
-    struct paint p = lined(s, asphalt(s), white_line, fabsf(s->v - 0.5f) / 0.06f);
-    return lined(s, p, white_line, fabsf(s->u - 0.5f) / 0.008f);
+    struct paint p = lined(s, asphalt(s), white_line, rg_abs(s->v - 0.5f) / 0.06f);
+    return lined(s, p, white_line, rg_abs(s->u - 0.5f) / 0.008f);
 }
 
 // Slabs of stone, `across` a texture's width.
@@ -64,7 +66,7 @@ static struct paint slabs(const struct spot *s, int across, struct paint colour,
     const int x = (int)(s->u * (float)across), y = (int)(s->v * (float)across);
     const float each = paint_chance(s, y * across + x);
     const float line =
-        fminf(paint_line(s->u, 1 / (float)across), paint_line(s->v, 1 / (float)across));
+        rg_min(paint_line(s->u, 1 / (float)across), paint_line(s->v, 1 / (float)across));
     const float v = (0.88f + 0.1f * each) * (0.86f + 0.24f * paint_cloud(s, 0)) *
                     (0.96f + 0.08f * paint_fine(s));
     return paint_scaled(colour, line < joint ? v * 0.72f : v);
@@ -112,8 +114,8 @@ static struct paint metal(const struct spot *s)
 
 static struct paint leaves(const struct spot *s)
 {
-    const float c = paint_cloud(s, 0), d = paint_cloud(s, 4), fine = paint_fine(s);
-    const float clump = fminf(fmaxf((c - 0.32f) * 3, 0.12f), 1);
+    const float c = paint_cloud(s, 0), d = paint_cloud(s, 2), fine = paint_fine(s);
+    const float clump = rg_min(rg_max((c - 0.32f) * 3, 0.12f), 1);
     const float light = clump * (0.55f + 0.5f * d) * (0.75f + 0.5f * fine);
     const bool second = s->texture == PAINT_LEAVES + 1;
     return (struct paint){light * (second ? 0.50f : 0.38f), light * (second ? 0.58f : 0.55f),

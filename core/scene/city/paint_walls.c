@@ -1,6 +1,4 @@
 // Walls, facades with windows, curtain walls and shops.
-#include <math.h>
-
 #include "core/scene/city/paint.h"
 
 // --- walls ---
@@ -29,9 +27,9 @@ struct block {
 
 static struct block block_at(float u, float v, int across, int down, float joint_u, float joint_v)
 {
-    const float y = v * (float)down, row = floorf(y);
+    const float y = v * (float)down, row = rg_floor(y);
     const float x = u * (float)across + ((int)row & 1 ? 0.5f : 0);
-    const float column = floorf(x);
+    const float column = rg_floor(x);
     const uint32_t id = (uint32_t)((int)column % across) * 7919u + (uint32_t)row * 104729u;
     const uint32_t h = (id ^ id >> 9) * 0x9e3779b1u;
     const float fx = x - column, fy = y - row;
@@ -81,7 +79,7 @@ static struct paint behind_glass(const struct spot *s, int id, float x, float y,
     if (lit) { // warm rooms, and cooler offices
         const struct paint warm = {0.98f, 0.80f, 0.52f, 0.9f}, cool = {0.86f, 0.92f, 0.95f, 0.8f};
         glass = paint_mix(warm, cool, tone > 0.6f ? 1 : tone * 0.5f);
-        const float fall = 0.62f + 0.38f * y - 0.3f * fabsf(x - 0.5f);
+        const float fall = 0.62f + 0.38f * y - 0.3f * rg_abs(x - 0.5f);
         const float things = y < 0.4f * drawn && paint_line(x + tone, 0.37f) < 0.3f ? 0.55f : 1;
         glass = paint_scaled(glass, fall * things);
         glass.a *= (0.45f + 0.55f * paint_chance(s, 4 * id + 3)) * fall * things;
@@ -90,7 +88,7 @@ static struct paint behind_glass(const struct spot *s, int id, float x, float y,
     const struct paint cloth = {0.72f, 0.70f, 0.65f, glass.a * 0.5f};
     if (drawn < 0.3f && y > 1 - 2.5f * drawn)
         return paint_scaled(cloth, paint_line(y, 0.06f) < 0.15f ? 0.82f : 0.95f);
-    if (drawn > 0.75f && fabsf(x - 0.5f) > 0.32f)
+    if (drawn > 0.75f && rg_abs(x - 0.5f) > 0.32f)
         return paint_scaled(cloth, 0.75f + 0.25f * paint_line(x, 0.07f) * 2);
     return glass;
 }
@@ -125,7 +123,7 @@ struct paint paint_facade(const struct spot *s)
     const float light = paint_chance(s, 1000) < 0.6f ? 0.82f : 0.30f;
     const struct paint frame = {light, light, light * 0.97f, 0};
     const bool in_frame = x < 0.04f || x > 0.96f || y < 0.035f || y > 0.965f ||
-                          fabsf(x - 0.5f) < 0.02f || fabsf(y - 0.66f) < 0.015f;
+                          rg_abs(x - 0.5f) < 0.02f || rg_abs(y - 0.66f) < 0.015f;
     if (in_frame)
         return paint_scaled(frame, 0.85f + 0.15f * paint_cloud(s, 0));
     // The reveal's shadow falls on the glass.
@@ -143,7 +141,7 @@ struct paint paint_curtain(const struct spot *s)
     const struct paint tint = tints[s->texture % 6];
     const float bottom = (float)style.bottom;
     if (bay.x < 0.03f || bay.x > 0.97f || bay.y < 0.02f || bay.y > 0.98f ||
-        fabsf(bay.y - bottom) < 0.015f)
+        rg_abs(bay.y - bottom) < 0.015f)
         return paint_scaled((struct paint){0.42f, 0.43f, 0.44f, 0},
                             0.9f + 0.2f * paint_cloud(s, 0));
     if (bay.y < bottom) // the panel before the floor's slab
@@ -174,12 +172,12 @@ static struct paint paint_sign(const struct spot *s, float y)
 {
     const bool bright = paint_chance(s, 3) < 0.6f;
     struct paint board = paint_scaled(sign_colour(s, 1), 0.9f + 0.1f * paint_cloud(s, 0));
-    const float middle = fabsf(s->u - 0.5f);
-    const int letter = (int)floorf(s->u * 40);
+    const float middle = rg_abs(s->u - 0.5f);
+    const int letter = (int)rg_floor(s->u * 40);
     const float in_letter = s->u * 40 - (float)letter;
     const bool strokes = in_letter > 0.18f &&
                          (in_letter < 0.42f || in_letter > 0.78f ||
-                          fabsf(y - 0.25f - 0.5f * paint_chance(s, 40 + letter)) < 0.09f) &&
+                          rg_abs(y - 0.25f - 0.5f * paint_chance(s, 40 + letter)) < 0.09f) &&
                          y > 0.2f && y < 0.8f && middle < 0.2f + 0.15f * paint_chance(s, 5) &&
                          paint_chance(s, 100 + letter) < 0.85f;
     board.a = bright ? 0.35f : 0;
@@ -196,12 +194,12 @@ struct paint paint_shop(const struct spot *s)
         return paint_scaled(trim, 0.8f);
     if (y > 0.74f)
         return paint_sign(s, (y - 0.74f) / 0.16f);
-    const bool door = fabsf(s->u - 0.72f) < 0.09f;
+    const bool door = rg_abs(s->u - 0.72f) < 0.09f;
     if (y < (door ? 0.015f : 0.12f))
         return trim;
     const float frame =
-        door ? fabsf(fabsf(s->u - 0.72f) - 0.085f) : paint_line(s->u + 0.06f, 0.33f) * 0.33f;
-    if (frame < 0.008f || fabsf(y - 0.60f) < 0.008f || y > 0.725f)
+        door ? rg_abs(rg_abs(s->u - 0.72f) - 0.085f) : paint_line(s->u + 0.06f, 0.33f) * 0.33f;
+    if (frame < 0.008f || rg_abs(y - 0.60f) < 0.008f || y > 0.725f)
         return paint_scaled(trim, 0.7f);
     // The lit inside: shelves and goods, and what is darker near the floor.
     const float depth = 0.55f + 0.45f * y;
