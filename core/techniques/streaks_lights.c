@@ -9,8 +9,8 @@
 
 static bool check(const struct streaks_lights_settings *s)
 {
-    require(s->count >= 1 && s->count <= STREAKS_MAX_LIGHTS,
-            "lights: %d asked for; choose from 1 to %d", s->count, STREAKS_MAX_LIGHTS);
+    require(s->count >= 0 && s->count <= STREAKS_MAX_LIGHTS,
+            "lights: %d asked for; choose from 0 to %d", s->count, STREAKS_MAX_LIGHTS);
     require(!s->shadows || (s->shadow_map_px >= 16 && s->shadow_map_px <= 16384),
             "shadow_map_px: %d; choose from 16 to 16384", s->shadow_map_px);
     return true;

@@ -143,7 +143,7 @@ static bool create_lights(struct streaks *s)
                                                .shadow_map_px = set->shadow_map_px};
     const struct city_lamp *lamps;
     settings.lamp_count = streaks_scene_lamps(s->scene, &lamps);
-    settings.lamps = (const void *)lamps;
+    settings.lamps = lamps;
     memcpy(settings.about_m, s->camera.position, sizeof(settings.about_m));
     memcpy(settings.low_m, faces->low, sizeof(settings.low_m));
     memcpy(settings.high_m, faces->high, sizeof(settings.high_m));

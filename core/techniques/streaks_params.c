@@ -1,4 +1,5 @@
 #include "core/techniques/streaks.h"
+#include "core/techniques/streaks_packets.h"
 
 #define AT(field) offsetof(struct streaks_settings, field)
 
@@ -11,7 +12,7 @@ static const struct rg_param rows[] = {
     {"slant_deg", RG_PARAM_FLOAT, AT(slant_deg), 0, 0, 60, "deg", "how far the fall leans from straight down", NULL},
     {"slant_azimuth_deg", RG_PARAM_FLOAT, AT(slant_azimuth_deg), 0, -360, 360, "deg", "where to: 0 along x, 90 along z", NULL},
     {"density_map", RG_PARAM_FILE, AT(density_map), 0, 0, 0, "file", "an image whose grey is the density of drops, white the densest; none: a round gradient", ""},
-    {"drops_m2_s", RG_PARAM_FLOAT, AT(drops_m2_s), 535.5, 0, 1e9, "1/(m2 s)", "drops where the density map is white", NULL},
+    {"drops_m2_s", RG_PARAM_FLOAT, AT(drops_m2_s), STREAKS_DEFAULT_DROPS_M2_S, 0, 1e9, "1/(m2 s)", "drops where the density map is white", NULL},
     {"fall_speed_m_s", RG_PARAM_FLOAT, AT(fall_speed_m_s), 8.16, 0.01, 1000, "m/s", "of all drops", NULL},
     {"local_height_m", RG_PARAM_FLOAT, AT(local_height_m), 20, 0.1, 10000, "m", "between the local top and the local ground", NULL},
     {"culling_radius_m", RG_PARAM_FLOAT, AT(culling_radius_m), 20, 0.1, 100000, "m", "how far around the observer it rains", NULL},

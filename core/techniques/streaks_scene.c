@@ -21,7 +21,6 @@ struct streaks_scene {
     struct rg_image *numbers; // of the last target's size
     struct rg_pass *draw, *shade;
     int levels;
-    struct streaks_lamp *lamps;
     struct streaks_cull cull;
     bool *seen;       // by chunk: in the present draw
     uint32_t *blocks; // two words each
@@ -132,22 +131,6 @@ static bool create_openness(struct streaks_scene *s)
     return s->openness;
 }
 
-// The city's lamps as streaks_lights takes them.
-static bool take_lamps(struct streaks_scene *s)
-{
-    const struct city *city = s->city;
-    s->lamps = rg_alloc((size_t)city->lamp_count, sizeof(*s->lamps), "scene");
-    for (int i = 0; s->lamps && i < city->lamp_count; i++) {
-        const struct city_lamp *lamp = &city->lamps[i];
-        s->lamps[i].kind = lamp->kind == CITY_STREET_LAMP   ? STREAKS_STREET_LAMP
-                           : lamp->kind == CITY_TRAFFIC_RED ? STREAKS_TRAFFIC_RED
-                                                            : STREAKS_TRAFFIC_GREEN;
-        memcpy(s->lamps[i].position_m, lamp->position, sizeof(lamp->position));
-        memcpy(s->lamps[i].direction, lamp->direction, sizeof(lamp->direction));
-    }
-    return s->lamps;
-}
-
 static bool create_buffers(struct streaks_scene *s)
 {
     const struct city_faces *f = &s->city->faces;
@@ -184,7 +167,6 @@ void streaks_scene_put(struct streaks_scene *s)
     rg_image_destroy(s->textures);
     rg_image_destroy(s->numbers);
     city_destroy(s->city);
-    free(s->lamps);
     free(s->seen);
     free(s->blocks);
     free(s);
@@ -198,7 +180,7 @@ struct streaks_scene *streaks_scene_get(struct rg_device *device,
         return NULL;
     s->device = device;
     if ((s->city = city_create(&settings->city)) && create_buffers(s) && create_openness(s) &&
-        take_lamps(s) && create_textures(s) && (s->draw = rg_pass_create(device, "streaks_city")) &&
+        create_textures(s) && (s->draw = rg_pass_create(device, "streaks_city")) &&
         (s->shade = rg_pass_create(device, "streaks_city_shade")))
         return s;
     streaks_scene_put(s);
@@ -210,9 +192,9 @@ const struct city_faces *streaks_scene_faces(const struct streaks_scene *s)
     return &s->city->faces;
 }
 
-int streaks_scene_lamps(const struct streaks_scene *s, const struct streaks_lamp **lamps)
+int streaks_scene_lamps(const struct streaks_scene *s, const struct city_lamp **lamps)
 {
-    *lamps = s->lamps;
+    *lamps = s->city->lamps;
     return s->city->lamp_count;
 }
 

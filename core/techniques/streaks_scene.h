@@ -28,7 +28,7 @@ void streaks_scene_put(struct streaks_scene *scene);
 // What is known of it: triangles, surfaces, bounds, chunks; its lamps (none on a user's mesh); its
 // hash. They live as long as the scene.
 const struct city_faces *streaks_scene_faces(const struct streaks_scene *scene);
-int streaks_scene_lamps(const struct streaks_scene *scene, const struct streaks_lamp **lamps);
+int streaks_scene_lamps(const struct streaks_scene *scene, const struct city_lamp **lamps);
 uint64_t streaks_scene_hash(const struct streaks_scene *scene);
 // The surfaces' words (kernels/streaks_surface.h), for kernels.
 struct rg_buf *streaks_scene_surfaces(const struct streaks_scene *scene);
