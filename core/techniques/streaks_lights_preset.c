@@ -106,7 +106,7 @@ static bool choose_preset(const struct streaks_lights_settings *s, struct rg_lig
     struct choice choice = {.lights = lights};
     *lights = (struct rg_lights){0};
     memcpy(lights->sky, sky_colours[s->time], sizeof(lights->sky));
-    if (s->time == STREAKS_DAY)
+    if (s->time == STREAKS_DAY && s->count > 0)
         add_sun(s, lights);
     add_lamps(s, 1u << CITY_STREET_LAMP, STREET_LAMPS_FIRST, &choice);
     add_lamps(s, 1u << CITY_TRAFFIC_RED, 1, &choice);
