@@ -113,7 +113,7 @@ static int list_blocks(struct streaks_scene *s)
 }
 
 static bool draw_faces(struct streaks_scene *s, struct rg_instance *instance, m4 to_clip,
-                       const struct rg_draw *onto, enum rg_cull cull)
+                       const struct rg_draw *onto, enum rg_cull cull, bool everything)
 {
     const streaks_city_params params = {to_clip};
     struct rg_draw draw = *onto;
@@ -121,6 +121,8 @@ static bool draw_faces(struct streaks_scene *s, struct rg_instance *instance, m4
     draw.depth_mode = RG_DEPTH_WRITE;
     draw.cull = cull;
     streaks_cull(&s->cull, to_clip, cull == RG_CULL_BACK, s->seen);
+    for (int i = 0; everything && i < s->made->city->faces.chunk_count; i++)
+        s->seen[i] = true;
     const int blocks = list_blocks(s);
     s->work =
         (struct streaks_scene_work){.chunks = s->made->city->faces.chunk_count, .blocks = blocks};
@@ -143,13 +145,13 @@ bool streaks_scene_depth(struct streaks_scene *scene, struct rg_instance *instan
 {
     struct rg_draw depth = *onto;
     depth.colour = NULL;
-    return draw_faces(scene, instance, to_clip, &depth, RG_CULL_NONE);
+    return draw_faces(scene, instance, to_clip, &depth, RG_CULL_NONE, false);
 }
 
 bool streaks_scene_numbers(struct streaks_scene *scene, struct rg_instance *instance, m4 to_clip,
                            const struct rg_draw *onto)
 {
-    return draw_faces(scene, instance, to_clip, onto, RG_CULL_NONE);
+    return draw_faces(scene, instance, to_clip, onto, RG_CULL_NONE, false);
 }
 
 static bool fit_numbers(struct streaks_scene *s, const struct rg_image *target)
@@ -263,8 +265,8 @@ bool streaks_scene_draw(struct streaks_scene *s, struct rg_instance *instance,
         return false;
     struct rg_draw numbered = onto;
     numbered.colour = s->numbers;
-    if (geometry && !draw_faces(s, instance, view->to_clip, &numbered,
-                                s->made->city->is_mesh ? RG_CULL_NONE : RG_CULL_BACK))
+    const enum rg_cull cull = s->made->city->is_mesh ? RG_CULL_NONE : RG_CULL_BACK;
+    if (geometry && !draw_faces(s, instance, view->to_clip, &numbered, cull, view->everything))
         return false;
     return shade(s, instance, view, look, lights);
 }
