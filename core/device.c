@@ -10,6 +10,7 @@
 #include "core/draw.h"
 #include "core/log.h"
 #include "core/require.h"
+#include "core/shared.h"
 
 static const struct {
     const char *name;
@@ -186,17 +187,18 @@ bool rg_device_close(struct rg_device *device)
 {
     if (!device)
         return true;
+    const bool shared_clean = rg_shared_close(device);
     rg_packing_destroy(device);
     device->backend->sync(device);
     const struct rg_work *w = device->work;
-    bool clean = !w->live_buffers && !w->live_images && !w->live_passes;
+    const bool clean = !w->live_buffers && !w->live_images && !w->live_passes;
     if (!clean)
         rg_error("device '%s': closed with %lld buffers, %lld images and %lld passes not destroyed",
                  device->info.name, (long long)w->live_buffers, (long long)w->live_images,
                  (long long)w->live_passes);
     free(device->work);
     device->backend->destroy(device);
-    return clean;
+    return clean && shared_clean;
 }
 
 const struct rg_work *rg_device_work(const struct rg_device *device)

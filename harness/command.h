@@ -31,6 +31,7 @@ enum rg_option_bits {
     RG_OPT_EXPOSURE = 1 << 9,    // --exposure X
     RG_OPT_BACKGROUND = 1 << 10, // --background FILE
     RG_OPT_FRESH = 1 << 11,      // --fresh
+    RG_OPT_FROM = 1 << 12,       // --from DIR
 };
 
 enum { RG_MAX_SETS = 64, RG_MAX_ARGS = 64 };
@@ -41,7 +42,7 @@ struct rg_options {
     int set_count;
     int width, height; // 0: not given
     int frame;         // -1: not given
-    char *output, *format, *background;
+    char *output, *format, *background, *from;
     bool json, quick, full, fresh;
     int first_row, last_row;       // from 1; 0: not given
     double exposure;               // 0: not given

@@ -45,6 +45,9 @@ static int build(const struct rg_command *command, struct rg_options *o, int *fl
         {RG_OPT_BACKGROUND,
          {"background", 0, POPT_ARG_STRING, &o->background, 0,
           "the picture without rain: differences are gated where it rains", "FILE"}},
+        {RG_OPT_FROM,
+         {"from", 0, POPT_ARG_STRING, &o->from, 0, "the folder to read instead of making it",
+          "DIR"}},
         {RG_OPT_LENGTH, {"quick", 0, POPT_ARG_NONE, &flags[0], 0, "few samples or steps", NULL}},
         {RG_OPT_LENGTH, {"full", 0, POPT_ARG_NONE, &flags[1], 0, "many samples or steps", NULL}},
         {RG_OPT_FRESH,
@@ -216,6 +219,7 @@ void rg_options_free(struct rg_options *o)
     free(o->output);
     free(o->format);
     free(o->background);
+    free(o->from);
     poptFreeContext(o->context);
 }
 

@@ -10,13 +10,15 @@ RG_STRUCT(streaks_city_shade_params)
     m4 from_pixel; // from (pixel x, pixel y, depth, 1) to the world, before division by w
     streaks_sky sky;
     float eye_x, eye_y, eye_z;
-    float pixel_m;             // a pixel's width at w = 1, in metres
-    float ambient;             // share of the sky's light that lights surfaces
-    float glow;                // light of lit windows
-    float sun_x, sun_y, sun_z; // towards it, of unit length
-    float sun;                 // its light
+    float pixel_m; // a pixel's width at w = 1, in metres
+    float ambient; // of the sky's light from above: what surfaces get that see all of it
+    float bounced; // what those get that see nothing of it
+    float glow;    // light of lit windows and lamps
+    float wet;     // 0 to 1: how wet the ground is
     int texture_px;
     int last_level;
+    int lights;
+    int nothing; // makes whole rows of four
 };
 RG_STRUCT_SIZE(streaks_city_shade_params, 36)
 

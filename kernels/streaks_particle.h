@@ -18,18 +18,28 @@ RG_STRUCT(streaks_particle)
     uint number; // in its buffer
 };
 
-// s of the first surface at a place, and of the ground where the map does not reach.
+// Truth values are numbers here, which gcc can turn into masks.
+RG_FN int streaks_below(float a, float b)
+{
+    return a < b ? 1 : 0;
+}
+
+// s of the first surface at a place, and of the ground where the map does not reach. Sums of
+// products with 0 and 1 choose, for gcc moves what only one branch of a choice reads into the
+// branch.
 RG_FN float streaks_hit(rg_ctx rg, streaks_params p, float x, float y)
 {
-    int width = depths_width(rg, 0);
-    int height = depths_height(rg, 0);
-    float u = (x - p.map_x) * p.map_per_x * rg_to_float(width);
-    float v = (y - p.map_y) * p.map_per_y * rg_to_float(height);
-    float tx = rg_clamp(u, 0.0f, rg_to_float(width - 1));
-    float ty = rg_clamp(v, 0.0f, rg_to_float(height - 1));
-    float depth = depths_texel(rg, rg_to_int(tx), rg_to_int(ty), 0, 0).r;
-    bool inside = u >= 0.0f && v >= 0.0f && u < rg_to_float(width) && v < rg_to_float(height);
-    return inside ? p.map_top + depth * p.map_height : p.ground;
+    float width = rg_to_float(depths_width(rg, 0));
+    float height = rg_to_float(depths_height(rg, 0));
+    float u = (x - p.map_x) * p.map_per_x * width;
+    float v = (y - p.map_y) * p.map_per_y * height;
+    int tx = rg_to_int(rg_clamp(u, 0.0f, width - 1.0f));
+    int ty = rg_to_int(rg_clamp(v, 0.0f, height - 1.0f));
+    float depth = depths_texel(rg, tx, ty, 0, 0).r;
+    int outside = streaks_below(u, 0.0f) | streaks_below(v, 0.0f) | streaks_below(width, u) |
+                  streaks_below(height, v);
+    float inside = rg_to_float(1 - outside);
+    return inside * (p.map_top + depth * p.map_height) + (1.0f - inside) * p.ground;
 }
 
 // What a particle is, its streak's upper end being `past` below the surface that it hits. It comes
@@ -39,13 +49,14 @@ RG_FN streaks_particle streaks_state(streaks_params p, streaks_particle particle
 {
     streaks_particle t = particle;
     float past = (t.s - p.behind) - t.hit;
-    bool falling = past < 0.0f;
-    float since = falling ? past + p.local_height : past;
+    int falling = streaks_below(past, 0.0f);
+    float since = past + rg_to_float(falling) * p.local_height;
     float lasts = rg_min(p.splash_s * p.fall_speed, p.local_height);
-    bool splash = since >= 0.0f && since < lasts && t.hit < p.top + p.local_height;
+    int splash = (1 - streaks_below(since, 0.0f)) & streaks_below(since, lasts) &
+                 streaks_below(t.hit, p.top + p.local_height);
     t.age = since / p.fall_speed;
     t.state =
-        splash ? p.splashes * STREAKS_SPLASH : (falling ? p.drops * STREAKS_DROP : STREAKS_NOTHING);
+        splash * p.splashes * STREAKS_SPLASH + (1 - splash) * falling * p.drops * STREAKS_DROP;
     return t;
 }
 
@@ -67,9 +78,9 @@ RG_FN streaks_particle streaks_particle_at(rg_ctx rg, streaks_params p, int i)
     t.hit = streaks_hit(rg, p, t.x, t.y);
     t.age = 0.0f;
     t = streaks_state(p, t);
-    uint counted = (blocks_at(rg, block + 1) >> rg_to_uint(in_block)) & 1u;
+    int counted = rg_to_int((blocks_at(rg, block + 1) >> rg_to_uint(in_block)) & 1u);
     float away = rg_max(rg_abs(t.x - p.eye_x), rg_abs(t.y - p.eye_y));
-    t.state = counted == 0u || (p.exact != 0 && away > p.radius) ? STREAKS_NOTHING : t.state;
+    t.state = t.state * counted * (1 - p.exact * streaks_below(p.radius, away));
     return t;
 }
 

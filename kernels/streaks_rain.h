@@ -20,15 +20,25 @@
 #define RG_LIGHTS
 
 // What the fragments of a billboard share. v grows from `base` along `axis`, u to the side.
+// Flat: gcc gathers words of a flat record for many pixels at once, not those of nested ones.
 RG_STRUCT(streaks_billboard)
 {
-    rg_planes planes;
-    v3 base; // the middle of its lower end: a drop's, or the place that was hit
-    v3 axis; // to the other end
+    // rg_planes
+    float origin_x, origin_y;
+    float inverse_w_x, inverse_w_y, inverse_w_at;
+    float u_x, u_y, u_at;
+    float v_x, v_y, v_at;
+    float depth_x, depth_y, depth_at;
+    float nearest, farthest;
+    float base_x, base_y,
+        base_s; // the middle of its lower end: a drop's, or the place that was hit
+    float axis_x, axis_y, axis_s; // to the other end
     float hit;
-    int splash;      // 1, or 0 of a drop
-    int layer;       // of its image: oscillation, or a splash's first frame
-    int level;       // of its image, a drop's as the full atlas counts
+    float splash;    // 1, or 0 of a drop
+    int oscillation; // its image's layer and level, as the full atlas counts; of a splash any
+    int level;
+    int crown; // the first layer and the level of a splash's images; of a drop any
+    int crown_level;
     float frame;     // of the splash
     float flip;      // 1: mirrored
     float view;      // the camera's elevation, in steps of the atlas, 0 to 4
@@ -59,14 +69,14 @@ RG_FN float streaks_size(uint random)
 
 RG_FN streaks_shape streaks_shape_of(streaks_params p, streaks_particle t)
 {
-    bool splash = t.state == STREAKS_SPLASH;
+    int splash = t.state == STREAKS_SPLASH ? 1 : 0;
     float size = streaks_size(streaks_hash(t.number));
     float tall = p.splash_height * size;
     streaks_shape shape;
-    shape.base = v3_make(t.x, t.y, splash ? t.hit : t.s + p.ahead);
-    shape.axis = v3_make(splash ? p.up_x * tall : 0.0f, splash ? p.up_y * tall : 0.0f,
-                         splash ? p.up_s * tall : -(p.ahead + p.behind));
-    shape.half_width = splash ? 0.5f * p.splash_width * size : p.half_width;
+    shape.base = v3_make(t.x, t.y, splash != 0 ? t.hit : t.s + p.ahead);
+    shape.axis = v3_make(splash != 0 ? p.up_x * tall : 0.0f, splash != 0 ? p.up_y * tall : 0.0f,
+                         splash != 0 ? p.up_s * tall : -(p.ahead + p.behind));
+    shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : p.half_width;
     return shape;
 }
 
@@ -131,16 +141,44 @@ RG_FN streaks_billboard streaks_look(streaks_params p, streaks_billboard of, str
     v3 middle = v3_add(shape.base, v3_scale(shape.axis, 0.5f));
     v3 to_eye = v3_unit(v3_make(p.eye_x - middle.x, p.eye_y - middle.y, p.eye_s - middle.z));
     float elevation = streaks_elevation(to_eye);
-    r.below = elevation < 0.0f && p.paper_angles == 0 ? -1.0f : 1.0f;
+    r.below = 1.0f - rg_to_float(2 * streaks_below(elevation, 0.0f) * (1 - p.paper_angles));
     r.view = rg_min(rg_abs(elevation), rg_to_float(STREAKS_VIEWS - 1));
     float across = 1.0f / rg_max(rg_hypot(to_eye.x, to_eye.y), 1e-6f);
     r.towards_x = to_eye.x * across;
     r.towards_y = to_eye.y * across;
     float distance = rg_max(m4_project(p.to_clip, middle).w, 1e-3f);
     float pixels = 2.0f * shape.half_width * p.focal_px / distance;
-    float texels = rg_to_float(r.splash != 0 ? STREAKS_SPLASH_PX : STREAKS_CELL_PX);
-    int level = streaks_level(texels, pixels, r.splash != 0 ? STREAKS_SPLASH_LAST : p.last_level);
-    r.level = rg_imax(level, r.splash != 0 ? 0 : p.first_level);
+    r.level =
+        rg_imax(streaks_level(rg_to_float(STREAKS_CELL_PX), pixels, p.last_level), p.first_level);
+    r.crown_level = streaks_level(rg_to_float(STREAKS_SPLASH_PX), pixels, STREAKS_SPLASH_LAST);
+    return r;
+}
+
+RG_FN streaks_billboard streaks_placed(streaks_billboard of, rg_planes planes, streaks_shape shape)
+{
+    streaks_billboard r = of;
+    r.origin_x = planes.origin_x;
+    r.origin_y = planes.origin_y;
+    r.inverse_w_x = planes.inverse_w.x;
+    r.inverse_w_y = planes.inverse_w.y;
+    r.inverse_w_at = planes.inverse_w.at;
+    r.u_x = planes.b.x;
+    r.u_y = planes.b.y;
+    r.u_at = planes.b.at;
+    r.v_x = planes.c.x;
+    r.v_y = planes.c.y;
+    r.v_at = planes.c.at;
+    r.depth_x = planes.depth.x;
+    r.depth_y = planes.depth.y;
+    r.depth_at = planes.depth.at;
+    r.nearest = planes.nearest;
+    r.farthest = planes.farthest;
+    r.base_x = shape.base.x;
+    r.base_y = shape.base.y;
+    r.base_s = shape.base.z;
+    r.axis_x = shape.axis.x;
+    r.axis_y = shape.axis.y;
+    r.axis_s = shape.axis.z;
     return r;
 }
 
@@ -153,15 +191,13 @@ RG_FN streaks_billboard streaks_billboard_of(rg_ctx rg, rg_draw_state draw, stre
     corner.c = item.d;
     uint random = streaks_hash(t.number);
     streaks_billboard r;
-    r.planes = rg_planes_of(draw, corner);
-    r.base = shape.base;
-    r.axis = shape.axis;
+    r = streaks_placed(r, rg_planes_of(draw, corner), shape);
     r.hit = t.hit;
-    r.splash = t.state == STREAKS_SPLASH ? 1 : 0;
-    int material = p.materials > 1 ? rg_to_int(random >> 20) % p.materials : 0;
-    r.layer = r.splash != 0 ? material * STREAKS_FRAMES : t.oscillation;
+    r.splash = t.state == STREAKS_SPLASH ? 1.0f : 0.0f;
+    r.oscillation = t.oscillation;
+    r.crown = rg_to_int(((random >> 20) * rg_to_uint(p.materials)) >> 12) * STREAKS_FRAMES;
     r.frame = rg_clamp(t.age / p.splash_s, 0.0f, 0.999f) * rg_to_float(STREAKS_FRAMES);
-    r.flip = r.splash != 0 && (random & 1024u) != 0u ? 1.0f : 0.0f;
+    r.flip = rg_to_float(rg_to_int((random >> 10) & 1u));
     return streaks_look(p, r, shape);
 }
 
@@ -173,17 +209,20 @@ RG_STRUCT(streaks_spot)
     float u;
     float v;
     v3 at;
+    float depth;
 };
 
 RG_FN streaks_spot streaks_spot_at(streaks_billboard r, int px, int py)
 {
-    float dx = rg_to_float(px) + 0.5f - r.planes.origin_x;
-    float dy = rg_to_float(py) + 0.5f - r.planes.origin_y;
-    float w = rg_planes_w(r.planes, px, py);
+    float dx = rg_to_float(px) + 0.5f - r.origin_x;
+    float dy = rg_to_float(py) + 0.5f - r.origin_y;
+    float w = 1.0f / rg_max(r.inverse_w_x * dx + r.inverse_w_y * dy + r.inverse_w_at, RG_LEAST_W);
     streaks_spot spot;
-    spot.u = rg_clamp(rg_plane_at(r.planes.b, dx, dy) * w, 0.0f, 1.0f);
-    spot.v = rg_clamp(rg_plane_at(r.planes.c, dx, dy) * w, 0.0f, 1.0f);
-    spot.at = v3_add(r.base, v3_scale(r.axis, spot.v));
+    spot.u = rg_clamp((r.u_x * dx + r.u_y * dy + r.u_at) * w, 0.0f, 1.0f);
+    spot.v = rg_clamp((r.v_x * dx + r.v_y * dy + r.v_at) * w, 0.0f, 1.0f);
+    spot.at = v3_make(r.base_x + r.axis_x * spot.v, r.base_y + r.axis_y * spot.v,
+                      r.base_s + r.axis_s * spot.v);
+    spot.depth = rg_clamp(r.depth_x * dx + r.depth_y * dy + r.depth_at, r.nearest, r.farthest);
     return spot;
 }
 
@@ -192,25 +231,13 @@ RG_FN int streaks_view_below(streaks_billboard r)
     return rg_imin(rg_to_int(r.view), STREAKS_VIEWS - 2);
 }
 
-RG_FN int streaks_drop_layer(streaks_billboard r)
-{
-    return r.splash != 0 ? 0 : r.layer;
-}
-
-// Of the full atlas.
-RG_FN int streaks_drop_level(streaks_params p, streaks_billboard r)
-{
-    return r.splash != 0 ? p.first_level : r.level;
-}
-
 RG_FN float streaks_point_texture(rg_ctx rg, streaks_params p, streaks_billboard r, int view,
                                   int column, float u, float v)
 {
-    int level = streaks_drop_level(p, r);
-    int layer = streaks_drop_layer(r);
-    streaks_place at = streaks_cell(column, view, u, v, level);
-    float factor = factors_at(rg, (layer * STREAKS_VIEWS + view) * STREAKS_COLUMNS + column);
-    return points_between(rg, at.x, at.y, layer, level - p.first_level).r * factor;
+    streaks_place at = streaks_cell(column, view, u, v, r.level);
+    float factor =
+        factors_at(rg, (r.oscillation * STREAKS_VIEWS + view) * STREAKS_COLUMNS + column);
+    return points_between(rg, at.x, at.y, r.oscillation, r.level - p.first_level).r * factor;
 }
 
 RG_FN float streaks_between(float a, float b, float t)
@@ -281,18 +308,16 @@ RG_FN rgba streaks_lit_by(rg_ctx rg, streaks_params p, streaks_billboard r, int 
         reach.to_light.x * p.up_x + reach.to_light.y * p.up_y + reach.to_light.z * p.up_s, 0.0f);
     float streak = streaks_streak(rg, p, r, reach.to_light, spot.u, spot.v);
     float share =
-        reach.share * streaks_unshadowed(rg, l, spot.at) * (r.splash != 0 ? matt : streak);
+        reach.share * streaks_unshadowed(rg, l, spot.at) * streaks_between(streak, matt, r.splash);
     return rg_rgba(l.r * share, l.g * share, l.b * share, 0.0f);
 }
 
 RG_FN float streaks_sky_texture(rg_ctx rg, streaks_params p, streaks_billboard r, int view, float u,
                                 float v)
 {
-    int level = streaks_drop_level(p, r);
-    int layer = streaks_drop_layer(r);
-    streaks_place at = streaks_cell(0, view, u, v, level);
-    float factor = factors_at(rg, STREAKS_SKY_FACTORS + layer * STREAKS_VIEWS + view);
-    return skies_between(rg, at.x, at.y, layer, level - p.first_level).r * factor;
+    streaks_place at = streaks_cell(0, view, u, v, r.level);
+    float factor = factors_at(rg, STREAKS_SKY_FACTORS + r.oscillation * STREAKS_VIEWS + view);
+    return skies_between(rg, at.x, at.y, r.oscillation, r.level - p.first_level).r * factor;
 }
 
 // A streak's pixel under a sky of brightness 1 all around, which is also what it hides of what lies
@@ -308,16 +333,15 @@ RG_FN float streaks_sky(rg_ctx rg, streaks_params p, streaks_billboard r, streak
 
 RG_FN float streaks_crown_texture(rg_ctx rg, streaks_billboard r, int frame, float u, float v)
 {
-    int level = r.splash != 0 ? r.level : 0;
-    int layer = (r.splash != 0 ? r.layer : 0) + rg_imin(frame, STREAKS_FRAMES - 1);
-    return crowns_linear(rg, u, v, layer, level).r;
+    int layer = r.crown + rg_imin(frame, STREAKS_FRAMES - 1);
+    return crowns_linear(rg, u, v, layer, r.crown_level).r;
 }
 
 // A splash's pixel, between the two nearest frames.
 RG_FN float streaks_crown(rg_ctx rg, streaks_billboard r, streaks_spot spot)
 {
     int frame = rg_to_int(r.frame);
-    float u = r.flip > 0.0f ? 1.0f - spot.u : spot.u;
+    float u = spot.u + r.flip * (1.0f - 2.0f * spot.u);
     return streaks_between(streaks_crown_texture(rg, r, frame, u, 1.0f - spot.v),
                            streaks_crown_texture(rg, r, frame + 1, u, 1.0f - spot.v),
                            r.frame - rg_to_float(frame));
@@ -330,14 +354,13 @@ RG_FN rg_fragment streaks_fragment_of(rg_ctx rg, streaks_params p, streaks_billb
     streaks_spot spot = streaks_spot_at(r, px, py);
     float sky = streaks_sky(rg, p, r, spot);
     float crown = streaks_crown(rg, r, spot);
-    bool splash = r.splash != 0;
-    float from_sky = splash ? crown * p.splash_gain : sky * p.gain;
-    float from_lights = splash ? crown * p.splash_gain : p.gain;
-    float opacity = splash ? crown * p.splash_opacity : sky * p.opacity;
+    float from_sky = streaks_between(sky * p.gain, crown * p.splash_gain, r.splash);
+    float from_lights = streaks_between(p.gain, crown * p.splash_gain, r.splash);
+    float opacity = streaks_between(sky * p.opacity, crown * p.splash_opacity, r.splash);
     rgba c =
         rg_rgba(from_sky * p.sky_r + from_lights * lit.r, from_sky * p.sky_g + from_lights * lit.g,
                 from_sky * p.sky_b + from_lights * lit.b, rg_min(opacity, 1.0f));
-    rg_fragment f = rg_fragment_make(c, rg_planes_depth(r.planes, px, py));
-    f.kept = splash || spot.at.z <= r.hit ? 1 : 0;
+    rg_fragment f = rg_fragment_make(c, spot.depth);
+    f.kept = 1 - streaks_below(r.hit + r.splash * RG_LARGEST, spot.at.z);
     return f;
 }

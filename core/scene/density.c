@@ -193,12 +193,3 @@ double rg_density_mean(const struct rg_density *density)
     return rg_density_mass(density, 0, 0, density->width, density->height) /
            ((double)density->width * density->height);
 }
-
-double rg_density_largest(const struct rg_density *density)
-{
-    double largest = 0;
-    for (int row = 0; row < density->height; row++)
-        for (int column = 0; column < density->width; column++)
-            largest = fmax(largest, rg_density_at(density, column, row));
-    return largest;
-}

@@ -42,8 +42,7 @@ double rg_density_at(const struct rg_density *density, int column, int row);
 double rg_density_mass(const struct rg_density *density, double left, double top, double right,
                        double bottom);
 
-// The average of the whole map, and the largest of its texels.
+// The average of the whole map.
 double rg_density_mean(const struct rg_density *density);
-double rg_density_largest(const struct rg_density *density);
 
 #endif

@@ -139,9 +139,9 @@ static float put_point(const struct rg_light *light, const float low[3], const f
                        int map_px, const double from[3], float rows[4][4])
 {
     const struct depth_scale depth = depth_from(light, low, high, from);
-    for (int row = 0; row < 3; row++) {
+    for (int row = 0; row < 3; row++) { // cube maps are left-handed
         const double axis[3] = {row == 0, row == 1, row == 2};
-        put_row(rows[row], axis, 1, from, 0);
+        put_row(rows[row], axis, row == 2 ? -1 : 1, from, 0);
     }
     rows[3][0] = (float)depth.scale;
     rows[3][1] = (float)depth.offset;

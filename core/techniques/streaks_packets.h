@@ -60,7 +60,7 @@ struct streaks_packets_settings {
     // not depend on the packets. The grid, whose particles have no ids, is drawn place by place
     // anyway.
     bool by_id;
-    int64_t memory_bytes; // that making the particles may take at its peak; more is refused
+    int64_t memory_bytes; // that making the particles may take at its peak, 64 GiB at most
 };
 
 struct streaks_packets_info {
@@ -111,7 +111,8 @@ struct streaks_view {
     double top_m;         // of the local space (streaks_local_top)
     double run;           // streaks_run
     // How far what a particle draws may reach: across the fall from the particle's place; along the
-    // fall above the local top, which is where splashes on surfaces just above it are; and below
+    // fall above the local top, where splashes last on surfaces that a drop has passed (so: the
+    // streak's length, the way of a drop while a splash lasts, and a splash's height); and below
     // the local ground. No particle is left out whose streak or splash could touch the frustum.
     double across_m, above_m, below_m;
     // Exact: the convex hull of what is seen of the local space within the prism. Else as Creus has

@@ -1,169 +1,13 @@
 #include "core/techniques/streaks_packets_scatter.h"
 
-#include <math.h>
-#include <stdbool.h>
-
-#include "kernels/rng.h"
+#include "core/techniques/streaks_packets_part.h"
 
 enum {
     LEAF = 16,         // particles that are drawn one by one
     TASK = 1 << 17,    // particles that are worth a task of their own
     OSCILLATIONS = 10, // streaks of different drops (section 4.3.2)
     START_BITS = 20,   // what a float keeps beside an oscillation
-    CHANCE_BITS = 53,  // of the chance of a half
-    SPLITS = 1,
-    PLACES = 2, // what random numbers are for
 };
-
-// A part of the plane: its first lattice point, how often the plane was halved, and its particles.
-struct part {
-    uint32_t x, y;
-    int depth;
-    int64_t first, count;
-};
-
-static int bits_x(const struct part *part)
-{
-    return STREAKS_LATTICE_BITS - part->depth / 2;
-}
-
-static int bits_y(const struct part *part)
-{
-    return STREAKS_LATTICE_BITS - (part->depth + 1) / 2;
-}
-
-// --- the lattice and the map's texels: a texel has whole lattice points, give or take one ---
-
-static uint32_t texel_of(uint32_t lattice, int texels)
-{
-    return (uint32_t)((2 * (uint64_t)lattice + 1) * (uint64_t)texels >> (STREAKS_LATTICE_BITS + 1));
-}
-
-// The first lattice point of a texel.
-static uint32_t edge_of(uint32_t texel, int texels)
-{
-    const uint64_t n = (uint64_t)texels;
-    const uint64_t at = (uint64_t)texel << (STREAKS_LATTICE_BITS + 1);
-    return at <= n ? 0 : (uint32_t)((at - n + 2 * n - 1) / (2 * n));
-}
-
-// A border between lattice points, 0 to 2^24, as a place among the texels.
-static double texels_at(uint32_t lattice, int texels)
-{
-    if (lattice == 1u << STREAKS_LATTICE_BITS)
-        return texels;
-    const uint32_t texel = texel_of(lattice, texels);
-    const uint32_t edge = edge_of(texel, texels);
-    return texel + (double)(lattice - edge) / (edge_of(texel + 1, texels) - edge);
-}
-
-// The lattice point at a place in a texel.
-static uint32_t lattice_at(double place, int texel, int texels)
-{
-    const uint32_t edge = edge_of((uint32_t)texel, texels);
-    const uint32_t next = edge_of((uint32_t)texel + 1, texels);
-    const uint32_t at = edge + (uint32_t)((place - texel) * (next - edge));
-    return at < next ? at : next - 1;
-}
-
-static bool even(const struct streaks_scatter *scatter, const struct part *part)
-{
-    const struct rg_density *map = scatter->density;
-    if (!map)
-        return true;
-    const uint32_t last_x = part->x + (1u << bits_x(part)) - 1;
-    const uint32_t last_y = part->y + (1u << bits_y(part)) - 1;
-    return texel_of(part->x, map->width) == texel_of(last_x, map->width) &&
-           texel_of(part->y, map->height) == texel_of(last_y, map->height);
-}
-
-// A part as a rectangle of the map.
-struct window {
-    double left, top, right, bottom;
-};
-
-static struct window window_of(const struct rg_density *map, const struct part *part)
-{
-    return (struct window){texels_at(part->x, map->width), texels_at(part->y, map->height),
-                           texels_at(part->x + (1u << bits_x(part)), map->width),
-                           texels_at(part->y + (1u << bits_y(part)), map->height)};
-}
-
-static double mass(const struct rg_density *map, struct window w)
-{
-    return rg_density_mass(map, w.left, w.top, w.right, w.bottom);
-}
-
-// --- halving ---
-
-static struct part half_of(const struct part *part, bool second)
-{
-    struct part half = *part;
-    half.depth++;
-    if (second && part->depth % 2)
-        half.x += 1u << bits_x(&half);
-    else if (second)
-        half.y += 1u << bits_y(&half);
-    return half;
-}
-
-// Ones among `count` random bits: the round-th that are drawn for this part.
-static int64_t ones(const struct streaks_scatter *scatter, const struct part *part, int round,
-                    int64_t count)
-{
-    int64_t sum = 0;
-    for (int64_t done = 0; done < count; done += 128) {
-        rg_uint4 counter = {part->x | (uint32_t)part->depth << STREAKS_LATTICE_BITS,
-                            part->y | (uint32_t)round << STREAKS_LATTICE_BITS,
-                            (uint32_t)(done / 128), 4 * scatter->field + SPLITS};
-        rg_uint4 bits = rg_philox(counter, scatter->seed, 0);
-        uint64_t words[2] = {bits.x | (uint64_t)bits.y << 32, bits.z | (uint64_t)bits.w << 32};
-        for (int i = 0; i < 2; i++) {
-            const int64_t left = count - done - 64 * i;
-            if (left < 64)
-                words[i] = left > 0 ? words[i] & (((uint64_t)1 << left) - 1) : 0;
-            sum += __builtin_popcountll(words[i]);
-        }
-    }
-    return sum;
-}
-
-// How many of `count` numbers in [0, 1) are below `chance`: all are compared with it at once, bit
-// by bit, and those that have differed from it so far are decided. About two random bits a number.
-static int64_t below(const struct streaks_scatter *scatter, const struct part *part, double chance)
-{
-    if (!(chance > 0))
-        return 0;
-    if (chance >= 1)
-        return part->count;
-    int64_t sum = 0, open = part->count;
-    for (int round = 0; round < CHANCE_BITS && open && chance > 0; round++) {
-        const int64_t low = ones(scatter, part, round, open); // their next bit is 0
-        chance *= 2;
-        if (chance >= 1) {
-            chance -= 1;
-            sum += low;
-            open -= low;
-        } else {
-            open = low;
-        }
-    }
-    return sum;
-}
-
-static void halve(const struct streaks_scatter *scatter, const struct part *part,
-                  struct part halves[2])
-{
-    double chance = 0.5;
-    halves[0] = half_of(part, false);
-    halves[1] = half_of(part, true);
-    if (!even(scatter, part))
-        chance = mass(scatter->density, window_of(scatter->density, &halves[0])) /
-                 mass(scatter->density, window_of(scatter->density, part));
-    halves[0].count = below(scatter, part, chance);
-    halves[1].count = part->count - halves[0].count;
-    halves[1].first = part->first + halves[0].count;
-}
 
 // --- particles of one part ---
 
@@ -183,63 +27,18 @@ static uint64_t spread_bits(uint32_t bits)
     return (b | b << 1) & 0x5555555555555555u;
 }
 
-// Where the density summed from one side of a window reaches a share of its whole: across x, or
-// down y. Looks for the texel by halving, then goes on evenly inside it.
-static double reach(const struct rg_density *map, struct window w, bool down, double share,
-                    int *texel)
-{
-    const double wanted = share * mass(map, w);
-    double *const end = down ? &w.bottom : &w.right;
-    const double begin = down ? w.top : w.left, whole = *end;
-    int low = (int)begin, high = (int)ceil(whole) - 1; // the texel is one of these
-    while (low < high) {
-        const int middle = low + (high - low) / 2;
-        *end = middle + 1;
-        if (mass(map, w) > wanted)
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    const double left = fmax(low, begin), right = fmin(low + 1, whole);
-    *end = left;
-    const double before = mass(map, w);
-    *end = right;
-    const double inside = mass(map, w) - before;
-    *texel = low;
-    return left + (right - left) * (inside > 0 ? (wanted - before) / inside : 0.5);
-}
-
-static uint32_t clamped(uint32_t at, uint32_t low, int bits)
-{
-    const uint32_t high = low + (1u << bits) - 1;
-    return at < low ? low : at > high ? high : at;
-}
-
-// A place in a part with more than one texel: first its row, then its column in the row's texels.
-static void place_by_map(const struct rg_density *map, const struct part *part, rg_uint4 random,
-                         struct site *site)
-{
-    struct window w = window_of(map, part);
-    int row, column;
-    const double y = reach(map, w, true, random.y * 0x1p-32, &row);
-    w.top = row;
-    w.bottom = row + 1;
-    const double x = reach(map, w, false, random.x * 0x1p-32, &column);
-    site->x = clamped(lattice_at(x, column, map->width), part->x, bits_x(part));
-    site->y = clamped(lattice_at(y, row, map->height), part->y, bits_y(part));
-}
-
-static struct site draw_site(const struct streaks_scatter *scatter, const struct part *part,
+static struct site draw_site(const struct streaks_scatter *scatter, const struct streaks_part *part,
                              bool is_even, uint32_t number)
 {
     const rg_uint4 random =
-        rg_philox((rg_uint4){number, 0, 0, 4 * scatter->field + PLACES}, scatter->seed, 0);
+        rg_philox((rg_uint4){number, 0, 0, STREAKS_PURPOSES * scatter->field + STREAKS_PLACES},
+                  scatter->seed, 0);
     struct site site = {.x = part->x, .y = part->y};
     if (is_even) {
-        site.x += (uint32_t)((uint64_t)random.x >> (32 - bits_x(part)));
-        site.y += (uint32_t)((uint64_t)random.y >> (32 - bits_y(part)));
+        site.x += (uint32_t)((uint64_t)random.x >> (32 - streaks_bits_x(part)));
+        site.y += (uint32_t)((uint64_t)random.y >> (32 - streaks_bits_y(part)));
     } else {
-        place_by_map(scatter->density, part, random, &site);
+        streaks_part_place(scatter->density, part, random, &site.x, &site.y);
     }
     site.code = spread_bits(site.x) | spread_bits(site.y) << 1;
     site.packed = (float)rg_mul_hi(random.w, OSCILLATIONS) +
@@ -248,10 +47,10 @@ static struct site draw_site(const struct streaks_scatter *scatter, const struct
 }
 
 // Of at most LEAF particles.
-static void fill(const struct streaks_scatter *scatter, const struct part *part,
+static void fill(const struct streaks_scatter *scatter, const struct streaks_part *part,
                  struct site sites[LEAF])
 {
-    const bool is_even = even(scatter, part);
+    const bool is_even = streaks_part_even(scatter, part);
     for (int i = 0; i < part->count; i++) {
         const struct site site = draw_site(scatter, part, is_even, (uint32_t)(part->first + i));
         int at = i;
@@ -274,7 +73,7 @@ static void write_sites(const struct streaks_scatter *scatter, const struct site
 }
 
 // Many particles on one lattice point, which need no sorting.
-static void write_heap(const struct streaks_scatter *scatter, const struct part *part,
+static void write_heap(const struct streaks_scatter *scatter, const struct streaks_part *part,
                        float *particles)
 {
     for (int64_t i = part->first; i < part->first + part->count; i++) {
@@ -283,7 +82,8 @@ static void write_heap(const struct streaks_scatter *scatter, const struct part 
     }
 }
 
-static void write_part(const struct streaks_scatter *scatter, struct part part, float *particles)
+static void write_part(const struct streaks_scatter *scatter, struct streaks_part part,
+                       float *particles)
 {
     if (part.count == 0)
         return;
@@ -297,10 +97,10 @@ static void write_part(const struct streaks_scatter *scatter, struct part part, 
         write_heap(scatter, &part, particles);
         return;
     }
-    struct part halves[2];
-    halve(scatter, &part, halves);
+    struct streaks_part halves[2];
+    streaks_part_halve(scatter, &part, halves);
     if (part.count > TASK) {
-        const struct part first = halves[0];
+        const struct streaks_part first = halves[0];
 #pragma omp task firstprivate(first)
         write_part(scatter, first, particles);
     } else {
@@ -311,7 +111,7 @@ static void write_part(const struct streaks_scatter *scatter, struct part part, 
 
 void streaks_scatter(const struct streaks_scatter *scatter, int64_t count, float *particles)
 {
-    const struct part whole = {.count = count};
+    const struct streaks_part whole = {.count = count};
 #pragma omp parallel
 #pragma omp single
     write_part(scatter, whole, particles);
@@ -334,7 +134,7 @@ static int64_t sorted_quads(const struct site *sites, int count, int depth, int 
            sorted_quads(sites + low, count - low, depth + 1, size);
 }
 
-static void count_part(const struct streaks_scatter *scatter, struct part part, int size,
+static void count_part(const struct streaks_scatter *scatter, struct streaks_part part, int size,
                        int64_t *leaves)
 {
     if (part.count == 0)
@@ -354,10 +154,10 @@ static void count_part(const struct streaks_scatter *scatter, struct part part, 
         *leaves += found;
         return;
     }
-    struct part halves[2];
-    halve(scatter, &part, halves);
+    struct streaks_part halves[2];
+    streaks_part_halve(scatter, &part, halves);
     if (part.count > TASK) {
-        const struct part first = halves[0];
+        const struct streaks_part first = halves[0];
 #pragma omp task firstprivate(first)
         count_part(scatter, first, size, leaves);
     } else {
@@ -368,7 +168,7 @@ static void count_part(const struct streaks_scatter *scatter, struct part part, 
 
 int64_t streaks_scatter_quads(const struct streaks_scatter *scatter, int64_t count, int size)
 {
-    const struct part whole = {.count = count};
+    const struct streaks_part whole = {.count = count};
     int64_t leaves = 0;
 #pragma omp parallel
 #pragma omp single

@@ -7,6 +7,7 @@
 #include "core/log.h"
 #include "core/techniques/streaks_scene_cull.h"
 #include "kernels/streaks_city_shade_params.h"
+#include "kernels/streaks_openness_grid.h"
 
 enum { TEXTURE_LEVELS_MOST = 10, PAINTED_AT_ONCE = 8 };
 
@@ -14,11 +15,13 @@ struct streaks_scene {
     struct rg_device *device;
     struct city *city;
     struct rg_buf *faces, *surface_of, *surfaces;
+    struct rg_buf *openness;
     struct rg_buf *block_words; // of the last draw
     struct rg_image *textures;
     struct rg_image *numbers; // of the last target's size
     struct rg_pass *draw, *shade;
     int levels;
+    struct streaks_lamp *lamps;
     struct streaks_cull cull;
     bool *seen;       // by chunk: in the present draw
     uint32_t *blocks; // two words each
@@ -59,10 +62,10 @@ static void halve(const uint32_t *from, int size, uint32_t *to)
 }
 
 // All levels of a texture, one after the other.
-static void paint_levels(const struct city *city, int texture, int levels, uint32_t *texels)
+static void paint_levels(const struct city_painter *painter, int texture, int size, int levels,
+                         uint32_t *texels)
 {
-    city_paint(&city->settings, texture, texels);
-    int size = city->texture_px;
+    city_paint(painter, texture, texels);
     for (int level = 1; level < levels; level++) {
         halve(texels, size, texels + size * size);
         texels += size * size;
@@ -92,16 +95,18 @@ static bool create_textures(struct streaks_scene *s)
     s->textures = rg_image_create(s->device, &desc, "scene's textures");
     uint32_t *texels =
         s->textures ? rg_alloc(PAINTED_AT_ONCE * room, sizeof(*texels), "textures") : NULL;
-    bool ok = texels != NULL;
+    struct city_painter *painter = texels ? city_painter_create(&city->settings) : NULL;
+    bool ok = painter != NULL;
     for (int first = 0; ok && first < city->texture_count; first += PAINTED_AT_ONCE) {
         const int end = first + PAINTED_AT_ONCE < city->texture_count ? first + PAINTED_AT_ONCE
                                                                       : city->texture_count;
 #pragma omp parallel for schedule(dynamic, 1)
         for (int i = first; i < end; i++)
-            paint_levels(city, i, s->levels, texels + (size_t)(i - first) * room);
+            paint_levels(painter, i, size, s->levels, texels + (size_t)(i - first) * room);
         for (int i = first; ok && i < end; i++)
             ok = write_levels(s, i, texels + (size_t)(i - first) * room);
     }
+    city_painter_destroy(painter);
     free(texels);
     return ok;
 }
@@ -116,6 +121,31 @@ static struct rg_buf *filled(struct rg_device *device, const void *words, int64_
         return buf;
     rg_buf_destroy(buf);
     return NULL;
+}
+
+static bool create_openness(struct streaks_scene *s)
+{
+    uint32_t *words = rg_alloc(STREAKS_OPEN_WORDS, sizeof(*words), "scene");
+    if (words && city_openness(s->city, words))
+        s->openness = filled(s->device, words, STREAKS_OPEN_WORDS, "openness to the sky");
+    free(words);
+    return s->openness;
+}
+
+// The city's lamps as streaks_lights takes them.
+static bool take_lamps(struct streaks_scene *s)
+{
+    const struct city *city = s->city;
+    s->lamps = rg_alloc((size_t)city->lamp_count, sizeof(*s->lamps), "scene");
+    for (int i = 0; s->lamps && i < city->lamp_count; i++) {
+        const struct city_lamp *lamp = &city->lamps[i];
+        s->lamps[i].kind = lamp->kind == CITY_STREET_LAMP   ? STREAKS_STREET_LAMP
+                           : lamp->kind == CITY_TRAFFIC_RED ? STREAKS_TRAFFIC_RED
+                                                            : STREAKS_TRAFFIC_GREEN;
+        memcpy(s->lamps[i].position_m, lamp->position, sizeof(lamp->position));
+        memcpy(s->lamps[i].direction, lamp->direction, sizeof(lamp->direction));
+    }
+    return s->lamps;
 }
 
 static bool create_buffers(struct streaks_scene *s)
@@ -149,10 +179,12 @@ void streaks_scene_put(struct streaks_scene *s)
     rg_buf_destroy(s->faces);
     rg_buf_destroy(s->surface_of);
     rg_buf_destroy(s->surfaces);
+    rg_buf_destroy(s->openness);
     rg_buf_destroy(s->block_words);
     rg_image_destroy(s->textures);
     rg_image_destroy(s->numbers);
     city_destroy(s->city);
+    free(s->lamps);
     free(s->seen);
     free(s->blocks);
     free(s);
@@ -165,8 +197,8 @@ struct streaks_scene *streaks_scene_get(struct rg_device *device,
     if (!s)
         return NULL;
     s->device = device;
-    if ((s->city = city_create(&settings->city)) && create_buffers(s) && create_textures(s) &&
-        (s->draw = rg_pass_create(device, "streaks_city")) &&
+    if ((s->city = city_create(&settings->city)) && create_buffers(s) && create_openness(s) &&
+        take_lamps(s) && create_textures(s) && (s->draw = rg_pass_create(device, "streaks_city")) &&
         (s->shade = rg_pass_create(device, "streaks_city_shade")))
         return s;
     streaks_scene_put(s);
@@ -178,9 +210,9 @@ const struct city_faces *streaks_scene_faces(const struct streaks_scene *s)
     return &s->city->faces;
 }
 
-int streaks_scene_lamps(const struct streaks_scene *s, const struct city_lamp **lamps)
+int streaks_scene_lamps(const struct streaks_scene *s, const struct streaks_lamp **lamps)
 {
-    *lamps = s->city->lamps;
+    *lamps = s->lamps;
     return s->city->lamp_count;
 }
 
@@ -221,14 +253,14 @@ static int list_blocks(struct streaks_scene *s)
 }
 
 static bool draw_faces(struct streaks_scene *s, struct rg_instance *instance, m4 to_clip,
-                       const struct rg_draw *onto)
+                       const struct rg_draw *onto, enum rg_cull cull)
 {
     const streaks_city_params params = {to_clip};
     struct rg_draw draw = *onto;
     draw.blend = RG_BLEND_OFF;
     draw.depth_mode = RG_DEPTH_WRITE;
-    draw.cull = RG_CULL_BACK;
-    streaks_cull(&s->cull, to_clip, s->seen);
+    draw.cull = cull;
+    streaks_cull(&s->cull, to_clip, cull == RG_CULL_BACK, s->seen);
     const int blocks = list_blocks(s);
     s->work = (struct streaks_scene_work){.chunks = s->city->faces.chunk_count, .blocks = blocks};
     for (int i = 0; i < s->work.chunks; i++)
@@ -250,13 +282,13 @@ bool streaks_scene_depth(struct streaks_scene *scene, struct rg_instance *instan
 {
     struct rg_draw depth = *onto;
     depth.colour = NULL;
-    return draw_faces(scene, instance, to_clip, &depth);
+    return draw_faces(scene, instance, to_clip, &depth, RG_CULL_NONE);
 }
 
 bool streaks_scene_numbers(struct streaks_scene *scene, struct rg_instance *instance, m4 to_clip,
                            const struct rg_draw *onto)
 {
-    return draw_faces(scene, instance, to_clip, onto);
+    return draw_faces(scene, instance, to_clip, onto, RG_CULL_NONE);
 }
 
 static bool fit_numbers(struct streaks_scene *s, const struct rg_image *target)
@@ -324,7 +356,8 @@ static bool invert(const m4 *to_clip, int width, int height, m4 *from_pixel)
 }
 
 static bool shade(struct streaks_scene *s, struct rg_instance *instance,
-                  const struct streaks_scene_view *view, const struct streaks_scene_look *look)
+                  const struct streaks_scene_view *view, const struct streaks_scene_look *look,
+                  const struct streaks_lights *lights)
 {
     const struct rg_image_desc *d = &view->colour->desc;
     streaks_city_shade_params p = {
@@ -333,11 +366,10 @@ static bool shade(struct streaks_scene *s, struct rg_instance *instance,
         .eye_y = view->eye[1],
         .eye_z = view->eye[2],
         .ambient = look->ambient,
+        .bounced = look->bounced,
         .glow = look->glow,
-        .sun_x = look->sun[0],
-        .sun_y = look->sun[1],
-        .sun_z = look->sun[2],
-        .sun = look->sun_light,
+        .wet = look->wet,
+        .lights = lights->count,
         .texture_px = s->city->texture_px,
         .last_level = s->levels - 1,
     };
@@ -351,36 +383,38 @@ static bool shade(struct streaks_scene *s, struct rg_instance *instance,
                                             .slots = {[1].image = s->numbers,
                                                       [2].image = view->depth,
                                                       [3].buf = s->surfaces,
-                                                      [4].image = s->textures},
+                                                      [4].image = s->textures,
+                                                      [5].buf = lights->in_world,
+                                                      [6].image = lights->shadows,
+                                                      [7].buf = s->openness},
                                             .extent = {1, 1, 1},
                                             .draw = &draw});
 }
 
 bool streaks_scene_draw(struct streaks_scene *s, struct rg_instance *instance,
                         const struct streaks_scene_view *view,
-                        const struct streaks_scene_look *look,
-                        const struct streaks_scene_lights *lights, bool geometry)
+                        const struct streaks_scene_look *look, const struct streaks_lights *lights,
+                        bool geometry)
 {
-    (void)lights;
     const float farthest = 1;
     const struct rg_draw onto = {.colour = NULL, .depth = view->depth};
     if (!fit_numbers(s, view->colour) || !rg_image_clear(view->depth, &farthest))
         return false;
     struct rg_draw numbered = onto;
     numbered.colour = s->numbers;
-    if (geometry && !draw_faces(s, instance, view->to_clip, &numbered))
+    if (geometry && !draw_faces(s, instance, view->to_clip, &numbered, RG_CULL_BACK))
         return false;
-    return shade(s, instance, view, look);
+    return shade(s, instance, view, look, lights);
 }
 
 struct streaks_scene_look streaks_scene_day(void)
 {
     return (struct streaks_scene_look){
         .sky = {0.62f, 0.68f, 0.76f, 0.50f, 0.53f, 0.57f, 0.5f, 0.0022f},
-        .ambient = 1.0f,
+        .ambient = 1.1f,
+        .bounced = 0.12f,
         .glow = 0.35f,
-        .sun = {0.48f, 0.80f, 0.36f},
-        .sun_light = 0.25f,
+        .wet = 1,
     };
 }
 
@@ -389,7 +423,8 @@ struct streaks_scene_look streaks_scene_night(void)
     return (struct streaks_scene_look){
         .sky = {0.012f, 0.015f, 0.022f, 0.040f, 0.034f, 0.030f, 0.6f, 0.0022f},
         .ambient = 1.2f,
+        .bounced = 0.4f,
         .glow = 1.2f,
-        .sun = {0, 1, 0},
+        .wet = 1,
     };
 }

@@ -7,6 +7,7 @@
 #define RG_CORE_TECHNIQUES_STREAKS_SCENE_H
 
 #include "core/scene/city/city.h"
+#include "core/techniques/streaks_lights.h"
 #include "core/techniques/technique.h"
 #include "kernels/matrix.h"
 #include "kernels/streaks_sky.h"
@@ -27,7 +28,7 @@ void streaks_scene_put(struct streaks_scene *scene);
 // What is known of it: triangles, surfaces, bounds, chunks; its lamps (none on a user's mesh); its
 // hash. They live as long as the scene.
 const struct city_faces *streaks_scene_faces(const struct streaks_scene *scene);
-int streaks_scene_lamps(const struct streaks_scene *scene, const struct city_lamp **lamps);
+int streaks_scene_lamps(const struct streaks_scene *scene, const struct streaks_lamp **lamps);
 uint64_t streaks_scene_hash(const struct streaks_scene *scene);
 // The surfaces' words (kernels/streaks_surface.h), for kernels.
 struct rg_buf *streaks_scene_surfaces(const struct streaks_scene *scene);
@@ -35,9 +36,10 @@ struct rg_buf *streaks_scene_surfaces(const struct streaks_scene *scene);
 // How it looks at a time.
 struct streaks_scene_look {
     streaks_sky sky;
-    float ambient;           // share of the sky's light from above that surfaces get
-    float glow;              // light of lit windows and lamps
-    float sun[3], sun_light; // the way to the sun, of unit length
+    float ambient; // of the sky's light from above: what surfaces get that see all of it
+    float bounced; // what those get that see nothing of it
+    float glow;    // light of lit windows
+    float wet;     // 0 to 1: how wet the ground is
 };
 // Overcast day, or night with the lights of the city.
 struct streaks_scene_look streaks_scene_day(void);
@@ -50,21 +52,14 @@ struct streaks_scene_view {
     struct rg_image *colour, *depth; // RGBA16F and such; D32F
 };
 
-// The lights that shine on it, in the world's space (kernels/streaks_light.h), and their shadow
-// maps. A count of 0: none.
-struct streaks_scene_lights {
-    int count;
-    struct rg_buf *lights;
-    struct rg_image *shadows;
-};
-
-// Draws colour and depth; with `geometry` false, the sky alone, and depth 1. The images need not be
-// cleared.
+// Draws colour and depth in this light, whose shadow maps are drawn already; with `geometry` false,
+// the sky alone, and depth 1. The images need not be cleared.
 bool streaks_scene_draw(struct streaks_scene *scene, struct rg_instance *instance,
                         const struct streaks_scene_view *view,
-                        const struct streaks_scene_look *look,
-                        const struct streaks_scene_lights *lights, bool geometry);
-// Draws depth alone: `onto` names the image and its layer. It is not cleared.
+                        const struct streaks_scene_look *look, const struct streaks_lights *lights,
+                        bool geometry);
+// Draws depth alone, of both sides of faces: `onto` names the image and its layer. It is not
+// cleared.
 bool streaks_scene_depth(struct streaks_scene *scene, struct rg_instance *instance, m4 to_clip,
                          const struct rg_draw *onto);
 // The same, and the number of each pixel's surface into onto->colour, an image of RGBA8.

@@ -108,8 +108,8 @@ static bool cross(const struct polygon *g, float y, float *left, float *right)
         if ((g->y[i] < y && g->y[k] < y) || (g->y[i] > y && g->y[k] > y) || g->y[i] == g->y[k])
             continue;
         const float x = g->x[i] + (g->x[k] - g->x[i]) * ((y - g->y[i]) / (g->y[k] - g->y[i]));
-        *left = fminf(*left, x);
-        *right = fmaxf(*right, x);
+        *left = rg_min(*left, x);
+        *right = rg_max(*right, x);
     }
     return *left <= *right;
 }
@@ -119,9 +119,9 @@ static void hide(struct streaks_cull *cull, const struct polygon *g, float slack
 {
     float low = INFINITY, high = -INFINITY, farthest = 0;
     for (int i = 0; i < g->count; i++) {
-        low = fminf(low, g->y[i]);
-        high = fmaxf(high, g->y[i]);
-        farthest = fmaxf(farthest, g->z[i]);
+        low = rg_min(low, g->y[i]);
+        high = rg_max(high, g->y[i]);
+        farthest = rg_max(farthest, g->z[i]);
     }
     const float area = area_of(g);
     // depth = z0 + ax (x - x0) + ay (y - y0), from the widest of the corners' triangles
@@ -139,19 +139,19 @@ static void hide(struct streaks_cull *cull, const struct polygon *g, float slack
     }
     if (!(most > 1e-3f) || area == 0)
         return;
-    const int first = (int)ceilf(fmaxf(low, 0)), end = (int)floorf(fminf(high, STREAKS_CULL_DOWN));
+    const int first = (int)ceilf(rg_max(low, 0)), end = (int)floorf(rg_min(high, STREAKS_CULL_DOWN));
     for (int row = first; row < end; row++) {
         float l0, r0, l1, r1;
         if (!cross(g, (float)row, &l0, &r0) || !cross(g, (float)row + 1, &l1, &r1))
             continue;
-        const int from = (int)ceilf(fmaxf(fmaxf(l0, l1) + slack, 0));
-        const int to = (int)floorf(fminf(fminf(r0, r1) - slack, STREAKS_CULL_ACROSS));
+        const int from = (int)ceilf(rg_max(rg_max(l0, l1) + slack, 0));
+        const int to = (int)floorf(rg_min(rg_min(r0, r1) - slack, STREAKS_CULL_ACROSS));
         const float at_row = z[0] + ay * ((float)row + (ay > 0 ? 1.0f : 0.0f) - y[0]);
         for (int column = from; column < to; column++) {
             const float depth =
                 at_row + ax * ((float)column + (ax > 0 ? 1.0f : 0.0f) - x[0]) + 1e-6f;
             float *cell = &cull->hidden[row][column];
-            *cell = fminf(*cell, fminf(depth, farthest + 1e-6f));
+            *cell = rg_min(*cell, rg_min(depth, farthest + 1e-6f));
         }
     }
 }
@@ -185,16 +185,16 @@ static bool hidden(const struct streaks_cull *cull, const struct corner corners[
         const struct corner *c = &corners[i];
         if (!(c->z > 0 && c->w > 1e-6f))
             return false;
-        x0 = fminf(x0, c->x / c->w);
-        x1 = fmaxf(x1, c->x / c->w);
-        y0 = fminf(y0, c->y / c->w);
-        y1 = fmaxf(y1, c->y / c->w);
-        nearest = fminf(nearest, c->z / c->w);
+        x0 = rg_min(x0, c->x / c->w);
+        x1 = rg_max(x1, c->x / c->w);
+        y0 = rg_min(y0, c->y / c->w);
+        y1 = rg_max(y1, c->y / c->w);
+        nearest = rg_min(nearest, c->z / c->w);
     }
-    const int first_x = (int)(fmaxf(x0 + 1, 0) * 0.5f * STREAKS_CULL_ACROSS);
-    const int first_y = (int)(fmaxf(y0 + 1, 0) * 0.5f * STREAKS_CULL_DOWN);
-    const int last_x = (int)fminf((x1 + 1) * 0.5f * STREAKS_CULL_ACROSS, STREAKS_CULL_ACROSS - 1);
-    const int last_y = (int)fminf((y1 + 1) * 0.5f * STREAKS_CULL_DOWN, STREAKS_CULL_DOWN - 1);
+    const int first_x = (int)(rg_max(x0 + 1, 0) * 0.5f * STREAKS_CULL_ACROSS);
+    const int first_y = (int)(rg_max(y0 + 1, 0) * 0.5f * STREAKS_CULL_DOWN);
+    const int last_x = (int)rg_min((x1 + 1) * 0.5f * STREAKS_CULL_ACROSS, STREAKS_CULL_ACROSS - 1);
+    const int last_y = (int)rg_min((y1 + 1) * 0.5f * STREAKS_CULL_DOWN, STREAKS_CULL_DOWN - 1);
     for (int y = first_y; y <= last_y; y++)
         for (int x = first_x; x <= last_x; x++)
             if (cull->hidden[y][x] >= nearest)
@@ -202,7 +202,7 @@ static bool hidden(const struct streaks_cull *cull, const struct corner corners[
     return true;
 }
 
-void streaks_cull(struct streaks_cull *cull, m4 to_clip, bool *seen)
+void streaks_cull(struct streaks_cull *cull, m4 to_clip, bool backs_culled, bool *seen)
 {
     const struct city_faces *f = cull->faces;
     double eye[4];
@@ -220,6 +220,6 @@ void streaks_cull(struct streaks_cull *cull, m4 to_clip, bool *seen)
             corners[k] = corner_of(chunk->low, chunk->high, k, &to_clip);
             all &= outside(&corners[k]);
         }
-        seen[i] = !all && !turns_away(chunk, eye) && !hidden(cull, corners);
+        seen[i] = !all && !(backs_culled && turns_away(chunk, eye)) && !hidden(cull, corners);
     }
 }

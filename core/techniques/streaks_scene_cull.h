@@ -15,9 +15,9 @@ struct streaks_cull {
     float hidden[STREAKS_CULL_DOWN][STREAKS_CULL_ACROSS];
 };
 
-// Sets `seen`, by chunk, for a matrix from the world to clip space that keeps the faces' turn:
-// false for what lies outside of the view, turns away, or is hidden by boxes. What it leaves out
-// changes no pixel. Not true of views from within a box.
-void streaks_cull(struct streaks_cull *cull, m4 to_clip, bool *seen);
+// Sets `seen`, by chunk, for a matrix from the world to clip space: false for what lies outside of
+// the view, is hidden by boxes, or, with `backs_culled`, turns away. What it leaves out changes no
+// pixel. Not true of views from within a box.
+void streaks_cull(struct streaks_cull *cull, m4 to_clip, bool backs_culled, bool *seen);
 
 #endif

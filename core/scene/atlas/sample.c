@@ -11,7 +11,7 @@ enum { OSCILLATION = 6, VIEW = 1, LEVEL = 3, EVERY_FRAMES = 9 };
 
 static bool add_streaks(XXH3_state_t *state, enum rg_atlas_size size)
 {
-    const struct rg_streak_detail coarse = {.moments = 4, .rays = 16};
+    const struct rg_streak_detail coarse = {.moments = 4, .column = 4, .along = 16};
     const struct rg_streak_detail detail = rg_streak_detail(size);
     struct rg_lobes *lobes = rg_alloc(1, sizeof(*lobes), "streak atlas");
     struct rg_streaks streaks = {0};

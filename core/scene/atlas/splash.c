@@ -16,7 +16,7 @@
 #define TILT_RAD      (15 * PI / 180)
 #define DIAMETER_M    (2 * RG_DROP_RADIUS_M)
 #define SPEED_M_S     (RG_DROP_FALL * DIAMETER_M / RG_EXPOSURE_S)
-#define OPACITY_PER_M 900.0 // optical depth of a metre of splashed water: sheets are see-through
+#define OPACITY_PER_M 800.0 // optical depth of a metre of splashed water: sheets are see-through
 
 // The picture is drawn on a finer grid, as optical depth, and averaged at the end.
 enum {
@@ -57,7 +57,7 @@ static const struct material materials[RG_ATLAS_MATERIALS] = {
      .droplets = 34,
      .spikes = 22,
      .jet_m = 0.004,
-     .ring_m = 0.0005},
+     .ring_m = 0.0003},
     {.film = 1.5,
      .height_m = 0.017,
      .life_s = 0.075,
@@ -69,31 +69,31 @@ static const struct material materials[RG_ATLAS_MATERIALS] = {
      .droplets = 13,
      .spikes = 13,
      .jet_m = 0.020,
-     .ring_m = 0.0011},
+     .ring_m = 0.0008},
     {.film = 0.1,
      .height_m = 0.0025,
      .life_s = 0.022,
      .thickness_m = 0.00022,
-     .flare = 0.6,
+     .flare = 0.3,
      .lift_deg = 40,
      .speed_m_s = 0.58,
      .droplet_m = 0.00033,
      .droplets = 58,
      .spikes = 31,
      .jet_m = 0,
-     .ring_m = 0.0002},
+     .ring_m = 0.00012},
     {.film = 0.1,
      .height_m = 0.0055,
      .life_s = 0.034,
      .thickness_m = 0.00026,
-     .flare = 0.45,
+     .flare = 0.2,
      .lift_deg = 33,
      .speed_m_s = 0.52,
      .droplet_m = 0.00045,
      .droplets = 20,
      .spikes = 18,
      .jet_m = 0,
-     .ring_m = 0.0006},
+     .ring_m = 0.0003},
 };
 
 // --- the model ---
@@ -150,30 +150,30 @@ static void add_volume(float *depth, double column, double row, double volume_m3
     }
 }
 
-// Adds a ball of water. A small one takes a point's width, with its own volume.
-static void add_ball(float *depth, double x, double y, double z, double radius_m)
+// Adds water of a volume in the shape of a ball, or of a slice of a round column of its radius.
+// What is smaller than a point of the grid takes a point's width.
+static void add_ball(float *depth, double x, double y, double z, double radius_m, double volume_m3)
 {
-    if (y < -radius_m)
-        return;
     double column, row;
     project(x, y, z, &column, &row);
-    const double radius = radius_m * FINE_PER_M, cube = radius_m * radius_m * radius_m;
+    const double radius = radius_m * FINE_PER_M, squared = radius * radius + 0.3;
     const int reach = (int)ceil(radius);
     double weights = 0;
-    for (int pass = 0; pass < 2; pass++) {
-        for (int j = -reach; j <= reach; j++) {
-            for (int i = -reach; i <= reach; i++) {
-                const double inside = 1 - (i * i + j * j) / (radius * radius + 0.3);
-                if (inside <= 0)
-                    continue;
-                if (pass == 0)
-                    weights += sqrt(inside);
-                else
-                    add_volume(depth, column + i, row + j,
-                               4.0 / 3 * PI * cube * sqrt(inside) / weights);
-            }
+    for (int j = -reach; j <= reach; j++)
+        for (int i = -reach; i <= reach; i++)
+            weights += sqrt(fmax(0, 1 - (i * i + j * j) / squared));
+    for (int j = -reach; j <= reach; j++) {
+        for (int i = -reach; i <= reach; i++) {
+            const double weight = sqrt(fmax(0, 1 - (i * i + j * j) / squared));
+            if (weight > 0)
+                add_volume(depth, column + i, row + j, volume_m3 * weight / weights);
         }
     }
+}
+
+static double ball_m3(double radius_m)
+{
+    return 4.0 / 3 * PI * radius_m * radius_m * radius_m;
 }
 
 // The sheet: its edge is scalloped between the spikes and leans outwards.
@@ -212,7 +212,7 @@ static void add_spikes(float *depth, const struct material *m, int material,
             const double s = i / 11.0, out = r + length * s * cos(lift);
             const double radius = m->droplet_m * (0.75 - 0.45 * s + (i == 11 ? 0.5 : 0));
             add_ball(depth, out * cos(phi), crown->height_m + length * s * sin(lift),
-                     out * sin(phi), radius);
+                     out * sin(phi), radius, ball_m3(radius));
         }
     }
 }
@@ -234,8 +234,9 @@ static void add_droplets(float *depth, const struct material *m, int material, d
             crown.height_m + speed * sin(lift) * flown - 0.5 * GRAVITY_M_S2 * flown * flown;
         // sizes are distributed log-normally, nearly: the sum of uniforms is nearly normal
         const double size = exp(0.9 * (when.d + how.b + how.c - 1.5));
+        const double radius = m->droplet_m * size;
         if (y > 0)
-            add_ball(depth, r * cos(phi), y, r * sin(phi), m->droplet_m * size);
+            add_ball(depth, r * cos(phi), y, r * sin(phi), radius, ball_m3(radius));
     }
 }
 
@@ -243,7 +244,7 @@ static void add_droplets(float *depth, const struct material *m, int material, d
 static void add_ring(float *depth, const struct material *m, const struct rg_splash_crown *crown,
                      double time_s)
 {
-    const double height = m->ring_m * exp(-time_s / 0.045);
+    const double height = m->ring_m * exp(-time_s / 0.035);
     const double width = 0.0012 + 0.012 * time_s;
     for (int a = 0; a < AROUND; a++) {
         const double phi = 2 * PI * a / AROUND;
@@ -260,30 +261,28 @@ static void add_ring(float *depth, const struct material *m, const struct rg_spl
 // The column of water that a closing crater throws up in deep water, and the bead on its top.
 static void add_jet(float *depth, const struct material *m, double time_s)
 {
+    enum { SLICES = 64 };
     const double passed = (time_s - 0.62 * m->life_s) / 0.085;
-    if (passed <= 0 || passed >= 1)
+    if (passed <= 0 || passed >= 1 || m->jet_m <= 0)
         return;
-    const double height = m->jet_m * 4 * passed * (1 - passed);
-    for (int i = 0; i < 64; i++) {
-        const double s = i / 63.0, taper = 1 - 0.55 * s;
-        add_ball(depth, 0, height * s, 0, 0.0013 * taper * sqrt(1 - passed) / 3.2);
+    const double height = m->jet_m * 4 * passed * (1 - passed), bead = 0.0017 * sqrt(1 - passed);
+    for (int i = 0; i < SLICES; i++) {
+        const double s = (i + 0.5) / SLICES, radius = 0.0006 + 0.0022 * pow(1 - s, 3);
+        add_ball(depth, 0, height * s, 0, radius, PI * radius * radius * height / SLICES);
     }
-    for (int i = 0; i < 64; i++) {
-        const double s = i / 63.0;
-        add_volume(depth, (0.5 * PICTURE_M) * FINE_PER_M,
-                   FINE_HEIGHT - (FOOT_M + height * s * cos(TILT_RAD)) * FINE_PER_M,
-                   PI * 0.0011 * 0.0011 * height / 64 * (1 - 0.6 * s));
-    }
-    add_ball(depth, 0, height, 0, 0.0015 * sqrt(1 - passed));
+    add_ball(depth, 0, height, 0, bead, ball_m3(bead));
 }
 
-static void average(const float *depth, float *texels)
+// Opacity of the water, which goes out over the last third of the animation, and never jumps.
+static void average(const float *depth, double time_s, float *texels)
 {
+    const double last = (time_s / (RG_ATLAS_FRAMES * FRAME_S) - 0.65) / 0.35;
+    const double left = last > 0 ? 1 - last * last * (3 - 2 * last) : 1;
     memset(texels, 0, RG_SPLASH_WIDTH_PX * RG_SPLASH_HEIGHT_PX * sizeof(*texels));
     for (int r = 0; r < FINE_HEIGHT; r++)
         for (int c = 0; c < FINE_WIDTH; c++)
             texels[r / FINE * RG_SPLASH_WIDTH_PX + c / FINE] +=
-                (float)(1 - exp(-(double)depth[r * FINE_WIDTH + c])) / (FINE * FINE);
+                (float)(left * (1 - exp(-(double)depth[r * FINE_WIDTH + c])) / (FINE * FINE));
 }
 
 bool rg_splash_draw(int material, int frame, float texels[RG_SPLASH_HEIGHT_PX * RG_SPLASH_WIDTH_PX])
@@ -300,7 +299,7 @@ bool rg_splash_draw(int material, int frame, float texels[RG_SPLASH_HEIGHT_PX * 
     add_spikes(depth, m, material, &crown, turn, passed);
     add_droplets(depth, m, material, time_s);
     add_jet(depth, m, time_s);
-    average(depth, texels);
+    average(depth, time_s, texels);
     free(depth);
     return true;
 }

@@ -8,8 +8,9 @@
 
 // How finely a streak is traced.
 struct rg_streak_detail {
-    int moments; // of the exposure; between two, the picture fades from one to the other
-    int rays;    // across the diameter of the drop at rest
+    int moments; // parts of the exposure: the drop's image fades from one end to the other
+    int column;  // rays across a column of the picture
+    int along;   // rows of rays along the diameter of the drop at rest
 };
 
 // How finely the streaks of a size are traced: no step and no noise is to be seen.

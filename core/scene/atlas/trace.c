@@ -90,10 +90,13 @@ INLINE float solve(struct rg_drop_shape s, struct vector p, struct vector d, flo
 // distance along d; `hit` becomes 0 where it passes by.
 INLINE float enter(struct rg_drop_shape s, struct vector p, struct vector d, float *hit)
 {
+    // p is nearest to the centre. Where it lies outside, near the rim, a lower place is looked for;
+    // near the centre the field is too steep for that.
+    const float outside_here = field_at(s, p).value > 0 ? 1.0f : 0.0f;
     float deepest = 0;
 #pragma GCC unroll 8
     for (int i = 0; i < 3; i++)
-        deepest -= dot(field_at(s, along(p, deepest, d)).gradient, d);
+        deepest -= outside_here * dot(field_at(s, along(p, deepest, d)).gradient, d);
     *hit = field_at(s, along(p, deepest, d)).value < 0 ? 1.0f : 0.0f;
     const float room = RG_DROP_REACH * RG_DROP_REACH - dot(p, p);
     const float outside = most(sqrtf(most(room, 0)), deepest);
@@ -145,6 +148,7 @@ INLINE void trace(struct rg_drop_shape s, struct vector towards, struct vector s
 {
     float left;
     struct vector p = along(start, enter(s, start, towards, &left), towards);
+    row->hit[i] = left;
     const struct parted outside =
         part(scaled(towards, -1), unit(field_at(s, p).gradient), 1 / RG_DROP_INDEX);
     keep(row, 0, i, outside.reflected, left * outside.reflectance);

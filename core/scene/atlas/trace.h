@@ -14,8 +14,11 @@ struct rg_drop_view {
 };
 
 // What the viewer sees along a row of rays: for each way the direction in which the light's source
-// lies (a unit vector) and its share of that source's radiance. 0 where the ray misses the drop.
+// lies (a unit vector) and its share of that source's radiance, 0 where the ray misses the drop.
+// The shares add up to less than 1 by what is still inside after two reflections: a third of a
+// percent of the light that meets a sphere, 5 % when a drop is at its longest.
 struct rg_drop_row {
+    float hit[RG_TRACE_MAX]; // 1 where the ray meets the drop, else 0
     float x[RG_DROP_WAYS][RG_TRACE_MAX], y[RG_DROP_WAYS][RG_TRACE_MAX],
         z[RG_DROP_WAYS][RG_TRACE_MAX], share[RG_DROP_WAYS][RG_TRACE_MAX];
 };

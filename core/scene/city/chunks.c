@@ -42,8 +42,8 @@ static void add_bounds(const struct city_faces *f, int face, float low[3], float
 {
     const float *c = corners_of(f, face);
     for (int i = 0; i < STREAKS_FACE_WORDS; i++) {
-        low[i % 3] = fminf(low[i % 3], c[i]);
-        high[i % 3] = fmaxf(high[i % 3], c[i]);
+        low[i % 3] = rg_min(low[i % 3], c[i]);
+        high[i % 3] = rg_max(high[i % 3], c[i]);
     }
 }
 
@@ -72,9 +72,9 @@ static uint64_t order_of(const struct city_faces *f, int face)
     uint32_t at[3], cell[3];
     for (int c = 0; c < 3; c++) {
         const float middle = 0.25f * (p[c] + p[3 + c] + p[6 + c] + p[9 + c]);
-        const float side = fmaxf(f->high[c] - f->low[c], 1e-6f);
+        const float side = rg_max(f->high[c] - f->low[c], 1e-6f);
         const float share = (middle - f->low[c]) / side * (float)(1 << FINE_BITS);
-        at[c] = (uint32_t)fminf(fmaxf(share, 0), (1 << FINE_BITS) - 1);
+        at[c] = (uint32_t)rg_min(rg_max(share, 0), (1 << FINE_BITS) - 1);
         cell[c] = at[c] >> (FINE_BITS - cell_bits(f));
     }
     const uint64_t places = UINT64_C(1) << 3 * FINE_BITS;

@@ -63,6 +63,8 @@ struct city_faces {
     float low[3], high[3]; // bounds
 };
 
+struct city_painter;
+
 struct city {
     struct city_settings settings;
     struct city_faces faces;
@@ -78,10 +80,17 @@ struct city {
 struct city *city_create(const struct city_settings *settings);
 void city_destroy(struct city *city);
 
+// What paints the textures. NULL, and one logged line, without memory. The caller destroys it.
+struct city_painter *city_painter_create(const struct city_settings *settings);
+void city_painter_destroy(struct city_painter *painter);
 // Paints a texture: RGBA8 of texture_px squared texels, rows from the top. Each alone, so that
 // several can be painted at once. Colours are square roots of linear light, alpha the share of it
 // that a lamp behind gives at night.
-void city_paint(const struct city_settings *settings, int texture, uint32_t *texels);
+void city_paint(const struct city_painter *painter, int texture, uint32_t *texels);
+
+// Fills STREAKS_OPEN_WORDS words (kernels/streaks_openness_grid.h): how much of the sky is seen
+// from where. False, and one logged line, without memory.
+bool city_openness(const struct city *city, uint32_t *words);
 
 // The two places from which Creus looks: `second` sees farther. `near_plane` and `far_plane` hold
 // the city whole.

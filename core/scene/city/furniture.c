@@ -29,7 +29,7 @@ static uint32_t place_of(double x, double z)
 // A lamp whose arm reaches over the road, (dx, dz) of unit length.
 static void build_lamp(struct city_builder *b, double x, double z, double dx, double dz)
 {
-    const struct look light = {PAINT_LIGHT, STREAKS_KIND_LIGHT, 1, 0xb0d8ffu, 255};
+    const struct look light = {PAINT_LIGHT, STREAKS_KIND_LIGHT, 1, 0xb0d8ffu, 0};
     const double y = CITY_KERB_M, top = y + LAMP_HEIGHT_M;
     const double hx = x + dx * LAMP_ARM_M, hz = z + dz * LAMP_ARM_M;
     if (is_full(b)) // its foot

@@ -1,3 +1,4 @@
+// streaks: the kd-tree over the top plane.
 #include <stdlib.h>
 #include <string.h>
 
@@ -6,134 +7,7 @@
 
 enum { TASK = 1 << 15, MAX_BINS = 4096 };
 
-static int32_t add_node(struct streaks_packets *p, struct streaks_node node)
-{
-    if (p->node_count == p->nodes_reserved) {
-        const int64_t reserved = p->nodes_reserved ? 2 * p->nodes_reserved : 1024;
-        struct streaks_node *nodes = realloc(p->nodes, (size_t)reserved * sizeof(*nodes));
-        if (!nodes || reserved > INT32_MAX) {
-            p->nodes = nodes ? nodes : p->nodes;
-            rg_error("rain: no memory for a tree of %lld nodes; use larger packets",
-                     (long long)reserved);
-            return -1;
-        }
-        p->nodes = nodes;
-        p->nodes_reserved = reserved;
-    }
-    p->nodes[p->node_count] = node;
-    return (int32_t)p->node_count++;
-}
-
-static bool add_packet(struct streaks_packets *p, int64_t first, int64_t count, int32_t node)
-{
-    if (p->info.packets == p->packets_reserved) {
-        const int64_t reserved = p->packets_reserved ? 2 * p->packets_reserved : 1024;
-        struct streaks_packet *packets = realloc(p->packets, (size_t)reserved * sizeof(*packets));
-        if (!packets)
-            return rg_error("rain: no memory for %lld packets; use larger ones",
-                            (long long)reserved);
-        p->packets = packets;
-        p->packets_reserved = reserved;
-    }
-    p->nodes[node].packet = (int32_t)p->info.packets;
-    p->packets[p->info.packets++] =
-        (struct streaks_packet){.first = first, .count = (int32_t)count, .node = node};
-    return true;
-}
-
-// --- quad: ids follow a Morton curve, so that a node's particles follow each other. Each
-// quartering is two halvings, first across y, then across x; branches between them have no packets
-// ---
-
-struct quad {
-    struct streaks_node node;
-    int depth;
-    int64_t first, count;
-};
-
-static uint32_t lattice(const struct streaks_packets *p, int64_t id, int axis)
-{
-    return streaks_lattice_of(p->particles[3 * id + axis]);
-}
-
-// The first of a node's particles at or beyond `border`.
-static int64_t first_beyond(const struct streaks_packets *p, const struct quad *quad, int axis,
-                            uint32_t border)
-{
-    int64_t low = quad->first, high = quad->first + quad->count;
-    while (low < high) {
-        const int64_t middle = low + (high - low) / 2;
-        if (lattice(p, middle, axis) < border)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-static bool build_quad(struct streaks_packets *p, struct quad quad);
-
-static bool build_halves(struct streaks_packets *p, const struct quad *quad, int32_t node)
-{
-    const int axis = quad->depth % 2 ? 0 : 1;
-    struct quad low = *quad, high = *quad;
-    low.depth = high.depth = quad->depth + 1;
-    uint32_t border;
-    if (axis == 0)
-        border = low.node.right = high.node.left =
-            quad->node.left + (quad->node.right - quad->node.left) / 2;
-    else
-        border = low.node.bottom = high.node.top =
-            quad->node.top + (quad->node.bottom - quad->node.top) / 2;
-    high.first = first_beyond(p, quad, axis, border);
-    low.count = high.first - quad->first;
-    high.count = quad->count - low.count;
-    if (!build_quad(p, low))
-        return false;
-    p->nodes[node].second = (int32_t)p->node_count;
-    return build_quad(p, high);
-}
-
-// More particles on one lattice point than a packet takes: cut by their numbers.
-static bool build_heap(struct streaks_packets *p, const struct quad *quad)
-{
-    struct quad low = *quad, high = *quad;
-    const int32_t node = add_node(p, quad->node);
-    if (node < 0)
-        return false;
-    if (quad->count <= p->settings.packet_size)
-        return add_packet(p, quad->first, quad->count, node);
-    low.count = p->settings.packet_size;
-    high.first += low.count;
-    high.count -= low.count;
-    if (!build_heap(p, &low))
-        return false;
-    p->nodes[node].second = (int32_t)p->node_count;
-    return build_heap(p, &high);
-}
-
-static bool build_quad(struct streaks_packets *p, struct quad quad)
-{
-    quad.node.second = quad.node.packet = -1;
-    if (quad.depth == STREAKS_DEEPEST && quad.count > p->settings.packet_size)
-        return build_heap(p, &quad);
-    const int32_t node = add_node(p, quad.node);
-    if (node < 0 || quad.count == 0)
-        return node >= 0;
-    if (quad.depth % 2 == 0 && quad.count <= p->settings.packet_size)
-        return add_packet(p, quad.first, quad.count, node);
-    return build_halves(p, &quad, node);
-}
-
-static const struct streaks_node everywhere = {
-    0, 0, 1u << STREAKS_LATTICE_BITS, 1u << STREAKS_LATTICE_BITS, -1, -1};
-
-bool streaks_quad_build(struct streaks_packets *packets, int64_t count)
-{
-    return build_quad(packets, (struct quad){.node = everywhere, .count = count});
-}
-
-// --- kd: numbers of particles are handed down, in order, from node to node ---
+// Numbers of particles are handed down, in order, from node to node.
 
 struct kd {
     struct streaks_packets *packets;
@@ -184,7 +58,7 @@ static struct cut find_cut(const struct kd *kd, const struct kd_part *part, int 
         uint32_t counts[MAX_BINS];
         memset(counts, 0, bins * sizeof(*counts));
         for (int64_t i = 0; i < part->count; i++) {
-            const uint32_t at = lattice(kd->packets, ids[i], axis) - low;
+            const uint32_t at = streaks_lattice(kd->packets, ids[i], axis) - low;
             if (at < high - low)
                 counts[at >> shift]++;
         }
@@ -206,7 +80,7 @@ static void hand_on(const struct kd *kd, const struct kd_part *part, struct cut 
     uint32_t *low = kd->ids[!part->array] + part->first, *high = low + low_count;
     uint32_t largest = 0, least = UINT32_MAX;
     for (int64_t i = 0; i < part->count; i++) {
-        const uint32_t at = lattice(kd->packets, from[i], cut.axis);
+        const uint32_t at = streaks_lattice(kd->packets, from[i], cut.axis);
         const bool lower = at < cut.at || (at == cut.at && cut.ties-- > 0);
         if (lower) {
             *low++ = from[i];
@@ -282,7 +156,7 @@ bool streaks_kd_build(struct streaks_packets *packets, int64_t count)
     if (good) {
         for (int64_t i = 0; i < count; i++)
             kd.ids[0][i] = (uint32_t)i;
-        const struct kd_part whole = {.box = everywhere, .count = count};
+        const struct kd_part whole = {.box = streaks_everywhere, .count = count};
 #pragma omp parallel
 #pragma omp single
         build_kd(&kd, whole);
