@@ -280,7 +280,7 @@ struct rg_instance *flow_open(struct rg_device *device, const void *settings, in
         return NULL;
     }
     flow->base.texture_count = 1;
-    flow->base.textures[0] = (struct rg_texture){"environment", flow->environment};
+    flow->base.textures[0] = (struct rg_texture){"environment", flow->environment, 0};
     flow_show_state(flow);
     return &flow->base;
 }

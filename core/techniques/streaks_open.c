@@ -188,6 +188,15 @@ static struct rg_fact *tell(struct streaks *s, enum streaks_fact which, const ch
     return fact;
 }
 
+static void tell_textures(struct streaks *s)
+{
+    const struct streaks_textures *t = s->textures;
+    s->base.texture_count = 3;
+    s->base.textures[0] = (struct rg_texture){"environment", t->skies, t->first_level};
+    s->base.textures[1] = (struct rg_texture){"point", t->points, t->first_level};
+    s->base.textures[2] = (struct rg_texture){"splash", t->crowns, 0};
+}
+
 static void tell_facts(struct streaks *s)
 {
     const struct streaks_packets_info *info = streaks_packets_info(s->packets);
@@ -222,8 +231,10 @@ struct rg_instance *streaks_open(struct rg_device *device, const void *settings,
         create_space(s) && create_packets(s) && upload_particles(s) && create_scene(s) &&
         create_lights(s) && create_images(s, width, height) && create_passes(s) &&
         (s->textures = streaks_textures_get(device, (enum rg_atlas_size)s->settings.atlas));
-    if (ok)
+    if (ok) {
+        tell_textures(s);
         tell_facts(s);
+    }
     if (ok && streaks_look(s))
         return &s->base;
     streaks_close(&s->base);
