@@ -155,16 +155,20 @@ RG_DRAW_FRAGMENT(streaks_city_shade)
     rgba t = streaks_painted(rg, p, s, look, facing);
     float wet = p.wet * streaks_is_ground(look);
     float open = streaks_openness(rg, v3_add(s.at, v3_scale(n, STREAKS_BEFORE_M)));
-    float around = p.bounced + (p.ambient - p.bounced) * open;
+    float above = p.ambient * open;
+    float beside = p.bounced * (1.0f - open);
     float glow = p.glow * t.a + streaks_eighth(look >> 16);
     float mirrored = streaks_mirrored(wet, facing) * open;
     // What a lamp behind lights up shows little of the light before it.
     float own = (1.0f - 0.45f * wet) * (1.0f - 0.7f * t.a);
     float shown = 1.0f - rg_exp(-s.distance * p.sky.haze_per_m);
-    v3 seen = v3_make(
-        t.r * (own * (around * p.sky.zenith_r + lit.r) + glow) + mirrored * p.sky.horizon_r,
-        t.g * (own * (around * p.sky.zenith_g + lit.g) + glow) + mirrored * p.sky.horizon_g,
-        t.b * (own * (around * p.sky.zenith_b + lit.b) + glow) + mirrored * p.sky.horizon_b);
+    v3 seen =
+        v3_make(t.r * (own * (above * p.sky.zenith_r + beside * p.sky.horizon_r + lit.r) + glow) +
+                    mirrored * p.sky.horizon_r,
+                t.g * (own * (above * p.sky.zenith_g + beside * p.sky.horizon_g + lit.g) + glow) +
+                    mirrored * p.sky.horizon_g,
+                t.b * (own * (above * p.sky.zenith_b + beside * p.sky.horizon_b + lit.b) + glow) +
+                    mirrored * p.sky.horizon_b);
     seen = v3_make(seen.x + (p.sky.horizon_r - seen.x) * shown,
                    seen.y + (p.sky.horizon_g - seen.y) * shown,
                    seen.z + (p.sky.horizon_b - seen.z) * shown);

@@ -303,7 +303,8 @@ static void build_tiers(struct building *t)
     for (int i = 0; i < count; i++) {
         const double side = fmin(r.x1 - r.x0, r.z1 - r.z0);
         const double in = i == 0 ? 1.0 + 2 * chance(t, CHANCE_TIER, 2) : 1.4;
-        if (i + 1 == count || side - 2 * in < 9) { // too slender to step back once more
+        if (i + 1 == count ||
+            side - 2 * in < (t->landmark ? 6 : 9)) { // too slender to step back once more
             r.y1 = t->height_m;
             count = i + 1;
         }
@@ -324,8 +325,8 @@ static double height_at(const struct building *t)
 
 static void choose_looks(struct building *t)
 {
-    const bool glass =
-        t->height_m > 60 ? chance(t, CHANCE_STYLE, 0) < 0.55 : chance(t, CHANCE_STYLE, 0) < 0.12;
+    const bool glass = t->height_m > 60 ? (t->landmark || chance(t, CHANCE_STYLE, 0) < 0.55)
+                                        : chance(t, CHANCE_STYLE, 0) < 0.12;
     const int first = glass ? PAINT_CURTAIN : PAINT_FACADE;
     const int end = glass ? PAINT_SHOP : PAINT_CURTAIN;
     t->texture = first + (int)((end - first) * chance(t, CHANCE_STYLE, 1));
