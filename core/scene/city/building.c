@@ -48,14 +48,12 @@ static void facade_quad(struct city_builder *b, const struct city_facade *f, dou
     city_quad_on(b, corners, surface);
 }
 
-// The texture so that its bays and floors are the facade's.
+// The texture so that its bays and floors are the facade's, upwards from y0.
 static struct mapping bays_mapping(const struct city_facade *f, double bays, double y0,
                                    double tall_m)
 {
-    const double across = 1 / (bays * f->bay_m), down = -1 / tall_m;
-    const double ax = f->out.z * across, az = -f->out.x * across;
-    return (struct mapping){
-        .ax = ax, .az = az, .a0 = -(ax * f->x + az * f->z), .by = down, .b0 = -down * y0};
+    return (struct mapping){1 / (bays * f->bay_m), -1 / tall_m, f->out.z * f->x - f->out.x * f->z,
+                            y0, false};
 }
 
 void city_facade_core(struct city_builder *b, struct city_facade *f)

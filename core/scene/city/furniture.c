@@ -75,7 +75,7 @@ static void build_signal(struct city_builder *b, double x, double z, double dx, 
         const uint32_t colours[3] = {0x60ff40u, 0x30c0ffu, 0x2828ffu};
         const uint32_t dim = colours[i] >> 2 & 0x3f3f3fu;
         const struct look look = {PAINT_LIGHT, STREAKS_KIND_LIGHT, 1, on ? colours[i] : dim,
-                                  on ? 255 : 0};
+                                  on ? 7 : 0};
         const double y = y0 + 0.2 + 0.33 * i, out = half + 0.01;
         const double cx = x + dx * out, cz = z + dz * out, rx = dz * lamp, rz = -dx * lamp;
         if (is_full(b) || on)
@@ -252,7 +252,7 @@ static void build_car(struct city_builder *b, double x, double z, bool along_z)
         city_box(b, (point){fmin(p.x, q.x), 0, fmin(p.z, q.z)},
                  (point){fmax(p.x, q.x), 0.6, fmax(p.z, q.z)}, BOX_WALLS, &tyre);
     }
-    const struct look lamp = {PAINT_LIGHT, STREAKS_KIND_LIGHT, 1, 0x2020a0u, 60};
+    const struct look lamp = {PAINT_LIGHT, STREAKS_KIND_LIGHT, 1, 0x2020a0u, 2};
     for (int i = -1; i <= 1; i += 2) {
         const point p = car_point(x, z, along_z, 0.6 * i - 0.18, 0.58, -l - 0.01);
         const point q = car_point(x, z, along_z, 0.6 * i + 0.18, 0.72, -l + 0.05);
