@@ -118,7 +118,7 @@ static void faces_are_flat_and_look_outwards(void **state)
         for (int i = 0; i < city->faces.face_count; i++) {
             assert_true(city->faces.surface_of[i] < (uint32_t)city->faces.surface_count);
             assert_true((surface(&city->faces, i)[STREAKS_LOOK] & 255) < 149);
-            assert_true((surface(&city->faces, i)[STREAKS_LOOK] >> 8 & 255) < STREAKS_KINDS);
+            assert_true(streaks_kind(surface(&city->faces, i)[STREAKS_LOOK]) < STREAKS_KINDS);
             check_face(&city->faces, i);
         }
         city_destroy(city);

@@ -274,10 +274,10 @@ bool streaks_scene_draw(struct streaks_scene *s, struct rg_instance *instance,
 struct streaks_scene_look streaks_scene_day(void)
 {
     return (struct streaks_scene_look){
-        .sky = {0.62f, 0.68f, 0.76f, 0.50f, 0.53f, 0.57f, 0.5f, 0.0022f},
+        .sky = {0.58f, 0.64f, 0.72f, 0.46f, 0.49f, 0.53f, 0.5f, 0.0016f},
         .ambient = 1.1f,
-        .bounced = 0.12f,
-        .glow = 0.35f,
+        .bounced = 0.2f,
+        .glow = 0.25f,
         .wet = 1,
     };
 }
@@ -285,10 +285,10 @@ struct streaks_scene_look streaks_scene_day(void)
 struct streaks_scene_look streaks_scene_night(void)
 {
     return (struct streaks_scene_look){
-        .sky = {0.012f, 0.015f, 0.022f, 0.040f, 0.034f, 0.030f, 0.6f, 0.0022f},
-        .ambient = 1.2f,
-        .bounced = 0.4f,
-        .glow = 1.2f,
+        .sky = {0.016f, 0.020f, 0.030f, 0.058f, 0.048f, 0.042f, 0.6f, 0.0020f},
+        .ambient = 1.3f,
+        .bounced = 1.6f,
+        .glow = 1.1f,
         .wet = 1,
     };
 }

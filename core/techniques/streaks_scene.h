@@ -37,7 +37,7 @@ struct rg_buf *streaks_scene_surfaces(const struct streaks_scene *scene);
 struct streaks_scene_look {
     streaks_sky sky;
     float ambient; // of the sky's light from above: what surfaces get that see all of it
-    float bounced; // what those get that see nothing of it
+    float bounced; // of the horizon's: what those get that see no sky
     float glow;    // light of lit windows
     float wet;     // 0 to 1: how wet the ground is
 };

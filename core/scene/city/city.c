@@ -93,7 +93,7 @@ enum { MOST_MESH_FACES = 2500000, GROUND_TILES = 8 };
 
 static void build_mesh(struct city_builder *b, const struct rg_mesh *mesh)
 {
-    const struct look grey = {0, STREAKS_KIND_WALL, 0, 0xb4b4b4u, 0};
+    const struct look grey = {0, STREAKS_KIND_WALL, 0, 0x808080u, 0};
     const double wide[3] = {(double)CITY_SIDE_M, (double)CITY_HEIGHT_M, (double)CITY_SIDE_M};
     double scale = INFINITY;
     for (int c = 0; c < 3; c++)
@@ -114,7 +114,7 @@ static void build_mesh(struct city_builder *b, const struct rg_mesh *mesh)
 // In tiles, that the planes of depth stay near their corners.
 static void build_ground(struct city_builder *b)
 {
-    const struct look ground = {0, STREAKS_KIND_PAVING, 0, 0x909090u, 0};
+    const struct look ground = {0, STREAKS_KIND_PAVING, 0, 0x585858u, 0};
     const double side = (double)CITY_SIDE_M / GROUND_TILES, low = -(double)CITY_SIDE_M / 2;
     for (int i = 0; i < GROUND_TILES * GROUND_TILES; i++) {
         const double x = low + side * (i % GROUND_TILES), z = low + side * (i / GROUND_TILES);
