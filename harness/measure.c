@@ -63,6 +63,14 @@ static bool run_frames(struct rg_cell *cell, int frames)
     return ok && rg_device_sync(cell->device);
 }
 
+static double time_frames(struct rg_cell *cell, int frames)
+{
+    const double start = rg_now_ms();
+    if (!run_frames(cell, frames))
+        rg_cell_end_by_error(cell);
+    return (rg_now_ms() - start) / frames;
+}
+
 // --- preparing: open, check, warm up ---
 
 static bool open_instance(struct rg_cell *cell)
@@ -85,13 +93,14 @@ bool rg_cell_open(struct rg_cell *cell)
     cell->status = RG_CELL_OK;
     if (!open_instance(cell))
         return false;
-    if (!run_frames(cell, cell->check_frames - 1))
-        return rg_cell_end_by_error(cell);
+    cell->warm_frame_ms = cell->first_frame_ms;
+    if (cell->check_frames > 1)
+        cell->warm_frame_ms = time_frames(cell, cell->check_frames - 1);
     cell->counter_count = cell->instance->counter_count;
     memcpy(cell->counters, cell->instance->counters, sizeof(cell->counters));
     cell->fact_count = cell->instance->fact_count;
     memcpy(cell->facts, cell->instance->facts, sizeof(cell->facts));
-    return true;
+    return cell->status == RG_CELL_OK;
 }
 
 // Whether an image holds tier T1, which other drivers than the software ones are held to.
@@ -132,26 +141,17 @@ bool rg_cell_check(struct rg_cell *cell, const struct rg_expected *expected)
     return ok;
 }
 
-static double time_frames(struct rg_cell *cell, int frames)
-{
-    const double start = rg_now_ms();
-    if (!run_frames(cell, frames))
-        rg_cell_end_by_error(cell);
-    return (rg_now_ms() - start) / frames;
-}
-
 // Until two frames in a row take the same time to 10 %: drivers go on compiling for a while. The
 // check frames have begun it.
 bool rg_cell_warm_up(struct rg_cell *cell, const struct rg_measure_options *options)
 {
     const double start = rg_now_ms();
-    double before = time_frames(cell, 1);
-    for (int i = 1; i < MAX_WARM_UP_FRAMES && cell->status == RG_CELL_OK; i++) {
-        const double now = cell->warm_frame_ms = time_frames(cell, 1);
-        const bool settled = i >= MIN_WARM_UP_FRAMES - 1 && fabs(now - before) <= 0.1 * before;
+    for (int i = 1; i <= MAX_WARM_UP_FRAMES && cell->status == RG_CELL_OK; i++) {
+        const double before = cell->warm_frame_ms, now = time_frames(cell, 1);
+        cell->warm_frame_ms = now;
+        const bool settled = i >= MIN_WARM_UP_FRAMES && fabs(now - before) <= 0.1 * before;
         if (settled || rg_now_ms() - start > options->warm_up_ms)
             break;
-        before = now;
     }
     return cell->status == RG_CELL_OK;
 }
@@ -192,11 +192,18 @@ static void shuffle(int *order, int count, int round)
     }
 }
 
+// The last sample of a cell is timed by the API's own clock, too. A device may have none.
 static void take_sample(struct rg_cell *cell)
 {
+    const bool is_last = cell->sample_count + 1 == cell->wanted_samples;
+    int64_t begin, end;
     if (needs_run_up(cell->warm_frame_ms))
         time_frames(cell, 1);
-    cell->samples_ms[cell->sample_count++] = time_frames(cell, cell->frames_a_sample);
+    const bool has_begun = is_last && rg_device_time(cell->device, &begin);
+    const double ms = time_frames(cell, cell->frames_a_sample);
+    if (has_begun && rg_device_time(cell->device, &end))
+        cell->api_over_wall = (double)(end - begin) * 1e-6 / (ms * cell->frames_a_sample);
+    cell->samples_ms[cell->sample_count++] = ms;
 }
 
 // Whether a cell takes a sample in this round: its own are spread evenly over all rounds.
@@ -205,21 +212,6 @@ static bool takes_turn(const struct rg_cell *cell, int round, int rounds)
     const int before = (int)((int64_t)round * cell->wanted_samples / rounds);
     const int after = (int)(((int64_t)round + 1) * cell->wanted_samples / rounds);
     return cell->status == RG_CELL_OK && after > before;
-}
-
-// False when the frames failed; a device without a timer is none of that.
-static bool audit_timer(struct rg_cell *cell)
-{
-    int64_t begin, end;
-    if (!rg_device_time(cell->device, &begin))
-        return true;
-    const double start = rg_now_ms();
-    if (!run_frames(cell, cell->frames_a_sample))
-        return false;
-    const double wall_ms = rg_now_ms() - start;
-    if (rg_device_time(cell->device, &end))
-        cell->api_over_wall = (double)(end - begin) * 1e-6 / wall_ms;
-    return true;
 }
 
 struct pass_clock {
@@ -282,7 +274,7 @@ bool rg_cell_summarise(struct rg_cell *cell)
 
 static void finish(struct rg_cell *cell)
 {
-    if (rg_cell_summarise(cell) && (!audit_timer(cell) || !measure_passes(cell)))
+    if (rg_cell_summarise(cell) && !measure_passes(cell))
         rg_cell_end_by_error(cell);
 }
 

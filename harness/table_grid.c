@@ -207,15 +207,39 @@ static void name_group(const struct rg_table_run *run, int row, int variant, cha
         snprintf(text + used, size - used, ", %s", run->table->variants[variant].name);
 }
 
+// Whether two cells were left out for the same reason.
+static bool is_same_status(const struct rg_cell *a, const struct rg_cell *b)
+{
+    return a->status == b->status && !strcmp(a->detail, b->detail);
+}
+
+// The devices of a row that were left out for the same reason as this one, from it on: "gl,
+// vulkan"; "" when one before it was.
+static void name_alike(const struct rg_table_run *run, int row, int variant, int device, char *text,
+                       size_t size)
+{
+    const struct rg_cell *cell = rg_table_cell(run, row, variant, device);
+    size_t used = 0;
+    *text = 0;
+    for (int d = 0; d < device; d++)
+        if (is_same_status(cell, rg_table_cell(run, row, variant, d)))
+            return;
+    for (int d = device; d < run->devices->count && used < size; d++)
+        if (is_same_status(cell, rg_table_cell(run, row, variant, d)))
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
+                                     run->devices->devices[d]->info.name);
+}
+
 static void note_status(const struct rg_table_run *run, struct rg_grid *grid, int row, int variant,
                         int device)
 {
     const struct rg_cell *cell = rg_table_cell(run, row, variant, device);
-    char name[256];
-    name_group(run, row, variant, name, sizeof(name));
-    if (cell->status != RG_CELL_OK)
-        rg_grid_note(grid, "%s on %s: %s", name, cell->device->info.name, cell->detail);
     const struct rg_table_group *group = rg_table_group(run, row, variant);
+    char name[256], devices[512];
+    name_group(run, row, variant, name, sizeof(name));
+    name_alike(run, row, variant, device, devices, sizeof(devices));
+    if (cell->status != RG_CELL_OK && *devices)
+        rg_grid_note(grid, "%s on %s: %s", name, devices, cell->detail);
     if (device == 0 && group->error_status != RG_CELL_OK)
         rg_grid_note(grid, "%s: no error: %s", name, group->error_detail);
 }

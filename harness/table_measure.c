@@ -7,9 +7,9 @@
 
 // Of fewer than 6 samples a median has no interval of 95 %.
 static const struct rg_measure_options quick = {
-    .most_samples = 15, .least_samples = 6, .sample_ms = 15, .cell_ms = 1000, .warm_up_ms = 500};
+    .most_samples = 15, .least_samples = 6, .sample_ms = 15, .cell_ms = 1000, .warm_up_ms = 250};
 static const struct rg_measure_options full = {
-    .most_samples = 61, .least_samples = 7, .sample_ms = 60, .cell_ms = 2000, .warm_up_ms = 1000};
+    .most_samples = 61, .least_samples = 6, .sample_ms = 60, .cell_ms = 2000, .warm_up_ms = 500};
 
 // How far a cell is: so much when it is prepared, and as much again when it is measured.
 enum { CELL_UNITS = 1000 };

@@ -166,31 +166,43 @@ void rg_table_prepare(struct rg_table_run *run, struct rg_bench *bench, int row,
 
 // --- rows that are about textures ---
 
-static const struct rg_image *find_texture(const struct rg_instance *instance, const char *name)
+static const struct rg_texture *find_texture(const struct rg_instance *instance, const char *name)
 {
     for (int i = 0; i < instance->texture_count; i++)
         if (!strcmp(instance->textures[i].name, name))
-            return instance->textures[i].image;
+            return &instance->textures[i];
     return NULL;
 }
 
-static void tell_size(struct rg_cell *cell, const struct rg_instance *instance, const char *name,
+static void tell(struct rg_cell *cell, const char *name, int number)
+{
+    cell->facts[cell->fact_count++] = (struct rg_fact){.name = name, .number = number};
+}
+
+static bool tell_size(struct rg_cell *cell, const struct rg_instance *instance, const char *name,
                       int level)
 {
-    const struct rg_image *image = find_texture(instance, name);
+    const struct rg_texture *texture = find_texture(instance, name);
     char why[200];
-    if (!image) {
+    if (!texture) {
         snprintf(why, sizeof(why), "%s has no texture '%s'", cell->technique->name, name);
-        rg_cell_end(cell, RG_CELL_ERROR, why);
-    } else if (level >= image->desc.levels) {
-        snprintf(why, sizeof(why), "texture '%s' has %d levels", name, image->desc.levels);
-        rg_cell_end(cell, RG_CELL_FAIL, why);
-    } else {
-        cell->facts[cell->fact_count++] =
-            (struct rg_fact){.name = "width_px", .number = rg_level_size(image->desc.width, level)};
-        cell->facts[cell->fact_count++] = (struct rg_fact){
-            .name = "height_px", .number = rg_level_size(image->desc.height, level)};
+        return rg_cell_end(cell, RG_CELL_ERROR, why);
     }
+    const struct rg_image_desc *desc = &texture->image->desc;
+    const int own_level = level - texture->first_level;
+    if (own_level < 0) {
+        snprintf(why, sizeof(why), "the texture is reduced, and begins with level %d",
+                 texture->first_level);
+        return rg_cell_end(cell, RG_CELL_UNSUPPORTED, why);
+    }
+    if (own_level >= desc->levels) {
+        snprintf(why, sizeof(why), "the texture ends with level %d",
+                 texture->first_level + desc->levels - 1);
+        return rg_cell_end(cell, RG_CELL_FAIL, why);
+    }
+    tell(cell, "width_px", rg_level_size(desc->width, own_level));
+    tell(cell, "height_px", rg_level_size(desc->height, own_level));
+    return true;
 }
 
 void rg_table_tell_texture(struct rg_table_run *run, struct rg_bench *bench, int row, int variant)

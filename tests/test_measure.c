@@ -118,12 +118,14 @@ static struct rg_instance *create_talker(struct rg_device *device, const void *s
     return instance;
 }
 
-// 40 passes more, each named twice a frame.
+// 40 passes more, each named twice a frame. The last takes a millisecond each time.
 static bool step_talker(struct rg_instance *instance)
 {
     static char names[40][16];
     for (int i = 0; i < 80; i++) {
         snprintf(names[i % 40], sizeof(names[0]), "pass %d", i % 40);
+        if (i % 40 == 39)
+            nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
         if (instance->after_pass)
             instance->after_pass(names[i % 40], instance->user);
     }
@@ -166,7 +168,7 @@ static void test_what_a_cell_keeps(void **state)
     }
     const struct rg_cell_pass *other = &cell.passes[RG_MAX_CELL_PASSES - 1];
     assert_string_equal(other->name, "other");
-    assert_true(other->ms > 0.9 * rg_cell_passes_ms(&cell)); // it has all the work there is
+    assert_true(other->ms >= 2); // the last pass is in it, both times
     rg_cell_free(&cell);
     rg_expected_free(&expected);
     assert_true(rg_device_close(device));

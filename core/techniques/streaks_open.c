@@ -135,7 +135,7 @@ static bool draw_shadow(void *user, const float to_clip[16], const struct rg_dra
 static bool create_lights(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
-    const struct city_faces *faces = streaks_scene_faces(s->scene);
+    const struct city_faces *faces = &streaks_scene_city(s->scene)->faces;
     struct streaks_lights_settings settings = {.file = set->lights_file,
                                                .count = set->lights,
                                                .time = (enum streaks_time)set->time,
@@ -143,7 +143,7 @@ static bool create_lights(struct streaks *s)
                                                .shadow_map_px = set->shadow_map_px};
     const struct city_lamp *lamps;
     settings.lamp_count = streaks_scene_lamps(s->scene, &lamps);
-    settings.lamps = (const void *)lamps;
+    settings.lamps = lamps;
     memcpy(settings.about_m, s->camera.position, sizeof(settings.about_m));
     memcpy(settings.low_m, faces->low, sizeof(settings.low_m));
     memcpy(settings.high_m, faces->high, sizeof(settings.high_m));
@@ -188,6 +188,15 @@ static struct rg_fact *tell(struct streaks *s, enum streaks_fact which, const ch
     return fact;
 }
 
+static void tell_textures(struct streaks *s)
+{
+    const struct streaks_textures *t = s->textures;
+    s->base.texture_count = 3;
+    s->base.textures[0] = (struct rg_texture){"environment", t->skies, t->first_level};
+    s->base.textures[1] = (struct rg_texture){"point", t->points, t->first_level};
+    s->base.textures[2] = (struct rg_texture){"splash", t->crowns, 0};
+}
+
 static void tell_facts(struct streaks *s)
 {
     const struct streaks_packets_info *info = streaks_packets_info(s->packets);
@@ -200,7 +209,7 @@ static void tell_facts(struct streaks *s)
     snprintf(tell(s, STREAKS_FACT_ATLAS, "atlas_hash")->text, RG_FACT_SIZE, "%016" PRIx64,
              s->textures->hash);
     snprintf(tell(s, STREAKS_FACT_SCENE, "scene_hash")->text, RG_FACT_SIZE, "%016" PRIx64,
-             streaks_scene_hash(s->scene));
+             streaks_scene_city(s->scene)->hash);
     tell(s, STREAKS_FACT_PARTICLES, "particles");
     s->base.counter_count = STREAKS_COUNTERS;
     for (int i = 0; i < STREAKS_COUNTERS; i++)
@@ -222,8 +231,10 @@ struct rg_instance *streaks_open(struct rg_device *device, const void *settings,
         create_space(s) && create_packets(s) && upload_particles(s) && create_scene(s) &&
         create_lights(s) && create_images(s, width, height) && create_passes(s) &&
         (s->textures = streaks_textures_get(device, (enum rg_atlas_size)s->settings.atlas));
-    if (ok)
+    if (ok) {
+        tell_textures(s);
         tell_facts(s);
+    }
     if (ok && streaks_look(s))
         return &s->base;
     streaks_close(&s->base);

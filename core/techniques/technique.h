@@ -42,6 +42,7 @@ struct rg_fact {
 struct rg_texture {
     const char *name; // "environment"
     const struct rg_image *image;
+    int first_level; // of the whole texture, that the image's level 0 is: 0 unless it is reduced
 };
 
 struct rg_technique {

@@ -6,7 +6,7 @@
 // are large, and its frames can take seconds on the slower devices.
 #define RAIN                                                                                       \
     .technique = "streaks", .hardware = "Intel Core 2 Duo 3 GHz with NVIDIA GeForce GTX 280",      \
-    .width = 1280, .height = 720, .check_frames = 3,                                               \
+    .width = 1280, .height = 720, .check_frames = 2,                                               \
     .quick = "atlas=small city=small depth_map_px=2048"
 #define TIMED                                                                                      \
     RAIN, .rows_at_once = 1,                                                                       \

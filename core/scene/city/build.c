@@ -158,7 +158,7 @@ static point normal_of(point a, point b, point c)
     const point u = {b.x - a.x, b.y - a.y, b.z - a.z}, v = {c.x - a.x, c.y - a.y, c.z - a.z};
     const point n = {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
     const double length = sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
-    return (point){n.x / length, n.y / length, n.z / length};
+    return length > 0 ? (point){n.x / length, n.y / length, n.z / length} : (point){0, 1, 0};
 }
 
 void city_quad(struct city_builder *b, point p0, point p1, point p2, point p3,

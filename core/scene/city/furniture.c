@@ -36,11 +36,10 @@ static void build_lamp(struct city_builder *b, double x, double z, double dx, do
         city_post(b, x, z, y, y + 0.9, 0.16, 0.12, 8, &dark_metal);
     city_post(b, x, z, y, top, 0.09, 0.06, is_full(b) ? 8 : 3, &dark_metal);
     city_box(b, (point){fmin(x, hx) - 0.04, top - 0.10, fmin(z, hz) - 0.04},
-             (point){fmax(x, hx) + 0.04, top - 0.02, fmax(z, hz) + 0.04},
-             is_full(b) ? BOX_ALL : BOX_Y1, &dark_metal);
+             (point){fmax(x, hx) + 0.04, top - 0.02, fmax(z, hz) + 0.04}, BOX_ALL, &dark_metal);
     const double lx = 0.18 + 0.3 * fabs(dx), lz = 0.18 + 0.3 * fabs(dz);
     city_box(b, (point){hx - lx, top - 0.14, hz - lz}, (point){hx + lx, top + 0.06, hz + lz},
-             is_full(b) ? BOX_ALL - BOX_Y0 : BOX_Y1, &grey_metal);
+             BOX_ALL - BOX_Y0, &grey_metal);
     city_quad(b, (point){hx - lx, top - 0.14, hz - lz}, (point){hx + lx, top - 0.14, hz - lz},
               (point){hx + lx, top - 0.14, hz + lz}, (point){hx - lx, top - 0.14, hz + lz}, &light);
     city_lamp_add(b, CITY_STREET_LAMP, (point){hx, top - 0.2, hz}, (point){0, -1, 0});
@@ -69,8 +68,8 @@ static void build_lamps(struct city_builder *b, const struct city_island *o, int
 static void build_signal(struct city_builder *b, double x, double z, double dx, double dz, bool red)
 {
     const double y0 = CITY_KERB_M + 2.6, half = 0.16, height = 1.05, lamp = 0.11;
-    city_box(b, (point){x - half, y0, z - half}, (point){x + half, y0 + height, z + half},
-             is_full(b) ? BOX_ALL : BOX_Y1, &dark_metal);
+    city_box(b, (point){x - half, y0, z - half}, (point){x + half, y0 + height, z + half}, BOX_ALL,
+             &dark_metal);
     for (int i = 0; i < 3; i++) { // green below, red on top
         const bool on = red ? i == 2 : i == 0;
         const uint32_t colours[3] = {0x60ff40u, 0x30c0ffu, 0x2828ffu};
