@@ -132,6 +132,17 @@ static bool draw_shadow(void *user, const float to_clip[16], const struct rg_dra
     return streaks_scene_depth(s->scene, &s->base, matrix, onto);
 }
 
+// Lamps ahead of the camera light what it sees: a place so far ahead on level ground.
+static void look_ahead(const struct rg_camera *camera, float place_m[3])
+{
+    const double ahead_m = 20, x = (double)camera->target[0] - (double)camera->position[0];
+    const double z = (double)camera->target[2] - (double)camera->position[2];
+    const double level = fmax(hypot(x, z), 1e-9);
+    memcpy(place_m, camera->position, 3 * sizeof(*place_m));
+    place_m[0] += (float)(x / level * ahead_m);
+    place_m[2] += (float)(z / level * ahead_m);
+}
+
 static bool create_lights(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
@@ -144,7 +155,7 @@ static bool create_lights(struct streaks *s)
     const struct city_lamp *lamps;
     settings.lamp_count = streaks_scene_lamps(s->scene, &lamps);
     settings.lamps = lamps;
-    memcpy(settings.about_m, s->camera.position, sizeof(settings.about_m));
+    look_ahead(&s->camera, settings.about_m);
     memcpy(settings.low_m, faces->low, sizeof(settings.low_m));
     memcpy(settings.high_m, faces->high, sizeof(settings.high_m));
     streaks_rain_matrices(&s->space, settings.world_to_rain, NULL);
