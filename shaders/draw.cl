@@ -49,27 +49,40 @@ typedef struct rg_lit_row {
     float r[RG_TILE_PX], g[RG_TILE_PX], b[RG_TILE_PX], a[RG_TILE_PX];
 } rg_lit_row;
 
+// Whether a covered pixel will be seen, as far as can be told without its colour.
+RG_FN int rg_will_be_seen(const rg_shading *s, RG_RECORD record, int px, int py)
+{
+    if (s->p.draw.depth_mode == 0)
+        return 1;
+    rg_fragment f = rg_settled(rg_program_fragment(s->rg, s->p.program, record, px, py,
+                                                   rg_rgba(0.0f, 0.0f, 0.0f, 0.0f)));
+    return f.kept != 0 && f.depth < as_float(s->depth[py * s->p.draw.width + px]) ? 1 : 0;
+}
+
 // One light after the other, in the order of draw_lit.h, each for pixels side by side: a loop within
-// theirs would keep PoCL from that. A pixel that is not covered takes the place of one that is, for
-// nothing else may be read.
+// theirs would keep PoCL from that. A pixel that will not be seen takes the place of one that will,
+// for nothing else may be read.
 RG_PROC void rg_light_row(const rg_shading *s, RG_RECORD record, rg_block_triangle ta,
                           rg_block_triangle tb, int x0, int py, int y, int count, rg_lit_row *lit)
 {
-    int covered = -1;
     int px[RG_TILE_PX];
+#pragma clang loop vectorize(assume_safety) vectorize_width(8) interleave_count(1)
     for (int x = 0; x < count; x++) {
-        covered = (rg_block_inside(ta, x, y) & rg_block_inside(tb, x, y)) >= 0 ? x : covered;
-        px[x] = x0 + covered;
+        px[x] = -1;
         lit->r[x] = lit->g[x] = lit->b[x] = lit->a[x] = 0.0f;
+        if ((rg_block_inside(ta, x, y) & rg_block_inside(tb, x, y)) >= 0)
+            px[x] = rg_will_be_seen(s, record, x0 + x, py) ? x0 + x : -1;
     }
-    if (covered < 0)
-        return;
+    int seen = -1;
     for (int x = 0; x < count; x++)
-        px[x] = px[x] < x0 ? x0 + covered : px[x];
+        seen = rg_imax(seen, px[x]);
+    if (seen < 0)
+        return;
     for (int light = 0; light < s->p.program.lights; light++) {
 #pragma clang loop vectorize(assume_safety) vectorize_width(8) interleave_count(1)
         for (int x = 0; x < count; x++) {
-            rgba c = rg_program_light(s->rg, s->p.program, record, px[x], py, light);
+            rgba c = rg_program_light(s->rg, s->p.program, record, px[x] < 0 ? seen : px[x], py,
+                                      light);
             lit->r[x] += c.r;
             lit->g[x] += c.g;
             lit->b[x] += c.b;
