@@ -36,8 +36,8 @@ struct tracing {
 struct rg_streak_detail rg_streak_detail(enum rg_atlas_size size)
 {
     return size == RG_ATLAS_SMALL
-               ? (struct rg_streak_detail){.moments = 40, .column = 20, .along = 64}
-               : (struct rg_streak_detail){.moments = 256, .column = 8, .along = 128};
+               ? (struct rg_streak_detail){.moments = 40, .column = 20, .along = 48}
+               : (struct rg_streak_detail){.moments = 256, .column = 8, .along = 112};
 }
 
 // The integral of a tent of width 2 from its middle.
@@ -139,11 +139,12 @@ static bool prepare(struct tracing *t, int view, int level, const struct rg_stre
     const double shrink = (double)height / rg_atlas_row_height(view, 0);
     t->radius_x = 0.5f * RG_ATLAS_DROP_PX / (float)(1 << level);
     t->radius_y = (float)(0.5 * (double)RG_ATLAS_DROP_PX * shrink);
-    t->fall_rows = RG_DROP_FALL * 2 * (double)t->radius_y * cos(view * 20 * PI / 180);
+    const double foreshortening = cos(view * 20 * PI / 180);
+    t->fall_rows = RG_DROP_FALL * 2 * (double)t->radius_y * foreshortening;
     t->top_row = 0.5 * (height - t->fall_rows);
     t->moments = detail->moments;
     t->step_u = 1 / ((float)detail->column * t->radius_x);
-    t->step_v = 2.0f / (float)detail->along;
+    t->step_v = 2.0f / (float)detail->along * (float)fmax(foreshortening, 0.5);
     t->rays = 2 * (int)ceilf(RG_DROP_REACH / t->step_u);
     t->rows = 2 * (int)ceilf(RG_DROP_REACH / t->step_v);
     if (t->rays > RG_TRACE_MAX || 2 * t->fall_rows / detail->moments + 2 > MAX_BLUR)
