@@ -64,8 +64,11 @@ RG_DRAW_RECORD(streaks_city)
     r.origin_x = s.origin_x;
     r.origin_y = s.origin_y;
     r.depth = s.depth;
-    r.nearest = s.nearest;
-    r.farthest = s.farthest;
+    // Planes are made of three corners; the fourth may lie nearer or farther. A face that is cut
+    // has no bounds.
+    float fourth = t.d.w > RG_LEAST_W ? t.d.z / rg_max(t.d.w, RG_LEAST_W) : s.nearest;
+    r.nearest = t.d.w > RG_LEAST_W ? rg_min(s.nearest, fourth) : 0.0f;
+    r.farthest = t.d.w > RG_LEAST_W ? rg_max(s.farthest, fourth) : 1.0f;
     r.surface = surface_of_at(rg, face);
     return r;
 }

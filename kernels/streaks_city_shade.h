@@ -2,7 +2,6 @@
 // which streaks_city.h has left; and the sky where there is none. So a pixel's light is reckoned
 // once, however many faces lie behind each other.
 #include "math.h"
-#include "mesh_normal.h"
 #include "streaks_city_shade_params.h"
 #include "streaks_light.h"
 #include "streaks_surface.h"
@@ -69,19 +68,10 @@ RG_FN uint streaks_word(rg_ctx rg, streaks_seen s, int word)
     return surfaces_at(rg, s.first_word + word);
 }
 
-RG_FN float streaks_float(rg_ctx rg, streaks_seen s, int word)
+// How much water stands on it, 0 to 1.
+RG_FN float streaks_wetness(uint normal)
 {
-    return rg_bits_float(streaks_word(rg, s, word));
-}
-
-// 1 for grounds that water stands on.
-RG_FN float streaks_is_ground(uint look)
-{
-    uint kind = (look >> 8) & 255u;
-    // A sum, for of one choice within another gcc makes branches, and no vectors.
-    float asphalt = kind == STREAKS_KIND_ASPHALT ? 1.0f : 0.0f;
-    float paving = kind == STREAKS_KIND_PAVING ? 0.6f : 0.0f;
-    return asphalt + paving;
+    return rg_to_float(normal >> 30) * (1.0f / 3.0f);
 }
 
 // --- lights ---
@@ -105,8 +95,9 @@ RG_DRAW_LIGHT(streaks_city_shade)
 {
     streaks_light l = lights_at(rg, light);
     streaks_seen s = streaks_seen_at(rg, p, px, py);
-    v3 n = mesh_normal_unpack(streaks_word(rg, s, STREAKS_NORMAL));
-    float wet = p.wet * streaks_is_ground(streaks_word(rg, s, STREAKS_LOOK));
+    uint normal = streaks_word(rg, s, STREAKS_NORMAL);
+    v3 n = mesh_normal_unpack(normal);
+    float wet = p.wet * streaks_wetness(normal);
     streaks_reach reach = streaks_light_reach(l, s.at);
     float facing = rg_max(v3_dot(n, reach.to_light), 0.0f);
     float share = reach.share * facing *
@@ -117,25 +108,40 @@ RG_DRAW_LIGHT(streaks_city_shade)
 
 // --- what a pixel shows ---
 
-RG_FN float streaks_eighth(uint word)
+// The upper 16 bits as a number with a sign, and the lower.
+RG_FN float streaks_upper(uint word)
 {
-    return rg_to_float(word & 255u) * (1.0f / 255.0f);
+    return rg_to_float(rg_to_int(word >> 16) - ((word >> 31) != 0u ? 65536 : 0));
 }
 
-RG_FN rgba streaks_painted(rg_ctx rg, streaks_city_shade_params p, streaks_seen s, uint look,
+RG_FN float streaks_lower(uint word)
+{
+    return streaks_upper(word << 16);
+}
+
+RG_FN rgba streaks_painted(rg_ctx rg, streaks_city_shade_params p, streaks_seen s, v3 n, uint look,
                            float facing)
 {
-    float u = streaks_float(rg, s, STREAKS_AX) * s.at.x +
-              streaks_float(rg, s, STREAKS_AZ) * s.at.z + streaks_float(rg, s, STREAKS_A0);
-    float v = streaks_float(rg, s, STREAKS_BX) * s.at.x +
-              streaks_float(rg, s, STREAKS_BY) * s.at.y +
-              streaks_float(rg, s, STREAKS_BZ) * s.at.z + streaks_float(rg, s, STREAKS_B0);
-    float texels = s.w * p.pixel_m * streaks_float(rg, s, STREAKS_DENSITY);
-    rgba t = streaks_texture(rg, u, v, rg_to_int(look & 255u),
-                             texels * texels / rg_max(facing, 0.04f), p.texture_px, p.last_level);
-    uint tint = streaks_word(rg, s, STREAKS_TINT);
-    return rg_rgba(t.r * streaks_eighth(tint), t.g * streaks_eighth(tint >> 8),
-                   t.b * streaks_eighth(tint >> 16), t.a);
+    uint scales = streaks_word(rg, s, STREAKS_SCALES);
+    uint offsets = streaks_word(rg, s, STREAKS_OFFSETS);
+    float scale_u = streaks_lower(scales) * (1.0f / STREAKS_SCALE_STEPS);
+    float scale_v = streaks_upper(scales) * (1.0f / STREAKS_SCALE_STEPS);
+    int level = n.y > STREAKS_LEVEL_Y || n.y < -STREAKS_LEVEL_Y ? 1 : 0;
+    int turned = rg_to_int((look >> STREAKS_TURNED_BIT) & 1u);
+    float ground_u = turned != 0 ? s.at.z : s.at.x;
+    float ground_v = turned != 0 ? s.at.x : s.at.z;
+    float along_u = level != 0 ? ground_u : n.z * s.at.x - n.x * s.at.z;
+    float along_v = level != 0 ? ground_v : s.at.y;
+    float u = scale_u * along_u + streaks_lower(offsets) * (1.0f / 65536.0f);
+    float v = scale_v * along_v + streaks_upper(offsets) * (1.0f / 65536.0f);
+    // Texels that a pixel is wide, squared; as wide across as it is long, seen at a slant.
+    float width = s.w * p.pixel_m * rg_to_float(p.texture_px);
+    float texels = width * width * rg_abs(scale_u * scale_v) / rg_max(facing, 0.04f);
+    rgba t = streaks_texture(rg, u, v, rg_to_int(look & 255u), texels, p.texture_px, p.last_level);
+    uint tint = look >> STREAKS_TINT_BIT;
+    return rg_rgba(t.r * (rg_to_float(tint & 31u) * (1.0f / 31.0f)),
+                   t.g * (rg_to_float((tint >> 5) & 63u) * (1.0f / 63.0f)),
+                   t.b * (rg_to_float(tint >> 11) * (1.0f / 31.0f)), t.a);
 }
 
 // What a wet ground mirrors of the sky: the more, the flatter the view (Schlick, 1994).
@@ -150,21 +156,26 @@ RG_DRAW_FRAGMENT(streaks_city_shade)
 {
     streaks_seen s = streaks_seen_at(rg, p, px, py);
     uint look = streaks_word(rg, s, STREAKS_LOOK);
-    v3 n = mesh_normal_unpack(streaks_word(rg, s, STREAKS_NORMAL));
+    uint normal = streaks_word(rg, s, STREAKS_NORMAL);
+    v3 n = mesh_normal_unpack(normal);
     float facing = rg_abs(v3_dot(n, s.ray));
-    rgba t = streaks_painted(rg, p, s, look, facing);
-    float wet = p.wet * streaks_is_ground(look);
+    rgba t = streaks_painted(rg, p, s, n, look, facing);
+    float wet = p.wet * streaks_wetness(normal);
     float open = streaks_openness(rg, v3_add(s.at, v3_scale(n, STREAKS_BEFORE_M)));
-    float around = p.bounced + (p.ambient - p.bounced) * open;
-    float glow = p.glow * t.a + streaks_eighth(look >> 16);
+    float above = p.ambient * open;
+    float beside = p.bounced * (1.0f - open);
+    float glow = p.glow * t.a + rg_to_float((look >> STREAKS_GLOW_BIT) & 7u) * (1.0f / 7.0f);
     float mirrored = streaks_mirrored(wet, facing) * open;
     // What a lamp behind lights up shows little of the light before it.
     float own = (1.0f - 0.45f * wet) * (1.0f - 0.7f * t.a);
     float shown = 1.0f - rg_exp(-s.distance * p.sky.haze_per_m);
-    v3 seen = v3_make(
-        t.r * (own * (around * p.sky.zenith_r + lit.r) + glow) + mirrored * p.sky.horizon_r,
-        t.g * (own * (around * p.sky.zenith_g + lit.g) + glow) + mirrored * p.sky.horizon_g,
-        t.b * (own * (around * p.sky.zenith_b + lit.b) + glow) + mirrored * p.sky.horizon_b);
+    v3 seen =
+        v3_make(t.r * (own * (above * p.sky.zenith_r + beside * p.sky.horizon_r + lit.r) + glow) +
+                    mirrored * p.sky.horizon_r,
+                t.g * (own * (above * p.sky.zenith_g + beside * p.sky.horizon_g + lit.g) + glow) +
+                    mirrored * p.sky.horizon_g,
+                t.b * (own * (above * p.sky.zenith_b + beside * p.sky.horizon_b + lit.b) + glow) +
+                    mirrored * p.sky.horizon_b);
     seen = v3_make(seen.x + (p.sky.horizon_r - seen.x) * shown,
                    seen.y + (p.sky.horizon_g - seen.y) * shown,
                    seen.z + (p.sky.horizon_b - seen.z) * shown);

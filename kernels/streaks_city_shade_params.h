@@ -12,7 +12,7 @@ RG_STRUCT(streaks_city_shade_params)
     float eye_x, eye_y, eye_z;
     float pixel_m; // a pixel's width at w = 1, in metres
     float ambient; // of the sky's light from above: what surfaces get that see all of it
-    float bounced; // what those get that see nothing of it
+    float bounced; // of the horizon's: what those get that see no sky
     float glow;    // light of lit windows and lamps
     float wet;     // 0 to 1: how wet the ground is
     int texture_px;

@@ -3,24 +3,35 @@
 #ifndef RG_KERNELS_STREAKS_SURFACE_H
 #define RG_KERNELS_STREAKS_SURFACE_H
 
-#include "lang.h"
+#include "mesh_normal.h"
 
-// The words of a surface. Textures lie upon the world: at a place (x, y, z) a texture is fetched at
-// (AX x + AZ z + A0, BX x + BY y + BZ z + B0), in whole textures.
-#define STREAKS_AX            0 // floats, as their bits
-#define STREAKS_AZ            1
-#define STREAKS_A0            2
-#define STREAKS_BX            3
-#define STREAKS_BY            4
-#define STREAKS_BZ            5
-#define STREAKS_B0            6
-#define STREAKS_DENSITY       7 // texels of level 0 a metre
-#define STREAKS_NORMAL        8 // mesh_normal_pack
-#define STREAKS_LOOK          9 // texture, then kind, then how much it glows by itself: 8 bits each
-#define STREAKS_TINT          10 // the texture is multiplied by it: r, g, b of 8 bits
-#define STREAKS_SURFACE_WORDS 11
+// The words of a surface. Textures lie upon the world. On ground and roofs, u runs along x and v
+// along z, or, turned, u along z and v along x; on walls u runs to the right as seen from outside,
+// and v along y. Places are in whole textures: u = scale_u * along + offset_u, likewise v.
+#define STREAKS_SCALES        0 // u's and v's in 1 / STREAKS_SCALE_STEPS, 16 bits each with a sign
+#define STREAKS_OFFSETS       1 // u's and v's in 1 / 65536
+#define STREAKS_NORMAL        2 // mesh_normal_pack; above it two bits: how wet it gets, 0 to 3
+#define STREAKS_LOOK          3 // see below
+#define STREAKS_SURFACE_WORDS 4
 
-// Kinds of surface: what rain splashes on, and how wet it gleams.
+#define STREAKS_SCALE_STEPS 8192.0f
+
+// The look, from the lowest bit: the texture, 8 bits; the kind, 4; whether it is turned, 1; how
+// much it glows by itself, 3; what the texture is multiplied by, r, g and b, 5, 6 and 5 bits.
+#define STREAKS_KIND_BIT   8
+#define STREAKS_TURNED_BIT 12
+#define STREAKS_GLOW_BIT   13
+#define STREAKS_TINT_BIT   16
+
+// Above this y of its normal a surface is ground or a roof.
+#define STREAKS_LEVEL_Y 0.7f
+
+RG_FN uint streaks_kind(uint look)
+{
+    return (look >> STREAKS_KIND_BIT) & 15u;
+}
+
+// Kinds of surface: what rain splashes on.
 #define STREAKS_KIND_WALL    0
 #define STREAKS_KIND_GLASS   1
 #define STREAKS_KIND_ROOF    2

@@ -583,12 +583,26 @@ static void without_shadows_no_map_is_drawn(void **state)
     streaks_lights_close(lights);
 }
 
+static void no_lights_are_none(void **state)
+{
+    struct streaks_lights_settings settings = three_lights();
+    for (int time = STREAKS_DAY; time <= STREAKS_NIGHT; time++) {
+        settings.count = 0;
+        settings.time = (enum streaks_time)time;
+        struct streaks_lights *lights = streaks_lights_open(*state, &settings);
+        assert_true(lights && lights->count == 0 && lights->map_count == 0);
+        assert_true(lights->in_world && lights->in_rain && lights->shadows && lights->sky[0] > 0);
+        assert_true(streaks_lights_shade(lights, NULL, NULL));
+        streaks_lights_close(lights);
+    }
+}
+
 static void lights_that_cannot_be_are_refused(void **state)
 {
     struct streaks_lights_settings settings = three_lights();
-    settings.count = 0;
+    settings.count = -1;
     assert_null(streaks_lights_open(*state, &settings));
-    assert_non_null(strstr(rg_last_error(), "lights: 0 asked for"));
+    assert_non_null(strstr(rg_last_error(), "lights: -1 asked for"));
     settings.count = 17;
     assert_null(streaks_lights_open(*state, &settings));
     assert_non_null(strstr(rg_last_error(), "lights: 17 asked for"));
@@ -696,6 +710,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(lights_open_in_both_frames),
         cmocka_unit_test(each_light_draws_its_own_layers),
         cmocka_unit_test(without_shadows_no_map_is_drawn),
+        cmocka_unit_test(no_lights_are_none),
         cmocka_unit_test(lights_that_cannot_be_are_refused),
         cmocka_unit_test(lights_add_up),
         cmocka_unit_test(frames_do_not_matter),

@@ -49,7 +49,7 @@ static bool select_packets(struct streaks *s, const double eye[3], double top_m)
         .run = streaks_run(set->fall_speed_m_s, set->step_s * (double)s->base.frame, top_m,
                            set->local_height_m),
         .across_m = fmax(splash, 2 * margin(set)),
-        .above_m = fmax(streak, splash) + all,
+        .above_m = streak + set->splash_s * set->fall_speed_m_s + splash + all,
         .below_m = fmax(2 * margin(set), splash) + all,
         .hull = set->select,
     };
@@ -318,8 +318,7 @@ static bool streaks_draw(struct rg_instance *instance)
     memcpy(view.eye, s->observer.camera.position, sizeof(view.eye));
     instance->counters[STREAKS_PARTICLES].value += s->selection.particles;
     instance->counters[STREAKS_PACKETS].value += s->selection.packets;
-    const struct streaks_scene_lights lights = {s->lights->count, s->lights->in_world, s->lights->shadows};
-    return streaks_scene_draw(s->scene, instance, &view, &look, &lights, s->settings.geometry) &&
+    return streaks_scene_draw(s->scene, instance, &view, &look, s->lights, s->settings.geometry) &&
            draw_rain(s) && (!s->overlay || streaks_show(s));
 }
 

@@ -11,7 +11,7 @@ enum streaks_time { STREAKS_DAY, STREAKS_NIGHT };
 
 struct streaks_lights_settings {
     const char *file; // of the user's lights, which stand for all others; NULL or "": none
-    // Without a file: so many lights, by day a sun and lamps, by night lamps and a moon.
+    // Without a file: so many lights, 0 to 16; by day a sun and lamps, by night lamps and a moon.
     int count;
     enum streaks_time time;
     const struct city_lamp *lamps; // the scene's; the caller's
@@ -28,7 +28,7 @@ struct streaks_lights {
     int count;
     streaks_light world[STREAKS_MAX_LIGHTS]; // in the world
     float sky[3];                            // linear: what comes from everywhere
-    struct rg_buf *in_world, *in_rain;       // of `count` streaks_light each
+    struct rg_buf *in_world, *in_rain;       // of `count` streaks_light each, at least one
     struct rg_image *shadows;                // D32F: all maps; of one texel where there are none
     int map_count;                           // layers that are drawn
 };

@@ -165,7 +165,7 @@ streaks_light streaks_light_of(const struct rg_light *light, const float low_m[3
                        .cos_inner = (float)cos((double)light->inner_deg * degree),
                        .cos_outer = (float)cos((double)light->outer_deg * degree),
                        .shadow_layer = layer,
-                       .shadow_faces = light->kind == STREAKS_POINT ? 6 : 1,
+                       .shadow_faces = light->kind == STREAKS_POINT && layer >= 0 ? 6 : 1,
                        .shadow_bias_m = 0.05f};
     const double from[3] = {(double)l.x, (double)l.y, (double)l.z};
     float rows[4][4];

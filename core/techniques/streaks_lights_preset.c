@@ -17,7 +17,7 @@ static const struct lamp_light {
     float colour[3];
     float inner_deg, outer_deg;
 } lamp_lights[] = {
-    [CITY_STREET_LAMP] = {{44, 30, 13}, 35, 62},
+    [CITY_STREET_LAMP] = {{56, 41, 22}, 35, 62},
     [CITY_TRAFFIC_RED] = {{16, 0.8f, 0.5f}, 30, 55},
     [CITY_TRAFFIC_GREEN] = {{0.6f, 15, 6}, 30, 55},
 };
@@ -34,13 +34,13 @@ static double squared_distance(const float a[3], const float b[3])
     return sum;
 }
 
+// It stands ahead of the thesis's two cameras, where drops are brightest against it.
 static void add_sun(const struct streaks_lights_settings *s, struct rg_lights *lights)
 {
     struct rg_light *sun = &lights->lights[lights->count++];
     *sun =
         (struct rg_light){.kind = STREAKS_SUN, .inner_deg = 30, .outer_deg = 45, .shadows = true};
-    const double d[3] = {-0.52, -0.72, -0.46},
-                 length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double d[3] = {-0.05, -0.5, 0.85}, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     for (int c = 0; c < 3; c++)
         sun->direction[c] = (float)(d[c] / length);
     memcpy(sun->colour, sun_colours[s->time], sizeof(sun->colour));
@@ -106,7 +106,7 @@ static bool choose_preset(const struct streaks_lights_settings *s, struct rg_lig
     struct choice choice = {.lights = lights};
     *lights = (struct rg_lights){0};
     memcpy(lights->sky, sky_colours[s->time], sizeof(lights->sky));
-    if (s->time == STREAKS_DAY)
+    if (s->time == STREAKS_DAY && s->count > 0)
         add_sun(s, lights);
     add_lamps(s, 1u << CITY_STREET_LAMP, STREET_LAMPS_FIRST, &choice);
     add_lamps(s, 1u << CITY_TRAFFIC_RED, 1, &choice);

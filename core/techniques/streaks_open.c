@@ -135,7 +135,7 @@ static bool draw_shadow(void *user, const float to_clip[16], const struct rg_dra
 static bool create_lights(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
-    const struct city_faces *faces = streaks_scene_faces(s->scene);
+    const struct city_faces *faces = &streaks_scene_city(s->scene)->faces;
     struct streaks_lights_settings settings = {.file = set->lights_file,
                                                .count = set->lights,
                                                .time = (enum streaks_time)set->time,
@@ -143,7 +143,7 @@ static bool create_lights(struct streaks *s)
                                                .shadow_map_px = set->shadow_map_px};
     const struct city_lamp *lamps;
     settings.lamp_count = streaks_scene_lamps(s->scene, &lamps);
-    settings.lamps = (const void *)lamps;
+    settings.lamps = lamps;
     memcpy(settings.about_m, s->camera.position, sizeof(settings.about_m));
     memcpy(settings.low_m, faces->low, sizeof(settings.low_m));
     memcpy(settings.high_m, faces->high, sizeof(settings.high_m));
@@ -209,7 +209,7 @@ static void tell_facts(struct streaks *s)
     snprintf(tell(s, STREAKS_FACT_ATLAS, "atlas_hash")->text, RG_FACT_SIZE, "%016" PRIx64,
              s->textures->hash);
     snprintf(tell(s, STREAKS_FACT_SCENE, "scene_hash")->text, RG_FACT_SIZE, "%016" PRIx64,
-             streaks_scene_hash(s->scene));
+             streaks_scene_city(s->scene)->hash);
     tell(s, STREAKS_FACT_PARTICLES, "particles");
     s->base.counter_count = STREAKS_COUNTERS;
     for (int i = 0; i < STREAKS_COUNTERS; i++)

@@ -1,4 +1,5 @@
 #include "core/techniques/streaks.h"
+#include "core/techniques/streaks_packets.h"
 
 #define AT(field) offsetof(struct streaks_settings, field)
 
@@ -11,7 +12,7 @@ static const struct rg_param rows[] = {
     {"slant_deg", RG_PARAM_FLOAT, AT(slant_deg), 0, 0, 60, "deg", "how far the fall leans from straight down", NULL},
     {"slant_azimuth_deg", RG_PARAM_FLOAT, AT(slant_azimuth_deg), 0, -360, 360, "deg", "where to: 0 along x, 90 along z", NULL},
     {"density_map", RG_PARAM_FILE, AT(density_map), 0, 0, 0, "file", "an image whose grey is the density of drops, white the densest; none: a round gradient", ""},
-    {"drops_m2_s", RG_PARAM_FLOAT, AT(drops_m2_s), 535.5, 0, 1e9, "1/(m2 s)", "drops where the density map is white", NULL},
+    {"drops_m2_s", RG_PARAM_FLOAT, AT(drops_m2_s), STREAKS_DEFAULT_DROPS_M2_S, 0, 1e9, "1/(m2 s)", "drops where the density map is white", NULL},
     {"fall_speed_m_s", RG_PARAM_FLOAT, AT(fall_speed_m_s), 8.16, 0.01, 1000, "m/s", "of all drops", NULL},
     {"local_height_m", RG_PARAM_FLOAT, AT(local_height_m), 20, 0.1, 10000, "m", "between the local top and the local ground", NULL},
     {"culling_radius_m", RG_PARAM_FLOAT, AT(culling_radius_m), 20, 0.1, 100000, "m", "how far around the observer it rains", NULL},
@@ -54,12 +55,12 @@ static const struct rg_param rows[] = {
     {"splash_materials", RG_PARAM_CHOICE, AT(splash_materials), 0, 0, 1, "1", "whether splashes differ with what is hit", "off on"},
     {"drop_radius_mm", RG_PARAM_FLOAT, AT(drop_radius_mm), 1.6, 0.05, 10, "mm", "of all drops", NULL},
     {"exposure_s", RG_PARAM_FLOAT, AT(exposure_s), 1.0 / 60, 1e-4, 1, "s", "for which the camera's shutter is open: how long streaks are", NULL},
-    {"splash_s", RG_PARAM_FLOAT, AT(splash_s), 0.3, 0.001, 10, "s", "how long a splash lasts", NULL},
-    {"splash_width_mm", RG_PARAM_FLOAT, AT(splash_width_mm), 60, 0.1, 10000, "mm", "of a splash's picture, which is two thirds as high", NULL},
+    {"splash_s", RG_PARAM_FLOAT, AT(splash_s), 0.15, 0.001, 10, "s", "how long a splash lasts", NULL},
+    {"splash_width_mm", RG_PARAM_FLOAT, AT(splash_width_mm), 40, 0.1, 10000, "mm", "of a splash's picture, which is two thirds as high", NULL},
     {"streak_gain", RG_PARAM_FLOAT, AT(streak_gain), 1, 0, 1000, "1", "light of streaks", NULL},
     {"streak_opacity", RG_PARAM_FLOAT, AT(streak_opacity), 1, 0, 40, "1", "what streaks hide of what lies behind, by the share of the exposure for which drops cover it", NULL},
-    {"splash_gain", RG_PARAM_FLOAT, AT(splash_gain), 0.5, 0, 1000, "1", "light of splashes", NULL},
-    {"splash_opacity", RG_PARAM_FLOAT, AT(splash_opacity), 0.5, 0, 1, "1", "what splashes hide at their thickest", NULL},
+    {"splash_gain", RG_PARAM_FLOAT, AT(splash_gain), 0.35, 0, 1000, "1", "light of splashes", NULL},
+    {"splash_opacity", RG_PARAM_FLOAT, AT(splash_opacity), 0.35, 0, 1, "1", "what splashes hide at their thickest", NULL},
     {"overlay", RG_PARAM_CHOICE, AT(overlay), 0, 0, 1, "1", "draws the rain space, the local space, the culling radius, packets and lights as lines", "off on"},
     {"state", RG_PARAM_CHOICE, AT(keeps_state), 0, 0, 1, "1", "keeps each frame's particles for those who compare states", "off on"},
 };

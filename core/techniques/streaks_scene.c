@@ -1,174 +1,28 @@
 #include "core/techniques/streaks_scene.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/alloc.h"
 #include "core/log.h"
 #include "core/techniques/streaks_scene_cull.h"
+#include "core/techniques/streaks_scene_made.h"
 #include "kernels/streaks_city_shade_params.h"
-#include "kernels/streaks_openness_grid.h"
-
-enum { TEXTURE_LEVELS_MOST = 10, PAINTED_AT_ONCE = 8 };
 
 struct streaks_scene {
     struct rg_device *device;
-    struct city *city;
-    struct rg_buf *faces, *surface_of, *surfaces;
-    struct rg_buf *openness;
+    const struct streaks_scene_made *made;
     struct rg_buf *block_words; // of the last draw
-    struct rg_image *textures;
-    struct rg_image *numbers; // of the last target's size
+    struct rg_image *numbers;   // of the target's size
     struct rg_pass *draw, *shade;
-    int levels;
-    struct streaks_lamp *lamps;
     struct streaks_cull cull;
-    bool *seen;       // by chunk: in the present draw
+    bool *seen;       // by chunk: in the last draw
     uint32_t *blocks; // two words each
     struct streaks_scene_work work;
 };
 
-// --- textures ---
-
-static int levels_of(int size)
-{
-    int levels = 1;
-    while (size >> levels && levels < TEXTURE_LEVELS_MOST)
-        levels++;
-    return levels;
-}
-
-// A level of half the side, from texels of square roots of light.
-static void halve(const uint32_t *from, int size, uint32_t *to)
-{
-    const int half = size / 2;
-    for (int y = 0; y < half; y++) {
-        for (int x = 0; x < half; x++) {
-            const uint32_t *t = from + 2 * y * size + 2 * x;
-            const uint32_t four[4] = {t[0], t[1], t[size], t[size + 1]};
-            uint32_t texel = 0;
-            for (int c = 0; c < 4; c++) {
-                int sum = 0;
-                for (int i = 0; i < 4; i++) {
-                    const int v = (int)(four[i] >> 8 * c & 255);
-                    sum += c < 3 ? v * v : v;
-                }
-                const float mean = (float)sum * 0.25f;
-                texel |= (uint32_t)((c < 3 ? sqrtf(mean) : mean) + 0.5f) << 8 * c;
-            }
-            to[y * half + x] = texel;
-        }
-    }
-}
-
-// All levels of a texture, one after the other.
-static void paint_levels(const struct city_painter *painter, int texture, int size, int levels,
-                         uint32_t *texels)
-{
-    city_paint(painter, texture, texels);
-    for (int level = 1; level < levels; level++) {
-        halve(texels, size, texels + size * size);
-        texels += size * size;
-        size /= 2;
-    }
-}
-
-static bool write_levels(struct streaks_scene *s, int texture, const uint32_t *texels)
-{
-    int size = s->city->texture_px;
-    for (int level = 0; level < s->levels; level++) {
-        if (!rg_image_write(s->textures, texture, level, texels))
-            return false;
-        texels += size * size;
-        size = size > 1 ? size / 2 : 1;
-    }
-    return true;
-}
-
-static bool create_textures(struct streaks_scene *s)
-{
-    const struct city *city = s->city;
-    const int size = city->texture_px;
-    s->levels = levels_of(size);
-    const struct rg_image_desc desc = {RG_RGBA8, size, size, city->texture_count, s->levels};
-    const size_t room = (size_t)size * (size_t)size * 4 / 3 + 64;
-    s->textures = rg_image_create(s->device, &desc, "scene's textures");
-    uint32_t *texels =
-        s->textures ? rg_alloc(PAINTED_AT_ONCE * room, sizeof(*texels), "textures") : NULL;
-    struct city_painter *painter = texels ? city_painter_create(&city->settings) : NULL;
-    bool ok = painter != NULL;
-    for (int first = 0; ok && first < city->texture_count; first += PAINTED_AT_ONCE) {
-        const int end = first + PAINTED_AT_ONCE < city->texture_count ? first + PAINTED_AT_ONCE
-                                                                      : city->texture_count;
-#pragma omp parallel for schedule(dynamic, 1)
-        for (int i = first; i < end; i++)
-            paint_levels(painter, i, size, s->levels, texels + (size_t)(i - first) * room);
-        for (int i = first; ok && i < end; i++)
-            ok = write_levels(s, i, texels + (size_t)(i - first) * room);
-    }
-    city_painter_destroy(painter);
-    free(texels);
-    return ok;
-}
-
 // --- opening ---
-
-static struct rg_buf *filled(struct rg_device *device, const void *words, int64_t count,
-                             const char *name)
-{
-    struct rg_buf *buf = rg_buf_create(device, 4 * count, name);
-    if (buf && rg_buf_write(buf, 0, words, 4 * count))
-        return buf;
-    rg_buf_destroy(buf);
-    return NULL;
-}
-
-static bool create_openness(struct streaks_scene *s)
-{
-    uint32_t *words = rg_alloc(STREAKS_OPEN_WORDS, sizeof(*words), "scene");
-    if (words && city_openness(s->city, words))
-        s->openness = filled(s->device, words, STREAKS_OPEN_WORDS, "openness to the sky");
-    free(words);
-    return s->openness;
-}
-
-// The city's lamps as streaks_lights takes them.
-static bool take_lamps(struct streaks_scene *s)
-{
-    const struct city *city = s->city;
-    s->lamps = rg_alloc((size_t)city->lamp_count, sizeof(*s->lamps), "scene");
-    for (int i = 0; s->lamps && i < city->lamp_count; i++) {
-        const struct city_lamp *lamp = &city->lamps[i];
-        s->lamps[i].kind = lamp->kind == CITY_STREET_LAMP   ? STREAKS_STREET_LAMP
-                           : lamp->kind == CITY_TRAFFIC_RED ? STREAKS_TRAFFIC_RED
-                                                            : STREAKS_TRAFFIC_GREEN;
-        memcpy(s->lamps[i].position_m, lamp->position, sizeof(lamp->position));
-        memcpy(s->lamps[i].direction, lamp->direction, sizeof(lamp->direction));
-    }
-    return s->lamps;
-}
-
-static bool create_buffers(struct streaks_scene *s)
-{
-    const struct city_faces *f = &s->city->faces;
-    const int64_t faces = f->face_count;
-    int blocks = 0;
-    for (int i = 0; i < f->chunk_count; i++)
-        blocks += (f->chunks[i].count + STREAKS_BLOCK_FACES - 1) / STREAKS_BLOCK_FACES;
-    s->seen = rg_alloc((size_t)f->chunk_count, sizeof(*s->seen), "scene");
-    s->blocks = rg_alloc((size_t)blocks, 2 * sizeof(*s->blocks), "scene");
-    s->cull.faces = f;
-    s->cull.box_count = s->city->box_count;
-    s->cull.boxes = s->city->boxes;
-    return s->seen && s->blocks &&
-           (s->block_words = rg_buf_create(s->device, (int64_t)blocks * 8, "blocks of faces")) &&
-           (s->faces =
-                filled(s->device, f->corners, faces * STREAKS_FACE_WORDS, "scene's faces")) &&
-           (s->surface_of = filled(s->device, f->surface_of, faces, "faces' surfaces")) &&
-           (s->surfaces =
-                filled(s->device, f->surfaces, (int64_t)f->surface_count * STREAKS_SURFACE_WORDS,
-                       "scene's surfaces"));
-}
 
 void streaks_scene_put(struct streaks_scene *s)
 {
@@ -176,18 +30,29 @@ void streaks_scene_put(struct streaks_scene *s)
         return;
     rg_pass_destroy(s->draw);
     rg_pass_destroy(s->shade);
-    rg_buf_destroy(s->faces);
-    rg_buf_destroy(s->surface_of);
-    rg_buf_destroy(s->surfaces);
-    rg_buf_destroy(s->openness);
     rg_buf_destroy(s->block_words);
-    rg_image_destroy(s->textures);
     rg_image_destroy(s->numbers);
-    city_destroy(s->city);
-    free(s->lamps);
+    if (s->made)
+        streaks_scene_made_put(s->device, s->made);
     free(s->seen);
     free(s->blocks);
     free(s);
+}
+
+static bool create_blocks(struct streaks_scene *s)
+{
+    const struct city *city = s->made->city;
+    const struct city_faces *f = &city->faces;
+    int blocks = 0;
+    for (int i = 0; i < f->chunk_count; i++)
+        blocks += (f->chunks[i].count + STREAKS_BLOCK_FACES - 1) / STREAKS_BLOCK_FACES;
+    s->cull.faces = f;
+    s->cull.box_count = city->box_count;
+    s->cull.boxes = city->boxes;
+    s->seen = rg_alloc((size_t)f->chunk_count, sizeof(*s->seen), "scene");
+    s->blocks = rg_alloc((size_t)blocks, 2 * sizeof(*s->blocks), "scene");
+    s->block_words = rg_buf_create(s->device, (int64_t)blocks * 8, "blocks of faces");
+    return s->seen && s->blocks && s->block_words;
 }
 
 struct streaks_scene *streaks_scene_get(struct rg_device *device,
@@ -197,33 +62,28 @@ struct streaks_scene *streaks_scene_get(struct rg_device *device,
     if (!s)
         return NULL;
     s->device = device;
-    if ((s->city = city_create(&settings->city)) && create_buffers(s) && create_openness(s) &&
-        take_lamps(s) && create_textures(s) && (s->draw = rg_pass_create(device, "streaks_city")) &&
+    if ((s->made = streaks_scene_made_get(device, settings)) && create_blocks(s) &&
+        (s->draw = rg_pass_create(device, "streaks_city")) &&
         (s->shade = rg_pass_create(device, "streaks_city_shade")))
         return s;
     streaks_scene_put(s);
     return NULL;
 }
 
-const struct city_faces *streaks_scene_faces(const struct streaks_scene *s)
+const struct city *streaks_scene_city(const struct streaks_scene *s)
 {
-    return &s->city->faces;
+    return s->made->city;
 }
 
-int streaks_scene_lamps(const struct streaks_scene *s, const struct streaks_lamp **lamps)
+int streaks_scene_lamps(const struct streaks_scene *s, const struct city_lamp **lamps)
 {
-    *lamps = s->lamps;
-    return s->city->lamp_count;
-}
-
-uint64_t streaks_scene_hash(const struct streaks_scene *s)
-{
-    return s->city->hash;
+    *lamps = s->made->city->lamps;
+    return s->made->city->lamp_count;
 }
 
 struct rg_buf *streaks_scene_surfaces(const struct streaks_scene *s)
 {
-    return s->surfaces;
+    return s->made->surfaces;
 }
 
 struct streaks_scene_work streaks_scene_last(const struct streaks_scene *s)
@@ -237,7 +97,7 @@ struct streaks_scene_work streaks_scene_last(const struct streaks_scene *s)
 // in kernels/streaks_city_params.h.
 static int list_blocks(struct streaks_scene *s)
 {
-    const struct city_faces *f = &s->city->faces;
+    const struct city_faces *f = &s->made->city->faces;
     int blocks = 0;
     for (int i = 0; i < f->chunk_count; i++) {
         const struct city_chunk *chunk = &f->chunks[i];
@@ -253,7 +113,7 @@ static int list_blocks(struct streaks_scene *s)
 }
 
 static bool draw_faces(struct streaks_scene *s, struct rg_instance *instance, m4 to_clip,
-                       const struct rg_draw *onto, enum rg_cull cull)
+                       const struct rg_draw *onto, enum rg_cull cull, bool everything)
 {
     const streaks_city_params params = {to_clip};
     struct rg_draw draw = *onto;
@@ -261,20 +121,23 @@ static bool draw_faces(struct streaks_scene *s, struct rg_instance *instance, m4
     draw.depth_mode = RG_DEPTH_WRITE;
     draw.cull = cull;
     streaks_cull(&s->cull, to_clip, cull == RG_CULL_BACK, s->seen);
+    for (int i = 0; everything && i < s->made->city->faces.chunk_count; i++)
+        s->seen[i] = true;
     const int blocks = list_blocks(s);
-    s->work = (struct streaks_scene_work){.chunks = s->city->faces.chunk_count, .blocks = blocks};
+    s->work =
+        (struct streaks_scene_work){.chunks = s->made->city->faces.chunk_count, .blocks = blocks};
     for (int i = 0; i < s->work.chunks; i++)
         s->work.chunks_drawn += s->seen[i] ? 1 : 0;
     if (!blocks)
         return true;
     return rg_buf_write(s->block_words, 0, s->blocks, (int64_t)blocks * 8) &&
-           rg_instance_run(
-               instance, s->draw,
-               &(struct rg_run){
-                   .params = &params,
-                   .slots = {[1].buf = s->faces, [2].buf = s->surface_of, [3].buf = s->block_words},
-                   .extent = {blocks * STREAKS_BLOCK_FACES, 1, 1},
-                   .draw = &draw});
+           rg_instance_run(instance, s->draw,
+                           &(struct rg_run){.params = &params,
+                                            .slots = {[1].buf = s->made->faces,
+                                                      [2].buf = s->made->surface_of,
+                                                      [3].buf = s->block_words},
+                                            .extent = {blocks * STREAKS_BLOCK_FACES, 1, 1},
+                                            .draw = &draw});
 }
 
 bool streaks_scene_depth(struct streaks_scene *scene, struct rg_instance *instance, m4 to_clip,
@@ -282,13 +145,13 @@ bool streaks_scene_depth(struct streaks_scene *scene, struct rg_instance *instan
 {
     struct rg_draw depth = *onto;
     depth.colour = NULL;
-    return draw_faces(scene, instance, to_clip, &depth, RG_CULL_NONE);
+    return draw_faces(scene, instance, to_clip, &depth, RG_CULL_NONE, false);
 }
 
 bool streaks_scene_numbers(struct streaks_scene *scene, struct rg_instance *instance, m4 to_clip,
                            const struct rg_draw *onto)
 {
-    return draw_faces(scene, instance, to_clip, onto, RG_CULL_NONE);
+    return draw_faces(scene, instance, to_clip, onto, RG_CULL_NONE, false);
 }
 
 static bool fit_numbers(struct streaks_scene *s, const struct rg_image *target)
@@ -370,8 +233,8 @@ static bool shade(struct streaks_scene *s, struct rg_instance *instance,
         .glow = look->glow,
         .wet = look->wet,
         .lights = lights->count,
-        .texture_px = s->city->texture_px,
-        .last_level = s->levels - 1,
+        .texture_px = s->made->city->texture_px,
+        .last_level = s->made->levels - 1,
     };
     if (!invert(&view->to_clip, d->width, d->height, &p.from_pixel))
         return false;
@@ -382,11 +245,11 @@ static bool shade(struct streaks_scene *s, struct rg_instance *instance,
                            &(struct rg_run){.params = &p,
                                             .slots = {[1].image = s->numbers,
                                                       [2].image = view->depth,
-                                                      [3].buf = s->surfaces,
-                                                      [4].image = s->textures,
+                                                      [3].buf = s->made->surfaces,
+                                                      [4].image = s->made->textures,
                                                       [5].buf = lights->in_world,
                                                       [6].image = lights->shadows,
-                                                      [7].buf = s->openness},
+                                                      [7].buf = s->made->openness},
                                             .extent = {1, 1, 1},
                                             .draw = &draw});
 }
@@ -402,7 +265,8 @@ bool streaks_scene_draw(struct streaks_scene *s, struct rg_instance *instance,
         return false;
     struct rg_draw numbered = onto;
     numbered.colour = s->numbers;
-    if (geometry && !draw_faces(s, instance, view->to_clip, &numbered, RG_CULL_BACK))
+    const enum rg_cull cull = s->made->city->is_mesh ? RG_CULL_NONE : RG_CULL_BACK;
+    if (geometry && !draw_faces(s, instance, view->to_clip, &numbered, cull, view->everything))
         return false;
     return shade(s, instance, view, look, lights);
 }
@@ -410,10 +274,10 @@ bool streaks_scene_draw(struct streaks_scene *s, struct rg_instance *instance,
 struct streaks_scene_look streaks_scene_day(void)
 {
     return (struct streaks_scene_look){
-        .sky = {0.62f, 0.68f, 0.76f, 0.50f, 0.53f, 0.57f, 0.5f, 0.0022f},
+        .sky = {0.58f, 0.64f, 0.72f, 0.46f, 0.49f, 0.53f, 0.5f, 0.0016f},
         .ambient = 1.1f,
-        .bounced = 0.12f,
-        .glow = 0.35f,
+        .bounced = 0.2f,
+        .glow = 0.25f,
         .wet = 1,
     };
 }
@@ -421,10 +285,10 @@ struct streaks_scene_look streaks_scene_day(void)
 struct streaks_scene_look streaks_scene_night(void)
 {
     return (struct streaks_scene_look){
-        .sky = {0.012f, 0.015f, 0.022f, 0.040f, 0.034f, 0.030f, 0.6f, 0.0022f},
-        .ambient = 1.2f,
-        .bounced = 0.4f,
-        .glow = 1.2f,
+        .sky = {0.016f, 0.020f, 0.030f, 0.058f, 0.048f, 0.042f, 0.6f, 0.0020f},
+        .ambient = 1.3f,
+        .bounced = 1.6f,
+        .glow = 1.1f,
         .wet = 1,
     };
 }

@@ -1,4 +1,5 @@
-// The scene that rain falls on: the city, or a user's mesh in its place, on one device.
+// The scene that rain falls on: the city, or a user's mesh in its place, as one instance draws it;
+// what is large is shared by all instances on the device.
 //
 // Its faces lie in chunks; a draw leaves out those that the view does not touch, that all turn
 // away, or that buildings hide. Faces leave the number of their surface in each pixel; then every
@@ -25,11 +26,10 @@ struct streaks_scene *streaks_scene_get(struct rg_device *device,
                                         const struct streaks_scene_settings *settings);
 void streaks_scene_put(struct streaks_scene *scene);
 
-// What is known of it: triangles, surfaces, bounds, chunks; its lamps (none on a user's mesh); its
-// hash. They live as long as the scene.
-const struct city_faces *streaks_scene_faces(const struct streaks_scene *scene);
-int streaks_scene_lamps(const struct streaks_scene *scene, const struct streaks_lamp **lamps);
-uint64_t streaks_scene_hash(const struct streaks_scene *scene);
+// What it is: name, faces, bounds, hash, boxes. It lives as long as the scene.
+const struct city *streaks_scene_city(const struct streaks_scene *scene);
+// Its lamps, none on a user's mesh; returns how many.
+int streaks_scene_lamps(const struct streaks_scene *scene, const struct city_lamp **lamps);
 // The surfaces' words (kernels/streaks_surface.h), for kernels.
 struct rg_buf *streaks_scene_surfaces(const struct streaks_scene *scene);
 
@@ -37,7 +37,7 @@ struct rg_buf *streaks_scene_surfaces(const struct streaks_scene *scene);
 struct streaks_scene_look {
     streaks_sky sky;
     float ambient; // of the sky's light from above: what surfaces get that see all of it
-    float bounced; // what those get that see nothing of it
+    float bounced; // of the horizon's: what those get that see no sky
     float glow;    // light of lit windows
     float wet;     // 0 to 1: how wet the ground is
 };
@@ -50,6 +50,7 @@ struct streaks_scene_view {
     m4 to_clip; // from the world, as rg_camera_matrix makes it: faces keep their turn
     float eye[3];
     struct rg_image *colour, *depth; // RGBA16F and such; D32F
+    bool everything; // chunks that cannot be seen are drawn too, which changes no pixel: for tests
 };
 
 // Draws colour and depth in this light, whose shadow maps are drawn already; with `geometry` false,

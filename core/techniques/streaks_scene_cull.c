@@ -139,7 +139,8 @@ static void hide(struct streaks_cull *cull, const struct polygon *g, float slack
     }
     if (!(most > 1e-3f) || area == 0)
         return;
-    const int first = (int)ceilf(rg_max(low, 0)), end = (int)floorf(rg_min(high, STREAKS_CULL_DOWN));
+    const int first = (int)ceilf(rg_max(low, 0)),
+              end = (int)floorf(rg_min(high, STREAKS_CULL_DOWN));
     for (int row = first; row < end; row++) {
         float l0, r0, l1, r1;
         if (!cross(g, (float)row, &l0, &r0) || !cross(g, (float)row + 1, &l1, &r1))

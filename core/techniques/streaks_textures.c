@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "core/alloc.h"
+#include "core/shared.h"
 #include "kernels/streaks_cells.h"
 
 static struct rg_image *upload(struct rg_device *device, const struct rg_atlas *atlas,
@@ -75,13 +76,17 @@ static void *make(struct rg_device *device, const void *arg)
     return NULL;
 }
 
+static const struct rg_shared_kind kind = {
+    .name = "streak textures", .make = make, .destroy = destroy};
+
 struct streaks_textures *streaks_textures_get(struct rg_device *device, enum rg_atlas_size size)
 {
-    return make(device, &size);
+    char key[16];
+    snprintf(key, sizeof(key), "%d", (int)size);
+    return rg_shared_get(device, key, &kind, &size);
 }
 
 void streaks_textures_put(struct rg_device *device, struct streaks_textures *textures)
 {
-    (void)device;
-    destroy(textures);
+    rg_shared_put(device, textures);
 }

@@ -183,6 +183,16 @@ ON_CPU = [
     Case("diff flow --device cpu,nonsense", 2, UNKNOWN_DEVICE),
     Case("diff flow --set drops=-1 --device cpu,cpu:reference", 2, r"parameter 'drops': -1 is out of range"),
 
+    # atlas
+    Case("atlas nonsense", 2, r"atlas: 'nonsense' is one argument too many"),
+    Case("atlas --quick --full", 2, r"--quick and --full: choose one"),
+    Case("atlas --device cpu", 2, r"--device: unknown option; `raingauge atlas --help`"),
+    Case("atlas --from", 2, r"--from: .*`raingauge atlas --help`"),
+    Case("atlas --from /nonexistent", 2, r"/nonexistent/point_light_database/txt/dcam00_point_max\.txt: No such file .*; name the folder"),
+    Case("atlas --quick --from {data}/a.png", 2, r"a\.png/point_light_database/txt/dcam00_point_max\.txt: Not a directory"),
+    Case("atlas --quick", 0, r"warning: the streak atlas is not kept: /proc/none", {"XDG_CACHE_HOME": "/proc/none"}),
+    Case("atlas --quick -o {tmp}/none/out", 2, (r"warning: the streak atlas is not kept", r"none/out: cannot be made: .*; name a folder"), {"XDG_CACHE_HOME": "/proc/none"}),
+
     # verify
     Case(VERIFY, 0, None),
     Case("verify nonsense", 2, r"technique 'nonsense': unknown; `raingauge list techniques`"),

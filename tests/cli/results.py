@@ -219,8 +219,36 @@ def check_fresh(runner):
     return problems
 
 
+def check_atlas(runner):
+    """atlas makes its streaks once, then reads them; --json describes them, -o writes them"""
+    problems = []
+    with tempfile.TemporaryDirectory() as cache, tempfile.TemporaryDirectory() as out:
+        env = {"XDG_CACHE_HOME": cache}
+        first, status, messages = run_json(runner, "atlas --quick", env)
+        second, again, more = run_json(runner, "atlas --quick -o " + out, env)
+        problems += messages + more + lacking("atlas", first, {
+            "format": int, "size": str, "from": str, "seconds": float, "file": str, "bytes": int, "hash": str, "images": list})
+        if (status, again, first["from"], second["from"]) != (0, 0, "made", "cache") or first["hash"] != second["hash"]:
+            problems.append("exit status %d and %d: %s, %s" % (status, again, first, second))
+        if os.path.dirname(first["file"]) != os.path.join(cache, "raingauge") or not os.path.getsize(first["file"]) > first["bytes"]:
+            problems.append("file: %s" % first)
+        shapes = [tuple(image[k] for k in ("name", "width", "height", "layers", "levels")) for image in first["images"]]
+        if shapes != [("point", 720, 901, 10, 10), ("env", 8, 901, 10, 10), ("splash", 48, 32, 84, 6)]:
+            problems.append("images: %s" % shapes)
+        wanted = {"factors.csv", "splash.png"} | {"sheet-%02d.png" % k for k in range(10)}
+        wanted |= {"%s-%02d-level-%02d.exr" % (name, layer, level) for name, _, _, layers, levels in shapes
+                   for layer in range(layers) for level in range(levels)}
+        if set(os.listdir(out)) != wanted:
+            problems.append("written: %s" % sorted(set(os.listdir(out)) ^ wanted))
+        with open(os.path.join(out, "factors.csv")) as file:
+            rows = list(csv.DictReader(file))
+        if len(rows) != 10 * 5 * 91 or not all(float(row["factor"]) > 0 for row in rows):
+            problems.append("factors.csv: %d rows" % len(rows))
+    return problems
+
+
 CHECKS = [check_table_json, check_table_files, check_tables_in_a_row, check_render_json, check_diff_json, check_verify_json, check_full_stdout,
-          check_interrupted, check_fresh]
+          check_interrupted, check_fresh, check_atlas]
 
 
 # --- a driver that draws wrongly: its kernel is another ---

@@ -1,11 +1,13 @@
 #include "core/scene/atlas/cave.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 
 #include "core/alloc.h"
-#include "core/image/oiio.h"
+#include "core/image/format.h"
 #include "core/scene/atlas/cave_factors.h"
 #include "core/scene/atlas/drop.h"
 #include "core/scene/atlas/levels.h"
@@ -15,35 +17,39 @@ enum { WIDTHS = 4, PATH_SIZE = 1024, SETS = RG_ATLAS_OSCILLATIONS * RG_ATLAS_VIE
 
 struct packing {
     const char *folder;
-    const struct rg_oiio_functions *oiio;
     struct rg_atlas *atlas;
     struct rg_cave_factors factors[RG_ATLAS_VIEWS];
 };
 
-// Reads a picture as it is, codes over the largest code, and brings it to width x height.
-static bool read_picture(const struct packing *p, const char *path, int width, int height,
-                         float *texels, struct rg_cave_why *why)
+static bool check_size(const char *path, const struct rg_picture *picture, int width, int height,
+                       struct rg_cave_why *why)
 {
-    struct rg_oiio_file file = {0};
-    float *read = NULL;
-    bool good = p->oiio->open(path, &file) || rg_cave_refuse(why, "%s: %s", path, file.why);
-    if (good && (file.width != width || abs(file.height - height) > 2 + height / 50))
-        good =
-            rg_cave_refuse(why, "%s: %d x %d pixels, where the database has %d x %d; copy it again",
-                           path, file.width, file.height, width, height);
-    if (good) {
-        const size_t pixels = (size_t)file.width * (size_t)file.height;
-        read = malloc(pixels * (size_t)file.channels * sizeof(float));
-        good = read ? p->oiio->read(&file, read) || rg_cave_refuse(why, "%s: %s", path, file.why)
-                    : rg_cave_refuse(why, "%s: no memory to read it", path);
-        // the first channel alone: grey, or as good as it
-        for (size_t i = 0; good && i < pixels; i++)
-            read[i] = read[i * (size_t)file.channels];
-    }
-    p->oiio->close(&file);
+    if (picture->width == width && abs(picture->height - height) <= 2 + height / 50)
+        return true;
+    return rg_cave_refuse(why, "%s: %d x %d pixels, where the database has %d x %d; copy it again",
+                          path, picture->width, picture->height, width, height);
+}
+
+// Reads a picture, whose values are codes over the largest code, and brings it to width x height.
+static bool read_picture(const char *path, int width, int height, float *texels,
+                         struct rg_cave_why *why)
+{
+    struct stat st;
+    struct rg_why reason;
+    struct rg_picture picture = {0};
+    if (stat(path, &st))
+        return rg_cave_refuse(why, "%s: %s; name the folder that holds the whole database", path,
+                              strerror(errno));
+    if (!rg_png_read_codes(path, st.st_size, &picture, &reason))
+        return rg_cave_refuse(why, "%s: %s", path, reason.text);
+    const bool good = check_size(path, &picture, width, height, why);
+    // the first channel alone: grey, or as good as it
+    const size_t pixels = (size_t)picture.width * (size_t)picture.height;
+    for (size_t i = 0; good && i < pixels; i++)
+        picture.texels[i] = picture.texels[i * (size_t)picture.channels];
     if (good)
-        rg_shrink(read, width, file.height, texels, width, height);
-    free(read);
+        rg_shrink(picture.texels, width, picture.height, texels, width, height);
+    rg_picture_destroy(&picture);
     return good;
 }
 
@@ -68,7 +74,7 @@ static bool pack_cell(const struct packing *p, enum rg_atlas_part part, int osci
     float *texels = malloc((size_t)(RG_ATLAS_CELL_PX * rg_atlas_row_height(0, 0)) * sizeof(float));
     bool good = texels || rg_cave_refuse(why, "%s: no memory to read it", paths[0]);
     for (int level = p->atlas->first_level; good && level < WIDTHS; level++) {
-        good = read_picture(p, paths[level], RG_ATLAS_CELL_PX >> level,
+        good = read_picture(paths[level], RG_ATLAS_CELL_PX >> level,
                             rg_atlas_row_height(view, level), texels, why);
         if (good && level < WIDTHS - 1)
             rg_atlas_put_cell(p->atlas, part, oscillation, view, column, level, texels);
@@ -179,14 +185,9 @@ struct rg_atlas *rg_cave_pack(const char *folder, enum rg_atlas_size size,
     struct packing *p = rg_alloc(1, sizeof(*p), "streak database");
     if (!p)
         return NULL;
-    char reason[256];
     p->folder = folder;
-    p->oiio = rg_oiio(reason, sizeof(reason));
     p->atlas = rg_atlas_allocate(size);
-    if (!p->oiio)
-        rg_cave_refuse(&why, "%s: OpenImageIO cannot be loaded: %s; install libopenimageio2.4",
-                       folder, reason);
-    const bool good = p->oiio && p->atlas && read_factors(p, &why) && pack_all(p, progress, &why) &&
+    const bool good = p->atlas && read_factors(p, &why) && pack_all(p, progress, &why) &&
                       rg_atlas_finish(p->atlas);
     struct rg_atlas *atlas = p->atlas;
     free(p);

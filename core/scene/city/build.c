@@ -37,42 +37,55 @@ static bool grow(struct city_builder *b, void *array, int count, int *room, size
 
 // --- surfaces ---
 
+static bool is_level(point n)
+{
+    return fabs(n.y) > (double)STREAKS_LEVEL_Y;
+}
+
 // The texture upon the world: seen from outside, u runs to the right and v down.
 static struct mapping on_world(point n, double tile_m)
 {
-    const double by = 1 / tile_m;
-    if (fabs(n.y) > 0.7)
-        return (struct mapping){.ax = by, .bz = by};
-    const double length = sqrt(n.x * n.x + n.z * n.z);
-    return (struct mapping){.ax = by * n.z / length, .az = -by * n.x / length, .by = -by};
+    return (struct mapping){1 / tile_m, is_level(n) ? 1 / tile_m : -1 / tile_m, 0, 0, false};
 }
 
-static uint32_t bits_of(double value)
+// A scale in steps, and the share of a texture at which it lies then.
+static uint32_t scale_of(double scale)
 {
-    const float narrow = fabs(value) < 1e-30 ? 0.0f : (float)value;
-    uint32_t bits;
-    memcpy(&bits, &narrow, sizeof(bits));
-    return bits;
+    return (uint32_t)(int)lrint(scale * (double)STREAKS_SCALE_STEPS) & 0xffffu;
 }
 
-static void make_words(const struct city_builder *b, const struct look *look, point n,
-                       const struct mapping *m, uint32_t words[STREAKS_SURFACE_WORDS])
+static uint32_t offset_of(double scale, double from)
 {
-    const double across = sqrt(m->ax * m->ax + m->az * m->az);
-    const double down = sqrt(m->bx * m->bx + m->by * m->by + m->bz * m->bz);
-    const int texture_px = b->city->texture_px;
-    words[STREAKS_AX] = bits_of(m->ax);
-    words[STREAKS_AZ] = bits_of(m->az);
-    words[STREAKS_A0] = bits_of(m->a0);
-    words[STREAKS_BX] = bits_of(m->bx);
-    words[STREAKS_BY] = bits_of(m->by);
-    words[STREAKS_BZ] = bits_of(m->bz);
-    words[STREAKS_B0] = bits_of(m->b0);
-    words[STREAKS_DENSITY] = bits_of(sqrt(across * down) * texture_px);
-    words[STREAKS_NORMAL] = mesh_normal_pack(v3_make((float)n.x, (float)n.y, (float)n.z));
-    words[STREAKS_LOOK] =
-        (uint32_t)look->texture | (uint32_t)look->kind << 8 | (uint32_t)look->glow << 16;
-    words[STREAKS_TINT] = look->tint ? look->tint : 0xffffffu;
+    const double steps = (double)STREAKS_SCALE_STEPS, stepped = rint(scale * steps) / steps;
+    const double at = -stepped * from;
+    return (uint32_t)(int)lrint((at - floor(at)) * 65536) & 0xffffu;
+}
+
+// How wet kinds of ground get, 0 to 3.
+static uint32_t wetness_of(int kind)
+{
+    return kind == STREAKS_KIND_ASPHALT ? 3 : kind == STREAKS_KIND_PAVING ? 2 : 0;
+}
+
+// r, g and b of 8 bits each in 5, 6 and 5.
+static uint32_t tint_of(uint32_t tint)
+{
+    const uint32_t r = tint & 255, g = tint >> 8 & 255, b = tint >> 16 & 255;
+    return (r * 31 + 127) / 255 | (g * 63 + 127) / 255 << 5 | (b * 31 + 127) / 255 << 11;
+}
+
+static void make_words(const struct look *look, point n, const struct mapping *m,
+                       uint32_t words[STREAKS_SURFACE_WORDS])
+{
+    words[STREAKS_SCALES] = scale_of(m->scale_u) | scale_of(m->scale_v) << 16;
+    words[STREAKS_OFFSETS] = offset_of(m->scale_u, m->from_u) | offset_of(m->scale_v, m->from_v)
+                                                                    << 16;
+    words[STREAKS_NORMAL] = mesh_normal_pack(v3_make((float)n.x, (float)n.y, (float)n.z)) |
+                            wetness_of(look->kind) << 30;
+    words[STREAKS_LOOK] = (uint32_t)look->texture | (uint32_t)look->kind << STREAKS_KIND_BIT |
+                          (uint32_t)m->turned << STREAKS_TURNED_BIT |
+                          (uint32_t)look->glow << STREAKS_GLOW_BIT |
+                          tint_of(look->tint ? look->tint : 0xffffffu) << STREAKS_TINT_BIT;
 }
 
 static uint32_t *words_of(struct city_builder *b, int surface)
@@ -113,7 +126,7 @@ uint32_t city_surface(struct city_builder *b, const struct look *look, point n,
     struct city_faces *f = &b->city->faces;
     const struct mapping world = on_world(n, look->tile_m > 0 ? look->tile_m : DEFAULT_TILE_M);
     uint32_t words[STREAKS_SURFACE_WORDS];
-    make_words(b, look, n, mapping ? mapping : &world, words);
+    make_words(look, n, mapping ? mapping : &world, words);
     if (b->failed || !grow_places(b) ||
         !grow(b, &f->surfaces, f->surface_count, &b->surface_room, sizeof(words)))
         return 0;
@@ -158,7 +171,7 @@ static point normal_of(point a, point b, point c)
     const point u = {b.x - a.x, b.y - a.y, b.z - a.z}, v = {c.x - a.x, c.y - a.y, c.z - a.z};
     const point n = {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
     const double length = sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
-    return (point){n.x / length, n.y / length, n.z / length};
+    return length > 0 ? (point){n.x / length, n.y / length, n.z / length} : (point){0, 1, 0};
 }
 
 void city_quad(struct city_builder *b, point p0, point p1, point p2, point p3,

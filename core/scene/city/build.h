@@ -15,12 +15,14 @@ struct look {
     int kind;      // STREAKS_KIND_...
     double tile_m; // how wide a texture is; 0: 4 m
     uint32_t tint; // r, g, b of 8 bits; 0: white
-    int glow;      // by itself, 0 to 255
+    int glow;      // by itself, 0 to 7
 };
 
-// Where a texture lies: STREAKS_AX to STREAKS_B0.
+// Where a texture lies (kernels/streaks_surface.h): textures a metre, and where they begin along u
+// and v.
 struct mapping {
-    double ax, az, a0, bx, by, bz, b0;
+    double scale_u, scale_v, from_u, from_v;
+    bool turned; // on the ground: u along z
 };
 
 struct city_builder {

@@ -48,14 +48,12 @@ static void facade_quad(struct city_builder *b, const struct city_facade *f, dou
     city_quad_on(b, corners, surface);
 }
 
-// The texture so that its bays and floors are the facade's.
+// The texture so that its bays and floors are the facade's, upwards from y0.
 static struct mapping bays_mapping(const struct city_facade *f, double bays, double y0,
                                    double tall_m)
 {
-    const double across = 1 / (bays * f->bay_m), down = -1 / tall_m;
-    const double ax = f->out.z * across, az = -f->out.x * across;
-    return (struct mapping){
-        .ax = ax, .az = az, .a0 = -(ax * f->x + az * f->z), .by = down, .b0 = -down * y0};
+    return (struct mapping){1 / (bays * f->bay_m), -1 / tall_m, f->out.z * f->x - f->out.x * f->z,
+                            y0, false};
 }
 
 void city_facade_core(struct city_builder *b, struct city_facade *f)
@@ -303,7 +301,8 @@ static void build_tiers(struct building *t)
     for (int i = 0; i < count; i++) {
         const double side = fmin(r.x1 - r.x0, r.z1 - r.z0);
         const double in = i == 0 ? 1.0 + 2 * chance(t, CHANCE_TIER, 2) : 1.4;
-        if (i + 1 == count || side - 2 * in < 9) { // too slender to step back once more
+        if (i + 1 == count ||
+            side - 2 * in < (t->landmark ? 6 : 9)) { // too slender to step back once more
             r.y1 = t->height_m;
             count = i + 1;
         }
@@ -324,8 +323,8 @@ static double height_at(const struct building *t)
 
 static void choose_looks(struct building *t)
 {
-    const bool glass =
-        t->height_m > 60 ? chance(t, CHANCE_STYLE, 0) < 0.55 : chance(t, CHANCE_STYLE, 0) < 0.12;
+    const bool glass = t->height_m > 60 ? (t->landmark || chance(t, CHANCE_STYLE, 0) < 0.55)
+                                        : chance(t, CHANCE_STYLE, 0) < 0.12;
     const int first = glass ? PAINT_CURTAIN : PAINT_FACADE;
     const int end = glass ? PAINT_SHOP : PAINT_CURTAIN;
     t->texture = first + (int)((end - first) * chance(t, CHANCE_STYLE, 1));

@@ -35,7 +35,8 @@ static const float *corners_of(const struct city_faces *f, int face)
 
 static uint32_t normal_of(const struct city_faces *f, int face)
 {
-    return f->surfaces[(size_t)f->surface_of[face] * STREAKS_SURFACE_WORDS + STREAKS_NORMAL];
+    return f->surfaces[(size_t)f->surface_of[face] * STREAKS_SURFACE_WORDS + STREAKS_NORMAL] &
+           0x3fffffffu; // without how wet it gets
 }
 
 static void add_bounds(const struct city_faces *f, int face, float low[3], float high[3])

@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "core/scene/camera.h"
+#include "core/scene/mesh.h"
 #include "kernels/streaks_city_params.h"
 #include "kernels/streaks_surface.h"
 
@@ -66,7 +67,9 @@ struct city_faces {
 struct city_painter;
 
 struct city {
+    char name[RG_MESH_NAME_SIZE]; // for people and records
     struct city_settings settings;
+    bool is_mesh; // a user's: its faces may turn either way
     struct city_faces faces;
     int lamp_count;
     struct city_lamp *lamps;
@@ -78,9 +81,14 @@ struct city {
 
 // NULL, and one logged line, without memory. The caller destroys it.
 struct city *city_create(const struct city_settings *settings);
+// A user's mesh in a city's place, in matt grey, on a plain ground: as large as the city's space
+// takes it, in its middle. Without lamps, boxes and textures but one. `name` is what rg_mesh_load
+// takes. NULL, and one logged line, on failure.
+struct city *city_of_mesh(const char *name);
 void city_destroy(struct city *city);
 
-// What paints the textures. NULL, and one logged line, without memory. The caller destroys it.
+// What paints a city's textures, not a mesh's, which is white. NULL, and one logged line, without
+// memory. The caller destroys it.
 struct city_painter *city_painter_create(const struct city_settings *settings);
 void city_painter_destroy(struct city_painter *painter);
 // Paints a texture: RGBA8 of texture_px squared texels, rows from the top. Each alone, so that

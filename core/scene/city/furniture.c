@@ -36,11 +36,10 @@ static void build_lamp(struct city_builder *b, double x, double z, double dx, do
         city_post(b, x, z, y, y + 0.9, 0.16, 0.12, 8, &dark_metal);
     city_post(b, x, z, y, top, 0.09, 0.06, is_full(b) ? 8 : 3, &dark_metal);
     city_box(b, (point){fmin(x, hx) - 0.04, top - 0.10, fmin(z, hz) - 0.04},
-             (point){fmax(x, hx) + 0.04, top - 0.02, fmax(z, hz) + 0.04},
-             is_full(b) ? BOX_ALL : BOX_Y1, &dark_metal);
+             (point){fmax(x, hx) + 0.04, top - 0.02, fmax(z, hz) + 0.04}, BOX_ALL, &dark_metal);
     const double lx = 0.18 + 0.3 * fabs(dx), lz = 0.18 + 0.3 * fabs(dz);
     city_box(b, (point){hx - lx, top - 0.14, hz - lz}, (point){hx + lx, top + 0.06, hz + lz},
-             is_full(b) ? BOX_ALL - BOX_Y0 : BOX_Y1, &grey_metal);
+             BOX_ALL - BOX_Y0, &grey_metal);
     city_quad(b, (point){hx - lx, top - 0.14, hz - lz}, (point){hx + lx, top - 0.14, hz - lz},
               (point){hx + lx, top - 0.14, hz + lz}, (point){hx - lx, top - 0.14, hz + lz}, &light);
     city_lamp_add(b, CITY_STREET_LAMP, (point){hx, top - 0.2, hz}, (point){0, -1, 0});
@@ -69,14 +68,14 @@ static void build_lamps(struct city_builder *b, const struct city_island *o, int
 static void build_signal(struct city_builder *b, double x, double z, double dx, double dz, bool red)
 {
     const double y0 = CITY_KERB_M + 2.6, half = 0.16, height = 1.05, lamp = 0.11;
-    city_box(b, (point){x - half, y0, z - half}, (point){x + half, y0 + height, z + half},
-             is_full(b) ? BOX_ALL : BOX_Y1, &dark_metal);
+    city_box(b, (point){x - half, y0, z - half}, (point){x + half, y0 + height, z + half}, BOX_ALL,
+             &dark_metal);
     for (int i = 0; i < 3; i++) { // green below, red on top
         const bool on = red ? i == 2 : i == 0;
         const uint32_t colours[3] = {0x60ff40u, 0x30c0ffu, 0x2828ffu};
         const uint32_t dim = colours[i] >> 2 & 0x3f3f3fu;
         const struct look look = {PAINT_LIGHT, STREAKS_KIND_LIGHT, 1, on ? colours[i] : dim,
-                                  on ? 255 : 0};
+                                  on ? 7 : 0};
         const double y = y0 + 0.2 + 0.33 * i, out = half + 0.01;
         const double cx = x + dx * out, cz = z + dz * out, rx = dz * lamp, rz = -dx * lamp;
         if (is_full(b) || on)
@@ -113,14 +112,14 @@ static void build_signals(struct city_builder *b, const struct city_island *o)
 // A lump of leaves: a sphere of `rings` rings that chance dents.
 static void build_crown(struct city_builder *b, point centre, double radius, int rings, uint32_t id)
 {
-    const struct look leaves = {PAINT_LEAVES + (int)(id & 1), STREAKS_KIND_LEAVES, 2, 0, 0};
+    const struct look leaves = {PAINT_LEAVES + (int)(id & 1), STREAKS_KIND_LEAVES, 1.6, 0, 0};
     const double pi = 3.141592653589793;
     const int sides = 2 * rings;
-    point at[9][17];
+    point at[9][18];
     for (int i = 0; i <= rings; i++) {
         for (int j = 0; j <= sides; j++) {
             const uint32_t k = (uint32_t)(i * sides + j % sides) * (i > 0 && i < rings);
-            const double r = radius * (0.8 + 0.4 * city_chance(b, CHANCE_TREE, id, k));
+            const double r = radius * (0.86 + 0.28 * city_chance(b, CHANCE_TREE, id, k));
             const double down = pi * i / rings, around = 2 * pi * (j % sides) / sides;
             at[i][j] = (point){centre.x + r * sin(down) * cos(around), centre.y + r * cos(down),
                                centre.z - r * sin(down) * sin(around)};
@@ -147,14 +146,14 @@ static void build_tree(struct city_builder *b, double x, double z, double y)
         return;
     }
     city_post(b, x, z, y, y + height + 0.8, 0.2, 0.12, 8, &bark);
-    build_crown(b, (point){x, y + height + radius, z}, radius, 6, id);
-    for (int i = 0; i < 4; i++) {
-        const double turn = 1.5708 * (i + city_chance(b, CHANCE_TREE, id, 1002)),
-                     off = radius * 0.75;
+    build_crown(b, (point){x, y + height + radius, z}, radius, 8, id);
+    for (int i = 0; i < 5; i++) {
+        const double turn = 1.2566 * (i + city_chance(b, CHANCE_TREE, id, 1002)),
+                     off = radius * 0.7;
         build_crown(b,
                     (point){x + off * cos(turn), y + height + 0.5 * radius * (1 + (i & 1)),
                             z + off * sin(turn)},
-                    radius * 0.72, 5, id + 7919u * (uint32_t)(i + 1));
+                    radius * 0.7, 6, id + 7919u * (uint32_t)(i + 1));
     }
 }
 
@@ -253,7 +252,7 @@ static void build_car(struct city_builder *b, double x, double z, bool along_z)
         city_box(b, (point){fmin(p.x, q.x), 0, fmin(p.z, q.z)},
                  (point){fmax(p.x, q.x), 0.6, fmax(p.z, q.z)}, BOX_WALLS, &tyre);
     }
-    const struct look lamp = {PAINT_LIGHT, STREAKS_KIND_LIGHT, 1, 0x2020a0u, 60};
+    const struct look lamp = {PAINT_LIGHT, STREAKS_KIND_LIGHT, 1, 0x2020a0u, 2};
     for (int i = -1; i <= 1; i += 2) {
         const point p = car_point(x, z, along_z, 0.6 * i - 0.18, 0.58, -l - 0.01);
         const point q = car_point(x, z, along_z, 0.6 * i + 0.18, 0.72, -l + 0.05);

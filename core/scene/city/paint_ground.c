@@ -115,11 +115,11 @@ static struct paint metal(const struct spot *s)
 static struct paint leaves(const struct spot *s)
 {
     const float c = paint_cloud(s, 0), d = paint_cloud(s, 2), fine = paint_fine(s);
-    const float clump = rg_min(rg_max((c - 0.32f) * 3, 0.12f), 1);
-    const float light = clump * (0.55f + 0.5f * d) * (0.75f + 0.5f * fine);
+    const float clump = rg_clamp((c - 0.30f) * 2.4f, 0.35f, 1);
+    const float light = clump * (0.62f + 0.4f * d) * (0.72f + 0.5f * fine);
     const bool second = s->texture == PAINT_LEAVES + 1;
-    return (struct paint){light * (second ? 0.50f : 0.38f), light * (second ? 0.58f : 0.55f),
-                          light * (second ? 0.22f : 0.24f), 0};
+    return (struct paint){light * (second ? 0.44f : 0.36f), light * (second ? 0.50f : 0.47f),
+                          light * (second ? 0.27f : 0.26f), 0};
 }
 
 static struct paint plants(const struct spot *s)

@@ -203,12 +203,12 @@ struct paint paint_shop(const struct spot *s)
         return paint_scaled(trim, 0.7f);
     // The lit inside: shelves and goods, and what is darker near the floor.
     const float depth = 0.55f + 0.45f * y;
-    const int shelf = (int)(y * 14), place = (int)(s->u * 34);
-    const float goods = paint_chance(s, 500 + shelf * 40 + place);
+    const int shelf = (int)(y * 20), place = (int)(s->u * 80);
+    const float goods = paint_chance(s, 500 + shelf * 90 + place);
     const struct paint light = {0.98f, 0.90f, 0.72f, 0.75f};
     struct paint p = paint_scaled(light, depth * (0.62f + 0.2f * paint_cloud(s, 1)));
     if (!door && y < 0.5f && goods < 0.5f)
-        p = paint_mix(p, paint_scaled(sign_colour(s, 900 + shelf * 40 + place), 0.8f), 0.65f);
+        p = paint_mix(p, paint_scaled(sign_colour(s, 900 + shelf * 90 + place), 0.75f), 0.4f);
     p.a = 0.75f * depth * (paint_chance(s, 7) < 0.85f ? 1 : 0.1f);
     return p;
 }

@@ -14,7 +14,7 @@ struct part {
     int facade, kind, bay, floor;
 };
 
-enum { BAND_FACES = 3, PIER_FACES = 3, SILL_FACES = 5, BAR_FACES = 3 };
+enum { BAND_FACES = 3, END_FACES = 2, PIER_FACES = 3, SILL_FACES = 5, BAR_FACES = 3 };
 enum { WINDOW_FACES = 2 * SILL_FACES + 2 * BAR_FACES, FRAME_FACES = 4 * BAR_FACES };
 
 // A box on the facade's plane: its front and some sides, without its back.
@@ -52,7 +52,9 @@ static void build_band(struct city_builder *b, const struct city_facade *f, int 
                           fmin(top, y + f->style.bottom * f->floor_m),
                           f->core,
                           f->front};
-    build_bar(b, f, &r, SIDE_LOWER | SIDE_UPPER, &f->wall, &f->painted);
+    // Without a frame of posts its ends are seen.
+    const int ends = b->settings.size == CITY_FULL ? 0 : SIDE_LEFT | SIDE_RIGHT;
+    build_bar(b, f, &r, ends | SIDE_LOWER | SIDE_UPPER, &f->wall, &f->painted);
 }
 
 static void build_pier(struct city_builder *b, const struct city_facade *f, int bay)
@@ -115,10 +117,11 @@ static void build_rung(struct city_builder *b, const struct city_facade *f, int 
     build_bar(b, f, &(struct bar){u0, u1, y, y + 0.03, f->core, f->core + 0.1}, 0, &frame, NULL);
 }
 
-static int faces_of(int kind)
+static int faces_of(const struct city_builder *b, int kind)
 {
+    const bool ends = kind == PART_BAND && b->settings.size != CITY_FULL;
     static const int faces[] = {BAND_FACES, PIER_FACES, WINDOW_FACES, FRAME_FACES};
-    return faces[kind];
+    return faces[kind] + (ends ? END_FACES : 0);
 }
 
 static void build_part(struct city_builder *b, const struct city_facade *f, const struct part *p)
@@ -206,9 +209,9 @@ void city_relief(struct city_builder *b, const struct city_facades *all, int tri
     const int count = list_parts(all, parts);
     qsort(parts, (size_t)count, sizeof(*parts), compare_parts);
     int left = (triangles - b->city->faces.triangle_count) / 2, i = 0;
-    for (; i < count && faces_of(parts[i].kind) <= left; i++) {
+    for (; i < count && faces_of(b, parts[i].kind) <= left; i++) {
         build_part(b, &all->facades[parts[i].facade], &parts[i]);
-        left -= faces_of(parts[i].kind);
+        left -= faces_of(b, parts[i].kind);
     }
     if (i < count && left >= 0)
         build_rungs(b, all, &parts[i], left);

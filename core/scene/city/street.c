@@ -27,11 +27,8 @@ struct road {
 static void road_part(struct city_builder *b, const struct road *r, double from, double to,
                       const struct look *look)
 {
-    const double by = 1 / look->tile_m;
     const double across = 1 / (r->along_z ? r->x1 - r->x0 : r->z1 - r->z0);
-    const struct mapping m = r->along_z
-                                 ? (struct mapping){.ax = across, .a0 = -r->x0 * across, .bz = by}
-                                 : (struct mapping){.az = across, .a0 = -r->z0 * across, .bx = by};
+    const struct mapping m = {across, 1 / look->tile_m, r->along_z ? r->x0 : r->z0, 0, !r->along_z};
     const double x0 = r->along_z ? r->x0 : from, x1 = r->along_z ? r->x1 : to;
     const double z0 = r->along_z ? from : r->z0, z1 = r->along_z ? to : r->z1;
     const point corners[4] = {{x0, 0, z1}, {x1, 0, z1}, {x1, 0, z0}, {x0, 0, z0}};
