@@ -48,6 +48,7 @@ struct rg_device {
     struct rg_device_info info;
     struct rg_work *work;       // what core/device.c counts; not the backend's business
     struct rg_packing *packing; // core/draw.c's; likewise
+    struct rg_shared *shared;   // core/shared.c's; likewise
 };
 
 struct rg_buf {

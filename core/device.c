@@ -10,14 +10,15 @@
 #include "core/draw.h"
 #include "core/log.h"
 #include "core/require.h"
+#include "core/shared.h"
 
 static const struct {
     const char *name;
     int size;
 } formats[RG_FORMAT_COUNT] = {
-    [RG_FORMAT_NONE] = {"none", 0}, [RG_RGBA8] = {"RGBA8", 4}, [RG_RGBA16F] = {"RGBA16F", 8},
-    [RG_RGBA32F] = {"RGBA32F", 16}, [RG_R32F] = {"R32F", 4},   [RG_RG11B10F] = {"RG11B10F", 4},
-    [RG_D32F] = {"D32F", 4},
+    [RG_FORMAT_NONE] = {"none", 0},  [RG_RGBA8] = {"RGBA8", 4}, [RG_RGBA16F] = {"RGBA16F", 8},
+    [RG_RGBA32F] = {"RGBA32F", 16},  [RG_R32F] = {"R32F", 4},   [RG_R16F] = {"R16F", 2},
+    [RG_RG11B10F] = {"RG11B10F", 4}, [RG_D32F] = {"D32F", 4},
 };
 
 int rg_format_size(enum rg_format format)
@@ -41,10 +42,32 @@ int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX
     memset(header, 0, RG_MAX_LEVELS * sizeof(*header));
     for (int level = 0; level < desc->levels; level++) {
         header[level] = (uint32_t)words;
-        words += (int64_t)rg_level_size(desc->width, level) * rg_level_size(desc->height, level) *
-                 desc->layers * rg_format_size(desc->format) / 4;
+        const int64_t texels = (int64_t)rg_level_size(desc->width, level) *
+                               rg_level_size(desc->height, level) * desc->layers;
+        words += (texels * rg_format_size(desc->format) + 3) / 4;
     }
     return words;
+}
+
+bool rg_image_layout_fits(const struct rg_device *device, const struct rg_image_desc *desc,
+                          const char *name)
+{
+    uint32_t header[RG_MAX_LEVELS];
+    const int64_t words = rg_image_layout(desc, header);
+    const int64_t most = rg_format_size(desc->format) < 4 ? INT_MAX / 2 : INT_MAX;
+    require(words <= most,
+            "image '%s': %lld bytes exceed the %lld bytes that %s allows an image of %s", name,
+            (long long)words * 4, (long long)most * 4, device->info.name,
+            rg_format_name(desc->format));
+    return true;
+}
+
+size_t rg_image_locate(const struct rg_image_desc *desc, const uint32_t header[RG_MAX_LEVELS],
+                       int layer, int level, size_t *size)
+{
+    *size = (size_t)rg_level_size(desc->width, level) * (size_t)rg_level_size(desc->height, level) *
+            (size_t)rg_format_size(desc->format);
+    return header[level] * sizeof(*header) + (size_t)layer * *size;
 }
 
 static int64_t image_bytes(const struct rg_image_desc *desc)
@@ -164,17 +187,18 @@ bool rg_device_close(struct rg_device *device)
 {
     if (!device)
         return true;
+    const bool shared_clean = rg_shared_close(device);
     rg_packing_destroy(device);
     device->backend->sync(device);
     const struct rg_work *w = device->work;
-    bool clean = !w->live_buffers && !w->live_images && !w->live_passes;
+    const bool clean = !w->live_buffers && !w->live_images && !w->live_passes;
     if (!clean)
         rg_error("device '%s': closed with %lld buffers, %lld images and %lld passes not destroyed",
                  device->info.name, (long long)w->live_buffers, (long long)w->live_images,
                  (long long)w->live_passes);
     free(device->work);
     device->backend->destroy(device);
-    return clean;
+    return clean && shared_clean;
 }
 
 const struct rg_work *rg_device_work(const struct rg_device *device)
@@ -200,10 +224,10 @@ struct rg_buf *rg_buf_create(struct rg_device *device, int64_t size, const char 
                     (long long)size);
     require_or_null(size % 4 == 0, "buffer '%s': its size, %lld bytes, is no multiple of 4", name,
                     (long long)size);
-    require_or_null(size <= device->info.limits.max_buffer_bytes,
-                    "buffer '%s': %lld bytes exceed the %lld bytes that %s allows a buffer", name,
-                    (long long)size, (long long)device->info.limits.max_buffer_bytes,
-                    device->info.name);
+    if (size > device->info.limits.max_buffer_bytes)
+        return rg_unsupported_null(
+            "buffer '%s': %lld bytes exceed the %lld bytes that %s allows a buffer", name,
+            (long long)size, (long long)device->info.limits.max_buffer_bytes, device->info.name);
     struct rg_buf *buf = device->backend->buf_create(device, (size_t)size, name);
     if (!buf)
         return NULL;
@@ -262,8 +286,9 @@ static bool check_desc(const struct rg_device *device, const struct rg_image_des
     require(d->width > 0 && d->height > 0 && d->layers > 0,
             "image '%s': %dx%d with %d layers; each must be above 0", name, d->width, d->height,
             d->layers);
-    require(d->width <= limits->max_image_px && d->height <= limits->max_image_px &&
-                d->layers <= limits->max_image_layers,
+    if (d->width > limits->max_image_px || d->height > limits->max_image_px ||
+        d->layers > limits->max_image_layers)
+        return rg_unsupported(
             "image '%s': %dx%d with %d layers exceeds the %d px and %d layers that %s allows", name,
             d->width, d->height, d->layers, limits->max_image_px, limits->max_image_layers,
             device->info.name);

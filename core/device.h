@@ -69,6 +69,12 @@ int rg_level_size(int size, int level);
 // at which each level begins, which is also the image's header, and the words of the whole image,
 // header included.
 int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX_LEVELS]);
+// Whether kernels can count such an image's texels in an int; if not, logs one line and is false.
+bool rg_image_layout_fits(const struct rg_device *device, const struct rg_image_desc *desc,
+                          const char *name);
+// Where a layer of a level begins in it, and its size, both in bytes.
+size_t rg_image_locate(const struct rg_image_desc *desc, const uint32_t header[RG_MAX_LEVELS],
+                       int layer, int level, size_t *size);
 
 struct rg_pass *rg_pass_create(struct rg_device *device, const char *kernel);
 void rg_pass_destroy(struct rg_pass *pass);

@@ -16,6 +16,7 @@ enum rg_format {
     RG_RGBA16F,
     RG_RGBA32F,
     RG_R32F,
+    RG_R16F,
     RG_RG11B10F,
     RG_D32F, // depth of a DRAW pass's target; fetched by later passes
     RG_FORMAT_COUNT

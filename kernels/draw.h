@@ -7,10 +7,21 @@
 //   RG_DRAW_ITEM(name)      { ... }  item i's corners in clip space (kernels/clip.h). Run for every
 //                                    item: short and without branches.
 //   RG_DRAW_RECORD(name)    { ... }  what the fragments of item i need. Run for items that are
-//   seen. RG_DRAW_FRAGMENT(name)  { ... }  colour and depth of pixel (px, py), from the record r
-//   alone.
+//                                    seen.
+//   RG_DRAW_FRAGMENT(name)  { ... }  colour and depth of pixel (px, py), from the record r alone.
 //
 // All get the slots `rg` and the parameters `p`; the first two the draw's state `draw`.
+//
+// A program that defines RG_LIGHTS has lights, as many as its parameters' `int lights` says, and
+// holds a fourth function:
+//
+//   RG_DRAW_LIGHT(name)     { ... }  the rgba that light number `light` adds at pixel (px, py),
+//   from
+//                                    the record r.
+//
+// Its RG_DRAW_FRAGMENT also gets `rgba lit`: what the lights add, from 0 to p.lights - 1, to zero.
+// Only the colour may depend on it: depth and `kept` are also asked for before there is light, so
+// that none falls on what is hidden.
 #ifndef RG_KERNELS_DRAW_H
 #define RG_KERNELS_DRAW_H
 
@@ -72,10 +83,18 @@ RG_FN rg_fragment rg_fragment_make(rgba colour, float depth)
 #define RG_DRAW_RECORD(name)                                                                       \
     RG_FN RG_RECORD rg_program_record(rg_ctx rg RG_UNUSED, rg_draw_state draw RG_UNUSED,           \
                                       RG_PARAMS p RG_UNUSED, int i RG_UNUSED)
+#if defined(RG_LIGHTS)
+#define RG_DRAW_LIGHT(name)                                                                        \
+    RG_FN rgba rg_program_light(rg_ctx rg RG_UNUSED, RG_PARAMS p RG_UNUSED, RG_RECORD r RG_UNUSED, \
+                                int px RG_UNUSED, int py RG_UNUSED, int light RG_UNUSED)
+#define RG_FRAGMENT_LIT , rgba lit RG_UNUSED
+#else
+#define RG_FRAGMENT_LIT
+#endif
 #define RG_DRAW_FRAGMENT(name)                                                                     \
     RG_FN rg_fragment rg_program_fragment(rg_ctx rg RG_UNUSED, RG_PARAMS p RG_UNUSED,              \
                                           RG_RECORD r RG_UNUSED, int px RG_UNUSED,                 \
-                                          int py RG_UNUSED)
+                                          int py RG_UNUSED RG_FRAGMENT_LIT)
 
 // A fragment as every device takes it: depth within 0 to 1, and never subnormal.
 RG_FN rg_fragment rg_settled(rg_fragment f)

@@ -79,6 +79,13 @@ RG_FN float rg_unpack_half(uint half_bits)
     return (half_bits & 0x8000u) != 0u ? -v : v;
 }
 
+// --- R16F: one half float, half a word a texel; fetched only ---
+
+RG_FN rgba rg_fetched_R16F(rgba c)
+{
+    return c;
+}
+
 // --- RGBA32F and R32F: floats as they are, 4 words and 1 word a texel ---
 
 RG_FN rgba rg_rounded_RGBA32F(rgba c)

@@ -1,8 +1,9 @@
 // Images in plain memory, for C and OpenCL C: a header that says at which word each level begins,
 // then level 0 of all layers, then level 1, and so on; rows without padding; texels packed in
-// 32-bit words as format.h says. The header lies in memory, not in the shape, so that the shape
-// stays small enough for compilers to keep in registers, and items of one vector may read different
-// levels.
+// 32-bit words as format.h says, those of half a word two by two, from one row and layer to the
+// next, so that a level alone may end with a half to spare. The header lies in memory, not in the
+// shape, so that the shape stays small enough for compilers to keep in registers, and items of one
+// vector may read different levels.
 #ifndef RG_KERNELS_IMAGE_MEMORY_H
 #define RG_KERNELS_IMAGE_MEMORY_H
 
@@ -30,6 +31,15 @@ RG_FN int rg_texel_word(RG_GLOBAL const uint *image, rg_image_shape s, int x, in
 RG_FN int rg_first_level_word(rg_image_shape s, int x, int y, int layer, int words)
 {
     return RG_MAX_LEVELS + ((layer * s.height + y) * s.width + x) * words;
+}
+
+// Where a texel of half a word lies, counted in halves: an even one is the lower half of its word.
+RG_FN int rg_texel_half(RG_GLOBAL const uint *image, rg_image_shape s, int x, int y, int layer,
+                        int level)
+{
+    int width = rg_imax(s.width >> level, 1);
+    int height = rg_imax(s.height >> level, 1);
+    return rg_to_int(image[level]) * 2 + ((layer * height + y) * width + x);
 }
 
 #define RG_WORDS_RGBA8    1
@@ -64,6 +74,12 @@ RG_PROC void rg_store_RGBA16F(RG_GLOBAL uint *texels, int i, rgba c)
 {
     texels[i] = rg_pack_half(c.r) | (rg_pack_half(c.g) << 16);
     texels[i + 1] = rg_pack_half(c.b) | (rg_pack_half(c.a) << 16);
+}
+
+RG_FN rgba rg_load_R16F(uint word, int half_of)
+{
+    return rg_rgba(rg_unpack_half((word >> rg_to_uint((half_of & 1) * 16)) & 0xffffu), 0.0f, 0.0f,
+                   1.0f);
 }
 
 RG_FN rgba rg_load_RGBA32F(RG_GLOBAL const uint *texels, int i)

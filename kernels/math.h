@@ -76,6 +76,47 @@ RG_FN float rg_cos(float x)
     return rg_sin_quadrant(a.quadrant + 1, a.rest);
 }
 
+// --- the angle of a direction ---
+
+// The angle of (x, y) from the x axis towards the y axis, in radians, -pi to pi. The larger
+// magnitude within 1e-30 to 1.7e38; where both are smaller, the result is 0. Where y = 0, of either
+// sign, and x < 0, it is pi. At most 3.0 ulp.
+RG_FN float rg_atan2(float y, float x)
+{
+    float across = rg_abs(x);
+    float up = rg_abs(y);
+    float small = rg_min(across, up);
+    float large = rg_max(across, up);
+    // from the axis or from the diagonal, whichever is nearer: |t| <= tan(pi/8)
+    bool diagonal = small > 0.414213568f * large;
+    float t = (diagonal ? small - large : small) / rg_max(diagonal ? small + large : large, 1e-30f);
+    t = rg_abs(t) < RG_SMALLEST_NORMAL ? 0.0f : t;
+    float z = t * t;
+    float r = 0.0805374458f;
+    r = r * z - 0.138776854f;
+    r = r * z + 0.199777111f;
+    r = r * z - 0.333329499f;
+    r = r * z * t + t + (diagonal ? 0.785398185f : 0.0f);
+    r = up > across ? 1.57079637f - r : r;
+    r = x < 0.0f ? RG_PI - r : r;
+    r = large < 1e-30f ? 0.0f : r;
+    return y < 0.0f ? -r : r;
+}
+
+// Angles in radians whose sine or cosine is x: -pi/2 to pi/2, and 0 to pi. An x beyond -1 or 1
+// counts as that. At most 3.5 ulp of the angle.
+RG_FN float rg_asin(float x)
+{
+    float s = rg_clamp(x, -1.0f, 1.0f);
+    return rg_atan2(s, rg_sqrt((1.0f - s) * (1.0f + s)));
+}
+
+RG_FN float rg_acos(float x)
+{
+    float c = rg_clamp(x, -1.0f, 1.0f);
+    return rg_atan2(rg_sqrt((1.0f - c) * (1.0f + c)), c);
+}
+
 // --- powers ---
 
 // v 2^n for v within 0.7 to 1.42 and n within -126 to 128; 0 where that is no normal number.

@@ -61,7 +61,11 @@
     X(47, rg_exp2_far, WIDE, FLOAT, rg_exp2(a))                                                    \
     X(48, rg_pow_far, WIDE, FLOAT, rg_pow(rg_abs(a), b))                                           \
     X(49, minus_product, WIDE, FLOAT, c - a * b)                                                   \
-    X(50, member_multiply_add, WIDE, FLOAT, probe_member_multiply_add(rg_rgba(a, b, c, 1.0f)))
+    X(50, member_multiply_add, WIDE, FLOAT, probe_member_multiply_add(rg_rgba(a, b, c, 1.0f)))     \
+    X(51, rg_atan2, SMALL, FLOAT, rg_atan2(a, b))                                                  \
+    X(52, rg_atan2_far, WIDE, FLOAT, rg_atan2(a, b))                                               \
+    X(53, rg_asin, SMALL, FLOAT, rg_asin(a))                                                       \
+    X(54, rg_acos, SMALL, FLOAT, rg_acos(a))
 
 // What the dialect forbids, because each language's own differs from driver to driver: how much?
 #define RG_PROBE_BUILTINS(X)                                                                       \

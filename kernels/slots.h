@@ -9,11 +9,12 @@
 //                            name_exchange_if(rg, i, expected, v) returns what was there
 //                                                            a buffer of int or uint, shared
 //   IMAGE(slot, F, name)     name_texel(rg, x, y, layer, level), name_width(rg, level),
-//                            name_height(rg, level), name_levels(rg); and filtered at (u, v),
-//                            0 to 1 across the image:
-//                            name_nearest(rg, u, v, layer, level), name_linear (four texels),
-//                            name_trilinear(rg, u, v, layer, lod), clamped at the edges;
-//                            name_between(rg, x, y, layer, level): linear, at a place in texels
+//                            name_height(rg, level), name_levels(rg); name_bytes(rg, x, y, layer,
+//                            level): a texel of RGBA8 as one word, r lowest; and filtered at (u,
+//                            v), 0 to 1 across the image: name_nearest(rg, u, v, layer, level),
+//                            name_linear (four texels), name_trilinear(rg, u, v, layer, lod),
+//                            clamped at the edges; name_between(rg, x, y, layer, level): linear, at
+//                            a place in texels
 //   OUT_IMAGE(slot, F, name) name_store(rg, x, y, layer, c)  level 0 of an image of format F
 //
 // Slots count from 1 and are one numbering for buffers and images. `rg` is the kernel's context: it

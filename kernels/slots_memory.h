@@ -117,13 +117,30 @@ typedef struct rg_ctx {
     {                                                                                              \
         return rg.name##_shape.levels;                                                             \
     }
-#define IMAGE(slot, F, name)                                                                       \
-    RG_IMAGE_SIZES(name)                                                                           \
+#define RG_TEXEL_OF_WORDS(F, name)                                                                 \
     RG_FN rgba name##_texel(rg_ctx rg, int x, int y, int layer, int level)                         \
     {                                                                                              \
         int i = rg_texel_word(rg.name, rg.name##_shape, x, y, layer, level, RG_WORDS_##F);         \
         return rg_load_##F(rg.name, RG_INDEX(rg, name, i));                                        \
+    }                                                                                              \
+    RG_FN uint name##_bytes(rg_ctx rg, int x, int y, int layer, int level)                         \
+    {                                                                                              \
+        int i = rg_texel_word(rg.name, rg.name##_shape, x, y, layer, level, RG_WORDS_##F);         \
+        return rg.name[RG_INDEX(rg, name, i)];                                                     \
     }
+#define RG_TEXEL_OF_HALVES(F, name)                                                                \
+    RG_FN rgba name##_texel(rg_ctx rg, int x, int y, int layer, int level)                         \
+    {                                                                                              \
+        int i = rg_texel_half(rg.name, rg.name##_shape, x, y, layer, level);                       \
+        return rg_load_##F(rg.name[RG_INDEX(rg, name, i >> 1)], i);                                \
+    }
+// Which of the two a format takes: a macro of its own tells those of half a word.
+#define RG_HALVES_R16F                         , RG_TEXEL_OF_HALVES
+#define RG_TEXEL_AS(F, name, form, texel, ...) texel(F, name)
+#define RG_TEXEL(F, name, ...)                 RG_TEXEL_AS(F, name, __VA_ARGS__)
+#define IMAGE(slot, F, name)                                                                       \
+    RG_IMAGE_SIZES(name)                                                                           \
+    RG_TEXEL(F, name, RG_HALVES_##F, RG_TEXEL_OF_WORDS, )
 #define OUT_IMAGE(slot, F, name)                                                                   \
     RG_PROC void name##_store(rg_ctx rg, int x, int y, int layer, rgba c)                          \
     {                                                                                              \

@@ -1,6 +1,7 @@
 // The fragment stage of a DRAW program: everything from the packed record and the pixel's place.
 #define RG_STAGE_FRAGMENT 1
 #include RG_KERNEL_HEADER
+#include "draw_lit.h"
 
 layout(std140, binding = 0) uniform rg_run_block
 {
@@ -28,7 +29,7 @@ void main()
     int x = int(gl_FragCoord.x);
     int y = int(gl_FragCoord.y);
     RG_RECORD record = rg_prims_at(rg, rg_prim_index).record;
-    rg_fragment f = rg_settled(rg_program_fragment(rg, rg.p.program, record, x, y));
+    rg_fragment f = rg_drawn_fragment(rg, rg.p.program, record, x, y);
     if (f.kept == 0)
         discard;
     if (rg.p.draw.counted != 0 &&

@@ -131,6 +131,43 @@ static void sine_and_cosine_hold(void **state)
     assert_true(worst.error > 0.0 && worst.error <= bound);
 }
 
+static void keep_worst_angle(struct worst *worst, float y, float x)
+{
+    const double truth = atan2((double)y, (double)x);
+    if (fabs(truth) >= (double)FLT_MIN * 1.00001 && fmaxf(fabsf(x), fabsf(y)) >= 1e-30f)
+        keep_worst(worst, ulps(rg_atan2(y, x), truth), y, x);
+}
+
+static void angles_hold(void **state)
+{
+    (void)state;
+    struct worst any = {0}, slopes = {0}, arcs = {0};
+    uint64_t seed = 6;
+    for (int i = 0; i < PAIRS; i++) {
+        const float x = random_within(&seed, -1.0f, 1.0f), y = random_within(&seed, -1.0f, 1.0f);
+        const int power = (int)(random_bits(&seed) % 240u) - 120;
+        keep_worst_angle(&any, ldexpf(y, power), ldexpf(x, power));
+        keep_worst_angle(&any, ldexpf(y, power), x);
+        keep_worst_angle(&any, y, ldexpf(x, power));
+    }
+    for (uint32_t bits = 0x00800000u; bits < 0x7f000000u; bits += STRIDE) {
+        keep_worst_angle(&slopes, rg_bits_float(bits), 1.0f);
+        keep_worst_angle(&slopes, -rg_bits_float(bits), -1.0f);
+    }
+    for (uint32_t bits = 0x00800000u; bits <= 0x3f800000u; bits += STRIDE / 10) {
+        const float x = rg_bits_float(bits);
+        keep_worst(&arcs, ulps(rg_asin(x), asin((double)x)), x, 0.0f);
+        keep_worst(&arcs, ulps(rg_acos(x), acos((double)x)), x, 0.0f);
+        keep_worst(&arcs, ulps(rg_acos(-x), acos(-(double)x)), -x, 0.0f);
+    }
+    print_message(
+        "rg_atan2: %.3f ulp at %a, %a; %.3f ulp at %a, %a; rg_asin, rg_acos: %.3f at %a\n",
+        any.error, (double)any.x, (double)any.y, slopes.error, (double)slopes.x, (double)slopes.y,
+        arcs.error, (double)arcs.x);
+    assert_true(any.error > 0.0 && any.error <= 3.0 && slopes.error <= 3.0);
+    assert_true(arcs.error > 0.0 && arcs.error <= 3.5);
+}
+
 static void check_pow(struct worst *worst, float x, float y)
 {
     double truth = pow((double)x, (double)y);
@@ -201,6 +238,14 @@ static void exact_where_the_answer_is(void **state)
 static void edges_are_as_documented(void **state)
 {
     (void)state;
+    assert_true(rg_atan2(0.0f, 0.0f) == 0.0f && rg_atan2(-0.0f, -0.0f) == 0.0f);
+    assert_true(rg_atan2(0.0f, -2.0f) == RG_PI && rg_atan2(-0.0f, -2.0f) == RG_PI);
+    assert_true(rg_atan2(0.0f, 2.0f) == 0.0f && rg_atan2(1e-38f, 1e20f) == 0.0f);
+    assert_true(rg_atan2(3.0f, 0.0f) == RG_PI / 2 && rg_atan2(-3.0f, 0.0f) == -RG_PI / 2);
+    assert_true(rg_atan2(5.0f, 5.0f) == RG_PI / 4 && rg_atan2(1.7e38f, 1.7e38f) == RG_PI / 4);
+    assert_true(rg_atan2(9e-31f, -9e-31f) == 0.0f && rg_atan2(-1e-40f, 0.0f) == 0.0f);
+    assert_true(rg_asin(2.0f) == RG_PI / 2 && rg_asin(-2.0f) == -RG_PI / 2);
+    assert_true(rg_acos(2.0f) == 0.0f && rg_acos(-2.0f) == RG_PI && rg_acos(0.0f) == RG_PI / 2);
     assert_true(rg_exp2(-126.00001f) == 0.0f && rg_exp2(-1e30f) == 0.0f);
     assert_true(rg_exp2(128.0f) == FLT_MAX && rg_exp2(1e30f) == FLT_MAX);
     assert_true(rg_exp(-87.4f) == 0.0f && rg_exp(-1e30f) == 0.0f);
@@ -228,6 +273,8 @@ static void results_are_normal_or_zero(void **state)
             continue;
         float x = rg_bits_float(bits);
         assert_true(normal_or_zero(rg_exp2(x)) && normal_or_zero(rg_exp(x)));
+        assert_true(normal_or_zero(rg_atan2(x, 1e30f)) && normal_or_zero(rg_atan2(1e-30f, x)));
+        assert_true(normal_or_zero(rg_asin(x)) && normal_or_zero(rg_acos(x)));
         assert_true(normal_or_zero(rg_log2(x)) && normal_or_zero(rg_log(x)));
         assert_true(normal_or_zero(rg_pow(fabsf(x), 0.7f)) && normal_or_zero(rg_pow(0.7f, x)));
     }
@@ -236,10 +283,15 @@ static void results_are_normal_or_zero(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bounds_in_ulp_hold),         cmocka_unit_test(logarithms_hold_near_one),
-        cmocka_unit_test(sine_and_cosine_hold),       cmocka_unit_test(power_holds),
-        cmocka_unit_test(whole_power_holds),          cmocka_unit_test(hypot_holds),
-        cmocka_unit_test(exact_where_the_answer_is),  cmocka_unit_test(edges_are_as_documented),
+        cmocka_unit_test(bounds_in_ulp_hold),
+        cmocka_unit_test(logarithms_hold_near_one),
+        cmocka_unit_test(sine_and_cosine_hold),
+        cmocka_unit_test(angles_hold),
+        cmocka_unit_test(power_holds),
+        cmocka_unit_test(whole_power_holds),
+        cmocka_unit_test(hypot_holds),
+        cmocka_unit_test(exact_where_the_answer_is),
+        cmocka_unit_test(edges_are_as_documented),
         cmocka_unit_test(results_are_normal_or_zero),
     };
     return cmocka_run_group_tests_name("math", tests, NULL, NULL);

@@ -107,6 +107,8 @@ static void clears_keep_every_bit(void **state)
         {RG_RGBA16F, {0x00018000, 0x7e017c00}}, // subnormal, -0, NaN, infinity
         {RG_RGBA32F, {0x3f800000, 0x00000001, 0x7fc12345, 0x80000000}},
         {RG_R32F, {0x7f812345}},
+        {RG_R16F, {0x3555}},
+        {RG_R16F, {0x8001}}, // subnormal
         {RG_RG11B10F, {0x781e03c0}},
         {RG_RG11B10F, {0x00400801}}, // subnormals
         {RG_D32F, {0x3f2aaaab}},

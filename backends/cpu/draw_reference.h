@@ -2,6 +2,7 @@
 // over items, triangles and pixels, in order.
 #include "backends/cpu/bind.h"
 #include "kernels/blend.h"
+#include "kernels/draw_lit.h"
 #include "kernels/raster.h"
 
 struct drawing {
@@ -25,7 +26,7 @@ static void draw_pixel(const struct drawing *d, const RG_RECORD *record, int ite
 {
     const rg_draw_state *draw = &d->p.draw;
     const int texel = py * draw->width + px;
-    rg_fragment f = rg_settled(rg_program_fragment(d->rg, d->p.program, *record, px, py));
+    rg_fragment f = rg_drawn_fragment(d->rg, d->p.program, *record, px, py);
     if (!f.kept)
         return;
     if (draw->depth_mode != RG_DEPTH_OFF && !(f.depth < rg_bits_float(d->target.depth[texel])))

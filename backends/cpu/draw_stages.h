@@ -61,6 +61,50 @@ static inline __attribute__((always_inline)) void put_fragment(struct cpu_fragme
     to->kept[i] = f.kept;
 }
 
+#if defined(RG_LIGHTS)
+
+// Lights come one after the other, each to all fragments side by side: a loop within theirs would
+// keep compilers from that. Its own arrays, which no slot can share, leave a light's words in
+// registers.
+struct lit {
+    float r[CPU_FRAGMENTS], g[CPU_FRAGMENTS], b[CPU_FRAGMENTS], a[CPU_FRAGMENTS];
+};
+
+static inline __attribute__((always_inline)) void clear_light(struct lit *lit, int padded)
+{
+    for (int i = 0; i < padded; i++)
+        lit->r[i] = lit->g[i] = lit->b[i] = lit->a[i] = 0.0f;
+}
+
+static inline __attribute__((always_inline)) void add_light(struct lit *lit, int i, rgba c)
+{
+    lit->r[i] += c.r;
+    lit->g[i] += c.g;
+    lit->b[i] += c.b;
+    lit->a[i] += c.a;
+}
+
+static inline __attribute__((always_inline)) rgba light_of(const struct lit *lit, int i)
+{
+    return rg_rgba(lit->r[i], lit->g[i], lit->b[i], lit->a[i]);
+}
+
+#define RG_LIT(lit, i) , light_of(lit, i)
+
+#else
+
+#define RG_LIT(lit, i)
+
+#endif
+
+// The record of a fragment in a list. In 32 bits, as gather instructions want it.
+static inline __attribute__((always_inline)) const RG_RECORD *
+record_of(const void *records, const struct cpu_list *list, int i)
+{
+    const int begin = list->prim[i] * (int)sizeof(RG_RECORD);
+    return (const RG_RECORD *)((const char *)records + begin);
+}
+
 static void shade_list(const struct cpu_call *call, const void *records,
                        const struct cpu_list *list, struct cpu_fragments *fragments)
 {
@@ -68,12 +112,25 @@ static void shade_list(const struct cpu_call *call, const void *records,
     const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
     const int padded = cpu_padded(list->count);
     fragments->count = list->count;
+#if defined(RG_LIGHTS)
+    struct lit lit;
+    clear_light(&lit, padded);
+    for (int light = 0; light < p.lights; light++) {
+#pragma omp simd
+        for (int i = 0; i < padded; i++) {
+            const int at = list->at[i];
+            add_light(&lit, i,
+                      rg_program_light(rg, p, *record_of(records, list, i), at & 0xffff, at >> 16,
+                                       light));
+        }
+    }
+#endif
 #pragma omp simd
     for (int i = 0; i < padded; i++) {
-        // In 32 bits, as gather instructions want it.
-        const int begin = list->prim[i] * (int)sizeof(RG_RECORD), at = list->at[i];
-        const RG_RECORD *r = (const RG_RECORD *)((const char *)records + begin);
-        put_fragment(fragments, i, rg_program_fragment(rg, p, *r, at & 0xffff, at >> 16));
+        const int at = list->at[i];
+        put_fragment(fragments, i,
+                     rg_program_fragment(rg, p, *record_of(records, list, i), at & 0xffff,
+                                         at >> 16 RG_LIT(&lit, i)));
     }
 }
 
@@ -85,10 +142,61 @@ static void shade_row(const struct cpu_call *call, const void *record, int x, in
     const RG_RECORD r = *(const RG_RECORD *)record;
     const int last = count - 1, padded = cpu_padded(count);
     fragments->count = count;
+#if defined(RG_LIGHTS)
+    struct lit lit;
+    clear_light(&lit, padded);
+    for (int light = 0; light < p.lights; light++) {
+#pragma omp simd
+        for (int i = 0; i < padded; i++)
+            add_light(&lit, i, rg_program_light(rg, p, r, x + rg_imin(i, last), y, light));
+    }
+#endif
 #pragma omp simd
     for (int i = 0; i < padded; i++)
-        put_fragment(fragments, i, rg_program_fragment(rg, p, r, x + rg_imin(i, last), y));
+        put_fragment(fragments, i,
+                     rg_program_fragment(rg, p, r, x + rg_imin(i, last), y RG_LIT(&lit, i)));
 }
+
+#if defined(RG_LIGHTS)
+
+static inline __attribute__((always_inline)) void put_depth(struct cpu_fragments *to, int i,
+                                                            rg_fragment fragment)
+{
+    const rg_fragment f = rg_settled(fragment);
+    to->depth[i] = f.depth;
+    to->kept[i] = f.kept;
+}
+
+static void list_depth(const struct cpu_call *call, const void *records,
+                       const struct cpu_list *list, struct cpu_fragments *fragments)
+{
+    const rg_ctx rg = bind_context(call);
+    const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
+    const rgba dark = rg_rgba(0.0f, 0.0f, 0.0f, 0.0f);
+    const int padded = cpu_padded(list->count);
+#pragma omp simd
+    for (int i = 0; i < padded; i++) {
+        const int at = list->at[i];
+        put_depth(
+            fragments, i,
+            rg_program_fragment(rg, p, *record_of(records, list, i), at & 0xffff, at >> 16, dark));
+    }
+}
+
+static void row_depth(const struct cpu_call *call, const void *record, int x, int y, int count,
+                      struct cpu_fragments *fragments)
+{
+    const rg_ctx rg = bind_context(call);
+    const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
+    const RG_RECORD r = *(const RG_RECORD *)record;
+    const rgba dark = rg_rgba(0.0f, 0.0f, 0.0f, 0.0f);
+    const int last = count - 1, padded = cpu_padded(count);
+#pragma omp simd
+    for (int i = 0; i < padded; i++)
+        put_depth(fragments, i, rg_program_fragment(rg, p, r, x + rg_imin(i, last), y, dark));
+}
+
+#endif
 
 static const struct cpu_program program = {
     .corners = RG_CORNERS,
@@ -98,6 +206,10 @@ static const struct cpu_program program = {
     .records = make_records,
     .list = shade_list,
     .row = shade_row,
+#if defined(RG_LIGHTS)
+    .list_depth = list_depth,
+    .row_depth = row_depth,
+#endif
 };
 
 RG_EXPORT_KERNEL = {.program = &program};

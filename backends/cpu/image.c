@@ -1,6 +1,5 @@
 #include "backends/cpu/cpu.h"
 
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,9 +12,8 @@ struct rg_image *cpu_image_create(struct rg_device *device, const struct rg_imag
 {
     uint32_t header[RG_MAX_LEVELS];
     int64_t words = rg_image_layout(desc, header);
-    if (words > INT_MAX)
-        return rg_error_null("image '%s': %lld words exceed the 2147483647 that %s allows", name,
-                             (long long)words, device->info.name);
+    if (!rg_image_layout_fits(device, desc, name))
+        return NULL;
     struct cpu_image *image = rg_alloc(1, sizeof(*image), name);
     if (!image)
         return NULL;
@@ -42,10 +40,7 @@ void cpu_image_destroy(struct rg_image *image)
 static void *locate(struct rg_image *image, int layer, int level, size_t *size)
 {
     struct cpu_image *cpu = (struct cpu_image *)image;
-    const int words = rg_format_size(image->desc.format) / (int)sizeof(uint);
-    *size = (size_t)rg_level_size(image->desc.width, level) *
-            (size_t)rg_level_size(image->desc.height, level) * (size_t)words * sizeof(uint);
-    return cpu->texels + rg_texel_word(cpu->texels, cpu->shape, 0, 0, layer, level, words);
+    return (char *)cpu->texels + rg_image_locate(&image->desc, cpu->texels, layer, level, size);
 }
 
 bool cpu_image_write(struct rg_image *image, int layer, int level, const void *texels)

@@ -123,6 +123,7 @@ static struct rg_device *gl_create(int index)
         .image_units = integer(GL_MAX_IMAGE_UNITS),
     };
     gl_debug_begin(gl);
+    gl_images_begin();
     glCreateQueries(GL_TIMESTAMP, 1, &gl->timestamp);
     if (!gl_params_create(gl) || !gl_draw_begin(gl)) {
         gl_destroy(&gl->pub);

@@ -163,6 +163,9 @@ bool gl_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size);
 GLuint gl_buf_words(struct rg_buf *buf);
 
 // image.c
+
+// Makes a new context take and give rows as texels travel: tightly packed.
+void gl_images_begin(void);
 struct rg_image *gl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                  const char *name);
 void gl_image_destroy(struct rg_image *image);
@@ -202,6 +205,8 @@ void gl_pass_destroy(struct rg_pass *pass);
 bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run);
 void gl_bind_buffer(struct gl_bound *bound, int slot, const struct rg_buf *buf);
 void gl_bind_texture(struct gl_bound *bound, int slot, GLuint id);
+// A buffer as a texture of words; false and one logged line on failure.
+bool gl_bind_words(struct gl_bound *bound, int slot, struct rg_buf *buf);
 
 // time.c
 bool gl_sync(struct rg_device *device);

@@ -1,13 +1,14 @@
 #include "backends/gl/gl.h"
 
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "core/alloc.h"
 #include "core/device.h"
 
-// How a format lies in the driver's memory and in ours. Every texel is a multiple of 4 bytes, so
-// rows packed tightly suit GL's default row alignment of 4.
+// How a format lies in the driver's memory and in ours, where rows are packed tightly
+// (gl_images_begin).
 static const struct {
     GLenum internal, format, type;
 } formats[RG_FORMAT_COUNT] = {
@@ -15,6 +16,7 @@ static const struct {
     [RG_RGBA16F] = {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT},
     [RG_RGBA32F] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
     [RG_R32F] = {GL_R32F, GL_RED, GL_FLOAT},
+    [RG_R16F] = {GL_R16F, GL_RED, GL_HALF_FLOAT},
     [RG_RG11B10F] = {GL_R11F_G11F_B10F, GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV},
     [RG_D32F] = {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT},
 };
@@ -22,6 +24,13 @@ static const struct {
 GLenum gl_internal_format(enum rg_format format)
 {
     return formats[format].internal;
+}
+
+void gl_images_begin(void)
+{
+    const GLint smallest_texel = 2; // in bytes; by itself GL expects rows at multiples of 4
+    glPixelStorei(GL_UNPACK_ALIGNMENT, smallest_texel);
+    glPixelStorei(GL_PACK_ALIGNMENT, smallest_texel);
 }
 
 struct rg_image *gl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
@@ -39,7 +48,11 @@ struct rg_image *gl_image_create(struct rg_device *device, const struct rg_image
     glTextureParameteri(image->id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTextureStorage3D(image->id, desc->levels, gl_internal_format(desc->format), desc->width,
                        desc->height, desc->layers);
-    if (!gl_check(gl, "glTextureStorage3D", "image", name)) {
+    // What drivers say of an image that is too large has no numbers.
+    char call[128];
+    snprintf(call, sizeof(call), "glTextureStorage3D of %dx%d texels of %s, %d layers, %d levels,",
+             desc->width, desc->height, rg_format_name(desc->format), desc->layers, desc->levels);
+    if (!gl_check(gl, call, "image", name)) {
         glDeleteTextures(1, &image->id);
         free(image);
         return NULL;

@@ -11,6 +11,8 @@ struct rg_image *opencl_image_create(struct rg_device *device, const struct rg_i
 {
     uint32_t header[RG_MAX_LEVELS];
     int64_t bytes = rg_image_layout(desc, header) * (int64_t)sizeof(cl_uint);
+    if (!rg_image_layout_fits(device, desc, name))
+        return NULL;
     if (bytes > device->info.limits.max_buffer_bytes)
         return rg_error_null("image '%s': %lld bytes exceed the %lld that %s allows", name,
                              (long long)bytes, (long long)device->info.limits.max_buffer_bytes,
@@ -42,10 +44,7 @@ void opencl_image_destroy(struct rg_image *image)
 static size_t locate(const struct rg_image *image, int layer, int level, size_t *size)
 {
     const struct opencl_image *opencl = (const struct opencl_image *)image;
-    size_t texel_size = (size_t)rg_format_size(image->desc.format);
-    *size = (size_t)rg_level_size(image->desc.width, level) *
-            (size_t)rg_level_size(image->desc.height, level) * texel_size;
-    return opencl->header[level] * sizeof(cl_uint) + (size_t)layer * *size;
+    return rg_image_locate(&image->desc, opencl->header, layer, level, size);
 }
 
 int opencl_image_word(const struct rg_image *image, int layer, int level)

@@ -12,6 +12,7 @@ static const VkFormat formats[RG_FORMAT_COUNT] = {
     [RG_RGBA16F] = VK_FORMAT_R16G16B16A16_SFLOAT,
     [RG_RGBA32F] = VK_FORMAT_R32G32B32A32_SFLOAT,
     [RG_R32F] = VK_FORMAT_R32_SFLOAT,
+    [RG_R16F] = VK_FORMAT_R16_SFLOAT,
     [RG_RG11B10F] = VK_FORMAT_B10G11R11_UFLOAT_PACK32,
     [RG_D32F] = VK_FORMAT_D32_SFLOAT,
 };
@@ -67,8 +68,8 @@ static bool check_supported(const struct vk_device *device, const VkImageCreateI
 {
     VkImageFormatProperties most;
     if (desc->format == RG_D32F && !device->family.draws)
-        return rg_error("image '%s': %s has no queue that draws, and so no images of depth", name,
-                        device->pub.info.name);
+        return rg_unsupported("image '%s': %s has no queue that draws, and so no images of depth",
+                              name, device->pub.info.name);
     if (!vk_try("image", name, vkGetPhysicalDeviceImageFormatProperties, device->physical,
                 info->format, info->imageType, info->tiling, info->usage, info->flags, &most))
         return false;

@@ -125,6 +125,8 @@ static rgba unpack(enum rg_format format, const void *texel)
         return rg_load_RGBA16F(words, 0);
     case RG_RGBA32F:
         return rg_load_RGBA32F(words, 0);
+    case RG_R16F:
+        return rg_load_R16F(words[0], 0);
     case RG_R32F:
     case RG_D32F:
         return rg_load_R32F(words, 0);

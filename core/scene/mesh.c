@@ -10,6 +10,7 @@
 
 #include "core/alloc.h"
 #include "core/log.h"
+#include "kernels/mesh_normal.h"
 
 // A position and a normal, as the join compares them.
 struct vertex {
@@ -44,6 +45,16 @@ static struct rg_mesh *allocate(const char *name, int vertex_count, int face_cou
         return mesh;
     rg_mesh_destroy(mesh);
     return NULL;
+}
+
+uint32_t *rg_mesh_pack_normals(const struct rg_mesh *mesh)
+{
+    uint32_t *packed = rg_alloc((size_t)mesh->vertex_count, sizeof(*packed), mesh->name);
+    for (int i = 0; packed && i < mesh->vertex_count; i++) {
+        const float *n = mesh->normals + 3 * (size_t)i;
+        packed[i] = mesh_normal_pack(v3_make(n[0], n[1], n[2]));
+    }
+    return packed;
 }
 
 // --- what is refused ---

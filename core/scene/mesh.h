@@ -30,6 +30,9 @@ struct rg_mesh {
 // destroys it.
 struct rg_mesh *rg_mesh_load(const char *name);
 
+// The same with so many faces, as rg_mesh_resize; 0: as many as it has.
+struct rg_mesh *rg_mesh_load_faces(const char *name, int faces);
+
 // The mesh of a file that Assimp reads (OBJ, PLY, STL, glTF, GLB, 3DS, OFF and others); `member`
 // names a file inside a tar archive, or is NULL. All meshes of the file's scene become one, moved
 // to where its nodes place them. Polygons are triangulated; points, lines, materials and textures
@@ -48,6 +51,10 @@ struct rg_mesh *rg_mesh_create(const char *name, int vertex_count, int face_coun
                                const float *positions, const float *normals,
                                const uint32_t *indices);
 void rg_mesh_destroy(struct rg_mesh *mesh);
+
+// The normals as kernels read them, a word each (kernels/mesh_normal.h); the caller frees them.
+// NULL, and one logged line, without memory.
+uint32_t *rg_mesh_pack_normals(const struct rg_mesh *mesh);
 
 // The same surface with one normal a position: the mean of its faces' normals, each as its area.
 // Edges become smooth. Straight up where the faces around a vertex have no area.

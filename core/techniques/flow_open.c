@@ -10,7 +10,6 @@
 #include "core/scene/mesh.h"
 #include "core/techniques/flow_instance.h"
 #include "kernels/flow_glow_params.h"
-#include "kernels/mesh_normal.h"
 #include "kernels/normal_map.h"
 
 static const char *const counter_names[FLOW_COUNTER_COUNT] = {"drops_landed", "texels_moved",
@@ -210,13 +209,9 @@ static void tell(struct flow *flow, const char *name, double number, const char 
 
 static bool upload_model(struct flow *flow, const struct rg_mesh *mesh)
 {
-    uint32_t *normals = rg_alloc((size_t)mesh->vertex_count, sizeof(*normals), mesh->name);
+    uint32_t *normals = rg_mesh_pack_normals(mesh);
     if (!normals)
         return false;
-    for (int i = 0; i < mesh->vertex_count; i++) {
-        const float *n = mesh->normals + 3 * (int64_t)i;
-        normals[i] = mesh_normal_pack(v3_make(n[0], n[1], n[2]));
-    }
     struct rg_device *device = flow->base.device;
     const int64_t vertices = mesh->vertex_count, faces = mesh->face_count;
     flow->positions = create_filled(device, 3 * vertices, mesh->positions, "model's vertices");
@@ -237,12 +232,7 @@ static bool create_model(struct flow *flow)
         tell(flow, "faces", flow->pane_count, "");
         return true;
     }
-    struct rg_mesh *mesh = rg_mesh_load(flow->settings.model);
-    if (mesh && flow->settings.model_faces) {
-        struct rg_mesh *resized = rg_mesh_resize(mesh, flow->settings.model_faces);
-        rg_mesh_destroy(mesh);
-        mesh = resized;
-    }
+    struct rg_mesh *mesh = rg_mesh_load_faces(flow->settings.model, flow->settings.model_faces);
     if (!mesh)
         return false;
     char text[RG_FACT_SIZE];
@@ -289,6 +279,8 @@ struct rg_instance *flow_open(struct rg_device *device, const void *settings, in
         flow_close(&flow->base);
         return NULL;
     }
+    flow->base.texture_count = 1;
+    flow->base.textures[0] = (struct rg_texture){"environment", flow->environment, 0};
     flow_show_state(flow);
     return &flow->base;
 }

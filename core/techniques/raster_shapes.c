@@ -48,16 +48,18 @@ static void find_radius(struct raster_shape *shape)
 
 // --- models ---
 
-static bool take_mesh(const struct rg_mesh *mesh, struct raster_shape *shape)
+// The mesh's arrays become the shape's.
+static bool take_mesh(struct rg_mesh *mesh, struct raster_shape *shape)
 {
-    if (!make_room(mesh->vertex_count, mesh->face_count, shape))
+    shape->vertex_count = mesh->vertex_count;
+    shape->face_count = mesh->face_count;
+    shape->normals = rg_mesh_pack_normals(mesh);
+    if (!shape->normals)
         return false;
-    memcpy(shape->positions, mesh->positions, (size_t)mesh->vertex_count * 3 * sizeof(float));
-    memcpy(shape->indices, mesh->indices, (size_t)mesh->face_count * 3 * sizeof(uint32_t));
-    for (int i = 0; i < mesh->vertex_count; i++) {
-        const float *n = mesh->normals + 3 * (size_t)i;
-        shape->normals[i] = mesh_normal_pack(v3_make(n[0], n[1], n[2]));
-    }
+    shape->positions = mesh->positions;
+    shape->indices = mesh->indices;
+    mesh->positions = NULL;
+    mesh->indices = NULL;
     memcpy(shape->low, mesh->low, sizeof(shape->low));
     memcpy(shape->high, mesh->high, sizeof(shape->high));
     snprintf(shape->name, sizeof(shape->name), "%s", mesh->name);
@@ -69,12 +71,7 @@ static bool take_mesh(const struct rg_mesh *mesh, struct raster_shape *shape)
 bool raster_shape_load(const struct raster_settings *settings, struct raster_shape *shape)
 {
     *shape = (struct raster_shape){0};
-    struct rg_mesh *mesh = rg_mesh_load(settings->model);
-    if (mesh && settings->faces) {
-        struct rg_mesh *resized = rg_mesh_resize(mesh, settings->faces);
-        rg_mesh_destroy(mesh);
-        mesh = resized;
-    }
+    struct rg_mesh *mesh = rg_mesh_load_faces(settings->model, settings->faces);
     const bool ok = mesh && take_mesh(mesh, shape);
     rg_mesh_destroy(mesh);
     return ok;

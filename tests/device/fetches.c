@@ -7,8 +7,8 @@
 #include "tests/device/suite.h"
 #include "tests/device/texels.h"
 
-static const char *const format_names[RG_FORMAT_COUNT] = {NULL,   "rgba8",    "rgba16f", "rgba32f",
-                                                          "r32f", "rg11b10f", "d32f"};
+static const char *const format_names[RG_FORMAT_COUNT] = {NULL,   "rgba8", "rgba16f",  "rgba32f",
+                                                          "r32f", "r16f",  "rg11b10f", "d32f"};
 
 static struct rg_pass *format_pass(struct rg_device *device, const char *verb, int format)
 {
@@ -68,6 +68,36 @@ static void kernels_fetch_every_format(void **state)
         rg_pass_destroy(pass);
         rg_image_destroy(image);
     }
+}
+
+// Every half that is a number, among neighbours of every kind: rows are odd, so that pairs in a
+// word change from row to row.
+static void kernels_fetch_every_half(void **state)
+{
+    enum { WIDTH = 255, HEIGHT = 257, HALVES = WIDTH * HEIGHT }; // of 65,536; the last is no number
+    uint16_t *halves = malloc(HALVES * sizeof(*halves));
+    for (uint32_t i = 0; i < HALVES; i++)
+        halves[i] = (uint16_t)((i & 0x7c00) == 0x7c00 ? i & ~0x4000u : i);
+    struct rg_image *image =
+        rg_image_create(*state, &(struct rg_image_desc){RG_R16F, WIDTH, HEIGHT, 1, 1}, "halves");
+    struct rg_buf *colours = filled_buf(*state, 0xcacacacau, HALVES * 4, "colours");
+    struct rg_pass *pass = format_pass(*state, "fetch", RG_R16F);
+    assert_true(image && rg_image_write(image, 0, 0, halves));
+    const struct test_texels_params params = {WIDTH, HEIGHT, 0};
+    assert_true(rg_pass_run(pass, &(struct rg_run){.params = &params,
+                                                   .slots = {[1].image = image, [2].buf = colours},
+                                                   .extent = {WIDTH, HEIGHT, 1}}));
+    struct colour *got = (struct colour *)read_words(colours, HALVES * 4);
+    for (int i = 0; i < HALVES; i++) {
+        const struct colour due = decode_texel(RG_R16F, &halves[i]);
+        if (memcmp(&got[i], &due, sizeof(due)))
+            fail_msg("half %04x is %a, not %a", halves[i], (double)got[i].r, (double)due.r);
+    }
+    free(got);
+    free(halves);
+    rg_pass_destroy(pass);
+    rg_buf_destroy(colours);
+    rg_image_destroy(image);
 }
 
 // Colours inside and outside of what a format holds, with halves' and bytes' ties among them.
@@ -168,6 +198,7 @@ static void passes_read_what_passes_wrote(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(kernels_fetch_every_format),
+    cmocka_unit_test(kernels_fetch_every_half),
     cmocka_unit_test(kernels_store_every_storable_format),
     cmocka_unit_test(passes_read_what_passes_wrote),
 };

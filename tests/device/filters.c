@@ -9,9 +9,9 @@
 
 enum { LAYERS = 3, LEVELS = 7, READS = 6000 };
 
-static const enum rg_format formats[] = {RG_RGBA8, RG_RGBA16F, RG_RG11B10F};
+static const enum rg_format formats[] = {RG_RGBA8, RG_RGBA16F, RG_R16F, RG_RG11B10F};
 static const char *const kernels[] = {"test_filter_rgba8", "test_filter_rgba16f",
-                                      "test_filter_rg11b10f"};
+                                      "test_filter_r16f", "test_filter_rg11b10f"};
 static const char *const filterings[TEST_FILTERS] = {"nearest", "linear", "trilinear"};
 
 // Where an image is read: u and v across it, the layer and the level.
@@ -31,6 +31,8 @@ static void fill(enum rg_format format, uint32_t seed, int count, uint32_t *texe
             texels[i] = a;
         else if (format == RG_RG11B10F)
             texels[i] = below_one << 6 | below_one << 17 | below_one << 27 | (a & 0x07c1f83fu);
+        else if (format == RG_R16F)
+            ((uint16_t *)texels)[i] = (uint16_t)((a & 0x83ffu) | 0x3800u);
         else {
             texels[2 * i] = (a & 0x83ff83ffu) | 0x38003800u;
             texels[2 * i + 1] = (b & 0x83ff83ffu) | 0x38003800u;
@@ -56,7 +58,7 @@ static void open_source(struct source *s, enum rg_format format, int width, int 
             s->texels[layer][level] = malloc((size_t)count * sizeof(struct colour));
             for (int i = 0; i < count; i++)
                 s->texels[layer][level][i] =
-                    decode_texel(format, packed + i * rg_format_size(format) / 4);
+                    decode_texel(format, (const char *)packed + i * rg_format_size(format));
         }
     }
     free(packed);

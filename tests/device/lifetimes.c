@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "core/shared.h"
 #include "kernels/test_copy_params.h"
 #include "tests/device/suite.h"
 
@@ -196,6 +197,104 @@ static void closing_reports_what_still_lives(void **state)
     assert_non_null(strstr(lines, info.name));
 }
 
+// --- shared things ---
+
+// A buffer of four words that say what was asked for; counts what is made and destroyed.
+static int things_made, things_destroyed;
+
+static void *thing_make(struct rg_device *device, const void *arg)
+{
+    things_made++;
+    return *(const uint32_t *)arg ? filled_buf(device, *(const uint32_t *)arg, 4, "thing") : NULL;
+}
+
+static void thing_destroy(void *thing)
+{
+    things_destroyed++;
+    rg_buf_destroy(thing);
+}
+
+static const struct rg_shared_kind thing_kind = {"thing", thing_make, thing_destroy};
+static const struct rg_shared_kind other_kind = {"other thing", thing_make, thing_destroy};
+
+// One that is made of a thing.
+static struct rg_device *box_device;
+
+static void *box_make(struct rg_device *device, const void *arg)
+{
+    box_device = device;
+    return rg_shared_get(device, "inside", &thing_kind, arg) ? calloc(1, 1) : NULL;
+}
+
+static void box_destroy(void *box)
+{
+    const uint32_t none = 0; // it is there, and is not made
+    void *inside = rg_shared_get(box_device, "inside", &thing_kind, &none);
+    assert_non_null(inside);
+    rg_shared_put(box_device, inside);
+    rg_shared_put(box_device, inside);
+    free(box);
+}
+
+static const struct rg_shared_kind box_kind = {"box", box_make, box_destroy};
+
+static void things_are_shared_by_key_and_kind(void **state)
+{
+    const struct rg_work work = *rg_device_work(*state);
+    const uint32_t seven = 7, nine = 9, none = 0;
+    char key[] = "a = 7";
+    things_made = things_destroyed = 0;
+    void *first = rg_shared_get(*state, key, &thing_kind, &seven);
+    key[4] = '9';
+    void *other = rg_shared_get(*state, key, &thing_kind, &nine);
+    key[4] = '7';
+    void *again = rg_shared_get(*state, key, &thing_kind, &none);
+    void *kin = rg_shared_get(*state, key, &other_kind, &nine);
+    assert_true(first && other && kin && first == again && first != other && first != kin);
+    assert_int_equal(things_made, 3);
+    assert_null(rg_shared_get(*state, "none", &thing_kind, &none));
+    uint32_t *words = read_words(first, 4);
+    assert_int_equal(words[3], 7);
+    free(words);
+    rg_shared_put(*state, first);
+    rg_shared_put(*state, NULL);
+    assert_int_equal(things_destroyed, 0);
+    rg_shared_put(*state, again);
+    assert_int_equal(things_destroyed, 1);
+    rg_shared_put(*state, other);
+    rg_shared_put(*state, kin);
+    assert_int_equal(things_destroyed, 3);
+    // what had gone is made anew
+    rg_shared_put(*state, rg_shared_get(*state, key, &thing_kind, &nine));
+    assert_int_equal(things_made, 5);
+    assert_int_equal(things_destroyed, 4);
+    check_as_many_live(*state, &work);
+}
+
+static void shared_things_hold_shared_things(void **state)
+{
+    const struct rg_work work = *rg_device_work(*state);
+    const uint32_t seven = 7;
+    void *box = rg_shared_get(*state, "box", &box_kind, &seven);
+    void *inside = rg_shared_get(*state, "inside", &thing_kind, &seven);
+    assert_true(box && inside);
+    rg_shared_put(*state, inside);
+    rg_shared_put(*state, box);
+    check_as_many_live(*state, &work);
+}
+
+static void closing_reports_what_is_still_shared(void **state)
+{
+    (void)state;
+    struct rg_device *device = rg_device_open(suite_device, NULL);
+    const uint32_t seven = 7;
+    things_destroyed = 0;
+    assert_non_null(rg_shared_get(device, "kept", &thing_kind, &seven));
+    assert_non_null(rg_shared_get(device, "kept", &thing_kind, &seven));
+    assert_refused(rg_device_close(device), "closed with thing 'kept' not put back by 2");
+    assert_int_equal(things_destroyed, 1);
+}
+
 static void time_goes_on(void **state)
 {
     int64_t first_ns, second_ns;
@@ -213,6 +312,9 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(devices_open_and_close),
     cmocka_unit_test(devices_live_side_by_side),
     cmocka_unit_test(closing_reports_what_still_lives),
+    cmocka_unit_test(things_are_shared_by_key_and_kind),
+    cmocka_unit_test(shared_things_hold_shared_things),
+    cmocka_unit_test(closing_reports_what_is_still_shared),
     cmocka_unit_test(time_goes_on),
 };
 const struct suite_tests lifetime_tests = {tests, COUNT_OF(tests)};

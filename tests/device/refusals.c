@@ -54,6 +54,21 @@ static void images_refuse_bad_shapes(void **state)
     assert_int_equal(rg_device_work(device)->live_images, before.live_images);
 }
 
+// Larger than any memory: the line says how large.
+static void images_refuse_to_be_vast(void **state)
+{
+    static const enum rg_format formats[] = {RG_R16F, RG_RGBA32F};
+    for (int i = 0; i < COUNT_OF(formats); i++) {
+        const struct rg_image_desc desc = {formats[i], 16384, 16384, 1024, 1};
+        listen();
+        struct rg_image *image = rg_image_create(*state, &desc, "vast");
+        const char *line = heard();
+        assert_null(image);
+        if (!strstr(line, "'vast'") || !(strstr(line, "16384x16384") || strstr(line, " bytes")))
+            fail_msg("'%s' names no size", line);
+    }
+}
+
 static void images_refuse_bad_layers_and_levels(void **state)
 {
     const struct rg_image_desc desc = {RG_RGBA8, 8, 8, 2, 3};
@@ -227,6 +242,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(buffers_refuse_bad_sizes),
     cmocka_unit_test(buffers_refuse_bad_ranges),
     cmocka_unit_test(images_refuse_bad_shapes),
+    cmocka_unit_test(images_refuse_to_be_vast),
     cmocka_unit_test(images_refuse_bad_layers_and_levels),
     cmocka_unit_test(unknown_kernels_are_refused),
     cmocka_unit_test(runs_refuse_bad_grids),

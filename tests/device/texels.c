@@ -41,6 +41,12 @@ static uint32_t random_word(enum rg_format format, uint32_t n)
 
 void random_texels(enum rg_format format, uint32_t seed, int count, void *texels)
 {
+    if (format == RG_R16F) {
+        for (int i = 0; i < count; i++)
+            ((uint16_t *)texels)[i] =
+                (uint16_t)random_small_float(noise((uint32_t)i + seed), 10, true);
+        return;
+    }
     const int words = count * rg_format_size(format) / 4;
     for (int i = 0; i < words; i++)
         ((uint32_t *)texels)[i] = random_word(format, noise((uint32_t)i + seed));
@@ -61,9 +67,12 @@ struct colour decode_texel(enum rg_format format, const void *texel)
     struct colour c = {0.0f, 0.0f, 0.0f, 1.0f};
     const unsigned char *bytes = texel;
     uint16_t halves[4];
-    uint32_t word;
-    memcpy(&word, texel, 4);
+    uint32_t word = 0;
+    memcpy(&word, texel, rg_format_size(format) < 4 ? 2 : 4);
     switch (format) {
+    case RG_R16F:
+        c.r = decode_small_float(word, 10);
+        return c;
     case RG_RGBA8:
         return (struct colour){(float)bytes[0] / 255.0f, (float)bytes[1] / 255.0f,
                                (float)bytes[2] / 255.0f, (float)bytes[3] / 255.0f};

@@ -1,0 +1,48 @@
+// The city's plan: an avenue along z, streets across it and beside it, blocks between them.
+#include "core/scene/city/build.h"
+
+#define SIDE_M   (CITY_SIDE_M / 2.0)
+#define ROAD_M   4.5  // half a street's roadway
+#define WALK_M   3.5  // a street's pavement
+#define AVENUE_M 9.0  // half the avenue's roadway
+#define BESIDE_M 5.0  // its pavement
+#define BORDER_M 10.0 // from the last block to the city's border: a pavement, and half a street
+#define COLUMN_M 48.0 // a block
+#define ROW_M    50.0
+
+static double column_start(int column)
+{
+    const double avenue =
+        column >= CITY_COLUMNS / 2 ? 2 * (AVENUE_M + BESIDE_M - ROAD_M - WALK_M) : 0;
+    return -SIDE_M + BORDER_M + column * (COLUMN_M + 2 * (ROAD_M + WALK_M)) + avenue;
+}
+
+static double row_start(int row)
+{
+    return -SIDE_M + BORDER_M + row * (ROW_M + 2 * (ROAD_M + WALK_M));
+}
+
+struct city_block city_block_at(int column, int row)
+{
+    const double x = column_start(column), z = row_start(row);
+    return (struct city_block){
+        .x0 = x,
+        .x1 = x + COLUMN_M,
+        .z0 = z,
+        .z1 = z + ROW_M,
+        .plaza = column == CITY_COLUMNS / 2 && row == CITY_ROWS / 2,
+        .index = row * CITY_COLUMNS + column,
+    };
+}
+
+struct city_island city_island_at(int column, int row)
+{
+    const struct city_block block = city_block_at(column, row);
+    const int half = CITY_COLUMNS / 2;
+    return (struct city_island){
+        block.x0 - (column == half ? BESIDE_M : WALK_M),
+        block.z0 - WALK_M,
+        block.x1 + (column == half - 1 ? BESIDE_M : WALK_M),
+        block.z1 + WALK_M,
+    };
+}

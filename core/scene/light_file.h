@@ -1,0 +1,30 @@
+// The lights of a scene, and a user's own list of them (docs/lights.md).
+#ifndef RG_CORE_SCENE_LIGHT_FILE_H
+#define RG_CORE_SCENE_LIGHT_FILE_H
+
+#include <stdbool.h>
+
+#include "kernels/streaks_light.h"
+
+struct rg_light {
+    int kind;            // STREAKS_POINT, STREAKS_SPOT or STREAKS_SUN
+    float position_m[3]; // in the world; of points and spots
+    float direction[3];  // the way light travels, of unit length; of spots and suns
+    float colour[3];     // linear, times the intensity
+    float inner_deg;     // from a spot's axis, up to here it is as bright as on it
+    float outer_deg;     // and from here on dark
+    float near_m;        // what is nearer to a point or spot casts no shadow
+    bool shadows;
+};
+
+struct rg_lights {
+    int count;
+    struct rg_light lights[STREAKS_MAX_LIGHTS];
+    float sky[3]; // linear: what comes from everywhere
+};
+
+// Reads a file of lights. False, and one logged line that names the file, the light and the mend,
+// if it is none; `lights` is then undefined.
+bool rg_light_file_read(const char *path, struct rg_lights *lights);
+
+#endif

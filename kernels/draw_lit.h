@@ -1,0 +1,32 @@
+// The fragments of the DRAW program that was just included, with what lights add to them (draw.h):
+// one light after the other, from zero on. Shells that have loops of their own for lights, so that
+// fragments go side by side, add in this order too.
+
+#if defined(RG_LIGHTS)
+
+RG_FN rgba rg_light_sum(rgba a, rgba b)
+{
+    return rg_rgba(a.r + b.r, a.g + b.g, a.b + b.b, a.a + b.a);
+}
+
+RG_FN rgba rg_program_lit(rg_ctx rg, RG_PARAMS p, RG_RECORD r, int px, int py)
+{
+    rgba lit = rg_rgba(0.0f, 0.0f, 0.0f, 0.0f);
+    for (int light = 0; light < p.lights; light++)
+        lit = rg_light_sum(lit, rg_program_light(rg, p, r, px, py, light));
+    return lit;
+}
+
+RG_FN rg_fragment rg_drawn_fragment(rg_ctx rg, RG_PARAMS p, RG_RECORD r, int px, int py)
+{
+    return rg_settled(rg_program_fragment(rg, p, r, px, py, rg_program_lit(rg, p, r, px, py)));
+}
+
+#else
+
+RG_FN rg_fragment rg_drawn_fragment(rg_ctx rg, RG_PARAMS p, RG_RECORD r, int px, int py)
+{
+    return rg_settled(rg_program_fragment(rg, p, r, px, py));
+}
+
+#endif

@@ -1,0 +1,80 @@
+// The scene's textures: squares of equal size that repeat, RGBA8. Colours are kept as the square
+// roots of their light, which eight bits hold nearly as well as the sRGB curve, and which every
+// device squares alike; alpha says how much of the light a lamp behind the surface gives at night.
+//
+// Filtered in integers of 8 bits, two channels at a time: half the work of floats, and exact.
+// Included behind a program's slots, which have IMAGE(n, RGBA8, textures).
+#ifndef RG_KERNELS_STREAKS_TEXTURE_H
+#define RG_KERNELS_STREAKS_TEXTURE_H
+
+// Channels r and b, and g and a, each in 16 bits.
+RG_STRUCT(streaks_texel)
+{
+    uint rb;
+    uint ga;
+};
+
+// Between a and b: t from 0 to 256.
+RG_FN streaks_texel streaks_texel_mix(streaks_texel a, streaks_texel b, uint t)
+{
+    streaks_texel c;
+    c.rb = ((a.rb * (256u - t) + b.rb * t + 0x00800080u) >> 8) & 0x00ff00ffu;
+    c.ga = ((a.ga * (256u - t) + b.ga * t + 0x00800080u) >> 8) & 0x00ff00ffu;
+    return c;
+}
+
+RG_FN streaks_texel streaks_texel_at(rg_ctx rg, int x, int y, int layer, int level)
+{
+    uint bytes = textures_bytes(rg, x, y, layer, level);
+    streaks_texel t;
+    t.rb = bytes & 0x00ff00ffu;
+    t.ga = (bytes >> 8) & 0x00ff00ffu;
+    return t;
+}
+
+// u and v from 0 to 1.
+RG_FN streaks_texel streaks_texture_linear(rg_ctx rg, float u, float v, int size, int layer,
+                                           int level)
+{
+    float x = u * rg_to_float(size) - 0.5f;
+    float y = v * rg_to_float(size) - 0.5f;
+    float left = rg_floor(x);
+    float top = rg_floor(y);
+    int x0 = rg_to_int(left);
+    int y0 = rg_to_int(top);
+    int x1 = x0 + 1 < size ? x0 + 1 : 0;
+    int y1 = y0 + 1 < size ? y0 + 1 : 0;
+    x0 = x0 < 0 ? size - 1 : x0;
+    y0 = y0 < 0 ? size - 1 : y0;
+    uint across = rg_to_uint(rg_to_int((x - left) * 256.0f));
+    uint down = rg_to_uint(rg_to_int((y - top) * 256.0f));
+    streaks_texel above = streaks_texel_mix(streaks_texel_at(rg, x0, y0, layer, level),
+                                            streaks_texel_at(rg, x1, y0, layer, level), across);
+    streaks_texel below = streaks_texel_mix(streaks_texel_at(rg, x0, y1, layer, level),
+                                            streaks_texel_at(rg, x1, y1, layer, level), across);
+    return streaks_texel_mix(above, below, down);
+}
+
+// `texels` is how many texels of level 0 a pixel is wide, squared. Between levels the fraction is
+// taken from the float's mantissa as it stands, close enough to a logarithm.
+RG_FN rgba streaks_texture(rg_ctx rg, float u, float v, int layer, float texels, int texture_px,
+                           int last_level)
+{
+    float across = u - rg_floor(u);
+    float down = v - rg_floor(v);
+    uint twice = rg_float_bits(rg_clamp(texels, 1.0f, 1e9f)) - 0x3f800000u; // 2 log2, 23 bits of it
+    int fine = rg_imin(rg_to_int(twice >> 24), last_level);
+    int coarse = rg_imin(fine + 1, last_level);
+    uint between = (twice >> 16) & 255u;
+    streaks_texel near =
+        streaks_texture_linear(rg, across, down, rg_imax(texture_px >> fine, 1), layer, fine);
+    streaks_texel far =
+        streaks_texture_linear(rg, across, down, rg_imax(texture_px >> coarse, 1), layer, coarse);
+    streaks_texel t = streaks_texel_mix(near, far, between);
+    float r = rg_to_float(t.rb & 0xffffu) * (1.0f / 255.0f);
+    float g = rg_to_float(t.ga & 0xffffu) * (1.0f / 255.0f);
+    float b = rg_to_float(t.rb >> 16) * (1.0f / 255.0f);
+    return rg_rgba(r * r, g * g, b * b, rg_to_float(t.ga >> 16) * (1.0f / 255.0f));
+}
+
+#endif

@@ -1,0 +1,249 @@
+// Files of lights, good and bad, and the lights that a scene has without one.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/log.h"
+#include "core/techniques/streaks_lights.h"
+
+static int errors;
+
+static void count_error(enum rg_log_level level, const char *line, void *user)
+{
+    (void)line;
+    (void)user;
+    errors += level == RG_LOG_ERROR;
+}
+
+// --- files ---
+
+static bool read_text(const char *text, struct rg_lights *lights)
+{
+    char path[] = "/tmp/lights-XXXXXX";
+    const int fd = mkstemp(path);
+    assert_true(fd >= 0 && write(fd, text, strlen(text)) == (ssize_t)strlen(text));
+    close(fd);
+    errors = 0;
+    const bool ok = rg_light_file_read(path, lights);
+    unlink(path);
+    if (!ok && !strstr(rg_last_error(), path))
+        fail_msg("'%s' does not name the file", rg_last_error());
+    return ok;
+}
+
+static void a_file_says_all_of_its_lights(void **state)
+{
+    (void)state;
+    struct rg_lights lights;
+    assert_true(read_text(
+        "{\"lights\": ["
+        "{\"type\": \"sun\", \"direction\": [0, -3, 4], \"colour\": [1, 0.5, 0.25]},"
+        "{\"type\": \"spot\", \"position_m\": [1, 2, 3], \"direction\": [0, -2, 0],"
+        " \"colour\": [1, 1, 0.5], \"intensity\": 40, \"inner_deg\": 20, \"outer_deg\": 50,"
+        " \"near_m\": 0.25, \"shadows\": false},"
+        "{\"type\": \"point\", \"position_m\": [-1, 5.5, 1e2], \"colour\": [0, 0, 2],"
+        " \"shadows\": true}],"
+        "\"sky\": {\"colour\": [0.1, 0.2, 0.3], \"intensity\": 0.5}}",
+        &lights));
+    const struct rg_light *l = lights.lights;
+    assert_int_equal(lights.count, 3);
+    assert_int_equal(l[0].kind, STREAKS_SUN);
+    assert_int_equal(l[1].kind, STREAKS_SPOT);
+    assert_int_equal(l[2].kind, STREAKS_POINT);
+    assert_float_equal(l[0].direction[1], -0.6f, 1e-7f);
+    assert_float_equal(l[0].direction[2], 0.8f, 1e-7f);
+    assert_true(l[0].colour[0] == 1 && l[0].colour[1] == 0.5f && l[0].colour[2] == 0.25f);
+    assert_true(l[0].shadows && !l[1].shadows && l[2].shadows);
+    assert_true(l[1].position_m[0] == 1 && l[1].position_m[1] == 2 && l[1].position_m[2] == 3);
+    assert_true(l[1].direction[1] == -1);
+    assert_true(l[1].colour[0] == 40 && l[1].colour[2] == 20);
+    assert_true(l[1].inner_deg == 20 && l[1].outer_deg == 50 && l[1].near_m == 0.25f);
+    assert_true(l[2].position_m[2] == 100 && l[2].near_m == 0.1f);
+    assert_true(l[0].outer_deg > l[0].inner_deg && l[2].outer_deg > l[2].inner_deg);
+    assert_float_equal(lights.sky[1], 0.1f, 1e-7f);
+}
+
+static void what_is_left_out_has_defaults(void **state)
+{
+    (void)state;
+    struct rg_lights lights;
+    assert_true(read_text("{\"lights\": [{\"type\": \"spot\", \"position_m\": [0, 0, 0],"
+                          "\"direction\": [1, 0, 0], \"colour\": [1, 1, 1], \"outer_deg\": 20}]}",
+                          &lights));
+    assert_true(lights.lights[0].inner_deg == 15 && lights.lights[0].shadows);
+    assert_true(lights.sky[0] == 0 && lights.sky[1] == 0 && lights.sky[2] == 0);
+}
+
+#define SPOT(more)                                                                                 \
+    "{\"lights\": [{\"type\": \"point\", \"position_m\": [0, 0, 0], \"colour\": [1, 1, 1]}, "      \
+    "{\"type\": \"spot\", " more "}]}"
+#define PLACED "\"position_m\": [0, 5, 0], "
+#define AIMED  PLACED "\"direction\": [0, -1, 0], "
+#define WHOLE  AIMED "\"colour\": [1, 1, 1], "
+
+static void bad_files_are_refused_in_one_line(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *says[2];
+    } cases[] = {
+        {"", {":1:0: ", "docs/lights.md"}},
+        {"{\"lights\": [}", {":1:13: ", "docs/lights.md"}},
+        {"{\n\"lights\": [],\n\"lights\": []}", {":3:8: ", "duplicate"}},
+        {"[]", {": no lights", "{\"lights\": ["}},
+        {"7", {":1:1: ", ""}},
+        {"{}", {": no lights", ""}},
+        {"{\"lights\": []}", {": no lights", ""}},
+        {"{\"lights\": 3}", {": no lights", ""}},
+        {"{\"lights\": [{}], \"clouds\": 1}", {"'clouds'", "lights and sky"}},
+        {"{\"lights\": [3]}", {"light 1", "object"}},
+        {"{\"lights\": [{}]}", {"light 1", "'type'"}},
+        {SPOT("\"direction\": [0, -1, 0], \"colour\": [1, 1, 1]"), {"light 2", "'position_m'"}},
+        {SPOT(PLACED "\"colour\": [1, 1, 1]"), {"light 2", "'direction'"}},
+        {SPOT(AIMED "\"outer_deg\": 20"), {"light 2", "'colour' is missing"}},
+        {SPOT(AIMED "\"colour\": [1, 1]"), {"light 2", "list of three"}},
+        {SPOT(AIMED "\"colour\": 1"), {"light 2", "list of three"}},
+        {SPOT(AIMED "\"colour\": [1, 1, \"1\"]"), {"light 2", "numbers alone"}},
+        {SPOT(AIMED "\"colour\": [1, -1, 1]"), {"light 2", "'colour' holds -1"}},
+        {SPOT(AIMED "\"colour\": [1, 1, 1e300]"), {"light 2", "'colour' holds 1e+300"}},
+        {SPOT(AIMED "\"colour\": [1, 1, 1e999]"), {":1:", "overflow"}},
+        {SPOT(PLACED "\"direction\": [0, 0, 0], \"colour\": [1, 1, 1]"),
+         {"light 2", "no direction"}},
+        {SPOT("\"position_m\": [0, 1e9, 0], \"direction\": [0, 1, 0], \"colour\": [1, 1, 1]"),
+         {"light 2", "'position_m' holds 1e+09"}},
+        {SPOT(WHOLE "\"intensity\": -2"), {"light 2", "'intensity' is -2"}},
+        {SPOT(WHOLE "\"intensity\": true"), {"light 2", "'intensity' must be a number"}},
+        {SPOT(WHOLE "\"outer_deg\": 85"), {"light 2", "'outer_deg' is 85"}},
+        {SPOT(WHOLE "\"outer_deg\": 30, \"inner_deg\": 30"), {"light 2", "'inner_deg' is 30"}},
+        {SPOT(WHOLE "\"near_m\": 0"), {"light 2", "'near_m' is 0"}},
+        {SPOT(WHOLE "\"shadows\": 1"), {"light 2", "'shadows' must be true or false"}},
+        {SPOT(WHOLE "\"color\": 1"), {"light 2", "'color' is no property"}},
+        {"{\"lights\": [{\"type\": \"sun\", \"position_m\": [0, 0, 0]}]}",
+         {"light 1", "a sun has no 'position_m'"}},
+        {"{\"lights\": [{\"type\": \"point\", \"outer_deg\": 4}]}",
+         {"light 1", "a point has no 'outer_deg'"}},
+        {"{\"lights\": [{\"type\": \"point\", \"position_m\": [0, 0, 0], \"colour\": [1, 1, 1]}],"
+         "\"sky\": {\"colour\": 4}}",
+         {": sky: ", "list of three"}},
+    };
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        struct rg_lights lights;
+        if (read_text(cases[i].text, &lights))
+            fail_msg("not refused: %s", cases[i].text);
+        assert_int_equal(errors, 1);
+        for (int k = 0; k < 2; k++)
+            if (!strstr(rg_last_error(), cases[i].says[k]))
+                fail_msg("'%s' does not say '%s'", rg_last_error(), cases[i].says[k]);
+    }
+}
+
+static void there_are_sixteen_lights_at_most(void **state)
+{
+    (void)state;
+    static const char one[] =
+        "{\"type\": \"point\", \"position_m\": [0, 0, 0], \"colour\": [1, 1, 1]}";
+    for (int count = 16; count <= 17; count++) {
+        char text[4096] = "{\"lights\": [";
+        struct rg_lights lights;
+        for (int i = 0; i < count; i++)
+            snprintf(text + strlen(text), sizeof(text) - strlen(text), "%s%s", i ? "," : "", one);
+        strcat(text, "]}");
+        assert_true(read_text(text, &lights) == (count == 16));
+        assert_true(count == 16 ? lights.count == 16 : !!strstr(rg_last_error(), "17 lights"));
+    }
+}
+
+static void what_is_no_file_is_refused(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"/nonexistent/lights.json", "/", "/dev/zero"};
+    struct rg_lights lights;
+    for (int i = 0; i < 3; i++) {
+        errors = 0;
+        assert_false(rg_light_file_read(names[i], &lights));
+        assert_int_equal(errors, 1);
+        assert_non_null(strstr(rg_last_error(), names[i]));
+    }
+}
+
+// --- presets ---
+
+static const struct city_lamp lamps[] = {
+    {CITY_TRAFFIC_GREEN, {3, 2, 0}, {1, 0, 0}}, {CITY_STREET_LAMP, {40, 8, 0}, {0, -1, 0}},
+    {CITY_STREET_LAMP, {10, 8, 0}, {0, -1, 0}}, {CITY_STREET_LAMP, {-20, 8, 0}, {0, -1, 0}},
+    {CITY_TRAFFIC_RED, {90, 2, 0}, {0, 0, 1}},  {CITY_STREET_LAMP, {0, 8, 30}, {0, -1, 0}},
+    {CITY_TRAFFIC_RED, {-50, 2, 0}, {0, 0, 1}}, {CITY_TRAFFIC_RED, {-50, 2, 0}, {0, 0, -1}},
+};
+enum { LAMPS = sizeof(lamps) / sizeof(lamps[0]) };
+
+// Each light's lamp; -1: the sun or moon.
+static void check_lights(enum streaks_time time, const int *due, int count)
+{
+    const struct streaks_lights_settings settings = {
+        .count = count, .time = time, .lamps = lamps, .lamp_count = LAMPS, .about_m = {0, 1, 0}};
+    struct rg_lights lights;
+    assert_true(streaks_lights_choose(&settings, &lights));
+    assert_int_equal(lights.count, count);
+    for (int i = 0; i < count; i++) {
+        const struct rg_light *light = &lights.lights[i];
+        assert_int_equal(light->kind, due[i] < 0 ? STREAKS_SUN : STREAKS_SPOT);
+        assert_true(light->outer_deg > light->inner_deg && light->shadows);
+        const float *d = light->direction;
+        assert_float_equal(d[0] * d[0] + d[1] * d[1] + d[2] * d[2], 1, 1e-6f);
+        if (due[i] < 0)
+            continue;
+        assert_memory_equal(light->position_m, lamps[due[i]].position, sizeof(float[3]));
+        assert_memory_equal(light->direction, lamps[due[i]].direction, sizeof(float[3]));
+        const float *c = light->colour;
+        assert_true(lamps[due[i]].kind != CITY_TRAFFIC_RED || c[0] > 4 * c[1]);
+        assert_true(lamps[due[i]].kind != CITY_TRAFFIC_GREEN || c[1] > 4 * c[0]);
+    }
+}
+
+static void lights_come_in_the_order_of_the_figure(void **state)
+{
+    (void)state;
+    static const int by_day[LAMPS + 1] = {-1, 2, 3, 5, 6, 0, 1, 7, 4};
+    static const int by_night[LAMPS + 1] = {2, 3, 5, 6, 0, -1, 1, 7, 4};
+    for (int count = 1; count <= LAMPS + 1; count++) {
+        check_lights(STREAKS_DAY, by_day, count);
+        check_lights(STREAKS_NIGHT, by_night, count);
+    }
+}
+
+static void more_lights_than_lamps_are_refused(void **state)
+{
+    (void)state;
+    struct streaks_lights_settings settings = {
+        .count = LAMPS + 2, .lamps = lamps, .lamp_count = LAMPS};
+    struct rg_lights lights;
+    for (int time = STREAKS_DAY; time <= STREAKS_NIGHT; time++) {
+        settings.time = (enum streaks_time)time;
+        errors = 0;
+        assert_false(streaks_lights_choose(&settings, &lights));
+        assert_int_equal(errors, 1);
+        assert_non_null(strstr(rg_last_error(), "ask for 9"));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_file_says_all_of_its_lights),
+        cmocka_unit_test(what_is_left_out_has_defaults),
+        cmocka_unit_test(bad_files_are_refused_in_one_line),
+        cmocka_unit_test(there_are_sixteen_lights_at_most),
+        cmocka_unit_test(what_is_no_file_is_refused),
+        cmocka_unit_test(lights_come_in_the_order_of_the_figure),
+        cmocka_unit_test(more_lights_than_lamps_are_refused),
+    };
+    rg_log_listen(count_error, NULL);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
