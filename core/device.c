@@ -224,10 +224,10 @@ struct rg_buf *rg_buf_create(struct rg_device *device, int64_t size, const char 
                     (long long)size);
     require_or_null(size % 4 == 0, "buffer '%s': its size, %lld bytes, is no multiple of 4", name,
                     (long long)size);
-    require_or_null(size <= device->info.limits.max_buffer_bytes,
-                    "buffer '%s': %lld bytes exceed the %lld bytes that %s allows a buffer", name,
-                    (long long)size, (long long)device->info.limits.max_buffer_bytes,
-                    device->info.name);
+    if (size > device->info.limits.max_buffer_bytes)
+        return rg_unsupported_null(
+            "buffer '%s': %lld bytes exceed the %lld bytes that %s allows a buffer", name,
+            (long long)size, (long long)device->info.limits.max_buffer_bytes, device->info.name);
     struct rg_buf *buf = device->backend->buf_create(device, (size_t)size, name);
     if (!buf)
         return NULL;
@@ -286,8 +286,9 @@ static bool check_desc(const struct rg_device *device, const struct rg_image_des
     require(d->width > 0 && d->height > 0 && d->layers > 0,
             "image '%s': %dx%d with %d layers; each must be above 0", name, d->width, d->height,
             d->layers);
-    require(d->width <= limits->max_image_px && d->height <= limits->max_image_px &&
-                d->layers <= limits->max_image_layers,
+    if (d->width > limits->max_image_px || d->height > limits->max_image_px ||
+        d->layers > limits->max_image_layers)
+        return rg_unsupported(
             "image '%s': %dx%d with %d layers exceeds the %d px and %d layers that %s allows", name,
             d->width, d->height, d->layers, limits->max_image_px, limits->max_image_layers,
             device->info.name);

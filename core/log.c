@@ -9,6 +9,7 @@ enum { LINE_SIZE = 1024 };
 static rg_log_fn listener;
 static void *listener_user;
 static char last_error[LINE_SIZE];
+static bool last_is_unsupported;
 
 void rg_log_listen(rg_log_fn fn, void *user)
 {
@@ -28,8 +29,10 @@ static void log_line(enum rg_log_level level, const char *format, va_list args)
     for (char *c = line; *c; c++)
         if (*c == '\n' || *c == '\r')
             *c = ' ';
-    if (level == RG_LOG_ERROR)
+    if (level == RG_LOG_ERROR) {
         memcpy(last_error, line, sizeof(line));
+        last_is_unsupported = false;
+    }
     if (listener)
         listener(level, line, listener_user);
     else
@@ -52,6 +55,25 @@ void *rg_error_null(const char *format, ...)
 {
     LOG(RG_LOG_ERROR);
     return NULL;
+}
+
+bool rg_unsupported(const char *format, ...)
+{
+    LOG(RG_LOG_ERROR);
+    last_is_unsupported = true;
+    return false;
+}
+
+void *rg_unsupported_null(const char *format, ...)
+{
+    LOG(RG_LOG_ERROR);
+    last_is_unsupported = true;
+    return NULL;
+}
+
+bool rg_is_unsupported(void)
+{
+    return last_is_unsupported;
 }
 
 void rg_warning(const char *format, ...)

@@ -22,6 +22,13 @@ void *rg_error_null(const char *format, ...) __attribute__((format(printf, 1, 2)
 void rg_warning(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void rg_info(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+// An error that is nobody's fault: this device or machine lacks what was asked for. Tables show it
+// as "unsupported".
+bool rg_unsupported(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void *rg_unsupported_null(const char *format, ...) __attribute__((format(printf, 1, 2)));
+// Whether the last error was one of those.
+bool rg_is_unsupported(void);
+
 // The last error's line, "" when there was none. Valid until the next error; records quote it.
 const char *rg_last_error(void);
 

@@ -14,6 +14,7 @@ enum rg_exit {
     RG_EXIT_INCONCLUSIVE = 3,
     RG_EXIT_NOTHING = 4,      // nothing was measured
     RG_EXIT_UNSUPPORTED = 77, // not supported on this machine
+    RG_EXIT_SIGNALLED = 128,  // and the signal's number: ended early because it was asked to
 };
 
 // The options, each with one meaning everywhere; a command accepts some of them.
@@ -29,6 +30,8 @@ enum rg_option_bits {
     RG_OPT_ROWS = 1 << 8,        // --rows A-B
     RG_OPT_EXPOSURE = 1 << 9,    // --exposure X
     RG_OPT_BACKGROUND = 1 << 10, // --background FILE
+    RG_OPT_FRESH = 1 << 11,      // --fresh
+    RG_OPT_FROM = 1 << 12,       // --from DIR
 };
 
 enum { RG_MAX_SETS = 64, RG_MAX_ARGS = 64 };
@@ -39,8 +42,8 @@ struct rg_options {
     int set_count;
     int width, height; // 0: not given
     int frame;         // -1: not given
-    char *output, *format, *background;
-    bool json, quick, full;
+    char *output, *format, *background, *from;
+    bool json, quick, full, fresh;
     int first_row, last_row;       // from 1; 0: not given
     double exposure;               // 0: not given
     const char *args[RG_MAX_ARGS]; // what is no option

@@ -5,20 +5,19 @@
 #include "core/image/picture.h"
 #include "core/techniques/technique.h"
 
-enum { RG_CHECK_FRAMES = 10 }; // simulated before the image is compared
+enum { RG_CHECK_FRAMES = 10 }; // simulated before the image is compared, where a table does not say
 
-// The image of cpu:reference after RG_CHECK_FRAMES frames. Zeroed: none.
+// The image of cpu:reference after a table's check frames. Zeroed: none.
 struct rg_expected {
     void *texels; // as the target holds them, `size` bytes; owned
     size_t size;
     struct rg_picture picture; // the same
-    struct rg_picture dry;     // without rain: the background of the rain mask
+    struct rg_picture dry;     // without rain: the background of the rain mask; empty: not wanted
 };
 
-// Runs cpu:reference. `with_dry`: whether the background is wanted, which takes as long again.
-// False, and one logged line, on failure. The caller calls rg_expected_free in either case.
-bool rg_expected_make(struct rg_expected *expected, const struct rg_technique *technique,
-                      const void *settings, int width, int height, bool with_dry);
+// Reads what an instance shows now. False, and one logged line, on failure. The caller calls
+// rg_expected_free in either case.
+bool rg_expected_read(struct rg_expected *expected, struct rg_instance *instance);
 void rg_expected_free(struct rg_expected *expected);
 
 #endif

@@ -45,8 +45,14 @@ static int build(const struct rg_command *command, struct rg_options *o, int *fl
         {RG_OPT_BACKGROUND,
          {"background", 0, POPT_ARG_STRING, &o->background, 0,
           "the picture without rain: differences are gated where it rains", "FILE"}},
+        {RG_OPT_FROM,
+         {"from", 0, POPT_ARG_STRING, &o->from, 0, "the folder to read instead of making it",
+          "DIR"}},
         {RG_OPT_LENGTH, {"quick", 0, POPT_ARG_NONE, &flags[0], 0, "few samples or steps", NULL}},
         {RG_OPT_LENGTH, {"full", 0, POPT_ARG_NONE, &flags[1], 0, "many samples or steps", NULL}},
+        {RG_OPT_FRESH,
+         {"fresh", 0, POPT_ARG_NONE, &flags[3], 0, "takes nothing from a run that was interrupted",
+          NULL}},
         {RG_OPT_JSON,
          {"json", 0, POPT_ARG_NONE, &flags[2], 0, "results in machine form (docs/records.md)",
           NULL}},
@@ -173,7 +179,7 @@ int rg_options_parse(const struct rg_command *command, int argc, const char **ar
                      struct rg_options *o)
 {
     struct poptOption table[32];
-    int flags[3] = {0};
+    int flags[4] = {0};
     const int unset = INT_MIN;
     *o = (struct rg_options){.frame = unset};
     build(command, o, flags, table);
@@ -198,6 +204,7 @@ int rg_options_parse(const struct rg_command *command, int argc, const char **ar
     o->quick = flags[0];
     o->full = flags[1];
     o->json = flags[2];
+    o->fresh = flags[3];
     bool good = check(o, o->frame != unset) && take_arguments(context, o);
     if (o->frame == unset)
         o->frame = -1;
@@ -212,6 +219,7 @@ void rg_options_free(struct rg_options *o)
     free(o->output);
     free(o->format);
     free(o->background);
+    free(o->from);
     poptFreeContext(o->context);
 }
 

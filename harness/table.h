@@ -4,6 +4,7 @@
 
 #include <jansson.h>
 
+#include "harness/bench.h"
 #include "harness/command.h"
 #include "harness/devices.h"
 #include "harness/grid.h"
@@ -18,10 +19,15 @@ struct rg_table_error {
 
 // What a row's cells of one variant have in common.
 struct rg_table_group {
-    void *settings; // owned
-    bool has_error; // the table has a truth, and it could be drawn
+    bool is_missing; // not measured, for the run was interrupted
+    void *settings;  // owned
+    // Where the table has a truth: OK, and the row's distance from it, or why there is none.
+    enum rg_cell_status error_status;
     struct rg_table_error error;
+    char error_detail[200];
 };
+
+struct rg_journal;
 
 // The cells of rows first_row..last_row (from 0) of a table on some devices: row by row, variant by
 // variant, device by device.
@@ -30,16 +36,31 @@ struct rg_table_run {
     const struct rg_devices *devices;
     int first_row, last_row;
     bool full;
-    int samples; // a cell
+    int resumed_rows; // not measured now but by an earlier run that was interrupted
     int cell_count;
     struct rg_cell *cells;
     struct rg_table_group *groups; // one a row and variant
+    json_t *journal;               // what was read of it, which holds those rows' names; or NULL
 };
 
-// Prepares and measures. What cannot be had is the status of its cells. False, with one logged
-// line, without memory for them. The caller calls rg_table_run_free in either case.
-bool rg_table_measure(struct rg_table_run *run);
+// Measures the rows, a batch at a time; those that the journal (harness/journal.h; NULL: none) has
+// are taken from it. What cannot be had is the status of its cells. Where it is interrupted, the
+// rows of the batch and those behind it are missing. False, with one logged line, without memory
+// for the cells. The caller calls rg_table_run_free in either case.
+bool rg_table_measure(struct rg_table_run *run, struct rg_bench *bench, struct rg_journal *journal);
 void rg_table_run_free(struct rg_table_run *run);
+
+// Opens, checks and warms up the cells of a row's variant, or sets their status.
+void rg_table_prepare(struct rg_table_run *run, struct rg_bench *bench, int row, int variant,
+                      const struct rg_measure_options *options);
+// What the devices tell of the texture that a row is about.
+void rg_table_tell_texture(struct rg_table_run *run, struct rg_bench *bench, int row, int variant);
+// The first row that is missing, from 0; one behind the last where none is.
+int rg_table_first_missing(const struct rg_table_run *run);
+// The assignments of a row and variant, and of quick mode, over the defaults. Owned by the caller.
+char *rg_table_assignments(const struct rg_table_run *run, int row, int variant);
+// How many samples its measured cells took, at least and at most; 0 where none was measured.
+void rg_table_samples(const struct rg_table_run *run, int *least, int *most);
 
 struct rg_cell *rg_table_cell(const struct rg_table_run *run, int row, int variant, int device);
 struct rg_table_group *rg_table_group(const struct rg_table_run *run, int row, int variant);

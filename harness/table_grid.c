@@ -32,10 +32,20 @@ static bool is_told(const struct rg_table_run *run, const char *name)
     return false;
 }
 
+static void add_times(struct rg_grid *grid, struct columns *at, bool is_published)
+{
+    at->ms = rg_grid_column(grid, "ms");
+    at->ms_range = rg_grid_column(grid, "ms, 95 %%");
+    at->ratio = is_published ? rg_grid_column(grid, "fps / published") : -1;
+    at->times = rg_grid_column(grid, "x cpu:reference");
+    at->first = rg_grid_column(grid, "first frame ms");
+    at->api = rg_grid_column(grid, "API / wall clock");
+}
+
 static void add_columns(const struct rg_table_run *run, struct rg_grid *grid, struct columns *at)
 {
     const struct rg_table *table = run->table;
-    const bool is_published = rg_table_is_published(table);
+    const bool is_published = rg_table_is_published(table), is_timed = !table->is_of_textures;
     at->name = table->names ? rg_grid_column(grid, "%s", table->names) : -1;
     at->keys = grid->column_count;
     for (int c = 0; c < table->key_count; c++)
@@ -44,22 +54,18 @@ static void add_columns(const struct rg_table_run *run, struct rg_grid *grid, st
     for (int c = 0; table->columns[c]; c++)
         if (rg_table_is_extra(table, c))
             rg_grid_column(grid, "published %s", table->columns[c]);
-    at->published_fps = is_published ? rg_grid_column(grid, "published fps") : -1;
+    at->published_fps = is_published && is_timed ? rg_grid_column(grid, "published fps") : -1;
     at->variant = rg_table_variant_count(table) > 1 ? rg_grid_column(grid, "variant") : -1;
     at->device = rg_grid_column(grid, "device");
-    at->fps = rg_grid_column(grid, "fps");
-    at->ms = rg_grid_column(grid, "ms");
-    at->ms_range = rg_grid_column(grid, "ms, 95 %%");
-    at->ratio = is_published ? rg_grid_column(grid, "fps / published") : -1;
-    at->times = rg_grid_column(grid, "x cpu:reference");
-    at->first = rg_grid_column(grid, "first frame ms");
-    at->api = rg_grid_column(grid, "API / wall clock");
+    at->fps = rg_grid_column(grid, is_timed ? "fps" : "status");
+    if (is_timed)
+        add_times(grid, at, is_published);
     for (int c = 0; table->columns[c]; c++)
         at->told[c] = rg_table_is_extra(table, c) && is_told(run, table->columns[c])
                           ? rg_grid_column(grid, "%s", table->columns[c])
                           : -1;
     at->error = table->truth ? rg_grid_column(grid, "error, FLIP") : -1;
-    at->passes = rg_grid_column(grid, "passes, synced");
+    at->passes = is_timed ? rg_grid_column(grid, "passes, synced") : -1;
 }
 
 // --- the cells ---
@@ -109,8 +115,8 @@ static void print_passes(const struct rg_cell *cell, char text[RG_GRID_CELL])
                  100 * left / sum);
 }
 
-static void fill_measured(const struct rg_table_run *run, const struct columns *at,
-                          char (*cells)[RG_GRID_CELL], const struct rg_cell *cell, double published)
+static void fill_times(const struct columns *at, char (*cells)[RG_GRID_CELL],
+                       const struct rg_cell *cell, double published)
 {
     snprintf(cells[at->fps], RG_GRID_CELL, "%.1f", rg_cell_fps(cell));
     snprintf(cells[at->ms], RG_GRID_CELL, "%.3f", cell->frame_ms.median);
@@ -122,12 +128,26 @@ static void fill_measured(const struct rg_table_run *run, const struct columns *
     const bool trusted = rg_timer_is_trusted(cell->api_over_wall);
     snprintf(cells[at->api], RG_GRID_CELL, "%.2f%s", cell->api_over_wall,
              trusted ? "" : " untrusted");
+    print_passes(cell, cells[at->passes]);
+}
+
+static void fill_told(const struct rg_table_run *run, const struct columns *at,
+                      char (*cells)[RG_GRID_CELL], const struct rg_cell *cell)
+{
     for (int c = 0; run->table->columns[c]; c++) {
         const double *told = rg_facts_number(cell->facts, cell->fact_count, run->table->columns[c]);
         if (at->told[c] >= 0 && told)
             snprintf(cells[at->told[c]], RG_GRID_CELL, "%.10g", *told);
     }
-    print_passes(cell, cells[at->passes]);
+}
+
+// How far the row is from the truth, or why that is unknown.
+static void fill_error(const struct rg_table_group *group, char text[RG_GRID_CELL])
+{
+    if (group->error_status == RG_CELL_OK)
+        snprintf(text, RG_GRID_CELL, "%.4f", group->error.flip_mask_mean);
+    else
+        snprintf(text, RG_GRID_CELL, "%s", rg_cell_status_name(group->error_status));
 }
 
 static void fill_published(const struct rg_table_run *run, const struct columns *at,
@@ -161,13 +181,15 @@ static void add_row(const struct rg_table_run *run, const struct columns *at, st
         return;
     fill_published(run, at, cells, row, variant);
     snprintf(cells[at->device], RG_GRID_CELL, "%s", cell->device->info.name);
-    if (group->has_error && at->error >= 0)
-        snprintf(cells[at->error], RG_GRID_CELL, "%.4f", group->error.flip_mask_mean);
-    if (cell->status != RG_CELL_OK) {
-        snprintf(cells[at->fps], RG_GRID_CELL, "%s", rg_cell_status_name(cell->status));
+    if (at->error >= 0)
+        fill_error(group, cells[at->error]);
+    snprintf(cells[at->fps], RG_GRID_CELL, "%s", rg_cell_status_name(cell->status));
+    if (cell->status != RG_CELL_OK)
         return;
-    }
-    fill_measured(run, at, cells, cell, rg_table_published_fps(run->table, row, variant));
+    fill_told(run, at, cells, cell);
+    if (run->table->is_of_textures)
+        return;
+    fill_times(at, cells, cell, rg_table_published_fps(run->table, row, variant));
     if (reference && reference->status == RG_CELL_OK)
         snprintf(cells[at->times], RG_GRID_CELL, "%.1f",
                  rg_cell_fps(cell) / rg_cell_fps(reference));
@@ -185,14 +207,41 @@ static void name_group(const struct rg_table_run *run, int row, int variant, cha
         snprintf(text + used, size - used, ", %s", run->table->variants[variant].name);
 }
 
+// Whether two cells were left out for the same reason.
+static bool is_same_status(const struct rg_cell *a, const struct rg_cell *b)
+{
+    return a->status == b->status && !strcmp(a->detail, b->detail);
+}
+
+// The devices of a row that were left out for the same reason as this one, from it on: "gl,
+// vulkan"; "" when one before it was.
+static void name_alike(const struct rg_table_run *run, int row, int variant, int device, char *text,
+                       size_t size)
+{
+    const struct rg_cell *cell = rg_table_cell(run, row, variant, device);
+    size_t used = 0;
+    *text = 0;
+    for (int d = 0; d < device; d++)
+        if (is_same_status(cell, rg_table_cell(run, row, variant, d)))
+            return;
+    for (int d = device; d < run->devices->count && used < size; d++)
+        if (is_same_status(cell, rg_table_cell(run, row, variant, d)))
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
+                                     run->devices->devices[d]->info.name);
+}
+
 static void note_status(const struct rg_table_run *run, struct rg_grid *grid, int row, int variant,
                         int device)
 {
     const struct rg_cell *cell = rg_table_cell(run, row, variant, device);
-    char name[256];
+    const struct rg_table_group *group = rg_table_group(run, row, variant);
+    char name[256], devices[512];
     name_group(run, row, variant, name, sizeof(name));
-    if (cell->status != RG_CELL_OK)
-        rg_grid_note(grid, "%s on %s: %s", name, cell->device->info.name, cell->detail);
+    name_alike(run, row, variant, device, devices, sizeof(devices));
+    if (cell->status != RG_CELL_OK && *devices)
+        rg_grid_note(grid, "%s on %s: %s", name, devices, cell->detail);
+    if (device == 0 && group->error_status != RG_CELL_OK)
+        rg_grid_note(grid, "%s: no error: %s", name, group->error_detail);
 }
 
 static void note_shape(const struct rg_table_run *run, struct rg_grid *grid, int variant,
@@ -267,27 +316,61 @@ static void note_facts(const struct rg_table_run *run, const struct columns *at,
     }
 }
 
+// How the numbers were come by.
+static void note_method(const struct rg_table_run *run, struct rg_grid *grid)
+{
+    const struct rg_table *table = run->table;
+    char published[160] = "", samples[48];
+    int least, most;
+    if (rg_table_is_published(table))
+        snprintf(published, sizeof(published), "Published on %s. ", table->hardware);
+    rg_table_samples(run, &least, &most);
+    snprintf(samples, sizeof(samples), "%d", most);
+    if (least < most)
+        snprintf(samples, sizeof(samples), "%d to %d", least, most);
+    if (!table->is_of_textures) {
+        rg_grid_note(grid, "%sTimes are wall clock between full syncs, medians of %s samples (%s).",
+                     published, samples, run->full ? "full" : "quick");
+        rg_grid_note(grid, "Shares of the passes come from a run of its own that syncs after "
+                           "every pass.");
+    } else {
+        rg_grid_note(grid, "Sizes are those of the images that the devices made.");
+    }
+    if (!run->full && table->quick)
+        rg_grid_note(grid, "Quick mode sets %s; --full leaves that as the paper has it.",
+                     table->quick);
+}
+
+// What is not of this run, or not there.
+static void note_interruption(const struct rg_table_run *run, struct rg_grid *grid)
+{
+    const int missing = rg_table_first_missing(run);
+    if (run->resumed_rows)
+        rg_grid_note(grid, "Of its rows, %d were measured by a run that was interrupted before.",
+                     run->resumed_rows);
+    if (missing <= run->last_row)
+        rg_grid_note(grid, "Rows %d to %d are missing: the run was interrupted.", missing + 1,
+                     run->last_row + 1);
+}
+
 void rg_table_grid(const struct rg_table_run *run, struct rg_grid *grid)
 {
     *grid = (struct rg_grid){.title = run->table->id};
     struct columns at;
     add_columns(run, grid, &at);
     const int variants = rg_table_variant_count(run->table), devices = run->devices->count;
-    for (int row = run->first_row; row <= run->last_row; row++)
+    const int end = rg_table_first_missing(run);
+    for (int row = run->first_row; row < end; row++)
         for (int i = 0; i < variants * devices; i++)
             add_row(run, &at, grid, row, i / devices, i % devices);
-    for (int row = run->first_row; row <= run->last_row; row++)
+    for (int row = run->first_row; row < end; row++)
         for (int i = 0; i < variants * devices; i++)
             note_status(run, grid, row, i / devices, i % devices);
     for (int i = 0; i < variants * devices; i++)
         note_shape(run, grid, i / devices, i % devices);
     note_facts(run, &at, grid);
-    const bool is_published = rg_table_is_published(run->table);
-    rg_grid_note(grid, "%s%s%sTimes are wall clock between full syncs, medians of %d samples (%s).",
-                 is_published ? "Published on " : "", is_published ? run->table->hardware : "",
-                 is_published ? ". " : "", run->samples, run->full ? "full" : "quick");
-    rg_grid_note(grid, "Shares of the passes come from a run of its own that syncs after every "
-                       "pass.");
+    note_method(run, grid);
+    note_interruption(run, grid);
     if (run->table->truth)
         rg_grid_note(grid,
                      "The error is the image's mean FLIP over the rain mask, 0 to 1, against "

@@ -1,6 +1,6 @@
 // A measured table as JSON (docs/records.md).
 #include <math.h>
-#include <string.h>
+#include <stdlib.h>
 
 #include "harness/facts.h"
 #include "harness/passport.h"
@@ -23,14 +23,20 @@ static json_t *passes_json(const struct rg_cell *cell, double unit)
     return passes;
 }
 
+static json_t *times_json(const struct rg_cell *cell)
+{
+    return json_pack("{sfsfsfsfsfsfsfsisosisoso}", "fps", rg_cell_fps(cell), "ms",
+                     cell->frame_ms.median, "ms_low", cell->frame_ms.low, "ms_high",
+                     cell->frame_ms.high, "create_ms", cell->create_ms, "first_frame_ms",
+                     cell->first_frame_ms, "api_over_wall", cell->api_over_wall, "frames_a_sample",
+                     cell->frames_a_sample, "samples_ms", samples_json(cell), "pass_frames",
+                     cell->pass_frames, "passes_ms", passes_json(cell, 1), "passes_share",
+                     passes_json(cell, rg_cell_passes_ms(cell)));
+}
+
 static json_t *measured_json(const struct rg_table *table, const struct rg_cell *cell)
 {
-    json_t *json = json_pack(
-        "{sfsfsfsfsfsfsfsisososo}", "fps", rg_cell_fps(cell), "ms", cell->frame_ms.median, "ms_low",
-        cell->frame_ms.low, "ms_high", cell->frame_ms.high, "create_ms", cell->create_ms,
-        "first_frame_ms", cell->first_frame_ms, "api_over_wall", cell->api_over_wall,
-        "frames_a_sample", cell->frames_a_sample, "samples_ms", samples_json(cell), "passes_ms",
-        passes_json(cell, 1), "passes_share", passes_json(cell, rg_cell_passes_ms(cell)));
+    json_t *json = table->is_of_textures ? json_object() : times_json(cell);
     for (int c = 0; table->columns[c]; c++) {
         const double *told = rg_facts_number(cell->facts, cell->fact_count, table->columns[c]);
         if (told && rg_table_is_extra(table, c))
@@ -53,7 +59,7 @@ static json_t *row_json(const struct rg_table *table, int row)
 static json_t *published_json(const struct rg_table *table, int row, int variant)
 {
     json_t *json = json_object();
-    if (rg_table_is_published(table))
+    if (rg_table_is_published(table) && !table->is_of_textures)
         json_object_set_new(json, "fps",
                             rg_number_json(rg_table_published_fps(table, row, variant)));
     for (int c = 0; table->columns[c]; c++)
@@ -64,10 +70,21 @@ static json_t *published_json(const struct rg_table *table, int row, int variant
 }
 
 // As `render` takes it after --set, one assignment each.
-static json_t *set_json(const struct rg_table *table, int row, int variant)
+static json_t *set_json(const struct rg_table_run *run, int row, int variant)
 {
-    const char *of_row = table->rows[row].set, *of_variant = table->variants[variant].set;
-    return json_sprintf("%s%s%s", of_row, *of_row && *of_variant ? " " : "", of_variant);
+    char *text = rg_table_assignments(run, row, variant);
+    json_t *json = text ? json_string(text) : json_null();
+    free(text);
+    return json;
+}
+
+static json_t *error_json(const struct rg_table_group *group)
+{
+    if (group->error_status != RG_CELL_OK)
+        return json_pack("{ssso}", "status", rg_cell_status_name(group->error_status), "detail",
+                         rg_json_text(group->error_detail));
+    return json_pack("{sssfsfsi}", "status", "ok", "flip_mask_mean", group->error.flip_mask_mean,
+                     "flip_mean", group->error.flip_mean, "max", group->error.max_codes);
 }
 
 static json_t *cell_json(const struct rg_table_run *run, int row, int variant, int device)
@@ -76,16 +93,13 @@ static json_t *cell_json(const struct rg_table_run *run, int row, int variant, i
     const struct rg_cell *cell = rg_table_cell(run, row, variant, device);
     const struct rg_table_group *group = rg_table_group(run, row, variant);
     json_t *json = json_pack(
-        "{sosossssssso}", "row", row_json(table, row), "set", set_json(table, row, variant),
-        "device", cell->device->info.name, "variant", table->variants[variant].name, "status",
+        "{sosossssssso}", "row", row_json(table, row), "set", set_json(run, row, variant), "device",
+        cell->device->info.name, "variant", table->variants[variant].name, "status",
         rg_cell_status_name(cell->status), "published", published_json(table, row, variant));
     json_object_set_new(json, "counters", rg_counters_json(cell->counters, cell->counter_count));
     json_object_set_new(json, "facts", rg_facts_json(cell->facts, cell->fact_count));
-    if (group->has_error)
-        json_object_set_new(json, "error",
-                            json_pack("{sfsfsi}", "flip_mask_mean", group->error.flip_mask_mean,
-                                      "flip_mean", group->error.flip_mean, "max",
-                                      group->error.max_codes));
+    if (table->truth)
+        json_object_set_new(json, "error", error_json(group));
     if (cell->status == RG_CELL_OK)
         json_object_set_new(json, "measured", measured_json(table, cell));
     else
@@ -121,16 +135,19 @@ json_t *rg_table_json(const struct rg_table_run *run)
 {
     struct rg_device_info infos[RG_MAX_DEVICES];
     json_t *cells = json_array(), *shapes = json_array();
-    const int variants = rg_table_variant_count(run->table), devices = run->devices->count;
-    for (int row = run->first_row; row <= run->last_row; row++)
+    const struct rg_table *table = run->table;
+    const int variants = rg_table_variant_count(table), devices = run->devices->count;
+    const int end = rg_table_first_missing(run);
+    for (int row = run->first_row; row < end; row++)
         for (int i = 0; i < variants * devices; i++)
             json_array_append_new(cells, cell_json(run, row, i / devices, i % devices));
-    for (int i = 0; i < variants * devices; i++)
+    for (int i = 0; !table->is_of_textures && i < variants * devices; i++)
         json_array_append_new(shapes, shape_json(run, i / devices, i % devices));
     for (int d = 0; d < devices; d++)
         infos[d] = run->devices->devices[d]->info;
-    return json_pack("{sissss?sssosososo}", "format", 1, "table", run->table->id, "hardware",
-                     run->table->hardware, "length", run->full ? "full" : "quick", "passport",
+    return json_pack("{sissss?sssbsisosososo}", "format", 1, "table", table->id, "hardware",
+                     table->hardware, "length", run->full ? "full" : "quick", "interrupted",
+                     end <= run->last_row, "resumed_rows", run->resumed_rows, "passport",
                      rg_passport_json(infos, devices), "missing", missing_json(run->devices),
                      "cells", cells, "shapes", shapes);
 }

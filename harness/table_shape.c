@@ -30,7 +30,8 @@ struct rg_shape rg_table_shape(const struct rg_table_run *run, int variant, int 
     double axis[RG_TABLE_ROWS], published[RG_TABLE_ROWS], measured[RG_TABLE_ROWS];
     struct rg_shape shape = {.verdict = RG_SHAPE_UNKNOWN};
     int rows = 0;
-    if (!rg_table_is_published(table))
+    if (!rg_table_is_published(table) || table->is_of_textures ||
+        rg_table_first_missing(run) <= run->last_row)
         return shape;
     for (int row = run->first_row; row <= run->last_row; row++, rows++) {
         const struct rg_cell *cell = rg_table_cell(run, row, variant, device);

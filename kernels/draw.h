@@ -20,6 +20,8 @@
 //                                    the record r.
 //
 // Its RG_DRAW_FRAGMENT also gets `rgba lit`: what the lights add, from 0 to p.lights - 1, to zero.
+// Only the colour may depend on it: depth and `kept` are also asked for before there is light, so
+// that none falls on what is hidden.
 #ifndef RG_KERNELS_DRAW_H
 #define RG_KERNELS_DRAW_H
 

@@ -1,6 +1,6 @@
-// The fragments of the DRAW program that was just included as its shells take them, with what
-// lights add to them (draw.h): one light after the other, from zero on, so that every device adds
-// in the same order.
+// The fragments of the DRAW program that was just included, with what lights add to them (draw.h):
+// one light after the other, from zero on. Shells that have loops of their own for lights, so that
+// fragments go side by side, add in this order too.
 
 #if defined(RG_LIGHTS)
 

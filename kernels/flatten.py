@@ -13,8 +13,8 @@ import subprocess
 import sys
 
 
-# OpenGL and Vulkan name one thing differently, and OpenGL reads words from buffer textures: llvmpipe
-# fetches those side by side, and goes through a storage buffer lane by lane.
+# OpenGL and Vulkan name one thing differently, and OpenGL reads words from buffer textures, structs
+# of them too: llvmpipe fetches those side by side, and goes through a storage buffer lane by lane.
 VERSION = """#version 450 core
 #ifdef VULKAN
 #define RG_VERTEX_INDEX gl_VertexIndex
@@ -23,12 +23,16 @@ VERSION = """#version 450 core
 #define RG_FLOAT_OF(words, i) words[i]
 #define RG_INT_OF(words, i) words[i]
 #define RG_UINT_OF(words, i) words[i]
+#define RG_STRUCTS(slot, T, block, words) RG_WORDS(slot, T, block, words)
+#define RG_STRUCT_OF(of, words, i) words[i]
 #else
 #define RG_VERTEX_INDEX gl_VertexID
 #define RG_WORDS(slot, T, block, words) layout(binding = slot) uniform usamplerBuffer words;
 #define RG_FLOAT_OF(words, i) uintBitsToFloat(texelFetch(words, i).x)
 #define RG_INT_OF(words, i) int(texelFetch(words, i).x)
 #define RG_UINT_OF(words, i) texelFetch(words, i).x
+#define RG_STRUCTS(slot, T, block, words) layout(binding = slot) uniform usamplerBuffer words;
+#define RG_STRUCT_OF(of, words, i) of(words, i)
 #endif
 """
 
@@ -143,11 +147,46 @@ def make_precise(text):
     )
 
 
+def words_of(name, structs):
+    """The words of a struct in their order: how each is reached, and its type."""
+    for member in filter(str.strip, structs[name].split(";")):
+        kind, names = member.split(None, 1)
+        for path in (n.strip() for n in names.split(",")):
+            if kind in structs:
+                yield from ((f"{path}.{inner}", k) for inner, k in words_of(kind, structs))
+            else:
+                yield path, kind
+
+
+def add_struct_readers(text):
+    """Puts before the first slot of a struct how OpenGL reads one, word by word."""
+    structs = dict(re.findall(r"\bstruct\s+(\w+)\s*\{([^}]*)\}", text))
+    read = set()
+
+    def with_reader(slot):
+        name = slot.group(1)
+        if name in read:
+            return slot.group(0)
+        read.add(name)
+        words = list(words_of(name, structs))
+        reads = "".join(
+            f"    v.{path} = RG_{kind.upper()}_OF(words, at + {i});\n"
+            for i, (path, kind) in enumerate(words)
+        )
+        return (
+            f"\n#ifndef VULKAN\n{name} rg_{name}_of(usamplerBuffer words, int i)\n{{\n"
+            f"    int at = i * {len(words)};\n    {name} v;\n{reads}    return v;\n}}\n#endif\n"
+            + slot.group(0)
+        )
+
+    return re.sub(r"\bRG_STRUCTS\(\s*\d+\s*,\s*(\w+)", with_reader, text)
+
+
 def main():
     language, header, shell, output = sys.argv[1:5]
     text = preprocess(language, header, shell, sys.argv[6:])
     if language == "glsl":
-        text = VERSION + make_precise(text)
+        text = VERSION + add_struct_readers(make_precise(text))
     with open(output, "w", encoding="utf-8") as file:
         file.write(text)
 

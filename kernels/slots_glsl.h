@@ -29,8 +29,8 @@ struct rg_ctx {
         name##_data[i] = v;                                                                        \
     }
 
-// A buffer that is only read: of words (RG_WORDS and its like differ between OpenGL and Vulkan,
-// flatten.py has them), or of structs.
+// A buffer that is only read: of words, or of structs (RG_WORDS, RG_STRUCTS and their like differ
+// between OpenGL and Vulkan: flatten.py has them).
 #define RG_IN_WORDS(slot, T, name, word)                                                           \
     RG_WORDS(slot, T, rg_block_##name, name##_words)                                               \
     T name##_at(rg_ctx rg, int i)                                                                  \
@@ -39,8 +39,11 @@ struct rg_ctx {
     }
 
 #define RG_IN_STRUCTS(slot, T, name, none)                                                         \
-    RG_BLOCK(slot, readonly, T, name)                                                              \
-    RG_AT(T, name)
+    RG_STRUCTS(slot, T, rg_block_##name, name##_words)                                             \
+    T name##_at(rg_ctx rg, int i)                                                                  \
+    {                                                                                              \
+        return RG_STRUCT_OF(rg_##T##_of, name##_words, i);                                         \
+    }
 
 #define RG_WORD_float                                , RG_IN_WORDS, RG_FLOAT_OF
 #define RG_WORD_int                                  , RG_IN_WORDS, RG_INT_OF

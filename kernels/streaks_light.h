@@ -31,8 +31,8 @@ RG_STRUCT(streaks_light)
     float shadow_bias_m; // so far towards the light from a point what shades it begins
     float shadow_texel;  // a texel's width in metres; of points and spots, at 1 m along the axis
     // With one face, from this frame to the shadow map's clip space. With six, the first three rows
-    // lead to the frame of the cube map, with the light in its origin, and depth along a face's
-    // axis at a distance of w metres is wx + wy / w.
+    // lead to the frame of the cube map, which is left-handed, with the light in its origin; depth
+    // along a face's axis at a distance of w metres is wx + wy / w.
     m4 to_shadow;
 };
 RG_STRUCT_SIZE(streaks_light, 32)

@@ -73,7 +73,7 @@ RG_FN float streaks_unshadowed(rg_ctx rg, streaks_light l, v3 at)
     streaks_shadow_place place = streaks_shadow_locate(l, at, size);
     float lit = streaks_shadow_tap(rg, place, streaks_shadow_texel(place.x, size),
                                    streaks_shadow_texel(place.y, size));
-    return place.known != 0 ? lit : 1.0f;
+    return 1.0f - rg_to_float(place.known) * (1.0f - lit);
 }
 
 // The same between four texels, 0 to 1: for surfaces, whose shadows end in sight.

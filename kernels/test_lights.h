@@ -76,7 +76,8 @@ RG_DRAW_LIGHT(test_lights)
     test_light l = lights_at(rg, p.first + light);
     v3 at = v3_make(rg_to_float(px) * p.px_to_unit, rg_to_float(py) * p.px_to_unit,
                     test_depth(r, px, py));
-    v3 towards = l.kind == TEST_LIGHT_POINT ? v3_add(l.at, v3_scale(at, -1.0f)) : l.at;
+    float near = l.kind == TEST_LIGHT_POINT ? 1.0f : 0.0f;
+    v3 towards = v3_add(l.at, v3_scale(at, -near));
     float squared = v3_dot(towards, towards) + 0.01f;
     float facing = rg_max(v3_dot(towards, r.normal), 0.0f) / rg_sqrt(squared);
     float fading = l.kind == TEST_LIGHT_POINT ? l.reach / squared : 1.0f;
@@ -86,9 +87,11 @@ RG_DRAW_LIGHT(test_lights)
 
 RG_DRAW_FRAGMENT(test_lights)
 {
-    rgba c = p.plain == 1 ? lit
-                          : rg_rgba(r.colour.r * lit.r + 0.01f, r.colour.g * lit.g,
-                                    r.colour.b * lit.b, rg_min(r.colour.a * lit.a, 1.0f));
+    float own = p.plain == 1 ? 0.0f : 1.0f;
+    rgba c = rg_rgba(lit.r * (r.colour.r * own + (1.0f - own)) + 0.01f * own,
+                     lit.g * (r.colour.g * own + (1.0f - own)),
+                     lit.b * (r.colour.b * own + (1.0f - own)),
+                     p.plain == 1 ? lit.a : rg_min(r.colour.a * lit.a, 1.0f));
     rg_fragment f = rg_fragment_make(c, test_depth(r, px, py));
     f.kept = ((px ^ py) & 15) == 15 ? 0 : 1;
     return f;

@@ -2,7 +2,6 @@
 // sorted. A work item owns a block of pixels of one tile and draws the tile's primitives there, in
 // order.
 #include RG_KERNEL_HEADER
-#include "draw_lit.h"
 #include "blend.h"
 #include "raster.h"
 #include "bins.h"
@@ -28,10 +27,10 @@ RG_PROC void rg_blend(const rg_shading *s, int texel, rgba c)
 }
 
 // Draws a pixel that is covered; 1 where it is visible.
-RG_FN uint rg_draw_pixel(const rg_shading *s, RG_RECORD record, int px, int py)
+RG_FN uint rg_draw_pixel(const rg_shading *s, rg_fragment fragment, int px, int py)
 {
+    rg_fragment f = rg_settled(fragment);
     int texel = py * s->p.draw.width + px;
-    rg_fragment f = rg_drawn_fragment(s->rg, s->p.program, record, px, py);
     bool seen = f.kept != 0;
     if (s->p.draw.depth_mode != 0)
         seen = seen && f.depth < as_float(s->depth[texel]);
@@ -42,6 +41,60 @@ RG_FN uint rg_draw_pixel(const rg_shading *s, RG_RECORD record, int px, int py)
     rg_blend(s, texel, rg_drawn(s->p.draw, f.colour));
     return 1;
 }
+
+#if defined(RG_LIGHTS)
+
+// What lights add to the pixels of a block's row.
+typedef struct rg_lit_row {
+    float r[RG_TILE_PX], g[RG_TILE_PX], b[RG_TILE_PX], a[RG_TILE_PX];
+} rg_lit_row;
+
+// Whether a covered pixel will be seen, as far as can be told without its colour.
+RG_FN int rg_will_be_seen(const rg_shading *s, RG_RECORD record, int px, int py)
+{
+    if (s->p.draw.depth_mode == 0)
+        return 1;
+    rg_fragment f = rg_settled(rg_program_fragment(s->rg, s->p.program, record, px, py,
+                                                   rg_rgba(0.0f, 0.0f, 0.0f, 0.0f)));
+    return f.kept != 0 && f.depth < as_float(s->depth[py * s->p.draw.width + px]) ? 1 : 0;
+}
+
+// One light after the other, in the order of draw_lit.h, each for pixels side by side: a loop within
+// theirs would keep PoCL from that. A pixel that will not be seen takes the place of one that will,
+// for nothing else may be read.
+RG_PROC void rg_light_row(const rg_shading *s, RG_RECORD record, rg_block_triangle ta,
+                          rg_block_triangle tb, int x0, int py, int y, int count, rg_lit_row *lit)
+{
+    int px[RG_TILE_PX];
+#pragma clang loop vectorize(assume_safety) vectorize_width(8) interleave_count(1)
+    for (int x = 0; x < count; x++) {
+        px[x] = -1;
+        lit->r[x] = lit->g[x] = lit->b[x] = lit->a[x] = 0.0f;
+        if ((rg_block_inside(ta, x, y) & rg_block_inside(tb, x, y)) >= 0)
+            px[x] = rg_will_be_seen(s, record, x0 + x, py) ? x0 + x : -1;
+    }
+    int seen = -1;
+    for (int x = 0; x < count; x++)
+        seen = rg_imax(seen, px[x]);
+    if (seen < 0)
+        return;
+    for (int light = 0; light < s->p.program.lights; light++) {
+#pragma clang loop vectorize(assume_safety) vectorize_width(8) interleave_count(1)
+        for (int x = 0; x < count; x++) {
+            rgba c = rg_program_light(s->rg, s->p.program, record, px[x] < 0 ? seen : px[x], py,
+                                      light);
+            lit->r[x] += c.r;
+            lit->g[x] += c.g;
+            lit->b[x] += c.b;
+            lit->a[x] += c.a;
+        }
+    }
+}
+
+#define RG_LIT , rg_rgba(lit.r[x], lit.g[x], lit.b[x], lit.a[x])
+#else
+#define RG_LIT
+#endif
 
 // The block's pixels that one or both of two triangles cover, each once. Returns the visible.
 RG_FN uint rg_draw_triangles(const rg_shading *s, RG_RECORD record, rg_triangle a,
@@ -55,11 +108,17 @@ RG_FN uint rg_draw_triangles(const rg_shading *s, RG_RECORD record, rg_triangle 
     rg_block_triangle tb = rg_block_triangle_make(b, x0, y0);
     uint seen = 0;
     for (int y = 0; y < y1 - y0; y++) {
+#if defined(RG_LIGHTS)
+        rg_lit_row lit;
+        rg_light_row(s, record, ta, tb, x0, y0 + y, y, x1 - x0, &lit);
+#endif
 // Pixels touch no memory in common. Wider than 8 is more than most rows hold.
 #pragma clang loop vectorize(assume_safety) vectorize_width(8) interleave_count(1)
         for (int x = 0; x < x1 - x0; x++)
             if ((rg_block_inside(ta, x, y) & rg_block_inside(tb, x, y)) >= 0)
-                seen += rg_draw_pixel(s, record, x0 + x, y0 + y);
+                seen += rg_draw_pixel(
+                    s, rg_program_fragment(s->rg, s->p.program, record, x0 + x, y0 + y RG_LIT),
+                    x0 + x, y0 + y);
     }
     return seen;
 }

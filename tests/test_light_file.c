@@ -175,11 +175,11 @@ static void what_is_no_file_is_refused(void **state)
 
 // --- presets ---
 
-static const struct streaks_lamp lamps[] = {
-    {STREAKS_TRAFFIC_GREEN, {3, 2, 0}, {1, 0, 0}}, {STREAKS_STREET_LAMP, {40, 8, 0}, {0, -1, 0}},
-    {STREAKS_STREET_LAMP, {10, 8, 0}, {0, -1, 0}}, {STREAKS_STREET_LAMP, {-20, 8, 0}, {0, -1, 0}},
-    {STREAKS_TRAFFIC_RED, {90, 2, 0}, {0, 0, 1}},  {STREAKS_STREET_LAMP, {0, 8, 30}, {0, -1, 0}},
-    {STREAKS_TRAFFIC_RED, {-50, 2, 0}, {0, 0, 1}}, {STREAKS_TRAFFIC_RED, {-50, 2, 0}, {0, 0, -1}},
+static const struct city_lamp lamps[] = {
+    {CITY_TRAFFIC_GREEN, {3, 2, 0}, {1, 0, 0}}, {CITY_STREET_LAMP, {40, 8, 0}, {0, -1, 0}},
+    {CITY_STREET_LAMP, {10, 8, 0}, {0, -1, 0}}, {CITY_STREET_LAMP, {-20, 8, 0}, {0, -1, 0}},
+    {CITY_TRAFFIC_RED, {90, 2, 0}, {0, 0, 1}},  {CITY_STREET_LAMP, {0, 8, 30}, {0, -1, 0}},
+    {CITY_TRAFFIC_RED, {-50, 2, 0}, {0, 0, 1}}, {CITY_TRAFFIC_RED, {-50, 2, 0}, {0, 0, -1}},
 };
 enum { LAMPS = sizeof(lamps) / sizeof(lamps[0]) };
 
@@ -199,11 +199,11 @@ static void check_lights(enum streaks_time time, const int *due, int count)
         assert_float_equal(d[0] * d[0] + d[1] * d[1] + d[2] * d[2], 1, 1e-6f);
         if (due[i] < 0)
             continue;
-        assert_memory_equal(light->position_m, lamps[due[i]].position_m, sizeof(float[3]));
+        assert_memory_equal(light->position_m, lamps[due[i]].position, sizeof(float[3]));
         assert_memory_equal(light->direction, lamps[due[i]].direction, sizeof(float[3]));
         const float *c = light->colour;
-        assert_true(lamps[due[i]].kind != STREAKS_TRAFFIC_RED || c[0] > 4 * c[1]);
-        assert_true(lamps[due[i]].kind != STREAKS_TRAFFIC_GREEN || c[1] > 4 * c[0]);
+        assert_true(lamps[due[i]].kind != CITY_TRAFFIC_RED || c[0] > 4 * c[1]);
+        assert_true(lamps[due[i]].kind != CITY_TRAFFIC_GREEN || c[1] > 4 * c[0]);
     }
 }
 

@@ -10,9 +10,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "core/image/compare.h"
 #include "core/log.h"
+#include "harness/facts.h"
+#include "harness/frame.h"
 #include "harness/table.h"
 
 #define CHEAP                                                                                      \
@@ -54,11 +57,28 @@ static enum rg_cell_status judge(struct rg_device *device, const void *settings,
                            .settings = settings,
                            .device = device,
                            .width = SIZE_PX,
-                           .height = SIZE_PX};
-    rg_cell_prepare(&cell, expected);
+                           .height = SIZE_PX,
+                           .check_frames = RG_CHECK_FRAMES};
+    if (rg_cell_open(&cell))
+        rg_cell_check(&cell, expected);
     snprintf(detail, size, "%s", cell.detail);
-    rg_cell_close(&cell);
+    rg_cell_free(&cell);
     return cell.status;
+}
+
+// What cpu:reference shows of a technique, with the background.
+static void expect(struct rg_expected *expected, const struct rg_technique *technique,
+                   const void *settings)
+{
+    struct rg_device *device = rg_device_open("cpu:reference", NULL);
+    struct rg_instance *instance =
+        rg_frame_run(technique, settings, device, SIZE_PX, SIZE_PX, RG_CHECK_FRAMES);
+    *expected = (struct rg_expected){0};
+    assert_true(rg_expected_read(expected, instance));
+    technique->destroy(instance);
+    assert_true(rg_frame_draw_dry(technique, settings, device, SIZE_PX, SIZE_PX, RG_CHECK_FRAMES,
+                                  &expected->dry));
+    assert_true(rg_device_close(device));
 }
 
 static void test_t1_by_the_mask(void **state)
@@ -69,8 +89,7 @@ static void test_t1_by_the_mask(void **state)
     void *settings = settings_of(CHEAP " drops=90");
     struct rg_device *device = rg_device_open("cpu", NULL);
     struct rg_expected expected;
-    assert_true(
-        rg_expected_make(&expected, rg_technique_find("flow"), settings, SIZE_PX, SIZE_PX, true));
+    expect(&expected, rg_technique_find("flow"), settings);
     assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_CELL_OK);
     brighten(&expected.picture, &expected.dry, PIXELS);
     ((char *)expected.texels)[0] ^= 1; // what the device draws is no longer identical
@@ -99,12 +118,14 @@ static struct rg_instance *create_talker(struct rg_device *device, const void *s
     return instance;
 }
 
-// 40 passes more, each named twice a frame.
+// 40 passes more, each named twice a frame. The last takes a millisecond each time.
 static bool step_talker(struct rg_instance *instance)
 {
     static char names[40][16];
     for (int i = 0; i < 80; i++) {
         snprintf(names[i % 40], sizeof(names[0]), "pass %d", i % 40);
+        if (i % 40 == 39)
+            nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
         if (instance->after_pass)
             instance->after_pass(names[i % 40], instance->user);
     }
@@ -122,14 +143,18 @@ static void test_what_a_cell_keeps(void **state)
     void *settings = settings_of(CHEAP);
     struct rg_device *device = rg_device_open("cpu", NULL);
     struct rg_expected expected;
-    assert_true(rg_expected_make(&expected, &talker, settings, SIZE_PX, SIZE_PX, false));
+    expect(&expected, &talker, settings);
     struct rg_cell cell = {.technique = &talker,
                            .settings = settings,
                            .device = device,
                            .width = SIZE_PX,
-                           .height = SIZE_PX};
-    rg_cell_prepare(&cell, &expected);
-    rg_cells_measure(&cell, 1, &(struct rg_measure_options){.samples = 3, .sample_ms = 1});
+                           .height = SIZE_PX,
+                           .check_frames = RG_CHECK_FRAMES};
+    const struct rg_measure_options options = {
+        .most_samples = 3, .least_samples = 3, .sample_ms = 1, .warm_up_ms = 1};
+    assert_true(rg_cell_open(&cell) && rg_cell_check(&cell, &expected) &&
+                rg_cell_warm_up(&cell, &options));
+    rg_cells_measure(&cell, 1, &options);
     assert_int_equal(cell.status, RG_CELL_OK);
     assert_int_equal(cell.fact_count, 3); // behind flow's own, the vertices and faces of its pane
     assert_string_equal(cell.facts[2].name, "panes");
@@ -143,16 +168,58 @@ static void test_what_a_cell_keeps(void **state)
     }
     const struct rg_cell_pass *other = &cell.passes[RG_MAX_CELL_PASSES - 1];
     assert_string_equal(other->name, "other");
-    assert_true(other->ms > 0.9 * rg_cell_passes_ms(&cell)); // it has all the work there is
-    rg_cell_close(&cell);
+    assert_true(other->ms >= 2); // the last pass is in it, both times
+    rg_cell_free(&cell);
     rg_expected_free(&expected);
+    assert_true(rg_device_close(device));
+    free(settings);
+}
+
+// --- how many samples a cell takes ---
+
+static bool step_slowly(struct rg_instance *instance)
+{
+    nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
+    return rg_technique_find("flow")->step(instance);
+}
+
+// As many as the time for them allows, within bounds: slow cells and fast ones in one run.
+static void test_samples(void **state)
+{
+    (void)state;
+    const struct rg_technique *flow = rg_technique_find("flow");
+    struct rg_technique slow = *flow;
+    slow.step = step_slowly;
+    const struct rg_measure_options options = {
+        .most_samples = 40, .least_samples = 2, .sample_ms = 1, .cell_ms = 200, .warm_up_ms = 1};
+    void *settings = settings_of(CHEAP);
+    struct rg_device *device = rg_device_open("cpu", NULL);
+    struct rg_cell cells[2];
+    for (int i = 0; i < 2; i++) {
+        cells[i] = (struct rg_cell){.technique = i ? &slow : flow,
+                                    .settings = settings,
+                                    .device = device,
+                                    .width = 16,
+                                    .height = 16,
+                                    .check_frames = 1};
+        assert_true(rg_cell_open(&cells[i]) && rg_cell_warm_up(&cells[i], &options));
+    }
+    rg_cells_measure(cells, 2, &options);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(cells[i].status, RG_CELL_OK);
+        assert_int_equal(cells[i].sample_count, cells[i].wanted_samples);
+        assert_in_range(cells[i].sample_count, 2, 40);
+        assert_in_range(cells[i].pass_frames, 2, 10);
+        rg_cell_free(&cells[i]);
+    }
+    assert_true(cells[1].sample_count <= 5); // of 40 ms, with the frame before it
     assert_true(rg_device_close(device));
     free(settings);
 }
 
 // --- a table ---
 
-#define PANE "view=pane panes=mirror "
+#define PANE "view=pane panes=mirror reflection_px=16 "
 
 static const struct rg_table_row rows[] = {
     {PANE "resolution_px=64 drops=40", {6, 160}, "small"},
@@ -191,8 +258,9 @@ static void test_table(void **state)
     struct rg_devices devices = {.count = 1};
     devices.devices[0] = rg_device_open("cpu", NULL);
     struct rg_table_run run = {.table = &table, .devices = &devices, .last_row = 2};
+    struct rg_bench bench = {.devices = &devices};
     rg_log_listen(keep_quiet, &messages);
-    assert_true(rg_table_measure(&run));
+    assert_true(rg_table_measure(&run, &bench, NULL));
     rg_log_listen(NULL, NULL);
     assert_int_equal(messages, 1);
     assert_int_equal(run.cell_count, 6);
@@ -203,7 +271,7 @@ static void test_table(void **state)
             // The variant's sky goes over the row's file.
             const bool broken = row == 1 && variant == 1;
             assert_int_equal(cell->status, broken ? RG_CELL_ERROR : RG_CELL_OK);
-            assert_int_equal(group->has_error, !broken);
+            assert_int_equal(group->error_status, broken ? RG_CELL_ERROR : RG_CELL_OK);
             assert_true(broken || group->error.flip_mask_mean > 0.001);
         }
     }
@@ -215,15 +283,122 @@ static void test_table(void **state)
     const int64_t dry = rg_table_cell(&run, 2, 1, 0)->counters[0].value;
     assert_true(small == 40 && dry == 0);
     rg_table_run_free(&run);
+    assert_true(rg_bench_free(&bench));
     assert_true(rg_device_close(devices.devices[0]));
+}
+
+// --- tables of textures, and what a device cannot hold ---
+
+static const struct rg_table_row levels[] = {
+    {"", {0, 16, 16}, "environment"},
+    {"", {9, 1, 1}, "environment"},
+    {"", {0, 16, 16}, "carpet"},
+    {"resolution_px=nonsense", {0, 16, 16}, "environment"},
+};
+static const struct rg_table texture_table = {
+    .id = "textures",
+    .technique = "flow",
+    .about = "a test",
+    .hardware = "paper",
+    .names = "texture",
+    .columns = {"level", "width_px", "height_px"},
+    .key_count = 1,
+    .variants = {{"full", CHEAP, NULL}},
+    .is_of_textures = true,
+    .width = 64,
+    .height = 64,
+    .row_count = 4,
+    .rows = levels,
+    .note = "a note",
+};
+
+static void run_table(struct rg_table_run *run, struct rg_bench *bench, struct rg_journal *journal)
+{
+    int messages = 0;
+    rg_log_listen(keep_quiet, &messages);
+    assert_true(rg_table_measure(run, bench, journal));
+    rg_log_listen(NULL, NULL);
+}
+
+static void test_textures(void **state)
+{
+    (void)state;
+    struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu", NULL)}};
+    struct rg_bench bench = {.devices = &devices};
+    struct rg_table_run run = {.table = &texture_table, .devices = &devices, .last_row = 3};
+    run_table(&run, &bench, NULL);
+    const struct rg_cell *whole = rg_table_cell(&run, 0, 0, 0);
+    assert_int_equal(whole->status, RG_CELL_OK);
+    assert_true(*rg_facts_number(whole->facts, whole->fact_count, "width_px") == 16);
+    assert_true(*rg_facts_number(whole->facts, whole->fact_count, "height_px") == 16);
+    assert_int_equal(rg_table_cell(&run, 1, 0, 0)->status, RG_CELL_FAIL); // no such level
+    assert_int_equal(rg_table_cell(&run, 2, 0, 0)->status, RG_CELL_ERROR);
+    assert_int_equal(rg_table_cell(&run, 3, 0, 0)->status, RG_CELL_ERROR);
+    rg_table_run_free(&run);
+    assert_true(rg_bench_free(&bench));
+    assert_true(rg_device_close(devices.devices[0]));
+}
+
+static void test_unsupported(void **state)
+{
+    (void)state;
+    struct rg_table wide = table;
+    wide.width = 1 << 20;
+    struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu", NULL)}};
+    struct rg_bench bench = {.devices = &devices};
+    struct rg_table_run run = {.table = &wide, .devices = &devices};
+    run_table(&run, &bench, NULL);
+    const struct rg_cell *cell = rg_table_cell(&run, 0, 0, 0);
+    assert_int_equal(cell->status, RG_CELL_UNSUPPORTED);
+    assert_non_null(strstr(cell->detail, "1048576x64"));
+    rg_table_run_free(&run);
+    assert_true(rg_bench_free(&bench));
+    assert_true(rg_device_close(devices.devices[0]));
+}
+
+// --- what the cells of a table share ---
+
+static void test_bench(void **state)
+{
+    (void)state;
+    struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu", NULL)}};
+    struct rg_bench bench = {.devices = &devices};
+    struct rg_device *cpu = devices.devices[0];
+    assert_ptr_equal(rg_bench_device(&bench, "cpu"), cpu);
+    struct rg_device *reference = rg_bench_device(&bench, "cpu:reference");
+    assert_non_null(reference);
+    assert_ptr_equal(rg_bench_device(&bench, "cpu:reference"), reference);
+    void *settings = settings_of(CHEAP " drops=20"), *others = settings_of(CHEAP " drops=30");
+    struct rg_bench_subject subject = {rg_technique_find("flow"), settings, 32, 32};
+    // One instance a device, for as long as the same is asked for.
+    struct rg_instance *first = rg_bench_open(&bench, cpu, &subject);
+    const int64_t bytes = rg_device_work(cpu)->live_bytes;
+    assert_ptr_equal(rg_bench_open(&bench, cpu, &subject), first);
+    assert_ptr_not_equal(rg_bench_open(&bench, reference, &subject), first);
+    subject.settings = others;
+    assert_non_null(rg_bench_open(&bench, cpu, &subject));
+    assert_true(rg_device_work(cpu)->live_bytes == bytes);
+    // A truth is drawn once.
+    const struct rg_picture *truth = rg_bench_truth(&bench, &subject, 2);
+    const int64_t runs = rg_device_work(cpu)->runs;
+    assert_ptr_equal(rg_bench_truth(&bench, &subject, 2), truth);
+    assert_true(rg_device_work(cpu)->runs == runs);
+    assert_ptr_not_equal(rg_bench_truth(&bench, &subject, 3), truth);
+    subject.settings = settings;
+    assert_ptr_not_equal(rg_bench_truth(&bench, &subject, 2), truth);
+    free(others);
+    free(settings);
+    assert_true(rg_bench_free(&bench));
+    assert_true(rg_device_close(cpu));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_t1_by_the_mask),
-        cmocka_unit_test(test_what_a_cell_keeps),
-        cmocka_unit_test(test_table),
+        cmocka_unit_test(test_t1_by_the_mask), cmocka_unit_test(test_what_a_cell_keeps),
+        cmocka_unit_test(test_samples),        cmocka_unit_test(test_table),
+        cmocka_unit_test(test_textures),       cmocka_unit_test(test_unsupported),
+        cmocka_unit_test(test_bench),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -80,8 +80,8 @@ static struct faces make_boxes(void)
         }
         for (int side = 0; side < 6; side++) {
             const int *s = sides[side];
-            put_face(&faces, 12 * i + 2 * side, 8 * i + s[0], 8 * i + s[1], 8 * i + s[2]);
-            put_face(&faces, 12 * i + 2 * side + 1, 8 * i + s[0], 8 * i + s[2], 8 * i + s[3]);
+            put_face(&faces, 12 * i + 2 * side, 8 * i + s[0], 8 * i + s[2], 8 * i + s[1]);
+            put_face(&faces, 12 * i + 2 * side + 1, 8 * i + s[0], 8 * i + s[3], 8 * i + s[2]);
         }
     }
     return faces;
@@ -172,9 +172,12 @@ struct rig {
     streaks_light lights[LIGHTS];
 };
 
+// Faces that turn away are left out: a matrix that mirrored would leave the wrong ones.
 static bool draw_scene(void *user, const float to_clip[16], const struct rg_draw *onto)
 {
     const struct rig *rig = user;
+    struct rg_draw draw = *onto;
+    draw.cull = RG_CULL_BACK;
     raster_mesh_params p = {0};
     memcpy(&p.to_clip, to_clip, sizeof(p.to_clip));
     return rg_pass_run(rig->scene.raster, &(struct rg_run){.params = &p,
@@ -182,7 +185,7 @@ static bool draw_scene(void *user, const float to_clip[16], const struct rg_draw
                                                                      [2].buf = rig->scene.normals,
                                                                      [3].buf = rig->scene.indices},
                                                            .extent = {rig->scene.face_count, 1, 1},
-                                                           .draw = onto});
+                                                           .draw = &draw});
 }
 
 static struct rig rig_open(struct rg_device *device)
@@ -438,6 +441,43 @@ static void floors_do_not_shade_themselves(void **state)
     rig_close(&rig);
 }
 
+// The bias is metres of the ray: so far into the floor a point is lit yet, and farther in it is
+// not.
+static void the_bias_is_metres_along_the_ray(void **state)
+{
+    struct rig rig = rig_open(*state);
+    float *points = make_points();
+    int checked[LIGHTS] = {0};
+    for (int k = 3; k <= 4; k++) { // these look straight down, so that the floor's depth is all one
+        const struct rg_light *light = &test_lights[k];
+        for (int i = 0; i < POINTS; i++) {
+            const struct vec at = {(double)points[3 * i], 0, (double)points[3 * i + 2]};
+            const struct vec off = minus(at, place_of(light));
+            const struct vec way = light->kind == STREAKS_SUN
+                                       ? way_of(light)
+                                       : along((struct vec){0, 0, 0}, 1 / length(off), off);
+            const double deep = (double)rig.lights[k].shadow_bias_m * (i % 2 ? 0.9 : 1.1);
+            const struct vec in = along(at, deep, way);
+            points[3 * i] = (float)in.x;
+            points[3 * i + 1] = (float)in.y;
+            points[3 * i + 2] = (float)in.z;
+        }
+        test_streaks_lit *lit = light_points(&rig, &rig.lights[k], 1, points, POINTS);
+        for (int i = 0; i < POINTS; i++) {
+            struct vec at = point_at(points, i);
+            at.y = 0.3;
+            if (reached_about(light, at, 0, 0.25) != 1 || !is_in_cone(light, at))
+                continue;
+            assert_true(lit[i].unshadowed == (i % 2 ? 1.0f : 0.0f));
+            checked[k]++;
+        }
+        free(lit);
+    }
+    assert_true(checked[3] > POINTS / 2 && checked[4] > POINTS / 100);
+    free(points);
+    rig_close(&rig);
+}
+
 static void nothing_shades_where_no_map_is(void **state)
 {
     struct rig rig = rig_open(*state);
@@ -469,9 +509,9 @@ static void nothing_shades_where_no_map_is(void **state)
 
 // --- the list of a scene ---
 
-static const struct streaks_lamp lamps[] = {
-    {STREAKS_STREET_LAMP, {9, 8, 11}, {0, -1, 0}},
-    {STREAKS_TRAFFIC_RED, {3, 2, 3}, {0.6f, 0, 0.8f}},
+static const struct city_lamp lamps[] = {
+    {CITY_STREET_LAMP, {9, 8, 11}, {0, -1, 0}},
+    {CITY_TRAFFIC_RED, {3, 2, 3}, {0.6f, 0, 0.8f}},
 };
 
 static struct streaks_lights_settings three_lights(void)
@@ -543,12 +583,26 @@ static void without_shadows_no_map_is_drawn(void **state)
     streaks_lights_close(lights);
 }
 
+static void no_lights_are_none(void **state)
+{
+    struct streaks_lights_settings settings = three_lights();
+    for (int time = STREAKS_DAY; time <= STREAKS_NIGHT; time++) {
+        settings.count = 0;
+        settings.time = (enum streaks_time)time;
+        struct streaks_lights *lights = streaks_lights_open(*state, &settings);
+        assert_true(lights && lights->count == 0 && lights->map_count == 0);
+        assert_true(lights->in_world && lights->in_rain && lights->shadows && lights->sky[0] > 0);
+        assert_true(streaks_lights_shade(lights, NULL, NULL));
+        streaks_lights_close(lights);
+    }
+}
+
 static void lights_that_cannot_be_are_refused(void **state)
 {
     struct streaks_lights_settings settings = three_lights();
-    settings.count = 0;
+    settings.count = -1;
     assert_null(streaks_lights_open(*state, &settings));
-    assert_non_null(strstr(rg_last_error(), "lights: 0 asked for"));
+    assert_non_null(strstr(rg_last_error(), "lights: -1 asked for"));
     settings.count = 17;
     assert_null(streaks_lights_open(*state, &settings));
     assert_non_null(strstr(rg_last_error(), "lights: 17 asked for"));
@@ -651,10 +705,12 @@ int main(int argc, char **argv)
         cmocka_unit_test(cones_and_near_points_have_their_bounds),
         cmocka_unit_test(shadows_fall_where_rays_are_blocked),
         cmocka_unit_test(floors_do_not_shade_themselves),
+        cmocka_unit_test(the_bias_is_metres_along_the_ray),
         cmocka_unit_test(nothing_shades_where_no_map_is),
         cmocka_unit_test(lights_open_in_both_frames),
         cmocka_unit_test(each_light_draws_its_own_layers),
         cmocka_unit_test(without_shadows_no_map_is_drawn),
+        cmocka_unit_test(no_lights_are_none),
         cmocka_unit_test(lights_that_cannot_be_are_refused),
         cmocka_unit_test(lights_add_up),
         cmocka_unit_test(frames_do_not_matter),

@@ -98,8 +98,16 @@ static void test_settings(void **state)
             assert_non_null(of_row);
             void *all = rg_settings_copy(technique, of_row, table->variants[variant].set);
             assert_non_null(all);
-            assert_true(!rg_table_is_published(table) ||
-                        rg_table_published_fps(table, row, variant) > 0);
+            void *quick = rg_settings_copy(technique, all, table->quick ? table->quick : "");
+            assert_non_null(quick);
+            void *truth = rg_settings_copy(technique, quick, table->truth ? table->truth : "");
+            assert_non_null(truth);
+            if (table->is_of_textures)
+                assert_true(table->rows[row].name && rg_table_value(table, row, "level") >= 0);
+            else if (rg_table_is_published(table))
+                assert_true(rg_table_published_fps(table, row, variant) > 0);
+            free(truth);
+            free(quick);
             free(all);
             free(of_row);
         }
@@ -136,6 +144,7 @@ static const struct rg_table axis_table = {
     .columns = {"radius_m", "camera", "particles", "fps", "fps_no_geometry"},
     .key_count = 2,
     .variants = {{"full", "", "fps"}, {"no_geometry", "geometry=off", "fps_no_geometry"}},
+    .truth = "radius_m=0",
     .row_count = 3,
     .rows = radii,
     .note = "a note",
@@ -264,7 +273,7 @@ static void test_grid(void **state)
     assert_true(has_note(&grid, "Inputs of radius_m 5, camera 1, full: model city.obj."));
     assert_true(has_note(&grid, "Shape on cpu, no_geometry: "));
     assert_false(has_note(&grid, "Shape on cpu, full"));
-    assert_null(text_at(&grid, 0, "error, FLIP"));
+    expect_text(&grid, 0, "error, FLIP", "0.0000");
     rg_grid_free(&grid);
 }
 
@@ -283,6 +292,7 @@ static void test_grid_of_names(void **state)
     expect_text(&grid, 1, "scene", "dragon");
     expect_text(&grid, 1, "published faces", "100000");
     assert_null(text_at(&grid, 0, "variant"));
+    assert_null(text_at(&grid, 0, "error, FLIP"));
     assert_true(has_note(&grid, "Inputs of every row: seed 7."));
     assert_true(has_note(&grid, "same order. fps keeps the published order (5 of 5 pairs"));
     rg_grid_free(&grid);
@@ -334,14 +344,15 @@ static void test_json(void **state)
     rig.cells[1].pass_count = 2;
     rig.cells[1].passes[0] = (struct rg_cell_pass){"a", 3};
     rig.cells[1].passes[1] = (struct rg_cell_pass){"b", 1};
-    rig.groups[1].has_error = true;
+    rig.groups[0].error_status = RG_CELL_UNSUPPORTED;
+    snprintf(rig.groups[0].error_detail, sizeof(rig.groups[0].error_detail), "too much");
     rig.groups[1].error.flip_mask_mean = 0.5;
     snprintf(rig.devices.missing[0], sizeof(rig.devices.missing[0]), "gl: none");
     rig.devices.broken_count = 1;
     snprintf(rig.devices.broken[0].why, sizeof(rig.devices.broken[0].why), "vulkan: broken");
     json_t *json = rg_table_json(&rig.run);
     assert_non_null(json);
-    const char *set, *variant, *model, *detail, *missing, *broken;
+    const char *set, *variant, *model, *detail, *missing, *broken, *status;
     json_int_t radius, camera, fps, printed, told, fact;
     double a, b, measured_fps, flip;
     json_t *cells = json_object_get(json, "cells");
@@ -366,8 +377,108 @@ static void test_json(void **state)
     assert_string_equal(detail, "differs");
     assert_float_equal(measured_fps, 80, 1e-9);
     assert_true(a == 0.75 && b == 0.25 && flip == 0.5);
-    assert_null(json_object_get(json_array_get(cells, 0), "error"));
+    assert_int_equal(0, json_unpack(json_array_get(cells, 0), "{s{ss, ss}}", "error", "status",
+                                    &status, "detail", &detail));
+    assert_string_equal(status, "unsupported");
+    assert_string_equal(detail, "too much");
     assert_null(json_object_get(json_array_get(cells, 4), "measured"));
+    json_decref(json);
+}
+
+// --- what was not measured, and what is not timed ---
+
+// Rows behind an interruption are left out, and no shape is told of those that are there.
+static void test_missing_rows(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_grid grid;
+    measure(&rig, &names_table, (double[]){50, 10, 11, 20});
+    rig.groups[2].is_missing = rig.groups[3].is_missing = true;
+    rig.run.resumed_rows = 1;
+    rg_table_grid(&rig.run, &grid);
+    assert_int_equal(grid.row_count, 2);
+    assert_true(has_note(&grid, "Rows 3 to 4 are missing: the run was interrupted."));
+    assert_true(has_note(&grid, "Of its rows, 1 were measured by a run"));
+    assert_false(has_note(&grid, "Shape on cpu"));
+    rg_grid_free(&grid);
+    json_t *json = rg_table_json(&rig.run);
+    assert_int_equal(json_array_size(json_object_get(json, "cells")), 2);
+    assert_true(json_is_true(json_object_get(json, "interrupted")));
+    json_decref(json);
+}
+
+static void test_unsupported(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_grid grid;
+    measure(&rig, &names_table, (double[]){50, 0, 11, 20});
+    rig.cells[1].status = RG_CELL_UNSUPPORTED;
+    rg_table_grid(&rig.run, &grid);
+    expect_text(&grid, 1, "fps", "unsupported");
+    assert_true(has_note(&grid, "dragon on cpu: differs"));
+    rg_grid_free(&grid);
+    const char *status;
+    json_t *json = rg_table_json(&rig.run);
+    assert_int_equal(0, json_unpack(json_array_get(json_object_get(json, "cells"), 1), "{ss}",
+                                    "status", &status));
+    assert_string_equal(status, "unsupported");
+    json_decref(json);
+}
+
+static const struct rg_table_row levels[] = {
+    {"", {0, 32, 3606}, "environment"},
+    {"", {1, 16, 1803}, "environment"},
+};
+static const struct rg_table texture_table = {
+    .id = "textures",
+    .hardware = "paper",
+    .names = "atlas",
+    .columns = {"level", "width_px", "height_px"},
+    .key_count = 1,
+    .variants = {{"full", "", NULL}},
+    .is_of_textures = true,
+    .quick = "atlas=small",
+    .row_count = 2,
+    .rows = levels,
+    .note = "a note",
+};
+
+// Sizes stand beside those in print, and no columns of time.
+static void test_textures(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_grid grid;
+    measure(&rig, &texture_table, (double[]){1, 0});
+    rig.cells[0].fact_count = 2;
+    rig.cells[0].facts[0] = (struct rg_fact){.name = "width_px", .number = 32};
+    rig.cells[0].facts[1] = (struct rg_fact){.name = "height_px", .number = 3607};
+    rg_table_grid(&rig.run, &grid);
+    expect_text(&grid, 0, "atlas", "environment");
+    expect_text(&grid, 0, "level", "0");
+    expect_text(&grid, 0, "published height_px", "3606");
+    expect_text(&grid, 0, "height_px", "3607");
+    expect_text(&grid, 0, "status", "ok");
+    expect_text(&grid, 1, "status", "fail");
+    expect_text(&grid, 1, "height_px", "");
+    assert_null(text_at(&grid, 0, "fps"));
+    assert_null(text_at(&grid, 0, "ms"));
+    assert_null(text_at(&grid, 0, "passes, synced"));
+    assert_true(has_note(&grid, "Quick mode sets atlas=small"));
+    rg_grid_free(&grid);
+    rig.run.full = true;
+    rg_table_grid(&rig.run, &grid);
+    assert_false(has_note(&grid, "Quick mode"));
+    rg_grid_free(&grid);
+    json_int_t width, height, printed;
+    json_t *json = rg_table_json(&rig.run);
+    assert_int_equal(0, json_unpack(json_array_get(json_object_get(json, "cells"), 0),
+                                    "{s{sI, sI!}, s{sI, sI!}}", "measured", "width_px", &width,
+                                    "height_px", &height, "published", "width_px", &printed,
+                                    "height_px", &printed));
+    assert_true(width == 32 && height == 3607 && printed == 3606);
     json_decref(json);
 }
 
@@ -379,6 +490,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_order_of_names), cmocka_unit_test(test_slope_along_axis),
         cmocka_unit_test(test_grid),           cmocka_unit_test(test_grid_of_names),
         cmocka_unit_test(test_passes),         cmocka_unit_test(test_json),
+        cmocka_unit_test(test_missing_rows),   cmocka_unit_test(test_unsupported),
+        cmocka_unit_test(test_textures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

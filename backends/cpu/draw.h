@@ -9,8 +9,9 @@
 //      their fragments computed, tested and blended side by side.
 // A round ends where the room for primitives or references does (draw_bins.c).
 //
-// What depends on the program are five loops (draw_stages.h), compiled once a program and level.
-// What does not, but is worth vectors, is in raster.c, compiled once a level.
+// What depends on the program are five loops, and two more with lights (draw_stages.h), compiled
+// once a program and level. What does not, but is worth vectors, is in raster.c, compiled once a
+// level.
 #ifndef RG_BACKENDS_CPU_DRAW_H
 #define RG_BACKENDS_CPU_DRAW_H
 
@@ -86,6 +87,11 @@ struct cpu_program {
                  struct cpu_fragments *fragments);
     void (*row)(const struct cpu_call *call, const void *record, int x, int y, int count,
                 struct cpu_fragments *fragments);
+    // The same, but depth and `kept` alone, of programs whose colours cost much more; else NULL.
+    void (*list_depth)(const struct cpu_call *call, const void *records,
+                       const struct cpu_list *list, struct cpu_fragments *fragments);
+    void (*row_depth)(const struct cpu_call *call, const void *record, int x, int y, int count,
+                      struct cpu_fragments *fragments);
 };
 
 // A primitive in a tile.

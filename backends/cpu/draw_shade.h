@@ -21,6 +21,7 @@ struct shader {
     struct cpu_list list;
     struct cpu_fragments fragments;
     struct pixels pixels;
+    bool drops_hidden; // before their colours are computed
     // The list that each pixel was last in, by the low bits of x and y: pixels that share an entry
     // pass for the same.
     uint listing;
@@ -92,25 +93,58 @@ static void pad_list(struct cpu_list *list)
     }
 }
 
-// Draws what is listed.
-static void flush(struct shader *s)
+static inline size_t texel_of(const struct shader *s, int at)
+{
+    return (size_t)((at >> 16) * s->draw.width + (at & 0xffff));
+}
+
+static inline bool is_seen(const struct shader *s, int i, size_t texel)
+{
+    return s->fragments.kept[i] && s->fragments.depth[i] < rg_bits_float(s->target.depth[texel]);
+}
+
+// Leaves listed what will pass the test of depth.
+static void drop_hidden(struct shader *s)
+{
+    struct cpu_list *list = &s->list;
+    int seen = 0;
+    pad_list(list);
+    s->program->list_depth(s->call, s->bins->records, list, &s->fragments);
+    for (int i = 0; i < list->count; i++) {
+        list->at[seen] = list->at[i];
+        list->prim[seen] = list->prim[i];
+        seen += is_seen(s, i, texel_of(s, list->at[i]));
+    }
+    list->count = seen;
+}
+
+// Draws what is listed, one pixel at least.
+static void draw_list(struct shader *s)
 {
     struct cpu_list *list = &s->list;
     const int count = list->count;
     size_t texel[CPU_FRAGMENTS];
-    if (!count)
-        return;
     pad_list(list);
     s->program->list(s->call, s->bins->records, list, &s->fragments);
     for (int i = 0; i < count; i++)
-        texel[i] = (size_t)((list->at[i] >> 16) * s->draw.width + (list->at[i] & 0xffff));
+        texel[i] = texel_of(s, list->at[i]);
     gather_texels(s, texel, count);
     meet(s);
     scatter_texels(s, texel, count);
     if (s->draw.counted)
         for (int i = 0; i < count; i++)
             count_sample(s, list->prim[i], s->fragments.kept[i]);
-    list->count = 0;
+}
+
+static void flush(struct shader *s)
+{
+    if (!s->list.count)
+        return;
+    if (s->drops_hidden)
+        drop_hidden(s);
+    if (s->list.count)
+        draw_list(s);
+    s->list.count = 0;
     s->listing++;
 }
 
@@ -140,13 +174,32 @@ static void list_mask(struct shader *s, const struct cpu_ref *ref)
 
 // --- rows ---
 
+// Leaves of a row what lies between the first and the last pixel that will pass the test of depth;
+// returns how many.
+static int trim_hidden(struct shader *s, const void *record, int *x, int y, int count)
+{
+    s->program->row_depth(s->call, record, *x, y, count, &s->fragments);
+    const size_t texel = texel_of(s, y << 16 | *x);
+    int first = 0, end = count;
+    while (first < end && !is_seen(s, first, texel + (size_t)first))
+        first++;
+    while (first < end && !is_seen(s, end - 1, texel + (size_t)end - 1))
+        end--;
+    *x += first;
+    return end - first;
+}
+
 static void draw_row(struct shader *s, int prim, int x, int y, int count)
 {
+    const void *record = s->bins->records + (size_t)prim * s->bins->record_size;
+    if (s->drops_hidden)
+        count = trim_hidden(s, record, &x, y, count);
+    if (!count)
+        return;
     const size_t first = (size_t)y * (size_t)s->draw.width + (size_t)x;
     const size_t size = (size_t)count * sizeof(uint), words = (size_t)s->texel_words;
     struct pixels *pixels = &s->pixels;
-    s->program->row(s->call, s->bins->records + (size_t)prim * s->bins->record_size, x, y, count,
-                    &s->fragments);
+    s->program->row(s->call, record, x, y, count, &s->fragments);
     if (words)
         memcpy(pixels->texels, s->target.colour + first * words, size * words);
     if (s->draw.depth_mode != RG_DEPTH_OFF)
@@ -216,6 +269,7 @@ static void begin_tile(struct shader *s, int tile)
     s->target = s->call->target;
     s->draw = *(const rg_draw_state *)s->call->params;
     s->texel_words = texel_words(s->draw.colour_format);
+    s->drops_hidden = s->program->list_depth && s->draw.depth_mode != RG_DEPTH_OFF;
     s->x0 = tile % tiling->across * side;
     s->y0 = tile / tiling->across * side;
     s->x1 = s->x0 + side;

@@ -157,6 +157,47 @@ static void shade_row(const struct cpu_call *call, const void *record, int x, in
                      rg_program_fragment(rg, p, r, x + rg_imin(i, last), y RG_LIT(&lit, i)));
 }
 
+#if defined(RG_LIGHTS)
+
+static inline __attribute__((always_inline)) void put_depth(struct cpu_fragments *to, int i,
+                                                            rg_fragment fragment)
+{
+    const rg_fragment f = rg_settled(fragment);
+    to->depth[i] = f.depth;
+    to->kept[i] = f.kept;
+}
+
+static void list_depth(const struct cpu_call *call, const void *records,
+                       const struct cpu_list *list, struct cpu_fragments *fragments)
+{
+    const rg_ctx rg = bind_context(call);
+    const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
+    const rgba dark = rg_rgba(0.0f, 0.0f, 0.0f, 0.0f);
+    const int padded = cpu_padded(list->count);
+#pragma omp simd
+    for (int i = 0; i < padded; i++) {
+        const int at = list->at[i];
+        put_depth(
+            fragments, i,
+            rg_program_fragment(rg, p, *record_of(records, list, i), at & 0xffff, at >> 16, dark));
+    }
+}
+
+static void row_depth(const struct cpu_call *call, const void *record, int x, int y, int count,
+                      struct cpu_fragments *fragments)
+{
+    const rg_ctx rg = bind_context(call);
+    const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
+    const RG_RECORD r = *(const RG_RECORD *)record;
+    const rgba dark = rg_rgba(0.0f, 0.0f, 0.0f, 0.0f);
+    const int last = count - 1, padded = cpu_padded(count);
+#pragma omp simd
+    for (int i = 0; i < padded; i++)
+        put_depth(fragments, i, rg_program_fragment(rg, p, r, x + rg_imin(i, last), y, dark));
+}
+
+#endif
+
 static const struct cpu_program program = {
     .corners = RG_CORNERS,
     .record_size = sizeof(RG_RECORD),
@@ -165,6 +206,10 @@ static const struct cpu_program program = {
     .records = make_records,
     .list = shade_list,
     .row = shade_row,
+#if defined(RG_LIGHTS)
+    .list_depth = list_depth,
+    .row_depth = row_depth,
+#endif
 };
 
 RG_EXPORT_KERNEL = {.program = &program};

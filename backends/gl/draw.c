@@ -95,7 +95,10 @@ bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const str
     if (bound->arguments != arguments)
         glBindBuffer(GL_DRAW_INDIRECT_BUFFER, arguments);
     bound->arguments = arguments;
+    // Vertices read corners as they lie, fragments read records as words.
     gl_bind_buffer(bound, RG_SLOT_PRIMS, run->packed->prims);
+    if (!gl_bind_words(bound, RG_SLOT_PRIMS, run->packed->prims))
+        return false;
     gl_bind_texture(bound, RG_SLOT_BEHIND, framebuffer->behind);
     if (draw->samples)
         gl_bind_buffer(bound, RG_SLOT_SAMPLES, draw->samples);

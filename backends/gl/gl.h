@@ -205,6 +205,8 @@ void gl_pass_destroy(struct rg_pass *pass);
 bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run);
 void gl_bind_buffer(struct gl_bound *bound, int slot, const struct rg_buf *buf);
 void gl_bind_texture(struct gl_bound *bound, int slot, GLuint id);
+// A buffer as a texture of words; false and one logged line on failure.
+bool gl_bind_words(struct gl_bound *bound, int slot, struct rg_buf *buf);
 
 // time.c
 bool gl_sync(struct rg_device *device);

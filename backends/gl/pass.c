@@ -97,14 +97,6 @@ static void bind_image(struct gl_bound *bound, const struct rg_slot_info *slot,
     bound->images[slot->slot] = image->id;
 }
 
-static bool bind_words(struct gl_bound *bound, int slot, struct rg_buf *buf)
-{
-    const GLuint words = gl_buf_words(buf);
-    if (words)
-        gl_bind_texture(bound, slot, words);
-    return words != 0;
-}
-
 static bool bind_slots(struct gl_bound *bound, const struct gl_pass *pass, const struct rg_run *run)
 {
     const struct rg_kernel *kernel = pass->pub.kernel;
@@ -115,7 +107,7 @@ static bool bind_slots(struct gl_bound *bound, const struct gl_pass *pass, const
             bind_image(bound, slot, (const struct gl_image *)binding->image);
         else if (!(pass->word_slots >> slot->slot & 1))
             gl_bind_buffer(bound, slot->slot, binding->buf);
-        else if (!bind_words(bound, slot->slot, binding->buf))
+        else if (!gl_bind_words(bound, slot->slot, binding->buf))
             return false;
     }
     return true;
@@ -134,6 +126,14 @@ void gl_bind_texture(struct gl_bound *bound, int slot, GLuint id)
     if (bound->textures[slot] != id)
         glBindTextureUnit((GLuint)slot, id);
     bound->textures[slot] = id;
+}
+
+bool gl_bind_words(struct gl_bound *bound, int slot, struct rg_buf *buf)
+{
+    const GLuint words = gl_buf_words(buf);
+    if (words)
+        gl_bind_texture(bound, slot, words);
+    return words != 0;
 }
 
 bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run)

@@ -59,7 +59,7 @@ static bool check_able(const struct vk_device *device, const struct rg_kernel *k
     const VkPhysicalDeviceLimits *limits = &device->limits;
     const char *name = device->pub.info.name, *says = "unsupported: kernel '%s': %s %s";
     if (!device->family.draws)
-        return rg_error(says, kernel->name, name, "has no queue that draws");
+        return rg_unsupported(says, kernel->name, name, "has no queue that draws");
     if (!device->counts_samples)
         return rg_error(says, kernel->name, name,
                         "lets no fragment write (fragmentStoresAndAtomics is false)");

@@ -68,8 +68,8 @@ static bool check_supported(const struct vk_device *device, const VkImageCreateI
 {
     VkImageFormatProperties most;
     if (desc->format == RG_D32F && !device->family.draws)
-        return rg_error("image '%s': %s has no queue that draws, and so no images of depth", name,
-                        device->pub.info.name);
+        return rg_unsupported("image '%s': %s has no queue that draws, and so no images of depth",
+                              name, device->pub.info.name);
     if (!vk_try("image", name, vkGetPhysicalDeviceImageFormatProperties, device->physical,
                 info->format, info->imageType, info->tiling, info->usage, info->flags, &most))
         return false;

@@ -19,6 +19,10 @@ bool rg_exr_write(const char *path, const struct rg_picture *picture,
 
 bool rg_png_read(const char *path, int64_t file_bytes, struct rg_picture *picture,
                  struct rg_why *why);
+// The same of a file that holds no colours: values are codes over the largest code, without a
+// curve.
+bool rg_png_read_codes(const char *path, int64_t file_bytes, struct rg_picture *picture,
+                       struct rg_why *why);
 bool rg_png_write(const char *path, const struct rg_picture *picture,
                   const struct rg_write_options *options, struct rg_why *why);
 

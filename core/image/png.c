@@ -122,8 +122,17 @@ static bool decode16(const png_byte *bytes, struct rg_picture *picture, struct r
     return true;
 }
 
-bool rg_png_read(const char *path, int64_t file_bytes, struct rg_picture *picture,
-                 struct rg_why *why)
+// Codes over the largest code, without a curve.
+static void keep_codes(const png_byte *bytes, bool wide, struct rg_picture *picture)
+{
+    const uint16_t *codes = (const uint16_t *)(const void *)bytes;
+    const int64_t values = rg_picture_values(picture);
+    for (int64_t i = 0; i < values; i++)
+        picture->texels[i] = wide ? codes[i] / 65535.0f : bytes[i] / 255.0f;
+}
+
+static bool read_png(const char *path, int64_t file_bytes, bool curve, struct rg_picture *picture,
+                     struct rg_why *why)
 {
     struct png_job job = {.file = fopen(path, "rb"), .why = why};
     if (!job.file)
@@ -133,16 +142,31 @@ bool rg_png_read(const char *path, int64_t file_bytes, struct rg_picture *pictur
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
     bool good = job.info ? read_rows(&job, file_bytes, picture)
                          : rg_why_set(why, "no memory for the PNG reader");
-    if (good && png_get_bit_depth(job.png, job.info) == 16)
+    const bool wide = good && png_get_bit_depth(job.png, job.info) == 16;
+    if (good && !curve)
+        keep_codes(job.bytes, wide, picture);
+    else if (wide)
         good = decode16(job.bytes, picture, why);
     else if (good)
         decode8(job.bytes, picture);
-    picture->decoded = good;
+    picture->decoded = good && curve;
     png_destroy_read_struct(&job.png, &job.info, NULL);
     release(&job);
     if (!good)
         rg_picture_destroy(picture);
     return good;
+}
+
+bool rg_png_read(const char *path, int64_t file_bytes, struct rg_picture *picture,
+                 struct rg_why *why)
+{
+    return read_png(path, file_bytes, true, picture, why);
+}
+
+bool rg_png_read_codes(const char *path, int64_t file_bytes, struct rg_picture *picture,
+                       struct rg_why *why)
+{
+    return read_png(path, file_bytes, false, picture, why);
 }
 
 static void encode_row(const struct rg_picture *picture, int y, float exposure, png_byte *codes)

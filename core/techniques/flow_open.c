@@ -279,6 +279,8 @@ struct rg_instance *flow_open(struct rg_device *device, const void *settings, in
         flow_close(&flow->base);
         return NULL;
     }
+    flow->base.texture_count = 1;
+    flow->base.textures[0] = (struct rg_texture){"environment", flow->environment, 0};
     flow_show_state(flow);
     return &flow->base;
 }

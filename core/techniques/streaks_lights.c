@@ -9,8 +9,8 @@
 
 static bool check(const struct streaks_lights_settings *s)
 {
-    require(s->count >= 1 && s->count <= STREAKS_MAX_LIGHTS,
-            "lights: %d asked for; choose from 1 to %d", s->count, STREAKS_MAX_LIGHTS);
+    require(s->count >= 0 && s->count <= STREAKS_MAX_LIGHTS,
+            "lights: %d asked for; choose from 0 to %d", s->count, STREAKS_MAX_LIGHTS);
     require(!s->shadows || (s->shadow_map_px >= 16 && s->shadow_map_px <= 16384),
             "shadow_map_px: %d; choose from 16 to 16384", s->shadow_map_px);
     return true;
@@ -32,13 +32,14 @@ static void put_lights(const struct streaks_lights_settings *s, const struct rg_
     }
 }
 
+// Without lights the buffers hold one that nobody reads.
 static bool create_buffers(struct rg_device *device, const float world_to_rain[16],
                            struct streaks_lights *lights)
 {
-    streaks_light rain[STREAKS_MAX_LIGHTS];
+    streaks_light rain[STREAKS_MAX_LIGHTS] = {{0}};
     for (int i = 0; i < lights->count; i++)
         rain[i] = streaks_light_moved(&lights->world[i], world_to_rain);
-    const int64_t bytes = (int64_t)lights->count * (int64_t)sizeof(streaks_light);
+    const int64_t bytes = (lights->count ? lights->count : 1) * (int64_t)sizeof(streaks_light);
     return (lights->in_world = rg_buf_create(device, bytes, "lights")) &&
            (lights->in_rain = rg_buf_create(device, bytes, "lights of the rain")) &&
            rg_buf_write(lights->in_world, 0, lights->world, bytes) &&

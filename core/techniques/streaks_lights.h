@@ -4,25 +4,17 @@
 #define RG_CORE_TECHNIQUES_STREAKS_LIGHTS_H
 
 #include "core/device.h"
+#include "core/scene/city/city.h"
 #include "core/scene/light_file.h"
 
 enum streaks_time { STREAKS_DAY, STREAKS_NIGHT };
 
-enum streaks_lamp_kind { STREAKS_STREET_LAMP, STREAKS_TRAFFIC_RED, STREAKS_TRAFFIC_GREEN };
-
-// A lamp that stands in the scene, lit or not.
-struct streaks_lamp {
-    enum streaks_lamp_kind kind;
-    float position_m[3];
-    float direction[3]; // the way most of its light goes, of unit length
-};
-
 struct streaks_lights_settings {
     const char *file; // of the user's lights, which stand for all others; NULL or "": none
-    // Without a file: so many lights, by day a sun and lamps, by night lamps and a moon.
+    // Without a file: so many lights, 0 to 16; by day a sun and lamps, by night lamps and a moon.
     int count;
     enum streaks_time time;
-    const struct streaks_lamp *lamps; // the scene's; the caller's
+    const struct city_lamp *lamps; // the scene's; the caller's
     int lamp_count;
     float about_m[3]; // lamps nearest to this come first
     // Shadows.
@@ -36,7 +28,7 @@ struct streaks_lights {
     int count;
     streaks_light world[STREAKS_MAX_LIGHTS]; // in the world
     float sky[3];                            // linear: what comes from everywhere
-    struct rg_buf *in_world, *in_rain;       // of `count` streaks_light each
+    struct rg_buf *in_world, *in_rain;       // of `count` streaks_light each, at least one
     struct rg_image *shadows;                // D32F: all maps; of one texel where there are none
     int map_count;                           // layers that are drawn
 };
@@ -47,7 +39,7 @@ struct streaks_lights *streaks_lights_open(struct rg_device *device,
 void streaks_lights_close(struct streaks_lights *lights);
 
 // Draws the scene's depth with a matrix from the world to clip space onto a layer of an image: what
-// casts shadows. Both sides of a face do.
+// casts shadows. Faces keep their turn, as a camera's matrix leaves it.
 typedef bool (*streaks_depth_fn)(void *user, const float to_clip[16], const struct rg_draw *onto);
 // Draws all shadow maps: once, or again where the scene has changed.
 bool streaks_lights_shade(struct streaks_lights *lights, streaks_depth_fn draw, void *user);

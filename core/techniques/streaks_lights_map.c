@@ -139,9 +139,9 @@ static float put_point(const struct rg_light *light, const float low[3], const f
                        int map_px, const double from[3], float rows[4][4])
 {
     const struct depth_scale depth = depth_from(light, low, high, from);
-    for (int row = 0; row < 3; row++) {
+    for (int row = 0; row < 3; row++) { // cube maps are left-handed
         const double axis[3] = {row == 0, row == 1, row == 2};
-        put_row(rows[row], axis, 1, from, 0);
+        put_row(rows[row], axis, row == 2 ? -1 : 1, from, 0);
     }
     rows[3][0] = (float)depth.scale;
     rows[3][1] = (float)depth.offset;
@@ -165,7 +165,7 @@ streaks_light streaks_light_of(const struct rg_light *light, const float low_m[3
                        .cos_inner = (float)cos((double)light->inner_deg * degree),
                        .cos_outer = (float)cos((double)light->outer_deg * degree),
                        .shadow_layer = layer,
-                       .shadow_faces = light->kind == STREAKS_POINT ? 6 : 1,
+                       .shadow_faces = light->kind == STREAKS_POINT && layer >= 0 ? 6 : 1,
                        .shadow_bias_m = 0.05f};
     const double from[3] = {(double)l.x, (double)l.y, (double)l.z};
     float rows[4][4];

@@ -75,9 +75,9 @@ const struct city *streaks_scene_city(const struct streaks_scene *s)
     return s->made->city;
 }
 
-int streaks_scene_lamps(const struct streaks_scene *s, const struct streaks_lamp **lamps)
+int streaks_scene_lamps(const struct streaks_scene *s, const struct city_lamp **lamps)
 {
-    *lamps = s->made->lamps;
+    *lamps = s->made->city->lamps;
     return s->made->city->lamp_count;
 }
 

@@ -29,7 +29,7 @@ void streaks_scene_put(struct streaks_scene *scene);
 // What it is: name, faces, bounds, hash, boxes. It lives as long as the scene.
 const struct city *streaks_scene_city(const struct streaks_scene *scene);
 // Its lamps, none on a user's mesh; returns how many.
-int streaks_scene_lamps(const struct streaks_scene *scene, const struct streaks_lamp **lamps);
+int streaks_scene_lamps(const struct streaks_scene *scene, const struct city_lamp **lamps);
 // The surfaces' words (kernels/streaks_surface.h), for kernels.
 struct rg_buf *streaks_scene_surfaces(const struct streaks_scene *scene);
 

@@ -133,22 +133,6 @@ static bool create_buffers(struct streaks_scene_made *s)
                        "scene's surfaces"));
 }
 
-// The city's lamps as streaks_lights takes them.
-static bool take_lamps(struct streaks_scene_made *s)
-{
-    const struct city *city = s->city;
-    s->lamps = rg_alloc((size_t)city->lamp_count, sizeof(*s->lamps), "scene");
-    for (int i = 0; s->lamps && i < city->lamp_count; i++) {
-        const struct city_lamp *lamp = &city->lamps[i];
-        s->lamps[i].kind = lamp->kind == CITY_STREET_LAMP   ? STREAKS_STREET_LAMP
-                           : lamp->kind == CITY_TRAFFIC_RED ? STREAKS_TRAFFIC_RED
-                                                            : STREAKS_TRAFFIC_GREEN;
-        memcpy(s->lamps[i].position_m, lamp->position, sizeof(lamp->position));
-        memcpy(s->lamps[i].direction, lamp->direction, sizeof(lamp->direction));
-    }
-    return s->lamps;
-}
-
 // --- making ---
 
 static void destroy(void *thing)
@@ -160,7 +144,6 @@ static void destroy(void *thing)
     rg_buf_destroy(s->openness);
     rg_image_destroy(s->textures);
     city_destroy(s->city);
-    free(s->lamps);
     free(s);
 }
 
@@ -172,7 +155,7 @@ static void *make(struct rg_device *device, const void *arg)
         return NULL;
     s->device = device;
     s->city = settings->model[0] ? city_of_mesh(settings->model) : city_create(&settings->city);
-    if (s->city && create_buffers(s) && create_openness(s) && take_lamps(s) && create_textures(s))
+    if (s->city && create_buffers(s) && create_openness(s) && create_textures(s))
         return s;
     destroy(s);
     return NULL;

@@ -10,7 +10,6 @@ struct streaks_scene_made {
     struct rg_buf *faces, *surface_of, *surfaces, *openness;
     struct rg_image *textures;
     int levels; // of the textures
-    struct streaks_lamp *lamps;
 };
 
 // NULL, and one logged line, on failure. streaks_scene_made_put before the device closes.

@@ -9,6 +9,7 @@
 #include "core/params.h"
 
 enum { RG_MAX_STATE = 8, RG_MAX_COUNTERS = 16, RG_MAX_FACTS = 8, RG_FACT_SIZE = 192 };
+enum { RG_MAX_TEXTURES = 8 };
 
 struct rg_instance;
 struct rg_proof;
@@ -35,6 +36,13 @@ struct rg_fact {
     const char *name;        // "model", "faces"
     char text[RG_FACT_SIZE]; // UTF-8; "": the fact is the number
     double number;
+};
+
+// An image that an instance reads its inputs from. Tables of textures tell the sizes of its levels.
+struct rg_texture {
+    const char *name; // "environment"
+    const struct rg_image *image;
+    int first_level; // of the whole texture, that the image's level 0 is: 0 unless it is reduced
 };
 
 struct rg_technique {
@@ -66,6 +74,8 @@ struct rg_instance {
     struct rg_counter counters[RG_MAX_COUNTERS];
     int fact_count;
     struct rg_fact facts[RG_MAX_FACTS]; // true of the present frame
+    int texture_count;
+    struct rg_texture textures[RG_MAX_TEXTURES]; // for as long as the instance lives
     // Called after each pass, with its name, by those who measure passes; NULL for nobody.
     void (*after_pass)(const char *pass, void *user);
     void *user;

@@ -12,7 +12,7 @@ enum { RG_TABLE_ROWS = 64, RG_TABLE_VALUES = 8, RG_TABLE_VARIANTS = 8 };
 struct rg_table_row {
     const char *set;                // "panes=glass model=bunny"
     double values[RG_TABLE_VALUES]; // in the order of the table's columns
-    const char *name;               // "glass with bunny", in tables whose rows have names
+    const char *name; // "glass with bunny", in tables whose rows have names, or are of textures
 };
 
 // What is timed of each row: "full", and the frames with less in them that the paper also timed.
@@ -37,6 +37,16 @@ struct rg_table {
     struct rg_table_variant variants[RG_TABLE_VARIANTS + 1]; // the last has no name
     const char *truth; // over a row's: an image without its approximations, which gives the error
                        // of the row's own; NULL: no column for that
+    // Nothing is timed: a row is about the technique's texture of the row's name, and of it the
+    // level in the column "level". Devices tell its "width_px" and "height_px".
+    bool is_of_textures;
+    // What quick mode sets over rows and variants, for less work: "atlas=small"; NULL: nothing.
+    const char *quick;
+    // So many rows have their cells open, and are visited in turn, at the same time; 0: all rows.
+    // One where instances are large, or a row takes long: an interrupted table goes on with the
+    // first row that is not measured.
+    int rows_at_once;
+    int check_frames;  // simulated and drawn before images are compared; 0: RG_CHECK_FRAMES
     int width, height; // of the image, in pixels
     int row_count;     // at most RG_TABLE_ROWS
     const struct rg_table_row *rows;

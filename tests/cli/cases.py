@@ -19,7 +19,8 @@ ABSENT = tuple(r"warning: unsupported here: %s: .*package %s" % pair for pair in
     ("gl", "libegl-mesa0"), ("vulkan", "mesa-vulkan-drivers"), ("opencl", "pocl-opencl-icd")))
 SMALL = "--set environment_px=64 --set resolution_px=96 --size 96x96 "
 TABLE = "table stuppacher-2 --rows 1-1 --device cpu "
-TABLE_FILES = tuple("stuppacher-2." + format for format in ("csv", "json", "md", "tex"))
+FORMATS = ("csv", "json", "md", "tex")
+TABLE_FILES = tuple("stuppacher-2." + format for format in FORMATS)
 DIFF = "diff flow --frame 5 --device cpu,cpu:reference " + SMALL
 VERIFY = "verify flow --frame 5 --device cpu " + SMALL
 RENDER = ("render flow --set environment=sky --set environment_px=16 --set resolution_px=32 --set model=none "
@@ -131,7 +132,7 @@ ON_CPU = [
     Case("table --rows 3-2", 2, r"--rows 3-2: rows count from 1, the first not after the last"),
     Case("table stuppacher-2 --rows 9-9 --device cpu", 2, r"--rows 9-9: stuppacher-2 has rows 1-3"),
     Case("table stuppacher-2 --rows 1-4 --device cpu", 2, r"--rows 1-4: stuppacher-2 has rows 1-3"),
-    Case("table --rows 99999999999999999999 --device cpu", 2, r"--rows \d+-\d+: stuppacher-\d has rows 1-\d$"),
+    Case("table --rows 99999999999999999999 --device cpu", 2, r"--rows \d+-\d+: \S+ has rows 1-\d+$"),
     Case("table stuppacher-2 nonsense --device cpu -o {tmp}", 2, r"table 'nonsense': unknown"),
     Case("table --rows abc", 2, r"--rows abc: write it as FIRST-LAST, as in 2-4"),
     Case("table --rows 1-", 2, r"--rows 1-: write it as FIRST-LAST, as in 2-4"),
@@ -145,6 +146,7 @@ ON_CPU = [
     Case(TABLE, 0, None),
     Case(TABLE + "-o {tmp}", 0, None, made=TABLE_FILES),
     Case(TABLE + "stuppacher-2 -o {tmp}", 0, None, made=TABLE_FILES),
+    Case(TABLE + "--fresh -o {tmp}", 0, None, made=TABLE_FILES),
     Case(TABLE + "-o {tmp}/none/out", 2, r"none/out: cannot be made: No such file or directory; name a folder"),
     Case(TABLE + "-o {data}/a.png", 2, r"a\.png/stuppacher-2\.md: cannot be written: Not a directory; name a folder"),
     Case(TABLE + "-o /proc/out", 2, r"/proc/out: cannot be made: .*; name a folder that can be written"),
@@ -180,6 +182,16 @@ ON_CPU = [
     Case("diff flow --device cpu", 2, r"--device cpu: a comparison takes two devices"),
     Case("diff flow --device cpu,nonsense", 2, UNKNOWN_DEVICE),
     Case("diff flow --set drops=-1 --device cpu,cpu:reference", 2, r"parameter 'drops': -1 is out of range"),
+
+    # atlas
+    Case("atlas nonsense", 2, r"atlas: 'nonsense' is one argument too many"),
+    Case("atlas --quick --full", 2, r"--quick and --full: choose one"),
+    Case("atlas --device cpu", 2, r"--device: unknown option; `raingauge atlas --help`"),
+    Case("atlas --from", 2, r"--from: .*`raingauge atlas --help`"),
+    Case("atlas --from /nonexistent", 2, r"/nonexistent/point_light_database/txt/dcam00_point_max\.txt: No such file .*; name the folder"),
+    Case("atlas --quick --from {data}/a.png", 2, r"a\.png/point_light_database/txt/dcam00_point_max\.txt: Not a directory"),
+    Case("atlas --quick", 0, r"warning: the streak atlas is not kept: /proc/none", {"XDG_CACHE_HOME": "/proc/none"}),
+    Case("atlas --quick -o {tmp}/none/out", 2, (r"warning: the streak atlas is not kept", r"none/out: cannot be made: .*; name a folder"), {"XDG_CACHE_HOME": "/proc/none"}),
 
     # verify
     Case(VERIFY, 0, None),

@@ -4,9 +4,10 @@ import io
 import json
 import os
 import re
+import signal
 import tempfile
 
-from cases import DIFF, RENDER, SMALL, TABLE, VERIFY
+from cases import DIFF, FORMATS, RENDER, SMALL, TABLE, VERIFY
 
 
 def run_json(runner, args, env={}):
@@ -160,7 +161,94 @@ def check_full_stdout(runner):
     return problems
 
 
-CHECKS = [check_table_json, check_table_files, check_tables_in_a_row, check_render_json, check_diff_json, check_verify_json, check_full_stdout]
+TWO_TABLES = "table stuppacher-2 raster-1 --rows 1-1 --device cpu "
+
+
+def interrupt(runner, args, env):
+    """Runs two tables and interrupts the second; what was printed, the exit status, the messages."""
+    process = runner.start(args.split(), env)
+    lines = []
+    for line in process.stdout:
+        lines.append(line)
+        if line.startswith("- Full frames of a box"):  # the first table's last line
+            break
+    process.send_signal(signal.SIGINT)
+    out, messages = process.communicate(timeout=300)
+    return "".join(lines) + out, process.returncode, messages.splitlines()
+
+
+def check_interrupted(runner):
+    """a table that is interrupted says so, and the same command goes on with what is missing"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp, tempfile.TemporaryDirectory() as state:
+        env = {"XDG_STATE_HOME": state}
+        for place, more in ((tmp + "/out", "-o %s/out" % tmp), (state + "/raingauge", "")):
+            first, status, messages = interrupt(runner, TWO_TABLES + more, env)
+            if status != 130 or len(messages) != 1 or not re.match(r"raingauge: (raster-1: interrupted|stuppacher-2: done, and then interrupted)", messages[0]):
+                problems.append("exit status %d, stderr: %s" % (status, messages))
+            if "## raster-1" in first or not first.startswith("## stuppacher-2"):
+                problems.append("printed, interrupted:\n" + first)
+            if "stuppacher-2-quick.journal" not in os.listdir(place):
+                problems.append("%s holds %s" % (place, os.listdir(place)))
+            second = runner.run((TWO_TABLES + more).split(), env)
+            if second.returncode or not re.fullmatch(r"raingauge: stuppacher-2: 1 of 1 rows .*\n", second.stderr):
+                problems.append("again: exit status %d, stderr: %s" % (second.returncode, second.stderr))
+            rows = [line for line in first.splitlines() if line.startswith("|")]
+            if not rows or any(row not in second.stdout for row in rows) or "## raster-1" not in second.stdout:
+                problems.append("printed, again:\n" + second.stdout)
+            if any(name.endswith(".journal") for name in os.listdir(place)):
+                problems.append("left behind: %s" % os.listdir(place))
+        if sorted(os.listdir(tmp + "/out")) != sorted(t + "." + f for t in ("stuppacher-2", "raster-1") for f in FORMATS):
+            problems.append("written: %s" % os.listdir(tmp + "/out"))
+    return problems
+
+
+def check_fresh(runner):
+    """table --fresh takes nothing from an interrupted run; nor does a run of other devices"""
+    problems = []
+    with tempfile.TemporaryDirectory() as state:
+        env = {"XDG_STATE_HOME": state}
+        interrupt(runner, TWO_TABLES, env)
+        other = runner.run(TWO_TABLES.replace("--device cpu", "--device cpu:reference").split(), env)
+        if other.returncode or not re.fullmatch(r"raingauge: .*stuppacher-2-quick\.journal: is of another .*\n", other.stderr):
+            problems.append("other: exit status %d, stderr: %s" % (other.returncode, other.stderr))
+        interrupt(runner, TWO_TABLES, env)
+        fresh = runner.run((TWO_TABLES + "--fresh").split(), env)
+        if fresh.returncode or fresh.stderr or "interrupted" in fresh.stdout:
+            problems.append("fresh: exit status %d, stderr: %s" % (fresh.returncode, fresh.stderr))
+    return problems
+
+
+def check_atlas(runner):
+    """atlas makes its streaks once, then reads them; --json describes them, -o writes them"""
+    problems = []
+    with tempfile.TemporaryDirectory() as cache, tempfile.TemporaryDirectory() as out:
+        env = {"XDG_CACHE_HOME": cache}
+        first, status, messages = run_json(runner, "atlas --quick", env)
+        second, again, more = run_json(runner, "atlas --quick -o " + out, env)
+        problems += messages + more + lacking("atlas", first, {
+            "format": int, "size": str, "from": str, "seconds": float, "file": str, "bytes": int, "hash": str, "images": list})
+        if (status, again, first["from"], second["from"]) != (0, 0, "made", "cache") or first["hash"] != second["hash"]:
+            problems.append("exit status %d and %d: %s, %s" % (status, again, first, second))
+        if os.path.dirname(first["file"]) != os.path.join(cache, "raingauge") or not os.path.getsize(first["file"]) > first["bytes"]:
+            problems.append("file: %s" % first)
+        shapes = [tuple(image[k] for k in ("name", "width", "height", "layers", "levels")) for image in first["images"]]
+        if shapes != [("point", 720, 901, 10, 10), ("env", 8, 901, 10, 10), ("splash", 48, 32, 84, 6)]:
+            problems.append("images: %s" % shapes)
+        wanted = {"factors.csv", "splash.png"} | {"sheet-%02d.png" % k for k in range(10)}
+        wanted |= {"%s-%02d-level-%02d.exr" % (name, layer, level) for name, _, _, layers, levels in shapes
+                   for layer in range(layers) for level in range(levels)}
+        if set(os.listdir(out)) != wanted:
+            problems.append("written: %s" % sorted(set(os.listdir(out)) ^ wanted))
+        with open(os.path.join(out, "factors.csv")) as file:
+            rows = list(csv.DictReader(file))
+        if len(rows) != 10 * 5 * 91 or not all(float(row["factor"]) > 0 for row in rows):
+            problems.append("factors.csv: %d rows" % len(rows))
+    return problems
+
+
+CHECKS = [check_table_json, check_table_files, check_tables_in_a_row, check_render_json, check_diff_json, check_verify_json, check_full_stdout,
+          check_interrupted, check_fresh, check_atlas]
 
 
 # --- a driver that draws wrongly: its kernel is another ---

@@ -4,6 +4,7 @@ import re
 import resource
 import shutil
 import subprocess
+import tempfile
 
 # Variables that change what raingauge or a driver does; tests set what they mean to.
 CHANGES = re.compile(r"^(RG_|LP_|OMP_|GOMP_|POCL_|VK_|MESA_|GALLIUM|GALLIVM|LIBGL_|EGL_|__EGL_|OCL_|LD_)")
@@ -18,17 +19,28 @@ class Runner:
     def __init__(self, raingauge, kernels, crasher):
         self.raingauge, self.kernels, self.crasher = map(os.path.abspath, (raingauge, kernels, crasher))
         self.count = self.failed = 0
+        self.state = tempfile.TemporaryDirectory()  # what commands keep between runs
+
+    def variables(self, env):
+        """This process's, without those that change what raingauge does, and with these."""
+        variables = {k: v for k, v in os.environ.items() if not CHANGES.match(k)}
+        variables["XDG_STATE_HOME"] = self.state.name
+        variables.update(env)
+        return variables
+
+    def start(self, args, env={}):
+        """A command that goes on beside this process; the caller waits for it."""
+        return subprocess.Popen([self.raingauge] + args, env=self.variables(env), stdin=subprocess.DEVNULL,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
 
     def run(self, args, env={}, limit=None, stdout=subprocess.PIPE):
         """A command with these variables, which can write files of up to `limit` bytes."""
-        variables = {k: v for k, v in os.environ.items() if not CHANGES.match(k)}
-        variables.update(env)
 
         def restrict():
             if limit is not None:
                 resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
-        return subprocess.run([self.raingauge] + args, env=variables, preexec_fn=restrict, timeout=300,
+        return subprocess.run([self.raingauge] + args, env=self.variables(env), preexec_fn=restrict, timeout=300,
                               stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE,
                               encoding="utf-8")
 

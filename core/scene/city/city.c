@@ -10,16 +10,16 @@
 #include "core/scene/city/build.h"
 
 const struct rg_camera city_first_camera = {
-    .position = {-3.5f, 1.7f, 62.0f},
-    .target = {4.0f, 11.0f, 0.0f},
+    .position = {-4.9f, 1.7f, 93.0f},
+    .target = {0.5f, 11.0f, 32.8f},
     .up = {0, 1, 0},
     .angle_deg = 60,
     .near_plane = 0.2f,
     .far_plane = 1000,
 };
 const struct rg_camera city_second_camera = {
-    .position = {5.0f, 6.0f, 172.0f},
-    .target = {-2.0f, 20.0f, 0.0f},
+    .position = {-5.4f, 6.0f, 64.2f},
+    .target = {-8.0f, 20.0f, -107.7f},
     .up = {0, 1, 0},
     .angle_deg = 60,
     .near_plane = 0.2f,

@@ -1,0 +1,28 @@
+// The atlas in the user's cache: a file a size, in $XDG_CACHE_HOME/raingauge or ~/.cache/raingauge.
+//
+// A file holds a header, the factors and the texels, and their checksum. It is written beside its
+// name and renamed, so that nobody reads half a file, whoever else writes at the same time. It is
+// stale when what this program traces differs from what the file's writer traced, which a small
+// sample tells.
+#ifndef RG_CORE_SCENE_ATLAS_CACHE_H
+#define RG_CORE_SCENE_ATLAS_CACHE_H
+
+#include "core/scene/atlas.h"
+
+enum { RG_ATLAS_PATH_SIZE = 1024 };
+
+enum rg_atlas_cached { RG_ATLAS_SOUND, RG_ATLAS_ABSENT, RG_ATLAS_STALE, RG_ATLAS_DAMAGED };
+
+// Where a size is kept. False, and `why` says why in a clause, when there is no place for it.
+bool rg_atlas_cache_path(enum rg_atlas_size size, char path[RG_ATLAS_PATH_SIZE], char why[256]);
+
+// Reads a size from the cache. NULL when it is not there, stale or damaged, as *state and a clause
+// in `why` say; nothing is logged. The caller destroys it.
+struct rg_atlas *rg_atlas_cache_read(enum rg_atlas_size size, enum rg_atlas_cached *state,
+                                     char why[256]);
+
+// Puts an atlas into the cache, and makes the folders that it needs. False, and a clause in `why`,
+// when it cannot be written; what was there stays then.
+bool rg_atlas_cache_write(const struct rg_atlas *atlas, char why[256]);
+
+#endif

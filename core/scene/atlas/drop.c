@@ -1,0 +1,34 @@
+#include "core/scene/atlas/drop.h"
+
+#include <math.h>
+
+#define PI            3.14159265358979323846
+#define TENSION_N_M   0.0728
+#define DENSITY_KG_M3 1000.0
+
+// The amplitudes of the modes (2,0) and (3,1), in radii, and the azimuth of the second, recovered
+// from the widths and the swing of published streaks.
+static const struct {
+    double a20, a31, phi_deg;
+} oscillations[10] = {
+    {0, 0, 0},       {0.2, 0, 0},      {0.1, 0.055, 90},  {0.1, 0.055, 180}, {0.1, 0.055, 270},
+    {0.1, 0.055, 0}, {0.2, 0.055, 90}, {0.2, 0.055, 180}, {0.2, 0.055, 270}, {0.2, 0.055, 0},
+};
+
+// Rayleigh's frequency of the modes of order n.
+static double angular_frequency(int n)
+{
+    const double r3 = RG_DROP_RADIUS_M * RG_DROP_RADIUS_M * RG_DROP_RADIUS_M;
+    return sqrt(n * (n - 1) * (n + 2) * TENSION_N_M / (DENSITY_KG_M3 * r3));
+}
+
+struct rg_drop_shape rg_drop_shape(int oscillation, double time_s)
+{
+    const double phi = oscillations[oscillation].phi_deg * PI / 180;
+    return (struct rg_drop_shape){
+        .a = (float)(oscillations[oscillation].a20 * sin(angular_frequency(2) * time_s)),
+        .b = (float)(oscillations[oscillation].a31 * sin(angular_frequency(3) * time_s)),
+        .mx = (float)sin(phi),
+        .mz = (float)cos(phi),
+    };
+}

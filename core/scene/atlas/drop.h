@@ -1,0 +1,27 @@
+// The oscillating drop of Garg and Nayar: its ten oscillations, its shape at a moment, and how its
+// image moves over the exposure.
+#ifndef RG_CORE_SCENE_ATLAS_DROP_H
+#define RG_CORE_SCENE_ATLAS_DROP_H
+
+// The surface, in radii of the drop at rest:
+//   r = 1 + a P20(cos theta) + b P31(cos theta) cos(phi - phi_drop)
+// theta from +y; (mx, mz) is the horizontal direction of phi_drop.
+struct rg_drop_shape {
+    float a, b, mx, mz;
+};
+
+// No surface reaches further from its centre, in radii.
+#define RG_DROP_REACH 1.27f
+
+// The index of refraction of water in visible light, and the radius of the drop.
+#define RG_DROP_INDEX    1.333f
+#define RG_DROP_RADIUS_M 1.6e-3
+#define RG_EXPOSURE_S    (1.0 / 60)
+
+// How far the drop falls in the exposure, in its diameters: 8.16 m/s.
+#define RG_DROP_FALL 42.5
+
+// An oscillation of the database, 0 to 9, at a time in seconds.
+struct rg_drop_shape rg_drop_shape(int oscillation, double time_s);
+
+#endif

@@ -1,0 +1,91 @@
+#include "core/scene/atlas/lights.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+// A light is dark beyond so many standard deviations: 4e-5 of the peak.
+#define EDGE_DEVIATIONS 4.5
+
+// Half the diagonal of a square of the grid, at most: at a face's middle, 2 / 32 / sqrt(2).
+#define SQUARE_REACH_RAD 0.0443
+
+void rg_lobe_direction(double elevation_deg, double azimuth_deg, float direction[3])
+{
+    const double elevation = elevation_deg * PI / 180, azimuth = azimuth_deg * PI / 180;
+    direction[0] = (float)(cos(elevation) * sin(azimuth));
+    direction[1] = (float)sin(elevation);
+    direction[2] = (float)(cos(elevation) * cos(azimuth));
+}
+
+int rg_lobe_of_cell(int light, int phi)
+{
+    if (light == 0 || light == RG_ATLAS_LIGHTS - 1)
+        return light ? RG_LOBE_COUNT - 1 : 0;
+    return 1 + (light - 1) * RG_ATLAS_PHIS + phi;
+}
+
+void rg_lobes_of_atlas(struct rg_lobes *lobes)
+{
+    float directions[RG_LOBE_COUNT][3];
+    for (int light = 0; light < RG_ATLAS_LIGHTS; light++)
+        for (int phi = 0; phi < RG_ATLAS_PHIS; phi++)
+            rg_lobe_direction(20 * light - 90, 10 + 20 * phi,
+                              directions[rg_lobe_of_cell(light, phi)]);
+    rg_lobes_fill(lobes, RG_LOBE_COUNT, directions);
+}
+
+// The direction of a square's middle.
+static void middle_of(int square, double d[3])
+{
+    const int face = square / (RG_LOBE_GRID * RG_LOBE_GRID), axis = face / 2;
+    const double s = (square % RG_LOBE_GRID + 0.5) * 2 / RG_LOBE_GRID - 1;
+    const double t = (square / RG_LOBE_GRID % RG_LOBE_GRID + 0.5) * 2 / RG_LOBE_GRID - 1;
+    const double length = sqrt(1 + s * s + t * t);
+    d[axis] = (face % 2 ? -1 : 1) / length;
+    d[(axis + 1) % 3] = s / length;
+    d[(axis + 2) % 3] = t / length;
+}
+
+static int clamp_index(float s)
+{
+    const int i = (int)((s + 1) * (RG_LOBE_GRID / 2));
+    return i < 0 ? 0 : i < RG_LOBE_GRID ? i : RG_LOBE_GRID - 1;
+}
+
+int rg_lobes_square(float x, float y, float z)
+{
+    const float d[3] = {x, y, z};
+    const int wider = fabsf(y) > fabsf(x) ? 1 : 0, axis = fabsf(z) > fabsf(d[wider]) ? 2 : wider;
+    const float scale = 1 / fabsf(d[axis]);
+    const int s = clamp_index(d[(axis + 1) % 3] * scale);
+    const int t = clamp_index(d[(axis + 2) % 3] * scale);
+    return ((2 * axis + (d[axis] < 0)) * RG_LOBE_GRID + t) * RG_LOBE_GRID + s;
+}
+
+void rg_lobes_fill(struct rg_lobes *lobes, int count, float (*directions)[3])
+{
+    const double deviation = RG_LOBE_DEG * PI / 180, edge = EDGE_DEVIATIONS * deviation;
+    // von Mises and Fisher's density on the sphere
+    const double kappa = 1 / (deviation * deviation);
+    lobes->count = count;
+    memcpy(lobes->direction, directions, (size_t)count * sizeof(*directions));
+    lobes->peak = (float)(kappa / (2 * PI * (1 - exp(-2 * kappa))));
+    lobes->edge = (float)cos(edge);
+    for (int i = 0; i < RG_LOBE_STEPS + 2; i++)
+        lobes->profile[i] =
+            (float)exp(-kappa * (1 - cos(edge)) * fmax(0, 1 - (double)i / RG_LOBE_STEPS));
+    const double reach = cos(edge + SQUARE_REACH_RAD);
+    for (int square = 0; square < RG_LOBE_SQUARES; square++) {
+        double d[3];
+        middle_of(square, d);
+        int listed = 0;
+        for (int l = 0; l < count; l++) {
+            const float *to = lobes->direction[l];
+            if (d[0] * (double)to[0] + d[1] * (double)to[1] + d[2] * (double)to[2] > reach)
+                lobes->list[square][listed++] = (unsigned char)l;
+        }
+        lobes->listed[square] = (unsigned char)listed;
+    }
+}

@@ -1,0 +1,25 @@
+// The atlas by size: from the cache, or made and put there.
+#include "core/log.h"
+#include "core/scene/atlas/cache.h"
+
+struct rg_atlas *rg_atlas_load(enum rg_atlas_size size, const struct rg_atlas_progress *progress)
+{
+    char path[RG_ATLAS_PATH_SIZE] = "streak atlas", why[256], gone[256];
+    enum rg_atlas_cached state;
+    const bool kept = rg_atlas_cache_path(size, path, why);
+    struct rg_atlas *atlas = rg_atlas_cache_read(size, &state, gone);
+    if (atlas)
+        return atlas;
+    if (size == RG_ATLAS_CAVE || size == RG_ATLAS_CAVE_SMALL)
+        return rg_error_null("%s: %s; `raingauge atlas --from DIR` packs the database again", path,
+                             gone);
+    if (state != RG_ATLAS_ABSENT)
+        rg_warning("%s: %s; the streak atlas is made anew", path, gone);
+    else if (size == RG_ATLAS_FULL)
+        rg_info("the streak atlas is made, which takes a minute or two%s%s",
+                kept ? ", and kept as " : "", kept ? path : "");
+    atlas = rg_atlas_make(size, progress);
+    if (atlas && !rg_atlas_cache_write(atlas, why))
+        rg_warning("the streak atlas is not kept: %s", why);
+    return atlas;
+}

@@ -1,0 +1,55 @@
+#include "core/scene/atlas/sample.h"
+
+#include <stdlib.h>
+#include <xxhash.h>
+
+#include "core/alloc.h"
+#include "core/scene/atlas/splash.h"
+#include "core/scene/atlas/streak.h"
+
+enum { OSCILLATION = 6, VIEW = 1, LEVEL = 3, EVERY_FRAMES = 9 };
+
+static bool add_streaks(XXH3_state_t *state, enum rg_atlas_size size)
+{
+    const struct rg_streak_detail coarse = {.moments = 4, .column = 4, .along = 16};
+    const struct rg_streak_detail detail = rg_streak_detail(size);
+    struct rg_lobes *lobes = rg_alloc(1, sizeof(*lobes), "streak atlas");
+    struct rg_streaks streaks = {0};
+    if (lobes)
+        rg_lobes_of_atlas(lobes);
+    const bool made = lobes && rg_streaks_trace(OSCILLATION, VIEW, LEVEL, &coarse, lobes, &streaks);
+    if (made) {
+        const size_t pixels = (size_t)streaks.width * (size_t)streaks.height;
+        XXH3_64bits_update(state, &detail, sizeof(detail));
+        XXH3_64bits_update(state, streaks.point, pixels * RG_LOBE_COUNT * sizeof(float));
+        XXH3_64bits_update(state, streaks.env, pixels * sizeof(float));
+    }
+    rg_streaks_free(&streaks);
+    free(lobes);
+    return made;
+}
+
+static bool add_splashes(XXH3_state_t *state)
+{
+    float texels[RG_SPLASH_WIDTH_PX * RG_SPLASH_HEIGHT_PX];
+    for (int material = 0; material < RG_ATLAS_MATERIALS; material++) {
+        for (int frame = 1; frame < RG_ATLAS_FRAMES; frame += EVERY_FRAMES) {
+            if (!rg_splash_draw(material, frame, texels))
+                return false;
+            XXH3_64bits_update(state, texels, sizeof(texels));
+        }
+    }
+    return true;
+}
+
+uint64_t rg_atlas_sample(enum rg_atlas_size size)
+{
+    XXH3_state_t *state = XXH3_createState();
+    if (!state)
+        return 0;
+    XXH3_64bits_reset(state);
+    const bool made = (size >= RG_ATLAS_CAVE || add_streaks(state, size)) && add_splashes(state);
+    const uint64_t hash = made ? XXH3_64bits_digest(state) : 0;
+    XXH3_freeState(state);
+    return hash;
+}

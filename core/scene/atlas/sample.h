@@ -1,0 +1,12 @@
+// A fingerprint of what this program traces and draws.
+#ifndef RG_CORE_SCENE_ATLAS_SAMPLE_H
+#define RG_CORE_SCENE_ATLAS_SAMPLE_H
+
+#include "core/scene/atlas.h"
+
+// A hash of a few coarse streaks and of some splashes, and of how finely the size is traced: a file
+// of the cache with another one was made by another tracer. Takes some milliseconds. 0 where the
+// atlas is not traced, or when memory is short.
+uint64_t rg_atlas_sample(enum rg_atlas_size size);
+
+#endif

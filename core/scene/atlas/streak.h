@@ -1,0 +1,33 @@
+// Streaks: the picture of a falling drop over an exposure, under many lights at once.
+#ifndef RG_CORE_SCENE_ATLAS_STREAK_H
+#define RG_CORE_SCENE_ATLAS_STREAK_H
+
+#include <stdbool.h>
+
+#include "core/scene/atlas/lights.h"
+
+// How finely a streak is traced.
+struct rg_streak_detail {
+    int moments; // parts of the exposure: the drop's image fades from one end to the other
+    int column;  // rays across a column of the picture
+    int along;   // rows of rays along the diameter of the drop at rest, seen from the front; more
+                 // from above, whence the fall blurs them less: up to twice as many
+};
+
+// How finely the streaks of a size are traced: no step and no noise is to be seen.
+struct rg_streak_detail rg_streak_detail(enum rg_atlas_size size);
+
+// Pictures of width x height, row 0 on top, tightly packed. The caller frees both.
+struct rg_streaks {
+    int width, height;
+    float *point; // of each lobe in turn: radiance for an irradiance of 1
+    float *env;   // for radiance 1 from everywhere
+};
+
+// Traces the streaks of an oscillation seen from an elevation of 20 * view degrees, at the cell's
+// size in a level of the full atlas. NULL arrays and one logged line when memory is short.
+bool rg_streaks_trace(int oscillation, int view, int level, const struct rg_streak_detail *detail,
+                      const struct rg_lobes *lobes, struct rg_streaks *streaks);
+void rg_streaks_free(struct rg_streaks *streaks);
+
+#endif

@@ -1,0 +1,34 @@
+// Rays through a drop: where the light that leaves it towards the viewer came from.
+#ifndef RG_CORE_SCENE_ATLAS_TRACE_H
+#define RG_CORE_SCENE_ATLAS_TRACE_H
+
+#include "core/scene/atlas/drop.h"
+
+// The ways of light: reflected outside; refracted in and out; the same with one and with two
+// reflections inside.
+enum { RG_DROP_WAYS = 4, RG_TRACE_MAX = 512 };
+
+// A camera without perspective. `towards` points from the drop to the viewer; all are unit vectors.
+struct rg_drop_view {
+    float towards[3], right[3], up[3];
+};
+
+// What the viewer sees along a row of rays: for each way the direction in which the light's source
+// lies (a unit vector) and its share of that source's radiance, 0 where the ray misses the drop.
+// The shares add up to less than 1 by what is still inside after two reflections: a third of a
+// percent of the light that meets a sphere, 5 % when a drop is at its longest.
+struct rg_drop_row {
+    float hit[RG_TRACE_MAX]; // 1 where the ray meets the drop, else 0
+    float x[RG_DROP_WAYS][RG_TRACE_MAX], y[RG_DROP_WAYS][RG_TRACE_MAX],
+        z[RG_DROP_WAYS][RG_TRACE_MAX], share[RG_DROP_WAYS][RG_TRACE_MAX];
+};
+
+// A viewer at an elevation, at azimuth 0 (+z).
+struct rg_drop_view rg_drop_view(double elevation_deg);
+
+// Traces `count` rays, up to RG_TRACE_MAX, at heights v and first_u + i * step_u to the right of
+// the drop's centre, in radii.
+void rg_drop_trace(const struct rg_drop_shape *shape, const struct rg_drop_view *view, float v,
+                   float first_u, float step_u, int count, struct rg_drop_row *row);
+
+#endif

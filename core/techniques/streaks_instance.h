@@ -1,0 +1,67 @@
+// Open streaks: what streaks_open.c makes, and streaks.c runs.
+#ifndef RG_CORE_TECHNIQUES_STREAKS_INSTANCE_H
+#define RG_CORE_TECHNIQUES_STREAKS_INSTANCE_H
+
+#include "core/techniques/streaks.h"
+#include "core/techniques/streaks_lights.h"
+#include "core/techniques/streaks_observer.h"
+#include "core/techniques/streaks_overlay.h"
+#include "core/techniques/streaks_packets.h"
+#include "core/techniques/streaks_scene.h"
+#include "core/techniques/streaks_textures.h"
+#include "core/techniques/technique.h"
+#include "kernels/streaks_params.h"
+
+enum streaks_counter {
+    STREAKS_PARTICLES, // that selected packets held
+    STREAKS_PACKETS,   // that were selected
+    STREAKS_ITEMS,     // particles drawn, with what fills up blocks
+    STREAKS_COUNTERS
+};
+
+enum streaks_fact {
+    STREAKS_FACT_PARTICLES,
+    STREAKS_FACT_TOTAL,
+    STREAKS_FACT_SCHEME,
+    STREAKS_FACT_PACKETS,
+    STREAKS_FACT_MEMORY,
+    STREAKS_FACT_ATLAS,
+    STREAKS_FACT_SCENE,
+    STREAKS_FACTS
+};
+
+enum { STREAKS_MAX_BUFFERS = 64, STREAKS_STATE_WORDS = 6 };
+
+struct streaks {
+    struct rg_instance base;
+    struct streaks_settings settings;
+    struct streaks_rain_space space;
+    struct streaks_packets *packets;
+    struct streaks_scene *scene;
+    struct streaks_textures *textures;
+    struct streaks_lights *lights;
+    struct streaks_overlay *overlay; // NULL: none
+    struct rg_camera camera;         // at frame 0
+    struct rg_image *depth_map;      // the scene seen along the fall
+    struct rg_image *depth;          // the target's
+    struct rg_pass *rain, *state;
+    int buffer_count;
+    struct rg_buf *particles[STREAKS_MAX_BUFFERS], *blocks, *places;
+    // of the present frame
+    struct streaks_observer observer;
+    struct streaks_selection selection;
+    streaks_params params;
+    int64_t map_frame; // in which the depth map was drawn; -1: never
+};
+
+struct rg_instance *streaks_open(struct rg_device *device, const void *settings, int width,
+                                 int height);
+void streaks_close(struct rg_instance *instance);
+
+// Moves the observer to the present frame, and makes what it draws: the selection, its blocks, the
+// parameters, the depth map where it is due. False, and one logged line, on failure.
+bool streaks_look(struct streaks *streaks);
+// Draws the overlay of the present frame.
+bool streaks_show(struct streaks *streaks);
+
+#endif

@@ -1,0 +1,95 @@
+// Where a particle is and what it has become: a drop, a splash, or nothing (Creus, sections 4.2 and
+// 4.4). Programs and kernels that include it behind their slots have
+//   IN(1, float, particles)  x and y in the rain space's clip coordinates, and oscillation + start
+//   IN(2, uint, blocks)      STREAKS_BLOCK_WORDS each
+//   IMAGE(3, D32F, depths)   the scene seen along the fall
+#ifndef RG_KERNELS_STREAKS_PARTICLE_H
+#define RG_KERNELS_STREAKS_PARTICLE_H
+
+RG_STRUCT(streaks_particle)
+{
+    float x;
+    float y;
+    float s;   // of the drop, wherever it would be without the scene
+    float hit; // s of the first surface below the particle's place on the top plane
+    float age; // of a splash, in seconds
+    int oscillation;
+    int state;
+    uint number; // in its buffer
+};
+
+// Truth values are numbers here, which gcc can turn into masks.
+RG_FN int streaks_below(float a, float b)
+{
+    return a < b ? 1 : 0;
+}
+
+// s of the first surface at a place, and of the ground where the map does not reach. Sums of
+// products with 0 and 1 choose, for gcc moves what only one branch of a choice reads into the
+// branch.
+RG_FN float streaks_hit(rg_ctx rg, streaks_params p, float x, float y)
+{
+    float width = rg_to_float(depths_width(rg, 0));
+    float height = rg_to_float(depths_height(rg, 0));
+    float u = (x - p.map_x) * p.map_per_x * width;
+    float v = (y - p.map_y) * p.map_per_y * height;
+    int tx = rg_to_int(rg_clamp(u, 0.0f, width - 1.0f));
+    int ty = rg_to_int(rg_clamp(v, 0.0f, height - 1.0f));
+    float depth = depths_texel(rg, tx, ty, 0, 0).r;
+    int outside = streaks_below(u, 0.0f) | streaks_below(v, 0.0f) | streaks_below(width, u) |
+                  streaks_below(height, v);
+    float inside = rg_to_float(1 - outside);
+    return inside * (p.map_top + depth * p.map_height) + (1.0f - inside) * p.ground;
+}
+
+// What a particle is, its streak's upper end being `past` below the surface that it hits. It comes
+// in again at the local top when it leaves the local ground: where its splash is not over by then,
+// it stays a splash. So each drop that hits makes one splash, as long as all others.
+RG_FN streaks_particle streaks_state(streaks_params p, streaks_particle particle)
+{
+    streaks_particle t = particle;
+    float past = (t.s - p.behind) - t.hit;
+    int falling = streaks_below(past, 0.0f);
+    float since = past + rg_to_float(falling) * p.local_height;
+    float lasts = rg_min(p.splash_s * p.fall_speed, p.local_height);
+    int splash = (1 - streaks_below(since, 0.0f)) & streaks_below(since, lasts) &
+                 streaks_below(t.hit, p.top + p.local_height);
+    t.age = since / p.fall_speed;
+    t.state =
+        splash * p.splashes * STREAKS_SPLASH + (1 - splash) * falling * p.drops * STREAKS_DROP;
+    return t;
+}
+
+RG_FN streaks_particle streaks_particle_at(rg_ctx rg, streaks_params p, int i)
+{
+    int block = (i >> 5) * STREAKS_BLOCK_WORDS;
+    int in_block = i & 31;
+    uint number = blocks_at(rg, block) + rg_to_uint(in_block);
+    int at = 3 * rg_to_int(number);
+    float both = particles_at(rg, at + 2);
+    float oscillation = rg_floor(both);
+    float fallen = (both - oscillation) + rg_bits_float(blocks_at(rg, block + 4));
+    streaks_particle t;
+    t.x = (particles_at(rg, at) + rg_bits_float(blocks_at(rg, block + 2))) * p.half_x;
+    t.y = (particles_at(rg, at + 1) + rg_bits_float(blocks_at(rg, block + 3))) * p.half_y;
+    t.s = p.top + p.local_height * (fallen - rg_floor(fallen));
+    t.oscillation = rg_to_int(oscillation);
+    t.number = number;
+    t.hit = streaks_hit(rg, p, t.x, t.y);
+    t.age = 0.0f;
+    t = streaks_state(p, t);
+    int counted = rg_to_int((blocks_at(rg, block + 1) >> rg_to_uint(in_block)) & 1u);
+    float away = rg_max(rg_abs(t.x - p.eye_x), rg_abs(t.y - p.eye_y));
+    t.state = t.state * counted * (1 - p.exact * streaks_below(p.radius, away));
+    return t;
+}
+
+// A number that looks random, of a particle: for what need not be random.
+RG_FN uint streaks_hash(uint particle)
+{
+    uint h = particle * 0x9e3779b9u;
+    h = (h ^ (h >> 16)) * 0x85ebca6bu;
+    return h ^ (h >> 13);
+}
+
+#endif

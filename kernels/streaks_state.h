@@ -1,0 +1,23 @@
+// streaks: particles as the frame sees them, for those who compare states: x, y, s, hit height,
+// age, and what they are, 6 words each.
+#include "streaks_params.h"
+
+#define RG_PARAMS streaks_params
+#define RG_SLOTS                                                                                   \
+    IN(1, float, particles) IN(2, uint, blocks) IMAGE(3, D32F, depths) OUT(4, float, places)
+#include "slots.h"
+
+#include "streaks_particle.h"
+
+RG_GRID_KERNEL(streaks_state)
+{
+    streaks_particle t = streaks_particle_at(rg, p, x);
+    int word = 6 * (p.first_place + x);
+    bool seen = t.state != STREAKS_NOTHING;
+    places_put(rg, word, seen ? t.x : 0.0f);
+    places_put(rg, word + 1, seen ? t.y : 0.0f);
+    places_put(rg, word + 2, seen ? t.s : 0.0f);
+    places_put(rg, word + 3, seen ? t.hit : 0.0f);
+    places_put(rg, word + 4, t.state == STREAKS_SPLASH ? t.age : 0.0f);
+    places_put(rg, word + 5, rg_to_float(t.state));
+}

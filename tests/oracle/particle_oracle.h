@@ -1,0 +1,30 @@
+// Particles of streaks in double precision, from the words of C. Creus, "Real-time rendering of
+// rain", 2010, sections 4.2 and 4.4, without kernels/.
+#ifndef RG_TESTS_ORACLE_PARTICLE_ORACLE_H
+#define RG_TESTS_ORACLE_PARTICLE_ORACLE_H
+
+// Lengths in metres; s along the fall, from the rain space's top.
+struct particle_space {
+    double half_x, half_y; // of the rain space
+    double top, height;    // of the local space
+    double streak;         // from a drop to the upper end of its streak
+    double speed, splash_s;
+    double eye_x, eye_y, radius;
+    int exact;
+};
+
+enum particle_state { PARTICLE_NOTHING, PARTICLE_DROP, PARTICLE_SPLASH };
+
+struct particle_seen {
+    double x, y, s;
+    enum particle_state state;
+    double age_s;    // of a splash
+    double margin_m; // how far a length is from where the state changes
+};
+
+// A particle that began at clip coordinates (x, y), `start` of the way through the local space, when
+// all have run `run` of the way, over a surface at `hit`.
+struct particle_seen particle_oracle(const struct particle_space *space, double x, double y,
+                                     double start, double run, double hit);
+
+#endif

@@ -1,0 +1,56 @@
+// What the tests of rain in packets share: a rain of a few settings, and its particles one by one.
+#ifndef PACKETS_RIG_H
+#define PACKETS_RIG_H
+
+#include "core/techniques/streaks_packets.h"
+
+// A particle that a list of blocks draws.
+struct rig_particle {
+    int64_t slot; // where it lies, of all buffers counted through
+    float shift_x, shift_y;
+    double x_m, y_m; // in the rain frame
+    double fall;     // fract(start + turn): of the local space's height
+    double start;    // as it is stored
+    int oscillation;
+};
+
+struct rig_particles {
+    int64_t count;
+    struct rig_particle *all;
+};
+
+extern const struct streaks_rain_space rig_space; // 400 m x 400 m, 230 m high, straight down
+
+// So many particles in a local space of 20 m, in packets of 1000; worldwide.
+struct streaks_packets_settings rig_settings(const struct streaks_rain_space *space,
+                                             const struct rg_density *density, double particles);
+
+// Fails the test if they cannot be made.
+struct streaks_packets *rig_packets(const struct streaks_rain_space *space,
+                                    const struct rg_density *density,
+                                    const struct streaks_packets_settings *settings);
+
+// A view that has everything in it, from the rain space's middle.
+struct streaks_view rig_everywhere(const struct streaks_rain_space *space, double local_height_m);
+
+// Reads the blocks as a kernel does. Fails the test where a block breaks a rule of the header: a
+// particle outside its buffer, a mask of none, draws that overlap or leave blocks out, and where
+// the selection's own count differs. The caller frees `all`.
+struct rig_particles rig_read(const struct streaks_packets *packets,
+                              const struct streaks_rain_space *space,
+                              const struct streaks_selection *selection);
+// All particles: of a view of everything.
+struct rig_particles rig_read_all(const struct streaks_packets *packets,
+                                  const struct streaks_rain_space *space, double local_height_m);
+
+// Orders by slot, then shift. Comparable with qsort and bsearch.
+int rig_compare(const void *a, const void *b);
+
+// A map of width x height texels, row by row, taken as it is; fails the test otherwise.
+struct rg_density *rig_map(int width, int height, const float *texels);
+
+// Counts the errors that are logged until rig_errors is called, and keeps them off stderr.
+void rig_listen(void);
+int rig_errors(void);
+
+#endif

@@ -1,0 +1,267 @@
+// What is kept of the atlas: read back as it was written, refused when it is damaged.
+#define _DEFAULT_SOURCE // truncate
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/log.h"
+#include "core/scene/atlas/cache.h"
+#include "core/scene/atlas/levels.h"
+
+static char folder[] = "/tmp/raingauge-atlas-XXXXXX";
+static char path[RG_ATLAS_PATH_SIZE], why[256];
+static int lines;
+
+static void count_line(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)line;
+    (void)user;
+    lines++;
+}
+
+static int setup(void **state)
+{
+    (void)state;
+    rg_log_listen(count_line, NULL);
+    if (!mkdtemp(folder) || setenv("XDG_CACHE_HOME", folder, 1))
+        return 1;
+    return !rg_atlas_cache_path(RG_ATLAS_SMALL, path, why);
+}
+
+static int teardown(void **state)
+{
+    (void)state;
+    char name[RG_ATLAS_PATH_SIZE];
+    unlink(path);
+    snprintf(name, sizeof(name), "%s/raingauge", folder);
+    rmdir(name);
+    return rmdir(folder); // fails when something was left behind
+}
+
+// An atlas of numbers that mean nothing: nothing here traces.
+static struct rg_atlas *make(uint32_t seed)
+{
+    struct rg_atlas *atlas = rg_atlas_allocate(RG_ATLAS_SMALL);
+    assert_non_null(atlas);
+    for (int part = 0; part < RG_ATLAS_PART_COUNT; part++)
+        for (size_t i = 0; i < rg_atlas_image_texels(&atlas->images[part]); i++) {
+            seed = seed * 1664525u + 1013904223u;
+            atlas->images[part].texels[i] = (uint16_t)(seed >> 16 & 0x3bff);
+        }
+    for (int i = 0; i < 4500; i++)
+        (&atlas->point_factor[0][0][0][0])[i] = (float)(i + 1) / 4500;
+    for (int i = 0; i < 50; i++)
+        (&atlas->env_factor[0][0])[i] = (float)(i + 1) / 50;
+    assert_true(rg_atlas_find_hash(atlas));
+    return atlas;
+}
+
+static void expect_equal(const struct rg_atlas *a, const struct rg_atlas *b)
+{
+    assert_int_equal(a->hash, b->hash);
+    assert_int_equal(a->first_level, b->first_level);
+    assert_memory_equal(a->point_factor, b->point_factor, sizeof(a->point_factor));
+    assert_memory_equal(a->env_factor, b->env_factor, sizeof(a->env_factor));
+    for (int part = 0; part < RG_ATLAS_PART_COUNT; part++)
+        assert_memory_equal(a->images[part].texels, b->images[part].texels,
+                            rg_atlas_image_texels(&a->images[part]) * sizeof(uint16_t));
+}
+
+static void expect_state(enum rg_atlas_cached wanted)
+{
+    enum rg_atlas_cached state;
+    why[0] = 0;
+    struct rg_atlas *atlas = rg_atlas_cache_read(RG_ATLAS_SMALL, &state, why);
+    assert_true((atlas != NULL) == (wanted == RG_ATLAS_SOUND));
+    if (state != wanted)
+        fail_msg("state %d, expected %d: %s", (int)state, (int)wanted, why);
+    assert_true(atlas || why[0]);
+    rg_atlas_destroy(atlas);
+}
+
+static void write_atlas(uint32_t seed)
+{
+    struct rg_atlas *atlas = make(seed);
+    assert_true(rg_atlas_cache_write(atlas, why));
+    rg_atlas_destroy(atlas);
+}
+
+static void test_round_trip(void **state)
+{
+    (void)state;
+    enum rg_atlas_cached cached;
+    expect_state(RG_ATLAS_ABSENT);
+    struct rg_atlas *atlas = make(1);
+    assert_true(rg_atlas_cache_write(atlas, why));
+    struct rg_atlas *read = rg_atlas_cache_read(RG_ATLAS_SMALL, &cached, why);
+    assert_non_null(read);
+    assert_int_equal(cached, RG_ATLAS_SOUND);
+    expect_equal(atlas, read);
+    rg_atlas_destroy(atlas);
+    rg_atlas_destroy(read);
+}
+
+static void flip(long offset, int whence, unsigned char bits)
+{
+    FILE *file = fopen(path, "r+b");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, offset, whence), 0);
+    const long at = ftell(file);
+    const int byte = fgetc(file);
+    assert_true(byte != EOF);
+    fseek(file, at, SEEK_SET);
+    fputc(byte ^ bits, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+// One bit anywhere: in the magic, the version, the size, the sample, the hash, a factor, a texel.
+static void test_flipped_bits(void **state)
+{
+    (void)state;
+    static const struct {
+        long offset;
+        enum rg_atlas_cached wanted;
+    } flips[] = {{0, RG_ATLAS_DAMAGED},      {12, RG_ATLAS_STALE},      {16, RG_ATLAS_STALE},
+                 {26, RG_ATLAS_STALE},       {32, RG_ATLAS_DAMAGED},    {44, RG_ATLAS_DAMAGED},
+                 {18000, RG_ATLAS_DAMAGED},  {18200, RG_ATLAS_DAMAGED}, {30000, RG_ATLAS_DAMAGED},
+                 {9999999, RG_ATLAS_DAMAGED}};
+    write_atlas(2);
+    for (size_t i = 0; i < sizeof(flips) / sizeof(flips[0]); i++) {
+        flip(flips[i].offset, SEEK_SET, 4);
+        expect_state(flips[i].wanted);
+        flip(flips[i].offset, SEEK_SET, 4);
+    }
+    flip(-1, SEEK_END, 1);
+    expect_state(RG_ATLAS_DAMAGED);
+    flip(-1, SEEK_END, 1);
+    expect_state(RG_ATLAS_SOUND);
+}
+
+static void test_wrong_lengths(void **state)
+{
+    (void)state;
+    write_atlas(3);
+    struct stat st;
+    assert_int_equal(stat(path, &st), 0);
+    const long lengths[] = {0, 7, 100, 18250, 1000000, st.st_size - 1, st.st_size + 1};
+    for (int i = 0; i < 7; i++) {
+        write_atlas(3);
+        assert_int_equal(truncate(path, lengths[i]), 0);
+        expect_state(RG_ATLAS_DAMAGED);
+    }
+    write_atlas(3);
+    expect_state(RG_ATLAS_SOUND);
+}
+
+// What is no file at all neither hangs nor harms.
+static void test_other_things(void **state)
+{
+    (void)state;
+    unlink(path);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    expect_state(RG_ATLAS_DAMAGED);
+    unlink(path);
+    assert_int_equal(mkdir(path, 0700), 0);
+    expect_state(RG_ATLAS_DAMAGED);
+    struct rg_atlas *atlas = make(4);
+    assert_false(rg_atlas_cache_write(atlas, why)); // a file cannot take a folder's place
+    assert_non_null(strstr(why, path));
+    assert_int_equal(rmdir(path), 0);
+    setenv("XDG_CACHE_HOME", "/proc/nowhere", 1);
+    assert_false(rg_atlas_cache_write(atlas, why));
+    expect_state(RG_ATLAS_ABSENT);
+    setenv("XDG_CACHE_HOME", "/dev/null", 1);
+    assert_false(rg_atlas_cache_write(atlas, why));
+    expect_state(RG_ATLAS_ABSENT);
+    setenv("XDG_CACHE_HOME", folder, 1);
+    rg_atlas_destroy(atlas);
+}
+
+static void test_where(void **state)
+{
+    (void)state;
+    char place[RG_ATLAS_PATH_SIZE], home[RG_ATLAS_PATH_SIZE];
+    const char *set = getenv("HOME");
+    snprintf(home, sizeof(home), "%s", set ? set : "/");
+    setenv("XDG_CACHE_HOME", "no/absolute/path", 1);
+    setenv("HOME", "/somewhere", 1);
+    assert_true(rg_atlas_cache_path(RG_ATLAS_FULL, place, why));
+    assert_string_equal(place, "/somewhere/.cache/raingauge/streaks-full.atlas");
+    unsetenv("HOME");
+    assert_false(rg_atlas_cache_path(RG_ATLAS_FULL, place, why));
+    assert_non_null(strstr(why, "XDG_CACHE_HOME"));
+    expect_state(RG_ATLAS_ABSENT);
+    char longest[2 * RG_ATLAS_PATH_SIZE];
+    memset(longest, '/', sizeof(longest) - 1);
+    longest[sizeof(longest) - 1] = 0;
+    setenv("XDG_CACHE_HOME", longest, 1);
+    assert_false(rg_atlas_cache_path(RG_ATLAS_FULL, place, why));
+    setenv("HOME", home, 1);
+    setenv("XDG_CACHE_HOME", folder, 1);
+}
+
+// Two processes that write all the time: whoever reads finds one or the other, whole.
+static void test_writers_at_once(void **state)
+{
+    (void)state;
+    write_atlas(5);
+    pid_t writers[2];
+    for (uint32_t w = 0; w < 2; w++) {
+        writers[w] = fork();
+        assert_true(writers[w] >= 0);
+        if (writers[w])
+            continue;
+        struct rg_atlas *atlas = rg_atlas_allocate(RG_ATLAS_SMALL);
+        bool good = atlas != NULL;
+        for (int i = 0; good && i < 6; i++) {
+            atlas->images[0].texels[i] = (uint16_t)(w + 1);
+            good = rg_atlas_find_hash(atlas) && rg_atlas_cache_write(atlas, why);
+        }
+        rg_atlas_destroy(atlas);
+        _exit(!good);
+    }
+    for (int i = 0; i < 12; i++)
+        expect_state(RG_ATLAS_SOUND);
+    for (int w = 0; w < 2; w++) {
+        int status;
+        assert_int_equal(waitpid(writers[w], &status, 0), writers[w]);
+        assert_int_equal(status, 0);
+    }
+    expect_state(RG_ATLAS_SOUND);
+}
+
+// The original database is not made: one line says how to pack it.
+static void test_unpacked_database(void **state)
+{
+    (void)state;
+    lines = 0;
+    assert_null(rg_atlas_load(RG_ATLAS_CAVE, NULL));
+    assert_int_equal(lines, 1);
+    assert_non_null(strstr(rg_last_error(), "streaks-cave.atlas"));
+    assert_non_null(strstr(rg_last_error(), "atlas --from"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_flipped_bits),
+        cmocka_unit_test(test_wrong_lengths),
+        cmocka_unit_test(test_other_things),
+        cmocka_unit_test(test_where),
+        cmocka_unit_test(test_writers_at_once),
+        cmocka_unit_test(test_unpacked_database),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}

@@ -1,0 +1,292 @@
+// A small tree with the original database's names, of pictures that tell where they belong, packed.
+// Whole pictures are shared between names by hard links: 7,500 names, 20 files.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <ftw.h>
+#include <math.h>
+#include <png.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/log.h"
+#include "core/scene/atlas/cave.h"
+#include "core/scene/atlas/levels.h"
+
+enum { PATH_SIZE = 512 };
+
+static char root[] = "/tmp/raingauge-cave-XXXXXX";
+static int lines;
+
+// The database's own heights at width 16; at other widths in proportion.
+static const int heights[5] = {525, 494, 405, 272, 108};
+
+static void count_line(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)line;
+    (void)user;
+    lines++;
+}
+
+static void in_root(char path[PATH_SIZE], const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+static void in_root(char path[PATH_SIZE], const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    const int length = snprintf(path, PATH_SIZE, "%s/", root);
+    vsnprintf(path + length, (size_t)(PATH_SIZE - length), format, args);
+    va_end(args);
+}
+
+// The code of a pixel: the row in the picture's thirds, and what the picture is of.
+static int code_of(int view, bool env, int row, int height)
+{
+    return 4000 * view + (env ? 30000 : 0) + 6000 * (row * 3 / height) + 100;
+}
+
+static void write_png(const char *path, int width, int height, int view, bool env)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+    png_infop info = png_create_info_struct(png);
+    png_init_io(png, file);
+    png_set_IHDR(png, info, (png_uint_32)width, (png_uint_32)height, 16, PNG_COLOR_TYPE_GRAY,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(png, info);
+    for (int r = 0; r < height; r++) {
+        unsigned char row[64];
+        const int code = code_of(view, env, r, height);
+        for (int c = 0; c < width; c++) {
+            row[2 * c] = (unsigned char)(code >> 8);
+            row[2 * c + 1] = (unsigned char)code;
+        }
+        png_write_row(png, row);
+    }
+    png_write_end(png, NULL);
+    png_destroy_write_struct(&png, &info);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void make_folder(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+static void make_folder(const char *format, ...)
+{
+    char name[PATH_SIZE], path[PATH_SIZE];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(name, sizeof(name), format, args);
+    va_end(args);
+    in_root(path, "%s", name);
+    assert_int_equal(mkdir(path, 0700), 0);
+}
+
+static double factor_of(int view, int light, int phi, int oscillation)
+{
+    return 0.001 * (1 + oscillation + 10 * phi + 100 * light + 1000 * view);
+}
+
+static void write_factors(int view)
+{
+    char path[PATH_SIZE];
+    in_root(path, "point_light_database/txt/dcam%02d_point_max.txt", 20 * view);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "cv%d\n", 20 * view);
+    for (int light = 0; light < 10; light++) {
+        fprintf(file, "v%d\n", 20 * light - 90);
+        for (int phi = light % 9 ? 0 : 8; phi < 9; phi++) { // at the poles one azimuth alone
+            fprintf(file, "h%d", 20 * phi + 10);
+            for (int k = 0; k < 10; k++)
+                fprintf(file, " %.6f", factor_of(view, light, phi, k));
+            fprintf(file, "\r\n");
+        }
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
+static void link_view(int view, int size)
+{
+    char picture[PATH_SIZE], path[PATH_SIZE];
+    const int height = (heights[view] * size + 8) / 16;
+    make_folder("point_light_database/size%d/dcam%02d", size, 20 * view);
+    in_root(picture, "picture%d-%d.png", size, view);
+    write_png(picture, size, height, view, false);
+    for (int light = 0; light < 10; light++)
+        for (int phi = light % 9 ? 0 : 8; phi < 9; phi++)
+            for (int k = 0; k < 10; k++) {
+                in_root(path, "point_light_database/size%d/dcam%02d/cv%d_v%d_h%d_osc%d.png", size,
+                        20 * view, 20 * view, 20 * light - 90, 20 * phi + 10, k);
+                assert_int_equal(link(picture, path), 0);
+            }
+    in_root(picture, "env%d-%d.png", size, view);
+    write_png(picture, size, height, view, true);
+    for (int k = 0; k < 10; k++) {
+        in_root(path, "env_light_database/size%d/cv%d_osc%d.png", size, 20 * view, k);
+        assert_int_equal(link(picture, path), 0);
+    }
+}
+
+static int setup(void **state)
+{
+    (void)state;
+    char path[PATH_SIZE];
+    rg_log_listen(count_line, NULL);
+    if (!mkdtemp(root))
+        return 1;
+    make_folder("point_light_database");
+    make_folder("env_light_database");
+    make_folder("point_light_database/txt");
+    make_folder("env_light_database/txt");
+    for (int size = 8; size >= 4; size /= 2) {
+        make_folder("point_light_database/size%d", size);
+        make_folder("env_light_database/size%d", size);
+        for (int view = 0; view < 5; view++)
+            link_view(view, size);
+    }
+    in_root(path, "env_light_database/txt/normalized_env_max.txt");
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    for (int view = 0; view < 5; view++) {
+        write_factors(view);
+        fprintf(file, "cv%d", 20 * view);
+        for (int k = 0; k < 10; k++)
+            fprintf(file, " %g", 0.5 + view + 0.01 * k);
+        fprintf(file, "\n");
+    }
+    return fclose(file);
+}
+
+static int remove_one(const char *path, const struct stat *st, int kind, struct FTW *place)
+{
+    (void)st;
+    (void)kind;
+    (void)place;
+    return remove(path);
+}
+
+static int teardown(void **state)
+{
+    (void)state;
+    return nftw(root, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+}
+
+static void expect_cell(const struct rg_atlas *atlas, enum rg_atlas_part part, int layer, int view,
+                        int column, int level)
+{
+    const int width = 8 >> level, rows = rg_atlas_row_height(view, level + 2);
+    const int pitch = atlas->images[part].width >> level;
+    const uint16_t *texels = rg_atlas_texels(atlas, part, layer, level) +
+                             rg_atlas_row_start(view, level + 2) * pitch + column * width;
+    for (int third = 0; third < 3; third++) {
+        // in the middle of each third of the height, whatever the height was resampled to
+        const int r = (2 * third + 1) * rows / 6;
+        const double wanted = code_of(view, part == RG_ATLAS_ENV, 2 * third + 1, 6) / 65535.0;
+        for (int c = 0; c < width; c++) {
+            const double texel = (double)rg_half_value(texels[r * pitch + c]);
+            if (fabs(texel - wanted) > wanted * 6e-4)
+                fail_msg("part %d, view %d, column %d, level %d, third %d: %g, expected %g", part,
+                         view, column, level, third, texel, wanted);
+        }
+    }
+}
+
+static void test_packed(void **state)
+{
+    (void)state;
+    struct rg_atlas *atlas = rg_cave_pack(root, RG_ATLAS_CAVE_SMALL, NULL);
+    assert_non_null(atlas);
+    for (int view = 0; view < 5; view++)
+        for (int k = 0; k < 10; k++) {
+            for (int cell = 0; cell < 90; cell += 7)
+                for (int level = 0; level < 2; level++)
+                    expect_cell(atlas, RG_ATLAS_POINT, k, view, cell, level);
+            for (int level = 0; level < 2; level++)
+                expect_cell(atlas, RG_ATLAS_ENV, k, view, 0, level);
+            for (int cell = 0; cell < 90; cell++) {
+                // where there is one azimuth, it serves all nine
+                const int light = cell / 9, phi = light % 9 ? cell % 9 : 8;
+                const double wanted = factor_of(view, light, phi, k) * (double)RG_CAVE_POINT_SCALE;
+                const double factor = (double)atlas->point_factor[k][view][light][cell % 9];
+                assert_true(fabs(factor / wanted - 1) < 1e-5);
+            }
+            const double wanted = (0.5 + view + 0.01 * k) / 0.5 / 42.5;
+            assert_true(fabs((double)atlas->env_factor[k][view] / wanted - 1) < 1e-5);
+        }
+    rg_atlas_destroy(atlas);
+}
+
+// Packing fails with one line that names the file, and works again when it is back.
+static void expect_refused(const char *named, const char *said)
+{
+    lines = 0;
+    assert_null(rg_cave_pack(root, RG_ATLAS_CAVE_SMALL, NULL));
+    assert_int_equal(lines, 1);
+    if (!strstr(rg_last_error(), named) || !strstr(rg_last_error(), said))
+        fail_msg("'%s' names no %s, or says nothing of '%s'", rg_last_error(), named, said);
+}
+
+static void replace(const char *name, const char *content, size_t length, const char *said)
+{
+    char path[PATH_SIZE], kept[PATH_SIZE];
+    in_root(path, "%s", name);
+    in_root(kept, "kept");
+    assert_int_equal(rename(path, kept), 0);
+    if (content) {
+        FILE *file = fopen(path, "wb");
+        assert_non_null(file);
+        assert_int_equal(fwrite(content, 1, length, file), length);
+        assert_int_equal(fclose(file), 0);
+    }
+    expect_refused(name, said);
+    assert_int_equal(rename(kept, path), 0);
+}
+
+#define POINT "point_light_database/size8/dcam40/cv40_v-10_h90_osc3.png"
+#define TEXT  "point_light_database/txt/dcam60_point_max.txt"
+#define ENV   "env_light_database/txt/normalized_env_max.txt"
+
+static void test_refused(void **state)
+{
+    (void)state;
+    char path[PATH_SIZE], bytes[4096];
+    in_root(path, POINT);
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    const size_t length = fread(bytes, 1, sizeof(bytes), file);
+    fclose(file);
+    replace(POINT, NULL, 0, "");
+    replace(POINT, "no picture", 10, "");
+    replace(POINT, bytes, length / 2, "");
+    replace("env_light_database/size4/cv0_osc9.png", bytes, length, "8 x 203 pixels");
+    replace(TEXT, NULL, 0, "No such file");
+    replace(TEXT, "cv60 v10 h10 1 2 3", 18, "line 1");
+    replace(TEXT, "cv40\n", 5, "'cv40'");
+    replace(TEXT, "cv60\nv10\nh10 1 2 3 4 5 6 7 8 9 nan", 34, "line 3: 'nan'");
+    replace(TEXT, "cv60\nv10\nh20 1 2 3 4 5 6 7 8 9 10", 33, "'h20'");
+    replace(TEXT, "cv60\nv10\nh10 1 2 3 4 5 6 7 8 9 10", 33, "no factors for v");
+    replace(ENV, "cv0 1 1 1 1 1 1 1 1 1 1", 23, "no factors for cv20");
+    replace(ENV, "", 0, "no factors for cv0");
+    lines = 0;
+    assert_null(rg_cave_pack("/nonexistent", RG_ATLAS_CAVE, NULL));
+    assert_int_equal(lines, 1);
+    assert_non_null(strstr(rg_last_error(), "/nonexistent/point_light_database/txt/dcam00"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_packed),
+        cmocka_unit_test(test_refused),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
