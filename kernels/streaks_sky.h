@@ -50,8 +50,7 @@ RG_FN v3 streaks_sky_light(streaks_sky s, v3 d)
     float to_plane = 1.0f / (up + 0.08f);
     float x = d.x * to_plane + 32.0f;
     float y = d.z * to_plane + 32.0f;
-    float cloud = 0.6f * streaks_sky_noise(x * 1.5f, y * 2.5f) +
-                  0.4f * streaks_sky_noise(x * 4.0f + 7.0f, y * 7.0f);
+    float cloud = streaks_sky_noise(x * 1.5f, y * 2.5f);
     float lit = 1.0f + s.clouds * rg_min(up * 4.0f, 1.0f) * (cloud - 0.5f);
     return v3_make((s.horizon_r + (s.zenith_r - s.horizon_r) * share) * lit,
                    (s.horizon_g + (s.zenith_g - s.horizon_g) * share) * lit,

@@ -238,6 +238,103 @@ static void depth_from_above_is_the_height(void **state)
     close_stage(&stage);
 }
 
+// --- from the streets ---
+
+static void cross(const double a[3], const double b[3], double c[3])
+{
+    for (int i = 0; i < 3; i++)
+        c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void make_unit(double a[3])
+{
+    const double length = sqrt(dot(a, a));
+    for (int i = 0; i < 3; i++)
+        a[i] /= length;
+}
+
+// How far a ray goes before it meets a face, in lengths of `way`; 0 where it meets none.
+static double reach(const struct city_faces *f, const float from[3], const double way[3])
+{
+    double nearest = 0;
+    for (int i = 0; i < f->face_count; i++) {
+        const float *c = f->corners + (size_t)i * STREAKS_FACE_WORDS;
+        for (int k = 0; k < 2; k++) {
+            double u[3], v[3], s[3], p[3], q[3];
+            for (int j = 0; j < 3; j++) {
+                u[j] = (double)c[3 + 3 * k + j] - (double)c[j];
+                v[j] = (double)c[6 + 3 * k + j] - (double)c[j];
+                s[j] = (double)from[j] - (double)c[j];
+            }
+            cross(way, v, p);
+            cross(s, u, q);
+            const double det = dot(u, p), x = dot(s, p) / det, y = dot(way, q) / det;
+            const double t = dot(v, q) / det;
+            if (det > 1e-12 && x >= 0 && y >= 0 && x + y <= 1 && t > 0 &&
+                (nearest == 0 || t < nearest))
+                nearest = t;
+        }
+    }
+    return nearest;
+}
+
+// The distance ahead of what a place of the picture shows, by a ray.
+static double ahead(const struct city_faces *f, const struct rg_camera *camera, double px,
+                    double py)
+{
+    const double half = tan((double)camera->angle_deg / 2 * 3.141592653589793 / 180);
+    const double x = (2 * px / WIDTH - 1) * half * WIDTH / HEIGHT, y = (1 - 2 * py / HEIGHT) * half;
+    double forward[3], right[3], upward[3], way[3];
+    for (int c = 0; c < 3; c++)
+        forward[c] = (double)camera->target[c] - (double)camera->position[c];
+    make_unit(forward);
+    cross(forward, (const double[3]){0, 1, 0}, right);
+    make_unit(right);
+    cross(right, forward, upward);
+    for (int c = 0; c < 3; c++)
+        way[c] = forward[c] + right[c] * x + upward[c] * y;
+    return reach(f, camera->position, way);
+}
+
+// Faces of four corners too are as far as they look, all over.
+static void depth_is_where_rays_end(void **state)
+{
+    struct stage stage;
+    struct picture *picture = malloc(sizeof(*picture));
+    const struct streaks_scene_look look = streaks_scene_day();
+    open_stage(*state, NULL, STREAKS_DAY, 1, &stage);
+    const struct city_faces *faces = &streaks_scene_city(stage.scene)->faces;
+    int wrong = 0, met = 0;
+    for (int i = 0; i < VIEWS; i++) {
+        const struct rg_camera camera = camera_at(views[i][0], views[i][1]);
+        const double near = (double)camera.near_plane, far = (double)camera.far_plane;
+        draw(&stage, &camera, &look, false, picture);
+        for (int k = 0; k < WIDTH * HEIGHT; k += 211) {
+            float depth;
+            memcpy(&depth, &picture->depth[k], sizeof(depth));
+            const double drawn = depth < 1 ? near * far / (far - (double)depth * (far - near)) : 0;
+            bool right = false;
+            for (int j = 0; j < 5 && !right; j++) {
+                const double x = k % WIDTH + 0.5 + (j == 1 ? 0.02 : j == 2 ? -0.02 : 0);
+                const double y = (int)(k / WIDTH) + 0.5 + (j == 3 ? 0.02 : j == 4 ? -0.02 : 0);
+                const double due = ahead(faces, &camera, x, y);
+                right = fabs(drawn - due) <= 1e-3 * due + 1e-5 * due * due;
+            }
+            wrong += right ? 0 : 1;
+            met += drawn > 0 ? 1 : 0;
+        }
+    }
+    assert_int_equal(wrong, 0);
+    assert_true(met > 150);
+    free(picture);
+    close_stage(&stage);
+}
+
 // --- a mesh ---
 
 static void an_absent_mesh_is_refused(void **state)
@@ -255,6 +352,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_mesh_as_the_reference),
         cmocka_unit_test(culling_changes_no_pixel),
         cmocka_unit_test(depth_from_above_is_the_height),
+        cmocka_unit_test(depth_is_where_rays_end),
         cmocka_unit_test(an_absent_mesh_is_refused),
     };
     return raster_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
