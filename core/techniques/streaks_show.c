@@ -63,8 +63,8 @@ static void show_spaces(const struct streaks *s)
                               {space.high[0], space.high[1], ground}};
     const struct box volume = meet(&prism, &local);
     show_box(s, &space, &streaks_ink_rain_space);
-    show_sheet(s, local.low, local.high, top, &streaks_ink_local_planes, 0.2f);
-    show_sheet(s, local.low, local.high, ground, &streaks_ink_local_planes, 0.2f);
+    show_sheet(s, local.low, local.high, top, &streaks_ink_local_planes, 0.1f);
+    show_sheet(s, local.low, local.high, ground, &streaks_ink_local_planes, 0.1f);
     if (!s->settings.limits)
         return;
     show_box(s, &prism, &streaks_ink_radius);
