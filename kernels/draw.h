@@ -16,8 +16,7 @@
 // holds a fourth function:
 //
 //   RG_DRAW_LIGHT(name)     { ... }  the rgba that light number `light` adds at pixel (px, py),
-//   from
-//                                    the record r.
+//                                    from r.
 //
 // Its RG_DRAW_FRAGMENT also gets `rgba lit`: what the lights add, from 0 to p.lights - 1, to zero.
 // Only the colour may depend on it: depth and `kept` are also asked for before there is light, so

@@ -319,7 +319,7 @@ static bool streaks_draw(struct rg_instance *instance)
     instance->counters[STREAKS_PARTICLES].value += s->selection.particles;
     instance->counters[STREAKS_PACKETS].value += s->selection.packets;
     return streaks_scene_draw(s->scene, instance, &view, &look, s->lights, s->settings.geometry) &&
-           draw_rain(s) && (!s->overlay || streaks_show(s));
+           (!s->far || streaks_draw_far(s)) && draw_rain(s) && (!s->overlay || streaks_show(s));
 }
 
 const struct rg_technique rg_technique_streaks = {

@@ -36,7 +36,7 @@ struct streaks_settings {
     int drops, splashes, splash_materials;
     double drop_radius_mm, exposure_s, splash_s, splash_width_mm;
     double streak_gain, streak_opacity, splash_gain, splash_opacity;
-    int overlay, keeps_state;
+    int far_layers, overlay, keeps_state;
 };
 
 extern const struct rg_param_table streaks_param_table;

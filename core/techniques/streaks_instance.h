@@ -40,11 +40,12 @@ struct streaks {
     struct streaks_scene *scene;
     struct streaks_textures *textures;
     struct streaks_lights *lights;
-    struct streaks_overlay *overlay; // NULL: none
-    struct rg_camera camera;         // at frame 0
-    struct rg_image *depth_map;      // the scene seen along the fall
-    struct rg_image *depth;          // the target's
-    struct rg_pass *rain, *state;
+    struct streaks_overlay *overlay;    // NULL: none
+    struct rg_camera camera;            // at frame 0
+    struct rg_image *depth_map;         // the scene seen along the fall
+    struct rg_image *depth;             // the target's
+    struct rg_pass *rain, *state, *far; // NULL: not run
+    double drops_m3;                    // where the camera stands at frame 0
     int buffer_count;
     struct rg_buf *particles[STREAKS_MAX_BUFFERS], *blocks, *places;
     // of the present frame
@@ -61,6 +62,8 @@ void streaks_close(struct rg_instance *instance);
 // Moves the observer to the present frame, and makes what it draws: the selection, its blocks, the
 // parameters, the depth map where it is due. False, and one logged line, on failure.
 bool streaks_look(struct streaks *streaks);
+// Draws the layers of rain far away, farthest first.
+bool streaks_draw_far(struct streaks *streaks);
 // Draws the overlay of the present frame.
 bool streaks_show(struct streaks *streaks);
 

@@ -17,6 +17,7 @@ void streaks_close(struct rg_instance *instance)
     struct rg_device *device = instance->device;
     rg_pass_destroy(s->rain);
     rg_pass_destroy(s->state);
+    rg_pass_destroy(s->far);
     for (int i = 0; i < s->buffer_count; i++)
         rg_buf_destroy(s->particles[i]);
     rg_buf_destroy(s->blocks);
@@ -56,6 +57,20 @@ static bool create_space(struct streaks *s)
     return true;
 }
 
+static double drops_at_camera(const struct streaks *s, const struct rg_density *density)
+{
+    const double world[3] = {(double)s->camera.position[0], (double)s->camera.position[1],
+                             (double)s->camera.position[2]};
+    double rain[3];
+    streaks_rain_point(&s->space, world, rain);
+    const double column = (rain[0] / s->space.half_x_m + 1) / 2 * density->width;
+    const double row = (rain[1] / s->space.half_y_m + 1) / 2 * density->height;
+    if (!(column >= 0 && column < density->width && row >= 0 && row < density->height))
+        return 0;
+    return rg_density_at(density, (int)column, (int)row) * s->settings.drops_m2_s /
+           s->settings.fall_speed_m_s;
+}
+
 static bool create_packets(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
@@ -72,6 +87,7 @@ static bool create_packets(struct streaks *s)
     struct rg_density *density =
         set->density_map[0] ? rg_density_read(set->density_map) : rg_density_gradient();
     s->packets = density ? streaks_packets_create(&s->space, density, &settings) : NULL;
+    s->drops_m3 = density ? drops_at_camera(s, density) : 0;
     rg_density_destroy(density);
     return s->packets;
 }
@@ -187,6 +203,7 @@ static bool create_passes(struct streaks *s)
     return s->rain &&
            (!s->settings.keeps_state ||
             (s->state = rg_pass_create(s->base.device, "streaks_state"))) &&
+           (!s->settings.far_layers || (s->far = rg_pass_create(s->base.device, "streaks_far"))) &&
            (!s->settings.overlay || (s->overlay = streaks_overlay_open(s->base.device)));
 }
 

@@ -134,11 +134,12 @@ static bool fits(const struct streaks_packets_settings *settings, const struct s
 static bool refuse(const struct streaks_packets_settings *settings, const struct streaks_plan *plan,
                    int64_t total)
 {
-    return rg_error("rain: %lld particles in %lld packets (%s) take %.1f MiB, more than the %.1f "
-                    "MiB allowed; lower drops_m2_s or local_height_m, choose other packets, or "
-                    "allow more",
-                    (long long)total, (long long)plan->packets, streaks_scheme_name(plan->scheme),
-                    (double)plan->peak_bytes / (1 << 20), (double)allowed(settings) / (1 << 20));
+    return rg_unsupported(
+        "rain: %lld particles in %lld packets (%s) take %.1f MiB, more than the %.1f "
+        "MiB allowed; lower drops_m2_s or local_height_m, choose other packets, or "
+        "allow more",
+        (long long)total, (long long)plan->packets, streaks_scheme_name(plan->scheme),
+        (double)plan->peak_bytes / (1 << 20), (double)allowed(settings) / (1 << 20));
 }
 
 static bool refuse_cells(const struct streaks_packets_settings *settings)

@@ -61,6 +61,7 @@ static const struct rg_param rows[] = {
     {"streak_opacity", RG_PARAM_FLOAT, AT(streak_opacity), 1, 0, 40, "1", "what streaks hide of what lies behind, by the share of the exposure for which drops cover it", NULL},
     {"splash_gain", RG_PARAM_FLOAT, AT(splash_gain), 0.35, 0, 1000, "1", "light of splashes", NULL},
     {"splash_opacity", RG_PARAM_FLOAT, AT(splash_opacity), 0.35, 0, 1, "1", "what splashes hide at their thickest", NULL},
+    {"far_layers", RG_PARAM_INT, AT(far_layers), 0, 0, 64, "1", "rain beyond the culling radius, as so many layers that scroll, each as thick as the radius", NULL},
     {"overlay", RG_PARAM_CHOICE, AT(overlay), 0, 0, 1, "1", "draws the rain space, the local space, the culling radius, packets and lights as lines", "off on"},
     {"state", RG_PARAM_CHOICE, AT(keeps_state), 0, 0, 1, "1", "keeps each frame's particles for those who compare states", "off on"},
 };

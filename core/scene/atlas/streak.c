@@ -36,7 +36,7 @@ struct tracing {
 struct rg_streak_detail rg_streak_detail(enum rg_atlas_size size)
 {
     return size == RG_ATLAS_SMALL
-               ? (struct rg_streak_detail){.moments = 40, .column = 20, .along = 48}
+               ? (struct rg_streak_detail){.moments = 32, .column = 20, .along = 48}
                : (struct rg_streak_detail){.moments = 256, .column = 8, .along = 112};
 }
 

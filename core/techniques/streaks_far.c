@@ -1,0 +1,66 @@
+// Rain beyond the culling radius as layers that scroll (kernels/streaks_far.h).
+#include <math.h>
+#include <string.h>
+
+#include "core/techniques/streaks_instance.h"
+#include "kernels/streaks_far_params.h"
+
+// Directions of the rain frame, for what is in the world.
+static void turn(const float world_to_rain[16], const float rays[16], m4 *turned)
+{
+    float turning[16], product[16];
+    memcpy(turning, world_to_rain, sizeof(turning));
+    turning[3] = turning[7] = turning[11] = 0;
+    rg_matrix_multiply(turning, rays, product);
+    memcpy(turned, product, sizeof(*turned));
+}
+
+// A layer hides what all drops in it hide: each its cross-section, at any time of the exposure.
+static double opacity_of(const struct streaks *s)
+{
+    const double pi = 3.14159265358979323846, radius_m = s->settings.drop_radius_mm / 1000;
+    return s->drops_m3 * s->settings.culling_radius_m * pi * radius_m * radius_m *
+           s->settings.streak_opacity;
+}
+
+static streaks_far_params params_of(const struct streaks *s)
+{
+    const struct streaks_settings *set = &s->settings;
+    const double seconds = set->step_s * (double)s->base.frame;
+    const float light = (float)(set->streak_gain / fmax(set->streak_opacity, 1e-6));
+    float world_to_rain[16];
+    streaks_far_params p = {
+        .to_clip = s->params.to_clip,
+        .eye_x = s->params.eye_x,
+        .eye_y = s->params.eye_y,
+        .eye_s = s->params.eye_s,
+        .nearest = (float)set->culling_radius_m,
+        .thickness = (float)set->culling_radius_m,
+        .cell_length = (float)(2 * set->fall_speed_m_s * set->exposure_s),
+        .columns = 4096,
+        .opacity = (float)opacity_of(s),
+        .contrast = 0.5f,
+        .r = s->params.sky_r * light,
+        .g = s->params.sky_g * light,
+        .b = s->params.sky_b * light,
+        .seed = set->seed,
+    };
+    // The pattern repeats nowhere; whole cells are taken off so that floats stay precise.
+    const double cells = 65536 * (double)p.cell_length;
+    p.fallen = (float)fmod(set->fall_speed_m_s * seconds, cells);
+    streaks_rain_matrices(&s->space, world_to_rain, NULL);
+    turn(world_to_rain, s->observer.rays, &p.rays);
+    return p;
+}
+
+bool streaks_draw_far(struct streaks *s)
+{
+    const streaks_far_params p = params_of(s);
+    const struct rg_draw onto = {.colour = s->base.target,
+                                 .depth = s->depth,
+                                 .blend = RG_BLEND_OVER,
+                                 .depth_mode = RG_DEPTH_TEST};
+    return rg_instance_run(
+        &s->base, s->far,
+        &(struct rg_run){.params = &p, .extent = {s->settings.far_layers, 1, 1}, .draw = &onto});
+}
