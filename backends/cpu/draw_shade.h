@@ -217,13 +217,12 @@ static void draw_row(struct shader *s, int prim, int x, int y, int count)
     }
 }
 
-// A triangle's pixels do not coincide, so that only what was listed before it comes before its
-// rows.
-static void draw_block(struct shader *s, int prim, const rg_triangle *t, int x, int y, int width,
-                       int height, bool *flushed)
+// A shape's pixels do not coincide, so that only what was listed before it comes before its rows.
+static void draw_block(struct shader *s, int prim, const struct convex *shape, int x, int y,
+                       int width, int height, bool *flushed)
 {
     struct spans spans;
-    make_spans(&spans, t, x, y, width, height);
+    make_spans(&spans, shape, x, y, width, height);
     for (int row = 0; row < height; row++) {
         const int begin = spans.begin[row], count = spans.end[row] - begin;
         if (count >= WIDE_SPAN) {
@@ -238,20 +237,31 @@ static void draw_block(struct shader *s, int prim, const rg_triangle *t, int x, 
     }
 }
 
-static void draw_triangle(struct shader *s, int prim, rg_triangle t)
+static void draw_convex(struct shader *s, int prim, const struct convex *shape)
 {
-    const int begin_x = rg_imax(t.first_x, s->x0), end_x = rg_imin(t.end_x, s->x1);
-    const int begin_y = rg_imax(t.first_y, s->y0), end_y = rg_imin(t.end_y, s->y1);
+    const rg_triangle *t = &shape->t;
+    const int begin_x = rg_imax(t->first_x, s->x0), end_x = rg_imin(t->end_x, s->x1);
+    const int begin_y = rg_imax(t->first_y, s->y0), end_y = rg_imin(t->end_y, s->y1);
     bool flushed = false;
     for (int y = begin_y; y < end_y; y += CPU_BLOCK_PX)
         for (int x = begin_x; x < end_x; x += CPU_BLOCK_PX)
-            draw_block(s, prim, &t, x, y, rg_imin(end_x - x, CPU_BLOCK_PX),
+            draw_block(s, prim, shape, x, y, rg_imin(end_x - x, CPU_BLOCK_PX),
                        rg_imin(end_y - y, CPU_BLOCK_PX), &flushed);
+}
+
+static void draw_triangle(struct shader *s, int prim, rg_triangle t)
+{
+    draw_convex(s, prim, &(struct convex){.t = t});
 }
 
 static void draw_corners(struct shader *s, int prim)
 {
     const rg_snapped c = s->bins->corners[prim];
+    struct convex quad;
+    if (s->program->corners == 4 && make_convex(&s->draw, c, &quad)) {
+        draw_convex(s, prim, &quad);
+        return;
+    }
     draw_triangle(s, prim, rg_triangle_make(s->draw, c.x0, c.y0, c.x1, c.y1, c.x2, c.y2));
     if (s->program->corners == 4)
         draw_triangle(s, prim, rg_triangle_make(s->draw, c.x0, c.y0, c.x2, c.y2, c.x3, c.y3));

@@ -48,8 +48,47 @@ static void cut_spans(struct spans *spans, rg_edge e, int x, int y, int rows)
     }
 }
 
-// The spans of a triangle in the block of width x height pixels at (x, y).
-static void make_spans(struct spans *spans, const rg_triangle *t, int x, int y, int width,
+// A triangle, or a convex quad: the triangle then has its box and three of its edges.
+struct convex {
+    rg_triangle t;
+    bool is_quad;
+    rg_edge fourth;
+};
+
+// Positive where three corners turn as those of a triangle's edges do.
+static inline int64_t turn_of(int x0, int y0, int x1, int y1, int x2, int y2)
+{
+    return (int64_t)(x0 - x1) * (y2 - y0) - (int64_t)(x2 - x0) * (y0 - y1);
+}
+
+// A quad whose corners all turn the same way. Its two triangles cover together what lies inside its
+// four edges: the edge that they share gives each centre on it to one of them.
+static bool make_convex(const rg_draw_state *draw, rg_snapped c, struct convex *shape)
+{
+    const int64_t at_1 = turn_of(c.x0, c.y0, c.x1, c.y1, c.x2, c.y2);
+    const int64_t at_2 = turn_of(c.x1, c.y1, c.x2, c.y2, c.x3, c.y3);
+    const int64_t at_3 = turn_of(c.x2, c.y2, c.x3, c.y3, c.x0, c.y0);
+    const int64_t at_0 = turn_of(c.x3, c.y3, c.x0, c.y0, c.x1, c.y1);
+    const bool turned = at_1 < 0 && at_2 < 0 && at_3 < 0 && at_0 < 0;
+    if (!turned && !(at_1 > 0 && at_2 > 0 && at_3 > 0 && at_0 > 0))
+        return false;
+    const int bx = turned ? c.x3 : c.x1, by = turned ? c.y3 : c.y1;
+    const int dx = turned ? c.x1 : c.x3, dy = turned ? c.y1 : c.y3;
+    const rg_triangle near = rg_triangle_make(*draw, c.x0, c.y0, bx, by, c.x2, c.y2);
+    const rg_triangle far = rg_triangle_make(*draw, c.x0, c.y0, c.x2, c.y2, dx, dy);
+    shape->is_quad = true;
+    shape->t = near; // its third edge is the one that both share
+    shape->t.c = rg_edge_make(c.x2, c.y2, dx, dy);
+    shape->fourth = rg_edge_make(dx, dy, c.x0, c.y0);
+    shape->t.first_x = rg_imin(near.first_x, far.first_x);
+    shape->t.first_y = rg_imin(near.first_y, far.first_y);
+    shape->t.end_x = rg_imax(near.end_x, far.end_x);
+    shape->t.end_y = rg_imax(near.end_y, far.end_y);
+    return true;
+}
+
+// The spans of a shape in the block of width x height pixels at (x, y).
+static void make_spans(struct spans *spans, const struct convex *shape, int x, int y, int width,
                        int height)
 {
     const int rows = cpu_padded(height);
@@ -57,9 +96,11 @@ static void make_spans(struct spans *spans, const rg_triangle *t, int x, int y, 
         spans->begin[i] = 0;
         spans->end[i] = width;
     }
-    cut_spans(spans, t->a, x, y, rows);
-    cut_spans(spans, t->b, x, y, rows);
-    cut_spans(spans, t->c, x, y, rows);
+    cut_spans(spans, shape->t.a, x, y, rows);
+    cut_spans(spans, shape->t.b, x, y, rows);
+    cut_spans(spans, shape->t.c, x, y, rows);
+    if (shape->is_quad)
+        cut_spans(spans, shape->fourth, x, y, rows);
 }
 
 #endif

@@ -139,14 +139,14 @@ static void hide(struct streaks_cull *cull, const struct polygon *g, float slack
     }
     if (!(most > 1e-3f) || area == 0)
         return;
-    const int first = (int)ceilf(rg_max(low, 0)),
-              end = (int)floorf(rg_min(high, STREAKS_CULL_DOWN));
+    const int first = (int)ceilf(rg_clamp(low, 0, STREAKS_CULL_DOWN)),
+              end = (int)floorf(rg_clamp(high, 0, STREAKS_CULL_DOWN));
     for (int row = first; row < end; row++) {
         float l0, r0, l1, r1;
         if (!cross(g, (float)row, &l0, &r0) || !cross(g, (float)row + 1, &l1, &r1))
             continue;
-        const int from = (int)ceilf(rg_max(rg_max(l0, l1) + slack, 0));
-        const int to = (int)floorf(rg_min(rg_min(r0, r1) - slack, STREAKS_CULL_ACROSS));
+        const int from = (int)ceilf(rg_clamp(rg_max(l0, l1) + slack, 0, STREAKS_CULL_ACROSS));
+        const int to = (int)floorf(rg_clamp(rg_min(r0, r1) - slack, 0, STREAKS_CULL_ACROSS));
         const float at_row = z[0] + ay * ((float)row + (ay > 0 ? 1.0f : 0.0f) - y[0]);
         for (int column = from; column < to; column++) {
             const float depth =
@@ -178,6 +178,12 @@ static void hide_box(struct streaks_cull *cull, const struct city_box *box, cons
     }
 }
 
+// The cell of a coordinate over w; what lies beyond the view has the outermost one.
+static int cell_of(float over_w, int cells)
+{
+    return (int)rg_clamp((over_w + 1) * 0.5f * (float)cells, 0, (float)(cells - 1));
+}
+
 // Whether boxes hide all of the chunk.
 static bool hidden(const struct streaks_cull *cull, const struct corner corners[8])
 {
@@ -192,10 +198,8 @@ static bool hidden(const struct streaks_cull *cull, const struct corner corners[
         y1 = rg_max(y1, c->y / c->w);
         nearest = rg_min(nearest, c->z / c->w);
     }
-    const int first_x = (int)(rg_max(x0 + 1, 0) * 0.5f * STREAKS_CULL_ACROSS);
-    const int first_y = (int)(rg_max(y0 + 1, 0) * 0.5f * STREAKS_CULL_DOWN);
-    const int last_x = (int)rg_min((x1 + 1) * 0.5f * STREAKS_CULL_ACROSS, STREAKS_CULL_ACROSS - 1);
-    const int last_y = (int)rg_min((y1 + 1) * 0.5f * STREAKS_CULL_DOWN, STREAKS_CULL_DOWN - 1);
+    const int first_x = cell_of(x0, STREAKS_CULL_ACROSS), last_x = cell_of(x1, STREAKS_CULL_ACROSS);
+    const int first_y = cell_of(y0, STREAKS_CULL_DOWN), last_y = cell_of(y1, STREAKS_CULL_DOWN);
     for (int y = first_y; y <= last_y; y++)
         for (int x = first_x; x <= last_x; x++)
             if (cull->hidden[y][x] >= nearest)

@@ -9,6 +9,8 @@
 
 // Chunks do not leave a cell: 16 x 16 x 16 of them, or fewer where there are few faces.
 enum { MANY_FACES = 100000, MANY_BITS = 4, FEW_BITS = 2 };
+// Within cells faces lie in the order of a finer grid.
+enum { FINE_BITS = 10, PLACE_BITS = 3 * FINE_BITS };
 
 static int cell_bits(const struct city_faces *f)
 {
@@ -68,7 +70,6 @@ static uint64_t interleave(const uint32_t at[3], int bits)
 
 static uint64_t order_of(const struct city_faces *f, int face)
 {
-    enum { FINE_BITS = 10 };
     const float *p = corners_of(f, face);
     uint32_t at[3], cell[3];
     for (int c = 0; c < 3; c++) {
@@ -78,12 +79,15 @@ static uint64_t order_of(const struct city_faces *f, int face)
         at[c] = (uint32_t)rg_min(rg_max(share, 0), (1 << FINE_BITS) - 1);
         cell[c] = at[c] >> (FINE_BITS - cell_bits(f));
     }
-    const uint64_t places = UINT64_C(1) << 3 * FINE_BITS;
+    const uint64_t places = UINT64_C(1) << PLACE_BITS;
     // Six ways to look, and all others.
     static const float ways[6][3] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
                                      {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
+    // Leaves do not look the way that they are lit from.
+    const uint32_t look =
+        f->surfaces[(size_t)f->surface_of[face] * STREAKS_SURFACE_WORDS + STREAKS_LOOK];
     uint64_t way = 6;
-    for (int i = 0; i < 6; i++)
+    for (int i = 0; i < 6 && streaks_kind(look) != STREAKS_KIND_LEAVES; i++)
         if (normal_of(f, face) == mesh_normal_pack(v3_make(ways[i][0], ways[i][1], ways[i][2])))
             way = (uint64_t)i;
     return (interleave(cell, cell_bits(f)) * 8 + way) * places + interleave(at, FINE_BITS);
@@ -110,24 +114,31 @@ static bool reorder(struct city_faces *f, const struct key *keys)
     return true;
 }
 
+// The chunk that begins with face i.
+static struct city_chunk *begin_chunk(struct city_faces *f, int i, uint64_t cell_and_way)
+{
+    struct city_chunk *chunk = &f->chunks[f->chunk_count++];
+    const v3 n = mesh_normal_unpack(normal_of(f, i));
+    const bool alike = cell_and_way % 8 < 6;
+    *chunk = (struct city_chunk){.first = i};
+    empty_bounds(chunk->low, chunk->high);
+    if (alike) {
+        chunk->normal[0] = n.x;
+        chunk->normal[1] = n.y;
+        chunk->normal[2] = n.z;
+    }
+    return chunk;
+}
+
 // A chunk ends with its cell and direction, or where it is full.
 static void cut(struct city_faces *f, const struct key *keys)
 {
-    const int place_bits = 30;
+    struct city_chunk *chunk = NULL;
     for (int i = 0; i < f->face_count; i++) {
-        struct city_chunk *chunk = &f->chunks[f->chunk_count - 1];
-        if (!i || keys[i].order >> place_bits != keys[i - 1].order >> place_bits ||
-            chunk->count == CITY_CHUNK_FACES) {
-            chunk = &f->chunks[f->chunk_count++];
-            chunk->first = i;
-            chunk->count = 0;
-            empty_bounds(chunk->low, chunk->high);
-            const v3 n = mesh_normal_unpack(normal_of(f, i));
-            const bool alike = (keys[i].order >> place_bits) % 8 < 6;
-            chunk->normal[0] = alike ? n.x : 0;
-            chunk->normal[1] = alike ? n.y : 0;
-            chunk->normal[2] = alike ? n.z : 0;
-        }
+        const uint64_t cell_and_way = keys[i].order >> PLACE_BITS;
+        if (!chunk || chunk->count == CITY_CHUNK_FACES ||
+            cell_and_way != keys[i - 1].order >> PLACE_BITS)
+            chunk = begin_chunk(f, i, cell_and_way);
         chunk->count++;
         add_bounds(f, i, chunk->low, chunk->high);
     }
@@ -146,7 +157,7 @@ bool city_faces_sort(struct city_faces *f)
         qsort(keys, (size_t)f->face_count, sizeof(*keys), compare_keys);
         int most = 1 + f->face_count / CITY_CHUNK_FACES;
         for (int i = 1; i < f->face_count; i++)
-            most += keys[i].order >> 30 != keys[i - 1].order >> 30 ? 1 : 0;
+            most += keys[i].order >> PLACE_BITS != keys[i - 1].order >> PLACE_BITS ? 1 : 0;
         f->chunk_count = 0;
         f->chunks = rg_alloc((size_t)most + 1, sizeof(*f->chunks), "scene");
         ok = f->chunks && reorder(f, keys);

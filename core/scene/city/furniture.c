@@ -21,6 +21,18 @@ static uint32_t place_of(double x, double z)
     return (uint32_t)(int)((x + 200) * 10) * 4096u + (uint32_t)(int)((z + 200) * 10);
 }
 
+// Whether a place is so near to one of the cameras that what stands there would fill its picture.
+static bool is_before_camera(double x, double z)
+{
+    const struct rg_camera *const cameras[] = {&city_first_camera, &city_second_camera};
+    bool before = false;
+    for (int i = 0; i < 2; i++) {
+        const float *p = cameras[i]->position;
+        before |= hypot(x - (double)p[0], z - (double)p[2]) < 11;
+    }
+    return before;
+}
+
 // --- lamps ---
 
 #define LAMP_HEIGHT_M 8.0
@@ -109,6 +121,18 @@ static void build_signals(struct city_builder *b, const struct city_island *o)
 
 // --- trees ---
 
+// Leaves are lit as if they were round, not in the facets that stand for them.
+static void leaf_triangle(struct city_builder *b, const struct look *look, point centre, point p0,
+                          point p1, point p2)
+{
+    const point p[3] = {p0, p1, p2};
+    point n = {(p0.x + p1.x + p2.x) / 3 - centre.x, (p0.y + p1.y + p2.y) / 3 - centre.y,
+               (p0.z + p1.z + p2.z) / 3 - centre.z};
+    const double length = sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+    n = (point){n.x / length, n.y / length, n.z / length};
+    city_triangle_on(b, p, city_surface(b, look, n, NULL));
+}
+
 // A lump of leaves: a sphere of `rings` rings that chance dents.
 static void build_crown(struct city_builder *b, point centre, double radius, int rings, uint32_t id)
 {
@@ -129,15 +153,17 @@ static void build_crown(struct city_builder *b, point centre, double radius, int
     for (int i = 0; i < rings; i++) {
         for (int j = 0; j < sides; j++) {
             if (i < rings - 1)
-                city_triangle(b, at[i][j], at[i + 1][j], at[i + 1][j + 1], &leaves);
+                leaf_triangle(b, &leaves, centre, at[i][j], at[i + 1][j], at[i + 1][j + 1]);
             if (i > 0)
-                city_triangle(b, at[i][j], at[i + 1][j + 1], at[i][j + 1], &leaves);
+                leaf_triangle(b, &leaves, centre, at[i][j], at[i + 1][j + 1], at[i][j + 1]);
         }
     }
 }
 
 static void build_tree(struct city_builder *b, double x, double z, double y)
 {
+    if (is_before_camera(x, z))
+        return;
     const uint32_t id = place_of(x, z);
     const double height = 2.6 + 1.2 * city_chance(b, CHANCE_TREE, id, 1000);
     const double radius = 1.5 + 0.5 * city_chance(b, CHANCE_TREE, id, 1001);
@@ -215,6 +241,8 @@ static void car_body(struct city_builder *b, const point low[4], const point hig
 
 static void build_car(struct city_builder *b, double x, double z, bool along_z)
 {
+    if (is_before_camera(x, z))
+        return;
     const uint32_t id = place_of(x, z);
     static const uint32_t colours[] = {0x303030u, 0xd8d8d8u, 0x9a9a94u, 0x2a2a90u,
                                        0x803020u, 0x486048u, 0xf0f0f0u, 0x584030u};
