@@ -7,9 +7,11 @@
 
 #include <cmocka.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -188,6 +190,26 @@ static void test_other_things(void **state)
     rg_atlas_destroy(atlas);
 }
 
+// On a full disk what was there stays, and nothing is left beside it.
+static void test_full_disk(void **state)
+{
+    (void)state;
+    write_atlas(6);
+    struct rg_atlas *atlas = make(7);
+    struct rlimit limit, small;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+    small = limit;
+    small.rlim_cur = 1000000;
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const bool written = rg_atlas_cache_write(atlas, why);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    assert_false(written);
+    assert_non_null(strstr(why, "File too large"));
+    expect_state(RG_ATLAS_SOUND);
+    rg_atlas_destroy(atlas);
+}
+
 static void test_where(void **state)
 {
     (void)state;
@@ -255,13 +277,10 @@ static void test_unpacked_database(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_flipped_bits),
-        cmocka_unit_test(test_wrong_lengths),
-        cmocka_unit_test(test_other_things),
-        cmocka_unit_test(test_where),
-        cmocka_unit_test(test_writers_at_once),
-        cmocka_unit_test(test_unpacked_database),
+        cmocka_unit_test(test_round_trip),      cmocka_unit_test(test_flipped_bits),
+        cmocka_unit_test(test_wrong_lengths),   cmocka_unit_test(test_other_things),
+        cmocka_unit_test(test_full_disk),       cmocka_unit_test(test_where),
+        cmocka_unit_test(test_writers_at_once), cmocka_unit_test(test_unpacked_database),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -37,7 +37,7 @@ struct rg_streak_detail rg_streak_detail(enum rg_atlas_size size)
 {
     return size == RG_ATLAS_SMALL
                ? (struct rg_streak_detail){.moments = 32, .column = 20, .along = 48}
-               : (struct rg_streak_detail){.moments = 256, .column = 8, .along = 112};
+               : (struct rg_streak_detail){.moments = 192, .column = 8, .along = 176};
 }
 
 // The integral of a tent of width 2 from its middle.
@@ -144,7 +144,7 @@ static bool prepare(struct tracing *t, int view, int level, const struct rg_stre
     t->top_row = 0.5 * (height - t->fall_rows);
     t->moments = detail->moments;
     t->step_u = 1 / ((float)detail->column * t->radius_x);
-    t->step_v = 2.0f / (float)detail->along * (float)fmax(foreshortening, 0.5);
+    t->step_v = 2.0f / (float)detail->along * (float)fmax(foreshortening, 2.0 / 3);
     t->rays = 2 * (int)ceilf(RG_DROP_REACH / t->step_u);
     t->rows = 2 * (int)ceilf(RG_DROP_REACH / t->step_v);
     if (t->rays > RG_TRACE_MAX || 2 * t->fall_rows / detail->moments + 2 > MAX_BLUR)
