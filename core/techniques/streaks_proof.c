@@ -71,24 +71,24 @@ static const struct rg_mutant mutants[] = {
     {"1 % more rain", "drops_m2_s", 1.01, 0},
     {"1 % slower fall", "fall_speed_m_s", 0.99, 0},
     {"drops 1 % larger", "drop_radius_mm", 1.01, 0},
-    {"splashes 2 % longer", "splash_s", 1.02, 0},
+    {"splashes 5 % longer", "splash_s", 1.05, 0},
     {"streaks 3 % brighter", "streak_gain", 1.03, 0},
     {"a light missing", "lights", 1, -1},
     {NULL, NULL, 0, 0},
 };
 
 static const struct rg_contrast contrasts[] = {
-    {"splashes lost", "", "splashes=off"},
-    {"no light from the sky", "", "environment_light=off"},
-    {"shadows lost", "time=night lights=4", "time=night lights=4 shadows=off"},
-    {"views from below as from above", "", "view_below=absolute"},
+    {"splashes lost", SMALL, "splashes=off"},
+    {"no light from the sky", SMALL, "environment_light=off"},
+    {"shadows lost", SMALL "time=night lights=4", "shadows=off"},
+    {"views from below as from above", SMALL "streak_gain=10", "view_below=absolute"},
     {NULL, NULL, NULL},
 };
 
 const struct rg_proof streaks_proof = {
     .poses = poses,
     .dry = "drops=off splashes=off",
-    .mutant_scene = SMALL,
+    .mutant_scene = SMALL "streak_gain=10 splash_gain=1",
     .laws = laws,
     .mutants = mutants,
     .contrasts = contrasts,
