@@ -26,6 +26,9 @@ VERIFY = "verify flow --frame 5 --device cpu " + SMALL
 RENDER = ("render flow --set environment=sky --set environment_px=16 --set resolution_px=32 --set model=none "
           "--size 32x32 --frame 1 ")
 
+RAIN = ("render streaks --size 32x18 --frame 1 --set atlas=small --set city=small --set depth_map_px=64 "
+        "--set shadow_map_px=16 ")
+
 ON_CPU = [
     # every command
     Case("", 2, None),
@@ -89,6 +92,19 @@ ON_CPU = [
     # a model stands in a box of glass alone, and is not looked for elsewhere
     Case(RENDER + "--set panes=mirror --set model=nonsense -o {tmp}/a.png", 0, None, made=("a.png",)),
     Case(RENDER + "--set view=pane --set model=nonsense -o {tmp}/a.png", 0, None, made=("a.png",)),
+
+    # render: rain that cannot be
+    Case(RAIN + "--set density_map=/nonexistent.png -o {tmp}/a.png", 2, r"/nonexistent\.png: .*check the name"),
+    Case(RAIN + "--set density_map={data}/folder.exr -o {tmp}/a.png", 2, r"folder\.exr: "),
+    Case(RAIN + "--set drops_m2_s=0 -o {tmp}/a.png", 2, r"0 drops a square metre and second; give a number above 0"),
+    Case(RAIN + "--set drops_m2_s=1e9 -o {tmp}/a.png", 2, r"1\.02666e\+14 particles .*lower drops_m2_s"),
+    Case(RAIN + "--set packet_size=1 -o {tmp}/a.png", 2, r"take 24328\.1 MiB, more than the .* allowed"),
+    Case(RAIN + "--set camera=free --set eye_y_m=-3 -o {tmp}/a.png", 2, r"its eye is 3 m below the ground; raise eye_y_m"),
+    Case(RAIN + "--set culling_radius_m=5000 -o {tmp}/a.png", 2, r"5000 m is wider than the rain space .*limits=off"),
+    Case(RAIN + "--set local_height_m=500 -o {tmp}/a.png", 2, r"500 m is higher than the rain space"),
+    Case(RAIN + "--set lights=17 -o {tmp}/a.png", 2, r"parameter 'lights': 17 is out of range; 0 to 16"),
+    Case(RAIN + "--set lights_file={data}/a.png -o {tmp}/a.png", 2, r"a\.png:1:0: .*docs/lights\.md"),
+    Case(RAIN + "--set scene={data}/a.png -o {tmp}/a.png", 2, r"a\.png: Assimp cannot read it"),
 
     # render: the scene's absurd values
     Case(RENDER + "--set panes=wood -o {tmp}/a.png", 2, r"parameter 'panes': 'wood' is none of: glass mirror"),
