@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "core/techniques/streaks_instance.h"
 #include "kernels/format.h"
@@ -23,7 +24,7 @@ enum { WIDTH = 160, HEIGHT = 90, TEXELS = WIDTH * HEIGHT };
 
 static struct rg_device *device;
 
-static struct streaks *open(const char *settings)
+static struct streaks *open_rain(const char *settings)
 {
     const struct rg_technique *technique = rg_technique_find("streaks");
     char all[1024];
@@ -38,7 +39,7 @@ static struct streaks *open(const char *settings)
     return (struct streaks *)instance;
 }
 
-static void close(struct streaks *s)
+static void close_rain(struct streaks *s)
 {
     s->base.technique->destroy(&s->base);
 }
@@ -66,10 +67,10 @@ static struct picture *read_picture(struct streaks *s)
 
 static struct picture *draw(const char *settings, int frames)
 {
-    struct streaks *s = open(settings);
+    struct streaks *s = open_rain(settings);
     step(s, frames);
     struct picture *picture = read_picture(s);
-    close(s);
+    close_rain(s);
     return picture;
 }
 
@@ -175,10 +176,10 @@ static void test_drops_stay_put(void **state)
     for (int i = 0; i < 2; i++) {
         char settings[256];
         snprintf(settings, sizeof(settings), common, i ? 14.25 : 12.0);
-        struct streaks *s = open(settings);
+        struct streaks *s = open_rain(settings);
         step(s, 7);
         places[i] = read_places(s);
-        close(s);
+        close_rain(s);
     }
     int64_t seen = 0, wrapped = 0;
     assert_int_equal(places[0].count, places[1].count);
@@ -230,8 +231,8 @@ static void test_one_splash_a_hit(void **state)
     (void)state;
     // 15 m at 10 m/s are a life of 90 frames; splashes last for 12.
     const int frames = 200, lasts = 12;
-    struct streaks *s = open("state=on packets=world local_height_m=15 fall_speed_m_s=10 "
-                             "splash_s=0.2 drops_m2_s=20");
+    struct streaks *s = open_rain("state=on packets=world local_height_m=15 fall_speed_m_s=10 "
+                                  "splash_s=0.2 drops_m2_s=20");
     struct life *lives = NULL;
     int64_t count = 0, splashes = 0, falling = 0;
     for (int frame = 0; frame < frames; frame++) {
@@ -252,7 +253,7 @@ static void test_one_splash_a_hit(void **state)
     }
     assert_true(falling > 500 && splashes >= 2 * falling);
     free(lives);
-    close(s);
+    close_rain(s);
 }
 
 // --- light ---
@@ -277,9 +278,12 @@ static void write_lights(const char *path, bool first, bool second)
 static void test_lights_add_up(void **state)
 {
     (void)state;
-    const char *const path = "test_streaks_lights.json";
-    const char *const settings = "geometry=off environment_light=off streak_opacity=0 "
-                                 "splash_opacity=0 lights_file=test_streaks_lights.json";
+    // Tests of several devices run side by side.
+    char path[64], settings[256];
+    snprintf(path, sizeof(path), "test_streaks_%ld.json", (long)getpid());
+    snprintf(settings, sizeof(settings),
+             "geometry=off environment_light=off streak_opacity=0 splash_opacity=0 lights_file=%s",
+             path);
     struct picture *dry = draw("geometry=off drops=off splashes=off lights=0", 2);
     double added[4][3];
     for (int i = 1; i < 4; i++) {
