@@ -51,7 +51,7 @@ RG_FN float streaks_far_noise(int seed, int column, int row)
 // The pattern's brightness, 0 to 1: columns without a seam, each with a phase of its own.
 RG_FN float streaks_far_pattern(streaks_far_params p, streaks_far_layer r, float azimuth, float s)
 {
-    float across = (azimuth * (0.5f / RG_PI) + 0.5f) * r.columns;
+    float across = (azimuth * 0.159154943f + 0.5f) * r.columns;
     int column = rg_to_int(rg_clamp(across, 0.0f, r.columns - 1.0f));
     int seed = p.seed + 7919 * r.layer;
     float along = s / p.cell_length + 64.0f * streaks_far_noise(seed, column, -1);

@@ -124,9 +124,13 @@ RG_FN int streaks_level(float texels, float pixels, int last)
     return rg_imin(rg_to_int(rg_log2(ratio) + 0.5f), last);
 }
 
+// 180 / pi / 20: written out, for compilers round what they reckon before the program runs in ways of
+// their own.
+#define STREAKS_STEPS_A_RADIAN 2.86478898f
+
 RG_FN float streaks_steps(float radians)
 {
-    return radians * (180.0f / RG_PI / 20.0f);
+    return radians * STREAKS_STEPS_A_RADIAN;
 }
 
 // Elevation above the plane across the fall, of a direction of length 1, in steps of 20 degrees.
