@@ -13,17 +13,14 @@
 
 static bool write_frame(struct rg_instance *instance, const char *path, double exposure)
 {
-    size_t size;
-    void *texels = rg_frame_read(instance, &size);
     struct rg_picture picture = {0};
-    bool ok = texels && rg_frame_picture(instance, texels, &picture);
+    bool ok = rg_frame_read_picture(instance, &picture);
     if (ok) {
         rg_picture_drop_opaque_alpha(&picture);
         ok = rg_picture_write(path, &picture,
                               &(struct rg_write_options){.exposure = (float)exposure});
     }
     rg_picture_destroy(&picture);
-    free(texels);
     return ok;
 }
 

@@ -45,6 +45,15 @@ bool rg_frame_picture(const struct rg_instance *instance, const void *texels,
     return true;
 }
 
+bool rg_frame_read_picture(struct rg_instance *instance, struct rg_picture *picture)
+{
+    size_t size;
+    void *texels = rg_frame_read(instance, &size);
+    const bool ok = texels && rg_frame_picture(instance, texels, picture);
+    free(texels);
+    return ok;
+}
+
 bool rg_frame_draw(const struct rg_technique *technique, const void *settings,
                    struct rg_device *device, int width, int height, int frames,
                    struct rg_picture *picture)
@@ -52,10 +61,7 @@ bool rg_frame_draw(const struct rg_technique *technique, const void *settings,
     struct rg_instance *instance = rg_frame_run(technique, settings, device, width, height, frames);
     if (!instance)
         return false;
-    size_t size;
-    void *texels = rg_frame_read(instance, &size);
-    const bool ok = texels && rg_frame_picture(instance, texels, picture);
-    free(texels);
+    const bool ok = rg_frame_read_picture(instance, picture);
     technique->destroy(instance);
     return ok;
 }

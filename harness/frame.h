@@ -18,6 +18,9 @@ void *rg_frame_read(struct rg_instance *instance, size_t *size);
 bool rg_frame_picture(const struct rg_instance *instance, const void *texels,
                       struct rg_picture *picture);
 
+// Both at once; the caller destroys the picture. False, and one logged line, on failure.
+bool rg_frame_read_picture(struct rg_instance *instance, struct rg_picture *picture);
+
 // Runs to a frame as rg_frame_run does and brings its picture, which the caller destroys. False,
 // and one logged line, on failure.
 bool rg_frame_draw(const struct rg_technique *technique, const void *settings,

@@ -21,33 +21,19 @@ RG_STRUCT(test_lit_quad)
 #include "draw.h"
 
 #include "math.h"
-
-RG_FN rg_corner test_corner(rg_ctx rg, int i, int k)
-{
-    int at = i * TEST_QUAD_WORDS + 4 * k;
-    return rg_corner_make(quads_at(rg, at), quads_at(rg, at + 1), quads_at(rg, at + 2),
-                          quads_at(rg, at + 3));
-}
+#include "test_quad_item.h"
 
 RG_DRAW_ITEM(test_lights)
 {
-    rg_item t;
-    t.alive = 1;
-    t.a = test_corner(rg, i, 0);
-    t.b = test_corner(rg, i, 1);
-    t.c = test_corner(rg, i, 2);
-    t.d = test_corner(rg, i, 3);
-    return t;
+    return test_quad_item(rg, i);
 }
 
 RG_DRAW_RECORD(test_lights)
 {
-    int at = i * TEST_QUAD_WORDS + 16;
     test_lit_quad r;
-    r.colour =
-        rg_rgba(quads_at(rg, at), quads_at(rg, at + 1), quads_at(rg, at + 2), quads_at(rg, at + 3));
+    r.colour = test_quad_colour(rg, i);
     r.normal = v3_unit(v3_make(r.colour.r - 0.5f, r.colour.g - 0.5f, r.colour.b + 0.5f));
-    r.depth = rg_abs(quads_at(rg, i * TEST_QUAD_WORDS + 2));
+    r.depth = test_quad_depth(rg, i);
     r.slope = r.colour.g * 0.001f;
     return r;
 }

@@ -15,31 +15,18 @@ RG_STRUCT(test_quad)
 #define RG_RECORD test_quad
 #include "draw.h"
 
-RG_FN rg_corner test_corner(rg_ctx rg, int i, int k)
-{
-    int at = i * TEST_QUAD_WORDS + 4 * k;
-    return rg_corner_make(quads_at(rg, at), quads_at(rg, at + 1), quads_at(rg, at + 2),
-                          quads_at(rg, at + 3));
-}
+#include "test_quad_item.h"
 
 RG_DRAW_ITEM(test_quads)
 {
-    rg_item t;
-    t.alive = 1;
-    t.a = test_corner(rg, i, 0);
-    t.b = test_corner(rg, i, 1);
-    t.c = test_corner(rg, i, 2);
-    t.d = test_corner(rg, i, 3);
-    return t;
+    return test_quad_item(rg, i);
 }
 
 RG_DRAW_RECORD(test_quads)
 {
-    int at = i * TEST_QUAD_WORDS + 16;
     test_quad r;
-    r.colour =
-        rg_rgba(quads_at(rg, at), quads_at(rg, at + 1), quads_at(rg, at + 2), quads_at(rg, at + 3));
-    r.depth = rg_abs(quads_at(rg, i * TEST_QUAD_WORDS + 2));
+    r.colour = test_quad_colour(rg, i);
+    r.depth = test_quad_depth(rg, i);
     r.item = i;
     return r;
 }

@@ -16,27 +16,7 @@
 #include "core/scene/density.h"
 #include "tests/oracle/packets_oracle.h"
 #include "tests/packets_rig.h"
-
-static char folder[] = "/tmp/raingauge-density-XXXXXX";
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    return rmdir(folder);
-}
-
-static const char *in_folder(const char *name)
-{
-    static char path[256];
-    snprintf(path, sizeof(path), "%s/%s", folder, name);
-    return path;
-}
+#include "tests/folder.h"
 
 // A PNG of these bytes, of 8 or 16 bits (the more significant byte first) a channel.
 static const char *write_png(int width, int height, int bits, int colour, const uint8_t *bytes)

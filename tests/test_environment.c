@@ -16,27 +16,7 @@
 #include "core/log.h"
 #include "core/scene/cube.h"
 #include "kernels/cube.h"
-
-static char folder[] = "/tmp/raingauge-environment-XXXXXX";
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    return rmdir(folder);
-}
-
-static const char *in_folder(const char *name)
-{
-    static char path[256];
-    snprintf(path, sizeof(path), "%s/%s", folder, name);
-    return path;
-}
+#include "tests/folder.h"
 
 static void write_file(const char *path, const void *data, size_t bytes)
 {
