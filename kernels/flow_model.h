@@ -85,8 +85,8 @@ RG_DRAW_FRAGMENT(flow_model)
     lamp = lamp * (1.0f - p.drop_shadow * rg_min(water * p.wet_per_height, 1.0f));
     float reflectance = 0.5f * flow_fresnel(p, ray, towards);
     float matt = 1.0f - reflectance;
-    rgba c = rg_rgba((around.x + lamp) * p.model_r * matt + sheen.x * reflectance,
-                     (around.y + lamp) * p.model_g * matt + sheen.y * reflectance,
-                     (around.z + lamp) * p.model_b * matt + sheen.z * reflectance, 1.0f);
+    rgba c = rg_rgba((around.x + lamp) * p.model_grey * matt + sheen.x * reflectance,
+                     (around.y + lamp) * p.model_grey * matt + sheen.y * reflectance,
+                     (around.z + lamp) * p.model_grey * matt + sheen.z * reflectance, 1.0f);
     return rg_fragment_make(c, rg_planes_depth(r.planes, px, py));
 }

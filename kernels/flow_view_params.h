@@ -28,12 +28,12 @@ RG_STRUCT(flow_view_params)
     float reflectivity;              // of the dry mirror
     float frame;                     // width of the bar along a pane's edges, in pane sides
     int stage;                       // what flow_stage shows
-    float model_r, model_g, model_b; // share of the light that a model reflects
+    float model_grey;                // share of the light that a model reflects
     float light;                     // of the lamp on a model that faces it
     float light_x, light_y, light_z; // towards the lamp, in the world
     float drop_shadow;               // share of the lamp's light that a drop keeps off, 0 to 1
     float wet_per_height;            // wetness a unit of water, until it is 1
 };
-RG_STRUCT_SIZE(flow_view_params, 71)
+RG_STRUCT_SIZE(flow_view_params, 69)
 
 #endif

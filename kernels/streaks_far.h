@@ -7,7 +7,6 @@
 
 #define RG_PARAMS streaks_far_params
 #define RG_SLOTS
-#define RG_CORNERS 4
 
 RG_STRUCT(streaks_far_layer)
 {
@@ -16,17 +15,11 @@ RG_STRUCT(streaks_far_layer)
     int layer;
 };
 #define RG_RECORD streaks_far_layer
-#include "draw.h"
+#include "view_quad.h"
 
 RG_DRAW_ITEM(streaks_far)
 {
-    rg_item t;
-    t.alive = 1;
-    t.a = rg_corner_make(-1.0f, -1.0f, 1.0f, 1.0f);
-    t.b = rg_corner_make(-1.0f, 1.0f, 1.0f, 1.0f);
-    t.c = rg_corner_make(1.0f, 1.0f, 1.0f, 1.0f);
-    t.d = rg_corner_make(1.0f, -1.0f, 1.0f, 1.0f);
-    return t;
+    return view_quad();
 }
 
 // Item 0 is the farthest layer.
@@ -42,7 +35,8 @@ RG_DRAW_RECORD(streaks_far)
 // 0 to 1, of one cell of the pattern.
 RG_FN float streaks_far_noise(int seed, int column, int row)
 {
-    uint h = rg_to_uint(column) * 0x9e3779b9u + rg_to_uint(row) * 0x85ebca6bu + rg_to_uint(seed);
+    uint repeated = rg_to_uint(row) & (STREAKS_FAR_ROWS - 1u);
+    uint h = rg_to_uint(column) * 0x9e3779b9u + repeated * 0x85ebca6bu + rg_to_uint(seed);
     h = (h ^ (h >> 16)) * 0x7feb352du;
     h = (h ^ (h >> 15)) * 0x846ca68bu;
     return rg_uniform(h ^ (h >> 16));

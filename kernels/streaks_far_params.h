@@ -4,6 +4,9 @@
 
 #include "matrix.h"
 
+// Cells of the pattern along the fall, after which it begins anew; a power of 2.
+#define STREAKS_FAR_ROWS 65536u
+
 RG_STRUCT(streaks_far_params)
 {
     m4 to_clip; // from the rain frame

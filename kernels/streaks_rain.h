@@ -30,9 +30,9 @@ RG_STRUCT(streaks_billboard)
     float v_x, v_y, v_at;
     float depth_x, depth_y, depth_at;
     float nearest, farthest;
-    float base_x, base_y,
-        base_s; // the middle of its lower end: a drop's, or the place that was hit
-    float axis_x, axis_y, axis_s; // to the other end
+    // The middle of its lower end, a drop's or the place that was hit, and the way to the other.
+    float base_x, base_y, base_s;
+    float axis_x, axis_y, axis_s;
     float hit;
     float splash;    // 1, or 0 of a drop
     int oscillation; // its image's layer and level, as the full atlas counts; of a splash any
@@ -124,8 +124,7 @@ RG_FN int streaks_level(float texels, float pixels, int last)
     return rg_imin(rg_to_int(rg_log2(ratio) + 0.5f), last);
 }
 
-// 180 / pi / 20: written out, for compilers round what they reckon before the program runs in ways of
-// their own.
+// 180 / pi / 20, written out: compilers round what they reckon beforehand in ways of their own.
 #define STREAKS_STEPS_A_RADIAN 2.86478898f
 
 RG_FN float streaks_steps(float radians)
@@ -190,9 +189,8 @@ RG_FN streaks_billboard streaks_billboard_of(rg_ctx rg, rg_draw_state draw, stre
 {
     streaks_particle t = streaks_particle_at(rg, p, i);
     streaks_shape shape = streaks_shape_of(p, t);
-    rg_item item = streaks_item_of(p, shape);
-    rg_item corner = item;
-    corner.c = item.d;
+    rg_item corner = streaks_item_of(p, shape);
+    corner.c = corner.d;
     uint random = streaks_hash(t.number);
     streaks_billboard r;
     r = streaks_placed(r, rg_planes_of(draw, corner), shape);

@@ -1,5 +1,5 @@
 // One quad that fills the view, for programs whose fragments need nothing but their place: included
-// in draw.h's stead, behind RG_PARAMS and RG_SLOTS.
+// in draw.h's stead, behind RG_PARAMS and RG_SLOTS, and RG_RECORD where there is more to know.
 #ifndef RG_KERNELS_VIEW_QUAD_H
 #define RG_KERNELS_VIEW_QUAD_H
 
@@ -9,7 +9,9 @@ RG_STRUCT(view_nothing)
 {
     int nothing;
 };
-#define RG_RECORD  view_nothing
+#ifndef RG_RECORD
+#define RG_RECORD view_nothing
+#endif
 #define RG_CORNERS 4
 #include "draw.h"
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/log.h"
+#include "core/scene/vector.h"
 
 // cglm keeps matrices column by column.
 static void put_rows(mat4 columns, float rows[16])
@@ -96,6 +97,21 @@ bool rg_camera_matrix(const struct rg_camera *camera, float aspect, float matrix
     glm_mat4_mul(projection, view, projection);
     put_rows(projection, matrix);
     return true;
+}
+
+struct rg_camera_axes rg_camera_axes(const struct rg_camera *camera)
+{
+    struct rg_camera_axes axes;
+    double up[3];
+    for (int i = 0; i < 3; i++) {
+        axes.ahead[i] = (double)camera->target[i] - (double)camera->position[i];
+        up[i] = (double)camera->up[i];
+    }
+    rg_to_unit(axes.ahead);
+    rg_cross(axes.ahead, up, axes.right);
+    rg_to_unit(axes.right);
+    rg_cross(axes.right, axes.ahead, axes.up);
+    return axes;
 }
 
 void rg_place(const float low[3], const float high[3], const struct rg_placement *placement,

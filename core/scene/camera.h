@@ -24,6 +24,12 @@ bool rg_camera_matrix(const struct rg_camera *camera, float aspect, float matrix
 // The same, only into the camera's own space: x right, y up, looking along -z.
 bool rg_camera_view(const struct rg_camera *camera, float matrix[16]);
 
+// The camera's own directions in the world, of unit length, if it can see.
+struct rg_camera_axes {
+    double right[3], up[3], ahead[3];
+};
+struct rg_camera_axes rg_camera_axes(const struct rg_camera *camera);
+
 // How a thing of any bounds is put into the world.
 struct rg_placement {
     float size;        // the longest side of its bounds becomes this

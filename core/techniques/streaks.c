@@ -12,12 +12,6 @@
 
 // --- where the observer is ---
 
-static void to_double(const float from[3], double to[3])
-{
-    for (int i = 0; i < 3; i++)
-        to[i] = (double)from[i];
-}
-
 // How far what a particle draws reaches from it, in metres.
 static double splash_reach(const struct streaks_settings *set)
 {
@@ -84,20 +78,6 @@ static void set_looks(streaks_params *p, const struct streaks_settings *set,
     p->splash_opacity = (float)set->splash_opacity;
 }
 
-static void set_map(streaks_params *p, const struct streaks *s)
-{
-    const struct streaks_settings *set = &s->settings;
-    const double height_m = s->space.height_m, radius_m = set->culling_radius_m;
-    const bool around = set->dynamic_map && set->limits;
-    p->map_x = (float)(around ? (double)p->eye_x - radius_m : -s->space.half_x_m);
-    p->map_y = (float)(around ? (double)p->eye_y - radius_m : -s->space.half_y_m);
-    p->map_per_x = (float)(0.5 / (around ? radius_m : s->space.half_x_m));
-    p->map_per_y = (float)(0.5 / (around ? radius_m : s->space.half_y_m));
-    p->map_top = 0;
-    p->map_height = (float)height_m;
-    p->ground = (float)height_m;
-}
-
 static void set_params(struct streaks *s, const double eye[3], double top_m)
 {
     const struct streaks_settings *set = &s->settings;
@@ -128,57 +108,6 @@ static void set_params(struct streaks *s, const double eye[3], double top_m)
     set_looks(p, set, s->textures);
 }
 
-// --- the depth map ---
-
-// From the rain frame to the clip space of the map: its rows run along y, its depth along s.
-static void map_matrix(const struct streaks *s, m4 *to_clip)
-{
-    const streaks_params *p = &s->params;
-    const float to_map[16] = {
-        2 * p->map_per_x,
-        0,
-        0,
-        -2 * p->map_per_x * p->map_x - 1,
-        0,
-        2 * p->map_per_y,
-        0,
-        -2 * p->map_per_y * p->map_y - 1,
-        0,
-        0,
-        1 / p->map_height,
-        -p->map_top / p->map_height,
-        0,
-        0,
-        0,
-        1,
-    };
-    float world_to_rain[16], product[16];
-    streaks_rain_matrices(&s->space, world_to_rain, NULL);
-    rg_matrix_multiply(to_map, world_to_rain, product);
-    memcpy(to_clip, product, sizeof(*to_clip));
-}
-
-static bool draw_depth_map(struct streaks *s)
-{
-    static const float farthest = 1;
-    m4 to_clip;
-    set_map(&s->params, s);
-    map_matrix(s, &to_clip);
-    const struct rg_draw onto = {.depth = s->depth_map, .depth_mode = RG_DEPTH_WRITE};
-    return rg_image_clear(s->depth_map, &farthest) &&
-           streaks_scene_depth(s->scene, &s->base, to_clip, &onto);
-}
-
-// Draws a static map once, a dynamic one around the observer again and again.
-static bool renew_depth_map(struct streaks *s)
-{
-    const int64_t age = s->base.frame - s->map_frame;
-    if (s->map_frame >= 0 && (!s->settings.dynamic_map || age < s->settings.map_period))
-        return true;
-    s->map_frame = s->base.frame;
-    return draw_depth_map(s);
-}
-
 // --- passes over the selected particles ---
 
 static bool write_blocks(struct streaks *s, const struct streaks_draw *draw)
@@ -199,15 +128,14 @@ bool streaks_look(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
     const struct rg_image_desc *desc = &s->base.target->desc;
-    double world[3], eye[3];
+    double eye[3];
     if (!streaks_observer_at(set, &s->camera, desc->width, desc->height, s->base.frame,
                              &s->observer))
         return false;
-    to_double(s->observer.camera.position, world);
-    streaks_rain_point(&s->space, world, eye);
+    streaks_rain_eye(&s->space, &s->observer.camera, eye);
     const double top_m = streaks_local_top(eye[2], set->local_height_m);
     set_params(s, eye, top_m);
-    if (!renew_depth_map(s) || !select_packets(s, eye, top_m))
+    if (!streaks_map_renew(s) || !select_packets(s, eye, top_m))
         return false;
     s->base.facts[STREAKS_FACT_PARTICLES].number = (double)s->selection.particles;
     return s->selection.draw_count != 1 || write_blocks(s, &s->selection.draws[0]);

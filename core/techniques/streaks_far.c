@@ -45,9 +45,7 @@ static streaks_far_params params_of(const struct streaks *s)
         .b = s->params.sky_b * light,
         .seed = set->seed,
     };
-    // The pattern repeats nowhere; whole cells are taken off so that floats stay precise.
-    const double cells = 65536 * (double)p.cell_length;
-    p.fallen = (float)fmod(set->fall_speed_m_s * seconds, cells);
+    p.fallen = (float)fmod(set->fall_speed_m_s * seconds, STREAKS_FAR_ROWS * (double)p.cell_length);
     streaks_rain_matrices(&s->space, world_to_rain, NULL);
     turn(world_to_rain, s->observer.rays, &p.rays);
     return p;

@@ -52,7 +52,7 @@ struct streaks {
     struct streaks_observer observer;
     struct streaks_selection selection;
     streaks_params params;
-    int64_t map_frame; // in which the depth map was drawn; -1: never
+    int64_t map_due; // the frame in which a dynamic depth map is drawn anew
 };
 
 struct rg_instance *streaks_open(struct rg_device *device, const void *settings, int width,
@@ -62,6 +62,12 @@ void streaks_close(struct rg_instance *instance);
 // Moves the observer to the present frame, and makes what it draws: the selection, its blocks, the
 // parameters, the depth map where it is due. False, and one logged line, on failure.
 bool streaks_look(struct streaks *streaks);
+// Opens the depth map; a static one is drawn by whoever is first. False, and one logged line, on
+// failure. streaks_map_close accepts what was never opened.
+bool streaks_map_open(struct streaks *streaks);
+void streaks_map_close(struct streaks *streaks);
+// Draws a dynamic map around the observer where it is due.
+bool streaks_map_renew(struct streaks *streaks);
 // Draws the layers of rain far away, farthest first.
 bool streaks_draw_far(struct streaks *streaks);
 // Draws the overlay of the present frame.

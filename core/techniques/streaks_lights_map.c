@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/scene/vector.h"
 #include "core/techniques/streaks_lights.h"
 
 static const double degree = 3.14159265358979323846 / 180;
@@ -11,38 +12,18 @@ struct axes {
     double right[3], down[3], ahead[3];
 };
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double product[3])
-{
-    for (int c = 0; c < 3; c++) {
-        const int d = (c + 1) % 3, e = (c + 2) % 3;
-        product[c] = a[d] * b[e] - a[e] * b[d];
-    }
-}
-
-static void normalise(double a[3])
-{
-    const double length = sqrt(dot(a, a));
-    for (int c = 0; c < 3; c++)
-        a[c] /= length;
-}
-
 // Axes of a light that shines along `direction`: as upright as can be.
 static struct axes axes_along(const float direction[3])
 {
     struct axes axes;
     for (int c = 0; c < 3; c++)
         axes.ahead[c] = (double)direction[c];
-    normalise(axes.ahead);
+    rg_to_unit(axes.ahead);
     const double up[3] = {fabs(axes.ahead[1]) < 0.99 ? 0 : 1, fabs(axes.ahead[1]) < 0.99 ? 1 : 0,
                           0};
-    cross(axes.ahead, up, axes.right);
-    normalise(axes.right);
-    cross(axes.ahead, axes.right, axes.down);
+    rg_cross(axes.ahead, up, axes.right);
+    rg_to_unit(axes.right);
+    rg_cross(axes.ahead, axes.right, axes.down);
     return axes;
 }
 
@@ -52,7 +33,7 @@ static void put_row(float row[4], const double axis[3], double scale, const doub
 {
     for (int c = 0; c < 3; c++)
         row[c] = (float)(scale * axis[c]);
-    row[3] = (float)(offset - scale * dot(axis, from));
+    row[3] = (float)(offset - scale * rg_dot(axis, from));
 }
 
 // Corner k of the bounds.
@@ -70,7 +51,7 @@ static double reach_of(const float low[3], const float high[3], const double fro
         corner(low, high, k, at);
         for (int c = 0; c < 3; c++)
             at[c] -= from[c];
-        farthest = fmax(farthest, sqrt(dot(at, at)));
+        farthest = fmax(farthest, sqrt(rg_dot(at, at)));
     }
     return farthest;
 }
@@ -104,8 +85,8 @@ static float put_sun(const struct rg_light *light, const float low[3], const flo
         double least = INFINITY, most = -INFINITY, at[3];
         for (int k = 0; k < 8; k++) {
             corner(low, high, k, at);
-            least = fmin(least, dot(along[row], at));
-            most = fmax(most, dot(along[row], at));
+            least = fmin(least, rg_dot(along[row], at));
+            most = fmax(most, rg_dot(along[row], at));
         }
         const double margin = row == 2 ? 1 : (most - least) / (map_px > 4 ? map_px - 2 : 2);
         least -= margin;
@@ -229,8 +210,8 @@ streaks_light streaks_light_moved(const streaks_light *light, const float matrix
     const double from[3] = {(double)l.x, (double)l.y, (double)l.z},
                  direction[3] = {(double)l.dx, (double)l.dy, (double)l.dz};
     for (int c = 0; c < 3; c++) {
-        place[c] = dot(m[c], from) + m[c][3];
-        way[c] = dot(m[c], direction);
+        place[c] = rg_dot(m[c], from) + m[c][3];
+        way[c] = rg_dot(m[c], direction);
     }
     l.x = (float)place[0];
     l.y = (float)place[1];

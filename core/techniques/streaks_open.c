@@ -22,7 +22,7 @@ void streaks_close(struct rg_instance *instance)
         rg_buf_destroy(s->particles[i]);
     rg_buf_destroy(s->blocks);
     rg_buf_destroy(s->places);
-    rg_image_destroy(s->depth_map);
+    streaks_map_close(s);
     rg_image_destroy(s->depth);
     rg_image_destroy(s->base.target);
     streaks_overlay_close(s->overlay);
@@ -57,12 +57,11 @@ static bool create_space(struct streaks *s)
     return true;
 }
 
+// Drops a cubic metre where the camera stands.
 static double drops_at_camera(const struct streaks *s, const struct rg_density *density)
 {
-    const double world[3] = {(double)s->camera.position[0], (double)s->camera.position[1],
-                             (double)s->camera.position[2]};
     double rain[3];
-    streaks_rain_point(&s->space, world, rain);
+    streaks_rain_eye(&s->space, &s->camera, rain);
     const double column = (rain[0] / s->space.half_x_m + 1) / 2 * density->width;
     const double row = (rain[1] / s->space.half_y_m + 1) / 2 * density->height;
     if (!(column >= 0 && column < density->width && row >= 0 && row < density->height))
@@ -190,10 +189,8 @@ static struct rg_image *create_image(struct streaks *s, enum rg_format format, i
 
 static bool create_images(struct streaks *s, int width, int height)
 {
-    const int map_px = s->settings.map_px;
     return (s->base.target = create_image(s, RG_RGBA16F, width, height, "target")) &&
-           (s->depth = create_image(s, RG_D32F, width, height, "depth")) &&
-           (s->depth_map = create_image(s, RG_D32F, map_px, map_px, "depth map"));
+           (s->depth = create_image(s, RG_D32F, width, height, "depth"));
 }
 
 static bool create_passes(struct streaks *s)
@@ -253,11 +250,11 @@ struct rg_instance *streaks_open(struct rg_device *device, const void *settings,
     s->base.technique = rg_technique_find("streaks");
     s->base.device = device;
     s->settings = *(const struct streaks_settings *)settings;
-    s->map_frame = -1;
     choose_camera(s);
     const bool ok =
         create_space(s) && create_packets(s) && upload_particles(s) && create_scene(s) &&
-        create_lights(s) && create_images(s, width, height) && create_passes(s) &&
+        create_lights(s) && streaks_map_open(s) && create_images(s, width, height) &&
+        create_passes(s) &&
         (s->textures = streaks_textures_get(device, (enum rg_atlas_size)s->settings.atlas));
     if (ok) {
         tell_textures(s);

@@ -4,25 +4,9 @@
 #include <string.h>
 
 #include "core/log.h"
+#include "core/scene/vector.h"
 
 #define PI 3.14159265358979323846
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double product[3])
-{
-    for (int i = 0; i < 3; i++)
-        product[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
-static void scale(double v[3], double by)
-{
-    for (int i = 0; i < 3; i++)
-        v[i] *= by;
-}
 
 static bool all_finite(const double *values, int count)
 {
@@ -37,15 +21,15 @@ static bool all_finite(const double *values, int count)
 static void make_axes(struct streaks_rain_space *space, const double fall[3])
 {
     memcpy(space->s, fall, sizeof(space->s));
-    scale(space->s, 1 / sqrt(dot(fall, fall)));
+    rg_to_unit(space->s);
     double along[3] = {1, 0, 0};
     if (fabs(space->s[0]) > 0.99) {
         along[0] = 0;
         along[1] = 1;
     }
-    cross(space->s, along, space->y);
-    scale(space->y, 1 / sqrt(dot(space->y, space->y)));
-    cross(space->y, space->s, space->x);
+    rg_cross(space->s, along, space->y);
+    rg_to_unit(space->y);
+    rg_cross(space->y, space->s, space->x);
 }
 
 bool streaks_rain_space_make(const struct streaks_rain_space_settings *settings,
@@ -57,7 +41,7 @@ bool streaks_rain_space_make(const struct streaks_rain_space_settings *settings,
     if (!all_finite(sizes, 3) || !(sizes[0] > 0 && sizes[1] > 0 && sizes[2] > 0))
         return rg_error("rain space: %g m x %g m, %g m high; each must be above 0", sizes[0],
                         sizes[1], sizes[2]);
-    const double length = sqrt(dot(settings->fall, settings->fall));
+    const double length = sqrt(rg_dot(settings->fall, settings->fall));
     if (!(length > 1e-12 && isfinite(length)))
         return rg_error("rain space: the fall has no direction; give it one, such as 0 -1 0");
     make_axes(space, settings->fall);
@@ -77,10 +61,19 @@ void streaks_rain_fall(double slant_deg, double azimuth_deg, double fall[3])
     fall[2] = sin(slant) * sin(azimuth);
 }
 
+void streaks_rain_eye(const struct streaks_rain_space *space, const struct rg_camera *camera,
+                      double rain[3])
+{
+    const double world[3] = {(double)camera->position[0], (double)camera->position[1],
+                             (double)camera->position[2]};
+    streaks_rain_point(space, world, rain);
+}
+
 void streaks_rain_direction(const struct streaks_rain_space *space, const double world[3],
                             double rain[3])
 {
-    const double turned[3] = {dot(space->x, world), dot(space->y, world), dot(space->s, world)};
+    const double turned[3] = {rg_dot(space->x, world), rg_dot(space->y, world),
+                              rg_dot(space->s, world)};
     memcpy(rain, turned, sizeof(turned));
 }
 
@@ -108,7 +101,7 @@ static void to_rain(const struct streaks_rain_space *space, double matrix[16])
     memset(matrix, 0, 16 * sizeof(*matrix));
     for (int row = 0; row < 3; row++) {
         memcpy(matrix + 4 * row, axes[row], 3 * sizeof(*matrix));
-        matrix[4 * row + 3] = -dot(axes[row], space->origin_m);
+        matrix[4 * row + 3] = -rg_dot(axes[row], space->origin_m);
     }
     matrix[15] = 1;
 }
@@ -170,16 +163,10 @@ bool streaks_view_corners(const struct streaks_rain_space *space, const struct r
     float checked[16];
     if (!rg_camera_matrix(camera, (float)aspect, checked) || !rg_camera_view(camera, checked))
         return false;
-    double eye[3], ahead[3], up[3], right[3];
-    for (int i = 0; i < 3; i++) {
+    const struct rg_camera_axes axes = rg_camera_axes(camera);
+    double eye[3];
+    for (int i = 0; i < 3; i++)
         eye[i] = (double)camera->position[i];
-        ahead[i] = (double)camera->target[i] - eye[i];
-        up[i] = (double)camera->up[i];
-    }
-    scale(ahead, 1 / sqrt(dot(ahead, ahead)));
-    cross(ahead, up, right);
-    scale(right, 1 / sqrt(dot(right, right)));
-    cross(right, ahead, up);
     const double tall = tan((double)camera->angle_deg * PI / 360);
     const double planes[2] = {(double)camera->near_plane,
                               fmax((double)camera->far_plane, farthest_corner(space, eye))};
@@ -187,7 +174,7 @@ bool streaks_view_corners(const struct streaks_rain_space *space, const struct r
         const double z = planes[i / 4], y = (i & 2 ? z : -z) * tall, x = (i & 1 ? z : -z) * tall;
         double world[3];
         for (int k = 0; k < 3; k++)
-            world[k] = eye[k] + z * ahead[k] + y * up[k] + x * aspect * right[k];
+            world[k] = eye[k] + z * axes.ahead[k] + y * axes.up[k] + x * aspect * axes.right[k];
         streaks_rain_point(space, world, corners[i]);
     }
     return true;

@@ -39,6 +39,9 @@ void streaks_rain_fall(double slant_deg, double azimuth_deg, double fall[3]);
 // Points and directions, from the world to the rain frame and back.
 void streaks_rain_point(const struct streaks_rain_space *space, const double world[3],
                         double rain[3]);
+// A camera's place, in the rain frame.
+void streaks_rain_eye(const struct streaks_rain_space *space, const struct rg_camera *camera,
+                      double rain[3]);
 void streaks_rain_direction(const struct streaks_rain_space *space, const double world[3],
                             double rain[3]);
 void streaks_world_point(const struct streaks_rain_space *space, const double rain[3],

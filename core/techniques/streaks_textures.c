@@ -34,14 +34,6 @@ static struct rg_buf *upload_factors(struct rg_device *device, const struct rg_a
     return NULL;
 }
 
-static int64_t bytes_of(const struct rg_atlas_image *image)
-{
-    int64_t texels = 0;
-    for (int level = 0; level < image->levels; level++)
-        texels += (int64_t)rg_level_size(image->width, level) * rg_level_size(image->height, level);
-    return texels * image->layers * rg_format_size(RG_R16F);
-}
-
 static void destroy(void *thing)
 {
     struct streaks_textures *t = thing;
@@ -56,8 +48,6 @@ static bool fill(struct streaks_textures *t, struct rg_device *device, const str
 {
     t->first_level = atlas->first_level;
     t->hash = atlas->hash;
-    for (int i = 0; i < RG_ATLAS_PART_COUNT; i++)
-        t->bytes += bytes_of(&atlas->images[i]);
     return (t->points = upload(device, atlas, RG_ATLAS_POINT, "point atlases")) &&
            (t->skies = upload(device, atlas, RG_ATLAS_ENV, "environment atlases")) &&
            (t->crowns = upload(device, atlas, RG_ATLAS_SPLASH, "splashes")) &&

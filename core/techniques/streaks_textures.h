@@ -10,7 +10,6 @@ struct streaks_textures {
     struct rg_buf *factors;                   // floats; kernels/streaks_cells.h says in what order
     int first_level;                          // of the full atlas' levels, that is there
     uint64_t hash;
-    int64_t bytes; // on the device
 };
 
 // The textures of a size, shared by all who ask for them on a device. NULL, and one logged line, on
