@@ -260,15 +260,17 @@ bool streaks_scene_draw(struct streaks_scene *s, struct rg_instance *instance,
                         bool geometry)
 {
     const float farthest = 1;
-    const struct rg_draw onto = {.colour = NULL, .depth = view->depth};
-    if (!fit_numbers(s, view->colour) || !rg_image_clear(view->depth, &farthest))
+    const float sky[4] = {look->sky.horizon_r, look->sky.horizon_g, look->sky.horizon_b, 1};
+    if (!rg_image_clear(view->depth, &farthest))
         return false;
-    struct rg_draw numbered = onto;
-    numbered.colour = s->numbers;
+    if (!geometry)
+        return rg_image_clear(view->colour, sky);
+    if (!fit_numbers(s, view->colour))
+        return false;
+    const struct rg_draw numbered = {.colour = s->numbers, .depth = view->depth};
     const enum rg_cull cull = s->made->city->is_mesh ? RG_CULL_NONE : RG_CULL_BACK;
-    if (geometry && !draw_faces(s, instance, view->to_clip, &numbered, cull, view->everything))
-        return false;
-    return shade(s, instance, view, look, lights);
+    return draw_faces(s, instance, view->to_clip, &numbered, cull, view->everything) &&
+           shade(s, instance, view, look, lights);
 }
 
 struct streaks_scene_look streaks_scene_day(void)

@@ -54,7 +54,7 @@ struct streaks_scene_view {
 };
 
 // Draws colour and depth in this light, whose shadow maps are drawn already; with `geometry` false,
-// the sky alone, and depth 1. The images need not be cleared.
+// an even sky as bright as the horizon, and depth 1. The images need not be cleared.
 bool streaks_scene_draw(struct streaks_scene *scene, struct rg_instance *instance,
                         const struct streaks_scene_view *view,
                         const struct streaks_scene_look *look, const struct streaks_lights *lights,
