@@ -34,11 +34,10 @@ RG_FN int rg_filter_texel(float at, int size)
         int x1 = rg_filter_texel(left + 1.0f, width);                                              \
         int y0 = rg_filter_texel(top, height);                                                     \
         int y1 = rg_filter_texel(top + 1.0f, height);                                              \
-        rgba above = rgba_lerp(name##_texel(rg, x0, y0, layer, level),                             \
-                               name##_texel(rg, x1, y0, layer, level), x - left);                  \
-        rgba below = rgba_lerp(name##_texel(rg, x0, y1, layer, level),                             \
-                               name##_texel(rg, x1, y1, layer, level), x - left);                  \
-        return rgba_lerp(above, below, y - top);                                                   \
+        rg_texels above = name##_texels(rg, x0, x1, y0, layer, level);                             \
+        rg_texels below = name##_texels(rg, x0, x1, y1, layer, level);                             \
+        return rgba_lerp(rgba_lerp(above.left, above.right, x - left),                             \
+                         rgba_lerp(below.left, below.right, x - left), y - top);                   \
     }                                                                                              \
     RG_FN rgba name##_linear(rg_ctx rg, float u, float v, int layer, int level)                    \
     {                                                                                              \
