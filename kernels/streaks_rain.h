@@ -32,6 +32,7 @@ RG_STRUCT(streaks_billboard)
     float hit;   // s of the surface that cuts it off; far below a splash
     float shown; // of a drop the camera's elevation, in steps of the atlas; of a splash its frame
     uint look;   // STREAKS_LOOK_*
+    uint rows;   // of a drop's two views: their first rows in the atlas, 12 bits each
 };
 #define RG_RECORD streaks_billboard
 #include "draw.h"
@@ -126,7 +127,8 @@ RG_FN float streaks_elevation(v3 d)
 }
 
 // The word `look`: bits 0 to 2 as named, then three of the level, as the full atlas or a splash's
-// images count, then the layer: a drop's oscillation, or the first of a splash's.
+// images count, six of the layer, a drop's oscillation or the first of a splash's, and twelve of
+// the row behind a drop's second view.
 #define STREAKS_LOOK_SPLASH   1u
 #define STREAKS_LOOK_MIRRORED 2u // of splashes
 #define STREAKS_LOOK_BELOW    4u // of drops: seen from below, so that elevations change their signs
@@ -148,7 +150,13 @@ RG_FN int streaks_level_of(streaks_billboard r)
 
 RG_FN int streaks_layer_of(streaks_billboard r)
 {
-    return rg_to_int(r.look >> 6);
+    return rg_to_int((r.look >> 6) & 63u);
+}
+
+// The lower of the two views that an elevation lies between.
+RG_FN int streaks_view(float elevation)
+{
+    return rg_imin(rg_to_int(elevation), STREAKS_VIEWS - 2);
 }
 
 // How many pixels wide a billboard is.
@@ -171,7 +179,12 @@ RG_FN streaks_billboard streaks_drop(streaks_params p, streaks_billboard of, str
     int below = streaks_below(elevation, 0.0f) * (1 - p.paper_angles);
     r.hit = t.hit;
     r.shown = rg_min(rg_abs(elevation), rg_to_float(STREAKS_VIEWS - 1));
-    r.look = streaks_look(rg_to_uint(below) * STREAKS_LOOK_BELOW, level, t.oscillation);
+    int view = streaks_view(r.shown);
+    uint end = rg_to_uint(streaks_row(view + 2) >> level);
+    r.look =
+        streaks_look(rg_to_uint(below) * STREAKS_LOOK_BELOW + end * 4096u, level, t.oscillation);
+    r.rows =
+        rg_to_uint(streaks_row(view) >> level) + rg_to_uint(streaks_row(view + 1) >> level) * 4096u;
     return r;
 }
 
@@ -208,6 +221,7 @@ RG_FN streaks_billboard streaks_placed(rg_planes planes)
     r.hit = 0.0f;
     r.shown = 0.0f;
     r.look = 0u;
+    r.rows = 0u;
     return r;
 }
 
@@ -225,6 +239,7 @@ RG_FN streaks_billboard streaks_billboard_of(rg_ctx rg, rg_draw_state draw, stre
     r.hit = is_splash != 0 ? splash.hit : drop.hit;
     r.shown = is_splash != 0 ? splash.shown : drop.shown;
     r.look = is_splash != 0 ? splash.look : drop.look;
+    r.rows = is_splash != 0 ? splash.rows : drop.rows;
     return r;
 }
 
@@ -264,28 +279,33 @@ RG_STRUCT(streaks_strip)
 {
     int oscillation;
     int level; // as the full atlas counts
-    int view;  // the lower of the two that it lies between
+    int view;  // the lower of two
     float between;
+    float y0, y1; // of the lower view, and of the other, in texels
 };
 
-RG_FN streaks_strip streaks_strip_of(streaks_params p, streaks_billboard r)
+RG_FN streaks_strip streaks_strip_of(streaks_params p, streaks_billboard r, float v)
 {
     int drop = 1 - streaks_is(r, STREAKS_LOOK_SPLASH);
+    float first = rg_to_float(rg_to_int(r.rows & 4095u));
+    float second = rg_to_float(rg_to_int(r.rows >> 12));
+    float end = rg_to_float(rg_to_int(r.look >> 12));
     streaks_strip s;
     s.oscillation = streaks_layer_of(r) * drop;
     s.level = p.first_level + (streaks_level_of(r) - p.first_level) * drop;
-    s.view = rg_imin(rg_to_int(r.shown), STREAKS_VIEWS - 2);
+    s.view = streaks_view(r.shown);
     s.between = r.shown - rg_to_float(s.view);
+    s.y0 = streaks_within(first, second - first, 1.0f - v);
+    s.y1 = streaks_within(second, end - second, 1.0f - v);
     return s;
 }
 
 RG_FN float streaks_point_texture(rg_ctx rg, streaks_params p, streaks_strip s, int view,
-                                  int column, float u, float v)
+                                  int column, float x, float y)
 {
-    streaks_place at = streaks_cell(column, view, u, v, s.level);
     float factor =
         factors_at(rg, (s.oscillation * STREAKS_VIEWS + view) * STREAKS_COLUMNS + column);
-    return points_between(rg, at.x, at.y, s.oscillation, s.level - p.first_level).r * factor;
+    return points_between(rg, x, y, s.oscillation, s.level - p.first_level).r * factor;
 }
 
 RG_FN float streaks_between(float a, float b, float t)
@@ -295,37 +315,38 @@ RG_FN float streaks_between(float a, float b, float t)
 
 // Between the two nearest views.
 RG_FN float streaks_views(rg_ctx rg, streaks_params p, streaks_strip s, int elevation, int azimuth,
-                          float u, float v)
+                          float u)
 {
     int column = elevation * STREAKS_AZIMUTHS + azimuth;
-    return streaks_between(streaks_point_texture(rg, p, s, s.view, column, u, v),
-                           streaks_point_texture(rg, p, s, s.view + 1, column, u, v), s.between);
+    float x = streaks_across(column, u, s.level);
+    return streaks_between(streaks_point_texture(rg, p, s, s.view, column, x, s.y0),
+                           streaks_point_texture(rg, p, s, s.view + 1, column, x, s.y1), s.between);
 }
 
 // Light from an elevation and an azimuth, both in steps of the atlas from its first on.
 RG_FN float streaks_azimuths(rg_ctx rg, streaks_params p, streaks_strip s, int elevation,
-                             float azimuth, float u, float v)
+                             float azimuth, float u)
 {
 #if STREAKS_TAPS == 2
-    return streaks_views(rg, p, s, elevation, rg_to_int(azimuth + 0.5f), u, v);
+    return streaks_views(rg, p, s, elevation, rg_to_int(azimuth + 0.5f), u);
 #else
     int first = rg_imin(rg_to_int(azimuth), STREAKS_AZIMUTHS - 2);
-    return streaks_between(streaks_views(rg, p, s, elevation, first, u, v),
-                           streaks_views(rg, p, s, elevation, first + 1, u, v),
+    return streaks_between(streaks_views(rg, p, s, elevation, first, u),
+                           streaks_views(rg, p, s, elevation, first + 1, u),
                            azimuth - rg_to_float(first));
 #endif
 }
 
 RG_FN float streaks_point(rg_ctx rg, streaks_params p, streaks_strip s, float elevation,
-                          float azimuth, float u, float v)
+                          float azimuth, float u)
 {
 #if STREAKS_TAPS == 8
     int first = rg_imin(rg_to_int(elevation), STREAKS_HEIGHTS - 2);
-    return streaks_between(streaks_azimuths(rg, p, s, first, azimuth, u, v),
-                           streaks_azimuths(rg, p, s, first + 1, azimuth, u, v),
+    return streaks_between(streaks_azimuths(rg, p, s, first, azimuth, u),
+                           streaks_azimuths(rg, p, s, first + 1, azimuth, u),
                            elevation - rg_to_float(first));
 #else
-    return streaks_azimuths(rg, p, s, rg_to_int(elevation + 0.5f), azimuth, u, v);
+    return streaks_azimuths(rg, p, s, rg_to_int(elevation + 0.5f), azimuth, u);
 #endif
 }
 
@@ -339,9 +360,9 @@ RG_FN float streaks_streak(rg_ctx rg, streaks_params p, streaks_billboard r, str
     float azimuth = streaks_steps(rg_atan2(rg_abs(sine), cosine)) - 0.5f;
     float elevation = streaks_elevation(to_light) * below + 4.5f;
     float mirrored = sine > 0.0f ? 1.0f - spot.u : spot.u;
-    return streaks_point(
-        rg, p, streaks_strip_of(p, r), rg_clamp(elevation, 0.0f, rg_to_float(STREAKS_HEIGHTS - 1)),
-        rg_clamp(azimuth, 0.0f, rg_to_float(STREAKS_AZIMUTHS - 1)), mirrored, 1.0f - spot.v);
+    return streaks_point(rg, p, streaks_strip_of(p, r, spot.v),
+                         rg_clamp(elevation, 0.0f, rg_to_float(STREAKS_HEIGHTS - 1)),
+                         rg_clamp(azimuth, 0.0f, rg_to_float(STREAKS_AZIMUTHS - 1)), mirrored);
 }
 
 // Splashes are matt and face upwards.
@@ -360,22 +381,21 @@ RG_FN rgba streaks_lit_by(rg_ctx rg, streaks_params p, streaks_billboard r, int 
     return rg_rgba(l.r * share, l.g * share, l.b * share, 0.0f);
 }
 
-RG_FN float streaks_sky_texture(rg_ctx rg, streaks_params p, streaks_strip s, int view, float u,
-                                float v)
+RG_FN float streaks_sky_texture(rg_ctx rg, streaks_params p, streaks_strip s, int view, float x,
+                                float y)
 {
-    streaks_place at = streaks_cell(0, view, u, v, s.level);
     float factor = factors_at(rg, STREAKS_SKY_FACTORS + s.oscillation * STREAKS_VIEWS + view);
-    return skies_between(rg, at.x, at.y, s.oscillation, s.level - p.first_level).r * factor;
+    return skies_between(rg, x, y, s.oscillation, s.level - p.first_level).r * factor;
 }
 
 // A streak's pixel under a sky of brightness 1 all around, which is also what it hides of what lies
 // behind it.
 RG_FN float streaks_sky(rg_ctx rg, streaks_params p, streaks_billboard r, streaks_spot spot)
 {
-    streaks_strip s = streaks_strip_of(p, r);
-    float v = 1.0f - spot.v;
-    return streaks_between(streaks_sky_texture(rg, p, s, s.view, spot.u, v),
-                           streaks_sky_texture(rg, p, s, s.view + 1, spot.u, v), s.between);
+    streaks_strip s = streaks_strip_of(p, r, spot.v);
+    float x = streaks_across(0, spot.u, s.level);
+    return streaks_between(streaks_sky_texture(rg, p, s, s.view, x, s.y0),
+                           streaks_sky_texture(rg, p, s, s.view + 1, x, s.y1), s.between);
 }
 
 RG_FN float streaks_crown_texture(rg_ctx rg, streaks_billboard r, int frame, float u, float v)
