@@ -71,10 +71,17 @@ RG_FN uint rg_pack_half(float v)
     return magnitude < 0x38800000u ? 0u : half_bits;
 }
 
+// The half in the upper bits of a word: shifted to where floats have their exponents, behind copies
+// of its sign.
+RG_FN float rg_unpack_upper_half(uint word)
+{
+    uint bits = rg_to_uint(rg_to_int(word) >> 3) & 0x8fffe000u;
+    return rg_bits_float(bits) * 5.192296858534828e33f; // 2^112, exactly
+}
+
 RG_FN float rg_unpack_half(uint half_bits)
 {
-    uint bits = ((half_bits & 0x7fffu) << 13) | ((half_bits & 0x8000u) << 16);
-    return rg_bits_float(bits) * 5.192296858534828e33f; // 2^112, exactly
+    return rg_unpack_upper_half(half_bits << 16);
 }
 
 // --- R16F: one half float, half a word a texel; fetched only ---

@@ -80,8 +80,8 @@ RG_FN rgba rg_load_RGBA16F(RG_GLOBAL const uint *texels, int i)
 {
     uint rg = texels[i];
     uint ba = texels[i + 1];
-    return rg_rgba(rg_unpack_half(rg & 0xffffu), rg_unpack_half(rg >> 16),
-                   rg_unpack_half(ba & 0xffffu), rg_unpack_half(ba >> 16));
+    return rg_rgba(rg_unpack_half(rg), rg_unpack_upper_half(rg), rg_unpack_half(ba),
+                   rg_unpack_upper_half(ba));
 }
 
 RG_PROC void rg_store_RGBA16F(RG_GLOBAL uint *texels, int i, rgba c)
@@ -90,10 +90,11 @@ RG_PROC void rg_store_RGBA16F(RG_GLOBAL uint *texels, int i, rgba c)
     texels[i + 1] = rg_pack_half(c.b) | (rg_pack_half(c.a) << 16);
 }
 
+// The lower half of a word if `half_of` is even, else the upper one.
 RG_FN rgba rg_load_R16F(uint word, int half_of)
 {
-    return rg_rgba(rg_unpack_half((word >> rg_to_uint((half_of & 1) * 16)) & 0xffffu), 0.0f, 0.0f,
-                   1.0f);
+    uint upper = (half_of & 1) != 0 ? word : word << 16;
+    return rg_rgba(rg_unpack_upper_half(upper), 0.0f, 0.0f, 1.0f);
 }
 
 RG_FN rgba rg_load_RGBA32F(RG_GLOBAL const uint *texels, int i)

@@ -87,7 +87,9 @@ struct cpu_program {
                  struct cpu_fragments *fragments);
     void (*row)(const struct cpu_call *call, const void *record, int x, int y, int count,
                 struct cpu_fragments *fragments);
-    // The same, but depth and `kept` alone, of programs whose colours cost much more; else NULL.
+    // Of programs with lights, else NULL: how many there are; and the same as `list` and `row`, but
+    // depth and `kept` alone.
+    int (*lights)(const struct cpu_call *call);
     void (*list_depth)(const struct cpu_call *call, const void *records,
                        const struct cpu_list *list, struct cpu_fragments *fragments);
     void (*row_depth)(const struct cpu_call *call, const void *record, int x, int y, int count,

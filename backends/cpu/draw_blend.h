@@ -64,8 +64,8 @@ ALWAYS void blend_RGBA16F(const struct cpu_fragments *f, uint *texels, int blend
 #pragma omp simd
     for (int i = 0; i < padded; i++) {
         const uint was_rg = texels[2 * i], was_ba = texels[2 * i + 1];
-        const rgba was = rg_rgba(rg_unpack_half(was_rg & 0xffffu), rg_unpack_half(was_rg >> 16),
-                                 rg_unpack_half(was_ba & 0xffffu), rg_unpack_half(was_ba >> 16));
+        const rgba was = rg_rgba(rg_unpack_half(was_rg), rg_unpack_upper_half(was_rg),
+                                 rg_unpack_half(was_ba), rg_unpack_upper_half(was_ba));
         const rgba is = rg_blend_floats(rg_rgba(f->r[i], f->g[i], f->b[i], f->a[i]), was, blend);
         const uint is_rg = packed_half(is.r, blend) | (packed_half(is.g, blend) << 16);
         const uint is_ba = packed_half(is.b, blend) | (packed_half(is.a, blend) << 16);

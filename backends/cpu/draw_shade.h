@@ -8,7 +8,10 @@
 #include "backends/cpu/draw_blend.h"
 #include "backends/cpu/draw_span.h"
 
-enum { WIDE_SPAN = 24 }; // pixels that are worth a row of their own
+enum {
+    WIDE_SPAN = 24,   // pixels that are worth a row of their own
+    WORTH_LIGHTS = 2, // that cost more than asking first what is hidden
+};
 
 struct shader {
     const struct cpu_program *program;
@@ -21,7 +24,7 @@ struct shader {
     struct cpu_list list;
     struct cpu_fragments fragments;
     struct pixels pixels;
-    bool drops_hidden; // before their colours are computed
+    bool drops_hidden; // before lights fall on them
     // The list that each pixel was last in, by the low bits of x and y: pixels that share an entry
     // pass for the same.
     uint listing;
@@ -279,7 +282,8 @@ static void begin_tile(struct shader *s, int tile)
     s->target = s->call->target;
     s->draw = *(const rg_draw_state *)s->call->params;
     s->texel_words = texel_words(s->draw.colour_format);
-    s->drops_hidden = s->program->list_depth && s->draw.depth_mode != RG_DEPTH_OFF;
+    s->drops_hidden = s->draw.depth_mode != RG_DEPTH_OFF && s->program->lights &&
+                      s->program->lights(s->call) >= WORTH_LIGHTS;
     s->x0 = tile % tiling->across * side;
     s->y0 = tile / tiling->across * side;
     s->x1 = s->x0 + side;

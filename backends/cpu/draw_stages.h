@@ -196,6 +196,11 @@ static inline __attribute__((always_inline)) void put_depth(struct cpu_fragments
     to->kept[i] = f.kept;
 }
 
+static int count_lights(const struct cpu_call *call)
+{
+    return ((const rg_draw_call *)call->params)->program.lights;
+}
+
 static void list_depth(const struct cpu_call *call, const void *records,
                        const struct cpu_list *list, struct cpu_fragments *fragments)
 {
@@ -236,6 +241,7 @@ static const struct cpu_program program = {
     .list = shade_list,
     .row = shade_row,
 #if defined(RG_LIGHTS)
+    .lights = count_lights,
     .list_depth = list_depth,
     .row_depth = row_depth,
 #endif
