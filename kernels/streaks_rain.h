@@ -159,48 +159,45 @@ RG_FN int streaks_view(float elevation)
     return rg_imin(rg_to_int(elevation), STREAKS_VIEWS - 2);
 }
 
-// How many pixels wide a billboard is.
-RG_FN float streaks_pixels(streaks_params p, streaks_shape shape, v3 middle)
+// The level of a billboard's images: a drop's as the full atlas counts them, or a splash's.
+RG_FN int streaks_level_for(streaks_params p, streaks_shape shape, v3 middle, int splash)
 {
     float distance = rg_max(m4_project(p.to_clip, middle).w, 1e-3f);
-    return 2.0f * shape.half_width * p.focal_px / distance;
+    float pixels = 2.0f * shape.half_width * p.focal_px / distance;
+    int texels = splash != 0 ? STREAKS_SPLASH_PX : STREAKS_CELL_PX;
+    int first = splash != 0 ? 0 : p.first_level;
+    int last = splash != 0 ? STREAKS_SPLASH_LAST : p.last_level;
+    return rg_imax(streaks_level(rg_to_float(texels), pixels, last), first);
 }
 
 RG_FN streaks_billboard streaks_drop(streaks_params p, streaks_billboard of, streaks_particle t,
-                                     streaks_shape shape)
+                                     v3 middle, int level)
 {
     streaks_billboard r = of;
-    v3 middle = v3_add(shape.base, v3_scale(shape.axis, 0.5f));
     v3 to_eye = v3_unit(v3_make(p.eye_x - middle.x, p.eye_y - middle.y, p.eye_s - middle.z));
     float elevation = streaks_elevation(to_eye);
-    float pixels = streaks_pixels(p, shape, middle);
-    int level =
-        rg_imax(streaks_level(rg_to_float(STREAKS_CELL_PX), pixels, p.last_level), p.first_level);
-    int below = streaks_below(elevation, 0.0f) * (1 - p.paper_angles);
+    uint below = rg_to_uint(streaks_below(elevation, 0.0f) * (1 - p.paper_angles));
     r.hit = t.hit;
     r.shown = rg_min(rg_abs(elevation), rg_to_float(STREAKS_VIEWS - 1));
     int view = streaks_view(r.shown);
     uint end = rg_to_uint(streaks_row(view + 2) >> level);
-    r.look =
-        streaks_look(rg_to_uint(below) * STREAKS_LOOK_BELOW + end * 4096u, level, t.oscillation);
+    r.look = streaks_look(below * STREAKS_LOOK_BELOW + end * 4096u, level, t.oscillation);
     r.rows =
         rg_to_uint(streaks_row(view) >> level) + rg_to_uint(streaks_row(view + 1) >> level) * 4096u;
     return r;
 }
 
 RG_FN streaks_billboard streaks_splash(streaks_params p, streaks_billboard of, streaks_particle t,
-                                       streaks_shape shape)
+                                       int level)
 {
     streaks_billboard r = of;
-    v3 middle = v3_add(shape.base, v3_scale(shape.axis, 0.5f));
     uint random = streaks_hash(t.number);
     int material = rg_to_int(((random >> 20) * rg_to_uint(p.materials)) >> 12);
-    int level = streaks_level(rg_to_float(STREAKS_SPLASH_PX), streaks_pixels(p, shape, middle),
-                              STREAKS_SPLASH_LAST);
     r.hit = RG_LARGEST;
     r.shown = rg_clamp(t.age / p.splash_s, 0.0f, 0.999f) * rg_to_float(STREAKS_FRAMES);
     r.look = streaks_look(STREAKS_LOOK_SPLASH + ((random >> 10) & 1u) * STREAKS_LOOK_MIRRORED,
                           level, material * STREAKS_FRAMES);
+    r.rows = 0u;
     return r;
 }
 
@@ -232,9 +229,11 @@ RG_FN streaks_billboard streaks_billboard_of(rg_ctx rg, rg_draw_state draw, stre
     rg_item corner = streaks_item_of(p, shape);
     corner.c = corner.d;
     streaks_billboard placed = streaks_placed(rg_planes_of(draw, corner));
-    streaks_billboard drop = streaks_drop(p, placed, t, shape);
-    streaks_billboard splash = streaks_splash(p, placed, t, shape);
+    v3 middle = v3_add(shape.base, v3_scale(shape.axis, 0.5f));
     int is_splash = t.state == STREAKS_SPLASH ? 1 : 0;
+    int level = streaks_level_for(p, shape, middle, is_splash);
+    streaks_billboard drop = streaks_drop(p, placed, t, middle, level);
+    streaks_billboard splash = streaks_splash(p, placed, t, level);
     streaks_billboard r = placed;
     r.hit = is_splash != 0 ? splash.hit : drop.hit;
     r.shown = is_splash != 0 ? splash.shown : drop.shown;

@@ -100,6 +100,13 @@ static void cull(const struct streaks_packets *p, const struct streaks_view *vie
 {
     struct streaks_sight sight;
     streaks_sight_of(p, view, &sight);
+    if (view->whole) {
+        for (int64_t i = 0; i < count; i++) {
+            runs[i].block = streaks_blocks_in(&runs[i]);
+            memset(seen + runs[i].first, 1, (size_t)runs[i].block);
+        }
+        return;
+    }
 #pragma omp parallel for schedule(dynamic, 8)
     for (int64_t i = 0; i < count; i++)
         runs[i].block = streaks_bounds_seen(p, &sight, &runs[i], seen + runs[i].first);
