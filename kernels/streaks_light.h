@@ -13,8 +13,8 @@
 // The most lights of a scene.
 #define STREAKS_MAX_LIGHTS 16
 
-// Nearer than this a light gets no stronger.
-#define STREAKS_NEAREST_M 0.1f
+// Nearer than 0.1 m a light gets no stronger.
+#define STREAKS_NEAREST_SQUARED_M2 0.01f
 
 RG_STRUCT(streaks_light)
 {
@@ -59,7 +59,7 @@ RG_FN streaks_reach streaks_light_reach(streaks_light l, v3 at)
     v3 away = v3_make(l.x - at.x, l.y - at.y, l.z - at.z);
     float squared = v3_dot(away, away);
     v3 towards = v3_scale(away, 1.0f / rg_sqrt(rg_max(squared, 1e-12f)));
-    float fallen = 1.0f / rg_max(squared, STREAKS_NEAREST_M * STREAKS_NEAREST_M);
+    float fallen = 1.0f / rg_max(squared, STREAKS_NEAREST_SQUARED_M2);
     float cone = streaks_cone(l, -v3_dot(towards, axis));
     int sun = l.kind == STREAKS_SUN ? 1 : 0;
     streaks_reach reach;

@@ -20,6 +20,12 @@ const struct streaks_rain_space rig_space = {.origin_m = {0, 230, 0},
                                              .half_y_m = 200,
                                              .height_m = 230};
 
+const float rig_uneven[UNEVEN_X * UNEVEN_Y] = {
+    0.1f, 0.5f, 0, 0,    1,    0.2f, 0.3f, 0.9f, 0.9f, 0, 0.4f,  0.7f, 0.1f, 0,    0, 0, 0,    0,
+    0,    0,    0, 0.6f, 0.2f, 0.8f, 0.1f, 0.5f, 1,    1, 0.02f, 0.3f, 0.4f, 0.2f, 1, 0, 0.25f};
+
+const enum streaks_scheme rig_schemes[4] = {STREAKS_WORLD, STREAKS_KD, STREAKS_QUAD, STREAKS_GRID};
+
 struct streaks_packets_settings rig_settings(const struct streaks_rain_space *space,
                                              const struct rg_density *density, double particles)
 {
@@ -146,6 +152,17 @@ struct rg_density *rig_map(int width, int height, const float *texels)
     rg_picture_destroy(&picture);
     assert_non_null(density);
     return density;
+}
+
+struct rg_density *rig_uneven_map(void)
+{
+    return rig_map(UNEVEN_X, UNEVEN_Y, rig_uneven);
+}
+
+void rig_expect_chance(double p, const char *what)
+{
+    if (!(p > RIG_CHANCE))
+        fail_msg("%s: by chance only in %g of all cases", what, p);
 }
 
 static int errors;

@@ -21,6 +21,8 @@ struct rig_particles {
 
 extern const struct streaks_rain_space rig_space; // 400 m x 400 m, 230 m high, straight down
 
+extern const enum streaks_scheme rig_schemes[4]; // STREAKS_WORLD first, STREAKS_GRID last
+
 // So many particles in a local space of 20 m, in packets of 1000; worldwide.
 struct streaks_packets_settings rig_settings(const struct streaks_rain_space *space,
                                              const struct rg_density *density, double particles);
@@ -48,6 +50,17 @@ int rig_compare(const void *a, const void *b);
 
 // A map of width x height texels, row by row, taken as it is; fails the test otherwise.
 struct rg_density *rig_map(int width, int height, const float *texels);
+
+// Black places, steep steps, and no power of two.
+enum { UNEVEN_X = 7, UNEVEN_Y = 5 };
+extern const float rig_uneven[UNEVEN_X * UNEVEN_Y];
+struct rg_density *rig_uneven_map(void);
+
+// By chance, a sound generator is found out this often; seeds are fixed, so that a test that passes
+// once always does.
+#define RIG_CHANCE 1e-3
+// Fails the test where what was seen happens by chance in fewer cases.
+void rig_expect_chance(double p, const char *what);
 
 // Counts the errors that are logged until rig_errors is called, and keeps them off stderr.
 void rig_listen(void);

@@ -11,11 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/kernel.h"
+#include "tests/spirv.h"
 
 // Words of the SPIR-V specification, sections 2.3, 3.20 and 3.49.
 enum {
-    HEADER_WORDS = 5,
     BOUND_WORD = 3,
     OP_EXT_INST_IMPORT = 11,
     OP_EXT_INST = 12,
@@ -99,7 +98,7 @@ static void note(struct findings *found, const char *what, int number)
 static void inspect(const uint32_t *at, bool *exact, uint32_t bound, uint32_t *imported,
                     struct findings *found)
 {
-    int op = at[0] & 0xffff;
+    int op = spirv_op(at[0]);
     if (op == OP_EXT_INST_IMPORT && !strcmp((const char *)&at[2], "GLSL.std.450"))
         *imported = at[1];
     if (op == OP_DECORATE && at[2] == DECORATION_NO_CONTRACTION && at[1] < bound)
@@ -123,8 +122,8 @@ static struct findings inspect_module(const uint32_t *words, size_t count)
     struct findings found = {0};
     uint32_t imported = 0, bound = words[BOUND_WORD];
     bool *exact = calloc(bound, sizeof(*exact));
-    for (size_t at = HEADER_WORDS; at < count; at += words[at] >> 16) {
-        if (words[at] >> 16 == 0 || at + (words[at] >> 16) > count) {
+    for (size_t at = SPIRV_HEADER_WORDS; at < count; at += spirv_length(words[at])) {
+        if (spirv_length(words[at]) == 0 || at + spirv_length(words[at]) > count) {
             note(&found, "broken instruction at word", (int)at);
             break;
         }
@@ -134,21 +133,11 @@ static struct findings inspect_module(const uint32_t *words, size_t count)
     return found;
 }
 
-static const struct {
-    enum rg_code_kind kind;
-    const char *stage;
-} stages[] = {{RG_CODE_SPIRV, "compute"},
-              {RG_CODE_VERTEX_SPIRV, "vertex"},
-              {RG_CODE_FRAGMENT_SPIRV, "fragment"}};
-
-enum { STAGES = sizeof(stages) / sizeof(stages[0]) };
-
 // Nothing is found in a stage that the kernel does not have.
 static struct findings inspect_stage(const struct rg_kernel *kernel, enum rg_code_kind kind)
 {
     const struct rg_kernel_code *code = &kernel->code[kind];
-    return code->bytes ? inspect_module((const uint32_t *)(const void *)code->bytes, code->size / 4)
-                       : (struct findings){0};
+    return code->bytes ? inspect_module(spirv_words(code), code->size / 4) : (struct findings){0};
 }
 
 // Kernels that probe what a driver makes of its built-in functions call them on purpose.
@@ -164,12 +153,12 @@ static void every_kernel_is_exact(void **state)
     int count = rg_kernel_all(&all);
     assert_true(count > 0);
     for (int i = 0; i < count; i++) {
-        for (int s = 0; s < STAGES; s++) {
-            struct findings found = inspect_stage(all[i], stages[s].kind);
+        for (int s = 0; s < SPIRV_STAGES; s++) {
+            struct findings found = inspect_stage(all[i], spirv_stages[s].kind);
             if (found.fault[0] && !is_probe(all[i]))
                 fail_msg("kernel '%s', %s stage: %s may be rounded otherwise; see "
                          "kernels/flatten.py",
-                         all[i]->name, stages[s].stage, found.fault);
+                         all[i]->name, spirv_stages[s].name, found.fault);
         }
     }
 }
@@ -181,9 +170,9 @@ static void every_kernel_has_its_stages(void **state)
     const struct rg_kernel *const *all;
     int count = rg_kernel_all(&all);
     for (int i = 0; i < count; i++)
-        for (int s = 0; s < STAGES; s++)
-            assert_int_equal(all[i]->code[stages[s].kind].size > 0,
-                             !all[i]->draw == (stages[s].kind == RG_CODE_SPIRV));
+        for (int s = 0; s < SPIRV_STAGES; s++)
+            assert_int_equal(all[i]->code[spirv_stages[s].kind].size > 0,
+                             !all[i]->draw == (spirv_stages[s].kind == RG_CODE_SPIRV));
 }
 
 static void the_inspection_sees_operations(void **state)
@@ -214,16 +203,16 @@ static bool faulty_with(uint32_t *words, size_t count, uint32_t *changed, uint32
 
 static struct faults spoil(const struct rg_kernel *kernel, enum rg_code_kind kind)
 {
-    const uint32_t restrict_decoration = 19, glsl_fma = 50, glsl_sqrt = 31, image_fetch = 95,
-                   image_sample = 88;
+    const uint32_t restrict_decoration = 19, glsl_fma = 50, glsl_sqrt = 31, image_sample = 88;
+    const int image_fetch = 95;
     const struct rg_kernel_code *code = &kernel->code[kind];
     const size_t count = code->size / 4;
     struct faults faults = {0};
     uint32_t *words = malloc(code->size);
     memcpy(words, code->bytes, code->size);
-    for (size_t at = HEADER_WORDS; at < count; at += words[at] >> 16) {
+    for (size_t at = SPIRV_HEADER_WORDS; at < count; at += spirv_length(words[at])) {
         uint32_t *word = &words[at];
-        const uint32_t op = word[0] & 0xffff;
+        const int op = spirv_op(word[0]);
         if (op == OP_DECORATE && word[2] == DECORATION_NO_CONTRACTION)
             faults.decorations += faulty_with(words, count, &word[2], restrict_decoration);
         if (op == OP_EXT_INST && word[4] == glsl_sqrt)

@@ -1,99 +1,36 @@
 // streaks as a whole, and the laws that it obeys: test_streaks DEVICE.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "core/techniques/streaks_instance.h"
 #include "kernels/format.h"
-
-enum { WIDTH = 160, HEIGHT = 90, TEXELS = WIDTH * HEIGHT };
-
-// A small rain in a corner of the small city.
-#define SMALL                                                                                      \
-    "atlas=small city=small depth_map_px=256 shadow_map_px=64 rain_width_m=60 rain_depth_m=60 "    \
-    "rain_height_m=40 camera=free eye_y_m=3 culling_radius_m=12 drops_m2_s=60 streak_gain=20 "     \
-    "view_angle_deg=70 "
-
-static struct rg_device *device;
-
-static struct streaks *open_rain(const char *settings)
-{
-    const struct rg_technique *technique = rg_technique_find("streaks");
-    char all[1024];
-    snprintf(all, sizeof(all), SMALL "%s", settings);
-    void *defaults = rg_settings_create(technique);
-    void *copy = rg_settings_copy(technique, defaults, all);
-    assert_non_null(copy);
-    struct rg_instance *instance = technique->create(device, copy, WIDTH, HEIGHT);
-    assert_non_null(instance);
-    free(copy);
-    free(defaults);
-    return (struct streaks *)instance;
-}
-
-static void close_rain(struct streaks *s)
-{
-    s->base.technique->destroy(&s->base);
-}
-
-static void step(struct streaks *s, int frames)
-{
-    for (int i = 0; i < frames; i++)
-        assert_true(s->base.technique->step(&s->base));
-}
+#include "tests/rain_rig.h"
 
 // --- pictures ---
 
-struct picture {
-    uint16_t halves[TEXELS * 4];
-};
-
-static struct picture *read_picture(struct streaks *s)
-{
-    struct picture *picture = malloc(sizeof(*picture));
-    assert_non_null(picture);
-    assert_true(s->base.technique->draw(&s->base));
-    assert_true(rg_image_read(s->base.target, 0, 0, picture->halves));
-    return picture;
-}
-
-static struct picture *draw(const char *settings, int frames)
-{
-    struct streaks *s = open_rain(settings);
-    step(s, frames);
-    struct picture *picture = read_picture(s);
-    close_rain(s);
-    return picture;
-}
-
-static bool same(const struct picture *a, const struct picture *b)
+static bool same(const struct rain_texels *a, const struct rain_texels *b)
 {
     return !memcmp(a->halves, b->halves, sizeof(a->halves));
 }
 
 // How many texels differ.
-static int differing(const struct picture *a, const struct picture *b)
+static int differing(const struct rain_texels *a, const struct rain_texels *b)
 {
     int count = 0;
-    for (int i = 0; i < TEXELS; i++)
+    for (int i = 0; i < RAIN_TEXELS; i++)
         count += memcmp(a->halves + 4 * i, b->halves + 4 * i, 8) != 0;
     return count;
 }
 
 // The sum of a colour over the picture.
-static double light_of(const struct picture *picture, int colour)
+static double light_of(const struct rain_texels *picture, int colour)
 {
     double sum = 0;
-    for (int i = 0; i < TEXELS; i++)
-        sum += (double)rg_unpack_half(picture->halves[4 * i + colour]);
+    for (int y = 0; y < RAIN_HEIGHT; y++)
+        for (int x = 0; x < RAIN_WIDTH; x++)
+            sum += rain_texel(picture, x, y, colour);
     return sum;
 }
 
@@ -105,13 +42,13 @@ static void test_packets_do_not_show(void **state)
     static const char *const ways[] = {
         "packets=kd packet_size=300", "packets=kd packet_size=7000", "packets=quad packet_size=300",
         "packets=quad packet_size=7000", "packets=quad packet_size=300 select=hull"};
-    struct picture *world = draw("cull=exact order=id packets=world", 3);
-    struct picture *dry = draw("drops=off splashes=off", 3);
+    struct rain_texels *world = rain_draw_at("cull=exact order=id packets=world", 3);
+    struct rain_texels *dry = rain_draw_at("drops=off splashes=off", 3);
     assert_true(differing(world, dry) > 100);
     for (size_t i = 0; i < sizeof(ways) / sizeof(ways[0]); i++) {
         char settings[256];
         snprintf(settings, sizeof(settings), "cull=exact order=id %s", ways[i]);
-        struct picture *packets = draw(settings, 3);
+        struct rain_texels *packets = rain_draw_at(settings, 3);
         assert_true(same(packets, world));
         free(packets);
     }
@@ -131,9 +68,9 @@ static void test_grid_is_like_the_trees(void **state)
             char settings[256];
             snprintf(settings, sizeof(settings), "%s packets=%s packet_size=1000 seed=%d", common,
                      i ? "grid" : "kd", seed + 1);
-            struct picture *picture = draw(settings, 2);
+            struct rain_texels *picture = rain_draw_at(settings, 2);
             snprintf(settings, sizeof(settings), "%s drops=off", common);
-            struct picture *dry = draw(settings, 2);
+            struct rain_texels *dry = rain_draw_at(settings, 2);
             of_seeds[seed] = light_of(picture, 1) - light_of(dry, 1);
             sum += of_seeds[seed];
             free(picture);
@@ -176,10 +113,10 @@ static void test_drops_stay_put(void **state)
     for (int i = 0; i < 2; i++) {
         char settings[256];
         snprintf(settings, sizeof(settings), common, i ? 14.25 : 12.0);
-        struct streaks *s = open_rain(settings);
-        step(s, 7);
+        struct streaks *s = rain_open(settings);
+        rain_step(s, 7);
         places[i] = read_places(s);
-        close_rain(s);
+        rain_close(s);
     }
     int64_t seen = 0, wrapped = 0;
     assert_int_equal(places[0].count, places[1].count);
@@ -231,12 +168,12 @@ static void test_one_splash_a_hit(void **state)
     (void)state;
     // 15 m at 10 m/s are a life of 90 frames; splashes last for 12.
     const int frames = 200, lasts = 12;
-    struct streaks *s = open_rain("state=on packets=world local_height_m=15 fall_speed_m_s=10 "
+    struct streaks *s = rain_open("state=on packets=world local_height_m=15 fall_speed_m_s=10 "
                                   "splash_s=0.2 drops_m2_s=20");
     struct life *lives = NULL;
     int64_t count = 0, splashes = 0, falling = 0;
     for (int frame = 0; frame < frames; frame++) {
-        step(s, 1);
+        rain_step(s, 1);
         const struct places places = read_places(s);
         count = places.count;
         if (!lives)
@@ -253,10 +190,29 @@ static void test_one_splash_a_hit(void **state)
     }
     assert_true(falling > 500 && splashes >= 2 * falling);
     free(lives);
-    close_rain(s);
+    rain_close(s);
 }
 
 // --- light ---
+
+// Without geometry there is the colour of the horizon everywhere, cut off to halves.
+static void test_the_sky_is_even(void **state)
+{
+    (void)state;
+    for (int night = 0; night < 2; night++) {
+        const struct streaks_scene_look look = night ? streaks_scene_night() : streaks_scene_day();
+        const float due[4] = {look.sky.horizon_r, look.sky.horizon_g, look.sky.horizon_b, 1};
+        char settings[128];
+        snprintf(settings, sizeof(settings), "geometry=off drops=off splashes=off time=%s",
+                 night ? "night" : "day");
+        struct rain_texels *picture = rain_draw_at(settings, 1);
+        for (int i = 0; i < 4 * RAIN_TEXELS; i++) {
+            const float value = rg_unpack_half(picture->halves[i]);
+            assert_true(value <= due[i % 4] && value >= due[i % 4] * (1 - 0x1p-10f));
+        }
+        free(picture);
+    }
+}
 
 static void write_lights(const char *path, bool first, bool second)
 {
@@ -284,11 +240,11 @@ static void test_lights_add_up(void **state)
     snprintf(settings, sizeof(settings),
              "geometry=off environment_light=off streak_opacity=0 splash_opacity=0 lights_file=%s",
              path);
-    struct picture *dry = draw("geometry=off drops=off splashes=off lights=0", 2);
+    struct rain_texels *dry = rain_draw_at("geometry=off drops=off splashes=off lights=0", 2);
     double added[4][3];
     for (int i = 1; i < 4; i++) {
         write_lights(path, i & 1, i & 2);
-        struct picture *picture = draw(settings, 2);
+        struct rain_texels *picture = rain_draw_at(settings, 2);
         for (int c = 0; c < 3; c++)
             added[i][c] = light_of(picture, c) - light_of(dry, c);
         free(picture);
@@ -303,27 +259,12 @@ static void test_lights_add_up(void **state)
     remove(path);
 }
 
-static int set_up(void **state)
-{
-    device = rg_device_open(*state, NULL);
-    return device ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return rg_device_close(device) ? 0 : -1;
-}
-
 int main(int argc, char **argv)
 {
-    static char name[64];
-    snprintf(name, sizeof(name), "%s", argc > 1 ? argv[1] : "cpu");
-    const struct CMUnitTest tests[] = {
-#define ON_DEVICE(test) cmocka_unit_test_prestate_setup_teardown(test, set_up, tear_down, name)
-        ON_DEVICE(test_packets_do_not_show), ON_DEVICE(test_grid_is_like_the_trees),
-        ON_DEVICE(test_drops_stay_put),      ON_DEVICE(test_one_splash_a_hit),
-        ON_DEVICE(test_lights_add_up),
+    struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_packets_do_not_show), cmocka_unit_test(test_grid_is_like_the_trees),
+        cmocka_unit_test(test_drops_stay_put),      cmocka_unit_test(test_one_splash_a_hit),
+        cmocka_unit_test(test_the_sky_is_even),     cmocka_unit_test(test_lights_add_up),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
 }

@@ -1,0 +1,39 @@
+// What the tests of streaks as a whole share: a small rain with settings as text, and its pictures.
+#ifndef RG_TESTS_RAIN_RIG_H
+#define RG_TESTS_RAIN_RIG_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "core/techniques/streaks_instance.h"
+
+enum { RAIN_WIDTH = 160, RAIN_HEIGHT = 90, RAIN_TEXELS = RAIN_WIDTH * RAIN_HEIGHT };
+
+// The device that the program was called with, for the present test.
+extern struct rg_device *rain_device;
+
+// Opens streaks with these "key=value key=value", over those of a small rain in a corner of the
+// small city. Fails the test if it cannot.
+struct streaks *rain_open(const char *settings);
+void rain_close(struct streaks *s);
+void rain_step(struct streaks *s, int frames);
+
+struct rain_texels {
+    uint16_t halves[RAIN_TEXELS * 4];
+};
+
+// Draws the present frame. The caller frees it.
+struct rain_texels *rain_read(struct streaks *s);
+// The picture after so many frames. The caller frees it.
+struct rain_texels *rain_draw_at(const char *settings, int frames);
+// Of red, green and blue, colour 0 to 2.
+double rain_texel(const struct rain_texels *picture, int x, int y, int colour);
+
+// Runs tests, each with the device that argv[1] names opened for it, and closed without a leak.
+int rain_tests_run(int argc, char **argv, struct CMUnitTest *tests, int count);
+
+#endif
