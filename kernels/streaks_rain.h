@@ -15,7 +15,9 @@
     IMAGE(4, R16F, points)                                                                         \
     IMAGE(5, R16F, skies)                                                                          \
     IMAGE(6, R16F, crowns)                                                                         \
-    IN(7, float, factors) IN(8, streaks_light, lights) IMAGE(9, D32F, shadows)
+    IN(7, float, factors)                                                                          \
+    IN(8, streaks_light, lights)                                                                   \
+    IMAGE(9, D32F, shadows) IMAGE(10, RGBA8, numbers) IN(11, uint, surfaces)
 #define RG_CORNERS 4
 #define RG_LIGHTS
 
@@ -49,6 +51,7 @@ RG_STRUCT(streaks_billboard)
 #define RG_RECORD streaks_billboard
 #include "draw.h"
 
+#include "streaks_material.h"
 #include "streaks_particle.h"
 #include "streaks_shadow.h"
 
@@ -197,7 +200,7 @@ RG_FN streaks_billboard streaks_billboard_of(rg_ctx rg, rg_draw_state draw, stre
     r.hit = t.hit;
     r.splash = t.state == STREAKS_SPLASH ? 1.0f : 0.0f;
     r.oscillation = t.oscillation;
-    r.crown = rg_to_int(((random >> 20) * rg_to_uint(p.materials)) >> 12) * STREAKS_FRAMES;
+    r.crown = streaks_material(rg, p, t) * STREAKS_FRAMES;
     r.frame = rg_clamp(t.age / p.splash_s, 0.0f, 0.999f) * rg_to_float(STREAKS_FRAMES);
     r.flip = rg_to_float(rg_to_int((random >> 10) & 1u));
     return streaks_look(p, r, shape);

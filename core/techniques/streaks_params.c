@@ -52,7 +52,7 @@ static const struct rg_param rows[] = {
     {"last_mip", RG_PARAM_INT, AT(last_mip), 5, 0, 5, "1", "the coarsest level of the streak atlas that is read", NULL},
     {"drops", RG_PARAM_CHOICE, AT(drops), 1, 0, 1, "1", "whether drops are seen", "off on"},
     {"splashes", RG_PARAM_CHOICE, AT(splashes), 1, 0, 1, "1", "whether splashes are seen", "off on"},
-    {"splash_materials", RG_PARAM_CHOICE, AT(splash_materials), 0, 0, 1, "1", "whether splashes are of four kinds, drawn at random, or all of one", "off on"},
+    {"splash_materials", RG_PARAM_CHOICE, AT(splash_materials), 0, 0, 1, "1", "whether splashes go by what is hit, water, rough or smooth, or all are of one kind", "off on"},
     {"drop_radius_mm", RG_PARAM_FLOAT, AT(drop_radius_mm), 1.6, 0.05, 10, "mm", "of all drops", NULL},
     {"exposure_s", RG_PARAM_FLOAT, AT(exposure_s), 1.0 / 60, 1e-4, 1, "s", "for which the camera's shutter is open: how long streaks are", NULL},
     {"splash_s", RG_PARAM_FLOAT, AT(splash_s), 0.15, 0.001, 10, "s", "how long a splash lasts", NULL},
