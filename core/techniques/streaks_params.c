@@ -46,7 +46,7 @@ static const struct rg_param rows[] = {
     {"environment_light", RG_PARAM_CHOICE, AT(environment_light), 1, 0, 1, "1", "whether particles are lit by the sky", "off on"},
     {"shadows", RG_PARAM_CHOICE, AT(shadows), 1, 0, 1, "1", "whether the scene casts shadows on itself and on particles", "off on"},
     {"shadow_map_px", RG_PARAM_INT, AT(shadow_map_px), 2048, 16, 8192, "px", "a side of a light's shadow map", NULL},
-    {"atlas", RG_PARAM_CHOICE, AT(atlas), 0, 0, 1, "1", "of streak textures: the whole one, or one of a quarter of the size", "full small"},
+    {"atlas", RG_PARAM_CHOICE, AT(atlas), 0, 0, 3, "1", "of streak textures: the whole one, one of a quarter of the size, or the original database as `raingauge atlas --from` packed it, or with --quick", "full small cave cave-small"},
     {"taps", RG_PARAM_CHOICE, AT(taps), 0, 0, 2, "1", "streak textures read for each light", "2 4 8"},
     {"view_below", RG_PARAM_CHOICE, AT(absolute_views), 0, 0, 1, "1", "a streak seen from below: mirrored with its light, or as the thesis has it, as if from above", "mirrored absolute"},
     {"last_mip", RG_PARAM_INT, AT(last_mip), 5, 0, 5, "1", "the coarsest level of the streak atlas that is read", NULL},
