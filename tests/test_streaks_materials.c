@@ -249,7 +249,9 @@ static void splashes_are_of_what_is_hit(void **state)
 static void a_dynamic_map_too(void **state)
 {
     const struct compared all = compare(
-        *state, "splash_materials=on depth_map=dynamic culling_radius_m=40 walk_m_s=20", true);
+        *state,
+        "splash_materials=on depth_map=dynamic culling_radius_m=40 walk_m_s=900 slant_deg=25",
+        true);
     assert_true(all.counts[FILM] > 100 && all.counts[PUDDLE] > 20 && all.outside > 100);
 }
 
