@@ -8,6 +8,7 @@
 #include "core/log.h"
 #include "core/techniques/streaks_scene_cull.h"
 #include "core/techniques/streaks_scene_made.h"
+#include "kernels/format.h"
 #include "kernels/streaks_city_shade_params.h"
 
 struct streaks_scene {
@@ -260,7 +261,9 @@ bool streaks_scene_draw(struct streaks_scene *s, struct rg_instance *instance,
                         bool geometry)
 {
     const float farthest = 1;
-    const float sky[4] = {look->sky.horizon_r, look->sky.horizon_g, look->sky.horizon_b, 1};
+    const uint16_t sky[4] = {
+        (uint16_t)rg_pack_half(look->sky.horizon_r), (uint16_t)rg_pack_half(look->sky.horizon_g),
+        (uint16_t)rg_pack_half(look->sky.horizon_b), (uint16_t)rg_pack_half(1)};
     if (!rg_image_clear(view->depth, &farthest))
         return false;
     if (!geometry)

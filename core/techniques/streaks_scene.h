@@ -49,7 +49,7 @@ struct streaks_scene_look streaks_scene_night(void);
 struct streaks_scene_view {
     m4 to_clip; // from the world, as rg_camera_matrix makes it: faces keep their turn
     float eye[3];
-    struct rg_image *colour, *depth; // RGBA16F and such; D32F
+    struct rg_image *colour, *depth; // RGBA16F; D32F
     bool everything; // chunks that cannot be seen are drawn too, which changes no pixel: for tests
 };
 
