@@ -46,7 +46,7 @@ int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX
                                rg_level_size(desc->height, level) * desc->layers;
         words += (texels * rg_format_size(desc->format) + 3) / 4;
     }
-    return words;
+    return rg_format_size(desc->format) < 4 ? words + 1 : words; // two texels are read at once
 }
 
 bool rg_image_layout_fits(const struct rg_device *device, const struct rg_image_desc *desc,

@@ -8,7 +8,7 @@ RG_FN rgba rgba_lerp(rgba a, rgba b, float t)
                    a.a + (b.a - a.a) * t);
 }
 
-// The texel that a coordinate lies in, and the first of the two that it lies between.
+// The texel that a coordinate lies in.
 RG_FN int rg_filter_texel(float at, int size)
 {
     return rg_iclamp(rg_to_int(rg_floor(at)), 0, size - 1);
@@ -30,15 +30,16 @@ RG_FN int rg_filter_texel(float at, int size)
         float y = rg_clamp(py, 0.0f, rg_to_float(height)) - 0.5f;                                  \
         float left = rg_floor(x);                                                                  \
         float top = rg_floor(y);                                                                   \
-        int x0 = rg_filter_texel(left, width);                                                     \
-        int x1 = rg_filter_texel(left + 1.0f, width);                                              \
-        int y0 = rg_filter_texel(top, height);                                                     \
-        int y1 = rg_filter_texel(top + 1.0f, height);                                              \
-        rgba above = rgba_lerp(name##_texel(rg, x0, y0, layer, level),                             \
-                               name##_texel(rg, x1, y0, layer, level), x - left);                  \
-        rgba below = rgba_lerp(name##_texel(rg, x0, y1, layer, level),                             \
-                               name##_texel(rg, x1, y1, layer, level), x - left);                  \
-        return rgba_lerp(above, below, y - top);                                                   \
+        int ix = rg_to_int(left);                                                                  \
+        int iy = rg_to_int(top);                                                                   \
+        int x0 = rg_iclamp(ix, 0, width - 1);                                                      \
+        int x1 = rg_iclamp(ix + 1, 0, width - 1);                                                  \
+        int y0 = rg_iclamp(iy, 0, height - 1);                                                     \
+        int y1 = rg_iclamp(iy + 1, 0, height - 1);                                                 \
+        rg_texels above = name##_texels(rg, x0, x1, y0, layer, level);                             \
+        rg_texels below = name##_texels(rg, x0, x1, y1, layer, level);                             \
+        return rgba_lerp(rgba_lerp(above.left, above.right, x - left),                             \
+                         rgba_lerp(below.left, below.right, x - left), y - top);                   \
     }                                                                                              \
     RG_FN rgba name##_linear(rg_ctx rg, float u, float v, int layer, int level)                    \
     {                                                                                              \

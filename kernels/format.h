@@ -73,10 +73,8 @@ RG_FN uint rg_pack_half(float v)
 
 RG_FN float rg_unpack_half(uint half_bits)
 {
-    uint magnitude = half_bits & 0x7fffu;
-    float v = magnitude < 0x400u ? rg_to_float(magnitude) * 5.9604644775390625e-8f
-                                 : rg_bits_float((magnitude << 13) + 0x38000000u);
-    return (half_bits & 0x8000u) != 0u ? -v : v;
+    uint bits = ((half_bits & 0x7fffu) << 13) | ((half_bits & 0x8000u) << 16);
+    return rg_bits_float(bits) * 5.192296858534828e33f; // 2^112, exactly
 }
 
 // --- R16F: one half float, half a word a texel; fetched only ---

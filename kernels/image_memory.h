@@ -42,6 +42,20 @@ RG_FN int rg_texel_half(RG_GLOBAL const uint *image, rg_image_shape s, int x, in
     return rg_to_int(image[level]) * 2 + ((layer * height + y) * width + x);
 }
 
+// Two halves, one after the other, the first in the lower bits. Behind the last texel lies a word
+// more, so that any may be the first.
+RG_FN uint rg_two_halves(RG_GLOBAL const uint *image, int half_of)
+{
+#if RG_OPENCL
+    ushort2 two = vload2(0, (RG_GLOBAL const ushort *)image + half_of);
+    return rg_to_uint(two.x) | (rg_to_uint(two.y) << 16);
+#else
+    uint two;
+    memcpy(&two, (const unsigned short *)image + half_of, sizeof(two));
+    return two;
+#endif
+}
+
 #define RG_WORDS_RGBA8    1
 #define RG_WORDS_RGBA16F  2
 #define RG_WORDS_RGBA32F  4

@@ -162,6 +162,14 @@ RG_STRUCT(rgba)
 };
 RG_STRUCT_SIZE(rgba, 4)
 
+// Two texels of a row.
+RG_STRUCT(rg_texels)
+{
+    rgba left;
+    rgba right;
+};
+RG_STRUCT_SIZE(rg_texels, 8)
+
 RG_FN rgba rg_rgba(float r, float g, float b, float a)
 {
     rgba c;

@@ -123,6 +123,13 @@ typedef struct rg_ctx {
         int i = rg_texel_word(rg.name, rg.name##_shape, x, y, layer, level, RG_WORDS_##F);         \
         return rg_load_##F(rg.name, RG_INDEX(rg, name, i));                                        \
     }                                                                                              \
+    RG_FN rg_texels name##_texels(rg_ctx rg, int x0, int x1, int y, int layer, int level)          \
+    {                                                                                              \
+        rg_texels t;                                                                               \
+        t.left = name##_texel(rg, x0, y, layer, level);                                            \
+        t.right = name##_texel(rg, x1, y, layer, level);                                           \
+        return t;                                                                                  \
+    }                                                                                              \
     RG_FN uint name##_bytes(rg_ctx rg, int x, int y, int layer, int level)                         \
     {                                                                                              \
         int i = rg_texel_word(rg.name, rg.name##_shape, x, y, layer, level, RG_WORDS_##F);         \
@@ -133,6 +140,15 @@ typedef struct rg_ctx {
     {                                                                                              \
         int i = rg_texel_half(rg.name, rg.name##_shape, x, y, layer, level);                       \
         return rg_load_##F(rg.name[RG_INDEX(rg, name, i >> 1)], i);                                \
+    }                                                                                              \
+    RG_FN rg_texels name##_texels(rg_ctx rg, int x0, int x1, int y, int layer, int level)          \
+    {                                                                                              \
+        int i = rg_texel_half(rg.name, rg.name##_shape, x0, y, layer, level);                      \
+        uint two = rg_two_halves(rg.name, RG_INDEX(rg, name, i >> 1) * 2 + (i & 1));               \
+        rg_texels t;                                                                               \
+        t.left = rg_load_##F(two, 0);                                                              \
+        t.right = rg_load_##F(two, x1 - x0);                                                       \
+        return t;                                                                                  \
     }
 // Which of the two a format takes: a macro of its own tells those of half a word.
 #define RG_HALVES_R16F                         , RG_TEXEL_OF_HALVES

@@ -19,13 +19,6 @@
 // Brightness factors: of the point atlases by oscillation, view and column, then of the skies.
 #define STREAKS_SKY_FACTORS 4500
 
-// A place in an image, in texels.
-RG_STRUCT(streaks_place)
-{
-    float x;
-    float y;
-};
-
 // The first texel of a view's row in level 0; the atlas' height for the one after the last. A sum,
 // for gcc makes a table of choices, which it does not read for several pixels at once.
 RG_FN int streaks_row(int view)
@@ -35,22 +28,18 @@ RG_FN int streaks_row(int view)
            214 * rg_iclamp(view - 4, 0, 1);
 }
 
-// u of the way across texels begin to end, and at least half a texel within: nothing bleeds in.
-RG_FN float streaks_within(int begin, int end, float u)
+// A place across `size` texels, of which the first is `first`, at least half a texel within them:
+// nothing bleeds in.
+RG_FN float streaks_within(float first, float size, float share)
 {
-    float first = rg_to_float(begin);
-    float last = rg_to_float(end);
-    return rg_clamp(first + u * (last - first), first + 0.5f, last - 0.5f);
+    return first + rg_clamp(share * size, 0.5f, size - 0.5f);
 }
 
-// The point (u, v) of a cell, from its upper left corner, in a level of the full atlas, 0 to 5.
-RG_FN streaks_place streaks_cell(int column, int view, float u, float v, int level)
+// A place across a column, in texels of a level of the full atlas, 0 to 5.
+RG_FN float streaks_across(int column, float u, int level)
 {
     int wide = STREAKS_CELL_PX >> level;
-    streaks_place at;
-    at.x = streaks_within(column * wide, (column + 1) * wide, u);
-    at.y = streaks_within(streaks_row(view) >> level, streaks_row(view + 1) >> level, v);
-    return at;
+    return streaks_within(rg_to_float(column * wide), rg_to_float(wide), u);
 }
 
 #endif

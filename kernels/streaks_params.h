@@ -14,9 +14,11 @@
 
 RG_STRUCT(streaks_params)
 {
-    m4 to_clip;           // from the rain frame
-    float half_x, half_y; // of the rain space
-    float top;            // s of the local space's top
+    m4 to_clip; // from the rain frame
+    m4 rays;    // (px, py, 1) to the ray through a pixel, as long as 1 along the view
+    float depth_far, depth_per_w; // depth is depth_far + depth_per_w / w
+    float half_x, half_y;         // of the rain space
+    float top;                    // s of the local space's top
     float local_height;
     float eye_x, eye_y, eye_s;
     float radius;               // of the culling prism, where particles are culled one by one
@@ -42,6 +44,6 @@ RG_STRUCT(streaks_params)
     float splash_gain, splash_opacity;
     int first_place; // of states
 };
-RG_STRUCT_SIZE(streaks_params, 57)
+RG_STRUCT_SIZE(streaks_params, 75)
 
 #endif

@@ -77,16 +77,30 @@ static void set_looks(streaks_params *p, const struct streaks_settings *set,
     p->splash_opacity = (float)set->splash_opacity;
 }
 
+// The camera's matrix, rays and depth in the rain frame.
+static void set_view(streaks_params *p, const struct streaks_rain_space *space,
+                     const struct streaks_observer *observer)
+{
+    const double near_m = (double)observer->camera.near_plane;
+    const double far_m = (double)observer->camera.far_plane;
+    float to_clip[16], rays[16];
+    streaks_rain_to_clip(space, observer->world_to_clip, to_clip);
+    memcpy(&p->to_clip, to_clip, sizeof(p->to_clip));
+    streaks_rain_rays(space, observer->rays, rays);
+    memcpy(&p->rays, rays, sizeof(p->rays));
+    p->depth_far = (float)(far_m / (far_m - near_m));
+    p->depth_per_w = (float)(-near_m * far_m / (far_m - near_m));
+    p->focal_px = observer->focal_px;
+}
+
 static void set_params(struct streaks *s, const double eye[3], double top_m)
 {
     const struct streaks_settings *set = &s->settings;
     streaks_params *p = &s->params;
     const double up[3] = {0, 1, 0};
     double up_rain[3];
-    float to_clip[16];
     streaks_rain_direction(&s->space, up, up_rain);
-    streaks_rain_to_clip(&s->space, s->observer.world_to_clip, to_clip);
-    memcpy(&p->to_clip, to_clip, sizeof(p->to_clip));
+    set_view(p, &s->space, &s->observer);
     p->half_x = (float)s->space.half_x_m;
     p->half_y = (float)s->space.half_y_m;
     p->top = (float)top_m;
@@ -99,7 +113,6 @@ static void set_params(struct streaks *s, const double eye[3], double top_m)
     p->up_x = (float)up_rain[0];
     p->up_y = (float)up_rain[1];
     p->up_s = (float)up_rain[2];
-    p->focal_px = s->observer.focal_px;
     p->lights = s->lights->count;
     p->sky_r = set->environment_light ? s->lights->sky[0] : 0;
     p->sky_g = set->environment_light ? s->lights->sky[1] : 0;

@@ -1,19 +1,8 @@
 // Rain beyond the culling radius as layers that scroll (kernels/streaks_far.h).
 #include <math.h>
-#include <string.h>
 
 #include "core/techniques/streaks_instance.h"
 #include "kernels/streaks_far_params.h"
-
-// Directions of the rain frame, for what is in the world.
-static void turn(const float world_to_rain[16], const float rays[16], m4 *turned)
-{
-    float turning[16], product[16];
-    memcpy(turning, world_to_rain, sizeof(turning));
-    turning[3] = turning[7] = turning[11] = 0;
-    rg_matrix_multiply(turning, rays, product);
-    memcpy(turned, product, sizeof(*turned));
-}
 
 // A layer hides what all drops in it hide: each its cross-section, at any time of the exposure.
 static double opacity_of(const struct streaks *s)
@@ -28,9 +17,9 @@ static streaks_far_params params_of(const struct streaks *s)
     const struct streaks_settings *set = &s->settings;
     const double seconds = set->step_s * (double)s->base.frame;
     const float light = (float)(set->streak_gain / fmax(set->streak_opacity, 1e-6));
-    float world_to_rain[16];
     streaks_far_params p = {
         .to_clip = s->params.to_clip,
+        .rays = s->params.rays,
         .eye_x = s->params.eye_x,
         .eye_y = s->params.eye_y,
         .eye_s = s->params.eye_s,
@@ -46,8 +35,6 @@ static streaks_far_params params_of(const struct streaks *s)
         .seed = set->seed,
     };
     p.fallen = (float)fmod(set->fall_speed_m_s * seconds, STREAKS_FAR_ROWS * (double)p.cell_length);
-    streaks_rain_matrices(&s->space, world_to_rain, NULL);
-    turn(world_to_rain, s->observer.rays, &p.rays);
     return p;
 }
 

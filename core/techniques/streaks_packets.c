@@ -121,6 +121,12 @@ static bool build(struct streaks_packets *p, const struct streaks_scatter *scatt
     return true;
 }
 
+// As streaks_select decides how to list blocks.
+bool streaks_by_id(const struct streaks_packets *p)
+{
+    return p->settings.by_id && p->info.scheme != STREAKS_GRID;
+}
+
 struct streaks_packets *streaks_packets_create(const struct streaks_rain_space *space,
                                                const struct rg_density *density,
                                                const struct streaks_packets_settings *settings)
@@ -138,7 +144,8 @@ struct streaks_packets *streaks_packets_create(const struct streaks_rain_space *
     const struct streaks_scatter scatter = {
         .density = density, .seed = settings->seed, .size_x = 2, .size_y = 2};
     struct streaks_plan plan = {0};
-    if (streaks_plan(p, density, &scatter, &plan) && build(p, &scatter, &plan)) {
+    if (streaks_plan(p, density, &scatter, &plan) && build(p, &scatter, &plan) &&
+        (streaks_by_id(p) || streaks_bounds_make(p))) {
         p->info.particle_bytes = p->slots * STREAKS_PARTICLE_BYTES;
         return p;
     }
@@ -155,6 +162,7 @@ void streaks_packets_destroy(struct streaks_packets *packets)
     free(packets->packets);
     free(packets->ids);
     free(packets->grid.levels);
+    free(packets->bounds.memory);
     free(packets);
 }
 

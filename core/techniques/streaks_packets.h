@@ -106,7 +106,7 @@ int64_t streaks_packets_total(const struct streaks_rain_space *space,
 // Where the observer is and what is seen, in metres of the rain frame.
 struct streaks_view {
     double eye[3];
-    double corners[8][3]; // of the view frustum, in any order (streaks_view_corners)
+    double corners[8][3]; // of the view frustum, as streaks_view_corners orders them
     double radius_m;      // half a side of the culling prism; INFINITY: no prism
     double top_m;         // of the local space (streaks_local_top)
     double run;           // streaks_run
@@ -129,20 +129,20 @@ struct streaks_draw {
 
 // What a frame draws. Zero it before the first use; it is used again and again.
 struct streaks_selection {
-    int64_t particles; // that the selected packets hold
+    int64_t particles; // that the selected packets hold, in blocks that are seen or not
     int packets;       // selected places that are not empty
     int *selected;     // their numbers, ascending, for streaks_packets_rectangle
     int draw_count;
     struct streaks_draw *draws;
     int64_t block_count;
     uint32_t *blocks;    // STREAKS_BLOCK_WORDS each
-    int64_t reserved[5]; // how many each array can hold
-    void *scratch[2];
+    int64_t reserved[6]; // how many each array can hold
+    void *scratch[3];
 };
 
-// Selects the packets that meet prism and frustum, and lists their blocks. The world packet is
-// drawn whatever is seen. False, and one logged line, without memory, or if the view holds no
-// numbers.
+// Selects the packets that meet prism and frustum, and lists their blocks that the frustum can see;
+// with by_id, all of them. The world packet is selected whatever is seen. False, and one logged
+// line, without memory, or if the view holds no numbers.
 bool streaks_select(const struct streaks_packets *packets, const struct streaks_view *view,
                     struct streaks_selection *selection);
 void streaks_selection_release(struct streaks_selection *selection); // zeroes it

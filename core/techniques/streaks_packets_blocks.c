@@ -4,16 +4,6 @@
 
 #include "core/techniques/streaks_packets_inner.h"
 
-enum { MANY_BLOCKS = 1 << 20 }; // fewer are written before other threads have woken up
-
-// Particles that follow each other in one buffer, drawn with the same shift and turn.
-struct run {
-    int64_t slot; // of the first, of all buffers counted through
-    int32_t count;
-    float shift_x, shift_y, turn;
-    int64_t block; // where its blocks begin in the list
-};
-
 // --- packets to runs ---
 
 static float turn_of(double turns)
@@ -22,28 +12,24 @@ static float turn_of(double turns)
     return turn < 1 ? turn : 0;
 }
 
-static struct run run_of(const struct streaks_packets *p, const struct streaks_view *view,
-                         int place)
+static struct streaks_run run_of(const struct streaks_packets *p, const struct streaks_view *view,
+                                 int place)
 {
     if (p->info.scheme != STREAKS_GRID)
-        return (struct run){.slot = p->packets[place].first,
-                            .count = p->packets[place].count,
-                            .turn = turn_of(view->run)};
+        return (struct streaks_run){.slot = p->packets[place].first,
+                                    .count = p->packets[place].count,
+                                    .turn = turn_of(view->run)};
     const struct streaks_packet *bucket = &p->grid.buckets[p->grid.levels[place]];
-    return (struct run){.slot = bucket->first,
-                        .count = bucket->count,
-                        .shift_x = (float)(2.0 * (place % p->grid.across) / p->grid.across),
-                        .shift_y = (float)(2.0 * (place / p->grid.across) / p->grid.down),
-                        .turn = turn_of(view->run + streaks_cell_turn(p->settings.seed, place))};
-}
-
-static int64_t blocks_in(const struct run *run)
-{
-    return (run->count + STREAKS_BLOCK - 1) / STREAKS_BLOCK;
+    return (struct streaks_run){
+        .slot = bucket->first,
+        .count = bucket->count,
+        .shift_x = (float)(2.0 * (place % p->grid.across) / p->grid.across),
+        .shift_y = (float)(2.0 * (place / p->grid.across) / p->grid.down),
+        .turn = turn_of(view->run + streaks_cell_turn(p->settings.seed, place))};
 }
 
 // Cuts a run where its buffer ends. Returns how many runs it makes.
-static int cut_run(struct run whole, struct run *runs)
+static int cut_run(struct streaks_run whole, struct streaks_run *runs)
 {
     int count = 0;
     while (whole.count > 0) {
@@ -85,7 +71,7 @@ static bool reserve_blocks(struct streaks_selection *s, int64_t count)
     return good;
 }
 
-static void write_block(uint32_t *to, int64_t slot, uint32_t mask, const struct run *run)
+static void write_block(uint32_t *to, int64_t slot, uint32_t mask, const struct streaks_run *run)
 {
     to[0] = (uint32_t)(slot % STREAKS_BUFFER_PARTICLES);
     to[1] = mask;
@@ -94,24 +80,39 @@ static void write_block(uint32_t *to, int64_t slot, uint32_t mask, const struct 
     memcpy(to + 4, &run->turn, 4);
 }
 
-static void write_run(const struct run *run, uint32_t *to)
+// Of a run's blocks, those that are seen.
+static void write_run(const struct streaks_run *run, const uint8_t *seen, uint32_t *to)
 {
-    const int64_t blocks = blocks_in(run);
+    const int64_t blocks = streaks_blocks_in(run);
     for (int64_t i = 0; i < blocks; i++) {
         const int64_t left = run->count - i * STREAKS_BLOCK;
-        write_block(to + i * STREAKS_BLOCK_WORDS, run->slot + i * STREAKS_BLOCK,
+        if (!seen[i])
+            continue;
+        write_block(to, run->slot + i * STREAKS_BLOCK,
                     left < STREAKS_BLOCK ? ((uint32_t)1 << left) - 1 : UINT32_MAX, run);
+        to += STREAKS_BLOCK_WORDS;
     }
 }
 
+// Sets which blocks are seen, and leaves in run->block how many of a run are.
+static void cull(const struct streaks_packets *p, const struct streaks_view *view,
+                 struct streaks_run *runs, int64_t count, uint8_t *seen)
+{
+    struct streaks_sight sight;
+    streaks_sight_of(p, view, &sight);
+#pragma omp parallel for schedule(dynamic, 8)
+    for (int64_t i = 0; i < count; i++)
+        runs[i].block = streaks_bounds_seen(p, &sight, &runs[i], seen + runs[i].first);
+}
+
 // Gives each run its place in the list, those of one buffer together and in their order.
-static bool lay_out(const struct streaks_packets *p, struct streaks_selection *s, struct run *runs,
-                    int64_t count)
+static bool lay_out(const struct streaks_packets *p, struct streaks_selection *s,
+                    struct streaks_run *runs, int64_t count)
 {
     const int buffers = streaks_packets_buffers(p);
     int64_t next[STREAKS_BUFFER_LIMIT] = {0}, first = 0;
     for (int64_t i = 0; i < count; i++)
-        next[buffer_of(runs[i].slot)] += blocks_in(&runs[i]);
+        next[buffer_of(runs[i].slot)] += runs[i].block;
     for (int buffer = 0; buffer < buffers; buffer++) {
         const int64_t blocks = next[buffer];
         if (!add_draws(s, buffer, first, blocks))
@@ -121,27 +122,48 @@ static bool lay_out(const struct streaks_packets *p, struct streaks_selection *s
     }
     for (int64_t i = 0; i < count; i++) {
         int64_t *at = &next[buffer_of(runs[i].slot)];
+        const int64_t blocks = runs[i].block;
         runs[i].block = *at;
-        *at += blocks_in(&runs[i]);
+        *at += blocks;
     }
     return reserve_blocks(s, first);
+}
+
+// The selected packets as runs, and how many blocks they have.
+static int64_t make_runs(const struct streaks_packets *p, const struct streaks_view *view,
+                         const struct streaks_selection *s, struct streaks_run *runs,
+                         int64_t *blocks)
+{
+    int64_t count = 0;
+    *blocks = 0;
+    for (int i = 0; i < s->packets; i++)
+        count += cut_run(run_of(p, view, s->selected[i]), runs + count);
+    for (int64_t i = 0; i < count; i++) {
+        runs[i].first = *blocks;
+        *blocks += streaks_blocks_in(&runs[i]);
+    }
+    return count;
 }
 
 bool streaks_list_by_packet(const struct streaks_packets *p, const struct streaks_view *view,
                             struct streaks_selection *s)
 {
     if (!streaks_reserve(s, STREAKS_RUNS, &s->scratch[0],
-                         (int64_t)s->packets + STREAKS_BUFFER_LIMIT, sizeof(struct run), false))
+                         (int64_t)s->packets + STREAKS_BUFFER_LIMIT, sizeof(struct streaks_run),
+                         false))
         return false;
-    struct run *runs = s->scratch[0];
-    int64_t count = 0;
-    for (int i = 0; i < s->packets; i++)
-        count += cut_run(run_of(p, view, s->selected[i]), runs + count);
+    struct streaks_run *runs = s->scratch[0];
+    int64_t blocks;
+    const int64_t count = make_runs(p, view, s, runs, &blocks);
+    if (!streaks_reserve(s, STREAKS_SEEN, &s->scratch[2], blocks, 1, false))
+        return false;
+    uint8_t *seen = s->scratch[2];
+    cull(p, view, runs, count, seen);
     if (!lay_out(p, s, runs, count))
         return false;
-#pragma omp parallel for schedule(dynamic, 64) if (s->block_count > MANY_BLOCKS)
+#pragma omp parallel for schedule(dynamic, 8)
     for (int64_t i = 0; i < count; i++)
-        write_run(&runs[i], s->blocks + runs[i].block * STREAKS_BLOCK_WORDS);
+        write_run(&runs[i], seen + runs[i].first, s->blocks + runs[i].block * STREAKS_BLOCK_WORDS);
     return true;
 }
 
@@ -191,7 +213,7 @@ bool streaks_list_by_id(const struct streaks_packets *p, const struct streaks_vi
     }
     if (!reserve_blocks(s, blocks))
         return false;
-    const struct run all = {.turn = turn_of(view->run)};
+    const struct streaks_run all = {.turn = turn_of(view->run)};
     uint32_t *to = s->blocks;
     for (int64_t i = 0; i < count; i++)
         if (masks[i]) {

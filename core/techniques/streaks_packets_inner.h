@@ -10,6 +10,7 @@ enum {
     STREAKS_MAX_CELLS = 1 << 26, // of a grid, a byte each
     STREAKS_BUFFER_LIMIT = 512,  // 64 GiB; so a tree's nodes have 31 bits, too
     STREAKS_PARTICLE_BYTES = 12,
+    STREAKS_BOUNDS_BYTES = 24, // of a block
     STREAKS_ID_BYTES = 4
 };
 
@@ -35,6 +36,13 @@ struct streaks_grid {
     struct streaks_packet buckets[STREAKS_LEVELS];
 };
 
+// Boxes around the particles of each block, of all buffers counted through: x and y as particles
+// have them, and start. None where particles are drawn by id.
+struct streaks_bounds {
+    float *memory;
+    float *low[3], *high[3];
+};
+
 struct streaks_packets {
     double half_x_m, half_y_m;
     struct streaks_packets_settings settings;
@@ -47,7 +55,11 @@ struct streaks_packets {
     int64_t packets_reserved;
     uint32_t *ids; // leaf after leaf, where particles lie by id and the tree is kd
     struct streaks_grid grid;
+    struct streaks_bounds bounds;
 };
+
+// Whether particles are drawn in the order of their ids: the grid's have none.
+bool streaks_by_id(const struct streaks_packets *packets);
 
 static inline int64_t streaks_padded(int64_t count)
 {
@@ -112,8 +124,48 @@ bool streaks_list_by_packet(const struct streaks_packets *packets, const struct 
 bool streaks_list_by_id(const struct streaks_packets *packets, const struct streaks_view *view,
                         struct streaks_selection *selection);
 
+// Particles that follow each other in one buffer, drawn with the same shift and turn.
+struct streaks_run {
+    int64_t slot; // of the first, of all buffers counted through
+    int32_t count;
+    float shift_x, shift_y, turn;
+    int64_t first, block; // where its blocks begin, among all and among those that are seen
+};
+
+static inline int64_t streaks_blocks_in(const struct streaks_run *run)
+{
+    return (run->count + STREAKS_BLOCK - 1) / STREAKS_BLOCK;
+}
+
+// --- bounds of blocks ---
+
+// Puts the particles of each packet in an order in which blocks are small, and bounds them. False,
+// with one logged line, without memory.
+bool streaks_bounds_make(struct streaks_packets *packets);
+
+// A view, for many blocks.
+struct streaks_sight {
+    float planes[4][4]; // the frustum's sides: a, b, c, d with ax + by + cs + d > 0 inside
+    float half_x, half_y, across, above, below, top, height;
+};
+
+void streaks_sight_of(const struct streaks_packets *packets, const struct streaks_view *view,
+                      struct streaks_sight *sight);
+// Which of a run's blocks the view can see, 1 or 0 each; returns how many.
+int64_t streaks_bounds_seen(const struct streaks_packets *packets,
+                            const struct streaks_sight *sight, const struct streaks_run *run,
+                            uint8_t *seen);
+
 // What streaks_selection.reserved counts: each in elements.
-enum { STREAKS_SELECTED, STREAKS_DRAWS, STREAKS_BLOCKS, STREAKS_RUNS, STREAKS_MASKS };
+enum {
+    STREAKS_SELECTED,
+    STREAKS_DRAWS,
+    STREAKS_BLOCKS,
+    STREAKS_RUNS,
+    STREAKS_MASKS,
+    STREAKS_SEEN,
+    STREAKS_ARRAYS
+};
 // Makes room for `count` elements in the array that `memory` points to. What it held stays only
 // where `keep` is set.
 bool streaks_reserve(struct streaks_selection *selection, int array, void *memory, int64_t count,

@@ -74,16 +74,30 @@ int64_t streaks_tree_bytes(int64_t nodes, int64_t packets)
            packets * (int64_t)sizeof(struct streaks_packet);
 }
 
-static struct streaks_plan plan_world(int64_t total)
+// Of particles that are there, and of their blocks' bounds.
+static int64_t bytes_of(int64_t slots, bool by_id)
+{
+    return slots * STREAKS_PARTICLE_BYTES +
+           (by_id ? 0 : slots / STREAKS_BLOCK * STREAKS_BOUNDS_BYTES);
+}
+
+static struct streaks_plan plan_world(const struct streaks_packets_settings *settings,
+                                      int64_t total)
 {
     const int64_t slots = streaks_padded(total);
-    return (struct streaks_plan){STREAKS_WORLD, 1, slots, slots * STREAKS_PARTICLE_BYTES};
+    return (struct streaks_plan){STREAKS_WORLD, 1, slots, bytes_of(slots, settings->by_id)};
 }
 
 // A packet's last block is half empty on average; at most 31 of its particles are padding.
 static int64_t slots_of(int64_t total, int64_t packets, bool by_id)
 {
     return by_id ? streaks_padded(total) : total + packets * (STREAKS_BLOCK - 1);
+}
+
+static int64_t most3(int64_t a, int64_t b, int64_t c)
+{
+    const int64_t most = a > b ? a : b;
+    return most > c ? most : c;
 }
 
 static struct streaks_plan plan_kd(const struct streaks_packets_settings *settings, int64_t total)
@@ -96,7 +110,7 @@ static struct streaks_plan plan_kd(const struct streaks_packets_settings *settin
     return (struct streaks_plan){
         STREAKS_KD, packets, slots,
         streaks_tree_bytes(2 * packets, packets) +
-            (settings->by_id || halving > gathering ? halving : gathering)};
+            most3(settings->by_id ? 0 : gathering, halving, bytes_of(slots, settings->by_id))};
 }
 
 // Counts the leaves without keeping particles.
@@ -107,15 +121,14 @@ static struct streaks_plan plan_quad(const struct streaks_packets_settings *sett
     const int64_t slots = slots_of(total, packets, settings->by_id);
     return (struct streaks_plan){STREAKS_QUAD, packets, slots,
                                  streaks_tree_bytes(4 * packets, 2 * packets) +
-                                     slots * STREAKS_PARTICLE_BYTES};
+                                     bytes_of(slots, settings->by_id)};
 }
 
 static struct streaks_plan plan_grid(const struct streaks_grid *grid)
 {
     const int64_t slots = streaks_grid_slots(grid);
     return (struct streaks_plan){STREAKS_GRID, streaks_grid_buckets(grid), slots,
-                                 slots * STREAKS_PARTICLE_BYTES +
-                                     (int64_t)grid->across * grid->down};
+                                 bytes_of(slots, false) + (int64_t)grid->across * grid->down};
 }
 
 // What may be taken: numbers of packets and buffers are sure to suffice for that.
@@ -167,7 +180,7 @@ static bool choose_automatically(struct streaks_packets *p, const struct rg_dens
     const struct streaks_packets_settings *settings = &p->settings;
     const int64_t total = p->info.total_particles, size = settings->packet_size;
     if (total <= size) {
-        *plan = plan_world(total);
+        *plan = plan_world(settings, total);
         return true;
     }
     *plan = plan_kd(settings, total);
@@ -189,7 +202,7 @@ static bool choose(struct streaks_packets *p, const struct rg_density *density,
     case STREAKS_AUTO:
         return choose_automatically(p, density, scatter, plan);
     case STREAKS_WORLD:
-        *plan = plan_world(p->info.total_particles);
+        *plan = plan_world(settings, p->info.total_particles);
         return true;
     case STREAKS_KD:
         *plan = plan_kd(settings, p->info.total_particles);

@@ -35,6 +35,7 @@ void streaks_selection_release(struct streaks_selection *selection)
     free(selection->blocks);
     free(selection->scratch[0]);
     free(selection->scratch[1]);
+    free(selection->scratch[2]);
     memset(selection, 0, sizeof(*selection));
 }
 
@@ -148,6 +149,6 @@ bool streaks_select(const struct streaks_packets *packets, const struct streaks_
     const bool grid = packets->info.scheme == STREAKS_GRID;
     if (grid ? !select_cells(packets, &area, selection) : !descend(packets, &area, 0, selection))
         return false;
-    return packets->settings.by_id && !grid ? streaks_list_by_id(packets, view, selection)
-                                            : streaks_list_by_packet(packets, view, selection);
+    return streaks_by_id(packets) ? streaks_list_by_id(packets, view, selection)
+                                  : streaks_list_by_packet(packets, view, selection);
 }

@@ -146,6 +146,19 @@ void streaks_rain_to_clip(const struct streaks_rain_space *space, const float wo
         }
 }
 
+void streaks_rain_rays(const struct streaks_rain_space *space, const float world[16],
+                       float rain[16])
+{
+    const double *const axes[3] = {space->x, space->y, space->s};
+    memset(rain, 0, 16 * sizeof(*rain));
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++) {
+            const double ray[3] = {(double)world[column], (double)world[4 + column],
+                                   (double)world[8 + column]};
+            rain[4 * row + column] = (float)rg_dot(axes[row], ray);
+        }
+}
+
 // --- the view ---
 
 static double farthest_corner(const struct streaks_rain_space *space, const double eye[3])

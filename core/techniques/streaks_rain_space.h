@@ -55,6 +55,10 @@ void streaks_rain_matrices(const struct streaks_rain_space *space, float world_t
 void streaks_rain_to_clip(const struct streaks_rain_space *space, const float world_to_clip[16],
                           float rain_to_clip[16]);
 
+// Rays as struct streaks_observer has them, turned into the rain frame.
+void streaks_rain_rays(const struct streaks_rain_space *space, const float world[16],
+                       float rain[16]);
+
 // The corners, in the rain frame, of what a camera sees: near ones first. Drawing does not clip at
 // the far plane, so the view reaches to the box's farthest corner if the far plane is nearer.
 // False, with one logged line, if the camera cannot see (rg_camera_matrix).
