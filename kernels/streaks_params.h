@@ -38,13 +38,12 @@ RG_STRUCT(streaks_params)
     int paper_angles;          // whether a view from below counts as one from above (section 4.3.1)
     int first_level;           // of the full atlas' levels, that is there
     int last_level;            // and that is read
-    int materials;             // of splashes; 1: one for all
     float focal_px;            // pixels a metre at a distance of one
     float sky_r, sky_g, sky_b; // light from all around
     float gain, opacity;       // of streaks
     float splash_gain, splash_opacity;
     int first_place; // of states
 };
-RG_STRUCT_SIZE(streaks_params, 76)
+RG_STRUCT_SIZE(streaks_params, 75)
 
 #endif

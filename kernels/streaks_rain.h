@@ -15,7 +15,9 @@
     IMAGE(4, R16F, points)                                                                         \
     IMAGE(5, R16F, skies)                                                                          \
     IMAGE(6, R16F, crowns)                                                                         \
-    IN(7, float, factors) IN(8, streaks_light, lights) IMAGE(9, D32F, shadows)
+    IN(7, float, factors)                                                                          \
+    IN(8, streaks_light, lights)                                                                   \
+    IMAGE(9, D32F, shadows) IMAGE(10, RGBA8, numbers) IN(11, uint, surfaces)
 #define RG_CORNERS 4
 #define RG_LIGHTS
 
@@ -37,6 +39,7 @@ RG_STRUCT(streaks_billboard)
 #define RG_RECORD streaks_billboard
 #include "draw.h"
 
+#include "streaks_material.h"
 #include "streaks_particle.h"
 #include "streaks_shadow.h"
 
@@ -187,12 +190,12 @@ RG_FN streaks_billboard streaks_drop(streaks_params p, streaks_billboard of, str
     return r;
 }
 
-RG_FN streaks_billboard streaks_splash(streaks_params p, streaks_billboard of, streaks_particle t,
-                                       int level)
+RG_FN streaks_billboard streaks_splash(rg_ctx rg, streaks_params p, streaks_billboard of,
+                                       streaks_particle t, int level)
 {
     streaks_billboard r = of;
     uint random = streaks_hash(t.number);
-    int material = rg_to_int(((random >> 20) * rg_to_uint(p.materials)) >> 12);
+    int material = streaks_material(rg, p, t);
     r.hit = RG_LARGEST;
     r.shown = rg_clamp(t.age / p.splash_s, 0.0f, 0.999f) * rg_to_float(STREAKS_FRAMES);
     r.look = streaks_look(STREAKS_LOOK_SPLASH + ((random >> 10) & 1u) * STREAKS_LOOK_MIRRORED,
@@ -233,7 +236,7 @@ RG_FN streaks_billboard streaks_billboard_of(rg_ctx rg, rg_draw_state draw, stre
     int is_splash = t.state == STREAKS_SPLASH ? 1 : 0;
     int level = streaks_level_for(p, shape, middle, is_splash);
     streaks_billboard drop = streaks_drop(p, placed, t, middle, level);
-    streaks_billboard splash = streaks_splash(p, placed, t, level);
+    streaks_billboard splash = streaks_splash(rg, p, placed, t, level);
     streaks_billboard r = placed;
     r.hit = is_splash != 0 ? splash.hit : drop.hit;
     r.shown = is_splash != 0 ? splash.shown : drop.shown;

@@ -44,4 +44,7 @@ RG_FN uint streaks_kind(uint look)
 #define STREAKS_KIND_LIGHT   9 // lamps: they glow
 #define STREAKS_KINDS        10
 
+// Where a map of surfaces' numbers shows none.
+#define STREAKS_NO_SURFACE 0xffffffffu
+
 #endif

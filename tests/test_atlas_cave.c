@@ -16,8 +16,10 @@
 #include <unistd.h>
 
 #include "core/log.h"
+#include "core/scene/atlas/cache.h"
 #include "core/scene/atlas/cave.h"
 #include "core/scene/atlas/levels.h"
+#include "core/techniques/streaks_instance.h"
 
 enum { PATH_SIZE = 512 };
 
@@ -282,11 +284,68 @@ static void test_refused(void **state)
     assert_non_null(strstr(rg_last_error(), "/nonexistent/point_light_database/txt/dcam00"));
 }
 
+// --- what streaks draws with ---
+
+static struct rg_instance *open_rain(struct rg_device *device)
+{
+    const struct rg_technique *technique = rg_technique_find("streaks");
+    void *defaults = rg_settings_create(technique);
+    void *settings = rg_settings_copy(technique, defaults,
+                                      "atlas=cave-small city=small rain_width_m=50 rain_depth_m=50 "
+                                      "depth_map_px=64 shadow_map_px=16 drops_m2_s=20");
+    assert_non_null(settings);
+    struct rg_instance *instance = technique->create(device, settings, 64, 36);
+    free(settings);
+    free(defaults);
+    return instance;
+}
+
+static void expect_texels(const struct streaks *s, const struct rg_atlas *atlas)
+{
+    uint16_t *texels = malloc((size_t)atlas->images[RG_ATLAS_POINT].width *
+                              (size_t)atlas->images[RG_ATLAS_POINT].height * sizeof(*texels));
+    assert_non_null(texels);
+    assert_true(rg_image_read(s->textures->points, 7, 1, texels));
+    assert_memory_equal(texels, rg_atlas_texels(atlas, RG_ATLAS_POINT, 7, 1),
+                        (size_t)(rg_atlas_texels(atlas, RG_ATLAS_POINT, 7, 2) -
+                                 rg_atlas_texels(atlas, RG_ATLAS_POINT, 7, 1)) *
+                            sizeof(*texels));
+    free(texels);
+}
+
+// Before it is packed, one line says which command does it.
+static void test_drawn_with(void **state)
+{
+    (void)state;
+    char cache[PATH_SIZE], why[256];
+    in_root(cache, "cache");
+    assert_int_equal(setenv("XDG_CACHE_HOME", cache, 1), 0);
+    struct rg_device *device = rg_device_open("cpu", NULL);
+    assert_non_null(device);
+    lines = 0;
+    assert_null(open_rain(device));
+    assert_int_equal(lines, 1);
+    assert_non_null(strstr(rg_last_error(), "`raingauge atlas --quick --from DIR`"));
+
+    struct rg_atlas *atlas = rg_cave_pack(root, RG_ATLAS_CAVE_SMALL, NULL);
+    assert_non_null(atlas);
+    assert_true(rg_atlas_cache_write(atlas, why));
+    struct rg_instance *instance = open_rain(device);
+    assert_non_null(instance);
+    expect_texels((struct streaks *)instance, atlas);
+    assert_int_equal(((struct streaks *)instance)->textures->first_level, 2);
+    assert_true(instance->technique->step(instance) && instance->technique->draw(instance));
+    instance->technique->destroy(instance);
+    rg_atlas_destroy(atlas);
+    assert_true(rg_device_close(device));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_packed),
         cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_drawn_with),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

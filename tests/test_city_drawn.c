@@ -141,6 +141,34 @@ static void a_mesh_as_the_reference(void **state)
     compare_stages(*state, "torus", STREAKS_DAY, 1, 3);
 }
 
+// Without geometry all is horizon, to the last bit that a half has, and nothing hides what is drawn
+// later.
+static void without_geometry_all_is_horizon(void **state)
+{
+    struct stage stage;
+    struct picture *picture = malloc(sizeof(*picture));
+    const struct streaks_scene_look look = streaks_scene_night();
+    const float due[4] = {look.sky.horizon_r, look.sky.horizon_g, look.sky.horizon_b, 1};
+    struct streaks_scene_view view;
+    open_stage(*state, NULL, STREAKS_NIGHT, 0, &stage);
+    view = (struct streaks_scene_view){.colour = stage.colour, .depth = stage.depth};
+    assert_true(
+        streaks_scene_draw(stage.scene, &stage.instance, &view, &look, stage.lights, false));
+    assert_true(rg_image_read(stage.colour, 0, 0, picture->colour));
+    assert_true(rg_image_read(stage.depth, 0, 0, picture->depth));
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const float one = 1;
+        for (int c = 0; c < 4; c++) {
+            const uint32_t half = picture->colour[2 * i + c / 2] >> 16 * (c % 2) & 0xffff;
+            const float drawn = ldexpf((float)(half & 0x3ff) / 1024 + 1, (int)(half >> 10) - 15);
+            assert_true(drawn <= due[c] && drawn > due[c] * (1 - 1.0f / 1024));
+        }
+        assert_memory_equal(&picture->depth[i], &one, sizeof(one));
+    }
+    free(picture);
+    close_stage(&stage);
+}
+
 // --- what is left out ---
 
 static void culling_changes_no_pixel(void **state)
@@ -350,6 +378,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(by_day_as_the_reference),
         cmocka_unit_test(by_night_as_the_reference),
         cmocka_unit_test(a_mesh_as_the_reference),
+        cmocka_unit_test(without_geometry_all_is_horizon),
         cmocka_unit_test(culling_changes_no_pixel),
         cmocka_unit_test(depth_from_above_is_the_height),
         cmocka_unit_test(depth_is_where_rays_end),

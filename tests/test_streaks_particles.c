@@ -15,7 +15,8 @@
 #include "kernels/streaks_params.h"
 #include "tests/oracle/particle_oracle.h"
 
-enum { BLOCKS = 256, PARTICLES = BLOCKS * STREAKS_BLOCK, MAP_X = 7, MAP_Y = 5, WORDS = 6 };
+enum { BLOCKS = 256, PARTICLES = BLOCKS * STREAKS_BLOCK, MAP_X = 7, MAP_Y = 5, WORDS = 7 };
+enum { SURFACES = 20, SURFACE_WORDS = 4, NO_SURFACE = -1 };
 
 static const char *device_name;
 
@@ -23,6 +24,8 @@ struct scene {
     float particles[3 * PARTICLES];
     uint32_t blocks[BLOCKS * STREAKS_BLOCK_WORDS];
     float depths[MAP_X * MAP_Y];
+    int32_t numbers[MAP_X * MAP_Y]; // of surfaces
+    uint32_t surfaces[SURFACES * SURFACE_WORDS];
 };
 
 static double uniform(uint32_t item, uint32_t stream)
@@ -61,8 +64,17 @@ static void fill(struct scene *scene)
         block[3] = bits(0.3 * uniform(b, 7));
         block[4] = bits(uniform(b, 8));
     }
-    for (uint32_t i = 0; i < MAP_X * MAP_Y; i++)
+    for (uint32_t i = 0; i < MAP_X * MAP_Y; i++) {
         scene->depths[i] = i % 6 ? (float)(0.25 + 0.6 * uniform(i, 9)) : 1;
+        scene->numbers[i] = i % 5 ? (int32_t)(i * 7 % SURFACES) : NO_SURFACE;
+    }
+    for (uint32_t i = 0; i < SURFACES * SURFACE_WORDS; i++)
+        scene->surfaces[i] = rg_random(3, i, 0, 10).x;
+    // The kind is the third of the look's half bytes.
+    for (uint32_t i = 0; i < SURFACES; i++) {
+        uint32_t *look = &scene->surfaces[i * SURFACE_WORDS + 3];
+        *look = (*look & ~0xf00u) | (i % 10) << 8;
+    }
 }
 
 static const streaks_params base = {
@@ -94,6 +106,15 @@ static struct rg_buf *upload(struct rg_device *device, const void *data, size_t 
     return buf;
 }
 
+static struct rg_image *map_of(struct rg_device *device, enum rg_format format, const void *texels)
+{
+    struct rg_image *map =
+        rg_image_create(device, &(struct rg_image_desc){format, MAP_X, MAP_Y, 1, 1}, "map");
+    assert_non_null(map);
+    assert_true(rg_image_write(map, 0, 0, texels));
+    return map;
+}
+
 static void compute(const struct scene *scene, const streaks_params *p, float *places)
 {
     struct rg_device *device = rg_device_open(device_name, NULL);
@@ -102,17 +123,22 @@ static void compute(const struct scene *scene, const streaks_params *p, float *p
     struct rg_buf *particles = upload(device, scene->particles, sizeof(scene->particles));
     struct rg_buf *blocks = upload(device, scene->blocks, sizeof(scene->blocks));
     struct rg_buf *out = rg_buf_create(device, PARTICLES * WORDS * 4, "places");
-    struct rg_image *depths =
-        rg_image_create(device, &(struct rg_image_desc){RG_D32F, MAP_X, MAP_Y, 1, 1}, "depths");
-    assert_true(pass && out && depths && rg_image_write(depths, 0, 0, scene->depths));
-    assert_true(rg_pass_run(
-        pass,
-        &(struct rg_run){
-            .params = p,
-            .slots = {[1].buf = particles, [2].buf = blocks, [3].image = depths, [4].buf = out},
-            .extent = {PARTICLES, 1, 1}}));
+    struct rg_image *depths = map_of(device, RG_D32F, scene->depths);
+    struct rg_image *numbers = map_of(device, RG_RGBA8, scene->numbers);
+    struct rg_buf *surfaces = upload(device, scene->surfaces, sizeof(scene->surfaces));
+    assert_true(pass && out);
+    assert_true(rg_pass_run(pass, &(struct rg_run){.params = p,
+                                                   .slots = {[1].buf = particles,
+                                                             [2].buf = blocks,
+                                                             [3].image = depths,
+                                                             [4].buf = out,
+                                                             [10].image = numbers,
+                                                             [11].buf = surfaces},
+                                                   .extent = {PARTICLES, 1, 1}}));
     assert_true(rg_buf_read(out, 0, places, PARTICLES * WORDS * 4));
+    rg_image_destroy(numbers);
     rg_image_destroy(depths);
+    rg_buf_destroy(surfaces);
     rg_buf_destroy(out);
     rg_buf_destroy(blocks);
     rg_buf_destroy(particles);
@@ -120,14 +146,33 @@ static void compute(const struct scene *scene, const streaks_params *p, float *p
     assert_true(rg_device_close(device));
 }
 
-// s of the surface under a place, and how far the place is from the next texel of the map.
-static double hit_at(const struct scene *scene, double x, double y, double *margin)
+// What is hit: s of the surface and its material; and how far the place is from the next texel of
+// the map.
+struct hit {
+    double s, margin;
+    int material;
+};
+
+// By the table of docs/streaks.md.
+static int material_of(const struct scene *scene, int32_t number)
+{
+    enum { FILM, PUDDLE, ROUGH, SMOOTH };
+    static const int of_kinds[] = {ROUGH,  SMOOTH, PUDDLE, FILM,   FILM,
+                                   SMOOTH, ROUGH,  SMOOTH, PUDDLE, SMOOTH};
+    return number == NO_SURFACE ? FILM
+                                : of_kinds[scene->surfaces[number * SURFACE_WORDS + 3] / 256 % 16];
+}
+
+static struct hit hit_at(const struct scene *scene, double x, double y)
 {
     const double u = (x + 30) / 60 * MAP_X, v = (y + 20) / 40 * MAP_Y;
-    *margin = fmin(fabs(u - round(u)), fabs(v - round(v)));
+    struct hit hit = {70, fmin(fabs(u - round(u)), fabs(v - round(v))), 0};
     if (u < 0 || v < 0 || u >= MAP_X || v >= MAP_Y)
-        return 70;
-    return 70 * (double)scene->depths[(int)v * MAP_X + (int)u];
+        return hit;
+    const int texel = (int)v * MAP_X + (int)u;
+    hit.s = 70 * (double)scene->depths[texel];
+    hit.material = material_of(scene, scene->numbers[texel]);
+    return hit;
 }
 
 // Returns how many particles are in each state.
@@ -151,11 +196,10 @@ static void compare(const struct scene *scene, const streaks_params *p, const fl
         const float *particle = scene->particles + 3 * (size_t)(block[0] + i % STREAKS_BLOCK);
         const double x = (double)particle[0] + (double)number(block[2]);
         const double y = (double)particle[1] + (double)number(block[3]);
-        double edge;
-        const double hit = hit_at(scene, x * 30, y * 20, &edge);
+        const struct hit hit = hit_at(scene, x * 30, y * 20);
         struct particle_seen seen = particle_oracle(&space, x, y, fmod((double)particle[2], 1),
-                                                    (double)number(block[4]), hit);
-        if (seen.margin_m < 1e-3 || edge < 1e-4)
+                                                    (double)number(block[4]), hit.s);
+        if (seen.margin_m < 1e-3 || hit.margin < 1e-4)
             continue;
         if (!(block[1] >> i % STREAKS_BLOCK & 1) || (seen.state == PARTICLE_DROP && !p->drops) ||
             (seen.state == PARTICLE_SPLASH && !p->splashes))
@@ -168,7 +212,8 @@ static void compare(const struct scene *scene, const streaks_params *p, const fl
         assert_true(fabs((double)place[0] - seen.x) < 1e-4);
         assert_true(fabs((double)place[1] - seen.y) < 1e-4);
         assert_true(fabs((double)place[2] - seen.s) < 1e-4);
-        assert_true(fabs((double)place[3] - hit) < 1e-4);
+        assert_true(fabs((double)place[3] - hit.s) < 1e-4);
+        assert_int_equal(place[6], hit.material);
         assert_true(fabs((double)place[4] - (seen.state == PARTICLE_SPLASH ? seen.age_s : 0)) <
                     1e-4);
     }

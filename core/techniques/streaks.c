@@ -72,7 +72,6 @@ static void set_looks(streaks_params *p, const struct streaks_settings *set,
     p->paper_angles = set->absolute_views;
     p->first_level = textures->first_level;
     p->last_level = set->last_mip > textures->first_level ? set->last_mip : textures->first_level;
-    p->materials = set->splash_materials ? RG_ATLAS_MATERIALS : 1;
     p->gain = (float)set->streak_gain;
     p->opacity = (float)set->streak_opacity;
     p->splash_gain = (float)set->splash_gain;
@@ -158,11 +157,13 @@ bool streaks_look(struct streaks *s)
 static struct rg_run run_over(const struct streaks *s, const struct streaks_draw *draw,
                               const streaks_params *p)
 {
-    return (struct rg_run){
-        .params = p,
-        .slots =
-            {[1].buf = s->particles[draw->buffer], [2].buf = s->blocks, [3].image = s->depth_map},
-        .extent = {draw->block_count * STREAKS_BLOCK, 1, 1}};
+    return (struct rg_run){.params = p,
+                           .slots = {[1].buf = s->particles[draw->buffer],
+                                     [2].buf = s->blocks,
+                                     [3].image = s->map->depths,
+                                     [10].image = s->map->numbers,
+                                     [11].buf = streaks_scene_surfaces(s->scene)},
+                           .extent = {draw->block_count * STREAKS_BLOCK, 1, 1}};
 }
 
 static bool draw_blocks(struct streaks *s, const struct streaks_draw *draw, const streaks_params *p)

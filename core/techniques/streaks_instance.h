@@ -30,7 +30,13 @@ enum streaks_fact {
     STREAKS_FACTS
 };
 
-enum { STREAKS_MAX_BUFFERS = 64, STREAKS_STATE_WORDS = 6 };
+enum { STREAKS_MAX_BUFFERS = 64, STREAKS_STATE_WORDS = 7 };
+
+// The scene seen along the fall.
+struct streaks_map {
+    struct rg_image *depths;  // D32F
+    struct rg_image *numbers; // RGBA8: of surfaces, of the same size; one texel if nobody asks
+};
 
 struct streaks {
     struct rg_instance base;
@@ -42,7 +48,7 @@ struct streaks {
     struct streaks_lights *lights;
     struct streaks_overlay *overlay;    // NULL: none
     struct rg_camera camera;            // at frame 0
-    struct rg_image *depth_map;         // the scene seen along the fall
+    struct streaks_map *map;            // the scene seen along the fall
     struct rg_image *depth;             // the target's
     struct rg_pass *rain, *state, *far; // NULL: not run
     double drops_m3;                    // where the camera stands at frame 0

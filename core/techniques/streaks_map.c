@@ -1,10 +1,13 @@
 // The depth map: the scene seen along the fall, which tells what drops hit (Creus, sections 4.2 and
-// 4.4.2). A static one covers the rain space and is shared by all who ask for the same on a device;
-// a dynamic one covers the surroundings of the observer.
+// 4.4.2), and, where splashes ask for it, the number of the surface that is seen. A static map
+// covers the rain space and is shared by all who ask for the same on a device; a dynamic one covers
+// the surroundings of the observer.
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "core/alloc.h"
 #include "core/shared.h"
 #include "core/techniques/streaks_instance.h"
 
@@ -46,19 +49,58 @@ static m4 matrix_of(const struct streaks *s)
     return to_clip;
 }
 
-static bool draw(struct streaks *s, struct rg_image *map)
+static bool is_numbered(const struct streaks *s)
 {
-    static const float farthest = 1;
-    const struct rg_draw onto = {.depth = map, .depth_mode = RG_DEPTH_WRITE};
-    return rg_image_clear(map, &farthest) &&
-           streaks_scene_depth(s->scene, &s->base, matrix_of(s), &onto);
+    return s->settings.splash_materials;
 }
 
-static struct rg_image *create(const struct streaks *s)
+static bool clear_numbers(struct rg_image *numbers)
 {
+    static const uint32_t none = STREAKS_NO_SURFACE;
+    return rg_image_clear(numbers, &none);
+}
+
+static bool draw(struct streaks *s, const struct streaks_map *map)
+{
+    static const float farthest = 1;
+    const struct rg_draw onto = {
+        .colour = map->numbers, .depth = map->depths, .depth_mode = RG_DEPTH_WRITE};
+    if (!rg_image_clear(map->depths, &farthest))
+        return false;
+    if (!is_numbered(s))
+        return streaks_scene_depth(s->scene, &s->base, matrix_of(s), &onto);
+    return clear_numbers(map->numbers) &&
+           streaks_scene_numbers(s->scene, &s->base, matrix_of(s), &onto);
+}
+
+static struct rg_image *create_image(const struct streaks *s, enum rg_format format, int side_px,
+                                     const char *name)
+{
+    return rg_image_create(s->base.device, &(struct rg_image_desc){format, side_px, side_px, 1, 1},
+                           name);
+}
+
+static void destroy(void *thing)
+{
+    struct streaks_map *map = thing;
+    if (!map)
+        return;
+    rg_image_destroy(map->depths);
+    rg_image_destroy(map->numbers);
+    free(map);
+}
+
+static struct streaks_map *create(const struct streaks *s)
+{
+    struct streaks_map *map = rg_alloc(1, sizeof(*map), "depth map");
     const int side_px = s->settings.map_px;
-    return rg_image_create(s->base.device, &(struct rg_image_desc){RG_D32F, side_px, side_px, 1, 1},
-                           "depth map");
+    if (map && (map->depths = create_image(s, RG_D32F, side_px, "depth map")) &&
+        (map->numbers =
+             create_image(s, RG_RGBA8, is_numbered(s) ? side_px : 1, "map of surfaces' numbers")) &&
+        clear_numbers(map->numbers))
+        return map;
+    destroy(map);
+    return NULL;
 }
 
 // --- the shared one ---
@@ -67,30 +109,25 @@ static void *make(struct rg_device *device, const void *arg)
 {
     (void)device;
     struct streaks *const *s = arg;
-    struct rg_image *map = create(*s);
+    struct streaks_map *map = create(*s);
     if (map && draw(*s, map))
         return map;
-    rg_image_destroy(map);
+    destroy(map);
     return NULL;
-}
-
-static void destroy(void *map)
-{
-    rg_image_destroy(map);
 }
 
 static const struct rg_shared_kind kind = {.name = "depth map", .make = make, .destroy = destroy};
 
 // Everything that decides what a static map holds.
-static struct rg_image *get_static(struct streaks *s)
+static struct streaks_map *get_static(struct streaks *s)
 {
     const struct streaks_rain_space *space = &s->space;
     const double numbers[] = {space->origin_m[0], space->origin_m[1], space->origin_m[2],
                               space->s[0],        space->s[1],        space->s[2],
                               space->half_x_m,    space->half_y_m,    space->height_m};
     char key[400];
-    int length = snprintf(key, sizeof(key), "%016" PRIx64 " %d", streaks_scene_city(s->scene)->hash,
-                          s->settings.map_px);
+    int length = snprintf(key, sizeof(key), "%016" PRIx64 " %d %d",
+                          streaks_scene_city(s->scene)->hash, s->settings.map_px, is_numbered(s));
     for (size_t i = 0; i < sizeof(numbers) / sizeof(numbers[0]); i++)
         length += snprintf(key + length, sizeof(key) - (size_t)length, " %a", numbers[i]);
     return rg_shared_get(s->base.device, key, &kind, &s);
@@ -99,16 +136,16 @@ static struct rg_image *get_static(struct streaks *s)
 bool streaks_map_open(struct streaks *s)
 {
     set_extent(s);
-    s->depth_map = s->settings.dynamic_map ? create(s) : get_static(s);
-    return s->depth_map;
+    s->map = s->settings.dynamic_map ? create(s) : get_static(s);
+    return s->map;
 }
 
 void streaks_map_close(struct streaks *s)
 {
     if (s->settings.dynamic_map)
-        rg_image_destroy(s->depth_map);
+        destroy(s->map);
     else
-        rg_shared_put(s->base.device, s->depth_map);
+        rg_shared_put(s->base.device, s->map);
 }
 
 bool streaks_map_renew(struct streaks *s)
@@ -117,5 +154,5 @@ bool streaks_map_renew(struct streaks *s)
         return true;
     s->map_due = s->base.frame + s->settings.map_period;
     set_extent(s);
-    return draw(s, s->depth_map);
+    return draw(s, s->map);
 }

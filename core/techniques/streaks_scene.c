@@ -261,9 +261,9 @@ bool streaks_scene_draw(struct streaks_scene *s, struct rg_instance *instance,
                         bool geometry)
 {
     const float farthest = 1;
-    const uint32_t sky[2] = {rg_pack_half(look->sky.horizon_r) | rg_pack_half(look->sky.horizon_g)
-                                                                     << 16,
-                             rg_pack_half(look->sky.horizon_b) | rg_pack_half(1) << 16};
+    const uint16_t sky[4] = {
+        (uint16_t)rg_pack_half(look->sky.horizon_r), (uint16_t)rg_pack_half(look->sky.horizon_g),
+        (uint16_t)rg_pack_half(look->sky.horizon_b), (uint16_t)rg_pack_half(1)};
     if (!rg_image_clear(view->depth, &farthest))
         return false;
     if (!geometry)

@@ -102,7 +102,7 @@ static bool show_map(struct streaks *s)
                                         .u1 = 1,
                                         .v1 = 1,
                                         .far_depth = 1};
-    return streaks_overlay_inset(s->overlay, &s->base, &inset, s->depth_map, s->base.target);
+    return streaks_overlay_inset(s->overlay, &s->base, &inset, s->map->depths, s->base.target);
 }
 
 bool streaks_show(struct streaks *s)

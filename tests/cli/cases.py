@@ -14,6 +14,7 @@ Case = collections.namedtuple("Case", "args exit error env limit made", defaults
 
 UNKNOWN_DEVICE = r"device '.*': unknown; `raingauge list devices` prints the names"
 NO_CONTEXT = r"device 'gl': no OpenGL 4\.5 core: eglCreateContext failed"
+NO_CACHE = {"XDG_CACHE_HOME": "/proc/none"}
 OLD_GL = {"MESA_GL_VERSION_OVERRIDE": "3.3"}
 ABSENT = tuple(r"warning: unsupported here: %s: .*package %s" % pair for pair in (
     ("gl", "libegl-mesa0"), ("vulkan", "mesa-vulkan-drivers"), ("opencl", "pocl-opencl-icd")))
@@ -105,6 +106,10 @@ ON_CPU = [
     Case(RAIN + "--set lights=17 -o {tmp}/a.png", 2, r"parameter 'lights': 17 is out of range; 0 to 16"),
     Case(RAIN + "--set lights_file={data}/a.png -o {tmp}/a.png", 2, r"a\.png:1:0: .*docs/lights\.md"),
     Case(RAIN + "--set scene={data}/a.png -o {tmp}/a.png", 2, r"a\.png: Assimp cannot read it"),
+    Case(RAIN + "--set atlas=cave -o {tmp}/a.png", 2,
+         r"streaks-cave\.atlas: it is not there; `raingauge atlas --from DIR` packs the original database", NO_CACHE),
+    Case(RAIN + "--set atlas=cave-small -o {tmp}/a.png", 2,
+         r"streaks-cave-small\.atlas: it is not there; `raingauge atlas --quick --from DIR` packs", NO_CACHE),
 
     # render: the scene's absurd values
     Case(RENDER + "--set panes=wood -o {tmp}/a.png", 2, r"parameter 'panes': 'wood' is none of: glass mirror"),
@@ -206,8 +211,8 @@ ON_CPU = [
     Case("atlas --from", 2, r"--from: .*`raingauge atlas --help`"),
     Case("atlas --from /nonexistent", 2, r"/nonexistent/point_light_database/txt/dcam00_point_max\.txt: No such file .*; name the folder"),
     Case("atlas --quick --from {data}/a.png", 2, r"a\.png/point_light_database/txt/dcam00_point_max\.txt: Not a directory"),
-    Case("atlas --quick", 0, r"warning: the streak atlas is not kept: /proc/none", {"XDG_CACHE_HOME": "/proc/none"}),
-    Case("atlas --quick -o {tmp}/none/out", 2, (r"warning: the streak atlas is not kept", r"none/out: cannot be made: .*; name a folder"), {"XDG_CACHE_HOME": "/proc/none"}),
+    Case("atlas --quick", 0, r"warning: the streak atlas is not kept: /proc/none", NO_CACHE),
+    Case("atlas --quick -o {tmp}/none/out", 2, (r"warning: the streak atlas is not kept", r"none/out: cannot be made: .*; name a folder"), NO_CACHE),
 
     # verify
     Case(VERIFY, 0, None),

@@ -11,8 +11,8 @@ struct rg_atlas *rg_atlas_load(enum rg_atlas_size size, const struct rg_atlas_pr
     if (atlas)
         return atlas;
     if (size == RG_ATLAS_CAVE || size == RG_ATLAS_CAVE_SMALL)
-        return rg_error_null("%s: %s; `raingauge atlas --from DIR` packs the database again", path,
-                             gone);
+        return rg_error_null("%s: %s; `raingauge atlas %s--from DIR` packs the original database",
+                             path, gone, size == RG_ATLAS_CAVE_SMALL ? "--quick " : "");
     if (state != RG_ATLAS_ABSENT)
         rg_warning("%s: %s; the streak atlas is made anew", path, gone);
     else if (size == RG_ATLAS_FULL)
