@@ -138,9 +138,12 @@ static bool is_possible(struct fit *f)
     double dry_error;
     if (!find_error(f, &f->error) || !compare(f, &f->dry, &dry_error))
         return false;
+    if (dry_error == 0)
+        return rg_error("fit=on: no rain is seen in the first frame; move the camera to where it "
+                        "rains, or take fit=off");
     if (dry_error <= allowed)
-        return rg_error("fit_error: the first frame without any rain has an error of %.4f alone; "
-                        "allow less than that, or move the camera to where rain is seen",
+        return rg_error("fit_error: without any rain the first frame has an error of %.4f; allow "
+                        "less than that",
                         dry_error);
     return f->error <= allowed * share_of_radius ||
            rg_error("fit_error: the largest radius and height, %.4g m and %.4g m, have an error of "
@@ -164,7 +167,7 @@ static bool settle(struct fit *f)
     struct streaks *s = f->s;
     s->settings.culling_radius_m = f->radius_m;
     s->settings.local_height_m = f->height_m;
-    s->base.facts[STREAKS_FACT_FIT_ERROR].number = f->error;
+    s->base.facts[STREAKS_FACT_ERROR].number = rint(f->error * 1e6) / 1e6;
     for (int i = 0; i < STREAKS_COUNTERS; i++)
         s->base.counters[i].value = 0;
     s->map_due = 0;

@@ -29,7 +29,7 @@ enum streaks_fact {
     STREAKS_FACT_SCENE,
     STREAKS_FACT_RADIUS, // this and those below: of fit=on alone
     STREAKS_FACT_HEIGHT,
-    STREAKS_FACT_FIT_ERROR,
+    STREAKS_FACT_ERROR,
     STREAKS_FACTS
 };
 

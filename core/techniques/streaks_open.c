@@ -257,7 +257,7 @@ static void tell_facts(struct streaks *s)
     tell(s, STREAKS_FACT_PARTICLES, "particles");
     tell(s, STREAKS_FACT_RADIUS, "culling_radius_m")->number = set->culling_radius_m;
     tell(s, STREAKS_FACT_HEIGHT, "local_height_m")->number = set->local_height_m;
-    tell(s, STREAKS_FACT_FIT_ERROR, "fit_error");
+    tell(s, STREAKS_FACT_ERROR, "flip_mask_mean");
     s->base.counter_count = STREAKS_COUNTERS;
     for (int i = 0; i < STREAKS_COUNTERS; i++)
         s->base.counters[i].name = counter_names[i];
