@@ -2,9 +2,7 @@
 
 #include <stdlib.h>
 
-#include "core/log.h"
 #include "core/techniques/proof.h"
-#include "kernels/format.h"
 
 struct rg_instance *rg_frame_run(const struct rg_technique *technique, const void *settings,
                                  struct rg_device *device, int width, int height, int frames)
@@ -18,40 +16,6 @@ struct rg_instance *rg_frame_run(const struct rg_technique *technique, const voi
     if (instance)
         technique->destroy(instance);
     return NULL;
-}
-
-void *rg_frame_read(struct rg_instance *instance, size_t *size)
-{
-    const struct rg_image_desc *desc = &instance->target->desc;
-    *size = (size_t)desc->width * (size_t)desc->height * (size_t)rg_format_size(desc->format);
-    void *texels = malloc(*size);
-    if (!texels)
-        return rg_error_null("image '%s': no memory for %zu bytes", instance->target->name, *size);
-    if (rg_image_read(instance->target, 0, 0, texels))
-        return texels;
-    free(texels);
-    return NULL;
-}
-
-bool rg_frame_picture(const struct rg_instance *instance, const void *texels,
-                      struct rg_picture *picture)
-{
-    const struct rg_image_desc *desc = &instance->target->desc;
-    const uint16_t *halves = texels;
-    if (!rg_picture_create(picture, desc->width, desc->height, 4, "image"))
-        return false;
-    for (int64_t i = 0; i < rg_picture_values(picture); i++)
-        picture->texels[i] = rg_unpack_half(halves[i]);
-    return true;
-}
-
-bool rg_frame_read_picture(struct rg_instance *instance, struct rg_picture *picture)
-{
-    size_t size;
-    void *texels = rg_frame_read(instance, &size);
-    const bool ok = texels && rg_frame_picture(instance, texels, picture);
-    free(texels);
-    return ok;
 }
 
 bool rg_frame_draw(const struct rg_technique *technique, const void *settings,

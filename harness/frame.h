@@ -2,24 +2,12 @@
 #ifndef RG_HARNESS_FRAME_H
 #define RG_HARNESS_FRAME_H
 
-#include "core/image/picture.h"
-#include "core/techniques/technique.h"
+#include "core/techniques/frame.h"
 
 // Opens a technique on a device, simulates `frames` frames and draws the last. The caller destroys
 // it with rg_technique->destroy. NULL, and one logged line, on failure.
 struct rg_instance *rg_frame_run(const struct rg_technique *technique, const void *settings,
                                  struct rg_device *device, int width, int height, int frames);
-
-// The target's texels as the device holds them: *size bytes, which the caller frees. NULL on
-// failure.
-void *rg_frame_read(struct rg_instance *instance, size_t *size);
-
-// The same as a picture of 4 channels; `texels` as rg_frame_read gave them.
-bool rg_frame_picture(const struct rg_instance *instance, const void *texels,
-                      struct rg_picture *picture);
-
-// Both at once; the caller destroys the picture. False, and one logged line, on failure.
-bool rg_frame_read_picture(struct rg_instance *instance, struct rg_picture *picture);
 
 // Runs to a frame as rg_frame_run does and brings its picture, which the caller destroys. False,
 // and one logged line, on failure.

@@ -18,6 +18,8 @@ struct streaks_settings {
     // what of it is simulated
     double local_height_m, culling_radius_m;
     int limits; // 0: rain everywhere
+    int fit;    // whether height and radius are searched for
+    double fit_error;
     int scheme, packet_size, select, exact, by_id;
     int memory_mb;
     // what drops hit

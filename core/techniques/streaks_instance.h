@@ -27,6 +27,9 @@ enum streaks_fact {
     STREAKS_FACT_MEMORY,
     STREAKS_FACT_ATLAS,
     STREAKS_FACT_SCENE,
+    STREAKS_FACT_RADIUS, // this and those below: of fit=on alone
+    STREAKS_FACT_HEIGHT,
+    STREAKS_FACT_ERROR,
     STREAKS_FACTS
 };
 
@@ -64,6 +67,12 @@ struct streaks {
 struct rg_instance *streaks_open(struct rg_device *device, const void *settings, int width,
                                  int height);
 void streaks_close(struct rg_instance *instance);
+
+// The largest culling radius that may be set.
+double streaks_widest_m(const struct streaks_settings *settings);
+// Makes the particles of the settings as they are now, in place of those there were. False, and one
+// logged line, on failure.
+bool streaks_make_particles(struct streaks *streaks);
 
 // Moves the observer to the present frame, and makes what it draws: the selection, its blocks, the
 // parameters, the depth map where it is due. False, and one logged line, on failure.

@@ -6,10 +6,20 @@
 
 #include "core/alloc.h"
 #include "core/log.h"
+#include "core/techniques/streaks_fit.h"
 #include "core/techniques/streaks_instance.h"
 
 static const char *const counter_names[STREAKS_COUNTERS] = {"particles_selected",
                                                             "packets_selected", "items_drawn"};
+
+static void destroy_particles(struct streaks *s)
+{
+    for (int i = 0; i < s->buffer_count; i++)
+        rg_buf_destroy(s->particles[i]);
+    s->buffer_count = 0;
+    streaks_packets_destroy(s->packets);
+    s->packets = NULL;
+}
 
 void streaks_close(struct rg_instance *instance)
 {
@@ -18,8 +28,7 @@ void streaks_close(struct rg_instance *instance)
     rg_pass_destroy(s->rain);
     rg_pass_destroy(s->state);
     rg_pass_destroy(s->far);
-    for (int i = 0; i < s->buffer_count; i++)
-        rg_buf_destroy(s->particles[i]);
+    destroy_particles(s);
     rg_buf_destroy(s->blocks);
     rg_buf_destroy(s->places);
     streaks_map_close(s);
@@ -32,11 +41,15 @@ void streaks_close(struct rg_instance *instance)
     if (s->textures)
         streaks_textures_put(device, s->textures);
     streaks_selection_release(&s->selection);
-    streaks_packets_destroy(s->packets);
     free(s);
 }
 
 // --- the rain space and its particles ---
+
+double streaks_widest_m(const struct streaks_settings *set)
+{
+    return hypot(set->rain_width_m, set->rain_depth_m);
+}
 
 static bool create_space(struct streaks *s)
 {
@@ -46,8 +59,7 @@ static bool create_space(struct streaks *s)
     streaks_rain_fall(set->slant_deg, set->slant_azimuth_deg, space.fall);
     if (!streaks_rain_space_make(&space, &s->space))
         return false;
-    const double reach_m = hypot(set->rain_width_m, set->rain_depth_m);
-    if (set->limits && set->culling_radius_m > reach_m)
+    if (set->limits && set->culling_radius_m > streaks_widest_m(set))
         return rg_error("culling_radius_m: %.4g m is wider than the rain space of %.4g m x %.4g m; "
                         "take limits=off for rain everywhere",
                         set->culling_radius_m, set->rain_width_m, set->rain_depth_m);
@@ -108,6 +120,12 @@ static bool upload_particles(struct streaks *s)
     }
     streaks_packets_forget(s->packets);
     return true;
+}
+
+bool streaks_make_particles(struct streaks *s)
+{
+    destroy_particles(s);
+    return create_packets(s) && upload_particles(s);
 }
 
 // --- the scene, its lights and what they need ---
@@ -225,7 +243,8 @@ static void tell_textures(struct streaks *s)
 static void tell_facts(struct streaks *s)
 {
     const struct streaks_packets_info *info = streaks_packets_info(s->packets);
-    s->base.fact_count = STREAKS_FACTS;
+    const struct streaks_settings *set = &s->settings;
+    s->base.fact_count = set->fit ? STREAKS_FACTS : STREAKS_FACT_RADIUS;
     tell(s, STREAKS_FACT_TOTAL, "total_particles")->number = (double)info->total_particles;
     snprintf(tell(s, STREAKS_FACT_SCHEME, "packets")->text, RG_FACT_SIZE, "%s",
              streaks_scheme_name(info->scheme));
@@ -236,6 +255,9 @@ static void tell_facts(struct streaks *s)
     snprintf(tell(s, STREAKS_FACT_SCENE, "scene_hash")->text, RG_FACT_SIZE, "%016" PRIx64,
              streaks_scene_city(s->scene)->hash);
     tell(s, STREAKS_FACT_PARTICLES, "particles");
+    tell(s, STREAKS_FACT_RADIUS, "culling_radius_m")->number = set->culling_radius_m;
+    tell(s, STREAKS_FACT_HEIGHT, "local_height_m")->number = set->local_height_m;
+    tell(s, STREAKS_FACT_ERROR, "flip_mask_mean");
     s->base.counter_count = STREAKS_COUNTERS;
     for (int i = 0; i < STREAKS_COUNTERS; i++)
         s->base.counters[i].name = counter_names[i];
@@ -251,11 +273,13 @@ struct rg_instance *streaks_open(struct rg_device *device, const void *settings,
     s->base.device = device;
     s->settings = *(const struct streaks_settings *)settings;
     choose_camera(s);
+    const bool fit = s->settings.fit;
     const bool ok =
-        create_space(s) && create_packets(s) && upload_particles(s) && create_scene(s) &&
-        create_lights(s) && streaks_map_open(s) && create_images(s, width, height) &&
-        create_passes(s) &&
-        (s->textures = streaks_textures_get(device, (enum rg_atlas_size)s->settings.atlas));
+        (!fit || streaks_fit_begin(&s->settings)) && create_space(s) &&
+        (fit || streaks_make_particles(s)) && create_scene(s) && create_lights(s) &&
+        streaks_map_open(s) && create_images(s, width, height) && create_passes(s) &&
+        (s->textures = streaks_textures_get(device, (enum rg_atlas_size)s->settings.atlas)) &&
+        (!fit || streaks_fit(s));
     if (ok) {
         tell_textures(s);
         tell_facts(s);

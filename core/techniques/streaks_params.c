@@ -17,6 +17,8 @@ static const struct rg_param rows[] = {
     {"local_height_m", RG_PARAM_FLOAT, AT(local_height_m), 20, 0.1, 10000, "m", "between the local top and the local ground", NULL},
     {"culling_radius_m", RG_PARAM_FLOAT, AT(culling_radius_m), 20, 0.1, 100000, "m", "how far around the observer it rains", NULL},
     {"limits", RG_PARAM_CHOICE, AT(limits), 1, 0, 1, "1", "off: rain without a culling radius, and the local space repeated up and down", "off on"},
+    {"fit", RG_PARAM_CHOICE, AT(fit), 0, 0, 1, "1", "on: searches for the smallest culling_radius_m and local_height_m, whatever they are set to, that show the first frame within fit_error", "off on"},
+    {"fit_error", RG_PARAM_FLOAT, AT(fit_error), 0.05, 0.001, 1, "1", "for fit: the largest mean FLIP over the pixels with rain, against limits=off; a just noticeable difference is 0.1", NULL},
     {"packets", RG_PARAM_CHOICE, AT(scheme), 0, 0, 4, "1", "how particles are grouped; auto: the way with the fewest packets", "auto world kd quad grid"},
     {"packet_size", RG_PARAM_INT, AT(packet_size), 50000, 1, 1000000000, "1", "particles a packet, at most", NULL},
     {"select", RG_PARAM_CHOICE, AT(select), 0, 0, 1, "1", "packets by the bounding rectangles of view and culling radius, or by the convex hull of what both see", "rect hull"},

@@ -89,7 +89,7 @@ static const struct rg_contrast contrasts[] = {
 
 const struct rg_proof streaks_proof = {
     .poses = poses,
-    .dry = "drops=off splashes=off",
+    .dry = "fit=off drops=off splashes=off",
     .mutant_scene = SMALL "streak_gain=10 splash_gain=1",
     .laws = laws,
     .mutants = mutants,

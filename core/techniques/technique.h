@@ -8,7 +8,7 @@
 #include "core/device.h"
 #include "core/params.h"
 
-enum { RG_MAX_STATE = 8, RG_MAX_COUNTERS = 16, RG_MAX_FACTS = 8, RG_FACT_SIZE = 192 };
+enum { RG_MAX_STATE = 8, RG_MAX_COUNTERS = 16, RG_MAX_FACTS = 12, RG_FACT_SIZE = 192 };
 enum { RG_MAX_TEXTURES = 8 };
 
 struct rg_instance;

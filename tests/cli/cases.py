@@ -29,6 +29,8 @@ RENDER = ("render flow --set environment=sky --set environment_px=16 --set resol
 
 RAIN = ("render streaks --size 32x18 --frame 1 --set atlas=small --set city=small --set depth_map_px=64 "
         "--set shadow_map_px=16 ")
+FIT = RAIN + ("--set fit=on --set rain_width_m=60 --set rain_depth_m=60 --set rain_height_m=40 --set camera=free "
+              "--set drops_m2_s=60 --set streak_gain=20 ")
 
 ON_CPU = [
     # every command
@@ -103,6 +105,13 @@ ON_CPU = [
     Case(RAIN + "--set camera=free --set eye_y_m=-3 -o {tmp}/a.png", 2, r"its eye is 3 m below the ground; raise eye_y_m"),
     Case(RAIN + "--set culling_radius_m=5000 -o {tmp}/a.png", 2, r"5000 m is wider than the rain space .*limits=off"),
     Case(RAIN + "--set local_height_m=500 -o {tmp}/a.png", 2, r"500 m is higher than the rain space"),
+    Case(FIT + "--set limits=off -o {tmp}/a.png", 2, r"fit=on: without limits there is no radius .*take limits=on"),
+    Case(FIT + "--set fit_error=0 -o {tmp}/a.png", 2, r"parameter 'fit_error': 0 is out of range; 0\.001 to 1"),
+    Case(FIT + "--set fit_error=0.9 -o {tmp}/a.png", 2, r"without any rain the first frame has an error of 0\.\d+; allow less"),
+    Case(FIT + "--set drops=off --set splashes=off -o {tmp}/a.png", 2, r"no rain is seen in the first frame; move the camera"),
+    Case(FIT + "--set packets=kd --set memory_mb=1 -o {tmp}/a.png", 2, r"more than the .* allowed"),
+    Case(FIT + "--set eye_y_m=60 --set fit_error=0.001 -o {tmp}/a.png", 2, r"the largest radius and height, .* have an error of .*; allow "),
+    Case(FIT + "-o {tmp}/a.png", 0, None, made=("a.png",)),
     Case(RAIN + "--set lights=17 -o {tmp}/a.png", 2, r"parameter 'lights': 17 is out of range; 0 to 16"),
     Case(RAIN + "--set lights_file={data}/a.png -o {tmp}/a.png", 2, r"a\.png:1:0: .*docs/lights\.md"),
     Case(RAIN + "--set scene={data}/a.png -o {tmp}/a.png", 2, r"a\.png: Assimp cannot read it"),

@@ -1,0 +1,19 @@
+// What a technique has drawn, brought to the host.
+#ifndef RG_CORE_TECHNIQUES_FRAME_H
+#define RG_CORE_TECHNIQUES_FRAME_H
+
+#include "core/image/picture.h"
+#include "core/techniques/technique.h"
+
+// The target's texels as the device holds them: *size bytes, which the caller frees. NULL, and one
+// logged line, on failure.
+void *rg_frame_read(struct rg_instance *instance, size_t *size);
+
+// The same as a picture of 4 channels; `texels` as rg_frame_read gave them.
+bool rg_frame_picture(const struct rg_instance *instance, const void *texels,
+                      struct rg_picture *picture);
+
+// Both at once; the caller destroys the picture. False, and one logged line, on failure.
+bool rg_frame_read_picture(struct rg_instance *instance, struct rg_picture *picture);
+
+#endif
