@@ -53,7 +53,8 @@ struct streaks_view rig_everywhere(const struct streaks_rain_space *space, doubl
     struct streaks_view view = {.eye = {0, 0, space->height_m / 2},
                                 .radius_m = INFINITY,
                                 .top_m = space->height_m / 2 - local_height_m / 2,
-                                .run = 0.25};
+                                .run = RIG_RUN,
+                                .whole = true};
     for (int i = 0; i < 8; i++) {
         view.corners[i][0] = (i & 1 ? 2 : -2) * space->half_x_m;
         view.corners[i][1] = (i & 2 ? 2 : -2) * space->half_y_m;
@@ -117,7 +118,7 @@ struct rig_particles rig_read(const struct streaks_packets *packets,
         next += draw->block_count;
     }
     assert_int_equal(next, selection->block_count);
-    assert_int_equal(read.count, selection->particles);
+    assert_true(read.count <= selection->particles);
     return read;
 }
 

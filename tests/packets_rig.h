@@ -32,12 +32,13 @@ struct streaks_packets *rig_packets(const struct streaks_rain_space *space,
                                     const struct rg_density *density,
                                     const struct streaks_packets_settings *settings);
 
-// A view that has everything in it, from the rain space's middle.
+// A view that has everything in it, from the rain space's middle, at this run position.
+#define RIG_RUN 0.25
 struct streaks_view rig_everywhere(const struct streaks_rain_space *space, double local_height_m);
 
 // Reads the blocks as a kernel does. Fails the test where a block breaks a rule of the header: a
 // particle outside its buffer, a mask of none, draws that overlap or leave blocks out, and where
-// the selection's own count differs. The caller frees `all`.
+// there are more than the selection counts. The caller frees `all`.
 struct rig_particles rig_read(const struct streaks_packets *packets,
                               const struct streaks_rain_space *space,
                               const struct streaks_selection *selection);

@@ -82,31 +82,45 @@ static struct look make_look(const struct scene *scene, double height_m, uint64_
     assert_true(streaks_view_corners(&scene->space, &camera, aspect, look.view.corners));
     look.view.top_m = streaks_local_top(look.view.eye[2], height_m);
     look.view.run = oracle_uniform(random, 0, 1);
+    look.view.whole = true;
     return look;
 }
 
-// Whether anything that the particle may draw is seen from inside the culling prism.
-static bool visible(const struct scene *scene, const struct look *look,
-                    const struct rig_particle *p, uint64_t *random)
+static bool sees(const struct scene *scene, const struct look *look, const struct rig_particle *p,
+                 double from_s, double to_s, uint64_t *random)
 {
-    if (fabs(p->x_m - look->view.eye[0]) > look->view.radius_m ||
-        fabs(p->y_m - look->view.eye[1]) > look->view.radius_m)
-        return false;
     const double place[2] = {p->x_m, p->y_m};
     return oracle_sees_column(&look->camera, &scene->frame, place, look->view.across_m,
-                              look->view.top_m - look->view.above_m,
-                              look->view.top_m + look->height_m + look->view.below_m, TRIES,
+                              from_s - look->view.above_m, to_s + look->view.below_m, TRIES,
                               random);
 }
 
+// Whether anything that the particle may draw is seen from inside the culling prism: at its
+// packet's height, any, or at its own. One that has just come in may still be a splash where it
+// left.
+static bool visible(const struct scene *scene, const struct look *look,
+                    const struct rig_particle *p, uint64_t *random)
+{
+    const double top = look->view.top_m, height = look->height_m;
+    if (fabs(p->x_m - look->view.eye[0]) > look->view.radius_m ||
+        fabs(p->y_m - look->view.eye[1]) > look->view.radius_m)
+        return false;
+    if (look->view.whole)
+        return sees(scene, look, p, top, top + height, random);
+    const double turned = p->fall + look->view.run - RIG_RUN;
+    const double s = top + height * (turned - floor(turned));
+    return sees(scene, look, p, s, s, random) ||
+           (s < top + look->view.above_m && sees(scene, look, p, s + height, top + height, random));
+}
+
 struct tally {
-    int64_t visible, drawn[2], all;
+    int64_t visible, drawn[2], selected, all;
 };
 
 // Selects by rectangles, or the hull. Every particle of which something is seen has to be drawn.
-static int64_t check_view(const struct streaks_packets *packets, const struct scene *scene,
-                          const struct look *look, const struct rig_particles *all,
-                          const bool *seen)
+static void check_view(const struct streaks_packets *packets, const struct scene *scene,
+                       const struct look *look, const struct rig_particles *all, const bool *seen,
+                       struct tally *tally)
 {
     struct streaks_selection selection = {0};
     assert_true(streaks_select(packets, &look->view, &selection));
@@ -117,29 +131,32 @@ static int64_t check_view(const struct streaks_packets *packets, const struct sc
     for (int64_t i = 0; i < all->count; i++)
         if (seen[i] &&
             !bsearch(&all->all[i], drawn.all, (size_t)drawn.count, sizeof(*drawn.all), rig_compare))
-            fail_msg("a particle at %g, %g is seen, but its packet is not selected (%s, %s)",
-                     all->all[i].x_m, all->all[i].y_m,
-                     streaks_scheme_name(streaks_packets_info(packets)->scheme),
+            fail_msg("a particle at %g, %g is seen, but not drawn (%s, %s)", all->all[i].x_m,
+                     all->all[i].y_m, streaks_scheme_name(streaks_packets_info(packets)->scheme),
                      look->view.hull ? "hull" : "rectangles");
+    assert_true(drawn.count == selection.particles || !look->view.whole);
+    tally->drawn[look->view.hull] += drawn.count;
+    tally->selected += selection.particles;
     free(drawn.all);
     streaks_selection_release(&selection);
-    return drawn.count;
 }
 
 static void check_views(const struct streaks_packets *packets, const struct scene *scene,
-                        const struct rig_particles *all, uint64_t *random, struct tally *tally)
+                        const struct rig_particles *all, bool whole, uint64_t *random,
+                        struct tally *tally)
 {
     bool *seen = calloc((size_t)all->count, sizeof(*seen));
     assert_non_null(seen);
     for (int i = 0; i < VIEWS; i++) {
         struct look look = make_look(scene, 20, random);
+        look.view.whole = whole;
         for (int64_t k = 0; k < all->count; k++) {
             seen[k] = visible(scene, &look, &all->all[k], random);
             tally->visible += seen[k];
         }
         for (int hull = 0; hull < 2; hull++) {
             look.view.hull = hull;
-            tally->drawn[hull] += check_view(packets, scene, &look, all, seen);
+            check_view(packets, scene, &look, all, seen, tally);
         }
         tally->all += all->count;
     }
@@ -147,7 +164,7 @@ static void check_views(const struct streaks_packets *packets, const struct scen
 }
 
 static void check_scheme(const struct scene *scene, enum streaks_scheme scheme, int size,
-                         bool by_id, uint64_t *random)
+                         bool by_id, bool whole, uint64_t *random)
 {
     struct streaks_packets_settings settings = rig_settings(&scene->space, scene->map, PARTICLES);
     settings.scheme = scheme;
@@ -156,21 +173,24 @@ static void check_scheme(const struct scene *scene, enum streaks_scheme scheme, 
     struct streaks_packets *packets = rig_packets(&scene->space, scene->map, &settings);
     const struct rig_particles all = rig_read_all(packets, &scene->space, 20);
     struct tally tally = {0};
-    check_views(packets, scene, &all, random, &tally);
+    check_views(packets, scene, &all, whole, random, &tally);
     assert_true(tally.visible > 0 && tally.drawn[1] <= tally.drawn[0]);
     if (scheme != STREAKS_WORLD)
         assert_true(tally.drawn[0] < tally.all);
+    if (!whole && (!by_id || scheme == STREAKS_GRID))
+        assert_true(tally.drawn[0] + tally.drawn[1] < tally.selected);
     free(all.all);
     streaks_packets_destroy(packets);
 }
 
-static void check_law(bool slanted, uint64_t seed)
+static void check_law(bool slanted, bool whole, uint64_t seed)
 {
     uint64_t random = seed;
     for (int scheme = STREAKS_WORLD; scheme <= STREAKS_GRID; scheme++)
         for (int by_id = 0; by_id < 2; by_id++) {
             struct scene scene = make_scene(&random, slanted);
-            check_scheme(&scene, (enum streaks_scheme)scheme, by_id ? 30 : 200, by_id, &random);
+            check_scheme(&scene, (enum streaks_scheme)scheme, by_id ? 30 : 200, by_id, whole,
+                         &random);
             rg_density_destroy(scene.map);
         }
 }
@@ -178,13 +198,25 @@ static void check_law(bool slanted, uint64_t seed)
 static void test_nothing_seen_is_left_out(void **state)
 {
     (void)state;
-    check_law(false, 1);
+    check_law(false, true, 1);
 }
 
 static void test_nothing_seen_is_left_out_in_slanted_rain(void **state)
 {
     (void)state;
-    check_law(true, 2);
+    check_law(true, true, 2);
+}
+
+static void test_no_block_seen_is_left_out(void **state)
+{
+    (void)state;
+    check_law(false, false, 3);
+}
+
+static void test_no_block_seen_is_left_out_in_slanted_rain(void **state)
+{
+    (void)state;
+    check_law(true, false, 4);
 }
 
 // Both orders draw the same particles of the same packets.
@@ -380,6 +412,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_nothing_seen_is_left_out),
         cmocka_unit_test(test_nothing_seen_is_left_out_in_slanted_rain),
+        cmocka_unit_test(test_no_block_seen_is_left_out),
+        cmocka_unit_test(test_no_block_seen_is_left_out_in_slanted_rain),
         cmocka_unit_test(test_orders_select_alike),
         cmocka_unit_test(test_hull_is_tight),
         cmocka_unit_test(test_looking_away),
