@@ -7,7 +7,8 @@
 // much.
 #define MOST_BYTES ((size_t)128 << 20)
 
-enum { LEAST_SIDE_LOG2 = 6, MOST_TILES = 4096 };
+// Large tiles list more pixels before one comes twice; many are shared out evenly.
+enum { LEAST_SIDE_LOG2 = 6, WANTED_SIDE_LOG2 = 7, TILES_A_THREAD = 16, MOST_TILES = 4096 };
 enum { FIRST_ROOM = 1 << 16, MOST_PRIMS = 1 << 21, MOST_REFS = 1 << 23 };
 
 // --- sorting a chunk's references by tile ---
@@ -123,14 +124,22 @@ static bool make_prim_room(struct cpu_bins *bins, size_t record_size)
     return bins->prim_limit && make_record_room(bins, (size_t)bins->prim_limit * record_size);
 }
 
-static void choose_tiles(struct cpu_tiling *tiling, const rg_draw_state *draw)
+static int divide(struct cpu_tiling *tiling, const rg_draw_state *draw, int log2_side)
 {
-    tiling->log2_side = LEAST_SIDE_LOG2 - 1;
-    do {
-        const int side = 1 << ++tiling->log2_side;
-        tiling->across = (draw->width + side - 1) / side;
-        tiling->down = (draw->height + side - 1) / side;
-    } while (tiling->across * tiling->down > MOST_TILES);
+    const int side = 1 << log2_side;
+    tiling->log2_side = log2_side;
+    tiling->across = (draw->width + side - 1) / side;
+    tiling->down = (draw->height + side - 1) / side;
+    return tiling->across * tiling->down;
+}
+
+static void choose_tiles(struct cpu_tiling *tiling, const rg_draw_state *draw, int threads)
+{
+    int side = WANTED_SIDE_LOG2;
+    while (side > LEAST_SIDE_LOG2 && divide(tiling, draw, side) < threads * TILES_A_THREAD)
+        side--;
+    while (divide(tiling, draw, side) > MOST_TILES)
+        side++;
 }
 
 static bool make_chunks(struct cpu_bins *bins)
@@ -173,7 +182,7 @@ static bool make_sorters(struct cpu_bins *bins, int threads)
 bool cpu_bins_prepare(struct cpu_bins *bins, const rg_draw_state *draw, size_t record_size,
                       int threads)
 {
-    choose_tiles(&bins->tiling, draw);
+    choose_tiles(&bins->tiling, draw, threads);
     if (!make_ref_room(bins) || !make_prim_room(bins, record_size) || !make_chunks(bins) ||
         !make_sorters(bins, threads))
         return false;

@@ -9,6 +9,7 @@
 #include "backends/cpu/draw_span.h"
 
 enum {
+    LISTED_PX = 128,  // side of the square of pixels that a list tells apart
     WIDE_SPAN = 24,   // pixels that are worth a row of their own
     WORTH_LIGHTS = 2, // that cost more than asking first what is hidden
 };
@@ -27,8 +28,8 @@ struct shader {
     bool drops_hidden; // before lights fall on them
     // The list that each pixel was last in, by the low bits of x and y: pixels that share an entry
     // pass for the same.
-    uint listing;
-    uint listed[CPU_BLOCK_PX][CPU_BLOCK_PX];
+    uint16_t listing; // counts from 1
+    uint16_t listed[LISTED_PX][LISTED_PX];
 };
 
 // Depth test and blending of the fragments, once their pixels are gathered.
@@ -139,6 +140,12 @@ static void draw_list(struct shader *s)
             count_sample(s, list->prim[i], s->fragments.kept[i]);
 }
 
+static void begin_listing(struct shader *s)
+{
+    s->listing = 1;
+    memset(s->listed, 0, sizeof(s->listed));
+}
+
 static void flush(struct shader *s)
 {
     if (!s->list.count)
@@ -148,13 +155,14 @@ static void flush(struct shader *s)
     if (s->list.count)
         draw_list(s);
     s->list.count = 0;
-    s->listing++;
+    if (++s->listing == 0)
+        begin_listing(s);
 }
 
 static inline void list_pixel(struct shader *s, int prim, int x, int y)
 {
     struct cpu_list *list = &s->list;
-    uint *listed = &s->listed[y & (CPU_BLOCK_PX - 1)][x & (CPU_BLOCK_PX - 1)];
+    uint16_t *listed = &s->listed[y & (LISTED_PX - 1)][x & (LISTED_PX - 1)];
     if (*listed == s->listing || list->count == CPU_FRAGMENTS)
         flush(s);
     *listed = s->listing;
@@ -289,8 +297,7 @@ static void begin_tile(struct shader *s, int tile)
     s->x1 = s->x0 + side;
     s->y1 = s->y0 + side;
     s->list.count = 0;
-    s->listing = 1;
-    memset(s->listed, 0, sizeof(s->listed));
+    begin_listing(s);
 }
 
 static void draw_refs(struct shader *s, const struct cpu_ref *ref, const struct cpu_ref *end)
