@@ -21,7 +21,7 @@ enum {
 };
 
 // The run in which passes are told apart ends with the frame in which it has taken so long.
-#define PASSES_MS 1000
+#define PASSES_MS 400
 // A frame that takes longer feels nothing of what the cell before left in the caches.
 #define LONG_FRAME_MS 100
 

@@ -35,7 +35,6 @@ static bool select_packets(struct streaks *s, const double eye[3], double top_m)
     const struct streaks_settings *set = &s->settings;
     const struct rg_image_desc *desc = &s->base.target->desc;
     const double splash = splash_reach(set), streak = streak_length(set) + 2 * margin(set);
-    const double all = set->limits ? 0 : set->rain_height_m + set->local_height_m;
     struct streaks_view view = {
         .eye = {eye[0], eye[1], eye[2]},
         .radius_m = set->limits ? set->culling_radius_m : (double)INFINITY,
@@ -43,8 +42,8 @@ static bool select_packets(struct streaks *s, const double eye[3], double top_m)
         .run = streaks_run(set->fall_speed_m_s, set->step_s * (double)s->base.frame, top_m,
                            set->local_height_m),
         .across_m = fmax(splash, 2 * margin(set)),
-        .above_m = streak + set->splash_s * set->fall_speed_m_s + splash + all,
-        .below_m = fmax(2 * margin(set), splash) + all,
+        .above_m = streak + set->splash_s * set->fall_speed_m_s + splash,
+        .below_m = fmax(2 * margin(set), splash),
         .hull = set->select,
         .whole = set->keeps_state,
     };
@@ -137,6 +136,13 @@ static bool write_blocks(struct streaks *s, const struct streaks_draw *draw)
                         bytes);
 }
 
+// What a local space of this top shows. A selection of one draw has its blocks on the device.
+static bool select_blocks(struct streaks *s, const double eye[3], double top_m)
+{
+    return select_packets(s, eye, top_m) &&
+           (s->selection.draw_count != 1 || write_blocks(s, &s->selection.draws[0]));
+}
+
 bool streaks_look(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
@@ -148,10 +154,10 @@ bool streaks_look(struct streaks *s)
     streaks_rain_eye(&s->space, &s->observer.camera, eye);
     const double top_m = streaks_local_top(eye[2], set->local_height_m);
     set_params(s, eye, top_m);
-    if (!streaks_map_renew(s) || !select_packets(s, eye, top_m))
+    if (!streaks_map_renew(s) || !select_blocks(s, eye, top_m))
         return false;
     s->base.facts[STREAKS_FACT_PARTICLES].number = (double)s->selection.particles;
-    return s->selection.draw_count != 1 || write_blocks(s, &s->selection.draws[0]);
+    return true;
 }
 
 static struct rg_run run_over(const struct streaks *s, const struct streaks_draw *draw,
@@ -184,7 +190,6 @@ static bool draw_blocks(struct streaks *s, const struct streaks_draw *draw, cons
     return rg_instance_run(&s->base, s->rain, &run);
 }
 
-// A selection of one draw is written once a frame.
 static bool ready_blocks(struct streaks *s, const struct streaks_draw *draw)
 {
     return s->selection.draw_count == 1 || write_blocks(s, draw);
@@ -203,16 +208,18 @@ static bool draw_rain_at(struct streaks *s, float top)
     return true;
 }
 
-// The local space; without limits, all copies of it that reach into the rain space.
+// The local space; without limits, all copies of it that reach into the rain space, each with what
+// is seen of it.
 static bool draw_rain(struct streaks *s)
 {
     const double height_m = s->settings.local_height_m;
+    double top_m = (double)s->params.top, eye[3];
     if (s->settings.limits)
         return draw_rain_at(s, s->params.top);
-    double top_m = (double)s->params.top;
+    streaks_rain_eye(&s->space, &s->observer.camera, eye);
     top_m -= ceil(top_m / height_m) * height_m;
     for (; top_m < s->space.height_m; top_m += height_m)
-        if (!draw_rain_at(s, (float)top_m))
+        if (!select_blocks(s, eye, top_m) || !draw_rain_at(s, (float)top_m))
             return false;
     return true;
 }
