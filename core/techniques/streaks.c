@@ -45,7 +45,7 @@ static bool select_packets(struct streaks *s, const double eye[3], double top_m)
         .above_m = streak + set->splash_s * set->fall_speed_m_s + splash,
         .below_m = fmax(2 * margin(set), splash),
         .hull = set->select,
-        .whole = set->keeps_state,
+        .whole = set->all_blocks || set->keeps_state,
     };
     return streaks_view_corners(&s->space, &s->observer.camera, (double)desc->width / desc->height,
                                 view.corners) &&
