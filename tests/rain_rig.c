@@ -39,6 +39,17 @@ void rain_step(struct streaks *s, int frames)
         assert_true(s->base.technique->step(&s->base));
 }
 
+struct rain_places rain_read_places(const struct streaks *s)
+{
+    struct rain_places places = {s->selection.block_count * STREAKS_BLOCK, NULL};
+    const int64_t bytes = places.count * STREAKS_STATE_WORDS * 4;
+    places.words = malloc((size_t)bytes);
+    assert_non_null(places.words);
+    assert_int_equal(s->base.state_count, 1);
+    assert_true(rg_buf_read(s->base.state[0].buf, 0, places.words, bytes));
+    return places;
+}
+
 struct rain_texels *rain_read(struct streaks *s)
 {
     struct rain_texels *picture = malloc(sizeof(*picture));

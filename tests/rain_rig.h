@@ -26,6 +26,14 @@ struct rain_texels {
     uint16_t halves[RAIN_TEXELS * 4];
 };
 
+// The particles that a frame keeps with state=on, STREAKS_STATE_WORDS words each. The caller frees
+// the words.
+struct rain_places {
+    int64_t count;
+    float *words;
+};
+struct rain_places rain_read_places(const struct streaks *s);
+
 // Draws the present frame. The caller frees it.
 struct rain_texels *rain_read(struct streaks *s);
 // The picture after so many frames. The caller frees it.

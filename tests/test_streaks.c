@@ -87,35 +87,19 @@ static void test_grid_is_like_the_trees(void **state)
 
 // --- particles ---
 
-struct places {
-    int64_t count;
-    float *words;
-};
-
-static struct places read_places(const struct streaks *s)
-{
-    struct places places = {s->selection.block_count * STREAKS_BLOCK, NULL};
-    const int64_t bytes = places.count * STREAKS_STATE_WORDS * 4;
-    places.words = malloc((size_t)bytes);
-    assert_non_null(places.words);
-    assert_int_equal(s->base.state_count, 1);
-    assert_true(rg_buf_read(s->base.state[0].buf, 0, places.words, bytes));
-    return places;
-}
-
 // Drops stay where they are in the world when the camera and its local space move: height
 // correction. The same time, two cameras.
 static void test_drops_stay_put(void **state)
 {
     (void)state;
     const char *const common = "state=on packets=world order=id local_height_m=15 eye_y_m=%g";
-    struct places places[2];
+    struct rain_places places[2];
     for (int i = 0; i < 2; i++) {
         char settings[256];
         snprintf(settings, sizeof(settings), common, i ? 14.25 : 12.0);
         struct streaks *s = rain_open(settings);
         rain_step(s, 7);
-        places[i] = read_places(s);
+        places[i] = rain_read_places(s);
         rain_close(s);
     }
     int64_t seen = 0, wrapped = 0;
@@ -174,7 +158,7 @@ static void test_one_splash_a_hit(void **state)
     int64_t count = 0, splashes = 0, falling = 0;
     for (int frame = 0; frame < frames; frame++) {
         rain_step(s, 1);
-        const struct places places = read_places(s);
+        const struct rain_places places = rain_read_places(s);
         count = places.count;
         if (!lives)
             lives = calloc((size_t)count, sizeof(*lives));

@@ -13,6 +13,7 @@
 
 #include "core/techniques/streaks_instance.h"
 #include "tests/mesh_scene.h"
+#include "tests/rain_rig.h"
 
 enum { WIDTH = 96, HEIGHT = 54, HALVES = WIDTH * HEIGHT * 4, MAP_PX = 1024 };
 enum { FILM, PUDDLE, ROUGH, SMOOTH, MATERIALS };
@@ -165,26 +166,10 @@ static bool shows(const struct hit_faces *f, const struct extent *map, double u,
 
 // --- what devices say ---
 
-struct places {
-    int64_t count;
-    float *words;
-};
-
-static struct places read_places(const struct streaks *s)
-{
-    struct places places = {s->selection.block_count * STREAKS_BLOCK, NULL};
-    const int64_t bytes = places.count * STREAKS_STATE_WORDS * 4;
-    places.words = malloc((size_t)bytes);
-    assert_non_null(places.words);
-    assert_int_equal(s->base.state_count, 1);
-    assert_true(rg_buf_read(s->base.state[0].buf, 0, places.words, bytes));
-    return places;
-}
-
 // Particles over each material, drops and splashes alike, as the device has them.
 static void count_materials(const struct streaks *s, int counts[MATERIALS])
 {
-    const struct places places = read_places(s);
+    const struct rain_places places = rain_read_places(s);
     memset(counts, 0, MATERIALS * sizeof(*counts));
     for (int64_t i = 0; i < places.count; i++) {
         const float *place = places.words + i * STREAKS_STATE_WORDS;
@@ -222,7 +207,7 @@ static struct compared compare(struct rg_device *device, const char *settings, b
     struct streaks *s = open_rain(device, settings);
     struct hit_faces faces = faces_of(s);
     const struct extent map = extent_of(s, around);
-    const struct places places = read_places(s);
+    const struct rain_places places = rain_read_places(s);
     struct compared all = {{0}, 0};
     int64_t seen = 0;
     for (int64_t i = 0; i < places.count; i++)
