@@ -98,8 +98,6 @@ static void write_run(const struct streaks_run *run, const uint8_t *seen, uint32
 static void cull(const struct streaks_packets *p, const struct streaks_view *view,
                  struct streaks_run *runs, int64_t count, uint8_t *seen)
 {
-    struct streaks_sight sight;
-    streaks_sight_of(p, view, &sight);
     if (view->whole) {
         for (int64_t i = 0; i < count; i++) {
             runs[i].block = streaks_blocks_in(&runs[i]);
@@ -107,6 +105,8 @@ static void cull(const struct streaks_packets *p, const struct streaks_view *vie
         }
         return;
     }
+    struct streaks_sight sight;
+    streaks_sight_of(p, view, &sight);
 #pragma omp parallel for schedule(dynamic, 8)
     for (int64_t i = 0; i < count; i++)
         runs[i].block = streaks_bounds_seen(p, &sight, &runs[i], seen + runs[i].first);

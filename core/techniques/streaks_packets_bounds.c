@@ -1,7 +1,7 @@
 // streaks: blocks of particles that lie close together, and which of them a view can see.
 //
 // Neighbours on the Morton curve stand side by side on the top plane, each at a height of its own.
-// So every STREAKS_GROUP of them are put in the order of their starts: then a block of 32 is a
+// So every 1024 of them are put in the order of their starts: then a block of 32 is a
 // small box that falls, and most blocks of a packet that reaches out of the view are left out.
 #include <math.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 #include "core/scene/vector.h"
 #include "core/techniques/streaks_packets_inner.h"
 
-enum { STREAKS_GROUP = 1024, KEY_BITS = 10, KEYS = 1 << KEY_BITS };
+enum { GROUP = 1024, KEYS = 1024 }; // particles, and steps of their starts
 
 // Roundings of particles' places, on the device and here, in metres and in turns.
 static const double slack_m = 0.01;
@@ -24,7 +24,7 @@ static float start_of(const float *particle)
 // A stable counting sort by the leading bits of the start.
 static void sort_group(float *particles, int count)
 {
-    float sorted[STREAKS_GROUP * 3];
+    float sorted[GROUP * 3];
     int next[KEYS + 1] = {0};
     for (int i = 0; i < count; i++)
         next[(int)(start_of(particles + 3 * i) * KEYS) + 1]++;
@@ -62,9 +62,9 @@ static void pack_packet(struct streaks_packets *p, const struct streaks_packet *
 {
     float *const particles = p->particles + 3 * packet->first;
 #pragma omp parallel for schedule(static)
-    for (int32_t first = 0; first < packet->count; first += STREAKS_GROUP) {
+    for (int32_t first = 0; first < packet->count; first += GROUP) {
         const int32_t left = packet->count - first;
-        const int count = left < STREAKS_GROUP ? left : STREAKS_GROUP;
+        const int count = left < GROUP ? left : GROUP;
         sort_group(particles + 3 * (int64_t)first, count);
         for (int k = 0; k < count; k += STREAKS_BLOCK)
             bound_block(p->bounds, (packet->first + first + k) / STREAKS_BLOCK,

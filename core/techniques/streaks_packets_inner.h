@@ -164,7 +164,6 @@ enum {
     STREAKS_RUNS,
     STREAKS_MASKS,
     STREAKS_SEEN,
-    STREAKS_ARRAYS
 };
 // Makes room for `count` elements in the array that `memory` points to. What it held stays only
 // where `keep` is set.
