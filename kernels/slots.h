@@ -10,11 +10,12 @@
 //                                                            a buffer of int or uint, shared
 //   IMAGE(slot, F, name)     name_texel(rg, x, y, layer, level), name_width(rg, level),
 //                            name_height(rg, level), name_levels(rg); name_bytes(rg, x, y, layer,
-//                            level): a texel of RGBA8 as one word, r lowest; and filtered at (u,
-//                            v), 0 to 1 across the image: name_nearest(rg, u, v, layer, level),
-//                            name_linear (four texels), name_trilinear(rg, u, v, layer, lod),
-//                            clamped at the edges; name_between(rg, x, y, layer, level): linear, at
-//                            a place in texels
+//                            level): a texel of RGBA8 as one word, r lowest; name_texels(rg, x0,
+//                            x1, y, layer, level): two of a row, where x1 is x0 or x0 + 1; and
+//                            filtered at (u, v), 0 to 1 across the image: name_nearest(rg, u, v,
+//                            layer, level), name_linear (four texels), name_trilinear(rg, u, v,
+//                            layer, lod), clamped at the edges; name_between(rg, x, y, layer,
+//                            level): linear, at a place in texels
 //   OUT_IMAGE(slot, F, name) name_store(rg, x, y, layer, c)  level 0 of an image of format F
 //
 // Slots count from 1 and are one numbering for buffers and images. `rg` is the kernel's context: it
@@ -34,6 +35,16 @@
 #define RG_STAGE_SLOTS
 #endif
 #define RG_ALL_SLOTS RG_SLOTS RG_STAGE_SLOTS
+
+// name_texels where two texels are no cheaper together than one by one.
+#define RG_TEXELS_SINGLY(name)                                                                     \
+    RG_FN rg_texels name##_texels(rg_ctx rg, int x0, int x1, int y, int layer, int level)          \
+    {                                                                                              \
+        rg_texels t;                                                                               \
+        t.left = name##_texel(rg, x0, y, layer, level);                                            \
+        t.right = name##_texel(rg, x1, y, layer, level);                                           \
+        return t;                                                                                  \
+    }
 
 #define RG_GRID_KERNEL(name)                                                                       \
     RG_PROC void rg_kernel(rg_ctx rg RG_UNUSED, RG_RUN_PARAMS p RG_UNUSED, int x RG_UNUSED,        \

@@ -92,13 +92,7 @@ struct rg_ctx {
         vec4 t = texelFetch(name##_sampler, ivec3(x, y, layer), level);                            \
         return rg_fetched_##F(rg_rgba(t.x, t.y, t.z, t.w));                                        \
     }                                                                                              \
-    rg_texels name##_texels(rg_ctx rg, int x0, int x1, int y, int layer, int level)                \
-    {                                                                                              \
-        rg_texels t;                                                                               \
-        t.left = name##_texel(rg, x0, y, layer, level);                                            \
-        t.right = name##_texel(rg, x1, y, layer, level);                                           \
-        return t;                                                                                  \
-    }                                                                                              \
+    RG_TEXELS_SINGLY(name)                                                                         \
     uint name##_bytes(rg_ctx rg, int x, int y, int layer, int level)                               \
     {                                                                                              \
         uvec4 t = uvec4(texelFetch(name##_sampler, ivec3(x, y, layer), level) * 255.0f + 0.5f);    \

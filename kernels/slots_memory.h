@@ -123,13 +123,7 @@ typedef struct rg_ctx {
         int i = rg_texel_word(rg.name, rg.name##_shape, x, y, layer, level, RG_WORDS_##F);         \
         return rg_load_##F(rg.name, RG_INDEX(rg, name, i));                                        \
     }                                                                                              \
-    RG_FN rg_texels name##_texels(rg_ctx rg, int x0, int x1, int y, int layer, int level)          \
-    {                                                                                              \
-        rg_texels t;                                                                               \
-        t.left = name##_texel(rg, x0, y, layer, level);                                            \
-        t.right = name##_texel(rg, x1, y, layer, level);                                           \
-        return t;                                                                                  \
-    }                                                                                              \
+    RG_TEXELS_SINGLY(name)                                                                         \
     RG_FN uint name##_bytes(rg_ctx rg, int x, int y, int layer, int level)                         \
     {                                                                                              \
         int i = rg_texel_word(rg.name, rg.name##_shape, x, y, layer, level, RG_WORDS_##F);         \

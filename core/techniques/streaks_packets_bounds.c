@@ -1,8 +1,8 @@
 // streaks: blocks of particles that lie close together, and which of them a view can see.
 //
 // Neighbours on the Morton curve stand side by side on the top plane, each at a height of its own.
-// So every 1024 of them are put in the order of their starts: then a block of 32 is a
-// small box that falls, and most blocks of a packet that reaches out of the view are left out.
+// So every 1024 of them are put in the order of their starts: then a block of 32 is a small box
+// that falls, and most blocks of a packet that reaches out of the view are left out.
 #include <math.h>
 #include <string.h>
 
