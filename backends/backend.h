@@ -107,7 +107,7 @@ struct rg_draw {
 
 // A DRAW pass's primitives, packed by core/draw.c, for backends whose `packed` asks for it.
 struct rg_packed {
-    struct rg_buf *prims; // rg_prim of kernels/draw.h, drawn in this order
+    struct rg_buf *prims; // rg_prim of kernels/dialect/draw/draw.h, drawn in this order
     struct rg_buf *args;  // 5 uints: vertices, 1, 0, 0 (an indirect draw), then the number of prims
     int capacity;         // the most that `prims` holds
 };
@@ -143,7 +143,7 @@ struct rg_backend {
     bool (*buf_read)(struct rg_buf *buf, size_t offset, void *data, size_t size);
 
     // Texels travel tightly packed, rows from y = 0, one layer of one level at a time, in the
-    // image's own format (kernels/format.h): rg_format_size(format) bytes each.
+    // image's own format (kernels/dialect/image/format.h): rg_format_size(format) bytes each.
     struct rg_image *(*image_create)(struct rg_device *device, const struct rg_image_desc *desc,
                                      const char *name);
     void (*image_destroy)(struct rg_image *image);
@@ -156,7 +156,7 @@ struct rg_backend {
     struct rg_pass *(*pass_create)(struct rg_device *device, const struct rg_kernel *kernel);
     void (*pass_destroy)(struct rg_pass *pass);
     // Runs a pass, or queues it. extent fits limits.max_groups. Of a DRAW pass, `params` is the
-    // program's rg_draw_call (kernels/draw.h): the draw's state, then the parameters.
+    // program's rg_draw_call (kernels/dialect/draw/draw.h): the draw's state, then the parameters.
     bool (*pass_run)(struct rg_pass *pass, const struct rg_run *run);
 
     // Returns when all that was queued has ended. False: some of it failed.

@@ -8,7 +8,7 @@
 #define RG_CORE_DEVICE_H
 
 #include "backends/backend.h"
-#include "kernels/image_memory.h"
+#include "kernels/dialect/image/memory.h"
 
 enum { RG_MAX_DEVICES = 32 };
 
@@ -65,9 +65,9 @@ int rg_format_size(enum rg_format format);
 const char *rg_format_name(enum rg_format format);
 // Width or height of a level.
 int rg_level_size(int size, int level);
-// How the devices that keep images in plain memory lay them out (kernels/image_memory.h): the word
-// at which each level begins, which is also the image's header, and the words of the whole image,
-// header included.
+// How the devices that keep images in plain memory lay them out (kernels/dialect/image/memory.h):
+// the word at which each level begins, which is also the image's header, and the words of the whole
+// image, header included.
 int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX_LEVELS]);
 // Whether kernels can count such an image's texels in an int; if not, logs one line and is false.
 bool rg_image_layout_fits(const struct rg_device *device, const struct rg_image_desc *desc,

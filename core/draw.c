@@ -7,10 +7,10 @@
 #include "core/device.h"
 #include "core/require.h"
 #include "core/scan.h"
-#include "kernels/clip.h"
+#include "kernels/dialect/draw/clip.h"
 
 static_assert((int)RG_RGBA8_FORMAT == (int)RG_RGBA8 && (int)RG_RGBA16F_FORMAT == (int)RG_RGBA16F,
-              "kernels/draw_state.h and core/kernel.h number formats alike");
+              "kernels/dialect/draw/state.h and core/kernel.h number formats alike");
 
 // Primitives of a batch take no more than this, whatever a device would allow.
 #define MAX_PACKED_BYTES ((int64_t)128 << 20)

@@ -1,8 +1,8 @@
 // DRAW passes behind core/device.c: their checks, and the packing of items for the backends that
 // ask for it. Items are counted, chunk by chunk; a scan gives each chunk its place; then the
-// primitives of the items that are seen are written there, in order (kernels/draw_count.h,
-// draw_emit.h). Long ranges go in batches, so that the packed primitives stay below what a device
-// allows a buffer.
+// primitives of the items that are seen are written there, in order (kernels/dialect/draw/count.h,
+// kernels/dialect/draw/emit.h). Long ranges go in batches, so that the packed primitives stay below
+// what a device allows a buffer.
 #ifndef RG_CORE_DRAW_H
 #define RG_CORE_DRAW_H
 

@@ -57,7 +57,8 @@ enum rg_code_kind {
     RG_CODE_COUNT
 };
 
-// The slots of a DRAW program's own stages (kernels/draw.h); its other slots are below them.
+// The slots of a DRAW program's own stages (kernels/dialect/draw/draw.h); its other slots are below
+// them.
 enum {
     RG_SLOT_PRIMS = 12,   // packed primitives
     RG_SLOT_COUNTS = 13,  // primitives a chunk of items, or before it

@@ -6,7 +6,7 @@
 
 #include "core/alloc.h"
 #include "core/device.h"
-#include "kernels/probe_ops_params.h"
+#include "kernels/probe/ops_params.h"
 
 enum inputs { WIDE, POSITIVE, SMALL, ANGLE, EXPONENT, POWER, MODULO, WORDS };
 enum result { FLOAT, UINT };

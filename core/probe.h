@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "kernels/probe_list.h"
+#include "kernels/probe/list.h"
 
 struct rg_device;
 
@@ -25,7 +25,7 @@ struct rg_probe_result {
     uint32_t largest_ulps; // distance in neighbouring floats, or of integers
 };
 
-// Runs every operation of kernels/probe_list.h on seeded inputs and compares: plain operations with
+// Runs every operation of kernels/probe/list.h on seeded inputs and compares: plain operations with
 // C computed on the host, what the kernels compose of them and the builtins with cpu:reference.
 // False when the device or cpu:reference failed.
 bool rg_probe_run(struct rg_device *device, struct rg_probe_result results[RG_PROBE_COUNT]);

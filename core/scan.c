@@ -6,7 +6,7 @@
 #include "core/device.h"
 #include "core/alloc.h"
 #include "core/log.h"
-#include "kernels/scan_params.h"
+#include "kernels/scan/params.h"
 
 enum { MAX_LEVELS = 6, MAX_COUNT = 1 << 30 };
 

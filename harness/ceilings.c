@@ -5,8 +5,8 @@
 
 #include "core/device.h"
 #include "harness/clock.h"
-#include "kernels/probe_arithmetic_params.h"
-#include "kernels/test_copy_params.h"
+#include "kernels/probe/arithmetic_params.h"
+#include "kernels/probe/copy_params.h"
 
 enum { RUNS = 9, MIB = 1 << 20, LARGE = 64 * MIB, SMALL = MIB, ARITHMETIC_ITEMS = 1 << 17 };
 

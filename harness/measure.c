@@ -11,7 +11,7 @@
 #include "harness/clock.h"
 #include "harness/frame.h"
 #include "harness/interrupt.h"
-#include "kernels/rng.h"
+#include "kernels/dialect/rng.h"
 
 enum {
     MAX_WARM_UP_FRAMES = 20,

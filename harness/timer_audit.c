@@ -5,7 +5,7 @@
 #include "core/device.h"
 #include "harness/clock.h"
 #include "harness/stats.h"
-#include "kernels/test_copy_params.h"
+#include "kernels/probe/copy_params.h"
 
 // Large enough to leave the caches of one core, small enough for every device.
 enum { SIDE = 1024, WORDS = SIDE * SIDE };

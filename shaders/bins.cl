@@ -1,7 +1,7 @@
-// Sorts packed primitives of any DRAW program into bins (kernels/bins.h): rg_bins_walk counts,
+// Sorts packed primitives of any DRAW program into bins (kernels/dialect/draw/bins.h): rg_bins_walk counts,
 // rg_bins_scan finds each place in the list, rg_bins_walk again fills the list.
-#include "kernels/raster.h"
-#include "kernels/bins.h"
+#include "kernels/dialect/draw/coverage.h"
+#include "kernels/dialect/draw/bins.h"
 
 typedef struct rg_tile_box {
     int first_x;

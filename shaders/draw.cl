@@ -1,10 +1,10 @@
-// Makes an OpenCL kernel of a DRAW program: shades the tiles whose primitives kernels/bins.h has
+// Makes an OpenCL kernel of a DRAW program: shades the tiles whose primitives kernels/dialect/draw/bins.h has
 // sorted. A work item owns a block of pixels of one tile and draws the tile's primitives there, in
 // order.
 #include RG_KERNEL_HEADER
-#include "blend.h"
-#include "raster.h"
-#include "bins.h"
+#include "kernels/dialect/draw/blend.h"
+#include "kernels/dialect/draw/coverage.h"
+#include "kernels/dialect/draw/bins.h"
 
 // What a work item draws with and to.
 typedef struct rg_shading {
@@ -59,7 +59,7 @@ RG_FN int rg_will_be_seen(const rg_shading *s, RG_RECORD record, int px, int py)
     return f.kept != 0 && f.depth < as_float(s->depth[py * s->p.draw.width + px]) ? 1 : 0;
 }
 
-// One light after the other, in the order of draw_lit.h, each for pixels side by side: a loop within
+// One light after the other, in the order of kernels/dialect/draw/lit.h, each for pixels side by side: a loop within
 // theirs would keep PoCL from that. A pixel that will not be seen takes the place of one that will,
 // for nothing else may be read.
 RG_PROC void rg_light_row(const rg_shading *s, RG_RECORD record, rg_block_triangle ta,

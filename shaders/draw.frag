@@ -1,7 +1,7 @@
 // The fragment stage of a DRAW program: everything from the packed record and the pixel's place.
 #define RG_STAGE_FRAGMENT 1
 #include RG_KERNEL_HEADER
-#include "draw_lit.h"
+#include "kernels/dialect/draw/lit.h"
 
 layout(std140, binding = 0) uniform rg_run_block
 {

@@ -6,9 +6,9 @@
 #include <stdint.h>
 
 #include "core/device.h"
-#include "kernels/raster_mesh_params.h"
+#include "kernels/raster/mesh_params.h"
 
-// The caller's arrays, as kernels/mesh.h reads them.
+// The caller's arrays, as kernels/dialect/mesh/mesh.h reads them.
 struct faces {
     int vertex_count, face_count;
     float *positions;

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "core/techniques/flow_instance.h"
-#include "kernels/format.h"
+#include "kernels/dialect/image/format.h"
 
 static const char *const cheap = "environment=sky environment_px=16 view=pane panes=mirror";
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernels/rng.h"
+#include "kernels/dialect/rng.h"
 
 static double uniform(uint32_t item, uint32_t step)
 {

@@ -11,7 +11,7 @@
 #include <math.h>
 
 #include "core/techniques/streaks_lights.h"
-#include "kernels/test_streaks_lights_params.h"
+#include "tests/kernels/streaks_lights_params.h"
 #include "tests/mesh_scene.h"
 
 enum { POINTS = 6000, MAP_PX = 512, LIGHTS = 6, UNSHADOWED = LIGHTS - 1 };

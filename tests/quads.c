@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "kernels/rng.h"
+#include "kernels/dialect/rng.h"
 
 struct random {
     uint32_t seed, item, step;

@@ -2,7 +2,7 @@
 #ifndef RG_TESTS_QUADS_H
 #define RG_TESTS_QUADS_H
 
-#include "kernels/test_quads_params.h"
+#include "tests/kernels/quads_params.h"
 
 enum quad_kind {
     QUAD_STREAK,     // 0.2 to 2 px wide, inside

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernels/format.h"
+#include "kernels/dialect/image/format.h"
 
 #define SMALL                                                                                      \
     "atlas=small city=small depth_map_px=256 shadow_map_px=64 rain_width_m=60 rain_depth_m=60 "    \

@@ -15,7 +15,7 @@
 #include "core/image/io.h"
 #include "core/log.h"
 #include "core/scene/cube.h"
-#include "kernels/cube.h"
+#include "kernels/dialect/image/cube.h"
 #include "tests/folder.h"
 
 static void write_file(const char *path, const void *data, size_t bytes)

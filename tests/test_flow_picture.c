@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "core/scene/cube.h"
-#include "kernels/image_memory.h"
+#include "kernels/dialect/image/memory.h"
 #include "tests/flow_rig.h"
 #include "tests/oracle/picture_oracle.h"
 

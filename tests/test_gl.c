@@ -15,8 +15,8 @@
 #include "backends/gl/gl.h"
 #include "core/device.h"
 #include "core/log.h"
-#include "kernels/test_copy_params.h"
-#include "kernels/test_quads_params.h"
+#include "kernels/probe/copy_params.h"
+#include "tests/kernels/quads_params.h"
 
 static const char *reason; // why there is no device; NULL: there is one
 static int errors;         // lines logged as errors

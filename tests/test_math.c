@@ -1,4 +1,4 @@
-// Measures the error bounds that kernels/math.h states, in double precision, and its edges.
+// Measures the error bounds that kernels/dialect/math.h states, in double precision, and its edges.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "kernels/math.h"
+#include "kernels/dialect/math.h"
 
 // Every 1,009th float of every exponent: about two million of each sign.
 enum { STRIDE = 1009, PAIRS = 2000000 };

@@ -13,8 +13,8 @@
 
 #include "core/device.h"
 #include "core/log.h"
-#include "kernels/test_copy_params.h"
-#include "kernels/test_image_copy_params.h"
+#include "kernels/probe/copy_params.h"
+#include "tests/kernels/image_copy_params.h"
 #include "tests/quads.h"
 
 static int open_device(void **state)

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernels/rng.h"
+#include "kernels/dialect/rng.h"
 #include "tests/oracle/raster_oracle.h"
 #include "tests/mesh_scene.h"
 

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "kernels/rng.h"
+#include "kernels/dialect/rng.h"
 #include "tests/oracle/raster_oracle.h"
 #include "tests/mesh_scene.h"
 

@@ -1,4 +1,4 @@
-// Compares kernels/rng.h with Random123's own Philox and its published known answers.
+// Compares kernels/dialect/rng.h with Random123's own Philox and its published known answers.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -7,7 +7,7 @@
 #include <cmocka.h>
 #include <Random123/philox.h>
 
-#include "kernels/rng.h"
+#include "kernels/dialect/rng.h"
 
 // Random123's kat_vectors for philox4x32, 10 rounds.
 static void known_answers(void **state)

@@ -157,7 +157,7 @@ static void every_kernel_is_exact(void **state)
             struct findings found = inspect_stage(all[i], spirv_stages[s].kind);
             if (found.fault[0] && !is_probe(all[i]))
                 fail_msg("kernel '%s', %s stage: %s may be rounded otherwise; see "
-                         "kernels/flatten.py",
+                         "kernels/build/flatten.py",
                          all[i]->name, spirv_stages[s].name, found.fault);
         }
     }

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "kernels/format.h"
+#include "kernels/dialect/image/format.h"
 #include "tests/rain_rig.h"
 
 // --- pictures ---

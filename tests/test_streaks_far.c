@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernels/format.h"
+#include "kernels/dialect/image/format.h"
 #include "tests/rain_rig.h"
 
 static const double pi = 3.14159265358979323846;

@@ -13,7 +13,7 @@
 #include "core/scene/camera.h"
 #include "core/techniques/streaks_lights.h"
 #include "core/techniques/streaks_overlay.h"
-#include "kernels/rng.h"
+#include "kernels/dialect/rng.h"
 #include "tests/mesh_scene.h"
 
 enum { WIDTH = 160, HEIGHT = 90 };

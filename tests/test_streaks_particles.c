@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "core/device.h"
-#include "kernels/rng.h"
-#include "kernels/streaks_params.h"
+#include "kernels/dialect/rng.h"
+#include "kernels/streaks/params.h"
 #include "tests/oracle/particle_oracle.h"
 
 enum { BLOCKS = 256, PARTICLES = BLOCKS * STREAKS_BLOCK, MAP_X = 7, MAP_Y = 5, WORDS = 7 };

@@ -12,7 +12,7 @@
 
 #include "core/device.h"
 #include "core/log.h"
-#include "kernels/test_copy_params.h"
+#include "kernels/probe/copy_params.h"
 
 static int errors;
 

@@ -4,7 +4,7 @@
 
 #include "backends/backend.h"
 #include "backends/cpu/fault.h"
-#include "kernels/image_memory.h"
+#include "kernels/dialect/image/memory.h"
 
 struct cpu_slot {
     void *data;

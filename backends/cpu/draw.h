@@ -16,7 +16,7 @@
 #define RG_BACKENDS_CPU_DRAW_H
 
 #include "backends/cpu/cpu.h"
-#include "kernels/clip.h"
+#include "kernels/dialect/draw/clip.h"
 
 enum {
     CPU_LANES = 16,                     // what loops handle side by side

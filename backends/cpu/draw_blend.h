@@ -5,7 +5,7 @@
 #define RG_BACKENDS_CPU_DRAW_BLEND_H
 
 #include "backends/cpu/draw.h"
-#include "kernels/blend.h"
+#include "kernels/dialect/draw/blend.h"
 
 #define ALWAYS static inline __attribute__((always_inline))
 

@@ -1,7 +1,7 @@
 // Which pixels small shapes cover, CPU_LANES shapes side by side, in 32 bits.
 //
-// Edge functions are those of kernels/raster.h, divided by 256: its at(px, py) > 0 has the terms
-// 256 dx px and 256 dy py, so that it says the same as
+// Edge functions are those of kernels/dialect/draw/coverage.h, divided by 256: its at(px, py) > 0
+// has the terms 256 dx px and 256 dy py, so that it says the same as
 //   floor((origin - 1) / 256) - dx px + dy py >= 0.
 //
 // A convex polygon's two triangles cover together what lies inside its four edges, ties included:

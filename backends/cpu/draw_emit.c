@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "kernels/raster.h"
+#include "kernels/dialect/draw/coverage.h"
 
 // A chunk that leaves more references than this ends.
 enum { MOST_REFS = 1 << 18 };

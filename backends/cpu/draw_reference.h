@@ -1,9 +1,9 @@
 // Makes a C function of the DRAW program that was just included, for cpu:reference: plain loops
 // over items, triangles and pixels, in order.
 #include "backends/cpu/bind.h"
-#include "kernels/blend.h"
-#include "kernels/draw_lit.h"
-#include "kernels/raster.h"
+#include "kernels/dialect/draw/blend.h"
+#include "kernels/dialect/draw/lit.h"
+#include "kernels/dialect/draw/coverage.h"
 
 struct drawing {
     rg_ctx rg;

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "kernels/clip.h"
+#include "kernels/dialect/draw/clip.h"
 
 // Memory row 0 is our row 0, which clip control and viewport leave as they are.
 bool gl_draw_begin(struct gl_device *device)

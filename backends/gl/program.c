@@ -81,7 +81,7 @@ GLuint gl_program_create(struct gl_device *device, const struct rg_kernel *kerne
     return 0;
 }
 
-// kernels/slots_glsl.h declares such slots as the sampler NAME_words.
+// kernels/dialect/slots/glsl.h declares such slots as the sampler NAME_words.
 unsigned gl_program_word_slots(GLuint program, const struct rg_kernel *kernel)
 {
     unsigned slots = 0;

@@ -4,7 +4,7 @@
 
 #include "core/alloc.h"
 #include "core/log.h"
-#include "kernels/draw_state.h"
+#include "kernels/dialect/draw/state.h"
 
 extern const struct rg_kernel_code rg_code_bins[RG_CODE_COUNT];
 

@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-#include "kernels/draw_state.h"
+#include "kernels/dialect/draw/state.h"
 
 // Work items a group: of a processor, tiles, few so that all cores get some; of a GPU, a tile.
 enum { TILES_A_GROUP_CPU = 4 };

@@ -1,7 +1,7 @@
 // The opencl backend: kernels as OpenCL C 1.2 on any driver that the ICD loader finds.
 //
 // One context and one in-order queue a device. Images lie in plain buffers
-// (kernels/image_memory.h).
+// (kernels/dialect/image/memory.h).
 #ifndef RG_BACKENDS_OPENCL_OPENCL_H
 #define RG_BACKENDS_OPENCL_OPENCL_H
 
@@ -9,8 +9,8 @@
 #include <CL/cl.h>
 
 #include "backends/backend.h"
-#include "kernels/bins.h"
-#include "kernels/image_memory.h"
+#include "kernels/dialect/draw/bins.h"
+#include "kernels/dialect/image/memory.h"
 
 // Data on its way to the device: a copy that lives until the queue has ended.
 struct opencl_staged {
@@ -48,7 +48,7 @@ struct opencl_image {
     struct rg_image pub;
     struct opencl_memory memory;
     rg_image_shape shape;
-    uint32_t header[RG_MAX_LEVELS]; // kernels/image_memory.h
+    uint32_t header[RG_MAX_LEVELS]; // kernels/dialect/image/memory.h
     int words;                      // of the whole image
 };
 
@@ -108,7 +108,8 @@ cl_kernel opencl_kernel_of(struct opencl_pass *pass, int variant, const char *en
 cl_int opencl_set_slots(cl_kernel kernel, cl_uint next, const struct rg_kernel *info,
                         const struct rg_run *run);
 
-// bins.c: sorts a draw's packed primitives into tiles (kernels/bins.h). Scratch of a device.
+// bins.c: sorts a draw's packed primitives into tiles (kernels/dialect/draw/bins.h). Scratch of a
+// device.
 struct opencl_bins {
     struct opencl_device *device;
     cl_program program;

@@ -7,7 +7,7 @@
 
 #include "core/log.h"
 
-// Only options that change no value. FP contraction is off by a pragma in kernels/lang.h.
+// Only options that change no value. FP contraction is off by a pragma in kernels/dialect/lang.h.
 static void build_options(cl_device_id id, const char *defines, char *options, size_t size)
 {
     cl_device_fp_config config = 0;

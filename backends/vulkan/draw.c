@@ -7,7 +7,7 @@
 #include "core/alloc.h"
 #include "core/device.h"
 #include "core/log.h"
-#include "kernels/clip.h"
+#include "kernels/dialect/draw/clip.h"
 
 // --- slots ---
 
@@ -53,7 +53,7 @@ bool vk_draw_fill(struct vk_device *device, const struct rg_run *run,
 // --- creation ---
 
 // What a device may lack. Corners keep their place on the grid only in a viewport as large as
-// kernels/clip.h says.
+// kernels/dialect/draw/clip.h says.
 static bool check_able(const struct vk_device *device, const struct rg_kernel *kernel)
 {
     const VkPhysicalDeviceLimits *limits = &device->limits;

@@ -5,7 +5,7 @@
 #include "core/alloc.h"
 #include "core/device.h"
 #include "core/log.h"
-#include "kernels/image_memory.h"
+#include "kernels/dialect/image/memory.h"
 
 static const VkFormat formats[RG_FORMAT_COUNT] = {
     [RG_RGBA8] = VK_FORMAT_R8G8B8A8_UNORM,

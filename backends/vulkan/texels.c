@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "core/device.h"
-#include "kernels/image_memory.h"
+#include "kernels/dialect/image/memory.h"
 
 // Part of one layer of one level.
 struct band {

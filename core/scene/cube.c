@@ -1,7 +1,7 @@
 #include "core/scene/cube.h"
 
 #include "core/alloc.h"
-#include "kernels/cube.h"
+#include "kernels/dialect/image/cube.h"
 
 void rg_cube_direction(int face, int x, int y, int size, double direction[3])
 {

@@ -4,9 +4,9 @@
 
 #include "core/device.h"
 
-// Six faces in the order and orientation of OpenGL (kernels/cube.h), linear light. Each face
-// carries a border of one texel from its neighbours, so that filtering crosses edges without a
-// seam: light[face][y + 1][x + 1][channel], x and y from -1 to size.
+// Six faces in the order and orientation of OpenGL (kernels/dialect/image/cube.h), linear light.
+// Each face carries a border of one texel from its neighbours, so that filtering crosses edges
+// without a seam: light[face][y + 1][x + 1][channel], x and y from -1 to size.
 struct rg_environment {
     int size; // texels along a face, without the border
     float *light;

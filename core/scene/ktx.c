@@ -6,7 +6,7 @@
 
 #include "core/log.h"
 #include "core/scene/cube.h"
-#include "kernels/image_memory.h"
+#include "kernels/dialect/image/memory.h"
 
 // The header of a KTX 1 file, after its 12 bytes of identifier, in the file's order.
 struct ktx_header {

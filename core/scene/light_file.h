@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "kernels/streaks_light.h"
+#include "kernels/scenery/light.h"
 
 struct rg_light {
     int kind;            // STREAKS_POINT, STREAKS_SPOT or STREAKS_SUN

@@ -10,7 +10,7 @@
 
 #include "core/alloc.h"
 #include "core/log.h"
-#include "kernels/mesh_normal.h"
+#include "kernels/dialect/mesh/normal.h"
 
 // A position and a normal, as the join compares them.
 struct vertex {

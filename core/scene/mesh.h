@@ -52,8 +52,8 @@ struct rg_mesh *rg_mesh_create(const char *name, int vertex_count, int face_coun
                                const uint32_t *indices);
 void rg_mesh_destroy(struct rg_mesh *mesh);
 
-// The normals as kernels read them, a word each (kernels/mesh_normal.h); the caller frees them.
-// NULL, and one logged line, without memory.
+// The normals as kernels read them, a word each (kernels/dialect/mesh/normal.h); the caller frees
+// them. NULL, and one logged line, without memory.
 uint32_t *rg_mesh_pack_normals(const struct rg_mesh *mesh);
 
 // The same surface with one normal a position: the mean of its faces' normals, each as its area.

@@ -3,7 +3,7 @@
 // formulas are in kernels/flow*.h, what the host computes in flow_model.c and flow_view.c, and
 // docs/flow.md explains.
 #include "core/techniques/flow_instance.h"
-#include "kernels/flow_glow_params.h"
+#include "kernels/flow/glow/params.h"
 
 static bool run(struct flow *flow, enum flow_pass pass, struct rg_run run)
 {

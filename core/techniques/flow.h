@@ -5,10 +5,10 @@
 #include <stdint.h>
 
 #include "core/params.h"
-#include "kernels/flow.h"
-#include "kernels/flow_normals_params.h"
-#include "kernels/flow_splat_params.h"
-#include "kernels/flow_view_params.h"
+#include "kernels/flow/water/water.h"
+#include "kernels/flow/panes/normals_params.h"
+#include "kernels/flow/water/splat_params.h"
+#include "kernels/flow/view_params.h"
 
 enum flow_direction { FLOW_NEAREST, FLOW_SPLIT };
 enum flow_scene { FLOW_BOX, FLOW_ONE_PANE };

@@ -8,7 +8,7 @@
 #include "core/image/srgb.h"
 #include "core/alloc.h"
 #include "core/log.h"
-#include "kernels/rng.h"
+#include "kernels/dialect/rng.h"
 
 enum { NOISE_SIZE = 512, NOISE_OCTAVES = 5, NOISE_COARSEST = 16, STREAM_NOISE = 3 };
 enum { MAX_NOISE_PX = 4096 };

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "kernels/rng.h"
+#include "kernels/dialect/rng.h"
 
 #define PI 3.14159265358979323846
 

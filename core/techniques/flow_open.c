@@ -9,8 +9,8 @@
 #include "core/scene/environment.h"
 #include "core/scene/mesh.h"
 #include "core/techniques/flow_instance.h"
-#include "kernels/flow_glow_params.h"
-#include "kernels/normal_map.h"
+#include "kernels/flow/glow/params.h"
+#include "kernels/flow/panes/normal_map.h"
 
 static const char *const counter_names[FLOW_COUNTER_COUNT] = {"drops_landed", "texels_moved",
                                                               "pixels_lit", "model_triangles"};

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "core/log.h"
-#include "kernels/format.h"
+#include "kernels/dialect/image/format.h"
 
 void *rg_frame_read(struct rg_instance *instance, size_t *size)
 {

@@ -5,10 +5,10 @@
 #include <stdint.h>
 
 #include "core/params.h"
-#include "kernels/raster_mesh_params.h"
-#include "kernels/raster_quads_params.h"
-#include "kernels/raster_show_params.h"
-#include "kernels/raster_streaks_params.h"
+#include "kernels/raster/mesh_params.h"
+#include "kernels/raster/quads_params.h"
+#include "kernels/raster/show_params.h"
+#include "kernels/raster/streaks_params.h"
 
 enum raster_scene { RASTER_BILLBOARDS, RASTER_MESH, RASTER_TRIANGLES, RASTER_QUADS, RASTER_SCENES };
 enum raster_format { RASTER_RGBA16F, RASTER_RGBA8, RASTER_RGBA32F };

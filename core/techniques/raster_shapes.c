@@ -7,9 +7,9 @@
 #include "core/alloc.h"
 #include "core/scene/mesh.h"
 #include "core/techniques/raster.h"
-#include "kernels/math.h"
-#include "kernels/mesh_normal.h"
-#include "kernels/rng.h"
+#include "kernels/dialect/math.h"
+#include "kernels/dialect/mesh/normal.h"
+#include "kernels/dialect/rng.h"
 
 static bool make_room(int vertices, int faces, struct raster_shape *shape)
 {

@@ -1,8 +1,8 @@
-// Rain beyond the culling radius as layers that scroll (kernels/streaks_far.h).
+// Rain beyond the culling radius as layers that scroll (kernels/streaks/far.h).
 #include <math.h>
 
 #include "core/techniques/streaks_instance.h"
-#include "kernels/streaks_far_params.h"
+#include "kernels/streaks/far_params.h"
 
 // A layer hides what all drops in it hide: each its cross-section, at any time of the exposure.
 static double opacity_of(const struct streaks *s)

@@ -10,7 +10,7 @@
 #include "core/techniques/streaks_scene.h"
 #include "core/techniques/streaks_textures.h"
 #include "core/techniques/technique.h"
-#include "kernels/streaks_params.h"
+#include "kernels/streaks/params.h"
 
 enum streaks_counter {
     STREAKS_PARTICLES, // that selected packets held

@@ -231,8 +231,8 @@ streaks_light streaks_light_moved(const streaks_light *light, const float matrix
 
 // --- clip space ---
 
-// A face of a cube map, as kernels/cube.h has them: rows of the cube's frame, with their signs,
-// that run across, down and ahead.
+// A face of a cube map, as kernels/dialect/image/cube.h has them: rows of the cube's frame, with
+// their signs, that run across, down and ahead.
 static const struct cube_face {
     int across, down, ahead; // 1 + row, negative where it runs the other way
 } cube_faces[6] = {{-3, -2, 1}, {3, -2, -1}, {1, 3, 2}, {1, -3, -2}, {1, -2, 3}, {-1, -2, -3}};

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "core/alloc.h"
-#include "kernels/streaks_lines_params.h"
+#include "kernels/scenery/overlay/lines_params.h"
 
 // Items of one program, on the host and on the device.
 struct items {

@@ -6,8 +6,8 @@
 #define RG_CORE_TECHNIQUES_STREAKS_OVERLAY_H
 
 #include "core/techniques/technique.h"
-#include "kernels/streaks_inset_params.h"
-#include "kernels/streaks_light.h"
+#include "kernels/scenery/overlay/inset_params.h"
+#include "kernels/scenery/light.h"
 
 struct streaks_overlay;
 

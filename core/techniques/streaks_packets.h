@@ -28,7 +28,7 @@
 
 #include "core/scene/density.h"
 #include "core/techniques/streaks_rain_space.h"
-#include "kernels/streaks_params.h"
+#include "kernels/streaks/params.h"
 
 enum {
     STREAKS_BUFFER_PARTICLES = (128 << 20) / 12 / 32 * 32, // of 128 MiB, which every device takes

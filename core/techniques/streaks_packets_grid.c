@@ -3,7 +3,7 @@
 
 #include "core/alloc.h"
 #include "core/techniques/streaks_packets_inner.h"
-#include "kernels/rng.h"
+#include "kernels/dialect/rng.h"
 
 enum { CELL_STREAM = 1, BUCKET_FIELD = 1 };
 

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 
 #include "core/techniques/streaks_packets_scatter.h"
-#include "kernels/rng.h"
+#include "kernels/dialect/rng.h"
 
 // What random numbers are for: the last word of their counters, beside the field.
 enum { STREAKS_SPLITS = 1, STREAKS_PLACES = 2, STREAKS_PURPOSES = 4 };

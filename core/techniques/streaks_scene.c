@@ -8,8 +8,8 @@
 #include "core/log.h"
 #include "core/techniques/streaks_scene_cull.h"
 #include "core/techniques/streaks_scene_made.h"
-#include "kernels/format.h"
-#include "kernels/streaks_city_shade_params.h"
+#include "kernels/dialect/image/format.h"
+#include "kernels/scenery/city_shade_params.h"
 
 struct streaks_scene {
     struct rg_device *device;
@@ -95,7 +95,7 @@ struct streaks_scene_work streaks_scene_last(const struct streaks_scene *s)
 // --- drawing ---
 
 // The blocks of the chunks that are seen; returns how many. All that is known of a block's words is
-// in kernels/streaks_city_params.h.
+// in kernels/scenery/city_params.h.
 static int list_blocks(struct streaks_scene *s)
 {
     const struct city_faces *f = &s->made->city->faces;

@@ -3,15 +3,15 @@
 //
 // Its faces lie in chunks; a draw leaves out those that the view does not touch, that all turn
 // away, or that buildings hide. Faces leave the number of their surface in each pixel; then every
-// pixel is lit once (kernels/streaks_city.h, streaks_city_shade.h).
+// pixel is lit once (kernels/scenery/city.h, kernels/scenery/city_shade.h).
 #ifndef RG_CORE_TECHNIQUES_STREAKS_SCENE_H
 #define RG_CORE_TECHNIQUES_STREAKS_SCENE_H
 
 #include "core/scene/city/city.h"
 #include "core/techniques/streaks_lights.h"
 #include "core/techniques/technique.h"
-#include "kernels/matrix.h"
-#include "kernels/streaks_sky.h"
+#include "kernels/dialect/matrix.h"
+#include "kernels/scenery/sky.h"
 
 struct streaks_scene_settings {
     struct city_settings city;
@@ -30,7 +30,7 @@ void streaks_scene_put(struct streaks_scene *scene);
 const struct city *streaks_scene_city(const struct streaks_scene *scene);
 // Its lamps, none on a user's mesh; returns how many.
 int streaks_scene_lamps(const struct streaks_scene *scene, const struct city_lamp **lamps);
-// The surfaces' words (kernels/streaks_surface.h), for kernels.
+// The surfaces' words (kernels/scenery/surface.h), for kernels.
 struct rg_buf *streaks_scene_surfaces(const struct streaks_scene *scene);
 
 // How it looks at a time.

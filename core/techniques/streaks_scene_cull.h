@@ -3,7 +3,7 @@
 #define RG_CORE_TECHNIQUES_STREAKS_SCENE_CULL_H
 
 #include "core/scene/city/city.h"
-#include "kernels/matrix.h"
+#include "kernels/dialect/matrix.h"
 
 enum { STREAKS_CULL_ACROSS = 192, STREAKS_CULL_DOWN = 108 };
 

@@ -9,7 +9,7 @@
 #include "core/alloc.h"
 #include "core/device.h"
 #include "core/shared.h"
-#include "kernels/streaks_openness_grid.h"
+#include "kernels/scenery/openness_grid.h"
 
 enum { TEXTURE_LEVELS_MOST = 10, PAINTED_AT_ONCE = 8 };
 

@@ -5,7 +5,7 @@
 
 #include "core/alloc.h"
 #include "core/shared.h"
-#include "kernels/streaks_cells.h"
+#include "kernels/streaks/cells.h"
 
 static struct rg_image *upload(struct rg_device *device, const struct rg_atlas *atlas,
                                enum rg_atlas_part part, const char *name)

@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "kernels/test_image_copy_params.h"
-#include "kernels/test_texels_params.h"
+#include "tests/kernels/image_copy_params.h"
+#include "tests/kernels/texels_params.h"
 #include "tests/device/suite.h"
 #include "tests/device/texels.h"
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "kernels/test_filter_params.h"
+#include "tests/kernels/texels/filter_params.h"
 #include "tests/device/suite.h"
 #include "tests/device/texels.h"
 

@@ -1,7 +1,7 @@
 // Kernels run once for every item of any grid, and their atomics lose nothing.
-#include "kernels/test_atomics_params.h"
-#include "kernels/test_copy_params.h"
-#include "kernels/test_fault_params.h"
+#include "tests/kernels/atomics_params.h"
+#include "kernels/probe/copy_params.h"
+#include "tests/kernels/fault_params.h"
 #include "tests/device/suite.h"
 
 enum { POISON = 0x99999999 };
@@ -132,7 +132,7 @@ static void runs_follow_each_other(void **state)
     rg_buf_destroy(bufs[1]);
 }
 
-// What test_atomics.h leaves behind, computed one item after the other.
+// What tests/kernels/atomics.h leaves behind, computed one item after the other.
 static void expect_atomics(int items, int buckets, uint32_t *counts, int32_t *extremes)
 {
     for (int x = 0; x < items; x++) {

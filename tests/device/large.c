@@ -1,6 +1,6 @@
 // Images of hundreds of megabytes: an atlas of streaks, a city's textures, a map of depth.
-#include "kernels/test_filter_params.h"
-#include "kernels/test_quads_params.h"
+#include "tests/kernels/texels/filter_params.h"
+#include "tests/kernels/quads_params.h"
 #include "tests/device/suite.h"
 #include "tests/device/texels.h"
 

@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "core/shared.h"
-#include "kernels/test_copy_params.h"
+#include "kernels/probe/copy_params.h"
 #include "tests/device/suite.h"
 
 enum { ROUNDS = 1000, WARM_UP = 100, MAX_GROWTH_BYTES = 16 << 20 };

@@ -1,7 +1,7 @@
 // DRAW programs with lights: every device as cpu:reference, to the last bit, and lights add up.
 #include <stdio.h>
 
-#include "kernels/test_lights_params.h"
+#include "tests/kernels/lights_params.h"
 #include "tests/device/suite.h"
 #include "tests/device/texels.h"
 #include "tests/quads.h"

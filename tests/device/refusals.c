@@ -1,6 +1,6 @@
 // Every wrong argument is refused with one line that names the object.
-#include "kernels/test_copy_params.h"
-#include "kernels/test_image_copy_params.h"
+#include "kernels/probe/copy_params.h"
+#include "tests/kernels/image_copy_params.h"
 #include "tests/device/suite.h"
 
 static void buffers_refuse_bad_sizes(void **state)

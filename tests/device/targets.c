@@ -4,9 +4,9 @@
 
 #include <stdio.h>
 
-#include "kernels/test_copy_params.h"
-#include "kernels/test_texels_params.h"
-#include "kernels/test_triangles_params.h"
+#include "kernels/probe/copy_params.h"
+#include "tests/kernels/texels_params.h"
+#include "tests/kernels/triangles_params.h"
 #include "tests/quads.h"
 
 // Where and how a case draws. Both images have the same shape.

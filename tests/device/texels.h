@@ -1,4 +1,4 @@
-// Image formats as the host understands them, apart from kernels/format.h.
+// Image formats as the host understands them, apart from kernels/dialect/image/format.h.
 #ifndef RG_TESTS_DEVICE_TEXELS_H
 #define RG_TESTS_DEVICE_TEXELS_H
 

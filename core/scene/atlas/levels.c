@@ -6,7 +6,7 @@
 
 #include "core/alloc.h"
 #include "core/scene/atlas/splash.h"
-#include "kernels/format.h"
+#include "kernels/dialect/image/format.h"
 
 static const int rows[RG_ATLAS_VIEWS + 1] = {RG_ATLAS_ROWS};
 

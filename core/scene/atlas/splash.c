@@ -6,7 +6,7 @@
 
 #include "core/alloc.h"
 #include "core/scene/atlas/drop.h"
-#include "kernels/rng.h"
+#include "kernels/dialect/rng.h"
 
 #define PI            3.14159265358979323846
 #define GRAVITY_M_S2  9.81

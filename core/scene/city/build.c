@@ -6,8 +6,8 @@
 #include <xxhash.h>
 
 #include "core/log.h"
-#include "kernels/mesh_normal.h"
-#include "kernels/rng.h"
+#include "kernels/dialect/mesh/normal.h"
+#include "kernels/dialect/rng.h"
 
 #define DEFAULT_TILE_M 4.0
 

@@ -18,7 +18,7 @@ struct look {
     int glow;      // by itself, 0 to 7
 };
 
-// Where a texture lies (kernels/streaks_surface.h): textures a metre, and where they begin along u
+// Where a texture lies (kernels/scenery/surface.h): textures a metre, and where they begin along u
 // and v.
 struct mapping {
     double scale_u, scale_v, from_u, from_v;

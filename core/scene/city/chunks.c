@@ -5,7 +5,7 @@
 
 #include "core/alloc.h"
 #include "core/scene/city/city.h"
-#include "kernels/mesh_normal.h"
+#include "kernels/dialect/mesh/normal.h"
 
 // Chunks do not leave a cell: 16 x 16 x 16 of them, or fewer where there are few faces.
 enum { MANY_FACES = 100000, MANY_BITS = 4, FEW_BITS = 2 };

@@ -10,8 +10,8 @@
 
 #include "core/scene/camera.h"
 #include "core/scene/mesh.h"
-#include "kernels/streaks_city_params.h"
-#include "kernels/streaks_surface.h"
+#include "kernels/scenery/city_params.h"
+#include "kernels/scenery/surface.h"
 
 enum {
     CITY_TRIANGLES = 779287,      // as Creus' model has, from Daz3D
@@ -96,7 +96,7 @@ void city_painter_destroy(struct city_painter *painter);
 // that a lamp behind gives at night.
 void city_paint(const struct city_painter *painter, int texture, uint32_t *texels);
 
-// Fills STREAKS_OPEN_WORDS words (kernels/streaks_openness_grid.h): how much of the sky is seen
+// Fills STREAKS_OPEN_WORDS words (kernels/scenery/openness_grid.h): how much of the sky is seen
 // from where. False, and one logged line, without memory.
 bool city_openness(const struct city *city, uint32_t *words);
 

@@ -5,7 +5,7 @@
 
 #include "core/alloc.h"
 #include "core/scene/city/city.h"
-#include "kernels/streaks_openness_grid.h"
+#include "kernels/scenery/openness_grid.h"
 
 enum { SIDE = STREAKS_OPEN_SIDE, LEVELS = STREAKS_OPEN_LEVELS, WAYS = 16, FARTHEST_CELLS = 30 };
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "core/alloc.h"
-#include "kernels/rng.h"
+#include "kernels/dialect/rng.h"
 
 enum { CHANCE_FACADE = 400, CHANCE_NOISE };
 

@@ -6,7 +6,7 @@
 #include <assert.h>
 
 #include "core/scene/city/city.h"
-#include "kernels/lang.h"
+#include "kernels/dialect/lang.h"
 
 // The first texture of each group; the next group's first ends it.
 enum {

@@ -1,0 +1,93 @@
+// How a fragment's colour meets the target's, format by format, as llvmpipe and lavapipe do it
+// (docs/drawing.md says what was measured). For the devices that keep images in plain memory.
+#ifndef RG_KERNELS_BLEND_H
+#define RG_KERNELS_BLEND_H
+
+#include "kernels/dialect/image/memory.h"
+
+// enum rg_blend of backends/backend.h.
+#define RG_BLEND_IS_OFF  0
+#define RG_BLEND_IS_OVER 1
+#define RG_BLEND_IS_ADD  2
+
+// --- RGBA8: integers of 8 bits ---
+
+// a b / 255, nearly rounded: 1 too high or too low for some.
+RG_FN uint rg_unorm8_times(uint a, uint b)
+{
+    uint t = a * b;
+    return (t + (t >> 8) + 128u) >> 8;
+}
+
+RG_FN uint rg_blend_unorm8(uint source, uint target, uint rest, int blend)
+{
+    uint kept = blend == RG_BLEND_IS_ADD ? target : rg_unorm8_times(target, rest);
+    uint sum = source + (blend == RG_BLEND_IS_OFF ? 0u : kept);
+    return sum > 255u ? 255u : sum;
+}
+
+RG_FN uint rg_blended_RGBA8(uint target, rgba c, int blend)
+{
+    uint a = rg_unorm8(c.a);
+    return rg_blend_unorm8(rg_unorm8(c.r), target & 255u, 255u - a, blend) |
+           (rg_blend_unorm8(rg_unorm8(c.g), (target >> 8) & 255u, 255u - a, blend) << 8) |
+           (rg_blend_unorm8(rg_unorm8(c.b), (target >> 16) & 255u, 255u - a, blend) << 16) |
+           (rg_blend_unorm8(a, target >> 24, 255u - a, blend) << 24);
+}
+
+// --- floats: source + target (1 - alpha), each operation rounded; subnormal results are 0 ---
+
+RG_FN float rg_not_subnormal(float v)
+{
+    return rg_abs(v) < 1.17549435e-38f ? 0.0f : v;
+}
+
+RG_FN float rg_blend_float(float source, float target, float rest, int blend)
+{
+    float kept = blend == RG_BLEND_IS_ADD ? target : rg_not_subnormal(target * rest);
+    return blend == RG_BLEND_IS_OFF ? source : rg_not_subnormal(source + kept);
+}
+
+RG_FN rgba rg_blend_floats(rgba source, rgba target, int blend)
+{
+    float rest = 1.0f - source.a;
+    return rg_rgba(rg_blend_float(source.r, target.r, rest, blend),
+                   rg_blend_float(source.g, target.g, rest, blend),
+                   rg_blend_float(source.b, target.b, rest, blend),
+                   rg_blend_float(source.a, target.a, rest, blend));
+}
+
+// A float cut off to a half, subnormal halves included, which blending may leave.
+RG_FN uint rg_cut_half(float v)
+{
+    uint bits = rg_float_bits(v);
+    uint magnitude = rg_half_magnitude(bits);
+    uint subnormal = rg_to_uint(rg_to_int(rg_min(rg_abs(v), 1.0f) * 16777216.0f));
+    return (magnitude < 0x38800000u ? subnormal : (magnitude >> 13) - 0x1c000u) |
+           ((bits >> 16) & 0x8000u);
+}
+
+// --- one texel of an image in memory; blend off stores as kernels do ---
+
+RG_PROC void rg_blend_RGBA8(RG_GLOBAL uint *texels, int i, rgba c, int blend)
+{
+    texels[i] = rg_blended_RGBA8(texels[i], c, blend);
+}
+
+RG_PROC void rg_blend_RGBA16F(RG_GLOBAL uint *texels, int i, rgba c, int blend)
+{
+    if (blend == RG_BLEND_IS_OFF) {
+        rg_store_RGBA16F(texels, i, c);
+        return;
+    }
+    rgba b = rg_blend_floats(c, rg_load_RGBA16F(texels, i), blend);
+    texels[i] = rg_cut_half(b.r) | (rg_cut_half(b.g) << 16);
+    texels[i + 1] = rg_cut_half(b.b) | (rg_cut_half(b.a) << 16);
+}
+
+RG_PROC void rg_blend_RGBA32F(RG_GLOBAL uint *texels, int i, rgba c, int blend)
+{
+    rg_store_RGBA32F(texels, i, rg_blend_floats(c, rg_load_RGBA32F(texels, i), blend));
+}
+
+#endif

@@ -1,0 +1,120 @@
+// A DRAW program: items that become polygons, and the colour and depth of their pixels.
+//
+// A program's header defines RG_PARAMS and RG_SLOTS (slots 1 to RG_DRAW_SLOTS - 1) as a GRID
+// kernel's does, RG_CORNERS (3 or 4: corners of an item) and RG_RECORD (the struct of 4-byte
+// scalars that its fragments need), includes this, and holds three functions:
+//
+//   RG_DRAW_ITEM(name)      { ... }  item i's corners in clip space (kernels/dialect/draw/clip.h).
+//   Run for every
+//                                    item: short and without branches.
+//   RG_DRAW_RECORD(name)    { ... }  what the fragments of item i need. Run for items that are
+//                                    seen.
+//   RG_DRAW_FRAGMENT(name)  { ... }  colour and depth of pixel (px, py), from the record r alone.
+//
+// All get the slots `rg` and the parameters `p`; the first two the draw's state `draw`.
+//
+// A program that defines RG_LIGHTS has lights, as many as its parameters' `int lights` says, and
+// holds a fourth function:
+//
+//   RG_DRAW_LIGHT(name)     { ... }  the rgba that light number `light` adds at pixel (px, py),
+//                                    from r.
+//
+// Its RG_DRAW_FRAGMENT also gets `rgba lit`: what the lights add, from 0 to p.lights - 1, to zero.
+// Only the colour may depend on it: depth and `kept` are also asked for before there is light, so
+// that none falls on what is hidden.
+#ifndef RG_KERNELS_DRAW_H
+#define RG_KERNELS_DRAW_H
+
+#include "kernels/dialect/draw/clip.h"
+
+#define RG_DRAW_SLOTS 12 // of the 16, the last four are the stages' own
+
+// A primitive as it is packed: corners on the grid, the item it came from, the item's record.
+RG_STRUCT(rg_prim)
+{
+    rg_snapped corners;
+    int item;
+    RG_RECORD record;
+};
+
+// What the shells of all stages get as parameters.
+RG_STRUCT(rg_draw_call)
+{
+    rg_draw_state draw;
+    RG_PARAMS program;
+};
+#define RG_RUN_PARAMS rg_draw_call
+
+// What a stage binds beside the program's own slots. The vertex stage has slot 12 in a form of its
+// own (shaders/draw.vert).
+#if defined(RG_STAGE_COUNT)
+#define RG_STAGE_SLOTS OUT(13, uint, rg_counts) OUT(15, uint, rg_fates)
+#elif defined(RG_STAGE_EMIT)
+#define RG_STAGE_SLOTS                                                                             \
+    OUT(12, rg_prim, rg_prims)                                                                     \
+    IN(13, uint, rg_before) OUT(14, uint, rg_draw_args) IN(15, uint, rg_fates)
+#elif defined(RG_STAGE_FRAGMENT)
+#define RG_STAGE_SLOTS                                                                             \
+    IN(12, rg_prim, rg_prims) ATOMIC(14, uint, rg_samples) IMAGE(15, D32F, rg_behind)
+#endif
+
+#include "kernels/dialect/slots/slots.h"
+
+// A pixel's colour, premultiplied where it is blended, and its depth, 0 near to 1 far.
+RG_STRUCT(rg_fragment)
+{
+    rgba colour;
+    float depth;
+    int kept; // 0: the pixel is left as it was
+};
+
+RG_FN rg_fragment rg_fragment_make(rgba colour, float depth)
+{
+    rg_fragment f;
+    f.colour = colour;
+    f.depth = depth;
+    f.kept = 1;
+    return f;
+}
+
+#define RG_DRAW_ITEM(name)                                                                         \
+    RG_FN rg_item rg_program_item(rg_ctx rg RG_UNUSED, rg_draw_state draw RG_UNUSED,               \
+                                  RG_PARAMS p RG_UNUSED, int i RG_UNUSED)
+#define RG_DRAW_RECORD(name)                                                                       \
+    RG_FN RG_RECORD rg_program_record(rg_ctx rg RG_UNUSED, rg_draw_state draw RG_UNUSED,           \
+                                      RG_PARAMS p RG_UNUSED, int i RG_UNUSED)
+#if defined(RG_LIGHTS)
+#define RG_DRAW_LIGHT(name)                                                                        \
+    RG_FN rgba rg_program_light(rg_ctx rg RG_UNUSED, RG_PARAMS p RG_UNUSED, RG_RECORD r RG_UNUSED, \
+                                int px RG_UNUSED, int py RG_UNUSED, int light RG_UNUSED)
+#define RG_FRAGMENT_LIT , rgba lit RG_UNUSED
+#else
+#define RG_FRAGMENT_LIT
+#endif
+#define RG_DRAW_FRAGMENT(name)                                                                     \
+    RG_FN rg_fragment rg_program_fragment(rg_ctx rg RG_UNUSED, RG_PARAMS p RG_UNUSED,              \
+                                          RG_RECORD r RG_UNUSED, int px RG_UNUSED,                 \
+                                          int py RG_UNUSED RG_FRAGMENT_LIT)
+
+// A fragment as every device takes it: depth within 0 to 1, and never subnormal.
+RG_FN rg_fragment rg_settled(rg_fragment f)
+{
+    rg_fragment settled = f;
+    float depth = rg_clamp(f.depth, 0.0f, 1.0f);
+    settled.depth = depth < 1e-30f ? 0.0f : depth;
+    return settled;
+}
+
+// A colour that leaves the driver nothing to round before it blends. Blended floats stay as they
+// are.
+RG_FN rgba rg_drawn(rg_draw_state draw, rgba c)
+{
+    rgba drawn = c;
+    if (draw.colour_format == RG_RGBA8_FORMAT)
+        drawn = rg_rounded_RGBA8(c);
+    if (draw.colour_format == RG_RGBA16F_FORMAT && draw.blend == 0)
+        drawn = rg_rounded_RGBA16F(c);
+    return drawn;
+}
+
+#endif

@@ -1,0 +1,61 @@
+// The slots of one kernel: what it reads and writes, as plain accessor functions.
+//
+// A kernel header defines RG_PARAMS (its struct of parameters) and RG_SLOTS, then includes this:
+//
+//   IN(slot, T, name)        name_at(rg, i)                  a buffer of T, read
+//   OUT(slot, T, name)       name_put(rg, i, v)              a buffer of T, written
+//   INOUT(slot, T, name)     both                            an item touches its own elements only
+//   ATOMIC(slot, T, name)    name_add, _min, _max, _or, _store (rg, i, v); name_load(rg, i);
+//                            name_exchange_if(rg, i, expected, v) returns what was there
+//                                                            a buffer of int or uint, shared
+//   IMAGE(slot, F, name)     name_texel(rg, x, y, layer, level), name_width(rg, level),
+//                            name_height(rg, level), name_levels(rg); name_bytes(rg, x, y, layer,
+//                            level): a texel of RGBA8 as one word, r lowest; name_texels(rg, x0,
+//                            x1, y, layer, level): two of a row, where x1 is x0 or x0 + 1; and
+//                            filtered at (u, v), 0 to 1 across the image: name_nearest(rg, u, v,
+//                            layer, level), name_linear (four texels), name_trilinear(rg, u, v,
+//                            layer, lod), clamped at the edges; name_between(rg, x, y, layer,
+//                            level): linear, at a place in texels
+//   OUT_IMAGE(slot, F, name) name_store(rg, x, y, layer, c)  level 0 of an image of format F
+//
+// Slots count from 1 and are one numbering for buffers and images. `rg` is the kernel's context: it
+// is passed along to every helper that reads or writes. The value that an atomic returns must never
+// influence a result, which is why add, min, max and or return none.
+#ifndef RG_KERNELS_SLOTS_H
+#define RG_KERNELS_SLOTS_H
+
+#include "kernels/dialect/image/format.h"
+
+// What a run's parameters are, and what is bound beside the kernel's own: the stages of DRAW
+// programs add to both (draw.h).
+#ifndef RG_RUN_PARAMS
+#define RG_RUN_PARAMS RG_PARAMS
+#endif
+#ifndef RG_STAGE_SLOTS
+#define RG_STAGE_SLOTS
+#endif
+#define RG_ALL_SLOTS RG_SLOTS RG_STAGE_SLOTS
+
+// name_texels where two texels are no cheaper together than one by one.
+#define RG_TEXELS_SINGLY(name)                                                                     \
+    RG_FN rg_texels name##_texels(rg_ctx rg, int x0, int x1, int y, int layer, int level)          \
+    {                                                                                              \
+        rg_texels t;                                                                               \
+        t.left = name##_texel(rg, x0, y, layer, level);                                            \
+        t.right = name##_texel(rg, x1, y, layer, level);                                           \
+        return t;                                                                                  \
+    }
+
+#define RG_GRID_KERNEL(name)                                                                       \
+    RG_PROC void rg_kernel(rg_ctx rg RG_UNUSED, RG_RUN_PARAMS p RG_UNUSED, int x RG_UNUSED,        \
+                           int y RG_UNUSED, int z RG_UNUSED)
+
+#if RG_GLSL
+#include "kernels/dialect/slots/glsl.h"
+#else
+#include "kernels/dialect/slots/memory.h"
+#endif
+
+#include "kernels/dialect/image/filter.h"
+
+#endif

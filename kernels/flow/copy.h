@@ -1,0 +1,11 @@
+// flow: what lies behind the panes, onto the target.
+#include "kernels/flow/view_params.h"
+
+#define RG_PARAMS flow_view_params
+#define RG_SLOTS  IMAGE(1, RGBA16F, behind) OUT_IMAGE(2, RGBA16F, target)
+#include "kernels/dialect/slots/slots.h"
+
+RG_GRID_KERNEL(flow_copy)
+{
+    target_store(rg, x, y, 0, behind_texel(rg, x, y, 0, 0));
+}

@@ -1,0 +1,57 @@
+// flow: panes of glass, blended over what lies behind them. Glass and water reflect the environment
+// by the Fresnel model (section 4.3); water shows what lies behind it, the picture of all that does
+// not refract, displaced by its normal (GPU Gems 2, chapter 19).
+#include "kernels/flow/panes/panes.h"
+#include "kernels/dialect/math.h"
+
+#define RG_PARAMS flow_view_params
+#define RG_SLOTS                                                                                   \
+    IN(1, uint, normals)                                                                           \
+    IMAGE(2, RG11B10F, environment) IN(3, flow_pane, panes) IMAGE(4, RGBA16F, behind)
+#define RG_CORNERS 4
+#define RG_RECORD  flow_pane_record
+#include "kernels/dialect/draw/draw.h"
+
+#include "kernels/flow/panes/optics.h"
+#include "kernels/flow/panes/item.h"
+#include "kernels/flow/panes/surface.h"
+
+RG_DRAW_ITEM(flow_glass)
+{
+    return pane_item(rg, p.to_clip, i);
+}
+
+RG_DRAW_RECORD(flow_glass)
+{
+    return pane_record(rg, draw, p, i);
+}
+
+// The picture of what lies behind, where the water's slope displaces the view to.
+RG_FN rgba seen_through(rg_ctx rg, flow_view_params p, v3 bend, int px, int py)
+{
+    v3 right = v3_make(p.rays.xx, p.rays.yx, p.rays.zx);
+    v3 down = v3_make(p.rays.xy, p.rays.yy, p.rays.zy);
+    float x = rg_to_float(px) + 0.5f - v3_dot(bend, right) * p.refraction_px;
+    float y = rg_to_float(py) + 0.5f - v3_dot(bend, down) * p.refraction_px;
+    return behind_between(rg, x, y, 0, 0);
+}
+
+RG_DRAW_FRAGMENT(flow_glass)
+{
+    flow_point at = flow_point_at(r.planes, px, py);
+    flow_water water = water_on(rg, r, p.size, at);
+    v3 ray = m4_turn(p.rays, v3_make(rg_to_float(px), rg_to_float(py), 1.0f));
+    float towards = v3_dot(ray, water.normal);
+    float reflectance = flow_fresnel(p, ray, towards);
+    v3 mirrored = v3_add(ray, v3_scale(water.normal, -2.0f * towards));
+    v3 light = light_from(rg, mirrored, p.reflection_level, p.reflection_size);
+    rgba through = seen_through(rg, p, water.bend, px, py);
+    float kept = (1.0f - reflectance) * water.wetness;
+    float alpha = reflectance + kept;
+    float bar = flow_on_frame(at, p.frame) ? 1.0f : 0.0f;
+    float shown = 1.0f - 0.94f * bar;
+    rgba c = rg_rgba((light.x * reflectance + through.r * kept) * shown,
+                     (light.y * reflectance + through.g * kept) * shown,
+                     (light.z * reflectance + through.b * kept) * shown, rg_max(alpha, bar));
+    return rg_fragment_make(c, rg_planes_depth(r.planes, px, py));
+}

@@ -1,0 +1,30 @@
+// What flow's lighting passes read from the slots normals and environment of the kernel that
+// includes this: the water's normal anywhere on a pane, and the light that comes from anywhere.
+#ifndef RG_KERNELS_FLOW_OPTICS_H
+#define RG_KERNELS_FLOW_OPTICS_H
+
+#include "kernels/dialect/image/cube.h"
+
+// The environment's light from a direction of any length but zero, in one of its levels, which is
+// `size` texels along a face, between four texels. The outermost texels of a face have their
+// centres on the cube's edges (core/scene/cube.h), so that light is the same from both sides of an
+// edge.
+// A place on a face always lies between its texels' centres, so none of the bounds that filter.h
+// keeps is needed; half of what is drawn is light from here.
+RG_FN v3 light_from(rg_ctx rg, v3 d, int level, int size)
+{
+    cube_point c = cube_locate(d, size - 1);
+    int x = cube_texel(c.x, size);
+    int y = cube_texel(c.y, size);
+    int right = rg_imin(x + 1, size - 1);
+    int below = rg_imin(y + 1, size - 1);
+    float fx = c.x - rg_to_float(x);
+    rgba upper = rgba_lerp(environment_texel(rg, x, y, c.face, level),
+                           environment_texel(rg, right, y, c.face, level), fx);
+    rgba lower = rgba_lerp(environment_texel(rg, x, below, c.face, level),
+                           environment_texel(rg, right, below, c.face, level), fx);
+    rgba light = rgba_lerp(upper, lower, c.y - rg_to_float(y));
+    return v3_make(light.r, light.g, light.b);
+}
+
+#endif

@@ -1,0 +1,27 @@
+// flow: what every texel gives away in this step (equation 3, with one predicate for giver and
+// taker, so that nothing is lost between them).
+#include "kernels/flow/water/water.h"
+
+#define RG_PARAMS flow_params
+#define RG_SLOTS                                                                                   \
+    IN(1, float, water)                                                                            \
+    IN(2, float, remainder) IN(3, float, noise) OUT(4, float, given) IN(5, flow_pane, panes)
+#include "kernels/dialect/slots/slots.h"
+
+// The remainder map is read at the water amount: its nearest entry.
+RG_FN float remainder_of(rg_ctx rg, flow_params p, float water)
+{
+    float entry = water * p.remainder_scale + 0.5f;
+    return remainder_at(rg, rg_to_int(rg_min(entry, rg_to_float(FLOW_REMAINDER_ENTRIES - 1))));
+}
+
+RG_GRID_KERNEL(flow_given)
+{
+    int i = flow_pane_index(p.size, z, x, y);
+    flow_pane pane = panes_at(rg, z);
+    int nx = flow_noise_index(p.noise_x + pane.noise_shift, p.noise_step, x, p.noise_size);
+    int ny = flow_noise_index(p.noise_y, p.noise_step, y, p.noise_size);
+    float water = water_at(rg, i);
+    float noise = noise_at(rg, ny * p.noise_size + nx);
+    given_put(rg, i, flow_given(p, pane.speed, water, remainder_of(rg, p, water), noise));
+}

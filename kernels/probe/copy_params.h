@@ -1,0 +1,15 @@
+// The parameters of copy.h.
+#ifndef RG_KERNELS_TEST_COPY_PARAMS_H
+#define RG_KERNELS_TEST_COPY_PARAMS_H
+
+#include "kernels/dialect/lang.h"
+
+RG_STRUCT(test_copy_params)
+{
+    int width;
+    int height;
+    uint salt;
+};
+RG_STRUCT_SIZE(test_copy_params, 3)
+
+#endif

@@ -1,0 +1,18 @@
+// The parameters of quads.h, and what its buffer holds.
+#ifndef RG_KERNELS_RASTER_QUADS_PARAMS_H
+#define RG_KERNELS_RASTER_QUADS_PARAMS_H
+
+#include "kernels/dialect/lang.h"
+
+// Floats a quad: centre x and y in clip space; half its length and half its width in the target's
+// heights; angle and what it turns, in radians and of one turn of all; depth; a colour.
+#define RASTER_QUAD_WORDS 11
+
+RG_STRUCT(raster_quads_params)
+{
+    float aspect; // the target's width over its height
+    float turned; // radians
+};
+RG_STRUCT_SIZE(raster_quads_params, 2)
+
+#endif

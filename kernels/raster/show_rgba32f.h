@@ -1,0 +1,11 @@
+// raster: what was drawn in RGBA32F, shown in the target.
+#include "kernels/raster/show_params.h"
+
+#define RG_PARAMS raster_show_params
+#define RG_SLOTS  IMAGE(1, RGBA32F, drawn) OUT_IMAGE(2, RGBA16F, target)
+#include "kernels/dialect/slots/slots.h"
+
+RG_GRID_KERNEL(raster_show_rgba32f)
+{
+    target_store(rg, x, y, p.layer, drawn_texel(rg, x, y, p.layer, 0));
+}

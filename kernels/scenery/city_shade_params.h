@@ -1,0 +1,25 @@
+// The parameters of city_shade.h.
+#ifndef RG_KERNELS_STREAKS_CITY_SHADE_PARAMS_H
+#define RG_KERNELS_STREAKS_CITY_SHADE_PARAMS_H
+
+#include "kernels/dialect/matrix.h"
+#include "kernels/scenery/sky.h"
+
+RG_STRUCT(streaks_city_shade_params)
+{
+    m4 from_pixel; // from (pixel x, pixel y, depth, 1) to the world, before division by w
+    streaks_sky sky;
+    float eye_x, eye_y, eye_z;
+    float pixel_m; // a pixel's width at w = 1, in metres
+    float ambient; // of the sky's light from above: what surfaces get that see all of it
+    float bounced; // of the horizon's: what those get that see no sky
+    float glow;    // light of lit windows and lamps
+    float wet;     // 0 to 1: how wet the ground is
+    int texture_px;
+    int last_level;
+    int lights;
+    int nothing; // makes whole rows of four
+};
+RG_STRUCT_SIZE(streaks_city_shade_params, 36)
+
+#endif

@@ -1,0 +1,21 @@
+// The parameters of lines.h and sheets.h.
+#ifndef RG_KERNELS_STREAKS_LINES_PARAMS_H
+#define RG_KERNELS_STREAKS_LINES_PARAMS_H
+
+#include "kernels/dialect/matrix.h"
+
+// A line's words: both ends, a premultiplied colour, and its width in pixels. A sheet's: four
+// corners, in turn, and a premultiplied colour.
+#define STREAKS_LINE_WORDS  11
+#define STREAKS_SHEET_WORDS 16
+
+// Wider lines than this may end before the picture does.
+#define STREAKS_WIDEST_PX 64.0f
+
+RG_STRUCT(streaks_lines_params)
+{
+    m4 to_clip; // from the world
+};
+RG_STRUCT_SIZE(streaks_lines_params, 16)
+
+#endif

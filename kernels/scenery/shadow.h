@@ -1,0 +1,108 @@
+// Whether a light reaches a point, by its shadow maps. A program that asks has the slot
+//   IMAGE(n, D32F, shadows)  all lights' maps, a layer each or six
+// and includes this behind draw.h or slots.h. Where no light casts shadows any image of one texel
+// will do.
+//
+// No branches: a cpu runs pixels side by side with one light for all. So texels are read whether a
+// light casts shadows or not, at places that lie within the image.
+#ifndef RG_KERNELS_STREAKS_SHADOW_H
+#define RG_KERNELS_STREAKS_SHADOW_H
+
+#include "kernels/dialect/image/cube.h"
+#include "kernels/scenery/light.h"
+
+// Where the ray from the light to a point meets the light's shadow map.
+RG_STRUCT(streaks_shadow_place)
+{
+    int layer;
+    float x; // texels
+    float y;
+    float depth; // of the point, moved towards the light by the bias
+    int known;   // 0: outside of the map, or the light has none
+};
+
+// The point is first moved towards the light along the ray itself. So it stays within its texel,
+// and the bias is in metres whatever the map's depth is like: straight for suns, as 1 / distance
+// for others.
+RG_FN streaks_shadow_place streaks_shadow_locate(streaks_light l, v3 at, int size)
+{
+    v3 near = v3_add(at, v3_scale(streaks_light_reach(l, at).to_light, l.shadow_bias_m));
+    rg_corner g = m4_project(l.to_shadow, near);
+    // The face of a cube map that the axis with the largest component meets, as cube_locate has it.
+    float ax = rg_abs(g.x);
+    float ay = rg_abs(g.y);
+    float major = rg_max(ax, rg_max(ay, rg_abs(g.z)));
+    float across = ax == major ? cube_turn(-g.z, g.x) : ay == major ? g.x : cube_turn(g.x, g.z);
+    float down = ax == major ? -g.y : ay == major ? cube_turn(g.z, g.y) : -g.y;
+    int face = ax == major   ? cube_face(0, g.x)
+               : ay == major ? cube_face(2, g.y)
+                             : cube_face(4, g.z);
+    int cube = l.shadow_faces == 6 ? 1 : 0;
+    float w = cube != 0 ? major : g.w;
+    float x = cube != 0 ? across : g.x;
+    float y = cube != 0 ? down : g.y;
+    float over_w = 1.0f / rg_max(w, 1e-6f);
+    float half_size = 0.5f * rg_to_float(size);
+    streaks_shadow_place place;
+    place.layer = rg_imax(l.shadow_layer, 0) + (cube != 0 ? face : 0);
+    place.x = (x * over_w + 1.0f) * half_size;
+    place.y = (y * over_w + 1.0f) * half_size;
+    place.depth = cube != 0 ? l.to_shadow.wx + l.to_shadow.wy * over_w : g.z * over_w;
+    place.known = (l.shadow_layer >= 0 ? 1 : 0) & (w > 1e-6f ? 1 : 0) &
+                  (rg_max(rg_abs(x), rg_abs(y)) <= w ? 1 : 0) & (place.depth > 0.0f ? 1 : 0) &
+                  (place.depth < 1.0f ? 1 : 0);
+    return place;
+}
+
+// The texel that a coordinate lies in; any coordinate will do.
+RG_FN int streaks_shadow_texel(float at, int size)
+{
+    return rg_to_int(rg_clamp(at, 0.0f, rg_to_float(size - 1)));
+}
+
+RG_FN float streaks_shadow_tap(rg_ctx rg, streaks_shadow_place place, int x, int y)
+{
+    return place.depth <= shadows_texel(rg, x, y, place.layer, 0).r ? 1.0f : 0.0f;
+}
+
+// 1 where a light reaches a point, 0 where something is before it. A point outside of the light's
+// map is reached, and so is every point where the light casts no shadows.
+RG_FN float streaks_unshadowed(rg_ctx rg, streaks_light l, v3 at)
+{
+    int size = shadows_width(rg, 0);
+    streaks_shadow_place place = streaks_shadow_locate(l, at, size);
+    float lit = streaks_shadow_tap(rg, place, streaks_shadow_texel(place.x, size),
+                                   streaks_shadow_texel(place.y, size));
+    return 1.0f - rg_to_float(place.known) * (1.0f - lit);
+}
+
+// The same between four texels, 0 to 1: for surfaces, whose shadows end in sight.
+RG_FN float streaks_unshadowed_soft(rg_ctx rg, streaks_light l, v3 at)
+{
+    int size = shadows_width(rg, 0);
+    streaks_shadow_place place = streaks_shadow_locate(l, at, size);
+    float x = rg_clamp(place.x, 0.0f, rg_to_float(size)) - 0.5f;
+    float y = rg_clamp(place.y, 0.0f, rg_to_float(size)) - 0.5f;
+    int left = streaks_shadow_texel(rg_floor(x), size);
+    int right = streaks_shadow_texel(rg_floor(x) + 1.0f, size);
+    int above = streaks_shadow_texel(rg_floor(y), size);
+    int below = streaks_shadow_texel(rg_floor(y) + 1.0f, size);
+    float fx = x - rg_floor(x);
+    float fy = y - rg_floor(y);
+    float upper = streaks_shadow_tap(rg, place, left, above) * (1.0f - fx) +
+                  streaks_shadow_tap(rg, place, right, above) * fx;
+    float lower = streaks_shadow_tap(rg, place, left, below) * (1.0f - fx) +
+                  streaks_shadow_tap(rg, place, right, below) * fx;
+    return place.known != 0 ? upper * (1.0f - fy) + lower * fy : 1.0f;
+}
+
+// Where to ask for a surface's point with this unit normal on the light's side: off the surface by
+// two texels' width, so that a slanting surface does not shade itself.
+RG_FN v3 streaks_off_surface(streaks_light l, v3 at, v3 normal)
+{
+    v3 away = v3_make(l.x - at.x, l.y - at.y, l.z - at.z);
+    float distance = l.kind == STREAKS_SUN ? 1.0f : rg_sqrt(v3_dot(away, away));
+    return v3_add(at, v3_scale(normal, 2.0f * l.shadow_texel * distance));
+}
+
+#endif

@@ -1,0 +1,45 @@
+// Where a texture of the streak atlases lies (Creus, figure 4.7): a row for each elevation of the
+// camera, and in it nine columns of azimuth for each of ten elevations of the light.
+// core/scene/atlas.h says the same for the host.
+#ifndef RG_KERNELS_STREAKS_CELLS_H
+#define RG_KERNELS_STREAKS_CELLS_H
+
+#include "kernels/dialect/lang.h"
+
+#define STREAKS_VIEWS    5  // elevations of the camera, 20 degrees apart from 0 on
+#define STREAKS_HEIGHTS  10 // of the light, 20 degrees apart from -90 on
+#define STREAKS_AZIMUTHS 9  // of the light from the camera, 20 degrees apart from 10 on
+#define STREAKS_COLUMNS  90
+#define STREAKS_FRAMES   21 // of a splash
+
+#define STREAKS_CELL_PX     32 // width of a cell in level 0
+#define STREAKS_SPLASH_PX   48
+#define STREAKS_SPLASH_LAST 5 // its last level
+
+// Brightness factors: of the point atlases by oscillation, view and column, then of the skies.
+#define STREAKS_SKY_FACTORS 4500
+
+// The first texel of a view's row in level 0; the atlas' height for the one after the last. A sum,
+// for gcc makes a table of choices, which it does not read for several pixels at once.
+RG_FN int streaks_row(int view)
+{
+    return 1050 * rg_iclamp(view, 0, 1) + 988 * rg_iclamp(view - 1, 0, 1) +
+           810 * rg_iclamp(view - 2, 0, 1) + 544 * rg_iclamp(view - 3, 0, 1) +
+           214 * rg_iclamp(view - 4, 0, 1);
+}
+
+// A place across `size` texels, of which the first is `first`, at least half a texel within them:
+// nothing bleeds in.
+RG_FN float streaks_within(float first, float size, float share)
+{
+    return first + rg_clamp(share * size, 0.5f, size - 0.5f);
+}
+
+// A place across a column, in texels of a level of the full atlas, 0 to 5.
+RG_FN float streaks_across(int column, float u, int level)
+{
+    int wide = STREAKS_CELL_PX >> level;
+    return streaks_within(rg_to_float(column * wide), rg_to_float(wide), u);
+}
+
+#endif

@@ -1,0 +1,49 @@
+// What a frame of streaks is computed from. Lengths are metres in the rain frame: x and y lie
+// across the fall, s along it, from the middle of the rain space's top plane. Creus, chapter 4.
+#ifndef RG_KERNELS_STREAKS_PARAMS_H
+#define RG_KERNELS_STREAKS_PARAMS_H
+
+#include "kernels/dialect/matrix.h"
+
+#define STREAKS_BLOCK       32 // particles a block
+#define STREAKS_BLOCK_WORDS 5  // first particle, mask, shift x, shift y, turn
+
+#define STREAKS_NOTHING 0
+#define STREAKS_DROP    1
+#define STREAKS_SPLASH  2
+
+RG_STRUCT(streaks_params)
+{
+    m4 to_clip; // from the rain frame
+    m4 rays;    // (px, py, 1) to the ray through a pixel, as long as 1 along the view
+    float depth_far, depth_per_w; // depth is depth_far + depth_per_w / w
+    float half_x, half_y;         // of the rain space
+    float top;                    // s of the local space's top
+    float local_height;
+    float eye_x, eye_y, eye_s;
+    float radius;               // of the culling prism, where particles are culled one by one
+    float map_x, map_y;         // the depth map's first texel
+    float map_per_x, map_per_y; // maps a metre
+    float map_top, map_height;  // s of depth 0, and from there to depth 1
+    float ground;               // s of the ground plane, which stands where the map does not reach
+    float ahead, behind;        // a streak's ends from its drop, along the fall
+    float half_width;           // of a streak, margins included
+    float fall_speed;           // m/s
+    float splash_s;             // how long a splash lasts
+    float splash_width, splash_height;
+    float up_x, up_y, up_s; // what is up for splashes
+    int drops, splashes;    // whether they are seen
+    int exact;              // whether particles are culled one by one
+    int lights;
+    int paper_angles;          // whether a view from below counts as one from above (section 4.3.1)
+    int first_level;           // of the full atlas' levels, that is there
+    int last_level;            // and that is read
+    float focal_px;            // pixels a metre at a distance of one
+    float sky_r, sky_g, sky_b; // light from all around
+    float gain, opacity;       // of streaks
+    float splash_gain, splash_opacity;
+    int first_place; // of states
+};
+RG_STRUCT_SIZE(streaks_params, 75)
+
+#endif

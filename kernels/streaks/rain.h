@@ -1,0 +1,438 @@
+// streaks: particles as billboards, drops and splashes alike (Creus, section 4.4.2). A program
+// defines STREAKS_TAPS, the streak textures that are read for each light: 2 (between views), 4 (and
+// between azimuths of the light) or 8 (and between its elevations), and includes this.
+#include "kernels/dialect/math.h"
+#include "kernels/streaks/cells.h"
+#include "kernels/scenery/light.h"
+#include "kernels/streaks/params.h"
+#include "kernels/dialect/draw/triangle.h"
+
+#define RG_PARAMS streaks_params
+#define RG_SLOTS                                                                                   \
+    IN(1, float, particles)                                                                        \
+    IN(2, uint, blocks)                                                                            \
+    IMAGE(3, D32F, depths)                                                                         \
+    IMAGE(4, R16F, points)                                                                         \
+    IMAGE(5, R16F, skies)                                                                          \
+    IMAGE(6, R16F, crowns)                                                                         \
+    IN(7, float, factors)                                                                          \
+    IN(8, streaks_light, lights)                                                                   \
+    IMAGE(9, D32F, shadows) IMAGE(10, RGBA8, numbers) IN(11, uint, surfaces)
+#define RG_CORNERS 4
+#define RG_LIGHTS
+
+// What the fragments of a billboard share: v grows from its lower end upwards, u to the side. Where
+// a pixel lies in space follows from its w. As few words as will do, for a cpu gathers each of them
+// for each pixel of a small billboard. Flat: gcc gathers no words of nested records.
+RG_STRUCT(streaks_billboard)
+{
+    // rg_planes
+    float origin_x, origin_y;
+    float inverse_w_x, inverse_w_y, inverse_w_at;
+    float u_x, u_y, u_at;
+    float v_x, v_y, v_at;
+    float hit;   // s of the surface that cuts it off; far below a splash
+    float shown; // of a drop the camera's elevation, in steps of the atlas; of a splash its frame
+    uint look;   // STREAKS_LOOK_*
+    uint rows;   // of a drop's two views: their first rows in the atlas, 12 bits each
+};
+#define RG_RECORD streaks_billboard
+#include "kernels/dialect/draw/draw.h"
+
+#include "kernels/streaks/material.h"
+#include "kernels/streaks/particle.h"
+#include "kernels/scenery/shadow.h"
+
+// --- item: the billboard ---
+
+RG_STRUCT(streaks_shape)
+{
+    v3 base;
+    v3 axis;
+    float half_width;
+};
+
+// Splashes differ in size, by 15 % at most.
+RG_FN float streaks_size(uint random)
+{
+    return 0.85f + 0.3f * rg_to_float(rg_to_int(random & 1023u)) / 1023.0f;
+}
+
+RG_FN streaks_shape streaks_shape_of(streaks_params p, streaks_particle t)
+{
+    int splash = t.state == STREAKS_SPLASH ? 1 : 0;
+    float size = streaks_size(streaks_hash(t.number));
+    float tall = p.splash_height * size;
+    streaks_shape shape;
+    shape.base = v3_make(t.x, t.y, splash != 0 ? t.hit : t.s + p.ahead);
+    shape.axis = v3_make(splash != 0 ? p.up_x * tall : 0.0f, splash != 0 ? p.up_y * tall : 0.0f,
+                         splash != 0 ? p.up_s * tall : -(p.ahead + p.behind));
+    shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : p.half_width;
+    return shape;
+}
+
+// From the axis to the rim on its left, as the eye sees it.
+RG_FN v3 streaks_side(streaks_params p, streaks_shape shape)
+{
+    v3 from_eye = v3_make(shape.base.x - p.eye_x, shape.base.y - p.eye_y, shape.base.z - p.eye_s);
+    v3 beside = v3_cross(shape.axis, from_eye);
+    return v3_scale(beside, shape.half_width / rg_sqrt(rg_max(v3_dot(beside, beside), 1e-12f)));
+}
+
+RG_FN rg_corner streaks_turned(m4 m, v3 d)
+{
+    return rg_corner_make(
+        m.xx * d.x + m.xy * d.y + m.xz * d.z, m.yx * d.x + m.yy * d.y + m.yz * d.z,
+        m.zx * d.x + m.zy * d.y + m.zz * d.z, m.wx * d.x + m.wy * d.y + m.wz * d.z);
+}
+
+RG_FN rg_corner streaks_sum(rg_corner a, rg_corner b, float times)
+{
+    return rg_corner_make(a.x + b.x * times, a.y + b.y * times, a.z + b.z * times,
+                          a.w + b.w * times);
+}
+
+RG_FN rg_item streaks_item_of(streaks_params p, streaks_shape shape)
+{
+    rg_corner base = m4_project(p.to_clip, shape.base);
+    rg_corner end = streaks_sum(base, streaks_turned(p.to_clip, shape.axis), 1.0f);
+    rg_corner side = streaks_turned(p.to_clip, streaks_side(p, shape));
+    rg_item t;
+    t.alive = 1;
+    t.a = streaks_sum(base, side, 1.0f);
+    t.b = streaks_sum(base, side, -1.0f);
+    t.c = streaks_sum(end, side, -1.0f);
+    t.d = streaks_sum(end, side, 1.0f);
+    return t;
+}
+
+// --- record ---
+
+// The level at which a texel is nearest to a pixel in size.
+RG_FN int streaks_level(float texels, float pixels, int last)
+{
+    float ratio = rg_max(texels / rg_max(pixels, 1e-6f), 1.0f);
+    return rg_imin(rg_to_int(rg_log2(ratio) + 0.5f), last);
+}
+
+// 180 / pi / 20, written out: compilers round what they reckon beforehand in ways of their own.
+#define STREAKS_STEPS_A_RADIAN 2.86478898f
+
+RG_FN float streaks_steps(float radians)
+{
+    return radians * STREAKS_STEPS_A_RADIAN;
+}
+
+// Elevation above the plane across the fall, of a direction of length 1, in steps of 20 degrees.
+RG_FN float streaks_elevation(v3 d)
+{
+    return streaks_steps(rg_atan2(-d.z, rg_sqrt(rg_max(1.0f - d.z * d.z, 0.0f))));
+}
+
+// The word `look`: bits 0 to 2 as named, then three of the level, as the full atlas or a splash's
+// images count, six of the layer, a drop's oscillation or the first of a splash's, and twelve of
+// the row behind a drop's second view.
+#define STREAKS_LOOK_SPLASH   1u
+#define STREAKS_LOOK_MIRRORED 2u // of splashes
+#define STREAKS_LOOK_BELOW    4u // of drops: seen from below, so that elevations change their signs
+
+RG_FN uint streaks_look(uint bits, int level, int layer)
+{
+    return bits + rg_to_uint(level) * 8u + rg_to_uint(layer) * 64u;
+}
+
+RG_FN int streaks_is(streaks_billboard r, uint bit)
+{
+    return (r.look & bit) != 0u ? 1 : 0;
+}
+
+RG_FN int streaks_level_of(streaks_billboard r)
+{
+    return rg_to_int((r.look >> 3) & 7u);
+}
+
+RG_FN int streaks_layer_of(streaks_billboard r)
+{
+    return rg_to_int((r.look >> 6) & 63u);
+}
+
+// The lower of the two views that an elevation lies between.
+RG_FN int streaks_view(float elevation)
+{
+    return rg_imin(rg_to_int(elevation), STREAKS_VIEWS - 2);
+}
+
+// The level of a billboard's images: a drop's as the full atlas counts them, or a splash's.
+RG_FN int streaks_level_for(streaks_params p, streaks_shape shape, v3 middle, int splash)
+{
+    float distance = rg_max(m4_project(p.to_clip, middle).w, 1e-3f);
+    float pixels = 2.0f * shape.half_width * p.focal_px / distance;
+    int texels = splash != 0 ? STREAKS_SPLASH_PX : STREAKS_CELL_PX;
+    int first = splash != 0 ? 0 : p.first_level;
+    int last = splash != 0 ? STREAKS_SPLASH_LAST : p.last_level;
+    return rg_imax(streaks_level(rg_to_float(texels), pixels, last), first);
+}
+
+RG_FN streaks_billboard streaks_drop(streaks_params p, streaks_billboard of, streaks_particle t,
+                                     v3 middle, int level)
+{
+    streaks_billboard r = of;
+    v3 to_eye = v3_unit(v3_make(p.eye_x - middle.x, p.eye_y - middle.y, p.eye_s - middle.z));
+    float elevation = streaks_elevation(to_eye);
+    uint below = rg_to_uint(streaks_below(elevation, 0.0f) * (1 - p.paper_angles));
+    r.hit = t.hit;
+    r.shown = rg_min(rg_abs(elevation), rg_to_float(STREAKS_VIEWS - 1));
+    int view = streaks_view(r.shown);
+    uint end = rg_to_uint(streaks_row(view + 2) >> level);
+    r.look = streaks_look(below * STREAKS_LOOK_BELOW + end * 4096u, level, t.oscillation);
+    r.rows =
+        rg_to_uint(streaks_row(view) >> level) + rg_to_uint(streaks_row(view + 1) >> level) * 4096u;
+    return r;
+}
+
+RG_FN streaks_billboard streaks_splash(rg_ctx rg, streaks_params p, streaks_billboard of,
+                                       streaks_particle t, int level)
+{
+    streaks_billboard r = of;
+    uint random = streaks_hash(t.number);
+    int material = streaks_material(rg, p, t);
+    r.hit = RG_LARGEST;
+    r.shown = rg_clamp(t.age / p.splash_s, 0.0f, 0.999f) * rg_to_float(STREAKS_FRAMES);
+    r.look = streaks_look(STREAKS_LOOK_SPLASH + ((random >> 10) & 1u) * STREAKS_LOOK_MIRRORED,
+                          level, material * STREAKS_FRAMES);
+    r.rows = 0u;
+    return r;
+}
+
+RG_FN streaks_billboard streaks_placed(rg_planes planes)
+{
+    streaks_billboard r;
+    r.origin_x = planes.origin_x;
+    r.origin_y = planes.origin_y;
+    r.inverse_w_x = planes.inverse_w.x;
+    r.inverse_w_y = planes.inverse_w.y;
+    r.inverse_w_at = planes.inverse_w.at;
+    r.u_x = planes.b.x;
+    r.u_y = planes.b.y;
+    r.u_at = planes.b.at;
+    r.v_x = planes.c.x;
+    r.v_y = planes.c.y;
+    r.v_at = planes.c.at;
+    r.hit = 0.0f;
+    r.shown = 0.0f;
+    r.look = 0u;
+    r.rows = 0u;
+    return r;
+}
+
+RG_FN streaks_billboard streaks_billboard_of(rg_ctx rg, rg_draw_state draw, streaks_params p, int i)
+{
+    streaks_particle t = streaks_particle_at(rg, p, i);
+    streaks_shape shape = streaks_shape_of(p, t);
+    rg_item corner = streaks_item_of(p, shape);
+    corner.c = corner.d;
+    streaks_billboard placed = streaks_placed(rg_planes_of(draw, corner));
+    v3 middle = v3_add(shape.base, v3_scale(shape.axis, 0.5f));
+    int is_splash = t.state == STREAKS_SPLASH ? 1 : 0;
+    int level = streaks_level_for(p, shape, middle, is_splash);
+    streaks_billboard drop = streaks_drop(p, placed, t, middle, level);
+    streaks_billboard splash = streaks_splash(rg, p, placed, t, level);
+    streaks_billboard r = placed;
+    r.hit = is_splash != 0 ? splash.hit : drop.hit;
+    r.shown = is_splash != 0 ? splash.shown : drop.shown;
+    r.look = is_splash != 0 ? splash.look : drop.look;
+    r.rows = is_splash != 0 ? splash.rows : drop.rows;
+    return r;
+}
+
+// --- fragment ---
+
+// A pixel's place on its billboard, 0 to 1, and in the rain frame.
+RG_STRUCT(streaks_spot)
+{
+    float u;
+    float v;
+    v3 ray; // from the eye, as long as 1 along the view
+    v3 at;
+    float depth;
+};
+
+RG_FN streaks_spot streaks_spot_at(streaks_params p, streaks_billboard r, int px, int py)
+{
+    float x = rg_to_float(px) + 0.5f;
+    float y = rg_to_float(py) + 0.5f;
+    float dx = x - r.origin_x;
+    float dy = y - r.origin_y;
+    float inverse_w = rg_max(r.inverse_w_x * dx + r.inverse_w_y * dy + r.inverse_w_at, RG_LEAST_W);
+    float w = 1.0f / inverse_w;
+    streaks_spot spot;
+    spot.u = rg_clamp((r.u_x * dx + r.u_y * dy + r.u_at) * w, 0.0f, 1.0f);
+    spot.v = rg_clamp((r.v_x * dx + r.v_y * dy + r.v_at) * w, 0.0f, 1.0f);
+    spot.ray = v3_make(p.rays.xx * x + p.rays.xy * y + p.rays.xz,
+                       p.rays.yx * x + p.rays.yy * y + p.rays.yz,
+                       p.rays.zx * x + p.rays.zy * y + p.rays.zz);
+    spot.at = v3_make(p.eye_x + spot.ray.x * w, p.eye_y + spot.ray.y * w, p.eye_s + spot.ray.z * w);
+    spot.depth = p.depth_far + p.depth_per_w * inverse_w;
+    return spot;
+}
+
+// Where a drop's textures lie; of a splash, anywhere.
+RG_STRUCT(streaks_strip)
+{
+    int oscillation;
+    int level; // as the full atlas counts
+    int view;  // the lower of two
+    float between;
+    float y0, y1; // of the lower view, and of the other, in texels
+};
+
+RG_FN streaks_strip streaks_strip_of(streaks_params p, streaks_billboard r, float v)
+{
+    int drop = 1 - streaks_is(r, STREAKS_LOOK_SPLASH);
+    float first = rg_to_float(rg_to_int(r.rows & 4095u));
+    float second = rg_to_float(rg_to_int(r.rows >> 12));
+    float end = rg_to_float(rg_to_int(r.look >> 12));
+    streaks_strip s;
+    s.oscillation = streaks_layer_of(r) * drop;
+    s.level = p.first_level + (streaks_level_of(r) - p.first_level) * drop;
+    s.view = streaks_view(r.shown);
+    s.between = r.shown - rg_to_float(s.view);
+    s.y0 = streaks_within(first, second - first, 1.0f - v);
+    s.y1 = streaks_within(second, end - second, 1.0f - v);
+    return s;
+}
+
+RG_FN float streaks_point_texture(rg_ctx rg, streaks_params p, streaks_strip s, int view,
+                                  int column, float x, float y)
+{
+    float factor =
+        factors_at(rg, (s.oscillation * STREAKS_VIEWS + view) * STREAKS_COLUMNS + column);
+    return points_between(rg, x, y, s.oscillation, s.level - p.first_level).r * factor;
+}
+
+RG_FN float streaks_between(float a, float b, float t)
+{
+    return a + (b - a) * t;
+}
+
+// Between the two nearest views.
+RG_FN float streaks_views(rg_ctx rg, streaks_params p, streaks_strip s, int elevation, int azimuth,
+                          float u)
+{
+    int column = elevation * STREAKS_AZIMUTHS + azimuth;
+    float x = streaks_across(column, u, s.level);
+    return streaks_between(streaks_point_texture(rg, p, s, s.view, column, x, s.y0),
+                           streaks_point_texture(rg, p, s, s.view + 1, column, x, s.y1), s.between);
+}
+
+// Light from an elevation and an azimuth, both in steps of the atlas from its first on.
+RG_FN float streaks_azimuths(rg_ctx rg, streaks_params p, streaks_strip s, int elevation,
+                             float azimuth, float u)
+{
+#if STREAKS_TAPS == 2
+    return streaks_views(rg, p, s, elevation, rg_to_int(azimuth + 0.5f), u);
+#else
+    int first = rg_imin(rg_to_int(azimuth), STREAKS_AZIMUTHS - 2);
+    return streaks_between(streaks_views(rg, p, s, elevation, first, u),
+                           streaks_views(rg, p, s, elevation, first + 1, u),
+                           azimuth - rg_to_float(first));
+#endif
+}
+
+RG_FN float streaks_point(rg_ctx rg, streaks_params p, streaks_strip s, float elevation,
+                          float azimuth, float u)
+{
+#if STREAKS_TAPS == 8
+    int first = rg_imin(rg_to_int(elevation), STREAKS_HEIGHTS - 2);
+    return streaks_between(streaks_azimuths(rg, p, s, first, azimuth, u),
+                           streaks_azimuths(rg, p, s, first + 1, azimuth, u),
+                           elevation - rg_to_float(first));
+#else
+    return streaks_azimuths(rg, p, s, rg_to_int(elevation + 0.5f), azimuth, u);
+#endif
+}
+
+// What a light of brightness 1 from a direction of length 1 makes of a streak's pixel (figure 4.6).
+RG_FN float streaks_streak(rg_ctx rg, streaks_params p, streaks_billboard r, streaks_spot spot,
+                           v3 to_light)
+{
+    float below = 1.0f - rg_to_float(2 * streaks_is(r, STREAKS_LOOK_BELOW));
+    float cosine = -(to_light.x * spot.ray.x + to_light.y * spot.ray.y);
+    float sine = to_light.x * spot.ray.y - to_light.y * spot.ray.x;
+    float azimuth = streaks_steps(rg_atan2(rg_abs(sine), cosine)) - 0.5f;
+    float elevation = streaks_elevation(to_light) * below + 4.5f;
+    float mirrored = sine > 0.0f ? 1.0f - spot.u : spot.u;
+    return streaks_point(rg, p, streaks_strip_of(p, r, spot.v),
+                         rg_clamp(elevation, 0.0f, rg_to_float(STREAKS_HEIGHTS - 1)),
+                         rg_clamp(azimuth, 0.0f, rg_to_float(STREAKS_AZIMUTHS - 1)), mirrored);
+}
+
+// Splashes are matt and face upwards.
+RG_FN rgba streaks_lit_by(rg_ctx rg, streaks_params p, streaks_billboard r, int px, int py,
+                          int light)
+{
+    streaks_light l = lights_at(rg, light);
+    streaks_spot spot = streaks_spot_at(p, r, px, py);
+    streaks_reach reach = streaks_light_reach(l, spot.at);
+    float matt = rg_max(
+        reach.to_light.x * p.up_x + reach.to_light.y * p.up_y + reach.to_light.z * p.up_s, 0.0f);
+    float streak = streaks_streak(rg, p, r, spot, reach.to_light);
+    float splash = rg_to_float(streaks_is(r, STREAKS_LOOK_SPLASH));
+    float share =
+        reach.share * streaks_unshadowed(rg, l, spot.at) * streaks_between(streak, matt, splash);
+    return rg_rgba(l.r * share, l.g * share, l.b * share, 0.0f);
+}
+
+RG_FN float streaks_sky_texture(rg_ctx rg, streaks_params p, streaks_strip s, int view, float x,
+                                float y)
+{
+    float factor = factors_at(rg, STREAKS_SKY_FACTORS + s.oscillation * STREAKS_VIEWS + view);
+    return skies_between(rg, x, y, s.oscillation, s.level - p.first_level).r * factor;
+}
+
+// A streak's pixel under a sky of brightness 1 all around, which is also what it hides of what lies
+// behind it.
+RG_FN float streaks_sky(rg_ctx rg, streaks_params p, streaks_billboard r, streaks_spot spot)
+{
+    streaks_strip s = streaks_strip_of(p, r, spot.v);
+    float x = streaks_across(0, spot.u, s.level);
+    return streaks_between(streaks_sky_texture(rg, p, s, s.view, x, s.y0),
+                           streaks_sky_texture(rg, p, s, s.view + 1, x, s.y1), s.between);
+}
+
+RG_FN float streaks_crown_texture(rg_ctx rg, streaks_billboard r, int frame, float u, float v)
+{
+    int splash = streaks_is(r, STREAKS_LOOK_SPLASH);
+    int layer = streaks_layer_of(r) * splash + rg_imin(frame, STREAKS_FRAMES - 1);
+    return crowns_linear(rg, u, v, layer, streaks_level_of(r)).r;
+}
+
+// A splash's pixel, between the two nearest frames.
+RG_FN float streaks_crown(rg_ctx rg, streaks_billboard r, streaks_spot spot)
+{
+    int frame = rg_to_int(r.shown);
+    float mirrored = rg_to_float(streaks_is(r, STREAKS_LOOK_MIRRORED));
+    float u = spot.u + mirrored * (1.0f - 2.0f * spot.u);
+    return streaks_between(streaks_crown_texture(rg, r, frame, u, 1.0f - spot.v),
+                           streaks_crown_texture(rg, r, frame + 1, u, 1.0f - spot.v),
+                           r.shown - rg_to_float(frame));
+}
+
+// Streaks end at the surface that they hit.
+RG_FN rg_fragment streaks_fragment_of(rg_ctx rg, streaks_params p, streaks_billboard r, int px,
+                                      int py, rgba lit)
+{
+    streaks_spot spot = streaks_spot_at(p, r, px, py);
+    float splash = rg_to_float(streaks_is(r, STREAKS_LOOK_SPLASH));
+    float sky = streaks_sky(rg, p, r, spot);
+    float crown = streaks_crown(rg, r, spot);
+    float from_sky = streaks_between(sky * p.gain, crown * p.splash_gain, splash);
+    float from_lights = streaks_between(p.gain, crown * p.splash_gain, splash);
+    float opacity = streaks_between(sky * p.opacity, crown * p.splash_opacity, splash);
+    rgba c =
+        rg_rgba(from_sky * p.sky_r + from_lights * lit.r, from_sky * p.sky_g + from_lights * lit.g,
+                from_sky * p.sky_b + from_lights * lit.b, rg_min(opacity, 1.0f));
+    rg_fragment f = rg_fragment_make(c, spot.depth);
+    f.kept = 1 - streaks_below(r.hit, spot.at.z);
+    return f;
+}

@@ -1,0 +1,26 @@
+// streaks: particles, with 8 streak textures a light.
+#define STREAKS_TAPS 8
+#include "kernels/streaks/rain.h"
+
+RG_DRAW_ITEM(streaks_rain_8)
+{
+    streaks_particle t = streaks_particle_at(rg, p, i);
+    rg_item item = streaks_item_of(p, streaks_shape_of(p, t));
+    item.alive = t.state != STREAKS_NOTHING ? 1 : 0;
+    return item;
+}
+
+RG_DRAW_RECORD(streaks_rain_8)
+{
+    return streaks_billboard_of(rg, draw, p, i);
+}
+
+RG_DRAW_LIGHT(streaks_rain_8)
+{
+    return streaks_lit_by(rg, p, r, px, py, light);
+}
+
+RG_DRAW_FRAGMENT(streaks_rain_8)
+{
+    return streaks_fragment_of(rg, p, r, px, py, lit);
+}

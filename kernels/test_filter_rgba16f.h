@@ -1,8 +1,0 @@
-// Reads an image of RGBA16F between its texels.
-#define RG_SLOTS IMAGE(1, RGBA16F, source) IN(2, rgba, at) OUT(3, rgba, colours)
-#include "test_filter_body.h"
-
-RG_GRID_KERNEL(test_filter_rgba16f)
-{
-    test_filter(rg, p, x);
-}

@@ -1,8 +1,0 @@
-// Stores colours in an image of R32F.
-#define RG_SLOTS IN(1, rgba, colours) OUT_IMAGE(2, R32F, target)
-#include "test_store_body.h"
-
-RG_GRID_KERNEL(test_store_r32f)
-{
-    test_store(rg, p, x, y, z);
-}

@@ -1,8 +1,0 @@
-// Stores colours in an image of RGBA16F.
-#define RG_SLOTS IN(1, rgba, colours) OUT_IMAGE(2, RGBA16F, target)
-#include "test_store_body.h"
-
-RG_GRID_KERNEL(test_store_rgba16f)
-{
-    test_store(rg, p, x, y, z);
-}

@@ -1,8 +1,0 @@
-// Stores colours in an image of RGBA8.
-#define RG_SLOTS IN(1, rgba, colours) OUT_IMAGE(2, RGBA8, target)
-#include "test_store_body.h"
-
-RG_GRID_KERNEL(test_store_rgba8)
-{
-    test_store(rg, p, x, y, z);
-}

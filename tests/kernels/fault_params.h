@@ -1,0 +1,13 @@
+// The parameters of fault.h.
+#ifndef RG_KERNELS_TEST_FAULT_PARAMS_H
+#define RG_KERNELS_TEST_FAULT_PARAMS_H
+
+#include "kernels/dialect/lang.h"
+
+RG_STRUCT(test_fault_params)
+{
+    int offset;
+};
+RG_STRUCT_SIZE(test_fault_params, 1)
+
+#endif

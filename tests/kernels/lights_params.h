@@ -1,0 +1,32 @@
+// The parameters of lights.h, and its lights.
+#ifndef RG_KERNELS_TEST_LIGHTS_PARAMS_H
+#define RG_KERNELS_TEST_LIGHTS_PARAMS_H
+
+#include "kernels/dialect/matrix.h"
+
+RG_STRUCT(test_lights_params)
+{
+    int lights;
+    int first;        // of those in the buffer
+    int plain;        // 1: colours are what the lights add
+    float px_to_unit; // from pixels to where lights are
+};
+RG_STRUCT_SIZE(test_lights_params, 4)
+
+#define TEST_LIGHT_POINT 1
+#define TEST_LIGHT_SUN   2
+
+// A light of 32 words, as programs of techniques have them.
+RG_STRUCT(test_light)
+{
+    int kind;
+    v3 at; // of a point; of a sun the way to it
+    rgba colour;
+    int layer; // of the maps; -1: without
+    float bias, reach;
+    int spare0, spare1, spare2, spare3, spare4;
+    m4 to_map;
+};
+RG_STRUCT_SIZE(test_light, 32)
+
+#endif

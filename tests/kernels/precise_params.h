@@ -1,0 +1,15 @@
+// The parameters of precise.h.
+#ifndef RG_KERNELS_TEST_PRECISE_PARAMS_H
+#define RG_KERNELS_TEST_PRECISE_PARAMS_H
+
+#include "kernels/dialect/lang.h"
+
+RG_STRUCT(test_precise_params)
+{
+    float scale;
+    float offset;
+    int count;
+};
+RG_STRUCT_SIZE(test_precise_params, 3)
+
+#endif

@@ -1,0 +1,17 @@
+// The parameters of quads.h.
+#ifndef RG_KERNELS_TEST_QUADS_PARAMS_H
+#define RG_KERNELS_TEST_QUADS_PARAMS_H
+
+#include "kernels/dialect/lang.h"
+
+#define TEST_QUAD_WORDS 20 // floats a quad: x, y, z, w of four corners, then a colour
+
+RG_STRUCT(test_quads_params)
+{
+    float gradient; // how far a colour changes a pixel: fragments depend on their place
+    float slope_x;  // depth a pixel
+    float slope_y;
+};
+RG_STRUCT_SIZE(test_quads_params, 3)
+
+#endif

@@ -1,0 +1,24 @@
+// The parameters of streaks_lights.h.
+#ifndef RG_KERNELS_TEST_STREAKS_LIGHTS_PARAMS_H
+#define RG_KERNELS_TEST_STREAKS_LIGHTS_PARAMS_H
+
+#include "kernels/dialect/vec.h"
+
+RG_STRUCT(test_streaks_lights_params)
+{
+    int points;
+};
+RG_STRUCT_SIZE(test_streaks_lights_params, 1)
+
+// What a light does at a point.
+RG_STRUCT(test_streaks_lit)
+{
+    v3 to_light;
+    float share;
+    float unshadowed;
+    float soft;
+    float surface; // unshadowed, of a floor at the point
+};
+RG_STRUCT_SIZE(test_streaks_lit, 7)
+
+#endif

@@ -1,0 +1,11 @@
+// The body of test_fetch_*.h, which define RG_SLOTS: fetches one level of an image to a buffer.
+#include "tests/kernels/texels_params.h"
+
+#define RG_PARAMS test_texels_params
+#include "kernels/dialect/slots/slots.h"
+
+RG_PROC void test_fetch(rg_ctx rg, test_texels_params p, int x, int y, int z)
+{
+    if (x < source_width(rg, p.level) && y < source_height(rg, p.level))
+        colours_put(rg, (z * p.height + y) * p.width + x, source_texel(rg, x, y, z, p.level));
+}

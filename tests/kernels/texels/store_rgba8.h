@@ -1,0 +1,8 @@
+// Stores colours in an image of RGBA8.
+#define RG_SLOTS IN(1, rgba, colours) OUT_IMAGE(2, RGBA8, target)
+#include "tests/kernels/texels/store_body.h"
+
+RG_GRID_KERNEL(test_store_rgba8)
+{
+    test_store(rg, p, x, y, z);
+}

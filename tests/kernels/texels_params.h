@@ -1,0 +1,15 @@
+// The parameters of test_store_*.h and test_fetch_*.h.
+#ifndef RG_KERNELS_TEST_TEXELS_PARAMS_H
+#define RG_KERNELS_TEST_TEXELS_PARAMS_H
+
+#include "kernels/dialect/lang.h"
+
+RG_STRUCT(test_texels_params)
+{
+    int width; // of the level
+    int height;
+    int level;
+};
+RG_STRUCT_SIZE(test_texels_params, 3)
+
+#endif
