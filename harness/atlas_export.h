@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_ATLAS_EXPORT_H
 #define RG_HARNESS_ATLAS_EXPORT_H
 
-#include "core/scene/atlas.h"
+#include "core/scene/atlas/atlas.h"
 
 // Names of the parts: "point", "env", "splash".
 extern const char *const rg_atlas_part_names[RG_ATLAS_PART_COUNT];

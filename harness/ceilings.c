@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/device.h"
+#include "core/device/device.h"
 #include "harness/clock.h"
 #include "kernels/probe/arithmetic_params.h"
 #include "kernels/probe/copy_params.h"

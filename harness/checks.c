@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 #include "harness/command.h"
 
 static const char *const names[] = {"ok", "fail", "unsupported", "error"};

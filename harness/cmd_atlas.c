@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 #include "core/scene/atlas/cache.h"
 #include "core/scene/atlas/cave.h"
 #include "core/scene/atlas/levels.h"

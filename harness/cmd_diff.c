@@ -1,5 +1,5 @@
 // raingauge diff: two files, or one frame of a technique on every pair of devices.
-#include "core/log.h"
+#include "core/base/log.h"
 #include "harness/command.h"
 #include "harness/diff_devices.h"
 #include "harness/diff_files.h"

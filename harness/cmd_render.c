@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/image/io.h"
-#include "core/log.h"
+#include "core/image/files/io.h"
+#include "core/base/log.h"
 #include "harness/command.h"
 #include "harness/devices.h"
 #include "harness/facts.h"

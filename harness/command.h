@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "core/device.h"
+#include "core/device/device.h"
 #include "core/techniques/technique.h"
 
 enum rg_exit {

@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_DEVICES_H
 #define RG_HARNESS_DEVICES_H
 
-#include "core/device.h"
+#include "core/device/device.h"
 
 struct rg_options;
 

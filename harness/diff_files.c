@@ -1,6 +1,6 @@
 #include "harness/diff_files.h"
 
-#include "core/image/io.h"
+#include "core/image/files/io.h"
 #include "harness/diff_report.h"
 
 enum { SAME = 0, DIFFERS = 1, BAD_INPUT = 2 };

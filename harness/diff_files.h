@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "core/image/compare.h"
+#include "core/image/compare/compare.h"
 
 struct rg_diff_request {
     const char *a, *b;          // files

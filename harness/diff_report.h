@@ -6,7 +6,7 @@
 #include <jansson.h>
 #include <stdbool.h>
 
-#include "core/image/compare.h"
+#include "core/image/compare/compare.h"
 
 // Every figure of a pair, to stdout.
 void rg_pair_print(const char *a, const char *b, const struct rg_comparison *comparison);

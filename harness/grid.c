@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 
 // `array` with room for one element more; NULL, with the array as it was, without memory for it.
 static void *grow(struct rg_grid *grid, void *array, int count, int *capacity, size_t size)

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 #include "harness/build_info.h"
 #include "harness/command.h"
 #include "harness/lists.h"

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/kernel.h"
+#include "core/device/kernel.h"
 #include "harness/build_info.h"
 #include "harness/machine.h"
 

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 #include "harness/clock.h"
 
 enum { BAR_COLUMNS = 24, DRAW_EVERY_MS = 100 };

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 #include "harness/frame.h"
 
 static bool take_state(const struct rg_state *state, struct rg_snapshot *s)

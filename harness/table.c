@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/alloc.h"
+#include "core/base/alloc.h"
 
 struct rg_table_group *rg_table_group(const struct rg_table_run *run, int row, int variant)
 {

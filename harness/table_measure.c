@@ -1,5 +1,5 @@
 // A table from its rows to their numbers, a batch of rows at a time.
-#include "core/alloc.h"
+#include "core/base/alloc.h"
 #include "harness/interrupt.h"
 #include "harness/journal.h"
 #include "harness/progress.h"

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "core/device.h"
+#include "core/device/device.h"
 #include "harness/clock.h"
 #include "harness/stats.h"
 #include "kernels/probe/copy_params.h"

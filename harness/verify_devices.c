@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/image/compare.h"
-#include "core/alloc.h"
-#include "core/log.h"
+#include "core/image/compare/compare.h"
+#include "core/base/alloc.h"
+#include "core/base/log.h"
 #include "harness/frame.h"
 #include "harness/snapshot.h"
 #include "harness/verify.h"

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/image/compare.h"
-#include "core/log.h"
+#include "core/image/compare/compare.h"
+#include "core/base/log.h"
 #include "harness/frame.h"
 #include "harness/verify.h"
 

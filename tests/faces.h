@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "core/device.h"
+#include "core/device/device.h"
 #include "kernels/raster/mesh_params.h"
 
 // The caller's arrays, as kernels/dialect/mesh/mesh.h reads them.

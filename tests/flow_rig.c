@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "core/techniques/flow_instance.h"
+#include "core/techniques/flow/instance.h"
 #include "kernels/dialect/image/format.h"
 
 static const char *const cheap = "environment=sky environment_px=16 view=pane panes=mirror";

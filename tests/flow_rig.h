@@ -2,7 +2,7 @@
 #ifndef FLOW_RIG_H
 #define FLOW_RIG_H
 
-#include "core/techniques/flow.h"
+#include "core/techniques/flow/flow.h"
 #include "core/techniques/technique.h"
 
 struct rig {

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "core/techniques/streaks_lights.h"
+#include "core/techniques/scenery/lights/lights.h"
 #include "tests/kernels/streaks_lights_params.h"
 #include "tests/mesh_scene.h"
 

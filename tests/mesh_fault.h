@@ -1,8 +1,8 @@
-// What core/scene/mesh.h promises of every mesh, checked.
+// What core/scene/mesh/mesh.h promises of every mesh, checked.
 #ifndef RG_TESTS_MESH_FAULT_H
 #define RG_TESTS_MESH_FAULT_H
 
-#include "core/scene/mesh.h"
+#include "core/scene/mesh/mesh.h"
 
 // NULL, or what is wrong with the mesh.
 const char *mesh_fault(const struct rg_mesh *mesh);

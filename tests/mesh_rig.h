@@ -2,7 +2,7 @@
 #ifndef RG_TESTS_MESH_RIG_H
 #define RG_TESTS_MESH_RIG_H
 
-#include "core/scene/mesh.h"
+#include "core/scene/mesh/mesh.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

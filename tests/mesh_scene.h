@@ -2,7 +2,7 @@
 #ifndef RG_TESTS_MESH_SCENE_H
 #define RG_TESTS_MESH_SCENE_H
 
-#include "core/techniques/raster.h"
+#include "core/techniques/raster/raster.h"
 #include "tests/faces.h"
 
 struct mesh_scene {

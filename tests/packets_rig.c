@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 
 const struct streaks_rain_space rig_space = {.origin_m = {0, 230, 0},
                                              .x = {1, 0, 0},

@@ -2,7 +2,7 @@
 #ifndef PACKETS_RIG_H
 #define PACKETS_RIG_H
 
-#include "core/techniques/streaks_packets.h"
+#include "core/techniques/streaks/packets/packets.h"
 
 // A particle that a list of blocks draws.
 struct rig_particle {

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "core/techniques/streaks_instance.h"
+#include "core/techniques/streaks/instance.h"
 
 enum { RAIN_WIDTH = 160, RAIN_HEIGHT = 90, RAIN_TEXELS = RAIN_WIDTH * RAIN_HEIGHT };
 

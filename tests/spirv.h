@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "core/kernel.h"
+#include "core/device/kernel.h"
 
 // Words of the SPIR-V specification, section 2.3: a header, then instructions, the first word of
 // each of which is how many words it has (above) and what it does (below).

@@ -16,7 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 #include "core/scene/atlas/cache.h"
 #include "core/scene/atlas/levels.h"
 

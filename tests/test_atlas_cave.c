@@ -15,11 +15,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 #include "core/scene/atlas/cache.h"
 #include "core/scene/atlas/cave.h"
 #include "core/scene/atlas/levels.h"
-#include "core/techniques/streaks_instance.h"
+#include "core/techniques/streaks/instance.h"
 
 enum { PATH_SIZE = 512 };
 

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 #include "core/scene/camera.h"
 
 static void apply(const float matrix[16], const double point[3], double result[4])

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/log.h"
-#include "core/techniques/streaks_scene.h"
+#include "core/base/log.h"
+#include "core/techniques/scenery/scenery.h"
 #include "tests/mesh_scene.h"
 
 enum { WIDTH = 160, HEIGHT = 90, MAP_PX = 128 };

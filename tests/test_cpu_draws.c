@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/device.h"
+#include "core/device/device.h"
 #include "tests/quads.h"
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof((array)[0])))

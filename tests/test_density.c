@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/image/io.h"
+#include "core/image/files/io.h"
 #include "core/scene/density.h"
 #include "tests/oracle/packets_oracle.h"
 #include "tests/packets_rig.h"

@@ -12,9 +12,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/image/io.h"
-#include "core/log.h"
-#include "core/scene/cube.h"
+#include "core/image/files/io.h"
+#include "core/base/log.h"
+#include "core/scene/environment/cube.h"
 #include "kernels/dialect/image/cube.h"
 #include "tests/folder.h"
 

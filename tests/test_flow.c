@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/techniques/flow_instance.h"
+#include "core/techniques/flow/instance.h"
 #include "tests/flow_rig.h"
 
 static const char *device = "cpu:reference";

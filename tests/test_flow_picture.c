@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/scene/cube.h"
+#include "core/scene/environment/cube.h"
 #include "kernels/dialect/image/memory.h"
 #include "tests/flow_rig.h"
 #include "tests/oracle/picture_oracle.h"

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/techniques/flow_instance.h"
+#include "core/techniques/flow/instance.h"
 #include "tests/flow_rig.h"
 #include "tests/oracle/picture_oracle.h"
 

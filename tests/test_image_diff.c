@@ -10,9 +10,9 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "core/image/heatmap.h"
-#include "core/image/io.h"
-#include "core/log.h"
+#include "core/image/compare/heatmap.h"
+#include "core/image/files/io.h"
+#include "core/base/log.h"
 #include "harness/diff_files.h"
 #include "tests/rain_picture.h"
 

@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "core/image/srgb.h"
-#include "core/image/compare.h"
+#include "core/image/compare/compare.h"
 #include "tests/rain_picture.h"
 
 enum { WIDTH = 61, HEIGHT = 43, PIXELS = WIDTH * HEIGHT, BIG = 40 };

@@ -14,9 +14,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/image/io.h"
+#include "core/image/files/io.h"
 #include "core/image/srgb.h"
-#include "core/log.h"
+#include "core/base/log.h"
 #include "tests/rain_picture.h"
 
 enum { WIDTH = 37, HEIGHT = 23 };

@@ -6,9 +6,9 @@
 
 #include <cmocka.h>
 
-#include "core/image/compare.h"
+#include "core/image/compare/compare.h"
 #include "core/image/srgb.h"
-#include "core/log.h"
+#include "core/base/log.h"
 #include "tests/rain_picture.h"
 
 enum { WIDTH = 320, HEIGHT = 240, CHANNELS = 4 };

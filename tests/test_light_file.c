@@ -10,8 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/log.h"
-#include "core/techniques/streaks_lights.h"
+#include "core/base/log.h"
+#include "core/techniques/scenery/lights/lights.h"
 
 static int errors;
 

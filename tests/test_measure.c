@@ -12,8 +12,8 @@
 #include <string.h>
 #include <time.h>
 
-#include "core/image/compare.h"
-#include "core/log.h"
+#include "core/image/compare/compare.h"
+#include "core/base/log.h"
 #include "harness/facts.h"
 #include "harness/frame.h"
 #include "harness/table.h"

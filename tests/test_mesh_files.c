@@ -10,8 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/log.h"
-#include "core/scene/mesh_read.h"
+#include "core/base/log.h"
+#include "core/scene/mesh/read.h"
 
 static const char *fuzz_folder; // the program's argument
 

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/log.h"
-#include "core/scene/models.h"
+#include "core/base/log.h"
+#include "core/scene/mesh/models.h"
 
 // --- in memory ---
 

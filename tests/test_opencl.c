@@ -11,8 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/device.h"
-#include "core/log.h"
+#include "core/device/device.h"
+#include "core/base/log.h"
 #include "kernels/probe/copy_params.h"
 #include "tests/kernels/image_copy_params.h"
 #include "tests/quads.h"

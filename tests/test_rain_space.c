@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/techniques/streaks_rain_space.h"
+#include "core/techniques/streaks/rain_space.h"
 #include "tests/oracle/packets_oracle.h"
 #include "tests/packets_rig.h"
 

@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/image/compare.h"
+#include "core/image/compare/compare.h"
 #include "core/techniques/frame.h"
-#include "core/techniques/streaks_instance.h"
+#include "core/techniques/streaks/instance.h"
 
 enum { WIDTH = 128, HEIGHT = 72 };
 

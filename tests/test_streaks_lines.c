@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "core/scene/camera.h"
-#include "core/techniques/streaks_lights.h"
-#include "core/techniques/streaks_overlay.h"
+#include "core/techniques/scenery/lights/lights.h"
+#include "core/techniques/scenery/overlay.h"
 #include "kernels/dialect/rng.h"
 #include "tests/mesh_scene.h"
 

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/techniques/streaks_instance.h"
+#include "core/techniques/streaks/instance.h"
 #include "tests/mesh_scene.h"
 #include "tests/rain_rig.h"
 

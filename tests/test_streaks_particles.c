@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/device.h"
+#include "core/device/device.h"
 #include "kernels/dialect/rng.h"
 #include "kernels/streaks/params.h"
 #include "tests/oracle/particle_oracle.h"

@@ -6,8 +6,8 @@
 
 #include <cmocka.h>
 
-#include "core/device.h"
-#include "core/log.h"
+#include "core/device/device.h"
+#include "core/base/log.h"
 #include "harness/timer_audit.h"
 
 static const struct rg_backend *honest;

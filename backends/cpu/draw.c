@@ -2,8 +2,8 @@
 
 #include <omp.h>
 
-#include "core/alloc.h"
-#include "core/log.h"
+#include "core/base/alloc.h"
+#include "core/base/log.h"
 
 // Chunks are large enough to be worth a thread, and small enough to share out the work.
 enum { LEAST_CHUNK = 4 * CPU_BATCH, MOST_CHUNK = 64 * CPU_BATCH, CHUNKS_A_THREAD = 16 };

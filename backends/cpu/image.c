@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/device.h"
-#include "core/alloc.h"
-#include "core/log.h"
+#include "core/device/device.h"
+#include "core/base/alloc.h"
+#include "core/base/log.h"
 
 struct rg_image *cpu_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                   const char *name)

@@ -3,9 +3,9 @@
 #include <omp.h>
 #include <stdlib.h>
 
-#include "core/alloc.h"
-#include "core/device.h"
-#include "core/log.h"
+#include "core/base/alloc.h"
+#include "core/device/device.h"
+#include "core/base/log.h"
 
 struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
 {

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "core/alloc.h"
+#include "core/base/alloc.h"
 
 struct rg_buf *gl_buf_create(struct rg_device *device, size_t size, const char *name)
 {

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 
 // The serial of the context that is current on this thread, 0 for none.
 static _Thread_local unsigned current;

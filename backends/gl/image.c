@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/alloc.h"
-#include "core/device.h"
+#include "core/base/alloc.h"
+#include "core/device/device.h"
 
 // How a format lies in the driver's memory and in ours, where rows are packed tightly
 // (gl_images_begin).

@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
-#include "core/alloc.h"
-#include "core/log.h"
+#include "core/base/alloc.h"
+#include "core/base/log.h"
 
 static bool is_image(enum rg_slot_kind kind)
 {

@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
-#include "core/alloc.h"
-#include "core/log.h"
+#include "core/base/alloc.h"
+#include "core/base/log.h"
 #include "kernels/dialect/draw/state.h"
 
 extern const struct rg_kernel_code rg_code_bins[RG_CODE_COUNT];

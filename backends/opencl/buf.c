@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 
 bool opencl_memory_create(struct opencl_memory *memory, size_t size)
 {

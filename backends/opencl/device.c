@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/device.h"
-#include "core/log.h"
+#include "core/device/device.h"
+#include "core/base/log.h"
 
 enum { MAX_PLATFORMS = 16, MAX_TEXT = 1024 };
 

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 
 #define CL_PLATFORM_NOT_FOUND_KHR (-1001) // cl_khr_icd
 

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/device.h"
-#include "core/log.h"
+#include "core/device/device.h"
+#include "core/base/log.h"
 
 struct rg_image *opencl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                      const char *name)

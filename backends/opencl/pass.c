@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 
 // Only options that change no value. FP contraction is off by a pragma in kernels/dialect/lang.h.
 static void build_options(cl_device_id id, const char *defines, char *options, size_t size)

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 
 // Some drivers begin only when told to. Telling them each time would cost as much as a small run.
 enum { COMMANDS_A_FLUSH = 16 };

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/alloc.h"
+#include "core/base/alloc.h"
 
 struct rg_buf *vk_buf_create(struct rg_device *device, size_t size, const char *name)
 {

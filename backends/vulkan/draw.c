@@ -1,12 +1,13 @@
-// DRAW passes: the primitives that core/draw.c has packed, through the graphics pipeline. Nothing
-// is left to it that a driver may round: shaders/draw.vert says how corners stay on their grid.
+// DRAW passes: the primitives that core/device/draw.c has packed, through the graphics pipeline.
+// Nothing is left to it that a driver may round: shaders/draw.vert says how corners stay on their
+// grid.
 #include "backends/vulkan/vulkan.h"
 
 #include <stdlib.h>
 
-#include "core/alloc.h"
-#include "core/device.h"
-#include "core/log.h"
+#include "core/base/alloc.h"
+#include "core/device/device.h"
+#include "core/base/log.h"
 #include "kernels/dialect/draw/clip.h"
 
 // --- slots ---

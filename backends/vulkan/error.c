@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 
 #define RESULTS(X)                                                                                 \
     X(VK_NOT_READY)                                                                                \

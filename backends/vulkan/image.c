@@ -2,9 +2,9 @@
 
 #include <stdlib.h>
 
-#include "core/alloc.h"
-#include "core/device.h"
-#include "core/log.h"
+#include "core/base/alloc.h"
+#include "core/device/device.h"
+#include "core/base/log.h"
 #include "kernels/dialect/image/memory.h"
 
 static const VkFormat formats[RG_FORMAT_COUNT] = {

@@ -1,6 +1,6 @@
 #include "backends/vulkan/vulkan.h"
 
-#include "core/log.h"
+#include "core/base/log.h"
 
 static const VkMemoryPropertyFlags host_flags =
     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;

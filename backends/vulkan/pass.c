@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/alloc.h"
-#include "core/log.h"
+#include "core/base/alloc.h"
+#include "core/base/log.h"
 
 // The uniform block of shaders/grid.glsl: where the items lie, then the kernel's parameters.
 struct run_block {

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 
 static VkDescriptorType descriptor_type(enum rg_slot_kind kind)
 {

@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
-#include "core/alloc.h"
-#include "core/device.h"
+#include "core/base/alloc.h"
+#include "core/device/device.h"
 
 struct vk_framebuffer {
     struct vk_framebuffer *next;

@@ -1,6 +1,6 @@
 #include "backends/vulkan/vulkan.h"
 
-#include "core/log.h"
+#include "core/base/log.h"
 
 bool vk_sync(struct rg_device *device)
 {

@@ -3,7 +3,7 @@
 #ifndef RG_CORE_IMAGE_FORMAT_H
 #define RG_CORE_IMAGE_FORMAT_H
 
-#include "core/image/io.h"
+#include "core/image/files/io.h"
 
 struct rg_why {
     char text[512];

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/mman.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 
 // Memory for large pictures comes in huge pages where the system gives them: touching it for the
 // first time is otherwise a tenth of a comparison's time.

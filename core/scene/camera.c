@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 #include "core/scene/vector.h"
 
 // cglm keeps matrices column by column.

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 
 #define FARTHEST_M     100000.0
 #define STRONGEST      1e6 // a colour, and an intensity

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 #include "kernels/dialect/image/format.h"
 
 void *rg_frame_read(struct rg_instance *instance, size_t *size)

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/alloc.h"
-#include "core/lists.h"
+#include "core/base/alloc.h"
+#include "core/techniques/lists.h"
 
 #define DECLARE(name) extern const struct rg_technique rg_technique_##name;
 #define ENTRY(name)   &rg_technique_##name,

@@ -5,8 +5,8 @@
 #ifndef RG_CORE_TECHNIQUES_TECHNIQUE_H
 #define RG_CORE_TECHNIQUES_TECHNIQUE_H
 
-#include "core/device.h"
-#include "core/params.h"
+#include "core/device/device.h"
+#include "core/techniques/params.h"
 
 enum { RG_MAX_STATE = 8, RG_MAX_COUNTERS = 16, RG_MAX_FACTS = 12, RG_FACT_SIZE = 192 };
 enum { RG_MAX_TEXTURES = 8 };

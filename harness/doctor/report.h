@@ -4,8 +4,8 @@
 
 #include <jansson.h>
 
-#include "core/device.h"
-#include "core/probe.h"
+#include "core/device/device.h"
+#include "core/device/probe.h"
 #include "harness/ceilings.h"
 #include "harness/timer_audit.h"
 

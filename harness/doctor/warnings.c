@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/kernel.h"
+#include "core/device/kernel.h"
 #include "harness/doctor/report.h"
 #include "harness/machine.h"
 #include "harness/passport.h"

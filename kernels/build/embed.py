@@ -23,7 +23,7 @@ def main():
         kernel, kind = os.path.basename(path).split(".", 1)
         by_kernel.setdefault(kernel, {})[kind] = path
     with open(output, "w", encoding="utf-8") as out:
-        out.write('#include "core/kernel.h"\n')
+        out.write('#include "core/device/kernel.h"\n')
         for kernel, paths in by_kernel.items():
             entries = []
             for kind in KINDS:

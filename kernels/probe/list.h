@@ -3,9 +3,9 @@
 //   X(number, name, inputs, result, expression)
 //
 // `expression` is over the floats a, b, c and their bits ua, ub, uc; `result` says what it gives,
-// FLOAT or UINT; `inputs` names where a, b and c are drawn from (core/probe.c). Numbers count from
-// 0 in each list. No operation of the first list may result in a subnormal number, an infinity or a
-// NaN; the ones called _far leave the domain of their function.
+// FLOAT or UINT; `inputs` names where a, b and c are drawn from (core/device/probe.c). Numbers
+// count from 0 in each list. No operation of the first list may result in a subnormal number, an
+// infinity or a NaN; the ones called _far leave the domain of their function.
 #ifndef RG_KERNELS_PROBE_LIST_H
 #define RG_KERNELS_PROBE_LIST_H
 

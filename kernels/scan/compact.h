@@ -1,4 +1,4 @@
-// The indices of the elements that are not 0, in order, and their number (core/scan.h).
+// The indices of the elements that are not 0, in order, and their number (core/device/scan.h).
 #include "kernels/scan/params.h"
 
 #define RG_PARAMS scan_params

@@ -1,4 +1,4 @@
-// The sum of each chunk: the way up of a prefix sum (core/scan.h).
+// The sum of each chunk: the way up of a prefix sum (core/device/scan.h).
 #include "kernels/scan/params.h"
 
 #define RG_PARAMS scan_params

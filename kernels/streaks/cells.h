@@ -1,6 +1,6 @@
 // Where a texture of the streak atlases lies (Creus, figure 4.7): a row for each elevation of the
 // camera, and in it nine columns of azimuth for each of ten elevations of the light.
-// core/scene/atlas.h says the same for the host.
+// core/scene/atlas/atlas.h says the same for the host.
 #ifndef RG_KERNELS_STREAKS_CELLS_H
 #define RG_KERNELS_STREAKS_CELLS_H
 

@@ -9,7 +9,7 @@
 #include "kernels/streaks/particle.h"
 #include "kernels/scenery/surface.h"
 
-// The atlas' materials (core/scene/atlas.h).
+// The atlas' materials (core/scene/atlas/atlas.h).
 #define STREAKS_FILM   0u // a thin film of water; 0, whereby what is not known has one
 #define STREAKS_PUDDLE 1u
 #define STREAKS_ROUGH  2u // dry asphalt, and all that is rough and holds no water

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "core/shared.h"
+#include "core/device/shared.h"
 #include "kernels/probe/copy_params.h"
 #include "tests/device/suite.h"
 

@@ -1,6 +1,6 @@
 // Every operation of the dialect gives the same bits on every device and every instruction set.
-#include "core/probe.h"
-#include "core/scan.h"
+#include "core/device/probe.h"
+#include "core/device/scan.h"
 #include "tests/device/suite.h"
 
 // Rows that must be exact come first and are; the drivers' own functions follow and may differ.

@@ -1,5 +1,5 @@
 // Prefix sums and compaction against the host's.
-#include "core/scan.h"
+#include "core/device/scan.h"
 #include "tests/device/suite.h"
 
 static const int sizes[] = {1, 63, 64, 65, 4095, 4096, 4097, 262145, 1000003};

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/log.h"
-#include "core/scene/importer/importer.h"
+#include "core/base/log.h"
+#include "core/scene/mesh/importer/importer.h"
 #include "tests/fuzz/fuzz.h"
 
 static struct rg_mesh *create(const struct import *import)

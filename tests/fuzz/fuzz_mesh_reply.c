@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/scene/importer/reply.h"
-#include "core/scene/mesh_read.h"
+#include "core/scene/mesh/importer/reply.h"
+#include "core/scene/mesh/read.h"
 #include "tests/fuzz/fuzz.h"
 
 // Mostly a reply whose counts fit its size, or nothing else would be tried.

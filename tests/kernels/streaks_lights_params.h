@@ -1,4 +1,4 @@
-// The parameters of streaks_lights.h.
+// The parameters of core/techniques/scenery/lights/lights.h.
 #ifndef RG_KERNELS_TEST_STREAKS_LIGHTS_PARAMS_H
 #define RG_KERNELS_TEST_STREAKS_LIGHTS_PARAMS_H
 

@@ -7,7 +7,7 @@
 #ifndef RG_CORE_SCENE_ATLAS_CACHE_H
 #define RG_CORE_SCENE_ATLAS_CACHE_H
 
-#include "core/scene/atlas.h"
+#include "core/scene/atlas/atlas.h"
 
 enum { RG_ATLAS_PATH_SIZE = 1024 };
 

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "core/alloc.h"
+#include "core/base/alloc.h"
 #include "core/image/format.h"
 #include "core/scene/atlas/cave_factors.h"
 #include "core/scene/atlas/drop.h"

@@ -2,7 +2,7 @@
 #ifndef RG_CORE_SCENE_ATLAS_CAVE_H
 #define RG_CORE_SCENE_ATLAS_CAVE_H
 
-#include "core/scene/atlas.h"
+#include "core/scene/atlas/atlas.h"
 
 // A factor of the database times this is a radiance for an irradiance of 1: the factor that brings
 // the 18 streaks of rows theta_light 10 and 50, seen from the front, nearest to those that are

@@ -4,7 +4,7 @@
 
 #include <stdarg.h>
 
-#include "core/scene/atlas.h"
+#include "core/scene/atlas/atlas.h"
 
 // A sentence that names the file; it is logged by whoever asked for the pack, once.
 struct rg_cave_why {

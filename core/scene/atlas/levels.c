@@ -4,7 +4,7 @@
 #include <string.h>
 #include <xxhash.h>
 
-#include "core/alloc.h"
+#include "core/base/alloc.h"
 #include "core/scene/atlas/splash.h"
 #include "kernels/dialect/image/format.h"
 

@@ -3,7 +3,7 @@
 #ifndef RG_CORE_SCENE_ATLAS_LEVELS_H
 #define RG_CORE_SCENE_ATLAS_LEVELS_H
 
-#include "core/scene/atlas.h"
+#include "core/scene/atlas/atlas.h"
 
 // Memory for an atlas of a size, texels 0. NULL, and one logged line, on failure.
 struct rg_atlas *rg_atlas_allocate(enum rg_atlas_size size);

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "core/scene/atlas.h"
+#include "core/scene/atlas/atlas.h"
 
 // A light at one elevation -90 and 90 has no azimuth, so 74 directions fill the 90 cells.
 enum { RG_LOBE_COUNT = 2 + (RG_ATLAS_LIGHTS - 2) * RG_ATLAS_PHIS };

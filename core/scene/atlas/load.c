@@ -1,5 +1,5 @@
 // The atlas by size: from the cache, or made and put there.
-#include "core/log.h"
+#include "core/base/log.h"
 #include "core/scene/atlas/cache.h"
 
 struct rg_atlas *rg_atlas_load(enum rg_atlas_size size, const struct rg_atlas_progress *progress)

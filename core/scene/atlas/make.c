@@ -1,7 +1,7 @@
 // Making the atlas: every streak is traced, normalised and packed, and the splashes are drawn.
 #include <string.h>
 
-#include "core/alloc.h"
+#include "core/base/alloc.h"
 #include "core/scene/atlas/levels.h"
 #include "core/scene/atlas/splash.h"
 #include "core/scene/atlas/streak.h"

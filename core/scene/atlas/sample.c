@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <xxhash.h>
 
-#include "core/alloc.h"
+#include "core/base/alloc.h"
 #include "core/scene/atlas/splash.h"
 #include "core/scene/atlas/streak.h"
 

@@ -2,7 +2,7 @@
 #ifndef RG_CORE_SCENE_ATLAS_SAMPLE_H
 #define RG_CORE_SCENE_ATLAS_SAMPLE_H
 
-#include "core/scene/atlas.h"
+#include "core/scene/atlas/atlas.h"
 
 // A hash of a few coarse streaks and of some splashes, and of how finely the size is traced: a file
 // of the cache with another one was made by another tracer. Takes some milliseconds. 0 where the

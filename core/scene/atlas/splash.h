@@ -6,7 +6,7 @@
 
 #include <stdbool.h>
 
-#include "core/scene/atlas.h"
+#include "core/scene/atlas/atlas.h"
 
 enum { RG_SPLASH_WIDTH_PX = 48, RG_SPLASH_HEIGHT_PX = 32, RG_SPLASH_LEVELS = 6 };
 

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "core/image/multiversion.h"
+#include "core/image/compare/multiversion.h"
 
 #define PI 3.14159265358979323846
 

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <xxhash.h>
 
-#include "core/log.h"
+#include "core/base/log.h"
 #include "kernels/dialect/mesh/normal.h"
 #include "kernels/dialect/rng.h"
 

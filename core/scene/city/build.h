@@ -3,7 +3,7 @@
 #define RG_CORE_SCENE_CITY_BUILD_H
 
 #include "core/scene/city/city.h"
-#include "core/scene/city/paint.h"
+#include "core/scene/city/paint/paint.h"
 
 typedef struct {
     double x, y, z;

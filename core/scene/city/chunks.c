@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/alloc.h"
+#include "core/base/alloc.h"
 #include "core/scene/city/city.h"
 #include "kernels/dialect/mesh/normal.h"
 

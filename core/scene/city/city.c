@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <xxhash.h>
 
-#include "core/alloc.h"
-#include "core/log.h"
+#include "core/base/alloc.h"
+#include "core/base/log.h"
 #include "core/scene/city/build.h"
 
 const struct rg_camera city_first_camera = {

@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 #include "core/scene/camera.h"
-#include "core/scene/mesh.h"
+#include "core/scene/mesh/mesh.h"
 #include "kernels/scenery/city_params.h"
 #include "kernels/scenery/surface.h"
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/alloc.h"
+#include "core/base/alloc.h"
 #include "core/scene/city/city.h"
 #include "kernels/scenery/openness_grid.h"
 

@@ -1,4 +1,4 @@
-// What a DRAW pass's stages know of the draw: made by core/draw.c, read by the shells.
+// What a DRAW pass's stages know of the draw: made by core/device/draw.c, read by the shells.
 #ifndef RG_KERNELS_DRAW_STATE_H
 #define RG_KERNELS_DRAW_STATE_H
 
@@ -7,7 +7,7 @@
 // Items that one work item of the packing stages counts and packs, in order: a bit each of a word.
 #define RG_DRAW_CHUNK 32
 
-// enum rg_format of core/kernel.h.
+// enum rg_format of core/device/kernel.h.
 #define RG_RGBA8_FORMAT   1
 #define RG_RGBA16F_FORMAT 2
 

@@ -1,0 +1,20 @@
+// Memory that is asked for in one line.
+#ifndef RG_CORE_ALLOC_H
+#define RG_CORE_ALLOC_H
+
+#include <stdlib.h>
+
+#include "core/base/log.h"
+
+// Zeroed memory for `count` elements, which the caller frees. NULL, and one logged line that names
+// `what` it was for, when there is none.
+static inline void *rg_alloc(size_t count, size_t size, const char *what)
+{
+    void *memory = calloc(count ? count : 1, size);
+    return memory ? memory
+                  : rg_error_null("%s: no memory for %zu times %zu bytes; ask for less, or close "
+                                  "other programs",
+                                  what, count, size);
+}
+
+#endif

@@ -1,0 +1,87 @@
+#include "core/base/log.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LINE_SIZE = 1024 };
+
+static rg_log_fn listener;
+static void *listener_user;
+static char last_error[LINE_SIZE];
+static bool last_is_unsupported;
+
+void rg_log_listen(rg_log_fn fn, void *user)
+{
+    listener = fn;
+    listener_user = user;
+}
+
+const char *rg_last_error(void)
+{
+    return last_error;
+}
+
+static void log_line(enum rg_log_level level, const char *format, va_list args)
+{
+    char line[LINE_SIZE];
+    vsnprintf(line, sizeof(line), format, args);
+    for (char *c = line; *c; c++)
+        if (*c == '\n' || *c == '\r')
+            *c = ' ';
+    if (level == RG_LOG_ERROR) {
+        memcpy(last_error, line, sizeof(line));
+        last_is_unsupported = false;
+    }
+    if (listener)
+        listener(level, line, listener_user);
+    else
+        fprintf(stderr, "raingauge: %s%s\n", level == RG_LOG_WARNING ? "warning: " : "", line);
+}
+
+#define LOG(level)                                                                                 \
+    va_list args;                                                                                  \
+    va_start(args, format);                                                                        \
+    log_line(level, format, args);                                                                 \
+    va_end(args)
+
+bool rg_error(const char *format, ...)
+{
+    LOG(RG_LOG_ERROR);
+    return false;
+}
+
+void *rg_error_null(const char *format, ...)
+{
+    LOG(RG_LOG_ERROR);
+    return NULL;
+}
+
+bool rg_unsupported(const char *format, ...)
+{
+    LOG(RG_LOG_ERROR);
+    last_is_unsupported = true;
+    return false;
+}
+
+void *rg_unsupported_null(const char *format, ...)
+{
+    LOG(RG_LOG_ERROR);
+    last_is_unsupported = true;
+    return NULL;
+}
+
+bool rg_is_unsupported(void)
+{
+    return last_is_unsupported;
+}
+
+void rg_warning(const char *format, ...)
+{
+    LOG(RG_LOG_WARNING);
+}
+
+void rg_info(const char *format, ...)
+{
+    LOG(RG_LOG_INFO);
+}

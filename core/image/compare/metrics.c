@@ -1,0 +1,190 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/image/compare/compare.h"
+#include "core/image/compare/multiversion.h"
+#include "core/base/log.h"
+
+const float rg_above_thresholds[RG_ABOVE_COUNT] = {1e-6f, 1e-4f, 1e-3f, 1e-2f};
+
+// Sums run in LANES fixed lanes and are added row by row, whatever the vector width and threads.
+enum { LANES = 16 };
+
+// fmaxf without its care for NaN, which costs a call a value.
+static inline float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+struct row_metrics {
+    double sum, square_sum;
+    float max, largest_value;
+    int max_index; // of the value in its row
+    int differing_values, differing_pixels;
+    int values_above[RG_ABOVE_COUNT], pixels_above[RG_ABOVE_COUNT];
+    int nonfinite_a, nonfinite_b, mismatches;
+};
+
+// The sums of a row of finite values. False: a value is not finite, and nothing is set.
+RG_MULTIVERSION static bool sum_finite_row(const float *a, const float *b, int values,
+                                           struct row_metrics *row)
+{
+    double sum[LANES] = {0}, squares[LANES] = {0};
+    float max[LANES] = {0}, largest[LANES] = {0}, poison[LANES] = {0};
+    int i = 0;
+    for (; i + LANES <= values; i += LANES)
+        for (int l = 0; l < LANES; l++) {
+            float d = fabsf(a[i + l] - b[i + l]);
+            float v = larger(fabsf(a[i + l]), fabsf(b[i + l]));
+            sum[l] += (double)d;
+            squares[l] += (double)d * (double)d;
+            max[l] = larger(d, max[l]);
+            largest[l] = larger(v, largest[l]);
+            poison[l] += a[i + l] * 0.0f + b[i + l] * 0.0f;
+        }
+    for (int l = 0; i < values; i++, l++) {
+        float d = fabsf(a[i] - b[i]);
+        sum[l] += (double)d;
+        squares[l] += (double)d * (double)d;
+        max[l] = larger(max[l], d);
+        largest[l] = larger(largest[l], larger(fabsf(a[i]), fabsf(b[i])));
+        poison[l] += a[i] * 0.0f + b[i] * 0.0f;
+    }
+    for (int l = 0; l < LANES; l++)
+        if (poison[l] != 0.0f)
+            return false;
+    for (int l = 0; l < LANES; l++) {
+        row->sum += sum[l];
+        row->square_sum += squares[l];
+        row->max = larger(row->max, max[l]);
+        row->largest_value = larger(row->largest_value, largest[l]);
+    }
+    return true;
+}
+
+// As sum_finite_row, for any values.
+static void sum_any_row(const float *a, const float *b, int values, struct row_metrics *row)
+{
+    for (int i = 0; i < values; i++) {
+        bool finite_a = isfinite(a[i]), finite_b = isfinite(b[i]);
+        row->nonfinite_a += !finite_a;
+        row->nonfinite_b += !finite_b;
+        if (finite_a && finite_b) {
+            float d = fabsf(a[i] - b[i]);
+            row->sum += (double)d;
+            row->square_sum += (double)d * (double)d;
+            row->max = larger(row->max, d);
+            row->largest_value = larger(row->largest_value, larger(fabsf(a[i]), fabsf(b[i])));
+        } else if (!(isnan(a[i]) && isnan(b[i])) && a[i] != b[i]) {
+            row->mismatches++;
+            row->max = INFINITY;
+        }
+    }
+}
+
+// Counts of a row in which something differs. A mismatch counts as above every threshold.
+RG_MULTIVERSION static void count_row(const float *a, const float *b, int width, int channels,
+                                      struct row_metrics *row)
+{
+    int values_above[RG_ABOVE_COUNT] = {0}, pixels_above[RG_ABOVE_COUNT] = {0};
+    int differing_values = 0, differing_pixels = 0;
+    for (int x = 0; x < width; x++) {
+        float worst = 0.0f;
+        int differs = 0;
+        for (int c = 0; c < channels; c++) {
+            uint32_t bits_a, bits_b;
+            memcpy(&bits_a, a + x * channels + c, 4);
+            memcpy(&bits_b, b + x * channels + c, 4);
+            if (bits_a == bits_b)
+                continue;
+            float va = a[x * channels + c], vb = b[x * channels + c], d = fabsf(va - vb);
+            if (d != d || isinf(d)) // one is not finite
+                d = va == vb || (isnan(va) && isnan(vb)) ? 0.0f : INFINITY;
+            differs++;
+            worst = d > worst ? d : worst;
+            for (int t = 0; t < RG_ABOVE_COUNT; t++)
+                values_above[t] += d > rg_above_thresholds[t];
+        }
+        differing_values += differs;
+        differing_pixels += differs > 0;
+        for (int t = 0; t < RG_ABOVE_COUNT; t++)
+            pixels_above[t] += worst > rg_above_thresholds[t];
+    }
+    row->differing_values = differing_values;
+    row->differing_pixels = differing_pixels;
+    memcpy(row->values_above, values_above, sizeof(values_above));
+    memcpy(row->pixels_above, pixels_above, sizeof(pixels_above));
+}
+
+// Where a row has its largest difference: the first such value.
+static int find_max(const float *a, const float *b, int values, float max)
+{
+    for (int i = 0; i < values; i++) {
+        float d = fabsf(a[i] - b[i]);
+        if (isinf(max) ? a[i] != b[i] && !(isnan(a[i]) && isnan(b[i])) && !(d <= 3e38f) : d == max)
+            return i;
+    }
+    return 0;
+}
+
+static void measure_row(const struct rg_picture *pa, const struct rg_picture *pb, int y,
+                        struct row_metrics *row)
+{
+    int values = pa->width * pa->channels;
+    const float *a = pa->texels + (int64_t)y * values, *b = pb->texels + (int64_t)y * values;
+    memset(row, 0, sizeof(*row));
+    if (!sum_finite_row(a, b, values, row))
+        sum_any_row(a, b, values, row);
+    if (memcmp(a, b, (size_t)values * 4) != 0)
+        count_row(a, b, pa->width, pa->channels, row);
+    if (row->max > 0.0f)
+        row->max_index = find_max(a, b, values, row->max);
+}
+
+// Adds the rows up, top to bottom.
+static void add_rows(const struct row_metrics *rows, int height, int channels, struct rg_metrics *m)
+{
+    double sum = 0, squares = 0;
+    float largest = 0;
+    for (int y = 0; y < height; y++) {
+        const struct row_metrics *row = &rows[y];
+        sum += row->sum;
+        squares += row->square_sum;
+        largest = larger(largest, row->largest_value);
+        if (row->max > m->max) {
+            m->max = (double)row->max;
+            m->max_x = row->max_index / channels;
+            m->max_y = y;
+            m->max_channel = row->max_index % channels;
+        }
+        m->differing_values += row->differing_values;
+        m->differing_pixels += row->differing_pixels;
+        for (int t = 0; t < RG_ABOVE_COUNT; t++) {
+            m->values_above[t] += row->values_above[t];
+            m->pixels_above[t] += row->pixels_above[t];
+        }
+        m->nonfinite_a += row->nonfinite_a;
+        m->nonfinite_b += row->nonfinite_b;
+        m->nonfinite_mismatches += row->mismatches;
+    }
+    m->mean = sum / (double)m->values;
+    m->rms = sqrt(squares / (double)m->values);
+    m->psnr_db = m->rms > 0 ? 20 * log10((double)largest / m->rms) : INFINITY;
+}
+
+bool rg_metrics_compute(const struct rg_picture *a, const struct rg_picture *b,
+                        struct rg_metrics *metrics)
+{
+    struct row_metrics *rows = malloc((size_t)a->height * sizeof(*rows));
+    if (!rows)
+        return rg_error("comparing %d x %d pixels: no memory; crop them", a->width, a->height);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < a->height; y++)
+        measure_row(a, b, y, &rows[y]);
+    memset(metrics, 0, sizeof(*metrics));
+    metrics->values = rg_picture_values(a);
+    add_rows(rows, a->height, a->channels, metrics);
+    free(rows);
+    return true;
+}

@@ -1,0 +1,266 @@
+#include <errno.h>
+#include <openexr.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/image/files/exr_unpack.h"
+#include "core/image/format.h"
+
+// What OpenEXRCore's callbacks and the chunk loop share.
+struct exr_job {
+    exr_context_t exr;
+    struct rg_picture *picture;
+    exr_attr_box2i_t window;
+    const char *names[4]; // of the picture's channels, in its order
+    bool tiled;
+    int chunk_width, chunk_height; // pixels
+    int across, down;              // chunks
+    struct rg_why *why;
+};
+
+static void on_error(exr_const_context_t exr, exr_result_t code, const char *message)
+{
+    (void)exr;
+    (void)code;
+    (void)message;
+}
+
+// One sentence for a failed call: the library's own messages name files and come several at a time.
+static bool failed(struct rg_why *why, const char *step, exr_result_t code)
+{
+    return rg_why_set(why, "EXR %s: %s; write it again", step, exr_get_default_error_message(code));
+}
+
+static exr_context_initializer_t initializer(void)
+{
+    exr_context_initializer_t with = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    with.error_handler_fn = on_error;
+    with.max_image_width = RG_PICTURE_MAX_SIDE_PX;
+    with.max_image_height = RG_PICTURE_MAX_SIDE_PX;
+    // A third of the time of the default level, for a twentieth more bytes.
+    with.zip_level = 2;
+    return with;
+}
+
+// Fills job->names and returns how many: R, G, B and A, or Y and A. 0: neither, with `why` set.
+static int choose_channels(struct exr_job *job, const exr_attr_chlist_t *list)
+{
+    static const char *const sets[][5] = {{"R", "G", "B", "A"}, {"Y", "A"}, {"V", "A"}};
+    for (size_t s = 0; s < sizeof(sets) / sizeof(sets[0]); s++) {
+        int found = 0, needed = s ? 1 : 3;
+        for (int wanted = 0; sets[s][wanted]; wanted++)
+            for (int c = 0; c < list->num_channels; c++)
+                if (!strcmp(list->entries[c].name.str, sets[s][wanted]) && found == wanted) {
+                    if (list->entries[c].x_sampling != 1 || list->entries[c].y_sampling != 1)
+                        return rg_why_set(job->why,
+                                          "channel %s is subsampled; write it at full "
+                                          "resolution",
+                                          sets[s][wanted]);
+                    job->names[found++] = sets[s][wanted];
+                }
+        if (found >= needed)
+            return found;
+    }
+    return rg_why_set(job->why,
+                      "has no channels R, G and B, nor Y; its first of %d is \"%s\"; "
+                      "rename them",
+                      list->num_channels, list->num_channels ? list->entries[0].name.str : "");
+}
+
+// How the part is cut into chunks; false with `why` set.
+static bool find_chunks(struct exr_job *job, int64_t width, int64_t height)
+{
+    exr_storage_t storage;
+    exr_get_storage(job->exr, 0, &storage);
+    job->tiled = storage == EXR_STORAGE_TILED;
+    if (storage != EXR_STORAGE_SCANLINE && !job->tiled)
+        return rg_why_set(job->why, "holds deep data; flatten it");
+    if (job->tiled) {
+        uint32_t tile_width, tile_height;
+        exr_tile_level_mode_t levels;
+        exr_tile_round_mode_t round;
+        exr_get_tile_descriptor(job->exr, 0, &tile_width, &tile_height, &levels, &round);
+        job->chunk_width = (int)tile_width;
+        job->chunk_height = (int)tile_height;
+    } else {
+        job->chunk_width = (int)width;
+        exr_get_scanlines_per_chunk(job->exr, 0, &job->chunk_height);
+    }
+    if (job->chunk_width < 1 || job->chunk_height < 1)
+        return rg_why_set(job->why, "EXR header: tiles without a size; write it again");
+    job->across = (int)((width + job->chunk_width - 1) / job->chunk_width);
+    job->down = (int)((height + job->chunk_height - 1) / job->chunk_height);
+    return true;
+}
+
+static bool read_header(struct exr_job *job, int64_t file_bytes)
+{
+    const exr_attr_chlist_t *list;
+    if (exr_get_data_window(job->exr, 0, &job->window) || exr_get_channels(job->exr, 0, &list))
+        return rg_why_set(job->why, "EXR header: the window or the channels are missing");
+    int channels = choose_channels(job, list);
+    int64_t width = (int64_t)job->window.max.x - job->window.min.x + 1;
+    int64_t height = (int64_t)job->window.max.y - job->window.min.y + 1;
+    if (!channels || !find_chunks(job, width, height))
+        return false;
+    // Every chunk has an entry of 8 bytes in the chunk table, and a header of 8 at least.
+    if ((int64_t)job->across * job->down * 16 > file_bytes)
+        return rg_why_set(job->why,
+                          "promises %d chunks of pixels, more than its %lld bytes can "
+                          "hold; it is cut short: write it again",
+                          job->across * job->down, (long long)file_bytes);
+    return rg_picture_allocate(job->picture, width, height, channels, job->why->text,
+                               sizeof(job->why->text));
+}
+
+// Tells the pipeline where the picture wants each channel of the chunk whose corner is x, y.
+static void aim(const struct exr_job *job, exr_decode_pipeline_t *decode, int64_t x, int64_t y)
+{
+    const struct rg_picture *picture = job->picture;
+    for (int c = 0; c < decode->channel_count; c++) {
+        exr_coding_channel_info_t *channel = &decode->channels[c];
+        channel->decode_to_ptr = NULL;
+        for (int wanted = 0; wanted < picture->channels; wanted++)
+            if (!strcmp(channel->channel_name, job->names[wanted]))
+                channel->decode_to_ptr =
+                    (uint8_t *)(picture->texels + (y * picture->width + x) * picture->channels +
+                                wanted);
+        channel->user_data_type = EXR_PIXEL_FLOAT;
+        channel->user_bytes_per_element = 4;
+        channel->user_pixel_stride = picture->channels * 4;
+        channel->user_line_stride = picture->width * picture->channels * 4;
+    }
+}
+
+static exr_result_t read_chunk(const struct exr_job *job, exr_decode_pipeline_t *decode,
+                               struct rg_exr_unpacker *unpacker, int chunk, bool *started)
+{
+    int column = chunk % job->across, row = chunk / job->across;
+    int64_t x = (int64_t)column * job->chunk_width, y = (int64_t)row * job->chunk_height;
+    exr_chunk_info_t info;
+    exr_result_t code =
+        job->tiled ? exr_read_tile_chunk_info(job->exr, 0, column, row, 0, 0, &info)
+                   : exr_read_scanline_chunk_info(job->exr, 0, (int)(job->window.min.y + y), &info);
+    if (code != EXR_ERR_SUCCESS)
+        return code;
+    bool first = !*started;
+    code = first ? exr_decoding_initialize(job->exr, 0, &info, decode)
+                 : exr_decoding_update(job->exr, 0, &info, decode);
+    if (code != EXR_ERR_SUCCESS)
+        return code;
+    *started = true;
+    aim(job, decode, x, y);
+    if (first) {
+        code = exr_decoding_choose_default_routines(job->exr, 0, decode);
+        rg_exr_take_over(unpacker, decode);
+    }
+    return code != EXR_ERR_SUCCESS ? code : exr_decoding_run(job->exr, 0, decode);
+}
+
+static bool read_chunks(struct exr_job *job)
+{
+    int chunks = job->across * job->down;
+    exr_result_t worst = EXR_ERR_SUCCESS;
+#pragma omp parallel
+    {
+        exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
+        struct rg_exr_unpacker unpacker = {0};
+        bool started = false;
+        exr_result_t code = EXR_ERR_SUCCESS;
+#pragma omp for schedule(dynamic)
+        for (int chunk = 0; chunk < chunks; chunk++)
+            if (code == EXR_ERR_SUCCESS)
+                code = read_chunk(job, &decode, &unpacker, chunk, &started);
+        if (started)
+            exr_decoding_destroy(job->exr, &decode);
+        rg_exr_unpacker_release(&unpacker);
+#pragma omp critical
+        worst = code != EXR_ERR_SUCCESS ? code : worst;
+    }
+    return worst == EXR_ERR_SUCCESS || failed(job->why, "pixels", worst);
+}
+
+bool rg_exr_read(const char *path, int64_t file_bytes, struct rg_picture *picture,
+                 struct rg_why *why)
+{
+    struct exr_job job = {.picture = picture, .why = why};
+    exr_context_initializer_t with = initializer();
+    exr_result_t code = exr_start_read(&job.exr, path, &with);
+    if (code != EXR_ERR_SUCCESS)
+        return failed(why, "header", code);
+    bool good = read_header(&job, file_bytes) && read_chunks(&job);
+    exr_finish(&job.exr);
+    if (!good)
+        rg_picture_destroy(picture);
+    return good;
+}
+
+static exr_result_t write_header(exr_context_t exr, const struct rg_picture *picture,
+                                 bool full_float)
+{
+    static const char *const names[][4] = {
+        {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
+    int part;
+    exr_result_t code = exr_add_part(exr, NULL, EXR_STORAGE_SCANLINE, &part);
+    if (code == EXR_ERR_SUCCESS)
+        code = exr_initialize_required_attr_simple(exr, part, picture->width, picture->height,
+                                                   EXR_COMPRESSION_ZIP);
+    for (int c = 0; code == EXR_ERR_SUCCESS && c < picture->channels; c++)
+        code = exr_add_channel(exr, part, names[picture->channels - 1][c],
+                               full_float ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF,
+                               EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    return code != EXR_ERR_SUCCESS ? code : exr_write_header(exr);
+}
+
+static exr_result_t write_chunk(exr_context_t exr, const struct rg_picture *picture, int y,
+                                exr_encode_pipeline_t *encode)
+{
+    exr_chunk_info_t info;
+    exr_result_t code = exr_write_scanline_chunk_info(exr, 0, y, &info);
+    if (code == EXR_ERR_SUCCESS)
+        code = y == 0 ? exr_encoding_initialize(exr, 0, &info, encode)
+                      : exr_encoding_update(exr, 0, &info, encode);
+    if (code != EXR_ERR_SUCCESS)
+        return code;
+    for (int c = 0; c < encode->channel_count; c++) {
+        exr_coding_channel_info_t *channel = &encode->channels[c];
+        static const char order[] = "RGBA";
+        const char *at = strchr(order, channel->channel_name[0]);
+        int source = picture->channels > 2 ? (int)(at - order) : channel->channel_name[0] == 'A';
+        channel->encode_from_ptr =
+            (const uint8_t *)(picture->texels + (int64_t)y * picture->width * picture->channels +
+                              source);
+        channel->user_data_type = EXR_PIXEL_FLOAT;
+        channel->user_bytes_per_element = 4;
+        channel->user_pixel_stride = picture->channels * 4;
+        channel->user_line_stride = picture->width * picture->channels * 4;
+    }
+    if (y == 0)
+        code = exr_encoding_choose_default_routines(exr, 0, encode);
+    return code != EXR_ERR_SUCCESS ? code : exr_encoding_run(exr, 0, encode);
+}
+
+bool rg_exr_write(const char *path, const struct rg_picture *picture,
+                  const struct rg_write_options *options, struct rg_why *why)
+{
+    exr_context_t exr;
+    exr_context_initializer_t with = initializer();
+    exr_result_t code = exr_start_write(&exr, path, EXR_WRITE_FILE_DIRECTLY, &with);
+    if (code != EXR_ERR_SUCCESS)
+        return rg_why_set(why, "cannot be written: %s", exr_get_default_error_message(code));
+    code = write_header(exr, picture, options->full_float);
+    int lines = 1;
+    if (code == EXR_ERR_SUCCESS)
+        code = exr_get_scanlines_per_chunk(exr, 0, &lines);
+    exr_encode_pipeline_t encode = EXR_ENCODE_PIPELINE_INITIALIZER;
+    bool started = code == EXR_ERR_SUCCESS;
+    for (int y = 0; code == EXR_ERR_SUCCESS && y < picture->height; y += lines)
+        code = write_chunk(exr, picture, y, &encode);
+    if (started)
+        exr_encoding_destroy(exr, &encode);
+    exr_result_t finished = exr_finish(&exr);
+    if (code == EXR_ERR_SUCCESS)
+        code = finished;
+    return code == EXR_ERR_SUCCESS ||
+           rg_why_set(why, "cannot be written: %s; make room", exr_get_default_error_message(code));
+}

@@ -1,0 +1,167 @@
+#include "core/image/files/io.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/image/format.h"
+#include "core/base/log.h"
+
+static const struct {
+    const char *extension;
+    bool (*read)(const char *, int64_t, struct rg_picture *, struct rg_why *);
+    bool (*write)(const char *, const struct rg_picture *, const struct rg_write_options *,
+                  struct rg_why *);
+} formats[] = {
+    {"exr", rg_exr_read, rg_exr_write},         {"png", rg_png_read, rg_png_write},
+    {"hdr", rg_oiio_read, rg_oiio_write_hdr},   {"tif", rg_oiio_read, rg_oiio_write_tiff},
+    {"tiff", rg_oiio_read, rg_oiio_write_tiff},
+};
+
+bool rg_why_set(struct rg_why *why, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(why->text, sizeof(why->text), format, args);
+    va_end(args);
+    return false;
+}
+
+// The index into formats, or -1 with `why` set.
+static int find_format(const char *path, struct rg_why *why)
+{
+    const char *name = strrchr(path, '/');
+    name = name ? name + 1 : path;
+    const char *dot = strrchr(name, '.');
+    for (size_t i = 0; dot && i < sizeof(formats) / sizeof(formats[0]); i++)
+        if (!strcasecmp(dot + 1, formats[i].extension))
+            return (int)i;
+    rg_why_set(why, "the extension %s%s%s; use .exr, .png, .hdr or .tif", dot ? "\"" : "is missing",
+               dot ? dot : "", dot ? "\" is not a known picture's" : "");
+    return -1;
+}
+
+static bool examine(const char *path, int64_t *bytes, struct rg_why *why)
+{
+    struct stat st;
+    if (stat(path, &st))
+        return rg_why_set(why, "%s; %s", strerror(errno),
+                          errno == ENOENT ? "check the name" : "check the path");
+    if (S_ISDIR(st.st_mode))
+        return rg_why_set(why, "is a folder; name a picture file in it");
+    if (!S_ISREG(st.st_mode))
+        return rg_why_set(why, "is not a regular file; copy the picture to one");
+    if (access(path, R_OK))
+        return rg_why_set(why, "%s; change the file's permissions", strerror(errno));
+    if (st.st_size == 0)
+        return rg_why_set(why, "is empty; write it again");
+    *bytes = st.st_size;
+    return true;
+}
+
+static bool read_file(const char *path, struct rg_picture *picture, struct rg_why *why)
+{
+    memset(picture, 0, sizeof(*picture));
+    int64_t bytes = 0;
+    int format = find_format(path, why);
+    return format >= 0 && examine(path, &bytes, why) &&
+           formats[format].read(path, bytes, picture, why);
+}
+
+static void warn_of_nonfinite(const char *path, const struct rg_picture *picture)
+{
+    int64_t count = 0, first = -1, values = rg_picture_values(picture);
+    const float *texels = picture->texels;
+    for (int64_t start = 0; start < values; start += 4096) {
+        int64_t end = start + 4096 < values ? start + 4096 : values;
+        int bad = 0;
+        for (int64_t i = start; i < end; i++)
+            bad += texels[i] - texels[i] != 0.0f;
+        for (int64_t i = start; bad && first < 0 && i < end; i++)
+            if (texels[i] - texels[i] != 0.0f)
+                first = i;
+        count += bad;
+    }
+    if (count)
+        rg_warning("%s: %lld values are NaN or infinite, the first at x %lld, y %lld", path,
+                   (long long)count, (long long)(first / picture->channels % picture->width),
+                   (long long)(first / picture->channels / picture->width));
+}
+
+bool rg_pictures_read(const char *const *paths, struct rg_picture *pictures, int count)
+{
+    struct rg_why *why = calloc((size_t)count, sizeof(*why));
+    if (!why)
+        return rg_error("%s: no memory to read it", paths[0]);
+    int failed = 0;
+#pragma omp parallel for schedule(dynamic) reduction(+ : failed) if (count > 1)
+    for (int i = 0; i < count; i++)
+        failed += !read_file(paths[i], &pictures[i], &why[i]);
+    bool told = false;
+    for (int i = 0; i < count; i++) {
+        if (failed && pictures[i].texels == NULL && !told)
+            told = !rg_error("%s: %s", paths[i], why[i].text);
+        if (failed)
+            rg_picture_destroy(&pictures[i]);
+        else
+            warn_of_nonfinite(paths[i], &pictures[i]);
+    }
+    free(why);
+    return !failed;
+}
+
+bool rg_picture_read(const char *path, struct rg_picture *picture)
+{
+    return rg_pictures_read(&path, picture, 1);
+}
+
+// Makes an empty file beside `path`: what cannot be made there is found out before any work.
+static bool make_temporary(const char *path, char *temporary, size_t size, struct rg_why *why)
+{
+    struct stat st;
+    if (!stat(path, &st) && !S_ISREG(st.st_mode))
+        return rg_why_set(why, S_ISDIR(st.st_mode) ? "is a folder; name a file in it"
+                                                   : "is not a regular file; name another");
+    for (int attempt = 0; attempt < 100; attempt++) {
+        if (snprintf(temporary, size, "%s.%ld-%d.tmp", path, (long)getpid(), attempt) >= (int)size)
+            return rg_why_set(why, "the path is too long; choose a shorter one");
+        int fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL, 0666);
+        if (fd >= 0) {
+            close(fd);
+            return true;
+        }
+        if (errno == ENOENT || errno == ENOTDIR)
+            return rg_why_set(why, "its folder is not there; make it first");
+        if (errno != EEXIST)
+            return rg_why_set(why, "cannot be written: %s; choose another folder", strerror(errno));
+    }
+    return rg_why_set(why, "temporary files of this name are in the way; remove them");
+}
+
+bool rg_picture_write(const char *path, const struct rg_picture *picture,
+                      const struct rg_write_options *options)
+{
+    struct rg_why why;
+    struct rg_write_options with = *options;
+    if (with.exposure == 0.0f)
+        with.exposure = 1.0f;
+    char temporary[PATH_MAX];
+    int format = find_format(path, &why);
+    if (format < 0 || !make_temporary(path, temporary, sizeof(temporary), &why))
+        return rg_error("%s: %s", path, why.text);
+    bool written = formats[format].write(temporary, picture, &with, &why);
+    if (written && rename(temporary, path))
+        written = rg_why_set(&why, "cannot be put in place: %s", strerror(errno));
+    if (!written) {
+        unlink(temporary);
+        return rg_error("%s: %s", path, why.text);
+    }
+    return true;
+}

@@ -1,0 +1,125 @@
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include "core/image/files/oiio.h"
+
+using OIIO::ImageBuf;
+using OIIO::ImageInput;
+using OIIO::ImageOutput;
+using OIIO::ImageSpec;
+using OIIO::TypeDesc;
+
+namespace
+{
+
+void say(char *why, size_t size, const std::string &text)
+{
+    snprintf(why, size, "%s", text.c_str());
+}
+
+bool open_file(const char *path, rg_oiio_file *file) noexcept
+try {
+    file->input = nullptr;
+    ImageSpec hints;
+    hints["oiio:UnassociatedAlpha"] = 1;
+    std::unique_ptr<ImageInput> input = ImageInput::open(path, &hints);
+    if (!input) {
+        say(file->why, sizeof(file->why), OIIO::geterror());
+        return false;
+    }
+    const ImageSpec &spec = input->spec();
+    file->width = spec.width;
+    file->height = spec.height;
+    file->channels = spec.nchannels;
+    file->integer = !spec.format.is_floating_point();
+    if (spec.depth > 1 || spec.deep) {
+        say(file->why, sizeof(file->why), "is a volume or deep; flatten it");
+        return false;
+    }
+    file->input = input.release();
+    return true;
+} catch (const std::exception &e) {
+    say(file->why, sizeof(file->why), e.what());
+    return false;
+}
+
+bool read_file(rg_oiio_file *file, float *texels) noexcept
+try {
+    auto *input = static_cast<ImageInput *>(file->input);
+    if (input->read_image(0, 0, 0, file->channels, TypeDesc::FLOAT, texels) &&
+        !input->has_error())
+        return true;
+    say(file->why, sizeof(file->why), input->geterror());
+    return false;
+} catch (const std::exception &e) {
+    say(file->why, sizeof(file->why), e.what());
+    return false;
+}
+
+void close_file(rg_oiio_file *file) noexcept
+try {
+    delete static_cast<ImageInput *>(file->input);
+    file->input = nullptr;
+    OIIO::geterror(); // what is never asked for is printed when the process ends
+} catch (const std::exception &) {
+}
+
+bool write_file(const char *path, const char *format, int width, int height, int channels,
+                const float *texels, char *why, int why_size) noexcept
+try {
+    std::string kind = format;
+    bool tiff = kind.compare(0, 4, "tiff") == 0;
+    std::unique_ptr<ImageOutput> output = ImageOutput::create(tiff ? "tiff" : kind);
+    if (!output) {
+        say(why, why_size, OIIO::geterror());
+        return false;
+    }
+    ImageSpec spec(width, height, channels, kind == "tiff" ? TypeDesc::HALF : TypeDesc::FLOAT);
+    spec["oiio:UnassociatedAlpha"] = 1;
+    spec["oiio:ColorSpace"] = "linear";
+    bool good = output->open(path, spec) && output->write_image(TypeDesc::FLOAT, texels);
+    good = output->close() && good;
+    if (!good)
+        say(why, why_size, output->has_error() ? output->geterror() : "the disk may be full");
+    return good;
+} catch (const std::exception &e) {
+    say(why, why_size, e.what());
+    return false;
+}
+
+bool compare(const float *a, const float *b, int width, int height, int channels,
+             float fail_threshold, float warn_threshold, rg_oiio_comparison *comparison) noexcept
+try {
+    ImageSpec spec(width, height, channels, TypeDesc::FLOAT);
+    ImageBuf buf_a(spec, const_cast<float *>(a)), buf_b(spec, const_cast<float *>(b));
+    OIIO::ImageBufAlgo::CompareResults r =
+        OIIO::ImageBufAlgo::compare(buf_a, buf_b, fail_threshold, warn_threshold);
+    *comparison = {r.meanerror, r.rms_error, r.PSNR,           r.maxerror,      r.maxx,
+                   r.maxy,      r.maxc,      (int64_t)r.nfail, (int64_t)r.nwarn};
+    return true;
+} catch (const std::exception &) {
+    return false;
+}
+
+} // namespace
+
+extern "C" __attribute__((visibility("default"))) const rg_oiio_functions *rg_oiio_module() noexcept
+{
+    static const rg_oiio_functions functions = {open_file, read_file, close_file, write_file,
+                                                compare};
+    try {
+        // Readers must not fall back to another format's reader, nor keep a pool of threads.
+        OIIO::attribute("try_all_readers", 0);
+        OIIO::attribute("threads", 1);
+        OIIO::attribute("tiff:half", 1);
+        OIIO::attribute("limits:imagesize_MB", 16384);
+    } catch (const std::exception &) {
+        return nullptr;
+    }
+    return &functions;
+}

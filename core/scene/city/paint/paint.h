@@ -1,0 +1,133 @@
+// The city's textures by number, what of them the geometry has to know, and what painters share:
+// for this folder alone.
+#ifndef RG_CORE_SCENE_CITY_PAINT_H
+#define RG_CORE_SCENE_CITY_PAINT_H
+
+#include <assert.h>
+
+#include "core/scene/city/city.h"
+#include "kernels/dialect/lang.h"
+
+// The first texture of each group; the next group's first ends it.
+enum {
+    PAINT_FACADE = 0, // walls with windows: PAINT_CELLS x PAINT_CELLS bays
+    PAINT_CURTAIN = 72,
+    PAINT_SHOP = 96, // ground floors: a shop
+    PAINT_WALL = 108,
+    PAINT_ROOF = 124,
+    PAINT_ASPHALT = 130, // plain, a street's width, the avenue's width
+    PAINT_PAVING = 133,  // slabs, kerb, plaza, cobbles, tiles
+    PAINT_CROSSING = 138,
+    PAINT_STOP = 139,
+    PAINT_METAL = 140, // grey, dark, painted
+    PAINT_GRASS = 143,
+    PAINT_LEAVES = 144,
+    PAINT_BARK = 146,
+    PAINT_LIGHT = 147,
+    PAINT_WATER = 148,
+    PAINT_CELLS = 4,
+    PAINT_WALLS = PAINT_ROOF - PAINT_WALL,
+};
+static_assert(PAINT_WATER + 1 == CITY_TEXTURES, "every texture has a painter");
+
+// A facade's window in its bay, in shares of the bay's width and of the floor's height.
+struct facade_style {
+    double left, right, bottom, top; // bottom: from the floor's lower edge
+    int wall;                        // the wall's texture, for what is not painted with windows
+    double depth_m;                  // how far windows lie behind the wall
+};
+struct facade_style city_facade_style(const struct city_settings *settings, int texture);
+
+// --- for painters ---
+
+// A colour as square roots of light, and the share of a lamp behind it.
+struct paint {
+    float r, g, b, a;
+};
+
+// Noise that all textures share, in squares as large as they, which repeat. All 0 to 1.
+struct city_painter {
+    struct city_settings settings;
+    uint32_t seed;
+    int size;     // texels a side
+    float *fine;  // each texel for itself
+    float *cloud; // from a quarter of the square down to a few texels
+    float *stain; // drawn out downwards, as water leaves it
+};
+
+// A texel that is painted.
+struct spot {
+    const struct city_painter *painter;
+    int texture;
+    struct facade_style style; // of facades and curtain walls
+    int shift_x, shift_y;      // of the noise, below half a side
+    int x, y;
+    float u, v; // 0 to 1, v from the top
+};
+
+// One place of the noise; textures see different parts of it, and so does `part` of a texture.
+static inline float paint_noise(const struct spot *s, const float *noise, int part)
+{
+    const int size = s->painter->size;
+    const int x = s->x + s->shift_x + (part & 1) * size / 2;
+    const int y = s->y + s->shift_y + (part & 2) * size / 4;
+    return noise[(y < size ? y : y - size) * size + (x < size ? x : x - size)];
+}
+
+static inline float paint_fine(const struct spot *s)
+{
+    return s->painter->fine[s->y * s->painter->size + s->x];
+}
+
+static inline float paint_cloud(const struct spot *s, int part)
+{
+    return paint_noise(s, s->painter->cloud, part);
+}
+
+static inline float paint_stain(const struct spot *s)
+{
+    return paint_noise(s, s->painter->stain, 0);
+}
+
+// 0 to 1, of a point of a lattice.
+static inline float paint_lattice(int x, int y, uint32_t seed)
+{
+    uint32_t h = (uint32_t)x * 0x9e3779b1u ^ (uint32_t)y * 0x85ebca77u ^ seed * 0xc2b2ae3du;
+    h = (h ^ h >> 15) * 0x2c1b3c6du;
+    h = (h ^ h >> 12) * 0x297a2d39u;
+    return (float)((h ^ h >> 15) >> 8) * 0x1p-24f;
+}
+
+// A number in [0, 1) for the k-th thing of a texture.
+static inline float paint_chance(const struct spot *s, int k)
+{
+    return paint_lattice(s->texture, k, s->painter->seed);
+}
+
+static inline struct paint paint_mix(struct paint a, struct paint b, float t)
+{
+    return (struct paint){a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t,
+                          a.a + (b.a - a.a) * t};
+}
+
+static inline struct paint paint_scaled(struct paint p, float by)
+{
+    return (struct paint){p.r * by, p.g * by, p.b * by, p.a};
+}
+
+// The distance from the middle of the nearest line, lines being `every` apart, in `every`.
+static inline float paint_line(float at, float every)
+{
+    const float lines = at * (1 / every), share = lines - rg_floor(lines);
+    return rg_min(share, 1 - share);
+}
+
+// walls.c: a wall's kind at (u, v) in whole walls of `across` x `down` bricks.
+struct paint paint_wall(const struct spot *s, int wall, float u, float v, int across, int down);
+struct paint paint_facade(const struct spot *s);
+struct paint paint_curtain(const struct spot *s);
+struct paint paint_shop(const struct spot *s);
+// ground.c
+struct paint paint_ground(const struct spot *s);
+
+#endif

@@ -1,0 +1,160 @@
+#include "core/scene/environment/environment.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/image/files/io.h"
+#include "core/base/log.h"
+#include "core/scene/environment/cube.h"
+#include "core/scene/environment/ktx.h"
+
+// Where Debian's open3d-gui-data installs its maps; RG_ENVIRONMENT_DIR may name another folder.
+#define PACKAGE_DIR "/usr/share/open3d-gui/resources"
+
+#define PI 3.14159265358979323846
+
+enum { SKY_SIZE = 256, MIN_SIZE = 16, MAX_SIZE = 1024 };
+
+// --- the procedural sky: overcast, brighter towards the horizon, over dark ground ---
+
+static double mix_by(double low, double high, double t)
+{
+    t = fmin(fmax(t, 0), 1);
+    return low + (high - low) * t * t * (3 - 2 * t);
+}
+
+static void sky_light(const double d[3], const void *user, double light[3])
+{
+    (void)user;
+    static const double zenith[3] = {0.35, 0.42, 0.52}, horizon[3] = {0.95, 0.97, 1.0},
+                        ground[3] = {0.06, 0.06, 0.055}, sun[3] = {0.48, 0.6, 0.64};
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double up = d[1] / length;
+    const double to_sun = (d[0] * sun[0] + d[1] * sun[1] + d[2] * sun[2]) / length;
+    const double glow = to_sun > 0 ? pow(to_sun, 24) * 2 + pow(to_sun, 400) * 40 : 0;
+    for (int i = 0; i < 3; i++) {
+        double sky = mix_by(horizon[i], zenith[i], up * 1.6) + glow;
+        light[i] = mix_by(ground[i], sky, up * 25 + 0.5);
+    }
+}
+
+static struct rg_environment *make_sky(void)
+{
+    struct rg_environment *environment = rg_environment_create(SKY_SIZE);
+    if (environment)
+        rg_environment_fill(environment, sky_light, NULL);
+    return environment;
+}
+
+// --- lat-long images: the horizon along the middle row, straight up along the top ---
+
+static double picture_value(const struct rg_picture *p, int x, int y, int channel)
+{
+    x = (x % p->width + p->width) % p->width;
+    y = y < 0 ? 0 : y >= p->height ? p->height - 1 : y;
+    channel = p->channels < 3 ? 0 : channel;
+    return (double)p->texels[((int64_t)y * p->width + x) * p->channels + channel];
+}
+
+static void lat_long_light(const double d[3], const void *user, double light[3])
+{
+    const struct rg_picture *picture = user;
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double u = (atan2(d[0], -d[2]) / (2 * PI) + 0.5) * picture->width - 0.5;
+    const double v = acos(d[1] / length) / PI * picture->height - 0.5;
+    const int x = (int)floor(u), y = (int)floor(v);
+    const double fx = u - x, fy = v - y;
+    for (int c = 0; c < 3; c++)
+        light[c] = (picture_value(picture, x, y, c) * (1 - fx) +
+                    picture_value(picture, x + 1, y, c) * fx) *
+                       (1 - fy) +
+                   (picture_value(picture, x, y + 1, c) * (1 - fx) +
+                    picture_value(picture, x + 1, y + 1, c) * fx) *
+                       fy;
+}
+
+static struct rg_environment *read_lat_long(const char *path)
+{
+    struct rg_picture picture;
+    if (!rg_picture_read(path, &picture))
+        return NULL;
+    if (picture.width != 2 * picture.height) {
+        rg_error("%s: %dx%d is no lat-long environment; it must be twice as wide as high", path,
+                 picture.width, picture.height);
+        rg_picture_destroy(&picture);
+        return NULL;
+    }
+    int size = picture.height / 2;
+    size = size < MIN_SIZE ? MIN_SIZE : size > MAX_SIZE ? MAX_SIZE : size;
+    struct rg_environment *environment = rg_environment_create(size);
+    if (environment)
+        rg_environment_fill(environment, lat_long_light, &picture);
+    rg_picture_destroy(&picture);
+    return environment;
+}
+
+// --- by name ---
+
+static bool ends_in(const char *text, const char *end)
+{
+    const size_t length = strlen(text), end_length = strlen(end);
+    return length >= end_length && !strcmp(text + length - end_length, end);
+}
+
+static struct rg_environment *read_packaged(const char *name)
+{
+    const char *folder = getenv("RG_ENVIRONMENT_DIR");
+    folder = folder && *folder ? folder : PACKAGE_DIR;
+    char path[2048];
+    snprintf(path, sizeof(path), "%s/%s_skybox.ktx", folder, name);
+    if (!access(path, F_OK))
+        return rg_ktx_read(path);
+    if (!access(folder, F_OK))
+        return rg_error_null("environment '%s': neither a file nor a map in %s", name, folder);
+    rg_warning("environment '%s': %s is absent (the Debian package open3d-gui-data brings it); "
+               "using the procedural sky",
+               name, folder);
+    return make_sky();
+}
+
+struct rg_environment *rg_environment_load(const char *name)
+{
+    if (!*name || !strcmp(name, "sky"))
+        return make_sky();
+    if (ends_in(name, ".ktx"))
+        return rg_ktx_read(name);
+    if (strpbrk(name, "./"))
+        return read_lat_long(name);
+    return read_packaged(name);
+}
+
+static bool write_level(const struct rg_environment *environment, int level, struct rg_image *image)
+{
+    const int size_px = rg_level_size(image->desc.width, level);
+    const size_t face_texels = (size_t)size_px * (size_t)size_px;
+    uint32_t *texels = malloc(6 * face_texels * sizeof(uint32_t));
+    if (!texels)
+        return rg_error("environment: no memory for faces of %d texels", size_px);
+    bool ok = rg_environment_pack(environment, size_px, texels);
+    for (int face = 0; ok && face < 6; face++)
+        ok = rg_image_write(image, face, level, texels + (size_t)face * face_texels);
+    free(texels);
+    return ok;
+}
+
+struct rg_image *rg_environment_upload(const struct rg_environment *environment, int size_px,
+                                       int levels, struct rg_device *device)
+{
+    struct rg_image *image = rg_image_create(
+        device, &(struct rg_image_desc){RG_RG11B10F, size_px, size_px, 6, levels}, "environment");
+    for (int level = 0; image && level < levels; level++) {
+        if (!write_level(environment, level, image)) {
+            rg_image_destroy(image);
+            image = NULL;
+        }
+    }
+    return image;
+}

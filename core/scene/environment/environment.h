@@ -1,0 +1,30 @@
+// Environment maps: the light that comes from every direction, as a cube map.
+#ifndef RG_CORE_SCENE_ENVIRONMENT_H
+#define RG_CORE_SCENE_ENVIRONMENT_H
+
+#include "core/device/device.h"
+
+// Six faces in the order and orientation of OpenGL (kernels/dialect/image/cube.h), linear light.
+// Each face carries a border of one texel from its neighbours, so that filtering crosses edges
+// without a seam: light[face][y + 1][x + 1][channel], x and y from -1 to size.
+struct rg_environment {
+    int size; // texels along a face, without the border
+    float *light;
+};
+
+// Loads by name or path:
+//   "sky"            a procedural overcast sky, always there
+//   "crossroads"     a map that Debian's open3d-gui-data installs, without its "_skybox.ktx"; where
+//                    the package is absent, the sky, with a warning
+//   "FILE.ktx"       a KTX 1 cube map in R11F_G11F_B10F
+//   any other path   a lat-long image (EXR, HDR, PNG: core/image/files/io.h), twice as wide as high
+// NULL, and one logged line, on failure. The caller destroys it.
+struct rg_environment *rg_environment_load(const char *name);
+void rg_environment_destroy(struct rg_environment *environment);
+
+// A device's image of it in RG11B10F, 6 layers and `levels` levels, each face resampled to size_px
+// texels a side in level 0. The caller destroys it.
+struct rg_image *rg_environment_upload(const struct rg_environment *environment, int size_px,
+                                       int levels, struct rg_device *device);
+
+#endif

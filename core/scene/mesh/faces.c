@@ -1,0 +1,276 @@
+// A mesh with another number of faces: decimated by meshoptimizer, refined by halving edges.
+#include <math.h>
+#include <meshoptimizer.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "core/scene/mesh/mesh.h"
+
+// meshoptimizer stops at this error; in extents of the mesh, so that it never does.
+#define ANY_ERROR 1e4f
+
+static bool check_wanted(const struct rg_mesh *mesh, int faces)
+{
+    if (faces >= 1 && faces <= RG_MESH_MAX_FACES)
+        return true;
+    return rg_error("%s: %d faces are out of range; ask for 1 to %d", mesh->name, faces,
+                    RG_MESH_MAX_FACES);
+}
+
+static void rename_mesh(struct rg_mesh *mesh, const char *source, const char *done)
+{
+    snprintf(mesh->name, sizeof(mesh->name), "%.100s, %s to %d faces", source, done,
+             mesh->face_count);
+}
+
+// --- fewer faces ---
+
+// Fills `indices` with at most `faces` faces of the mesh's vertices, if that can be; returns how
+// many.
+static int simplify(const struct rg_mesh *mesh, int faces, uint32_t *indices)
+{
+    const size_t vertices = (size_t)mesh->vertex_count, stride = 3 * sizeof(float);
+    const size_t wanted = 3 * (size_t)faces;
+    size_t count = meshopt_simplify(indices, mesh->indices, 3 * (size_t)mesh->face_count,
+                                    mesh->positions, vertices, stride, wanted, ANY_ERROR, 0, NULL);
+    // What the topology keeps it from, the sloppy way reaches.
+    if (count > wanted)
+        count = meshopt_simplifySloppy(indices, mesh->indices, 3 * (size_t)mesh->face_count,
+                                       mesh->positions, vertices, stride, wanted, ANY_ERROR, NULL);
+    return (int)(count / 3);
+}
+
+struct rg_mesh *rg_mesh_decimate(const struct rg_mesh *mesh, int faces)
+{
+    if (!check_wanted(mesh, faces))
+        return NULL;
+    // One vertex a position: meshoptimizer keeps to seams between normals, which are made anew.
+    struct rg_mesh *smooth = rg_mesh_smooth(mesh);
+    if (!smooth || smooth->face_count <= faces)
+        return smooth;
+    struct rg_mesh *coarse = NULL;
+    uint32_t *indices = rg_alloc((size_t)smooth->face_count, 3 * sizeof(uint32_t), mesh->name);
+    const int reached = indices ? simplify(smooth, faces, indices) : 0;
+    if (reached > 0)
+        coarse = rg_mesh_create(mesh->name, smooth->vertex_count, reached, smooth->positions, NULL,
+                                indices);
+    else if (indices)
+        rg_error("%s: nothing is left of it when it is decimated to %d faces; ask for more",
+                 mesh->name, faces);
+    if (coarse)
+        rename_mesh(coarse, mesh->name, "decimated");
+    free(indices);
+    rg_mesh_destroy(smooth);
+    return coarse;
+}
+
+// --- more faces ---
+
+// One side of a face: from its corner `corner` (3 * face + 0, 1 or 2) to the next.
+struct side {
+    uint64_t key; // the two vertices, the lower one above
+    uint32_t corner;
+};
+
+// Sides with the same two vertices: `count` of them from `first` on, in sorted order.
+struct edge {
+    double length2;
+    uint32_t first, count;
+};
+
+// Rounds of halving; in a round each face loses at most one edge.
+struct refinement {
+    int vertex_count, face_count, wanted;
+    float *positions, *normals;
+    uint32_t *indices;
+    struct side *sides;
+    struct edge *edges;
+    bool *taken; // a face: has an edge been halved in this round
+};
+
+static int compare_sides(const void *a, const void *b)
+{
+    const struct side *x = a, *y = b;
+    if (x->key != y->key)
+        return x->key < y->key ? -1 : 1;
+    return x->corner < y->corner ? -1 : x->corner > y->corner;
+}
+
+static int compare_edges(const void *a, const void *b)
+{
+    const struct edge *x = a, *y = b;
+    if (x->length2 != y->length2)
+        return x->length2 > y->length2 ? -1 : 1;
+    return x->first < y->first ? -1 : x->first > y->first;
+}
+
+static double length_squared(const struct refinement *r, uint64_t key)
+{
+    const float *a = r->positions + 3 * (key >> 32), *b = r->positions + 3 * (key & 0xffffffffu);
+    double sum = 0;
+    for (int c = 0; c < 3; c++)
+        sum += ((double)b[c] - (double)a[c]) * ((double)b[c] - (double)a[c]);
+    return sum;
+}
+
+// Returns the number of edges, longest first.
+static size_t find_edges(struct refinement *r)
+{
+    size_t sides = 0, edges = 0;
+    for (uint32_t corner = 0; corner < 3 * (uint32_t)r->face_count; corner++) {
+        const uint64_t a = r->indices[corner];
+        const uint64_t b = r->indices[corner % 3 == 2 ? corner - 2 : corner + 1];
+        if (a != b)
+            r->sides[sides++] = (struct side){a < b ? a << 32 | b : b << 32 | a, corner};
+    }
+    qsort(r->sides, sides, sizeof(*r->sides), compare_sides);
+    for (size_t i = 0; i < sides; i++) {
+        if (i > 0 && r->sides[i].key == r->sides[i - 1].key)
+            r->edges[edges - 1].count++;
+        else
+            r->edges[edges++] = (struct edge){length_squared(r, r->sides[i].key), (uint32_t)i, 1};
+    }
+    qsort(r->edges, edges, sizeof(*r->edges), compare_edges);
+    return edges;
+}
+
+// Are all of an edge's faces untouched in this round, and different?
+static bool is_free(const struct refinement *r, const struct edge *edge)
+{
+    const struct side *sides = r->sides + edge->first;
+    for (uint32_t i = 0; i < edge->count; i++)
+        if (r->taken[sides[i].corner / 3] ||
+            (i > 0 && sides[i].corner / 3 == sides[i - 1].corner / 3))
+            return false;
+    return true;
+}
+
+static uint32_t add_middle(struct refinement *r, uint64_t key)
+{
+    const size_t a = key >> 32, b = key & 0xffffffffu, middle = (size_t)r->vertex_count++;
+    for (size_t c = 0; c < 3; c++) {
+        r->positions[3 * middle + c] =
+            (float)(((double)r->positions[3 * a + c] + (double)r->positions[3 * b + c]) / 2);
+        // of any length: rg_mesh_create makes it 1
+        r->normals[3 * middle + c] = r->normals[3 * a + c] + r->normals[3 * b + c];
+    }
+    return (uint32_t)middle;
+}
+
+// Every face of the edge becomes two: one in its place, one at the end.
+static void halve(struct refinement *r, const struct edge *edge)
+{
+    const uint32_t middle = add_middle(r, r->sides[edge->first].key);
+    for (uint32_t i = 0; i < edge->count; i++) {
+        const uint32_t corner = r->sides[edge->first + i].corner, face = corner / 3;
+        uint32_t *old = r->indices + 3 * (size_t)face;
+        uint32_t *added = r->indices + 3 * (size_t)r->face_count++;
+        const uint32_t from = corner % 3, to = (from + 1) % 3;
+        memcpy(added, old, 3 * sizeof(uint32_t));
+        old[to] = middle;
+        added[from] = middle;
+        r->taken[face] = true;
+    }
+}
+
+// One round: from the longest edge that can be halved down to half its length. False when there is
+// none that does not lead beyond the wanted number.
+static bool run_round(struct refinement *r)
+{
+    const int before = r->face_count;
+    const size_t edges = find_edges(r);
+    double limit2 = 0;
+    memset(r->taken, 0, (size_t)r->face_count * sizeof(*r->taken));
+    for (size_t i = 0; i < edges && r->face_count < r->wanted; i++) {
+        const struct edge *edge = &r->edges[i];
+        if (edge->length2 < limit2)
+            break;
+        if (edge->count > (uint32_t)(r->wanted - r->face_count) || !is_free(r, edge))
+            continue;
+        if (r->face_count == before)
+            limit2 = edge->length2 / 4;
+        halve(r, edge);
+    }
+    return r->face_count > before;
+}
+
+static bool begin_refinement(struct refinement *r, const struct rg_mesh *mesh, int faces)
+{
+    const size_t most = (size_t)mesh->vertex_count + (size_t)(faces - mesh->face_count);
+    *r = (struct refinement){
+        .vertex_count = mesh->vertex_count,
+        .face_count = mesh->face_count,
+        .wanted = faces,
+        .positions = rg_alloc(most, 3 * sizeof(float), mesh->name),
+        .normals = rg_alloc(most, 3 * sizeof(float), mesh->name),
+        .indices = rg_alloc((size_t)faces, 3 * sizeof(uint32_t), mesh->name),
+        .sides = rg_alloc((size_t)faces, 3 * sizeof(struct side), mesh->name),
+        .edges = rg_alloc((size_t)faces, 3 * sizeof(struct edge), mesh->name),
+        .taken = rg_alloc((size_t)faces, sizeof(bool), mesh->name),
+    };
+    if (!r->positions || !r->normals || !r->indices || !r->sides || !r->edges || !r->taken)
+        return false;
+    memcpy(r->positions, mesh->positions, (size_t)mesh->vertex_count * 3 * sizeof(float));
+    memcpy(r->normals, mesh->normals, (size_t)mesh->vertex_count * 3 * sizeof(float));
+    memcpy(r->indices, mesh->indices, (size_t)mesh->face_count * 3 * sizeof(uint32_t));
+    return true;
+}
+
+static void end_refinement(struct refinement *r)
+{
+    free(r->positions);
+    free(r->normals);
+    free(r->indices);
+    free(r->sides);
+    free(r->edges);
+    free(r->taken);
+}
+
+struct rg_mesh *rg_mesh_refine(const struct rg_mesh *mesh, int faces)
+{
+    if (!check_wanted(mesh, faces))
+        return NULL;
+    // One vertex a position: else a seam between normals would be halved on one side alone.
+    struct rg_mesh *smooth = rg_mesh_smooth(mesh), *fine = NULL;
+    if (!smooth || smooth->face_count >= faces)
+        return smooth;
+    struct refinement r;
+    if (begin_refinement(&r, smooth, faces)) {
+        while (r.face_count < r.wanted && run_round(&r))
+            continue;
+        fine = rg_mesh_create(mesh->name, r.vertex_count, r.face_count, r.positions, r.normals,
+                              r.indices);
+    }
+    if (fine)
+        rename_mesh(fine, mesh->name, "refined");
+    end_refinement(&r);
+    rg_mesh_destroy(smooth);
+    return fine;
+}
+
+struct rg_mesh *rg_mesh_resize(const struct rg_mesh *mesh, int faces)
+{
+    if (mesh->face_count <= faces)
+        return rg_mesh_refine(mesh, faces);
+    struct rg_mesh *coarse = rg_mesh_decimate(mesh, faces);
+    if (!coarse || coarse->face_count == faces)
+        return coarse;
+    struct rg_mesh *exact = rg_mesh_refine(coarse, faces);
+    rg_mesh_destroy(coarse);
+    if (exact)
+        rename_mesh(exact, mesh->name, "decimated");
+    return exact;
+}
+
+struct rg_mesh *rg_mesh_load_faces(const char *name, int faces)
+{
+    struct rg_mesh *mesh = rg_mesh_load(name);
+    if (!mesh || !faces)
+        return mesh;
+    struct rg_mesh *resized = rg_mesh_resize(mesh, faces);
+    rg_mesh_destroy(mesh);
+    return resized;
+}

@@ -1,0 +1,100 @@
+// flow: the settings, parameters and host-side inputs of Stuppacher & Supan's water on panes.
+#ifndef RG_CORE_TECHNIQUES_FLOW_H
+#define RG_CORE_TECHNIQUES_FLOW_H
+
+#include <stdint.h>
+
+#include "core/techniques/params.h"
+#include "kernels/flow/water/water.h"
+#include "kernels/flow/panes/normals_params.h"
+#include "kernels/flow/water/splat_params.h"
+#include "kernels/flow/view_params.h"
+
+enum flow_direction { FLOW_NEAREST, FLOW_SPLIT };
+enum flow_scene { FLOW_BOX, FLOW_ONE_PANE };
+enum flow_sides { FLOW_FRONT_SIDES, FLOW_BOTH_SIDES };
+enum flow_material { FLOW_GLASS, FLOW_MIRROR };
+enum flow_stage { FLOW_STAGE_HEIGHT, FLOW_STAGE_BLURRED, FLOW_STAGE_NORMALS, FLOW_STAGE_FINAL };
+
+struct flow_settings {
+    // scene
+    int view, panes, stage;
+    char model[RG_PATH_SIZE];
+    int model_faces, model_sides;
+    double model_size, model_grey;
+    double distance_mm, camera_azimuth_deg, camera_elevation_deg, view_angle_deg;
+    double pitch_deg, yaw_deg, roll_deg;
+    double spin_pitch_deg_s, spin_yaw_deg_s, spin_roll_deg_s;
+    double pane_mm, frame_mm;
+    // movement
+    int resolution_px, seed;
+    double texels_a_pixel;
+    double move_threshold, fast_threshold, far_share, capacity;
+    int reach_texels, direction, run_on;
+    // maps
+    char remainder_map[RG_PATH_SIZE], noise_map[RG_PATH_SIZE];
+    double remainder_low, remainder_low_height, remainder_max_height;
+    double noise_low, noise_window, noise_scroll_x, noise_scroll_y;
+    // sources
+    int drops;
+    double rain_drops_s, step_s, drop_radius_min_mm, drop_radius_max_mm, height_per_mm;
+    // lighting
+    double relief, wet_height;
+    double fresnel_bias, fresnel_scale, refraction_strength, reflectivity;
+    char environment[RG_PATH_SIZE];
+    int environment_px, reflection_px, fresnel_power;
+    double light, light_azimuth_deg, light_elevation_deg, drop_shadow;
+    double glow, glow_threshold;
+};
+
+extern const struct rg_param_table flow_param_table;
+extern const struct rg_proof flow_proof;
+
+// What an instance's state holds, in this order.
+enum flow_state { FLOW_STATE_WATER, FLOW_STATE_LEDGER, FLOW_STATE_COUNT };
+
+// How many panes the settings' scene has: 6, or 1. Front, back, right, left, top and bottom.
+int flow_pane_count(const struct flow_settings *settings);
+
+// A pane's frame in the world at a frame of the simulation: tangent (right), binormal (down) and
+// normal (outwards), each of unit length. Row-major: the matrix of the paper's equation 1.
+void flow_pane_frame(const struct flow_settings *settings, int pane, int64_t frame,
+                     double axes[3][3]);
+
+// What distinguishes the panes at a frame: FLOW_MAX_PANES or fewer.
+void flow_panes_at(const struct flow_settings *settings, int noise_size, int64_t frame,
+                   flow_pane *panes);
+
+// Texels along a side of a pane: resolution_px, or what the distance to the camera asks for.
+int flow_texels(const struct flow_settings *settings, int height_px);
+
+// The parameters of the movement's and the normal map's kernels at a frame.
+flow_params flow_params_at(const struct flow_settings *settings, int noise_size, int64_t frame);
+flow_normals_params flow_normals_params_of(const struct flow_settings *settings);
+
+// The parameters of the drawing passes at a frame, for a target of width x height pixels: of the
+// panes and the sky. False, with one logged line, when the camera sees nothing.
+bool flow_view_params_at(const struct flow_settings *settings, int64_t frame, int width, int height,
+                         flow_view_params *params);
+// Makes them those of a model with these bounds.
+void flow_view_model(const struct flow_settings *settings, int64_t frame, const float low[3],
+                     const float high[3], flow_view_params *params);
+
+// Levels of the environment: down to what lights from all sides; and the one that drops reflect.
+int flow_environment_levels(const struct flow_settings *settings);
+int flow_reflection_level(const struct flow_settings *settings);
+
+// The drop of this number on a pane: of the seeded ones (`frame` is -1), or of those that fall in a
+// frame.
+flow_splat_params flow_drop(const struct flow_settings *settings, int pane, int64_t frame,
+                            int number);
+// How many drops fall on a pane in a frame: constant in the mean, without randomness.
+int flow_drops_at(const struct flow_settings *settings, int64_t frame);
+
+// The remainder map (FLOW_REMAINDER_ENTRIES floats, 0 to 1) and the noise map (size x size floats),
+// generated or read from the user's image. The caller frees them. NULL, and one logged line, on
+// failure.
+float *flow_remainder_map(const struct flow_settings *settings);
+float *flow_noise_map(const struct flow_settings *settings, int *size);
+
+#endif

@@ -1,0 +1,116 @@
+// What proves flow: panes, conservation in whole droplets, and mutants.
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "core/techniques/flow/flow.h"
+#include "core/techniques/proof.h"
+#include "core/techniques/technique.h"
+
+// All that a law looks at.
+struct reading {
+    int64_t length; // of all panes' maps, in texels
+    int row;        // texels a row, margins included
+    float *water;
+    uint32_t ledger[FLOW_LEDGER_WORDS];
+};
+
+static bool read_state(const struct rg_instance *instance, struct reading *r)
+{
+    const struct rg_state *water = &instance->state[FLOW_STATE_WATER];
+    r->row = water->row;
+    r->length = (int64_t)(water->buf->size / sizeof(*r->water));
+    r->water = rg_alloc(1, water->buf->size, water->name);
+    return r->water && rg_buf_read(water->buf, 0, r->water, (int64_t)water->buf->size) &&
+           rg_buf_read(instance->state[FLOW_STATE_LEDGER].buf, 0, r->ledger, sizeof(r->ledger));
+}
+
+// Every texel holds a whole number of droplets, and none in the margin.
+static bool droplets_are_whole(const struct reading *r, char *detail, size_t size)
+{
+    for (int64_t i = 0; i < r->length; i++) {
+        const int at = (int)(i % ((int64_t)r->row * r->row)); // of its pane
+        const int x = at % r->row - FLOW_MARGIN, y = at / r->row - FLOW_MARGIN;
+        const float droplets = r->water[i] * FLOW_DROPLETS_PER_UNIT;
+        const bool whole =
+            droplets >= 0 && droplets < 16777216.0f && (float)(int32_t)droplets == droplets;
+        if (whole && (droplets == 0 || flow_on_pane(r->row - 2 * FLOW_MARGIN, x, y)))
+            continue;
+        snprintf(detail, size, "water (%d, %d) holds %.9g droplets", x, y, (double)droplets);
+        return false;
+    }
+    return true;
+}
+
+// What is on the pane is what came less what left.
+static bool ledger_balances(const struct reading *r, char *detail, size_t size)
+{
+    uint32_t sum = 0;
+    for (int64_t i = 0; i < r->length; i++)
+        sum += (uint32_t)(r->water[i] * FLOW_DROPLETS_PER_UNIT);
+    const uint32_t due = r->ledger[FLOW_LEDGER_SOURCED] - r->ledger[FLOW_LEDGER_DRAINED];
+    if (sum == due)
+        return true;
+    snprintf(detail, size, "the pane holds %u droplets, but %u came and %u left (modulo 2^32)", sum,
+             r->ledger[FLOW_LEDGER_SOURCED], r->ledger[FLOW_LEDGER_DRAINED]);
+    return false;
+}
+
+static bool water_is_conserved(const struct rg_instance *instance, char *detail, size_t size)
+{
+    struct reading reading;
+    bool holds = false;
+    if (!read_state(instance, &reading))
+        snprintf(detail, size, "%s", rg_last_error());
+    else
+        holds =
+            droplets_are_whole(&reading, detail, size) && ledger_balances(&reading, detail, size);
+    free(reading.water);
+    return holds;
+}
+
+// The box with small panes, for there are six of them; one pane as large as the user asks.
+static const char *const poses[] = {
+    "resolution_px=96",
+    "resolution_px=96 pane_pitch_deg=40 pane_roll_deg=30 direction=split run_on=on reach_texels=4",
+    "resolution_px=96 panes=mirror pane_pitch_deg=-20 pane_roll_deg=180 spin_yaw_deg_s=90 "
+    "glow=0.5 glow_threshold=0.3",
+    "view=pane panes=mirror",
+    NULL,
+};
+
+static const struct rg_law laws[] = {
+    {"conservation", water_is_conserved},
+    {NULL, NULL},
+};
+
+static const struct rg_mutant mutants[] = {
+    {"one drop fewer", "drops", 1, -1},
+    {"another seed", "seed", 1, 1},
+    {"1 % less rain", "rain_drops_s", 0.99, 0},
+    {"L 1 % higher", "move_threshold", 1.01, 0},
+    {"M 1 % higher", "fast_threshold", 1.01, 0},
+    {"r 1 % smaller", "far_share", 0.99, 0},
+    {"1 % more stays", "remainder_low", 1.01, 0},
+    {"noise scrolls 1 % faster", "noise_scroll_x", 1.01, 0},
+    {"pane pitched by 1 degree", "pane_pitch_deg", 1, 1},
+    {"pane rolled by 1 degree", "pane_roll_deg", 1, 1},
+    {"environment shifted by 1 degree", "pane_yaw_deg", 1, 1},
+    {"refraction 1 % weaker", "refraction_strength", 0.99, 0},
+    {"Fresnel bias twice as high", "fresnel_bias", 2, 0},
+    {"relief 1 % higher", "relief", 1.01, 0},
+    {"camera turned by 0.2 degrees", "camera_azimuth_deg", 1, 0.2},
+    {"model 1 % larger", "model_size", 1.01, 0},
+    {"lamp 5 % brighter", "light", 1.05, 0},
+    {NULL, NULL, 0, 0},
+};
+
+const struct rg_proof flow_proof = {
+    .poses = poses,
+    .dry = "drops=0 rain_drops_s=0",
+    .mutant_scene = "resolution_px=160 environment_px=256",
+    .laws = laws,
+    .mutants = mutants,
+};

@@ -1,0 +1,169 @@
+#include "core/techniques/params.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+
+static int *int_at(const struct rg_param *param, const void *settings)
+{
+    return (int *)((char *)settings + param->offset);
+}
+
+static double *double_at(const struct rg_param *param, const void *settings)
+{
+    return (double *)((char *)settings + param->offset);
+}
+
+static char *text_at(const struct rg_param *param, const void *settings)
+{
+    return (char *)settings + param->offset;
+}
+
+void rg_params_reset(const struct rg_param_table *table, void *settings)
+{
+    memset(settings, 0, table->settings_size);
+    for (int i = 0; i < table->count; i++) {
+        const struct rg_param *param = &table->rows[i];
+        if (param->kind == RG_PARAM_FILE)
+            snprintf(text_at(param, settings), RG_PATH_SIZE, "%s", param->text);
+        else if (param->kind == RG_PARAM_FLOAT)
+            *double_at(param, settings) = param->initial;
+        else
+            *int_at(param, settings) = (int)param->initial;
+    }
+}
+
+const struct rg_param *rg_params_find(const struct rg_param_table *table, const char *name)
+{
+    for (int i = 0; i < table->count; i++)
+        if (!strcmp(table->rows[i].name, name))
+            return &table->rows[i];
+    return NULL;
+}
+
+// Letters to insert, delete or change to make `a` of `b`.
+static int edit_distance(const char *a, const char *b)
+{
+    enum { LONGEST = 64 };
+    int row[LONGEST + 1];
+    int length = (int)strnlen(b, LONGEST);
+    for (int j = 0; j <= length; j++)
+        row[j] = j;
+    for (int i = 0; a[i]; i++) {
+        int diagonal = row[0];
+        row[0] = i + 1;
+        for (int j = 0; j < length; j++) {
+            int changed = diagonal + (a[i] != b[j]);
+            diagonal = row[j + 1];
+            int shorter = row[j] < diagonal ? row[j] + 1 : diagonal + 1;
+            row[j + 1] = changed < shorter ? changed : shorter;
+        }
+    }
+    return row[length];
+}
+
+static bool unknown_name(const struct rg_param_table *table, const char *name)
+{
+    const char *nearest = table->rows[0].name;
+    for (int i = 1; i < table->count; i++)
+        if (edit_distance(name, table->rows[i].name) < edit_distance(name, nearest))
+            nearest = table->rows[i].name;
+    return rg_error("parameter '%s': %s has none of that name; the nearest is '%s', and "
+                    "`raingauge list params %s` prints all",
+                    name, table->technique, nearest, table->technique);
+}
+
+static bool set_number(const struct rg_param *param, void *settings, const char *text)
+{
+    char *end;
+    double value = strtod(text, &end);
+    bool whole = param->kind == RG_PARAM_FLOAT || value == floor(value);
+    if (end == text || *end || !isfinite(value) || !whole)
+        return rg_error("parameter '%s': '%s' is no %s", param->name, text,
+                        param->kind == RG_PARAM_INT ? "whole number" : "number");
+    if (value < param->min || value > param->max)
+        return rg_error("parameter '%s': %s is out of range; %.10g to %.10g %s", param->name, text,
+                        param->min, param->max, strcmp(param->unit, "1") ? param->unit : "");
+    if (param->kind == RG_PARAM_INT)
+        *int_at(param, settings) = (int)value;
+    else
+        *double_at(param, settings) = value;
+    return true;
+}
+
+// The n-th of the words in `choices`, and its length; NULL when there are fewer.
+static const char *choice_at(const char *choices, int n, size_t *length)
+{
+    for (; n > 0 && choices; n--) {
+        choices = strchr(choices, ' ');
+        choices = choices ? choices + 1 : NULL;
+    }
+    *length = choices ? strcspn(choices, " ") : 0;
+    return choices;
+}
+
+static bool set_choice(const struct rg_param *param, void *settings, const char *text)
+{
+    size_t length;
+    const char *choice;
+    for (int i = 0; (choice = choice_at(param->text, i, &length)); i++) {
+        if (strlen(text) == length && !memcmp(choice, text, length)) {
+            *int_at(param, settings) = i;
+            return true;
+        }
+    }
+    return rg_error("parameter '%s': '%s' is none of: %s", param->name, text, param->text);
+}
+
+static bool set_path(const struct rg_param *param, void *settings, const char *text)
+{
+    if (strlen(text) >= RG_PATH_SIZE)
+        return rg_error("parameter '%s': a path of %zu bytes; at most %d", param->name,
+                        strlen(text), RG_PATH_SIZE - 1);
+    memcpy(text_at(param, settings), text, strlen(text) + 1);
+    return true;
+}
+
+bool rg_params_set(const struct rg_param_table *table, void *settings, const char *assignment)
+{
+    const char *equals = strchr(assignment, '=');
+    char name[64];
+    if (!equals || equals == assignment || equals - assignment >= (long)sizeof(name))
+        return rg_error("parameter '%.80s': write it as KEY=VALUE", assignment);
+    snprintf(name, sizeof(name), "%.*s", (int)(equals - assignment), assignment);
+    const struct rg_param *param = rg_params_find(table, name);
+    if (!param)
+        return unknown_name(table, name);
+    switch (param->kind) {
+    case RG_PARAM_CHOICE:
+        return set_choice(param, settings, equals + 1);
+    case RG_PARAM_FILE:
+        return set_path(param, settings, equals + 1);
+    default:
+        return set_number(param, settings, equals + 1);
+    }
+}
+
+void rg_params_text(const struct rg_param *param, const void *settings, char *text, size_t size)
+{
+    size_t length;
+    const char *choice;
+    switch (param->kind) {
+    case RG_PARAM_INT:
+        snprintf(text, size, "%d", *int_at(param, settings));
+        break;
+    case RG_PARAM_FLOAT:
+        snprintf(text, size, "%.10g", *double_at(param, settings));
+        break;
+    case RG_PARAM_CHOICE:
+        choice = choice_at(param->text, *int_at(param, settings), &length);
+        snprintf(text, size, "%.*s", (int)length, choice);
+        break;
+    case RG_PARAM_FILE:
+        snprintf(text, size, "%s", text_at(param, settings));
+        break;
+    }
+}

@@ -1,0 +1,68 @@
+// Frusta as lines: what a matrix takes to clip space, and how far lights reach.
+#include <cglm/cglm.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/techniques/scenery/lights/lights.h"
+#include "core/techniques/scenery/overlay.h"
+
+const struct streaks_ink streaks_ink_rain_space = {0.45f, 0.45f, 0.45f, 1, 1.5f};
+const struct streaks_ink streaks_ink_local_planes = {0.05f, 0.75f, 0.10f, 1, 1.5f};
+const struct streaks_ink streaks_ink_radius = {0.95f, 0.05f, 0.03f, 1, 2};
+const struct streaks_ink streaks_ink_volume = {0.05f, 0.15f, 1, 1, 2};
+const struct streaks_ink streaks_ink_packets = {0.55f, 0.08f, 0.80f, 1, 1.5f};
+const struct streaks_ink streaks_ink_light = {1, 1, 1, 0.9f, 1.5f};
+
+#define SHOWN_M 10.0f
+
+// The world's corners of clip space between two depths; false where there are none.
+static bool find_corners(const float to_clip[16], float near_depth, float far_depth,
+                         float corners[8][3])
+{
+    mat4 columns, inverse;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            columns[j][i] = to_clip[4 * i + j];
+    glm_mat4_inv(columns, inverse);
+    for (int k = 0; k < 8; k++) {
+        vec4 corner = {k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? far_depth : near_depth, 1}, at;
+        glm_mat4_mulv(inverse, corner, at);
+        for (int c = 0; c < 3; c++) {
+            corners[k][c] = at[c] / at[3];
+            if (!isfinite(corners[k][c]))
+                return false;
+        }
+    }
+    return true;
+}
+
+void streaks_overlay_frustum(struct streaks_overlay *overlay, const float to_clip[16],
+                             const struct streaks_ink *ink)
+{
+    float corners[8][3];
+    if (find_corners(to_clip, 0, 1, corners))
+        streaks_overlay_box(overlay, corners, ink);
+}
+
+// Depth in a light's map at the distance up to which its frustum is shown. Depth at w metres is
+// scale + offset / w; a perspective matrix has both in its third row.
+static float reach_depth(const streaks_light *light, const float to_clip[16])
+{
+    if (light->kind == STREAKS_SUN)
+        return 1;
+    const float *row = to_clip + 8, *w = to_clip + 12;
+    const float scale = row[0] * w[0] + row[1] * w[1] + row[2] * w[2];
+    const float depth = scale + (row[3] - scale * w[3]) / SHOWN_M;
+    return fminf(depth, 1);
+}
+
+void streaks_overlay_light(struct streaks_overlay *overlay, const streaks_light *light,
+                           const struct streaks_ink *ink)
+{
+    for (int face = 0; face < light->shadow_faces; face++) {
+        float to_clip[16], corners[8][3];
+        streaks_light_to_clip(light, face, to_clip);
+        if (find_corners(to_clip, 0, reach_depth(light, to_clip), corners))
+            streaks_overlay_box(overlay, corners, ink);
+    }
+}

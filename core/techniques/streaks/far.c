@@ -1,0 +1,51 @@
+// Rain beyond the culling radius as layers that scroll (kernels/streaks/far.h).
+#include <math.h>
+
+#include "core/techniques/streaks/instance.h"
+#include "kernels/streaks/far_params.h"
+
+// A layer hides what all drops in it hide: each its cross-section, at any time of the exposure.
+static double opacity_of(const struct streaks *s)
+{
+    const double pi = 3.14159265358979323846, radius_m = s->settings.drop_radius_mm / 1000;
+    return s->drops_m3 * s->settings.culling_radius_m * pi * radius_m * radius_m *
+           s->settings.streak_opacity;
+}
+
+static streaks_far_params params_of(const struct streaks *s)
+{
+    const struct streaks_settings *set = &s->settings;
+    const double seconds = set->step_s * (double)s->base.frame;
+    const float light = (float)(set->streak_gain / fmax(set->streak_opacity, 1e-6));
+    streaks_far_params p = {
+        .to_clip = s->params.to_clip,
+        .rays = s->params.rays,
+        .eye_x = s->params.eye_x,
+        .eye_y = s->params.eye_y,
+        .eye_s = s->params.eye_s,
+        .nearest = (float)set->culling_radius_m,
+        .thickness = (float)set->culling_radius_m,
+        .cell_length = (float)(2 * set->fall_speed_m_s * set->exposure_s),
+        .columns = 4096,
+        .opacity = (float)opacity_of(s),
+        .contrast = 0.5f,
+        .r = s->params.sky_r * light,
+        .g = s->params.sky_g * light,
+        .b = s->params.sky_b * light,
+        .seed = set->seed,
+    };
+    p.fallen = (float)fmod(set->fall_speed_m_s * seconds, STREAKS_FAR_ROWS * (double)p.cell_length);
+    return p;
+}
+
+bool streaks_draw_far(struct streaks *s)
+{
+    const streaks_far_params p = params_of(s);
+    const struct rg_draw onto = {.colour = s->base.target,
+                                 .depth = s->depth,
+                                 .blend = RG_BLEND_OVER,
+                                 .depth_mode = RG_DEPTH_TEST};
+    return rg_instance_run(
+        &s->base, s->far,
+        &(struct rg_run){.params = &p, .extent = {s->settings.far_layers, 1, 1}, .draw = &onto});
+}

@@ -1,0 +1,91 @@
+// Open streaks: what open.c makes, and streaks.c runs.
+#ifndef RG_CORE_TECHNIQUES_STREAKS_INSTANCE_H
+#define RG_CORE_TECHNIQUES_STREAKS_INSTANCE_H
+
+#include "core/techniques/streaks/streaks.h"
+#include "core/techniques/scenery/lights/lights.h"
+#include "core/techniques/streaks/observer.h"
+#include "core/techniques/scenery/overlay.h"
+#include "core/techniques/streaks/packets/packets.h"
+#include "core/techniques/scenery/scenery.h"
+#include "core/techniques/streaks/textures.h"
+#include "core/techniques/technique.h"
+#include "kernels/streaks/params.h"
+
+enum streaks_counter {
+    STREAKS_PARTICLES, // that selected packets held
+    STREAKS_PACKETS,   // that were selected
+    STREAKS_ITEMS,     // particles drawn, with what fills up blocks
+    STREAKS_COUNTERS
+};
+
+enum streaks_fact {
+    STREAKS_FACT_PARTICLES,
+    STREAKS_FACT_TOTAL,
+    STREAKS_FACT_SCHEME,
+    STREAKS_FACT_PACKETS,
+    STREAKS_FACT_MEMORY,
+    STREAKS_FACT_ATLAS,
+    STREAKS_FACT_SCENE,
+    STREAKS_FACT_RADIUS, // this and those below: of fit=on alone
+    STREAKS_FACT_HEIGHT,
+    STREAKS_FACT_ERROR,
+    STREAKS_FACTS
+};
+
+enum { STREAKS_MAX_BUFFERS = 64, STREAKS_STATE_WORDS = 7 };
+
+// The scene seen along the fall.
+struct streaks_map {
+    struct rg_image *depths;  // D32F
+    struct rg_image *numbers; // RGBA8: of surfaces, of the same size; one texel if nobody asks
+};
+
+struct streaks {
+    struct rg_instance base;
+    struct streaks_settings settings;
+    struct streaks_rain_space space;
+    struct streaks_packets *packets;
+    struct streaks_scene *scene;
+    struct streaks_textures *textures;
+    struct streaks_lights *lights;
+    struct streaks_overlay *overlay;    // NULL: none
+    struct rg_camera camera;            // at frame 0
+    struct streaks_map *map;            // the scene seen along the fall
+    struct rg_image *depth;             // the target's
+    struct rg_pass *rain, *state, *far; // NULL: not run
+    double drops_m3;                    // where the camera stands at frame 0
+    int buffer_count;
+    struct rg_buf *particles[STREAKS_MAX_BUFFERS], *blocks, *places;
+    // of the present frame
+    struct streaks_observer observer;
+    struct streaks_selection selection;
+    streaks_params params;
+    int64_t map_due; // the frame in which a dynamic depth map is drawn anew
+};
+
+struct rg_instance *streaks_open(struct rg_device *device, const void *settings, int width,
+                                 int height);
+void streaks_close(struct rg_instance *instance);
+
+// The largest culling radius that may be set.
+double streaks_widest_m(const struct streaks_settings *settings);
+// Makes the particles of the settings as they are now, in place of those there were. False, and one
+// logged line, on failure.
+bool streaks_make_particles(struct streaks *streaks);
+
+// Moves the observer to the present frame, and makes what it draws: the selection, its blocks, the
+// parameters, the depth map where it is due. False, and one logged line, on failure.
+bool streaks_look(struct streaks *streaks);
+// Opens the depth map; a static one is drawn by whoever is first. False, and one logged line, on
+// failure. streaks_map_close accepts what was never opened.
+bool streaks_map_open(struct streaks *streaks);
+void streaks_map_close(struct streaks *streaks);
+// Draws a dynamic map around the observer where it is due.
+bool streaks_map_renew(struct streaks *streaks);
+// Draws the layers of rain far away, farthest first.
+bool streaks_draw_far(struct streaks *streaks);
+// Draws the overlay of the present frame.
+bool streaks_show(struct streaks *streaks);
+
+#endif

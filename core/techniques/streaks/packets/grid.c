@@ -1,0 +1,176 @@
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/base/alloc.h"
+#include "core/techniques/streaks/packets/inner.h"
+#include "kernels/dialect/rng.h"
+
+enum { CELL_STREAM = 1, BUCKET_FIELD = 1 };
+
+// What a level tells apart: 1/255 of the densest rain possible, as 8 bits do, but no less than one
+// particle.
+static double step_of(double full_cell)
+{
+    return fmax(1, full_cell / (STREAKS_LEVELS - 1));
+}
+
+int streaks_bucket_count(const struct streaks_grid *grid, int level)
+{
+    return (int)rint(level * grid->step);
+}
+
+// The average density of a cell: of all texels that it covers, and parts of them.
+static double cell_density(const struct rg_density *map, const struct streaks_grid *grid,
+                           int column, int row)
+{
+    const double wide = (double)map->width / grid->across, high = (double)map->height / grid->down;
+    return rg_density_mass(map, column * wide, row * high, fmin((column + 1) * wide, map->width),
+                           fmin((row + 1) * high, map->height)) /
+           (wide * high);
+}
+
+// Whole levels are met even where rounding has touched them.
+static bool is_whole(double level)
+{
+    return fabs(level - rint(level)) < 1e-6;
+}
+
+static bool fits(const struct rg_density *map, const struct streaks_grid *grid, double full_cell,
+                 int size, int column, int row)
+{
+    const double level = cell_density(map, grid, column, row) * full_cell / grid->step;
+    return rint((is_whole(level) ? rint(level) : ceil(level)) * grid->step) <= size;
+}
+
+// Whether no cell's bucket can exceed the packet size. `worst` is where one did, for grids tried
+// before; it is asked first.
+static bool all_fit(const struct rg_density *map, const struct streaks_grid *grid, double full_cell,
+                    int size, double worst[2])
+{
+    const int column = (int)(worst[0] * grid->across), row = (int)(worst[1] * grid->down);
+    if (!fits(map, grid, full_cell, size, column, row))
+        return false;
+    for (int y = 0; y < grid->down; y++)
+        for (int x = 0; x < grid->across; x++)
+            if (!fits(map, grid, full_cell, size, x, y)) {
+                worst[0] = (x + 0.5) / grid->across;
+                worst[1] = (y + 0.5) / grid->down;
+                return false;
+            }
+    return true;
+}
+
+// The coarsest grid whose buckets are no larger than packets; its cells are as square as can be.
+// Returns the particles of a cell where the density is 1, or 0 where that takes too many cells.
+static double choose_cells(const struct streaks_packets *p, const struct rg_density *map,
+                           double particles_m2, struct streaks_grid *grid)
+{
+    const double ratio = p->half_y_m / p->half_x_m, area = 4 * p->half_x_m * p->half_y_m;
+    double worst[2] = {0.5, 0.5}, full_cell;
+    for (int longer = 1;; longer++) {
+        grid->across = ratio <= 1 ? longer : (int)fmax(1, rint(longer / ratio));
+        grid->down = ratio <= 1 ? (int)fmax(1, rint(longer * ratio)) : longer;
+        if ((int64_t)grid->across * grid->down > STREAKS_MAX_CELLS)
+            return 0;
+        full_cell = particles_m2 * area / grid->across / grid->down;
+        grid->step = step_of(full_cell);
+        if (all_fit(map, grid, full_cell, p->settings.packet_size, worst))
+            return full_cell;
+    }
+}
+
+static rg_uint4 cell_random(uint32_t seed, int64_t cell)
+{
+    return rg_random(seed, (uint32_t)cell, 0, CELL_STREAM);
+}
+
+double streaks_cell_turn(uint32_t seed, int64_t cell)
+{
+    return (double)rg_uniform(cell_random(seed, cell).y);
+}
+
+// A level between two whole ones becomes either, at random, so that all cells together hold as much
+// as the map asks for.
+static int level_of(double level, uint32_t seed, int64_t cell)
+{
+    if (is_whole(level))
+        return (int)rint(level);
+    return (int)floor(level + (double)rg_uniform(cell_random(seed, cell).x));
+}
+
+bool streaks_grid_plan(const struct streaks_packets *packets, const struct rg_density *density,
+                       double densest_m3, struct streaks_grid *grid)
+{
+    const double particles_m2 = densest_m3 * packets->settings.local_height_m;
+    const double full_cell = choose_cells(packets, density, particles_m2, grid);
+    if (!(full_cell > 0)) {
+        grid->across = grid->down = 0;
+        return false;
+    }
+    const int64_t cells = (int64_t)grid->across * grid->down;
+    grid->levels = rg_alloc((size_t)cells, 1, "rain: the grid's cells");
+    if (!grid->levels)
+        return false;
+    int64_t cells_of[STREAKS_LEVELS] = {0};
+#pragma omp parallel for schedule(static) reduction(+ : cells_of[:STREAKS_LEVELS])
+    for (int64_t cell = 0; cell < cells; cell++) {
+        const int column = (int)(cell % grid->across), row = (int)(cell / grid->across);
+        const double density_here = cell_density(density, grid, column, row);
+        const int level =
+            level_of(density_here * full_cell / grid->step, packets->settings.seed, cell);
+        grid->levels[cell] = (uint8_t)(level < STREAKS_LEVELS ? level : STREAKS_LEVELS - 1);
+        cells_of[grid->levels[cell]]++;
+    }
+    for (int level = 0; level < STREAKS_LEVELS; level++)
+        grid->cells_of[level] = cells_of[level];
+    return true;
+}
+
+int streaks_grid_buckets(const struct streaks_grid *grid)
+{
+    int used = 0;
+    for (int level = 1; level < STREAKS_LEVELS; level++)
+        used += grid->cells_of[level] > 0;
+    return used;
+}
+
+int64_t streaks_grid_total(const struct streaks_grid *grid)
+{
+    int64_t total = 0;
+    for (int level = 1; level < STREAKS_LEVELS; level++)
+        total += grid->cells_of[level] * streaks_bucket_count(grid, level);
+    return total;
+}
+
+int64_t streaks_grid_slots(const struct streaks_grid *grid)
+{
+    int64_t slots = 0;
+    for (int level = 1; level < STREAKS_LEVELS; level++)
+        if (grid->cells_of[level] > 0)
+            slots += streaks_padded(streaks_bucket_count(grid, level));
+    return slots;
+}
+
+bool streaks_grid_build(struct streaks_packets *packets)
+{
+    struct streaks_grid *grid = &packets->grid;
+    packets->slots = streaks_grid_slots(grid);
+    packets->particles = rg_alloc((size_t)packets->slots, 12, "rain: particles");
+    if (!packets->particles)
+        return false;
+    int64_t first = 0;
+    for (int level = 1; level < STREAKS_LEVELS; level++) {
+        if (grid->cells_of[level] == 0)
+            continue;
+        const int count = streaks_bucket_count(grid, level);
+        grid->buckets[level] = (struct streaks_packet){.first = first, .count = count};
+        streaks_scatter(&(struct streaks_scatter){.seed = packets->settings.seed,
+                                                  .field = BUCKET_FIELD + (uint32_t)level,
+                                                  .size_x = 2.0 / grid->across,
+                                                  .size_y = 2.0 / grid->down},
+                        count, packets->particles + 3 * first);
+        packets->info.stored_particles += count;
+        first += streaks_padded(count);
+    }
+    return true;
+}

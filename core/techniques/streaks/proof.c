@@ -1,0 +1,97 @@
+// What proves streaks: its scenes, laws of its particles, and mutants.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "core/techniques/proof.h"
+#include "core/techniques/streaks/instance.h"
+
+#define SMALL "atlas=small city=small depth_map_px=1024 shadow_map_px=256 state=on "
+
+// A particle that is seen lies in the local space, a drop's streak not wholly below what it hits, a
+// splash below it by no more than it falls while it lasts.
+static const char *fault_of(const struct streaks *s, const float *place)
+{
+    const streaks_params *p = &s->params;
+    const int state = (int)place[5];
+    const float most = 1e-3f, end = place[2] - p->behind;
+    if (state == STREAKS_NOTHING)
+        return NULL;
+    if (state != STREAKS_DROP && state != STREAKS_SPLASH)
+        return "has no state";
+    if (!(place[2] >= p->top - most && place[2] <= p->top + p->local_height + most))
+        return "has left the local space";
+    if (!(fabsf(place[0]) <= p->half_x && fabsf(place[1]) <= p->half_y))
+        return "has left the rain space";
+    if (state == STREAKS_DROP && end > place[3] + most)
+        return "is a drop below what it hits";
+    if (state == STREAKS_SPLASH && !(place[4] >= 0 && place[4] <= p->splash_s + most))
+        return "has splashed for too long";
+    return NULL;
+}
+
+static bool particles_are_sound(const struct rg_instance *instance, char *detail, size_t size)
+{
+    const struct streaks *s = (const struct streaks *)instance;
+    const int64_t count = s->selection.block_count * STREAKS_BLOCK;
+    if (!instance->state_count)
+        return true; // states are not kept
+    float *places = rg_alloc((size_t)count, STREAKS_STATE_WORDS * sizeof(float), "places");
+    const char *fault = NULL;
+    bool ok = places && rg_buf_read(instance->state[0].buf, 0, places,
+                                    count * STREAKS_STATE_WORDS * (int64_t)sizeof(float));
+    if (!ok)
+        snprintf(detail, size, "%s", rg_last_error());
+    for (int64_t i = 0; ok && i < count; i++)
+        if ((fault = fault_of(s, places + i * STREAKS_STATE_WORDS))) {
+            snprintf(detail, size, "particle %lld %s", (long long)i, fault);
+            ok = false;
+        }
+    free(places);
+    return ok;
+}
+
+static const char *const poses[] = {
+    SMALL,
+    SMALL "walk_m_s=3 time=night lights=6 packets=quad packet_size=3000 drops_m2_s=100 select=hull "
+          "splash_materials=on",
+    SMALL "geometry=off walk_m_s=30 slant_deg=25 slant_azimuth_deg=40 packets=kd packet_size=700 "
+          "drops_m2_s=60 cull=exact order=id depth_map=dynamic depth_map_period=3 taps=8 "
+          "far_layers=3 splash_materials=on",
+    NULL,
+};
+
+static const struct rg_law laws[] = {
+    {"sound particles", particles_are_sound},
+    {NULL, NULL},
+};
+
+static const struct rg_mutant mutants[] = {
+    {"another seed", "seed", 1, 1},
+    {"1 % more rain", "drops_m2_s", 1.01, 0},
+    {"1 % slower fall", "fall_speed_m_s", 0.99, 0},
+    {"drops 1 % larger", "drop_radius_mm", 1.01, 0},
+    {"splashes 5 % longer", "splash_s", 1.05, 0},
+    {"streaks 3 % brighter", "streak_gain", 1.03, 0},
+    {"a light missing", "lights", 1, -1},
+    {NULL, NULL, 0, 0},
+};
+
+static const struct rg_contrast contrasts[] = {
+    {"splashes lost", SMALL, "splashes=off"},
+    {"no light from the sky", SMALL, "environment_light=off"},
+    {"shadows lost", SMALL "time=night lights=4", "shadows=off"},
+    {"views from below as from above", SMALL "streak_gain=10", "view_below=absolute"},
+    {NULL, NULL, NULL},
+};
+
+const struct rg_proof streaks_proof = {
+    .poses = poses,
+    .dry = "fit=off drops=off splashes=off",
+    .mutant_scene = SMALL "streak_gain=10 splash_gain=1",
+    .laws = laws,
+    .mutants = mutants,
+    .contrasts = contrasts,
+};

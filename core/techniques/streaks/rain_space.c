@@ -1,0 +1,208 @@
+#include "core/techniques/streaks/rain_space.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "core/scene/vector.h"
+
+#define PI 3.14159265358979323846
+
+static bool all_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!isfinite(values[i]))
+            return false;
+    return true;
+}
+
+// x is the world's x axis as far as it lies across the fall; where rain falls along it, the world's
+// y axis.
+static void make_axes(struct streaks_rain_space *space, const double fall[3])
+{
+    memcpy(space->s, fall, sizeof(space->s));
+    rg_to_unit(space->s);
+    double along[3] = {1, 0, 0};
+    if (fabs(space->s[0]) > 0.99) {
+        along[0] = 0;
+        along[1] = 1;
+    }
+    rg_cross(space->s, along, space->y);
+    rg_to_unit(space->y);
+    rg_cross(space->y, space->s, space->x);
+}
+
+bool streaks_rain_space_make(const struct streaks_rain_space_settings *settings,
+                             struct streaks_rain_space *space)
+{
+    const double sizes[3] = {settings->width_m, settings->depth_m, settings->height_m};
+    if (!all_finite(settings->ground_m, 3) || !all_finite(settings->fall, 3))
+        return rg_error("rain space: its place or the direction of fall is no number");
+    if (!all_finite(sizes, 3) || !(sizes[0] > 0 && sizes[1] > 0 && sizes[2] > 0))
+        return rg_error("rain space: %g m x %g m, %g m high; each must be above 0", sizes[0],
+                        sizes[1], sizes[2]);
+    const double length = sqrt(rg_dot(settings->fall, settings->fall));
+    if (!(length > 1e-12 && isfinite(length)))
+        return rg_error("rain space: the fall has no direction; give it one, such as 0 -1 0");
+    make_axes(space, settings->fall);
+    space->half_x_m = settings->width_m / 2;
+    space->half_y_m = settings->depth_m / 2;
+    space->height_m = settings->height_m;
+    for (int i = 0; i < 3; i++)
+        space->origin_m[i] = settings->ground_m[i] - settings->height_m * space->s[i];
+    return true;
+}
+
+void streaks_rain_fall(double slant_deg, double azimuth_deg, double fall[3])
+{
+    const double slant = slant_deg * PI / 180, azimuth = azimuth_deg * PI / 180;
+    fall[0] = sin(slant) * cos(azimuth);
+    fall[1] = -cos(slant);
+    fall[2] = sin(slant) * sin(azimuth);
+}
+
+void streaks_rain_eye(const struct streaks_rain_space *space, const struct rg_camera *camera,
+                      double rain[3])
+{
+    const double world[3] = {(double)camera->position[0], (double)camera->position[1],
+                             (double)camera->position[2]};
+    streaks_rain_point(space, world, rain);
+}
+
+void streaks_rain_direction(const struct streaks_rain_space *space, const double world[3],
+                            double rain[3])
+{
+    const double turned[3] = {rg_dot(space->x, world), rg_dot(space->y, world),
+                              rg_dot(space->s, world)};
+    memcpy(rain, turned, sizeof(turned));
+}
+
+void streaks_rain_point(const struct streaks_rain_space *space, const double world[3],
+                        double rain[3])
+{
+    const double from[3] = {world[0] - space->origin_m[0], world[1] - space->origin_m[1],
+                            world[2] - space->origin_m[2]};
+    streaks_rain_direction(space, from, rain);
+}
+
+void streaks_world_point(const struct streaks_rain_space *space, const double rain[3],
+                         double world[3])
+{
+    const double at[3] = {rain[0], rain[1], rain[2]};
+    for (int i = 0; i < 3; i++)
+        world[i] =
+            space->origin_m[i] + at[0] * space->x[i] + at[1] * space->y[i] + at[2] * space->s[i];
+}
+
+// Row by row, in double precision.
+static void to_rain(const struct streaks_rain_space *space, double matrix[16])
+{
+    const double *const axes[3] = {space->x, space->y, space->s};
+    memset(matrix, 0, 16 * sizeof(*matrix));
+    for (int row = 0; row < 3; row++) {
+        memcpy(matrix + 4 * row, axes[row], 3 * sizeof(*matrix));
+        matrix[4 * row + 3] = -rg_dot(axes[row], space->origin_m);
+    }
+    matrix[15] = 1;
+}
+
+static void to_world(const struct streaks_rain_space *space, double matrix[16])
+{
+    for (int row = 0; row < 3; row++) {
+        matrix[4 * row] = space->x[row];
+        matrix[4 * row + 1] = space->y[row];
+        matrix[4 * row + 2] = space->s[row];
+        matrix[4 * row + 3] = space->origin_m[row];
+    }
+    const double last[4] = {0, 0, 0, 1};
+    memcpy(matrix + 12, last, sizeof(last));
+}
+
+void streaks_rain_matrices(const struct streaks_rain_space *space, float world_to_rain[16],
+                           float rain_to_world[16])
+{
+    double there[16], back[16];
+    to_rain(space, there);
+    to_world(space, back);
+    for (int i = 0; i < 16; i++) {
+        if (world_to_rain)
+            world_to_rain[i] = (float)there[i];
+        if (rain_to_world)
+            rain_to_world[i] = (float)back[i];
+    }
+}
+
+void streaks_rain_to_clip(const struct streaks_rain_space *space, const float world_to_clip[16],
+                          float rain_to_clip[16])
+{
+    double world[16];
+    to_world(space, world);
+    for (int row = 0; row < 4; row++)
+        for (int column = 0; column < 4; column++) {
+            double sum = 0;
+            for (int i = 0; i < 4; i++)
+                sum += (double)world_to_clip[4 * row + i] * world[4 * i + column];
+            rain_to_clip[4 * row + column] = (float)sum;
+        }
+}
+
+void streaks_rain_rays(const struct streaks_rain_space *space, const float world[16],
+                       float rain[16])
+{
+    const double *const axes[3] = {space->x, space->y, space->s};
+    memset(rain, 0, 16 * sizeof(*rain));
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++) {
+            const double ray[3] = {(double)world[column], (double)world[4 + column],
+                                   (double)world[8 + column]};
+            rain[4 * row + column] = (float)rg_dot(axes[row], ray);
+        }
+}
+
+// --- the view ---
+
+static double farthest_corner(const struct streaks_rain_space *space, const double eye[3])
+{
+    double rain[3];
+    streaks_rain_point(space, eye, rain);
+    const double x = fabs(rain[0]) + space->half_x_m, y = fabs(rain[1]) + space->half_y_m;
+    const double s = fmax(fabs(rain[2]), fabs(rain[2] - space->height_m));
+    return sqrt(x * x + y * y + s * s);
+}
+
+bool streaks_view_corners(const struct streaks_rain_space *space, const struct rg_camera *camera,
+                          double aspect, double corners[8][3])
+{
+    float checked[16];
+    if (!rg_camera_matrix(camera, (float)aspect, checked) || !rg_camera_view(camera, checked))
+        return false;
+    const struct rg_camera_axes axes = rg_camera_axes(camera);
+    double eye[3];
+    for (int i = 0; i < 3; i++)
+        eye[i] = (double)camera->position[i];
+    const double tall = tan((double)camera->angle_deg * PI / 360);
+    const double planes[2] = {(double)camera->near_plane,
+                              fmax((double)camera->far_plane, farthest_corner(space, eye))};
+    for (int i = 0; i < 8; i++) {
+        const double z = planes[i / 4], y = (i & 2 ? z : -z) * tall, x = (i & 1 ? z : -z) * tall;
+        double world[3];
+        for (int k = 0; k < 3; k++)
+            world[k] = eye[k] + z * axes.ahead[k] + y * axes.up[k] + x * aspect * axes.right[k];
+        streaks_rain_point(space, world, corners[i]);
+    }
+    return true;
+}
+
+// --- the local space ---
+
+double streaks_local_top(double eye_s_m, double local_height_m)
+{
+    return eye_s_m - local_height_m / 2;
+}
+
+double streaks_run(double fall_speed_m_s, double time_s, double top_m, double local_height_m)
+{
+    const double turns = (fall_speed_m_s * time_s - top_m) / local_height_m;
+    const double run = turns - floor(turns);
+    return run < 1 ? run : 0;
+}

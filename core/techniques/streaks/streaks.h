@@ -1,0 +1,47 @@
+// streaks: the settings and parameters of rain as particles (C. Creus, "Real-time rendering of
+// rain", 2010). docs/streaks.md explains them.
+#ifndef RG_CORE_TECHNIQUES_STREAKS_H
+#define RG_CORE_TECHNIQUES_STREAKS_H
+
+#include <stdint.h>
+
+#include "core/techniques/params.h"
+
+enum streaks_camera { STREAKS_FIRST, STREAKS_SECOND, STREAKS_FREE };
+
+struct streaks_settings {
+    int seed;
+    // the rain space
+    double rain_width_m, rain_depth_m, rain_height_m, slant_deg, slant_azimuth_deg;
+    char density_map[RG_PATH_SIZE];
+    double drops_m2_s, fall_speed_m_s;
+    // what of it is simulated
+    double local_height_m, culling_radius_m;
+    int limits; // 0: rain everywhere
+    int fit;    // whether height and radius are searched for
+    double fit_error;
+    int scheme, packet_size, select, exact, all_blocks, by_id;
+    int memory_mb;
+    // what drops hit
+    int dynamic_map, map_px, map_period;
+    // the scene
+    char scene[RG_PATH_SIZE];
+    int city, city_seed, geometry, time;
+    int camera;
+    double eye_x_m, eye_y_m, eye_z_m, target_x_m, target_y_m, target_z_m, view_angle_deg;
+    double walk_m_s, step_s;
+    // light
+    int lights, environment_light, shadows, shadow_map_px;
+    char lights_file[RG_PATH_SIZE];
+    // how particles look
+    int atlas, taps, absolute_views, last_mip;
+    int drops, splashes, splash_materials;
+    double drop_radius_mm, exposure_s, splash_s, splash_width_mm;
+    double streak_gain, streak_opacity, splash_gain, splash_opacity;
+    int far_layers, overlay, keeps_state;
+};
+
+extern const struct rg_param_table streaks_param_table;
+extern const struct rg_proof streaks_proof;
+
+#endif

@@ -1,0 +1,82 @@
+#include "core/techniques/streaks/textures.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/base/alloc.h"
+#include "core/device/shared.h"
+#include "kernels/streaks/cells.h"
+
+static struct rg_image *upload(struct rg_device *device, const struct rg_atlas *atlas,
+                               enum rg_atlas_part part, const char *name)
+{
+    const struct rg_atlas_image *from = &atlas->images[part];
+    const struct rg_image_desc desc = {RG_R16F, from->width, from->height, from->layers,
+                                       from->levels};
+    struct rg_image *image = rg_image_create(device, &desc, name);
+    for (int layer = 0; image && layer < from->layers; layer++)
+        for (int level = 0; image && level < from->levels; level++)
+            if (!rg_image_write(image, layer, level, rg_atlas_texels(atlas, part, layer, level))) {
+                rg_image_destroy(image);
+                image = NULL;
+            }
+    return image;
+}
+
+static struct rg_buf *upload_factors(struct rg_device *device, const struct rg_atlas *atlas)
+{
+    const int64_t points = sizeof(atlas->point_factor), skies = sizeof(atlas->env_factor);
+    struct rg_buf *buf = rg_buf_create(device, points + skies, "brightness factors");
+    if (buf && rg_buf_write(buf, 0, atlas->point_factor, points) &&
+        rg_buf_write(buf, points, atlas->env_factor, skies))
+        return buf;
+    rg_buf_destroy(buf);
+    return NULL;
+}
+
+static void destroy(void *thing)
+{
+    struct streaks_textures *t = thing;
+    rg_image_destroy(t->points);
+    rg_image_destroy(t->skies);
+    rg_image_destroy(t->crowns);
+    rg_buf_destroy(t->factors);
+    free(t);
+}
+
+static bool fill(struct streaks_textures *t, struct rg_device *device, const struct rg_atlas *atlas)
+{
+    t->first_level = atlas->first_level;
+    t->hash = atlas->hash;
+    return (t->points = upload(device, atlas, RG_ATLAS_POINT, "point atlases")) &&
+           (t->skies = upload(device, atlas, RG_ATLAS_ENV, "environment atlases")) &&
+           (t->crowns = upload(device, atlas, RG_ATLAS_SPLASH, "splashes")) &&
+           (t->factors = upload_factors(device, atlas));
+}
+
+static void *make(struct rg_device *device, const void *arg)
+{
+    struct streaks_textures *t = rg_alloc(1, sizeof(*t), "streak textures");
+    struct rg_atlas *atlas = t ? rg_atlas_load(*(const enum rg_atlas_size *)arg, NULL) : NULL;
+    const bool ok = atlas && fill(t, device, atlas);
+    rg_atlas_destroy(atlas);
+    if (ok || !t)
+        return t;
+    destroy(t);
+    return NULL;
+}
+
+static const struct rg_shared_kind kind = {
+    .name = "streak textures", .make = make, .destroy = destroy};
+
+struct streaks_textures *streaks_textures_get(struct rg_device *device, enum rg_atlas_size size)
+{
+    char key[16];
+    snprintf(key, sizeof(key), "%d", (int)size);
+    return rg_shared_get(device, key, &kind, &size);
+}
+
+void streaks_textures_put(struct rg_device *device, struct streaks_textures *textures)
+{
+    rg_shared_put(device, textures);
+}
