@@ -2,7 +2,7 @@
 // the tests of its output and exit status.
 #include <string.h>
 
-#include "harness/diff_files.h"
+#include "harness/compare/diff/files.h"
 
 int main(int argc, char **argv)
 {

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
-#include "harness/child.h"
+#include "harness/devices/child.h"
 
 static int *shared;
 static char why[256];

@@ -13,7 +13,7 @@
 #include "core/image/compare/heatmap.h"
 #include "core/image/files/io.h"
 #include "core/base/log.h"
-#include "harness/diff_files.h"
+#include "harness/compare/diff/files.h"
 #include "tests/rain_picture.h"
 
 static char folder[] = "/tmp/raingauge-diff-XXXXXX";

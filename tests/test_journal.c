@@ -14,8 +14,8 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
-#include "harness/interrupt.h"
-#include "harness/journal.h"
+#include "harness/console/interrupt.h"
+#include "harness/record/journal.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"

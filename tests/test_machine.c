@@ -10,7 +10,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "harness/machine.h"
+#include "harness/record/machine.h"
 
 static char root[64];
 

@@ -14,9 +14,9 @@
 
 #include "core/image/compare/compare.h"
 #include "core/base/log.h"
-#include "harness/facts.h"
-#include "harness/frame.h"
-#include "harness/table.h"
+#include "harness/record/facts.h"
+#include "harness/frames/frame.h"
+#include "harness/tables/table.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"

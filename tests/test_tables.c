@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "core/techniques/technique.h"
-#include "harness/table.h"
+#include "harness/tables/table.h"
 
 static const char *folder;
 

@@ -8,7 +8,7 @@
 
 #include "core/device/device.h"
 #include "core/base/log.h"
-#include "harness/timer_audit.h"
+#include "harness/measure/timer_audit.h"
 
 static const struct rg_backend *honest;
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/child.h"
+#include "harness/devices/child.h"
 #include "harness/doctor/report.h"
 
 // A probe of a software driver takes seconds; compilers under a sanitizer or a loaded machine more.

@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "harness/doctor/report.h"
-#include "harness/passport.h"
+#include "harness/record/passport.h"
 
 static json_t *limit(int64_t value)
 {

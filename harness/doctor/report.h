@@ -6,8 +6,8 @@
 
 #include "core/device/device.h"
 #include "core/device/probe.h"
-#include "harness/ceilings.h"
-#include "harness/timer_audit.h"
+#include "harness/measure/ceilings.h"
+#include "harness/measure/timer_audit.h"
 
 enum rg_examination_status {
     RG_EXAMINED_OK,
@@ -34,7 +34,7 @@ struct rg_doctor_report {
     struct rg_device_list list; // all devices, asked for or not, and what is missing
     int count;
     struct rg_examination *examinations; // `count` of them
-    json_t *passport;                    // harness/passport.h
+    json_t *passport;                    // harness/record/passport.h
     json_t *warnings;                    // array of strings
 };
 

@@ -1,0 +1,168 @@
+// raingauge atlas: makes the streak atlas, or packs the original database; describes and exports
+// it.
+#include <jansson.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+#include "core/scene/atlas/cache.h"
+#include "core/scene/atlas/cave.h"
+#include "core/scene/atlas/levels.h"
+#include "harness/atlas/export.h"
+#include "harness/console/clock.h"
+#include "harness/commands/command.h"
+#include "harness/record/passport.h"
+#include "harness/console/progress.h"
+
+static const char *const size_names[RG_ATLAS_SIZE_COUNT] = {"full", "small", "cave", "cave-small"};
+
+// An atlas, where it came from and where it is kept.
+struct found {
+    struct rg_atlas *atlas;
+    const char *from; // "cache", "made" or "database"
+    double seconds;   // that this took
+    char path[RG_ATLAS_PATH_SIZE];
+    bool kept;
+};
+
+static void tell(void *user, int done, int total)
+{
+    struct rg_progress *progress = user;
+    progress->total = total;
+    rg_progress_add(progress, done - progress->done);
+}
+
+// Packs the database and keeps the pack, which is what for it is made.
+static struct rg_atlas *pack(const char *folder, enum rg_atlas_size size,
+                             const struct rg_atlas_progress *tells)
+{
+    char why[256];
+    struct rg_atlas *atlas = rg_cave_pack(folder, size, tells);
+    if (!atlas || rg_atlas_cache_write(atlas, why))
+        return atlas;
+    rg_atlas_destroy(atlas);
+    return rg_error_null("the packed database cannot be kept: %s", why);
+}
+
+// False, and one logged line, when there is none to be had.
+static bool find(const struct rg_options *o, struct found *found)
+{
+    char why[256];
+    enum rg_atlas_cached state;
+    const enum rg_atlas_size size = o->from    ? o->quick ? RG_ATLAS_CAVE_SMALL : RG_ATLAS_CAVE
+                                    : o->quick ? RG_ATLAS_SMALL
+                                               : RG_ATLAS_FULL;
+    const double start_ms = rg_now_ms();
+    struct rg_progress progress;
+    const struct rg_atlas_progress tells = {tell, &progress};
+    *found = (struct found){.from = "cache"};
+    if (!o->from)
+        found->atlas = rg_atlas_cache_read(size, &state, why);
+    if (!found->atlas) {
+        rg_progress_start(&progress, 1);
+        rg_progress_label(&progress, o->from ? "packing the database" : "tracing streaks");
+        found->from = o->from ? "database" : "made";
+        found->atlas = o->from ? pack(o->from, size, &tells) : rg_atlas_load(size, &tells);
+        rg_progress_end(&progress);
+    }
+    found->seconds = (rg_now_ms() - start_ms) * 1e-3;
+    found->kept = rg_atlas_cache_path(size, found->path, why) && !access(found->path, R_OK);
+    return found->atlas != NULL;
+}
+
+static size_t bytes_of(const struct rg_atlas *atlas)
+{
+    size_t bytes = 0;
+    for (int part = 0; part < RG_ATLAS_PART_COUNT; part++)
+        bytes += rg_atlas_image_texels(&atlas->images[part]) * sizeof(uint16_t);
+    return bytes;
+}
+
+static struct rg_atlas_range point_range(const struct rg_atlas *atlas)
+{
+    return rg_atlas_range(&atlas->point_factor[0][0][0][0],
+                          sizeof(atlas->point_factor) / sizeof(float));
+}
+
+static struct rg_atlas_range env_range(const struct rg_atlas *atlas)
+{
+    return rg_atlas_range(&atlas->env_factor[0][0], sizeof(atlas->env_factor) / sizeof(float));
+}
+
+static void print_text(const struct found *found)
+{
+    const struct rg_atlas *atlas = found->atlas;
+    const struct rg_atlas_range point = point_range(atlas), env = env_range(atlas);
+    const bool cached = found->from[0] == 'c';
+    printf("%s atlas, %s in %.1f s; %.1f MB, checksum %016llx\n", size_names[atlas->size],
+           cached                  ? "read"
+           : found->from[0] == 'm' ? "made"
+                                   : "packed",
+           found->seconds, (double)bytes_of(atlas) * 1e-6, (unsigned long long)atlas->hash);
+    printf("%s%s\n\n", found->kept ? "kept as " : "not kept", found->kept ? found->path : "");
+    printf("%-8s%8s%8s%14s%14s%14s%14s\n", "image", "layers", "levels", "level 0 px", "texels",
+           "least factor", "largest");
+    for (int part = 0; part < RG_ATLAS_PART_COUNT; part++) {
+        const struct rg_atlas_image *image = &atlas->images[part];
+        char size[32];
+        snprintf(size, sizeof(size), "%dx%d", image->width, image->height);
+        printf("%-8s%8d%8d%14s%14zu", rg_atlas_part_names[part], image->layers, image->levels, size,
+               rg_atlas_image_texels(image));
+        if (part == RG_ATLAS_SPLASH)
+            printf("\n");
+        else
+            printf("%14.4g%14.4g\n", part == RG_ATLAS_POINT ? point.least : env.least,
+                   part == RG_ATLAS_POINT ? point.largest : env.largest);
+    }
+}
+
+// docs/records.md
+static void print_json(const struct found *found)
+{
+    const struct rg_atlas *atlas = found->atlas;
+    const struct rg_atlas_range ranges[] = {point_range(atlas), env_range(atlas)};
+    char hash[32];
+    snprintf(hash, sizeof(hash), "%016llx", (unsigned long long)atlas->hash);
+    json_t *images = json_array();
+    for (int part = 0; part < RG_ATLAS_PART_COUNT; part++) {
+        const struct rg_atlas_image *image = &atlas->images[part];
+        json_t *row =
+            json_pack("{sssisisisisI}", "name", rg_atlas_part_names[part], "width", image->width,
+                      "height", image->height, "layers", image->layers, "levels", image->levels,
+                      "texels", (json_int_t)rg_atlas_image_texels(image));
+        if (part < 2) {
+            json_object_set_new(row, "least_factor", json_real(ranges[part].least));
+            json_object_set_new(row, "largest_factor", json_real(ranges[part].largest));
+        }
+        json_array_append_new(images, row);
+    }
+    json_t *json = json_pack("{sisssssfsosIssso}", "format", 1, "size", size_names[atlas->size],
+                             "from", found->from, "seconds", found->seconds, "file",
+                             found->kept ? rg_json_text(found->path) : json_null(), "bytes",
+                             (json_int_t)bytes_of(atlas), "hash", hash, "images", images);
+    json_dumpf(json, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(9));
+    printf("\n");
+    json_decref(json);
+}
+
+static int atlas_command(const struct rg_options *o)
+{
+    struct found found;
+    if (!rg_options_at_most(o, "atlas", 0) || !find(o, &found))
+        return RG_EXIT_USAGE;
+    const bool good = !o->output || rg_atlas_export(found.atlas, o->output);
+    if (good && o->json)
+        print_json(&found);
+    else if (good)
+        print_text(&found);
+    rg_atlas_destroy(found.atlas);
+    return good ? RG_EXIT_PASS : RG_EXIT_USAGE;
+}
+
+const struct rg_command rg_command_atlas = {
+    .name = "atlas",
+    .usage = "[--quick|--full] [--from DIR] [-o DIR] [--json]",
+    .about = "makes the streak atlas or packs the original database; describes and exports it",
+    .options = RG_OPT_LENGTH | RG_OPT_FROM | RG_OPT_OUTPUT | RG_OPT_JSON,
+    .run = atlas_command,
+};

@@ -1,0 +1,127 @@
+// raingauge doctor: what this machine and its drivers can be trusted with.
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "harness/commands/command.h"
+#include "harness/devices/devices.h"
+#include "harness/doctor/report.h"
+#include "harness/record/passport.h"
+
+static void add_name(struct rg_doctor_report *report, const char *name, size_t length)
+{
+    struct rg_device_info *info = &report->examinations[report->count++].info;
+    memcpy(info->name, name, length);
+}
+
+// Fills the report with the names that --device gives; false: bad usage.
+static bool take_names(struct rg_doctor_report *report, const char *names)
+{
+    if (!names || !strcmp(names, "all")) {
+        for (int i = 0; i < report->list.count; i++)
+            add_name(report, report->list.infos[i].name, strlen(report->list.infos[i].name));
+        return true;
+    }
+    for (const char *name = names; *name;) {
+        const size_t length = strcspn(name, ",");
+        if (length >= sizeof(report->list.infos[0].name))
+            return rg_error("device '%.*s': unknown; `raingauge list devices` prints the names",
+                            (int)length, name);
+        if (length && report->count == RG_MAX_DEVICES)
+            return rg_error("--device: more than %d names", RG_MAX_DEVICES);
+        if (length)
+            add_name(report, name, length);
+        name += length + (name[length] == ',');
+    }
+    return report->count || rg_error("--device '%s': names no device", names);
+}
+
+// A failure outweighs an absence: it is never hidden by one.
+static int verdict(const struct rg_doctor_report *report)
+{
+    int exit = report->count ? RG_EXIT_PASS : RG_EXIT_UNSUPPORTED;
+    for (int i = 0; i < report->count; i++) {
+        const struct rg_examination *e = &report->examinations[i];
+        if (e->status == RG_EXAMINED_UNSUPPORTED && exit == RG_EXIT_PASS)
+            exit = RG_EXIT_UNSUPPORTED;
+        else if (e->status != RG_EXAMINED_OK && e->status != RG_EXAMINED_UNSUPPORTED)
+            exit = RG_EXIT_FAIL;
+    }
+    return exit;
+}
+
+static void describe(struct rg_doctor_report *report)
+{
+    struct rg_device_info infos[RG_MAX_DEVICES];
+    int count = 0;
+    for (int i = 0; i < report->count; i++)
+        if (report->examinations[i].opened)
+            infos[count++] = report->examinations[i].info;
+    report->passport = rg_passport_json(infos, count);
+    report->warnings = rg_doctor_warnings(&report->list);
+}
+
+// Examines; false when a name is unknown.
+static bool examine(struct rg_doctor_report *report)
+{
+    for (int i = 0; i < report->count; i++) {
+        struct rg_examination *e = &report->examinations[i];
+        rg_doctor_examine(e);
+        if (e->status == RG_EXAMINED_UNKNOWN)
+            return rg_error("%s", e->why);
+    }
+    return true;
+}
+
+// One line on stderr for each device that is not well.
+static void complain(const struct rg_doctor_report *report)
+{
+    for (int i = 0; i < report->count; i++) {
+        const struct rg_examination *e = &report->examinations[i];
+        if (e->status == RG_EXAMINED_OK)
+            continue;
+        if (!strncmp(e->why, "device '", strlen("device '")))
+            rg_error("%s", e->why);
+        else
+            rg_error("device '%s': %s", e->info.name, e->why);
+    }
+}
+
+static int run(struct rg_doctor_report *report, const struct rg_options *o)
+{
+    if (!rg_options_at_most(o, "doctor", 0))
+        return RG_EXIT_USAGE;
+    rg_devices_list(&report->list);
+    if (!take_names(report, o->device) || !examine(report))
+        return RG_EXIT_USAGE;
+    describe(report);
+    if (o->json)
+        rg_doctor_print_json(report);
+    else
+        rg_doctor_print_text(report);
+    complain(report);
+    return verdict(report);
+}
+
+static int doctor(const struct rg_options *o)
+{
+    struct rg_doctor_report *report = rg_alloc(1, sizeof(*report), "report");
+    if (!report)
+        return RG_EXIT_FAIL;
+    report->examinations = rg_alloc(RG_MAX_DEVICES, sizeof(*report->examinations), "report");
+    int exit = report->examinations ? run(report, o) : RG_EXIT_FAIL;
+    json_decref(report->passport);
+    json_decref(report->warnings);
+    free(report->examinations);
+    free(report);
+    return exit;
+}
+
+const struct rg_command rg_command_doctor = {
+    .name = "doctor",
+    .usage = "[--device D,...|all] [--json]",
+    .about = "examines machine, drivers, their arithmetic and their timers",
+    .options = RG_OPT_DEVICE | RG_OPT_JSON,
+    .run = doctor,
+};

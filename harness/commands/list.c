@@ -1,0 +1,144 @@
+// raingauge list: what there is to name on the command line.
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "harness/commands/command.h"
+#include "harness/devices/devices.h"
+#include "harness/tables/papers/papers.h"
+
+// Every listing is an array of objects; without --json, its fields are printed as columns.
+static void print_text(const json_t *rows, const char *const *fields)
+{
+    int widths[8] = {0};
+    size_t i;
+    json_t *row;
+    json_array_foreach(rows, i, row)
+    {
+        for (int f = 0; fields[f]; f++) {
+            int width = (int)strlen(json_string_value(json_object_get(row, fields[f])));
+            widths[f] = width > widths[f] ? width : widths[f];
+        }
+    }
+    json_array_foreach(rows, i, row)
+    {
+        for (int f = 0; fields[f]; f++)
+            printf("%-*s%s", fields[f + 1] ? widths[f] : 0,
+                   json_string_value(json_object_get(row, fields[f])), fields[f + 1] ? "  " : "\n");
+    }
+}
+
+static json_t *list_techniques(void)
+{
+    json_t *rows = json_array();
+    for (int i = 0; rg_techniques[i]; i++)
+        json_array_append_new(rows,
+                              json_pack("{ssssss}", "name", rg_techniques[i]->name, "paper",
+                                        rg_techniques[i]->paper, "about", rg_techniques[i]->about));
+    return rows;
+}
+
+static json_t *list_tables(void)
+{
+    json_t *rows = json_array();
+    for (int i = 0; rg_tables[i]; i++)
+        json_array_append_new(rows,
+                              json_pack("{ssssss}", "name", rg_tables[i]->id, "technique",
+                                        rg_tables[i]->technique, "about", rg_tables[i]->about));
+    return rows;
+}
+
+static json_t *list_devices(void)
+{
+    json_t *rows = json_array();
+    struct rg_device_list *list = rg_alloc(1, sizeof(*list), "list of devices");
+    if (!list)
+        return rows;
+    rg_devices_list(list);
+    for (int i = 0; i < list->count; i++)
+        json_array_append_new(rows, json_pack("{ssssssss}", "name", list->infos[i].name, "api",
+                                              list->infos[i].api, "device", list->infos[i].device,
+                                              "driver", list->infos[i].driver));
+    for (int i = 0; list->missing[i][0]; i++)
+        rg_warning("unsupported here: %s", list->missing[i]);
+    free(list);
+    return rows;
+}
+
+static json_t *list_params(const struct rg_technique *technique)
+{
+    json_t *rows = json_array();
+    void *settings = rg_settings_create(technique);
+    for (int i = 0; settings && i < technique->params->count; i++) {
+        const struct rg_param *p = &technique->params->rows[i];
+        char value[RG_PATH_SIZE], range[128];
+        rg_params_text(p, settings, value, sizeof(value));
+        if (p->kind == RG_PARAM_CHOICE)
+            snprintf(range, sizeof(range), "%s", p->text);
+        else if (p->kind == RG_PARAM_FILE)
+            snprintf(range, sizeof(range), "path or name");
+        else
+            snprintf(range, sizeof(range), "%.10g to %.10g", p->min, p->max);
+        json_array_append_new(rows, json_pack("{ssssssssss}", "name", p->name, "default", value,
+                                              "unit", p->unit, "range", range, "about", p->about));
+    }
+    free(settings);
+    return rows;
+}
+
+static int print(json_t *rows, const char *what, const char *const *fields, bool json)
+{
+    if (json) {
+        json_t *root = json_pack("{siso}", "format", 1, what, rows);
+        json_dumpf(root, stdout, JSON_INDENT(2));
+        printf("\n");
+        json_decref(root);
+    } else {
+        print_text(rows, fields);
+        json_decref(rows);
+    }
+    return RG_EXIT_PASS;
+}
+
+static int list_params_of(const struct rg_options *o)
+{
+    static const char *const fields[] = {"name", "default", "unit", "range", "about", NULL};
+    const struct rg_technique *technique = o->arg_count > 1 ? rg_technique_find(o->args[1]) : NULL;
+    if (technique)
+        return print(list_params(technique), "params", fields, o->json);
+    if (o->arg_count > 1)
+        rg_error("technique '%s': unknown; `raingauge list techniques` prints them", o->args[1]);
+    else
+        rg_error("list params: name a technique; `raingauge list techniques` prints them");
+    return RG_EXIT_USAGE;
+}
+
+static int list(const struct rg_options *o)
+{
+    static const char *const about_fields[] = {"name", "about", NULL};
+    static const char *const device_fields[] = {"name", "api", "device", "driver", NULL};
+    const char *what = o->arg_count ? o->args[0] : "";
+    if (!rg_options_at_most(o, "list", !strcmp(what, "params") ? 2 : 1))
+        return RG_EXIT_USAGE;
+    if (!strcmp(what, "techniques"))
+        return print(list_techniques(), what, about_fields, o->json);
+    if (!strcmp(what, "tables"))
+        return print(list_tables(), what, about_fields, o->json);
+    if (!strcmp(what, "devices"))
+        return print(list_devices(), what, device_fields, o->json);
+    if (!strcmp(what, "params"))
+        return list_params_of(o);
+    rg_error("list '%s': list techniques, tables, devices, or params TECHNIQUE", what);
+    return RG_EXIT_USAGE;
+}
+
+const struct rg_command rg_command_list = {
+    .name = "list",
+    .usage = "techniques|tables|devices|params TECHNIQUE [--json]",
+    .about = "prints what there is to name: techniques, tables, devices, parameters",
+    .options = RG_OPT_JSON,
+    .run = list,
+};

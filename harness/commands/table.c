@@ -1,0 +1,244 @@
+// raingauge table: regenerates the papers' tables.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "harness/console/interrupt.h"
+#include "harness/record/journal.h"
+#include "harness/record/output.h"
+#include "harness/tables/table.h"
+
+static void print_json(const struct rg_table_run *run, FILE *out)
+{
+    json_t *json = rg_table_json(run);
+    json_dumpf(json, out, JSON_INDENT(1) | JSON_REAL_PRECISION(9));
+    fprintf(out, "\n");
+    json_decref(json);
+}
+
+// False, and one logged line, when the table found no memory.
+static bool print_as(const struct rg_table_run *run, const char *format, FILE *out)
+{
+    if (!strcmp(format, "json")) {
+        print_json(run, out);
+        return true;
+    }
+    struct rg_grid grid;
+    rg_table_grid(run, &grid);
+    if (!strcmp(format, "csv"))
+        rg_grid_print_csv(&grid, out);
+    else if (!strcmp(format, "tex"))
+        rg_grid_print_tex(&grid, out);
+    else
+        rg_grid_print_md(&grid, out);
+    rg_grid_free(&grid);
+    return !grid.incomplete;
+}
+
+static bool write_as(const struct rg_table_run *run, const char *format, const char *folder)
+{
+    char *text = NULL, name[64];
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return rg_error("table '%s': no memory to print it", run->table->id);
+    bool ok = print_as(run, format, out);
+    if (fclose(out))
+        ok = rg_error("table '%s': no memory to print it", run->table->id);
+    snprintf(name, sizeof(name), "%s.%s", run->table->id, format);
+    ok = ok && rg_output_write(folder, name, text);
+    free(text);
+    return ok;
+}
+
+// Writes the table in every format into a folder.
+static bool write_all(const struct rg_table_run *run, const char *folder)
+{
+    static const char *const formats[] = {"md", "csv", "json", "tex"};
+    bool ok = true;
+    for (int i = 0; ok && i < 4; i++)
+        ok = write_as(run, formats[i], folder);
+    return ok;
+}
+
+// Fail when a cell disagreed or could not be measured, pass when one was measured, nothing when
+// there was none.
+static int judge(const struct rg_table_run *run)
+{
+    const int devices = run->devices->count;
+    int counts[4] = {0};
+    for (int i = 0; i < run->cell_count; i++) {
+        counts[run->cells[i].status] += !run->groups[i / devices].is_missing;
+        counts[RG_CELL_ERROR] += run->groups[i / devices].error_status == RG_CELL_ERROR;
+    }
+    if (counts[RG_CELL_FAIL] || counts[RG_CELL_ERROR])
+        return RG_EXIT_FAIL;
+    if (counts[RG_CELL_OK])
+        return RG_EXIT_PASS;
+    return counts[RG_CELL_UNSUPPORTED] ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
+}
+
+// One table of the command.
+struct job {
+    struct rg_table_run run;
+    struct rg_journal *journal;
+};
+
+// Bad input outweighs a failure, a failure nothing measured, and an interruption all.
+static int worse(int a, int b)
+{
+    static const int order[] = {RG_EXIT_USAGE, RG_EXIT_FAIL, RG_EXIT_NOTHING, RG_EXIT_UNSUPPORTED};
+    if (a > RG_EXIT_SIGNALLED || b > RG_EXIT_SIGNALLED)
+        return a > b ? a : b;
+    for (int i = 0; i < 4; i++)
+        if (a == order[i] || b == order[i])
+            return order[i];
+    return RG_EXIT_PASS;
+}
+
+static void tell_resumed(const struct job *job)
+{
+    const struct rg_table_run *run = &job->run;
+    int rows = 0;
+    for (int row = run->first_row; row <= run->last_row; row++)
+        rows += rg_journal_has(job->journal, row);
+    if (rows)
+        rg_info("%s: %d of %d rows are those of a run that was interrupted; --fresh measures them "
+                "anew",
+                run->table->id, rows, run->last_row - run->first_row + 1);
+}
+
+static void tell_interrupted(const struct job *job)
+{
+    const int missing = rg_table_first_missing(&job->run);
+    const char *path = rg_journal_path(job->journal), *id = job->run.table->id;
+    if (missing > job->run.last_row)
+        rg_info("%s: done, and then interrupted; the same command goes on with the next table", id);
+    else if (path)
+        rg_info("%s: interrupted; the same command goes on with row %d (%s)", id, missing + 1,
+                path);
+    else
+        rg_info("%s: interrupted before a row of it was done; the same command begins it anew", id);
+}
+
+static int run_job(struct job *job, struct rg_bench *bench, const struct rg_options *o)
+{
+    struct rg_table_run *run = &job->run;
+    tell_resumed(job);
+    if (!rg_table_measure(run, bench, job->journal))
+        return RG_EXIT_FAIL;
+    int exit = judge(run);
+    const bool is_whole = rg_table_first_missing(run) > run->last_row;
+    const bool has_rows = rg_table_first_missing(run) > run->first_row;
+    if (has_rows && !print_as(run, o->json ? "json" : o->format ? o->format : "md", stdout))
+        exit = RG_EXIT_FAIL;
+    fflush(stdout);
+    if (is_whole && o->output && !write_all(run, o->output))
+        exit = worse(exit, RG_EXIT_USAGE);
+    if (rg_interrupted()) {
+        tell_interrupted(job);
+        exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
+    }
+    return exit;
+}
+
+// The tables that are named, or all. False, and one logged line, where one is unknown.
+static bool choose(const struct rg_options *o, const struct rg_table *chosen[], int *count)
+{
+    *count = 0;
+    for (int i = 0; i < o->arg_count; i++) {
+        chosen[(*count)++] = rg_table_find(o->args[i]);
+        if (!chosen[i])
+            return rg_error("table '%s': unknown; `raingauge list tables` prints them", o->args[i]);
+    }
+    for (int i = 0; rg_tables[i] && !o->arg_count && i < RG_MAX_ARGS; i++)
+        chosen[(*count)++] = rg_tables[i];
+    return true;
+}
+
+// Whether a table has all the rows that are asked for; the others then give those that they have.
+static bool have_rows(const struct rg_options *o, const struct rg_table *const chosen[], int count)
+{
+    const struct rg_table *longest = chosen[0];
+    for (int i = 1; i < count; i++)
+        longest = chosen[i]->row_count > longest->row_count ? chosen[i] : longest;
+    if (o->last_row <= longest->row_count)
+        return true;
+    return rg_error("--rows %d-%d: %s has rows 1-%d", o->first_row, o->last_row, longest->id,
+                    longest->row_count);
+}
+
+// The tables that have some of the rows. Journals are read before one is written: a table may be
+// named twice.
+static int make_jobs(const struct rg_options *o, const struct rg_devices *devices,
+                     const struct rg_table *const chosen[], int count, struct job *jobs)
+{
+    int made = 0;
+    for (int i = 0; i < count; i++) {
+        const int last =
+            o->last_row && o->last_row < chosen[i]->row_count ? o->last_row : chosen[i]->row_count;
+        if (o->first_row > last)
+            continue;
+        jobs[made++].run = (struct rg_table_run){.table = chosen[i],
+                                                 .devices = devices,
+                                                 .first_row = o->first_row ? o->first_row - 1 : 0,
+                                                 .last_row = last - 1,
+                                                 .full = o->full};
+    }
+    for (int i = 0; i < made; i++)
+        jobs[i].journal = rg_journal_open(&jobs[i].run, o->output, o->fresh, i < made - 1);
+    return made;
+}
+
+// A table that fails keeps none of the others from being measured and written.
+static int run_jobs(struct job *jobs, int count, const struct rg_devices *devices,
+                    const struct rg_options *o)
+{
+    struct rg_bench bench = {.devices = devices};
+    int exit = RG_EXIT_PASS;
+    rg_interrupt_watch();
+    for (int i = 0; i < count && !rg_interrupted(); i++) {
+        if (i)
+            printf("\n");
+        exit = worse(exit, run_job(&jobs[i], &bench, o));
+    }
+    for (int i = 0; i < count; i++) {
+        if (!rg_interrupted())
+            rg_journal_remove(jobs[i].journal);
+        rg_table_run_free(&jobs[i].run);
+        rg_journal_close(jobs[i].journal);
+    }
+    return rg_bench_free(&bench) ? exit : worse(exit, RG_EXIT_FAIL);
+}
+
+static int table(const struct rg_options *o)
+{
+    const struct rg_table *chosen[RG_MAX_ARGS];
+    int count;
+    if (!choose(o, chosen, &count) || !have_rows(o, chosen, count))
+        return RG_EXIT_USAGE;
+    struct rg_devices devices;
+    int exit = rg_devices_open(o, "all", &devices);
+    if (exit != RG_EXIT_PASS)
+        return exit;
+    struct job *jobs = rg_alloc((size_t)count, sizeof(*jobs), "tables");
+    exit = jobs ? run_jobs(jobs, make_jobs(o, &devices, chosen, count, jobs), &devices, o)
+                : RG_EXIT_FAIL;
+    free(jobs);
+    if (devices.broken_count)
+        exit = worse(exit, RG_EXIT_FAIL);
+    rg_devices_close(&devices);
+    return exit;
+}
+
+const struct rg_command rg_command_table = {
+    .name = "table",
+    .usage = "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--format F] [-o DIR] "
+             "[--fresh]",
+    .about = "regenerates the papers' tables: published beside measured, on every device",
+    .options = RG_OPT_DEVICE | RG_OPT_LENGTH | RG_OPT_ROWS | RG_OPT_FORMAT | RG_OPT_OUTPUT |
+               RG_OPT_JSON | RG_OPT_FRESH,
+    .run = table,
+};

@@ -1,0 +1,154 @@
+#include "harness/compare/diff/devices.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "harness/devices/devices.h"
+#include "harness/compare/diff/report.h"
+#include "harness/frames/frame.h"
+#include "harness/console/progress.h"
+
+struct shot {
+    const struct rg_device_info *info;
+    struct rg_picture picture;
+};
+
+struct session {
+    const struct rg_options *options;
+    const struct rg_technique *technique;
+    void *settings;
+    struct shot shots[RG_MAX_DEVICES];
+    int shot_count;
+    struct rg_picture background;
+    json_t *pairs; // with --json
+};
+
+// Size and frame, as the options have them.
+struct view {
+    int width, height, frames;
+};
+
+static struct view view_of(const struct rg_options *o)
+{
+    return (struct view){.width = o->width ? o->width : RG_FRAME_SIZE_PX,
+                         .height = o->height ? o->height : RG_FRAME_SIZE_PX,
+                         .frames = o->frame >= 0 ? o->frame : RG_FRAME_COUNT};
+}
+
+// The same frame without rain: where a picture differs from it, it rains.
+static bool take_background(struct session *s, struct view view)
+{
+    struct rg_device *device = rg_device_open("cpu", NULL);
+    bool ok = device && rg_frame_draw_dry(s->technique, s->settings, device, view.width,
+                                          view.height, view.frames, &s->background);
+    return rg_device_close(device) && ok;
+}
+
+static bool take_pictures(struct session *s, const struct rg_devices *devices)
+{
+    struct rg_progress progress;
+    rg_progress_start(&progress, devices->count + 1);
+    const struct view view = view_of(s->options);
+    bool ok = take_background(s, view);
+    for (int d = 0; ok && d < devices->count; d++) {
+        rg_progress_add(&progress, 1);
+        struct shot *shot = &s->shots[s->shot_count++];
+        shot->info = &devices->devices[d]->info;
+        ok = rg_frame_draw(s->technique, s->settings, devices->devices[d], view.width, view.height,
+                           view.frames, &shot->picture);
+    }
+    rg_progress_end(&progress);
+    return ok;
+}
+
+// "cpu:reference" and "gl" become PREFIX-cpu_reference-gl.
+static bool write_heatmaps(const struct session *s, const struct shot *a, const struct shot *b,
+                           const struct rg_comparison *comparison)
+{
+    char prefix[2048];
+    int base = (int)strlen(s->options->output);
+    snprintf(prefix, sizeof(prefix), "%.1900s-%s-%s", s->options->output, a->info->name,
+             b->info->name);
+    for (char *c = prefix + base; c < prefix + strlen(prefix); c++)
+        if (*c == ':')
+            *c = '_';
+    return rg_pair_heatmaps(prefix, &a->picture, &b->picture, comparison);
+}
+
+static void print_pair(const struct shot *a, const struct shot *b, const struct rg_comparison *c,
+                       bool holds)
+{
+    char pair[80];
+    snprintf(pair, sizeof(pair), "%s, %s", a->info->name, b->info->name);
+    printf("%-30s %-5s %-5s %10lld %6d/255 %8lld %9.6f %8.4g\n", pair, holds ? "ok" : "fail",
+           c->tier, (long long)c->metrics.differing_values, c->tiers.max_codes,
+           (long long)c->tiers.mask_pixels, c->flip.mean, c->metrics.psnr_db);
+}
+
+static int compare_pair(const struct session *s, const struct shot *a, const struct shot *b)
+{
+    struct rg_comparison c;
+    if (!rg_compare(&a->picture, a->info->name, &b->picture, b->info->name, &s->background,
+                    &(struct rg_compare_options){.exposure = (float)s->options->exposure}, &c))
+        return RG_EXIT_USAGE;
+    const bool holds = a->info->software && b->info->software ? c.tiers.t0.holds : c.tiers.t1.holds;
+    bool ok = true;
+    if (s->pairs)
+        ok = json_array_append_new(s->pairs, rg_pair_json(a->info->name, b->info->name, &c)) == 0;
+    else
+        print_pair(a, b, &c, holds);
+    if (s->options->output)
+        ok = write_heatmaps(s, a, b, &c) && ok;
+    rg_comparison_destroy(&c);
+    return !ok ? RG_EXIT_USAGE : holds ? RG_EXIT_PASS : RG_EXIT_FAIL;
+}
+
+static int compare_all(struct session *s)
+{
+    int exit = RG_EXIT_PASS;
+    if (s->options->json)
+        s->pairs = json_array();
+    else
+        printf("%-30s %-5s %-5s %10s %10s %8s %9s %8s\n", "pair", "", "tier", "differing",
+               "largest", "mask px", "FLIP mean", "PSNR dB");
+    for (int i = 0; i < s->shot_count; i++) {
+        for (int j = i + 1; j < s->shot_count && exit != RG_EXIT_USAGE; j++) {
+            const int found = compare_pair(s, &s->shots[i], &s->shots[j]);
+            exit = found > exit ? found : exit;
+        }
+    }
+    if (s->pairs && !rg_pairs_print_json(s->pairs))
+        exit = RG_EXIT_USAGE;
+    return exit;
+}
+
+int rg_diff_devices(const struct rg_options *options)
+{
+    struct session *s = rg_alloc(1, sizeof(*s), "diff");
+    if (!s)
+        return RG_EXIT_FAIL;
+    s->options = options;
+    s->technique = rg_options_technique(options, &s->settings);
+    struct rg_devices devices = {0};
+    int exit = s->technique ? rg_devices_open(options, "all", &devices) : RG_EXIT_USAGE;
+    if (exit == RG_EXIT_PASS && devices.count < 2) {
+        rg_error("--device %s: a comparison takes two devices",
+                 options->device ? options->device : "all");
+        exit = RG_EXIT_USAGE;
+    } else if (exit == RG_EXIT_PASS) {
+        exit = take_pictures(s, &devices) ? compare_all(s) : RG_EXIT_USAGE;
+        if (exit == RG_EXIT_PASS && devices.broken_count)
+            exit = RG_EXIT_FAIL;
+    }
+    for (int i = 0; i < s->shot_count; i++)
+        rg_picture_destroy(&s->shots[i].picture);
+    rg_picture_destroy(&s->background);
+    rg_devices_close(&devices);
+    if (s->technique)
+        free(s->settings);
+    free(s);
+    return exit;
+}

@@ -1,0 +1,35 @@
+#include "harness/compare/diff/files.h"
+
+#include "core/image/files/io.h"
+#include "harness/compare/diff/report.h"
+
+enum { SAME = 0, DIFFERS = 1, BAD_INPUT = 2 };
+
+static bool print_json(const struct rg_diff_request *request,
+                       const struct rg_comparison *comparison)
+{
+    json_t *pair = rg_pair_json(request->a, request->b, comparison);
+    return pair && rg_pairs_print_json(json_pack("[o]", pair));
+}
+
+int rg_diff_files(const struct rg_diff_request *request)
+{
+    const char *paths[] = {request->a, request->b, request->background};
+    struct rg_picture pictures[3] = {{0}};
+    struct rg_comparison comparison = {0};
+    bool good =
+        rg_pictures_read(paths, pictures, request->background ? 3 : 2) &&
+        rg_compare(&pictures[0], request->a, &pictures[1], request->b,
+                   request->background ? &pictures[2] : NULL, &request->options, &comparison);
+    if (good && request->heatmap_prefix)
+        good = rg_pair_heatmaps(request->heatmap_prefix, &pictures[0], &pictures[1], &comparison);
+    if (good && request->json)
+        good = print_json(request, &comparison);
+    else if (good)
+        rg_pair_print(request->a, request->b, &comparison);
+    int status = !good ? BAD_INPUT : comparison.tiers.t0.holds ? SAME : DIFFERS;
+    rg_comparison_destroy(&comparison);
+    for (int i = 0; i < 3; i++)
+        rg_picture_destroy(&pictures[i]);
+    return status;
+}

@@ -1,0 +1,174 @@
+#include "harness/compare/diff/report.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/image/compare/heatmap.h"
+#include "core/image/files/io.h"
+#include "core/base/log.h"
+
+static const char *yes(const struct rg_verdict *verdict)
+{
+    return verdict->holds ? "holds" : "fails: ";
+}
+
+static void print_verdicts(const struct rg_tiers *t)
+{
+    printf("\n  T0 identical                 %s%s\n", yes(&t->t0), t->t0.why);
+    printf("  T1 arithmetic                %s%s\n", yes(&t->t1), t->t1.why);
+    printf("  T2 geometry                  %s%s\n", yes(&t->t2), t->t2.why);
+}
+
+static void print_metrics(const struct rg_metrics *m)
+{
+    printf("\nlinear light\n");
+    printf("  differing values             %lld of %lld, in %lld pixels\n",
+           (long long)m->differing_values, (long long)m->values, (long long)m->differing_pixels);
+    printf("  mean error, rms              %.6g, %.6g\n", m->mean, m->rms);
+    printf("  PSNR                         %.4g dB\n", m->psnr_db);
+    printf("  largest error                %.6g", m->max);
+    if (m->max > 0)
+        printf(" at x %d, y %d, channel %d", m->max_x, m->max_y, m->max_channel);
+    printf("\n  pixels above                 ");
+    for (int t = 0; t < RG_ABOVE_COUNT; t++)
+        printf("%s%g: %lld", t ? ", " : "", (double)rg_above_thresholds[t],
+               (long long)m->pixels_above[t]);
+    printf("\n");
+    if (m->nonfinite_a || m->nonfinite_b)
+        printf("  NaN or infinite              %lld in A, %lld in B, %lld do not agree\n",
+               (long long)m->nonfinite_a, (long long)m->nonfinite_b,
+               (long long)m->nonfinite_mismatches);
+}
+
+static void print_tiers(const struct rg_comparison *c)
+{
+    const struct rg_tiers *t = &c->tiers;
+    printf("\nencoded: sRGB, 8 bits, exposure %g\n", (double)c->exposure);
+    printf("  rain mask                    %lld pixels%s\n", (long long)t->mask_pixels,
+           t->mask_is_whole ? " (no background given: the whole picture)" : "");
+    printf("  largest difference           %d/255\n", t->max_codes);
+    printf("  above 1/255                  %.4g %% of the mask\n", 100 * t->above_one_fraction);
+    printf("  bias                         %.4g/255\n", t->bias_codes);
+    if (!t->mask_is_whole)
+        printf("  coverage differs             %lld pixels\n", (long long)t->coverage_mismatches);
+    printf("  found within 1 pixel         %.4f %% of A in B, %.4f %% of B in A\n",
+           100 * t->matched_a, 100 * t->matched_b);
+    printf("  energy ratio                 %.6f\n", t->energy_ratio);
+    printf("  largest tile difference      %.4g/255\n", t->tile_max_codes);
+    printf("  relative error (linear)      mean %.4g, largest %.4g\n", t->relative_mean,
+           t->relative_max);
+}
+
+void rg_pair_print(const char *a, const char *b, const struct rg_comparison *c)
+{
+    const struct rg_flip *f = &c->flip;
+    printf("A %s\nB %s\n", a, b);
+    printf("%d x %d pixels, %d channel%s; tier %s\n", c->width, c->height, c->channels,
+           c->channels > 1 ? "s" : "", c->tier);
+    print_verdicts(&c->tiers);
+    print_tiers(c);
+    print_metrics(&c->metrics);
+    printf("\nFLIP (LDR, %.4g pixels a degree)\n", (double)c->pixels_per_degree);
+    printf("  mean, weighted median        %.6f, %.6f\n", f->mean, f->weighted_median);
+    printf("  99th percentile, largest     %.6f, %.6f\n", f->p99, f->max);
+    printf("  over the mask: mean, p99     %.6f, %.6f\n", f->mask_mean, f->mask_p99);
+}
+
+// JSON has no infinity: null stands for it.
+static json_t *number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static json_t *verdict_json(const struct rg_verdict *verdict)
+{
+    return json_pack("{s:b, s:s}", "holds", verdict->holds, "why", verdict->why);
+}
+
+static json_t *tiers_json(const struct rg_tiers *t)
+{
+    return json_pack("{s:o, s:o, s:o, s:b, s:f, s:f, s:I, s:f, s:f, s:o, s:f, s:f, s:f}", "t0",
+                     verdict_json(&t->t0), "t1", verdict_json(&t->t1), "t2", verdict_json(&t->t2),
+                     "mask_is_whole", t->mask_is_whole, "above_one_fraction", t->above_one_fraction,
+                     "bias_codes", t->bias_codes, "coverage_mismatches",
+                     (json_int_t)t->coverage_mismatches, "matched_a", t->matched_a, "matched_b",
+                     t->matched_b, "energy_ratio", number(t->energy_ratio), "tile_max_codes",
+                     t->tile_max_codes, "relative_mean", t->relative_mean, "relative_max",
+                     t->relative_max);
+}
+
+static json_t *metrics_json(const struct rg_metrics *m)
+{
+    json_t *above = json_array();
+    for (int t = 0; t < RG_ABOVE_COUNT; t++)
+        json_array_append_new(above, json_pack("{s:f, s:I, s:I}", "threshold",
+                                               (double)rg_above_thresholds[t], "values",
+                                               (json_int_t)m->values_above[t], "pixels",
+                                               (json_int_t)m->pixels_above[t]));
+    return json_pack("{s:o, s:o, s:o, s:[i,i,i], s:I, s:I, s:I, s:I, s:I, s:o}", "mean",
+                     number(m->mean), "rms", number(m->rms), "max", number(m->max), "max_at",
+                     m->max_x, m->max_y, m->max_channel, "values", (json_int_t)m->values,
+                     "differing_pixels", (json_int_t)m->differing_pixels, "nonfinite_a",
+                     (json_int_t)m->nonfinite_a, "nonfinite_b", (json_int_t)m->nonfinite_b,
+                     "nonfinite_mismatches", (json_int_t)m->nonfinite_mismatches, "above", above);
+}
+
+json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *c)
+{
+    const struct rg_flip *f = &c->flip;
+    json_t *pair = json_pack(
+        "{s:s, s:s, s:s, s:i, s:I, s:I, s:f, s:o, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:o, "
+        "s:o}",
+        "a", a, "b", b, "tier", c->tier, "max", c->tiers.max_codes, "differing",
+        (json_int_t)c->metrics.differing_values, "mask", (json_int_t)c->tiers.mask_pixels,
+        "flip_mean", f->mean, "psnr", number(c->metrics.psnr_db), "flip_weighted_median",
+        f->weighted_median, "flip_p99", f->p99, "flip_max", f->max, "flip_mask_mean", f->mask_mean,
+        "flip_mask_p99", f->mask_p99, "exposure", (double)c->exposure, "pixels_per_degree",
+        (double)c->pixels_per_degree, "relative_mean", c->tiers.relative_mean, "tiers",
+        tiers_json(&c->tiers), "linear", metrics_json(&c->metrics));
+    if (!pair)
+        return rg_error_null("diff --json: '%s' or '%s' is not UTF-8; give the file another name",
+                             a, b);
+    return pair;
+}
+
+bool rg_pairs_print_json(json_t *pairs)
+{
+    json_t *all = json_pack("{s:i, s:o}", "format", 1, "pairs", pairs);
+    bool good = all && json_dumpf(all, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0;
+    printf("\n");
+    json_decref(all);
+    return good || rg_error("standard output: cannot be written; is the disk full?");
+}
+
+// Draws `values` and writes them as PREFIX-name.png.
+static bool write_heatmap(const char *prefix, const char *name, const float *values,
+                          const struct rg_comparison *c, float top)
+{
+    size_t size = strlen(prefix) + strlen(name) + 6;
+    char *path = malloc(size);
+    if (!path)
+        return rg_error("%s: no memory for the heat map's name", prefix);
+    snprintf(path, size, "%s-%s.png", prefix, name);
+    struct rg_picture heat;
+    bool good = rg_heatmap_draw(values, c->width, c->height, top, &heat) &&
+                rg_picture_write(path, &heat, &(struct rg_write_options){0});
+    rg_picture_destroy(&heat);
+    free(path);
+    return good;
+}
+
+bool rg_pair_heatmaps(const char *prefix, const struct rg_picture *a, const struct rg_picture *b,
+                      const struct rg_comparison *c)
+{
+    float *difference = malloc((size_t)c->width * (size_t)c->height * sizeof(*difference)), top;
+    if (!difference)
+        return rg_error("%s: no memory for the heat maps", prefix);
+    rg_heatmap_difference(a, b, difference, &top);
+    bool good = write_heatmap(prefix, "flip", c->flip_map, c, 1.0f) &&
+                write_heatmap(prefix, "difference", difference, c, top);
+    free(difference);
+    return good;
+}

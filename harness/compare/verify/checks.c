@@ -1,0 +1,96 @@
+#include "harness/compare/verify/checks.h"
+
+#include <jansson.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/commands/command.h"
+
+static const char *const names[] = {"ok", "fail", "unsupported", "error"};
+
+void rg_checks_add(struct rg_checks *checks, const char *technique, const char *check,
+                   const char *device, enum rg_status status, const char *format, ...)
+{
+    struct rg_check *rows = realloc(checks->rows, (size_t)(checks->count + 1) * sizeof(*rows));
+    if (!rows) {
+        checks->incomplete = !rg_error("%s on %s: no memory for its result", check, device);
+        return;
+    }
+    checks->rows = rows;
+    struct rg_check *row = &rows[checks->count++];
+    memset(row, 0, sizeof(*row));
+    row->status = status;
+    snprintf(row->technique, sizeof(row->technique), "%s", technique);
+    snprintf(row->check, sizeof(row->check), "%s", check);
+    snprintf(row->device, sizeof(row->device), "%s", device);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(row->detail, sizeof(row->detail), format, args);
+    va_end(args);
+}
+
+static void print_json(const struct rg_checks *checks)
+{
+    json_t *rows = json_array();
+    for (int i = 0; i < checks->count; i++) {
+        const struct rg_check *row = &checks->rows[i];
+        json_array_append_new(rows, json_pack("{ssssssssss}", "technique", row->technique, "check",
+                                              row->check, "device", row->device, "status",
+                                              names[row->status], "detail", row->detail));
+    }
+    json_t *root = json_pack("{siso}", "format", 1, "checks", rows);
+    json_dumpf(root, stdout, JSON_INDENT(2));
+    printf("\n");
+    json_decref(root);
+}
+
+static int longer(int width, const char *text)
+{
+    return (int)strlen(text) > width ? (int)strlen(text) : width;
+}
+
+static void print_lines(const struct rg_checks *checks)
+{
+    int widths[4] = {0};
+    for (int i = 0; i < checks->count; i++) {
+        const struct rg_check *row = &checks->rows[i];
+        widths[0] = longer(widths[0], names[row->status]);
+        widths[1] = longer(widths[1], row->technique);
+        widths[2] = longer(widths[2], row->check);
+        widths[3] = longer(widths[3], row->device);
+    }
+    for (int i = 0; i < checks->count; i++) {
+        const struct rg_check *row = &checks->rows[i];
+        printf("%-*s  %-*s  %-*s  %-*s  %s\n", widths[0], names[row->status], widths[1],
+               row->technique, widths[2], row->check, widths[3], row->device, row->detail);
+    }
+}
+
+void rg_checks_print(const struct rg_checks *checks, bool json)
+{
+    if (json)
+        print_json(checks);
+    else
+        print_lines(checks);
+}
+
+int rg_checks_exit(const struct rg_checks *checks)
+{
+    int counts[4] = {0};
+    for (int i = 0; i < checks->count; i++)
+        counts[checks->rows[i].status]++;
+    if (counts[RG_STATUS_FAIL] || counts[RG_STATUS_ERROR] || checks->incomplete)
+        return RG_EXIT_FAIL;
+    if (counts[RG_STATUS_OK])
+        return RG_EXIT_PASS;
+    return counts[RG_STATUS_UNSUPPORTED] ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
+}
+
+void rg_checks_free(struct rg_checks *checks)
+{
+    free(checks->rows);
+    memset(checks, 0, sizeof(*checks));
+}

@@ -1,0 +1,369 @@
+// State, image and laws of one technique on every device, compared with cpu:reference.
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/image/compare/compare.h"
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "harness/frames/frame.h"
+#include "harness/compare/verify/snapshot.h"
+#include "harness/compare/verify/verify.h"
+
+// One check on one device, over all cases.
+struct tally {
+    int runs, failed, errors;
+    int unlike;      // not identical, where that is allowed
+    char first[400]; // what went wrong first
+};
+
+enum { MAX_LAWS = 8, STATE = 0, IMAGE = 1, LAWS = 2 };
+
+// One device's tallies: state, image, and each law.
+struct row {
+    struct rg_device *device;
+    struct tally tallies[LAWS + MAX_LAWS];
+};
+
+// One seed and one pose.
+struct one_case {
+    char name[256];
+    void *settings;
+    struct rg_snapshot expected;
+    struct rg_picture expected_picture;
+    bool with_dry; // whether `dry`, the background of the rain mask, is wanted
+    struct rg_picture dry;
+};
+
+static void blame(struct tally *tally, const struct one_case *c, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+// Keeps the first failure.
+static void blame(struct tally *tally, const struct one_case *c, const char *format, ...)
+{
+    if (tally->failed++ || tally->errors)
+        return;
+    const int used = snprintf(tally->first, sizeof(tally->first), "%s: ", c->name);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(tally->first + used, sizeof(tally->first) - (size_t)used, format, args);
+    va_end(args);
+}
+
+static void note_error(struct tally *tally)
+{
+    if (!tally->errors++ && !tally->failed)
+        snprintf(tally->first, sizeof(tally->first), "%s", rg_last_error());
+}
+
+static int count_laws(const struct rg_verify *v)
+{
+    int count = 0;
+    while (count < MAX_LAWS && v->technique->proof->laws[count].name)
+        count++;
+    return count;
+}
+
+static int count_poses(const struct rg_verify *v)
+{
+    int count = 0;
+    while (v->technique->proof->poses[count])
+        count++;
+    return count;
+}
+
+int64_t rg_verify_device_work(const struct rg_verify *v)
+{
+    int64_t devices = 1;
+    for (int i = 0; i < v->devices->count; i++)
+        devices += v->devices->devices[i] != v->reference;
+    return v->steps * count_poses(v) * RG_VERIFY_SEEDS * devices;
+}
+
+struct rg_instance *rg_verify_run(struct rg_verify *v, struct rg_device *device,
+                                  const void *settings, int steps)
+{
+    struct rg_instance *instance = v->technique->create(device, settings, v->width, v->height);
+    bool ok = instance != NULL;
+    for (int i = 0; ok && i < steps; i++) {
+        ok = v->technique->step(instance);
+        rg_progress_add(v->progress, 1);
+    }
+    if (ok)
+        return instance;
+    if (instance)
+        v->technique->destroy(instance);
+    return NULL;
+}
+
+// --- state ---
+
+// Runs both devices side by side and describes the first difference, with the step that made it.
+static void describe_first(struct rg_verify *v, struct rg_device *device, const struct one_case *c,
+                           char *text, size_t size)
+{
+    struct rg_instance *a = v->technique->create(device, c->settings, v->width, v->height);
+    struct rg_instance *b = v->technique->create(v->reference, c->settings, v->width, v->height);
+    char element[160] = "";
+    int step = 0;
+    for (bool ok = a && b; ok && !*element && step <= v->steps; step++) {
+        struct rg_snapshot now = {0}, expected = {0};
+        ok = (step == 0 || (v->technique->step(a) && v->technique->step(b))) &&
+             rg_snapshot_take(a, false, &now) && rg_snapshot_take(b, false, &expected);
+        if (ok)
+            rg_snapshot_describe(&now, &expected, element, sizeof(element));
+        rg_snapshot_free(&now);
+        rg_snapshot_free(&expected);
+    }
+    if (*element)
+        snprintf(text, size, "%s after step %d", element, step - 1);
+    else
+        snprintf(text, size, "differs, but not in a second run");
+    if (a)
+        v->technique->destroy(a);
+    if (b)
+        v->technique->destroy(b);
+}
+
+static void check_state(struct rg_verify *v, struct row *row, const struct one_case *c,
+                        const struct rg_snapshot *now)
+{
+    struct tally *tally = &row->tallies[STATE];
+    tally->runs++;
+    if (rg_snapshot_same_state(now, &c->expected))
+        return;
+    if (!row->device->info.software) {
+        tally->unlike++; // tier T1 judges the image alone
+        return;
+    }
+    char text[256] = "";
+    if (!tally->failed)
+        describe_first(v, row->device, c, text, sizeof(text));
+    blame(tally, c, "%s", text);
+}
+
+// --- image ---
+
+static void check_t1(struct tally *tally, const struct one_case *c,
+                     const struct rg_picture *picture)
+{
+    struct rg_comparison comparison;
+    if (!rg_compare(&c->expected_picture, "cpu:reference", picture, c->name, &c->dry,
+                    &(struct rg_compare_options){0}, &comparison)) {
+        note_error(tally);
+        return;
+    }
+    if (!comparison.tiers.t1.holds)
+        blame(tally, c, "%s (T1)", comparison.tiers.t1.why);
+    rg_comparison_destroy(&comparison);
+}
+
+static void check_t0(struct tally *tally, const struct one_case *c,
+                     const struct rg_picture *picture)
+{
+    struct rg_metrics m;
+    if (rg_metrics_compute(&c->expected_picture, picture, &m))
+        blame(tally, c, "%lld pixels differ, the most by %g at x %d, y %d (T0)",
+              (long long)m.differing_pixels, m.max, m.max_x, m.max_y);
+    else
+        note_error(tally);
+}
+
+static void check_image(struct row *row, const struct one_case *c,
+                        const struct rg_instance *instance, const struct rg_snapshot *now)
+{
+    struct tally *tally = &row->tallies[IMAGE];
+    struct rg_picture picture = {0};
+    tally->runs++;
+    if (rg_snapshot_same_image(now, &c->expected))
+        return;
+    if (!rg_frame_picture(instance, now->texels, &picture))
+        note_error(tally);
+    else if (row->device->info.software)
+        check_t0(tally, c, &picture);
+    else
+        check_t1(tally, c, &picture);
+    tally->unlike++;
+    rg_picture_destroy(&picture);
+}
+
+// --- a case ---
+
+static void check_laws(const struct rg_verify *v, struct row *row, const struct one_case *c,
+                       const struct rg_instance *instance)
+{
+    for (int i = 0; i < count_laws(v); i++) {
+        struct tally *tally = &row->tallies[LAWS + i];
+        char detail[256] = "";
+        tally->runs++;
+        if (!v->technique->proof->laws[i].holds(instance, detail, sizeof(detail)))
+            blame(tally, c, "%s", detail);
+    }
+}
+
+static void note_errors(const struct rg_verify *v, struct row *row)
+{
+    for (int i = 0; i < LAWS + count_laws(v); i++)
+        note_error(&row->tallies[i]);
+}
+
+// Runs a case on a row's device up to its snapshot. NULL on failure.
+static struct rg_instance *run_case(struct rg_verify *v, struct row *row, struct one_case *c,
+                                    struct rg_snapshot *now)
+{
+    rg_progress_label(v->progress, "%s: %s on %s", v->technique->name, c->name,
+                      row->device->info.name);
+    struct rg_instance *instance = rg_verify_run(v, row->device, c->settings, v->steps);
+    if (instance && v->technique->draw(instance) && rg_snapshot_take(instance, true, now))
+        return instance;
+    if (instance)
+        v->technique->destroy(instance);
+    note_errors(v, row);
+    return NULL;
+}
+
+static void check_device(struct rg_verify *v, struct row *row, struct one_case *c)
+{
+    struct rg_snapshot now = {0};
+    struct rg_instance *instance = run_case(v, row, c, &now);
+    if (!instance)
+        return;
+    check_laws(v, row, c, instance);
+    check_state(v, row, c, &now);
+    check_image(row, c, instance, &now);
+    rg_snapshot_free(&now);
+    v->technique->destroy(instance);
+}
+
+// What the others are compared with. False, and noted in the reference's row, on failure.
+static bool expect(struct rg_verify *v, struct row *reference, struct one_case *c)
+{
+    struct rg_instance *instance = run_case(v, reference, c, &c->expected);
+    if (!instance)
+        return false;
+    check_laws(v, reference, c, instance);
+    bool ok = rg_frame_picture(instance, c->expected.texels, &c->expected_picture) &&
+              (!c->with_dry || rg_frame_draw_dry(v->technique, c->settings, v->reference, v->width,
+                                                 v->height, 0, &c->dry));
+    v->technique->destroy(instance);
+    if (!ok)
+        note_errors(v, reference);
+    return ok;
+}
+
+static void blame_dry_image(const struct one_case *c, struct row *rows, int count)
+{
+    const size_t bytes = (size_t)rg_picture_values(&c->dry) * sizeof(float);
+    if (!c->with_dry || memcmp(c->dry.texels, c->expected_picture.texels, bytes))
+        return;
+    for (int i = 0; i < count; i++)
+        blame(&rows[i].tallies[IMAGE], c, "no rain in the image, which therefore proves nothing");
+}
+
+// rows[0] is the reference.
+static void run_one(struct rg_verify *v, struct row *rows, int count, struct one_case *c)
+{
+    if (expect(v, &rows[0], c)) {
+        for (int i = 1; i < count; i++)
+            check_device(v, &rows[i], c);
+        blame_dry_image(c, rows + 1, count - 1);
+    }
+    rg_snapshot_free(&c->expected);
+    rg_picture_destroy(&c->expected_picture);
+    rg_picture_destroy(&c->dry);
+}
+
+// T1 needs the rain mask always; T0 once a pose, to see that there is rain at all.
+static bool wants_dry(const struct row *rows, int count, int seed)
+{
+    bool wanted = seed == 0;
+    for (int i = 1; i < count; i++)
+        wanted = wanted || !rows[i].device->info.software;
+    return wanted;
+}
+
+// The user's settings in a pose, with one of the seeds that follow the user's.
+static bool set_case(const struct rg_verify *v, int seed, const char *pose, struct one_case *c)
+{
+    const struct rg_param *param = rg_params_find(v->technique->params, "seed");
+    char text[RG_PATH_SIZE];
+    rg_params_text(param, v->settings, text, sizeof(text));
+    const double first = strtod(text, NULL);
+    const double value = first + seed <= param->max ? first + seed : first - seed;
+    snprintf(c->name, sizeof(c->name), "seed %.0f%s%s", value, *pose ? ", " : "", pose);
+    snprintf(text, sizeof(text), "seed=%.0f %s", value, pose);
+    return (c->settings = rg_settings_copy(v->technique, v->settings, text)) != NULL;
+}
+
+// --- the verdict ---
+
+static const char *check_name(const struct rg_verify *v, int check)
+{
+    static const char *const names[] = {"state", "image"};
+    return check < LAWS ? names[check] : v->technique->proof->laws[check - LAWS].name;
+}
+
+static void report(struct rg_verify *v, const struct row *row, int check)
+{
+    const struct tally *t = &row->tallies[check];
+    const char *technique = v->technique->name, *name = check_name(v, check);
+    const char *device = row->device->info.name;
+    if (t->failed)
+        rg_checks_add(v->checks, technique, name, device, RG_STATUS_FAIL, "%d of %d runs; %s",
+                      t->failed, t->runs, t->first);
+    else if (t->errors)
+        rg_checks_add(v->checks, technique, name, device, RG_STATUS_ERROR, "%s", t->first);
+    else if (!t->runs)
+        rg_checks_add(v->checks, technique, name, device, RG_STATUS_ERROR,
+                      "not run: %s, which it is compared with, failed", v->reference->info.name);
+    else if (check >= LAWS)
+        rg_checks_add(v->checks, technique, name, device, RG_STATUS_OK,
+                      "holds after %d runs of %d steps", t->runs, v->steps);
+    else if (t->unlike)
+        rg_checks_add(v->checks, technique, name, device, RG_STATUS_OK,
+                      "%d of %d runs of %d steps are not identical to %s, %s", t->unlike, t->runs,
+                      v->steps, v->reference->info.name,
+                      check == STATE ? "which T1 leaves to the image" : "but within T1");
+    else
+        rg_checks_add(v->checks, technique, name, device, RG_STATUS_OK,
+                      "%d runs of %d steps, identical to %s", t->runs, v->steps,
+                      v->reference->info.name);
+}
+
+static int list_rows(const struct rg_verify *v, struct row *rows)
+{
+    int count = 0;
+    rows[count++].device = v->reference;
+    for (int i = 0; i < v->devices->count; i++)
+        if (v->devices->devices[i] != v->reference)
+            rows[count++].device = v->devices->devices[i];
+    return count;
+}
+
+void rg_verify_devices(struct rg_verify *v)
+{
+    struct row *rows = rg_alloc(RG_MAX_DEVICES + 1, sizeof(*rows), "verify");
+    if (!rows) {
+        rg_checks_add(v->checks, v->technique->name, "state", v->reference->info.name,
+                      RG_STATUS_ERROR, "%s", rg_last_error());
+        return;
+    }
+    const int count = list_rows(v, rows);
+    const char *const *poses = v->technique->proof->poses;
+    for (int pose = 0; poses[pose]; pose++) {
+        for (int seed = 0; seed < RG_VERIFY_SEEDS; seed++) {
+            struct one_case c = {.with_dry = wants_dry(rows, count, seed)};
+            if (set_case(v, seed, poses[pose], &c))
+                run_one(v, rows, count, &c);
+            else
+                note_errors(v, &rows[0]);
+            free(c.settings);
+        }
+    }
+    for (int check = 0; check < LAWS + count_laws(v); check++)
+        for (int i = 0; i < count; i++)
+            if (i > 0 || check >= LAWS || rows[i].tallies[check].errors)
+                report(v, &rows[i], check);
+    free(rows);
+}

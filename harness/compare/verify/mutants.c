@@ -1,0 +1,172 @@
+// Mutants: a comparison that accepts a model that is a little off proves nothing. Each is drawn on
+// one device and compared with the true model's image, at the loosest tier that verify accepts, T1.
+// They have a scene of their own, the proof's over the technique's defaults, whatever the user
+// sets: a mutant of a pane without drops would live. And they are young pictures: by step 1,000 a
+// drop that was missing at the start has run off the pane. Contrasts are mutants that bring their
+// scene along.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/image/compare/compare.h"
+#include "core/base/log.h"
+#include "harness/frames/frame.h"
+#include "harness/compare/verify/verify.h"
+
+enum { MUTANT_STEPS = 100 };
+
+int64_t rg_verify_mutant_work(const struct rg_verify *v)
+{
+    int64_t runs = 1;
+    while (v->technique->proof->mutants[runs - 1].about)
+        runs++;
+    for (const struct rg_contrast *c = v->technique->proof->contrasts; c && c->about; c++)
+        runs += 2;
+    return runs * MUTANT_STEPS;
+}
+
+// The parameter's value as the mutant has it. False where that is out of its range, or the model's
+// own value: 1 % less of nothing is no mutant.
+static bool mutate(const struct rg_verify *v, const struct rg_mutant *mutant, char *text,
+                   size_t size)
+{
+    const struct rg_param *param = rg_params_find(v->technique->params, mutant->param);
+    char value[RG_PATH_SIZE];
+    rg_params_text(param, v->settings, value, sizeof(value));
+    const double own = strtod(value, NULL), mutated = own * mutant->factor + mutant->offset;
+    snprintf(text, size, "%s=%.17g", mutant->param, mutated);
+    return mutated != own && mutated >= param->min && mutated <= param->max;
+}
+
+// The image of the mutants' scene, with `assignments` over it.
+static bool draw(struct rg_verify *v, const char *assignments, struct rg_picture *picture)
+{
+    const char *scene = v->technique->proof->mutant_scene;
+    char all[256];
+    snprintf(all, sizeof(all), "%s %s", scene ? scene : "", assignments);
+    void *settings = rg_settings_copy(v->technique, v->settings, all);
+    struct rg_instance *instance =
+        settings ? rg_verify_run(v, v->mutant_device, settings, MUTANT_STEPS) : NULL;
+    size_t bytes;
+    void *texels =
+        instance && v->technique->draw(instance) ? rg_frame_read(instance, &bytes) : NULL;
+    bool ok = texels && rg_frame_picture(instance, texels, picture);
+    free(texels);
+    if (instance)
+        v->technique->destroy(instance);
+    free(settings);
+    return ok;
+}
+
+struct verdicts {
+    int run, killed;
+    bool error;
+    char alive[400]; // what survived, separated by ", "
+};
+
+// Whether T1 finds rain, and that it is not the model's.
+static bool is_rejected(const struct rg_picture *truth, const struct rg_picture *other,
+                        const struct rg_picture *dry, struct verdicts *verdicts)
+{
+    struct rg_comparison comparison;
+    if (!rg_compare(truth, "the model", other, "the mutant", dry, &(struct rg_compare_options){0},
+                    &comparison)) {
+        verdicts->error = true;
+        return false;
+    }
+    bool rejected = !comparison.tiers.t1.holds && comparison.tiers.mask_pixels;
+    rg_comparison_destroy(&comparison);
+    return rejected;
+}
+
+static void judge(const char *about, const struct rg_picture *truth,
+                  const struct rg_picture *mutated, const struct rg_picture *dry,
+                  struct verdicts *verdicts)
+{
+    verdicts->run++;
+    if (is_rejected(truth, mutated, dry, verdicts)) {
+        verdicts->killed++;
+        return;
+    }
+    const size_t used = strlen(verdicts->alive);
+    snprintf(verdicts->alive + used, sizeof(verdicts->alive) - used, "%s%s", used ? ", " : "",
+             about);
+}
+
+static void run_all(struct rg_verify *v, const struct rg_picture *truth,
+                    const struct rg_picture *dry, struct verdicts *verdicts)
+{
+    for (const struct rg_mutant *m = v->technique->proof->mutants; m->about; m++) {
+        char assignment[256];
+        struct rg_picture mutated = {0};
+        rg_progress_label(v->progress, "%s: mutant: %s", v->technique->name, m->about);
+        if (!mutate(v, m, assignment, sizeof(assignment)))
+            continue;
+        if (draw(v, assignment, &mutated))
+            judge(m->about, truth, &mutated, dry, verdicts);
+        else
+            verdicts->error = true;
+        rg_picture_destroy(&mutated);
+    }
+}
+
+static bool draw_dry(struct rg_verify *v, struct rg_picture *dry)
+{
+    return rg_frame_draw_dry(v->technique, v->settings, v->mutant_device, v->width, v->height, 0,
+                             dry);
+}
+
+static void run_contrast(const struct rg_verify *defaults, const struct rg_contrast *contrast,
+                         struct verdicts *verdicts)
+{
+    struct rg_verify v = *defaults;
+    void *settings = rg_settings_copy(v.technique, v.settings, contrast->truth);
+    struct rg_picture truth = {0}, dry = {0}, mutated = {0};
+    rg_progress_label(v.progress, "%s: mutant: %s", v.technique->name, contrast->about);
+    v.settings = settings;
+    if (settings && draw(&v, "", &truth) && draw_dry(&v, &dry) &&
+        draw(&v, contrast->mutant, &mutated))
+        judge(contrast->about, &truth, &mutated, &dry, verdicts);
+    else
+        verdicts->error = true;
+    rg_picture_destroy(&truth);
+    rg_picture_destroy(&dry);
+    rg_picture_destroy(&mutated);
+    free(settings);
+}
+
+static void report(struct rg_verify *v, const struct verdicts *verdicts)
+{
+    const char *technique = v->technique->name, *device = v->mutant_device->info.name;
+    if (verdicts->error)
+        rg_checks_add(v->checks, technique, "mutants", device, RG_STATUS_ERROR, "%s",
+                      rg_last_error());
+    else if (verdicts->killed == verdicts->run && verdicts->run)
+        rg_checks_add(v->checks, technique, "mutants", device, RG_STATUS_OK, "killed %d/%d",
+                      verdicts->killed, verdicts->run);
+    else
+        rg_checks_add(v->checks, technique, "mutants", device, RG_STATUS_FAIL,
+                      "killed %d/%d; T1 accepts: %s", verdicts->killed, verdicts->run,
+                      *verdicts->alive ? verdicts->alive : "none was in its parameter's range");
+}
+
+void rg_verify_mutants(struct rg_verify *verify)
+{
+    struct rg_verify scene = *verify;
+    void *settings = rg_settings_create(verify->technique);
+    scene.settings = settings;
+    scene.width = scene.height = RG_FRAME_SIZE_PX;
+    struct verdicts verdicts = {0};
+    struct rg_picture truth = {0}, dry = {0};
+    if (settings && draw(&scene, "", &truth) && draw_dry(&scene, &dry))
+        run_all(&scene, &truth, &dry, &verdicts);
+    else
+        verdicts.error = true;
+    for (const struct rg_contrast *c = scene.technique->proof->contrasts;
+         c && c->about && !verdicts.error; c++)
+        run_contrast(&scene, c, &verdicts);
+    report(&scene, &verdicts);
+    rg_picture_destroy(&truth);
+    rg_picture_destroy(&dry);
+    free(settings);
+}

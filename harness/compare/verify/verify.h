@@ -1,0 +1,40 @@
+// The parts of `raingauge verify`, for one technique.
+#ifndef RG_HARNESS_VERIFY_H
+#define RG_HARNESS_VERIFY_H
+
+#include "core/image/picture.h"
+#include "core/techniques/proof.h"
+#include "core/techniques/technique.h"
+#include "harness/compare/verify/checks.h"
+#include "harness/commands/command.h"
+#include "harness/devices/devices.h"
+#include "harness/console/progress.h"
+
+enum { RG_VERIFY_SEEDS = 3 };
+
+struct rg_verify {
+    const struct rg_technique *technique;
+    const void *settings;             // the user's
+    int width, height, steps;         // of the image; simulated before it is drawn
+    struct rg_device *reference;      // what the others are compared with
+    const struct rg_devices *devices; // may hold the reference: it is not compared with itself
+    struct rg_device *mutant_device;
+    struct rg_checks *checks;
+    struct rg_progress *progress;
+};
+
+// Steps that each of the parts below runs, for the progress bar.
+int64_t rg_verify_device_work(const struct rg_verify *verify);
+int64_t rg_verify_mutant_work(const struct rg_verify *verify);
+
+// State, image and laws on every device, over seeds and poses.
+void rg_verify_devices(struct rg_verify *verify);
+// Whether the comparison of images notices a model that is a little off.
+void rg_verify_mutants(struct rg_verify *verify);
+
+// Opens the technique on a device and simulates `steps`; the caller destroys it. NULL, with one
+// logged line, on failure.
+struct rg_instance *rg_verify_run(struct rg_verify *verify, struct rg_device *device,
+                                  const void *settings, int steps);
+
+#endif

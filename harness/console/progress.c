@@ -1,0 +1,82 @@
+#include "harness/console/progress.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+#include "harness/console/clock.h"
+
+enum { BAR_COLUMNS = 24, DRAW_EVERY_MS = 100 };
+
+static void wipe(void)
+{
+    fputs("\r\033[K", stderr);
+}
+
+static void draw(struct rg_progress *p)
+{
+    char bar[BAR_COLUMNS + 1];
+    const double part = p->total > 0 ? (double)p->done / (double)p->total : 0;
+    const int filled = (int)(part * BAR_COLUMNS);
+    memset(bar, '.', BAR_COLUMNS);
+    memset(bar, '#', (size_t)(filled > BAR_COLUMNS ? BAR_COLUMNS : filled));
+    bar[BAR_COLUMNS] = 0;
+    p->drawn_ms = rg_now_ms();
+    const double passed_s = (p->drawn_ms - p->start_ms) * 1e-3;
+    wipe();
+    fprintf(stderr, "[%s] %3d %%", bar, (int)(part * 100));
+    // The first moments say nothing about the rest.
+    if (part > 0.01 && passed_s > 1) {
+        const int left_s = (int)(passed_s / part - passed_s + 0.5);
+        fprintf(stderr, "  %d:%02d left", left_s / 60, left_s % 60);
+    }
+    fprintf(stderr, "  %s", p->label);
+    fflush(stderr);
+}
+
+// A message takes the bar's line; the bar is drawn anew below it.
+static void print_above(enum rg_log_level level, const char *line, void *user)
+{
+    wipe();
+    fprintf(stderr, "raingauge: %s%s\n", level == RG_LOG_WARNING ? "warning: " : "", line);
+    draw(user);
+}
+
+void rg_progress_start(struct rg_progress *p, int64_t total)
+{
+    *p = (struct rg_progress){
+        .shown = isatty(STDERR_FILENO), .total = total, .start_ms = rg_now_ms()};
+    if (!p->shown)
+        return;
+    rg_log_listen(print_above, p);
+    draw(p);
+}
+
+void rg_progress_label(struct rg_progress *p, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(p->label, sizeof(p->label), format, args);
+    va_end(args);
+    if (p->shown)
+        draw(p);
+}
+
+void rg_progress_add(struct rg_progress *p, int64_t units)
+{
+    p->done += units;
+    if (p->shown && rg_now_ms() - p->drawn_ms > DRAW_EVERY_MS)
+        draw(p);
+}
+
+void rg_progress_end(struct rg_progress *p)
+{
+    if (!p->shown)
+        return;
+    wipe();
+    fflush(stderr);
+    rg_log_listen(NULL, NULL);
+    p->shown = false;
+}

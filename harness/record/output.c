@@ -1,0 +1,60 @@
+#include "harness/record/output.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+
+static bool write_all(int fd, const char *text)
+{
+    size_t left = strlen(text);
+    while (left > 0) {
+        ssize_t written = write(fd, text, left);
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written <= 0)
+            return false;
+        text += written;
+        left -= (size_t)written;
+    }
+    return fsync(fd) == 0 || errno == EINVAL;
+}
+
+// The umask's permissions, which mkstemp does not give.
+static bool open_up(int fd)
+{
+    const mode_t mask = umask(0);
+    umask(mask);
+    return fchmod(fd, 0666 & ~mask) == 0;
+}
+
+bool rg_output_write(const char *folder, const char *name, const char *text)
+{
+    char path[2048], temporary[2112];
+    const bool made = mkdir(folder, 0777) == 0;
+    if (!made && errno != EEXIST)
+        return rg_error("%s: cannot be made: %s; name a folder that can be written", folder,
+                        strerror(errno));
+    if (snprintf(path, sizeof(path), "%s/%s", folder, name) >= (int)sizeof(path))
+        return rg_error("%.80s...: its name is too long; name a folder of at most %zu bytes",
+                        folder, sizeof(path) - strlen(name) - 2);
+    snprintf(temporary, sizeof(temporary), "%s.XXXXXX", path);
+    int fd = mkstemp(temporary);
+    if (fd < 0)
+        return rg_error("%s: cannot be written: %s; name a folder that can be written", path,
+                        strerror(errno));
+    bool ok = write_all(fd, text) && open_up(fd);
+    ok = close(fd) == 0 && ok;
+    ok = ok && rename(temporary, path) == 0;
+    if (ok)
+        return true;
+    rg_error("%s: cannot be written: %s; nothing was changed", path, strerror(errno));
+    unlink(temporary);
+    if (made)
+        rmdir(folder);
+    return false;
+}
