@@ -2,7 +2,7 @@
 // the same bits. No branches and no tables, so that a C compiler can run several in one vector.
 //
 // Bounds are measured against double precision over all exponents and millions of values, and
-// tests/test_math.c measures them again. An ulp is the distance of two neighbouring floats at the
+// tests/dialect/math.c measures them again. An ulp is the distance of two neighbouring floats at the
 // true result. Results are finite and never subnormal: RG_LARGEST or 0 stand for what would not be.
 // No argument may be NaN or, but where it is said what then happens, subnormal.
 #ifndef RG_KERNELS_MATH_H

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "tests/mesh_fault.h"
+#include "tests/core/scene/mesh/fault.h"
 
 static int lines;
 static char last_line[1024];

@@ -1,0 +1,200 @@
+// What cpu alone can get wrong when it draws: targets of odd sizes, batches, rounds and threads.
+// Whatever their number, it leaves what cpu:reference leaves, to the last bit.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/device/device.h"
+#include "tests/core/device/quads.h"
+
+#define COUNT_OF(array) ((int)(sizeof(array) / sizeof((array)[0])))
+
+static const uint32_t poison = 0x3f3f3f3fu; // a depth of 0.75, and a colour
+
+// What is drawn, and where.
+struct scene {
+    int width, height, layers, levels, layer, level;
+    int first, items; // of a buffer that holds more
+    enum quad_kind kind;
+    enum rg_format format; // RG_FORMAT_NONE: depth alone
+    enum rg_blend blend;
+    enum rg_depth_mode depth;
+};
+
+struct drawn {
+    struct rg_image *image;
+    uint32_t *texels;
+    size_t words; // of all layers and levels
+};
+
+static struct drawn target(struct rg_device *device, const struct scene *s, enum rg_format format)
+{
+    const uint32_t texel[4] = {poison, poison, poison, poison};
+    struct drawn drawn = {
+        rg_image_create(device,
+                        &(struct rg_image_desc){format, s->width, s->height, s->layers, s->levels},
+                        "target"),
+        NULL, 0};
+    assert_true(drawn.image && rg_image_clear(drawn.image, texel));
+    return drawn;
+}
+
+static void read_target(struct drawn *drawn)
+{
+    const struct rg_image_desc *desc = &drawn->image->desc;
+    for (int level = 0; level < desc->levels; level++) {
+        const size_t words = (size_t)rg_level_size(desc->width, level) *
+                             (size_t)rg_level_size(desc->height, level) *
+                             (size_t)rg_format_size(desc->format) / 4;
+        for (int layer = 0; layer < desc->layers; layer++) {
+            drawn->texels = realloc(drawn->texels, (drawn->words + words) * 4);
+            assert_true(rg_image_read(drawn->image, layer, level, drawn->texels + drawn->words));
+            drawn->words += words;
+        }
+    }
+    rg_image_destroy(drawn->image);
+}
+
+static void draw(const char *name, const struct scene *s, const float *quads, struct drawn *colour,
+                 struct drawn *depth)
+{
+    const test_quads_params p = {.gradient = 1.0f / 64, .slope_x = 0.0005f, .slope_y = -0.0004f};
+    const size_t size = (size_t)(s->first + s->items) * TEST_QUAD_WORDS * sizeof(float);
+    struct rg_device *device = rg_device_open(name, NULL);
+    assert_non_null(device);
+    struct rg_pass *pass = rg_pass_create(device, "test_quads");
+    struct rg_buf *input = rg_buf_create(device, size, "quads");
+    assert_true(pass && input && rg_buf_write(input, 0, quads, size));
+    *colour = target(device, s, s->format ? s->format : RG_RGBA8);
+    *depth = target(device, s, RG_D32F);
+    const struct rg_draw to = {
+        .colour = s->format ? colour->image : NULL,
+        .depth = depth->image,
+        .layer = s->layer,
+        .level = s->level,
+        .blend = s->blend,
+        .depth_mode = s->depth,
+    };
+    assert_true(rg_pass_run(pass, &(struct rg_run){.params = &p,
+                                                   .slots = {[1].buf = input},
+                                                   .origin = {s->first, 0, 0},
+                                                   .extent = {s->items, 1, 1},
+                                                   .draw = &to}));
+    read_target(colour);
+    read_target(depth);
+    rg_pass_destroy(pass);
+    rg_buf_destroy(input);
+    assert_true(rg_device_close(device));
+}
+
+static bool changed(const struct drawn *drawn)
+{
+    for (size_t i = 0; i < drawn->words; i++)
+        if (drawn->texels[i] != poison)
+            return true;
+    return false;
+}
+
+static void check(const struct scene *s)
+{
+    const int counts[] = {1, 2, 7};
+    const int threads = omp_get_max_threads();
+    float *quads = malloc((size_t)(s->first + s->items) * TEST_QUAD_WORDS * sizeof(float));
+    quads_fill(quads, s->first + s->items, rg_level_size(s->width, s->level),
+               rg_level_size(s->height, s->level), s->kind, 11);
+    struct drawn due[2], drawn[2];
+    draw("cpu:reference", s, quads, &due[0], &due[1]);
+    assert_true(changed(&due[0]) == (s->format != RG_FORMAT_NONE));
+    assert_true(changed(&due[1]) == (s->depth == RG_DEPTH_WRITE));
+    for (int i = 0; i < COUNT_OF(counts); i++) {
+        omp_set_num_threads(counts[i]);
+        draw("cpu", s, quads, &drawn[0], &drawn[1]);
+        for (int k = 0; k < 2; k++) {
+            if (memcmp(due[k].texels, drawn[k].texels, due[k].words * 4) != 0)
+                fail_msg("%s differs from cpu:reference's, %d threads", k ? "depth" : "colour",
+                         counts[i]);
+            free(drawn[k].texels);
+        }
+    }
+    omp_set_num_threads(threads);
+    free(due[0].texels);
+    free(due[1].texels);
+    free(quads);
+}
+
+static void depth_is_drawn_alone(void **state)
+{
+    (void)state;
+    check(&(struct scene){333, 217, 1, 1, 0, 0, 0, 6000, QUAD_KINDS, RG_FORMAT_NONE, RG_BLEND_OFF,
+                          RG_DEPTH_WRITE});
+}
+
+static void one_layer_of_one_level_is_drawn_to(void **state)
+{
+    (void)state;
+    check(&(struct scene){600, 430, 3, 3, 1, 1, 0, 6000, QUAD_KINDS, RG_RGBA16F, RG_BLEND_OVER,
+                          RG_DEPTH_WRITE});
+}
+
+static void few_pixels_are_drawn_to(void **state)
+{
+    (void)state;
+    const int sizes[][2] = {{1, 1}, {3, 200}, {64, 64}, {65, 63}, {129, 8}};
+    for (int i = 0; i < COUNT_OF(sizes); i++)
+        check(&(struct scene){sizes[i][0], sizes[i][1], 1, 1, 0, 0, 0, 3000, QUAD_KINDS, RG_RGBA32F,
+                              RG_BLEND_OVER, RG_DEPTH_TEST});
+}
+
+// More pixels than the largest number of tiles of the least size.
+static void many_pixels_are_drawn_to(void **state)
+{
+    (void)state;
+    check(&(struct scene){4500, 4000, 1, 1, 0, 0, 0, 3000, QUAD_KINDS, RG_RGBA8, RG_BLEND_ADD,
+                          RG_DEPTH_OFF});
+}
+
+static void some_items_of_a_buffer_are_drawn(void **state)
+{
+    (void)state;
+    const int firsts[] = {1, 255, 4097}, items[] = {1, 15, 257, 4099};
+    for (int i = 0; i < COUNT_OF(firsts); i++)
+        for (int k = 0; k < COUNT_OF(items); k++)
+            check(&(struct scene){333, 217, 1, 1, 0, 0, firsts[i], items[k], QUAD_LARGE, RG_RGBA8,
+                                  RG_BLEND_OVER, RG_DEPTH_OFF});
+}
+
+// More than a new device has room for: the first run takes several rounds.
+static void many_items_are_drawn(void **state)
+{
+    (void)state;
+    check(&(struct scene){640, 360, 1, 1, 0, 0, 0, 150000, QUAD_STREAK, RG_RGBA16F, RG_BLEND_OVER,
+                          RG_DEPTH_OFF});
+}
+
+// Room ends amid a batch whose items are clipped, and the batch is drawn again as a whole.
+static void many_clipped_items_are_drawn(void **state)
+{
+    (void)state;
+    check(&(struct scene){40, 30, 1, 1, 0, 0, 0, 150000, QUAD_BEHIND, RG_RGBA32F, RG_BLEND_ADD,
+                          RG_DEPTH_OFF});
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(depth_is_drawn_alone),
+        cmocka_unit_test(one_layer_of_one_level_is_drawn_to),
+        cmocka_unit_test(few_pixels_are_drawn_to),
+        cmocka_unit_test(many_pixels_are_drawn_to),
+        cmocka_unit_test(some_items_of_a_buffer_are_drawn),
+        cmocka_unit_test(many_items_are_drawn),
+        cmocka_unit_test(many_clipped_items_are_drawn),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,88 @@
+// Every operation of the dialect gives the same bits on every device and every instruction set.
+#include "core/device/probe.h"
+#include "core/device/scan.h"
+#include "tests/core/device/suite.h"
+
+// Rows that must be exact come first and are; the drivers' own functions follow and may differ.
+static void check_operations(struct rg_device *device)
+{
+    struct rg_probe_result results[RG_PROBE_COUNT];
+    int failed = 0;
+    assert_true(rg_probe_run(device, results));
+    for (int i = 0; i < RG_PROBE_COUNT; i++) {
+        assert_non_null(results[i].name);
+        assert_int_equal(results[i].builtin, i >= RG_PROBE_OP_COUNT);
+        assert_int_equal(results[i].compared, RG_PROBE_INPUTS);
+        if (results[i].builtin || results[i].different == 0)
+            continue;
+        print_error("%s, %s: %d of %d differ, by up to %u ulp\n", device->info.api, results[i].name,
+                    results[i].different, results[i].compared, results[i].largest_ulps);
+        failed++;
+    }
+    assert_int_equal(failed, 0);
+}
+
+static void operations_are_exact(void **state)
+{
+    check_operations(*state);
+}
+
+static void check_scan(struct rg_device *device)
+{
+    enum { COUNT = 100003 };
+    uint32_t *words = noise_words(COUNT, 8), sum = 0;
+    struct rg_buf *values = make_buf(device, words, COUNT, "values");
+    struct rg_buf *sums = filled_buf(device, 0, COUNT + 1, "sums");
+    struct rg_scan *scan = rg_scan_create(device, COUNT);
+    assert_non_null(scan);
+    assert_true(rg_scan_sum(scan, values, sums, COUNT));
+    uint32_t *got = read_words(sums, COUNT + 1);
+    for (int i = 0; i < COUNT; sum += words[i++])
+        assert_int_equal(got[i], sum);
+    free(got);
+    free(words);
+    rg_scan_destroy(scan);
+    rg_buf_destroy(values);
+    rg_buf_destroy(sums);
+}
+
+// `cpu` holds its kernels once an instruction set, which RG_CPU_LEVEL picks.
+static void every_cpu_level_gives_the_same(void **state)
+{
+    (void)state;
+    if (strcmp(suite_device, "cpu") != 0)
+        skip();
+    static const char *const levels[] = {"plain", "v2", "v3", "v4"};
+    const char *set = getenv("RG_CPU_LEVEL");
+    char *kept = set ? strdup(set) : NULL;
+    int run = 0;
+    for (int i = 0; i < COUNT_OF(levels); i++) {
+        enum rg_open_status status;
+        setenv("RG_CPU_LEVEL", levels[i], 1);
+        listen();
+        struct rg_device *device = rg_device_open("cpu", &status);
+        heard();
+        assert_int_equal(status, device ? RG_OPEN_OK : RG_OPEN_UNSUPPORTED);
+        if (!device)
+            continue;
+        assert_non_null(strstr(device->info.api, levels[i]));
+        check_operations(device);
+        check_scan(device);
+        assert_true(rg_device_close(device));
+        run++;
+    }
+    setenv("RG_CPU_LEVEL", "v99", 1);
+    assert_refused(rg_device_open("cpu", NULL), "RG_CPU_LEVEL=v99");
+    if (kept)
+        setenv("RG_CPU_LEVEL", kept, 1);
+    else
+        unsetenv("RG_CPU_LEVEL");
+    free(kept);
+    assert_true(run >= 1);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(operations_are_exact),
+    cmocka_unit_test(every_cpu_level_gives_the_same),
+};
+const struct suite_tests probe_tests = {tests, COUNT_OF(tests)};

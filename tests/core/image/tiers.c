@@ -1,0 +1,260 @@
+// The tiers accept what they are for and reject mutants of the rain, each by the tier named here.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "core/image/compare/compare.h"
+#include "core/image/srgb.h"
+#include "core/base/log.h"
+#include "tests/core/image/rain_picture.h"
+
+enum { WIDTH = 320, HEIGHT = 240, CHANNELS = 4 };
+
+static struct rg_picture honest, background, mutant;
+
+static void quiet(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)line;
+    (void)user;
+}
+
+static int make_pictures(void **state)
+{
+    (void)state;
+    rg_log_listen(quiet, NULL);
+    if (!rg_picture_create(&honest, WIDTH, HEIGHT, CHANNELS, "honest") ||
+        !rg_picture_create(&background, WIDTH, HEIGHT, CHANNELS, "background") ||
+        !rg_picture_create(&mutant, WIDTH, HEIGHT, CHANNELS, "mutant"))
+        return -1;
+    rain_draw(&honest, honest_rain);
+    rain_background(&background);
+    return 0;
+}
+
+static int destroy_pictures(void **state)
+{
+    (void)state;
+    rg_log_listen(NULL, NULL);
+    rg_picture_destroy(&honest);
+    rg_picture_destroy(&background);
+    rg_picture_destroy(&mutant);
+    return 0;
+}
+
+static struct rg_tiers judge(const struct rg_picture *b)
+{
+    struct rg_comparison comparison;
+    assert_true(rg_compare(&honest, "honest", b, "b", &background, &(struct rg_compare_options){0},
+                           &comparison));
+    struct rg_tiers tiers = comparison.tiers;
+    rg_comparison_destroy(&comparison);
+    return tiers;
+}
+
+// "holds" as a word of the tiers that hold, for messages that show all at once.
+static void assert_holds(const struct rg_tiers *t, bool t0, bool t1, bool t2)
+{
+    if (t->t0.holds != t0 || t->t1.holds != t1 || t->t2.holds != t2)
+        fail_msg("T0 %d %s; T1 %d %s; T2 %d %s", t->t0.holds, t->t0.why, t->t1.holds, t->t1.why,
+                 t->t2.holds, t->t2.why);
+}
+
+static void the_same_rain_is_identical(void **state)
+{
+    (void)state;
+    rain_draw(&mutant, honest_rain);
+    struct rg_tiers t = judge(&mutant);
+    assert_holds(&t, true, true, true);
+    assert_true(t.mask_pixels > 3000 && t.mask_pixels < WIDTH * HEIGHT / 5);
+    assert_false(t.mask_is_whole);
+    assert_true(t.energy_ratio == 1 && t.relative_mean == 0 && t.matched_a == 1);
+}
+
+static void one_bit_is_not_identical(void **state)
+{
+    (void)state;
+    rain_draw(&mutant, honest_rain);
+    mutant.texels[12345] = nextafterf(mutant.texels[12345], 1);
+    struct rg_tiers t = judge(&mutant);
+    assert_holds(&t, false, true, true);
+}
+
+static void other_rounding_is_arithmetic(void **state)
+{
+    (void)state;
+    rain_draw(&mutant, honest_rain);
+    for (int i = 0; i < WIDTH * HEIGHT * CHANNELS; i++)
+        mutant.texels[i] *= 1 + 1e-5f * ((float)(rain_noise((uint32_t)i) >> 8) * 0x1p-23f - 1);
+    struct rg_tiers t = judge(&mutant);
+    assert_holds(&t, false, true, true);
+    assert_true(t.max_codes <= 1 && t.relative_mean > 1e-6 && t.relative_max < 2e-5);
+}
+
+static void lost_streaks_are_caught_by_t1_and_t2(void **state)
+{
+    (void)state;
+    struct rain_look look = honest_rain;
+    look.skip_every = 100; // 1 %
+    rain_draw(&mutant, look);
+    struct rg_tiers t = judge(&mutant);
+    assert_holds(&t, false, false, false);
+    assert_true(t.coverage_mismatches > 20);
+}
+
+static void a_shift_by_one_is_geometry(void **state)
+{
+    (void)state;
+    struct rain_look look = honest_rain;
+    look.shift_px = 1;
+    rain_draw(&mutant, look);
+    struct rg_tiers t = judge(&mutant);
+    assert_false(t.t1.holds);
+    assert_true(t.coverage_mismatches > 1000);
+    // The block's edge and tiles of few streaks apart, every streak is found again.
+    assert_true(t.matched_a > 0.97 && t.matched_b > 0.97);
+}
+
+static void a_streak_two_pixels_off_is_caught_by_t1(void **state)
+{
+    (void)state;
+    struct rain_look look = honest_rain;
+    look.shifted_streak = 17;
+    look.shifted_streak_px = 2;
+    rain_draw(&mutant, look);
+    struct rg_tiers t = judge(&mutant);
+    assert_false(t.t1.holds);
+    assert_true(t.coverage_mismatches > 10);
+    assert_true(t.matched_a < 1 && t.matched_b < 1); // seen by T2 too, below its share here
+}
+
+static void stronger_rain_is_caught_by_t1_and_t2(void **state)
+{
+    (void)state;
+    struct rain_look look = honest_rain;
+    look.alpha_scale = 1.02f;
+    rain_draw(&mutant, look);
+    struct rg_tiers t = judge(&mutant);
+    assert_false(t.t1.holds);
+    assert_true(t.bias_codes > 0.25);
+    assert_true(t.relative_mean > 0.005);
+    if (t.t2.holds)
+        fail_msg("energy %g", t.energy_ratio);
+}
+
+static void swapped_colours_are_caught(void **state)
+{
+    (void)state;
+    rain_draw(&mutant, honest_rain);
+    for (float *texel = mutant.texels; texel < mutant.texels + WIDTH * HEIGHT * CHANNELS;
+         texel += CHANNELS) {
+        float red = texel[0];
+        texel[0] = texel[2];
+        texel[2] = red;
+    }
+    struct rg_tiers t = judge(&mutant);
+    assert_holds(&t, false, false, false);
+    assert_true(fabs(t.bias_codes) > 5); // of one colour; over all of them it would cancel
+}
+
+static void a_flip_is_caught(void **state)
+{
+    (void)state;
+    for (int y = 0; y < HEIGHT; y++)
+        memcpy(mutant.texels + y * WIDTH * CHANNELS,
+               honest.texels + (HEIGHT - 1 - y) * WIDTH * CHANNELS, WIDTH * CHANNELS * 4);
+    struct rg_tiers t = judge(&mutant);
+    assert_holds(&t, false, false, false);
+}
+
+static void srgb_twice_is_caught(void **state)
+{
+    (void)state;
+    rain_draw(&mutant, honest_rain);
+    for (int i = 0; i < WIDTH * HEIGHT * CHANNELS; i++)
+        if (i % CHANNELS < 3)
+            mutant.texels[i] = (float)rg_srgb_encode((double)mutant.texels[i]);
+    struct rg_tiers t = judge(&mutant);
+    assert_holds(&t, false, false, false);
+}
+
+static void no_rain_fails_every_tier(void **state)
+{
+    (void)state;
+    struct rg_comparison c;
+    assert_true(rg_compare(&background, "a", &background, "b", &background,
+                           &(struct rg_compare_options){0}, &c));
+    assert_holds(&c.tiers, false, false, false);
+    assert_int_equal(c.tiers.mask_pixels, 0);
+    assert_non_null(strstr(c.tiers.t0.why, "empty"));
+    assert_string_equal(c.tier, "none");
+    rg_comparison_destroy(&c);
+}
+
+static void without_background_the_mask_is_whole(void **state)
+{
+    (void)state;
+    struct rg_comparison c;
+    assert_true(rg_compare(&honest, "a", &honest, "b", NULL, &(struct rg_compare_options){0}, &c));
+    assert_true(c.tiers.mask_is_whole);
+    assert_int_equal(c.tiers.mask_pixels, WIDTH * HEIGHT);
+    assert_string_equal(c.tier, "T0");
+    rg_comparison_destroy(&c);
+}
+
+static void nan_in_one_picture_fails(void **state)
+{
+    (void)state;
+    rain_draw(&mutant, honest_rain);
+    mutant.texels[0] = NAN;
+    struct rg_tiers t = judge(&mutant);
+    assert_holds(&t, false, false, false);
+}
+
+// Rain so dim that it is black when encoded is in no mask; the exposure brings it back.
+static void exposure_reveals_dim_rain(void **state)
+{
+    (void)state;
+    struct rg_picture dark, dim;
+    assert_true(rg_picture_create(&dark, 64, 64, 3, "dark") &&
+                rg_picture_create(&dim, 64, 64, 3, "dim"));
+    memset(dark.texels, 0, 64 * 64 * 3 * 4);
+    memset(dim.texels, 0, 64 * 64 * 3 * 4);
+    for (int y = 0; y < 64; y++)
+        dim.texels[(y * 64 + 30) * 3] = 1e-4f;
+    struct rg_comparison c;
+    assert_true(rg_compare(&dim, "a", &dim, "b", &dark, &(struct rg_compare_options){0}, &c));
+    assert_int_equal(c.tiers.mask_pixels, 0);
+    rg_comparison_destroy(&c);
+    const struct rg_compare_options bright = {.exposure = 1000};
+    assert_true(rg_compare(&dim, "a", &dim, "b", &dark, &bright, &c));
+    assert_int_equal(c.tiers.mask_pixels, 64);
+    assert_true(c.tiers.t0.holds);
+    rg_comparison_destroy(&c);
+    rg_picture_destroy(&dark);
+    rg_picture_destroy(&dim);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_same_rain_is_identical),
+        cmocka_unit_test(one_bit_is_not_identical),
+        cmocka_unit_test(other_rounding_is_arithmetic),
+        cmocka_unit_test(lost_streaks_are_caught_by_t1_and_t2),
+        cmocka_unit_test(a_shift_by_one_is_geometry),
+        cmocka_unit_test(a_streak_two_pixels_off_is_caught_by_t1),
+        cmocka_unit_test(stronger_rain_is_caught_by_t1_and_t2),
+        cmocka_unit_test(swapped_colours_are_caught),
+        cmocka_unit_test(a_flip_is_caught),
+        cmocka_unit_test(srgb_twice_is_caught),
+        cmocka_unit_test(no_rain_fails_every_tier),
+        cmocka_unit_test(without_background_the_mask_is_whole),
+        cmocka_unit_test(nan_in_one_picture_fails),
+        cmocka_unit_test(exposure_reveals_dim_rain),
+    };
+    return cmocka_run_group_tests_name("agreement tiers", tests, make_pictures, destroy_pictures);
+}

@@ -1,0 +1,212 @@
+// Rays through the drop: against closed form where it is a sphere, against an oracle elsewhere.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "core/scene/atlas/trace.h"
+#include "tests/oracle/drop.h"
+
+#define PI    3.14159265358979323846
+#define INDEX ((double)RG_DROP_INDEX)
+
+static const struct rg_drop_shape sphere = {0, 0, 0, 1};
+static struct rg_drop_row row;
+
+static void trace_sphere(float first_u, float step_u, int count)
+{
+    const struct rg_drop_view view = rg_drop_view(0);
+    rg_drop_trace(&sphere, &view, 0, first_u, step_u, count, &row);
+}
+
+// The angle between the light's way and the way to the viewer, who stands at +z.
+static double deviation_of(int way, int i)
+{
+    return acos(fmax(-1, fmin(1, -(double)row.z[way][i])));
+}
+
+// Unpolarised, from the angles in and out.
+static double fresnel(double in, double out)
+{
+    const double across = sin(in - out) / sin(in + out), plane = tan(in - out) / tan(in + out);
+    return 0.5 * (across * across + plane * plane);
+}
+
+static void test_sphere(void **state)
+{
+    (void)state;
+    enum { COUNT = 480 };
+    trace_sphere(0.002f, 0.002f, COUNT);
+    for (int i = 0; i < COUNT; i++) {
+        const double in = asin(0.002 * (i + 1)), out = asin(sin(in) / INDEX);
+        const double r = fresnel(in, out), t = 1 - r, half_turn = PI - 2 * out;
+        const double expected[4][2] = {{PI - 2 * in, r},
+                                       {2 * (in - out), t * t},
+                                       {2 * (in - out) + half_turn, t * t * r},
+                                       {2 * (in - out) + 2 * half_turn, t * t * r * r}};
+        for (int way = 0; way < 4; way++) {
+            const double wanted = acos(cos(expected[way][0]));
+            if (fabs(deviation_of(way, i) - wanted) > 2e-3 ||
+                fabs((double)row.share[way][i] - expected[way][1]) > 2e-4)
+                fail_msg("way %d at %g radii: %.5f rad and %.6f, expected %.5f and %.6f", way,
+                         0.002 * (i + 1), deviation_of(way, i), (double)row.share[way][i], wanted,
+                         expected[way][1]);
+        }
+    }
+}
+
+// The least deviation of light with k reflections inside: cos^2 in = (n^2 - 1) / (k (k + 2)).
+static double rainbow(int k)
+{
+    const double in = acos(sqrt((INDEX * INDEX - 1) / (k * (k + 2))));
+    return 2 * (in - asin(sin(in) / INDEX)) + k * (PI - 2 * asin(sin(in) / INDEX));
+}
+
+static void test_rainbows(void **state)
+{
+    (void)state;
+    enum { COUNT = 500 };
+    trace_sphere(0.0f, 0.002f, COUNT);
+    double primary = PI, secondary = 0;
+    for (int i = COUNT / 2; i < COUNT; i++) {
+        primary = fmin(primary, deviation_of(2, i));
+        secondary = fmax(secondary, deviation_of(3, i)); // it has turned beyond half a circle
+    }
+    assert_true(fabs(primary - rainbow(1)) < 1e-3);
+    assert_true(fabs(secondary - (2 * PI - rainbow(2))) < 1e-3);
+    assert_true(fabs(primary * 180 / PI - 137.9) < 0.1);
+    assert_true(fabs(secondary * 180 / PI - 129.1) < 0.1);
+}
+
+static void test_normal_incidence(void **state)
+{
+    (void)state;
+    trace_sphere(0.0f, 1.0f, 1);
+    const double f0 = (INDEX - 1) * (INDEX - 1) / ((INDEX + 1) * (INDEX + 1));
+    assert_true(fabs((double)row.share[0][0] - f0) < 1e-6);
+    assert_true(fabs(f0 - 0.0204) < 5e-5);
+    for (int way = 0; way < RG_DROP_WAYS; way++)
+        assert_true(fabs((double)row.x[way][0]) < 1e-6);
+}
+
+// What is not reflected a third time leaves the drop: of a sphere all but t r^3.
+static void test_energy(void **state)
+{
+    (void)state;
+    enum { COUNT = 498 };
+    trace_sphere(0.002f, 0.002f, COUNT);
+    for (int i = 0; i < COUNT; i++) {
+        const double in = asin(0.002 * (i + 1)), r = fresnel(in, asin(sin(in) / INDEX));
+        double sum = 0;
+        for (int way = 0; way < RG_DROP_WAYS; way++)
+            sum += (double)row.share[way][i];
+        assert_true(fabs(sum - (1 - (1 - r) * r * r * r)) < 1e-5);
+    }
+    for (int oscillation = 0; oscillation < 10; oscillation++) {
+        const struct rg_drop_shape shape = rg_drop_shape(oscillation, 0.0043);
+        const struct rg_drop_view view = rg_drop_view(40);
+        double all = 0, rays = 0;
+        for (int j = -60; j <= 60; j++) {
+            rg_drop_trace(&shape, &view, (float)j / 50, -1.2f, 0.02f, 121, &row);
+            for (int i = 0; i < 121; i++) {
+                double sum = 0;
+                for (int way = 0; way < RG_DROP_WAYS; way++)
+                    sum += (double)row.share[way][i];
+                assert_true(sum >= 0 && sum < 1 + 1e-5);
+                all += sum;
+                rays += sum > 0;
+            }
+        }
+        if (!(all / rays > (oscillation ? 0.95 : 0.995)))
+            fail_msg("oscillation %d: %g of the light is found", oscillation, all / rays);
+    }
+}
+
+static double turned(double c[3], int way, int i)
+{
+    return c[0] * (double)row.x[way][i] + c[1] * (double)row.y[way][i] +
+           c[2] * (double)row.z[way][i];
+}
+
+static void expect_oracle(const struct oracle_drop *drop, const double start[3],
+                          const double ray[3], int i, int *compared)
+{
+    double direction[ORACLE_WAYS][3], share[ORACLE_WAYS];
+    if (!oracle_drop_light(drop, start, ray, direction, share)) {
+        for (int way = 0; way < RG_DROP_WAYS; way++)
+            assert_true(row.share[way][i] <= 0);
+        return;
+    }
+    for (int way = 0; way < RG_DROP_WAYS; way++) {
+        if (share[way] < 1e-5)
+            continue;
+        if (turned(direction[way], way, i) < cos(0.01) ||
+            fabs((double)row.share[way][i] - share[way]) > 1e-3)
+            fail_msg("way %d, ray %d: (%.4f %.4f %.4f) %.5f, expected (%.4f %.4f %.4f) %.5f", way,
+                     i, (double)row.x[way][i], (double)row.y[way][i], (double)row.z[way][i],
+                     (double)row.share[way][i], direction[way][0], direction[way][1],
+                     direction[way][2], share[way]);
+        ++*compared;
+    }
+}
+
+// Every oscillation at two moments, from all views. Rays that touch the rim are left out.
+static void test_oscillating(void **state)
+{
+    (void)state;
+    static const double amplitudes[10][2] = {{0, 0},     {.2, 0},    {.1, .055}, {.1, .055},
+                                             {.1, .055}, {.1, .055}, {.2, .055}, {.2, .055},
+                                             {.2, .055}, {.2, .055}};
+    static const double azimuths[10] = {0, 0, 90, 180, 270, 0, 90, 180, 270, 0};
+    const double w2 = sqrt(8 * 0.0728 / (1000 * pow(1.6e-3, 3)));
+    const double w3 = sqrt(30 * 0.0728 / (1000 * pow(1.6e-3, 3)));
+    int compared = 0;
+    for (int k = 0; k < 20; k++) {
+        const double time = k % 2 ? 0.0021 : 0.0118, tilt = 20 * (k % 5) * PI / 180;
+        const struct oracle_drop drop = {amplitudes[k / 2][0] * sin(w2 * time),
+                                         amplitudes[k / 2][1] * sin(w3 * time),
+                                         azimuths[k / 2] * PI / 180, INDEX};
+        const struct rg_drop_shape shape = rg_drop_shape(k / 2, time);
+        const struct rg_drop_view view = rg_drop_view(20 * (k % 5));
+        for (int j = -3; j <= 3; j++) {
+            rg_drop_trace(&shape, &view, (float)j * 0.2f, -0.6f, 0.1f, 13, &row);
+            for (int i = 0; i < 13; i++) {
+                const double u = -0.6 + 0.1 * i, v = 0.2 * j;
+                const double start[3] = {u, v * cos(tilt) + 3 * sin(tilt),
+                                         3 * cos(tilt) - v * sin(tilt)};
+                const double ray[3] = {0, -sin(tilt), -cos(tilt)};
+                if (hypot(u, v) < 0.8)
+                    expect_oracle(&drop, start, ray, i, &compared);
+            }
+        }
+    }
+    assert_true(compared > 5000);
+}
+
+// What is seen left and right of an upright drop's middle is mirrored.
+static void test_mirrored(void **state)
+{
+    (void)state;
+    const struct rg_drop_shape shape = rg_drop_shape(1, 0.003);
+    const struct rg_drop_view view = rg_drop_view(20);
+    rg_drop_trace(&shape, &view, 0.3f, -0.95f, 0.1f, 20, &row);
+    for (int way = 0; way < RG_DROP_WAYS; way++)
+        for (int i = 0; i < 10; i++) {
+            assert_true(fabsf(row.x[way][i] + row.x[way][19 - i]) < 1e-4f);
+            assert_true(fabsf(row.y[way][i] - row.y[way][19 - i]) < 1e-4f);
+            assert_true(fabsf(row.share[way][i] - row.share[way][19 - i]) < 1e-5f);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sphere),           cmocka_unit_test(test_rainbows),
+        cmocka_unit_test(test_normal_incidence), cmocka_unit_test(test_energy),
+        cmocka_unit_test(test_oscillating),      cmocka_unit_test(test_mirrored),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

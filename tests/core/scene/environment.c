@@ -1,0 +1,346 @@
+// Environment maps: files that are damaged are refused in one line, and cube maps have no seams.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/image/files/io.h"
+#include "core/base/log.h"
+#include "core/scene/environment/cube.h"
+#include "kernels/dialect/image/cube.h"
+#include "tests/core/folder.h"
+
+static void write_file(const char *path, const void *data, size_t bytes)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, bytes, file), bytes);
+    assert_int_equal(fclose(file), 0);
+}
+
+// --- files ---
+
+// A KTX 1 file as bytes: 12 of identifier, 13 words of header, the size of a face, six faces.
+enum { FACE_PX = 4, IDENTIFIER = 12, WORDS = 13, FACE_BYTES = FACE_PX * FACE_PX * 4 };
+enum { KTX_BYTES = IDENTIFIER + WORDS * 4 + 4 + 6 * FACE_BYTES };
+enum word { ENDIANNESS, INTERNAL_FORMAT = 4, WIDTH = 6, HEIGHT, FACES = 10, KEY_VALUE_BYTES = 12 };
+
+static void make_ktx(unsigned char *file)
+{
+    static const unsigned char identifier[IDENTIFIER] = {0xab, 'K',  'T',  'X',  ' ',  '1',
+                                                         '1',  0xbb, '\r', '\n', 0x1a, '\n'};
+    const uint32_t header[WORDS] = {0x04030201, 0x8c3b, 4, 0x1907, 0x8c3a, 0x1907, FACE_PX,
+                                    FACE_PX,    0,      0, 6,      1,      0};
+    const uint32_t face_bytes = FACE_BYTES, one = 15u << 6 | 15u << 17 | 15u << 27;
+    memcpy(file, identifier, IDENTIFIER);
+    memcpy(file + IDENTIFIER, header, sizeof(header));
+    memcpy(file + IDENTIFIER + sizeof(header), &face_bytes, 4);
+    for (int i = 0; i < 6 * FACE_PX * FACE_PX; i++)
+        memcpy(file + IDENTIFIER + sizeof(header) + 4 + 4 * i, &one, 4);
+}
+
+static void set_word(unsigned char *file, enum word word, uint32_t value)
+{
+    memcpy(file + IDENTIFIER + 4 * word, &value, 4);
+}
+
+struct lines {
+    int count;
+    char last[1024];
+};
+
+static void listen(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    struct lines *lines = user;
+    lines->count++;
+    snprintf(lines->last, sizeof(lines->last), "%s", line);
+}
+
+// The environment is refused in exactly one line, which names the file and says this.
+static void expect_refused(const char *path, const char *why)
+{
+    struct lines lines = {0};
+    rg_log_listen(listen, &lines);
+    struct rg_environment *environment = rg_environment_load(path);
+    rg_log_listen(NULL, NULL);
+    assert_null(environment);
+    if (lines.count != 1 || !strstr(lines.last, path) || !strstr(lines.last, why))
+        fail_msg("%d lines, the last: %s", lines.count, lines.last);
+}
+
+static void expect_file_refused(const char *name, const void *data, size_t bytes, const char *why)
+{
+    const char *path = in_folder(name);
+    write_file(path, data, bytes);
+    expect_refused(path, why);
+    unlink(path);
+}
+
+static void test_a_good_ktx_is_read(void **state)
+{
+    (void)state;
+    unsigned char file[KTX_BYTES];
+    make_ktx(file);
+    const char *path = in_folder("good.ktx");
+    write_file(path, file, sizeof(file));
+    struct rg_environment *environment = rg_environment_load(path);
+    unlink(path);
+    assert_non_null(environment);
+    assert_int_equal(environment->size, FACE_PX);
+    for (int face = 0; face < 6; face++)
+        for (int y = -1; y <= FACE_PX; y++)
+            for (int x = -1; x <= FACE_PX; x++)
+                for (int c = 0; c < 3; c++)
+                    assert_true(rg_environment_texel(environment, face, x, y)[c] == 1.0f);
+    rg_environment_destroy(environment);
+}
+
+static void test_truncated_ktx(void **state)
+{
+    (void)state;
+    unsigned char file[KTX_BYTES];
+    make_ktx(file);
+    expect_file_refused("cut.ktx", file, KTX_BYTES - 1, "truncated");
+    expect_file_refused("header.ktx", file, IDENTIFIER + WORDS * 4, "truncated");
+    expect_file_refused("half.ktx", file, IDENTIFIER + 10, "truncated");
+    expect_file_refused("empty.ktx", file, 0, "empty");
+}
+
+static void test_wrong_ktx(void **state)
+{
+    (void)state;
+    static const struct {
+        enum word word;
+        uint32_t value;
+        const char *why;
+    } cases[] = {
+        {INTERNAL_FORMAT, 0x8058, "0x8058"},
+        {FACES, 1, "1 faces"},
+        {FACES, 0xffffffffu, "faces"},
+        {WIDTH, 5, "5x4"},
+        {HEIGHT, 0, "4x0"},
+        {ENDIANNESS, 0x01020304, "byte order"},
+        {KEY_VALUE_BYTES, 64, "truncated"},
+        {KEY_VALUE_BYTES, 0xffffffffu, "damaged"},
+    };
+    unsigned char file[KTX_BYTES];
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        make_ktx(file);
+        set_word(file, cases[i].word, cases[i].value);
+        expect_file_refused("wrong.ktx", file, sizeof(file), cases[i].why);
+    }
+    make_ktx(file);
+    set_word(file, WIDTH, 1 << 20);
+    set_word(file, HEIGHT, 1 << 20);
+    expect_file_refused("huge.ktx", file, sizeof(file), "1048576x1048576");
+    make_ktx(file);
+    file[5] = '2';
+    expect_file_refused("version.ktx", file, sizeof(file), "not a KTX 1 file");
+}
+
+static void test_what_is_no_file(void **state)
+{
+    (void)state;
+    expect_refused(in_folder("absent.ktx"), "No such file");
+    expect_refused(in_folder("absent.exr"), "");
+    expect_refused(folder, "");
+    const char *path = in_folder("folder.ktx");
+    assert_int_equal(mkdir(path, 0700), 0);
+    expect_refused(path, "");
+    rmdir(path);
+    expect_file_refused("empty.exr", "", 0, "");
+    expect_file_refused("text.hdr", "no image", 8, "");
+}
+
+static void test_a_lat_long_of_the_wrong_shape(void **state)
+{
+    (void)state;
+    struct rg_picture picture;
+    assert_true(rg_picture_create(&picture, 48, 32, 3, "test"));
+    for (int64_t i = 0; i < rg_picture_values(&picture); i++)
+        picture.texels[i] = 0.5f;
+    const char *path = in_folder("wide.exr");
+    assert_true(rg_picture_write(path, &picture, &(struct rg_write_options){0}));
+    rg_picture_destroy(&picture);
+    expect_refused(path, "48x32");
+    unlink(path);
+}
+
+// --- cube maps ---
+
+enum { SIZE = 32 };
+
+static void test_locating_inverts_direction(void **state)
+{
+    (void)state;
+    for (int face = 0; face < 6; face++) {
+        for (int y = 0; y < SIZE; y++) {
+            for (int x = 0; x < SIZE; x++) {
+                double d[3];
+                rg_cube_direction(face, x, y, SIZE, d);
+                const cube_point c =
+                    cube_locate(v3_make((float)d[0] * 3, (float)d[1] * 3, (float)d[2] * 3), SIZE);
+                assert_int_equal(c.face, face);
+                assert_int_equal(cube_texel(c.x, SIZE), x);
+                assert_int_equal(cube_texel(c.y, SIZE), y);
+                assert_true(fabs((double)c.x - (x + 0.5)) < 1e-5);
+                assert_true(fabs((double)c.y - (y + 0.5)) < 1e-5);
+            }
+        }
+    }
+}
+
+// Axes, edges and corners of the cube fall on some texel of a face.
+static void test_seams_are_on_a_face(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 27; i++) {
+        const v3 d = v3_make((float)(i % 3 - 1), (float)(i / 3 % 3 - 1), (float)(i / 9 - 1));
+        if (i == 13)
+            continue; // no direction
+        const cube_point c = cube_locate(d, SIZE);
+        const float along[6] = {d.x, -d.x, d.y, -d.y, d.z, -d.z};
+        assert_in_range(c.face, 0, 5);
+        assert_true(along[c.face] == 1.0f);
+        assert_in_range(cube_texel(c.x, SIZE), 0, SIZE - 1);
+        assert_in_range(cube_texel(c.y, SIZE), 0, SIZE - 1);
+    }
+}
+
+// Light that tells every direction from every other, and changes by 1 a radian at most.
+static void unit_light(const double d[3], const void *user, double light[3])
+{
+    (void)user;
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (int i = 0; i < 3; i++)
+        light[i] = 2 + d[i] / length;
+}
+
+// As a file brings it: faces alone, then borders from the neighbours.
+static struct rg_environment *make_closed(void)
+{
+    struct rg_environment *environment = rg_environment_create(SIZE);
+    rg_environment_fill(environment, unit_light, NULL);
+    for (int face = 0; face < 6; face++)
+        for (int y = -1; y <= SIZE; y++)
+            for (int x = -1; x <= SIZE; x++)
+                if (x < 0 || y < 0 || x == SIZE || y == SIZE)
+                    rg_environment_texel(environment, face, x, y)[0] = -1000;
+    rg_environment_close_borders(environment);
+    return environment;
+}
+
+static void test_borders_come_from_the_neighbour(void **state)
+{
+    (void)state;
+    struct rg_environment *environment = make_closed();
+    for (int face = 0; face < 6; face++) {
+        for (int y = -1; y <= SIZE; y++) {
+            for (int x = -1; x <= SIZE; x++) {
+                double d[3], light[3];
+                rg_cube_direction(face, x, y, SIZE, d);
+                unit_light(d, NULL, light);
+                // A border's texel is its neighbour's nearest: at most a texel away, 2 / SIZE.
+                for (int c = 0; c < 3; c++)
+                    assert_true(fabs((double)rg_environment_texel(environment, face, x, y)[c] -
+                                     light[c]) < 2.0 / SIZE);
+            }
+        }
+    }
+    rg_environment_destroy(environment);
+}
+
+static double red_of(uint32_t texel)
+{
+    return ldexp(64 + (texel & 63), (int)(texel >> 6 & 31) - 21);
+}
+
+// The outermost texels of a packed face hold the light of the cube's edge itself, so that both
+// faces hold the same: half a texel beside it, light differs by up to 1/PX.
+static void test_packed_faces_end_on_the_edges(void **state)
+{
+    (void)state;
+    enum { PX = 6 };
+    struct rg_environment *environment = rg_environment_create(SIZE);
+    rg_environment_fill(environment, unit_light, NULL);
+    uint32_t(*faces)[PX * PX] = malloc(6 * sizeof(*faces));
+    assert_true(rg_environment_pack(environment, PX, faces[0]));
+    for (int face = 0; face < 6; face++) {
+        for (int i = 0; i < PX * PX; i++) {
+            // From the centres of a face of four texels.
+            double corner[3], next[3], down[3], d[3], light[3];
+            const double x = (double)(i % PX) / (PX - 1), y = (double)(i / PX) / (PX - 1);
+            rg_cube_direction(face, 0, 0, 2, corner);
+            rg_cube_direction(face, 1, 0, 2, next);
+            rg_cube_direction(face, 0, 1, 2, down);
+            for (int c = 0; c < 3; c++)
+                d[c] = corner[c] + (next[c] - corner[c]) * (2 * x - 0.5) +
+                       (down[c] - corner[c]) * (2 * y - 0.5);
+            unit_light(d, NULL, light);
+            // 6 bits of red, dithered; and the mean of a few texels of the map.
+            if (fabs(red_of(faces[face][i]) - light[0]) > 1.0 / 32 + 0.01)
+                fail_msg("face %d, texel %d: %g, not %g", face, i, red_of(faces[face][i]),
+                         light[0]);
+        }
+    }
+    free(faces);
+    rg_environment_destroy(environment);
+}
+
+// Walks along all 12 edges and reads both sides: as near as neighbours within a face are.
+static void test_light_is_smooth_across_edges(void **state)
+{
+    (void)state;
+    enum { PX = 64 };
+    struct rg_environment *environment = make_closed();
+    uint32_t(*faces)[PX * PX] = malloc(6 * sizeof(*faces));
+    rg_environment_pack(environment, PX, faces[0]);
+    for (int edge = 0; edge < 12; edge++) {
+        const int axis = edge % 3; // along which the edge runs
+        for (int i = 0; i < 200; i++) {
+            for (int side = 0; side < 2; side++) {
+                float d[3];
+                d[axis] = (float)i / 100.5f - 0.99f;
+                d[(axis + 1) % 3] = (edge / 3 & 1 ? 1.0f : -1.0f) * (side ? 1.001f : 0.999f);
+                d[(axis + 2) % 3] = edge / 6 ? 1.0f : -1.0f;
+                const cube_point c = cube_locate(v3_make(d[0], d[1], d[2]), PX);
+                const int first = 2 * (side ? (axis + 1) % 3 : (axis + 2) % 3);
+                assert_int_equal(c.face & ~1, first);
+                const uint32_t texel =
+                    faces[c.face][cube_texel(c.y, PX) * PX + cube_texel(c.x, PX)];
+                double wide[3] = {(double)d[0], (double)d[1], (double)d[2]}, light[3];
+                unit_light(wide, NULL, light);
+                // RG11B10F keeps 6 bits of red and green: 1/32 at 2 to 3, dithered either way.
+                assert_true(fabs(red_of(texel) - light[0]) < 2.0 / SIZE + 1.0 / 32);
+            }
+        }
+    }
+    free(faces);
+    rg_environment_destroy(environment);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_good_ktx_is_read),
+        cmocka_unit_test(test_truncated_ktx),
+        cmocka_unit_test(test_wrong_ktx),
+        cmocka_unit_test(test_what_is_no_file),
+        cmocka_unit_test(test_a_lat_long_of_the_wrong_shape),
+        cmocka_unit_test(test_locating_inverts_direction),
+        cmocka_unit_test(test_seams_are_on_a_face),
+        cmocka_unit_test(test_borders_come_from_the_neighbour),
+        cmocka_unit_test(test_packed_faces_end_on_the_edges),
+        cmocka_unit_test(test_light_is_smooth_across_edges),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

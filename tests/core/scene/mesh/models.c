@@ -1,0 +1,405 @@
+// Meshes in memory and by name: joining and normals, other numbers of faces, what packages bring.
+#include "tests/core/scene/mesh/rig.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+#include "core/scene/mesh/models.h"
+
+// --- in memory ---
+
+static void test_equal_vertices_are_joined(void **state)
+{
+    (void)state;
+    // two triangles of their own corners; -0 is 0, and 1e-40 too small to be kept
+    static const float positions[18] = {0,     0, 0, 1, 0,      0, 0, 1, 0,
+                                        -0.0f, 1, 0, 1, 1e-40f, 0, 1, 1, 0};
+    static const uint32_t indices[6] = {0, 1, 2, 3, 4, 5};
+    static const uint32_t joined[6] = {0, 1, 2, 2, 1, 3};
+    struct rg_mesh *mesh = rg_mesh_create("two", 6, 2, positions, NULL, indices);
+    check_mesh(mesh);
+    assert_int_equal(mesh->vertex_count, 4);
+    assert_memory_equal(mesh->indices, joined, sizeof(joined));
+    rg_mesh_destroy(mesh);
+    // with normals that differ they stay apart, until the mesh is made smooth
+    static const float normals[18] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 0};
+    mesh = rg_mesh_create("two", 6, 2, positions, normals, indices);
+    check_mesh(mesh);
+    assert_int_equal(mesh->vertex_count, 6);
+    struct rg_mesh *smooth = rg_mesh_smooth(mesh);
+    check_mesh(smooth);
+    assert_int_equal(smooth->vertex_count, 4);
+    rg_mesh_destroy(mesh);
+    rg_mesh_destroy(smooth);
+}
+
+// A corner of three faces with areas 1, 2 and 3 halves, along the axes.
+static void test_normals_weigh_areas(void **state)
+{
+    (void)state;
+    static const float positions[12] = {0, 0, 0, 1, 0, 0, 0, 3, 0, 0, 0, 2};
+    static const uint32_t indices[9] = {0, 1, 2, 0, 2, 3, 0, 3, 1};
+    struct rg_mesh *mesh = rg_mesh_create("corner", 4, 3, positions, NULL, indices);
+    check_mesh(mesh);
+    const double areas[3] = {6, 2, 3}, length = 7; // twice: 3 * 2, 2 * 1, 1 * 3
+    for (int c = 0; c < 3; c++)
+        assert_true(fabs((double)mesh->normals[c] - areas[c] / length) < 1e-7);
+    rg_mesh_destroy(mesh);
+}
+
+static void expect_no_mesh(int vertices, int faces, const float *positions, const uint32_t *indices,
+                           const char *why)
+{
+    listen_now();
+    assert_null(rg_mesh_create("the arrays", vertices, faces, positions, NULL, indices));
+    rg_log_listen(NULL, NULL);
+    if (lines.count != 1 || !strstr(lines.last, why))
+        fail_msg("%d lines, the last: %s", lines.count, lines.last);
+}
+
+static void test_arrays_that_are_refused(void **state)
+{
+    (void)state;
+    const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, no_number[9] = {0, 0, 0, 0, 1, NAN};
+    const uint32_t indices[3] = {0, 1, 2}, wrong[3] = {0, 1, 3};
+    expect_no_mesh(3, 0, positions, indices, "no faces");
+    expect_no_mesh(0, 1, positions, indices, "no faces");
+    expect_no_mesh(-1, -1, positions, indices, "no faces");
+    expect_no_mesh(3, RG_MESH_MAX_FACES + 1, positions, indices, "10000001 faces");
+    expect_no_mesh(3, 1, no_number, indices, "vertex 1 lies at (0, 1, nan)");
+    expect_no_mesh(3, 1, positions, wrong, "face 0 names vertex 3, but there are 3");
+}
+
+// --- computed models ---
+
+// Each side of a face has one neighbour, which runs along it the other way: no holes, no seams.
+static void expect_closed(const struct rg_mesh *mesh, int euler)
+{
+    assert_int_equal(mesh->vertex_count - mesh->face_count / 2, euler);
+    uint64_t sum = 0, back = 0;
+    for (size_t i = 0; i < 3 * (size_t)mesh->face_count; i++) {
+        const uint64_t a = mesh->indices[i], b = mesh->indices[i % 3 == 2 ? i - 2 : i + 1];
+        sum += (a << 32 | b) * UINT64_C(0x9e3779b97f4a7c15) ^ a * b; // multisets, compared
+        back += (b << 32 | a) * UINT64_C(0x9e3779b97f4a7c15) ^ a * b;
+    }
+    assert_true(sum == back);
+}
+
+static double volume(const struct rg_mesh *mesh)
+{
+    double sum = 0;
+    for (int i = 0; i < mesh->face_count; i++) {
+        const float *p[3];
+        for (int k = 0; k < 3; k++)
+            p[k] = mesh->positions + 3 * mesh->indices[3 * i + k];
+        for (int c = 0; c < 3; c++)
+            sum += (double)p[0][c] * ((double)p[1][(c + 1) % 3] * (double)p[2][(c + 2) % 3] -
+                                      (double)p[1][(c + 2) % 3] * (double)p[2][(c + 1) % 3]);
+    }
+    return sum / 6;
+}
+
+static void test_computed_models(void **state)
+{
+    (void)state;
+    const double pi = acos(-1);
+    struct rg_mesh *sphere = rg_mesh_load("sphere"), *torus = rg_mesh_load("torus");
+    check_mesh(sphere);
+    check_mesh(torus);
+    expect_closed(sphere, 2);
+    expect_closed(torus, 0);
+    assert_int_equal(sphere->face_count, 27648);
+    assert_int_equal(torus->face_count, 32768);
+    // the faces look outwards, and lie just inside the curved surface
+    assert_true(volume(sphere) < 4 * pi / 3 && volume(sphere) > 0.999 * 4 * pi / 3);
+    assert_true(volume(torus) < 2 * pi * pi * 0.7 * 0.09 &&
+                volume(torus) > 0.998 * 2 * pi * pi * 0.7 * 0.09);
+    for (int i = 0; i < 3 * sphere->vertex_count; i++)
+        assert_true(fabsf(sphere->normals[i] - sphere->positions[i]) < 1e-6f);
+    rg_mesh_destroy(sphere);
+    rg_mesh_destroy(torus);
+}
+
+// --- other numbers of faces ---
+
+static void test_decimation(void **state)
+{
+    (void)state;
+    static const int wanted[] = {20000, 5000, 501, 100};
+    struct rg_mesh *sphere = rg_mesh_load("sphere");
+    const double whole = volume(sphere);
+    for (size_t i = 0; i < COUNT_OF(wanted); i++) {
+        char name[64];
+        struct rg_mesh *coarse = rg_mesh_decimate(sphere, wanted[i]);
+        struct rg_mesh *again = rg_mesh_decimate(sphere, wanted[i]);
+        check_mesh(coarse);
+        assert_int_equal(coarse->face_count, wanted[i] / 2 * 2); // a closed surface's is even
+        // 10 divided by the faces is what regular subdivision of an icosahedron loses
+        assert_true(fabs(volume(coarse) / whole - 1) < 20.0 / wanted[i]);
+        assert_true(coarse->hash == again->hash);
+        snprintf(name, sizeof(name), "sphere, decimated to %d faces", wanted[i] / 2 * 2);
+        assert_string_equal(coarse->name, name);
+        rg_mesh_destroy(coarse);
+        rg_mesh_destroy(again);
+    }
+    struct rg_mesh *same = rg_mesh_decimate(sphere, sphere->face_count);
+    assert_true(same->hash == sphere->hash);
+    rg_mesh_destroy(same);
+    rg_mesh_destroy(sphere);
+}
+
+// Books of four pages, which share a spine: none of their edges can collapse without tearing one,
+// so this is done the sloppy way, which loses whole books. They lie all over a square, larger and
+// larger, since those that are smallest are lost first.
+static void test_decimation_against_the_topology(void **state)
+{
+    (void)state;
+    enum { BOOKS = 100, PAGES = 4, FACES = BOOKS * PAGES, VERTICES = BOOKS * (PAGES + 2) };
+    float positions[3 * VERTICES], *position = positions;
+    uint32_t indices[3 * FACES], *index = indices;
+    for (int i = 0; i < BOOKS; i++) {
+        const float x = (float)(i * 37 % 100), y = (float)(i * 61 % 97), size = 0.1f * (float)i;
+        const float corners[3 * (PAGES + 2)] = {
+            x, y, 0, x, y, size, x + size, y, 0, x - size, y, 0, x, y + size, 0, x, y - size, 0};
+        for (int k = 0; k < PAGES; k++) {
+            *index++ = (uint32_t)(i * (PAGES + 2));
+            *index++ = (uint32_t)(i * (PAGES + 2) + 1);
+            *index++ = (uint32_t)(i * (PAGES + 2) + 2 + k);
+        }
+        memcpy(position, corners, sizeof(corners));
+        position += COUNT_OF(corners);
+    }
+    struct rg_mesh *books = rg_mesh_create("books", VERTICES, FACES, positions, NULL, indices);
+    struct rg_mesh *coarse = rg_mesh_decimate(books, 100), *exact = rg_mesh_resize(books, 101);
+    check_mesh(coarse);
+    check_mesh(exact);
+    assert_in_range(coarse->face_count, 1, 100);
+    assert_int_equal(exact->face_count, 101);
+    rg_mesh_destroy(books);
+    rg_mesh_destroy(coarse);
+    rg_mesh_destroy(exact);
+}
+
+static double surface(const struct rg_mesh *mesh)
+{
+    double sum = 0;
+    for (int i = 0; i < mesh->face_count; i++) {
+        double u[3], v[3], cross2 = 0;
+        for (int c = 0; c < 3; c++) {
+            const double a = (double)mesh->positions[3 * mesh->indices[3 * i] + (uint32_t)c];
+            u[c] = (double)mesh->positions[3 * mesh->indices[3 * i + 1] + (uint32_t)c] - a;
+            v[c] = (double)mesh->positions[3 * mesh->indices[3 * i + 2] + (uint32_t)c] - a;
+        }
+        for (int c = 0; c < 3; c++) {
+            const double cross = u[(c + 1) % 3] * v[(c + 2) % 3] - u[(c + 2) % 3] * v[(c + 1) % 3];
+            cross2 += cross * cross;
+        }
+        sum += sqrt(cross2) / 2;
+    }
+    return sum;
+}
+
+static double longest_side(const struct rg_mesh *mesh)
+{
+    double longest = 0;
+    for (int i = 0; i < 3 * mesh->face_count; i++) {
+        double sum = 0;
+        for (int c = 0; c < 3; c++) {
+            const uint32_t a = mesh->indices[i], b = mesh->indices[i % 3 == 2 ? i - 2 : i + 1];
+            const double d = (double)mesh->positions[3 * a + (uint32_t)c] -
+                             (double)mesh->positions[3 * b + (uint32_t)c];
+            sum += d * d;
+        }
+        longest = fmax(longest, sqrt(sum));
+    }
+    return longest;
+}
+
+static void test_refinement(void **state)
+{
+    (void)state;
+    static const int wanted[] = {13, 14, 15, 100, 1001, 5000};
+    struct rg_mesh *box =
+        rg_mesh_create("box", BOX_VERTICES, BOX_FACES, box_positions, NULL, box_indices);
+    for (size_t i = 0; i < COUNT_OF(wanted); i++) {
+        struct rg_mesh *fine = rg_mesh_refine(box, wanted[i]);
+        check_mesh(fine);
+        assert_int_equal(fine->face_count, wanted[i] / 2 * 2);
+        expect_closed(fine, 2); // no face's side ends in the middle of another's
+        // coordinates are halves of halves, so that nothing is rounded
+        assert_true(fabs(volume(fine) - 198) < 1e-9);
+        assert_true(fabs(surface(fine) - 234) < 1e-9);
+        rg_mesh_destroy(fine);
+    }
+    struct rg_mesh *fine = rg_mesh_refine(box, 5000);
+    // As long as a side of equal halvings would be, and twice that at most: none was forgotten.
+    assert_true(longest_side(fine) < 2 * sqrt(4 * 234.0 / 5000));
+    rg_mesh_destroy(fine);
+    rg_mesh_destroy(box);
+}
+
+// A surface with a border reaches odd numbers too.
+static void test_refinement_of_an_open_surface(void **state)
+{
+    (void)state;
+    struct rg_mesh *open =
+        rg_mesh_create("open", BOX_VERTICES, BOX_FACES - 1, box_positions, NULL, box_indices);
+    for (int faces = BOX_FACES; faces < 60; faces++) {
+        struct rg_mesh *fine = rg_mesh_refine(open, faces);
+        check_mesh(fine);
+        assert_int_equal(fine->face_count, faces);
+        assert_true(fabs(surface(fine) - (234 - 33.0)) < 1e-9);
+        rg_mesh_destroy(fine);
+    }
+    rg_mesh_destroy(open);
+}
+
+// A face that is a line to and fro has the longest edge of all, which cannot be halved. It holds
+// nothing up: one edge a round, instead of half of them, would take hours here.
+static void test_refinement_beside_a_line(void **state)
+{
+    (void)state;
+    uint32_t indices[3 * (BOX_FACES + 1)] = {0, 7, 0};
+    memcpy(indices + 3, box_indices, sizeof(box_indices));
+    struct rg_mesh *box =
+        rg_mesh_create("box", BOX_VERTICES, BOX_FACES + 1, box_positions, NULL, indices);
+    struct rg_mesh *fine = rg_mesh_refine(box, 100001);
+    check_mesh(fine);
+    assert_int_equal(fine->face_count, 100001);
+    rg_mesh_destroy(box);
+    rg_mesh_destroy(fine);
+}
+
+static void expect_count_refused(const struct rg_mesh *mesh, int faces, const char *why)
+{
+    listen_now();
+    assert_null(rg_mesh_resize(mesh, faces));
+    rg_log_listen(NULL, NULL);
+    if (lines.count != 1 || !strstr(lines.last, why))
+        fail_msg("%d lines, the last: %s", lines.count, lines.last);
+}
+
+static void test_numbers_that_are_refused(void **state)
+{
+    (void)state;
+    struct rg_mesh *torus = rg_mesh_load("torus");
+    expect_count_refused(torus, 0, "0 faces are out of range; ask for 1 to 10000000");
+    expect_count_refused(torus, -5, "-5 faces");
+    expect_count_refused(torus, RG_MESH_MAX_FACES + 1, "10000001 faces");
+    expect_count_refused(torus, 1, "nothing is left");
+    rg_mesh_destroy(torus);
+}
+
+// --- packages ---
+
+static void expect_model(const char *name, const char *label, int vertices, int faces)
+{
+    struct rg_mesh *mesh = rg_mesh_load(name);
+    assert_non_null(mesh);
+    check_mesh(mesh);
+    assert_string_equal(mesh->name, label);
+    assert_int_equal(mesh->face_count, faces);
+    if (vertices)
+        assert_int_equal(mesh->vertex_count, vertices);
+    rg_mesh_destroy(mesh);
+}
+
+static void test_packaged_models(void **state)
+{
+    (void)state;
+    expect_model("bunny", "bunny.obj", 34835, 69666);
+    expect_model("horse", "horse.3ds", 0, 7172);
+    expect_model("elephant", "refined_elephant.off", 44460, 88928);
+    expect_model("cow", "cow.off", 0, 5804); // not in the table
+}
+
+// A cat lies, a head stands: which of the bounds' sides is the longest, and which the shortest.
+static void test_packaged_models_are_upright(void **state)
+{
+    (void)state;
+    struct rg_mesh *cat = rg_mesh_load("cat"), *head = rg_mesh_load("mannequin");
+    struct rg_mesh *as_it_lies = rg_mesh_read("/usr/share/glmark2/models/cat.3ds", NULL);
+    check_mesh(cat);
+    check_mesh(head);
+    assert_true(head->high[1] - head->low[1] > 1.1f * (head->high[2] - head->low[2]));
+    // about x by a quarter: y became z, z became -y
+    assert_int_equal(cat->vertex_count, as_it_lies->vertex_count);
+    for (int i = 0; i < 3 * cat->vertex_count; i += 3) {
+        assert_true(cat->positions[i] == as_it_lies->positions[i]);
+        assert_true(cat->positions[i + 1] == -as_it_lies->positions[i + 2]);
+        assert_true(cat->positions[i + 2] == as_it_lies->positions[i + 1]);
+        assert_true(fabsf(cat->normals[i + 1] + as_it_lies->normals[i + 2]) < 1e-6f);
+    }
+    rg_mesh_destroy(cat);
+    rg_mesh_destroy(head);
+    rg_mesh_destroy(as_it_lies);
+}
+
+// The numbers of faces of Stuppacher and Supan's scenes.
+static void test_stand_ins_have_the_published_counts(void **state)
+{
+    (void)state;
+    expect_model("dragon",
+                 "ChineseDragon-10kv.off, refined to 100000 faces, in place of the dragon", 0,
+                 100000);
+    expect_model("buddha", "refined_elephant.off, refined to 100000 faces, in place of the buddha",
+                 0, 100000);
+    expect_model("planck",
+                 "mannequin-devil.off, refined to 50801 faces, in place of the bust of Max Planck",
+                 0, 50801);
+}
+
+static void expect_no_model(const char *name, const char *why)
+{
+    listen_now();
+    assert_null(rg_mesh_load(name));
+    rg_log_listen(NULL, NULL);
+    if (lines.count != 1 || !strstr(lines.last, why))
+        fail_msg("%d lines, the last: %s", lines.count, lines.last);
+}
+
+static void test_names(void **state)
+{
+    (void)state;
+    for (int i = 0; rg_model_at(i); i++)
+        for (int k = 0; k < i; k++)
+            assert_string_not_equal(rg_model_at(i)->name, rg_model_at(k)->name);
+    assert_null(rg_model_at(-1));
+    expect_no_model("", "no model is named");
+    expect_no_model("unicorn", "holds no data/meshes/unicorn.off");
+    // a folder of the user's own comes first
+    char path[256];
+    snprintf(path, sizeof(path), "%s", in_folder("dragon.obj"));
+    const char *text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    write_file(path, text, strlen(text));
+    setenv("RG_MODEL_DIR", folder, 1);
+    expect_model("dragon", "dragon.obj, refined to 100000 faces", 0, 100000);
+    expect_model("bunny", "bunny.obj", 34835, 69666);
+    unsetenv("RG_MODEL_DIR");
+    unlink(path);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_equal_vertices_are_joined),
+        cmocka_unit_test(test_normals_weigh_areas),
+        cmocka_unit_test(test_arrays_that_are_refused),
+        cmocka_unit_test(test_computed_models),
+        cmocka_unit_test(test_decimation),
+        cmocka_unit_test(test_decimation_against_the_topology),
+        cmocka_unit_test(test_refinement),
+        cmocka_unit_test(test_refinement_of_an_open_surface),
+        cmocka_unit_test(test_refinement_beside_a_line),
+        cmocka_unit_test(test_numbers_that_are_refused),
+        cmocka_unit_test(test_packaged_models),
+        cmocka_unit_test(test_packaged_models_are_upright),
+        cmocka_unit_test(test_stand_ins_have_the_published_counts),
+        cmocka_unit_test(test_names),
+    };
+    return cmocka_run_group_tests_name("meshes by name", tests, make_folder, remove_folder);
+}

@@ -1,0 +1,77 @@
+#include "tests/core/techniques/rigs/scene.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <stdlib.h>
+
+#include "core/techniques/technique.h"
+
+void mesh_scene_set(struct mesh_scene *scene, const char *assignments)
+{
+    const struct rg_technique *technique = rg_technique_find("raster");
+    void *defaults = rg_settings_create(technique);
+    void *settings = rg_settings_copy(technique, defaults, assignments);
+    assert_non_null(settings);
+    scene->settings = *(struct raster_settings *)settings;
+    free(defaults);
+    free(settings);
+}
+
+struct mesh_scene mesh_scene_open(const char *assignments)
+{
+    struct mesh_scene scene;
+    mesh_scene_set(&scene, assignments);
+    assert_true(scene.settings.scene == RASTER_TRIANGLES
+                    ? raster_shape_knot(scene.settings.triangles, &scene.shape)
+                    : raster_shape_load(&scene.settings, &scene.shape));
+    scene.faces = (struct faces){scene.shape.vertex_count, scene.shape.face_count,
+                                 scene.shape.positions, scene.shape.normals, scene.shape.indices};
+    return scene;
+}
+
+void mesh_scene_close(struct mesh_scene *scene)
+{
+    raster_shape_free(&scene->shape);
+}
+
+raster_mesh_params mesh_scene_look(const struct mesh_scene *scene, int width, int height)
+{
+    raster_mesh_params p;
+    assert_true(raster_mesh_at(&scene->settings, &scene->shape, width, height, 0, &p));
+    return p;
+}
+
+enum rg_cull mesh_scene_cull(const struct mesh_scene *scene)
+{
+    return scene->settings.inside ? RG_CULL_FRONT : RG_CULL_BACK;
+}
+
+static const char *device_name = "cpu:reference";
+
+static int open_device(void **state)
+{
+    *state = rg_device_open(device_name, NULL);
+    return *state ? 0 : -1;
+}
+
+static int close_device(void **state)
+{
+    return rg_device_close(*state) ? 0 : -1;
+}
+
+int raster_tests_run(int argc, char **argv, const struct CMUnitTest *tests, size_t count)
+{
+    enum { UNSUPPORTED = 77 };
+    enum rg_open_status status;
+    if (argc > 1)
+        device_name = argv[1];
+    struct rg_device *device = rg_device_open(device_name, &status);
+    if (!device)
+        return status == RG_OPEN_UNSUPPORTED ? UNSUPPORTED : 1;
+    if (!rg_device_close(device))
+        return 1;
+    return _cmocka_run_group_tests(device_name, tests, count, open_device, close_device);
+}

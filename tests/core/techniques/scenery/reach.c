@@ -1,0 +1,178 @@
+// How far lights of streaks reach: test_streaks_lights_reach DEVICE. Against closed forms in double
+// precision; alone and together, in any frame, and against cpu:reference.
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/core/techniques/scenery/rig.h"
+
+static double share_due(const struct rg_light *light, struct vec at)
+{
+    if (light->kind == STREAKS_SUN)
+        return 1;
+    const struct vec off = minus(at, rig_place_of(light));
+    const double distance = length(off), fallen = 1 / (distance * distance);
+    if (light->kind == STREAKS_POINT)
+        return fallen;
+    const double cosine = dot(off, rig_way_of(light)) / distance,
+                 inner = cos((double)light->inner_deg * degree),
+                 outer = cos((double)light->outer_deg * degree);
+    const double t = fmin(fmax((cosine - outer) / (inner - outer), 0), 1);
+    return fallen * (3 * t * t - 2 * t * t * t);
+}
+
+static void lights_reach_as_the_closed_forms_say(void **state)
+{
+    struct rig rig = rig_open(*state);
+    float *points = rig_make_points();
+    test_streaks_lit *lit = rig_light_points(&rig, rig.lights, LIGHTS, points, POINTS);
+    int dark = 0, bright = 0;
+    for (int k = 0; k < LIGHTS; k++) {
+        for (int i = 0; i < POINTS; i++) {
+            const test_streaks_lit *l = &lit[k * POINTS + i];
+            const struct vec at = rig_point_at(points, i),
+                             off = minus(rig_place_of(&rig_lights[k]), at),
+                             to = rig_lights[k].kind == STREAKS_SUN
+                                      ? along((struct vec){0, 0, 0}, -1, rig_way_of(&rig_lights[k]))
+                                      : along((struct vec){0, 0, 0}, 1 / length(off), off);
+            const double share = share_due(&rig_lights[k], at);
+            // a cone's edge is as steep as its width allows, and its cosine rounds to 1e-7
+            assert_true(fabs((double)l->share - share) <= 2e-6 * share + 1e-6 / dot(off, off));
+            assert_true(length(minus((struct vec){(double)l->to_light.x, (double)l->to_light.y,
+                                                  (double)l->to_light.z},
+                                     to)) < 1e-6);
+            if (rig_lights[k].kind == STREAKS_SPOT) {
+                dark += l->share == 0;
+                bright += l->share > 0;
+            }
+        }
+    }
+    assert_true(dark > POINTS / 10 && bright > POINTS / 10);
+    free(lit);
+    free(points);
+    rig_close(&rig);
+}
+
+// On the axis and within the inner cone all of it, from the outer cone on nothing, between the two
+// ever less; and no stronger than at the nearest distance, even in the light itself.
+static void cones_and_near_points_have_their_bounds(void **state)
+{
+    enum { STEPS = 89 };
+    struct rig rig = rig_open(*state);
+    float points[3 * (STEPS + 3)];
+    const struct rg_light *light = &rig_lights[4]; // straight down
+    for (int i = 0; i <= STEPS; i++) {
+        points[3 * i] = light->position_m[0] + (float)(2 * sin(i * degree));
+        points[3 * i + 1] = light->position_m[1] - (float)(2 * cos(i * degree));
+        points[3 * i + 2] = light->position_m[2];
+    }
+    memcpy(points + 3 * (STEPS + 1), light->position_m, sizeof(light->position_m));
+    memcpy(points + 3 * (STEPS + 2), light->position_m, sizeof(light->position_m));
+    points[3 * (STEPS + 2) + 1] -= 0.05f;
+    test_streaks_lit *lit = rig_light_points(&rig, &rig.lights[4], 1, points, STEPS + 3);
+    assert_float_equal(lit[0].share, 0.25f, 1e-6f);
+    for (int i = 1; i <= STEPS; i++) {
+        if (i > light->outer_deg)
+            assert_true(lit[i].share == 0);
+        else if (i < light->outer_deg)
+            assert_true(lit[i].share > 0 && lit[i].share < lit[i - 1].share);
+    }
+    assert_true(lit[STEPS + 1].share >= 0 && lit[STEPS + 1].share <= 100.0001f);
+    assert_float_equal(lit[STEPS + 2].share, 100, 1e-3f);
+    free(lit);
+    rig_close(&rig);
+}
+
+// --- sums, frames, devices ---
+
+// Lights do not know of each other: alone, and in any order, they give what they give together.
+static void lights_add_up(void **state)
+{
+    struct rig rig = rig_open(*state);
+    float *points = rig_make_points();
+    streaks_light turned[LIGHTS];
+    for (int k = 0; k < LIGHTS; k++)
+        turned[k] = rig.lights[LIGHTS - 1 - k];
+    test_streaks_lit *all = rig_light_points(&rig, rig.lights, LIGHTS, points, POINTS),
+                     *back = rig_light_points(&rig, turned, LIGHTS, points, POINTS);
+    for (int k = 0; k < LIGHTS; k++) {
+        test_streaks_lit *one = rig_light_points(&rig, &rig.lights[k], 1, points, POINTS);
+        assert_memory_equal(one, all + k * POINTS, POINTS * sizeof(*one));
+        assert_memory_equal(one, back + (LIGHTS - 1 - k) * POINTS, POINTS * sizeof(*one));
+        free(one);
+    }
+    free(all);
+    free(back);
+    free(points);
+    rig_close(&rig);
+}
+
+// In a frame that is turned and moved the same light reaches the same points, but for rounding.
+static void frames_do_not_matter(void **state)
+{
+    static const float matrix[16] = {0.8f,  0,     -0.6f, 10, 0.36f, 0.8f, 0.48f, -20,
+                                     0.48f, -0.6f, 0.64f, 5,  0,     0,    0,     1};
+    struct rig rig = rig_open(*state);
+    float *points = rig_make_points(), *moved = malloc(POINTS * 3 * sizeof(float));
+    streaks_light lights[LIGHTS];
+    for (int k = 0; k < LIGHTS; k++)
+        lights[k] = streaks_light_moved(&rig.lights[k], matrix);
+    for (int i = 0; i < POINTS; i++)
+        for (int c = 0; c < 3; c++)
+            moved[3 * i + c] = matrix[4 * c] * points[3 * i] +
+                               matrix[4 * c + 1] * points[3 * i + 1] +
+                               matrix[4 * c + 2] * points[3 * i + 2] + matrix[4 * c + 3];
+    test_streaks_lit *here = rig_light_points(&rig, rig.lights, LIGHTS, points, POINTS),
+                     *there = rig_light_points(&rig, lights, LIGHTS, moved, POINTS);
+    int unequal = 0;
+    for (int k = 0; k < LIGHTS; k++)
+        for (int i = 0; i < POINTS; i++) {
+            const test_streaks_lit *a = &here[k * POINTS + i], *b = &there[k * POINTS + i];
+            const double d = length(minus(rig_point_at(points, i), rig_place_of(&rig_lights[k])));
+            assert_true(fabsf(a->share - b->share) <= 2e-5f * a->share + (float)(1e-5 / d / d));
+            unequal += a->unshadowed != b->unshadowed;
+        }
+    assert_true(unequal < LIGHTS * POINTS / 2000); // on the edges of texels
+    free(here);
+    free(there);
+    free(points);
+    free(moved);
+    rig_close(&rig);
+}
+
+static void all_bytes_are_those_of_the_reference(void **state)
+{
+    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    assert_non_null(reference);
+    struct rig rigs[2] = {rig_open(*state), rig_open(reference)};
+    float *points = rig_make_points(), *texels[2];
+    test_streaks_lit *lit[2];
+    for (int r = 0; r < 2; r++) {
+        lit[r] = rig_light_points(&rigs[r], rigs[r].lights, LIGHTS, points, POINTS);
+        texels[r] = malloc(MAP_PX * MAP_PX * sizeof(float));
+    }
+    assert_memory_equal(lit[0], lit[1], LIGHTS * POINTS * sizeof(*lit[0]));
+    for (int layer = 0; layer < rigs[0].layers; layer++) {
+        for (int r = 0; r < 2; r++)
+            assert_true(rg_image_read(rigs[r].maps, layer, 0, texels[r]));
+        assert_memory_equal(texels[0], texels[1], MAP_PX * MAP_PX * sizeof(float));
+    }
+    for (int r = 0; r < 2; r++) {
+        free(lit[r]);
+        free(texels[r]);
+        rig_close(&rigs[r]);
+    }
+    free(points);
+    assert_true(rg_device_close(reference));
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lights_reach_as_the_closed_forms_say),
+        cmocka_unit_test(cones_and_near_points_have_their_bounds),
+        cmocka_unit_test(lights_add_up),
+        cmocka_unit_test(frames_do_not_matter),
+        cmocka_unit_test(all_bytes_are_those_of_the_reference),
+    };
+    return raster_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}

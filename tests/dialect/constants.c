@@ -1,0 +1,323 @@
+// glslc folds constants in double precision and rounds once, where C rounds after each operation:
+// `180.0f / 3.14159274f / 20.0f` becomes another float. So each float constant of a SPIR-V module
+// must be one that the kernel's text has: a literal, or what an expression of literals comes to in
+// floats. Constants that were folded further, into integers and truths, are not seen.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/dialect/spirv.h"
+
+// SPIR-V specification, section 3.49.
+enum { OP_TYPE_FLOAT = 22, OP_CONSTANT = 43, OP_SPEC_CONSTANT = 50 };
+
+// --- what the text has ---
+
+struct values {
+    float *all;
+    int count, room;
+};
+
+// Their signs do not matter: a minus rounds nothing.
+static void record(struct values *values, double value)
+{
+    if (values->count == values->room) {
+        values->room = values->room ? 2 * values->room : 1024;
+        values->all = realloc(values->all, (size_t)values->room * sizeof(*values->all));
+        assert_non_null(values->all);
+    }
+    values->all[values->count++] = (float)fabs(value);
+}
+
+static bool has_value(const struct values *values, float value)
+{
+    for (int i = 0; i < values->count; i++)
+        if (values->all[i] == fabsf(value))
+            return true;
+    return false;
+}
+
+// A number that a constant expression comes to; a float is held exactly.
+struct number {
+    double value;
+    bool whole; // an integer, of its language
+};
+
+struct reader {
+    const char *at;
+    struct values *values;
+};
+
+static bool is_name_char(char c)
+{
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+// The next character that is no space.
+static char next(struct reader *reader)
+{
+    while (isspace((unsigned char)*reader->at))
+        reader->at++;
+    return *reader->at;
+}
+
+static bool take(struct reader *reader, char c)
+{
+    if (next(reader) != c)
+        return false;
+    reader->at++;
+    return true;
+}
+
+static bool take_name(struct reader *reader, const char *name)
+{
+    const size_t length = strlen(name);
+    next(reader);
+    if (strncmp(reader->at, name, length) || is_name_char(reader->at[length]))
+        return false;
+    reader->at += length;
+    return true;
+}
+
+static bool take_literal(struct reader *reader, struct number *to)
+{
+    const char c = next(reader);
+    if (!isdigit((unsigned char)c) && !(c == '.' && isdigit((unsigned char)reader->at[1])))
+        return false;
+    const size_t whole = strspn(reader->at, "0123456789");
+    const bool hexadecimal = c == '0' && (reader->at[1] == 'x' || reader->at[1] == 'X');
+    char *end;
+    to->whole = hexadecimal || !strchr(".eEfF", reader->at[whole]) || !reader->at[whole];
+    to->value =
+        to->whole ? (double)strtoull(reader->at, &end, 0) : (double)strtof(reader->at, &end);
+    reader->at = end + (*end && strchr("fFuU", *end));
+    record(reader->values, to->value);
+    return true;
+}
+
+static bool take_sum(struct reader *reader, struct number *to);
+
+static bool take_brackets(struct reader *reader, struct number *to)
+{
+    return take(reader, '(') && take_sum(reader, to) && take(reader, ')');
+}
+
+static bool take_operand(struct reader *reader, struct number *to)
+{
+    if (take(reader, '-')) {
+        const bool taken = take_operand(reader, to);
+        to->value = -to->value;
+        return taken;
+    }
+    if (take_name(reader, "float")) {
+        const bool taken = take_brackets(reader, to);
+        *to = (struct number){(double)(float)to->value, false};
+        return taken;
+    }
+    return next(reader) == '(' ? take_brackets(reader, to) : take_literal(reader, to);
+}
+
+// A double has room for what two floats come to, so that rounding it to a float is as good as
+// rounding once (S. Figueroa, "When is double rounding innocuous?", 1995).
+static struct number reckon(struct number a, char operation, struct number b)
+{
+    const double value = operation == '+'   ? a.value + b.value
+                         : operation == '-' ? a.value - b.value
+                         : operation == '*' ? a.value * b.value
+                         : b.value != 0     ? a.value / b.value
+                                            : 0;
+    const bool whole = a.whole && b.whole;
+    return (struct number){whole ? trunc(value) : (double)(float)value, whole};
+}
+
+// Operands between `operations`, from the left; what stands behind the last operand stays.
+static bool take_chain(struct reader *reader, const char *operations,
+                       bool (*take_part)(struct reader *, struct number *), struct number *to)
+{
+    if (!take_part(reader, to))
+        return false;
+    for (;;) {
+        const char operation = next(reader), *before = reader->at;
+        struct number part = {0};
+        if (!operation || !strchr(operations, operation))
+            return true;
+        reader->at++;
+        if (!take_part(reader, &part)) {
+            reader->at = before;
+            return true;
+        }
+        *to = reckon(*to, operation, part);
+        record(reader->values, to->value);
+    }
+}
+
+static bool take_product(struct reader *reader, struct number *to)
+{
+    return take_chain(reader, "*/", take_operand, to);
+}
+
+static bool take_sum(struct reader *reader, struct number *to)
+{
+    return take_chain(reader, "+-", take_product, to);
+}
+
+static void skip_word(struct reader *reader)
+{
+    struct number number;
+    if (take_literal(reader, &number))
+        return;
+    const char *start = reader->at;
+    while (is_name_char(*reader->at))
+        reader->at++;
+    reader->at += reader->at == start;
+}
+
+// What all constant expressions of a text come to, and all their parts.
+static struct values read_values(const char *text)
+{
+    struct values values = {0};
+    struct reader reader = {text, &values};
+    while (next(&reader)) {
+        const char *start = reader.at;
+        struct number number = {0};
+        take_sum(&reader, &number);
+        reader.at = start;
+        skip_word(&reader);
+    }
+    return values;
+}
+
+static struct values values_of(const struct rg_kernel_code *text)
+{
+    char *copy = calloc(1, text->size + 1);
+    assert_non_null(copy);
+    memcpy(copy, text->bytes, text->size);
+    const struct values values = read_values(copy);
+    free(copy);
+    return values;
+}
+
+// --- what the module has ---
+
+// The float constants of a module, in their order; returns their number.
+static int read_constants(const struct rg_kernel_code *code, float *constants, int room)
+{
+    const uint32_t *words = spirv_words(code);
+    uint32_t float_type = 0;
+    int count = 0;
+    for (size_t at = SPIRV_HEADER_WORDS; at < code->size / 4; at += spirv_length(words[at])) {
+        assert_true(spirv_length(words[at]) > 0);
+        const int op = spirv_op(words[at]);
+        if (op == OP_TYPE_FLOAT) {
+            assert_int_equal(words[at + 2], 32);
+            float_type = words[at + 1];
+        }
+        assert_int_not_equal(op, OP_SPEC_CONSTANT);
+        if (op != OP_CONSTANT || words[at + 1] != float_type)
+            continue;
+        assert_true(count < room);
+        memcpy(&constants[count++], &words[at + 3], sizeof(*constants));
+    }
+    return count;
+}
+
+enum { MOST_CONSTANTS = 1000 };
+
+static void every_constant_is_written(void **state)
+{
+    (void)state;
+    const struct rg_kernel *const *all;
+    const int count = rg_kernel_all(&all);
+    float constants[MOST_CONSTANTS];
+    int faults = 0;
+    for (int i = 0; i < count * SPIRV_STAGES; i++) {
+        const struct rg_kernel *kernel = all[i / SPIRV_STAGES];
+        const struct spirv_stage *stage = &spirv_stages[i % SPIRV_STAGES];
+        if (!kernel->code[stage->kind].bytes)
+            continue;
+        struct values values = values_of(&kernel->code[stage->text]);
+        const int found = read_constants(&kernel->code[stage->kind], constants, MOST_CONSTANTS);
+        for (int c = 0; c < found; c++) {
+            if (has_value(&values, constants[c]))
+                continue;
+            print_error("kernel '%s', %s stage: no expression comes to %.9g in floats\n",
+                        kernel->name, stage->name, (double)constants[c]);
+            faults++;
+        }
+        free(values.all);
+    }
+    if (faults)
+        fail_msg("glslc folded them in double precision: write such constants out");
+}
+
+// --- that it finds what it looks for ---
+
+static bool comes_to(const char *text, double value)
+{
+    const struct values values = read_values(text);
+    const bool has = has_value(&values, (float)value);
+    free(values.all);
+    return has;
+}
+
+static void expressions_come_to_what_c_makes_of_them(void **state)
+{
+    (void)state;
+    const float pi = 3.14159274f, tenth = 0.1f;
+    const char *const degrees =
+        "float steps(float x) { return x * (180.0f / 3.14159274f / 20.0f); }";
+    assert_true(comes_to(degrees, (double)(180.0f / pi / 20.0f)));
+    assert_false(comes_to(degrees, 180 / (double)pi / 20));
+    assert_true(comes_to("least(x, rg_exact_7 = (0.1f * 0.1f))", (double)(tenth * tenth)));
+    assert_false(comes_to("least(x, rg_exact_7 = (0.1f * 0.1f))", 0.01));
+    assert_true(comes_to("x - (float(7 / 2 * 5) - -.5e1f)", 20));
+    assert_true(comes_to("x * 2.0f + 0x10u", 16) && comes_to("3.0f * 4.0f * x", 12));
+    assert_false(comes_to("3.0f * x * 4.0f", 12));
+    assert_false(comes_to("x7 + v1_25.x / 2.0f", 7) || comes_to("x7 + v1_25.x / 2.0f", 25));
+    assert_false(comes_to("(3.0f + x) + 4.0f", 7));
+}
+
+// How many float constants of a stage a kernel has, and how many would not be missed if they were
+// one step of a float away, since the text has that one, too.
+static void count_steps(const struct rg_kernel *kernel, const struct spirv_stage *stage,
+                        int *constants, int *missed)
+{
+    if (!kernel->code[stage->kind].bytes)
+        return;
+    float all[MOST_CONSTANTS];
+    struct values values = values_of(&kernel->code[stage->text]);
+    const int found = read_constants(&kernel->code[stage->kind], all, MOST_CONSTANTS);
+    for (int i = 0; i < found; i++)
+        *missed += has_value(&values, nextafterf(all[i], INFINITY));
+    *constants += found;
+    free(values.all);
+}
+
+static void a_last_bit_is_seen(void **state)
+{
+    (void)state;
+    const struct rg_kernel *const *all;
+    const int count = rg_kernel_all(&all);
+    int constants = 0, missed = 0;
+    for (int i = 0; i < count; i++)
+        for (int s = 0; s < SPIRV_STAGES; s++)
+            count_steps(all[i], &spirv_stages[s], &constants, &missed);
+    assert_true(constants > 500 && 200 * missed < constants);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_constant_is_written),
+        cmocka_unit_test(expressions_come_to_what_c_makes_of_them),
+        cmocka_unit_test(a_last_bit_is_seen),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

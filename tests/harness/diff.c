@@ -1,0 +1,205 @@
+// rg_diff_files: exit status, table, JSON, heat maps, and one line for bad input.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <fcntl.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include "core/image/compare/heatmap.h"
+#include "core/image/files/io.h"
+#include "core/base/log.h"
+#include "harness/compare/diff/files.h"
+#include "tests/core/image/rain_picture.h"
+
+static char folder[] = "/tmp/raingauge-diff-XXXXXX";
+static char a[64], b[64], background[64], small[64], three[64], output[64], prefix[64];
+static char text[16384], last_error[1024];
+static int error_count;
+
+static void listen(enum rg_log_level level, const char *line, void *user)
+{
+    (void)user;
+    error_count += level == RG_LOG_ERROR;
+    snprintf(last_error, sizeof(last_error), "%s", line);
+}
+
+static void write_rain(const char *path, int width, int channels, int streaks)
+{
+    struct rg_picture picture;
+    struct rain_look look = honest_rain;
+    look.streaks = streaks;
+    assert_true(rg_picture_create(&picture, width, 80, channels, "rain"));
+    rain_draw(&picture, look);
+    const struct rg_write_options options = {.full_float = true};
+    assert_true(rg_picture_write(path, &picture, &options));
+    rg_picture_destroy(&picture);
+}
+
+// Runs with stdout sent to a file, whose text is left in `text`.
+static int run(const struct rg_diff_request *request)
+{
+    fflush(stdout);
+    int kept = dup(1), file = open(output, O_RDWR | O_CREAT | O_TRUNC, 0600);
+    dup2(file, 1);
+    error_count = 0;
+    int status = rg_diff_files(request);
+    fflush(stdout);
+    dup2(kept, 1);
+    close(kept);
+    ssize_t size = pread(file, text, sizeof(text) - 1, 0);
+    text[size > 0 ? size : 0] = '\0';
+    close(file);
+    return status;
+}
+
+static void the_same_files(void **state)
+{
+    (void)state;
+    assert_int_equal(run(&(struct rg_diff_request){.a = a, .b = a, .background = background}), 0);
+    assert_non_null(strstr(text, "tier T0"));
+    assert_non_null(strstr(text, "PSNR                         inf dB"));
+}
+
+static void differing_files(void **state)
+{
+    (void)state;
+    assert_int_equal(run(&(struct rg_diff_request){.a = a, .b = b, .background = background}), 1);
+    assert_non_null(strstr(text, "tier none"));
+    assert_non_null(strstr(text, "T1 arithmetic                fails: coverage differs in"));
+    assert_int_equal(error_count, 0);
+}
+
+static void json_has_the_documented_shape(void **state)
+{
+    (void)state;
+    const struct rg_diff_request request = {.a = a, .b = b, .background = background, .json = true};
+    assert_int_equal(run(&request), 1);
+    json_t *root = json_loads(text, 0, NULL), *pair;
+    assert_non_null(root);
+    assert_int_equal(json_integer_value(json_object_get(root, "format")), 1);
+    assert_int_equal(json_array_size(json_object_get(root, "pairs")), 1);
+    pair = json_array_get(json_object_get(root, "pairs"), 0);
+    assert_string_equal(json_string_value(json_object_get(pair, "a")), a);
+    assert_string_equal(json_string_value(json_object_get(pair, "tier")), "none");
+    static const char *const numbers[] = {"max", "differing", "mask", "flip_mean", "psnr"};
+    for (int i = 0; i < 5; i++)
+        assert_true(json_number_value(json_object_get(pair, numbers[i])) > 0);
+    json_decref(root);
+    assert_int_equal(run(&(struct rg_diff_request){.a = a, .b = a, .json = true}), 0);
+    root = json_loads(text, 0, NULL);
+    pair = json_array_get(json_object_get(root, "pairs"), 0);
+    assert_true(json_is_null(json_object_get(pair, "psnr"))); // infinite
+    json_decref(root);
+}
+
+static void bad_input_is_one_line(void **state)
+{
+    (void)state;
+    const struct rg_diff_request requests[] = {
+        {.a = a, .b = "/none/b.png"},
+        {.a = "/none/a.png", .b = "/none/b.png", .json = true},
+        {.a = a, .b = small},
+        {.a = a, .b = three},
+        {.a = a, .b = b, .background = small},
+        {.a = a, .b = b, .heatmap_prefix = "/none/heat"},
+        {.a = a, .b = b, .options = {.exposure = -1}},
+        {.a = a, .b = b, .options = {.pixels_per_degree = 1e6f}},
+    };
+    for (size_t i = 0; i < sizeof(requests) / sizeof(requests[0]); i++) {
+        assert_int_equal(run(&requests[i]), 2);
+        assert_int_equal(error_count, 1);
+        assert_string_equal(text, "");
+    }
+    assert_int_equal(run(&requests[2]), 2);
+    assert_non_null(strstr(last_error, "120 x 80 pixels but"));
+    assert_int_equal(run(&requests[3]), 2);
+    assert_non_null(strstr(last_error, "has 3 channels but"));
+}
+
+// The maps are as large as the picture and a scale: dark where nothing differs.
+static void heat_maps_are_written(void **state)
+{
+    (void)state;
+    const struct rg_diff_request request = {.a = a, .b = b, .heatmap_prefix = prefix};
+    assert_int_equal(run(&request), 1);
+    static const char *const names[] = {"flip", "difference"};
+    for (int i = 0; i < 2; i++) {
+        char path[128];
+        snprintf(path, sizeof(path), "%s-%s.png", prefix, names[i]);
+        struct rg_picture heat;
+        assert_true(rg_picture_read(path, &heat));
+        assert_true(heat.width > 160 + 50 && heat.height == 80);
+        float brightest = 0;
+        for (int y = 0; y < 80; y++)
+            for (int x = 0; x < 160; x++)
+                brightest = fmaxf(brightest, heat.texels[(y * heat.width + x) * 3]);
+        assert_true(brightest > 0.2f);
+        // The scale runs from light yellow at the top to black.
+        const float *top = heat.texels + (160 + 10) * 3;
+        const float *bottom = heat.texels + (79 * heat.width + 160 + 10) * 3;
+        assert_true(top[0] > 0.9f && bottom[0] < 0.01f);
+        rg_picture_destroy(&heat);
+        unlink(path);
+    }
+}
+
+static void heat_colours_are_magma(void **state)
+{
+    (void)state;
+    static const float values[3] = {0.0f, 0.5f, NAN};
+    struct rg_picture heat;
+    assert_true(rg_heatmap_draw(values, 3, 1, 1.0f, &heat));
+    // sRGB (183, 55, 121) in the middle; NaN as the top, (252, 253, 191).
+    assert_true(fabsf(heat.texels[3] - 0.4735f) < 1e-3f && fabsf(heat.texels[4] - 0.0382f) < 1e-3f);
+    assert_true(fabsf(heat.texels[6] - 0.9734f) < 1e-3f && fabsf(heat.texels[8] - 0.5209f) < 1e-3f);
+    rg_picture_destroy(&heat);
+}
+
+static int make_files(void **state)
+{
+    (void)state;
+    rg_log_listen(listen, NULL);
+    if (!mkdtemp(folder))
+        return -1;
+    snprintf(a, sizeof(a), "%s/a.exr", folder);
+    snprintf(b, sizeof(b), "%s/b.exr", folder);
+    snprintf(background, sizeof(background), "%s/background.exr", folder);
+    snprintf(small, sizeof(small), "%s/small.exr", folder);
+    snprintf(three, sizeof(three), "%s/three.exr", folder);
+    snprintf(output, sizeof(output), "%s/output", folder);
+    snprintf(prefix, sizeof(prefix), "%s/heat", folder);
+    write_rain(a, 160, 4, 60);
+    write_rain(b, 160, 4, 55);
+    write_rain(background, 160, 4, 0);
+    write_rain(small, 120, 4, 60);
+    write_rain(three, 160, 3, 60);
+    return 0;
+}
+
+static int remove_files(void **state)
+{
+    (void)state;
+    rg_log_listen(NULL, NULL);
+    const char *const files[] = {a, b, background, small, three, output};
+    for (int i = 0; i < 6; i++)
+        unlink(files[i]);
+    return rmdir(folder); // empty: nothing else was left behind
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_same_files),
+        cmocka_unit_test(differing_files),
+        cmocka_unit_test(json_has_the_documented_shape),
+        cmocka_unit_test(bad_input_is_one_line),
+        cmocka_unit_test(heat_maps_are_written),
+        cmocka_unit_test(heat_colours_are_magma),
+    };
+    return cmocka_run_group_tests_name("diff of files", tests, make_files, remove_files);
+}
