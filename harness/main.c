@@ -6,9 +6,9 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
-#include "harness/record/build_info.h"
 #include "harness/commands/command.h"
 #include "harness/commands/lists.h"
+#include "harness/record/build_info.h"
 
 #define DECLARE(name) extern const struct rg_command rg_command_##name;
 #define ENTRY(name)   &rg_command_##name,

@@ -1,6 +1,6 @@
 // Memory that is asked for in one line.
-#ifndef RG_CORE_ALLOC_H
-#define RG_CORE_ALLOC_H
+#ifndef RG_CORE_BASE_ALLOC_H
+#define RG_CORE_BASE_ALLOC_H
 
 #include <stdlib.h>
 

@@ -2,8 +2,8 @@
 //
 // Every function that can fail returns false or NULL and has logged one line that says what failed,
 // where, and how to mend it. Nothing else prints to stderr but the progress bar.
-#ifndef RG_CORE_LOG_H
-#define RG_CORE_LOG_H
+#ifndef RG_CORE_BASE_LOG_H
+#define RG_CORE_BASE_LOG_H
 
 #include <stdbool.h>
 

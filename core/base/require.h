@@ -1,6 +1,6 @@
 // Refusing a call in one line.
-#ifndef RG_CORE_REQUIRE_H
-#define RG_CORE_REQUIRE_H
+#ifndef RG_CORE_BASE_REQUIRE_H
+#define RG_CORE_BASE_REQUIRE_H
 
 #include "core/base/log.h"
 

@@ -7,9 +7,9 @@
 #include <strings.h>
 
 #include "core/base/alloc.h"
-#include "core/device/draw.h"
 #include "core/base/log.h"
 #include "core/base/require.h"
+#include "core/device/draw.h"
 #include "core/device/shared.h"
 
 static const struct {

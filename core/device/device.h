@@ -4,8 +4,8 @@
 // number; splits runs that exceed a device's work-group limits; counts work; and finds what was not
 // destroyed. create returns NULL and every other function false when it has failed and logged why.
 // Destroy functions accept NULL. Types are in backends/backend.h.
-#ifndef RG_CORE_DEVICE_H
-#define RG_CORE_DEVICE_H
+#ifndef RG_CORE_DEVICE_DEVICE_H
+#define RG_CORE_DEVICE_DEVICE_H
 
 #include "backends/backend.h"
 #include "kernels/dialect/image/memory.h"

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
-#include "core/device/device.h"
 #include "core/base/require.h"
+#include "core/device/device.h"
 #include "core/device/scan.h"
 #include "kernels/dialect/draw/clip.h"
 

@@ -3,8 +3,8 @@
 // primitives of the items that are seen are written there, in order (kernels/dialect/draw/count.h,
 // kernels/dialect/draw/emit.h). Long ranges go in batches, so that the packed primitives stay below
 // what a device allows a buffer.
-#ifndef RG_CORE_DRAW_H
-#define RG_CORE_DRAW_H
+#ifndef RG_CORE_DEVICE_DRAW_H
+#define RG_CORE_DEVICE_DRAW_H
 
 #include "backends/backend.h"
 

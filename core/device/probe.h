@@ -1,6 +1,6 @@
 // The floating-point probe: does a device compute what the dialect promises, to the last bit?
-#ifndef RG_CORE_PROBE_H
-#define RG_CORE_PROBE_H
+#ifndef RG_CORE_DEVICE_PROBE_H
+#define RG_CORE_DEVICE_PROBE_H
 
 #include <stdbool.h>
 #include <stdint.h>

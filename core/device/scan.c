@@ -3,9 +3,9 @@
 #include <limits.h>
 #include <stdlib.h>
 
-#include "core/device/device.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/device/device.h"
 #include "kernels/scan/params.h"
 
 enum { MAX_LEVELS = 6, MAX_COUNT = 1 << 30 };

@@ -1,8 +1,8 @@
 // Things of a device that several instances on it read, such as an atlas's image, a city's meshes
 // or a depth map: made by the first that asks, destroyed with the last that puts it back. What is
 // shared is not written after it was made.
-#ifndef RG_CORE_SHARED_H
-#define RG_CORE_SHARED_H
+#ifndef RG_CORE_DEVICE_SHARED_H
+#define RG_CORE_DEVICE_SHARED_H
 
 #include "backends/backend.h"
 

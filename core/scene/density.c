@@ -4,9 +4,9 @@
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
+#include "core/base/log.h"
 #include "core/image/files/io.h"
 #include "core/image/srgb.h"
-#include "core/base/log.h"
 
 // Weights are whole numbers, and so are their sums, below 2^53 and thus exact: 16-bit codes (an
 // 8-bit code is one of them, times 257), or floats to 24 bits.

@@ -2,8 +2,8 @@
 //
 // A technique declares a table of them; each row says where its value lies in the technique's own
 // settings struct, so that code reads plain fields and the command line reads and writes by name.
-#ifndef RG_CORE_PARAMS_H
-#define RG_CORE_PARAMS_H
+#ifndef RG_CORE_TECHNIQUES_PARAMS_H
+#define RG_CORE_TECHNIQUES_PARAMS_H
 
 #include <stdbool.h>
 #include <stddef.h>

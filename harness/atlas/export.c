@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/base/log.h"
 #include "core/device/device.h"
 #include "core/image/files/io.h"
-#include "core/base/log.h"
 #include "core/scene/atlas/levels.h"
 #include "harness/record/output.h"
 

@@ -9,10 +9,10 @@
 #include "core/scene/atlas/cave.h"
 #include "core/scene/atlas/levels.h"
 #include "harness/atlas/export.h"
-#include "harness/console/clock.h"
 #include "harness/commands/command.h"
-#include "harness/record/passport.h"
+#include "harness/console/clock.h"
 #include "harness/console/progress.h"
+#include "harness/record/passport.h"
 
 static const char *const size_names[RG_ATLAS_SIZE_COUNT] = {"full", "small", "cave", "cave-small"};
 

@@ -1,6 +1,6 @@
 // What every command shares: exit statuses, options, and how a command is declared.
-#ifndef RG_HARNESS_COMMAND_H
-#define RG_HARNESS_COMMAND_H
+#ifndef RG_HARNESS_COMMANDS_COMMAND_H
+#define RG_HARNESS_COMMANDS_COMMAND_H
 
 #include <stdbool.h>
 

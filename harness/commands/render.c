@@ -3,12 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/image/files/io.h"
 #include "core/base/log.h"
+#include "core/image/files/io.h"
 #include "harness/commands/command.h"
 #include "harness/devices/devices.h"
-#include "harness/record/facts.h"
 #include "harness/frames/frame.h"
+#include "harness/record/facts.h"
 #include "harness/record/passport.h"
 
 static bool write_frame(struct rg_instance *instance, const char *path, double exposure)

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/frames/frame.h"
 #include "harness/compare/verify/verify.h"
+#include "harness/frames/frame.h"
 
 enum { QUICK_STEPS = 100, FULL_STEPS = 1000, MAX_TECHNIQUES = 16 };
 

@@ -1,7 +1,7 @@
 // Ending cleanly when asked to: the first SIGINT (Ctrl-C) or SIGTERM is only noted, and long work
 // looks here between its pieces. A second one kills.
-#ifndef RG_HARNESS_INTERRUPT_H
-#define RG_HARNESS_INTERRUPT_H
+#ifndef RG_HARNESS_CONSOLE_INTERRUPT_H
+#define RG_HARNESS_CONSOLE_INTERRUPT_H
 
 #include <stdbool.h>
 

@@ -1,6 +1,6 @@
 // A progress bar with the time left, on stderr, where that is a terminal; nothing in a pipe.
-#ifndef RG_HARNESS_PROGRESS_H
-#define RG_HARNESS_PROGRESS_H
+#ifndef RG_HARNESS_CONSOLE_PROGRESS_H
+#define RG_HARNESS_CONSOLE_PROGRESS_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 // A table of text cells, printed as Markdown, CSV or LaTeX.
-#ifndef RG_HARNESS_GRID_H
-#define RG_HARNESS_GRID_H
+#ifndef RG_HARNESS_CONSOLE_SHEET_H
+#define RG_HARNESS_CONSOLE_SHEET_H
 
 #include <stdbool.h>
 #include <stdio.h>

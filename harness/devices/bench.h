@@ -2,8 +2,8 @@
 //
 // Instances on a device share what is large and the same for all (an atlas, a scene), for as long
 // as one of them lives. So the bench keeps one open on each device from one row to the next.
-#ifndef RG_HARNESS_BENCH_H
-#define RG_HARNESS_BENCH_H
+#ifndef RG_HARNESS_DEVICES_BENCH_H
+#define RG_HARNESS_DEVICES_BENCH_H
 
 #include "core/image/picture.h"
 #include "core/techniques/technique.h"

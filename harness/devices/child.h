@@ -1,8 +1,8 @@
 // Work in a child process, so that a driver that crashes, hangs or prints harms nothing else.
 //
 // The child is a fork: fork before this process has used a driver or OpenMP, never after.
-#ifndef RG_HARNESS_CHILD_H
-#define RG_HARNESS_CHILD_H
+#ifndef RG_HARNESS_DEVICES_CHILD_H
+#define RG_HARNESS_DEVICES_CHILD_H
 
 #include <stddef.h>
 

@@ -6,8 +6,8 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "harness/devices/child.h"
 #include "harness/commands/command.h"
+#include "harness/devices/child.h"
 
 enum { LIST_TIMEOUT_S = 60 };
 

@@ -1,6 +1,6 @@
 // The devices of a command: listed so that a broken driver harms nothing, and opened by name.
-#ifndef RG_HARNESS_DEVICES_H
-#define RG_HARNESS_DEVICES_H
+#ifndef RG_HARNESS_DEVICES_DEVICES_H
+#define RG_HARNESS_DEVICES_DEVICES_H
 
 #include "core/device/device.h"
 

@@ -1,6 +1,6 @@
 // Running a technique to a frame and bringing its image to the host.
-#ifndef RG_HARNESS_FRAME_H
-#define RG_HARNESS_FRAME_H
+#ifndef RG_HARNESS_FRAMES_FRAME_H
+#define RG_HARNESS_FRAMES_FRAME_H
 
 #include "core/techniques/frame.h"
 

@@ -1,6 +1,6 @@
 // What a device can do at most, measured: the limits that docs/performance.md holds frames against.
-#ifndef RG_HARNESS_CEILINGS_H
-#define RG_HARNESS_CEILINGS_H
+#ifndef RG_HARNESS_MEASURE_CEILINGS_H
+#define RG_HARNESS_MEASURE_CEILINGS_H
 
 #include <stdbool.h>
 

@@ -1,6 +1,6 @@
 // What the cells of a row must show, so that none is timed that does not.
-#ifndef RG_HARNESS_EXPECTED_H
-#define RG_HARNESS_EXPECTED_H
+#ifndef RG_HARNESS_MEASURE_EXPECTED_H
+#define RG_HARNESS_MEASURE_EXPECTED_H
 
 #include "core/image/picture.h"
 #include "core/techniques/technique.h"

@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/image/compare/compare.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/image/compare/compare.h"
 #include "harness/console/clock.h"
-#include "harness/frames/frame.h"
 #include "harness/console/interrupt.h"
+#include "harness/frames/frame.h"
 #include "kernels/dialect/rng.h"
 
 enum {

@@ -3,8 +3,8 @@
 // The time is wall clock between full syncs. Cells are visited in turn, a sample each, in an order
 // that is shuffled every round, so that what disturbs the machine disturbs all alike. A cell whose
 // image disagrees with the reference is never timed.
-#ifndef RG_HARNESS_MEASURE_H
-#define RG_HARNESS_MEASURE_H
+#ifndef RG_HARNESS_MEASURE_MEASURE_H
+#define RG_HARNESS_MEASURE_MEASURE_H
 
 #include "core/techniques/technique.h"
 #include "harness/measure/expected.h"

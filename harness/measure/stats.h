@@ -1,6 +1,6 @@
 // Medians and their intervals.
-#ifndef RG_HARNESS_STATS_H
-#define RG_HARNESS_STATS_H
+#ifndef RG_HARNESS_MEASURE_STATS_H
+#define RG_HARNESS_MEASURE_STATS_H
 
 struct rg_interval {
     double median, low, high;

@@ -1,6 +1,6 @@
 // Does an API's own timer tell the truth? Compared with wall clock over a known load.
-#ifndef RG_HARNESS_TIMER_AUDIT_H
-#define RG_HARNESS_TIMER_AUDIT_H
+#ifndef RG_HARNESS_MEASURE_TIMER_AUDIT_H
+#define RG_HARNESS_MEASURE_TIMER_AUDIT_H
 
 #include <stdbool.h>
 

@@ -1,6 +1,6 @@
 // What this binary was built from and with; filled by the build.
-#ifndef RG_HARNESS_BUILD_INFO_H
-#define RG_HARNESS_BUILD_INFO_H
+#ifndef RG_HARNESS_RECORD_BUILD_INFO_H
+#define RG_HARNESS_RECORD_BUILD_INFO_H
 
 extern const char rg_build_version[]; // "0.1.0"
 extern const char

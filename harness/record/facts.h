@@ -1,6 +1,6 @@
 // What an instance tells of itself, its facts and its counters, in words and as JSON.
-#ifndef RG_HARNESS_FACTS_H
-#define RG_HARNESS_FACTS_H
+#ifndef RG_HARNESS_RECORD_FACTS_H
+#define RG_HARNESS_RECORD_FACTS_H
 
 #include <jansson.h>
 

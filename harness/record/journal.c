@@ -9,9 +9,9 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "harness/record/rows.h"
 #include "harness/record/output.h"
 #include "harness/record/passport.h"
+#include "harness/record/rows.h"
 
 enum { FORMAT = 1 };
 

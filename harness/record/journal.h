@@ -6,8 +6,8 @@
 // a key: everything that decides the numbers (the table, its rows and settings, the length, the
 // program, the passport). One whose key is another's counts for nothing, nor does one that is
 // damaged. Journals are only ever lost, never trusted: without one, tables are measured whole.
-#ifndef RG_HARNESS_JOURNAL_H
-#define RG_HARNESS_JOURNAL_H
+#ifndef RG_HARNESS_RECORD_JOURNAL_H
+#define RG_HARNESS_RECORD_JOURNAL_H
 
 #include "harness/tables/table.h"
 

@@ -1,6 +1,6 @@
 // The machine as Linux describes it: what decides how fast and how exactly software devices run.
-#ifndef RG_HARNESS_MACHINE_H
-#define RG_HARNESS_MACHINE_H
+#ifndef RG_HARNESS_RECORD_MACHINE_H
+#define RG_HARNESS_RECORD_MACHINE_H
 
 #include <stdint.h>
 

@@ -1,6 +1,6 @@
 // Writing results: a file is there whole or not at all.
-#ifndef RG_HARNESS_OUTPUT_H
-#define RG_HARNESS_OUTPUT_H
+#ifndef RG_HARNESS_RECORD_OUTPUT_H
+#define RG_HARNESS_RECORD_OUTPUT_H
 
 #include <stdbool.h>
 

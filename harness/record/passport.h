@@ -1,7 +1,7 @@
 // The passport: what a record says of the machine, the drivers and this binary, so that its numbers
 // can be understood elsewhere. Documented field by field in docs/records.md.
-#ifndef RG_HARNESS_PASSPORT_H
-#define RG_HARNESS_PASSPORT_H
+#ifndef RG_HARNESS_RECORD_PASSPORT_H
+#define RG_HARNESS_RECORD_PASSPORT_H
 
 #include <jansson.h>
 

@@ -1,6 +1,6 @@
 // A measured row as the journal holds it.
-#ifndef RG_HARNESS_JOURNAL_ROWS_H
-#define RG_HARNESS_JOURNAL_ROWS_H
+#ifndef RG_HARNESS_RECORD_ROWS_H
+#define RG_HARNESS_RECORD_ROWS_H
 
 #include "harness/tables/table.h"
 

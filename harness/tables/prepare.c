@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/image/compare/compare.h"
 #include "core/base/log.h"
-#include "harness/frames/frame.h"
+#include "core/image/compare/compare.h"
 #include "harness/console/interrupt.h"
+#include "harness/frames/frame.h"
 #include "harness/tables/table.h"
 
 // A row's variant, while its cells are prepared.

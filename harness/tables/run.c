@@ -1,8 +1,8 @@
 // A table from its rows to their numbers, a batch of rows at a time.
 #include "core/base/alloc.h"
 #include "harness/console/interrupt.h"
-#include "harness/record/journal.h"
 #include "harness/console/progress.h"
+#include "harness/record/journal.h"
 #include "harness/tables/table.h"
 
 // Of fewer than 6 samples a median has no interval of 95 %.

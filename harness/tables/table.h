@@ -1,13 +1,13 @@
 // One regenerated table: measuring its cells, and what is said of them.
-#ifndef RG_HARNESS_TABLE_H
-#define RG_HARNESS_TABLE_H
+#ifndef RG_HARNESS_TABLES_TABLE_H
+#define RG_HARNESS_TABLES_TABLE_H
 
 #include <jansson.h>
 
-#include "harness/devices/bench.h"
 #include "harness/commands/command.h"
-#include "harness/devices/devices.h"
 #include "harness/console/sheet.h"
+#include "harness/devices/bench.h"
+#include "harness/devices/devices.h"
 #include "harness/measure/measure.h"
 #include "harness/tables/papers/papers.h"
 

@@ -2,9 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/measure/timer_audit.h"
 #include "harness/record/facts.h"
 #include "harness/tables/table.h"
-#include "harness/measure/timer_audit.h"
 
 // Where each thing stands; -1: not in this table.
 struct columns {

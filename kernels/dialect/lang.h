@@ -9,8 +9,8 @@
 // The build defines RG_GLSL or RG_OPENCL when it flattens a kernel for a driver
 // (kernels/build/flatten.py); a C compiler defines neither. Feature words are 0 or 1 and tested
 // with #if.
-#ifndef RG_KERNELS_LANG_H
-#define RG_KERNELS_LANG_H
+#ifndef RG_KERNELS_DIALECT_LANG_H
+#define RG_KERNELS_DIALECT_LANG_H
 
 #ifndef RG_GLSL
 #define RG_GLSL 0

@@ -5,8 +5,8 @@
 // tests/dialect/math.c measures them again. An ulp is the distance of two neighbouring floats at the
 // true result. Results are finite and never subnormal: RG_LARGEST or 0 stand for what would not be.
 // No argument may be NaN or, but where it is said what then happens, subnormal.
-#ifndef RG_KERNELS_MATH_H
-#define RG_KERNELS_MATH_H
+#ifndef RG_KERNELS_DIALECT_MATH_H
+#define RG_KERNELS_DIALECT_MATH_H
 
 #include "kernels/dialect/lang.h"
 

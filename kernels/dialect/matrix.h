@@ -1,7 +1,7 @@
 // Matrices of four rows, by value: a row's dot product is written out so that all devices round
 // alike.
-#ifndef RG_KERNELS_MATRIX_H
-#define RG_KERNELS_MATRIX_H
+#ifndef RG_KERNELS_DIALECT_MATRIX_H
+#define RG_KERNELS_DIALECT_MATRIX_H
 
 #include "kernels/dialect/draw/clip.h"
 #include "kernels/dialect/vec.h"

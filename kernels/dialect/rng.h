@@ -3,8 +3,8 @@
 // A number is a function of who asks: the item (a drop), the step (a frame), the stream (what the
 // number is for) and the seed. So every device draws the same ones in any order, and an item's
 // numbers do not change when others come or go.
-#ifndef RG_KERNELS_RNG_H
-#define RG_KERNELS_RNG_H
+#ifndef RG_KERNELS_DIALECT_RNG_H
+#define RG_KERNELS_DIALECT_RNG_H
 
 #include "kernels/dialect/lang.h"
 

@@ -1,6 +1,6 @@
 // Vectors of three floats, by value, each operation written out so that all devices round alike.
-#ifndef RG_KERNELS_VEC_H
-#define RG_KERNELS_VEC_H
+#ifndef RG_KERNELS_DIALECT_VEC_H
+#define RG_KERNELS_DIALECT_VEC_H
 
 #include "kernels/dialect/lang.h"
 

@@ -1,6 +1,6 @@
 // The parameters of copy.h.
-#ifndef RG_KERNELS_TEST_COPY_PARAMS_H
-#define RG_KERNELS_TEST_COPY_PARAMS_H
+#ifndef RG_KERNELS_PROBE_COPY_PARAMS_H
+#define RG_KERNELS_PROBE_COPY_PARAMS_H
 
 #include "kernels/dialect/lang.h"
 

@@ -1,6 +1,6 @@
 // The parameters of city.h.
-#ifndef RG_KERNELS_STREAKS_CITY_PARAMS_H
-#define RG_KERNELS_STREAKS_CITY_PARAMS_H
+#ifndef RG_KERNELS_SCENERY_CITY_PARAMS_H
+#define RG_KERNELS_SCENERY_CITY_PARAMS_H
 
 #include "kernels/dialect/matrix.h"
 

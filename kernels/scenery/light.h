@@ -1,7 +1,7 @@
 // One light of streaks, and what of it reaches a point: the same in the world and in the rain
 // frame, which are turned and moved against each other, but not scaled.
-#ifndef RG_KERNELS_STREAKS_LIGHT_H
-#define RG_KERNELS_STREAKS_LIGHT_H
+#ifndef RG_KERNELS_SCENERY_LIGHT_H
+#define RG_KERNELS_SCENERY_LIGHT_H
 
 #include "kernels/dialect/matrix.h"
 

@@ -1,8 +1,8 @@
 // How much of the sky is seen from places of the scene: a grid of 4 m, with four neighbours in one
 // word, so that a place between eight points takes two words. Included behind a program's slots,
 // which have IN(n, uint, openness).
-#ifndef RG_KERNELS_STREAKS_OPENNESS_H
-#define RG_KERNELS_STREAKS_OPENNESS_H
+#ifndef RG_KERNELS_SCENERY_OPENNESS_H
+#define RG_KERNELS_SCENERY_OPENNESS_H
 
 #include "kernels/scenery/openness_grid.h"
 #include "kernels/dialect/vec.h"

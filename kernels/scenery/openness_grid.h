@@ -1,8 +1,8 @@
 // The grid of openness.h, for host and kernels alike. Word (x, z, level) holds the points
 // (x, z), (x + 1, z), (x, z + 1) and (x + 1, z + 1), 8 bits each, the first lowest; a point is
 // STREAKS_OPEN_CELL_M from the next, the first one at (LOW, 0, LOW).
-#ifndef RG_KERNELS_STREAKS_OPENNESS_GRID_H
-#define RG_KERNELS_STREAKS_OPENNESS_GRID_H
+#ifndef RG_KERNELS_SCENERY_OPENNESS_GRID_H
+#define RG_KERNELS_SCENERY_OPENNESS_GRID_H
 
 #define STREAKS_OPEN_SIDE   101
 #define STREAKS_OPEN_LEVELS 60

@@ -5,8 +5,8 @@
 //
 // No branches: a cpu runs pixels side by side with one light for all. So texels are read whether a
 // light casts shadows or not, at places that lie within the image.
-#ifndef RG_KERNELS_STREAKS_SHADOW_H
-#define RG_KERNELS_STREAKS_SHADOW_H
+#ifndef RG_KERNELS_SCENERY_SHADOW_H
+#define RG_KERNELS_SCENERY_SHADOW_H
 
 #include "kernels/dialect/image/cube.h"
 #include "kernels/scenery/light.h"

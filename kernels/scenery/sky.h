@@ -1,7 +1,7 @@
 // The sky over the scene: overcast, brighter towards the zenith (Moon & Spencer, 1942), with haze
 // along the horizon and clouds that stand still.
-#ifndef RG_KERNELS_STREAKS_SKY_H
-#define RG_KERNELS_STREAKS_SKY_H
+#ifndef RG_KERNELS_SCENERY_SKY_H
+#define RG_KERNELS_SCENERY_SKY_H
 
 #include "kernels/dialect/vec.h"
 

@@ -1,7 +1,7 @@
 // A surface of the scene: what all faces of one place, direction and material have in common. It
 // is a row of words in a buffer, since rows of words are what every device fetches fastest.
-#ifndef RG_KERNELS_STREAKS_SURFACE_H
-#define RG_KERNELS_STREAKS_SURFACE_H
+#ifndef RG_KERNELS_SCENERY_SURFACE_H
+#define RG_KERNELS_SCENERY_SURFACE_H
 
 #include "kernels/dialect/mesh/normal.h"
 

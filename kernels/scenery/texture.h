@@ -4,8 +4,8 @@
 //
 // Filtered in integers of 8 bits, two channels at a time: half the work of floats, and exact.
 // Included behind a program's slots, which have IMAGE(n, RGBA8, textures).
-#ifndef RG_KERNELS_STREAKS_TEXTURE_H
-#define RG_KERNELS_STREAKS_TEXTURE_H
+#ifndef RG_KERNELS_SCENERY_TEXTURE_H
+#define RG_KERNELS_SCENERY_TEXTURE_H
 
 // Channels r and b, and g and a, each in 16 bits.
 RG_STRUCT(streaks_texel)

@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 #include "backends/gl/gl.h"
-#include "core/device/device.h"
 #include "core/base/log.h"
+#include "core/device/device.h"
 #include "kernels/probe/copy_params.h"
 #include "tests/kernels/quads_params.h"
 

@@ -11,11 +11,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/device/device.h"
 #include "core/base/log.h"
+#include "core/device/device.h"
 #include "kernels/probe/copy_params.h"
-#include "tests/kernels/image_copy_params.h"
 #include "tests/core/device/quads.h"
+#include "tests/kernels/image_copy_params.h"
 
 static int open_device(void **state)
 {

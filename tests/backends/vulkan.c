@@ -10,8 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/device/device.h"
 #include "core/base/log.h"
+#include "core/device/device.h"
 #include "kernels/probe/copy_params.h"
 
 static int errors;

@@ -1,6 +1,6 @@
 // A folder of a test's own, as setup and teardown of a group; what a test writes there it removes.
-#ifndef RG_TESTS_FOLDER_H
-#define RG_TESTS_FOLDER_H
+#ifndef RG_TESTS_CORE_FOLDER_H
+#define RG_TESTS_CORE_FOLDER_H
 
 #include <stdio.h>
 #include <stdlib.h>

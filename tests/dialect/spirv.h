@@ -1,6 +1,6 @@
 // What the tests of SPIR-V share: the stages of a kernel, and how a module's words are walked.
-#ifndef RG_TESTS_SPIRV_H
-#define RG_TESTS_SPIRV_H
+#ifndef RG_TESTS_DIALECT_SPIRV_H
+#define RG_TESTS_DIALECT_SPIRV_H
 
 #include <stdint.h>
 

@@ -10,9 +10,9 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "core/base/log.h"
 #include "core/image/compare/heatmap.h"
 #include "core/image/files/io.h"
-#include "core/base/log.h"
 #include "harness/compare/diff/files.h"
 #include "tests/core/image/rain_picture.h"
 

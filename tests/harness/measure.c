@@ -12,10 +12,10 @@
 #include <string.h>
 #include <time.h>
 
-#include "core/image/compare/compare.h"
 #include "core/base/log.h"
-#include "harness/record/facts.h"
+#include "core/image/compare/compare.h"
 #include "harness/frames/frame.h"
+#include "harness/record/facts.h"
 #include "harness/tables/table.h"
 
 #define CHEAP                                                                                      \

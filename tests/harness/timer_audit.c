@@ -6,8 +6,8 @@
 
 #include <cmocka.h>
 
-#include "core/device/device.h"
 #include "core/base/log.h"
+#include "core/device/device.h"
 #include "harness/measure/timer_audit.h"
 
 static const struct rg_backend *honest;

@@ -1,6 +1,6 @@
 // The parameters of fault.h.
-#ifndef RG_KERNELS_TEST_FAULT_PARAMS_H
-#define RG_KERNELS_TEST_FAULT_PARAMS_H
+#ifndef RG_TESTS_KERNELS_FAULT_PARAMS_H
+#define RG_TESTS_KERNELS_FAULT_PARAMS_H
 
 #include "kernels/dialect/lang.h"
 

@@ -1,6 +1,6 @@
 // The parameters of image_copy.h.
-#ifndef RG_KERNELS_TEST_IMAGE_COPY_PARAMS_H
-#define RG_KERNELS_TEST_IMAGE_COPY_PARAMS_H
+#ifndef RG_TESTS_KERNELS_IMAGE_COPY_PARAMS_H
+#define RG_TESTS_KERNELS_IMAGE_COPY_PARAMS_H
 
 #include "kernels/dialect/lang.h"
 

@@ -1,6 +1,6 @@
 // The parameters of lights.h, and its lights.
-#ifndef RG_KERNELS_TEST_LIGHTS_PARAMS_H
-#define RG_KERNELS_TEST_LIGHTS_PARAMS_H
+#ifndef RG_TESTS_KERNELS_LIGHTS_PARAMS_H
+#define RG_TESTS_KERNELS_LIGHTS_PARAMS_H
 
 #include "kernels/dialect/matrix.h"
 

@@ -1,7 +1,7 @@
 // Quads of a buffer as items: included behind draw.h by programs with IN(1, float, quads), of
 // TEST_QUAD_WORDS words each.
-#ifndef RG_KERNELS_TEST_QUAD_ITEM_H
-#define RG_KERNELS_TEST_QUAD_ITEM_H
+#ifndef RG_TESTS_KERNELS_QUAD_ITEM_H
+#define RG_TESTS_KERNELS_QUAD_ITEM_H
 
 RG_FN rg_corner test_corner(rg_ctx rg, int i, int k)
 {

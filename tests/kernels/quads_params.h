@@ -1,6 +1,6 @@
 // The parameters of quads.h.
-#ifndef RG_KERNELS_TEST_QUADS_PARAMS_H
-#define RG_KERNELS_TEST_QUADS_PARAMS_H
+#ifndef RG_TESTS_KERNELS_QUADS_PARAMS_H
+#define RG_TESTS_KERNELS_QUADS_PARAMS_H
 
 #include "kernels/dialect/lang.h"
 

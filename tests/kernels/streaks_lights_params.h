@@ -1,6 +1,6 @@
 // The parameters of core/techniques/scenery/lights/lights.h.
-#ifndef RG_KERNELS_TEST_STREAKS_LIGHTS_PARAMS_H
-#define RG_KERNELS_TEST_STREAKS_LIGHTS_PARAMS_H
+#ifndef RG_TESTS_KERNELS_STREAKS_LIGHTS_PARAMS_H
+#define RG_TESTS_KERNELS_STREAKS_LIGHTS_PARAMS_H
 
 #include "kernels/dialect/vec.h"
 

@@ -1,7 +1,7 @@
 // Light through an oscillating drop, in double precision, by marching and bisection: slow and
 // plain. Shares nothing with core/scene/atlas.
-#ifndef RG_TESTS_ORACLE_DROP_ORACLE_H
-#define RG_TESTS_ORACLE_DROP_ORACLE_H
+#ifndef RG_TESTS_ORACLE_DROP_H
+#define RG_TESTS_ORACLE_DROP_H
 
 #include <stdbool.h>
 

@@ -1,7 +1,7 @@
 // Particles of streaks in double precision, from the words of C. Creus, "Real-time rendering of
 // rain", 2010, sections 4.2 and 4.4, without kernels/.
-#ifndef RG_TESTS_ORACLE_PARTICLE_ORACLE_H
-#define RG_TESTS_ORACLE_PARTICLE_ORACLE_H
+#ifndef RG_TESTS_ORACLE_PARTICLE_H
+#define RG_TESTS_ORACLE_PARTICLE_H
 
 // Lengths in metres; s along the fall, from the rain space's top.
 struct particle_space {

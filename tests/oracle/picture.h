@@ -1,7 +1,7 @@
 // A ray caster of flow's box and of its one pane, in double precision: what cpu:reference draws,
 // reckoned from docs/flow.md without anything of kernels/ or core/techniques/.
-#ifndef PICTURE_ORACLE_H
-#define PICTURE_ORACLE_H
+#ifndef RG_TESTS_ORACLE_PICTURE_H
+#define RG_TESTS_ORACLE_PICTURE_H
 
 #include "tests/oracle/box.h"
 #include "tests/oracle/light.h"

@@ -1,7 +1,7 @@
 // A rasteriser that shares nothing with kernels/: which pixels a polygon covers, in exact integers,
 // and which face a ray through a pixel's centre meets where, in double precision.
-#ifndef RG_TESTS_ORACLE_RASTER_ORACLE_H
-#define RG_TESTS_ORACLE_RASTER_ORACLE_H
+#ifndef RG_TESTS_ORACLE_RASTER_H
+#define RG_TESTS_ORACLE_RASTER_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/image/srgb.h"
 #include "core/base/log.h"
+#include "core/image/srgb.h"
 
 static void encode_row(const struct rg_picture *picture, int y, float exposure, uint8_t *codes)
 {

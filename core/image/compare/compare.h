@@ -7,8 +7,8 @@
 // the encoded pictures, for HDR files too.
 //
 // Every figure is the same for any number of threads and on any processor.
-#ifndef RG_CORE_IMAGE_COMPARE_H
-#define RG_CORE_IMAGE_COMPARE_H
+#ifndef RG_CORE_IMAGE_COMPARE_COMPARE_H
+#define RG_CORE_IMAGE_COMPARE_COMPARE_H
 
 #include "core/image/picture.h"
 

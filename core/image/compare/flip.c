@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/log.h"
 #include "core/image/compare/compare.h"
 #include "core/image/compare/multiversion.h"
 #include "core/image/srgb.h"
-#include "core/base/log.h"
 
 enum {
     TILE_WIDTH = 256, // pixels of the map

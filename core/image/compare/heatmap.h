@@ -1,6 +1,6 @@
 // Pictures of where two pictures differ, in false colours with a labelled scale beside them.
-#ifndef RG_CORE_IMAGE_HEATMAP_H
-#define RG_CORE_IMAGE_HEATMAP_H
+#ifndef RG_CORE_IMAGE_COMPARE_HEATMAP_H
+#define RG_CORE_IMAGE_COMPARE_HEATMAP_H
 
 #include "core/image/picture.h"
 

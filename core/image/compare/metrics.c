@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/log.h"
 #include "core/image/compare/compare.h"
 #include "core/image/compare/multiversion.h"
-#include "core/base/log.h"
 
 const float rg_above_thresholds[RG_ABOVE_COUNT] = {1e-6f, 1e-4f, 1e-3f, 1e-2f};
 

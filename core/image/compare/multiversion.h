@@ -1,7 +1,7 @@
 // Functions compiled for several x86-64 levels, the best chosen at start. No contraction is allowed
 // at any level, so all of them give the same bits.
-#ifndef RG_CORE_IMAGE_MULTIVERSION_H
-#define RG_CORE_IMAGE_MULTIVERSION_H
+#ifndef RG_CORE_IMAGE_COMPARE_MULTIVERSION_H
+#define RG_CORE_IMAGE_COMPARE_MULTIVERSION_H
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

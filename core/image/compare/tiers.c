@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/image/compare/compare.h"
 #include "core/base/log.h"
+#include "core/image/compare/compare.h"
 
 enum {
     MASK_CODES = 1,     // a pixel is rain when a colour is further than this from the background

@@ -1,7 +1,7 @@
 // Decompressing and unpacking the chunks of an EXR file: faster than the library's own routines,
 // and right where those of version 3.1.5 reverse the channels of RGBA halves.
-#ifndef RG_CORE_IMAGE_EXR_UNPACK_H
-#define RG_CORE_IMAGE_EXR_UNPACK_H
+#ifndef RG_CORE_IMAGE_FILES_EXR_UNPACK_H
+#define RG_CORE_IMAGE_FILES_EXR_UNPACK_H
 
 #include <stdbool.h>
 #include <stddef.h>

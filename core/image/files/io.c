@@ -11,8 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/image/format.h"
 #include "core/base/log.h"
+#include "core/image/format.h"
 
 static const struct {
     const char *extension;

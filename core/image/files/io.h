@@ -3,8 +3,8 @@
 // EXR and PNG go through their own C libraries, because pictures are compared all the time and
 // OpenImageIO takes a quarter of a second to load (it pulls 260 shared libraries in); the other
 // formats, and OpenImageIO's comparison, go through OpenImageIO, loaded when first asked for.
-#ifndef RG_CORE_IMAGE_IO_H
-#define RG_CORE_IMAGE_IO_H
+#ifndef RG_CORE_IMAGE_FILES_IO_H
+#define RG_CORE_IMAGE_FILES_IO_H
 
 #include "core/image/picture.h"
 

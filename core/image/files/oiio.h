@@ -1,7 +1,7 @@
 // The functions of the OpenImageIO module, the project's only C++: plain C, and no exception leaves
 // them. The module is loaded by oiio.c when one is first needed.
-#ifndef RG_CORE_IMAGE_OIIO_H
-#define RG_CORE_IMAGE_OIIO_H
+#ifndef RG_CORE_IMAGE_FILES_OIIO_H
+#define RG_CORE_IMAGE_FILES_OIIO_H
 
 #include <stdbool.h>
 #include <stdint.h>

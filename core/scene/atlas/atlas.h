@@ -21,8 +21,8 @@
 // view; a light at elevation -90 + 20 * light and azimuth 10 + 20 * phi, counted from the viewer
 // towards the viewer's right. A light on the left is the mirror image, u -> 1 - u. Seen from below,
 // view and light change the signs of both elevations.
-#ifndef RG_CORE_SCENE_ATLAS_H
-#define RG_CORE_SCENE_ATLAS_H
+#ifndef RG_CORE_SCENE_ATLAS_ATLAS_H
+#define RG_CORE_SCENE_ATLAS_ATLAS_H
 
 #include <stdbool.h>
 #include <stddef.h>

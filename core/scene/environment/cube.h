@@ -1,6 +1,6 @@
 // Cube maps on the host: building environments out of any function of direction.
-#ifndef RG_CORE_SCENE_CUBE_H
-#define RG_CORE_SCENE_CUBE_H
+#ifndef RG_CORE_SCENE_ENVIRONMENT_CUBE_H
+#define RG_CORE_SCENE_ENVIRONMENT_CUBE_H
 
 #include <stdint.h>
 

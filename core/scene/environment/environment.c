@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/image/files/io.h"
 #include "core/base/log.h"
+#include "core/image/files/io.h"
 #include "core/scene/environment/cube.h"
 #include "core/scene/environment/ktx.h"
 

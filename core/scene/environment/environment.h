@@ -1,6 +1,6 @@
 // Environment maps: the light that comes from every direction, as a cube map.
-#ifndef RG_CORE_SCENE_ENVIRONMENT_H
-#define RG_CORE_SCENE_ENVIRONMENT_H
+#ifndef RG_CORE_SCENE_ENVIRONMENT_ENVIRONMENT_H
+#define RG_CORE_SCENE_ENVIRONMENT_ENVIRONMENT_H
 
 #include "core/device/device.h"
 

@@ -1,6 +1,6 @@
 // KTX 1 cube maps: just what Debian's open3d-gui-data holds.
-#ifndef RG_CORE_SCENE_KTX_H
-#define RG_CORE_SCENE_KTX_H
+#ifndef RG_CORE_SCENE_ENVIRONMENT_KTX_H
+#define RG_CORE_SCENE_ENVIRONMENT_KTX_H
 
 #include "core/scene/environment/environment.h"
 

@@ -1,6 +1,6 @@
 // Triangle meshes in memory, from files, by name, and brought to a wanted number of faces.
-#ifndef RG_CORE_SCENE_MESH_H
-#define RG_CORE_SCENE_MESH_H
+#ifndef RG_CORE_SCENE_MESH_MESH_H
+#define RG_CORE_SCENE_MESH_MESH_H
 
 #include <stdbool.h>
 #include <stdint.h>

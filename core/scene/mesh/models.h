@@ -1,6 +1,6 @@
 // Models by name: which file of which Debian package a name stands for.
-#ifndef RG_CORE_SCENE_MODELS_H
-#define RG_CORE_SCENE_MODELS_H
+#ifndef RG_CORE_SCENE_MESH_MODELS_H
+#define RG_CORE_SCENE_MESH_MODELS_H
 
 #include "core/scene/mesh/mesh.h"
 

@@ -1,14 +1,14 @@
 // flow: the settings, parameters and host-side inputs of Stuppacher & Supan's water on panes.
-#ifndef RG_CORE_TECHNIQUES_FLOW_H
-#define RG_CORE_TECHNIQUES_FLOW_H
+#ifndef RG_CORE_TECHNIQUES_FLOW_FLOW_H
+#define RG_CORE_TECHNIQUES_FLOW_FLOW_H
 
 #include <stdint.h>
 
 #include "core/techniques/params.h"
-#include "kernels/flow/water/water.h"
 #include "kernels/flow/panes/normals_params.h"
-#include "kernels/flow/water/splat_params.h"
 #include "kernels/flow/view_params.h"
+#include "kernels/flow/water/splat_params.h"
+#include "kernels/flow/water/water.h"
 
 enum flow_direction { FLOW_NEAREST, FLOW_SPLIT };
 enum flow_scene { FLOW_BOX, FLOW_ONE_PANE };

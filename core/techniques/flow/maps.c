@@ -4,10 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/image/files/io.h"
-#include "core/image/srgb.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/image/files/io.h"
+#include "core/image/srgb.h"
 #include "kernels/dialect/rng.h"
 
 enum { NOISE_SIZE = 512, NOISE_OCTAVES = 5, NOISE_COARSEST = 16, STREAM_NOISE = 3 };

@@ -1,6 +1,6 @@
 // raster: the settings, parameters and host-side inputs of drawing itself as the thing measured.
-#ifndef RG_CORE_TECHNIQUES_RASTER_H
-#define RG_CORE_TECHNIQUES_RASTER_H
+#ifndef RG_CORE_TECHNIQUES_RASTER_RASTER_H
+#define RG_CORE_TECHNIQUES_RASTER_RASTER_H
 
 #include <stdint.h>
 

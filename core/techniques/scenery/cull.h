@@ -1,6 +1,6 @@
 // Which chunks of a scene a view can see.
-#ifndef RG_CORE_TECHNIQUES_STREAKS_SCENE_CULL_H
-#define RG_CORE_TECHNIQUES_STREAKS_SCENE_CULL_H
+#ifndef RG_CORE_TECHNIQUES_SCENERY_CULL_H
+#define RG_CORE_TECHNIQUES_SCENERY_CULL_H
 
 #include "core/scene/city/city.h"
 #include "kernels/dialect/matrix.h"

@@ -1,6 +1,6 @@
 // What instances of a device share of a scene (core/device/shared.h).
-#ifndef RG_CORE_TECHNIQUES_STREAKS_SCENE_MADE_H
-#define RG_CORE_TECHNIQUES_STREAKS_SCENE_MADE_H
+#ifndef RG_CORE_TECHNIQUES_SCENERY_MADE_H
+#define RG_CORE_TECHNIQUES_SCENERY_MADE_H
 
 #include "core/techniques/scenery/scenery.h"
 

@@ -2,12 +2,12 @@
 // frusta as lines and translucent sheets, and depth maps in a corner.
 //
 // An overlay is a list that the caller fills for a frame, in the world, and draws over it.
-#ifndef RG_CORE_TECHNIQUES_STREAKS_OVERLAY_H
-#define RG_CORE_TECHNIQUES_STREAKS_OVERLAY_H
+#ifndef RG_CORE_TECHNIQUES_SCENERY_OVERLAY_H
+#define RG_CORE_TECHNIQUES_SCENERY_OVERLAY_H
 
 #include "core/techniques/technique.h"
-#include "kernels/scenery/overlay/inset_params.h"
 #include "kernels/scenery/light.h"
+#include "kernels/scenery/overlay/inset_params.h"
 
 struct streaks_overlay;
 

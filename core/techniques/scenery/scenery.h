@@ -4,8 +4,8 @@
 // Its faces lie in chunks; a draw leaves out those that the view does not touch, that all turn
 // away, or that buildings hide. Faces leave the number of their surface in each pixel; then every
 // pixel is lit once (kernels/scenery/city.h, kernels/scenery/city_shade.h).
-#ifndef RG_CORE_TECHNIQUES_STREAKS_SCENE_H
-#define RG_CORE_TECHNIQUES_STREAKS_SCENE_H
+#ifndef RG_CORE_TECHNIQUES_SCENERY_SCENERY_H
+#define RG_CORE_TECHNIQUES_SCENERY_SCENERY_H
 
 #include "core/scene/city/city.h"
 #include "core/techniques/scenery/lights/lights.h"

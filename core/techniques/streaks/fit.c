@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "core/image/compare/compare.h"
 #include "core/base/log.h"
+#include "core/image/compare/compare.h"
 #include "core/techniques/frame.h"
 
 // Sizes are tried in steps of 5 %. A rain space 100 km wide has 242 of them.

@@ -2,12 +2,12 @@
 #ifndef RG_CORE_TECHNIQUES_STREAKS_INSTANCE_H
 #define RG_CORE_TECHNIQUES_STREAKS_INSTANCE_H
 
-#include "core/techniques/streaks/streaks.h"
 #include "core/techniques/scenery/lights/lights.h"
-#include "core/techniques/streaks/observer.h"
 #include "core/techniques/scenery/overlay.h"
-#include "core/techniques/streaks/packets/packets.h"
 #include "core/techniques/scenery/scenery.h"
+#include "core/techniques/streaks/observer.h"
+#include "core/techniques/streaks/packets/packets.h"
+#include "core/techniques/streaks/streaks.h"
 #include "core/techniques/streaks/textures.h"
 #include "core/techniques/technique.h"
 #include "kernels/streaks/params.h"

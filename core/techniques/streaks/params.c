@@ -1,5 +1,5 @@
-#include "core/techniques/streaks/streaks.h"
 #include "core/techniques/streaks/packets/packets.h"
+#include "core/techniques/streaks/streaks.h"
 
 #define AT(field) offsetof(struct streaks_settings, field)
 

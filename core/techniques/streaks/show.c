@@ -2,8 +2,8 @@
 // lights, and the depth map (figures 4.4, 4.5, 4.11, 4.14 and 5.7).
 #include <math.h>
 
-#include "core/techniques/streaks/instance.h"
 #include "core/techniques/scenery/overlay.h"
+#include "core/techniques/streaks/instance.h"
 
 // A box of the rain frame.
 struct box {

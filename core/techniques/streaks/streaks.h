@@ -1,7 +1,7 @@
 // streaks: the settings and parameters of rain as particles (C. Creus, "Real-time rendering of
 // rain", 2010). docs/streaks.md explains them.
-#ifndef RG_CORE_TECHNIQUES_STREAKS_H
-#define RG_CORE_TECHNIQUES_STREAKS_H
+#ifndef RG_CORE_TECHNIQUES_STREAKS_STREAKS_H
+#define RG_CORE_TECHNIQUES_STREAKS_STREAKS_H
 
 #include <stdint.h>
 

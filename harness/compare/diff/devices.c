@@ -6,10 +6,10 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "harness/devices/devices.h"
 #include "harness/compare/diff/report.h"
-#include "harness/frames/frame.h"
 #include "harness/console/progress.h"
+#include "harness/devices/devices.h"
+#include "harness/frames/frame.h"
 
 struct shot {
     const struct rg_device_info *info;

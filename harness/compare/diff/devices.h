@@ -1,6 +1,6 @@
 // The comparison of one frame of a technique on several devices: `raingauge diff TECHNIQUE`.
-#ifndef RG_HARNESS_DIFF_DEVICES_H
-#define RG_HARNESS_DIFF_DEVICES_H
+#ifndef RG_HARNESS_COMPARE_DIFF_DEVICES_H
+#define RG_HARNESS_COMPARE_DIFF_DEVICES_H
 
 #include "harness/commands/command.h"
 

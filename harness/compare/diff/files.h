@@ -1,6 +1,6 @@
 // The comparison of two picture files: what `raingauge diff A B` prints.
-#ifndef RG_HARNESS_DIFF_FILES_H
-#define RG_HARNESS_DIFF_FILES_H
+#ifndef RG_HARNESS_COMPARE_DIFF_FILES_H
+#define RG_HARNESS_COMPARE_DIFF_FILES_H
 
 #include <stdbool.h>
 

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/log.h"
 #include "core/image/compare/heatmap.h"
 #include "core/image/files/io.h"
-#include "core/base/log.h"
 
 static const char *yes(const struct rg_verdict *verdict)
 {

@@ -1,7 +1,7 @@
 // What is said of a pair of pictures that were compared: for people, for machines, and as heat
 // maps.
-#ifndef RG_HARNESS_DIFF_REPORT_H
-#define RG_HARNESS_DIFF_REPORT_H
+#ifndef RG_HARNESS_COMPARE_DIFF_REPORT_H
+#define RG_HARNESS_COMPARE_DIFF_REPORT_H
 
 #include <jansson.h>
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 // The results of checks: collected, printed as lines or JSON, and summed up in an exit status.
-#ifndef RG_HARNESS_CHECKS_H
-#define RG_HARNESS_CHECKS_H
+#ifndef RG_HARNESS_COMPARE_VERIFY_CHECKS_H
+#define RG_HARNESS_COMPARE_VERIFY_CHECKS_H
 
 #include <stdbool.h>
 

@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/image/compare/compare.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "harness/frames/frame.h"
+#include "core/image/compare/compare.h"
 #include "harness/compare/verify/snapshot.h"
 #include "harness/compare/verify/verify.h"
+#include "harness/frames/frame.h"
 
 // One check on one device, over all cases.
 struct tally {

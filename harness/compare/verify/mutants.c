@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/image/compare/compare.h"
 #include "core/base/log.h"
-#include "harness/frames/frame.h"
+#include "core/image/compare/compare.h"
 #include "harness/compare/verify/verify.h"
+#include "harness/frames/frame.h"
 
 enum { MUTANT_STEPS = 100 };
 

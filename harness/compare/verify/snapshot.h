@@ -1,6 +1,6 @@
 // What an instance holds at one moment, on the host: its state, and the image it drew.
-#ifndef RG_HARNESS_SNAPSHOT_H
-#define RG_HARNESS_SNAPSHOT_H
+#ifndef RG_HARNESS_COMPARE_VERIFY_SNAPSHOT_H
+#define RG_HARNESS_COMPARE_VERIFY_SNAPSHOT_H
 
 #include "core/techniques/technique.h"
 

@@ -1,14 +1,14 @@
 // The parts of `raingauge verify`, for one technique.
-#ifndef RG_HARNESS_VERIFY_H
-#define RG_HARNESS_VERIFY_H
+#ifndef RG_HARNESS_COMPARE_VERIFY_VERIFY_H
+#define RG_HARNESS_COMPARE_VERIFY_VERIFY_H
 
 #include "core/image/picture.h"
 #include "core/techniques/proof.h"
 #include "core/techniques/technique.h"
-#include "harness/compare/verify/checks.h"
 #include "harness/commands/command.h"
-#include "harness/devices/devices.h"
+#include "harness/compare/verify/checks.h"
 #include "harness/console/progress.h"
+#include "harness/devices/devices.h"
 
 enum { RG_VERIFY_SEEDS = 3 };
 

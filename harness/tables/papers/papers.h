@@ -1,6 +1,6 @@
 // Published tables: which cells each has, and the numbers in print.
-#ifndef RG_HARNESS_TABLES_TABLES_H
-#define RG_HARNESS_TABLES_TABLES_H
+#ifndef RG_HARNESS_TABLES_PAPERS_PAPERS_H
+#define RG_HARNESS_TABLES_PAPERS_PAPERS_H
 
 #include <stdbool.h>
 #include <stddef.h>

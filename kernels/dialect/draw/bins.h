@@ -5,8 +5,8 @@
 // which one work item walks; each tile has one place a lane in the array of places. First a place
 // counts; after the scan it is where the lane's primitives of the tile begin in the list; after the
 // scatter it is where they end, which is where the next place's begin.
-#ifndef RG_KERNELS_BINS_H
-#define RG_KERNELS_BINS_H
+#ifndef RG_KERNELS_DIALECT_DRAW_BINS_H
+#define RG_KERNELS_DIALECT_DRAW_BINS_H
 
 #include "kernels/dialect/lang.h"
 

@@ -1,7 +1,7 @@
 // How a fragment's colour meets the target's, format by format, as llvmpipe and lavapipe do it
 // (docs/drawing.md says what was measured). For the devices that keep images in plain memory.
-#ifndef RG_KERNELS_BLEND_H
-#define RG_KERNELS_BLEND_H
+#ifndef RG_KERNELS_DIALECT_DRAW_BLEND_H
+#define RG_KERNELS_DIALECT_DRAW_BLEND_H
 
 #include "kernels/dialect/image/memory.h"
 

@@ -5,8 +5,8 @@
 // Clip space is as matrices make it: pixel = (x / w + 1) * width / 2, likewise y, which grows
 // downwards; depth = z / w, 0 at the near plane. Items are clipped where z < 0 and at the guard
 // band, RG_GUARD_PX beyond the target. Depth beyond 1 is clamped, not clipped.
-#ifndef RG_KERNELS_CLIP_H
-#define RG_KERNELS_CLIP_H
+#ifndef RG_KERNELS_DIALECT_DRAW_CLIP_H
+#define RG_KERNELS_DIALECT_DRAW_CLIP_H
 
 #include "kernels/dialect/draw/state.h"
 

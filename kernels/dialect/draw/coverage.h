@@ -5,8 +5,8 @@
 // Pixel (px, py) is covered where its centre lies inside all three edges. A centre on an edge
 // belongs to the triangle whose top or left edge that is, so that neighbours share no pixel and
 // leave none out.
-#ifndef RG_KERNELS_RASTER_H
-#define RG_KERNELS_RASTER_H
+#ifndef RG_KERNELS_DIALECT_DRAW_COVERAGE_H
+#define RG_KERNELS_DIALECT_DRAW_COVERAGE_H
 
 #include "kernels/dialect/draw/clip.h"
 

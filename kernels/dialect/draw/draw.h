@@ -22,8 +22,8 @@
 // Its RG_DRAW_FRAGMENT also gets `rgba lit`: what the lights add, from 0 to p.lights - 1, to zero.
 // Only the colour may depend on it: depth and `kept` are also asked for before there is light, so
 // that none falls on what is hidden.
-#ifndef RG_KERNELS_DRAW_H
-#define RG_KERNELS_DRAW_H
+#ifndef RG_KERNELS_DIALECT_DRAW_DRAW_H
+#define RG_KERNELS_DIALECT_DRAW_DRAW_H
 
 #include "kernels/dialect/draw/clip.h"
 

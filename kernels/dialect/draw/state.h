@@ -1,6 +1,6 @@
 // What a DRAW pass's stages know of the draw: made by core/device/draw.c, read by the shells.
-#ifndef RG_KERNELS_DRAW_STATE_H
-#define RG_KERNELS_DRAW_STATE_H
+#ifndef RG_KERNELS_DIALECT_DRAW_STATE_H
+#define RG_KERNELS_DIALECT_DRAW_STATE_H
 
 #include "kernels/dialect/lang.h"
 

@@ -2,8 +2,8 @@
 // corners and its depth at any pixel centre, from its corners in clip space (Olano & Greer,
 // "Triangle scan conversion using 2D homogeneous coordinates", 1997). It holds for triangles that
 // cross the near plane too, and does not depend on how they are clipped.
-#ifndef RG_KERNELS_TRIANGLE_H
-#define RG_KERNELS_TRIANGLE_H
+#ifndef RG_KERNELS_DIALECT_DRAW_TRIANGLE_H
+#define RG_KERNELS_DIALECT_DRAW_TRIANGLE_H
 
 #include "kernels/dialect/draw/clip.h"
 

@@ -1,7 +1,7 @@
 // One quad that fills the view, for programs whose fragments need nothing but their place: included
 // in draw.h's stead, behind RG_PARAMS and RG_SLOTS, and RG_RECORD where there is more to know.
-#ifndef RG_KERNELS_VIEW_QUAD_H
-#define RG_KERNELS_VIEW_QUAD_H
+#ifndef RG_KERNELS_DIALECT_DRAW_VIEW_QUAD_H
+#define RG_KERNELS_DIALECT_DRAW_VIEW_QUAD_H
 
 #include "kernels/dialect/lang.h"
 

@@ -1,6 +1,6 @@
 // Cube maps as six layers, +x -x +y -y +z -z, oriented as OpenGL and Vulkan do.
-#ifndef RG_KERNELS_CUBE_H
-#define RG_KERNELS_CUBE_H
+#ifndef RG_KERNELS_DIALECT_IMAGE_CUBE_H
+#define RG_KERNELS_DIALECT_IMAGE_CUBE_H
 
 #include "kernels/dialect/vec.h"
 

@@ -5,8 +5,8 @@
 // floats. Kernels store only such colours, so a driver's own conversion has nothing left to round.
 // rg_fetched_F(c) mends what a driver's fetch may leave inexact. The packing and unpacking below
 // serve the devices that keep images in plain memory (cpu and opencl).
-#ifndef RG_KERNELS_FORMAT_H
-#define RG_KERNELS_FORMAT_H
+#ifndef RG_KERNELS_DIALECT_IMAGE_FORMAT_H
+#define RG_KERNELS_DIALECT_IMAGE_FORMAT_H
 
 #include "kernels/dialect/lang.h"
 

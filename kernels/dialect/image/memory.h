@@ -4,8 +4,8 @@
 // next, so that a level alone may end with a half to spare. The header lies in memory, not in the
 // shape, so that the shape stays small enough for compilers to keep in registers, and items of one
 // vector may read different levels.
-#ifndef RG_KERNELS_IMAGE_MEMORY_H
-#define RG_KERNELS_IMAGE_MEMORY_H
+#ifndef RG_KERNELS_DIALECT_IMAGE_MEMORY_H
+#define RG_KERNELS_DIALECT_IMAGE_MEMORY_H
 
 #include "kernels/dialect/image/format.h"
 

@@ -1,6 +1,6 @@
 // mesh.h's item and record, from the slots of the program that includes this.
-#ifndef RG_KERNELS_MESH_ITEM_H
-#define RG_KERNELS_MESH_ITEM_H
+#ifndef RG_KERNELS_DIALECT_MESH_ITEM_H
+#define RG_KERNELS_DIALECT_MESH_ITEM_H
 
 RG_FN rg_corner mesh_corner(rg_ctx rg, m4 to_clip, int vertex)
 {

@@ -3,8 +3,8 @@
 //   IN(1, float, positions)  x, y, z a vertex
 //   IN(2, uint, normals)     a vertex's normal, packed by mesh_normal_pack
 //   IN(3, uint, indices)     three vertices a triangle
-#ifndef RG_KERNELS_MESH_H
-#define RG_KERNELS_MESH_H
+#ifndef RG_KERNELS_DIALECT_MESH_MESH_H
+#define RG_KERNELS_DIALECT_MESH_MESH_H
 
 #include "kernels/dialect/matrix.h"
 #include "kernels/dialect/mesh/normal.h"

@@ -1,6 +1,6 @@
 // A unit normal in one word: three components of 10 bits each.
-#ifndef RG_KERNELS_MESH_NORMAL_H
-#define RG_KERNELS_MESH_NORMAL_H
+#ifndef RG_KERNELS_DIALECT_MESH_NORMAL_H
+#define RG_KERNELS_DIALECT_MESH_NORMAL_H
 
 #include "kernels/dialect/vec.h"
 

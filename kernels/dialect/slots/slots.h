@@ -21,8 +21,8 @@
 // Slots count from 1 and are one numbering for buffers and images. `rg` is the kernel's context: it
 // is passed along to every helper that reads or writes. The value that an atomic returns must never
 // influence a result, which is why add, min, max and or return none.
-#ifndef RG_KERNELS_SLOTS_H
-#define RG_KERNELS_SLOTS_H
+#ifndef RG_KERNELS_DIALECT_SLOTS_SLOTS_H
+#define RG_KERNELS_DIALECT_SLOTS_SLOTS_H
 
 #include "kernels/dialect/image/format.h"
 

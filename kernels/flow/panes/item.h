@@ -1,6 +1,6 @@
 // panes.h's item and record, from the slot panes of the program that includes this.
-#ifndef RG_KERNELS_FLOW_PANE_ITEM_H
-#define RG_KERNELS_FLOW_PANE_ITEM_H
+#ifndef RG_KERNELS_FLOW_PANES_ITEM_H
+#define RG_KERNELS_FLOW_PANES_ITEM_H
 
 // The corner of a pane at (right, down), each -1 or 1.
 RG_FN rg_corner pane_corner(m4 to_clip, flow_pane q, float right, float down)

@@ -1,6 +1,6 @@
 // A texel of a normal map in one word: the normal's x and y in 12 bits each, wetness in 8.
-#ifndef RG_KERNELS_NORMAL_MAP_H
-#define RG_KERNELS_NORMAL_MAP_H
+#ifndef RG_KERNELS_FLOW_PANES_NORMAL_MAP_H
+#define RG_KERNELS_FLOW_PANES_NORMAL_MAP_H
 
 #include "kernels/dialect/lang.h"
 

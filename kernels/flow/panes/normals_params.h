@@ -1,6 +1,6 @@
 // The parameters of normals.h.
-#ifndef RG_KERNELS_FLOW_NORMALS_PARAMS_H
-#define RG_KERNELS_FLOW_NORMALS_PARAMS_H
+#ifndef RG_KERNELS_FLOW_PANES_NORMALS_PARAMS_H
+#define RG_KERNELS_FLOW_PANES_NORMALS_PARAMS_H
 
 #include "kernels/dialect/lang.h"
 

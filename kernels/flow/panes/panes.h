@@ -1,7 +1,7 @@
 // flow's panes as items: a quad each, with its own frame in the world. The programs that draw them
 // include this; item.h holds what reads their slots.
-#ifndef RG_KERNELS_FLOW_PANES_H
-#define RG_KERNELS_FLOW_PANES_H
+#ifndef RG_KERNELS_FLOW_PANES_PANES_H
+#define RG_KERNELS_FLOW_PANES_PANES_H
 
 #include "kernels/flow/water/water.h"
 #include "kernels/flow/view_params.h"

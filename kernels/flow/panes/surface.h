@@ -1,6 +1,6 @@
 // The water's normal anywhere on a pane, from the slot normals of the program that includes this.
-#ifndef RG_KERNELS_FLOW_SURFACE_H
-#define RG_KERNELS_FLOW_SURFACE_H
+#ifndef RG_KERNELS_FLOW_PANES_SURFACE_H
+#define RG_KERNELS_FLOW_PANES_SURFACE_H
 
 RG_FN wet_normal normal_at(rg_ctx rg, int i)
 {

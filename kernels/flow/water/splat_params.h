@@ -1,6 +1,6 @@
 // One drop that lands on the pane of flow.
-#ifndef RG_KERNELS_FLOW_SPLAT_PARAMS_H
-#define RG_KERNELS_FLOW_SPLAT_PARAMS_H
+#ifndef RG_KERNELS_FLOW_WATER_SPLAT_PARAMS_H
+#define RG_KERNELS_FLOW_WATER_SPLAT_PARAMS_H
 
 #include "kernels/dialect/lang.h"
 

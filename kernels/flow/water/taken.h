@@ -1,6 +1,6 @@
 // What flow's texels divide, from the slots water and given of the kernel that includes this.
-#ifndef RG_KERNELS_FLOW_TAKEN_H
-#define RG_KERNELS_FLOW_TAKEN_H
+#ifndef RG_KERNELS_FLOW_WATER_TAKEN_H
+#define RG_KERNELS_FLOW_WATER_TAKEN_H
 
 // Of the texel at (x, y) of pane z: nothing in the margin, which gives nothing.
 RG_FN flow_parts parts_from(rg_ctx rg, flow_params p, flow_pane pane, int z, int x, int y)

@@ -7,8 +7,8 @@
 // holds an amount of water in units of height, a whole number of droplets of 2^-16 ("droplets are
 // atomic and therefore the smallest amount of water", section 3). Amounts below 256 add and
 // subtract exactly in a float, so water is conserved to the last droplet, and is never subnormal.
-#ifndef RG_KERNELS_FLOW_H
-#define RG_KERNELS_FLOW_H
+#ifndef RG_KERNELS_FLOW_WATER_WATER_H
+#define RG_KERNELS_FLOW_WATER_WATER_H
 
 #include "kernels/dialect/vec.h"
 

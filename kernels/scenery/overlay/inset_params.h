@@ -1,6 +1,6 @@
 // The parameters of inset.h.
-#ifndef RG_KERNELS_STREAKS_INSET_PARAMS_H
-#define RG_KERNELS_STREAKS_INSET_PARAMS_H
+#ifndef RG_KERNELS_SCENERY_OVERLAY_INSET_PARAMS_H
+#define RG_KERNELS_SCENERY_OVERLAY_INSET_PARAMS_H
 
 #include "kernels/dialect/lang.h"
 

@@ -1,6 +1,6 @@
 // The parameters of lines.h and sheets.h.
-#ifndef RG_KERNELS_STREAKS_LINES_PARAMS_H
-#define RG_KERNELS_STREAKS_LINES_PARAMS_H
+#ifndef RG_KERNELS_SCENERY_OVERLAY_LINES_PARAMS_H
+#define RG_KERNELS_SCENERY_OVERLAY_LINES_PARAMS_H
 
 #include "kernels/dialect/matrix.h"
 

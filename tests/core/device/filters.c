@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "tests/kernels/texels/filter_params.h"
 #include "tests/core/device/suite.h"
 #include "tests/core/device/texels.h"
+#include "tests/kernels/texels/filter_params.h"
 
 enum { LAYERS = 3, LEVELS = 7, READS = 6000 };
 

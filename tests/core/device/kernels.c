@@ -1,8 +1,8 @@
 // Kernels run once for every item of any grid, and their atomics lose nothing.
-#include "tests/kernels/atomics_params.h"
 #include "kernels/probe/copy_params.h"
-#include "tests/kernels/fault_params.h"
 #include "tests/core/device/suite.h"
+#include "tests/kernels/atomics_params.h"
+#include "tests/kernels/fault_params.h"
 
 enum { POISON = 0x99999999 };
 

@@ -1,8 +1,8 @@
 // Images of hundreds of megabytes: an atlas of streaks, a city's textures, a map of depth.
-#include "tests/kernels/texels/filter_params.h"
-#include "tests/kernels/quads_params.h"
 #include "tests/core/device/suite.h"
 #include "tests/core/device/texels.h"
+#include "tests/kernels/quads_params.h"
+#include "tests/kernels/texels/filter_params.h"
 
 enum { READS = 4096, APART = 96 }; // texels between where layers and levels begin in the pool
 

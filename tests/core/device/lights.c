@@ -1,10 +1,10 @@
 // DRAW programs with lights: every device as cpu:reference, to the last bit, and lights add up.
 #include <stdio.h>
 
-#include "tests/kernels/lights_params.h"
+#include "tests/core/device/quads.h"
 #include "tests/core/device/suite.h"
 #include "tests/core/device/texels.h"
-#include "tests/core/device/quads.h"
+#include "tests/kernels/lights_params.h"
 
 enum { WIDTH = 333, HEIGHT = 217, PIXELS = WIDTH * HEIGHT, LIGHTS = 16, LAYERS = 3 };
 enum { STREAKS = 3000, LARGE = 20, QUADS = STREAKS + LARGE };

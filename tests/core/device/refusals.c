@@ -1,7 +1,7 @@
 // Every wrong argument is refused with one line that names the object.
 #include "kernels/probe/copy_params.h"
-#include "tests/kernels/image_copy_params.h"
 #include "tests/core/device/suite.h"
+#include "tests/kernels/image_copy_params.h"
 
 static void buffers_refuse_bad_sizes(void **state)
 {

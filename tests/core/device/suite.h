@@ -1,6 +1,6 @@
 // What the files of the device suite share. A test's *state is the open device.
-#ifndef RG_TESTS_DEVICE_SUITE_H
-#define RG_TESTS_DEVICE_SUITE_H
+#ifndef RG_TESTS_CORE_DEVICE_SUITE_H
+#define RG_TESTS_CORE_DEVICE_SUITE_H
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/device/device.h"
 #include "core/base/log.h"
+#include "core/device/device.h"
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof((array)[0])))
 

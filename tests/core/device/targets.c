@@ -5,9 +5,9 @@
 #include <stdio.h>
 
 #include "kernels/probe/copy_params.h"
+#include "tests/core/device/quads.h"
 #include "tests/kernels/texels_params.h"
 #include "tests/kernels/triangles_params.h"
-#include "tests/core/device/quads.h"
 
 // Where and how a case draws. Both images have the same shape.
 struct place {

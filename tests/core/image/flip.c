@@ -7,8 +7,8 @@
 
 #include <cmocka.h>
 
-#include "core/image/srgb.h"
 #include "core/image/compare/compare.h"
+#include "core/image/srgb.h"
 #include "tests/core/image/rain_picture.h"
 
 enum { WIDTH = 61, HEIGHT = 43, PIXELS = WIDTH * HEIGHT, BIG = 40 };

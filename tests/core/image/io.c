@@ -14,9 +14,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/base/log.h"
 #include "core/image/files/io.h"
 #include "core/image/srgb.h"
-#include "core/base/log.h"
 #include "tests/core/image/rain_picture.h"
 
 enum { WIDTH = 37, HEIGHT = 23 };

@@ -7,9 +7,9 @@
 #include <cmocka.h>
 #include <omp.h>
 
+#include "core/base/log.h"
 #include "core/image/compare/compare.h"
 #include "core/image/files/oiio.h"
-#include "core/base/log.h"
 #include "tests/core/image/rain_picture.h"
 
 static struct rg_picture noise_picture(int width, int height, int channels, uint32_t seed)

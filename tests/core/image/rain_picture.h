@@ -1,7 +1,7 @@
 // A synthetic rain picture for the image tests: a sky with a gradient and a dark block, and bright,
 // slightly slanted streaks blended over it. Seeded, so that every run draws the same.
-#ifndef RG_TESTS_RAIN_PICTURE_H
-#define RG_TESTS_RAIN_PICTURE_H
+#ifndef RG_TESTS_CORE_IMAGE_RAIN_PICTURE_H
+#define RG_TESTS_CORE_IMAGE_RAIN_PICTURE_H
 
 #include <math.h>
 #include <stdint.h>

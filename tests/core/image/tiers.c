@@ -6,9 +6,9 @@
 
 #include <cmocka.h>
 
+#include "core/base/log.h"
 #include "core/image/compare/compare.h"
 #include "core/image/srgb.h"
-#include "core/base/log.h"
 #include "tests/core/image/rain_picture.h"
 
 enum { WIDTH = 320, HEIGHT = 240, CHANNELS = 4 };

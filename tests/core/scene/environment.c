@@ -12,8 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/image/files/io.h"
 #include "core/base/log.h"
+#include "core/image/files/io.h"
 #include "core/scene/environment/cube.h"
 #include "kernels/dialect/image/cube.h"
 #include "tests/core/folder.h"

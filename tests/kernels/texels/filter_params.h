@@ -1,6 +1,6 @@
 // The parameters of test_filter_*.h.
-#ifndef RG_KERNELS_TEST_FILTER_PARAMS_H
-#define RG_KERNELS_TEST_FILTER_PARAMS_H
+#ifndef RG_TESTS_KERNELS_TEXELS_FILTER_PARAMS_H
+#define RG_TESTS_KERNELS_TEXELS_FILTER_PARAMS_H
 
 #include "kernels/dialect/lang.h"
 

@@ -1,7 +1,7 @@
 // The city's textures by number, what of them the geometry has to know, and what painters share:
 // for this folder alone.
-#ifndef RG_CORE_SCENE_CITY_PAINT_H
-#define RG_CORE_SCENE_CITY_PAINT_H
+#ifndef RG_CORE_SCENE_CITY_PAINT_PAINT_H
+#define RG_CORE_SCENE_CITY_PAINT_PAINT_H
 
 #include <assert.h>
 

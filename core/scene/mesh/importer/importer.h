@@ -1,8 +1,8 @@
 // The parts of raingauge_importer: a file's bytes, what its header claims, its scene as arrays.
 //
 // It runs alone in its process, so it leaves memory to the end of the process.
-#ifndef RG_CORE_SCENE_IMPORTER_IMPORTER_H
-#define RG_CORE_SCENE_IMPORTER_IMPORTER_H
+#ifndef RG_CORE_SCENE_MESH_IMPORTER_IMPORTER_H
+#define RG_CORE_SCENE_MESH_IMPORTER_IMPORTER_H
 
 #include <assimp/cfileio.h>
 #include <assimp/scene.h>

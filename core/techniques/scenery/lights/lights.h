@@ -1,7 +1,7 @@
 // The lights of a scene of streaks: which there are, what kernels read of them, and their shadow
 // maps. docs/lights.md explains.
-#ifndef RG_CORE_TECHNIQUES_STREAKS_LIGHTS_H
-#define RG_CORE_TECHNIQUES_STREAKS_LIGHTS_H
+#ifndef RG_CORE_TECHNIQUES_SCENERY_LIGHTS_LIGHTS_H
+#define RG_CORE_TECHNIQUES_SCENERY_LIGHTS_LIGHTS_H
 
 #include "core/device/device.h"
 #include "core/scene/city/city.h"

@@ -20,8 +20,8 @@
 //
 // One struct of packets may serve several threads and instances: nothing changes it but
 // streaks_packets_forget. Everything is the same for any number of threads.
-#ifndef RG_CORE_TECHNIQUES_STREAKS_PACKETS_H
-#define RG_CORE_TECHNIQUES_STREAKS_PACKETS_H
+#ifndef RG_CORE_TECHNIQUES_STREAKS_PACKETS_PACKETS_H
+#define RG_CORE_TECHNIQUES_STREAKS_PACKETS_PACKETS_H
 
 #include <stdbool.h>
 #include <stdint.h>

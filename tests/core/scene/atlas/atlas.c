@@ -15,8 +15,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/device/device.h"
 #include "core/base/log.h"
+#include "core/device/device.h"
 #include "core/scene/atlas/cache.h"
 #include "core/scene/atlas/levels.h"
 #include "core/scene/atlas/splash.h"

@@ -1,6 +1,6 @@
 // What core/scene/mesh/mesh.h promises of every mesh, checked.
-#ifndef RG_TESTS_MESH_FAULT_H
-#define RG_TESTS_MESH_FAULT_H
+#ifndef RG_TESTS_CORE_SCENE_MESH_FAULT_H
+#define RG_TESTS_CORE_SCENE_MESH_FAULT_H
 
 #include "core/scene/mesh/mesh.h"
 

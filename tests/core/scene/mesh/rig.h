@@ -1,6 +1,6 @@
 // What tests of meshes share: one box in every format, and what must hold of any mesh.
-#ifndef RG_TESTS_MESH_RIG_H
-#define RG_TESTS_MESH_RIG_H
+#ifndef RG_TESTS_CORE_SCENE_MESH_RIG_H
+#define RG_TESTS_CORE_SCENE_MESH_RIG_H
 
 #include "core/scene/mesh/mesh.h"
 

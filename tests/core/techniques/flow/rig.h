@@ -1,6 +1,6 @@
 // What flow's tests share: an instance with settings as text, and its water as whole droplets.
-#ifndef FLOW_RIG_H
-#define FLOW_RIG_H
+#ifndef RG_TESTS_CORE_TECHNIQUES_FLOW_RIG_H
+#define RG_TESTS_CORE_TECHNIQUES_FLOW_RIG_H
 
 #include "core/techniques/flow/flow.h"
 #include "core/techniques/technique.h"

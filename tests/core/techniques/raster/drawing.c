@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "kernels/dialect/rng.h"
-#include "tests/oracle/raster.h"
 #include "tests/core/techniques/rigs/scene.h"
+#include "tests/oracle/raster.h"
 
 // --- chance ---
 

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 
 #include "kernels/dialect/rng.h"
-#include "tests/oracle/raster.h"
 #include "tests/core/techniques/rigs/scene.h"
+#include "tests/oracle/raster.h"
 
 enum { WIDTH = 480, HEIGHT = 270 };
 

@@ -1,6 +1,6 @@
 // Meshes on a device, drawn as tests want them.
-#ifndef RG_TESTS_FACES_H
-#define RG_TESTS_FACES_H
+#ifndef RG_TESTS_CORE_TECHNIQUES_RIGS_FACES_H
+#define RG_TESTS_CORE_TECHNIQUES_RIGS_FACES_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 // What the tests of rain in packets share: a rain of a few settings, and its particles one by one.
-#ifndef PACKETS_RIG_H
-#define PACKETS_RIG_H
+#ifndef RG_TESTS_CORE_TECHNIQUES_RIGS_PACKETS_H
+#define RG_TESTS_CORE_TECHNIQUES_RIGS_PACKETS_H
 
 #include "core/techniques/streaks/packets/packets.h"
 

@@ -1,6 +1,6 @@
 // Scenes of the technique raster, for tests that draw its meshes themselves.
-#ifndef RG_TESTS_MESH_SCENE_H
-#define RG_TESTS_MESH_SCENE_H
+#ifndef RG_TESTS_CORE_TECHNIQUES_RIGS_SCENE_H
+#define RG_TESTS_CORE_TECHNIQUES_RIGS_SCENE_H
 
 #include "core/techniques/raster/raster.h"
 #include "tests/core/techniques/rigs/faces.h"

@@ -1,7 +1,7 @@
 // What the tests of streaks' lights share: boxes over a floor with lights of all kinds around them,
 // points in the air, and what lights do there on a device.
-#ifndef RG_TESTS_LIGHTS_RIG_H
-#define RG_TESTS_LIGHTS_RIG_H
+#ifndef RG_TESTS_CORE_TECHNIQUES_SCENERY_RIG_H
+#define RG_TESTS_CORE_TECHNIQUES_SCENERY_RIG_H
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,8 +11,8 @@
 #include <math.h>
 
 #include "core/techniques/scenery/lights/lights.h"
-#include "tests/kernels/streaks_lights_params.h"
 #include "tests/core/techniques/rigs/scene.h"
+#include "tests/kernels/streaks_lights_params.h"
 
 enum { POINTS = 6000, MAP_PX = 512, LIGHTS = 6, UNSHADOWED = LIGHTS - 1 };
 static const double degree = 3.14159265358979323846 / 180;

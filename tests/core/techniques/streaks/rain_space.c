@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "core/techniques/streaks/rain_space.h"
-#include "tests/oracle/packets.h"
 #include "tests/core/techniques/rigs/packets.h"
+#include "tests/oracle/packets.h"
 
 static void expect_near(const double *actual, const double *expected, int count, double within)
 {

@@ -1,6 +1,6 @@
 // What the tests of streaks as a whole share: a small rain with settings as text, and its pictures.
-#ifndef RG_TESTS_RAIN_RIG_H
-#define RG_TESTS_RAIN_RIG_H
+#ifndef RG_TESTS_CORE_TECHNIQUES_STREAKS_RIG_H
+#define RG_TESTS_CORE_TECHNIQUES_STREAKS_RIG_H
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/oracle/packets.h"
 #include "tests/core/techniques/rigs/packets.h"
+#include "tests/oracle/packets.h"
 
 // --- where particles are ---
 

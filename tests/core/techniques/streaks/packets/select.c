@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/oracle/packets.h"
 #include "tests/core/techniques/rigs/packets.h"
+#include "tests/oracle/packets.h"
 
 enum { MAP_SIDE = 6, PARTICLES = 10000, VIEWS = 12, TRIES = 24 };
 
