@@ -32,9 +32,9 @@ static bool measure_copy(struct rg_device *device, int bytes, int batch, double 
 {
     struct rg_buf *source = rg_buf_create(device, bytes, "ceiling source");
     struct rg_buf *target = rg_buf_create(device, bytes, "ceiling target");
-    struct rg_pass *copy = rg_pass_create(device, "test_copy");
+    struct rg_pass *copy = rg_pass_create(device, "probe_copy");
     void *zeroes = calloc(1, (size_t)bytes);
-    const struct test_copy_params params = {bytes / 4096, 1024, 0};
+    const struct probe_copy_params params = {bytes / 4096, 1024, 0};
     double ms = 0;
     bool ok = source && target && copy && zeroes && rg_buf_write(source, 0, zeroes, bytes) &&
               time_run(copy,

@@ -30,7 +30,7 @@ static bool load_init(struct load *load, struct rg_device *device)
     uint32_t *words = calloc(WORDS, 4);
     bool ok = words && (load->source = rg_buf_create(device, WORDS * 4, "timer source")) &&
               (load->target = rg_buf_create(device, WORDS * 4, "timer target")) &&
-              (load->copy = rg_pass_create(device, "test_copy")) &&
+              (load->copy = rg_pass_create(device, "probe_copy")) &&
               rg_buf_write(load->source, 0, words, WORDS * 4);
     free(words);
     return ok;
@@ -45,7 +45,7 @@ static void load_finish(struct load *load)
 
 static bool run(struct load *load, int passes, int side)
 {
-    const struct test_copy_params params = {SIDE, SIDE, 1};
+    const struct probe_copy_params params = {SIDE, SIDE, 1};
     struct rg_run one = {.params = &params, .extent = {side, side, 1}};
     one.slots[1].buf = load->source;
     one.slots[2].buf = load->target;

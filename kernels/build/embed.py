@@ -1,41 +1,49 @@
 #!/usr/bin/env python3
-"""Writes a C file that holds every kernel's code: embed.py OUTPUT FILE...
+"""Puts code for drivers into the program: embed.py OUTPUT.c OUTPUT.S FILE...
 
 The files are NAME.glsl, NAME.spv, NAME.cl and so on; each kernel gets `rg_code_NAME`, in the order of
-enum rg_code_kind, with nothing where it has no such file.
+enum rg_code_kind, with nothing where it has no such file. The assembler reads their bytes, which a
+compiler would need many seconds for. OUTPUT.S names a sum of them, so that it changes with them.
 """
+import hashlib
 import os
 import sys
 
 KINDS = ["glsl", "spv", "cl", "vert", "vert.spv", "frag", "frag.spv"]
 
 
-def c_array(name, data):
-    rows = [data[i : i + 24] for i in range(0, len(data), 24)]
-    body = ",\n".join(",".join(str(byte) for byte in row) for row in rows)
-    return f"_Alignas(4) static const unsigned char {name}[] = {{\n{body}}};\n"
+def assembler(symbol, path, data):
+    return (
+        f"    .balign 4\n    .globl {symbol}\n"
+        f'{symbol}: .incbin "{path}" /* {hashlib.sha256(data).hexdigest()} */\n'
+    )
 
 
 def main():
-    output, files = sys.argv[1], sys.argv[2:]
+    c_path, s_path, files = sys.argv[1], sys.argv[2], sys.argv[3:]
     by_kernel = {}
     for path in files:
         kernel, kind = os.path.basename(path).split(".", 1)
         by_kernel.setdefault(kernel, {})[kind] = path
-    with open(output, "w", encoding="utf-8") as out:
-        out.write('#include "core/device/kernel.h"\n')
-        for kernel, paths in by_kernel.items():
-            entries = []
-            for kind in KINDS:
-                if kind not in paths:
-                    entries.append("{NULL, 0}")
-                    continue
-                name = f"{kernel}_{kind.replace('.', '_')}"
-                with open(paths[kind], "rb") as file:
-                    out.write(c_array(name, file.read()))
-                entries.append(f"{{{name}, sizeof({name})}}")
-            out.write(f"extern const struct rg_kernel_code rg_code_{kernel}[];\n")
-            out.write(f"const struct rg_kernel_code rg_code_{kernel}[] = {{{', '.join(entries)}}};\n")
+    c = ['#include "core/device/kernel.h"\n']
+    s = ['    .section .note.GNU-stack,"",%progbits\n    .section .rodata\n']
+    for kernel, paths in by_kernel.items():
+        entries = []
+        for kind in KINDS:
+            if kind not in paths:
+                entries.append("{NULL, 0}")
+                continue
+            with open(paths[kind], "rb") as file:
+                data = file.read()
+            symbol = f"rg_bytes_{kernel}_{kind.replace('.', '_')}"
+            c.append(f"extern const unsigned char {symbol}[];\n")
+            s.append(assembler(symbol, paths[kind], data))
+            entries.append(f"{{{symbol}, {len(data)}}}")
+        c.append(f"extern const struct rg_kernel_code rg_code_{kernel}[];\n")
+        c.append(f"const struct rg_kernel_code rg_code_{kernel}[] = {{{', '.join(entries)}}};\n")
+    for path, lines in ((c_path, c), (s_path, s)):
+        with open(path, "w", encoding="utf-8") as out:
+            out.write("".join(lines))
 
 
 main()

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
-"""Turns one kernel header into the text that a driver compiles.
+"""Turns kernel headers into the texts that drivers compile.
 
-flatten.py LANGUAGE HEADER SHELL OUTPUT -- COMPILER...
+flatten.py SHADERS DEPFILE COMPILER... -- FOLDER [SHELL HEADER OUTPUT]...
 
-Runs the C preprocessor over SHELL (shaders/*.glsl, shaders/*.cl), which includes the kernel, so that
-what is embedded is one flat file without includes or macros. For GLSL it then makes every float
+Runs the C preprocessor over each SHELL (a file of SHADERS), which includes the kernel's HEADER, so
+that FOLDER/OUTPUT is one flat file without includes or macros. For GLSL it then makes every float
 `precise`, which forbids a driver to contract or reorder: the one thing that the dialect cannot say
-in C and OpenCL C alike.
+in C and OpenCL C alike. A text that has not changed is not written again, so that nothing is made
+anew of it. All are made by this one process and its helpers, as many as there are processors.
 """
+import multiprocessing
+import os
 import re
 import subprocess
 import sys
@@ -38,13 +41,16 @@ VERSION = """#version 450 core
 
 
 def preprocess(language, header, shell, compiler):
+    """The text behind the preprocessor, and the files that it was made of."""
     command = compiler + [
         "-E", "-P", "-undef", "-nostdinc", "-x", "c",
-        f"-DRG_{language.upper()}=1",
+        f"-DRG_{language}=1",
         f'-DRG_KERNEL_HEADER="{header}"',
         shell,
     ]
-    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+    text = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+    needs = subprocess.run(command + ["-M"], check=True, stdout=subprocess.PIPE, text=True).stdout
+    return text, needs.replace("\\\n", " ").split(":", 1)[1].split()
 
 
 def closing(text, start):
@@ -182,13 +188,41 @@ def add_struct_readers(text):
     return re.sub(r"\bRG_STRUCTS\(\s*\d+\s*,\s*(\w+)", with_reader, text)
 
 
-def main():
-    language, header, shell, output = sys.argv[1:5]
-    text = preprocess(language, header, shell, sys.argv[6:])
-    if language == "glsl":
-        text = VERSION + add_struct_readers(make_precise(text))
-    with open(output, "w", encoding="utf-8") as file:
+def write_if_changed(path, text):
+    try:
+        with open(path, encoding="utf-8") as file:
+            if file.read() == text:
+                return
+    except OSError:
+        pass
+    with open(path, "w", encoding="utf-8") as file:
         file.write(text)
 
 
-main()
+def flatten(job):
+    """Writes one text; returns the files that it was made of."""
+    shell, header, output, compiler = job
+    language = "OPENCL" if shell.endswith(".cl") else "GLSL"
+    text, needs = preprocess(language, header, shell, compiler)
+    if language == "GLSL":
+        text = VERSION + add_struct_readers(make_precise(text))
+    write_if_changed(output, text)
+    return needs
+
+
+def main():
+    split = sys.argv.index("--")
+    shaders, depfile, *compiler = sys.argv[1:split]
+    folder, *jobs = sys.argv[split + 1 :]
+    jobs = [
+        (os.path.join(shaders, shell), header, os.path.join(folder, output), compiler)
+        for shell, header, output in zip(jobs[::3], jobs[1::3], jobs[2::3])
+    ]
+    with multiprocessing.Pool() as pool:
+        needs = sorted(set().union(*pool.map(flatten, jobs, chunksize=4)))
+    with open(depfile, "w", encoding="utf-8") as file:
+        file.write(f"{jobs[0][2]}: {' '.join(needs)}\n")
+
+
+if __name__ == "__main__":
+    main()

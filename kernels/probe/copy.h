@@ -1,11 +1,11 @@
 // Copies words and remembers who wrote them: tests of buffers, folding and origins.
 #include "kernels/probe/copy_params.h"
 
-#define RG_PARAMS test_copy_params
+#define RG_PARAMS probe_copy_params
 #define RG_SLOTS  IN(1, uint, source) OUT(2, uint, target)
 #include "kernels/dialect/slots/slots.h"
 
-RG_GRID_KERNEL(test_copy)
+RG_GRID_KERNEL(probe_copy)
 {
     int i = (z * p.height + y) * p.width + x;
     target_put(rg, i, source_at(rg, i) ^ p.salt);

@@ -4,12 +4,12 @@
 
 #include "kernels/dialect/lang.h"
 
-RG_STRUCT(test_copy_params)
+RG_STRUCT(probe_copy_params)
 {
     int width;
     int height;
     uint salt;
 };
-RG_STRUCT_SIZE(test_copy_params, 3)
+RG_STRUCT_SIZE(probe_copy_params, 3)
 
 #endif

@@ -45,10 +45,10 @@ static uint32_t walk(struct rg_device *device, int steps, uint32_t salt)
 {
     uint32_t word = 0;
     struct rg_buf *a = rg_buf_create(device, 4, "a"), *b = rg_buf_create(device, 4, "b");
-    struct rg_pass *pass = rg_pass_create(device, "test_copy");
+    struct rg_pass *pass = rg_pass_create(device, "probe_copy");
     assert_true(a && b && pass && rg_buf_write(a, 0, &word, 4));
     for (int i = 0; i < steps; i++) {
-        struct test_copy_params params = {1, 1, salt * (uint32_t)i};
+        struct probe_copy_params params = {1, 1, salt * (uint32_t)i};
         struct rg_run run = {.params = &params,
                              .slots = {[1].buf = i % 2 ? b : a, [2].buf = i % 2 ? a : b},
                              .extent = {1, 1, 1}};
@@ -125,10 +125,10 @@ static struct rg_pass *open_changed(struct rg_device *device, const char *kernel
 static void a_kernel_that_does_not_compile_is_one_line(void **state)
 {
     const struct text texts[] = {
-        {"test_copy.glsl", "#version 450 core\nvoid main() { missing(1);\nmissing(2); }\n"}, {0}};
-    assert_null(open_changed(*state, "test_copy", texts));
+        {"probe_copy.glsl", "#version 450 core\nvoid main() { missing(1);\nmissing(2); }\n"}, {0}};
+    assert_null(open_changed(*state, "probe_copy", texts));
     assert_int_equal(errors, 1);
-    assert_non_null(strstr(rg_last_error(), "kernel 'test_copy': glCompileShader failed on gl: "));
+    assert_non_null(strstr(rg_last_error(), "kernel 'probe_copy': glCompileShader failed on gl: "));
     assert_non_null(strstr(rg_last_error(), "missing"));
 }
 

@@ -40,7 +40,7 @@ static struct copier make_copier(struct rg_device *device, int words)
 {
     struct copier c = {device, rg_buf_create(device, (int64_t)words * 4, "source"),
                        rg_buf_create(device, (int64_t)words * 4, "target"),
-                       rg_pass_create(device, "test_copy"), words};
+                       rg_pass_create(device, "probe_copy"), words};
     assert_true(c.source && c.target && c.pass);
     return c;
 }
@@ -54,7 +54,7 @@ static void destroy_copier(const struct copier *c)
 
 static void copy(const struct copier *c, uint32_t salt)
 {
-    const struct test_copy_params params = {c->words, 1, salt};
+    const struct probe_copy_params params = {c->words, 1, salt};
     assert_true(
         rg_pass_run(c->pass, &(struct rg_run){.params = &params,
                                               .slots = {[1].buf = c->source, [2].buf = c->target},
@@ -317,7 +317,7 @@ static void a_broken_kernel_is_one_line(void **state)
     assert_non_null(device);
     char folder[] = "/tmp/raingauge-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof(path), "%s/test_copy.cl", folder);
+    snprintf(path, sizeof(path), "%s/probe_copy.cl", folder);
     FILE *file = fopen(path, "w");
     fputs("__kernel void rg_grid(void)\n{\n    this_is_missing = 1;\n}\n", file);
     fclose(file);
@@ -325,7 +325,7 @@ static void a_broken_kernel_is_one_line(void **state)
     lines = 0;
     rg_log_listen(count_line, NULL);
     listen_to_stderr();
-    struct rg_pass *pass = rg_pass_create(device, "test_copy");
+    struct rg_pass *pass = rg_pass_create(device, "probe_copy");
     assert_int_equal(stop_listening(), 0);
     rg_log_listen(NULL, NULL);
     unsetenv("RG_KERNEL_DIR");
@@ -333,7 +333,7 @@ static void a_broken_kernel_is_one_line(void **state)
     rmdir(folder);
     assert_null(pass);
     assert_int_equal(lines, 1);
-    assert_non_null(strstr(rg_last_error(), "kernel 'test_copy'"));
+    assert_non_null(strstr(rg_last_error(), "kernel 'probe_copy'"));
     assert_non_null(strstr(rg_last_error(), "CL_BUILD_PROGRAM_FAILURE"));
     assert_non_null(strstr(rg_last_error(), "this_is_missing"));
     assert_true(rg_device_close(device));

@@ -44,7 +44,7 @@ static int close_device(void **state)
 static bool run_copy(struct rg_pass *pass, struct rg_buf *from, struct rg_buf *to, int words,
                      uint32_t salt)
 {
-    const struct test_copy_params params = {words, 1, salt};
+    const struct probe_copy_params params = {words, 1, salt};
     return rg_pass_run(pass, &(struct rg_run){.params = &params,
                                               .slots = {[1].buf = from, [2].buf = to},
                                               .extent = {words, 1, 1}});
@@ -57,7 +57,7 @@ static void writes_keep_their_place_among_runs(void **state)
     struct rg_buf *bufs[3];
     for (int i = 0; i < 3; i++)
         assert_non_null(bufs[i] = rg_buf_create(*state, WORDS * 4, "chain"));
-    struct rg_pass *pass = rg_pass_create(*state, "test_copy");
+    struct rg_pass *pass = rg_pass_create(*state, "probe_copy");
     assert_non_null(pass);
     uint32_t expected[WORDS] = {0}, back[WORDS];
     assert_true(rg_buf_write(bufs[0], 0, expected, sizeof(expected)));
@@ -144,18 +144,18 @@ static void time_never_goes_back(void **state)
 
 // --- kernels from a folder that are not what they should be ---
 
-// Loads `size` bytes as test_copy's SPIR-V; true if the device took them.
+// Loads `size` bytes as probe_copy's SPIR-V; true if the device took them.
 static bool takes_kernel(struct rg_device *device, const void *bytes, size_t size)
 {
     char folder[] = "/tmp/raingauge-test-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof(path), "%s/test_copy.spv", folder);
+    snprintf(path, sizeof(path), "%s/probe_copy.spv", folder);
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, size, file), size);
     fclose(file);
     setenv("RG_KERNEL_DIR", folder, 1);
-    struct rg_pass *pass = rg_pass_create(device, "test_copy");
+    struct rg_pass *pass = rg_pass_create(device, "probe_copy");
     unsetenv("RG_KERNEL_DIR");
     unlink(path);
     rmdir(folder);
@@ -173,7 +173,7 @@ static void files_that_are_no_spirv_are_refused(void **state)
 // Binds slot 2 to 9, which the pipeline's layout lacks. A complaint fails one call, not the next.
 static void complaints_of_validation_fail_calls(void **state)
 {
-    const struct rg_kernel_code *code = &rg_kernel_find("test_copy")->code[RG_CODE_SPIRV];
+    const struct rg_kernel_code *code = &rg_kernel_find("probe_copy")->code[RG_CODE_SPIRV];
     const uint32_t op_decorate = 4u << 16 | 71, binding = 33;
     uint32_t *words = malloc(code->size);
     memcpy(words, code->bytes, code->size);

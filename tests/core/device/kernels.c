@@ -11,11 +11,11 @@ static void check_copy(struct rg_device *device, struct rg_extent whole, struct 
                        struct rg_extent extent)
 {
     const int count = whole.width * whole.height * whole.depth;
-    const struct test_copy_params params = {whole.width, whole.height, 0x5eed};
+    const struct probe_copy_params params = {whole.width, whole.height, 0x5eed};
     uint32_t *words = noise_words(count, 3);
     struct rg_buf *source = make_buf(device, words, count, "source");
     struct rg_buf *target = filled_buf(device, POISON, count, "target");
-    struct rg_pass *pass = rg_pass_create(device, "test_copy");
+    struct rg_pass *pass = rg_pass_create(device, "probe_copy");
     assert_non_null(pass);
     assert_true(rg_pass_run(pass, &(struct rg_run){.params = &params,
                                                    .slots = {[1].buf = source, [2].buf = target},
@@ -85,10 +85,10 @@ static void runs_keep_their_parameters(void **state)
     enum { RUNS = 200, WORDS = 64 };
     struct rg_buf *source = filled_buf(*state, 0, RUNS * WORDS, "source");
     struct rg_buf *target = filled_buf(*state, POISON, RUNS * WORDS, "target");
-    struct rg_pass *pass = rg_pass_create(*state, "test_copy");
+    struct rg_pass *pass = rg_pass_create(*state, "probe_copy");
     assert_non_null(pass);
     for (int r = 0; r < RUNS; r++) {
-        struct test_copy_params params = {RUNS * WORDS, 1, (uint32_t)r};
+        struct probe_copy_params params = {RUNS * WORDS, 1, (uint32_t)r};
         assert_true(
             rg_pass_run(pass, &(struct rg_run){.params = &params,
                                                .slots = {[1].buf = source, [2].buf = target},
@@ -112,10 +112,10 @@ static void runs_follow_each_other(void **state)
     uint32_t *words = noise_words(WORDS, 4), expected = 0;
     struct rg_buf *bufs[2] = {make_buf(*state, words, WORDS, "even"),
                               filled_buf(*state, POISON, WORDS, "odd")};
-    struct rg_pass *pass = rg_pass_create(*state, "test_copy");
+    struct rg_pass *pass = rg_pass_create(*state, "probe_copy");
     assert_non_null(pass);
     for (int r = 0; r < 40; r++) {
-        const struct test_copy_params params = {WORDS, 1, noise((uint32_t)r)};
+        const struct probe_copy_params params = {WORDS, 1, noise((uint32_t)r)};
         expected ^= params.salt;
         assert_true(rg_pass_run(
             pass, &(struct rg_run){.params = &params,

@@ -79,14 +79,14 @@ static void passes_leave_nothing_behind(void **state)
     const struct rg_work work = *rg_device_work(*state);
     struct rg_buf *source = filled_buf(*state, 0, 64, "source");
     struct rg_buf *target = filled_buf(*state, 0, 64, "target");
-    const struct test_copy_params params = {64, 1, 1};
+    const struct probe_copy_params params = {64, 1, 1};
     const struct rg_run run = {
         .params = &params, .slots = {[1].buf = source, [2].buf = target}, .extent = {64, 1, 1}};
     int64_t before = 0;
     for (int i = 0; i < ROUNDS; i++) {
         if (i == ROUNDS / 10)
             before = resident_bytes();
-        struct rg_pass *pass = rg_pass_create(*state, "test_copy");
+        struct rg_pass *pass = rg_pass_create(*state, "probe_copy");
         assert_non_null(pass);
         assert_true(rg_pass_run(pass, &run));
         rg_pass_destroy(pass);
@@ -139,10 +139,10 @@ static void check_interleaved(struct rg_device *const devices[2])
     }
     for (int d = 0; d < 2; d++) {
         target[d] = filled_buf(devices[d], 0, WORDS, "target");
-        assert_non_null(pass[d] = rg_pass_create(devices[d], "test_copy"));
+        assert_non_null(pass[d] = rg_pass_create(devices[d], "probe_copy"));
     }
     for (int i = 0; i < 20; i++) {
-        const struct test_copy_params params = {WORDS, 1, noise((uint32_t)i)};
+        const struct probe_copy_params params = {WORDS, 1, noise((uint32_t)i)};
         const int d = i % 2;
         assert_true(rg_pass_run(
             pass[d], &(struct rg_run){.params = &params,
@@ -186,7 +186,7 @@ static void closing_reports_what_still_lives(void **state)
     const struct rg_image_desc desc = {RG_RGBA8, 4, 4, 1, 1};
     leaked[0] = rg_buf_create(device, 64, "leaked");
     leaked[1] = rg_image_create(device, &desc, "leaked");
-    leaked[2] = rg_pass_create(device, "test_copy");
+    leaked[2] = rg_pass_create(device, "probe_copy");
     assert_true(leaked[0] && leaked[1] && leaked[2]);
     const struct rg_device_info info = device->info;
     listen();

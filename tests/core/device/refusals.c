@@ -95,7 +95,7 @@ static void unknown_kernels_are_refused(void **state)
 struct rig {
     struct rg_buf *source, *target;
     struct rg_pass *copy;
-    struct test_copy_params params;
+    struct probe_copy_params params;
     struct rg_run run;
 };
 
@@ -104,7 +104,7 @@ static struct rig make_rig(struct rg_device *device)
     struct rig rig = {.params = {4, 1, 0}};
     rig.source = filled_buf(device, 1, 4, "source");
     rig.target = filled_buf(device, 2, 4, "target");
-    rig.copy = rg_pass_create(device, "test_copy");
+    rig.copy = rg_pass_create(device, "probe_copy");
     assert_non_null(rig.copy);
     rig.run =
         (struct rg_run){.slots = {[1].buf = rig.source, [2].buf = rig.target}, .extent = {4, 1, 1}};
@@ -136,7 +136,7 @@ static void runs_refuse_bad_grids(void **state)
         run.params = &rig.params;
         run.origin = bad[i].origin;
         run.extent = bad[i].extent;
-        assert_refused(rg_pass_run(rig.copy, &run), "'test_copy'");
+        assert_refused(rg_pass_run(rig.copy, &run), "'probe_copy'");
     }
     destroy_rig(&rig);
 }
@@ -148,7 +148,7 @@ static void runs_refuse_bad_slots(void **state)
     struct rg_image *image = rg_image_create(*state, &desc, "picture");
     assert_non_null(image);
     struct rg_run run = rig.run;
-    assert_refused(rg_pass_run(rig.copy, &run), "'test_copy': no parameters");
+    assert_refused(rg_pass_run(rig.copy, &run), "'probe_copy': no parameters");
     run.params = &rig.params;
     run.slots[1].buf = NULL;
     assert_refused(rg_pass_run(rig.copy, &run), "'source'");

@@ -446,14 +446,14 @@ static void draws_refuse_bad_runs(void **state)
     assert_refused(rg_pass_run(triangles, &run), "slot 'before' and a target are one object");
     rg_pass_destroy(triangles);
 
-    struct rg_pass *copy = rg_pass_create(*state, "test_copy");
-    const test_copy_params copied = {4, 1, 0};
+    struct rg_pass *copy = rg_pass_create(*state, "probe_copy");
+    const probe_copy_params copied = {4, 1, 0};
     assert_non_null(copy);
     run = (struct rg_run){.params = &copied,
                           .slots = {[1].buf = rig.quads, [2].buf = rig.samples},
                           .extent = {4, 1, 1},
                           .draw = &rig.to};
-    assert_refused(rg_pass_run(copy, &run), "'test_copy': a GRID kernel");
+    assert_refused(rg_pass_run(copy, &run), "'probe_copy': a GRID kernel");
     rg_pass_destroy(copy);
     destroy_rig(&rig);
     free(quads);
