@@ -16,14 +16,14 @@
 
 #define BIT(kind) (1u << (kind))
 enum {
-    PLACED = BIT(STREAKS_POINT) | BIT(STREAKS_SPOT),
-    TURNED = BIT(STREAKS_SPOT) | BIT(STREAKS_SUN),
-    CONED = BIT(STREAKS_SPOT),
+    PLACED = BIT(SCENERY_POINT) | BIT(SCENERY_SPOT),
+    TURNED = BIT(SCENERY_SPOT) | BIT(SCENERY_SUN),
+    CONED = BIT(SCENERY_SPOT),
     ALL = PLACED | TURNED,
 };
 
 static const char *const kind_names[] = {
-    [STREAKS_POINT] = "point", [STREAKS_SPOT] = "spot", [STREAKS_SUN] = "sun"};
+    [SCENERY_POINT] = "point", [SCENERY_SPOT] = "spot", [SCENERY_SUN] = "sun"};
 
 // What a light may say, and which kinds may say it.
 static const struct property {
@@ -171,7 +171,7 @@ static bool check_properties(json_t *object, const struct place *place, int kind
 static bool read_kind(const json_t *object, const struct place *place, int *kind)
 {
     const char *name = json_string_value(json_object_get(object, "type"));
-    for (*kind = STREAKS_POINT; *kind <= STREAKS_SUN; ++*kind)
+    for (*kind = SCENERY_POINT; *kind <= SCENERY_SUN; ++*kind)
         if (name && !strcmp(name, kind_names[*kind]))
             return true;
     return rg_error("%s: 'type' must be \"point\", \"spot\" or \"sun\"", place->text);
@@ -206,9 +206,9 @@ static bool read_all(json_t *root, const char *path, struct rg_lights *lights)
         "%s: '%.60s' is no property of the file; it has lights and sky", path, name);
     if (!json_is_array(list) || !json_array_size(list))
         return rg_error("%s: no lights; write {\"lights\": [{\"type\": \"point\", ...}]}", path);
-    if (json_array_size(list) > STREAKS_MAX_LIGHTS)
+    if (json_array_size(list) > SCENERY_MAX_LIGHTS)
         return rg_error("%s: %zu lights; %d is the most", path, json_array_size(list),
-                        STREAKS_MAX_LIGHTS);
+                        SCENERY_MAX_LIGHTS);
     for (size_t i = 0; i < json_array_size(list); i++) {
         const struct place place = place_of(path, (int)i);
         if (!read_light(json_array_get(list, i), &place, &lights->lights[i]))

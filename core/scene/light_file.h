@@ -7,7 +7,7 @@
 #include "kernels/scenery/light.h"
 
 struct rg_light {
-    int kind;            // STREAKS_POINT, STREAKS_SPOT or STREAKS_SUN
+    int kind;            // SCENERY_POINT, SCENERY_SPOT or SCENERY_SUN
     float position_m[3]; // in the world; of points and spots
     float direction[3];  // the way light travels, of unit length; of spots and suns
     float colour[3];     // linear, times the intensity
@@ -19,7 +19,7 @@ struct rg_light {
 
 struct rg_lights {
     int count;
-    struct rg_light lights[STREAKS_MAX_LIGHTS];
+    struct rg_light lights[SCENERY_MAX_LIGHTS];
     float sky[3]; // linear: what comes from everywhere
 };
 

@@ -1,4 +1,4 @@
-// streaks: what each pixel of the scene looks like, from the number of its surface and its depth,
+// What each pixel of the scene looks like, from the number of its surface and its depth,
 // which city.h has left; and the sky where there is none. So a pixel's light is reckoned
 // once, however many faces lie behind each other.
 #include "kernels/dialect/math.h"
@@ -6,13 +6,13 @@
 #include "kernels/scenery/light.h"
 #include "kernels/scenery/surface.h"
 
-#define RG_PARAMS streaks_city_shade_params
+#define RG_PARAMS scenery_city_shade_params
 #define RG_SLOTS                                                                                   \
     IMAGE(1, RGBA8, numbers)                                                                       \
     IMAGE(2, D32F, depths)                                                                         \
     IN(3, uint, surfaces)                                                                          \
     IMAGE(4, RGBA8, textures)                                                                      \
-    IN(5, streaks_light, lights) IMAGE(6, D32F, shadows) IN(7, uint, openness)
+    IN(5, scenery_light, lights) IMAGE(6, D32F, shadows) IN(7, uint, openness)
 #define RG_LIGHTS 1
 #include "kernels/dialect/draw/view_quad.h"
 
@@ -21,9 +21,9 @@
 #include "kernels/scenery/texture.h"
 
 // How much more than its texture's light a wet ground throws back in the mirror's direction.
-#define STREAKS_GLEAM 14.0f
+#define SCENERY_GLEAM 14.0f
 // Openness is asked for so far before a surface, lest it be that of the inside of walls.
-#define STREAKS_BEFORE_M 3.0f
+#define SCENERY_BEFORE_M 3.0f
 
 RG_DRAW_ITEM(streaks_city_shade)
 {
@@ -36,7 +36,7 @@ RG_DRAW_RECORD(streaks_city_shade)
 }
 
 // What is seen at a pixel.
-RG_STRUCT(streaks_seen)
+RG_STRUCT(scenery_seen)
 {
     int first_word; // of its surface
     int nothing;    // 1: the sky
@@ -46,15 +46,15 @@ RG_STRUCT(streaks_seen)
     float distance;
 };
 
-RG_FN streaks_seen streaks_seen_at(rg_ctx rg, streaks_city_shade_params p, int px, int py)
+RG_FN scenery_seen scenery_seen_at(rg_ctx rg, scenery_city_shade_params p, int px, int py)
 {
     float depth = depths_texel(rg, px, py, 0, 0).r;
     uint number = numbers_bytes(rg, px, py, 0, 0);
     v3 pixel = v3_make(rg_to_float(px) + 0.5f, rg_to_float(py) + 0.5f, depth);
     rg_corner c = m4_project(p.from_pixel, pixel);
-    streaks_seen s;
+    scenery_seen s;
     s.nothing = depth >= 1.0f ? 1 : 0;
-    s.first_word = s.nothing != 0 ? 0 : rg_to_int(number) * STREAKS_SURFACE_WORDS;
+    s.first_word = s.nothing != 0 ? 0 : rg_to_int(number) * SCENERY_SURFACE_WORDS;
     s.w = 1.0f / rg_max(c.w, 1e-9f);
     s.at = v3_make(c.x * s.w, c.y * s.w, c.z * s.w);
     v3 ray = v3_make(s.at.x - p.eye_x, s.at.y - p.eye_y, s.at.z - p.eye_z);
@@ -63,13 +63,13 @@ RG_FN streaks_seen streaks_seen_at(rg_ctx rg, streaks_city_shade_params p, int p
     return s;
 }
 
-RG_FN uint streaks_word(rg_ctx rg, streaks_seen s, int word)
+RG_FN uint scenery_word(rg_ctx rg, scenery_seen s, int word)
 {
     return surfaces_at(rg, s.first_word + word);
 }
 
 // How much water stands on it, 0 to 1.
-RG_FN float streaks_wetness(uint normal)
+RG_FN float scenery_wetness(uint normal)
 {
     return rg_to_float(normal >> 30) * (1.0f / 3.0f);
 }
@@ -78,7 +78,7 @@ RG_FN float streaks_wetness(uint normal)
 
 // The light that a wet ground mirrors, the rougher the ground the wider: a lobe about the half way
 // between light and eye (Blinn, 1977), to the 64th power.
-RG_FN float streaks_gleam(v3 n, v3 ray, v3 to_light)
+RG_FN float scenery_gleam(v3 n, v3 ray, v3 to_light)
 {
     v3 half_way = v3_add(to_light, v3_scale(ray, -1.0f));
     float squared = rg_max(v3_dot(half_way, half_way), 1e-6f);
@@ -93,59 +93,59 @@ RG_FN float streaks_gleam(v3 n, v3 ray, v3 to_light)
 
 RG_DRAW_LIGHT(streaks_city_shade)
 {
-    streaks_light l = lights_at(rg, light);
-    streaks_seen s = streaks_seen_at(rg, p, px, py);
-    uint normal = streaks_word(rg, s, STREAKS_NORMAL);
+    scenery_light l = lights_at(rg, light);
+    scenery_seen s = scenery_seen_at(rg, p, px, py);
+    uint normal = scenery_word(rg, s, SCENERY_NORMAL);
     v3 n = mesh_normal_unpack(normal);
-    float wet = p.wet * streaks_wetness(normal);
-    streaks_reach reach = streaks_light_reach(l, s.at);
+    float wet = p.wet * scenery_wetness(normal);
+    scenery_reach reach = scenery_light_reach(l, s.at);
     float facing = rg_max(v3_dot(n, reach.to_light), 0.0f);
     float share = reach.share * facing *
-                  (1.0f + STREAKS_GLEAM * wet * streaks_gleam(n, s.ray, reach.to_light));
-    share = share * streaks_unshadowed_soft(rg, l, streaks_off_surface(l, s.at, n));
+                  (1.0f + SCENERY_GLEAM * wet * scenery_gleam(n, s.ray, reach.to_light));
+    share = share * scenery_unshadowed_soft(rg, l, scenery_off_surface(l, s.at, n));
     return rg_rgba(l.r * share, l.g * share, l.b * share, 0.0f);
 }
 
 // --- what a pixel shows ---
 
 // The upper 16 bits as a number with a sign, and the lower.
-RG_FN float streaks_upper(uint word)
+RG_FN float scenery_upper(uint word)
 {
     return rg_to_float(rg_to_int(word >> 16) - ((word >> 31) != 0u ? 65536 : 0));
 }
 
-RG_FN float streaks_lower(uint word)
+RG_FN float scenery_lower(uint word)
 {
-    return streaks_upper(word << 16);
+    return scenery_upper(word << 16);
 }
 
-RG_FN rgba streaks_painted(rg_ctx rg, streaks_city_shade_params p, streaks_seen s, v3 n, uint look,
+RG_FN rgba scenery_painted(rg_ctx rg, scenery_city_shade_params p, scenery_seen s, v3 n, uint look,
                            float facing)
 {
-    uint scales = streaks_word(rg, s, STREAKS_SCALES);
-    uint offsets = streaks_word(rg, s, STREAKS_OFFSETS);
-    float scale_u = streaks_lower(scales) * (1.0f / STREAKS_SCALE_STEPS);
-    float scale_v = streaks_upper(scales) * (1.0f / STREAKS_SCALE_STEPS);
-    int level = n.y > STREAKS_LEVEL_Y || n.y < -STREAKS_LEVEL_Y ? 1 : 0;
-    int turned = rg_to_int((look >> STREAKS_TURNED_BIT) & 1u);
+    uint scales = scenery_word(rg, s, SCENERY_SCALES);
+    uint offsets = scenery_word(rg, s, SCENERY_OFFSETS);
+    float scale_u = scenery_lower(scales) * (1.0f / SCENERY_SCALE_STEPS);
+    float scale_v = scenery_upper(scales) * (1.0f / SCENERY_SCALE_STEPS);
+    int level = n.y > SCENERY_LEVEL_Y || n.y < -SCENERY_LEVEL_Y ? 1 : 0;
+    int turned = rg_to_int((look >> SCENERY_TURNED_BIT) & 1u);
     float ground_u = turned != 0 ? s.at.z : s.at.x;
     float ground_v = turned != 0 ? s.at.x : s.at.z;
     float along_u = level != 0 ? ground_u : n.z * s.at.x - n.x * s.at.z;
     float along_v = level != 0 ? ground_v : s.at.y;
-    float u = scale_u * along_u + streaks_lower(offsets) * (1.0f / 65536.0f);
-    float v = scale_v * along_v + streaks_upper(offsets) * (1.0f / 65536.0f);
+    float u = scale_u * along_u + scenery_lower(offsets) * (1.0f / 65536.0f);
+    float v = scale_v * along_v + scenery_upper(offsets) * (1.0f / 65536.0f);
     // Texels that a pixel is wide, squared; as wide across as it is long, seen at a slant.
     float width = s.w * p.pixel_m * rg_to_float(p.texture_px);
     float texels = width * width * rg_abs(scale_u * scale_v) / rg_max(facing, 0.04f);
-    rgba t = streaks_texture(rg, u, v, rg_to_int(look & 255u), texels, p.texture_px, p.last_level);
-    uint tint = look >> STREAKS_TINT_BIT;
+    rgba t = scenery_texture(rg, u, v, rg_to_int(look & 255u), texels, p.texture_px, p.last_level);
+    uint tint = look >> SCENERY_TINT_BIT;
     return rg_rgba(t.r * (rg_to_float(tint & 31u) * (1.0f / 31.0f)),
                    t.g * (rg_to_float((tint >> 5) & 63u) * (1.0f / 63.0f)),
                    t.b * (rg_to_float(tint >> 11) * (1.0f / 31.0f)), t.a);
 }
 
 // What a wet ground mirrors of the sky: the more, the flatter the view (Schlick, 1994).
-RG_FN float streaks_mirrored(float wet, float facing)
+RG_FN float scenery_mirrored(float wet, float facing)
 {
     float slant = 1.0f - facing;
     float slant2 = slant * slant;
@@ -154,18 +154,18 @@ RG_FN float streaks_mirrored(float wet, float facing)
 
 RG_DRAW_FRAGMENT(streaks_city_shade)
 {
-    streaks_seen s = streaks_seen_at(rg, p, px, py);
-    uint look = streaks_word(rg, s, STREAKS_LOOK);
-    uint normal = streaks_word(rg, s, STREAKS_NORMAL);
+    scenery_seen s = scenery_seen_at(rg, p, px, py);
+    uint look = scenery_word(rg, s, SCENERY_LOOK);
+    uint normal = scenery_word(rg, s, SCENERY_NORMAL);
     v3 n = mesh_normal_unpack(normal);
     float facing = rg_abs(v3_dot(n, s.ray));
-    rgba t = streaks_painted(rg, p, s, n, look, facing);
-    float wet = p.wet * streaks_wetness(normal);
-    float open = streaks_openness(rg, v3_add(s.at, v3_scale(n, STREAKS_BEFORE_M)));
+    rgba t = scenery_painted(rg, p, s, n, look, facing);
+    float wet = p.wet * scenery_wetness(normal);
+    float open = scenery_openness(rg, v3_add(s.at, v3_scale(n, SCENERY_BEFORE_M)));
     float above = p.ambient * open;
     float beside = p.bounced * (1.0f - open);
-    float glow = p.glow * t.a + rg_to_float((look >> STREAKS_GLOW_BIT) & 7u) * (1.0f / 7.0f);
-    float mirrored = streaks_mirrored(wet, facing) * open;
+    float glow = p.glow * t.a + rg_to_float((look >> SCENERY_GLOW_BIT) & 7u) * (1.0f / 7.0f);
+    float mirrored = scenery_mirrored(wet, facing) * open;
     // What a lamp behind lights up shows little of the light before it.
     float own = (1.0f - 0.45f * wet) * (1.0f - 0.7f * t.a);
     float shown = 1.0f - rg_exp(-s.distance * p.sky.haze_per_m);
@@ -179,7 +179,7 @@ RG_DRAW_FRAGMENT(streaks_city_shade)
     seen = v3_make(seen.x + (p.sky.horizon_r - seen.x) * shown,
                    seen.y + (p.sky.horizon_g - seen.y) * shown,
                    seen.z + (p.sky.horizon_b - seen.z) * shown);
-    v3 sky = streaks_sky_light(p.sky, s.ray);
+    v3 sky = scenery_sky_light(p.sky, s.ray);
     return rg_fragment_make(rg_rgba(s.nothing != 0 ? sky.x : seen.x,
                                     s.nothing != 0 ? sky.y : seen.y,
                                     s.nothing != 0 ? sky.z : seen.z, 1.0f),

@@ -5,10 +5,10 @@
 #include "kernels/dialect/matrix.h"
 #include "kernels/scenery/sky.h"
 
-RG_STRUCT(streaks_city_shade_params)
+RG_STRUCT(scenery_city_shade_params)
 {
     m4 from_pixel; // from (pixel x, pixel y, depth, 1) to the world, before division by w
-    streaks_sky sky;
+    scenery_sky sky;
     float eye_x, eye_y, eye_z;
     float pixel_m; // a pixel's width at w = 1, in metres
     float ambient; // of the sky's light from above: what surfaces get that see all of it
@@ -20,6 +20,6 @@ RG_STRUCT(streaks_city_shade_params)
     int lights;
     int nothing; // makes whole rows of four
 };
-RG_STRUCT_SIZE(streaks_city_shade_params, 36)
+RG_STRUCT_SIZE(scenery_city_shade_params, 36)
 
 #endif

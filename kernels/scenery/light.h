@@ -1,4 +1,4 @@
-// One light of streaks, and what of it reaches a point: the same in the world and in the rain
+// One light, and what of it reaches a point: the same in the world and in the rain
 // frame, which are turned and moved against each other, but not scaled.
 #ifndef RG_KERNELS_SCENERY_LIGHT_H
 #define RG_KERNELS_SCENERY_LIGHT_H
@@ -6,17 +6,17 @@
 #include "kernels/dialect/matrix.h"
 
 // Kinds. A sun is so far away that its light comes from one direction, equally strong everywhere.
-#define STREAKS_POINT 1
-#define STREAKS_SPOT  2
-#define STREAKS_SUN   3
+#define SCENERY_POINT 1
+#define SCENERY_SPOT  2
+#define SCENERY_SUN   3
 
 // The most lights of a scene.
-#define STREAKS_MAX_LIGHTS 16
+#define SCENERY_MAX_LIGHTS 16
 
 // Nearer than 0.1 m a light gets no stronger.
-#define STREAKS_NEAREST_SQUARED_M2 0.01f
+#define SCENERY_NEAREST_SQUARED_M2 0.01f
 
-RG_STRUCT(streaks_light)
+RG_STRUCT(scenery_light)
 {
     int kind;
     float x, y, z;    // metres; of points and spots
@@ -35,38 +35,38 @@ RG_STRUCT(streaks_light)
     // along a face's axis at a distance of w metres is wx + wy / w.
     m4 to_shadow;
 };
-RG_STRUCT_SIZE(streaks_light, 32)
+RG_STRUCT_SIZE(scenery_light, 32)
 
-RG_STRUCT(streaks_reach)
+RG_STRUCT(scenery_reach)
 {
     v3 to_light; // of unit length
     float share; // of the light's colour: falls off with the squared distance, 0 outside of a cone
 };
-RG_STRUCT_SIZE(streaks_reach, 4)
+RG_STRUCT_SIZE(scenery_reach, 4)
 
 // How bright a spot is at an angle with this cosine from its axis, 0 to 1, without a kink at either
 // edge.
-RG_FN float streaks_cone(streaks_light l, float cosine)
+RG_FN float scenery_cone(scenery_light l, float cosine)
 {
     float t = rg_clamp((cosine - l.cos_outer) / (l.cos_inner - l.cos_outer), 0.0f, 1.0f);
     return t * t * (3.0f - 2.0f * t);
 }
 
 // No branches: compilers run several points side by side.
-RG_FN streaks_reach streaks_light_reach(streaks_light l, v3 at)
+RG_FN scenery_reach scenery_light_reach(scenery_light l, v3 at)
 {
     v3 axis = v3_make(l.dx, l.dy, l.dz);
     v3 away = v3_make(l.x - at.x, l.y - at.y, l.z - at.z);
     float squared = v3_dot(away, away);
     v3 towards = v3_scale(away, 1.0f / rg_sqrt(rg_max(squared, 1e-12f)));
-    float fallen = 1.0f / rg_max(squared, STREAKS_NEAREST_SQUARED_M2);
-    float cone = streaks_cone(l, -v3_dot(towards, axis));
-    int sun = l.kind == STREAKS_SUN ? 1 : 0;
-    streaks_reach reach;
+    float fallen = 1.0f / rg_max(squared, SCENERY_NEAREST_SQUARED_M2);
+    float cone = scenery_cone(l, -v3_dot(towards, axis));
+    int sun = l.kind == SCENERY_SUN ? 1 : 0;
+    scenery_reach reach;
     reach.to_light.x = sun != 0 ? -axis.x : towards.x;
     reach.to_light.y = sun != 0 ? -axis.y : towards.y;
     reach.to_light.z = sun != 0 ? -axis.z : towards.z;
-    reach.share = sun != 0 ? 1.0f : fallen * (l.kind == STREAKS_SPOT ? cone : 1.0f);
+    reach.share = sun != 0 ? 1.0f : fallen * (l.kind == SCENERY_SPOT ? cone : 1.0f);
     return reach;
 }
 

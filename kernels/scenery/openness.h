@@ -8,9 +8,9 @@
 #include "kernels/dialect/vec.h"
 
 // Between the four points of a level: 0 to 255.
-RG_FN float streaks_openness_level(rg_ctx rg, int x, int z, int level, float fx, float fz)
+RG_FN float scenery_openness_level(rg_ctx rg, int x, int z, int level, float fx, float fz)
 {
-    uint four = openness_at(rg, (level * STREAKS_OPEN_SIDE + z) * STREAKS_OPEN_SIDE + x);
+    uint four = openness_at(rg, (level * SCENERY_OPEN_SIDE + z) * SCENERY_OPEN_SIDE + x);
     float a = rg_to_float(four & 255u);
     float b = rg_to_float((four >> 8) & 255u);
     float c = rg_to_float((four >> 16) & 255u);
@@ -21,13 +21,13 @@ RG_FN float streaks_openness_level(rg_ctx rg, int x, int z, int level, float fx,
 }
 
 // At a place in the world, 0 to 1.
-RG_FN float streaks_openness(rg_ctx rg, v3 at)
+RG_FN float scenery_openness(rg_ctx rg, v3 at)
 {
-    float side = rg_to_float(STREAKS_OPEN_SIDE - 1);
-    float x = rg_clamp((at.x - STREAKS_OPEN_LOW_M) * (1.0f / STREAKS_OPEN_CELL_M), 0.0f, side);
-    float z = rg_clamp((at.z - STREAKS_OPEN_LOW_M) * (1.0f / STREAKS_OPEN_CELL_M), 0.0f, side);
-    float y = rg_clamp(at.y * (1.0f / STREAKS_OPEN_CELL_M), 0.0f,
-                       rg_to_float(STREAKS_OPEN_LEVELS - 1) - 0.001f);
+    float side = rg_to_float(SCENERY_OPEN_SIDE - 1);
+    float x = rg_clamp((at.x - SCENERY_OPEN_LOW_M) * (1.0f / SCENERY_OPEN_CELL_M), 0.0f, side);
+    float z = rg_clamp((at.z - SCENERY_OPEN_LOW_M) * (1.0f / SCENERY_OPEN_CELL_M), 0.0f, side);
+    float y = rg_clamp(at.y * (1.0f / SCENERY_OPEN_CELL_M), 0.0f,
+                       rg_to_float(SCENERY_OPEN_LEVELS - 1) - 0.001f);
     // Floored before they are whole numbers: else gcc makes branches of the clamps, and no vectors.
     float lx = rg_floor(x);
     float lz = rg_floor(z);
@@ -37,8 +37,8 @@ RG_FN float streaks_openness(rg_ctx rg, v3 at)
     int iy = rg_to_int(ly);
     float fx = x - lx;
     float fz = z - lz;
-    float lower = streaks_openness_level(rg, ix, iz, iy, fx, fz);
-    float upper = streaks_openness_level(rg, ix, iz, iy + 1, fx, fz);
+    float lower = scenery_openness_level(rg, ix, iz, iy, fx, fz);
+    float upper = scenery_openness_level(rg, ix, iz, iy + 1, fx, fz);
     return (lower + (upper - lower) * (y - ly)) * (1.0f / 255.0f);
 }
 

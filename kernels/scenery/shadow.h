@@ -12,7 +12,7 @@
 #include "kernels/scenery/light.h"
 
 // Where the ray from the light to a point meets the light's shadow map.
-RG_STRUCT(streaks_shadow_place)
+RG_STRUCT(scenery_shadow_place)
 {
     int layer;
     float x; // texels
@@ -24,9 +24,9 @@ RG_STRUCT(streaks_shadow_place)
 // The point is first moved towards the light along the ray itself. So it stays within its texel,
 // and the bias is in metres whatever the map's depth is like: straight for suns, as 1 / distance
 // for others.
-RG_FN streaks_shadow_place streaks_shadow_locate(streaks_light l, v3 at, int size)
+RG_FN scenery_shadow_place scenery_shadow_locate(scenery_light l, v3 at, int size)
 {
-    v3 near = v3_add(at, v3_scale(streaks_light_reach(l, at).to_light, l.shadow_bias_m));
+    v3 near = v3_add(at, v3_scale(scenery_light_reach(l, at).to_light, l.shadow_bias_m));
     rg_corner g = m4_project(l.to_shadow, near);
     // The face of a cube map that the axis with the largest component meets, as cube_locate has it.
     float ax = rg_abs(g.x);
@@ -43,7 +43,7 @@ RG_FN streaks_shadow_place streaks_shadow_locate(streaks_light l, v3 at, int siz
     float y = cube != 0 ? down : g.y;
     float over_w = 1.0f / rg_max(w, 1e-6f);
     float half_size = 0.5f * rg_to_float(size);
-    streaks_shadow_place place;
+    scenery_shadow_place place;
     place.layer = rg_imax(l.shadow_layer, 0) + (cube != 0 ? face : 0);
     place.x = (x * over_w + 1.0f) * half_size;
     place.y = (y * over_w + 1.0f) * half_size;
@@ -55,53 +55,53 @@ RG_FN streaks_shadow_place streaks_shadow_locate(streaks_light l, v3 at, int siz
 }
 
 // The texel that a coordinate lies in; any coordinate will do.
-RG_FN int streaks_shadow_texel(float at, int size)
+RG_FN int scenery_shadow_texel(float at, int size)
 {
     return rg_to_int(rg_clamp(at, 0.0f, rg_to_float(size - 1)));
 }
 
-RG_FN float streaks_shadow_tap(rg_ctx rg, streaks_shadow_place place, int x, int y)
+RG_FN float scenery_shadow_tap(rg_ctx rg, scenery_shadow_place place, int x, int y)
 {
     return place.depth <= shadows_texel(rg, x, y, place.layer, 0).r ? 1.0f : 0.0f;
 }
 
 // 1 where a light reaches a point, 0 where something is before it. A point outside of the light's
 // map is reached, and so is every point where the light casts no shadows.
-RG_FN float streaks_unshadowed(rg_ctx rg, streaks_light l, v3 at)
+RG_FN float scenery_unshadowed(rg_ctx rg, scenery_light l, v3 at)
 {
     int size = shadows_width(rg, 0);
-    streaks_shadow_place place = streaks_shadow_locate(l, at, size);
-    float lit = streaks_shadow_tap(rg, place, streaks_shadow_texel(place.x, size),
-                                   streaks_shadow_texel(place.y, size));
+    scenery_shadow_place place = scenery_shadow_locate(l, at, size);
+    float lit = scenery_shadow_tap(rg, place, scenery_shadow_texel(place.x, size),
+                                   scenery_shadow_texel(place.y, size));
     return 1.0f - rg_to_float(place.known) * (1.0f - lit);
 }
 
 // The same between four texels, 0 to 1: for surfaces, whose shadows end in sight.
-RG_FN float streaks_unshadowed_soft(rg_ctx rg, streaks_light l, v3 at)
+RG_FN float scenery_unshadowed_soft(rg_ctx rg, scenery_light l, v3 at)
 {
     int size = shadows_width(rg, 0);
-    streaks_shadow_place place = streaks_shadow_locate(l, at, size);
+    scenery_shadow_place place = scenery_shadow_locate(l, at, size);
     float x = rg_clamp(place.x, 0.0f, rg_to_float(size)) - 0.5f;
     float y = rg_clamp(place.y, 0.0f, rg_to_float(size)) - 0.5f;
-    int left = streaks_shadow_texel(rg_floor(x), size);
-    int right = streaks_shadow_texel(rg_floor(x) + 1.0f, size);
-    int above = streaks_shadow_texel(rg_floor(y), size);
-    int below = streaks_shadow_texel(rg_floor(y) + 1.0f, size);
+    int left = scenery_shadow_texel(rg_floor(x), size);
+    int right = scenery_shadow_texel(rg_floor(x) + 1.0f, size);
+    int above = scenery_shadow_texel(rg_floor(y), size);
+    int below = scenery_shadow_texel(rg_floor(y) + 1.0f, size);
     float fx = x - rg_floor(x);
     float fy = y - rg_floor(y);
-    float upper = streaks_shadow_tap(rg, place, left, above) * (1.0f - fx) +
-                  streaks_shadow_tap(rg, place, right, above) * fx;
-    float lower = streaks_shadow_tap(rg, place, left, below) * (1.0f - fx) +
-                  streaks_shadow_tap(rg, place, right, below) * fx;
+    float upper = scenery_shadow_tap(rg, place, left, above) * (1.0f - fx) +
+                  scenery_shadow_tap(rg, place, right, above) * fx;
+    float lower = scenery_shadow_tap(rg, place, left, below) * (1.0f - fx) +
+                  scenery_shadow_tap(rg, place, right, below) * fx;
     return place.known != 0 ? upper * (1.0f - fy) + lower * fy : 1.0f;
 }
 
 // Where to ask for a surface's point with this unit normal on the light's side: off the surface by
 // two texels' width, so that a slanting surface does not shade itself.
-RG_FN v3 streaks_off_surface(streaks_light l, v3 at, v3 normal)
+RG_FN v3 scenery_off_surface(scenery_light l, v3 at, v3 normal)
 {
     v3 away = v3_make(l.x - at.x, l.y - at.y, l.z - at.z);
-    float distance = l.kind == STREAKS_SUN ? 1.0f : rg_sqrt(v3_dot(away, away));
+    float distance = l.kind == SCENERY_SUN ? 1.0f : rg_sqrt(v3_dot(away, away));
     return v3_add(at, v3_scale(normal, 2.0f * l.shadow_texel * distance));
 }
 

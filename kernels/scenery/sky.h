@@ -5,16 +5,16 @@
 
 #include "kernels/dialect/vec.h"
 
-RG_STRUCT(streaks_sky)
+RG_STRUCT(scenery_sky)
 {
     float zenith_r, zenith_g, zenith_b; // light from above
     float horizon_r, horizon_g, horizon_b;
     float clouds; // how much their light varies, 0 to 1
     float haze_per_m;
 };
-RG_STRUCT_SIZE(streaks_sky, 8)
+RG_STRUCT_SIZE(scenery_sky, 8)
 
-RG_FN float streaks_sky_grain(int x, int y)
+RG_FN float scenery_sky_grain(int x, int y)
 {
     uint h = rg_to_uint(x) * 0x9e3779b1u ^ rg_to_uint(y) * 0x85ebca77u;
     h = (h ^ (h >> 15)) * 0x2c1b3c6du;
@@ -22,7 +22,7 @@ RG_FN float streaks_sky_grain(int x, int y)
 }
 
 // Smooth noise, 0 to 1; x and y not negative.
-RG_FN float streaks_sky_noise(float x, float y)
+RG_FN float scenery_sky_noise(float x, float y)
 {
     float left = rg_floor(x);
     float top = rg_floor(y);
@@ -32,17 +32,17 @@ RG_FN float streaks_sky_noise(float x, float y)
     float fy = y - top;
     float wx = fx * fx * (3.0f - 2.0f * fx);
     float wy = fy * fy * (3.0f - 2.0f * fy);
-    float a = streaks_sky_grain(ix, iy);
-    float b = streaks_sky_grain(ix + 1, iy);
-    float c = streaks_sky_grain(ix, iy + 1);
-    float d = streaks_sky_grain(ix + 1, iy + 1);
+    float a = scenery_sky_grain(ix, iy);
+    float b = scenery_sky_grain(ix + 1, iy);
+    float c = scenery_sky_grain(ix, iy + 1);
+    float d = scenery_sky_grain(ix + 1, iy + 1);
     float above = a + (b - a) * wx;
     float below = c + (d - c) * wx;
     return above + (below - above) * wy;
 }
 
 // The light from a direction of unit length.
-RG_FN v3 streaks_sky_light(streaks_sky s, v3 d)
+RG_FN v3 scenery_sky_light(scenery_sky s, v3 d)
 {
     float up = rg_max(d.y, 0.0f);
     float share = up * (2.0f - up);
@@ -50,7 +50,7 @@ RG_FN v3 streaks_sky_light(streaks_sky s, v3 d)
     float to_plane = 1.0f / (up + 0.08f);
     float x = d.x * to_plane + 32.0f;
     float y = d.z * to_plane + 32.0f;
-    float cloud = streaks_sky_noise(x * 1.5f, y * 2.5f);
+    float cloud = scenery_sky_noise(x * 1.5f, y * 2.5f);
     float lit = 1.0f + s.clouds * rg_min(up * 4.0f, 1.0f) * (cloud - 0.5f);
     return v3_make((s.horizon_r + (s.zenith_r - s.horizon_r) * share) * lit,
                    (s.horizon_g + (s.zenith_g - s.horizon_g) * share) * lit,

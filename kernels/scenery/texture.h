@@ -8,32 +8,32 @@
 #define RG_KERNELS_SCENERY_TEXTURE_H
 
 // Channels r and b, and g and a, each in 16 bits.
-RG_STRUCT(streaks_texel)
+RG_STRUCT(scenery_texel)
 {
     uint rb;
     uint ga;
 };
 
 // Between a and b: t from 0 to 256.
-RG_FN streaks_texel streaks_texel_mix(streaks_texel a, streaks_texel b, uint t)
+RG_FN scenery_texel scenery_texel_mix(scenery_texel a, scenery_texel b, uint t)
 {
-    streaks_texel c;
+    scenery_texel c;
     c.rb = ((a.rb * (256u - t) + b.rb * t + 0x00800080u) >> 8) & 0x00ff00ffu;
     c.ga = ((a.ga * (256u - t) + b.ga * t + 0x00800080u) >> 8) & 0x00ff00ffu;
     return c;
 }
 
-RG_FN streaks_texel streaks_texel_at(rg_ctx rg, int x, int y, int layer, int level)
+RG_FN scenery_texel scenery_texel_at(rg_ctx rg, int x, int y, int layer, int level)
 {
     uint bytes = textures_bytes(rg, x, y, layer, level);
-    streaks_texel t;
+    scenery_texel t;
     t.rb = bytes & 0x00ff00ffu;
     t.ga = (bytes >> 8) & 0x00ff00ffu;
     return t;
 }
 
 // u and v from 0 to 1.
-RG_FN streaks_texel streaks_texture_linear(rg_ctx rg, float u, float v, int size, int layer,
+RG_FN scenery_texel scenery_texture_linear(rg_ctx rg, float u, float v, int size, int layer,
                                            int level)
 {
     float x = u * rg_to_float(size) - 0.5f;
@@ -48,17 +48,17 @@ RG_FN streaks_texel streaks_texture_linear(rg_ctx rg, float u, float v, int size
     y0 = y0 < 0 ? size - 1 : y0;
     uint across = rg_to_uint(rg_to_int((x - left) * 256.0f));
     uint down = rg_to_uint(rg_to_int((y - top) * 256.0f));
-    streaks_texel above = streaks_texel_mix(streaks_texel_at(rg, x0, y0, layer, level),
-                                            streaks_texel_at(rg, x1, y0, layer, level), across);
-    streaks_texel below = streaks_texel_mix(streaks_texel_at(rg, x0, y1, layer, level),
-                                            streaks_texel_at(rg, x1, y1, layer, level), across);
-    return streaks_texel_mix(above, below, down);
+    scenery_texel above = scenery_texel_mix(scenery_texel_at(rg, x0, y0, layer, level),
+                                            scenery_texel_at(rg, x1, y0, layer, level), across);
+    scenery_texel below = scenery_texel_mix(scenery_texel_at(rg, x0, y1, layer, level),
+                                            scenery_texel_at(rg, x1, y1, layer, level), across);
+    return scenery_texel_mix(above, below, down);
 }
 
 // `texels` is how many texels of level 0 a pixel is wide, squared. Of the two levels that fit it
 // the nearer one: both of them, and what lies between, would take half as long again for the whole
 // scene, and the eye finds no edge between levels in these textures.
-RG_FN rgba streaks_texture(rg_ctx rg, float u, float v, int layer, float texels, int texture_px,
+RG_FN rgba scenery_texture(rg_ctx rg, float u, float v, int layer, float texels, int texture_px,
                            int last_level)
 {
     float across = u - rg_floor(u);
@@ -66,8 +66,8 @@ RG_FN rgba streaks_texture(rg_ctx rg, float u, float v, int layer, float texels,
     // log2, from the float's exponent: of twice the square, so that it is rounded.
     uint bits = rg_float_bits(rg_clamp(texels + texels, 1.0f, 1e9f)) - 0x3f800000u;
     int level = rg_imin(rg_to_int(bits >> 24), last_level);
-    streaks_texel t =
-        streaks_texture_linear(rg, across, down, rg_imax(texture_px >> level, 1), layer, level);
+    scenery_texel t =
+        scenery_texture_linear(rg, across, down, rg_imax(texture_px >> level, 1), layer, level);
     float r = rg_to_float(t.rb & 0xffffu) * (1.0f / 255.0f);
     float g = rg_to_float(t.ga & 0xffffu) * (1.0f / 255.0f);
     float b = rg_to_float(t.rb >> 16) * (1.0f / 255.0f);

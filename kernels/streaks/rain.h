@@ -16,7 +16,7 @@
     IMAGE(5, R16F, skies)                                                                          \
     IMAGE(6, R16F, crowns)                                                                         \
     IN(7, float, factors)                                                                          \
-    IN(8, streaks_light, lights)                                                                   \
+    IN(8, scenery_light, lights)                                                                   \
     IMAGE(9, D32F, shadows) IMAGE(10, RGBA8, numbers) IN(11, uint, surfaces)
 #define RG_CORNERS 4
 #define RG_LIGHTS
@@ -371,15 +371,15 @@ RG_FN float streaks_streak(rg_ctx rg, streaks_params p, streaks_billboard r, str
 RG_FN rgba streaks_lit_by(rg_ctx rg, streaks_params p, streaks_billboard r, int px, int py,
                           int light)
 {
-    streaks_light l = lights_at(rg, light);
+    scenery_light l = lights_at(rg, light);
     streaks_spot spot = streaks_spot_at(p, r, px, py);
-    streaks_reach reach = streaks_light_reach(l, spot.at);
+    scenery_reach reach = scenery_light_reach(l, spot.at);
     float matt = rg_max(
         reach.to_light.x * p.up_x + reach.to_light.y * p.up_y + reach.to_light.z * p.up_s, 0.0f);
     float streak = streaks_streak(rg, p, r, spot, reach.to_light);
     float splash = rg_to_float(streaks_is(r, STREAKS_LOOK_SPLASH));
     float share =
-        reach.share * streaks_unshadowed(rg, l, spot.at) * streaks_between(streak, matt, splash);
+        reach.share * scenery_unshadowed(rg, l, spot.at) * streaks_between(streak, matt, splash);
     return rg_rgba(l.r * share, l.g * share, l.b * share, 0.0f);
 }
 
@@ -392,7 +392,7 @@ RG_FN float streaks_sky_texture(rg_ctx rg, streaks_params p, streaks_strip s, in
 
 // A streak's pixel under a sky of brightness 1 all around, which is also what it hides of what lies
 // behind it.
-RG_FN float streaks_sky(rg_ctx rg, streaks_params p, streaks_billboard r, streaks_spot spot)
+RG_FN float scenery_sky(rg_ctx rg, streaks_params p, streaks_billboard r, streaks_spot spot)
 {
     streaks_strip s = streaks_strip_of(p, r, spot.v);
     float x = streaks_across(0, spot.u, s.level);
@@ -424,7 +424,7 @@ RG_FN rg_fragment streaks_fragment_of(rg_ctx rg, streaks_params p, streaks_billb
 {
     streaks_spot spot = streaks_spot_at(p, r, px, py);
     float splash = rg_to_float(streaks_is(r, STREAKS_LOOK_SPLASH));
-    float sky = streaks_sky(rg, p, r, spot);
+    float sky = scenery_sky(rg, p, r, spot);
     float crown = streaks_crown(rg, r, spot);
     float from_sky = streaks_between(sky * p.gain, crown * p.splash_gain, splash);
     float from_lights = streaks_between(p.gain, crown * p.splash_gain, splash);

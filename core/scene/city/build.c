@@ -39,7 +39,7 @@ static bool grow(struct city_builder *b, void *array, int count, int *room, size
 
 static bool is_level(point n)
 {
-    return fabs(n.y) > (double)STREAKS_LEVEL_Y;
+    return fabs(n.y) > (double)SCENERY_LEVEL_Y;
 }
 
 // The texture upon the world: seen from outside, u runs to the right and v down.
@@ -51,12 +51,12 @@ static struct mapping on_world(point n, double tile_m)
 // A scale in steps, and the share of a texture at which it lies then.
 static uint32_t scale_of(double scale)
 {
-    return (uint32_t)(int)lrint(scale * (double)STREAKS_SCALE_STEPS) & 0xffffu;
+    return (uint32_t)(int)lrint(scale * (double)SCENERY_SCALE_STEPS) & 0xffffu;
 }
 
 static uint32_t offset_of(double scale, double from)
 {
-    const double steps = (double)STREAKS_SCALE_STEPS, stepped = rint(scale * steps) / steps;
+    const double steps = (double)SCENERY_SCALE_STEPS, stepped = rint(scale * steps) / steps;
     const double at = -stepped * from;
     return (uint32_t)(int)lrint((at - floor(at)) * 65536) & 0xffffu;
 }
@@ -64,7 +64,7 @@ static uint32_t offset_of(double scale, double from)
 // How wet kinds of ground get, 0 to 3.
 static uint32_t wetness_of(int kind)
 {
-    return kind == STREAKS_KIND_ASPHALT ? 3 : kind == STREAKS_KIND_PAVING ? 2 : 0;
+    return kind == SCENERY_KIND_ASPHALT ? 3 : kind == SCENERY_KIND_PAVING ? 2 : 0;
 }
 
 // r, g and b of 8 bits each in 5, 6 and 5.
@@ -75,28 +75,28 @@ static uint32_t tint_of(uint32_t tint)
 }
 
 static void make_words(const struct look *look, point n, const struct mapping *m,
-                       uint32_t words[STREAKS_SURFACE_WORDS])
+                       uint32_t words[SCENERY_SURFACE_WORDS])
 {
-    words[STREAKS_SCALES] = scale_of(m->scale_u) | scale_of(m->scale_v) << 16;
-    words[STREAKS_OFFSETS] = offset_of(m->scale_u, m->from_u) | offset_of(m->scale_v, m->from_v)
+    words[SCENERY_SCALES] = scale_of(m->scale_u) | scale_of(m->scale_v) << 16;
+    words[SCENERY_OFFSETS] = offset_of(m->scale_u, m->from_u) | offset_of(m->scale_v, m->from_v)
                                                                     << 16;
-    words[STREAKS_NORMAL] = mesh_normal_pack(v3_make((float)n.x, (float)n.y, (float)n.z)) |
+    words[SCENERY_NORMAL] = mesh_normal_pack(v3_make((float)n.x, (float)n.y, (float)n.z)) |
                             wetness_of(look->kind) << 30;
-    words[STREAKS_LOOK] = (uint32_t)look->texture | (uint32_t)look->kind << STREAKS_KIND_BIT |
-                          (uint32_t)m->turned << STREAKS_TURNED_BIT |
-                          (uint32_t)look->glow << STREAKS_GLOW_BIT |
-                          tint_of(look->tint ? look->tint : 0xffffffu) << STREAKS_TINT_BIT;
+    words[SCENERY_LOOK] = (uint32_t)look->texture | (uint32_t)look->kind << SCENERY_KIND_BIT |
+                          (uint32_t)m->turned << SCENERY_TURNED_BIT |
+                          (uint32_t)look->glow << SCENERY_GLOW_BIT |
+                          tint_of(look->tint ? look->tint : 0xffffffu) << SCENERY_TINT_BIT;
 }
 
 static uint32_t *words_of(struct city_builder *b, int surface)
 {
-    return b->city->faces.surfaces + (size_t)surface * STREAKS_SURFACE_WORDS;
+    return b->city->faces.surfaces + (size_t)surface * SCENERY_SURFACE_WORDS;
 }
 
 // Where a surface stands in the table of places, or would.
 static int place_of(struct city_builder *b, const uint32_t *words)
 {
-    const size_t size = STREAKS_SURFACE_WORDS * sizeof(*words);
+    const size_t size = SCENERY_SURFACE_WORDS * sizeof(*words);
     int place = (int)(XXH3_64bits(words, size) & (uint64_t)(b->place_room - 1));
     while (b->places[place] && memcmp(words_of(b, b->places[place] - 1), words, size) != 0)
         place = (place + 1) & (b->place_room - 1);
@@ -125,7 +125,7 @@ uint32_t city_surface(struct city_builder *b, const struct look *look, point n,
 {
     struct city_faces *f = &b->city->faces;
     const struct mapping world = on_world(n, look->tile_m > 0 ? look->tile_m : DEFAULT_TILE_M);
-    uint32_t words[STREAKS_SURFACE_WORDS];
+    uint32_t words[SCENERY_SURFACE_WORDS];
     make_words(look, n, mapping ? mapping : &world, words);
     if (b->failed || !grow_places(b) ||
         !grow(b, &f->surfaces, f->surface_count, &b->surface_room, sizeof(words)))
@@ -151,10 +151,10 @@ void city_quad_on(struct city_builder *b, const point corners[4], uint32_t surfa
 {
     struct city_faces *f = &b->city->faces;
     int room = b->face_room;
-    if (!grow(b, &f->corners, f->face_count, &room, STREAKS_FACE_WORDS * sizeof(float)) ||
+    if (!grow(b, &f->corners, f->face_count, &room, SCENERY_FACE_WORDS * sizeof(float)) ||
         !grow(b, &f->surface_of, f->face_count, &b->face_room, sizeof(uint32_t)))
         return;
-    float *to = f->corners + (size_t)f->face_count * STREAKS_FACE_WORDS;
+    float *to = f->corners + (size_t)f->face_count * SCENERY_FACE_WORDS;
     for (int i = 0; i < 4; i++)
         put_corner(to + 3 * i, corners[i]);
     f->surface_of[f->face_count++] = surface;

@@ -12,7 +12,7 @@ typedef struct {
 // What a surface is made of.
 struct look {
     int texture;
-    int kind;      // STREAKS_KIND_...
+    int kind;      // SCENERY_KIND_...
     double tile_m; // how wide a texture is; 0: 4 m
     uint32_t tint; // r, g, b of 8 bits; 0: white
     int glow;      // by itself, 0 to 7

@@ -59,7 +59,7 @@ static struct mapping bays_mapping(const struct city_facade *f, double bays, dou
 void city_facade_core(struct city_builder *b, struct city_facade *f)
 {
     const struct look look = {
-        f->texture, f->texture < PAINT_CURTAIN ? STREAKS_KIND_WALL : STREAKS_KIND_GLASS, 0, 0, 0};
+        f->texture, f->texture < PAINT_CURTAIN ? SCENERY_KIND_WALL : SCENERY_KIND_GLASS, 0, 0, 0};
     const struct mapping m = bays_mapping(f, PAINT_CELLS, f->y0, PAINT_CELLS * f->floor_m);
     // In a frame, the windows' plane ends where those of the sides begin.
     const bool framed = b->settings.size == CITY_FULL;
@@ -112,7 +112,7 @@ static bool keep(struct building *t, const struct city_facade *f)
 static void build_shops(struct building *t, const struct city_facade *f, double y0)
 {
     const struct look look = {PAINT_SHOP + (int)(12 * chance(t, CHANCE_SHOP, 0)),
-                              STREAKS_KIND_GLASS, 0, 0, 0};
+                              SCENERY_KIND_GLASS, 0, 0, 0};
     const bool framed = t->b->settings.size == CITY_FULL;
     const double d = framed ? 0.5 : 0, y1 = y0 + SHOP_M;
     const double shops = fmax(1, floor(f->length / 7 + 0.5));
@@ -212,7 +212,7 @@ static void build_cornice(struct building *t, const struct tier *r)
 
 static void build_plant(struct building *t, const struct tier *r)
 {
-    const struct look metal = {PAINT_METAL, STREAKS_KIND_METAL, 2, 0, 0};
+    const struct look metal = {PAINT_METAL, SCENERY_KIND_METAL, 2, 0, 0};
     const int boxes = 2 + (int)(4 * chance(t, CHANCE_ROOF, 0));
     const double wide = r->x1 - r->x0 - 3, deep = r->z1 - r->z0 - 3;
     for (int i = 0; i < boxes && wide > 4 && deep > 4; i++) {
@@ -226,7 +226,7 @@ static void build_plant(struct building *t, const struct tier *r)
                  i ? &metal : &t->wall);
     }
     if (t->b->settings.size == CITY_FULL && r->y1 < 60 && chance(t, CHANCE_ROOF, 1) < 0.4) {
-        const struct look wood = {PAINT_BARK, STREAKS_KIND_WALL, 2, 0x80a0c0u, 0}; // a water tank
+        const struct look wood = {PAINT_BARK, SCENERY_KIND_WALL, 2, 0x80a0c0u, 0}; // a water tank
         const double x = (r->x0 + r->x1) / 2, z = (r->z0 + r->z1) / 2, y = r->y1;
         for (int i = 0; i < 4; i++)
             city_post(t->b, x + (i & 1 ? 1 : -1), z + (i & 2 ? 1 : -1), y, y + 2.2, 0.1, 0.1, 4,
@@ -242,7 +242,7 @@ static void build_plant(struct building *t, const struct tier *r)
 // The landmark's mast ends in three faces: with them the city's triangles are odd in number.
 static void build_mast(struct building *t, const struct tier *r)
 {
-    const struct look metal = {PAINT_METAL, STREAKS_KIND_METAL, 2, 0, 0};
+    const struct look metal = {PAINT_METAL, SCENERY_KIND_METAL, 2, 0, 0};
     const double x = (r->x0 + r->x1) / 2, z = (r->z0 + r->z1) / 2, y = r->y1;
     city_post(t->b, x, z, y, y + 4, 2.6, 2.0, 8, &t->wall);
     city_post(t->b, x, z, y + 4, y + 12, 0.8, 0.5, 8, &metal);
@@ -329,8 +329,8 @@ static void choose_looks(struct building *t)
     const int end = glass ? PAINT_SHOP : PAINT_CURTAIN;
     t->texture = first + (int)((end - first) * chance(t, CHANCE_STYLE, 1));
     const struct facade_style style = city_facade_style(&t->b->settings, t->texture);
-    t->wall = (struct look){style.wall, glass ? STREAKS_KIND_METAL : STREAKS_KIND_WALL, 4, 0, 0};
-    t->roof = (struct look){PAINT_ROOF + (int)(6 * chance(t, CHANCE_STYLE, 2)), STREAKS_KIND_ROOF,
+    t->wall = (struct look){style.wall, glass ? SCENERY_KIND_METAL : SCENERY_KIND_WALL, 4, 0, 0};
+    t->roof = (struct look){PAINT_ROOF + (int)(6 * chance(t, CHANCE_STYLE, 2)), SCENERY_KIND_ROOF,
                             6, 0, 0};
 }
 

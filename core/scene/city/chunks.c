@@ -32,19 +32,19 @@ static int compare_keys(const void *a, const void *b)
 
 static const float *corners_of(const struct city_faces *f, int face)
 {
-    return f->corners + (size_t)face * STREAKS_FACE_WORDS;
+    return f->corners + (size_t)face * SCENERY_FACE_WORDS;
 }
 
 static uint32_t normal_of(const struct city_faces *f, int face)
 {
-    return f->surfaces[(size_t)f->surface_of[face] * STREAKS_SURFACE_WORDS + STREAKS_NORMAL] &
+    return f->surfaces[(size_t)f->surface_of[face] * SCENERY_SURFACE_WORDS + SCENERY_NORMAL] &
            0x3fffffffu; // without how wet it gets
 }
 
 static void add_bounds(const struct city_faces *f, int face, float low[3], float high[3])
 {
     const float *c = corners_of(f, face);
-    for (int i = 0; i < STREAKS_FACE_WORDS; i++) {
+    for (int i = 0; i < SCENERY_FACE_WORDS; i++) {
         low[i % 3] = rg_min(low[i % 3], c[i]);
         high[i % 3] = rg_max(high[i % 3], c[i]);
     }
@@ -85,9 +85,9 @@ static uint64_t order_of(const struct city_faces *f, int face)
                                      {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
     // Leaves do not look the way that they are lit from.
     const uint32_t look =
-        f->surfaces[(size_t)f->surface_of[face] * STREAKS_SURFACE_WORDS + STREAKS_LOOK];
+        f->surfaces[(size_t)f->surface_of[face] * SCENERY_SURFACE_WORDS + SCENERY_LOOK];
     uint64_t way = 6;
-    for (int i = 0; i < 6 && streaks_kind(look) != STREAKS_KIND_LEAVES; i++)
+    for (int i = 0; i < 6 && scenery_kind(look) != SCENERY_KIND_LEAVES; i++)
         if (normal_of(f, face) == mesh_normal_pack(v3_make(ways[i][0], ways[i][1], ways[i][2])))
             way = (uint64_t)i;
     return (interleave(cell, cell_bits(f)) * 8 + way) * places + interleave(at, FINE_BITS);
@@ -95,7 +95,7 @@ static uint64_t order_of(const struct city_faces *f, int face)
 
 static bool reorder(struct city_faces *f, const struct key *keys)
 {
-    const size_t count = (size_t)f->face_count, size = STREAKS_FACE_WORDS * sizeof(float);
+    const size_t count = (size_t)f->face_count, size = SCENERY_FACE_WORDS * sizeof(float);
     float *corners = rg_alloc(count, size, "scene");
     uint32_t *surface_of = rg_alloc(count, sizeof(*surface_of), "scene");
     if (!corners || !surface_of) {
@@ -104,7 +104,7 @@ static bool reorder(struct city_faces *f, const struct key *keys)
         return false;
     }
     for (size_t i = 0; i < count; i++) {
-        memcpy(corners + i * STREAKS_FACE_WORDS, corners_of(f, keys[i].face), size);
+        memcpy(corners + i * SCENERY_FACE_WORDS, corners_of(f, keys[i].face), size);
         surface_of[i] = f->surface_of[keys[i].face];
     }
     free(f->corners);

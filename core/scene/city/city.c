@@ -50,10 +50,10 @@ static uint64_t hash_of(const struct city *city)
     const struct city_faces *f = &city->faces;
     const size_t faces = (size_t)f->face_count;
     uint64_t hash = XXH3_64bits(&city->settings, sizeof(city->settings));
-    hash = XXH3_64bits_withSeed(f->corners, faces * STREAKS_FACE_WORDS * sizeof(float), hash);
+    hash = XXH3_64bits_withSeed(f->corners, faces * SCENERY_FACE_WORDS * sizeof(float), hash);
     hash = XXH3_64bits_withSeed(f->surface_of, faces * sizeof(uint32_t), hash);
     return XXH3_64bits_withSeed(
-        f->surfaces, (size_t)f->surface_count * STREAKS_SURFACE_WORDS * sizeof(uint32_t), hash);
+        f->surfaces, (size_t)f->surface_count * SCENERY_SURFACE_WORDS * sizeof(uint32_t), hash);
 }
 
 // What has been built, ready to be drawn; NULL where that failed.
@@ -93,7 +93,7 @@ enum { MOST_MESH_FACES = 2500000, GROUND_TILES = 8 };
 
 static void build_mesh(struct city_builder *b, const struct rg_mesh *mesh)
 {
-    const struct look grey = {0, STREAKS_KIND_WALL, 0, 0x808080u, 0};
+    const struct look grey = {0, SCENERY_KIND_WALL, 0, 0x808080u, 0};
     const double wide[3] = {(double)CITY_SIDE_M, (double)CITY_HEIGHT_M, (double)CITY_SIDE_M};
     double scale = INFINITY;
     for (int c = 0; c < 3; c++)
@@ -114,7 +114,7 @@ static void build_mesh(struct city_builder *b, const struct rg_mesh *mesh)
 // In tiles, that the planes of depth stay near their corners.
 static void build_ground(struct city_builder *b)
 {
-    const struct look ground = {0, STREAKS_KIND_PAVING, 0, 0x585858u, 0};
+    const struct look ground = {0, SCENERY_KIND_PAVING, 0, 0x585858u, 0};
     const double side = (double)CITY_SIDE_M / GROUND_TILES, low = -(double)CITY_SIDE_M / 2;
     for (int i = 0; i < GROUND_TILES * GROUND_TILES; i++) {
         const double x = low + side * (i % GROUND_TILES), z = low + side * (i / GROUND_TILES);

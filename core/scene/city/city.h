@@ -55,10 +55,10 @@ struct city_lamp {
 // twice; counter-clockwise seen from outside, each in one plane. Faces of a chunk stand together.
 struct city_faces {
     int face_count, triangle_count;
-    float *corners;       // STREAKS_FACE_WORDS a face: x, y, z of four corners
+    float *corners;       // SCENERY_FACE_WORDS a face: x, y, z of four corners
     uint32_t *surface_of; // a face's
     int surface_count;
-    uint32_t *surfaces; // STREAKS_SURFACE_WORDS each
+    uint32_t *surfaces; // SCENERY_SURFACE_WORDS each
     int chunk_count;
     struct city_chunk *chunks;
     float low[3], high[3]; // bounds
@@ -96,7 +96,7 @@ void city_painter_destroy(struct city_painter *painter);
 // that a lamp behind gives at night.
 void city_paint(const struct city_painter *painter, int texture, uint32_t *texels);
 
-// Fills STREAKS_OPEN_WORDS words (kernels/scenery/openness_grid.h): how much of the sky is seen
+// Fills SCENERY_OPEN_WORDS words (kernels/scenery/openness_grid.h): how much of the sky is seen
 // from where. False, and one logged line, without memory.
 bool city_openness(const struct city *city, uint32_t *words);
 

@@ -6,9 +6,9 @@
 // What chances are for.
 enum { CHANCE_TREE = 100, CHANCE_CAR, CHANCE_COLOUR };
 
-static const struct look dark_metal = {PAINT_METAL + 1, STREAKS_KIND_METAL, 1, 0, 0};
-static const struct look grey_metal = {PAINT_METAL, STREAKS_KIND_METAL, 1, 0, 0};
-static const struct look bark = {PAINT_BARK, STREAKS_KIND_WALL, 1, 0, 0};
+static const struct look dark_metal = {PAINT_METAL + 1, SCENERY_KIND_METAL, 1, 0, 0};
+static const struct look grey_metal = {PAINT_METAL, SCENERY_KIND_METAL, 1, 0, 0};
+static const struct look bark = {PAINT_BARK, SCENERY_KIND_WALL, 1, 0, 0};
 
 static bool is_full(const struct city_builder *b)
 {
@@ -41,7 +41,7 @@ static bool is_before_camera(double x, double z)
 // A lamp whose arm reaches over the road, (dx, dz) of unit length.
 static void build_lamp(struct city_builder *b, double x, double z, double dx, double dz)
 {
-    const struct look light = {PAINT_LIGHT, STREAKS_KIND_LIGHT, 1, 0xb0d8ffu, 0};
+    const struct look light = {PAINT_LIGHT, SCENERY_KIND_LIGHT, 1, 0xb0d8ffu, 0};
     const double y = CITY_KERB_M, top = y + LAMP_HEIGHT_M;
     const double hx = x + dx * LAMP_ARM_M, hz = z + dz * LAMP_ARM_M;
     if (is_full(b)) // its foot
@@ -86,7 +86,7 @@ static void build_signal(struct city_builder *b, double x, double z, double dx, 
         const bool on = red ? i == 2 : i == 0;
         const uint32_t colours[3] = {0x60ff40u, 0x30c0ffu, 0x2828ffu};
         const uint32_t dim = colours[i] >> 2 & 0x3f3f3fu;
-        const struct look look = {PAINT_LIGHT, STREAKS_KIND_LIGHT, 1, on ? colours[i] : dim,
+        const struct look look = {PAINT_LIGHT, SCENERY_KIND_LIGHT, 1, on ? colours[i] : dim,
                                   on ? 7 : 0};
         const double y = y0 + 0.2 + 0.33 * i, out = half + 0.01;
         const double cx = x + dx * out, cz = z + dz * out, rx = dz * lamp, rz = -dx * lamp;
@@ -136,7 +136,7 @@ static void leaf_triangle(struct city_builder *b, const struct look *look, point
 // A lump of leaves: a sphere of `rings` rings that chance dents.
 static void build_crown(struct city_builder *b, point centre, double radius, int rings, uint32_t id)
 {
-    const struct look leaves = {PAINT_LEAVES + (int)(id & 1), STREAKS_KIND_LEAVES, 1.6, 0, 0};
+    const struct look leaves = {PAINT_LEAVES + (int)(id & 1), SCENERY_KIND_LEAVES, 1.6, 0, 0};
     const double pi = 3.141592653589793;
     const int sides = 2 * rings;
     point at[9][18];
@@ -187,7 +187,7 @@ static void build_tree(struct city_builder *b, double x, double z, double y)
 
 static void build_bench(struct city_builder *b, double x, double z)
 {
-    const struct look wood = {PAINT_BARK, STREAKS_KIND_WALL, 1, 0x5a90c8u, 0};
+    const struct look wood = {PAINT_BARK, SCENERY_KIND_WALL, 1, 0x5a90c8u, 0};
     const double y = CITY_KERB_M;
     for (int i = 0; i < 4; i++)
         city_box(b, (point){x - 0.9, y + 0.42, z - 0.26 + 0.13 * i},
@@ -247,9 +247,9 @@ static void build_car(struct city_builder *b, double x, double z, bool along_z)
     static const uint32_t colours[] = {0x303030u, 0xd8d8d8u, 0x9a9a94u, 0x2a2a90u,
                                        0x803020u, 0x486048u, 0xf0f0f0u, 0x584030u};
     const uint32_t colour = colours[(int)(8 * city_chance(b, CHANCE_COLOUR, id, 0))];
-    const struct look paint = {PAINT_METAL + 2, STREAKS_KIND_METAL, 2, colour, 0};
-    const struct look glass = {PAINT_METAL + 1, STREAKS_KIND_GLASS, 2, 0x807060u, 0};
-    const struct look tyre = {PAINT_METAL + 1, STREAKS_KIND_WALL, 1, 0x404040u, 0};
+    const struct look paint = {PAINT_METAL + 2, SCENERY_KIND_METAL, 2, colour, 0};
+    const struct look glass = {PAINT_METAL + 1, SCENERY_KIND_GLASS, 2, 0x807060u, 0};
+    const struct look tyre = {PAINT_METAL + 1, SCENERY_KIND_WALL, 1, 0x404040u, 0};
     const double w = 0.88, l = 2.15, top = 0.66;
     point o[4][4];
     const double rings[4][4] = {{w - 0.04, -l, l, 0.28},
@@ -280,7 +280,7 @@ static void build_car(struct city_builder *b, double x, double z, bool along_z)
         city_box(b, (point){fmin(p.x, q.x), 0, fmin(p.z, q.z)},
                  (point){fmax(p.x, q.x), 0.6, fmax(p.z, q.z)}, BOX_WALLS, &tyre);
     }
-    const struct look lamp = {PAINT_LIGHT, STREAKS_KIND_LIGHT, 1, 0x2020a0u, 2};
+    const struct look lamp = {PAINT_LIGHT, SCENERY_KIND_LIGHT, 1, 0x2020a0u, 2};
     for (int i = -1; i <= 1; i += 2) {
         const point p = car_point(x, z, along_z, 0.6 * i - 0.18, 0.58, -l - 0.01);
         const point q = car_point(x, z, along_z, 0.6 * i + 0.18, 0.72, -l + 0.05);

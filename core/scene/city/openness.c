@@ -7,15 +7,15 @@
 #include "core/scene/city/city.h"
 #include "kernels/scenery/openness_grid.h"
 
-enum { SIDE = STREAKS_OPEN_SIDE, LEVELS = STREAKS_OPEN_LEVELS, WAYS = 16, FARTHEST_CELLS = 30 };
+enum { SIDE = SCENERY_OPEN_SIDE, LEVELS = SCENERY_OPEN_LEVELS, WAYS = 16, FARTHEST_CELLS = 30 };
 
 // The height of what stands at each point.
 static void find_heights(const struct city *city, float heights[SIDE][SIDE])
 {
     for (int z = 0; z < SIDE; z++) {
         for (int x = 0; x < SIDE; x++) {
-            const float at[2] = {STREAKS_OPEN_LOW_M + STREAKS_OPEN_CELL_M * (float)x,
-                                 STREAKS_OPEN_LOW_M + STREAKS_OPEN_CELL_M * (float)z};
+            const float at[2] = {SCENERY_OPEN_LOW_M + SCENERY_OPEN_CELL_M * (float)x,
+                                 SCENERY_OPEN_LOW_M + SCENERY_OPEN_CELL_M * (float)z};
             heights[z][x] = 0;
             for (int i = 0; i < city->box_count; i++) {
                 const struct city_box *b = &city->boxes[i];
@@ -43,10 +43,10 @@ static void find_column(float heights[SIDE][SIDE], int x, int z, float open[LEVE
             if (at_x < 0 || at_x >= SIDE || at_z < 0 || at_z >= SIDE)
                 break;
             const float height = heights[at_z][at_x];
-            const float over = 1 / (STREAKS_OPEN_CELL_M * (float)step);
+            const float over = 1 / (SCENERY_OPEN_CELL_M * (float)step);
             for (int level = 0; level < LEVELS; level++)
                 steepest[level] =
-                    rg_max(steepest[level], (height - STREAKS_OPEN_CELL_M * (float)level) * over);
+                    rg_max(steepest[level], (height - SCENERY_OPEN_CELL_M * (float)level) * over);
         }
         for (int level = 0; level < LEVELS; level++)
             open[level] += 1 - steepest[level] / sqrtf(1 + steepest[level] * steepest[level]);
@@ -55,7 +55,7 @@ static void find_column(float heights[SIDE][SIDE], int x, int z, float open[LEVE
 
 bool city_openness(const struct city *city, uint32_t *words)
 {
-    uint8_t *points = rg_alloc(STREAKS_OPEN_WORDS, 1, "city");
+    uint8_t *points = rg_alloc(SCENERY_OPEN_WORDS, 1, "city");
     float(*heights)[SIDE] = points ? rg_alloc(SIDE, sizeof(*heights), "city") : NULL;
     if (heights)
         find_heights(city, heights);
@@ -69,7 +69,7 @@ bool city_openness(const struct city *city, uint32_t *words)
                     (uint8_t)(open[level] * (255.0f / WAYS) + 0.5f);
         }
     }
-    for (int i = 0; heights && i < STREAKS_OPEN_WORDS; i++) {
+    for (int i = 0; heights && i < SCENERY_OPEN_WORDS; i++) {
         const int right = i % SIDE < SIDE - 1 ? 1 : 0,
                   below = i / SIDE % SIDE < SIDE - 1 ? SIDE : 0;
         words[i] = points[i] | (uint32_t)points[i + right] << 8 |

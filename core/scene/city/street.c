@@ -9,11 +9,11 @@
 #define STRIP_M    18.0 // of a road, that its planes stay near their corners
 #define KERB_TOP_M 0.3
 
-static const struct look plain = {PAINT_ASPHALT, STREAKS_KIND_ASPHALT, 9, 0, 0};
-static const struct look slabs = {PAINT_PAVING, STREAKS_KIND_PAVING, 4, 0, 0};
-static const struct look kerb = {PAINT_PAVING + 1, STREAKS_KIND_PAVING, 2, 0, 0};
-static const struct look plaza_stone = {PAINT_PAVING + 2, STREAKS_KIND_PAVING, 6, 0, 0};
-static const struct look grass = {PAINT_GRASS, STREAKS_KIND_EARTH, 5, 0, 0};
+static const struct look plain = {PAINT_ASPHALT, SCENERY_KIND_ASPHALT, 9, 0, 0};
+static const struct look slabs = {PAINT_PAVING, SCENERY_KIND_PAVING, 4, 0, 0};
+static const struct look kerb = {PAINT_PAVING + 1, SCENERY_KIND_PAVING, 2, 0, 0};
+static const struct look plaza_stone = {PAINT_PAVING + 2, SCENERY_KIND_PAVING, 6, 0, 0};
+static const struct look grass = {PAINT_GRASS, SCENERY_KIND_EARTH, 5, 0, 0};
 
 // --- roads ---
 
@@ -38,9 +38,9 @@ static void road_part(struct city_builder *b, const struct road *r, double from,
 // A road between two junctions: at each end a crossing and a stop line.
 static void build_road(struct city_builder *b, const struct road *r, bool avenue)
 {
-    const struct look crossing = {PAINT_CROSSING, STREAKS_KIND_ASPHALT, CROSSING_M, 0, 0};
-    const struct look stop = {PAINT_STOP, STREAKS_KIND_ASPHALT, STOP_M, 0, 0};
-    const struct look lanes = {PAINT_ASPHALT + (avenue ? 2 : 1), STREAKS_KIND_ASPHALT,
+    const struct look crossing = {PAINT_CROSSING, SCENERY_KIND_ASPHALT, CROSSING_M, 0, 0};
+    const struct look stop = {PAINT_STOP, SCENERY_KIND_ASPHALT, STOP_M, 0, 0};
+    const struct look lanes = {PAINT_ASPHALT + (avenue ? 2 : 1), SCENERY_KIND_ASPHALT,
                                avenue ? 18 : 9, 0, 0};
     const double from = r->along_z ? r->z0 : r->x0, to = r->along_z ? r->z1 : r->x1;
     const double ends[4] = {from + CROSSING_M, from + CROSSING_M + STOP_M, to - CROSSING_M - STOP_M,

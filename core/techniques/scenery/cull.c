@@ -67,8 +67,8 @@ struct polygon {
 
 static void add_point(struct polygon *g, const struct corner *c)
 {
-    g->x[g->count] = (c->x / c->w + 1) * 0.5f * STREAKS_CULL_ACROSS;
-    g->y[g->count] = (c->y / c->w + 1) * 0.5f * STREAKS_CULL_DOWN;
+    g->x[g->count] = (c->x / c->w + 1) * 0.5f * SCENERY_CULL_ACROSS;
+    g->y[g->count] = (c->y / c->w + 1) * 0.5f * SCENERY_CULL_DOWN;
     g->z[g->count] = c->z / c->w;
     g->count++;
 }
@@ -115,7 +115,7 @@ static bool cross(const struct polygon *g, float y, float *left, float *right)
 }
 
 // Cells that lie whole within the polygon are hidden behind it: behind its farthest point there.
-static void hide(struct streaks_cull *cull, const struct polygon *g, float slack)
+static void hide(struct scenery_cull *cull, const struct polygon *g, float slack)
 {
     float low = INFINITY, high = -INFINITY, farthest = 0;
     for (int i = 0; i < g->count; i++) {
@@ -139,14 +139,14 @@ static void hide(struct streaks_cull *cull, const struct polygon *g, float slack
     }
     if (!(most > 1e-3f) || area == 0)
         return;
-    const int first = (int)ceilf(rg_clamp(low, 0, STREAKS_CULL_DOWN)),
-              end = (int)floorf(rg_clamp(high, 0, STREAKS_CULL_DOWN));
+    const int first = (int)ceilf(rg_clamp(low, 0, SCENERY_CULL_DOWN)),
+              end = (int)floorf(rg_clamp(high, 0, SCENERY_CULL_DOWN));
     for (int row = first; row < end; row++) {
         float l0, r0, l1, r1;
         if (!cross(g, (float)row, &l0, &r0) || !cross(g, (float)row + 1, &l1, &r1))
             continue;
-        const int from = (int)ceilf(rg_clamp(rg_max(l0, l1) + slack, 0, STREAKS_CULL_ACROSS));
-        const int to = (int)floorf(rg_clamp(rg_min(r0, r1) - slack, 0, STREAKS_CULL_ACROSS));
+        const int from = (int)ceilf(rg_clamp(rg_max(l0, l1) + slack, 0, SCENERY_CULL_ACROSS));
+        const int to = (int)floorf(rg_clamp(rg_min(r0, r1) - slack, 0, SCENERY_CULL_ACROSS));
         const float at_row = z[0] + ay * ((float)row + (ay > 0 ? 1.0f : 0.0f) - y[0]);
         for (int column = from; column < to; column++) {
             const float depth =
@@ -158,7 +158,7 @@ static void hide(struct streaks_cull *cull, const struct polygon *g, float slack
 }
 
 // The faces of a box that look at the viewer.
-static void hide_box(struct streaks_cull *cull, const struct city_box *box, const m4 *m)
+static void hide_box(struct scenery_cull *cull, const struct city_box *box, const m4 *m)
 {
     static const int faces[6][4] = {{0, 4, 6, 2}, {5, 1, 3, 7}, {0, 1, 5, 4},
                                     {6, 7, 3, 2}, {1, 0, 2, 3}, {4, 5, 7, 6}};
@@ -185,7 +185,7 @@ static int cell_of(float over_w, int cells)
 }
 
 // Whether boxes hide all of the chunk.
-static bool hidden(const struct streaks_cull *cull, const struct corner corners[8])
+static bool hidden(const struct scenery_cull *cull, const struct corner corners[8])
 {
     float x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY, nearest = INFINITY;
     for (int i = 0; i < 8; i++) {
@@ -198,8 +198,8 @@ static bool hidden(const struct streaks_cull *cull, const struct corner corners[
         y1 = rg_max(y1, c->y / c->w);
         nearest = rg_min(nearest, c->z / c->w);
     }
-    const int first_x = cell_of(x0, STREAKS_CULL_ACROSS), last_x = cell_of(x1, STREAKS_CULL_ACROSS);
-    const int first_y = cell_of(y0, STREAKS_CULL_DOWN), last_y = cell_of(y1, STREAKS_CULL_DOWN);
+    const int first_x = cell_of(x0, SCENERY_CULL_ACROSS), last_x = cell_of(x1, SCENERY_CULL_ACROSS);
+    const int first_y = cell_of(y0, SCENERY_CULL_DOWN), last_y = cell_of(y1, SCENERY_CULL_DOWN);
     for (int y = first_y; y <= last_y; y++)
         for (int x = first_x; x <= last_x; x++)
             if (cull->hidden[y][x] >= nearest)
@@ -207,13 +207,13 @@ static bool hidden(const struct streaks_cull *cull, const struct corner corners[
     return true;
 }
 
-void streaks_cull(struct streaks_cull *cull, m4 to_clip, bool backs_culled, bool *seen)
+void scenery_cull(struct scenery_cull *cull, m4 to_clip, bool backs_culled, bool *seen)
 {
     const struct city_faces *f = cull->faces;
     double eye[4];
     find_eye(&to_clip, eye);
-    for (int y = 0; y < STREAKS_CULL_DOWN; y++)
-        for (int x = 0; x < STREAKS_CULL_ACROSS; x++)
+    for (int y = 0; y < SCENERY_CULL_DOWN; y++)
+        for (int x = 0; x < SCENERY_CULL_ACROSS; x++)
             cull->hidden[y][x] = INFINITY;
     for (int i = 0; i < cull->box_count; i++)
         hide_box(cull, &cull->boxes[i], &to_clip);

@@ -5,19 +5,19 @@
 #include "core/scene/city/city.h"
 #include "kernels/dialect/matrix.h"
 
-enum { STREAKS_CULL_ACROSS = 192, STREAKS_CULL_DOWN = 108 };
+enum { SCENERY_CULL_ACROSS = 192, SCENERY_CULL_DOWN = 108 };
 
 // Cells of the view, each of which has the depth behind which boxes hide all of it.
-struct streaks_cull {
+struct scenery_cull {
     const struct city_faces *faces;
     int box_count;
     const struct city_box *boxes; // that faces enclose
-    float hidden[STREAKS_CULL_DOWN][STREAKS_CULL_ACROSS];
+    float hidden[SCENERY_CULL_DOWN][SCENERY_CULL_ACROSS];
 };
 
 // Sets `seen`, by chunk, for a matrix from the world to clip space: false for what lies outside of
 // the view, is hidden by boxes, or, with `backs_culled`, turns away. What it leaves out changes no
 // pixel. Not true of views from within a box.
-void streaks_cull(struct streaks_cull *cull, m4 to_clip, bool backs_culled, bool *seen);
+void scenery_cull(struct scenery_cull *cull, m4 to_clip, bool backs_culled, bool *seen);
 
 #endif

@@ -6,13 +6,6 @@
 #include "core/techniques/scenery/lights/lights.h"
 #include "core/techniques/scenery/overlay.h"
 
-const struct streaks_ink streaks_ink_rain_space = {0.45f, 0.45f, 0.45f, 1, 1.5f};
-const struct streaks_ink streaks_ink_local_planes = {0.05f, 0.75f, 0.10f, 1, 1.5f};
-const struct streaks_ink streaks_ink_radius = {0.95f, 0.05f, 0.03f, 1, 2};
-const struct streaks_ink streaks_ink_volume = {0.05f, 0.15f, 1, 1, 2};
-const struct streaks_ink streaks_ink_packets = {0.55f, 0.08f, 0.80f, 1, 1.5f};
-const struct streaks_ink streaks_ink_light = {1, 1, 1, 0.9f, 1.5f};
-
 #define SHOWN_M 10.0f
 
 // The world's corners of clip space between two depths; false where there are none.
@@ -36,19 +29,19 @@ static bool find_corners(const float to_clip[16], float near_depth, float far_de
     return true;
 }
 
-void streaks_overlay_frustum(struct streaks_overlay *overlay, const float to_clip[16],
-                             const struct streaks_ink *ink)
+void scenery_overlay_frustum(struct scenery_overlay *overlay, const float to_clip[16],
+                             const struct scenery_ink *ink)
 {
     float corners[8][3];
     if (find_corners(to_clip, 0, 1, corners))
-        streaks_overlay_box(overlay, corners, ink);
+        scenery_overlay_box(overlay, corners, ink);
 }
 
 // Depth in a light's map at the distance up to which its frustum is shown. Depth at w metres is
 // scale + offset / w; a perspective matrix has both in its third row.
-static float reach_depth(const streaks_light *light, const float to_clip[16])
+static float reach_depth(const scenery_light *light, const float to_clip[16])
 {
-    if (light->kind == STREAKS_SUN)
+    if (light->kind == SCENERY_SUN)
         return 1;
     const float *row = to_clip + 8, *w = to_clip + 12;
     const float scale = row[0] * w[0] + row[1] * w[1] + row[2] * w[2];
@@ -56,13 +49,13 @@ static float reach_depth(const streaks_light *light, const float to_clip[16])
     return fminf(depth, 1);
 }
 
-void streaks_overlay_light(struct streaks_overlay *overlay, const streaks_light *light,
-                           const struct streaks_ink *ink)
+void scenery_overlay_light(struct scenery_overlay *overlay, const scenery_light *light,
+                           const struct scenery_ink *ink)
 {
     for (int face = 0; face < light->shadow_faces; face++) {
         float to_clip[16], corners[8][3];
-        streaks_light_to_clip(light, face, to_clip);
+        scenery_light_to_clip(light, face, to_clip);
         if (find_corners(to_clip, 0, reach_depth(light, to_clip), corners))
-            streaks_overlay_box(overlay, corners, ink);
+            scenery_overlay_box(overlay, corners, ink);
     }
 }

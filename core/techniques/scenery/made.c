@@ -58,7 +58,7 @@ static void paint_levels(const struct city_painter *painter, int texture, int si
     }
 }
 
-static bool write_levels(struct streaks_scene_made *s, int texture, const uint32_t *texels)
+static bool write_levels(struct scenery_made *s, int texture, const uint32_t *texels)
 {
     int size = s->city->texture_px;
     for (int level = 0; level < s->levels; level++) {
@@ -70,7 +70,7 @@ static bool write_levels(struct streaks_scene_made *s, int texture, const uint32
     return true;
 }
 
-static bool create_textures(struct streaks_scene_made *s)
+static bool create_textures(struct scenery_made *s)
 {
     const struct city *city = s->city;
     const int size = city->texture_px;
@@ -112,24 +112,24 @@ static struct rg_buf *filled(struct rg_device *device, const void *words, int64_
     return NULL;
 }
 
-static bool create_openness(struct streaks_scene_made *s)
+static bool create_openness(struct scenery_made *s)
 {
-    uint32_t *words = rg_alloc(STREAKS_OPEN_WORDS, sizeof(*words), "scene");
+    uint32_t *words = rg_alloc(SCENERY_OPEN_WORDS, sizeof(*words), "scene");
     if (words && city_openness(s->city, words))
-        s->openness = filled(s->device, words, STREAKS_OPEN_WORDS, "openness to the sky");
+        s->openness = filled(s->device, words, SCENERY_OPEN_WORDS, "openness to the sky");
     free(words);
     return s->openness;
 }
 
-static bool create_buffers(struct streaks_scene_made *s)
+static bool create_buffers(struct scenery_made *s)
 {
     const struct city_faces *f = &s->city->faces;
     const int64_t faces = f->face_count;
     return (s->faces =
-                filled(s->device, f->corners, faces * STREAKS_FACE_WORDS, "scene's faces")) &&
+                filled(s->device, f->corners, faces * SCENERY_FACE_WORDS, "scene's faces")) &&
            (s->surface_of = filled(s->device, f->surface_of, faces, "faces' surfaces")) &&
            (s->surfaces =
-                filled(s->device, f->surfaces, (int64_t)f->surface_count * STREAKS_SURFACE_WORDS,
+                filled(s->device, f->surfaces, (int64_t)f->surface_count * SCENERY_SURFACE_WORDS,
                        "scene's surfaces"));
 }
 
@@ -137,7 +137,7 @@ static bool create_buffers(struct streaks_scene_made *s)
 
 static void destroy(void *thing)
 {
-    struct streaks_scene_made *s = thing;
+    struct scenery_made *s = thing;
     rg_buf_destroy(s->faces);
     rg_buf_destroy(s->surface_of);
     rg_buf_destroy(s->surfaces);
@@ -149,8 +149,8 @@ static void destroy(void *thing)
 
 static void *make(struct rg_device *device, const void *arg)
 {
-    const struct streaks_scene_settings *settings = arg;
-    struct streaks_scene_made *s = rg_alloc(1, sizeof(*s), "scene");
+    const struct scenery_settings *settings = arg;
+    struct scenery_made *s = rg_alloc(1, sizeof(*s), "scene");
     if (!s)
         return NULL;
     s->device = device;
@@ -161,8 +161,8 @@ static void *make(struct rg_device *device, const void *arg)
     return NULL;
 }
 
-const struct streaks_scene_made *
-streaks_scene_made_get(struct rg_device *device, const struct streaks_scene_settings *settings)
+const struct scenery_made *scenery_made_get(struct rg_device *device,
+                                            const struct scenery_settings *settings)
 {
     static const struct rg_shared_kind kind = {"scene", make, destroy};
     char key[RG_PATH_SIZE + 64];
@@ -173,7 +173,7 @@ streaks_scene_made_get(struct rg_device *device, const struct streaks_scene_sett
     return rg_shared_get(device, key, &kind, settings);
 }
 
-void streaks_scene_made_put(struct rg_device *device, const struct streaks_scene_made *made)
+void scenery_made_put(struct rg_device *device, const struct scenery_made *made)
 {
     rg_shared_put(device, (void *)(uintptr_t)made);
 }

@@ -4,7 +4,7 @@
 
 #include "core/techniques/scenery/scenery.h"
 
-struct streaks_scene_made {
+struct scenery_made {
     struct rg_device *device;
     struct city *city;
     struct rg_buf *faces, *surface_of, *surfaces, *openness;
@@ -12,9 +12,9 @@ struct streaks_scene_made {
     int levels; // of the textures
 };
 
-// NULL, and one logged line, on failure. streaks_scene_made_put before the device closes.
-const struct streaks_scene_made *
-streaks_scene_made_get(struct rg_device *device, const struct streaks_scene_settings *settings);
-void streaks_scene_made_put(struct rg_device *device, const struct streaks_scene_made *made);
+// NULL, and one logged line, on failure. scenery_made_put before the device closes.
+const struct scenery_made *scenery_made_get(struct rg_device *device,
+                                            const struct scenery_settings *settings);
+void scenery_made_put(struct rg_device *device, const struct scenery_made *made);
 
 #endif

@@ -17,26 +17,26 @@ struct items {
     bool full;                 // there was no memory
 };
 
-struct streaks_overlay {
+struct scenery_overlay {
     struct rg_device *device;
     struct items sheets, lines;
     struct rg_pass *inset;
 };
 
-struct streaks_overlay *streaks_overlay_open(struct rg_device *device)
+struct scenery_overlay *scenery_overlay_open(struct rg_device *device)
 {
-    struct streaks_overlay *overlay = rg_alloc(1, sizeof(*overlay), "overlay");
+    struct scenery_overlay *overlay = rg_alloc(1, sizeof(*overlay), "overlay");
     if (!overlay)
         return NULL;
     overlay->device = device;
     overlay->sheets = (struct items){
-        .kernel = "streaks_sheets", .name = "overlay's sheets", .words = STREAKS_SHEET_WORDS};
+        .kernel = "streaks_sheets", .name = "overlay's sheets", .words = SCENERY_SHEET_WORDS};
     overlay->lines = (struct items){
-        .kernel = "streaks_lines", .name = "overlay's lines", .words = STREAKS_LINE_WORDS};
+        .kernel = "streaks_lines", .name = "overlay's lines", .words = SCENERY_LINE_WORDS};
     if (!(overlay->sheets.pass = rg_pass_create(device, overlay->sheets.kernel)) ||
         !(overlay->lines.pass = rg_pass_create(device, overlay->lines.kernel)) ||
         !(overlay->inset = rg_pass_create(device, "streaks_inset"))) {
-        streaks_overlay_close(overlay);
+        scenery_overlay_close(overlay);
         return NULL;
     }
     return overlay;
@@ -49,7 +49,7 @@ static void free_items(struct items *items)
     free(items->list);
 }
 
-void streaks_overlay_close(struct streaks_overlay *overlay)
+void scenery_overlay_close(struct scenery_overlay *overlay)
 {
     if (!overlay)
         return;
@@ -61,7 +61,7 @@ void streaks_overlay_close(struct streaks_overlay *overlay)
 
 // --- items ---
 
-void streaks_overlay_begin(struct streaks_overlay *overlay)
+void scenery_overlay_begin(struct scenery_overlay *overlay)
 {
     overlay->sheets.count = overlay->lines.count = 0;
     overlay->sheets.full = overlay->lines.full = false;
@@ -83,7 +83,7 @@ static float *add_item(struct items *items)
     return items->list + (size_t)items->count++ * (size_t)items->words;
 }
 
-static void put_colour(float words[4], const struct streaks_ink *ink, float share)
+static void put_colour(float words[4], const struct scenery_ink *ink, float share)
 {
     const float alpha = ink->a * share;
     words[0] = ink->r * alpha;
@@ -92,8 +92,8 @@ static void put_colour(float words[4], const struct streaks_ink *ink, float shar
     words[3] = alpha;
 }
 
-void streaks_overlay_line(struct streaks_overlay *overlay, const float a[3], const float b[3],
-                          const struct streaks_ink *ink)
+void scenery_overlay_line(struct scenery_overlay *overlay, const float a[3], const float b[3],
+                          const struct scenery_ink *ink)
 {
     float *words = add_item(&overlay->lines);
     if (!words)
@@ -104,20 +104,20 @@ void streaks_overlay_line(struct streaks_overlay *overlay, const float a[3], con
     words[10] = ink->width_px;
 }
 
-void streaks_overlay_box(struct streaks_overlay *overlay, float corners[8][3],
-                         const struct streaks_ink *ink)
+void scenery_overlay_box(struct scenery_overlay *overlay, float corners[8][3],
+                         const struct scenery_ink *ink)
 {
     for (int k = 0; k < 8; k++)
         for (int bit = 1; bit < 8; bit *= 2)
             if (!(k & bit))
-                streaks_overlay_line(overlay, corners[k], corners[k | bit], ink);
+                scenery_overlay_line(overlay, corners[k], corners[k | bit], ink);
 }
 
-void streaks_overlay_sheet(struct streaks_overlay *overlay, float corners[4][3],
-                           const struct streaks_ink *ink, float fill)
+void scenery_overlay_sheet(struct scenery_overlay *overlay, float corners[4][3],
+                           const struct scenery_ink *ink, float fill)
 {
     for (int k = 0; k < 4; k++)
-        streaks_overlay_line(overlay, corners[k], corners[(k + 1) % 4], ink);
+        scenery_overlay_line(overlay, corners[k], corners[(k + 1) % 4], ink);
     float *words = fill > 0 ? add_item(&overlay->sheets) : NULL;
     if (!words)
         return;
@@ -141,7 +141,7 @@ static bool upload(struct items *items, struct rg_device *device)
 }
 
 static bool draw_items(struct items *items, struct rg_instance *instance,
-                       const streaks_lines_params *params, const struct rg_draw *draw)
+                       const scenery_lines_params *params, const struct rg_draw *draw)
 {
     if (!items->count && !items->full)
         return true;
@@ -156,21 +156,21 @@ static bool draw_items(struct items *items, struct rg_instance *instance,
                                             .draw = draw});
 }
 
-bool streaks_overlay_draw(struct streaks_overlay *overlay, struct rg_instance *instance,
+bool scenery_overlay_draw(struct scenery_overlay *overlay, struct rg_instance *instance,
                           const float to_clip[16], struct rg_image *colour, struct rg_image *depth)
 {
     const struct rg_draw draw = {.colour = colour,
                                  .depth = depth,
                                  .blend = RG_BLEND_OVER,
                                  .depth_mode = depth ? RG_DEPTH_TEST : RG_DEPTH_OFF};
-    streaks_lines_params params;
+    scenery_lines_params params;
     memcpy(&params.to_clip, to_clip, sizeof(params.to_clip));
     return draw_items(&overlay->sheets, instance, &params, &draw) &&
            draw_items(&overlay->lines, instance, &params, &draw);
 }
 
-bool streaks_overlay_inset(struct streaks_overlay *overlay, struct rg_instance *instance,
-                           const streaks_inset_params *inset, struct rg_image *map,
+bool scenery_overlay_inset(struct scenery_overlay *overlay, struct rg_instance *instance,
+                           const scenery_inset_params *inset, struct rg_image *map,
                            struct rg_image *colour)
 {
     const struct rg_draw draw = {

@@ -11,21 +11,21 @@
 #include "kernels/dialect/image/format.h"
 #include "kernels/scenery/city_shade_params.h"
 
-struct streaks_scene {
+struct scenery {
     struct rg_device *device;
-    const struct streaks_scene_made *made;
+    const struct scenery_made *made;
     struct rg_buf *block_words; // of the last draw
     struct rg_image *numbers;   // of the target's size
     struct rg_pass *draw, *shade;
-    struct streaks_cull cull;
+    struct scenery_cull cull;
     bool *seen;       // by chunk: in the last draw
     uint32_t *blocks; // two words each
-    struct streaks_scene_work work;
+    struct scenery_work work;
 };
 
 // --- opening ---
 
-void streaks_scene_put(struct streaks_scene *s)
+void scenery_put(struct scenery *s)
 {
     if (!s)
         return;
@@ -34,19 +34,19 @@ void streaks_scene_put(struct streaks_scene *s)
     rg_buf_destroy(s->block_words);
     rg_image_destroy(s->numbers);
     if (s->made)
-        streaks_scene_made_put(s->device, s->made);
+        scenery_made_put(s->device, s->made);
     free(s->seen);
     free(s->blocks);
     free(s);
 }
 
-static bool create_blocks(struct streaks_scene *s)
+static bool create_blocks(struct scenery *s)
 {
     const struct city *city = s->made->city;
     const struct city_faces *f = &city->faces;
     int blocks = 0;
     for (int i = 0; i < f->chunk_count; i++)
-        blocks += (f->chunks[i].count + STREAKS_BLOCK_FACES - 1) / STREAKS_BLOCK_FACES;
+        blocks += (f->chunks[i].count + SCENERY_BLOCK_FACES - 1) / SCENERY_BLOCK_FACES;
     s->cull.faces = f;
     s->cull.box_count = city->box_count;
     s->cull.boxes = city->boxes;
@@ -56,38 +56,37 @@ static bool create_blocks(struct streaks_scene *s)
     return s->seen && s->blocks && s->block_words;
 }
 
-struct streaks_scene *streaks_scene_get(struct rg_device *device,
-                                        const struct streaks_scene_settings *settings)
+struct scenery *scenery_get(struct rg_device *device, const struct scenery_settings *settings)
 {
-    struct streaks_scene *s = rg_alloc(1, sizeof(*s), "scene");
+    struct scenery *s = rg_alloc(1, sizeof(*s), "scene");
     if (!s)
         return NULL;
     s->device = device;
-    if ((s->made = streaks_scene_made_get(device, settings)) && create_blocks(s) &&
+    if ((s->made = scenery_made_get(device, settings)) && create_blocks(s) &&
         (s->draw = rg_pass_create(device, "streaks_city")) &&
         (s->shade = rg_pass_create(device, "streaks_city_shade")))
         return s;
-    streaks_scene_put(s);
+    scenery_put(s);
     return NULL;
 }
 
-const struct city *streaks_scene_city(const struct streaks_scene *s)
+const struct city *scenery_city(const struct scenery *s)
 {
     return s->made->city;
 }
 
-int streaks_scene_lamps(const struct streaks_scene *s, const struct city_lamp **lamps)
+int scenery_lamps(const struct scenery *s, const struct city_lamp **lamps)
 {
     *lamps = s->made->city->lamps;
     return s->made->city->lamp_count;
 }
 
-struct rg_buf *streaks_scene_surfaces(const struct streaks_scene *s)
+struct rg_buf *scenery_surfaces(const struct scenery *s)
 {
     return s->made->surfaces;
 }
 
-struct streaks_scene_work streaks_scene_last(const struct streaks_scene *s)
+struct scenery_work scenery_last(const struct scenery *s)
 {
     return s->work;
 }
@@ -96,37 +95,36 @@ struct streaks_scene_work streaks_scene_last(const struct streaks_scene *s)
 
 // The blocks of the chunks that are seen; returns how many. All that is known of a block's words is
 // in kernels/scenery/city_params.h.
-static int list_blocks(struct streaks_scene *s)
+static int list_blocks(struct scenery *s)
 {
     const struct city_faces *f = &s->made->city->faces;
     int blocks = 0;
     for (int i = 0; i < f->chunk_count; i++) {
         const struct city_chunk *chunk = &f->chunks[i];
-        for (int k = 0; s->seen[i] && k < chunk->count; k += STREAKS_BLOCK_FACES) {
+        for (int k = 0; s->seen[i] && k < chunk->count; k += SCENERY_BLOCK_FACES) {
             const int rest = chunk->count - k;
             s->blocks[2 * blocks] = (uint32_t)(chunk->first + k);
             s->blocks[2 * blocks + 1] =
-                (uint32_t)(rest < STREAKS_BLOCK_FACES ? rest : STREAKS_BLOCK_FACES);
+                (uint32_t)(rest < SCENERY_BLOCK_FACES ? rest : SCENERY_BLOCK_FACES);
             blocks++;
         }
     }
     return blocks;
 }
 
-static bool draw_faces(struct streaks_scene *s, struct rg_instance *instance, m4 to_clip,
+static bool draw_faces(struct scenery *s, struct rg_instance *instance, m4 to_clip,
                        const struct rg_draw *onto, enum rg_cull cull, bool everything)
 {
-    const streaks_city_params params = {to_clip};
+    const scenery_city_params params = {to_clip};
     struct rg_draw draw = *onto;
     draw.blend = RG_BLEND_OFF;
     draw.depth_mode = RG_DEPTH_WRITE;
     draw.cull = cull;
-    streaks_cull(&s->cull, to_clip, cull == RG_CULL_BACK, s->seen);
+    scenery_cull(&s->cull, to_clip, cull == RG_CULL_BACK, s->seen);
     for (int i = 0; everything && i < s->made->city->faces.chunk_count; i++)
         s->seen[i] = true;
     const int blocks = list_blocks(s);
-    s->work =
-        (struct streaks_scene_work){.chunks = s->made->city->faces.chunk_count, .blocks = blocks};
+    s->work = (struct scenery_work){.chunks = s->made->city->faces.chunk_count, .blocks = blocks};
     for (int i = 0; i < s->work.chunks; i++)
         s->work.chunks_drawn += s->seen[i] ? 1 : 0;
     if (!blocks)
@@ -137,25 +135,25 @@ static bool draw_faces(struct streaks_scene *s, struct rg_instance *instance, m4
                                             .slots = {[1].buf = s->made->faces,
                                                       [2].buf = s->made->surface_of,
                                                       [3].buf = s->block_words},
-                                            .extent = {blocks * STREAKS_BLOCK_FACES, 1, 1},
+                                            .extent = {blocks * SCENERY_BLOCK_FACES, 1, 1},
                                             .draw = &draw});
 }
 
-bool streaks_scene_depth(struct streaks_scene *scene, struct rg_instance *instance, m4 to_clip,
-                         const struct rg_draw *onto)
+bool scenery_depth(struct scenery *scene, struct rg_instance *instance, m4 to_clip,
+                   const struct rg_draw *onto)
 {
     struct rg_draw depth = *onto;
     depth.colour = NULL;
     return draw_faces(scene, instance, to_clip, &depth, RG_CULL_NONE, false);
 }
 
-bool streaks_scene_numbers(struct streaks_scene *scene, struct rg_instance *instance, m4 to_clip,
-                           const struct rg_draw *onto)
+bool scenery_numbers(struct scenery *scene, struct rg_instance *instance, m4 to_clip,
+                     const struct rg_draw *onto)
 {
     return draw_faces(scene, instance, to_clip, onto, RG_CULL_NONE, false);
 }
 
-static bool fit_numbers(struct streaks_scene *s, const struct rg_image *target)
+static bool fit_numbers(struct scenery *s, const struct rg_image *target)
 {
     const int width = target->desc.width, height = target->desc.height;
     if (s->numbers && s->numbers->desc.width == width && s->numbers->desc.height == height)
@@ -219,12 +217,11 @@ static bool invert(const m4 *to_clip, int width, int height, m4 *from_pixel)
     return true;
 }
 
-static bool shade(struct streaks_scene *s, struct rg_instance *instance,
-                  const struct streaks_scene_view *view, const struct streaks_scene_look *look,
-                  const struct streaks_lights *lights)
+static bool shade(struct scenery *s, struct rg_instance *instance, const struct scenery_view *view,
+                  const struct scenery_look *look, const struct scenery_lights *lights)
 {
     const struct rg_image_desc *d = &view->colour->desc;
-    streaks_city_shade_params p = {
+    scenery_city_shade_params p = {
         .sky = look->sky,
         .eye_x = view->eye[0],
         .eye_y = view->eye[1],
@@ -255,10 +252,9 @@ static bool shade(struct streaks_scene *s, struct rg_instance *instance,
                                             .draw = &draw});
 }
 
-bool streaks_scene_draw(struct streaks_scene *s, struct rg_instance *instance,
-                        const struct streaks_scene_view *view,
-                        const struct streaks_scene_look *look, const struct streaks_lights *lights,
-                        bool geometry)
+bool scenery_draw(struct scenery *s, struct rg_instance *instance, const struct scenery_view *view,
+                  const struct scenery_look *look, const struct scenery_lights *lights,
+                  bool geometry)
 {
     const float farthest = 1;
     const uint16_t sky[4] = {
@@ -276,9 +272,9 @@ bool streaks_scene_draw(struct streaks_scene *s, struct rg_instance *instance,
            shade(s, instance, view, look, lights);
 }
 
-struct streaks_scene_look streaks_scene_day(void)
+struct scenery_look scenery_day(void)
 {
-    return (struct streaks_scene_look){
+    return (struct scenery_look){
         .sky = {0.58f, 0.64f, 0.72f, 0.46f, 0.49f, 0.53f, 0.5f, 0.0016f},
         .ambient = 1.1f,
         .bounced = 0.2f,
@@ -287,9 +283,9 @@ struct streaks_scene_look streaks_scene_day(void)
     };
 }
 
-struct streaks_scene_look streaks_scene_night(void)
+struct scenery_look scenery_night(void)
 {
-    return (struct streaks_scene_look){
+    return (struct scenery_look){
         .sky = {0.016f, 0.020f, 0.030f, 0.058f, 0.048f, 0.042f, 0.6f, 0.0020f},
         .ambient = 1.3f,
         .bounced = 1.6f,

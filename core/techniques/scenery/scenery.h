@@ -13,40 +13,39 @@
 #include "kernels/dialect/matrix.h"
 #include "kernels/scenery/sky.h"
 
-struct streaks_scene_settings {
+struct scenery_settings {
     struct city_settings city;
     char model[RG_PATH_SIZE]; // a user's mesh instead, as rg_mesh_load takes it; "": the city
 };
 
-struct streaks_scene;
+struct scenery;
 
-// NULL, and one logged line, on failure. streaks_scene_put when it is no longer needed, before the
+// NULL, and one logged line, on failure. scenery_put when it is no longer needed, before the
 // device closes.
-struct streaks_scene *streaks_scene_get(struct rg_device *device,
-                                        const struct streaks_scene_settings *settings);
-void streaks_scene_put(struct streaks_scene *scene);
+struct scenery *scenery_get(struct rg_device *device, const struct scenery_settings *settings);
+void scenery_put(struct scenery *scene);
 
 // What it is: name, faces, bounds, hash, boxes. It lives as long as the scene.
-const struct city *streaks_scene_city(const struct streaks_scene *scene);
+const struct city *scenery_city(const struct scenery *scene);
 // Its lamps, none on a user's mesh; returns how many.
-int streaks_scene_lamps(const struct streaks_scene *scene, const struct city_lamp **lamps);
+int scenery_lamps(const struct scenery *scene, const struct city_lamp **lamps);
 // The surfaces' words (kernels/scenery/surface.h), for kernels.
-struct rg_buf *streaks_scene_surfaces(const struct streaks_scene *scene);
+struct rg_buf *scenery_surfaces(const struct scenery *scene);
 
 // How it looks at a time.
-struct streaks_scene_look {
-    streaks_sky sky;
+struct scenery_look {
+    scenery_sky sky;
     float ambient; // of the sky's light from above: what surfaces get that see all of it
     float bounced; // of the horizon's: what those get that see no sky
     float glow;    // light of lit windows
     float wet;     // 0 to 1: how wet the ground is
 };
 // Overcast day, or night with the lights of the city.
-struct streaks_scene_look streaks_scene_day(void);
-struct streaks_scene_look streaks_scene_night(void);
+struct scenery_look scenery_day(void);
+struct scenery_look scenery_night(void);
 
 // Where colour and depth go: level 0, layer 0 of both, of one size.
-struct streaks_scene_view {
+struct scenery_view {
     m4 to_clip; // from the world, as rg_camera_matrix makes it: faces keep their turn
     float eye[3];
     struct rg_image *colour, *depth; // RGBA16F; D32F
@@ -55,23 +54,22 @@ struct streaks_scene_view {
 
 // Draws colour and depth in this light, whose shadow maps are drawn already; with `geometry` false,
 // an even sky as bright as the horizon, and depth 1. The images need not be cleared.
-bool streaks_scene_draw(struct streaks_scene *scene, struct rg_instance *instance,
-                        const struct streaks_scene_view *view,
-                        const struct streaks_scene_look *look, const struct streaks_lights *lights,
-                        bool geometry);
+bool scenery_draw(struct scenery *scene, struct rg_instance *instance,
+                  const struct scenery_view *view, const struct scenery_look *look,
+                  const struct scenery_lights *lights, bool geometry);
 // Draws depth alone, of both sides of faces: `onto` names the image and its layer. It is not
 // cleared.
-bool streaks_scene_depth(struct streaks_scene *scene, struct rg_instance *instance, m4 to_clip,
-                         const struct rg_draw *onto);
+bool scenery_depth(struct scenery *scene, struct rg_instance *instance, m4 to_clip,
+                   const struct rg_draw *onto);
 // The same, and the number of each pixel's surface into onto->colour, an image of RGBA8.
-bool streaks_scene_numbers(struct streaks_scene *scene, struct rg_instance *instance, m4 to_clip,
-                           const struct rg_draw *onto);
+bool scenery_numbers(struct scenery *scene, struct rg_instance *instance, m4 to_clip,
+                     const struct rg_draw *onto);
 
 // What the last draw left out, of how many.
-struct streaks_scene_work {
+struct scenery_work {
     int chunks_drawn, chunks;
-    int blocks; // of STREAKS_BLOCK_FACES faces
+    int blocks; // of SCENERY_BLOCK_FACES faces
 };
-struct streaks_scene_work streaks_scene_last(const struct streaks_scene *scene);
+struct scenery_work scenery_last(const struct scenery *scene);
 
 #endif

@@ -182,7 +182,7 @@ bool streaks_fit(struct streaks *s)
 {
     struct fit f = {
         .s = s, .radius_m = s->settings.culling_radius_m, .height_m = s->settings.local_height_m};
-    struct streaks_overlay *overlay = s->overlay;
+    struct scenery_overlay *overlay = s->overlay;
     struct rg_pass *far = s->far;
     // Only rain itself is compared.
     s->overlay = NULL;

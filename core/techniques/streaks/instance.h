@@ -46,10 +46,10 @@ struct streaks {
     struct streaks_settings settings;
     struct streaks_rain_space space;
     struct streaks_packets *packets;
-    struct streaks_scene *scene;
+    struct scenery *scene;
     struct streaks_textures *textures;
-    struct streaks_lights *lights;
-    struct streaks_overlay *overlay;    // NULL: none
+    struct scenery_lights *lights;
+    struct scenery_overlay *overlay;    // NULL: none
     struct rg_camera camera;            // at frame 0
     struct streaks_map *map;            // the scene seen along the fall
     struct rg_image *depth;             // the target's

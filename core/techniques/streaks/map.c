@@ -56,7 +56,7 @@ static bool is_numbered(const struct streaks *s)
 
 static bool clear_numbers(struct rg_image *numbers)
 {
-    static const uint32_t none = STREAKS_NO_SURFACE;
+    static const uint32_t none = SCENERY_NO_SURFACE;
     return rg_image_clear(numbers, &none);
 }
 
@@ -68,9 +68,8 @@ static bool draw(struct streaks *s, const struct streaks_map *map)
     if (!rg_image_clear(map->depths, &farthest))
         return false;
     if (!is_numbered(s))
-        return streaks_scene_depth(s->scene, &s->base, matrix_of(s), &onto);
-    return clear_numbers(map->numbers) &&
-           streaks_scene_numbers(s->scene, &s->base, matrix_of(s), &onto);
+        return scenery_depth(s->scene, &s->base, matrix_of(s), &onto);
+    return clear_numbers(map->numbers) && scenery_numbers(s->scene, &s->base, matrix_of(s), &onto);
 }
 
 static struct rg_image *create_image(const struct streaks *s, enum rg_format format, int side_px,
@@ -126,8 +125,8 @@ static struct streaks_map *get_static(struct streaks *s)
                               space->s[0],        space->s[1],        space->s[2],
                               space->half_x_m,    space->half_y_m,    space->height_m};
     char key[400];
-    int length = snprintf(key, sizeof(key), "%016" PRIx64 " %d %d",
-                          streaks_scene_city(s->scene)->hash, s->settings.map_px, is_numbered(s));
+    int length = snprintf(key, sizeof(key), "%016" PRIx64 " %d %d", scenery_city(s->scene)->hash,
+                          s->settings.map_px, is_numbered(s));
     for (size_t i = 0; i < sizeof(numbers) / sizeof(numbers[0]); i++)
         length += snprintf(key + length, sizeof(key) - (size_t)length, " %a", numbers[i]);
     return rg_shared_get(s->base.device, key, &kind, &s);

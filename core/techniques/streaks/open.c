@@ -34,10 +34,10 @@ void streaks_close(struct rg_instance *instance)
     streaks_map_close(s);
     rg_image_destroy(s->depth);
     rg_image_destroy(s->base.target);
-    streaks_overlay_close(s->overlay);
-    streaks_lights_close(s->lights);
+    scenery_overlay_close(s->overlay);
+    scenery_lights_close(s->lights);
     if (s->scene)
-        streaks_scene_put(s->scene);
+        scenery_put(s->scene);
     if (s->textures)
         streaks_textures_put(device, s->textures);
     streaks_selection_release(&s->selection);
@@ -133,11 +133,11 @@ bool streaks_make_particles(struct streaks *s)
 static bool create_scene(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
-    struct streaks_scene_settings settings = {
+    struct scenery_settings settings = {
         .city = {.seed = set->city_seed, .size = (enum city_size)set->city}};
     if (strcmp(set->scene, "city") != 0)
         memcpy(settings.model, set->scene, sizeof(settings.model));
-    s->scene = streaks_scene_get(s->base.device, &settings);
+    s->scene = scenery_get(s->base.device, &settings);
     return s->scene;
 }
 
@@ -162,7 +162,7 @@ static bool draw_shadow(void *user, const float to_clip[16], const struct rg_dra
     struct streaks *s = user;
     m4 matrix;
     memcpy(&matrix, to_clip, sizeof(matrix));
-    return streaks_scene_depth(s->scene, &s->base, matrix, onto);
+    return scenery_depth(s->scene, &s->base, matrix, onto);
 }
 
 // Lamps ahead of the camera light what it sees: a place so far ahead on level ground.
@@ -179,21 +179,21 @@ static void look_ahead(const struct rg_camera *camera, float place_m[3])
 static bool create_lights(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
-    const struct city_faces *faces = &streaks_scene_city(s->scene)->faces;
-    struct streaks_lights_settings settings = {.file = set->lights_file,
+    const struct city_faces *faces = &scenery_city(s->scene)->faces;
+    struct scenery_lights_settings settings = {.file = set->lights_file,
                                                .count = set->lights,
-                                               .time = (enum streaks_time)set->time,
+                                               .time = (enum scenery_time)set->time,
                                                .shadows = set->shadows,
                                                .shadow_map_px = set->shadow_map_px};
     const struct city_lamp *lamps;
-    settings.lamp_count = streaks_scene_lamps(s->scene, &lamps);
+    settings.lamp_count = scenery_lamps(s->scene, &lamps);
     settings.lamps = lamps;
     look_ahead(&s->camera, settings.about_m);
     memcpy(settings.low_m, faces->low, sizeof(settings.low_m));
     memcpy(settings.high_m, faces->high, sizeof(settings.high_m));
-    streaks_rain_matrices(&s->space, settings.world_to_rain, NULL);
-    s->lights = streaks_lights_open(s->base.device, &settings);
-    return s->lights && streaks_lights_shade(s->lights, draw_shadow, s);
+    streaks_rain_matrices(&s->space, settings.world_to_frame, NULL);
+    s->lights = scenery_lights_open(s->base.device, &settings);
+    return s->lights && scenery_lights_shade(s->lights, draw_shadow, s);
 }
 
 // --- passes and images ---
@@ -219,7 +219,7 @@ static bool create_passes(struct streaks *s)
            (!s->settings.keeps_state ||
             (s->state = rg_pass_create(s->base.device, "streaks_state"))) &&
            (!s->settings.far_layers || (s->far = rg_pass_create(s->base.device, "streaks_far"))) &&
-           (!s->settings.overlay || (s->overlay = streaks_overlay_open(s->base.device)));
+           (!s->settings.overlay || (s->overlay = scenery_overlay_open(s->base.device)));
 }
 
 // --- what is told of it ---
@@ -253,7 +253,7 @@ static void tell_facts(struct streaks *s)
     snprintf(tell(s, STREAKS_FACT_ATLAS, "atlas_hash")->text, RG_FACT_SIZE, "%016" PRIx64,
              s->textures->hash);
     snprintf(tell(s, STREAKS_FACT_SCENE, "scene_hash")->text, RG_FACT_SIZE, "%016" PRIx64,
-             streaks_scene_city(s->scene)->hash);
+             scenery_city(s->scene)->hash);
     tell(s, STREAKS_FACT_PARTICLES, "particles");
     tell(s, STREAKS_FACT_RADIUS, "culling_radius_m")->number = set->culling_radius_m;
     tell(s, STREAKS_FACT_HEIGHT, "local_height_m")->number = set->local_height_m;

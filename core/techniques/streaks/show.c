@@ -5,6 +5,14 @@
 #include "core/techniques/scenery/overlay.h"
 #include "core/techniques/streaks/instance.h"
 
+// The inks of the thesis's figures 4.4, 4.11, 4.14 and 5.7.
+static const struct scenery_ink grey = {0.45f, 0.45f, 0.45f, 1, 1.5f};
+static const struct scenery_ink green = {0.05f, 0.75f, 0.10f, 1, 1.5f};
+static const struct scenery_ink red = {0.95f, 0.05f, 0.03f, 1, 2};
+static const struct scenery_ink blue = {0.05f, 0.15f, 1, 1, 2};
+static const struct scenery_ink purple = {0.55f, 0.08f, 0.80f, 1, 1.5f};
+static const struct scenery_ink white = {1, 1, 1, 0.9f, 1.5f};
+
 // A box of the rain frame.
 struct box {
     double low[3], high[3];
@@ -19,25 +27,25 @@ static void to_world(const struct streaks *s, double x, double y, double along, 
         world[i] = (float)point[i];
 }
 
-static void show_box(const struct streaks *s, const struct box *box, const struct streaks_ink *ink)
+static void show_box(const struct streaks *s, const struct box *box, const struct scenery_ink *ink)
 {
     float corners[8][3];
     for (int k = 0; k < 8; k++)
         to_world(s, (k & 1 ? box->high : box->low)[0], (k & 2 ? box->high : box->low)[1],
                  (k & 4 ? box->high : box->low)[2], corners[k]);
-    streaks_overlay_box(s->overlay, corners, ink);
+    scenery_overlay_box(s->overlay, corners, ink);
 }
 
 // A rectangle across the fall.
 static void show_sheet(const struct streaks *s, const double low[2], const double high[2],
-                       double along, const struct streaks_ink *ink, float fill)
+                       double along, const struct scenery_ink *ink, float fill)
 {
     float corners[4][3];
     to_world(s, low[0], low[1], along, corners[0]);
     to_world(s, high[0], low[1], along, corners[1]);
     to_world(s, high[0], high[1], along, corners[2]);
     to_world(s, low[0], high[1], along, corners[3]);
-    streaks_overlay_sheet(s->overlay, corners, ink, fill);
+    scenery_overlay_sheet(s->overlay, corners, ink, fill);
 }
 
 static struct box meet(const struct box *a, const struct box *b)
@@ -62,13 +70,13 @@ static void show_spaces(const struct streaks *s)
     const struct box local = {{space.low[0], space.low[1], top},
                               {space.high[0], space.high[1], ground}};
     const struct box volume = meet(&prism, &local);
-    show_box(s, &space, &streaks_ink_rain_space);
-    show_sheet(s, local.low, local.high, top, &streaks_ink_local_planes, 0.1f);
-    show_sheet(s, local.low, local.high, ground, &streaks_ink_local_planes, 0.1f);
+    show_box(s, &space, &grey);
+    show_sheet(s, local.low, local.high, top, &green, 0.1f);
+    show_sheet(s, local.low, local.high, ground, &green, 0.1f);
     if (!s->settings.limits)
         return;
-    show_box(s, &prism, &streaks_ink_radius);
-    show_box(s, &volume, &streaks_ink_volume);
+    show_box(s, &prism, &red);
+    show_box(s, &volume, &blue);
 }
 
 // All packets as outlines on the top plane, the selected ones filled.
@@ -84,7 +92,7 @@ static void show_packets(const struct streaks *s)
         if (!streaks_packets_count(s->packets, place))
             continue;
         streaks_packets_rectangle(s->packets, place, r);
-        show_sheet(s, (double[]){r[0], r[1]}, (double[]){r[2], r[3]}, 0, &streaks_ink_packets,
+        show_sheet(s, (double[]){r[0], r[1]}, (double[]){r[2], r[3]}, 0, &purple,
                    selected ? 0.5f : 0);
     }
 }
@@ -95,24 +103,24 @@ static bool show_map(struct streaks *s)
     const int size = (desc->width < desc->height ? desc->width : desc->height) / 4, gap = size / 16;
     if (size < 16)
         return true;
-    const streaks_inset_params inset = {.x0 = desc->width - size - gap,
+    const scenery_inset_params inset = {.x0 = desc->width - size - gap,
                                         .y0 = gap,
                                         .x1 = desc->width - gap,
                                         .y1 = gap + size,
                                         .u1 = 1,
                                         .v1 = 1,
                                         .far_depth = 1};
-    return streaks_overlay_inset(s->overlay, &s->base, &inset, s->map->depths, s->base.target);
+    return scenery_overlay_inset(s->overlay, &s->base, &inset, s->map->depths, s->base.target);
 }
 
 bool streaks_show(struct streaks *s)
 {
-    streaks_overlay_begin(s->overlay);
+    scenery_overlay_begin(s->overlay);
     show_spaces(s);
     show_packets(s);
     for (int i = 0; i < s->lights->count; i++)
-        streaks_overlay_light(s->overlay, &s->lights->world[i], &streaks_ink_light);
-    return streaks_overlay_draw(s->overlay, &s->base, s->observer.world_to_clip, s->base.target,
+        scenery_overlay_light(s->overlay, &s->lights->world[i], &white);
+    return scenery_overlay_draw(s->overlay, &s->base, s->observer.world_to_clip, s->base.target,
                                 s->depth) &&
            show_map(s);
 }

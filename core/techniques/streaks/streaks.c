@@ -168,7 +168,7 @@ static struct rg_run run_over(const struct streaks *s, const struct streaks_draw
                                      [2].buf = s->blocks,
                                      [3].image = s->map->depths,
                                      [10].image = s->map->numbers,
-                                     [11].buf = streaks_scene_surfaces(s->scene)},
+                                     [11].buf = scenery_surfaces(s->scene)},
                            .extent = {draw->block_count * STREAKS_BLOCK, 1, 1}};
 }
 
@@ -184,7 +184,7 @@ static bool draw_blocks(struct streaks *s, const struct streaks_draw *draw, cons
     run.slots[5].image = s->textures->skies;
     run.slots[6].image = s->textures->crowns;
     run.slots[7].buf = s->textures->factors;
-    run.slots[8].buf = s->lights->in_rain;
+    run.slots[8].buf = s->lights->in_frame;
     run.slots[9].image = s->lights->shadows;
     s->base.counters[STREAKS_ITEMS].value += run.extent.width;
     return rg_instance_run(&s->base, s->rain, &run);
@@ -261,14 +261,14 @@ static bool streaks_step(struct rg_instance *instance)
 static bool streaks_draw(struct rg_instance *instance)
 {
     struct streaks *s = (struct streaks *)instance;
-    const struct streaks_scene_look look =
-        s->settings.time == STREAKS_NIGHT ? streaks_scene_night() : streaks_scene_day();
-    struct streaks_scene_view view = {.colour = instance->target, .depth = s->depth};
+    const struct scenery_look look =
+        s->settings.time == SCENERY_NIGHT ? scenery_night() : scenery_day();
+    struct scenery_view view = {.colour = instance->target, .depth = s->depth};
     memcpy(&view.to_clip, s->observer.world_to_clip, sizeof(view.to_clip));
     memcpy(view.eye, s->observer.camera.position, sizeof(view.eye));
     instance->counters[STREAKS_PARTICLES].value += s->selection.particles;
     instance->counters[STREAKS_PACKETS].value += s->selection.packets;
-    return streaks_scene_draw(s->scene, instance, &view, &look, s->lights, s->settings.geometry) &&
+    return scenery_draw(s->scene, instance, &view, &look, s->lights, s->settings.geometry) &&
            (!s->far || streaks_draw_far(s)) && draw_rain(s) && (!s->overlay || streaks_show(s));
 }
 

@@ -1,7 +1,7 @@
-// streaks: a depth map in a corner of the picture, near white, in a white frame.
+// A depth map in a corner of the picture, near white, in a white frame.
 #include "kernels/scenery/overlay/inset_params.h"
 
-#define RG_PARAMS streaks_inset_params
+#define RG_PARAMS scenery_inset_params
 #define RG_SLOTS  IMAGE(1, D32F, map)
 #include "kernels/dialect/draw/view_quad.h"
 

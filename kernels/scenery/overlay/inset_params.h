@@ -4,7 +4,7 @@
 
 #include "kernels/dialect/lang.h"
 
-RG_STRUCT(streaks_inset_params)
+RG_STRUCT(scenery_inset_params)
 {
     int x0, y0, x1, y1;   // the pixels x0 <= x < x1, y0 <= y < y1
     float u0, v0, u1, v1; // the part of the map that they show, each within 0 to 1
@@ -12,6 +12,6 @@ RG_STRUCT(streaks_inset_params)
     float near_depth; // white
     float far_depth;  // black
 };
-RG_STRUCT_SIZE(streaks_inset_params, 11)
+RG_STRUCT_SIZE(scenery_inset_params, 11)
 
 #endif

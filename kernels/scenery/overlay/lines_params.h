@@ -6,16 +6,16 @@
 
 // A line's words: both ends, a premultiplied colour, and its width in pixels. A sheet's: four
 // corners, in turn, and a premultiplied colour.
-#define STREAKS_LINE_WORDS  11
-#define STREAKS_SHEET_WORDS 16
+#define SCENERY_LINE_WORDS  11
+#define SCENERY_SHEET_WORDS 16
 
 // Wider lines than this may end before the picture does.
-#define STREAKS_WIDEST_PX 64.0f
+#define SCENERY_WIDEST_PX 64.0f
 
-RG_STRUCT(streaks_lines_params)
+RG_STRUCT(scenery_lines_params)
 {
     m4 to_clip; // from the world
 };
-RG_STRUCT_SIZE(streaks_lines_params, 16)
+RG_STRUCT_SIZE(scenery_lines_params, 16)
 
 #endif

@@ -20,7 +20,7 @@ static struct city *create(int seed, enum city_size size)
 
 static const float *corner(const struct city_faces *f, int face, int k)
 {
-    return f->corners + (size_t)face * STREAKS_FACE_WORDS + 3 * (size_t)k;
+    return f->corners + (size_t)face * SCENERY_FACE_WORDS + 3 * (size_t)k;
 }
 
 static bool is_quad(const struct city_faces *f, int face)
@@ -30,13 +30,13 @@ static bool is_quad(const struct city_faces *f, int face)
 
 static const uint32_t *surface(const struct city_faces *f, int face)
 {
-    return f->surfaces + (size_t)f->surface_of[face] * STREAKS_SURFACE_WORDS;
+    return f->surfaces + (size_t)f->surface_of[face] * SCENERY_SURFACE_WORDS;
 }
 
 // A component of a surface's normal, -1 to 1.
 static double normal(const struct city_faces *f, int face, int c)
 {
-    return ((double)(surface(f, face)[STREAKS_NORMAL] >> 10 * c & 1023) - 512) / 511;
+    return ((double)(surface(f, face)[SCENERY_NORMAL] >> 10 * c & 1023) - 512) / 511;
 }
 
 static int count_triangles(const struct city_faces *f)
@@ -107,7 +107,7 @@ static void check_face(const struct city_faces *f, int i)
     area = sqrt(area);
     // Leaves are lit as the round crown that they stand for.
     const double least =
-        streaks_kind(surface(f, i)[STREAKS_LOOK]) == STREAKS_KIND_LEAVES ? 0.4 : 0.98;
+        scenery_kind(surface(f, i)[SCENERY_LOOK]) == SCENERY_KIND_LEAVES ? 0.4 : 0.98;
     if (!(area > 0) || !(along > least * area) || !(fabs(off) <= 2e-3 * area))
         fail_msg("face %d: area %g, along its normal %g, out of its plane %g m", i, area / 2,
                  along / area, off / area);
@@ -120,8 +120,8 @@ static void faces_are_flat_and_look_outwards(void **state)
         struct city *city = create(1, (enum city_size)size);
         for (int i = 0; i < city->faces.face_count; i++) {
             assert_true(city->faces.surface_of[i] < (uint32_t)city->faces.surface_count);
-            assert_true((surface(&city->faces, i)[STREAKS_LOOK] & 255) < 149);
-            assert_true(streaks_kind(surface(&city->faces, i)[STREAKS_LOOK]) < STREAKS_KINDS);
+            assert_true((surface(&city->faces, i)[SCENERY_LOOK] & 255) < 149);
+            assert_true(scenery_kind(surface(&city->faces, i)[SCENERY_LOOK]) < SCENERY_KINDS);
             check_face(&city->faces, i);
         }
         city_destroy(city);

@@ -54,9 +54,9 @@ static void a_file_says_all_of_its_lights(void **state)
         &lights));
     const struct rg_light *l = lights.lights;
     assert_int_equal(lights.count, 3);
-    assert_int_equal(l[0].kind, STREAKS_SUN);
-    assert_int_equal(l[1].kind, STREAKS_SPOT);
-    assert_int_equal(l[2].kind, STREAKS_POINT);
+    assert_int_equal(l[0].kind, SCENERY_SUN);
+    assert_int_equal(l[1].kind, SCENERY_SPOT);
+    assert_int_equal(l[2].kind, SCENERY_POINT);
     assert_float_equal(l[0].direction[1], -0.6f, 1e-7f);
     assert_float_equal(l[0].direction[2], 0.8f, 1e-7f);
     assert_true(l[0].colour[0] == 1 && l[0].colour[1] == 0.5f && l[0].colour[2] == 0.25f);
@@ -184,16 +184,16 @@ static const struct city_lamp lamps[] = {
 enum { LAMPS = sizeof(lamps) / sizeof(lamps[0]) };
 
 // Each light's lamp; -1: the sun or moon.
-static void check_lights(enum streaks_time time, const int *due, int count)
+static void check_lights(enum scenery_time time, const int *due, int count)
 {
-    const struct streaks_lights_settings settings = {
+    const struct scenery_lights_settings settings = {
         .count = count, .time = time, .lamps = lamps, .lamp_count = LAMPS, .about_m = {0, 1, 0}};
     struct rg_lights lights;
-    assert_true(streaks_lights_choose(&settings, &lights));
+    assert_true(scenery_lights_choose(&settings, &lights));
     assert_int_equal(lights.count, count);
     for (int i = 0; i < count; i++) {
         const struct rg_light *light = &lights.lights[i];
-        assert_int_equal(light->kind, due[i] < 0 ? STREAKS_SUN : STREAKS_SPOT);
+        assert_int_equal(light->kind, due[i] < 0 ? SCENERY_SUN : SCENERY_SPOT);
         assert_true(light->outer_deg > light->inner_deg && light->shadows);
         const float *d = light->direction;
         assert_float_equal(d[0] * d[0] + d[1] * d[1] + d[2] * d[2], 1, 1e-6f);
@@ -213,21 +213,21 @@ static void lights_come_in_the_order_of_the_figure(void **state)
     static const int by_day[LAMPS + 1] = {-1, 2, 3, 5, 6, 0, 1, 7, 4};
     static const int by_night[LAMPS + 1] = {2, 3, 5, 6, 0, -1, 1, 7, 4};
     for (int count = 1; count <= LAMPS + 1; count++) {
-        check_lights(STREAKS_DAY, by_day, count);
-        check_lights(STREAKS_NIGHT, by_night, count);
+        check_lights(SCENERY_DAY, by_day, count);
+        check_lights(SCENERY_NIGHT, by_night, count);
     }
 }
 
 static void more_lights_than_lamps_are_refused(void **state)
 {
     (void)state;
-    struct streaks_lights_settings settings = {
+    struct scenery_lights_settings settings = {
         .count = LAMPS + 2, .lamps = lamps, .lamp_count = LAMPS};
     struct rg_lights lights;
-    for (int time = STREAKS_DAY; time <= STREAKS_NIGHT; time++) {
-        settings.time = (enum streaks_time)time;
+    for (int time = SCENERY_DAY; time <= SCENERY_NIGHT; time++) {
+        settings.time = (enum scenery_time)time;
         errors = 0;
-        assert_false(streaks_lights_choose(&settings, &lights));
+        assert_false(scenery_lights_choose(&settings, &lights));
         assert_int_equal(errors, 1);
         assert_non_null(strstr(rg_last_error(), "ask for 9"));
     }

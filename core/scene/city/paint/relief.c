@@ -71,7 +71,7 @@ static void build_pier(struct city_builder *b, const struct city_facade *f, int 
 
 static void build_window(struct city_builder *b, const struct city_facade *f, int bay, int floor)
 {
-    const struct look frame = {PAINT_METAL, STREAKS_KIND_METAL, 1, 0, 0};
+    const struct look frame = {PAINT_METAL, SCENERY_KIND_METAL, 1, 0, 0};
     const struct facade_style *s = &f->style;
     const double u0 = (bay + s->left) * f->bay_m, u1 = (bay + s->right) * f->bay_m;
     const double y0 = f->y0 + (floor + s->bottom) * f->floor_m;
@@ -90,7 +90,7 @@ static void build_window(struct city_builder *b, const struct city_facade *f, in
 // A frame around a window, behind its bars.
 static void build_frame(struct city_builder *b, const struct city_facade *f, int bay, int floor)
 {
-    const struct look frame = {PAINT_METAL, STREAKS_KIND_METAL, 1, 0, 0};
+    const struct look frame = {PAINT_METAL, SCENERY_KIND_METAL, 1, 0, 0};
     const struct facade_style *s = &f->style;
     const double u0 = (bay + s->left) * f->bay_m, u1 = (bay + s->right) * f->bay_m;
     const double y0 = f->y0 + (floor + s->bottom) * f->floor_m;
@@ -110,7 +110,7 @@ static void build_frame(struct city_builder *b, const struct city_facade *f, int
 static void build_rung(struct city_builder *b, const struct city_facade *f, int bay, int floor,
                        int k)
 {
-    const struct look frame = {PAINT_METAL, STREAKS_KIND_METAL, 1, 0, 0};
+    const struct look frame = {PAINT_METAL, SCENERY_KIND_METAL, 1, 0, 0};
     const struct facade_style *s = &f->style;
     const double u0 = (bay + s->left) * f->bay_m, u1 = (bay + s->right) * f->bay_m;
     const double y = f->y0 + (floor + s->bottom) * f->floor_m + 0.15 * (k + 1);

@@ -7,18 +7,18 @@
 
 #define MOST_MAP_BYTES ((int64_t)1 << 30)
 
-static bool check(const struct streaks_lights_settings *s)
+static bool check(const struct scenery_lights_settings *s)
 {
-    require(s->count >= 0 && s->count <= STREAKS_MAX_LIGHTS,
-            "lights: %d asked for; choose from 0 to %d", s->count, STREAKS_MAX_LIGHTS);
+    require(s->count >= 0 && s->count <= SCENERY_MAX_LIGHTS,
+            "lights: %d asked for; choose from 0 to %d", s->count, SCENERY_MAX_LIGHTS);
     require(!s->shadows || (s->shadow_map_px >= 16 && s->shadow_map_px <= 16384),
             "shadow_map_px: %d; choose from 16 to 16384", s->shadow_map_px);
     return true;
 }
 
 // Gives each light that casts shadows its layers.
-static void put_lights(const struct streaks_lights_settings *s, const struct rg_lights *chosen,
-                       struct streaks_lights *lights)
+static void put_lights(const struct scenery_lights_settings *s, const struct rg_lights *chosen,
+                       struct scenery_lights *lights)
 {
     const int map_px = s->shadows ? s->shadow_map_px : 1;
     lights->count = chosen->count;
@@ -26,27 +26,27 @@ static void put_lights(const struct streaks_lights_settings *s, const struct rg_
         lights->sky[c] = chosen->sky[c];
     for (int i = 0; i < chosen->count; i++) {
         const bool casts = s->shadows && chosen->lights[i].shadows;
-        lights->world[i] = streaks_light_of(&chosen->lights[i], s->low_m, s->high_m, map_px,
+        lights->world[i] = scenery_light_of(&chosen->lights[i], s->low_m, s->high_m, map_px,
                                             casts ? lights->map_count : -1);
         lights->map_count += casts ? lights->world[i].shadow_faces : 0;
     }
 }
 
 // Without lights the buffers hold one that nobody reads.
-static bool create_buffers(struct rg_device *device, const float world_to_rain[16],
-                           struct streaks_lights *lights)
+static bool create_buffers(struct rg_device *device, const float world_to_frame[16],
+                           struct scenery_lights *lights)
 {
-    streaks_light rain[STREAKS_MAX_LIGHTS] = {{0}};
+    scenery_light moved[SCENERY_MAX_LIGHTS] = {{0}};
     for (int i = 0; i < lights->count; i++)
-        rain[i] = streaks_light_moved(&lights->world[i], world_to_rain);
-    const int64_t bytes = (lights->count ? lights->count : 1) * (int64_t)sizeof(streaks_light);
+        moved[i] = scenery_light_moved(&lights->world[i], world_to_frame);
+    const int64_t bytes = (lights->count ? lights->count : 1) * (int64_t)sizeof(scenery_light);
     return (lights->in_world = rg_buf_create(device, bytes, "lights")) &&
-           (lights->in_rain = rg_buf_create(device, bytes, "lights of the rain")) &&
+           (lights->in_frame = rg_buf_create(device, bytes, "lights of the frame")) &&
            rg_buf_write(lights->in_world, 0, lights->world, bytes) &&
-           rg_buf_write(lights->in_rain, 0, rain, bytes);
+           rg_buf_write(lights->in_frame, 0, moved, bytes);
 }
 
-static bool create_maps(struct rg_device *device, int map_px, struct streaks_lights *lights)
+static bool create_maps(struct rg_device *device, int map_px, struct scenery_lights *lights)
 {
     static const float farthest = 1;
     const int64_t bytes = (int64_t)map_px * map_px * 4 * lights->map_count;
@@ -61,35 +61,35 @@ static bool create_maps(struct rg_device *device, int map_px, struct streaks_lig
     return lights->shadows && rg_image_clear(lights->shadows, &farthest);
 }
 
-struct streaks_lights *streaks_lights_open(struct rg_device *device,
-                                           const struct streaks_lights_settings *settings)
+struct scenery_lights *scenery_lights_open(struct rg_device *device,
+                                           const struct scenery_lights_settings *settings)
 {
     struct rg_lights chosen;
-    if (!check(settings) || !streaks_lights_choose(settings, &chosen))
+    if (!check(settings) || !scenery_lights_choose(settings, &chosen))
         return NULL;
-    struct streaks_lights *lights = rg_alloc(1, sizeof(*lights), "lights");
+    struct scenery_lights *lights = rg_alloc(1, sizeof(*lights), "lights");
     if (!lights)
         return NULL;
     put_lights(settings, &chosen, lights);
-    if (!create_buffers(device, settings->world_to_rain, lights) ||
+    if (!create_buffers(device, settings->world_to_frame, lights) ||
         !create_maps(device, settings->shadow_map_px, lights)) {
-        streaks_lights_close(lights);
+        scenery_lights_close(lights);
         return NULL;
     }
     return lights;
 }
 
-void streaks_lights_close(struct streaks_lights *lights)
+void scenery_lights_close(struct scenery_lights *lights)
 {
     if (!lights)
         return;
     rg_buf_destroy(lights->in_world);
-    rg_buf_destroy(lights->in_rain);
+    rg_buf_destroy(lights->in_frame);
     rg_image_destroy(lights->shadows);
     free(lights);
 }
 
-bool streaks_lights_shade(struct streaks_lights *lights, streaks_depth_fn draw, void *user)
+bool scenery_lights_shade(struct scenery_lights *lights, scenery_depth_fn draw, void *user)
 {
     static const float farthest = 1;
     if (!lights->map_count)
@@ -97,13 +97,13 @@ bool streaks_lights_shade(struct streaks_lights *lights, streaks_depth_fn draw, 
     if (!rg_image_clear(lights->shadows, &farthest))
         return false;
     for (int i = 0; i < lights->count; i++) {
-        const streaks_light *light = &lights->world[i];
+        const scenery_light *light = &lights->world[i];
         for (int face = 0; light->shadow_layer >= 0 && face < light->shadow_faces; face++) {
             const struct rg_draw onto = {.depth = lights->shadows,
                                          .layer = light->shadow_layer + face,
                                          .depth_mode = RG_DEPTH_WRITE};
             float to_clip[16];
-            streaks_light_to_clip(light, face, to_clip);
+            scenery_light_to_clip(light, face, to_clip);
             if (!draw(user, to_clip, &onto))
                 return false;
         }

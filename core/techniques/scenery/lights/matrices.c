@@ -130,10 +130,10 @@ static float put_point(const struct rg_light *light, const float low[3], const f
     return 2.0f / (float)map_px;
 }
 
-streaks_light streaks_light_of(const struct rg_light *light, const float low_m[3],
+scenery_light scenery_light_of(const struct rg_light *light, const float low_m[3],
                                const float high_m[3], int map_px, int layer)
 {
-    streaks_light l = {.kind = light->kind,
+    scenery_light l = {.kind = light->kind,
                        .x = light->position_m[0],
                        .y = light->position_m[1],
                        .z = light->position_m[2],
@@ -146,17 +146,17 @@ streaks_light streaks_light_of(const struct rg_light *light, const float low_m[3
                        .cos_inner = (float)cos((double)light->inner_deg * degree),
                        .cos_outer = (float)cos((double)light->outer_deg * degree),
                        .shadow_layer = layer,
-                       .shadow_faces = light->kind == STREAKS_POINT && layer >= 0 ? 6 : 1,
+                       .shadow_faces = light->kind == SCENERY_POINT && layer >= 0 ? 6 : 1,
                        .shadow_bias_m = 0.05f};
     const double from[3] = {(double)l.x, (double)l.y, (double)l.z};
     float rows[4][4];
-    if (light->kind == STREAKS_SUN)
+    if (light->kind == SCENERY_SUN)
         l.shadow_texel = put_sun(light, low_m, high_m, map_px, rows);
-    else if (light->kind == STREAKS_SPOT)
+    else if (light->kind == SCENERY_SPOT)
         l.shadow_texel = put_spot(light, low_m, high_m, map_px, from, rows);
     else
         l.shadow_texel = put_point(light, low_m, high_m, map_px, from, rows);
-    if (light->kind == STREAKS_SUN) // its texels are wide
+    if (light->kind == SCENERY_SUN) // its texels are wide
         l.shadow_bias_m = fmaxf(l.shadow_bias_m, l.shadow_texel);
     memcpy(&l.to_shadow, rows, sizeof(rows));
     return l;
@@ -200,9 +200,9 @@ static void invert(const double m[4][4], double inverse[4][4])
     inverse[3][3] = 1;
 }
 
-streaks_light streaks_light_moved(const streaks_light *light, const float matrix[16])
+scenery_light scenery_light_moved(const scenery_light *light, const float matrix[16])
 {
-    streaks_light l = *light;
+    scenery_light l = *light;
     double m[4][4], back[4][4], shadow[4][4], moved[4][4], place[3], way[3];
     float to_shadow[16];
     widen(matrix, m);
@@ -244,7 +244,7 @@ static void copy_row(float to[4], float rows[4][4], int row)
         to[c] = sign * rows[(row < 0 ? -row : row) - 1][c];
 }
 
-void streaks_light_to_clip(const streaks_light *light, int face, float matrix[16])
+void scenery_light_to_clip(const scenery_light *light, int face, float matrix[16])
 {
     float rows[4][4], clip[4][4];
     memcpy(rows, &light->to_shadow, sizeof(rows));

@@ -8,9 +8,9 @@
 
 // Colours are of a white matt surface that faces the light, of lamps at 1 m.
 static const float sky_colours[][3] = {
-    [STREAKS_DAY] = {0.30f, 0.34f, 0.40f}, [STREAKS_NIGHT] = {0.010f, 0.013f, 0.022f}};
+    [SCENERY_DAY] = {0.30f, 0.34f, 0.40f}, [SCENERY_NIGHT] = {0.010f, 0.013f, 0.022f}};
 static const float sun_colours[][3] = {
-    [STREAKS_DAY] = {0.90f, 0.84f, 0.74f}, [STREAKS_NIGHT] = {0.020f, 0.026f, 0.042f}};
+    [SCENERY_DAY] = {0.90f, 0.84f, 0.74f}, [SCENERY_NIGHT] = {0.020f, 0.026f, 0.042f}};
 
 // A lamp's light, and its cone.
 static const struct lamp_light {
@@ -35,11 +35,11 @@ static double squared_distance(const float a[3], const float b[3])
 }
 
 // It stands ahead of the thesis's two cameras, where drops are brightest against it.
-static void add_sun(const struct streaks_lights_settings *s, struct rg_lights *lights)
+static void add_sun(const struct scenery_lights_settings *s, struct rg_lights *lights)
 {
     struct rg_light *sun = &lights->lights[lights->count++];
     *sun =
-        (struct rg_light){.kind = STREAKS_SUN, .inner_deg = 30, .outer_deg = 45, .shadows = true};
+        (struct rg_light){.kind = SCENERY_SUN, .inner_deg = 30, .outer_deg = 45, .shadows = true};
     const double d[3] = {-0.05, -0.5, 0.85}, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     for (int c = 0; c < 3; c++)
         sun->direction[c] = (float)(d[c] / length);
@@ -49,7 +49,7 @@ static void add_sun(const struct streaks_lights_settings *s, struct rg_lights *l
 // The lights so far, and which lamp each of them is.
 struct choice {
     struct rg_lights *lights;
-    const struct city_lamp *lamps[STREAKS_MAX_LIGHTS];
+    const struct city_lamp *lamps[SCENERY_MAX_LIGHTS];
 };
 
 static bool is_taken(const struct choice *choice, const struct city_lamp *lamp)
@@ -62,7 +62,7 @@ static bool is_taken(const struct choice *choice, const struct city_lamp *lamp)
 
 // The nearest lamp of these kinds (bits) that is not yet among the lights; of equally near ones the
 // first. NULL where there is none.
-static const struct city_lamp *nearest_lamp(const struct streaks_lights_settings *s, unsigned kinds,
+static const struct city_lamp *nearest_lamp(const struct scenery_lights_settings *s, unsigned kinds,
                                             const struct choice *choice)
 {
     const struct city_lamp *nearest = NULL;
@@ -81,7 +81,7 @@ static void add_lamp(const struct city_lamp *lamp, struct choice *choice)
     const struct lamp_light *light = &lamp_lights[lamp->kind];
     struct rg_light *spot = &choice->lights->lights[choice->lights->count];
     choice->lamps[choice->lights->count++] = lamp;
-    *spot = (struct rg_light){.kind = STREAKS_SPOT,
+    *spot = (struct rg_light){.kind = SCENERY_SPOT,
                               .inner_deg = light->inner_deg,
                               .outer_deg = light->outer_deg,
                               .near_m = 0.3f,
@@ -91,7 +91,7 @@ static void add_lamp(const struct city_lamp *lamp, struct choice *choice)
     memcpy(spot->colour, light->colour, sizeof(spot->colour));
 }
 
-static void add_lamps(const struct streaks_lights_settings *s, unsigned kinds, int most,
+static void add_lamps(const struct scenery_lights_settings *s, unsigned kinds, int most,
                       struct choice *choice)
 {
     const struct city_lamp *lamp;
@@ -101,19 +101,19 @@ static void add_lamps(const struct streaks_lights_settings *s, unsigned kinds, i
         add_lamp(lamp, choice);
 }
 
-static bool choose_preset(const struct streaks_lights_settings *s, struct rg_lights *lights)
+static bool choose_preset(const struct scenery_lights_settings *s, struct rg_lights *lights)
 {
     struct choice choice = {.lights = lights};
     *lights = (struct rg_lights){0};
     memcpy(lights->sky, sky_colours[s->time], sizeof(lights->sky));
-    if (s->time == STREAKS_DAY && s->count > 0)
+    if (s->time == SCENERY_DAY && s->count > 0)
         add_sun(s, lights);
     add_lamps(s, 1u << CITY_STREET_LAMP, STREET_LAMPS_FIRST, &choice);
     add_lamps(s, 1u << CITY_TRAFFIC_RED, 1, &choice);
     add_lamps(s, 1u << CITY_TRAFFIC_GREEN, 1, &choice);
-    if (s->time == STREAKS_NIGHT && lights->count < s->count)
+    if (s->time == SCENERY_NIGHT && lights->count < s->count)
         add_sun(s, lights); // the moon
-    add_lamps(s, ANY_KIND, STREAKS_MAX_LIGHTS, &choice);
+    add_lamps(s, ANY_KIND, SCENERY_MAX_LIGHTS, &choice);
     if (lights->count < s->count)
         return rg_error(
             "lights: %d asked for, but the scene has %d lamps and one light of the sky; "
@@ -122,7 +122,7 @@ static bool choose_preset(const struct streaks_lights_settings *s, struct rg_lig
     return true;
 }
 
-bool streaks_lights_choose(const struct streaks_lights_settings *s, struct rg_lights *lights)
+bool scenery_lights_choose(const struct scenery_lights_settings *s, struct rg_lights *lights)
 {
     if (!s->file || !*s->file)
         return choose_preset(s, lights);

@@ -18,8 +18,8 @@ enum { WIDTH = 160, HEIGHT = 90, MAP_PX = 128 };
 // A scene on a device, with lights and a target.
 struct stage {
     struct rg_instance instance;
-    struct streaks_scene *scene;
-    struct streaks_lights *lights;
+    struct scenery *scene;
+    struct scenery_lights *lights;
     struct rg_image *colour, *depth;
 };
 
@@ -28,18 +28,18 @@ static bool cast(void *user, const float to_clip[16], const struct rg_draw *onto
     struct stage *stage = user;
     m4 m;
     memcpy(&m, to_clip, sizeof(m));
-    return streaks_scene_depth(stage->scene, &stage->instance, m, onto);
+    return scenery_depth(stage->scene, &stage->instance, m, onto);
 }
 
-static void open_stage(struct rg_device *device, const char *model, enum streaks_time time,
+static void open_stage(struct rg_device *device, const char *model, enum scenery_time time,
                        int lights, struct stage *stage)
 {
-    struct streaks_scene_settings settings = {.city = {1, CITY_SMALL}};
+    struct scenery_settings settings = {.city = {1, CITY_SMALL}};
     if (model)
         strcpy(settings.model, model);
     *stage = (struct stage){.instance = {.device = device}};
-    assert_non_null(stage->scene = streaks_scene_get(device, &settings));
-    struct streaks_lights_settings light = {
+    assert_non_null(stage->scene = scenery_get(device, &settings));
+    struct scenery_lights_settings light = {
         .count = lights,
         .time = time,
         .shadows = true,
@@ -47,11 +47,11 @@ static void open_stage(struct rg_device *device, const char *model, enum streaks
         .about_m = {0, 2, 60},
         .low_m = {-200, 0, -200},
         .high_m = {200, 230, 200},
-        .world_to_rain = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+        .world_to_frame = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
     };
-    light.lamp_count = streaks_scene_lamps(stage->scene, &light.lamps);
-    assert_non_null(stage->lights = streaks_lights_open(device, &light));
-    assert_true(streaks_lights_shade(stage->lights, cast, stage));
+    light.lamp_count = scenery_lamps(stage->scene, &light.lamps);
+    assert_non_null(stage->lights = scenery_lights_open(device, &light));
+    assert_true(scenery_lights_shade(stage->lights, cast, stage));
     stage->colour =
         rg_image_create(device, &(struct rg_image_desc){RG_RGBA16F, WIDTH, HEIGHT, 1, 1}, "colour");
     stage->depth =
@@ -61,8 +61,8 @@ static void open_stage(struct rg_device *device, const char *model, enum streaks
 
 static void close_stage(struct stage *stage)
 {
-    streaks_lights_close(stage->lights);
-    streaks_scene_put(stage->scene);
+    scenery_lights_close(stage->lights);
+    scenery_put(stage->scene);
     rg_image_destroy(stage->colour);
     rg_image_destroy(stage->depth);
 }
@@ -72,16 +72,15 @@ struct picture {
 };
 
 static void draw(struct stage *stage, const struct rg_camera *camera,
-                 const struct streaks_scene_look *look, bool everything, struct picture *picture)
+                 const struct scenery_look *look, bool everything, struct picture *picture)
 {
-    struct streaks_scene_view view = {
+    struct scenery_view view = {
         .colour = stage->colour, .depth = stage->depth, .everything = everything};
     float to_clip[16];
     assert_true(rg_camera_matrix(camera, (float)WIDTH / HEIGHT, to_clip));
     memcpy(&view.to_clip, to_clip, sizeof(to_clip));
     memcpy(view.eye, camera->position, sizeof(view.eye));
-    assert_true(
-        streaks_scene_draw(stage->scene, &stage->instance, &view, look, stage->lights, true));
+    assert_true(scenery_draw(stage->scene, &stage->instance, &view, look, stage->lights, true));
     assert_true(rg_image_read(stage->colour, 0, 0, picture->colour));
     assert_true(rg_image_read(stage->depth, 0, 0, picture->depth));
 }
@@ -103,14 +102,13 @@ enum { VIEWS = sizeof(views) / sizeof(views[0]) };
 
 // --- drawing ---
 
-static void compare_stages(struct rg_device *device, const char *model, enum streaks_time time,
+static void compare_stages(struct rg_device *device, const char *model, enum scenery_time time,
                            int lights, int view_count)
 {
     struct rg_device *reference = rg_device_open("cpu:reference", NULL);
     struct stage stages[2];
     struct picture *pictures = malloc(2 * sizeof(*pictures));
-    const struct streaks_scene_look look =
-        time == STREAKS_DAY ? streaks_scene_day() : streaks_scene_night();
+    const struct scenery_look look = time == SCENERY_DAY ? scenery_day() : scenery_night();
     open_stage(reference, model, time, lights, &stages[0]);
     open_stage(device, model, time, lights, &stages[1]);
     for (int i = 0; i < view_count; i++) {
@@ -128,17 +126,17 @@ static void compare_stages(struct rg_device *device, const char *model, enum str
 
 static void by_day_as_the_reference(void **state)
 {
-    compare_stages(*state, NULL, STREAKS_DAY, 1, VIEWS);
+    compare_stages(*state, NULL, SCENERY_DAY, 1, VIEWS);
 }
 
 static void by_night_as_the_reference(void **state)
 {
-    compare_stages(*state, NULL, STREAKS_NIGHT, 5, 3);
+    compare_stages(*state, NULL, SCENERY_NIGHT, 5, 3);
 }
 
 static void a_mesh_as_the_reference(void **state)
 {
-    compare_stages(*state, "torus", STREAKS_DAY, 1, 3);
+    compare_stages(*state, "torus", SCENERY_DAY, 1, 3);
 }
 
 // Without geometry all is horizon, to the last bit that a half has, and nothing hides what is drawn
@@ -147,13 +145,12 @@ static void without_geometry_all_is_horizon(void **state)
 {
     struct stage stage;
     struct picture *picture = malloc(sizeof(*picture));
-    const struct streaks_scene_look look = streaks_scene_night();
+    const struct scenery_look look = scenery_night();
     const float due[4] = {look.sky.horizon_r, look.sky.horizon_g, look.sky.horizon_b, 1};
-    struct streaks_scene_view view;
-    open_stage(*state, NULL, STREAKS_NIGHT, 0, &stage);
-    view = (struct streaks_scene_view){.colour = stage.colour, .depth = stage.depth};
-    assert_true(
-        streaks_scene_draw(stage.scene, &stage.instance, &view, &look, stage.lights, false));
+    struct scenery_view view;
+    open_stage(*state, NULL, SCENERY_NIGHT, 0, &stage);
+    view = (struct scenery_view){.colour = stage.colour, .depth = stage.depth};
+    assert_true(scenery_draw(stage.scene, &stage.instance, &view, &look, stage.lights, false));
     assert_true(rg_image_read(stage.colour, 0, 0, picture->colour));
     assert_true(rg_image_read(stage.depth, 0, 0, picture->depth));
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
@@ -175,9 +172,9 @@ static void culling_changes_no_pixel(void **state)
 {
     struct stage stage;
     struct picture *pictures = malloc(2 * sizeof(*pictures));
-    const struct streaks_scene_look look = streaks_scene_day();
+    const struct scenery_look look = scenery_day();
     int drawn = 0, chunks = 0;
-    open_stage(*state, NULL, STREAKS_DAY, 1, &stage);
+    open_stage(*state, NULL, SCENERY_DAY, 1, &stage);
     for (int i = 0; i < 40; i++) {
         // between the views, and turning
         const int a = i % VIEWS, b = (i + 1 + i / VIEWS) % VIEWS;
@@ -190,8 +187,8 @@ static void culling_changes_no_pixel(void **state)
         const struct rg_camera camera = camera_at(position, target);
         draw(&stage, &camera, &look, true, &pictures[0]);
         draw(&stage, &camera, &look, false, &pictures[1]);
-        drawn += streaks_scene_last(stage.scene).chunks_drawn;
-        chunks += streaks_scene_last(stage.scene).chunks;
+        drawn += scenery_last(stage.scene).chunks_drawn;
+        chunks += scenery_last(stage.scene).chunks;
         assert_memory_equal(&pictures[0], &pictures[1], sizeof(pictures[0]));
     }
     assert_true(drawn * 2 < chunks); // most is left out
@@ -206,7 +203,7 @@ static double height_at(const struct city_faces *f, double x, double z)
 {
     double highest = 0;
     for (int i = 0; i < f->face_count; i++) {
-        const float *c = f->corners + (size_t)i * STREAKS_FACE_WORDS;
+        const float *c = f->corners + (size_t)i * SCENERY_FACE_WORDS;
         for (int k = 0; k < 2; k++) {
             const float *p[3] = {c, c + 3 + 3 * k, c + 6 + 3 * k};
             double side[3], all = 0, y = 0;
@@ -229,7 +226,7 @@ static double height_at(const struct city_faces *f, double x, double z)
 static void depth_from_above_is_the_height(void **state)
 {
     struct stage stage;
-    open_stage(*state, NULL, STREAKS_DAY, 1, &stage);
+    open_stage(*state, NULL, SCENERY_DAY, 1, &stage);
     const struct rg_image_desc desc = {RG_D32F, MAP_PX, MAP_PX, 1, 1};
     struct rg_image *map = rg_image_create(*state, &desc, "map");
     const float farthest = 1, top = 240;
@@ -237,10 +234,9 @@ static void depth_from_above_is_the_height(void **state)
     const m4 down = {1 / 200.0f, 0, 0, 0, 0, 0, 1 / 200.0f, 0, 0, -1 / top, 0, 1, 0, 0, 0, 1};
     float depth[MAP_PX * MAP_PX];
     assert_true(rg_image_clear(map, &farthest));
-    assert_true(
-        streaks_scene_depth(stage.scene, &stage.instance, down, &(struct rg_draw){.depth = map}));
+    assert_true(scenery_depth(stage.scene, &stage.instance, down, &(struct rg_draw){.depth = map}));
     assert_true(rg_image_read(map, 0, 0, depth));
-    const struct city_faces *faces = &streaks_scene_city(stage.scene)->faces;
+    const struct city_faces *faces = &scenery_city(stage.scene)->faces;
     int above = 0, wrong = 0;
     for (int i = 0; i < MAP_PX * MAP_PX; i += 37) {
         const double x = ((i % MAP_PX + 0.5) / MAP_PX - 0.5) * 400;
@@ -291,7 +287,7 @@ static double reach(const struct city_faces *f, const float from[3], const doubl
 {
     double nearest = 0;
     for (int i = 0; i < f->face_count; i++) {
-        const float *c = f->corners + (size_t)i * STREAKS_FACE_WORDS;
+        const float *c = f->corners + (size_t)i * SCENERY_FACE_WORDS;
         for (int k = 0; k < 2; k++) {
             double u[3], v[3], s[3], p[3], q[3];
             for (int j = 0; j < 3; j++) {
@@ -334,9 +330,9 @@ static void depth_is_where_rays_end(void **state)
 {
     struct stage stage;
     struct picture *picture = malloc(sizeof(*picture));
-    const struct streaks_scene_look look = streaks_scene_day();
-    open_stage(*state, NULL, STREAKS_DAY, 1, &stage);
-    const struct city_faces *faces = &streaks_scene_city(stage.scene)->faces;
+    const struct scenery_look look = scenery_day();
+    open_stage(*state, NULL, SCENERY_DAY, 1, &stage);
+    const struct city_faces *faces = &scenery_city(stage.scene)->faces;
     int wrong = 0, met = 0;
     for (int i = 0; i < VIEWS; i++) {
         const struct rg_camera camera = camera_at(views[i][0], views[i][1]);
@@ -367,8 +363,8 @@ static void depth_is_where_rays_end(void **state)
 
 static void an_absent_mesh_is_refused(void **state)
 {
-    struct streaks_scene_settings settings = {.model = "no/such/mesh.obj"};
-    assert_null(streaks_scene_get(*state, &settings));
+    struct scenery_settings settings = {.model = "no/such/mesh.obj"};
+    assert_null(scenery_get(*state, &settings));
     assert_non_null(strstr(rg_last_error(), "no/such/mesh.obj"));
 }
 

@@ -10,30 +10,30 @@ static const struct city_lamp lamps[] = {
     {CITY_TRAFFIC_RED, {3, 2, 3}, {0.6f, 0, 0.8f}},
 };
 
-static struct streaks_lights_settings three_lights(void)
+static struct scenery_lights_settings three_lights(void)
 {
-    struct streaks_lights_settings s = rig_bounds;
+    struct scenery_lights_settings s = rig_bounds;
     static const float to_rain[16] = {1, 0, 0, 0, 0, 0, -1, 0, 0, -1, 0, 9, 0, 0, 0, 1};
     s.count = 3;
     s.lamps = lamps;
     s.lamp_count = 2;
-    memcpy(s.world_to_rain, to_rain, sizeof(to_rain));
+    memcpy(s.world_to_frame, to_rain, sizeof(to_rain));
     return s;
 }
 
 // Rain falls along -y from 9 m up: (x, y, s) = (x, -z, 9 - y).
 static void lights_open_in_both_frames(void **state)
 {
-    const struct streaks_lights_settings settings = three_lights();
-    struct streaks_lights *lights = streaks_lights_open(*state, &settings);
+    const struct scenery_lights_settings settings = three_lights();
+    struct scenery_lights *lights = scenery_lights_open(*state, &settings);
     assert_non_null(lights);
     assert_int_equal(lights->count, 3);
     assert_int_equal(lights->map_count, 3);
     assert_int_equal(lights->shadows->desc.width, MAP_PX);
     assert_int_equal(lights->shadows->desc.layers, 3);
-    streaks_light world[3], rain[3];
+    scenery_light world[3], rain[3];
     assert_true(rg_buf_read(lights->in_world, 0, world, sizeof(world)) &&
-                rg_buf_read(lights->in_rain, 0, rain, sizeof(rain)));
+                rg_buf_read(lights->in_frame, 0, rain, sizeof(rain)));
     assert_memory_equal(world, lights->world, sizeof(world));
     for (int i = 0; i < 3; i++) {
         assert_true(rain[i].x == world[i].x && rain[i].y == -world[i].z);
@@ -42,17 +42,17 @@ static void lights_open_in_both_frames(void **state)
                     rain[i].dz == -world[i].dy);
         assert_true(rain[i].r == world[i].r && rain[i].shadow_layer == i);
     }
-    streaks_lights_close(lights);
+    scenery_lights_close(lights);
 }
 
 static void each_light_draws_its_own_layers(void **state)
 {
     struct rig rig = rig_open(*state);
-    const struct streaks_lights_settings settings = three_lights();
-    struct streaks_lights *lights = streaks_lights_open(*state, &settings);
+    const struct scenery_lights_settings settings = three_lights();
+    struct scenery_lights *lights = scenery_lights_open(*state, &settings);
     float *texels = malloc(MAP_PX * MAP_PX * sizeof(float));
     for (int again = 0; again < 2; again++) // drawn anew, maps hold the same
-        assert_true(streaks_lights_shade(lights, rig_draw_scene, &rig));
+        assert_true(scenery_lights_shade(lights, rig_draw_scene, &rig));
     for (int layer = 0; layer < 3; layer++) {
         int drawn = 0;
         assert_true(rg_image_read(lights->shadows, layer, 0, texels));
@@ -61,53 +61,53 @@ static void each_light_draws_its_own_layers(void **state)
         assert_true(drawn > MAP_PX * MAP_PX / 4);
     }
     free(texels);
-    streaks_lights_close(lights);
+    scenery_lights_close(lights);
     rig_close(&rig);
 }
 
 static void without_shadows_no_map_is_drawn(void **state)
 {
-    struct streaks_lights_settings settings = three_lights();
+    struct scenery_lights_settings settings = three_lights();
     settings.shadows = false;
-    struct streaks_lights *lights = streaks_lights_open(*state, &settings);
+    struct scenery_lights *lights = scenery_lights_open(*state, &settings);
     assert_non_null(lights);
     assert_int_equal(lights->map_count, 0);
     assert_int_equal(lights->shadows->desc.width, 1);
     for (int i = 0; i < 3; i++)
         assert_int_equal(lights->world[i].shadow_layer, -1);
-    assert_true(streaks_lights_shade(lights, NULL, NULL));
-    streaks_lights_close(lights);
+    assert_true(scenery_lights_shade(lights, NULL, NULL));
+    scenery_lights_close(lights);
 }
 
 static void no_lights_are_none(void **state)
 {
-    struct streaks_lights_settings settings = three_lights();
-    for (int time = STREAKS_DAY; time <= STREAKS_NIGHT; time++) {
+    struct scenery_lights_settings settings = three_lights();
+    for (int time = SCENERY_DAY; time <= SCENERY_NIGHT; time++) {
         settings.count = 0;
-        settings.time = (enum streaks_time)time;
-        struct streaks_lights *lights = streaks_lights_open(*state, &settings);
+        settings.time = (enum scenery_time)time;
+        struct scenery_lights *lights = scenery_lights_open(*state, &settings);
         assert_true(lights && lights->count == 0 && lights->map_count == 0);
-        assert_true(lights->in_world && lights->in_rain && lights->shadows && lights->sky[0] > 0);
-        assert_true(streaks_lights_shade(lights, NULL, NULL));
-        streaks_lights_close(lights);
+        assert_true(lights->in_world && lights->in_frame && lights->shadows && lights->sky[0] > 0);
+        assert_true(scenery_lights_shade(lights, NULL, NULL));
+        scenery_lights_close(lights);
     }
 }
 
 static void lights_that_cannot_be_are_refused(void **state)
 {
-    struct streaks_lights_settings settings = three_lights();
+    struct scenery_lights_settings settings = three_lights();
     settings.count = -1;
-    assert_null(streaks_lights_open(*state, &settings));
+    assert_null(scenery_lights_open(*state, &settings));
     assert_non_null(strstr(rg_last_error(), "lights: -1 asked for"));
     settings.count = 17;
-    assert_null(streaks_lights_open(*state, &settings));
+    assert_null(scenery_lights_open(*state, &settings));
     assert_non_null(strstr(rg_last_error(), "lights: 17 asked for"));
     settings.count = 3;
     settings.shadow_map_px = 15;
-    assert_null(streaks_lights_open(*state, &settings));
+    assert_null(scenery_lights_open(*state, &settings));
     assert_non_null(strstr(rg_last_error(), "shadow_map_px: 15"));
     settings.shadow_map_px = 16384;
-    assert_null(streaks_lights_open(*state, &settings));
+    assert_null(scenery_lights_open(*state, &settings));
     assert_non_null(strstr(rg_last_error(), "3 shadow maps of 16384 texels take 3072 MiB"));
 }
 

@@ -58,13 +58,13 @@ static float *picture_read(const struct picture *p)
 }
 
 // What an overlay shows with a matrix, over a depth: its texels, which the caller frees.
-static float *show(struct streaks_overlay *overlay, struct rg_device *device,
+static float *show(struct scenery_overlay *overlay, struct rg_device *device,
                    const float to_clip[16], const float *depth)
 {
     struct rg_instance instance = {.device = device};
     struct picture p = picture_make(device, RG_RGBA32F, depth ? *depth : 1);
     assert_true(
-        streaks_overlay_draw(overlay, &instance, to_clip, p.colour, depth ? p.depth : NULL));
+        scenery_overlay_draw(overlay, &instance, to_clip, p.colour, depth ? p.depth : NULL));
     float *texels = picture_read(&p);
     picture_free(&p);
     return texels;
@@ -150,15 +150,15 @@ struct counts {
     int full, part, hidden;
 };
 
-static void check_line(struct rg_device *device, struct streaks_overlay *overlay,
+static void check_line(struct rg_device *device, struct scenery_overlay *overlay,
                        const float to_clip[16], const float a[3], const float b[3], float width_px,
                        struct counts *counts)
 {
-    const struct streaks_ink ink = {0.5f, 0.25f, 1, 0.5f, width_px};
+    const struct scenery_ink ink = {0.5f, 0.25f, 1, 0.5f, width_px};
     const float behind = 0.96f;
     struct ends ends;
-    streaks_overlay_begin(overlay);
-    streaks_overlay_line(overlay, a, b, &ink);
+    scenery_overlay_begin(overlay);
+    scenery_overlay_line(overlay, a, b, &ink);
     float *texels = show(overlay, device, to_clip, NULL),
           *tested = show(overlay, device, to_clip, &behind);
     const bool seen = find_ends(to_clip, a, b, &ends);
@@ -183,7 +183,7 @@ static void check_line(struct rg_device *device, struct streaks_overlay *overlay
 
 static void lines_cover_what_is_near_them(void **state)
 {
-    struct streaks_overlay *overlay = streaks_overlay_open(*state);
+    struct scenery_overlay *overlay = scenery_overlay_open(*state);
     struct counts counts = {0};
     float to_clip[16];
     look(to_clip);
@@ -204,14 +204,14 @@ static void lines_cover_what_is_near_them(void **state)
     print_message("lines: %d pixels whole, %d in part, %d behind the depth\n", counts.full,
                   counts.part, counts.hidden);
     assert_true(counts.full > 10000 && counts.part > 10000 && counts.hidden > 1000);
-    streaks_overlay_close(overlay);
+    scenery_overlay_close(overlay);
 }
 
 // A long line past the eye ends millions of pixels beside the picture, and stays in its place
 // there.
 static void long_lines_stay_in_place(void **state)
 {
-    struct streaks_overlay *overlay = streaks_overlay_open(*state);
+    struct scenery_overlay *overlay = scenery_overlay_open(*state);
     struct counts counts = {0};
     float to_clip[16];
     look_from(0.005f, to_clip);
@@ -222,7 +222,7 @@ static void long_lines_stay_in_place(void **state)
         check_line(*state, overlay, to_clip, a, b, 3, &counts);
     }
     assert_true(counts.full > 1000);
-    streaks_overlay_close(overlay);
+    scenery_overlay_close(overlay);
 }
 
 // Along rows of pixels, where all is known to the pixel; a point, and lines that are not seen.
@@ -243,11 +243,11 @@ static void plain_lines_are_exact(void **state)
         {{-50, 8, 0}, {-20, 8, 0}, 0, 0, 0, 0, 2},
         {{20, 2000, 0}, {90, 3000, 0}, 0, 0, 0, 0, 2},
     };
-    struct streaks_overlay *overlay = streaks_overlay_open(*state);
+    struct scenery_overlay *overlay = scenery_overlay_open(*state);
     for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); k++) {
-        const struct streaks_ink ink = {1, 1, 1, 1, cases[k].width_px};
-        streaks_overlay_begin(overlay);
-        streaks_overlay_line(overlay, cases[k].a, cases[k].b, &ink);
+        const struct scenery_ink ink = {1, 1, 1, 1, cases[k].width_px};
+        scenery_overlay_begin(overlay);
+        scenery_overlay_line(overlay, cases[k].a, cases[k].b, &ink);
         float *texels = show(overlay, *state, flat, NULL);
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             const int x = i % WIDTH, y = i / WIDTH;
@@ -259,7 +259,7 @@ static void plain_lines_are_exact(void **state)
         }
         free(texels);
     }
-    streaks_overlay_close(overlay);
+    scenery_overlay_close(overlay);
 }
 
 // --- sheets ---
@@ -283,7 +283,7 @@ static double inside_by(const struct corner px[4], double x, double y)
 static void sheets_fill_their_polygons(void **state)
 {
     static float corners[4][3] = {{-4, 0, 0}, {0, 0, 3}, {4, 0, 0}, {0, 0, -7}};
-    const struct streaks_ink ink = {0, 1, 0, 0.5f, 1};
+    const struct scenery_ink ink = {0, 1, 0, 0.5f, 1};
     const float half_way = 0.945f; // among the depths beyond the first three corners
     float to_clip[16];
     look(to_clip);
@@ -292,9 +292,9 @@ static void sheets_fill_their_polygons(void **state)
         const struct corner c = project(to_clip, corners[k]);
         px[k] = (struct corner){(c.x / c.w + 1) / 2 * WIDTH, (c.y / c.w + 1) / 2 * HEIGHT, 0, 1};
     }
-    struct streaks_overlay *overlay = streaks_overlay_open(*state);
-    streaks_overlay_begin(overlay);
-    streaks_overlay_sheet(overlay, corners, &ink, 0.25f);
+    struct scenery_overlay *overlay = scenery_overlay_open(*state);
+    scenery_overlay_begin(overlay);
+    scenery_overlay_sheet(overlay, corners, &ink, 0.25f);
     float *texels = show(overlay, *state, to_clip, NULL),
           *tested = show(overlay, *state, to_clip, &half_way);
     int filled = 0, hidden = 0;
@@ -320,7 +320,7 @@ static void sheets_fill_their_polygons(void **state)
     assert_true(filled > 1000 && hidden > filled / 20 && hidden < filled * 9 / 10);
     free(texels);
     free(tested);
-    streaks_overlay_close(overlay);
+    scenery_overlay_close(overlay);
 }
 
 // --- boxes and frusta ---
@@ -342,26 +342,26 @@ static double sum_of(const float *texels)
 }
 
 // The frustum of a light is the box, or the pyramid's stump, that its settings say.
-static void check_frustum(struct rg_device *device, const streaks_light *light, float corners[8][3])
+static void check_frustum(struct rg_device *device, const scenery_light *light, float corners[8][3])
 {
-    struct streaks_overlay *overlay = streaks_overlay_open(device);
-    const struct streaks_ink ink = {1, 1, 1, 1, 2};
+    struct scenery_overlay *overlay = scenery_overlay_open(device);
+    const struct scenery_ink ink = {1, 1, 1, 1, 2};
     float to_clip[16];
     look(to_clip);
-    streaks_overlay_begin(overlay);
-    streaks_overlay_light(overlay, light, &ink);
+    scenery_overlay_begin(overlay);
+    scenery_overlay_light(overlay, light, &ink);
     float *shown = show(overlay, device, to_clip, NULL);
-    streaks_overlay_begin(overlay);
+    scenery_overlay_begin(overlay);
     static const int edges[12][2] = {{0, 1}, {1, 3}, {3, 2}, {2, 0}, {4, 5}, {5, 7},
                                      {7, 6}, {6, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
     for (int e = 0; e < 12; e++)
-        streaks_overlay_line(overlay, corners[edges[e][0]], corners[edges[e][1]], &ink);
+        scenery_overlay_line(overlay, corners[edges[e][0]], corners[edges[e][1]], &ink);
     float *due = show(overlay, device, to_clip, NULL);
     assert_true(sum_of(due) > 100);
     assert_true(difference(shown, due) < 0.02);
     free(shown);
     free(due);
-    streaks_overlay_close(overlay);
+    scenery_overlay_close(overlay);
 }
 
 static void frusta_are_where_lights_shine(void **state)
@@ -378,16 +378,16 @@ static void frusta_are_where_lights_shine(void **state)
         stump[k][1] = (float)(4 - away);
         stump[k][2] = (float)(k & 2 ? beside : -beside);
     }
-    const struct rg_light sun = {.kind = STREAKS_SUN, .direction = {0, -1, 0}, .outer_deg = 45},
-                          spot = {.kind = STREAKS_SPOT,
+    const struct rg_light sun = {.kind = SCENERY_SUN, .direction = {0, -1, 0}, .outer_deg = 45},
+                          spot = {.kind = SCENERY_SPOT,
                                   .position_m = {0, 4, 0},
                                   .direction = {0, -1, 0},
                                   .inner_deg = 10,
                                   .outer_deg = 15,
                                   .near_m = 0.5f};
     const float far_low[3] = {-40, -40, -40}, far_high[3] = {40, 40, 40};
-    const streaks_light a = streaks_light_of(&sun, low, high, 512, -1),
-                        b = streaks_light_of(&spot, far_low, far_high, 512, -1);
+    const scenery_light a = scenery_light_of(&sun, low, high, 512, -1),
+                        b = scenery_light_of(&spot, far_low, far_high, 512, -1);
     check_frustum(*state, &a, box);
     check_frustum(*state, &b, stump);
 }
@@ -396,8 +396,8 @@ static void frusta_are_where_lights_shine(void **state)
 static void boxes_have_twelve_edges(void **state)
 {
     static const float flat[16] = {0.5f, 0.11f, 0, 0, 0, 0.5f, 0.17f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 1};
-    struct streaks_overlay *overlay = streaks_overlay_open(*state);
-    const struct streaks_ink ink = {1, 1, 1, 0.001f, 1}; // so thin that inks add up
+    struct scenery_overlay *overlay = scenery_overlay_open(*state);
+    const struct scenery_ink ink = {1, 1, 1, 0.001f, 1}; // so thin that inks add up
     float corners[8][3];
     double due = 0;
     for (int k = 0; k < 8; k++)
@@ -407,12 +407,12 @@ static void boxes_have_twelve_edges(void **state)
         {0.5f * WIDTH, 0}, {0.11f * WIDTH, 0.5f * HEIGHT}, {0, 0.17f * HEIGHT}};
     for (int c = 0; c < 3; c++)
         due += 4 * (hypot((double)ways[c][0], (double)ways[c][1]) + 1);
-    streaks_overlay_begin(overlay);
-    streaks_overlay_box(overlay, corners, &ink);
+    scenery_overlay_begin(overlay);
+    scenery_overlay_box(overlay, corners, &ink);
     float *texels = show(overlay, *state, flat, NULL);
     assert_true(fabs(sum_of(texels) / 0.001 / due - 1) < 0.02);
     free(texels);
-    streaks_overlay_close(overlay);
+    scenery_overlay_close(overlay);
 }
 
 // --- insets ---
@@ -420,7 +420,7 @@ static void boxes_have_twelve_edges(void **state)
 static void insets_show_the_part_of_a_map(void **state)
 {
     enum { MAP = 16 };
-    const streaks_inset_params inset = {.x0 = 100,
+    const scenery_inset_params inset = {.x0 = 100,
                                         .y0 = 10,
                                         .x1 = 132,
                                         .y1 = 26,
@@ -438,10 +438,10 @@ static void insets_show_the_part_of_a_map(void **state)
     for (int i = 0; i < MAP * MAP; i++)
         depths[i] = between((uint32_t)i, 0, 0, 1);
     assert_true(rg_image_clear(map, &nothing) && rg_image_write(map, 1, 0, depths));
-    struct streaks_overlay *overlay = streaks_overlay_open(device);
+    struct scenery_overlay *overlay = scenery_overlay_open(device);
     struct rg_instance instance = {.device = device};
     struct picture p = picture_make(device, RG_RGBA32F, 1);
-    assert_true(streaks_overlay_inset(overlay, &instance, &inset, map, p.colour));
+    assert_true(scenery_overlay_inset(overlay, &instance, &inset, map, p.colour));
     float *texels = picture_read(&p);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         const int x = i % WIDTH - inset.x0, y = i / WIDTH - inset.y0;
@@ -455,28 +455,28 @@ static void insets_show_the_part_of_a_map(void **state)
     }
     free(texels);
     picture_free(&p);
-    streaks_overlay_close(overlay);
+    scenery_overlay_close(overlay);
     rg_image_destroy(map);
 }
 
 // --- devices ---
 
-static void fill(struct streaks_overlay *overlay)
+static void fill(struct scenery_overlay *overlay)
 {
-    streaks_overlay_begin(overlay);
+    scenery_overlay_begin(overlay);
     for (uint32_t i = 0; i < 3000; i++) {
         const double size = exp((double)between(i, 0, -4, 9));
         float at[4][3];
         for (uint32_t k = 0; k < 4; k++)
             for (uint32_t c = 0; c < 3; c++)
                 at[k][c] = between(i, 1 + c, -6, 6) + between(i, 4 + 3 * k + c, -size, size);
-        const struct streaks_ink ink = {between(i, 20, 0, 1), between(i, 21, 0, 1),
+        const struct scenery_ink ink = {between(i, 20, 0, 1), between(i, 21, 0, 1),
                                         between(i, 22, 0, 1), between(i, 23, 0, 1),
                                         between(i, 24, 0, 20)};
         if (i % 5)
-            streaks_overlay_line(overlay, at[0], i % 97 ? at[1] : at[0], &ink);
+            scenery_overlay_line(overlay, at[0], i % 97 ? at[1] : at[0], &ink);
         else
-            streaks_overlay_sheet(overlay, at, &ink, i % 10 ? 0.5f : 0);
+            scenery_overlay_sheet(overlay, at, &ink, i % 10 ? 0.5f : 0);
     }
 }
 
@@ -492,14 +492,14 @@ static void all_bytes_are_those_of_the_reference(void **state)
         void *texels[2];
         for (int d = 0; d < 2; d++) {
             struct rg_instance instance = {.device = devices[d]};
-            struct streaks_overlay *overlay = streaks_overlay_open(devices[d]);
+            struct scenery_overlay *overlay = scenery_overlay_open(devices[d]);
             struct picture p = picture_make(devices[d], formats[f], 0.95f);
             texels[d] = malloc(bytes);
             fill(overlay);
-            assert_true(streaks_overlay_draw(overlay, &instance, to_clip, p.colour, p.depth));
+            assert_true(scenery_overlay_draw(overlay, &instance, to_clip, p.colour, p.depth));
             assert_true(rg_image_read(p.colour, 0, 0, texels[d]));
             picture_free(&p);
-            streaks_overlay_close(overlay);
+            scenery_overlay_close(overlay);
         }
         assert_memory_equal(texels[0], texels[1], bytes);
         free(texels[0]);

@@ -7,11 +7,11 @@
 
 static double share_due(const struct rg_light *light, struct vec at)
 {
-    if (light->kind == STREAKS_SUN)
+    if (light->kind == SCENERY_SUN)
         return 1;
     const struct vec off = minus(at, rig_place_of(light));
     const double distance = length(off), fallen = 1 / (distance * distance);
-    if (light->kind == STREAKS_POINT)
+    if (light->kind == SCENERY_POINT)
         return fallen;
     const double cosine = dot(off, rig_way_of(light)) / distance,
                  inner = cos((double)light->inner_deg * degree),
@@ -31,7 +31,7 @@ static void lights_reach_as_the_closed_forms_say(void **state)
             const test_streaks_lit *l = &lit[k * POINTS + i];
             const struct vec at = rig_point_at(points, i),
                              off = minus(rig_place_of(&rig_lights[k]), at),
-                             to = rig_lights[k].kind == STREAKS_SUN
+                             to = rig_lights[k].kind == SCENERY_SUN
                                       ? along((struct vec){0, 0, 0}, -1, rig_way_of(&rig_lights[k]))
                                       : along((struct vec){0, 0, 0}, 1 / length(off), off);
             const double share = share_due(&rig_lights[k], at);
@@ -40,7 +40,7 @@ static void lights_reach_as_the_closed_forms_say(void **state)
             assert_true(length(minus((struct vec){(double)l->to_light.x, (double)l->to_light.y,
                                                   (double)l->to_light.z},
                                      to)) < 1e-6);
-            if (rig_lights[k].kind == STREAKS_SPOT) {
+            if (rig_lights[k].kind == SCENERY_SPOT) {
                 dark += l->share == 0;
                 bright += l->share > 0;
             }
@@ -89,7 +89,7 @@ static void lights_add_up(void **state)
 {
     struct rig rig = rig_open(*state);
     float *points = rig_make_points();
-    streaks_light turned[LIGHTS];
+    scenery_light turned[LIGHTS];
     for (int k = 0; k < LIGHTS; k++)
         turned[k] = rig.lights[LIGHTS - 1 - k];
     test_streaks_lit *all = rig_light_points(&rig, rig.lights, LIGHTS, points, POINTS),
@@ -113,9 +113,9 @@ static void frames_do_not_matter(void **state)
                                      0.48f, -0.6f, 0.64f, 5,  0,     0,    0,     1};
     struct rig rig = rig_open(*state);
     float *points = rig_make_points(), *moved = malloc(POINTS * 3 * sizeof(float));
-    streaks_light lights[LIGHTS];
+    scenery_light lights[LIGHTS];
     for (int k = 0; k < LIGHTS; k++)
-        lights[k] = streaks_light_moved(&rig.lights[k], matrix);
+        lights[k] = scenery_light_moved(&rig.lights[k], matrix);
     for (int i = 0; i < POINTS; i++)
         for (int c = 0; c < 3; c++)
             moved[3 * i + c] = matrix[4 * c] * points[3 * i] +

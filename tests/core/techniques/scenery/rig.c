@@ -78,15 +78,15 @@ bool rig_is_blocked(struct vec from, struct vec to)
 
 // --- the lights ---
 
-const struct streaks_lights_settings rig_bounds = {
+const struct scenery_lights_settings rig_bounds = {
     .low_m = {-20, -1, -20}, .high_m = {20, 9, 20}, .shadows = true, .shadow_map_px = MAP_PX};
 
 const struct rg_light rig_lights[LIGHTS] = {
-    {.kind = STREAKS_SUN,
+    {.kind = SCENERY_SUN,
      .direction = {-0.48f, -0.64f, 0.6f},
      .colour = {1, 2, 3},
      .shadows = true},
-    {.kind = STREAKS_SPOT,
+    {.kind = SCENERY_SPOT,
      .position_m = {9, 8, 11},
      .direction = {-0.6f, -0.48f, -0.64f},
      .colour = {30, 20, 10},
@@ -94,13 +94,13 @@ const struct rg_light rig_lights[LIGHTS] = {
      .outer_deg = 50,
      .near_m = 0.1f,
      .shadows = true},
-    {.kind = STREAKS_POINT,
+    {.kind = SCENERY_POINT,
      .position_m = {-0.5f, 5.5f, 4},
      .colour = {9, 8, 7},
      .near_m = 0.1f,
      .shadows = true},
-    {.kind = STREAKS_SUN, .direction = {0, -1, 0}, .colour = {1, 1, 1}, .shadows = true},
-    {.kind = STREAKS_SPOT,
+    {.kind = SCENERY_SUN, .direction = {0, -1, 0}, .colour = {1, 1, 1}, .shadows = true},
+    {.kind = SCENERY_SPOT,
      .position_m = {3, 6.5f, 0},
      .direction = {0, -1, 0},
      .colour = {5, 5, 5},
@@ -108,7 +108,7 @@ const struct rg_light rig_lights[LIGHTS] = {
      .outer_deg = 60,
      .near_m = 0.3f,
      .shadows = true},
-    {.kind = STREAKS_POINT, .position_m = {10, 2, 0}, .colour = {1, 1, 1}},
+    {.kind = SCENERY_POINT, .position_m = {10, 2, 0}, .colour = {1, 1, 1}},
 };
 
 struct vec rig_place_of(const struct rg_light *light)
@@ -126,7 +126,7 @@ struct vec rig_way_of(const struct rg_light *light)
 bool rig_is_in_cone(const struct rg_light *light, struct vec at)
 {
     const struct vec off = minus(at, rig_place_of(light));
-    return light->kind != STREAKS_SPOT ||
+    return light->kind != SCENERY_SPOT ||
            dot(off, rig_way_of(light)) > length(off) * cos((double)light->outer_deg * degree);
 }
 
@@ -151,10 +151,10 @@ bool rig_draw_scene(void *user, const float to_clip[16], const struct rg_draw *o
 struct rig rig_open(struct rg_device *device)
 {
     struct rig rig = {.device = device};
-    struct streaks_lights lights = {.count = LIGHTS};
+    struct scenery_lights lights = {.count = LIGHTS};
     for (int i = 0; i < LIGHTS; i++) {
         const bool casts = rig_lights[i].shadows;
-        lights.world[i] = streaks_light_of(&rig_lights[i], rig_bounds.low_m, rig_bounds.high_m,
+        lights.world[i] = scenery_light_of(&rig_lights[i], rig_bounds.low_m, rig_bounds.high_m,
                                            MAP_PX, casts ? lights.map_count : -1);
         lights.map_count += casts ? lights.world[i].shadow_faces : 0;
     }
@@ -164,7 +164,7 @@ struct rig rig_open(struct rg_device *device)
     rig.layers = lights.map_count;
     lights.shadows = rig.maps = rg_image_create(
         device, &(struct rg_image_desc){RG_D32F, MAP_PX, MAP_PX, rig.layers, 1}, "maps");
-    assert_true(rig.maps && streaks_lights_shade(&lights, rig_draw_scene, &rig));
+    assert_true(rig.maps && scenery_lights_shade(&lights, rig_draw_scene, &rig));
     memcpy(rig.lights, lights.world, sizeof(rig.lights));
     return rig;
 }
@@ -175,7 +175,7 @@ void rig_close(struct rig *rig)
     rg_image_destroy(rig->maps);
 }
 
-test_streaks_lit *rig_light_points(const struct rig *rig, const streaks_light *lights, int count,
+test_streaks_lit *rig_light_points(const struct rig *rig, const scenery_light *lights, int count,
                                    const float *points, int point_count)
 {
     const int64_t out_bytes = (int64_t)count * point_count * (int64_t)sizeof(test_streaks_lit);

@@ -43,7 +43,7 @@ static inline double dot(struct vec a, struct vec b)
 
 // All kinds, with the plain cases last: straight down, along an axis. The last casts no shadow.
 extern const struct rg_light rig_lights[LIGHTS];
-extern const struct streaks_lights_settings rig_bounds; // of the boxes, with shadow maps of MAP_PX
+extern const struct scenery_lights_settings rig_bounds; // of the boxes, with shadow maps of MAP_PX
 
 struct vec rig_place_of(const struct rg_light *light);
 struct vec rig_way_of(const struct rg_light *light);
@@ -58,18 +58,18 @@ struct rig {
     struct faces_on scene;
     struct rg_image *maps;
     int layers;
-    streaks_light lights[LIGHTS];
+    scenery_light lights[LIGHTS];
 };
 struct rig rig_open(struct rg_device *device);
 void rig_close(struct rig *rig);
-// Draws the boxes of a rig, `user`, for streaks_lights_shade.
+// Draws the boxes of a rig, `user`, for scenery_lights_shade.
 bool rig_draw_scene(void *user, const float to_clip[16], const struct rg_draw *onto);
 
 // POINTS places in the air, three floats each. The caller frees them.
 float *rig_make_points(void);
 struct vec rig_point_at(const float *points, int i);
 // What `count` lights do at `points` points; by light, then point. The caller frees it.
-test_streaks_lit *rig_light_points(const struct rig *rig, const streaks_light *lights, int count,
+test_streaks_lit *rig_light_points(const struct rig *rig, const scenery_light *lights, int count,
                                    const float *points, int point_count);
 
 #endif

@@ -13,7 +13,7 @@ static int reached_about(const struct rg_light *light, struct vec at, double bia
         for (int y = -1; y <= 1; y++)
             for (int z = -1; z <= 1; z++) {
                 const struct vec p = {at.x + x * margin, at.y + y * margin, at.z + z * margin};
-                const struct vec off = light->kind == STREAKS_SUN
+                const struct vec off = light->kind == SCENERY_SUN
                                            ? along((struct vec){0, 0, 0}, -100, rig_way_of(light))
                                            : minus(rig_place_of(light), p);
                 const double all = length(off), near = (double)light->near_m;
@@ -28,10 +28,10 @@ struct seen {
     int lit, shadowed, wrong, soft_wrong, unsure;
 };
 
-static void check_point(const struct rg_light *light, const streaks_light *l, struct vec at,
+static void check_point(const struct rg_light *light, const scenery_light *l, struct vec at,
                         const test_streaks_lit *lit, struct seen *seen)
 {
-    const double away = light->kind == STREAKS_SUN ? 1 : length(minus(at, rig_place_of(light)));
+    const double away = light->kind == SCENERY_SUN ? 1 : length(minus(at, rig_place_of(light)));
     // A texel's half diagonal, twice as much between four texels, and some.
     const int due = reached_about(light, at, (double)l->shadow_bias_m,
                                   2 * (double)l->shadow_texel * away + 0.01);
@@ -81,7 +81,7 @@ static void floors_do_not_shade_themselves(void **state)
         int bright = 0, dark = 0;
         for (int i = 0; i < POINTS; i++) {
             struct vec at = rig_point_at(points, i);
-            const double away = rig_lights[k].kind == STREAKS_SUN
+            const double away = rig_lights[k].kind == SCENERY_SUN
                                     ? 1
                                     : length(minus(at, rig_place_of(&rig_lights[k])));
             const double texel = (double)rig.lights[k].shadow_texel * away;
@@ -112,7 +112,7 @@ static void the_bias_is_metres_along_the_ray(void **state)
         for (int i = 0; i < POINTS; i++) {
             const struct vec at = {(double)points[3 * i], 0, (double)points[3 * i + 2]};
             const struct vec off = minus(at, rig_place_of(light));
-            const struct vec way = light->kind == STREAKS_SUN
+            const struct vec way = light->kind == SCENERY_SUN
                                        ? rig_way_of(light)
                                        : along((struct vec){0, 0, 0}, 1 / length(off), off);
             const double deep = (double)rig.lights[k].shadow_bias_m * (i % 2 ? 0.9 : 1.1);
@@ -141,7 +141,7 @@ static void nothing_shades_where_no_map_is(void **state)
 {
     struct rig rig = rig_open(*state);
     float *points = rig_make_points();
-    streaks_light lights[LIGHTS];
+    scenery_light lights[LIGHTS];
     memcpy(lights, rig.lights, sizeof(lights));
     for (int k = 0; k < LIGHTS; k++)
         lights[k].shadow_layer = -1;

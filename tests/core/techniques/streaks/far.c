@@ -34,7 +34,7 @@ struct seen {
 // caller frees it.
 static struct seen *look(struct streaks *s, int layers)
 {
-    const double sky = (double)rg_unpack_half(rg_pack_half(streaks_scene_day().sky.horizon_g));
+    const double sky = (double)rg_unpack_half(rg_pack_half(scenery_day().sky.horizon_g));
     struct seen *seen = malloc(sizeof(*seen));
     assert_non_null(seen);
     s->settings.far_layers = layers;
@@ -116,7 +116,7 @@ static void test_layers_shine(void **state)
     struct streaks *s = open_far("far_layers=1 environment_light=on streak_gain=3");
     rain_step(s, 1);
     struct seen *lit = look(s, 1);
-    const struct streaks_scene_look day = streaks_scene_day();
+    const struct scenery_look day = scenery_day();
     const double of_sky = (double)s->lights->sky[1] * 3 / (double)day.sky.horizon_g;
     s->params.sky_g = 0;
     struct seen *black = look(s, 1);

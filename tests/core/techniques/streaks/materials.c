@@ -84,7 +84,7 @@ static struct hit_face face_of(const struct streaks *s, const struct city_faces 
 
 static struct hit_faces faces_of(const struct streaks *s)
 {
-    const struct city_faces *from = &streaks_scene_city(s->scene)->faces;
+    const struct city_faces *from = &scenery_city(s->scene)->faces;
     struct hit_faces f = {from->face_count,
                           malloc((size_t)from->face_count * sizeof(struct hit_face)),
                           s->space.height_m};

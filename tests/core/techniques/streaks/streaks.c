@@ -184,7 +184,7 @@ static void test_the_sky_is_even(void **state)
 {
     (void)state;
     for (int night = 0; night < 2; night++) {
-        const struct streaks_scene_look look = night ? streaks_scene_night() : streaks_scene_day();
+        const struct scenery_look look = night ? scenery_night() : scenery_day();
         const float due[4] = {look.sky.horizon_r, look.sky.horizon_g, look.sky.horizon_b, 1};
         char settings[128];
         snprintf(settings, sizeof(settings), "geometry=off drops=off splashes=off time=%s",
