@@ -1,4 +1,4 @@
-// What is particular to the gl backend: `test_gl` runs on the first gl device, and `test_gl TEXT`
+// What is particular to the gl backend: `gl` runs on the first gl device, and `gl TEXT`
 // expects that there is none, for a reason that contains TEXT (tests/meson.build breaks the
 // driver).
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-// What is particular to the opencl backend. test_opencl runs on its first device; test_opencl
+// What is particular to the opencl backend. opencl runs on its first device; opencl
 // absent CODE expects that there is none, and that the reason names the code.
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 // Tables: their published numbers are those of the papers' CSV files, and what is said of measured
-// ones. test_tables FOLDER reads the files there.
+// ones. tables FOLDER reads the files there.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

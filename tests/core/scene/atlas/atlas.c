@@ -1,7 +1,7 @@
 // The atlas as a whole: its sizes are the thesis's, its cells keep apart, its levels keep the
 // light.
 //
-//     test_atlas FOLDER_OF_PUBLISHED_TABLES
+//     atlas FOLDER_OF_PUBLISHED_TABLES
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 // flow's movement over the six panes of the box: what crosses an edge arrives where geometry says,
-// and none is lost. test_flow_box DEVICE runs on it.
+// and none is lost. box DEVICE runs on it.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

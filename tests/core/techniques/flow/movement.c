@@ -1,4 +1,4 @@
-// flow's movement in cases whose outcome is known in closed form. test_flow DEVICE runs on it.
+// flow's movement in cases whose outcome is known in closed form. movement DEVICE runs on it.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

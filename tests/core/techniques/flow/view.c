@@ -1,5 +1,5 @@
 // What flow draws, in cases whose outcome is known: the camera, the intermediate steps, glow,
-// shadows of drops, the model, turning boxes. test_flow_view DEVICE runs on it.
+// shadows of drops, the model, turning boxes. view DEVICE runs on it.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-// DRAW passes against a rasteriser of the tests' own, and in closed cases: test_raster DEVICE.
+// DRAW passes against a rasteriser of the tests' own, and in closed cases: drawing DEVICE.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

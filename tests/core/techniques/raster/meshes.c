@@ -1,4 +1,4 @@
-// Meshes, drawn with depth: test_raster_meshes DEVICE. Every byte of colour, depth and winner is
+// Meshes, drawn with depth: meshes DEVICE. Every byte of colour, depth and winner is
 // that of cpu:reference.
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-// Meshes, drawn with depth, against rays: test_raster_rays DEVICE. Each pixel shows the face that
+// Meshes, drawn with depth, against rays: rays DEVICE. Each pixel shows the face that
 // the ray through its centre meets first, at its depth and at that place of the face; and closed
 // surfaces have no crack and no double.
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-// The scene of streaks, drawn: test_city_drawn DEVICE. Every byte is that of cpu:reference; what is
+// The scene of streaks, drawn: city DEVICE. Every byte is that of cpu:reference; what is
 // culled is not missed; depth from above is the height of what stands there, by rays.
 #include <setjmp.h>
 #include <stdarg.h>

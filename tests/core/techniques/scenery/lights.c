@@ -1,4 +1,4 @@
-// The lights of a scene as streaks opens them: test_streaks_lights DEVICE.
+// The lights of a scene as streaks opens them: lights DEVICE.
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-// The overlay of streaks: test_streaks_lines DEVICE. Lines against the distance of each pixel from
+// The overlay of streaks: lines DEVICE. Lines against the distance of each pixel from
 // them in double precision, sheets against the sides of a polygon; everything against
 // cpu:reference.
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-// How far lights of streaks reach: test_streaks_lights_reach DEVICE. Against closed forms in double
+// How far lights of streaks reach: reach DEVICE. Against closed forms in double
 // precision; alone and together, in any frame, and against cpu:reference.
 #include <stdlib.h>
 #include <string.h>

@@ -182,8 +182,8 @@ test_streaks_lit *rig_light_points(const struct rig *rig, const scenery_light *l
     struct rg_buf *in = rg_buf_create(rig->device, (int64_t)point_count * 12, "points"),
                   *by = rg_buf_create(rig->device, count * (int64_t)sizeof(*lights), "lights"),
                   *out = rg_buf_create(rig->device, out_bytes, "lit");
-    struct rg_pass *pass = rg_pass_create(rig->device, "test_streaks_lights");
-    const test_streaks_lights_params p = {.points = point_count};
+    struct rg_pass *pass = rg_pass_create(rig->device, "test_scenery_lights");
+    const test_scenery_lights_params p = {.points = point_count};
     test_streaks_lit *lit = malloc((size_t)out_bytes);
     assert_true(rg_buf_write(in, 0, points, (int64_t)point_count * 12) &&
                 rg_buf_write(by, 0, lights, count * (int64_t)sizeof(*lights)));

@@ -12,7 +12,7 @@
 
 #include "core/techniques/scenery/lights/lights.h"
 #include "tests/core/techniques/rigs/scene.h"
-#include "tests/kernels/streaks_lights_params.h"
+#include "tests/kernels/scenery_lights_params.h"
 
 enum { POINTS = 6000, MAP_PX = 512, LIGHTS = 6, UNSHADOWED = LIGHTS - 1 };
 static const double degree = 3.14159265358979323846 / 180;

@@ -1,4 +1,4 @@
-// Shadows of streaks' lights: test_streaks_lights_shadows DEVICE. Against rays through boxes, in
+// Shadows of streaks' lights: shadows DEVICE. Against rays through boxes, in
 // double precision.
 #include <stdlib.h>
 #include <string.h>

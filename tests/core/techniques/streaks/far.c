@@ -1,4 +1,4 @@
-// Rain beyond the culling radius, as layers that fall: test_streaks_far DEVICE. What layers hide is
+// Rain beyond the culling radius, as layers that fall: far DEVICE. What layers hide is
 // held against the drops that they stand for; where they are, against cylinders in double
 // precision.
 #include <math.h>

@@ -1,4 +1,4 @@
-// The search for the smallest culling radius and local height of streaks: test_streaks_fit DEVICE.
+// The search for the smallest culling radius and local height of streaks: fit DEVICE.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-// Splashes by the surface that is hit: test_streaks_materials DEVICE. What devices say, against
+// Splashes by the surface that is hit: materials DEVICE. What devices say, against
 // faces seen along the fall in double precision, without kernels/; and what pictures show of it.
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 // The particles of streaks, as devices compute them, against an oracle in double precision:
-// test_streaks_particles DEVICE.
+// particles DEVICE.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

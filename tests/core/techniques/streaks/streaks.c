@@ -1,4 +1,4 @@
-// streaks as a whole, and the laws that it obeys: test_streaks DEVICE.
+// streaks as a whole, and the laws that it obeys: streaks DEVICE.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,14 +1,14 @@
 // The parameters of core/techniques/scenery/lights/lights.h.
-#ifndef RG_TESTS_KERNELS_STREAKS_LIGHTS_PARAMS_H
-#define RG_TESTS_KERNELS_STREAKS_LIGHTS_PARAMS_H
+#ifndef RG_TESTS_KERNELS_SCENERY_LIGHTS_PARAMS_H
+#define RG_TESTS_KERNELS_SCENERY_LIGHTS_PARAMS_H
 
 #include "kernels/dialect/vec.h"
 
-RG_STRUCT(test_streaks_lights_params)
+RG_STRUCT(test_scenery_lights_params)
 {
     int points;
 };
-RG_STRUCT_SIZE(test_streaks_lights_params, 1)
+RG_STRUCT_SIZE(test_scenery_lights_params, 1)
 
 // What a light does at a point.
 RG_STRUCT(test_streaks_lit)

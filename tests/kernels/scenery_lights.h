@@ -1,8 +1,8 @@
 // What light y does at point x: for tests.
 #include "kernels/scenery/light.h"
-#include "tests/kernels/streaks_lights_params.h"
+#include "tests/kernels/scenery_lights_params.h"
 
-#define RG_PARAMS test_streaks_lights_params
+#define RG_PARAMS test_scenery_lights_params
 #define RG_SLOTS                                                                                   \
     IN(1, v3, points)                                                                              \
     IN(2, scenery_light, lights) IMAGE(3, D32F, shadows) OUT(4, test_streaks_lit, lit)
@@ -10,7 +10,7 @@
 
 #include "kernels/scenery/shadow.h"
 
-RG_GRID_KERNEL(test_streaks_lights)
+RG_GRID_KERNEL(test_scenery_lights)
 {
     scenery_light light = lights_at(rg, y);
     v3 at = points_at(rg, x);
