@@ -9,7 +9,7 @@ enum { LINE_SIZE = 1024 };
 static rg_log_fn listener;
 static void *listener_user;
 static char last_error[LINE_SIZE];
-static bool last_is_unsupported;
+static enum rg_error_kind last_kind;
 
 void rg_log_listen(rg_log_fn fn, void *user)
 {
@@ -22,6 +22,11 @@ const char *rg_last_error(void)
     return last_error;
 }
 
+enum rg_error_kind rg_last_error_kind(void)
+{
+    return last_kind;
+}
+
 static void log_line(enum rg_log_level level, const char *format, va_list args)
 {
     char line[LINE_SIZE];
@@ -29,10 +34,8 @@ static void log_line(enum rg_log_level level, const char *format, va_list args)
     for (char *c = line; *c; c++)
         if (*c == '\n' || *c == '\r')
             *c = ' ';
-    if (level == RG_LOG_ERROR) {
+    if (level == RG_LOG_ERROR)
         memcpy(last_error, line, sizeof(line));
-        last_is_unsupported = false;
-    }
     if (listener)
         listener(level, line, listener_user);
     else
@@ -45,35 +48,39 @@ static void log_line(enum rg_log_level level, const char *format, va_list args)
     log_line(level, format, args);                                                                 \
     va_end(args)
 
+#define ERROR(kind, result)                                                                        \
+    LOG(RG_LOG_ERROR);                                                                             \
+    last_kind = kind;                                                                              \
+    return result
+
 bool rg_error(const char *format, ...)
 {
-    LOG(RG_LOG_ERROR);
-    return false;
+    ERROR(RG_ERROR_INPUT, false);
 }
 
 void *rg_error_null(const char *format, ...)
 {
-    LOG(RG_LOG_ERROR);
-    return NULL;
+    ERROR(RG_ERROR_INPUT, NULL);
 }
 
 bool rg_unsupported(const char *format, ...)
 {
-    LOG(RG_LOG_ERROR);
-    last_is_unsupported = true;
-    return false;
+    ERROR(RG_ERROR_UNSUPPORTED, false);
 }
 
 void *rg_unsupported_null(const char *format, ...)
 {
-    LOG(RG_LOG_ERROR);
-    last_is_unsupported = true;
-    return NULL;
+    ERROR(RG_ERROR_UNSUPPORTED, NULL);
 }
 
-bool rg_is_unsupported(void)
+bool rg_driver_error(const char *format, ...)
 {
-    return last_is_unsupported;
+    ERROR(RG_ERROR_DRIVER, false);
+}
+
+void *rg_driver_error_null(const char *format, ...)
+{
+    ERROR(RG_ERROR_DRIVER, NULL);
 }
 
 void rg_warning(const char *format, ...)

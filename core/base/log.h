@@ -17,17 +17,29 @@ void rg_log_listen(rg_log_fn fn, void *user);
 
 // Logs one line, "raingauge: ..." on stderr. rg_error returns false and rg_error_null returns NULL,
 // so that a failing function ends in `return rg_error("...")`. Line breaks inside become spaces.
+// Those two log what another usage or input mends; errors of other kinds have functions below.
 bool rg_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void *rg_error_null(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void rg_warning(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void rg_info(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-// An error that is nobody's fault: this device or machine lacks what was asked for. Tables show it
+// An error that is nobody's fault: this device or machine lacks what was asked for. Records have it
 // as "unsupported".
 bool rg_unsupported(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void *rg_unsupported_null(const char *format, ...) __attribute__((format(printf, 1, 2)));
-// Whether the last error was one of those.
-bool rg_is_unsupported(void);
+
+// An error of a driver: it refused or broke what it should have done. No other request of the user
+// mends it, so that it is never bad usage.
+bool rg_driver_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void *rg_driver_error_null(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+// Whose the last error was, by the function that logged it.
+enum rg_error_kind {
+    RG_ERROR_INPUT,       // rg_error: the user's, bad usage or input
+    RG_ERROR_UNSUPPORTED, // rg_unsupported: nobody's
+    RG_ERROR_DRIVER,      // rg_driver_error: the driver's
+};
+enum rg_error_kind rg_last_error_kind(void);
 
 // The last error's line, "" when there was none. Valid until the next error; records quote it.
 const char *rg_last_error(void);

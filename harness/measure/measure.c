@@ -51,8 +51,9 @@ bool rg_cell_end(struct rg_cell *cell, enum rg_cell_status status, const char *d
 
 bool rg_cell_end_by_error(struct rg_cell *cell)
 {
-    return rg_cell_end(cell, rg_is_unsupported() ? RG_CELL_UNSUPPORTED : RG_CELL_ERROR,
-                       rg_last_error());
+    return rg_cell_end(
+        cell, rg_last_error_kind() == RG_ERROR_UNSUPPORTED ? RG_CELL_UNSUPPORTED : RG_CELL_ERROR,
+        rg_last_error());
 }
 
 static bool run_frames(struct rg_cell *cell, int frames)

@@ -104,7 +104,8 @@ static void measure_error(struct preparation *p)
         return;
     void *settings = rg_settings_copy(p->technique, p->group->settings, p->table->truth);
     if (!settings || !compare_with_truth(p, settings)) {
-        p->group->error_status = rg_is_unsupported() ? RG_CELL_UNSUPPORTED : RG_CELL_ERROR;
+        p->group->error_status =
+            rg_last_error_kind() == RG_ERROR_UNSUPPORTED ? RG_CELL_UNSUPPORTED : RG_CELL_ERROR;
         snprintf(p->group->error_detail, sizeof(p->group->error_detail), "%s", rg_last_error());
     }
     free(settings);
@@ -115,7 +116,8 @@ static void measure_error(struct preparation *p)
 // Ends the cells that are not open, which nothing can be compared with.
 static void give_up(struct preparation *p)
 {
-    const enum rg_cell_status status = rg_is_unsupported() ? RG_CELL_UNSUPPORTED : RG_CELL_ERROR;
+    const enum rg_cell_status status =
+        rg_last_error_kind() == RG_ERROR_UNSUPPORTED ? RG_CELL_UNSUPPORTED : RG_CELL_ERROR;
     char why[200];
     snprintf(why, sizeof(why), "no image to check it by: %.160s", rg_last_error());
     for (int d = 0; d < p->run->devices->count; d++)

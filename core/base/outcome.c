@@ -1,0 +1,31 @@
+#include "core/base/outcome.h"
+
+#include <string.h>
+
+#include "core/base/log.h"
+
+static const char *const names[RG_OUTCOME_COUNT] = {
+    [RG_OK] = "ok",       [RG_FAIL] = "fail",   [RG_UNSUPPORTED] = "unsupported",
+    [RG_ERROR] = "error", [RG_CRASH] = "crash", [RG_TIMEOUT] = "timeout",
+};
+
+const char *rg_outcome_name(enum rg_outcome outcome)
+{
+    return names[outcome];
+}
+
+bool rg_outcome_find(const char *name, enum rg_outcome *outcome)
+{
+    for (int i = 0; i < RG_OUTCOME_COUNT; i++) {
+        if (strcmp(name, names[i]))
+            continue;
+        *outcome = (enum rg_outcome)i;
+        return true;
+    }
+    return false;
+}
+
+enum rg_outcome rg_outcome_of_error(void)
+{
+    return rg_last_error_kind() == RG_ERROR_UNSUPPORTED ? RG_UNSUPPORTED : RG_ERROR;
+}

@@ -1,0 +1,28 @@
+// How a piece of work on a device ended: one enum with one word each, from a child process that a
+// driver brought down to the exit status. Bad usage and bad input are no outcomes, for no work
+// began.
+#ifndef RG_CORE_BASE_OUTCOME_H
+#define RG_CORE_BASE_OUTCOME_H
+
+#include <stdbool.h>
+
+enum rg_outcome {
+    RG_OK,
+    RG_FAIL,        // it was done, and the result is wrong: another image, a law that does not hold
+    RG_UNSUPPORTED, // the device or the machine lacks what was asked for
+    RG_ERROR,       // it could not be done: a driver reported an error
+    RG_CRASH,       // a driver ended the process that it ran in
+    RG_TIMEOUT,     // a driver did not come back in time
+};
+enum { RG_OUTCOME_COUNT = RG_TIMEOUT + 1 };
+
+// "ok", "fail", "unsupported", "error", "crash", "timeout": the words of all machine forms.
+const char *rg_outcome_name(enum rg_outcome outcome);
+// The outcome of this name. False where there is none.
+bool rg_outcome_find(const char *name, enum rg_outcome *outcome);
+
+// How work ended that the last error (core/base/log.h) kept from being done: RG_UNSUPPORTED, or
+// RG_ERROR for every other kind of error.
+enum rg_outcome rg_outcome_of_error(void);
+
+#endif

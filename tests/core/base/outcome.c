@@ -1,0 +1,68 @@
+// The words of outcomes, and what the last error was.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "core/base/log.h"
+#include "core/base/outcome.h"
+
+static void outcomes_are_found_by_their_names(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"ok", "fail", "unsupported", "error", "crash", "timeout"};
+    for (int i = 0; i < RG_OUTCOME_COUNT; i++) {
+        enum rg_outcome found = (enum rg_outcome)((i + 1) % RG_OUTCOME_COUNT);
+        assert_string_equal(rg_outcome_name((enum rg_outcome)i), names[i]);
+        assert_true(rg_outcome_find(names[i], &found));
+        assert_int_equal(found, i);
+    }
+    enum rg_outcome untouched = RG_CRASH;
+    assert_false(rg_outcome_find("unknown", &untouched));
+    assert_false(rg_outcome_find("", &untouched));
+    assert_int_equal(untouched, RG_CRASH);
+}
+
+static void ignore(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)line;
+    (void)user;
+}
+
+static void errors_are_of_a_kind(void **state)
+{
+    (void)state;
+    rg_log_listen(ignore, NULL);
+    assert_false(rg_driver_error("the driver's %d", 1));
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
+    assert_int_equal(rg_outcome_of_error(), RG_ERROR);
+    assert_string_equal(rg_last_error(), "the driver's 1");
+    assert_null(rg_unsupported_null("nobody's"));
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_UNSUPPORTED);
+    rg_warning("no error"); // which changes nothing
+    rg_info("no error");
+    assert_int_equal(rg_outcome_of_error(), RG_UNSUPPORTED);
+    assert_string_equal(rg_last_error(), "nobody's");
+    assert_null(rg_error_null("the user's"));
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_INPUT);
+    assert_int_equal(rg_outcome_of_error(), RG_ERROR);
+    assert_false(rg_unsupported("nobody's"));
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_UNSUPPORTED);
+    assert_null(rg_driver_error_null("the driver's"));
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
+    assert_false(rg_error("the user's"));
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_INPUT);
+    rg_log_listen(NULL, NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(outcomes_are_found_by_their_names),
+        cmocka_unit_test(errors_are_of_a_kind),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
