@@ -43,9 +43,9 @@ static int verdict(const struct rg_doctor_report *report)
     int exit = report->count ? RG_EXIT_PASS : RG_EXIT_UNSUPPORTED;
     for (int i = 0; i < report->count; i++) {
         const struct rg_examination *e = &report->examinations[i];
-        if (e->status == RG_EXAMINED_UNSUPPORTED && exit == RG_EXIT_PASS)
+        if (e->status == RG_UNSUPPORTED && exit == RG_EXIT_PASS)
             exit = RG_EXIT_UNSUPPORTED;
-        else if (e->status != RG_EXAMINED_OK && e->status != RG_EXAMINED_UNSUPPORTED)
+        else if (e->status != RG_OK && e->status != RG_UNSUPPORTED)
             exit = RG_EXIT_FAIL;
     }
     return exit;
@@ -68,7 +68,7 @@ static bool examine(struct rg_doctor_report *report)
     for (int i = 0; i < report->count; i++) {
         struct rg_examination *e = &report->examinations[i];
         rg_doctor_examine(e);
-        if (e->status == RG_EXAMINED_UNKNOWN)
+        if (e->is_unknown)
             return rg_error("%s", e->why);
     }
     return true;
@@ -79,7 +79,7 @@ static void complain(const struct rg_doctor_report *report)
 {
     for (int i = 0; i < report->count; i++) {
         const struct rg_examination *e = &report->examinations[i];
-        if (e->status == RG_EXAMINED_OK)
+        if (e->status == RG_OK)
             continue;
         if (!strncmp(e->why, "device '", strlen("device '")))
             rg_error("%s", e->why);

@@ -71,13 +71,13 @@ static int judge(const struct rg_table_run *run)
     int counts[4] = {0};
     for (int i = 0; i < run->cell_count; i++) {
         counts[run->cells[i].status] += !run->groups[i / devices].is_missing;
-        counts[RG_CELL_ERROR] += run->groups[i / devices].error_status == RG_CELL_ERROR;
+        counts[RG_ERROR] += run->groups[i / devices].error_status == RG_ERROR;
     }
-    if (counts[RG_CELL_FAIL] || counts[RG_CELL_ERROR])
+    if (counts[RG_FAIL] || counts[RG_ERROR])
         return RG_EXIT_FAIL;
-    if (counts[RG_CELL_OK])
+    if (counts[RG_OK])
         return RG_EXIT_PASS;
-    return counts[RG_CELL_UNSUPPORTED] ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
+    return counts[RG_UNSUPPORTED] ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
 }
 
 // One table of the command.

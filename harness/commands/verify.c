@@ -58,7 +58,7 @@ static void note_broken(const struct rg_devices *devices, const struct subject *
     for (int s = 0; s < count; s++)
         for (int i = 0; i < devices->broken_count; i++)
             rg_checks_add(checks, subjects[s].technique->name, "device", devices->broken[i].name,
-                          RG_STATUS_ERROR, "%s", devices->broken[i].why);
+                          RG_ERROR, "%s", devices->broken[i].why);
 }
 
 // What the machine lacks is said, not passed over.
@@ -70,8 +70,8 @@ static void note_missing(const struct rg_devices *devices, const struct subject 
             char name[32] = "";
             strncat(name, devices->missing[i], strcspn(devices->missing[i], " "));
             name[strlen(name) - (name[0] && name[strlen(name) - 1] == ':')] = 0;
-            rg_checks_add(checks, subjects[s].technique->name, "device", name,
-                          RG_STATUS_UNSUPPORTED, "%s", devices->missing[i]);
+            rg_checks_add(checks, subjects[s].technique->name, "device", name, RG_UNSUPPORTED, "%s",
+                          devices->missing[i]);
         }
     }
 }

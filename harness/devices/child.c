@@ -73,27 +73,27 @@ static void read_last_line(FILE *printed, char *last, size_t size)
     }
 }
 
-static enum rg_child_end explain(int status, bool ended, int timeout_s, FILE *printed, char *why,
-                                 size_t why_size)
+static enum rg_outcome explain(int status, bool ended, int timeout_s, FILE *printed, char *why,
+                               size_t why_size)
 {
     char last[200];
     if (ended && WIFEXITED(status) && WEXITSTATUS(status) == 0)
-        return RG_CHILD_DONE;
+        return RG_OK;
     read_last_line(printed, last, sizeof(last));
     if (!ended) {
         snprintf(why, why_size, "its driver did not come back within %d s%s", timeout_s, last);
-        return RG_CHILD_TIMEOUT;
+        return RG_TIMEOUT;
     }
     if (WIFSIGNALED(status))
         snprintf(why, why_size, "its driver crashed (%s)%s", strsignal(WTERMSIG(status)), last);
     else
         snprintf(why, why_size, "its driver ended the process with status %d%s",
                  WEXITSTATUS(status), last);
-    return RG_CHILD_CRASHED;
+    return RG_CRASH;
 }
 
-enum rg_child_end rg_child_run(void (*work)(void *), void *shared, int timeout_s, char *why,
-                               size_t why_size)
+enum rg_outcome rg_child_run(void (*work)(void *), void *shared, int timeout_s, char *why,
+                             size_t why_size)
 {
     FILE *printed = tmpfile();
     fflush(NULL);
@@ -104,7 +104,7 @@ enum rg_child_end rg_child_run(void (*work)(void *), void *shared, int timeout_s
         snprintf(why, why_size, "no child process could be started: %s", strerror(errno));
         if (printed)
             fclose(printed);
-        return RG_CHILD_NOT_STARTED;
+        return RG_ERROR;
     }
     int status = 0;
     bool ended = wait_for(child, timeout_s, &status);
@@ -112,7 +112,7 @@ enum rg_child_end rg_child_run(void (*work)(void *), void *shared, int timeout_s
         kill(child, SIGKILL);
         waitpid(child, &status, 0);
     }
-    enum rg_child_end end = explain(status, ended, timeout_s, printed, why, why_size);
+    enum rg_outcome end = explain(status, ended, timeout_s, printed, why, why_size);
     fclose(printed);
     return end;
 }

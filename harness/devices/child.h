@@ -6,7 +6,7 @@
 
 #include <stddef.h>
 
-enum rg_child_end { RG_CHILD_DONE, RG_CHILD_CRASHED, RG_CHILD_TIMEOUT, RG_CHILD_NOT_STARTED };
+#include "core/base/outcome.h"
 
 // Memory that a child's writes reach us through, zeroed; NULL and one logged line when there is
 // none.
@@ -14,8 +14,9 @@ void *rg_shared_create(size_t size);
 void rg_shared_destroy(void *shared, size_t size);
 
 // Runs work(shared) in a child for up to `timeout_s` seconds. Nothing of what it prints is shown.
-// When it did not end well, `why` says how, in one line, with the last line that it printed.
-enum rg_child_end rg_child_run(void (*work)(void *shared), void *shared, int timeout_s, char *why,
-                               size_t why_size);
+// When it did not end well, it crashed, timed out or, as an error, could not be started; `why` says
+// how, in one line, with the last line that it printed.
+enum rg_outcome rg_child_run(void (*work)(void *shared), void *shared, int timeout_s, char *why,
+                             size_t why_size);
 
 #endif

@@ -31,7 +31,7 @@ void rg_devices_list(struct rg_device_list *list)
     for (int b = 0; listing && rg_backends[b]; b++) {
         char why[256];
         *listing = (struct listing){rg_backends[b], *list};
-        if (rg_child_run(list_one, listing, LIST_TIMEOUT_S, why, sizeof(why)) == RG_CHILD_DONE) {
+        if (rg_child_run(list_one, listing, LIST_TIMEOUT_S, why, sizeof(why)) == RG_OK) {
             *list = listing->list;
             continue;
         }

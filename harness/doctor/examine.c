@@ -23,7 +23,7 @@ static void begin(struct rg_examination *examination, const char *step)
     snprintf(examination->why, sizeof(examination->why), "%s", step);
 }
 
-static void fail(struct rg_examination *examination, enum rg_examination_status status)
+static void fail(struct rg_examination *examination, enum rg_outcome status)
 {
     examination->status = status;
     snprintf(examination->why, sizeof(examination->why), "%.500s", rg_last_error());
@@ -31,15 +31,12 @@ static void fail(struct rg_examination *examination, enum rg_examination_status 
 
 static struct rg_device *open_device(struct rg_examination *examination)
 {
-    static const enum rg_examination_status statuses[] = {[RG_OPEN_UNKNOWN] = RG_EXAMINED_UNKNOWN,
-                                                          [RG_OPEN_UNSUPPORTED] =
-                                                              RG_EXAMINED_UNSUPPORTED,
-                                                          [RG_OPEN_FAILED] = RG_EXAMINED_ERROR};
     enum rg_open_status status;
     begin(examination, "opening the device");
     struct rg_device *device = rg_device_open(examination->info.name, &status);
     if (!device) {
-        fail(examination, statuses[status]);
+        fail(examination, status == RG_OPEN_UNSUPPORTED ? RG_UNSUPPORTED : RG_ERROR);
+        examination->is_unknown = status == RG_OPEN_UNKNOWN;
         return NULL;
     }
     examination->info = device->info;
@@ -56,7 +53,7 @@ static void examine(void *shared)
     begin(examination, "probing its arithmetic");
     examination->probed = rg_probe_run(device, examination->probe);
     if (!examination->probed) {
-        fail(examination, RG_EXAMINED_ERROR);
+        fail(examination, RG_ERROR);
         return;
     }
     const int failures = rg_examination_failures(examination);
@@ -67,10 +64,10 @@ static void examine(void *shared)
         examination->measured = rg_ceilings_measure(device, &examination->ceilings);
     }
     if (!examination->measured || !rg_device_close(device)) {
-        fail(examination, RG_EXAMINED_ERROR);
+        fail(examination, RG_ERROR);
         return;
     }
-    examination->status = failures ? RG_EXAMINED_FAIL : RG_EXAMINED_OK;
+    examination->status = failures ? RG_FAIL : RG_OK;
     examination->why[0] = 0;
     if (failures)
         snprintf(examination->why, sizeof(examination->why),
@@ -80,31 +77,20 @@ static void examine(void *shared)
 
 void rg_doctor_examine(struct rg_examination *examination)
 {
-    static const enum rg_examination_status statuses[] = {[RG_CHILD_CRASHED] = RG_EXAMINED_CRASH,
-                                                          [RG_CHILD_TIMEOUT] = RG_EXAMINED_TIMEOUT,
-                                                          [RG_CHILD_NOT_STARTED] =
-                                                              RG_EXAMINED_ERROR};
     char why[256];
     struct rg_examination *shared = rg_shared_create(sizeof(*shared));
     if (!shared) {
-        fail(examination, RG_EXAMINED_ERROR);
+        fail(examination, RG_ERROR);
         return;
     }
     *shared = (struct rg_examination){.info = examination->info};
-    enum rg_child_end end = rg_child_run(examine, shared, EXAMINE_TIMEOUT_S, why, sizeof(why));
+    const enum rg_outcome end = rg_child_run(examine, shared, EXAMINE_TIMEOUT_S, why, sizeof(why));
     *examination = *shared;
     rg_shared_destroy(shared, sizeof(*shared));
-    if (end == RG_CHILD_DONE)
+    if (end == RG_OK)
         return;
     char step[64];
     snprintf(step, sizeof(step), "%.60s", examination->why);
-    examination->status = statuses[end];
+    examination->status = end;
     snprintf(examination->why, sizeof(examination->why), "%s%s%s", step, *step ? ": " : "", why);
-}
-
-const char *rg_examination_status_name(enum rg_examination_status status)
-{
-    static const char *const names[] = {"ok",      "fail",  "error",  "unsupported",
-                                        "unknown", "crash", "timeout"};
-    return names[status];
 }

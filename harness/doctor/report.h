@@ -4,24 +4,16 @@
 
 #include <jansson.h>
 
+#include "core/base/outcome.h"
 #include "core/device/device.h"
 #include "core/device/probe.h"
 #include "harness/measure/ceilings.h"
 #include "harness/measure/timer_audit.h"
 
-enum rg_examination_status {
-    RG_EXAMINED_OK,
-    RG_EXAMINED_FAIL,        // an operation of the kernel dialect gives other bits than C
-    RG_EXAMINED_ERROR,       // the driver reported an error
-    RG_EXAMINED_UNSUPPORTED, // absent on this machine
-    RG_EXAMINED_UNKNOWN,     // no such name
-    RG_EXAMINED_CRASH,
-    RG_EXAMINED_TIMEOUT,
-};
-
 // One device. Holds what was found until the driver failed, if it did.
 struct rg_examination {
-    enum rg_examination_status status;
+    bool is_unknown;            // no such name: the rest says nothing but why
+    enum rg_outcome status;     // fail: an operation of the kernel dialect gives other bits than C
     char why[512];              // in one line; "" when all is well
     struct rg_device_info info; // until `opened`, only info.name is certain
     bool opened, probed, audited, measured;
@@ -44,8 +36,6 @@ void rg_doctor_examine(struct rg_examination *examination);
 
 // Traps that are visible from outside: one sentence each. The caller releases the array.
 json_t *rg_doctor_warnings(const struct rg_device_list *list);
-
-const char *rg_examination_status_name(enum rg_examination_status status);
 
 // Operations of the dialect that differ.
 int rg_examination_failures(const struct rg_examination *examination);

@@ -169,7 +169,7 @@ static void print_device(const struct rg_examination *e)
     if (e->measured)
         print_ceilings(&e->ceilings);
     if (*e->why) {
-        snprintf(text, sizeof(text), "%s: %s", rg_examination_status_name(e->status), e->why);
+        snprintf(text, sizeof(text), "%s: %s", rg_outcome_name(e->status), e->why);
         print_field("PROBLEM", text);
     }
 }
@@ -226,7 +226,7 @@ static void print_verdict(const struct rg_doctor_report *report)
 {
     int good = 0;
     for (int i = 0; i < report->count; i++)
-        good += report->examinations[i].status == RG_EXAMINED_OK;
+        good += report->examinations[i].status == RG_OK;
     printf("\n%d of %d devices are well: they work, and compute what C computes\n", good,
            report->count);
 }

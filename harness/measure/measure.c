@@ -25,24 +25,7 @@ enum {
 // A frame that takes longer feels nothing of what the cell before left in the caches.
 #define LONG_FRAME_MS 100
 
-static const char *const statuses[] = {"ok", "fail", "unsupported", "error"};
-
-const char *rg_cell_status_name(enum rg_cell_status status)
-{
-    return statuses[status];
-}
-
-bool rg_cell_status_find(const char *name, enum rg_cell_status *status)
-{
-    for (int i = 0; i < 4; i++) {
-        *status = (enum rg_cell_status)i;
-        if (!strcmp(name, statuses[i]))
-            return true;
-    }
-    return false;
-}
-
-bool rg_cell_end(struct rg_cell *cell, enum rg_cell_status status, const char *detail)
+bool rg_cell_end(struct rg_cell *cell, enum rg_outcome status, const char *detail)
 {
     cell->status = status;
     snprintf(cell->detail, sizeof(cell->detail), "%s", detail);
@@ -51,9 +34,7 @@ bool rg_cell_end(struct rg_cell *cell, enum rg_cell_status status, const char *d
 
 bool rg_cell_end_by_error(struct rg_cell *cell)
 {
-    return rg_cell_end(
-        cell, rg_last_error_kind() == RG_ERROR_UNSUPPORTED ? RG_CELL_UNSUPPORTED : RG_CELL_ERROR,
-        rg_last_error());
+    return rg_cell_end(cell, rg_outcome_of_error(), rg_last_error());
 }
 
 static bool run_frames(struct rg_cell *cell, int frames)
@@ -91,7 +72,7 @@ static bool open_instance(struct rg_cell *cell)
 
 bool rg_cell_open(struct rg_cell *cell)
 {
-    cell->status = RG_CELL_OK;
+    cell->status = RG_OK;
     if (!open_instance(cell))
         return false;
     cell->warm_frame_ms = cell->first_frame_ms;
@@ -101,7 +82,7 @@ bool rg_cell_open(struct rg_cell *cell)
     memcpy(cell->counters, cell->instance->counters, sizeof(cell->counters));
     cell->fact_count = cell->instance->fact_count;
     memcpy(cell->facts, cell->instance->facts, sizeof(cell->facts));
-    return cell->status == RG_CELL_OK;
+    return cell->status == RG_OK;
 }
 
 // Whether an image holds tier T1, which other drivers than the software ones are held to.
@@ -115,8 +96,7 @@ static bool holds_t1(struct rg_cell *cell, const struct rg_expected *expected, c
                          dry, &(struct rg_compare_options){0}, &comparison);
     bool holds = ok && comparison.tiers.t1.holds;
     if (!holds)
-        rg_cell_end(cell, ok ? RG_CELL_FAIL : RG_CELL_ERROR,
-                    ok ? comparison.tiers.t1.why : rg_last_error());
+        rg_cell_end(cell, ok ? RG_FAIL : RG_ERROR, ok ? comparison.tiers.t1.why : rg_last_error());
     rg_comparison_destroy(&comparison);
     rg_picture_destroy(&picture);
     return holds;
@@ -128,7 +108,7 @@ static bool agrees(struct rg_cell *cell, const struct rg_expected *expected, con
         return true;
     if (!cell->device->info.software)
         return holds_t1(cell, expected, texels);
-    return rg_cell_end(cell, RG_CELL_FAIL,
+    return rg_cell_end(cell, RG_FAIL,
                        "its image differs from cpu:reference's (T0); `raingauge diff` shows where");
 }
 
@@ -147,14 +127,14 @@ bool rg_cell_check(struct rg_cell *cell, const struct rg_expected *expected)
 bool rg_cell_warm_up(struct rg_cell *cell, const struct rg_measure_options *options)
 {
     const double start = rg_now_ms();
-    for (int i = 1; i <= MAX_WARM_UP_FRAMES && cell->status == RG_CELL_OK; i++) {
+    for (int i = 1; i <= MAX_WARM_UP_FRAMES && cell->status == RG_OK; i++) {
         const double before = cell->warm_frame_ms, now = time_frames(cell, 1);
         cell->warm_frame_ms = now;
         const bool settled = i >= MIN_WARM_UP_FRAMES && fabs(now - before) <= 0.1 * before;
         if (settled || rg_now_ms() - start > options->warm_up_ms)
             break;
     }
-    return cell->status == RG_CELL_OK;
+    return cell->status == RG_OK;
 }
 
 // --- measuring ---
@@ -212,7 +192,7 @@ static bool takes_turn(const struct rg_cell *cell, int round, int rounds)
 {
     const int before = (int)((int64_t)round * cell->wanted_samples / rounds);
     const int after = (int)(((int64_t)round + 1) * cell->wanted_samples / rounds);
-    return cell->status == RG_CELL_OK && after > before;
+    return cell->status == RG_OK && after > before;
 }
 
 struct pass_clock {
@@ -285,7 +265,7 @@ static int calibrate_all(struct rg_cell *cells, int count, const struct rg_measu
 {
     int ready = 0;
     for (int i = 0; i < count; i++) {
-        if (cells[i].status != RG_CELL_OK)
+        if (cells[i].status != RG_OK)
             continue;
         calibrate(&cells[i], options);
         order[ready++] = i;
@@ -297,7 +277,7 @@ void rg_cells_measure(struct rg_cell *cells, int count, const struct rg_measure_
 {
     int *order = rg_alloc((size_t)count, sizeof(int), "cells"), rounds = 0;
     for (int i = 0; !order && i < count; i++)
-        if (cells[i].status == RG_CELL_OK)
+        if (cells[i].status == RG_OK)
             rg_cell_end_by_error(&cells[i]);
     const int ready = order ? calibrate_all(cells, count, options, order) : 0;
     for (int i = 0; i < ready; i++)
@@ -312,7 +292,7 @@ void rg_cells_measure(struct rg_cell *cells, int count, const struct rg_measure_
             options->progress(round + 1, rounds, options->user);
     }
     for (int i = 0; i < ready && !rg_interrupted(); i++)
-        if (cells[order[i]].status == RG_CELL_OK)
+        if (cells[order[i]].status == RG_OK)
             finish(&cells[order[i]]);
     free(order);
 }

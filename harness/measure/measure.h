@@ -6,17 +6,13 @@
 #ifndef RG_HARNESS_MEASURE_MEASURE_H
 #define RG_HARNESS_MEASURE_MEASURE_H
 
+#include "core/base/outcome.h"
 #include "core/techniques/technique.h"
 #include "harness/measure/expected.h"
 #include "harness/measure/stats.h"
 
 // Passes of so many names are told apart; what all others take is summed as "other".
 enum { RG_MAX_CELL_PASSES = 32 };
-
-enum rg_cell_status { RG_CELL_OK, RG_CELL_FAIL, RG_CELL_UNSUPPORTED, RG_CELL_ERROR };
-const char *rg_cell_status_name(enum rg_cell_status status); // "ok", "fail", ...
-// The status of this name. False where there is none.
-bool rg_cell_status_find(const char *name, enum rg_cell_status *status);
 
 struct rg_cell_pass {
     const char *name;
@@ -32,7 +28,7 @@ struct rg_cell {
     int check_frames;  // simulated and drawn before the image is compared, at least 1
     // Found:
     struct rg_instance *instance;
-    enum rg_cell_status status;
+    enum rg_outcome status;
     char detail[200];      // why the status is not ok
     double create_ms;      // opening: buffers, inputs, and what the driver compiles then
     double first_frame_ms; // the first step and drawing, with what the driver compiles then
@@ -82,7 +78,7 @@ bool rg_cell_summarise(struct rg_cell *cell);
 double rg_cell_passes_ms(const struct rg_cell *cell);
 
 // Ends a cell with a status other than ok, and says why. False.
-bool rg_cell_end(struct rg_cell *cell, enum rg_cell_status status, const char *detail);
+bool rg_cell_end(struct rg_cell *cell, enum rg_outcome status, const char *detail);
 // The same with the last error, which may be that something is unsupported.
 bool rg_cell_end_by_error(struct rg_cell *cell);
 

@@ -183,9 +183,9 @@ static bool has_error(const struct rg_table_run *run, int row)
 {
     bool found = false;
     for (int v = 0; v < rg_table_variant_count(run->table); v++) {
-        found = found || rg_table_group(run, row, v)->error_status == RG_CELL_ERROR;
+        found = found || rg_table_group(run, row, v)->error_status == RG_ERROR;
         for (int d = 0; d < run->devices->count; d++)
-            found = found || rg_table_cell(run, row, v, d)->status == RG_CELL_ERROR;
+            found = found || rg_table_cell(run, row, v, d)->status == RG_ERROR;
     }
     return found;
 }

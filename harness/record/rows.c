@@ -50,17 +50,17 @@ static json_t *facts_json(const struct rg_cell *cell)
 
 static json_t *cell_json(const struct rg_cell *cell)
 {
-    return json_pack("{sssosfsfsisosfsisososo}", "status", rg_cell_status_name(cell->status),
-                     "detail", rg_json_text(cell->detail), "create_ms", cell->create_ms,
-                     "first_frame_ms", cell->first_frame_ms, "frames_a_sample",
-                     cell->frames_a_sample, "samples_ms", samples_json(cell), "api_over_wall",
-                     cell->api_over_wall, "pass_frames", cell->pass_frames, "passes",
-                     passes_json(cell), "counters", counters_json(cell), "facts", facts_json(cell));
+    return json_pack("{sssosfsfsisosfsisososo}", "status", rg_outcome_name(cell->status), "detail",
+                     rg_json_text(cell->detail), "create_ms", cell->create_ms, "first_frame_ms",
+                     cell->first_frame_ms, "frames_a_sample", cell->frames_a_sample, "samples_ms",
+                     samples_json(cell), "api_over_wall", cell->api_over_wall, "pass_frames",
+                     cell->pass_frames, "passes", passes_json(cell), "counters",
+                     counters_json(cell), "facts", facts_json(cell));
 }
 
 static json_t *group_json(const struct rg_table_group *group)
 {
-    return json_pack("{sssosfsfsi}", "status", rg_cell_status_name(group->error_status), "detail",
+    return json_pack("{sssosfsfsi}", "status", rg_outcome_name(group->error_status), "detail",
                      rg_json_text(group->error_detail), "flip_mask_mean",
                      group->error.flip_mask_mean, "flip_mean", group->error.flip_mean, "max",
                      group->error.max_codes);
@@ -143,10 +143,10 @@ static bool read_cell(json_t *json, struct rg_cell *cell, bool is_timed)
                     "frames_a_sample", &cell->frames_a_sample, "samples_ms", &samples,
                     "api_over_wall", &cell->api_over_wall, "pass_frames", &cell->pass_frames,
                     "passes", &passes, "counters", &counters, "facts", &facts) ||
-        !rg_cell_status_find(status, &cell->status))
+        !rg_outcome_find(status, &cell->status))
         return false;
     snprintf(cell->detail, sizeof(cell->detail), "%s", detail);
-    const bool wants_samples = is_timed && cell->status == RG_CELL_OK;
+    const bool wants_samples = is_timed && cell->status == RG_OK;
     return wants_samples == (json_array_size(samples) > 0) && read_samples(samples, cell) &&
            read_passes(passes, cell) && read_counters(counters, cell) && read_facts(facts, cell);
 }
@@ -157,7 +157,7 @@ static bool read_group(json_t *json, struct rg_table_group *group)
     if (json_unpack(json, "{sssssFsFsi}", "status", &status, "detail", &detail, "flip_mask_mean",
                     &group->error.flip_mask_mean, "flip_mean", &group->error.flip_mean, "max",
                     &group->error.max_codes) ||
-        !rg_cell_status_find(status, &group->error_status))
+        !rg_outcome_find(status, &group->error_status))
         return false;
     snprintf(group->error_detail, sizeof(group->error_detail), "%s", detail);
     return true;

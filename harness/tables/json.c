@@ -80,8 +80,8 @@ static json_t *set_json(const struct rg_table_run *run, int row, int variant)
 
 static json_t *error_json(const struct rg_table_group *group)
 {
-    if (group->error_status != RG_CELL_OK)
-        return json_pack("{ssso}", "status", rg_cell_status_name(group->error_status), "detail",
+    if (group->error_status != RG_OK)
+        return json_pack("{ssso}", "status", rg_outcome_name(group->error_status), "detail",
                          rg_json_text(group->error_detail));
     return json_pack("{sssfsfsi}", "status", "ok", "flip_mask_mean", group->error.flip_mask_mean,
                      "flip_mean", group->error.flip_mean, "max", group->error.max_codes);
@@ -95,12 +95,12 @@ static json_t *cell_json(const struct rg_table_run *run, int row, int variant, i
     json_t *json = json_pack(
         "{sosossssssso}", "row", row_json(table, row), "set", set_json(run, row, variant), "device",
         cell->device->info.name, "variant", table->variants[variant].name, "status",
-        rg_cell_status_name(cell->status), "published", published_json(table, row, variant));
+        rg_outcome_name(cell->status), "published", published_json(table, row, variant));
     json_object_set_new(json, "counters", rg_counters_json(cell->counters, cell->counter_count));
     json_object_set_new(json, "facts", rg_facts_json(cell->facts, cell->fact_count));
     if (table->truth)
         json_object_set_new(json, "error", error_json(group));
-    if (cell->status == RG_CELL_OK)
+    if (cell->status == RG_OK)
         json_object_set_new(json, "measured", measured_json(table, cell));
     else
         json_object_set_new(json, "detail", rg_json_text(cell->detail));

@@ -42,7 +42,7 @@ static void begin_cells(struct preparation *p)
                                        .width = p->table->width,
                                        .height = p->table->height,
                                        .check_frames = p->check_frames,
-                                       .status = RG_CELL_OK};
+                                       .status = RG_OK};
 }
 
 // --- the image ---
@@ -104,8 +104,7 @@ static void measure_error(struct preparation *p)
         return;
     void *settings = rg_settings_copy(p->technique, p->group->settings, p->table->truth);
     if (!settings || !compare_with_truth(p, settings)) {
-        p->group->error_status =
-            rg_last_error_kind() == RG_ERROR_UNSUPPORTED ? RG_CELL_UNSUPPORTED : RG_CELL_ERROR;
+        p->group->error_status = rg_outcome_of_error();
         snprintf(p->group->error_detail, sizeof(p->group->error_detail), "%s", rg_last_error());
     }
     free(settings);
@@ -116,12 +115,11 @@ static void measure_error(struct preparation *p)
 // Ends the cells that are not open, which nothing can be compared with.
 static void give_up(struct preparation *p)
 {
-    const enum rg_cell_status status =
-        rg_last_error_kind() == RG_ERROR_UNSUPPORTED ? RG_CELL_UNSUPPORTED : RG_CELL_ERROR;
+    const enum rg_outcome status = rg_outcome_of_error();
     char why[200];
     snprintf(why, sizeof(why), "no image to check it by: %.160s", rg_last_error());
     for (int d = 0; d < p->run->devices->count; d++)
-        if (p->cells[d].status == RG_CELL_OK)
+        if (p->cells[d].status == RG_OK)
             rg_cell_end(&p->cells[d], status, why);
     p->group->error_status = status;
     snprintf(p->group->error_detail, sizeof(p->group->error_detail), "%s", why);
@@ -188,19 +186,19 @@ static bool tell_size(struct rg_cell *cell, const struct rg_instance *instance, 
     char why[200];
     if (!texture) {
         snprintf(why, sizeof(why), "%s has no texture '%s'", cell->technique->name, name);
-        return rg_cell_end(cell, RG_CELL_ERROR, why);
+        return rg_cell_end(cell, RG_ERROR, why);
     }
     const struct rg_image_desc *desc = &texture->image->desc;
     const int own_level = level - texture->first_level;
     if (own_level < 0) {
         snprintf(why, sizeof(why), "the texture is reduced, and begins with level %d",
                  texture->first_level);
-        return rg_cell_end(cell, RG_CELL_UNSUPPORTED, why);
+        return rg_cell_end(cell, RG_UNSUPPORTED, why);
     }
     if (own_level >= desc->levels) {
         snprintf(why, sizeof(why), "the texture ends with level %d",
                  texture->first_level + desc->levels - 1);
-        return rg_cell_end(cell, RG_CELL_FAIL, why);
+        return rg_cell_end(cell, RG_FAIL, why);
     }
     tell(cell, "width_px", rg_level_size(desc->width, own_level));
     tell(cell, "height_px", rg_level_size(desc->height, own_level));

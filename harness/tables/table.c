@@ -60,7 +60,7 @@ void rg_table_samples(const struct rg_table_run *run, int *least, int *most)
     *least = *most = 0;
     for (int i = 0; i < run->cell_count; i++) {
         const int samples = run->cells[i].sample_count;
-        if (run->cells[i].status != RG_CELL_OK || !samples)
+        if (run->cells[i].status != RG_OK || !samples)
             continue;
         *least = !*least || samples < *least ? samples : *least;
         *most = samples > *most ? samples : *most;

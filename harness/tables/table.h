@@ -22,7 +22,7 @@ struct rg_table_group {
     bool is_missing; // not measured, for the run was interrupted
     void *settings;  // owned
     // Where the table has a truth: OK, and the row's distance from it, or why there is none.
-    enum rg_cell_status error_status;
+    enum rg_outcome error_status;
     struct rg_table_error error;
     char error_detail[200];
 };
@@ -43,10 +43,10 @@ struct rg_table_run {
     json_t *journal;               // what was read of it, which holds those rows' names; or NULL
 };
 
-// Measures the rows, a batch at a time; those that the journal (harness/record/journal.h; NULL: none) has
-// are taken from it. What cannot be had is the status of its cells. Where it is interrupted, the
-// rows of the batch and those behind it are missing. False, with one logged line, without memory
-// for the cells. The caller calls rg_table_run_free in either case.
+// Measures the rows, a batch at a time; those that the journal (harness/record/journal.h; NULL:
+// none) has are taken from it. What cannot be had is the status of its cells. Where it is
+// interrupted, the rows of the batch and those behind it are missing. False, with one logged line,
+// without memory for the cells. The caller calls rg_table_run_free in either case.
 bool rg_table_measure(struct rg_table_run *run, struct rg_bench *bench, struct rg_journal *journal);
 void rg_table_run_free(struct rg_table_run *run);
 

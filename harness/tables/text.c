@@ -144,10 +144,10 @@ static void fill_told(const struct rg_table_run *run, const struct columns *at,
 // How far the row is from the truth, or why that is unknown.
 static void fill_error(const struct rg_table_group *group, char text[RG_GRID_CELL])
 {
-    if (group->error_status == RG_CELL_OK)
+    if (group->error_status == RG_OK)
         snprintf(text, RG_GRID_CELL, "%.4f", group->error.flip_mask_mean);
     else
-        snprintf(text, RG_GRID_CELL, "%s", rg_cell_status_name(group->error_status));
+        snprintf(text, RG_GRID_CELL, "%s", rg_outcome_name(group->error_status));
 }
 
 static void fill_published(const struct rg_table_run *run, const struct columns *at,
@@ -183,14 +183,14 @@ static void add_row(const struct rg_table_run *run, const struct columns *at, st
     snprintf(cells[at->device], RG_GRID_CELL, "%s", cell->device->info.name);
     if (at->error >= 0)
         fill_error(group, cells[at->error]);
-    snprintf(cells[at->fps], RG_GRID_CELL, "%s", rg_cell_status_name(cell->status));
-    if (cell->status != RG_CELL_OK)
+    snprintf(cells[at->fps], RG_GRID_CELL, "%s", rg_outcome_name(cell->status));
+    if (cell->status != RG_OK)
         return;
     fill_told(run, at, cells, cell);
     if (run->table->is_of_textures)
         return;
     fill_times(at, cells, cell, rg_table_published_fps(run->table, row, variant));
-    if (reference && reference->status == RG_CELL_OK)
+    if (reference && reference->status == RG_OK)
         snprintf(cells[at->times], RG_GRID_CELL, "%.1f",
                  rg_cell_fps(cell) / rg_cell_fps(reference));
 }
@@ -238,9 +238,9 @@ static void note_status(const struct rg_table_run *run, struct rg_grid *grid, in
     char name[256], devices[512];
     name_group(run, row, variant, name, sizeof(name));
     name_alike(run, row, variant, device, devices, sizeof(devices));
-    if (cell->status != RG_CELL_OK && *devices)
+    if (cell->status != RG_OK && *devices)
         rg_grid_note(grid, "%s on %s: %s", name, devices, cell->detail);
-    if (device == 0 && group->error_status != RG_CELL_OK)
+    if (device == 0 && group->error_status != RG_OK)
         rg_grid_note(grid, "%s: no error: %s", name, group->error_detail);
 }
 
@@ -282,7 +282,7 @@ static bool is_same_everywhere(const struct rg_table_run *run, const struct colu
     char other[RG_FACTS_TEXT];
     bool any = false;
     for (int i = 0; i < run->cell_count; i++) {
-        if (run->cells[i].status != RG_CELL_OK)
+        if (run->cells[i].status != RG_OK)
             continue;
         print_facts(run, at, i, any ? other : text, RG_FACTS_TEXT);
         if (any && strcmp(other, text))

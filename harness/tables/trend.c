@@ -35,7 +35,7 @@ struct rg_shape rg_table_shape(const struct rg_table_run *run, int variant, int 
         return shape;
     for (int row = run->first_row; row <= run->last_row; row++, rows++) {
         const struct rg_cell *cell = rg_table_cell(run, row, variant, device);
-        if (cell->status != RG_CELL_OK)
+        if (cell->status != RG_OK)
             return (struct rg_shape){.verdict = RG_SHAPE_UNKNOWN};
         axis[rows] = log(table->rows[row].values[0]);
         published[rows] = log(rg_table_published_fps(table, row, variant));

@@ -17,7 +17,7 @@
 static int *shared;
 static char why[256];
 
-static enum rg_child_end run(void (*work)(void *), int timeout_s)
+static enum rg_outcome run(void (*work)(void *), int timeout_s)
 {
     *why = 0;
     *shared = 0;
@@ -34,7 +34,7 @@ static void return_seven(void *result)
 static void results_come_back(void **state)
 {
     (void)state;
-    assert_int_equal(run(return_seven, 10), RG_CHILD_DONE);
+    assert_int_equal(run(return_seven, 10), RG_OK);
     assert_int_equal(*shared, 7);
     assert_string_equal(why, "");
 }
@@ -49,7 +49,7 @@ static void print_and_crash(void *result)
 static void crashes_are_told_with_the_last_words(void **state)
 {
     (void)state;
-    assert_int_equal(run(print_and_crash, 10), RG_CHILD_CRASHED);
+    assert_int_equal(run(print_and_crash, 10), RG_CRASH);
     assert_string_equal(why, "its driver crashed (Killed): second line");
     assert_int_equal(*shared, 3);
 }
@@ -63,7 +63,7 @@ static void leave(void *result)
 static void an_exit_is_no_result(void **state)
 {
     (void)state;
-    assert_int_equal(run(leave, 10), RG_CHILD_CRASHED);
+    assert_int_equal(run(leave, 10), RG_CRASH);
     assert_string_equal(why, "its driver ended the process with status 5");
 }
 
@@ -77,7 +77,7 @@ static void hang(void *result)
 static void a_hang_is_ended(void **state)
 {
     (void)state;
-    assert_int_equal(run(hang, 0), RG_CHILD_TIMEOUT);
+    assert_int_equal(run(hang, 0), RG_TIMEOUT);
     assert_string_equal(why, "its driver did not come back within 0 s");
 }
 

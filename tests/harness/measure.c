@@ -50,8 +50,8 @@ static void brighten(struct rg_picture *picture, const struct rg_picture *dry, i
     assert_int_equal(pixels, 0);
 }
 
-static enum rg_cell_status judge(struct rg_device *device, const void *settings,
-                                 const struct rg_expected *expected, char *detail, size_t size)
+static enum rg_outcome judge(struct rg_device *device, const void *settings,
+                             const struct rg_expected *expected, char *detail, size_t size)
 {
     struct rg_cell cell = {.technique = rg_technique_find("flow"),
                            .settings = settings,
@@ -90,17 +90,17 @@ static void test_t1_by_the_mask(void **state)
     struct rg_device *device = rg_device_open("cpu", NULL);
     struct rg_expected expected;
     expect(&expected, rg_technique_find("flow"), settings);
-    assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_CELL_OK);
+    assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_OK);
     brighten(&expected.picture, &expected.dry, PIXELS);
     ((char *)expected.texels)[0] ^= 1; // what the device draws is no longer identical
-    assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_CELL_FAIL);
+    assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_FAIL);
     assert_non_null(strstr(detail, "(T0)"));
     device->info.software = false;
-    assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_CELL_FAIL);
+    assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_FAIL);
     if (!strstr(detail, "of the mask is above 1/255"))
         fail_msg("failed for another reason: %s", detail);
     rg_picture_destroy(&expected.dry); // without a background the whole picture is the mask
-    assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_CELL_OK);
+    assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_OK);
     rg_expected_free(&expected);
     assert_true(rg_device_close(device));
     free(settings);
@@ -155,7 +155,7 @@ static void test_what_a_cell_keeps(void **state)
     assert_true(rg_cell_open(&cell) && rg_cell_check(&cell, &expected) &&
                 rg_cell_warm_up(&cell, &options));
     rg_cells_measure(&cell, 1, &options);
-    assert_int_equal(cell.status, RG_CELL_OK);
+    assert_int_equal(cell.status, RG_OK);
     assert_int_equal(cell.fact_count, 3); // behind flow's own, the vertices and faces of its pane
     assert_string_equal(cell.facts[2].name, "panes");
     assert_true(cell.facts[2].number == 6 + RG_CHECK_FRAMES);
@@ -206,7 +206,7 @@ static void test_samples(void **state)
     }
     rg_cells_measure(cells, 2, &options);
     for (int i = 0; i < 2; i++) {
-        assert_int_equal(cells[i].status, RG_CELL_OK);
+        assert_int_equal(cells[i].status, RG_OK);
         assert_int_equal(cells[i].sample_count, cells[i].wanted_samples);
         assert_in_range(cells[i].sample_count, 2, 40);
         assert_in_range(cells[i].pass_frames, 2, 10);
@@ -270,8 +270,8 @@ static void test_table(void **state)
             const struct rg_table_group *group = rg_table_group(&run, row, variant);
             // The variant's sky goes over the row's file.
             const bool broken = row == 1 && variant == 1;
-            assert_int_equal(cell->status, broken ? RG_CELL_ERROR : RG_CELL_OK);
-            assert_int_equal(group->error_status, broken ? RG_CELL_ERROR : RG_CELL_OK);
+            assert_int_equal(cell->status, broken ? RG_ERROR : RG_OK);
+            assert_int_equal(group->error_status, broken ? RG_ERROR : RG_OK);
             assert_true(broken || group->error.flip_mask_mean > 0.001);
         }
     }
@@ -328,12 +328,12 @@ static void test_textures(void **state)
     struct rg_table_run run = {.table = &texture_table, .devices = &devices, .last_row = 3};
     run_table(&run, &bench, NULL);
     const struct rg_cell *whole = rg_table_cell(&run, 0, 0, 0);
-    assert_int_equal(whole->status, RG_CELL_OK);
+    assert_int_equal(whole->status, RG_OK);
     assert_true(*rg_facts_number(whole->facts, whole->fact_count, "width_px") == 16);
     assert_true(*rg_facts_number(whole->facts, whole->fact_count, "height_px") == 16);
-    assert_int_equal(rg_table_cell(&run, 1, 0, 0)->status, RG_CELL_FAIL); // no such level
-    assert_int_equal(rg_table_cell(&run, 2, 0, 0)->status, RG_CELL_ERROR);
-    assert_int_equal(rg_table_cell(&run, 3, 0, 0)->status, RG_CELL_ERROR);
+    assert_int_equal(rg_table_cell(&run, 1, 0, 0)->status, RG_FAIL); // no such level
+    assert_int_equal(rg_table_cell(&run, 2, 0, 0)->status, RG_ERROR);
+    assert_int_equal(rg_table_cell(&run, 3, 0, 0)->status, RG_ERROR);
     rg_table_run_free(&run);
     assert_true(rg_bench_free(&bench));
     assert_true(rg_device_close(devices.devices[0]));
@@ -349,7 +349,7 @@ static void test_unsupported(void **state)
     struct rg_table_run run = {.table = &wide, .devices = &devices};
     run_table(&run, &bench, NULL);
     const struct rg_cell *cell = rg_table_cell(&run, 0, 0, 0);
-    assert_int_equal(cell->status, RG_CELL_UNSUPPORTED);
+    assert_int_equal(cell->status, RG_UNSUPPORTED);
     assert_non_null(strstr(cell->detail, "1048576x64"));
     rg_table_run_free(&run);
     assert_true(rg_bench_free(&bench));

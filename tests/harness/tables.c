@@ -176,7 +176,7 @@ static void measure(struct rig *rig, const struct rg_table *table, const double 
         const double ms = 1000 / fps[i];
         rig->cells[i] = (struct rg_cell){.technique = &technique,
                                          .device = &device,
-                                         .status = fps[i] > 0 ? RG_CELL_OK : RG_CELL_FAIL,
+                                         .status = fps[i] > 0 ? RG_OK : RG_FAIL,
                                          .detail = "differs",
                                          .frame_ms = {ms, ms, ms}};
     }
@@ -344,7 +344,7 @@ static void test_json(void **state)
     rig.cells[1].pass_count = 2;
     rig.cells[1].passes[0] = (struct rg_cell_pass){"a", 3};
     rig.cells[1].passes[1] = (struct rg_cell_pass){"b", 1};
-    rig.groups[0].error_status = RG_CELL_UNSUPPORTED;
+    rig.groups[0].error_status = RG_UNSUPPORTED;
     snprintf(rig.groups[0].error_detail, sizeof(rig.groups[0].error_detail), "too much");
     rig.groups[1].error.flip_mask_mean = 0.5;
     snprintf(rig.devices.missing[0], sizeof(rig.devices.missing[0]), "gl: none");
@@ -414,7 +414,7 @@ static void test_unsupported(void **state)
     struct rig rig;
     struct rg_grid grid;
     measure(&rig, &names_table, (double[]){50, 0, 11, 20});
-    rig.cells[1].status = RG_CELL_UNSUPPORTED;
+    rig.cells[1].status = RG_UNSUPPORTED;
     rg_table_grid(&rig.run, &grid);
     expect_text(&grid, 1, "fps", "unsupported");
     assert_true(has_note(&grid, "dragon on cpu: differs"));

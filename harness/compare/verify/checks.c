@@ -9,10 +9,8 @@
 #include "core/base/log.h"
 #include "harness/commands/command.h"
 
-static const char *const names[] = {"ok", "fail", "unsupported", "error"};
-
 void rg_checks_add(struct rg_checks *checks, const char *technique, const char *check,
-                   const char *device, enum rg_status status, const char *format, ...)
+                   const char *device, enum rg_outcome status, const char *format, ...)
 {
     struct rg_check *rows = realloc(checks->rows, (size_t)(checks->count + 1) * sizeof(*rows));
     if (!rows) {
@@ -39,7 +37,7 @@ static void print_json(const struct rg_checks *checks)
         const struct rg_check *row = &checks->rows[i];
         json_array_append_new(rows, json_pack("{ssssssssss}", "technique", row->technique, "check",
                                               row->check, "device", row->device, "status",
-                                              names[row->status], "detail", row->detail));
+                                              rg_outcome_name(row->status), "detail", row->detail));
     }
     json_t *root = json_pack("{siso}", "format", 1, "checks", rows);
     json_dumpf(root, stdout, JSON_INDENT(2));
@@ -57,14 +55,14 @@ static void print_lines(const struct rg_checks *checks)
     int widths[4] = {0};
     for (int i = 0; i < checks->count; i++) {
         const struct rg_check *row = &checks->rows[i];
-        widths[0] = longer(widths[0], names[row->status]);
+        widths[0] = longer(widths[0], rg_outcome_name(row->status));
         widths[1] = longer(widths[1], row->technique);
         widths[2] = longer(widths[2], row->check);
         widths[3] = longer(widths[3], row->device);
     }
     for (int i = 0; i < checks->count; i++) {
         const struct rg_check *row = &checks->rows[i];
-        printf("%-*s  %-*s  %-*s  %-*s  %s\n", widths[0], names[row->status], widths[1],
+        printf("%-*s  %-*s  %-*s  %-*s  %s\n", widths[0], rg_outcome_name(row->status), widths[1],
                row->technique, widths[2], row->check, widths[3], row->device, row->detail);
     }
 }
@@ -82,11 +80,11 @@ int rg_checks_exit(const struct rg_checks *checks)
     int counts[4] = {0};
     for (int i = 0; i < checks->count; i++)
         counts[checks->rows[i].status]++;
-    if (counts[RG_STATUS_FAIL] || counts[RG_STATUS_ERROR] || checks->incomplete)
+    if (counts[RG_FAIL] || counts[RG_ERROR] || checks->incomplete)
         return RG_EXIT_FAIL;
-    if (counts[RG_STATUS_OK])
+    if (counts[RG_OK])
         return RG_EXIT_PASS;
-    return counts[RG_STATUS_UNSUPPORTED] ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
+    return counts[RG_UNSUPPORTED] ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
 }
 
 void rg_checks_free(struct rg_checks *checks)

@@ -4,11 +4,11 @@
 
 #include <stdbool.h>
 
-enum rg_status { RG_STATUS_OK, RG_STATUS_FAIL, RG_STATUS_UNSUPPORTED, RG_STATUS_ERROR };
+#include "core/base/outcome.h"
 
 struct rg_check {
     char technique[32], check[32], device[32];
-    enum rg_status status;
+    enum rg_outcome status;
     char detail[512];
 };
 
@@ -20,7 +20,7 @@ struct rg_checks {
 };
 
 void rg_checks_add(struct rg_checks *checks, const char *technique, const char *check,
-                   const char *device, enum rg_status status, const char *format, ...)
+                   const char *device, enum rg_outcome status, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
 // To stdout: a line a check, or one JSON object {"format":1, "checks":[...]}.

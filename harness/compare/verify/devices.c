@@ -310,23 +310,23 @@ static void report(struct rg_verify *v, const struct row *row, int check)
     const char *technique = v->technique->name, *name = check_name(v, check);
     const char *device = row->device->info.name;
     if (t->failed)
-        rg_checks_add(v->checks, technique, name, device, RG_STATUS_FAIL, "%d of %d runs; %s",
-                      t->failed, t->runs, t->first);
+        rg_checks_add(v->checks, technique, name, device, RG_FAIL, "%d of %d runs; %s", t->failed,
+                      t->runs, t->first);
     else if (t->errors)
-        rg_checks_add(v->checks, technique, name, device, RG_STATUS_ERROR, "%s", t->first);
+        rg_checks_add(v->checks, technique, name, device, RG_ERROR, "%s", t->first);
     else if (!t->runs)
-        rg_checks_add(v->checks, technique, name, device, RG_STATUS_ERROR,
+        rg_checks_add(v->checks, technique, name, device, RG_ERROR,
                       "not run: %s, which it is compared with, failed", v->reference->info.name);
     else if (check >= LAWS)
-        rg_checks_add(v->checks, technique, name, device, RG_STATUS_OK,
-                      "holds after %d runs of %d steps", t->runs, v->steps);
+        rg_checks_add(v->checks, technique, name, device, RG_OK, "holds after %d runs of %d steps",
+                      t->runs, v->steps);
     else if (t->unlike)
-        rg_checks_add(v->checks, technique, name, device, RG_STATUS_OK,
+        rg_checks_add(v->checks, technique, name, device, RG_OK,
                       "%d of %d runs of %d steps are not identical to %s, %s", t->unlike, t->runs,
                       v->steps, v->reference->info.name,
                       check == STATE ? "which T1 leaves to the image" : "but within T1");
     else
-        rg_checks_add(v->checks, technique, name, device, RG_STATUS_OK,
+        rg_checks_add(v->checks, technique, name, device, RG_OK,
                       "%d runs of %d steps, identical to %s", t->runs, v->steps,
                       v->reference->info.name);
 }
@@ -345,8 +345,8 @@ void rg_verify_devices(struct rg_verify *v)
 {
     struct row *rows = rg_alloc(RG_MAX_DEVICES + 1, sizeof(*rows), "verify");
     if (!rows) {
-        rg_checks_add(v->checks, v->technique->name, "state", v->reference->info.name,
-                      RG_STATUS_ERROR, "%s", rg_last_error());
+        rg_checks_add(v->checks, v->technique->name, "state", v->reference->info.name, RG_ERROR,
+                      "%s", rg_last_error());
         return;
     }
     const int count = list_rows(v, rows);

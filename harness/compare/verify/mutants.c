@@ -139,13 +139,12 @@ static void report(struct rg_verify *v, const struct verdicts *verdicts)
 {
     const char *technique = v->technique->name, *device = v->mutant_device->info.name;
     if (verdicts->error)
-        rg_checks_add(v->checks, technique, "mutants", device, RG_STATUS_ERROR, "%s",
-                      rg_last_error());
+        rg_checks_add(v->checks, technique, "mutants", device, RG_ERROR, "%s", rg_last_error());
     else if (verdicts->killed == verdicts->run && verdicts->run)
-        rg_checks_add(v->checks, technique, "mutants", device, RG_STATUS_OK, "killed %d/%d",
+        rg_checks_add(v->checks, technique, "mutants", device, RG_OK, "killed %d/%d",
                       verdicts->killed, verdicts->run);
     else
-        rg_checks_add(v->checks, technique, "mutants", device, RG_STATUS_FAIL,
+        rg_checks_add(v->checks, technique, "mutants", device, RG_FAIL,
                       "killed %d/%d; T1 accepts: %s", verdicts->killed, verdicts->run,
                       *verdicts->alive ? verdicts->alive : "none was in its parameter's range");
 }
