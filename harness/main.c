@@ -6,15 +6,8 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
-#include "harness/commands/command.h"
-#include "harness/commands/lists.h"
+#include "harness/commands/commands.h"
 #include "harness/record/build_info.h"
-
-#define DECLARE(name) extern const struct rg_command rg_command_##name;
-#define ENTRY(name)   &rg_command_##name,
-
-RG_COMMANDS(DECLARE)
-const struct rg_command *const rg_commands[] = {RG_COMMANDS(ENTRY) NULL};
 
 static void print_usage(void)
 {
@@ -25,27 +18,15 @@ static void print_usage(void)
     printf("\n`raingauge COMMAND --help` prints a command's options.\n");
 }
 
-static const struct rg_command *find(const char *name)
-{
-    for (int i = 0; rg_commands[i]; i++)
-        if (!strcmp(rg_commands[i]->name, name))
-            return rg_commands[i];
-    return NULL;
-}
-
 static int run(const struct rg_command *command, int argc, char **argv)
 {
-    struct rg_options options;
-    int exit = rg_options_parse(command, argc - 1, (const char **)argv + 1, &options);
-    if (exit == RG_EXIT_PASS)
-        exit = command->run(&options);
-    rg_options_free(&options);
+    int exit = rg_command_run(command, argc - 1, (const char **)argv + 1);
     // A full disk shows itself at the last write.
-    if ((fflush(stdout) || ferror(stdout)) && exit <= RG_EXIT_PASS) {
+    if ((fflush(stdout) || ferror(stdout)) && exit == RG_EXIT_PASS) {
         rg_error("standard output: cannot be written; is the disk full?");
         exit = RG_EXIT_USAGE;
     }
-    return exit < 0 ? RG_EXIT_PASS : exit;
+    return exit;
 }
 
 // libgomp's threads spin for tens of milliseconds before they sleep, and on a busy machine keep
@@ -74,7 +55,7 @@ int main(int argc, char **argv)
         printf("raingauge %s\n", rg_build_version);
         return RG_EXIT_PASS;
     }
-    const struct rg_command *command = find(argv[1]);
+    const struct rg_command *command = rg_command_find(argv[1]);
     if (!command) {
         rg_error("command '%s': unknown; `raingauge --help` lists them", argv[1]);
         return RG_EXIT_USAGE;

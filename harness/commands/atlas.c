@@ -9,10 +9,33 @@
 #include "core/scene/atlas/cave.h"
 #include "core/scene/atlas/levels.h"
 #include "harness/atlas/export.h"
-#include "harness/commands/command.h"
+#include "harness/cli/command.h"
+#include "harness/cli/shared.h"
 #include "harness/console/clock.h"
 #include "harness/console/progress.h"
 #include "harness/record/passport.h"
+
+struct atlas_options {
+    struct rg_length length;
+    char *from, *output; // folders
+    bool json;
+};
+
+#define AT(field) offsetof(struct atlas_options, field)
+
+static const struct rg_option options[] = {
+    RG_GROUP("What to make"),
+    RG_INCLUDE(rg_length_options, AT(length), NULL),
+    {RG_OPTION_TEXT, "from", .argument = "DIR",
+     .about = "packs the original database in this folder instead", .offset = AT(from),
+     .names = RG_NAMES_FOLDER},
+    RG_GROUP("Output"),
+    {RG_OPTION_TEXT, "output", .argument = "DIR",
+     .about = "writes the atlas into this folder, as EXR and PNG files", .offset = AT(output),
+     .letter = 'o', .names = RG_NAMES_FOLDER},
+    RG_INCLUDE(rg_json_option, AT(json), NULL),
+    {RG_OPTION_END},
+};
 
 static const char *const size_names[RG_ATLAS_SIZE_COUNT] = {"full", "small", "cave", "cave-small"};
 
@@ -45,13 +68,13 @@ static struct rg_atlas *pack(const char *folder, enum rg_atlas_size size,
 }
 
 // False, and one logged line, when there is none to be had.
-static bool find(const struct rg_options *o, struct found *found)
+static bool find(const struct atlas_options *o, struct found *found)
 {
     char why[256];
     enum rg_atlas_cached state;
-    const enum rg_atlas_size size = o->from    ? o->quick ? RG_ATLAS_CAVE_SMALL : RG_ATLAS_CAVE
-                                    : o->quick ? RG_ATLAS_SMALL
-                                               : RG_ATLAS_FULL;
+    const enum rg_atlas_size size = o->from ? o->length.quick ? RG_ATLAS_CAVE_SMALL : RG_ATLAS_CAVE
+                                    : o->length.quick ? RG_ATLAS_SMALL
+                                                      : RG_ATLAS_FULL;
     const double start_ms = rg_now_ms();
     struct rg_progress progress;
     const struct rg_atlas_progress tells = {tell, &progress};
@@ -145,10 +168,12 @@ static void print_json(const struct found *found)
     json_decref(json);
 }
 
-static int atlas_command(const struct rg_options *o)
+static int atlas_command(const void *values, const struct rg_words *arguments)
 {
+    (void)arguments;
+    const struct atlas_options *o = values;
     struct found found;
-    if (!rg_options_at_most(o, "atlas", 0) || !find(o, &found))
+    if (!find(o, &found))
         return RG_EXIT_USAGE;
     const bool good = !o->output || rg_atlas_export(found.atlas, o->output);
     if (good && o->json)
@@ -163,6 +188,7 @@ const struct rg_command rg_command_atlas = {
     .name = "atlas",
     .usage = "[--quick|--full] [--from DIR] [-o DIR] [--json]",
     .about = "makes the streak atlas or packs the original database; describes and exports it",
-    .options = RG_OPT_LENGTH | RG_OPT_FROM | RG_OPT_OUTPUT | RG_OPT_JSON,
+    .options = options,
+    .options_size = sizeof(struct atlas_options),
     .run = atlas_command,
 };

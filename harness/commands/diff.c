@@ -1,22 +1,84 @@
 // raingauge diff: two files, or one frame of a technique on every pair of devices.
+#include <stdlib.h>
+
 #include "core/base/log.h"
-#include "harness/commands/command.h"
+#include "harness/cli/command.h"
+#include "harness/cli/shared.h"
+#include "harness/cli/subject.h"
 #include "harness/compare/diff/devices.h"
 #include "harness/compare/diff/files.h"
 
-static int diff(const struct rg_options *o)
+struct diff_options {
+    struct rg_words sets;
+    struct rg_size size;
+    int frames;
+    char *devices, *background, *heatmap_prefix; // names; files
+    double exposure;
+    bool json;
+};
+
+#define AT(field) offsetof(struct diff_options, field)
+
+static const struct rg_option options[] = {
+    RG_GROUP("What to compare: a technique on devices"),
+    {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
+     .about = "one frame of it, on every pair of devices; `raingauge list techniques` prints them",
+     .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
+    RG_INCLUDE(rg_settings_option, AT(sets), NULL),
+    RG_INCLUDE(rg_frame_option, AT(frames), "60"),
+    RG_INCLUDE(rg_size_option, AT(size), NULL),
+    RG_INCLUDE(rg_devices_option, AT(devices), "all"),
+    RG_GROUP("What to compare: two files"),
+    // No last place: what is neither one argument nor two gets a line of its own below.
+    {RG_OPTION_OPERAND, .argument = "A B", .about = "picture files of one size; A is the true one",
+     .names = RG_NAMES_FILE, .first = 1},
+    {RG_OPTION_TEXT, "background", .argument = "FILE",
+     .about = "the picture without rain: differences are gated where it rains",
+     .offset = AT(background), .names = RG_NAMES_FILE},
+    RG_GROUP("Output"),
+    {RG_OPTION_TEXT, "output", .argument = "PREFIX",
+     .about = "writes heat maps into files whose names begin so", .offset = AT(heatmap_prefix),
+     .letter = 'o', .names = RG_NAMES_FILE},
+    RG_INCLUDE(rg_exposure_option, AT(exposure), NULL),
+    RG_INCLUDE(rg_json_option, AT(json), NULL),
+    {RG_OPTION_END},
+};
+
+static int diff_devices(const struct diff_options *o, const struct rg_words *arguments)
 {
-    if (o->arg_count == 1)
-        return rg_diff_devices(o);
-    if (o->arg_count != 2) {
+    void *settings;
+    const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
+    if (!technique)
+        return RG_EXIT_USAGE;
+    const int exit = rg_diff_devices(&(struct rg_diff_devices_request){
+        .technique = technique,
+        .settings = settings,
+        .devices = o->devices,
+        .width = o->size.width,
+        .height = o->size.height,
+        .frames = o->frames,
+        .heatmap_prefix = o->heatmap_prefix,
+        .exposure = o->exposure,
+        .json = o->json,
+    });
+    free(settings);
+    return exit;
+}
+
+static int diff(const void *values, const struct rg_words *arguments)
+{
+    const struct diff_options *o = values;
+    if (arguments->count == 1)
+        return diff_devices(o, arguments);
+    if (arguments->count != 2) {
         rg_error("diff: name a technique, or two image files; `raingauge diff --help` explains");
         return RG_EXIT_USAGE;
     }
     return rg_diff_files(&(struct rg_diff_request){
-        .a = o->args[0],
-        .b = o->args[1],
+        .a = arguments->items[0],
+        .b = arguments->items[1],
         .background = o->background,
-        .heatmap_prefix = o->output,
+        .heatmap_prefix = o->heatmap_prefix,
         .json = o->json,
         .options = {.exposure = (float)o->exposure},
     });
@@ -26,7 +88,7 @@ const struct rg_command rg_command_diff = {
     .name = "diff",
     .usage = "TECHNIQUE [--device A,B,...]  |  A.exr B.exr [--background FILE]",
     .about = "compares pictures: every pair of devices, or two files; heat maps with -o PREFIX",
-    .options = RG_OPT_DEVICE | RG_OPT_SET | RG_OPT_SIZE | RG_OPT_FRAME | RG_OPT_OUTPUT |
-               RG_OPT_JSON | RG_OPT_EXPOSURE | RG_OPT_BACKGROUND,
+    .options = options,
+    .options_size = sizeof(struct diff_options),
     .run = diff,
 };

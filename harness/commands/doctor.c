@@ -4,10 +4,24 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "harness/commands/command.h"
+#include "harness/cli/command.h"
+#include "harness/cli/shared.h"
 #include "harness/devices/devices.h"
 #include "harness/doctor/report.h"
 #include "harness/record/passport.h"
+
+struct doctor_options {
+    char *devices; // their names
+    bool json;
+};
+
+#define AT(field) offsetof(struct doctor_options, field)
+
+static const struct rg_option options[] = {
+    RG_GROUP("Devices"), RG_INCLUDE(rg_devices_option, AT(devices), "all"),
+    RG_GROUP("Output"),  RG_INCLUDE(rg_json_option, AT(json), NULL),
+    {RG_OPTION_END},
+};
 
 static void add_name(struct rg_doctor_report *report, const char *name, size_t length)
 {
@@ -18,7 +32,7 @@ static void add_name(struct rg_doctor_report *report, const char *name, size_t l
 // Fills the report with the names that --device gives; false: bad usage.
 static bool take_names(struct rg_doctor_report *report, const char *names)
 {
-    if (!names || !strcmp(names, "all")) {
+    if (!strcmp(names, "all")) {
         for (int i = 0; i < report->list.count; i++)
             add_name(report, report->list.infos[i].name, strlen(report->list.infos[i].name));
         return true;
@@ -88,12 +102,10 @@ static void complain(const struct rg_doctor_report *report)
     }
 }
 
-static int run(struct rg_doctor_report *report, const struct rg_options *o)
+static int run(struct rg_doctor_report *report, const struct doctor_options *o)
 {
-    if (!rg_options_at_most(o, "doctor", 0))
-        return RG_EXIT_USAGE;
     rg_devices_list(&report->list);
-    if (!take_names(report, o->device) || !examine(report))
+    if (!take_names(report, o->devices) || !examine(report))
         return RG_EXIT_USAGE;
     describe(report);
     if (o->json)
@@ -104,13 +116,14 @@ static int run(struct rg_doctor_report *report, const struct rg_options *o)
     return verdict(report);
 }
 
-static int doctor(const struct rg_options *o)
+static int doctor(const void *values, const struct rg_words *arguments)
 {
+    (void)arguments;
     struct rg_doctor_report *report = rg_alloc(1, sizeof(*report), "report");
     if (!report)
         return RG_EXIT_FAIL;
     report->examinations = rg_alloc(RG_MAX_DEVICES, sizeof(*report->examinations), "report");
-    int exit = report->examinations ? run(report, o) : RG_EXIT_FAIL;
+    int exit = report->examinations ? run(report, values) : RG_EXIT_FAIL;
     json_decref(report->passport);
     json_decref(report->warnings);
     free(report->examinations);
@@ -122,6 +135,7 @@ const struct rg_command rg_command_doctor = {
     .name = "doctor",
     .usage = "[--device D,...|all] [--json]",
     .about = "examines machine, drivers, their arithmetic and their timers",
-    .options = RG_OPT_DEVICE | RG_OPT_JSON,
+    .options = options,
+    .options_size = sizeof(struct doctor_options),
     .run = doctor,
 };

@@ -6,9 +6,31 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "harness/commands/command.h"
+#include "harness/cli/command.h"
+#include "harness/cli/shared.h"
+#include "harness/cli/subject.h"
 #include "harness/devices/devices.h"
 #include "harness/tables/papers/papers.h"
+
+struct list_options {
+    bool json;
+};
+
+#define AT(field) offsetof(struct list_options, field)
+
+static const char *const lists[] = {"techniques", "tables", "devices", "params", NULL};
+
+static const struct rg_option options[] = {
+    RG_GROUP("What to list"),
+    {RG_OPTION_OPERAND,
+     .about = "techniques, papers' tables, this machine's devices, or parameters", .choices = lists,
+     .first = 1, .last = 1},
+    {RG_OPTION_OPERAND, .argument = "TECHNIQUE", .about = "whose parameters",
+     .names = RG_NAMES_TECHNIQUE, .first = 2, .last = 2},
+    RG_GROUP("Output"),
+    RG_INCLUDE(rg_json_option, AT(json), NULL),
+    {RG_OPTION_END},
+};
 
 // Every listing is an array of objects; without --json, its fields are printed as columns.
 static void print_text(const json_t *rows, const char *const *fields)
@@ -103,34 +125,36 @@ static int print(json_t *rows, const char *what, const char *const *fields, bool
     return RG_EXIT_PASS;
 }
 
-static int list_params_of(const struct rg_options *o)
+static int list_params_of(const struct rg_words *arguments, bool json)
 {
     static const char *const fields[] = {"name", "default", "unit", "range", "about", NULL};
-    const struct rg_technique *technique = o->arg_count > 1 ? rg_technique_find(o->args[1]) : NULL;
-    if (technique)
-        return print(list_params(technique), "params", fields, o->json);
-    if (o->arg_count > 1)
-        rg_error("technique '%s': unknown; `raingauge list techniques` prints them", o->args[1]);
-    else
+    if (arguments->count < 2) {
         rg_error("list params: name a technique; `raingauge list techniques` prints them");
-    return RG_EXIT_USAGE;
+        return RG_EXIT_USAGE;
+    }
+    const struct rg_technique *technique = rg_subject_technique(arguments->items[1]);
+    return technique ? print(list_params(technique), "params", fields, json) : RG_EXIT_USAGE;
 }
 
-static int list(const struct rg_options *o)
+static int list(const void *values, const struct rg_words *arguments)
 {
+    const struct list_options *o = values;
     static const char *const about_fields[] = {"name", "about", NULL};
     static const char *const device_fields[] = {"name", "api", "device", "driver", NULL};
-    const char *what = o->arg_count ? o->args[0] : "";
-    if (!rg_options_at_most(o, "list", !strcmp(what, "params") ? 2 : 1))
+    const char *what = arguments->count ? arguments->items[0] : "";
+    if (!strcmp(what, "params"))
+        return list_params_of(arguments, o->json);
+    if (arguments->count > 1) {
+        rg_error("list: '%s' is one argument too many; `raingauge list --help` prints the usage",
+                 arguments->items[1]);
         return RG_EXIT_USAGE;
+    }
     if (!strcmp(what, "techniques"))
         return print(list_techniques(), what, about_fields, o->json);
     if (!strcmp(what, "tables"))
         return print(list_tables(), what, about_fields, o->json);
     if (!strcmp(what, "devices"))
         return print(list_devices(), what, device_fields, o->json);
-    if (!strcmp(what, "params"))
-        return list_params_of(o);
     rg_error("list '%s': list techniques, tables, devices, or params TECHNIQUE", what);
     return RG_EXIT_USAGE;
 }
@@ -139,6 +163,7 @@ const struct rg_command rg_command_list = {
     .name = "list",
     .usage = "techniques|tables|devices|params TECHNIQUE [--json]",
     .about = "prints what there is to name: techniques, tables, devices, parameters",
-    .options = RG_OPT_JSON,
+    .options = options,
+    .options_size = sizeof(struct list_options),
     .run = list,
 };

@@ -5,11 +5,45 @@
 
 #include "core/base/log.h"
 #include "core/image/files/io.h"
-#include "harness/commands/command.h"
+#include "harness/cli/command.h"
+#include "harness/cli/shared.h"
+#include "harness/cli/subject.h"
 #include "harness/devices/devices.h"
 #include "harness/frames/frame.h"
 #include "harness/record/facts.h"
 #include "harness/record/passport.h"
+
+struct render_options {
+    struct rg_words sets;
+    struct rg_size size;
+    int frames;
+    char *device, *output; // a name; a file, NULL for the technique's name with .png
+    double exposure;
+    bool json;
+};
+
+#define AT(field) offsetof(struct render_options, field)
+
+static const struct rg_option options[] = {
+    RG_GROUP("What to draw"),
+    {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
+     .about = "its picture; `raingauge list techniques` prints them", .names = RG_NAMES_TECHNIQUE,
+     .first = 1, .last = 1},
+    RG_INCLUDE(rg_settings_option, AT(sets), NULL),
+    RG_INCLUDE(rg_frame_option, AT(frames), "60"),
+    RG_INCLUDE(rg_size_option, AT(size), NULL),
+    RG_GROUP("Devices"),
+    {RG_OPTION_TEXT, "device", .argument = "D",
+     .about = "the device to use; `raingauge list devices` prints the names", .offset = AT(device),
+     .initial = "cpu", .names = RG_NAMES_DEVICE},
+    RG_GROUP("Output"),
+    {RG_OPTION_TEXT, "output", .argument = "FILE",
+     .about = "the picture: .png, .exr, .hdr, .tif or .tiff; TECHNIQUE.png where none is named",
+     .offset = AT(output), .letter = 'o', .names = RG_NAMES_FILE},
+    RG_INCLUDE(rg_exposure_option, AT(exposure), NULL),
+    RG_INCLUDE(rg_json_option, AT(json), NULL),
+    {RG_OPTION_END},
+};
 
 static bool write_frame(struct rg_instance *instance, const char *path, double exposure)
 {
@@ -64,15 +98,13 @@ static void print_text(const struct rg_instance *instance, const char *path)
 }
 
 static int render_on(struct rg_device *device, const struct rg_technique *technique,
-                     const void *settings, const struct rg_options *o)
+                     const void *settings, const struct render_options *o)
 {
-    const int width = o->width ? o->width : RG_FRAME_SIZE_PX;
-    const int height = o->height ? o->height : RG_FRAME_SIZE_PX;
-    const int frames = o->frame >= 0 ? o->frame : RG_FRAME_COUNT;
     char path[256];
     snprintf(path, sizeof(path), "%s.png", technique->name);
     const char *output = o->output ? o->output : path;
-    struct rg_instance *instance = rg_frame_run(technique, settings, device, width, height, frames);
+    struct rg_instance *instance =
+        rg_frame_run(technique, settings, device, o->size.width, o->size.height, o->frames);
     bool ok = instance && write_frame(instance, output, o->exposure);
     if (ok && o->json)
         print_json(instance, settings, output);
@@ -85,22 +117,23 @@ static int render_on(struct rg_device *device, const struct rg_technique *techni
 
 static bool names_one_device(const char *names)
 {
-    if (!names || (strcmp(names, "all") != 0 && !strchr(names, ',')))
+    if (strcmp(names, "all") != 0 && !strchr(names, ','))
         return true;
     return rg_error("--device %s: render draws on one device; `raingauge diff` compares several",
                     names);
 }
 
-static int render(const struct rg_options *o)
+static int render(const void *values, const struct rg_words *arguments)
 {
+    const struct render_options *o = values;
     void *settings;
-    if (!rg_options_at_most(o, "render", 1) || !names_one_device(o->device))
+    if (!names_one_device(o->device))
         return RG_EXIT_USAGE;
-    const struct rg_technique *technique = rg_options_technique(o, &settings);
+    const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
     if (!technique)
         return RG_EXIT_USAGE;
     struct rg_devices devices;
-    int exit = rg_devices_open(o, "cpu", &devices);
+    int exit = rg_devices_open(o->device, &devices);
     if (exit == RG_EXIT_PASS)
         exit = render_on(devices.devices[0], technique, settings, o);
     rg_devices_close(&devices);
@@ -113,7 +146,7 @@ const struct rg_command rg_command_render = {
     .usage = "TECHNIQUE [--device D] [--frame N] [--size WxH] [--set KEY=VALUE]... [-o FILE] "
              "[--json]",
     .about = "draws one frame of a technique into an image file (PNG, EXR, HDR, TIFF)",
-    .options = RG_OPT_DEVICE | RG_OPT_FRAME | RG_OPT_SIZE | RG_OPT_SET | RG_OPT_OUTPUT |
-               RG_OPT_EXPOSURE | RG_OPT_JSON,
+    .options = options,
+    .options_size = sizeof(struct render_options),
     .run = render,
 };

@@ -5,10 +5,46 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "harness/cli/command.h"
+#include "harness/cli/shared.h"
 #include "harness/console/interrupt.h"
 #include "harness/record/journal.h"
 #include "harness/record/output.h"
 #include "harness/tables/table.h"
+
+struct table_options {
+    struct rg_rows rows;
+    struct rg_length length;
+    char *devices, *output; // names; a folder
+    int format;             // of `formats`
+    bool fresh, json;
+};
+
+#define AT(field) offsetof(struct table_options, field)
+
+static const char *const formats[] = {"md", "csv", "json", "tex", NULL};
+
+static const struct rg_option options[] = {
+    RG_GROUP("What to measure"),
+    {RG_OPTION_OPERAND, .argument = "ID",
+     .about = "a table; `raingauge list tables` prints them, and all are meant where none is named",
+     .names = RG_NAMES_TABLE, .first = 1},
+    {RG_OPTION_ROWS, "rows", .argument = "A-B", .about = "only these rows, counted from 1",
+     .offset = AT(rows)},
+    RG_INCLUDE(rg_length_options, AT(length), NULL),
+    {RG_OPTION_FLAG, "fresh", .about = "takes nothing from a run that was interrupted",
+     .offset = AT(fresh)},
+    RG_GROUP("Devices"),
+    RG_INCLUDE(rg_devices_option, AT(devices), "all"),
+    RG_GROUP("Output"),
+    {RG_OPTION_CHOICE, "format", .about = "what to print", .offset = AT(format), .choices = formats,
+     .initial = "md"},
+    {RG_OPTION_TEXT, "output", .argument = "DIR",
+     .about = "writes each table into this folder too, in every format", .offset = AT(output),
+     .letter = 'o', .names = RG_NAMES_FOLDER},
+    RG_INCLUDE(rg_json_option, AT(json), NULL),
+    {RG_OPTION_END},
+};
 
 static void print_json(const struct rg_table_run *run, FILE *out)
 {
@@ -56,9 +92,8 @@ static bool write_as(const struct rg_table_run *run, const char *format, const c
 // Writes the table in every format into a folder.
 static bool write_all(const struct rg_table_run *run, const char *folder)
 {
-    static const char *const formats[] = {"md", "csv", "json", "tex"};
     bool ok = true;
-    for (int i = 0; ok && i < 4; i++)
+    for (int i = 0; ok && formats[i]; i++)
         ok = write_as(run, formats[i], folder);
     return ok;
 }
@@ -123,7 +158,7 @@ static void tell_interrupted(const struct job *job)
         rg_info("%s: interrupted before a row of it was done; the same command begins it anew", id);
 }
 
-static int run_job(struct job *job, struct rg_bench *bench, const struct rg_options *o)
+static int run_job(struct job *job, struct rg_bench *bench, const struct table_options *o)
 {
     struct rg_table_run *run = &job->run;
     tell_resumed(job);
@@ -132,7 +167,7 @@ static int run_job(struct job *job, struct rg_bench *bench, const struct rg_opti
     int exit = judge(run);
     const bool is_whole = rg_table_first_missing(run) > run->last_row;
     const bool has_rows = rg_table_first_missing(run) > run->first_row;
-    if (has_rows && !print_as(run, o->json ? "json" : o->format ? o->format : "md", stdout))
+    if (has_rows && !print_as(run, o->json ? "json" : formats[o->format], stdout))
         exit = RG_EXIT_FAIL;
     fflush(stdout);
     if (is_whole && o->output && !write_all(run, o->output))
@@ -145,47 +180,48 @@ static int run_job(struct job *job, struct rg_bench *bench, const struct rg_opti
 }
 
 // The tables that are named, or all. False, and one logged line, where one is unknown.
-static bool choose(const struct rg_options *o, const struct rg_table *chosen[], int *count)
+static bool choose(const struct rg_words *ids, const struct rg_table *chosen[], int *count)
 {
     *count = 0;
-    for (int i = 0; i < o->arg_count; i++) {
-        chosen[(*count)++] = rg_table_find(o->args[i]);
+    for (int i = 0; i < ids->count; i++) {
+        chosen[(*count)++] = rg_table_find(ids->items[i]);
         if (!chosen[i])
-            return rg_error("table '%s': unknown; `raingauge list tables` prints them", o->args[i]);
+            return rg_error("table '%s': unknown; `raingauge list tables` prints them",
+                            ids->items[i]);
     }
-    for (int i = 0; rg_tables[i] && !o->arg_count && i < RG_MAX_ARGS; i++)
+    for (int i = 0; rg_tables[i] && !ids->count && i < RG_MAX_WORDS; i++)
         chosen[(*count)++] = rg_tables[i];
     return true;
 }
 
 // Whether a table has all the rows that are asked for; the others then give those that they have.
-static bool have_rows(const struct rg_options *o, const struct rg_table *const chosen[], int count)
+static bool have_rows(struct rg_rows rows, const struct rg_table *const chosen[], int count)
 {
     const struct rg_table *longest = chosen[0];
     for (int i = 1; i < count; i++)
         longest = chosen[i]->row_count > longest->row_count ? chosen[i] : longest;
-    if (o->last_row <= longest->row_count)
+    if (rows.last <= longest->row_count)
         return true;
-    return rg_error("--rows %d-%d: %s has rows 1-%d", o->first_row, o->last_row, longest->id,
+    return rg_error("--rows %d-%d: %s has rows 1-%d", rows.first, rows.last, longest->id,
                     longest->row_count);
 }
 
 // The tables that have some of the rows. Journals are read before one is written: a table may be
 // named twice.
-static int make_jobs(const struct rg_options *o, const struct rg_devices *devices,
+static int make_jobs(const struct table_options *o, const struct rg_devices *devices,
                      const struct rg_table *const chosen[], int count, struct job *jobs)
 {
     int made = 0;
     for (int i = 0; i < count; i++) {
-        const int last =
-            o->last_row && o->last_row < chosen[i]->row_count ? o->last_row : chosen[i]->row_count;
-        if (o->first_row > last)
+        const int last = o->rows.last && o->rows.last < chosen[i]->row_count ? o->rows.last
+                                                                             : chosen[i]->row_count;
+        if (o->rows.first > last)
             continue;
         jobs[made++].run = (struct rg_table_run){.table = chosen[i],
                                                  .devices = devices,
-                                                 .first_row = o->first_row ? o->first_row - 1 : 0,
+                                                 .first_row = o->rows.first ? o->rows.first - 1 : 0,
                                                  .last_row = last - 1,
-                                                 .full = o->full};
+                                                 .full = o->length.full};
     }
     for (int i = 0; i < made; i++)
         jobs[i].journal = rg_journal_open(&jobs[i].run, o->output, o->fresh, i < made - 1);
@@ -194,7 +230,7 @@ static int make_jobs(const struct rg_options *o, const struct rg_devices *device
 
 // A table that fails keeps none of the others from being measured and written.
 static int run_jobs(struct job *jobs, int count, const struct rg_devices *devices,
-                    const struct rg_options *o)
+                    const struct table_options *o)
 {
     struct rg_bench bench = {.devices = devices};
     int exit = RG_EXIT_PASS;
@@ -213,14 +249,15 @@ static int run_jobs(struct job *jobs, int count, const struct rg_devices *device
     return rg_bench_free(&bench) ? exit : worse(exit, RG_EXIT_FAIL);
 }
 
-static int table(const struct rg_options *o)
+static int table(const void *values, const struct rg_words *arguments)
 {
-    const struct rg_table *chosen[RG_MAX_ARGS];
+    const struct table_options *o = values;
+    const struct rg_table *chosen[RG_MAX_WORDS];
     int count;
-    if (!choose(o, chosen, &count) || !have_rows(o, chosen, count))
+    if (!choose(arguments, chosen, &count) || !have_rows(o->rows, chosen, count))
         return RG_EXIT_USAGE;
     struct rg_devices devices;
-    int exit = rg_devices_open(o, "all", &devices);
+    int exit = rg_devices_open(o->devices, &devices);
     if (exit != RG_EXIT_PASS)
         return exit;
     struct job *jobs = rg_alloc((size_t)count, sizeof(*jobs), "tables");
@@ -238,7 +275,7 @@ const struct rg_command rg_command_table = {
     .usage = "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--format F] [-o DIR] "
              "[--fresh]",
     .about = "regenerates the papers' tables: published beside measured, on every device",
-    .options = RG_OPT_DEVICE | RG_OPT_LENGTH | RG_OPT_ROWS | RG_OPT_FORMAT | RG_OPT_OUTPUT |
-               RG_OPT_JSON | RG_OPT_FRESH,
+    .options = options,
+    .options_size = sizeof(struct table_options),
     .run = table,
 };

@@ -4,10 +4,39 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "harness/cli/command.h"
+#include "harness/cli/shared.h"
+#include "harness/cli/subject.h"
 #include "harness/compare/verify/verify.h"
-#include "harness/frames/frame.h"
 
 enum { QUICK_STEPS = 100, FULL_STEPS = 1000, MAX_TECHNIQUES = 16 };
+
+struct verify_options {
+    struct rg_words sets;
+    struct rg_size size;
+    int steps; // -1: as the length says
+    struct rg_length length;
+    char *devices; // their names
+    bool json;
+};
+
+#define AT(field) offsetof(struct verify_options, field)
+
+static const struct rg_option options[] = {
+    RG_GROUP("What to verify"),
+    {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
+     .about = "`raingauge list techniques` prints them; all are meant where none is named",
+     .names = RG_NAMES_TECHNIQUE, .first = 1},
+    RG_INCLUDE(rg_settings_option, AT(sets), NULL),
+    RG_INCLUDE(rg_length_options, AT(length), NULL),
+    RG_INCLUDE(rg_frame_option, AT(steps), NULL),
+    RG_INCLUDE(rg_size_option, AT(size), NULL),
+    RG_GROUP("Devices"),
+    RG_INCLUDE(rg_devices_option, AT(devices), "all"),
+    RG_GROUP("Output"),
+    RG_INCLUDE(rg_json_option, AT(json), NULL),
+    {RG_OPTION_END},
+};
 
 static const char reference_name[] = "cpu:reference", mutant_name[] = "cpu";
 
@@ -16,28 +45,26 @@ struct subject {
     void *settings;
 };
 
-static bool choose(const struct rg_options *o, const struct rg_technique *technique,
+static bool choose(const struct rg_words *sets, const struct rg_technique *technique,
                    struct subject *subjects, int *count)
 {
     if (*count == MAX_TECHNIQUES)
         return rg_error("technique '%s': more than %d of them", technique->name, MAX_TECHNIQUES);
     subjects[*count].technique = technique;
-    return (subjects[(*count)++].settings = rg_options_settings(o, technique)) != NULL;
+    return (subjects[(*count)++].settings = rg_subject_settings(technique, sets)) != NULL;
 }
 
 // The techniques that the arguments name, or all; with the user's settings.
-static bool choose_all(const struct rg_options *o, struct subject *subjects, int *count)
+static bool choose_all(const struct rg_words *names, const struct rg_words *sets,
+                       struct subject *subjects, int *count)
 {
     bool ok = true;
-    for (int i = 0; ok && i < o->arg_count; i++) {
-        const struct rg_technique *technique = rg_technique_find(o->args[i]);
-        if (!technique)
-            return rg_error("technique '%s': unknown; `raingauge list techniques` prints them",
-                            o->args[i]);
-        ok = choose(o, technique, subjects, count);
+    for (int i = 0; ok && i < names->count; i++) {
+        const struct rg_technique *technique = rg_subject_technique(names->items[i]);
+        ok = technique && choose(sets, technique, subjects, count);
     }
-    for (int i = 0; ok && !o->arg_count && rg_techniques[i]; i++)
-        ok = choose(o, rg_techniques[i], subjects, count);
+    for (int i = 0; ok && !names->count && rg_techniques[i]; i++)
+        ok = choose(sets, rg_techniques[i], subjects, count);
     return ok;
 }
 
@@ -95,17 +122,17 @@ static void verify_all(struct rg_verify *v, const struct subject *subjects, int 
     rg_progress_end(&progress);
 }
 
-static int verify_on(const struct rg_options *o, const struct rg_devices *devices,
+static int verify_on(const struct verify_options *o, const struct rg_devices *devices,
                      const struct subject *subjects, int count)
 {
     struct rg_checks checks = {0};
     struct rg_device *extra[2] = {NULL, NULL};
     struct rg_verify v = {
-        .width = o->width ? o->width : RG_FRAME_SIZE_PX,
-        .height = o->height ? o->height : RG_FRAME_SIZE_PX,
-        .steps = o->frame >= 0 ? o->frame
-                 : o->quick    ? QUICK_STEPS
-                               : FULL_STEPS,
+        .width = o->size.width,
+        .height = o->size.height,
+        .steps = o->steps >= 0     ? o->steps
+                 : o->length.quick ? QUICK_STEPS
+                                   : FULL_STEPS,
         .reference = find_or_open(devices, reference_name, &extra[0]),
         .mutant_device = find_or_open(devices, mutant_name, &extra[1]),
         .devices = devices,
@@ -126,13 +153,14 @@ static int verify_on(const struct rg_options *o, const struct rg_devices *device
     return exit;
 }
 
-static int verify(const struct rg_options *o)
+static int verify(const void *values, const struct rg_words *arguments)
 {
+    const struct verify_options *o = values;
     struct subject subjects[MAX_TECHNIQUES] = {{0}};
     struct rg_devices devices;
     int count = 0, exit = RG_EXIT_USAGE;
-    if (choose_all(o, subjects, &count)) {
-        exit = rg_devices_open(o, "all", &devices);
+    if (choose_all(arguments, &o->sets, subjects, &count)) {
+        exit = rg_devices_open(o->devices, &devices);
         if (exit == RG_EXIT_PASS) {
             exit = verify_on(o, &devices, subjects, count);
             if (!rg_devices_close(&devices))
@@ -148,7 +176,7 @@ const struct rg_command rg_command_verify = {
     .name = "verify",
     .usage = "[TECHNIQUE...] [--device D,...|all] [--quick|--full] [--set KEY=VALUE]... [--json]",
     .about = "proves that all devices compute the same: 1,000 steps, --quick 100; laws and mutants",
-    .options =
-        RG_OPT_DEVICE | RG_OPT_LENGTH | RG_OPT_SET | RG_OPT_SIZE | RG_OPT_FRAME | RG_OPT_JSON,
+    .options = options,
+    .options_size = sizeof(struct verify_options),
     .run = verify,
 };

@@ -6,7 +6,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "harness/commands/command.h"
+#include "harness/cli/command.h"
 #include "harness/devices/child.h"
 
 enum { LIST_TIMEOUT_S = 60 };
@@ -111,10 +111,8 @@ static int open_named(const char *names, struct rg_devices *devices)
     return exit;
 }
 
-int rg_devices_open(const struct rg_options *options, const char *fallback,
-                    struct rg_devices *devices)
+int rg_devices_open(const char *names, struct rg_devices *devices)
 {
-    const char *names = options->device ? options->device : fallback;
     *devices = (struct rg_devices){0};
     int exit = !strcmp(names, "all") ? open_all(devices) : open_named(names, devices);
     if (exit != RG_EXIT_PASS)

@@ -4,17 +4,15 @@
 
 #include "core/device/device.h"
 
-struct rg_options;
-
 // Lists the devices of every backend, each in a child process: a driver that crashes, hangs or
 // prints is missing, and its line says so. To be called before this process uses a driver or
 // OpenMP.
 void rg_devices_list(struct rg_device_list *list);
 
-// The devices that --device names, or `fallback` where it is absent: "all", or names separated by
-// commas. Opened, in order. A name that is unknown is bad usage; a driver that is absent is
-// unsupported, and skipped with its line when the list was "all". So is one that is there and does
-// not open, which the command reports as a failure. Returns an enum rg_exit.
+// The devices that `names` holds: "all", or names separated by commas. Opened, in order. A name
+// that is unknown is bad usage; a driver that is absent is unsupported, and skipped with its line
+// when the list was "all". So is one that is there and does not open, which the command reports as
+// a failure. Returns an enum rg_exit.
 struct rg_devices {
     int count;
     struct rg_device *devices[RG_MAX_DEVICES];
@@ -25,8 +23,7 @@ struct rg_devices {
         char name[32], why[256];
     } broken[RG_MAX_DEVICES];
 };
-int rg_devices_open(const struct rg_options *options, const char *fallback,
-                    struct rg_devices *devices);
+int rg_devices_open(const char *names, struct rg_devices *devices);
 // Closes them; false on a leak.
 bool rg_devices_close(struct rg_devices *devices);
 

@@ -21,7 +21,4 @@ bool rg_frame_draw_dry(const struct rg_technique *technique, const void *setting
                        struct rg_device *device, int width, int height, int frames,
                        struct rg_picture *picture);
 
-// Size and frame that options leave open.
-enum { RG_FRAME_SIZE_PX = 512, RG_FRAME_COUNT = 60 };
-
 #endif

@@ -4,7 +4,6 @@
 
 #include <jansson.h>
 
-#include "harness/commands/command.h"
 #include "harness/console/sheet.h"
 #include "harness/devices/bench.h"
 #include "harness/devices/devices.h"

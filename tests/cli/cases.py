@@ -77,6 +77,7 @@ ON_CPU = [
     Case(RENDER + "--frame 99999999999999999999 -o {tmp}/a.png", 2, r"--frame 9{20}: .*`raingauge render --help`"),
     Case(RENDER + "--frame x -o {tmp}/a.png", 2, r"--frame x: .*`raingauge render --help`"),
     Case(RENDER + "--exposure nan -o {tmp}/a.png", 2, r"--exposure nan: must be above 0"),
+    Case(RENDER + "--exposure 0 -o {tmp}/a.png", 2, r"--exposure 0: must be above 0, at most 1000000"),
     Case(RENDER + "-o {tmp}/a.png -z", 2, r"-z: unknown option"),
     Case(RENDER + "--output", 2, r"--output: .*`raingauge render --help`"),
 

@@ -6,6 +6,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "harness/cli/command.h"
 #include "harness/compare/diff/report.h"
 #include "harness/console/progress.h"
 #include "harness/devices/devices.h"
@@ -17,33 +18,20 @@ struct shot {
 };
 
 struct session {
-    const struct rg_options *options;
-    const struct rg_technique *technique;
-    void *settings;
+    const struct rg_diff_devices_request *asked;
     struct shot shots[RG_MAX_DEVICES];
     int shot_count;
     struct rg_picture background;
     json_t *pairs; // with --json
 };
 
-// Size and frame, as the options have them.
-struct view {
-    int width, height, frames;
-};
-
-static struct view view_of(const struct rg_options *o)
-{
-    return (struct view){.width = o->width ? o->width : RG_FRAME_SIZE_PX,
-                         .height = o->height ? o->height : RG_FRAME_SIZE_PX,
-                         .frames = o->frame >= 0 ? o->frame : RG_FRAME_COUNT};
-}
-
 // The same frame without rain: where a picture differs from it, it rains.
-static bool take_background(struct session *s, struct view view)
+static bool take_background(struct session *s)
 {
+    const struct rg_diff_devices_request *r = s->asked;
     struct rg_device *device = rg_device_open("cpu", NULL);
-    bool ok = device && rg_frame_draw_dry(s->technique, s->settings, device, view.width,
-                                          view.height, view.frames, &s->background);
+    bool ok = device && rg_frame_draw_dry(r->technique, r->settings, device, r->width, r->height,
+                                          r->frames, &s->background);
     return rg_device_close(device) && ok;
 }
 
@@ -51,14 +39,14 @@ static bool take_pictures(struct session *s, const struct rg_devices *devices)
 {
     struct rg_progress progress;
     rg_progress_start(&progress, devices->count + 1);
-    const struct view view = view_of(s->options);
-    bool ok = take_background(s, view);
+    const struct rg_diff_devices_request *r = s->asked;
+    bool ok = take_background(s);
     for (int d = 0; ok && d < devices->count; d++) {
         rg_progress_add(&progress, 1);
         struct shot *shot = &s->shots[s->shot_count++];
         shot->info = &devices->devices[d]->info;
-        ok = rg_frame_draw(s->technique, s->settings, devices->devices[d], view.width, view.height,
-                           view.frames, &shot->picture);
+        ok = rg_frame_draw(r->technique, r->settings, devices->devices[d], r->width, r->height,
+                           r->frames, &shot->picture);
     }
     rg_progress_end(&progress);
     return ok;
@@ -69,8 +57,8 @@ static bool write_heatmaps(const struct session *s, const struct shot *a, const 
                            const struct rg_comparison *comparison)
 {
     char prefix[2048];
-    int base = (int)strlen(s->options->output);
-    snprintf(prefix, sizeof(prefix), "%.1900s-%s-%s", s->options->output, a->info->name,
+    int base = (int)strlen(s->asked->heatmap_prefix);
+    snprintf(prefix, sizeof(prefix), "%.1900s-%s-%s", s->asked->heatmap_prefix, a->info->name,
              b->info->name);
     for (char *c = prefix + base; c < prefix + strlen(prefix); c++)
         if (*c == ':')
@@ -92,7 +80,7 @@ static int compare_pair(const struct session *s, const struct shot *a, const str
 {
     struct rg_comparison c;
     if (!rg_compare(&a->picture, a->info->name, &b->picture, b->info->name, &s->background,
-                    &(struct rg_compare_options){.exposure = (float)s->options->exposure}, &c))
+                    &(struct rg_compare_options){.exposure = (float)s->asked->exposure}, &c))
         return RG_EXIT_USAGE;
     const bool holds = a->info->software && b->info->software ? c.tiers.t0.holds : c.tiers.t1.holds;
     bool ok = true;
@@ -100,7 +88,7 @@ static int compare_pair(const struct session *s, const struct shot *a, const str
         ok = json_array_append_new(s->pairs, rg_pair_json(a->info->name, b->info->name, &c)) == 0;
     else
         print_pair(a, b, &c, holds);
-    if (s->options->output)
+    if (s->asked->heatmap_prefix)
         ok = write_heatmaps(s, a, b, &c) && ok;
     rg_comparison_destroy(&c);
     return !ok ? RG_EXIT_USAGE : holds ? RG_EXIT_PASS : RG_EXIT_FAIL;
@@ -109,7 +97,7 @@ static int compare_pair(const struct session *s, const struct shot *a, const str
 static int compare_all(struct session *s)
 {
     int exit = RG_EXIT_PASS;
-    if (s->options->json)
+    if (s->asked->json)
         s->pairs = json_array();
     else
         printf("%-30s %-5s %-5s %10s %10s %8s %9s %8s\n", "pair", "", "tier", "differing",
@@ -125,18 +113,16 @@ static int compare_all(struct session *s)
     return exit;
 }
 
-int rg_diff_devices(const struct rg_options *options)
+int rg_diff_devices(const struct rg_diff_devices_request *request)
 {
     struct session *s = rg_alloc(1, sizeof(*s), "diff");
     if (!s)
         return RG_EXIT_FAIL;
-    s->options = options;
-    s->technique = rg_options_technique(options, &s->settings);
-    struct rg_devices devices = {0};
-    int exit = s->technique ? rg_devices_open(options, "all", &devices) : RG_EXIT_USAGE;
+    s->asked = request;
+    struct rg_devices devices;
+    int exit = rg_devices_open(request->devices, &devices);
     if (exit == RG_EXIT_PASS && devices.count < 2) {
-        rg_error("--device %s: a comparison takes two devices",
-                 options->device ? options->device : "all");
+        rg_error("--device %s: a comparison takes two devices", request->devices);
         exit = RG_EXIT_USAGE;
     } else if (exit == RG_EXIT_PASS) {
         exit = take_pictures(s, &devices) ? compare_all(s) : RG_EXIT_USAGE;
@@ -147,8 +133,6 @@ int rg_diff_devices(const struct rg_options *options)
         rg_picture_destroy(&s->shots[i].picture);
     rg_picture_destroy(&s->background);
     rg_devices_close(&devices);
-    if (s->technique)
-        free(s->settings);
     free(s);
     return exit;
 }

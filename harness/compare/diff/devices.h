@@ -2,10 +2,24 @@
 #ifndef RG_HARNESS_COMPARE_DIFF_DEVICES_H
 #define RG_HARNESS_COMPARE_DIFF_DEVICES_H
 
-#include "harness/commands/command.h"
+#include <stdbool.h>
+
+#include "core/techniques/technique.h"
+
+// Nothing in it is owned.
+struct rg_diff_devices_request {
+    const struct rg_technique *technique;
+    const void *settings;
+    const char *devices;        // their names, as rg_devices_open takes them
+    int width, height;          // pixels
+    int frames;                 // simulated before the picture is drawn
+    const char *heatmap_prefix; // NULL: none; else PREFIX-A-B-flip.png and -difference.png
+    double exposure;
+    bool json; // instead of a table
+};
 
 // Renders on every device, compares every pair and prints it. Returns an enum rg_exit: pass when
 // every pair holds the tier that its devices owe (T0 between software devices, else T1).
-int rg_diff_devices(const struct rg_options *options);
+int rg_diff_devices(const struct rg_diff_devices_request *request);
 
 #endif

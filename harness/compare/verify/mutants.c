@@ -13,7 +13,7 @@
 #include "harness/compare/verify/verify.h"
 #include "harness/frames/frame.h"
 
-enum { MUTANT_STEPS = 100 };
+enum { MUTANT_STEPS = 100, SCENE_PX = 512 };
 
 int64_t rg_verify_mutant_work(const struct rg_verify *v)
 {
@@ -154,7 +154,7 @@ void rg_verify_mutants(struct rg_verify *verify)
     struct rg_verify scene = *verify;
     void *settings = rg_settings_create(verify->technique);
     scene.settings = settings;
-    scene.width = scene.height = RG_FRAME_SIZE_PX;
+    scene.width = scene.height = SCENE_PX;
     struct verdicts verdicts = {0};
     struct rg_picture truth = {0}, dry = {0};
     if (settings && draw(&scene, "", &truth) && draw_dry(&scene, &dry))

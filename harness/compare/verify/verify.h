@@ -5,7 +5,6 @@
 #include "core/image/picture.h"
 #include "core/techniques/proof.h"
 #include "core/techniques/technique.h"
-#include "harness/commands/command.h"
 #include "harness/compare/verify/checks.h"
 #include "harness/console/progress.h"
 #include "harness/devices/devices.h"

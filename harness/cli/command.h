@@ -1,0 +1,36 @@
+// How a command is declared, and run with what the command line says.
+#ifndef RG_HARNESS_CLI_COMMAND_H
+#define RG_HARNESS_CLI_COMMAND_H
+
+#include "harness/cli/option.h"
+
+enum rg_exit {
+    RG_EXIT_PASS = 0,
+    RG_EXIT_FAIL = 1,  // differs, regressed, not verified
+    RG_EXIT_USAGE = 2, // bad usage or input
+    RG_EXIT_INCONCLUSIVE = 3,
+    RG_EXIT_NOTHING = 4,      // nothing was measured
+    RG_EXIT_UNSUPPORTED = 77, // not supported on this machine
+    RG_EXIT_SIGNALLED = 128,  // and the signal's number: ended early because it was asked to
+};
+
+struct rg_command {
+    const char *name;
+    const char *usage;               // after "raingauge NAME"
+    const char *about;               // one line
+    const struct rg_option *options; // its table
+    size_t options_size;             // of its struct of values
+    // `options` is that struct, `arguments` what is no option: no more of them than the table's
+    // operands have places for. Returns an enum rg_exit.
+    int (*run)(const void *options, const struct rg_words *arguments);
+};
+
+// Runs a command with its options and arguments; argv[0] is the command's name. Or prints its help
+// where that is asked for. Returns an enum rg_exit: bad usage, with one logged line, where the
+// table refuses something.
+int rg_command_run(const struct rg_command *command, int argc, const char **argv);
+
+// Prints a command's usage, what it does, and its options by group.
+void rg_command_print_help(const struct rg_command *command);
+
+#endif

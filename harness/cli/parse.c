@@ -1,0 +1,139 @@
+// A command line, by the command's table.
+#include <popt.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "harness/cli/command.h"
+
+struct line {
+    const struct rg_command *command;
+    int count;
+    struct rg_option rows[RG_MAX_OPTION_ROWS];
+    bool given[RG_MAX_OPTION_ROWS];
+    void *values;              // owned
+    struct rg_words arguments; // they live as long as `context`
+    poptContext context;
+};
+
+enum parsed { RUN, HELP, REFUSED };
+
+// Every option without being given.
+static bool set_defaults(struct line *line)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < line->count; i++) {
+        const struct rg_option *row = &line->rows[i];
+        rg_option_clear(row, line->values);
+        ok = !row->initial || rg_option_set(row, line->values, row->initial, line->command->name);
+    }
+    return ok;
+}
+
+// The options as popt wants them: it splits the line and hands back the row's number, from 1.
+static void make_table(const struct line *line, struct poptOption *table)
+{
+    char text[RG_ARGUMENT_SIZE];
+    for (int i = 0; i < line->count; i++) {
+        const struct rg_option *row = &line->rows[i];
+        if (!rg_option_is_given_by_name(row))
+            continue;
+        const bool takes_value = *rg_option_argument(row, text);
+        *table++ = (struct poptOption){.longName = row->name,
+                                       .shortName = row->letter,
+                                       .argInfo = takes_value ? POPT_ARG_STRING : POPT_ARG_NONE,
+                                       .val = i + 1};
+    }
+    *table = (struct poptOption)POPT_TABLEEND;
+}
+
+static bool take_option(struct line *line, int number)
+{
+    char *text = poptGetOptArg(line->context);
+    line->given[number] = true;
+    const bool ok = rg_option_set(&line->rows[number], line->values, text, line->command->name);
+    free(text);
+    return ok;
+}
+
+static bool take_arguments(struct line *line)
+{
+    int places = 0;
+    for (int i = 0; i < line->count; i++) {
+        const struct rg_option *row = &line->rows[i];
+        const int last = row->last ? row->last : RG_MAX_WORDS;
+        if (row->kind == RG_OPTION_OPERAND && last > places)
+            places = last;
+    }
+    const char *word;
+    while ((word = poptGetArg(line->context))) {
+        if (line->arguments.count == RG_MAX_WORDS)
+            return rg_error("'%s': more than %d arguments", word, RG_MAX_WORDS);
+        if (line->arguments.count == places)
+            return rg_error("%s: '%s' is one argument too many; `raingauge %s --help` prints the "
+                            "usage",
+                            line->command->name, word, line->command->name);
+        line->arguments.items[line->arguments.count++] = word;
+    }
+    return true;
+}
+
+static bool check_exclusions(const struct line *line)
+{
+    for (int i = 0; i < line->count; i++)
+        for (int j = 0; line->given[i] && line->rows[i].excludes && j < line->count; j++)
+            if (line->given[j] && !strcmp(line->rows[j].name, line->rows[i].excludes))
+                return rg_error("--%s and --%s: choose one", line->rows[i].name,
+                                line->rows[j].name);
+    return true;
+}
+
+static bool refuse(const struct line *line, int code)
+{
+    return rg_error("%s: %s; `raingauge %s --help` prints the options",
+                    poptBadOption(line->context, POPT_BADOPTION_NOALIAS), poptStrerror(code),
+                    line->command->name);
+}
+
+static enum parsed parse(struct line *line)
+{
+    int value;
+    while ((value = poptGetNextOpt(line->context)) > 0) {
+        if (line->rows[value - 1].kind == RG_OPTION_HELP)
+            return HELP;
+        if (!take_option(line, value - 1))
+            return REFUSED;
+    }
+    if (value < -1 && !refuse(line, value))
+        return REFUSED;
+    return check_exclusions(line) && take_arguments(line) ? RUN : REFUSED;
+}
+
+static int run(struct line *line)
+{
+    const enum parsed parsed = parse(line);
+    if (parsed == RUN)
+        return line->command->run(line->values, &line->arguments);
+    if (parsed == HELP)
+        rg_command_print_help(line->command);
+    return parsed == HELP ? RG_EXIT_PASS : RG_EXIT_USAGE;
+}
+
+int rg_command_run(const struct rg_command *command, int argc, const char **argv)
+{
+    struct poptOption table[RG_MAX_OPTION_ROWS + 1];
+    struct line line = {.command = command};
+    line.count = rg_option_rows(command->options, line.rows);
+    line.values = rg_alloc(1, command->options_size, "options");
+    if (!line.values)
+        return RG_EXIT_FAIL;
+    make_table(&line, table);
+    line.context = poptGetContext("raingauge", argc, argv, table, 0);
+    const int exit = set_defaults(&line) ? run(&line) : RG_EXIT_FAIL;
+    poptFreeContext(line.context);
+    for (int i = 0; i < line.count; i++)
+        rg_option_free(&line.rows[i], line.values);
+    free(line.values);
+    return exit;
+}

@@ -1,0 +1,20 @@
+// Options that several commands take. Each table is included in a command's own, at a value of the
+// type named here, and means the same in all of them; a default is the including command's.
+#ifndef RG_HARNESS_CLI_SHARED_H
+#define RG_HARNESS_CLI_SHARED_H
+
+#include "harness/cli/option.h"
+
+extern const struct rg_option rg_devices_option[];  // char *: --device, names with commas, or "all"
+extern const struct rg_option rg_settings_option[]; // struct rg_words: --set
+extern const struct rg_option rg_size_option[];     // struct rg_size: --size
+extern const struct rg_option rg_frame_option[];    // int: --frame
+extern const struct rg_option rg_exposure_option[]; // double: --exposure
+extern const struct rg_option rg_json_option[];     // bool: --json
+extern const struct rg_option rg_length_options[];  // struct rg_length: --quick, --full
+
+struct rg_length {
+    bool quick, full; // at most one of them
+};
+
+#endif

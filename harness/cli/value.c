@@ -1,0 +1,179 @@
+// What the user writes, as values.
+#include <errno.h>
+#include <limits.h>
+#include <popt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/cli/option.h"
+
+enum { MAX_SIZE_PX = 16384 };
+
+static void *at(const struct rg_option *row, void *values)
+{
+    return (char *)values + row->offset;
+}
+
+// --- numbers ---
+
+static bool refuse_number(const struct rg_option *row, const char *text, int code,
+                          const char *command)
+{
+    return rg_error("--%s %s: %s; `raingauge %s --help` prints the options", row->name, text,
+                    poptStrerror(code), command);
+}
+
+static bool set_int(const struct rg_option *row, int *number, const char *text, const char *command)
+{
+    char *end;
+    errno = 0;
+    const long value = strtol(text, &end, 0);
+    if (end == text || *end)
+        return refuse_number(row, text, POPT_ERROR_BADNUMBER, command);
+    if (errno || value < INT_MIN || value > INT_MAX)
+        return refuse_number(row, text, POPT_ERROR_OVERFLOW, command);
+    *number = (int)value;
+    if (value < row->least || value > row->most)
+        return rg_error("--%s %s: must be %.10g to %.10g", row->name, text, row->least, row->most);
+    return true;
+}
+
+static bool set_factor(const struct rg_option *row, double *number, const char *text,
+                       const char *command)
+{
+    char *end;
+    *number = strtod(text, &end);
+    if (end == text || *end)
+        return refuse_number(row, text, POPT_ERROR_BADNUMBER, command);
+    if (!(*number > 0 && *number <= row->most))
+        return rg_error("--%s %s: must be above 0, at most %.10g", row->name, text, row->most);
+    return true;
+}
+
+// --- pairs of numbers ---
+
+// A whole number at *text, which moves behind it; what does not fit becomes the nearest int.
+static bool take_int(const char **text, int *number)
+{
+    char *end;
+    long value = strtol(*text, &end, 10);
+    if (end == *text)
+        return false;
+    *number = value > INT_MAX ? INT_MAX : value < INT_MIN ? INT_MIN : (int)value;
+    *text = end;
+    return true;
+}
+
+// Two numbers with a sign between them, and nothing else.
+static bool take_pair(const char *text, char sign, int *first, int *second)
+{
+    return take_int(&text, first) && *text++ == sign && take_int(&text, second) && !*text;
+}
+
+static bool set_size(const struct rg_option *row, struct rg_size *size, const char *text)
+{
+    if (!take_pair(text, 'x', &size->width, &size->height))
+        return rg_error("--%s %s: write it as WIDTHxHEIGHT, as in 1280x720", row->name, text);
+    if (size->width < 1 || size->height < 1 || size->width > MAX_SIZE_PX ||
+        size->height > MAX_SIZE_PX)
+        return rg_error("--%s %s: each side must be 1 to %d pixels", row->name, text, MAX_SIZE_PX);
+    return true;
+}
+
+static bool set_rows(const struct rg_option *row, struct rg_rows *rows, const char *text)
+{
+    const char *rest = text;
+    if (!take_pair(text, '-', &rows->first, &rows->last)) {
+        if (!take_int(&rest, &rows->first) || *rest)
+            return rg_error("--%s %s: write it as FIRST-LAST, as in 2-4", row->name, text);
+        rows->last = rows->first;
+    }
+    if (rows->first < 1 || rows->last < rows->first)
+        return rg_error("--%s %s: rows count from 1, the first not after the last", row->name,
+                        text);
+    return true;
+}
+
+// --- words ---
+
+// "md, csv, json or tex"
+static void list_choices(const char *const *choices, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = 0;
+    for (int i = 0; choices[i] && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s",
+                                 !i               ? ""
+                                 : choices[i + 1] ? ", "
+                                                  : " or ",
+                                 choices[i]);
+}
+
+static bool set_choice(const struct rg_option *row, int *choice, const char *text)
+{
+    for (*choice = 0; row->choices[*choice]; (*choice)++)
+        if (!strcmp(row->choices[*choice], text))
+            return true;
+    char all[128];
+    list_choices(row->choices, all, sizeof(all));
+    return rg_error("--%s %s: choose %s", row->name, text, all);
+}
+
+static bool set_text(const struct rg_option *row, char **copy, const char *text)
+{
+    free(*copy);
+    return (*copy = strdup(text)) || rg_error("--%s %s: no memory for it", row->name, text);
+}
+
+static bool add_text(const struct rg_option *row, struct rg_words *words, const char *text)
+{
+    if (words->count == RG_MAX_WORDS)
+        return rg_error("--%s %s: more than %d of them", row->name, text, RG_MAX_WORDS);
+    char *copy = NULL;
+    return set_text(row, &copy, text) && (words->items[words->count++] = copy);
+}
+
+// --- all of them ---
+
+void rg_option_clear(const struct rg_option *row, void *values)
+{
+    if (row->kind == RG_OPTION_INT)
+        *(int *)at(row, values) = (int)row->least - 1;
+    if (row->kind == RG_OPTION_CHOICE)
+        *(int *)at(row, values) = -1;
+}
+
+bool rg_option_set(const struct rg_option *row, void *values, const char *text, const char *command)
+{
+    switch (row->kind) {
+    case RG_OPTION_FLAG:
+        return *(bool *)at(row, values) = true;
+    case RG_OPTION_INT:
+        return set_int(row, at(row, values), text, command);
+    case RG_OPTION_FACTOR:
+        return set_factor(row, at(row, values), text, command);
+    case RG_OPTION_CHOICE:
+        return set_choice(row, at(row, values), text);
+    case RG_OPTION_SIZE:
+        return set_size(row, at(row, values), text);
+    case RG_OPTION_ROWS:
+        return set_rows(row, at(row, values), text);
+    case RG_OPTION_TEXT:
+        return set_text(row, at(row, values), text);
+    case RG_OPTION_TEXTS:
+        return add_text(row, at(row, values), text);
+    default:
+        return true;
+    }
+}
+
+void rg_option_free(const struct rg_option *row, void *values)
+{
+    if (row->kind == RG_OPTION_TEXT)
+        free(*(char **)at(row, values));
+    struct rg_words *words = row->kind == RG_OPTION_TEXTS ? at(row, values) : NULL;
+    for (int i = 0; words && i < words->count; i++)
+        free((char *)words->items[i]);
+}
