@@ -61,16 +61,16 @@ static bool print_as(const struct rg_table_run *run, const char *format, FILE *o
         print_json(run, out);
         return true;
     }
-    struct rg_grid grid;
-    rg_table_grid(run, &grid);
+    struct rg_sheet sheet;
+    rg_table_sheet(run, &sheet);
     if (!strcmp(format, "csv"))
-        rg_grid_print_csv(&grid, out);
+        rg_sheet_print_csv(&sheet, out);
     else if (!strcmp(format, "tex"))
-        rg_grid_print_tex(&grid, out);
+        rg_sheet_print_tex(&sheet, out);
     else
-        rg_grid_print_md(&grid, out);
-    rg_grid_free(&grid);
-    return !grid.incomplete;
+        rg_sheet_print_md(&sheet, out);
+    rg_sheet_free(&sheet);
+    return !sheet.incomplete;
 }
 
 static bool write_as(const struct rg_table_run *run, const char *format, const char *folder)

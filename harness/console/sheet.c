@@ -7,53 +7,53 @@
 #include "core/base/log.h"
 
 // `array` with room for one element more; NULL, with the array as it was, without memory for it.
-static void *grow(struct rg_grid *grid, void *array, int count, int *capacity, size_t size)
+static void *grow(struct rg_sheet *sheet, void *array, int count, int *capacity, size_t size)
 {
     if (count < *capacity)
         return array;
     const int wanted = *capacity ? *capacity * 2 : 16;
     void *grown = realloc(array, (size_t)wanted * size);
     if (!grown) {
-        grid->incomplete = !rg_error("table '%s': no memory for %d rows", grid->title, wanted);
+        sheet->incomplete = !rg_error("table '%s': no memory for %d rows", sheet->title, wanted);
         return NULL;
     }
     *capacity = wanted;
     return grown;
 }
 
-int rg_grid_column(struct rg_grid *grid, const char *format, ...)
+int rg_sheet_column(struct rg_sheet *sheet, const char *format, ...)
 {
-    const int column = grid->column_count;
-    if (column == RG_GRID_COLUMNS) {
-        grid->incomplete = !rg_error("table '%s': more than %d columns; raise RG_GRID_COLUMNS",
-                                     grid->title, RG_GRID_COLUMNS);
+    const int column = sheet->column_count;
+    if (column == RG_SHEET_COLUMNS) {
+        sheet->incomplete = !rg_error("table '%s': more than %d columns; raise RG_SHEET_COLUMNS",
+                                      sheet->title, RG_SHEET_COLUMNS);
         return column - 1;
     }
     va_list args;
     va_start(args, format);
-    vsnprintf(grid->columns[column], sizeof(grid->columns[column]), format, args);
+    vsnprintf(sheet->columns[column], sizeof(sheet->columns[column]), format, args);
     va_end(args);
-    return grid->column_count++;
+    return sheet->column_count++;
 }
 
-char (*rg_grid_row(struct rg_grid *grid))[RG_GRID_CELL]
+char (*rg_sheet_row(struct rg_sheet *sheet))[RG_SHEET_CELL]
 {
     void *cells =
-        grow(grid, grid->cells, grid->row_count, &grid->row_capacity, sizeof(*grid->cells));
+        grow(sheet, sheet->cells, sheet->row_count, &sheet->row_capacity, sizeof(*sheet->cells));
     if (!cells)
         return NULL;
-    grid->cells = cells;
-    memset(grid->cells[grid->row_count], 0, sizeof(*grid->cells));
-    return grid->cells[grid->row_count++];
+    sheet->cells = cells;
+    memset(sheet->cells[sheet->row_count], 0, sizeof(*sheet->cells));
+    return sheet->cells[sheet->row_count++];
 }
 
-void rg_grid_note(struct rg_grid *grid, const char *format, ...)
+void rg_sheet_note(struct rg_sheet *sheet, const char *format, ...)
 {
     void *notes =
-        grow(grid, grid->notes, grid->note_count, &grid->note_capacity, sizeof(*grid->notes));
+        grow(sheet, sheet->notes, sheet->note_count, &sheet->note_capacity, sizeof(*sheet->notes));
     if (!notes)
         return;
-    grid->notes = notes;
+    sheet->notes = notes;
     char *note = NULL;
     size_t size;
     FILE *text = open_memstream(&note, &size);
@@ -62,19 +62,19 @@ void rg_grid_note(struct rg_grid *grid, const char *format, ...)
     const bool printed = text && vfprintf(text, format, args) >= 0;
     va_end(args);
     if (text && fclose(text) == 0 && printed) {
-        grid->notes[grid->note_count++] = note;
+        sheet->notes[sheet->note_count++] = note;
         return;
     }
-    grid->incomplete = !rg_error("table '%s': no memory for a note", grid->title);
+    sheet->incomplete = !rg_error("table '%s': no memory for a note", sheet->title);
     free(note);
 }
 
-void rg_grid_free(struct rg_grid *grid)
+void rg_sheet_free(struct rg_sheet *sheet)
 {
-    for (int n = 0; n < grid->note_count; n++)
-        free(grid->notes[n]);
-    free(grid->cells);
-    free(grid->notes);
+    for (int n = 0; n < sheet->note_count; n++)
+        free(sheet->notes[n]);
+    free(sheet->cells);
+    free(sheet->notes);
 }
 
 // --- Markdown, with columns aligned for those who read it as text ---
@@ -83,43 +83,43 @@ void rg_grid_free(struct rg_grid *grid)
 // does not move what it has beside it.
 enum { WIDTH_STEP = 8 };
 
-static int width_of(const struct rg_grid *grid, int column)
+static int width_of(const struct rg_sheet *sheet, int column)
 {
-    size_t widest = strlen(grid->columns[column]);
-    for (int r = 0; r < grid->row_count; r++) {
-        const size_t width = strlen(grid->cells[r][column]);
+    size_t widest = strlen(sheet->columns[column]);
+    for (int r = 0; r < sheet->row_count; r++) {
+        const size_t width = strlen(sheet->cells[r][column]);
         widest = width > widest ? width : widest;
     }
     return (int)(widest + WIDTH_STEP - 1) / WIDTH_STEP * WIDTH_STEP;
 }
 
-static void print_md_row(FILE *out, const struct rg_grid *grid, const int *widths, int row)
+static void print_md_row(FILE *out, const struct rg_sheet *sheet, const int *widths, int row)
 {
-    for (int c = 0; c < grid->column_count; c++)
+    for (int c = 0; c < sheet->column_count; c++)
         fprintf(out, c ? " %*s |" : "| %*s |", widths[c],
-                row < 0 ? grid->columns[c] : grid->cells[row][c]);
+                row < 0 ? sheet->columns[c] : sheet->cells[row][c]);
     fprintf(out, "\n");
 }
 
-void rg_grid_print_md(const struct rg_grid *grid, FILE *out)
+void rg_sheet_print_md(const struct rg_sheet *sheet, FILE *out)
 {
-    int widths[RG_GRID_COLUMNS];
-    for (int c = 0; c < grid->column_count; c++)
-        widths[c] = width_of(grid, c);
-    fprintf(out, "## %s\n\n", grid->title);
-    print_md_row(out, grid, widths, -1);
-    for (int c = 0; c < grid->column_count; c++) {
+    int widths[RG_SHEET_COLUMNS];
+    for (int c = 0; c < sheet->column_count; c++)
+        widths[c] = width_of(sheet, c);
+    fprintf(out, "## %s\n\n", sheet->title);
+    print_md_row(out, sheet, widths, -1);
+    for (int c = 0; c < sheet->column_count; c++) {
         fprintf(out, c ? "" : "|");
         for (int i = 0; i < widths[c] + 1; i++)
             fprintf(out, "-");
         fprintf(out, ":|");
     }
     fprintf(out, "\n");
-    for (int r = 0; r < grid->row_count; r++)
-        print_md_row(out, grid, widths, r);
+    for (int r = 0; r < sheet->row_count; r++)
+        print_md_row(out, sheet, widths, r);
     fprintf(out, "\n");
-    for (int n = 0; n < grid->note_count; n++)
-        fprintf(out, "- %s\n", grid->notes[n]);
+    for (int n = 0; n < sheet->note_count; n++)
+        fprintf(out, "- %s\n", sheet->notes[n]);
 }
 
 // --- CSV: RFC 4180 ---
@@ -136,12 +136,12 @@ static void print_csv_cell(FILE *out, const char *text)
     fputc('"', out);
 }
 
-void rg_grid_print_csv(const struct rg_grid *grid, FILE *out)
+void rg_sheet_print_csv(const struct rg_sheet *sheet, FILE *out)
 {
-    for (int r = -1; r < grid->row_count; r++) {
-        for (int c = 0; c < grid->column_count; c++) {
+    for (int r = -1; r < sheet->row_count; r++) {
+        for (int c = 0; c < sheet->column_count; c++) {
             fprintf(out, c ? "," : "");
-            print_csv_cell(out, r < 0 ? grid->columns[c] : grid->cells[r][c]);
+            print_csv_cell(out, r < 0 ? sheet->columns[c] : sheet->cells[r][c]);
         }
         fprintf(out, "\n");
     }
@@ -161,25 +161,25 @@ static void print_tex_text(FILE *out, const char *text)
     }
 }
 
-void rg_grid_print_tex(const struct rg_grid *grid, FILE *out)
+void rg_sheet_print_tex(const struct rg_sheet *sheet, FILE *out)
 {
     fprintf(out, "\\begin{table}\n\\caption{");
-    print_tex_text(out, grid->title);
+    print_tex_text(out, sheet->title);
     fprintf(out, "}\n\\begin{tabular}{");
-    for (int c = 0; c < grid->column_count; c++)
+    for (int c = 0; c < sheet->column_count; c++)
         fputc('r', out);
     fprintf(out, "}\n\\hline\n");
-    for (int r = -1; r < grid->row_count; r++) {
-        for (int c = 0; c < grid->column_count; c++) {
+    for (int r = -1; r < sheet->row_count; r++) {
+        for (int c = 0; c < sheet->column_count; c++) {
             fprintf(out, c ? " & " : "");
-            print_tex_text(out, r < 0 ? grid->columns[c] : grid->cells[r][c]);
+            print_tex_text(out, r < 0 ? sheet->columns[c] : sheet->cells[r][c]);
         }
         fprintf(out, r < 0 ? " \\\\\n\\hline\n" : " \\\\\n");
     }
     fprintf(out, "\\hline\n\\end{tabular}\n");
-    for (int n = 0; n < grid->note_count; n++) {
+    for (int n = 0; n < sheet->note_count; n++) {
         fprintf(out, "\n\\noindent ");
-        print_tex_text(out, grid->notes[n]);
+        print_tex_text(out, sheet->notes[n]);
         fprintf(out, "\n");
     }
     fprintf(out, "\\end{table}\n");

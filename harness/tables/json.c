@@ -107,17 +107,17 @@ static json_t *cell_json(const struct rg_table_run *run, int row, int variant, i
     return json;
 }
 
-static json_t *shape_json(const struct rg_table_run *run, int variant, int device)
+static json_t *trend_json(const struct rg_table_run *run, int variant, int device)
 {
-    const struct rg_shape s = rg_table_shape(run, variant, device);
-    const bool known = s.verdict != RG_SHAPE_UNKNOWN;
+    const struct rg_trend s = rg_table_trend(run, variant, device);
+    const bool known = s.verdict != RG_TREND_UNKNOWN;
     const double slope = known && !s.has_slope ? NAN : s.slope;
     const double published = known && !s.has_slope ? NAN : s.published_slope;
     return json_pack("{sssssssbsisisoso}", "device", run->devices->devices[device]->info.name,
                      "variant", run->table->variants[variant].name, "verdict",
-                     rg_shape_verdict_text(s.verdict), "same_ranking", s.pairs_in_order == s.pairs,
-                     "pairs", s.pairs, "pairs_in_order", s.pairs_in_order, "slope",
-                     rg_number_json(slope), "published_slope", rg_number_json(published));
+                     rg_trend_text(s.verdict), "same_ranking", s.pairs_in_order == s.pairs, "pairs",
+                     s.pairs, "pairs_in_order", s.pairs_in_order, "slope", rg_number_json(slope),
+                     "published_slope", rg_number_json(published));
 }
 
 // One sentence for each device that a reader would look for in vain.
@@ -142,7 +142,7 @@ json_t *rg_table_json(const struct rg_table_run *run)
         for (int i = 0; i < variants * devices; i++)
             json_array_append_new(cells, cell_json(run, row, i / devices, i % devices));
     for (int i = 0; !table->is_of_textures && i < variants * devices; i++)
-        json_array_append_new(shapes, shape_json(run, i / devices, i % devices));
+        json_array_append_new(shapes, trend_json(run, i / devices, i % devices));
     for (int d = 0; d < devices; d++)
         infos[d] = run->devices->devices[d]->info;
     return json_pack("{sissss?sssbsisosososo}", "format", 1, "table", table->id, "hardware",

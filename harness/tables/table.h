@@ -69,26 +69,26 @@ double rg_cell_fps(const struct rg_cell *cell);
 double rg_table_published_fps(const struct rg_table *table, int row, int variant);
 
 // Whether a device's numbers fall as the published ones do.
-enum rg_shape_verdict {
-    RG_SHAPE_REPRODUCED, // same order of the rows, and same slope along the axis
-    RG_SHAPE_TREND,      // same order, another slope
-    RG_SHAPE_ORDER,      // same order, of rows without an axis
-    RG_SHAPE_NOT,        // another order
-    RG_SHAPE_UNKNOWN,
+enum rg_trend_verdict {
+    RG_TREND_REPRODUCED, // same order of the rows, and same slope along the axis
+    RG_TREND_ONLY,       // same order, another slope
+    RG_TREND_ORDER,      // same order, of rows without an axis
+    RG_TREND_NOT,        // another order
+    RG_TREND_UNKNOWN,
 };
-struct rg_shape {
-    enum rg_shape_verdict verdict;
+struct rg_trend {
+    enum rg_trend_verdict verdict;
     int pairs;                     // of rows whose published numbers differ
     int pairs_in_order;            // so many of them stand in the published order
     bool has_slope;                // the rows have an axis
     double slope, published_slope; // of log(fps) over log(axis)
 };
-const char *rg_shape_verdict_text(enum rg_shape_verdict verdict);
-struct rg_shape rg_table_shape(const struct rg_table_run *run, int variant, int device);
+const char *rg_trend_text(enum rg_trend_verdict verdict);
+struct rg_trend rg_table_trend(const struct rg_table_run *run, int variant, int device);
 
 // The machine form (docs/records.md); the caller owns it.
 json_t *rg_table_json(const struct rg_table_run *run);
-// The table for people, in `grid`, which is zeroed before.
-void rg_table_grid(const struct rg_table_run *run, struct rg_grid *grid);
+// The table for people, in `sheet`, which is zeroed before.
+void rg_table_sheet(const struct rg_table_run *run, struct rg_sheet *sheet);
 
 #endif

@@ -1,4 +1,4 @@
-// A measured table as a grid of text, for people.
+// A measured table as a sheet of text, for people.
 #include <stdio.h>
 #include <string.h>
 
@@ -32,40 +32,40 @@ static bool is_told(const struct rg_table_run *run, const char *name)
     return false;
 }
 
-static void add_times(struct rg_grid *grid, struct columns *at, bool is_published)
+static void add_times(struct rg_sheet *sheet, struct columns *at, bool is_published)
 {
-    at->ms = rg_grid_column(grid, "ms");
-    at->ms_range = rg_grid_column(grid, "ms, 95 %%");
-    at->ratio = is_published ? rg_grid_column(grid, "fps / published") : -1;
-    at->times = rg_grid_column(grid, "x cpu:reference");
-    at->first = rg_grid_column(grid, "first frame ms");
-    at->api = rg_grid_column(grid, "API / wall clock");
+    at->ms = rg_sheet_column(sheet, "ms");
+    at->ms_range = rg_sheet_column(sheet, "ms, 95 %%");
+    at->ratio = is_published ? rg_sheet_column(sheet, "fps / published") : -1;
+    at->times = rg_sheet_column(sheet, "x cpu:reference");
+    at->first = rg_sheet_column(sheet, "first frame ms");
+    at->api = rg_sheet_column(sheet, "API / wall clock");
 }
 
-static void add_columns(const struct rg_table_run *run, struct rg_grid *grid, struct columns *at)
+static void add_columns(const struct rg_table_run *run, struct rg_sheet *sheet, struct columns *at)
 {
     const struct rg_table *table = run->table;
     const bool is_published = rg_table_is_published(table), is_timed = !table->is_of_textures;
-    at->name = table->names ? rg_grid_column(grid, "%s", table->names) : -1;
-    at->keys = grid->column_count;
+    at->name = table->names ? rg_sheet_column(sheet, "%s", table->names) : -1;
+    at->keys = sheet->column_count;
     for (int c = 0; c < table->key_count; c++)
-        rg_grid_column(grid, "%s", table->columns[c]);
-    at->published_extras = grid->column_count;
+        rg_sheet_column(sheet, "%s", table->columns[c]);
+    at->published_extras = sheet->column_count;
     for (int c = 0; table->columns[c]; c++)
         if (rg_table_is_extra(table, c))
-            rg_grid_column(grid, "published %s", table->columns[c]);
-    at->published_fps = is_published && is_timed ? rg_grid_column(grid, "published fps") : -1;
-    at->variant = rg_table_variant_count(table) > 1 ? rg_grid_column(grid, "variant") : -1;
-    at->device = rg_grid_column(grid, "device");
-    at->fps = rg_grid_column(grid, is_timed ? "fps" : "status");
+            rg_sheet_column(sheet, "published %s", table->columns[c]);
+    at->published_fps = is_published && is_timed ? rg_sheet_column(sheet, "published fps") : -1;
+    at->variant = rg_table_variant_count(table) > 1 ? rg_sheet_column(sheet, "variant") : -1;
+    at->device = rg_sheet_column(sheet, "device");
+    at->fps = rg_sheet_column(sheet, is_timed ? "fps" : "status");
     if (is_timed)
-        add_times(grid, at, is_published);
+        add_times(sheet, at, is_published);
     for (int c = 0; table->columns[c]; c++)
         at->told[c] = rg_table_is_extra(table, c) && is_told(run, table->columns[c])
-                          ? rg_grid_column(grid, "%s", table->columns[c])
+                          ? rg_sheet_column(sheet, "%s", table->columns[c])
                           : -1;
-    at->error = table->truth ? rg_grid_column(grid, "error, FLIP") : -1;
-    at->passes = is_timed ? rg_grid_column(grid, "passes, synced") : -1;
+    at->error = table->truth ? rg_sheet_column(sheet, "error, FLIP") : -1;
+    at->passes = is_timed ? rg_sheet_column(sheet, "passes, synced") : -1;
 }
 
 // --- the cells ---
@@ -93,7 +93,7 @@ static const char *pass_name(const struct rg_cell *cell, const char *name)
 }
 
 // "light 70 %, given 12 %, other 18 %": the largest first, as many as fit.
-static void print_passes(const struct rg_cell *cell, char text[RG_GRID_CELL])
+static void print_passes(const struct rg_cell *cell, char text[RG_SHEET_CELL])
 {
     enum { ROOM_FOR_OTHER = sizeof(", other 100 %") };
     const struct rg_cell_pass *pass;
@@ -105,85 +105,85 @@ static void print_passes(const struct rg_cell *cell, char text[RG_GRID_CELL])
         char entry[64];
         const int length = snprintf(entry, sizeof(entry), "%s%s %.0f %%", used ? ", " : "",
                                     pass_name(cell, pass->name), 100 * pass->ms / sum);
-        if (used + (size_t)length + ROOM_FOR_OTHER > RG_GRID_CELL)
+        if (used + (size_t)length + ROOM_FOR_OTHER > RG_SHEET_CELL)
             break;
-        used += (size_t)snprintf(text + used, RG_GRID_CELL - used, "%s", entry);
+        used += (size_t)snprintf(text + used, RG_SHEET_CELL - used, "%s", entry);
         left -= pass->ms;
     }
     if (sum > 0 && left >= 0.005 * sum)
-        snprintf(text + used, RG_GRID_CELL - used, "%sother %.0f %%", used ? ", " : "",
+        snprintf(text + used, RG_SHEET_CELL - used, "%sother %.0f %%", used ? ", " : "",
                  100 * left / sum);
 }
 
-static void fill_times(const struct columns *at, char (*cells)[RG_GRID_CELL],
+static void fill_times(const struct columns *at, char (*cells)[RG_SHEET_CELL],
                        const struct rg_cell *cell, double published)
 {
-    snprintf(cells[at->fps], RG_GRID_CELL, "%.1f", rg_cell_fps(cell));
-    snprintf(cells[at->ms], RG_GRID_CELL, "%.3f", cell->frame_ms.median);
-    snprintf(cells[at->ms_range], RG_GRID_CELL, "%.3f to %.3f", cell->frame_ms.low,
+    snprintf(cells[at->fps], RG_SHEET_CELL, "%.1f", rg_cell_fps(cell));
+    snprintf(cells[at->ms], RG_SHEET_CELL, "%.3f", cell->frame_ms.median);
+    snprintf(cells[at->ms_range], RG_SHEET_CELL, "%.3f to %.3f", cell->frame_ms.low,
              cell->frame_ms.high);
     if (at->ratio >= 0)
-        snprintf(cells[at->ratio], RG_GRID_CELL, "%.2f", rg_cell_fps(cell) / published);
-    snprintf(cells[at->first], RG_GRID_CELL, "%.1f", cell->first_frame_ms);
+        snprintf(cells[at->ratio], RG_SHEET_CELL, "%.2f", rg_cell_fps(cell) / published);
+    snprintf(cells[at->first], RG_SHEET_CELL, "%.1f", cell->first_frame_ms);
     const bool trusted = rg_timer_is_trusted(cell->api_over_wall);
-    snprintf(cells[at->api], RG_GRID_CELL, "%.2f%s", cell->api_over_wall,
+    snprintf(cells[at->api], RG_SHEET_CELL, "%.2f%s", cell->api_over_wall,
              trusted ? "" : " untrusted");
     print_passes(cell, cells[at->passes]);
 }
 
 static void fill_told(const struct rg_table_run *run, const struct columns *at,
-                      char (*cells)[RG_GRID_CELL], const struct rg_cell *cell)
+                      char (*cells)[RG_SHEET_CELL], const struct rg_cell *cell)
 {
     for (int c = 0; run->table->columns[c]; c++) {
         const double *told = rg_facts_number(cell->facts, cell->fact_count, run->table->columns[c]);
         if (at->told[c] >= 0 && told)
-            snprintf(cells[at->told[c]], RG_GRID_CELL, "%.10g", *told);
+            snprintf(cells[at->told[c]], RG_SHEET_CELL, "%.10g", *told);
     }
 }
 
 // How far the row is from the truth, or why that is unknown.
-static void fill_error(const struct rg_table_group *group, char text[RG_GRID_CELL])
+static void fill_error(const struct rg_table_group *group, char text[RG_SHEET_CELL])
 {
     if (group->error_status == RG_OK)
-        snprintf(text, RG_GRID_CELL, "%.4f", group->error.flip_mask_mean);
+        snprintf(text, RG_SHEET_CELL, "%.4f", group->error.flip_mask_mean);
     else
-        snprintf(text, RG_GRID_CELL, "%s", rg_outcome_name(group->error_status));
+        snprintf(text, RG_SHEET_CELL, "%s", rg_outcome_name(group->error_status));
 }
 
 static void fill_published(const struct rg_table_run *run, const struct columns *at,
-                           char (*cells)[RG_GRID_CELL], int row, int variant)
+                           char (*cells)[RG_SHEET_CELL], int row, int variant)
 {
     const struct rg_table *table = run->table;
     const struct rg_table_row *printed = &table->rows[row];
     int extra = at->published_extras;
     if (at->name >= 0)
-        snprintf(cells[at->name], RG_GRID_CELL, "%s", printed->name);
+        snprintf(cells[at->name], RG_SHEET_CELL, "%s", printed->name);
     for (int c = 0; c < table->key_count; c++)
-        snprintf(cells[at->keys + c], RG_GRID_CELL, "%.10g", printed->values[c]);
+        snprintf(cells[at->keys + c], RG_SHEET_CELL, "%.10g", printed->values[c]);
     for (int c = 0; table->columns[c]; c++)
         if (rg_table_is_extra(table, c))
-            snprintf(cells[extra++], RG_GRID_CELL, "%.10g", printed->values[c]);
+            snprintf(cells[extra++], RG_SHEET_CELL, "%.10g", printed->values[c]);
     if (at->published_fps >= 0)
-        snprintf(cells[at->published_fps], RG_GRID_CELL, "%.10g",
+        snprintf(cells[at->published_fps], RG_SHEET_CELL, "%.10g",
                  rg_table_published_fps(table, row, variant));
     if (at->variant >= 0)
-        snprintf(cells[at->variant], RG_GRID_CELL, "%s", table->variants[variant].name);
+        snprintf(cells[at->variant], RG_SHEET_CELL, "%s", table->variants[variant].name);
 }
 
-static void add_row(const struct rg_table_run *run, const struct columns *at, struct rg_grid *grid,
-                    int row, int variant, int device)
+static void add_row(const struct rg_table_run *run, const struct columns *at,
+                    struct rg_sheet *sheet, int row, int variant, int device)
 {
     const struct rg_cell *cell = rg_table_cell(run, row, variant, device);
     const struct rg_cell *reference = reference_of(run, row, variant);
     const struct rg_table_group *group = rg_table_group(run, row, variant);
-    char(*cells)[RG_GRID_CELL] = rg_grid_row(grid);
+    char(*cells)[RG_SHEET_CELL] = rg_sheet_row(sheet);
     if (!cells)
         return;
     fill_published(run, at, cells, row, variant);
-    snprintf(cells[at->device], RG_GRID_CELL, "%s", cell->device->info.name);
+    snprintf(cells[at->device], RG_SHEET_CELL, "%s", cell->device->info.name);
     if (at->error >= 0)
         fill_error(group, cells[at->error]);
-    snprintf(cells[at->fps], RG_GRID_CELL, "%s", rg_outcome_name(cell->status));
+    snprintf(cells[at->fps], RG_SHEET_CELL, "%s", rg_outcome_name(cell->status));
     if (cell->status != RG_OK)
         return;
     fill_told(run, at, cells, cell);
@@ -191,7 +191,7 @@ static void add_row(const struct rg_table_run *run, const struct columns *at, st
         return;
     fill_times(at, cells, cell, rg_table_published_fps(run->table, row, variant));
     if (reference && reference->status == RG_OK)
-        snprintf(cells[at->times], RG_GRID_CELL, "%.1f",
+        snprintf(cells[at->times], RG_SHEET_CELL, "%.1f",
                  rg_cell_fps(cell) / rg_cell_fps(reference));
 }
 
@@ -230,8 +230,8 @@ static void name_alike(const struct rg_table_run *run, int row, int variant, int
                                      run->devices->devices[d]->info.name);
 }
 
-static void note_status(const struct rg_table_run *run, struct rg_grid *grid, int row, int variant,
-                        int device)
+static void note_status(const struct rg_table_run *run, struct rg_sheet *sheet, int row,
+                        int variant, int device)
 {
     const struct rg_cell *cell = rg_table_cell(run, row, variant, device);
     const struct rg_table_group *group = rg_table_group(run, row, variant);
@@ -239,26 +239,26 @@ static void note_status(const struct rg_table_run *run, struct rg_grid *grid, in
     name_group(run, row, variant, name, sizeof(name));
     name_alike(run, row, variant, device, devices, sizeof(devices));
     if (cell->status != RG_OK && *devices)
-        rg_grid_note(grid, "%s on %s: %s", name, devices, cell->detail);
+        rg_sheet_note(sheet, "%s on %s: %s", name, devices, cell->detail);
     if (device == 0 && group->error_status != RG_OK)
-        rg_grid_note(grid, "%s: no error: %s", name, group->error_detail);
+        rg_sheet_note(sheet, "%s: no error: %s", name, group->error_detail);
 }
 
-static void note_shape(const struct rg_table_run *run, struct rg_grid *grid, int variant,
+static void note_trend(const struct rg_table_run *run, struct rg_sheet *sheet, int variant,
                        int device)
 {
-    const struct rg_shape s = rg_table_shape(run, variant, device);
+    const struct rg_trend s = rg_table_trend(run, variant, device);
     const bool several = rg_table_variant_count(run->table) > 1;
     char slopes[160] = "";
-    if (s.verdict == RG_SHAPE_UNKNOWN)
+    if (s.verdict == RG_TREND_UNKNOWN)
         return;
     if (s.has_slope)
         snprintf(slopes, sizeof(slopes), "; it goes with %s to the power %.2f, published %.2f",
                  run->table->columns[0], s.slope, s.published_slope);
-    rg_grid_note(
-        grid, "Shape on %s%s%s: %s. fps %s the published order (%d of %d pairs of rows)%s.",
+    rg_sheet_note(
+        sheet, "Shape on %s%s%s: %s. fps %s the published order (%d of %d pairs of rows)%s.",
         run->devices->devices[device]->info.name, several ? ", " : "",
-        several ? run->table->variants[variant].name : "", rg_shape_verdict_text(s.verdict),
+        several ? run->table->variants[variant].name : "", rg_trend_text(s.verdict),
         s.pairs_in_order == s.pairs ? "keeps" : "does not keep", s.pairs_in_order, s.pairs, slopes);
 }
 
@@ -294,12 +294,12 @@ static bool is_same_everywhere(const struct rg_table_run *run, const struct colu
 
 // Each text once: for the table, or for a row's cells that follow each other and tell it.
 static void note_facts(const struct rg_table_run *run, const struct columns *at,
-                       struct rg_grid *grid)
+                       struct rg_sheet *sheet)
 {
     char now[RG_FACTS_TEXT], before[RG_FACTS_TEXT] = "", name[256];
     if (is_same_everywhere(run, at, now)) {
         if (*now)
-            rg_grid_note(grid, "Inputs of every row: %s.", now);
+            rg_sheet_note(sheet, "Inputs of every row: %s.", now);
         return;
     }
     const int variants = rg_table_variant_count(run->table), devices = run->devices->count;
@@ -311,13 +311,13 @@ static void note_facts(const struct rg_table_run *run, const struct columns *at,
             continue;
         name_group(run, run->first_row + i / devices / variants, i / devices % variants, name,
                    sizeof(name));
-        rg_grid_note(grid, "Inputs of %s: %s.", name, now);
+        rg_sheet_note(sheet, "Inputs of %s: %s.", name, now);
         memcpy(before, now, sizeof(now));
     }
 }
 
 // How the numbers were come by.
-static void note_method(const struct rg_table_run *run, struct rg_grid *grid)
+static void note_method(const struct rg_table_run *run, struct rg_sheet *sheet)
 {
     const struct rg_table *table = run->table;
     char published[160] = "", samples[48];
@@ -329,52 +329,53 @@ static void note_method(const struct rg_table_run *run, struct rg_grid *grid)
     if (least < most)
         snprintf(samples, sizeof(samples), "%d to %d", least, most);
     if (!table->is_of_textures) {
-        rg_grid_note(grid, "%sTimes are wall clock between full syncs, medians of %s samples (%s).",
-                     published, samples, run->full ? "full" : "quick");
-        rg_grid_note(grid, "Shares of the passes come from a run of its own that syncs after "
-                           "every pass.");
+        rg_sheet_note(sheet,
+                      "%sTimes are wall clock between full syncs, medians of %s samples (%s).",
+                      published, samples, run->full ? "full" : "quick");
+        rg_sheet_note(sheet, "Shares of the passes come from a run of its own that syncs after "
+                             "every pass.");
     } else {
-        rg_grid_note(grid, "Sizes are those of the images that the devices made.");
+        rg_sheet_note(sheet, "Sizes are those of the images that the devices made.");
     }
     if (!run->full && table->quick)
-        rg_grid_note(grid, "Quick mode sets %s; --full leaves that as the paper has it.",
-                     table->quick);
+        rg_sheet_note(sheet, "Quick mode sets %s; --full leaves that as the paper has it.",
+                      table->quick);
 }
 
 // What is not of this run, or not there.
-static void note_interruption(const struct rg_table_run *run, struct rg_grid *grid)
+static void note_interruption(const struct rg_table_run *run, struct rg_sheet *sheet)
 {
     const int missing = rg_table_first_missing(run);
     if (run->resumed_rows)
-        rg_grid_note(grid, "Of its rows, %d were measured by a run that was interrupted before.",
-                     run->resumed_rows);
+        rg_sheet_note(sheet, "Of its rows, %d were measured by a run that was interrupted before.",
+                      run->resumed_rows);
     if (missing <= run->last_row)
-        rg_grid_note(grid, "Rows %d to %d are missing: the run was interrupted.", missing + 1,
-                     run->last_row + 1);
+        rg_sheet_note(sheet, "Rows %d to %d are missing: the run was interrupted.", missing + 1,
+                      run->last_row + 1);
 }
 
-void rg_table_grid(const struct rg_table_run *run, struct rg_grid *grid)
+void rg_table_sheet(const struct rg_table_run *run, struct rg_sheet *sheet)
 {
-    *grid = (struct rg_grid){.title = run->table->id};
+    *sheet = (struct rg_sheet){.title = run->table->id};
     struct columns at;
-    add_columns(run, grid, &at);
+    add_columns(run, sheet, &at);
     const int variants = rg_table_variant_count(run->table), devices = run->devices->count;
     const int end = rg_table_first_missing(run);
     for (int row = run->first_row; row < end; row++)
         for (int i = 0; i < variants * devices; i++)
-            add_row(run, &at, grid, row, i / devices, i % devices);
+            add_row(run, &at, sheet, row, i / devices, i % devices);
     for (int row = run->first_row; row < end; row++)
         for (int i = 0; i < variants * devices; i++)
-            note_status(run, grid, row, i / devices, i % devices);
+            note_status(run, sheet, row, i / devices, i % devices);
     for (int i = 0; i < variants * devices; i++)
-        note_shape(run, grid, i / devices, i % devices);
-    note_facts(run, &at, grid);
-    note_method(run, grid);
-    note_interruption(run, grid);
+        note_trend(run, sheet, i / devices, i % devices);
+    note_facts(run, &at, sheet);
+    note_method(run, sheet);
+    note_interruption(run, sheet);
     if (run->table->truth)
-        rg_grid_note(grid,
-                     "The error is the image's mean FLIP over the rain mask, 0 to 1, against "
-                     "the image with %s.",
-                     run->table->truth);
-    rg_grid_note(grid, "%s", run->table->note);
+        rg_sheet_note(sheet,
+                      "The error is the image's mean FLIP over the rain mask, 0 to 1, against "
+                      "the image with %s.",
+                      run->table->truth);
+    rg_sheet_note(sheet, "%s", run->table->note);
 }

@@ -131,13 +131,14 @@ static void test_resumes(void **state)
     assert_int_equal(resumed_rows(second), 1);
     for (size_t i = 0; i < 2; i++)
         assert_true(json_equal(cell_at(first, i), cell_at(second, i)));
-    struct rg_grid grid;
-    rg_table_grid(&run, &grid);
+    struct rg_sheet sheet;
+    rg_table_sheet(&run, &sheet);
     bool is_told = false;
-    for (int n = 0; n < grid.note_count; n++)
-        is_told = is_told || strstr(grid.notes[n], "1 were measured by a run that was interrupted");
+    for (int n = 0; n < sheet.note_count; n++)
+        is_told =
+            is_told || strstr(sheet.notes[n], "1 were measured by a run that was interrupted");
     assert_true(is_told);
-    rg_grid_free(&grid);
+    rg_sheet_free(&sheet);
     rg_table_run_free(&run);
     json_decref(first);
     json_decref(second);

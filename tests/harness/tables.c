@@ -182,134 +182,134 @@ static void measure(struct rig *rig, const struct rg_table *table, const double 
     }
 }
 
-static struct rg_shape shape_of(const struct rg_table *table, int variant, const double *fps)
+static struct rg_trend trend_of(const struct rg_table *table, int variant, const double *fps)
 {
     struct rig rig;
     measure(&rig, table, fps);
-    return rg_table_shape(&rig.run, variant, 0);
+    return rg_table_trend(&rig.run, variant, 0);
 }
 
 static void test_order_of_names(void **state)
 {
     (void)state;
     // Equal in print: dragon and buddha may stand in any order.
-    struct rg_shape s = shape_of(&names_table, 0, (double[]){50, 10, 11, 20});
-    assert_int_equal(s.verdict, RG_SHAPE_ORDER);
+    struct rg_trend s = trend_of(&names_table, 0, (double[]){50, 10, 11, 20});
+    assert_int_equal(s.verdict, RG_TREND_ORDER);
     assert_int_equal(s.pairs, 5);
     assert_int_equal(s.pairs_in_order, 5);
     assert_false(s.has_slope);
-    assert_int_equal(shape_of(&names_table, 0, (double[]){50, 11, 10, 20}).verdict, RG_SHAPE_ORDER);
-    s = shape_of(&names_table, 0, (double[]){50, 30, 10, 20}); // the dragon before Planck
-    assert_int_equal(s.verdict, RG_SHAPE_NOT);
+    assert_int_equal(trend_of(&names_table, 0, (double[]){50, 11, 10, 20}).verdict, RG_TREND_ORDER);
+    s = trend_of(&names_table, 0, (double[]){50, 30, 10, 20}); // the dragon before Planck
+    assert_int_equal(s.verdict, RG_TREND_NOT);
     assert_int_equal(s.pairs_in_order, 4);
-    s = shape_of(&names_table, 0, (double[]){50, 0, 10, 20});
-    assert_int_equal(s.verdict, RG_SHAPE_UNKNOWN);
+    s = trend_of(&names_table, 0, (double[]){50, 0, 10, 20});
+    assert_int_equal(s.verdict, RG_TREND_UNKNOWN);
 }
 
 static void test_slope_along_axis(void **state)
 {
     (void)state;
     // Variant by variant: full, no_geometry.
-    struct rg_shape s = shape_of(&axis_table, 0, (double[]){40, 1, 20, 1, 10, 1});
-    assert_int_equal(s.verdict, RG_SHAPE_REPRODUCED);
+    struct rg_trend s = trend_of(&axis_table, 0, (double[]){40, 1, 20, 1, 10, 1});
+    assert_int_equal(s.verdict, RG_TREND_REPRODUCED);
     assert_true(s.has_slope);
     assert_float_equal(s.slope, -1, 1e-9);
     assert_float_equal(s.published_slope, -1, 1e-9);
-    s = shape_of(&axis_table, 0, (double[]){40, 1, 39, 1, 38, 1});
-    assert_int_equal(s.verdict, RG_SHAPE_TREND);
-    assert_int_equal(shape_of(&axis_table, 0, (double[]){40, 1, 41, 1, 38, 1}).verdict,
-                     RG_SHAPE_NOT);
+    s = trend_of(&axis_table, 0, (double[]){40, 1, 39, 1, 38, 1});
+    assert_int_equal(s.verdict, RG_TREND_ONLY);
+    assert_int_equal(trend_of(&axis_table, 0, (double[]){40, 1, 41, 1, 38, 1}).verdict,
+                     RG_TREND_NOT);
     // The other variant is held against its own column, in which two rows are equal.
-    s = shape_of(&axis_table, 1, (double[]){1, 80, 1, 39, 1, 41});
-    assert_int_equal(s.verdict, RG_SHAPE_REPRODUCED);
+    s = trend_of(&axis_table, 1, (double[]){1, 80, 1, 39, 1, 41});
+    assert_int_equal(s.verdict, RG_TREND_REPRODUCED);
     assert_int_equal(s.pairs, 2);
 }
 
-static const char *text_at(const struct rg_grid *grid, int row, const char *column)
+static const char *text_at(const struct rg_sheet *sheet, int row, const char *column)
 {
-    for (int c = 0; c < grid->column_count; c++)
-        if (!strcmp(grid->columns[c], column))
-            return grid->cells[row][c];
+    for (int c = 0; c < sheet->column_count; c++)
+        if (!strcmp(sheet->columns[c], column))
+            return sheet->cells[row][c];
     return NULL;
 }
 
-static void expect_text(const struct rg_grid *grid, int row, const char *column, const char *text)
+static void expect_text(const struct rg_sheet *sheet, int row, const char *column, const char *text)
 {
-    const char *found = text_at(grid, row, column);
+    const char *found = text_at(sheet, row, column);
     if (!found || strcmp(found, text))
         fail_msg("row %d, %s: '%s', not '%s'", row, column, found ? found : "no column", text);
 }
 
-static bool has_note(const struct rg_grid *grid, const char *text)
+static bool has_note(const struct rg_sheet *sheet, const char *text)
 {
-    for (int n = 0; n < grid->note_count; n++)
-        if (strstr(grid->notes[n], text))
+    for (int n = 0; n < sheet->note_count; n++)
+        if (strstr(sheet->notes[n], text))
             return true;
     return false;
 }
 
-static void test_grid(void **state)
+static void test_sheet(void **state)
 {
     (void)state;
     struct rig rig;
-    struct rg_grid grid;
+    struct rg_sheet sheet;
     measure(&rig, &axis_table, (double[]){40, 80, 20, 40, 0, 10});
     rig.cells[0].fact_count = 2;
     rig.cells[0].facts[0] = (struct rg_fact){.name = "particles", .number = 70000};
     rig.cells[0].facts[1] = (struct rg_fact){.name = "model", .text = "city.obj"};
-    rg_table_grid(&rig.run, &grid);
-    assert_int_equal(grid.row_count, 6);
-    assert_string_equal(grid.columns[0], "radius_m");
-    assert_string_equal(grid.columns[1], "camera");
-    expect_text(&grid, 1, "radius_m", "5");
-    expect_text(&grid, 1, "published particles", "70303");
-    expect_text(&grid, 0, "particles", "70000");
-    expect_text(&grid, 0, "published fps", "400");
-    expect_text(&grid, 1, "published fps", "800");
-    expect_text(&grid, 1, "variant", "no_geometry");
-    expect_text(&grid, 1, "fps / published", "0.10");
-    expect_text(&grid, 4, "fps", "fail");
-    assert_true(has_note(&grid, "radius_m 20, camera 1, full on cpu: differs"));
-    assert_true(has_note(&grid, "Inputs of radius_m 5, camera 1, full: model city.obj."));
-    assert_true(has_note(&grid, "Shape on cpu, no_geometry: "));
-    assert_false(has_note(&grid, "Shape on cpu, full"));
-    expect_text(&grid, 0, "error, FLIP", "0.0000");
-    rg_grid_free(&grid);
+    rg_table_sheet(&rig.run, &sheet);
+    assert_int_equal(sheet.row_count, 6);
+    assert_string_equal(sheet.columns[0], "radius_m");
+    assert_string_equal(sheet.columns[1], "camera");
+    expect_text(&sheet, 1, "radius_m", "5");
+    expect_text(&sheet, 1, "published particles", "70303");
+    expect_text(&sheet, 0, "particles", "70000");
+    expect_text(&sheet, 0, "published fps", "400");
+    expect_text(&sheet, 1, "published fps", "800");
+    expect_text(&sheet, 1, "variant", "no_geometry");
+    expect_text(&sheet, 1, "fps / published", "0.10");
+    expect_text(&sheet, 4, "fps", "fail");
+    assert_true(has_note(&sheet, "radius_m 20, camera 1, full on cpu: differs"));
+    assert_true(has_note(&sheet, "Inputs of radius_m 5, camera 1, full: model city.obj."));
+    assert_true(has_note(&sheet, "Shape on cpu, no_geometry: "));
+    assert_false(has_note(&sheet, "Shape on cpu, full"));
+    expect_text(&sheet, 0, "error, FLIP", "0.0000");
+    rg_sheet_free(&sheet);
 }
 
 // What every row tells is said once; rows are called by their names.
-static void test_grid_of_names(void **state)
+static void test_sheet_of_names(void **state)
 {
     (void)state;
     struct rig rig;
-    struct rg_grid grid;
+    struct rg_sheet sheet;
     measure(&rig, &names_table, (double[]){50, 10, 11, 20});
     for (int i = 0; i < 4; i++) {
         rig.cells[i].fact_count = 1;
         rig.cells[i].facts[0] = (struct rg_fact){.name = "seed", .number = 7};
     }
-    rg_table_grid(&rig.run, &grid);
-    expect_text(&grid, 1, "scene", "dragon");
-    expect_text(&grid, 1, "published faces", "100000");
-    assert_null(text_at(&grid, 0, "variant"));
-    assert_null(text_at(&grid, 0, "error, FLIP"));
-    assert_true(has_note(&grid, "Inputs of every row: seed 7."));
-    assert_true(has_note(&grid, "same order. fps keeps the published order (5 of 5 pairs"));
-    rg_grid_free(&grid);
+    rg_table_sheet(&rig.run, &sheet);
+    expect_text(&sheet, 1, "scene", "dragon");
+    expect_text(&sheet, 1, "published faces", "100000");
+    assert_null(text_at(&sheet, 0, "variant"));
+    assert_null(text_at(&sheet, 0, "error, FLIP"));
+    assert_true(has_note(&sheet, "Inputs of every row: seed 7."));
+    assert_true(has_note(&sheet, "same order. fps keeps the published order (5 of 5 pairs"));
+    rg_sheet_free(&sheet);
     rig.cells[2].facts[0].number = 8;
-    rg_table_grid(&rig.run, &grid);
-    assert_true(has_note(&grid, "Inputs of dragon: seed 7."));
-    assert_true(has_note(&grid, "Inputs of buddha: seed 8."));
-    assert_true(has_note(&grid, "Inputs of planck: seed 7."));
-    assert_false(has_note(&grid, "every row"));
-    rg_grid_free(&grid);
+    rg_table_sheet(&rig.run, &sheet);
+    assert_true(has_note(&sheet, "Inputs of dragon: seed 7."));
+    assert_true(has_note(&sheet, "Inputs of buddha: seed 8."));
+    assert_true(has_note(&sheet, "Inputs of planck: seed 7."));
+    assert_false(has_note(&sheet, "every row"));
+    rg_sheet_free(&sheet);
 }
 
 static void test_passes(void **state)
 {
     (void)state;
     struct rig rig;
-    struct rg_grid grid;
+    struct rg_sheet sheet;
     measure(&rig, &names_table, (double[]){50, 10, 11, 20});
     rig.cells[0].pass_count = 4;
     rig.cells[0].passes[0] = (struct rg_cell_pass){"flow_move", 2};
@@ -319,9 +319,9 @@ static void test_passes(void **state)
     rig.cells[1].pass_count = 20;
     for (int i = 0; i < 20; i++)
         rig.cells[1].passes[i] = (struct rg_cell_pass){"flow_a_rather_long_name", 1};
-    rg_table_grid(&rig.run, &grid);
-    expect_text(&grid, 0, "passes, synced", "light 70 %, move 20 %, scan_add 10 %");
-    const char *cut = text_at(&grid, 1, "passes, synced");
+    rg_table_sheet(&rig.run, &sheet);
+    expect_text(&sheet, 0, "passes, synced", "light 70 %, move 20 %, scan_add 10 %");
+    const char *cut = text_at(&sheet, 1, "passes, synced");
     assert_non_null(strstr(cut, "a_rather_long_name 5 %, a_rather_long_name 5 %, "));
     const char *rest = strstr(cut, ", other ");
     assert_non_null(rest);
@@ -329,8 +329,8 @@ static void test_passes(void **state)
     for (const char *at = cut; (at = strstr(at, " 5 %")); at++)
         shown++;
     assert_int_equal(atoi(rest + strlen(", other ")), 100 - 5 * shown);
-    expect_text(&grid, 2, "passes, synced", "");
-    rg_grid_free(&grid);
+    expect_text(&sheet, 2, "passes, synced", "");
+    rg_sheet_free(&sheet);
 }
 
 static void test_json(void **state)
@@ -392,16 +392,16 @@ static void test_missing_rows(void **state)
 {
     (void)state;
     struct rig rig;
-    struct rg_grid grid;
+    struct rg_sheet sheet;
     measure(&rig, &names_table, (double[]){50, 10, 11, 20});
     rig.groups[2].is_missing = rig.groups[3].is_missing = true;
     rig.run.resumed_rows = 1;
-    rg_table_grid(&rig.run, &grid);
-    assert_int_equal(grid.row_count, 2);
-    assert_true(has_note(&grid, "Rows 3 to 4 are missing: the run was interrupted."));
-    assert_true(has_note(&grid, "Of its rows, 1 were measured by a run"));
-    assert_false(has_note(&grid, "Shape on cpu"));
-    rg_grid_free(&grid);
+    rg_table_sheet(&rig.run, &sheet);
+    assert_int_equal(sheet.row_count, 2);
+    assert_true(has_note(&sheet, "Rows 3 to 4 are missing: the run was interrupted."));
+    assert_true(has_note(&sheet, "Of its rows, 1 were measured by a run"));
+    assert_false(has_note(&sheet, "Shape on cpu"));
+    rg_sheet_free(&sheet);
     json_t *json = rg_table_json(&rig.run);
     assert_int_equal(json_array_size(json_object_get(json, "cells")), 2);
     assert_true(json_is_true(json_object_get(json, "interrupted")));
@@ -412,13 +412,13 @@ static void test_unsupported(void **state)
 {
     (void)state;
     struct rig rig;
-    struct rg_grid grid;
+    struct rg_sheet sheet;
     measure(&rig, &names_table, (double[]){50, 0, 11, 20});
     rig.cells[1].status = RG_UNSUPPORTED;
-    rg_table_grid(&rig.run, &grid);
-    expect_text(&grid, 1, "fps", "unsupported");
-    assert_true(has_note(&grid, "dragon on cpu: differs"));
-    rg_grid_free(&grid);
+    rg_table_sheet(&rig.run, &sheet);
+    expect_text(&sheet, 1, "fps", "unsupported");
+    assert_true(has_note(&sheet, "dragon on cpu: differs"));
+    rg_sheet_free(&sheet);
     const char *status;
     json_t *json = rg_table_json(&rig.run);
     assert_int_equal(0, json_unpack(json_array_get(json_object_get(json, "cells"), 1), "{ss}",
@@ -450,28 +450,28 @@ static void test_textures(void **state)
 {
     (void)state;
     struct rig rig;
-    struct rg_grid grid;
+    struct rg_sheet sheet;
     measure(&rig, &texture_table, (double[]){1, 0});
     rig.cells[0].fact_count = 2;
     rig.cells[0].facts[0] = (struct rg_fact){.name = "width_px", .number = 32};
     rig.cells[0].facts[1] = (struct rg_fact){.name = "height_px", .number = 3607};
-    rg_table_grid(&rig.run, &grid);
-    expect_text(&grid, 0, "atlas", "environment");
-    expect_text(&grid, 0, "level", "0");
-    expect_text(&grid, 0, "published height_px", "3606");
-    expect_text(&grid, 0, "height_px", "3607");
-    expect_text(&grid, 0, "status", "ok");
-    expect_text(&grid, 1, "status", "fail");
-    expect_text(&grid, 1, "height_px", "");
-    assert_null(text_at(&grid, 0, "fps"));
-    assert_null(text_at(&grid, 0, "ms"));
-    assert_null(text_at(&grid, 0, "passes, synced"));
-    assert_true(has_note(&grid, "Quick mode sets atlas=small"));
-    rg_grid_free(&grid);
+    rg_table_sheet(&rig.run, &sheet);
+    expect_text(&sheet, 0, "atlas", "environment");
+    expect_text(&sheet, 0, "level", "0");
+    expect_text(&sheet, 0, "published height_px", "3606");
+    expect_text(&sheet, 0, "height_px", "3607");
+    expect_text(&sheet, 0, "status", "ok");
+    expect_text(&sheet, 1, "status", "fail");
+    expect_text(&sheet, 1, "height_px", "");
+    assert_null(text_at(&sheet, 0, "fps"));
+    assert_null(text_at(&sheet, 0, "ms"));
+    assert_null(text_at(&sheet, 0, "passes, synced"));
+    assert_true(has_note(&sheet, "Quick mode sets atlas=small"));
+    rg_sheet_free(&sheet);
     rig.run.full = true;
-    rg_table_grid(&rig.run, &grid);
-    assert_false(has_note(&grid, "Quick mode"));
-    rg_grid_free(&grid);
+    rg_table_sheet(&rig.run, &sheet);
+    assert_false(has_note(&sheet, "Quick mode"));
+    rg_sheet_free(&sheet);
     json_int_t width, height, printed;
     json_t *json = rg_table_json(&rig.run);
     assert_int_equal(0, json_unpack(json_array_get(json_object_get(json, "cells"), 0),
@@ -488,7 +488,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_published),      cmocka_unit_test(test_settings),
         cmocka_unit_test(test_order_of_names), cmocka_unit_test(test_slope_along_axis),
-        cmocka_unit_test(test_grid),           cmocka_unit_test(test_grid_of_names),
+        cmocka_unit_test(test_sheet),          cmocka_unit_test(test_sheet_of_names),
         cmocka_unit_test(test_passes),         cmocka_unit_test(test_json),
         cmocka_unit_test(test_missing_rows),   cmocka_unit_test(test_unsupported),
         cmocka_unit_test(test_textures),
