@@ -158,11 +158,11 @@ static void tell_interrupted(const struct job *job)
         rg_info("%s: interrupted before a row of it was done; the same command begins it anew", id);
 }
 
-static int run_job(struct job *job, struct rg_bench *bench, const struct table_options *o)
+static int run_job(struct job *job, struct rg_kept *kept, const struct table_options *o)
 {
     struct rg_table_run *run = &job->run;
     tell_resumed(job);
-    if (!rg_table_measure(run, bench, job->journal))
+    if (!rg_table_measure(run, kept, job->journal))
         return RG_EXIT_FAIL;
     int exit = judge(run);
     const bool is_whole = rg_table_first_missing(run) > run->last_row;
@@ -232,13 +232,13 @@ static int make_jobs(const struct table_options *o, const struct rg_devices *dev
 static int run_jobs(struct job *jobs, int count, const struct rg_devices *devices,
                     const struct table_options *o)
 {
-    struct rg_bench bench = {.devices = devices};
+    struct rg_kept kept = {.devices = devices};
     int exit = RG_EXIT_PASS;
     rg_interrupt_watch();
     for (int i = 0; i < count && !rg_interrupted(); i++) {
         if (i)
             printf("\n");
-        exit = worse(exit, run_job(&jobs[i], &bench, o));
+        exit = worse(exit, run_job(&jobs[i], &kept, o));
     }
     for (int i = 0; i < count; i++) {
         if (!rg_interrupted())
@@ -246,7 +246,7 @@ static int run_jobs(struct job *jobs, int count, const struct rg_devices *device
         rg_table_run_free(&jobs[i].run);
         rg_journal_close(jobs[i].journal);
     }
-    return rg_bench_free(&bench) ? exit : worse(exit, RG_EXIT_FAIL);
+    return rg_kept_free(&kept) ? exit : worse(exit, RG_EXIT_FAIL);
 }
 
 static int table(const void *values, const struct rg_words *arguments)

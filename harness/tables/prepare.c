@@ -13,7 +13,7 @@
 // A row's variant, while its cells are prepared.
 struct preparation {
     struct rg_table_run *run;
-    struct rg_bench *bench;
+    struct rg_kept *kept;
     const struct rg_table *table;
     const struct rg_technique *technique;
     struct rg_table_group *group;
@@ -60,7 +60,7 @@ static bool needs_dry(const struct rg_table_run *run)
 // What cpu:reference shows: as a cell of the table, where it is one, else aside.
 static bool draw_expected(struct preparation *p)
 {
-    struct rg_device *device = rg_bench_device(p->bench, "cpu:reference");
+    struct rg_device *device = rg_kept_device(p->kept, "cpu:reference");
     for (int d = 0; device && d < p->run->devices->count; d++)
         if (p->cells[d].device == device)
             return rg_cell_open(&p->cells[d]) &&
@@ -72,7 +72,7 @@ static bool draw_expected(struct preparation *p)
     if (!instance)
         return false;
     const bool ok = rg_expected_read(&p->expected, instance);
-    rg_bench_keep(p->bench, instance);
+    rg_kept_put(p->kept, instance);
     return ok;
 }
 
@@ -80,15 +80,14 @@ static bool draw_dry(struct preparation *p)
 {
     return !needs_dry(p->run) ||
            rg_frame_draw_dry(p->technique, p->group->settings,
-                             rg_bench_device(p->bench, "cpu:reference"), p->table->width,
+                             rg_kept_device(p->kept, "cpu:reference"), p->table->width,
                              p->table->height, p->check_frames, &p->expected.dry);
 }
 
 static bool compare_with_truth(struct preparation *p, const void *settings)
 {
-    const struct rg_bench_subject subject = {p->technique, settings, p->table->width,
-                                             p->table->height};
-    const struct rg_picture *truth = rg_bench_truth(p->bench, &subject, p->check_frames);
+    const struct rg_subject subject = {p->technique, settings, p->table->width, p->table->height};
+    const struct rg_picture *truth = rg_kept_truth(p->kept, &subject, p->check_frames);
     struct rg_comparison c = {0};
     const bool ok = truth && rg_compare(truth, "the truth", &p->expected.picture, p->table->id,
                                         &p->expected.dry, &(struct rg_compare_options){0}, &c);
@@ -135,12 +134,12 @@ static void prepare_cells(struct preparation *p, const struct rg_measure_options
     }
 }
 
-static struct preparation begin(struct rg_table_run *run, struct rg_bench *bench, int row,
+static struct preparation begin(struct rg_table_run *run, struct rg_kept *kept, int row,
                                 int variant)
 {
     const struct rg_table *table = run->table;
     return (struct preparation){.run = run,
-                                .bench = bench,
+                                .kept = kept,
                                 .table = table,
                                 .technique = rg_technique_find(table->technique),
                                 .group = rg_table_group(run, row, variant),
@@ -149,10 +148,10 @@ static struct preparation begin(struct rg_table_run *run, struct rg_bench *bench
                                     table->check_frames ? table->check_frames : RG_CHECK_FRAMES};
 }
 
-void rg_table_prepare(struct rg_table_run *run, struct rg_bench *bench, int row, int variant,
+void rg_table_prepare(struct rg_table_run *run, struct rg_kept *kept, int row, int variant,
                       const struct rg_measure_options *options)
 {
-    struct preparation p = begin(run, bench, row, variant);
+    struct preparation p = begin(run, kept, row, variant);
     const bool has_settings = make_settings(&p, row, variant);
     begin_cells(&p);
     if (has_settings && draw_expected(&p) && draw_dry(&p)) {
@@ -205,16 +204,16 @@ static bool tell_size(struct rg_cell *cell, const struct rg_instance *instance, 
     return true;
 }
 
-void rg_table_tell_texture(struct rg_table_run *run, struct rg_bench *bench, int row, int variant)
+void rg_table_tell_texture(struct rg_table_run *run, struct rg_kept *kept, int row, int variant)
 {
-    struct preparation p = begin(run, bench, row, variant);
+    struct preparation p = begin(run, kept, row, variant);
     const bool has_settings = make_settings(&p, row, variant);
-    const struct rg_bench_subject subject = {p.technique, p.group->settings, p.table->width,
-                                             p.table->height};
+    const struct rg_subject subject = {p.technique, p.group->settings, p.table->width,
+                                       p.table->height};
     begin_cells(&p);
     for (int d = 0; d < run->devices->count; d++) {
         struct rg_instance *instance =
-            has_settings ? rg_bench_open(bench, p.cells[d].device, &subject) : NULL;
+            has_settings ? rg_kept_open(kept, p.cells[d].device, &subject) : NULL;
         if (instance)
             tell_size(&p.cells[d], instance, p.table->rows[row].name,
                       (int)rg_table_value(p.table, row, "level"));

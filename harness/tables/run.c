@@ -16,7 +16,7 @@ enum { CELL_UNITS = 1000 };
 
 struct batch {
     struct rg_table_run *run;
-    struct rg_bench *bench;
+    struct rg_kept *kept;
     struct rg_measure_options options;
     struct rg_progress progress;
     int first, last, cells;
@@ -40,9 +40,9 @@ static void measure_batch(struct batch *b)
     b->units = 0;
     for (int i = 0; i < b->cells / devices && !rg_interrupted(); i++) {
         if (is_timed)
-            rg_table_prepare(b->run, b->bench, b->first + i / variants, i % variants, &b->options);
+            rg_table_prepare(b->run, b->kept, b->first + i / variants, i % variants, &b->options);
         else
-            rg_table_tell_texture(b->run, b->bench, b->first + i / variants, i % variants);
+            rg_table_tell_texture(b->run, b->kept, b->first + i / variants, i % variants);
         rg_progress_add(&b->progress, CELL_UNITS * devices);
     }
     if (is_timed && !rg_interrupted())
@@ -50,7 +50,7 @@ static void measure_batch(struct batch *b)
     show_round(1, 1, b);
     for (int i = 0; i < b->cells; i++) {
         if (cells[i].instance)
-            rg_bench_keep(b->bench, cells[i].instance);
+            rg_kept_put(b->kept, cells[i].instance);
         cells[i].instance = NULL;
     }
 }
@@ -86,9 +86,9 @@ static bool create_cells(struct rg_table_run *run)
     return run->cell_count == cells;
 }
 
-bool rg_table_measure(struct rg_table_run *run, struct rg_bench *bench, struct rg_journal *journal)
+bool rg_table_measure(struct rg_table_run *run, struct rg_kept *kept, struct rg_journal *journal)
 {
-    struct batch b = {.run = run, .bench = bench, .options = run->full ? full : quick};
+    struct batch b = {.run = run, .kept = kept, .options = run->full ? full : quick};
     if (!create_cells(run))
         return false;
     b.options.progress = show_round;

@@ -5,7 +5,7 @@
 #include <jansson.h>
 
 #include "harness/console/sheet.h"
-#include "harness/devices/bench.h"
+#include "harness/devices/kept.h"
 #include "harness/devices/devices.h"
 #include "harness/measure/measure.h"
 #include "harness/tables/papers/papers.h"
@@ -46,14 +46,14 @@ struct rg_table_run {
 // none) has are taken from it. What cannot be had is the status of its cells. Where it is
 // interrupted, the rows of the batch and those behind it are missing. False, with one logged line,
 // without memory for the cells. The caller calls rg_table_run_free in either case.
-bool rg_table_measure(struct rg_table_run *run, struct rg_bench *bench, struct rg_journal *journal);
+bool rg_table_measure(struct rg_table_run *run, struct rg_kept *kept, struct rg_journal *journal);
 void rg_table_run_free(struct rg_table_run *run);
 
 // Opens, checks and warms up the cells of a row's variant, or sets their status.
-void rg_table_prepare(struct rg_table_run *run, struct rg_bench *bench, int row, int variant,
+void rg_table_prepare(struct rg_table_run *run, struct rg_kept *kept, int row, int variant,
                       const struct rg_measure_options *options);
 // What the devices tell of the texture that a row is about.
-void rg_table_tell_texture(struct rg_table_run *run, struct rg_bench *bench, int row, int variant);
+void rg_table_tell_texture(struct rg_table_run *run, struct rg_kept *kept, int row, int variant);
 // The first row that is missing, from 0; one behind the last where none is.
 int rg_table_first_missing(const struct rg_table_run *run);
 // The assignments of a row and variant, and of quick mode, over the defaults. Owned by the caller.

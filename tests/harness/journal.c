@@ -46,7 +46,7 @@ static const struct rg_table table = {
 struct rig {
     char folder[64];
     struct rg_devices devices;
-    struct rg_bench bench;
+    struct rg_kept kept;
     int messages;
     bool interrupts; // at the first message, which is about the second row's file
 };
@@ -56,7 +56,7 @@ static int setup(void **state)
     struct rig *rig = calloc(1, sizeof(*rig));
     snprintf(rig->folder, sizeof(rig->folder), "/tmp/raingauge-test-XXXXXX");
     rig->devices = (struct rg_devices){.count = 1, .devices = {rg_device_open("cpu", NULL)}};
-    rig->bench.devices = &rig->devices;
+    rig->kept.devices = &rig->devices;
     rg_interrupt_watch();
     *state = rig;
     return mkdtemp(rig->folder) && rig->devices.devices[0] ? 0 : -1;
@@ -65,7 +65,7 @@ static int setup(void **state)
 static int teardown(void **state)
 {
     struct rig *rig = *state;
-    const bool clean = rg_bench_free(&rig->bench) && rg_device_close(rig->devices.devices[0]);
+    const bool clean = rg_kept_free(&rig->kept) && rg_device_close(rig->devices.devices[0]);
     char path[128];
     snprintf(path, sizeof(path), "%s/test-quick.journal", rig->folder);
     unlink(path);
@@ -92,7 +92,7 @@ static json_t *run_table(struct rig *rig, struct rg_table_run *run, bool fresh)
     rg_interrupt_watch();
     rg_log_listen(hear, rig);
     struct rg_journal *journal = rg_journal_open(run, rig->folder, fresh, true);
-    assert_true(rg_table_measure(run, &rig->bench, journal));
+    assert_true(rg_table_measure(run, &rig->kept, journal));
     rg_log_listen(NULL, NULL);
     rg_journal_close(journal);
     return rg_table_json(run);
@@ -274,7 +274,7 @@ static void test_leaves_nothing(void **state)
     for (int is_followed = 0; is_followed < 2; is_followed++) {
         struct rg_table_run run = {.table = &table, .devices = &rig->devices};
         struct rg_journal *journal = rg_journal_open(&run, rig->folder, false, is_followed);
-        assert_true(rg_table_measure(&run, &rig->bench, journal));
+        assert_true(rg_table_measure(&run, &rig->kept, journal));
         assert_int_equal(files_in(rig->folder), is_followed);
         assert_int_equal(rg_journal_path(journal) != NULL, is_followed);
         rg_journal_remove(journal);
@@ -296,7 +296,7 @@ static void test_quick_settings(void **state)
     free(quick);
     free(full);
     run.full = false;
-    assert_true(rg_table_measure(&run, &rig->bench, NULL));
+    assert_true(rg_table_measure(&run, &rig->kept, NULL));
     assert_true(rg_table_cell(&run, 0, 1, 0)->counters[0].value == 25); // drops that landed
     rg_table_run_free(&run);
 }

@@ -258,9 +258,9 @@ static void test_table(void **state)
     struct rg_devices devices = {.count = 1};
     devices.devices[0] = rg_device_open("cpu", NULL);
     struct rg_table_run run = {.table = &table, .devices = &devices, .last_row = 2};
-    struct rg_bench bench = {.devices = &devices};
+    struct rg_kept kept = {.devices = &devices};
     rg_log_listen(keep_quiet, &messages);
-    assert_true(rg_table_measure(&run, &bench, NULL));
+    assert_true(rg_table_measure(&run, &kept, NULL));
     rg_log_listen(NULL, NULL);
     assert_int_equal(messages, 1);
     assert_int_equal(run.cell_count, 6);
@@ -283,7 +283,7 @@ static void test_table(void **state)
     const int64_t dry = rg_table_cell(&run, 2, 1, 0)->counters[0].value;
     assert_true(small == 40 && dry == 0);
     rg_table_run_free(&run);
-    assert_true(rg_bench_free(&bench));
+    assert_true(rg_kept_free(&kept));
     assert_true(rg_device_close(devices.devices[0]));
 }
 
@@ -312,11 +312,11 @@ static const struct rg_table texture_table = {
     .note = "a note",
 };
 
-static void run_table(struct rg_table_run *run, struct rg_bench *bench, struct rg_journal *journal)
+static void run_table(struct rg_table_run *run, struct rg_kept *kept, struct rg_journal *journal)
 {
     int messages = 0;
     rg_log_listen(keep_quiet, &messages);
-    assert_true(rg_table_measure(run, bench, journal));
+    assert_true(rg_table_measure(run, kept, journal));
     rg_log_listen(NULL, NULL);
 }
 
@@ -324,9 +324,9 @@ static void test_textures(void **state)
 {
     (void)state;
     struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu", NULL)}};
-    struct rg_bench bench = {.devices = &devices};
+    struct rg_kept kept = {.devices = &devices};
     struct rg_table_run run = {.table = &texture_table, .devices = &devices, .last_row = 3};
-    run_table(&run, &bench, NULL);
+    run_table(&run, &kept, NULL);
     const struct rg_cell *whole = rg_table_cell(&run, 0, 0, 0);
     assert_int_equal(whole->status, RG_OK);
     assert_true(*rg_facts_number(whole->facts, whole->fact_count, "width_px") == 16);
@@ -335,7 +335,7 @@ static void test_textures(void **state)
     assert_int_equal(rg_table_cell(&run, 2, 0, 0)->status, RG_ERROR);
     assert_int_equal(rg_table_cell(&run, 3, 0, 0)->status, RG_ERROR);
     rg_table_run_free(&run);
-    assert_true(rg_bench_free(&bench));
+    assert_true(rg_kept_free(&kept));
     assert_true(rg_device_close(devices.devices[0]));
 }
 
@@ -345,50 +345,50 @@ static void test_unsupported(void **state)
     struct rg_table wide = table;
     wide.width = 1 << 20;
     struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu", NULL)}};
-    struct rg_bench bench = {.devices = &devices};
+    struct rg_kept kept = {.devices = &devices};
     struct rg_table_run run = {.table = &wide, .devices = &devices};
-    run_table(&run, &bench, NULL);
+    run_table(&run, &kept, NULL);
     const struct rg_cell *cell = rg_table_cell(&run, 0, 0, 0);
     assert_int_equal(cell->status, RG_UNSUPPORTED);
     assert_non_null(strstr(cell->detail, "1048576x64"));
     rg_table_run_free(&run);
-    assert_true(rg_bench_free(&bench));
+    assert_true(rg_kept_free(&kept));
     assert_true(rg_device_close(devices.devices[0]));
 }
 
 // --- what the cells of a table share ---
 
-static void test_bench(void **state)
+static void test_kept(void **state)
 {
     (void)state;
     struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu", NULL)}};
-    struct rg_bench bench = {.devices = &devices};
+    struct rg_kept kept = {.devices = &devices};
     struct rg_device *cpu = devices.devices[0];
-    assert_ptr_equal(rg_bench_device(&bench, "cpu"), cpu);
-    struct rg_device *reference = rg_bench_device(&bench, "cpu:reference");
+    assert_ptr_equal(rg_kept_device(&kept, "cpu"), cpu);
+    struct rg_device *reference = rg_kept_device(&kept, "cpu:reference");
     assert_non_null(reference);
-    assert_ptr_equal(rg_bench_device(&bench, "cpu:reference"), reference);
+    assert_ptr_equal(rg_kept_device(&kept, "cpu:reference"), reference);
     void *settings = settings_of(CHEAP " drops=20"), *others = settings_of(CHEAP " drops=30");
-    struct rg_bench_subject subject = {rg_technique_find("flow"), settings, 32, 32};
+    struct rg_subject subject = {rg_technique_find("flow"), settings, 32, 32};
     // One instance a device, for as long as the same is asked for.
-    struct rg_instance *first = rg_bench_open(&bench, cpu, &subject);
+    struct rg_instance *first = rg_kept_open(&kept, cpu, &subject);
     const int64_t bytes = rg_device_work(cpu)->live_bytes;
-    assert_ptr_equal(rg_bench_open(&bench, cpu, &subject), first);
-    assert_ptr_not_equal(rg_bench_open(&bench, reference, &subject), first);
+    assert_ptr_equal(rg_kept_open(&kept, cpu, &subject), first);
+    assert_ptr_not_equal(rg_kept_open(&kept, reference, &subject), first);
     subject.settings = others;
-    assert_non_null(rg_bench_open(&bench, cpu, &subject));
+    assert_non_null(rg_kept_open(&kept, cpu, &subject));
     assert_true(rg_device_work(cpu)->live_bytes == bytes);
     // A truth is drawn once.
-    const struct rg_picture *truth = rg_bench_truth(&bench, &subject, 2);
+    const struct rg_picture *truth = rg_kept_truth(&kept, &subject, 2);
     const int64_t runs = rg_device_work(cpu)->runs;
-    assert_ptr_equal(rg_bench_truth(&bench, &subject, 2), truth);
+    assert_ptr_equal(rg_kept_truth(&kept, &subject, 2), truth);
     assert_true(rg_device_work(cpu)->runs == runs);
-    assert_ptr_not_equal(rg_bench_truth(&bench, &subject, 3), truth);
+    assert_ptr_not_equal(rg_kept_truth(&kept, &subject, 3), truth);
     subject.settings = settings;
-    assert_ptr_not_equal(rg_bench_truth(&bench, &subject, 2), truth);
+    assert_ptr_not_equal(rg_kept_truth(&kept, &subject, 2), truth);
     free(others);
     free(settings);
-    assert_true(rg_bench_free(&bench));
+    assert_true(rg_kept_free(&kept));
     assert_true(rg_device_close(cpu));
 }
 
@@ -398,7 +398,7 @@ int main(void)
         cmocka_unit_test(test_t1_by_the_mask), cmocka_unit_test(test_what_a_cell_keeps),
         cmocka_unit_test(test_samples),        cmocka_unit_test(test_table),
         cmocka_unit_test(test_textures),       cmocka_unit_test(test_unsupported),
-        cmocka_unit_test(test_bench),
+        cmocka_unit_test(test_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

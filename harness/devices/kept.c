@@ -1,0 +1,134 @@
+#include "harness/devices/kept.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+#include "harness/frames/frame.h"
+
+// --- what was opened with what ---
+
+static bool is_same(const struct rg_subject *a, const struct rg_subject *b)
+{
+    return a->settings && a->technique == b->technique && a->width == b->width &&
+           a->height == b->height &&
+           !memcmp(a->settings, b->settings, a->technique->params->settings_size);
+}
+
+// A subject with settings of its own. False, with one logged line, without memory.
+static bool own_subject(struct rg_subject *own, const struct rg_subject *subject)
+{
+    *own = *subject;
+    own->settings = rg_settings_copy(subject->technique, subject->settings, "");
+    return own->settings != NULL;
+}
+
+static void free_subject(struct rg_subject *own)
+{
+    free((void *)own->settings);
+    *own = (struct rg_subject){0};
+}
+
+// --- devices ---
+
+struct rg_device *rg_kept_device(struct rg_kept *kept, const char *name)
+{
+    for (int i = 0; i < kept->devices->count; i++)
+        if (!strcmp(kept->devices->devices[i]->info.name, name))
+            return kept->devices->devices[i];
+    struct rg_device **own = kept->own;
+    while (*own && strcmp((*own)->info.name, name) && own < kept->own + RG_KEPT_DEVICES - 1)
+        own++;
+    if (!*own)
+        *own = rg_device_open(name, NULL);
+    return *own;
+}
+
+// --- instances ---
+
+// Where the instance of a device is kept, or will be: there is a place for each.
+static struct rg_kept_instance *kept_on(struct rg_kept *kept, const struct rg_device *device)
+{
+    struct rg_kept_instance *place = kept->instances;
+    while (place->instance && place->instance->device != device)
+        place++;
+    return place;
+}
+
+static void close_kept(struct rg_kept_instance *place)
+{
+    if (place->instance)
+        place->instance->technique->destroy(place->instance);
+    free_subject(&place->of);
+    place->instance = NULL;
+}
+
+void rg_kept_put(struct rg_kept *kept, struct rg_instance *instance)
+{
+    struct rg_kept_instance *place = kept_on(kept, instance->device);
+    close_kept(place);
+    place->instance = instance;
+}
+
+struct rg_instance *rg_kept_open(struct rg_kept *kept, struct rg_device *device,
+                                 const struct rg_subject *subject)
+{
+    struct rg_kept_instance *place = kept_on(kept, device);
+    if (place->instance && is_same(&place->of, subject))
+        return place->instance;
+    struct rg_instance *instance =
+        subject->technique->create(device, subject->settings, subject->width, subject->height);
+    if (!instance)
+        return NULL;
+    rg_kept_put(kept, instance);
+    return own_subject(&place->of, subject) ? instance : NULL;
+}
+
+// --- truths ---
+
+static bool draw_truth(struct rg_kept *kept, const struct rg_subject *subject, int frames,
+                       struct rg_picture *picture)
+{
+    struct rg_device *device = rg_kept_device(kept, "cpu");
+    struct rg_instance *instance = device
+                                       ? rg_frame_run(subject->technique, subject->settings, device,
+                                                      subject->width, subject->height, frames)
+                                       : NULL;
+    if (!instance)
+        return false;
+    const bool ok = rg_frame_read_picture(instance, picture);
+    rg_kept_put(kept, instance);
+    return ok;
+}
+
+const struct rg_picture *rg_kept_truth(struct rg_kept *kept, const struct rg_subject *subject,
+                                       int frames)
+{
+    for (int i = 0; i < RG_KEPT_TRUTHS; i++)
+        if (kept->truths[i].frames == frames && is_same(&kept->truths[i].of, subject))
+            return &kept->truths[i].picture;
+    struct rg_kept_picture *truth = &kept->truths[kept->truth_count % RG_KEPT_TRUTHS];
+    rg_picture_destroy(&truth->picture);
+    free_subject(&truth->of);
+    *truth = (struct rg_kept_picture){.frames = frames};
+    if (!draw_truth(kept, subject, frames, &truth->picture) || !own_subject(&truth->of, subject))
+        return NULL;
+    kept->truth_count++;
+    return &truth->picture;
+}
+
+bool rg_kept_free(struct rg_kept *kept)
+{
+    bool clean = true;
+    for (int i = 0; i < RG_MAX_DEVICES + RG_KEPT_DEVICES; i++)
+        close_kept(&kept->instances[i]);
+    for (int i = 0; i < RG_KEPT_TRUTHS; i++) {
+        rg_picture_destroy(&kept->truths[i].picture);
+        free_subject(&kept->truths[i].of);
+    }
+    for (int i = 0; i < RG_KEPT_DEVICES; i++)
+        if (kept->own[i])
+            clean = rg_device_close(kept->own[i]) && clean;
+    *kept = (struct rg_kept){.devices = kept->devices};
+    return clean;
+}
