@@ -1,0 +1,110 @@
+"""Which way includes go: the rooms of raingauge from top to bottom, and what some of them may not touch.
+
+A room is a folder with what lies below it, unless that is a room of its own. T stands for any technique: a folder of
+core/techniques that is not listed. B stands for any backend: a folder of backends.
+"""
+import os
+import re
+
+# From the top: a file includes files of its own room and of floors below it. Rooms on one floor know nothing of
+# each other.
+FLOORS = [
+    "tests",
+    "tests/oracle tests/kernels",
+    "harness",
+    "harness/commands",
+    "harness/cli",
+    "harness/tables harness/compare harness/doctor harness/atlas",
+    "harness/measure",
+    "harness/devices",
+    "harness/frames",
+    "harness/record harness/console",
+    "core/techniques/T",
+    "core/techniques/scenery",
+    "core/techniques",
+    "core/scene",
+    "core/image",
+    "backends/B kernels/build",
+    "core/device",
+    "backends",
+    "core/base",
+    "shaders",
+    "kernels/T kernels/probe kernels/scan",
+    "kernels/scenery",
+    "kernels/dialect",
+]
+
+# These include nothing else, each for a reason.
+FENCES = {
+    # An oracle proves kernels, so it shares nothing with them, nor with anything else.
+    "tests/oracle": "",
+    "tests/kernels": "kernels/T kernels/scenery kernels/dialect",
+    # A technique knows its own kernels, and never another technique.
+    "core/techniques/T": "core/techniques/scenery core/techniques core/scene core/image core/device core/base "
+                         "kernels/T kernels/dialect",
+    # A scene can be drawn by any technique.
+    "core/scene": "core/image core/device core/base kernels/scenery kernels/dialect",
+    "core/image": "core/base",
+    # A backend runs any kernel, and so knows none.
+    "backends/B": "core/device backends core/base kernels/dialect",
+    "core/base": "",
+}
+
+
+class Order:
+    """The rooms of a tree: where each of its files lives, and which includes go against FLOORS and FENCES."""
+
+    def __init__(self, tree):
+        self.tree = tree
+        self.floor = {room: i for i, rooms in enumerate(FLOORS) for room in rooms.split()}
+        self.techniques = {path.split("/")[2] for path in tree.known
+                           if path.startswith("core/techniques/") and path.count("/") > 2} - {"scenery"}
+        self.room = {path: self.find_room(path) for path in tree.known}
+
+    def find_room(self, path):
+        """The room of a file as FLOORS calls it, or None."""
+        folder = os.path.dirname(path)
+        while folder:
+            parent, name = os.path.split(folder)
+            if folder in self.floor:
+                return folder
+            if parent in ("core/techniques", "kernels") and name in self.techniques:
+                return parent + "/T"
+            if parent == "backends":
+                return "backends/B"
+            folder = parent
+        return None
+
+    @staticmethod
+    def name(path):
+        """What T or B stands for in a path."""
+        return path.split("/")[2 if path.startswith("core/") else 1]
+
+    def why_not(self, path, target):
+        """Why `path` must not include `target`, or None."""
+        room, below = self.room[path], self.room[target]
+        if room[-2:] == below[-2:] in ("/T", "/B") and self.name(path) != self.name(target):
+            return f"a {'technique' if room.endswith('T') else 'backend'} knows nothing of another"
+        if room == below:
+            return None
+        if self.floor[below] == self.floor[room]:
+            return f"{room} and {below} know nothing of each other"
+        if self.floor[below] < self.floor[room]:
+            return f"{below} stands above {room}"
+        if room in FENCES and below not in FENCES[room].split():
+            return f"{room} includes nothing of {below}"
+        return None
+
+    def upwards(self):
+        """(file, header, why) of each include against the order."""
+        wrong = [(path, target, self.why_not(path, target))
+                 for path, _, target in self.tree.includes if target and self.room[path] and self.room[target]]
+        return [row for row in wrong if row[2]]
+
+    def stale(self):
+        """What FLOORS and FENCES name that is not there, and files that no room of FLOORS holds."""
+        used = {(self.room[path], self.room[target]) for path, _, target in self.tree.includes if target}
+        wrong = [f"{path}: in no room of FLOORS" for path, room in sorted(self.room.items()) if not room]
+        wrong += [f"FLOORS: {room}: no such room" for room in self.floor if room not in self.room.values()]
+        return wrong + [f"FENCES: {room}: includes nothing of {below}" for room, inner in FENCES.items()
+                        for below in inner.split() if (room, below) not in used]
