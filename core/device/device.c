@@ -139,47 +139,32 @@ static int choose(const struct rg_device_info *infos, int count, const char *nam
     return -1;
 }
 
-static struct rg_device *open_failed(enum rg_open_status *status, enum rg_open_status why)
+struct rg_device *rg_device_open(const char *name)
 {
-    *status = why;
-    return NULL;
-}
-
-struct rg_device *rg_device_open(const char *name, enum rg_open_status *status)
-{
-    enum rg_open_status ignored;
-    status = status ? status : &ignored;
     const char *colon = strchr(name, ':');
     const struct rg_backend *backend =
         find_backend(name, colon ? (size_t)(colon - name) : strlen(name));
-    if (!backend) {
-        rg_error("device '%s': unknown; `raingauge list devices` prints the names", name);
-        return open_failed(status, RG_OPEN_UNKNOWN);
-    }
+    require_or_null(backend, "device '%s': unknown; `raingauge list devices` prints the names",
+                    name);
     struct rg_device_info infos[RG_MAX_DEVICES];
     char why[160] = "no device";
     int count = backend->list(infos, RG_MAX_DEVICES, why, sizeof(why));
-    if (count == 0) {
-        rg_error("device '%s': %s%s%s", name, why,
-                 backend->package ? "; install the Debian package " : "",
-                 backend->package ? backend->package : "");
-        return open_failed(status, RG_OPEN_UNSUPPORTED);
-    }
+    if (count == 0)
+        return rg_unsupported_null("device '%s': %s%s%s", name, why,
+                                   backend->package ? "; install the Debian package " : "",
+                                   backend->package ? backend->package : "");
     int index = choose(infos, count, name, colon ? colon + 1 : NULL);
-    if (index < 0) {
-        rg_error("device '%s': %s has no such device; `raingauge list devices` prints the names",
-                 name, backend->name);
-        return open_failed(status, RG_OPEN_UNKNOWN);
-    }
+    require_or_null(index >= 0,
+                    "device '%s': %s has no such device; `raingauge list devices` prints the names",
+                    name, backend->name);
     struct rg_work *work = rg_alloc(1, sizeof(*work), name);
     struct rg_device *device = work ? backend->create(index) : NULL;
     if (!device) {
         free(work);
-        return open_failed(status, RG_OPEN_FAILED);
+        return NULL;
     }
     device->backend = backend;
     device->work = work;
-    *status = RG_OPEN_OK;
     return device;
 }
 

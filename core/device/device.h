@@ -35,12 +35,10 @@ void rg_device_list_all(struct rg_device_list *list);
 // Adds one backend's to a list that began zeroed; each backend once.
 void rg_device_list_add(struct rg_device_list *list, const struct rg_backend *backend);
 
-// How opening ended: a name that no backend knows is bad usage, an absent driver is "unsupported".
-enum rg_open_status { RG_OPEN_OK, RG_OPEN_UNKNOWN, RG_OPEN_UNSUPPORTED, RG_OPEN_FAILED };
-
 // Opens a device by name: "cpu", "cpu:reference", "gl", "gl:1", "vulkan:NVIDIA" (an index, or a
-// part of the device's name, case ignored). `status` may be NULL.
-struct rg_device *rg_device_open(const char *name, enum rg_open_status *status);
+// part of the device's name, case ignored). NULL, and one logged line, on failure: the user's error
+// where there is no such name, unsupported where the driver is absent, the driver's where it fails.
+struct rg_device *rg_device_open(const char *name);
 // Waits, reports what still lives on it as an error, and closes it. Returns false on a leak.
 bool rg_device_close(struct rg_device *device);
 

@@ -277,7 +277,7 @@ static bool probe_list(struct rg_device *device, struct rg_device *reference, bo
 
 bool rg_probe_run(struct rg_device *device, struct rg_probe_result results[RG_PROBE_COUNT])
 {
-    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    struct rg_device *reference = rg_device_open("cpu:reference");
     struct workspace *work = rg_alloc(1, sizeof(*work), "probe");
     bool ok = reference && work && probe_list(device, reference, false, work, results) &&
               probe_list(device, reference, true, work, results + RG_PROBE_OP_COUNT);

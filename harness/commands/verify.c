@@ -75,7 +75,7 @@ static struct rg_device *find_or_open(const struct rg_devices *devices, const ch
     for (int i = 0; i < devices->count; i++)
         if (!strcmp(devices->devices[i]->info.name, name))
             return devices->devices[i];
-    return *extra = rg_device_open(name, NULL);
+    return *extra = rg_device_open(name);
 }
 
 // A driver that is there and does not open its device is no lack, but a failure.

@@ -48,13 +48,12 @@ void rg_devices_list(struct rg_device_list *list)
 
 // --- opening ---
 
-static int exit_of(enum rg_open_status status)
+static int exit_of_error(void)
 {
-    static const int exits[] = {[RG_OPEN_OK] = RG_EXIT_PASS,
-                                [RG_OPEN_UNKNOWN] = RG_EXIT_USAGE,
-                                [RG_OPEN_UNSUPPORTED] = RG_EXIT_UNSUPPORTED,
-                                [RG_OPEN_FAILED] = RG_EXIT_UNSUPPORTED};
-    return exits[status];
+    static const int exits[] = {[RG_ERROR_INPUT] = RG_EXIT_USAGE,
+                                [RG_ERROR_UNSUPPORTED] = RG_EXIT_UNSUPPORTED,
+                                [RG_ERROR_DRIVER] = RG_EXIT_FAIL};
+    return exits[rg_last_error_kind()];
 }
 
 static void note_broken(struct rg_devices *devices, const char *name)
@@ -74,7 +73,7 @@ static int open_all(struct rg_devices *devices)
     for (int i = 0; list->missing[i][0]; i++)
         rg_warning("unsupported here: %s", list->missing[i]);
     for (int i = 0; i < list->count; i++) {
-        struct rg_device *device = rg_device_open(list->infos[i].name, NULL);
+        struct rg_device *device = rg_device_open(list->infos[i].name);
         if (device)
             devices->devices[devices->count++] = device;
         else
@@ -92,16 +91,15 @@ static int open_named(const char *names, struct rg_devices *devices)
         rg_error("--device: no memory for its names");
     for (char *name = !copy ? NULL : strtok_r(copy, ",", &rest); name && exit == RG_EXIT_PASS;
          name = strtok_r(NULL, ",", &rest)) {
-        enum rg_open_status status = RG_OPEN_UNKNOWN;
         struct rg_device *device = NULL;
         if (devices->count == RG_MAX_DEVICES)
             rg_error("--device: more than %d names", RG_MAX_DEVICES);
         else
-            device = rg_device_open(name, &status);
+            device = rg_device_open(name);
         if (device)
             devices->devices[devices->count++] = device;
         else
-            exit = exit_of(status);
+            exit = exit_of_error();
     }
     free(copy);
     if (exit == RG_EXIT_PASS && !devices->count) {

@@ -40,7 +40,7 @@ struct rg_device *rg_kept_device(struct rg_kept *kept, const char *name)
     while (*own && strcmp((*own)->info.name, name) && own < kept->own + RG_KEPT_DEVICES - 1)
         own++;
     if (!*own)
-        *own = rg_device_open(name, NULL);
+        *own = rg_device_open(name);
     return *own;
 }
 

@@ -31,12 +31,11 @@ static void fail(struct rg_examination *examination, enum rg_outcome status)
 
 static struct rg_device *open_device(struct rg_examination *examination)
 {
-    enum rg_open_status status;
     begin(examination, "opening the device");
-    struct rg_device *device = rg_device_open(examination->info.name, &status);
+    struct rg_device *device = rg_device_open(examination->info.name);
     if (!device) {
-        fail(examination, status == RG_OPEN_UNSUPPORTED ? RG_UNSUPPORTED : RG_ERROR);
-        examination->is_unknown = status == RG_OPEN_UNKNOWN;
+        fail(examination, rg_outcome_of_error());
+        examination->is_unknown = rg_last_error_kind() == RG_ERROR_INPUT;
         return NULL;
     }
     examination->info = device->info;

@@ -66,7 +66,7 @@ static void draw(const char *name, const struct scene *s, const float *quads, st
 {
     const test_quads_params p = {.gradient = 1.0f / 64, .slope_x = 0.0005f, .slope_y = -0.0004f};
     const size_t size = (size_t)(s->first + s->items) * TEST_QUAD_WORDS * sizeof(float);
-    struct rg_device *device = rg_device_open(name, NULL);
+    struct rg_device *device = rg_device_open(name);
     assert_non_null(device);
     struct rg_pass *pass = rg_pass_create(device, "test_quads");
     struct rg_buf *input = rg_buf_create(device, size, "quads");

@@ -19,7 +19,7 @@
 
 static int open_device(void **state)
 {
-    *state = rg_device_open("opencl", NULL);
+    *state = rg_device_open("opencl");
     return *state ? 0 : -1;
 }
 
@@ -91,7 +91,7 @@ static void data_is_the_callers_again_after_a_write(void **state)
 
 static void two_devices_live_side_by_side(void **state)
 {
-    struct rg_device *other_device = rg_device_open("opencl", NULL);
+    struct rg_device *other_device = rg_device_open("opencl");
     assert_non_null(other_device);
     struct copier one = make_copier(*state, 1000), other = make_copier(other_device, 1000);
     uint32_t data[1000] = {0};
@@ -236,7 +236,7 @@ static void release(struct drawn *drawn)
 
 static void draws_as_the_reference(struct rg_device *device)
 {
-    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    struct rg_device *reference = rg_device_open("cpu:reference");
     for (int with_colour = 0; with_colour <= 1; with_colour++) {
         struct drawn due = draw(reference, with_colour, ENOUGH_BYTES),
                      got = draw(device, with_colour, ENOUGH_BYTES);
@@ -259,7 +259,7 @@ static void a_layer_of_a_level_is_drawn_to(void **state)
 static void tiles_are_shared_as_on_a_gpu(void **state)
 {
     (void)state;
-    struct rg_device *device = rg_device_open("opencl", NULL);
+    struct rg_device *device = rg_device_open("opencl");
     assert_non_null(device);
     device->info.software = !device->info.software;
     draws_as_the_reference(device);
@@ -313,7 +313,7 @@ static long stop_listening(void)
 static void a_broken_kernel_is_one_line(void **state)
 {
     (void)state;
-    struct rg_device *device = rg_device_open("opencl", NULL); // one that has built nothing yet
+    struct rg_device *device = rg_device_open("opencl"); // one that has built nothing yet
     assert_non_null(device);
     char folder[] = "/tmp/raingauge-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
@@ -356,15 +356,14 @@ static void absence_is_explained(void **state)
             why = list.missing[i];
     assert_non_null(why);
     assert_non_null(strstr(why, expected_code));
-    enum rg_open_status status;
     lines = 0;
     rg_log_listen(count_line, NULL);
     listen_to_stderr();
-    assert_null(rg_device_open("opencl", &status));
+    assert_null(rg_device_open("opencl"));
     assert_int_equal(stop_listening(), 0);
     rg_log_listen(NULL, NULL);
     assert_int_equal(lines, 1);
-    assert_int_equal(status, RG_OPEN_UNSUPPORTED);
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_UNSUPPORTED);
 }
 
 int main(int argc, char **argv)

@@ -55,7 +55,7 @@ static int setup(void **state)
 {
     struct rig *rig = calloc(1, sizeof(*rig));
     snprintf(rig->folder, sizeof(rig->folder), "/tmp/raingauge-test-XXXXXX");
-    rig->devices = (struct rg_devices){.count = 1, .devices = {rg_device_open("cpu", NULL)}};
+    rig->devices = (struct rg_devices){.count = 1, .devices = {rg_device_open("cpu")}};
     rig->kept.devices = &rig->devices;
     rg_interrupt_watch();
     *state = rig;

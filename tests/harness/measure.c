@@ -70,7 +70,7 @@ static enum rg_outcome judge(struct rg_device *device, const void *settings,
 static void expect(struct rg_expected *expected, const struct rg_technique *technique,
                    const void *settings)
 {
-    struct rg_device *device = rg_device_open("cpu:reference", NULL);
+    struct rg_device *device = rg_device_open("cpu:reference");
     struct rg_instance *instance =
         rg_frame_run(technique, settings, device, SIZE_PX, SIZE_PX, RG_CHECK_FRAMES);
     *expected = (struct rg_expected){0};
@@ -87,7 +87,7 @@ static void test_t1_by_the_mask(void **state)
     enum { PIXELS = 12 }; // below 0.1 % of the picture, above 0.1 % of where it rains
     char detail[256];
     void *settings = settings_of(CHEAP " drops=90");
-    struct rg_device *device = rg_device_open("cpu", NULL);
+    struct rg_device *device = rg_device_open("cpu");
     struct rg_expected expected;
     expect(&expected, rg_technique_find("flow"), settings);
     assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_OK);
@@ -141,7 +141,7 @@ static void test_what_a_cell_keeps(void **state)
     talker.create = create_talker;
     talker.step = step_talker;
     void *settings = settings_of(CHEAP);
-    struct rg_device *device = rg_device_open("cpu", NULL);
+    struct rg_device *device = rg_device_open("cpu");
     struct rg_expected expected;
     expect(&expected, &talker, settings);
     struct rg_cell cell = {.technique = &talker,
@@ -193,7 +193,7 @@ static void test_samples(void **state)
     const struct rg_measure_options options = {
         .most_samples = 40, .least_samples = 2, .sample_ms = 1, .cell_ms = 200, .warm_up_ms = 1};
     void *settings = settings_of(CHEAP);
-    struct rg_device *device = rg_device_open("cpu", NULL);
+    struct rg_device *device = rg_device_open("cpu");
     struct rg_cell cells[2];
     for (int i = 0; i < 2; i++) {
         cells[i] = (struct rg_cell){.technique = i ? &slow : flow,
@@ -256,7 +256,7 @@ static void test_table(void **state)
     (void)state;
     int messages = 0;
     struct rg_devices devices = {.count = 1};
-    devices.devices[0] = rg_device_open("cpu", NULL);
+    devices.devices[0] = rg_device_open("cpu");
     struct rg_table_run run = {.table = &table, .devices = &devices, .last_row = 2};
     struct rg_kept kept = {.devices = &devices};
     rg_log_listen(keep_quiet, &messages);
@@ -323,7 +323,7 @@ static void run_table(struct rg_table_run *run, struct rg_kept *kept, struct rg_
 static void test_textures(void **state)
 {
     (void)state;
-    struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu", NULL)}};
+    struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu")}};
     struct rg_kept kept = {.devices = &devices};
     struct rg_table_run run = {.table = &texture_table, .devices = &devices, .last_row = 3};
     run_table(&run, &kept, NULL);
@@ -344,7 +344,7 @@ static void test_unsupported(void **state)
     (void)state;
     struct rg_table wide = table;
     wide.width = 1 << 20;
-    struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu", NULL)}};
+    struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu")}};
     struct rg_kept kept = {.devices = &devices};
     struct rg_table_run run = {.table = &wide, .devices = &devices};
     run_table(&run, &kept, NULL);
@@ -361,7 +361,7 @@ static void test_unsupported(void **state)
 static void test_kept(void **state)
 {
     (void)state;
-    struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu", NULL)}};
+    struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu")}};
     struct rg_kept kept = {.devices = &devices};
     struct rg_device *cpu = devices.devices[0];
     assert_ptr_equal(rg_kept_device(&kept, "cpu"), cpu);

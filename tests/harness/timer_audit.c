@@ -42,7 +42,7 @@ static void ignore_line(enum rg_log_level level, const char *line, void *user)
 // Audits cpu with some of its functions replaced.
 static bool audit(struct rg_backend backend, struct rg_timer_audit *result)
 {
-    struct rg_device *device = rg_device_open("cpu", NULL);
+    struct rg_device *device = rg_device_open("cpu");
     assert_non_null(device);
     device->backend = &backend;
     rg_log_listen(ignore_line, NULL);
@@ -57,7 +57,7 @@ static bool audit(struct rg_backend backend, struct rg_timer_audit *result)
 static int find_honest(void **state)
 {
     (void)state;
-    struct rg_device *device = rg_device_open("cpu", NULL);
+    struct rg_device *device = rg_device_open("cpu");
     honest = device ? device->backend : NULL;
     return rg_device_close(device) && honest ? 0 : -1;
 }

@@ -29,7 +29,7 @@ struct session {
 static bool take_background(struct session *s)
 {
     const struct rg_diff_devices_request *r = s->asked;
-    struct rg_device *device = rg_device_open("cpu", NULL);
+    struct rg_device *device = rg_device_open("cpu");
     bool ok = device && rg_frame_draw_dry(r->technique, r->settings, device, r->width, r->height,
                                           r->frames, &s->background);
     return rg_device_close(device) && ok;

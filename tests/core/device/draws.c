@@ -103,7 +103,7 @@ static void compare(const char *way, const char *what, const uint32_t *a, const 
 static void check_way(struct rg_device *device, const struct way *way, const float *quads,
                       int count)
 {
-    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    struct rg_device *reference = rg_device_open("cpu:reference");
     struct drawn due = draw(reference, way, quads, count);
     struct drawn drawn = draw(device, way, quads, count);
     compare(way->name, "colour", due.colour, drawn.colour, due.colour_words,
@@ -209,7 +209,7 @@ static void check_rows(struct rg_device *device, enum rg_format format, enum rg_
         fill_row(quads + row * TEST_QUAD_WORDS, row, format);
     for (int i = 0; i < words; i++)
         target[i] = word_at(i, format);
-    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    struct rg_device *reference = rg_device_open("cpu:reference");
     uint32_t *due = blend_rows(reference, format, blend, quads, target);
     uint32_t *blended = blend_rows(device, format, blend, quads, target);
     compare(rg_format_name(format), "every value", due, blended, words, words / ROWS);

@@ -246,7 +246,7 @@ static void check_format(struct rg_device *device, struct rg_device *reference, 
 
 static void images_are_read_between_texels(void **state)
 {
-    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    struct rg_device *reference = rg_device_open("cpu:reference");
     for (int format = 0; format < COUNT_OF(formats); format++) {
         check_format(*state, reference, format, 67, 33);
         check_format(*state, reference, format, 64, 32);

@@ -114,7 +114,7 @@ static void devices_open_and_close(void **state)
     for (int i = 0; i < 10; i++) {
         if (i == 3)
             before = resident_bytes();
-        struct rg_device *device = rg_device_open(suite_device, NULL);
+        struct rg_device *device = rg_device_open(suite_device);
         assert_non_null(device);
         struct rg_buf *buf = filled_buf(device, (uint32_t)i, 100, "words");
         uint32_t *words = read_words(buf, 100);
@@ -165,8 +165,8 @@ static void check_interleaved(struct rg_device *const devices[2])
 
 static void devices_live_side_by_side(void **state)
 {
-    struct rg_device *twin = rg_device_open(suite_device, NULL);
-    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    struct rg_device *twin = rg_device_open(suite_device);
+    struct rg_device *reference = rg_device_open("cpu:reference");
     assert_true(twin && reference);
     check_interleaved((struct rg_device *[]){*state, twin});
     check_interleaved((struct rg_device *[]){reference, twin});
@@ -181,7 +181,7 @@ static void *leaked[3];
 static void closing_reports_what_still_lives(void **state)
 {
     (void)state;
-    struct rg_device *device = rg_device_open(suite_device, NULL);
+    struct rg_device *device = rg_device_open(suite_device);
     assert_non_null(device);
     const struct rg_image_desc desc = {RG_RGBA8, 4, 4, 1, 1};
     leaked[0] = rg_buf_create(device, 64, "leaked");
@@ -286,7 +286,7 @@ static void shared_things_hold_shared_things(void **state)
 static void closing_reports_what_is_still_shared(void **state)
 {
     (void)state;
-    struct rg_device *device = rg_device_open(suite_device, NULL);
+    struct rg_device *device = rg_device_open(suite_device);
     const uint32_t seven = 7;
     things_destroyed = 0;
     assert_non_null(rg_shared_get(device, "kept", &thing_kind, &seven));

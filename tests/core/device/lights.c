@@ -142,7 +142,7 @@ static const struct way ways[] = {
 
 static void programs_with_lights_draw_alike(void **state)
 {
-    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    struct rg_device *reference = rg_device_open("cpu:reference");
     struct rig due_rig = make_rig(reference), rig = make_rig(*state);
     for (int w = 0; w < COUNT_OF(ways); w++) {
         size_t words;

@@ -168,7 +168,7 @@ static void runs_refuse_bad_slots(void **state)
 static void runs_refuse_objects_of_other_devices(void **state)
 {
     struct rig rig = make_rig(*state);
-    struct rg_device *other = rg_device_open(suite_device, NULL);
+    struct rg_device *other = rg_device_open(suite_device);
     assert_non_null(other);
     struct rg_buf *foreign = filled_buf(other, 0, 4, "foreign");
     struct rg_run run = rig.run;
@@ -228,14 +228,13 @@ static void elements_must_be_whole(void **state)
 static void unknown_devices_are_refused(void **state)
 {
     (void)state;
-    enum rg_open_status status;
-    assert_refused(rg_device_open("abacus", &status), "'abacus'");
-    assert_int_equal(status, RG_OPEN_UNKNOWN);
+    assert_refused(rg_device_open("abacus"), "'abacus'");
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_INPUT);
     char name[64] = "";
     strncat(name, suite_device, strcspn(suite_device, ":"));
     strcat(name, ":no such thing");
-    assert_refused(rg_device_open(name, &status), name);
-    assert_int_equal(status, RG_OPEN_UNKNOWN);
+    assert_refused(rg_device_open(name), name);
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_INPUT);
 }
 
 static const struct CMUnitTest tests[] = {

@@ -7,7 +7,7 @@ enum { EXIT_UNSUPPORTED = 77 };
 
 static int open_device(void **state)
 {
-    *state = rg_device_open(suite_device, NULL);
+    *state = rg_device_open(suite_device);
     return *state ? 0 : -1;
 }
 
@@ -19,11 +19,10 @@ static int close_device(void **state)
 // 77: this machine has no such device.
 static int device_is_missing(void)
 {
-    enum rg_open_status status;
-    struct rg_device *device = rg_device_open(suite_device, &status);
+    struct rg_device *device = rg_device_open(suite_device);
     if (device)
         return rg_device_close(device) ? 0 : 1;
-    return status == RG_OPEN_UNSUPPORTED ? EXIT_UNSUPPORTED : 1;
+    return rg_outcome_of_error() == RG_UNSUPPORTED ? EXIT_UNSUPPORTED : 1;
 }
 
 int main(int argc, char **argv)

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/base/outcome.h"
 #include "core/device/device.h"
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof((array)[0])))

@@ -165,7 +165,7 @@ static void compare_rigs(const char *name, const struct rig *due, const struct r
 static void check_place(struct rg_device *device, const struct place *place, const float *quads,
                         int total, int first, int count)
 {
-    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    struct rg_device *reference = rg_device_open("cpu:reference");
     struct rig due = make_rig(reference, place, quads, total);
     struct rig drawn = make_rig(device, place, quads, total);
     assert_true(draw(&due, first, count) && draw(&drawn, first, count));
@@ -225,7 +225,7 @@ static void items_off_the_target_draw_nothing(void **state)
 static void draws_follow_one_another(void **state)
 {
     float *quads = scene(&plain, QUAD_KINDS, 900);
-    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    struct rg_device *reference = rg_device_open("cpu:reference");
     struct rig rigs[] = {make_rig(reference, &plain, quads, 900),
                          make_rig(*state, &plain, quads, 900)};
     for (int r = 0; r < 2; r++) {
@@ -293,7 +293,7 @@ static void kernels_fetch_what_depth_was_drawn(void **state)
     const struct place place = {
         "fetched depth", {RG_FORMAT_NONE, 119, 85, 2, 1}, 1, 0, RG_DEPTH_WRITE, false};
     float *quads = scene(&place, QUAD_KINDS, 900);
-    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    struct rg_device *reference = rg_device_open("cpu:reference");
     struct rig due = make_rig(reference, &place, quads, 900);
     struct rig drawn = make_rig(*state, &place, quads, 900);
     assert_true(draw(&due, 0, 900) && draw(&drawn, 0, 900));
@@ -333,7 +333,7 @@ static void programs_fetch_what_depth_was_drawn(void **state)
     const struct place place = {"shadow map", {RG_FORMAT_NONE, 119, 85, 2, 1}, 1, 0, RG_DEPTH_WRITE,
                                 false};
     float *quads = scene(&place, QUAD_KINDS, 900);
-    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    struct rg_device *reference = rg_device_open("cpu:reference");
     struct rig due = make_rig(reference, &place, quads, 900);
     struct rig drawn = make_rig(*state, &place, quads, 900);
     struct rg_image *a = draw_shadowed(&due, 900), *b = draw_shadowed(&drawn, 900);
@@ -390,7 +390,7 @@ static void draws_refuse_bad_targets(void **state)
         cleared(*state, (struct rg_image_desc){0, 118, 85, 1, 1}, RG_D32F, dark, "narrow");
     struct rg_image *numbers =
         cleared(*state, (struct rg_image_desc){0, 119, 85, 1, 1}, RG_R32F, dark, "numbers");
-    struct rg_device *other = rg_device_open("cpu:reference", NULL);
+    struct rg_device *other = rg_device_open("cpu:reference");
     struct rg_image *foreign = cleared(other, plain.colour, RG_RGBA8, dark, "foreign");
 #define REFUSED(part, ...)                                                                         \
     do {                                                                                           \

@@ -320,7 +320,7 @@ static void test_drawn_with(void **state)
     char cache[PATH_SIZE], why[256];
     in_root(cache, "cache");
     assert_int_equal(setenv("XDG_CACHE_HOME", cache, 1), 0);
-    struct rg_device *device = rg_device_open("cpu", NULL);
+    struct rg_device *device = rg_device_open("cpu");
     assert_non_null(device);
     lines = 0;
     assert_null(open_rain(device));

@@ -28,7 +28,7 @@ void rig_open_sized(struct rig *rig, const char *device, const char *assignments
     rg_params_reset(&flow_param_table, &rig->settings);
     set(&rig->settings, cheap);
     set(&rig->settings, assignments);
-    rig->device = rg_device_open(device, NULL);
+    rig->device = rg_device_open(device);
     assert_non_null(rig->device);
     rig->width = width > 0 ? width : rig->settings.resolution_px * 3 / 2;
     rig->height = height > 0 ? height : rig->settings.resolution_px * 5 / 4;

@@ -56,7 +56,7 @@ static void compare_view(const char *what, const struct faces_on on[2],
 
 static void compare_views(struct rg_device *device, const char *mesh, const char *const *views)
 {
-    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    struct rg_device *reference = rg_device_open("cpu:reference");
     struct mesh_scene scene = mesh_scene_open(mesh);
     struct faces_on on[2];
     faces_upload(reference, &scene.faces, &on[0]);

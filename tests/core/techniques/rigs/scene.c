@@ -7,6 +7,7 @@
 #include <cmocka.h>
 #include <stdlib.h>
 
+#include "core/base/outcome.h"
 #include "core/techniques/technique.h"
 
 void mesh_scene_set(struct mesh_scene *scene, const char *assignments)
@@ -53,7 +54,7 @@ static const char *device_name = "cpu:reference";
 
 static int open_device(void **state)
 {
-    *state = rg_device_open(device_name, NULL);
+    *state = rg_device_open(device_name);
     return *state ? 0 : -1;
 }
 
@@ -65,12 +66,11 @@ static int close_device(void **state)
 int raster_tests_run(int argc, char **argv, const struct CMUnitTest *tests, size_t count)
 {
     enum { UNSUPPORTED = 77 };
-    enum rg_open_status status;
     if (argc > 1)
         device_name = argv[1];
-    struct rg_device *device = rg_device_open(device_name, &status);
+    struct rg_device *device = rg_device_open(device_name);
     if (!device)
-        return status == RG_OPEN_UNSUPPORTED ? UNSUPPORTED : 1;
+        return rg_outcome_of_error() == RG_UNSUPPORTED ? UNSUPPORTED : 1;
     if (!rg_device_close(device))
         return 1;
     return _cmocka_run_group_tests(device_name, tests, count, open_device, close_device);

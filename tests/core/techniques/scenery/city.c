@@ -105,7 +105,7 @@ enum { VIEWS = sizeof(views) / sizeof(views[0]) };
 static void compare_stages(struct rg_device *device, const char *model, enum scenery_time time,
                            int lights, int view_count)
 {
-    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    struct rg_device *reference = rg_device_open("cpu:reference");
     struct stage stages[2];
     struct picture *pictures = malloc(2 * sizeof(*pictures));
     const struct scenery_look look = time == SCENERY_DAY ? scenery_day() : scenery_night();

@@ -483,7 +483,7 @@ static void fill(struct scenery_overlay *overlay)
 static void all_bytes_are_those_of_the_reference(void **state)
 {
     static const enum rg_format formats[] = {RG_RGBA8, RG_RGBA16F, RG_RGBA32F};
-    struct rg_device *devices[2] = {*state, rg_device_open("cpu:reference", NULL)};
+    struct rg_device *devices[2] = {*state, rg_device_open("cpu:reference")};
     assert_non_null(devices[1]);
     float to_clip[16];
     look(to_clip);

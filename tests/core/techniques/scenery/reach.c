@@ -141,7 +141,7 @@ static void frames_do_not_matter(void **state)
 
 static void all_bytes_are_those_of_the_reference(void **state)
 {
-    struct rg_device *reference = rg_device_open("cpu:reference", NULL);
+    struct rg_device *reference = rg_device_open("cpu:reference");
     assert_non_null(reference);
     struct rig rigs[2] = {rig_open(*state), rig_open(reference)};
     float *points = rig_make_points(), *texels[2];

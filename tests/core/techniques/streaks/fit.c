@@ -170,7 +170,7 @@ static void test_nothing_else_decides(void **state)
     (void)state;
     if (!device->info.software)
         skip(); // its pictures are the same to the eye, not to the bit
-    struct rg_device *cpu = rg_device_open("cpu", NULL);
+    struct rg_device *cpu = rg_device_open("cpu");
     assert_non_null(cpu);
     struct streaks *a = open_rain(device, "fit=on");
     struct streaks *b = open_rain(cpu, "fit=on culling_radius_m=1000 local_height_m=0.1");
@@ -188,7 +188,7 @@ static void test_nothing_else_decides(void **state)
 
 static int set_up(void **state)
 {
-    device = rg_device_open(*state, NULL);
+    device = rg_device_open(*state);
     return device ? 0 : -1;
 }
 

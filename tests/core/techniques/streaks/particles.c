@@ -117,7 +117,7 @@ static struct rg_image *map_of(struct rg_device *device, enum rg_format format, 
 
 static void compute(const struct scene *scene, const streaks_params *p, float *places)
 {
-    struct rg_device *device = rg_device_open(device_name, NULL);
+    struct rg_device *device = rg_device_open(device_name);
     assert_non_null(device);
     struct rg_pass *pass = rg_pass_create(device, "streaks_state");
     struct rg_buf *particles = upload(device, scene->particles, sizeof(scene->particles));

@@ -75,7 +75,7 @@ double rain_texel(const struct rain_texels *picture, int x, int y, int colour)
 
 static int set_up(void **state)
 {
-    rain_device = rg_device_open(*state, NULL);
+    rain_device = rg_device_open(*state);
     return rain_device ? 0 : -1;
 }
 
