@@ -20,13 +20,32 @@ const struct rg_technique *rg_technique_find(const char *name)
     return NULL;
 }
 
-bool rg_instance_run(struct rg_instance *instance, struct rg_pass *pass, const struct rg_run *run)
+struct rg_instance *rg_instance_open(const struct rg_technique *technique, struct rg_device *device,
+                                     const void *settings, int width, int height)
 {
-    if (!rg_pass_run(pass, run))
-        return false;
-    if (instance->after_pass)
-        instance->after_pass(pass->kernel->name, instance->user);
-    return true;
+    struct rg_instance *instance = rg_alloc(1, technique->size, technique->name);
+    if (!instance)
+        return NULL;
+    instance->technique = technique;
+    instance->device = device;
+    memcpy((char *)instance + technique->settings, settings, technique->params->settings_size);
+    const struct rg_asset *target = rg_add_image(instance, "target", RG_RGBA16F, width, height);
+    instance->target = target ? target->image : NULL;
+    if (target && technique->open(instance) && !instance->has_failed)
+        return instance;
+    rg_instance_close(instance);
+    return NULL;
+}
+
+void rg_instance_close(struct rg_instance *instance)
+{
+    if (!instance)
+        return;
+    if (instance->technique->close)
+        instance->technique->close(instance);
+    rg_stages_free(instance);
+    rg_assets_free(instance);
+    free(instance);
 }
 
 void *rg_settings_create(const struct rg_technique *technique)

@@ -111,7 +111,7 @@ static int render_on(struct rg_device *device, const struct rg_technique *techni
     else if (ok)
         print_text(instance, output);
     if (instance)
-        technique->destroy(instance);
+        rg_instance_close(instance);
     return ok ? RG_EXIT_PASS : RG_EXIT_USAGE;
 }
 

@@ -58,7 +58,7 @@ static struct rg_kept_instance *kept_on(struct rg_kept *kept, const struct rg_de
 static void close_kept(struct rg_kept_instance *place)
 {
     if (place->instance)
-        place->instance->technique->destroy(place->instance);
+        rg_instance_close(place->instance);
     free_subject(&place->of);
     place->instance = NULL;
 }
@@ -76,8 +76,8 @@ struct rg_instance *rg_kept_open(struct rg_kept *kept, struct rg_device *device,
     struct rg_kept_instance *place = kept_on(kept, device);
     if (place->instance && is_same(&place->of, subject))
         return place->instance;
-    struct rg_instance *instance =
-        subject->technique->create(device, subject->settings, subject->width, subject->height);
+    struct rg_instance *instance = rg_instance_open(subject->technique, device, subject->settings,
+                                                    subject->width, subject->height);
     if (!instance)
         return NULL;
     rg_kept_put(kept, instance);

@@ -7,14 +7,14 @@
 struct rg_instance *rg_frame_run(const struct rg_technique *technique, const void *settings,
                                  struct rg_device *device, int width, int height, int frames)
 {
-    struct rg_instance *instance = technique->create(device, settings, width, height);
+    struct rg_instance *instance = rg_instance_open(technique, device, settings, width, height);
     bool ok = instance != NULL;
     for (int i = 0; ok && i < frames; i++)
         ok = technique->step(instance);
     if (ok && technique->draw(instance) && rg_device_sync(device))
         return instance;
     if (instance)
-        technique->destroy(instance);
+        rg_instance_close(instance);
     return NULL;
 }
 
@@ -26,7 +26,7 @@ bool rg_frame_draw(const struct rg_technique *technique, const void *settings,
     if (!instance)
         return false;
     const bool ok = rg_frame_read_picture(instance, picture);
-    technique->destroy(instance);
+    rg_instance_close(instance);
     return ok;
 }
 

@@ -59,7 +59,7 @@ static bool open_instance(struct rg_cell *cell)
 {
     const double start = rg_now_ms();
     cell->instance =
-        cell->technique->create(cell->device, cell->settings, cell->width, cell->height);
+        rg_instance_open(cell->technique, cell->device, cell->settings, cell->width, cell->height);
     if (!cell->instance || !rg_device_sync(cell->device))
         return rg_cell_end_by_error(cell);
     const double opened = rg_now_ms();
@@ -215,12 +215,12 @@ static struct rg_cell_pass *pass_of(struct rg_cell *cell, const char *name)
     return &cell->passes[cell->pass_count++];
 }
 
-static void after_pass(const char *name, void *user)
+static void after_stage(const struct rg_opened_stage *stage, void *user)
 {
     struct pass_clock *clock = user;
     clock->ok = rg_device_sync(clock->cell->device) && clock->ok;
     const double now = rg_now_ms();
-    pass_of(clock->cell, name)->ms += now - clock->last_ms;
+    pass_of(clock->cell, stage->row.kernel)->ms += now - clock->last_ms;
     clock->last_ms = now;
 }
 
@@ -228,7 +228,7 @@ static bool measure_passes(struct rg_cell *cell)
 {
     const double start = rg_now_ms();
     struct pass_clock clock = {cell, start, true};
-    cell->instance->after_pass = after_pass;
+    cell->instance->after_stage = after_stage;
     cell->instance->user = &clock;
     bool ok = true;
     while (ok && cell->pass_frames < MOST_PASS_FRAMES &&
@@ -236,7 +236,7 @@ static bool measure_passes(struct rg_cell *cell)
         ok = run_frames(cell, 1);
         cell->pass_frames++;
     }
-    cell->instance->after_pass = NULL;
+    cell->instance->after_stage = NULL;
     for (int i = 0; i < cell->pass_count; i++)
         cell->passes[i].ms /= cell->pass_frames;
     return ok && clock.ok;
@@ -308,7 +308,7 @@ double rg_cell_passes_ms(const struct rg_cell *cell)
 void rg_cell_close(struct rg_cell *cell)
 {
     if (cell->instance)
-        cell->technique->destroy(cell->instance);
+        rg_instance_close(cell->instance);
     cell->instance = NULL;
 }
 

@@ -75,7 +75,7 @@ static void expect(struct rg_expected *expected, const struct rg_technique *tech
         rg_frame_run(technique, settings, device, SIZE_PX, SIZE_PX, RG_CHECK_FRAMES);
     *expected = (struct rg_expected){0};
     assert_true(rg_expected_read(expected, instance));
-    technique->destroy(instance);
+    rg_instance_close(instance);
     assert_true(rg_frame_draw_dry(technique, settings, device, SIZE_PX, SIZE_PX, RG_CHECK_FRAMES,
                                   &expected->dry));
     assert_true(rg_device_close(device));
@@ -108,14 +108,11 @@ static void test_t1_by_the_mask(void **state)
 
 // --- a technique that tells facts and runs many passes: flow, with more said of it ---
 
-static struct rg_instance *create_talker(struct rg_device *device, const void *settings, int width,
-                                         int height)
+static bool open_talker(struct rg_instance *instance)
 {
-    struct rg_instance *instance =
-        rg_technique_find("flow")->create(device, settings, width, height);
-    if (instance)
-        instance->facts[instance->fact_count++] = (struct rg_fact){.name = "panes", .number = 6};
-    return instance;
+    const bool ok = rg_technique_find("flow")->open(instance);
+    rg_tell(instance, "panes", 6);
+    return ok;
 }
 
 // 40 passes more, each named twice a frame. The last takes a millisecond each time.
@@ -126,8 +123,9 @@ static bool step_talker(struct rg_instance *instance)
         snprintf(names[i % 40], sizeof(names[0]), "pass %d", i % 40);
         if (i % 40 == 39)
             nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
-        if (instance->after_pass)
-            instance->after_pass(names[i % 40], instance->user);
+        if (instance->after_stage)
+            instance->after_stage(&(struct rg_opened_stage){.row.kernel = names[i % 40]},
+                                  instance->user);
     }
     for (struct rg_fact *f = instance->facts; f < instance->facts + instance->fact_count; f++)
         f->number += 1;
@@ -138,7 +136,7 @@ static void test_what_a_cell_keeps(void **state)
 {
     (void)state;
     struct rg_technique talker = *rg_technique_find("flow");
-    talker.create = create_talker;
+    talker.open = open_talker;
     talker.step = step_talker;
     void *settings = settings_of(CHEAP);
     struct rg_device *device = rg_device_open("cpu");

@@ -1,9 +1,10 @@
-// An open flow: what open.c makes, and flow.c runs.
+// An open flow: what open.c makes, step.c moves and draw.c draws.
 #ifndef RG_CORE_TECHNIQUES_FLOW_INSTANCE_H
 #define RG_CORE_TECHNIQUES_FLOW_INSTANCE_H
 
 #include "core/techniques/flow/flow.h"
 #include "core/techniques/technique.h"
+#include "kernels/flow/glow/params.h"
 
 enum flow_pass {
     // movement
@@ -17,14 +18,18 @@ enum flow_pass {
     FLOW_BLUR,
     FLOW_NORMALS,
     // what does not refract, and the final image
-    FLOW_SKY,
+    FLOW_SKY_BEHIND,
     FLOW_MODEL,
     FLOW_COPY,
-    FLOW_PANES,
+    FLOW_SKY,
+    FLOW_FAR_GLASS,
+    FLOW_NEAR_GLASS,
+    FLOW_MIRRORS,
     FLOW_SHOW_STAGE,
     // glow
     FLOW_GLOW_BRIGHT,
-    FLOW_GLOW_BLUR,
+    FLOW_GLOW_ACROSS,
+    FLOW_GLOW_DOWN,
     FLOW_GLOW,
     FLOW_PASS_COUNT
 };
@@ -35,31 +40,25 @@ struct flow {
     struct rg_instance base;
     struct flow_settings settings; // resolution_px is what flow_texels made of it
     int pane_count, noise_size;
-    struct rg_pass *passes[FLOW_PASS_COUNT]; // NULL: these settings do not run it
-    // Maps of all panes, one behind the other.
-    struct rg_buf *water, *moved; // of this frame, and scratch for the next
-    struct rg_buf *given, *arriving, *blurred, *normals;
-    struct rg_buf *ledger, *remainder, *noise, *panes;
-    struct rg_image *environment;
-    // The picture of what does not refract, with its depth; NULL without glass.
-    struct rg_image *behind, *depth;
-    // Without glow NULL: the image before it, and, at a quarter of the size, what is spread.
-    struct rg_image *lit, *bright, *spread;
-    // A model in a box of glass; no faces: none.
-    struct rg_buf *positions, *model_normals, *indices;
-    int model_faces;
+    struct rg_asset *water, *moved; // of this frame, and scratch for the next
+    struct rg_asset *panes;         // how they stand
+    int model_faces;                // 0: no model
     float model_low[3], model_high[3];
+    // Of the present frame, for its stages.
+    flow_splat_params drop;
+    flow_params movement;
+    flow_normals_params surface;
+    flow_view_params view, model_view;
+    flow_glow_params glow, glow_across, glow_down;
 };
 
-// Whether what does not refract is drawn apart, as a picture for glass to show.
-bool flow_has_behind(const struct flow_settings *settings);
+bool flow_open(struct rg_instance *instance);
+bool flow_step(struct rg_instance *instance);
+bool flow_draw(struct rg_instance *instance);
 
-struct rg_instance *flow_open(struct rg_device *device, const void *settings, int width,
-                              int height);
-void flow_close(struct rg_instance *instance);
-// Tells which buffers hold the state now.
-void flow_show_state(struct flow *flow);
 // Lands so many drops on each pane: the seeded ones (`frame` is -1), or those of a frame.
 bool flow_land(struct flow *flow, int64_t frame, int count);
+// Writes how the panes stand at the present frame.
+bool flow_turn_panes(struct flow *flow);
 
 #endif

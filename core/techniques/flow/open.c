@@ -1,286 +1,264 @@
-// Opens flow on a device: its passes, maps, inputs and images.
+// Opens flow on a device: its stages, maps, inputs and images.
 #include <inttypes.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/base/alloc.h"
-#include "core/base/log.h"
 #include "core/scene/environment/environment.h"
 #include "core/scene/mesh/mesh.h"
 #include "core/techniques/flow/instance.h"
-#include "kernels/flow/glow/params.h"
 #include "kernels/flow/panes/normal_map.h"
 
 static const char *const counter_names[FLOW_COUNTER_COUNT] = {"drops_landed", "texels_moved",
                                                               "pixels_lit", "model_triangles"};
 
-void flow_close(struct rg_instance *instance)
+// --- which stages run ---
+
+static const struct flow_settings *settings_of(const struct rg_instance *instance)
 {
-    struct flow *flow = (struct flow *)instance;
-    for (int i = 0; i < FLOW_PASS_COUNT; i++)
-        rg_pass_destroy(flow->passes[i]);
-    struct rg_buf *const bufs[] = {
-        flow->water,     flow->moved,         flow->given,     flow->arriving, flow->blurred,
-        flow->normals,   flow->ledger,        flow->remainder, flow->noise,    flow->panes,
-        flow->positions, flow->model_normals, flow->indices};
-    for (size_t i = 0; i < sizeof(bufs) / sizeof(bufs[0]); i++)
-        rg_buf_destroy(bufs[i]);
-    struct rg_image *const images[] = {flow->environment, flow->behind, flow->depth,      flow->lit,
-                                       flow->bright,      flow->spread, flow->base.target};
-    for (size_t i = 0; i < sizeof(images) / sizeof(images[0]); i++)
-        rg_image_destroy(images[i]);
-    free(flow);
+    return &((const struct flow *)instance)->settings;
 }
 
-// --- passes ---
-
-bool flow_has_behind(const struct flow_settings *s)
+static bool is_final(const struct rg_instance *i)
 {
-    return s->stage == FLOW_STAGE_FINAL && s->panes == FLOW_GLASS;
+    return settings_of(i)->stage == FLOW_STAGE_FINAL;
 }
 
-static bool has_model(const struct flow_settings *s)
+static bool is_stage(const struct rg_instance *i)
 {
-    return flow_has_behind(s) && s->view == FLOW_BOX && strcmp(s->model, "none") && s->model[0];
+    return !is_final(i);
 }
 
-static const char *kernel_of(const struct flow_settings *s, enum flow_pass pass)
+// Behind glass lies what does not refract, drawn apart, as a picture for the glass to show.
+static bool is_glass(const struct rg_instance *i)
 {
-    const bool final = s->stage == FLOW_STAGE_FINAL, glow = final && s->glow > 0;
-    switch (pass) {
-    case FLOW_SPLAT:
-        return "flow_splat";
-    case FLOW_GIVEN:
-        return "flow_given";
-    case FLOW_DRAIN:
-        return "flow_drain";
-    case FLOW_MOVE:
-        return "flow_move";
-    case FLOW_REACH:
-        return s->reach_texels > 2 ? "flow_reach" : NULL;
-    case FLOW_ARRIVE:
-        return s->run_on && s->view == FLOW_BOX ? "flow_arrive" : NULL;
-    case FLOW_BLUR:
-        return "flow_blur";
-    case FLOW_NORMALS:
-        return "flow_normals";
-    case FLOW_SKY:
-        return final && (s->view == FLOW_BOX || flow_has_behind(s)) ? "flow_sky" : NULL;
-    case FLOW_MODEL:
-        return has_model(s) ? "flow_model" : NULL;
-    case FLOW_COPY:
-        return flow_has_behind(s) ? "flow_copy" : NULL;
-    case FLOW_PANES:
-        return !final ? NULL : s->panes == FLOW_GLASS ? "flow_glass" : "flow_mirror";
-    case FLOW_SHOW_STAGE:
-        return final ? NULL : "flow_stage";
-    case FLOW_GLOW_BRIGHT:
-        return glow ? "flow_glow_bright" : NULL;
-    case FLOW_GLOW_BLUR:
-        return glow ? "flow_glow_blur" : NULL;
-    case FLOW_GLOW:
-        return glow ? "flow_glow" : NULL;
-    default:
-        return NULL;
-    }
+    return is_final(i) && settings_of(i)->panes == FLOW_GLASS;
 }
 
-static bool create_passes(struct flow *flow)
+static bool is_mirror(const struct rg_instance *i)
 {
-    for (int i = 0; i < FLOW_PASS_COUNT; i++) {
-        const char *kernel = kernel_of(&flow->settings, (enum flow_pass)i);
-        if (kernel && !(flow->passes[i] = rg_pass_create(flow->base.device, kernel)))
-            return false;
-    }
-    return true;
+    return is_final(i) && settings_of(i)->panes == FLOW_MIRROR;
 }
 
-// --- buffers ---
-
-// A buffer of 4-byte elements with these contents; zeroes where `data` is NULL.
-static struct rg_buf *create_filled(struct rg_device *device, int64_t count, const void *data,
-                                    const char *name)
+// Nothing is seen through mirrors: the sky around them is drawn where it is shown.
+static bool has_sky_around(const struct rg_instance *i)
 {
-    void *zeroes = data ? NULL : rg_alloc((size_t)count, 4, name);
-    const void *contents = data ? data : zeroes;
-    struct rg_buf *buf = contents ? rg_buf_create(device, count * 4, name) : NULL;
-    if (buf && !rg_buf_write(buf, 0, contents, count * 4)) {
-        rg_buf_destroy(buf);
-        buf = NULL;
-    }
-    free(zeroes);
-    return buf;
+    return is_mirror(i) && settings_of(i)->view == FLOW_BOX;
 }
 
-static bool create_map(struct rg_device *device, float *values, int64_t count, const char *name,
-                       struct rg_buf **buf)
+static bool has_model(const struct rg_instance *i)
 {
-    *buf = values ? create_filled(device, count, values, name) : NULL;
-    free(values);
-    return *buf != NULL;
+    const struct flow_settings *s = settings_of(i);
+    return is_glass(i) && s->view == FLOW_BOX && strcmp(s->model, "none") && s->model[0];
 }
+
+static bool has_glow(const struct rg_instance *i)
+{
+    return is_final(i) && settings_of(i)->glow > 0;
+}
+
+static bool reaches_far(const struct rg_instance *i)
+{
+    return settings_of(i)->reach_texels > 2;
+}
+
+static bool runs_on(const struct rg_instance *i)
+{
+    return settings_of(i)->run_on && settings_of(i)->view == FLOW_BOX;
+}
+
+#define AT(field) offsetof(struct flow, field)
+
+static const struct rg_stage stages[FLOW_PASS_COUNT] = {
+    [FLOW_SPLAT] = {"flow_splat", .params = AT(drop)},
+    [FLOW_GIVEN] = {"flow_given", .params = AT(movement), .over = "given"},
+    [FLOW_DRAIN] = {"flow_drain", .params = AT(movement), .over = "arriving"},
+    [FLOW_MOVE] = {"flow_move", .params = AT(movement), .over = "given"},
+    [FLOW_REACH] = {"flow_reach", reaches_far, .params = AT(movement), .over = "given"},
+    [FLOW_ARRIVE] = {"flow_arrive", runs_on, .params = AT(movement), .over = "arriving",
+                     .named = {{"water", "moved"}}},
+    [FLOW_BLUR] = {"flow_blur", .params = AT(movement), .over = "given"},
+    [FLOW_NORMALS] = {"flow_normals", .params = AT(surface), .over = "given"},
+    [FLOW_SKY_BEHIND] = {"flow_sky", is_glass, .params = AT(view), .colour = "behind"},
+    [FLOW_MODEL] = {"flow_model", has_model, .params = AT(model_view), .over = "indices",
+                    .colour = "behind", .depth = "depth", .depth_mode = RG_DEPTH_WRITE,
+                    .cull = RG_CULL_BACK, .named = {{"normals", "model_normals"}}},
+    [FLOW_COPY] = {"flow_copy", is_glass, .params = AT(view), .over = "behind",
+                   .named = {{"target", "canvas"}}},
+    [FLOW_SKY] = {"flow_sky", has_sky_around, .params = AT(view), .colour = "canvas"},
+    [FLOW_FAR_GLASS] = {"flow_glass", is_glass, .params = AT(view), .over = "panes",
+                        .colour = "canvas", .depth = "depth", .depth_mode = RG_DEPTH_TEST,
+                        .blend = RG_BLEND_OVER, .cull = RG_CULL_FRONT},
+    [FLOW_NEAR_GLASS] = {"flow_glass", is_glass, .params = AT(view), .over = "panes",
+                         .colour = "canvas", .blend = RG_BLEND_OVER, .cull = RG_CULL_BACK},
+    [FLOW_MIRRORS] = {"flow_mirror", is_mirror, .params = AT(view), .over = "panes",
+                      .colour = "canvas", .cull = RG_CULL_BACK},
+    [FLOW_SHOW_STAGE] = {"flow_stage", is_stage, .params = AT(view), .over = "panes",
+                         .colour = "target", .cull = RG_CULL_BACK},
+    [FLOW_GLOW_BRIGHT] = {"flow_glow_bright", has_glow, .params = AT(glow), .over = "bright"},
+    [FLOW_GLOW_ACROSS] = {"flow_glow_blur", has_glow, .params = AT(glow_across), .over = "bright",
+                          .named = {{"source", "bright"}}},
+    [FLOW_GLOW_DOWN] = {"flow_glow_blur", has_glow, .params = AT(glow_down), .over = "bright",
+                        .named = {{"source", "spread"}, {"spread", "bright"}}},
+    [FLOW_GLOW] = {"flow_glow", has_glow, .params = AT(glow), .over = "target",
+                   .named = {{"glow", "bright"}}},
+};
+
+// --- maps ---
 
 // The normal map's margin is never written, and reads as flat and dry.
-static bool create_normals(struct flow *flow, int64_t texels)
+static void add_normals(struct flow *flow, int64_t texels)
 {
     uint32_t *flat = rg_alloc((size_t)texels, sizeof(*flat), "normal map");
-    if (!flat)
-        return false;
-    for (int64_t i = 0; i < texels; i++)
+    for (int64_t i = 0; flat && i < texels; i++)
         flat[i] = wet_normal_pack(0, 0, 0);
-    flow->normals = create_filled(flow->base.device, texels, flat, "normal map");
+    flow->base.has_failed |= !flat;
+    rg_add_buf(&flow->base, "normals", texels, flat);
     free(flat);
-    return flow->normals;
 }
 
-static bool create_buffers(struct flow *flow)
+// Maps of all panes, one behind the other.
+static void add_water(struct flow *flow)
 {
-    struct rg_device *device = flow->base.device;
-    const int64_t texels =
-        (int64_t)flow->pane_count * flow_map_length(flow->settings.resolution_px);
-    const int64_t pane_words = sizeof(flow_pane) / 4;
-    return (flow->water = create_filled(device, texels, NULL, "water")) &&
-           (flow->moved = create_filled(device, texels, NULL, "moved water")) &&
-           (flow->given = create_filled(device, texels, NULL, "given water")) &&
-           (flow->arriving = create_filled(device, texels, NULL, "arriving water")) &&
-           (flow->blurred = create_filled(device, texels, NULL, "blurred water")) &&
-           (flow->panes = create_filled(device, FLOW_MAX_PANES * pane_words, NULL, "panes")) &&
-           create_normals(flow, texels) &&
-           (flow->ledger = create_filled(device, FLOW_LEDGER_WORDS, NULL, "ledger"));
+    struct rg_instance *i = &flow->base;
+    const int n = flow->settings.resolution_px, row = n + 2 * FLOW_MARGIN;
+    const int64_t texels = (int64_t)flow->pane_count * flow_map_length(n);
+    flow->water = rg_add_buf(i, "water", texels, NULL);
+    flow->moved = rg_add_buf(i, "moved", texels, NULL);
+    rg_set_items(rg_add_buf(i, "given", texels, NULL), n, n, flow->pane_count);
+    rg_set_items(rg_add_buf(i, "arriving", texels, NULL), n, FLOW_STRIPS, flow->pane_count);
+    rg_add_buf(i, "blurred", texels, NULL);
+    add_normals(flow, texels);
+    flow->panes = rg_add_buf(i, "panes", FLOW_MAX_PANES * (int64_t)sizeof(flow_pane) / 4, NULL);
+    rg_set_items(flow->panes, flow->pane_count, 1, 1);
+    rg_add_state(i, flow->water, "water", true, row, FLOW_MARGIN);
+    rg_add_state(i, rg_add_buf(i, "ledger", FLOW_LEDGER_WORDS, NULL), "ledger", false, 0, 0);
 }
 
-static bool create_maps(struct flow *flow)
+static void add_map(struct flow *flow, const char *name, float *values, int64_t count)
 {
-    float *remainder = flow_remainder_map(&flow->settings);
+    flow->base.has_failed |= !values;
+    rg_add_buf(&flow->base, name, count, values);
+    free(values);
+}
+
+static void add_maps(struct flow *flow)
+{
+    add_map(flow, "remainder", flow_remainder_map(&flow->settings), FLOW_REMAINDER_ENTRIES);
     float *noise = flow_noise_map(&flow->settings, &flow->noise_size);
-    const int64_t noise_texels = (int64_t)flow->noise_size * flow->noise_size;
-    bool ok = create_map(flow->base.device, remainder, FLOW_REMAINDER_ENTRIES, "remainder map",
-                         &flow->remainder);
-    return create_map(flow->base.device, noise, noise_texels, "noise map", &flow->noise) && ok;
+    add_map(flow, "noise", noise, (int64_t)flow->noise_size * flow->noise_size);
 }
 
 // --- images ---
 
-static struct rg_image *create_image(struct flow *flow, enum rg_format format, int width,
-                                     int height, const char *name)
-{
-    return rg_image_create(flow->base.device, &(struct rg_image_desc){format, width, height, 1, 1},
-                           name);
-}
-
-static bool create_glow(struct flow *flow, int width, int height)
-{
-    const int w = (width + FLOW_GLOW_REDUCTION - 1) / FLOW_GLOW_REDUCTION;
-    const int h = (height + FLOW_GLOW_REDUCTION - 1) / FLOW_GLOW_REDUCTION;
-    return (flow->lit = create_image(flow, RG_RGBA16F, width, height, "lit panes")) &&
-           (flow->bright = create_image(flow, RG_RGBA16F, w, h, "bright light")) &&
-           (flow->spread = create_image(flow, RG_RGBA16F, w, h, "spread light"));
-}
-
-static bool create_images(struct flow *flow, int width, int height)
+static void add_environment(struct flow *flow)
 {
     struct rg_environment *environment = rg_environment_load(flow->settings.environment);
-    if (!environment)
-        return false;
-    flow->environment =
-        rg_environment_upload(environment, flow->settings.environment_px,
-                              flow_environment_levels(&flow->settings), flow->base.device);
+    struct rg_image *image =
+        environment
+            ? rg_environment_upload(environment, flow->settings.environment_px,
+                                    flow_environment_levels(&flow->settings), flow->base.device)
+            : NULL;
     rg_environment_destroy(environment);
-    if (!flow->environment ||
-        !(flow->base.target = create_image(flow, RG_RGBA16F, width, height, "target")))
-        return false;
-    if (flow_has_behind(&flow->settings) &&
-        (!(flow->behind = create_image(flow, RG_RGBA16F, width, height, "behind")) ||
-         !(flow->depth = create_image(flow, RG_D32F, width, height, "depth"))))
-        return false;
-    return !flow->passes[FLOW_GLOW] || create_glow(flow, width, height);
+    rg_give_image(&flow->base, "environment", image);
+    rg_tell_texture(&flow->base, "environment", image, 0);
+}
+
+static flow_glow_params glow_of(const struct rg_image_desc *from, int step_x, int step_y,
+                                const struct flow_settings *s)
+{
+    return (flow_glow_params){.threshold = (float)s->glow_threshold,
+                              .strength = (float)s->glow,
+                              .step_x = step_x,
+                              .step_y = step_y,
+                              .last_x = from->width - 1,
+                              .last_y = from->height - 1};
+}
+
+// The image before the glow, and, at a quarter of the size, what is spread.
+static void add_glow(struct flow *flow)
+{
+    const struct rg_image_desc *target = &flow->base.target->desc;
+    const struct rg_image_desc small = {
+        .width = (target->width + FLOW_GLOW_REDUCTION - 1) / FLOW_GLOW_REDUCTION,
+        .height = (target->height + FLOW_GLOW_REDUCTION - 1) / FLOW_GLOW_REDUCTION};
+    rg_add_image(&flow->base, "lit", RG_RGBA16F, target->width, target->height);
+    rg_add_image(&flow->base, "bright", RG_RGBA16F, small.width, small.height);
+    rg_add_image(&flow->base, "spread", RG_RGBA16F, small.width, small.height);
+    flow->glow = glow_of(target, 0, 0, &flow->settings);
+    flow->glow_across = glow_of(&small, 1, 0, &flow->settings);
+    flow->glow_down = glow_of(&small, 0, 1, &flow->settings);
+}
+
+static void add_images(struct flow *flow)
+{
+    struct rg_instance *i = &flow->base;
+    const struct rg_image_desc *target = &i->target->desc;
+    add_environment(flow);
+    if (is_glass(i)) {
+        rg_add_image(i, "behind", RG_RGBA16F, target->width, target->height);
+        rg_add_image(i, "depth", RG_D32F, target->width, target->height);
+    }
+    if (has_glow(i))
+        add_glow(flow);
+    const struct rg_asset *canvas = rg_asset_find(i, has_glow(i) ? "lit" : "target");
+    rg_lend_image(i, "canvas", canvas ? canvas->image : NULL);
 }
 
 // --- the model ---
 
-static void tell(struct flow *flow, const char *name, double number, const char *text)
+static void add_mesh(struct flow *flow, const struct rg_mesh *mesh)
 {
-    struct rg_fact *fact = &flow->base.facts[flow->base.fact_count++];
-    fact->name = name;
-    fact->number = number;
-    snprintf(fact->text, sizeof(fact->text), "%s", text);
-}
-
-static bool upload_model(struct flow *flow, const struct rg_mesh *mesh)
-{
+    struct rg_instance *i = &flow->base;
     uint32_t *normals = rg_mesh_pack_normals(mesh);
-    if (!normals)
-        return false;
-    struct rg_device *device = flow->base.device;
-    const int64_t vertices = mesh->vertex_count, faces = mesh->face_count;
-    flow->positions = create_filled(device, 3 * vertices, mesh->positions, "model's vertices");
-    flow->model_normals = create_filled(device, vertices, normals, "model's normals");
-    flow->indices = create_filled(device, 3 * faces, mesh->indices, "model's faces");
+    i->has_failed |= !normals;
+    rg_add_buf(i, "positions", 3 * (int64_t)mesh->vertex_count, mesh->positions);
+    rg_add_buf(i, "model_normals", mesh->vertex_count, normals);
+    rg_set_items(rg_add_buf(i, "indices", 3 * (int64_t)mesh->face_count, mesh->indices),
+                 mesh->face_count, 1, 1);
     free(normals);
     flow->model_faces = mesh->face_count;
     memcpy(flow->model_low, mesh->low, sizeof(mesh->low));
     memcpy(flow->model_high, mesh->high, sizeof(mesh->high));
-    return flow->positions && flow->model_normals && flow->indices;
 }
 
-static bool create_model(struct flow *flow)
+static void add_model(struct flow *flow)
 {
-    if (!flow->passes[FLOW_MODEL]) {
-        const int corners_a_pane = 4;
-        tell(flow, "vertices", flow->pane_count * corners_a_pane, "");
-        tell(flow, "faces", flow->pane_count, "");
-        return true;
+    struct rg_instance *i = &flow->base;
+    const int corners_a_pane = 4;
+    if (!has_model(i)) {
+        rg_tell(i, "vertices", flow->pane_count * corners_a_pane);
+        rg_tell(i, "faces", flow->pane_count);
+        return;
     }
     struct rg_mesh *mesh = rg_mesh_load_faces(flow->settings.model, flow->settings.model_faces);
+    i->has_failed |= !mesh;
     if (!mesh)
-        return false;
-    char text[RG_FACT_SIZE];
-    snprintf(text, sizeof(text), "%s, XXH3 %016" PRIx64, mesh->name, mesh->hash);
-    tell(flow, "model", 0, text);
-    tell(flow, "vertices", mesh->vertex_count, "");
-    tell(flow, "faces", mesh->face_count, "");
-    const bool ok = upload_model(flow, mesh);
+        return;
+    rg_tell_text(i, "model", "%s, XXH3 %016" PRIx64, mesh->name, mesh->hash);
+    rg_tell(i, "vertices", mesh->vertex_count);
+    rg_tell(i, "faces", mesh->face_count);
+    add_mesh(flow, mesh);
     rg_mesh_destroy(mesh);
-    return ok;
 }
 
 // --- opening ---
 
-void flow_show_state(struct flow *flow)
+bool flow_open(struct rg_instance *instance)
 {
-    flow->base.state_count = FLOW_STATE_COUNT;
-    flow->base.state[FLOW_STATE_WATER] = (struct rg_state){
-        .name = "water",
-        .buf = flow->water,
-        .is_float = true,
-        .row = flow->settings.resolution_px + 2 * FLOW_MARGIN,
-        .margin = FLOW_MARGIN,
-    };
-    flow->base.state[FLOW_STATE_LEDGER] = (struct rg_state){.name = "ledger", .buf = flow->ledger};
-}
-
-struct rg_instance *flow_open(struct rg_device *device, const void *settings, int width, int height)
-{
-    struct flow *flow = rg_alloc(1, sizeof(*flow), "flow");
-    if (!flow)
-        return NULL;
-    flow->base.technique = rg_technique_find("flow");
-    flow->base.device = device;
-    flow->settings = *(const struct flow_settings *)settings;
-    flow->settings.resolution_px = flow_texels(&flow->settings, height);
-    flow->pane_count = flow_pane_count(&flow->settings);
-    flow->base.counter_count = has_model(&flow->settings) ? FLOW_COUNTER_COUNT : FLOW_TRIANGLES;
-    for (int i = 0; i < FLOW_COUNTER_COUNT; i++)
-        flow->base.counters[i].name = counter_names[i];
-    if (!create_passes(flow) || !create_buffers(flow) || !create_maps(flow) ||
-        !create_images(flow, width, height) || !create_model(flow) ||
-        !flow_land(flow, -1, flow->settings.drops)) {
-        flow_close(&flow->base);
-        return NULL;
-    }
-    flow->base.texture_count = 1;
-    flow->base.textures[0] = (struct rg_texture){"environment", flow->environment, 0};
-    flow_show_state(flow);
-    return &flow->base;
+    struct flow *flow = (struct flow *)instance;
+    const struct flow_settings *s = &flow->settings;
+    flow->settings.resolution_px = flow_texels(s, instance->target->desc.height);
+    flow->pane_count = flow_pane_count(s);
+    rg_add_counters(instance, counter_names,
+                    has_model(instance) ? FLOW_COUNTER_COUNT : FLOW_TRIANGLES);
+    add_water(flow);
+    add_maps(flow);
+    add_images(flow);
+    add_model(flow);
+    if (rg_open_stages(instance, stages, FLOW_PASS_COUNT, flow, NULL) < 0)
+        return false;
+    if (s->model_sides == FLOW_BOTH_SIDES)
+        instance->stages[FLOW_MODEL].row.cull = RG_CULL_NONE;
+    return flow_land(flow, -1, s->drops);
 }

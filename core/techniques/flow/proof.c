@@ -21,10 +21,12 @@ static bool read_state(const struct rg_instance *instance, struct reading *r)
 {
     const struct rg_state *water = &instance->state[FLOW_STATE_WATER];
     r->row = water->row;
-    r->length = (int64_t)(water->buf->size / sizeof(*r->water));
-    r->water = rg_alloc(1, water->buf->size, water->name);
-    return r->water && rg_buf_read(water->buf, 0, r->water, (int64_t)water->buf->size) &&
-           rg_buf_read(instance->state[FLOW_STATE_LEDGER].buf, 0, r->ledger, sizeof(r->ledger));
+    r->length = (int64_t)(water->asset->buf->size / sizeof(*r->water));
+    r->water = rg_alloc(1, water->asset->buf->size, water->name);
+    return r->water &&
+           rg_buf_read(water->asset->buf, 0, r->water, (int64_t)water->asset->buf->size) &&
+           rg_buf_read(instance->state[FLOW_STATE_LEDGER].asset->buf, 0, r->ledger,
+                       sizeof(r->ledger));
 }
 
 // Every texel holds a whole number of droplets, and none in the margin.

@@ -32,11 +32,11 @@ static bool drops_lie_evenly(const struct rg_instance *instance, char *detail, s
 {
     if (!instance->state_count)
         return true; // another scene
-    const struct rg_buf *buf = instance->state[0].buf;
+    const struct rg_buf *buf = instance->state[0].asset->buf;
     const int count = instance->state[0].row;
     float *drops = rg_alloc(1, buf->size, "drops");
     bool holds = false;
-    if (!drops || !rg_buf_read(instance->state[0].buf, 0, drops, (int64_t)buf->size))
+    if (!drops || !rg_buf_read(instance->state[0].asset->buf, 0, drops, (int64_t)buf->size))
         snprintf(detail, size, "%s", rg_last_error());
     else
         holds = axis_is_even(drops, count, "x", detail, size) &&

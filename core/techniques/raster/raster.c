@@ -1,14 +1,12 @@
 // raster: drawing itself as the thing measured, so that rasterisers can be compared: rain as
 // billboards, a model, a million tiny triangles, panes of all sizes. Programs are in
-// kernels/raster_*.h, what the host computes in shapes.c and view.c, and
-// docs/raster.md explains.
+// kernels/raster/, what the host computes in meshes.c and view.c, and docs/raster.md explains.
 #include "core/techniques/raster/raster.h"
 
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/alloc.h"
-#include "core/base/log.h"
 #include "core/techniques/technique.h"
 
 // What a scene is drawn with, and how where the settings leave it to the scene.
@@ -28,178 +26,102 @@ enum raster_counter { ITEMS, ITEMS_SEEN, SAMPLES, COUNTER_COUNT };
 
 static const char *const counter_names[COUNTER_COUNT] = {"items", "items_seen", "samples"};
 
-enum { MAX_SLOTS = 3 };
+enum raster_pass { SCATTER, DRAW, COUNT, SHOW, PASS_COUNT };
 
 struct raster {
     struct rg_instance base;
     struct raster_settings settings;
     int item_count, drawn_items; // of the scene, and those that the share leaves
-    struct raster_shape shape;   // its bounds; the arrays are on the device
-    struct rg_pass *program, *show;
-    struct rg_buf *slots[MAX_SLOTS]; // what the program reads, from slot 1 on
-    struct rg_image *colour;         // drawn to: the target, or one of another format
-    struct rg_image *depth;
-    // where items are counted
-    struct rg_image *counted;
-    struct rg_buf *samples;
-    uint32_t *counts;
+    struct raster_mesh mesh;     // its bounds; the arrays are on the device
+    struct rg_image *colour;     // drawn to: the target, or one of another format
+    uint32_t *counts;            // samples an item, where they are counted
+    // Of the present frame, for its stages.
+    raster_drops_params drops;
+    raster_show_params show;
+    union {
+        raster_streaks_params streaks;
+        raster_mesh_params mesh;
+        raster_quads_params quads;
+    } view;
 };
 
-static void raster_destroy(struct rg_instance *instance)
+static void raster_close(struct rg_instance *instance)
 {
     struct raster *r = (struct raster *)instance;
-    rg_pass_destroy(r->program);
-    rg_pass_destroy(r->show);
-    for (int i = 0; i < MAX_SLOTS; i++)
-        rg_buf_destroy(r->slots[i]);
-    rg_buf_destroy(r->samples);
-    if (r->colour != r->base.target)
-        rg_image_destroy(r->colour);
-    rg_image_destroy(r->base.target);
-    rg_image_destroy(r->depth);
-    rg_image_destroy(r->counted);
-    raster_shape_free(&r->shape);
+    raster_mesh_free(&r->mesh);
     free(r->counts);
-    free(r);
 }
 
 // --- opening ---
 
-static bool upload(struct raster *r, int slot, const void *data, int64_t words, const char *name)
+static void add_mesh(struct raster *r)
 {
-    struct rg_buf *buf = r->slots[slot - 1] = rg_buf_create(r->base.device, words * 4, name);
-    return buf && (!data || rg_buf_write(buf, 0, data, words * 4));
-}
-
-static bool create_mesh(struct raster *r)
-{
-    struct raster_shape *shape = &r->shape;
+    struct rg_instance *i = &r->base;
+    struct raster_mesh *mesh = &r->mesh;
     const bool ok = r->settings.scene == RASTER_MESH
-                        ? raster_shape_load(&r->settings, shape)
-                        : raster_shape_knot(r->settings.triangles, shape);
-    r->item_count = shape->face_count;
-    return ok && upload(r, 1, shape->positions, 3 * (int64_t)shape->vertex_count, "positions") &&
-           upload(r, 2, shape->normals, shape->vertex_count, "normals") &&
-           upload(r, 3, shape->indices, 3 * (int64_t)shape->face_count, "indices");
+                        ? raster_mesh_load(&r->settings, mesh)
+                        : raster_mesh_knot(r->settings.triangles, mesh);
+    i->has_failed |= !ok;
+    r->item_count = mesh->face_count;
+    rg_add_buf(i, "positions", 3 * (int64_t)mesh->vertex_count, mesh->positions);
+    rg_add_buf(i, "normals", mesh->vertex_count, mesh->normals);
+    rg_add_buf(i, "indices", 3 * (int64_t)mesh->face_count, mesh->indices);
 }
 
-static bool create_quads(struct raster *r)
+static void add_quads(struct raster *r)
 {
     float *quads = raster_quads_make(&r->settings);
+    r->base.has_failed |= !quads;
     r->item_count = r->settings.quads;
-    const bool ok =
-        quads && upload(r, 1, quads, (int64_t)r->item_count * RASTER_QUAD_WORDS, "quads");
+    rg_add_buf(&r->base, "quads", (int64_t)r->item_count * RASTER_QUAD_WORDS, quads);
     free(quads);
-    return ok;
 }
 
-static bool create_drops(struct raster *r)
+// The scattering of drops writes them.
+static void add_drops(struct raster *r)
 {
-    const raster_drops_params p = {.count = r->settings.billboards, .seed = r->settings.seed};
-    r->item_count = p.count;
-    if (!upload(r, 1, NULL, 3 * (int64_t)p.count, "drops"))
-        return false;
-    struct rg_pass *scatter = rg_pass_create(r->base.device, "raster_drops");
-    const bool ok =
-        scatter && rg_pass_run(scatter, &(struct rg_run){.params = &p,
-                                                         .slots = {[1].buf = r->slots[0]},
-                                                         .extent = {p.count, 1, 1}});
-    rg_pass_destroy(scatter);
-    return ok;
+    r->drops = (raster_drops_params){.count = r->settings.billboards, .seed = r->settings.seed};
+    r->item_count = r->drops.count;
+    struct rg_asset *drops = rg_add_room(&r->base, "drops", 3 * (int64_t)r->item_count);
+    rg_set_items(drops, r->item_count, 1, 1);
+    rg_add_state(&r->base, drops, "drops", true, r->item_count, 0);
 }
 
-static bool create_scene(struct raster *r)
+static void add_scene(struct raster *r)
 {
     const int scene = r->settings.scene;
-    r->program = rg_pass_create(r->base.device, scenes[scene].program);
-    const bool ok = r->program && (scene == RASTER_BILLBOARDS ? create_drops(r)
-                                   : scene == RASTER_QUADS    ? create_quads(r)
-                                                              : create_mesh(r));
+    if (scene == RASTER_BILLBOARDS)
+        add_drops(r);
+    else if (scene == RASTER_QUADS)
+        add_quads(r);
+    else
+        add_mesh(r);
     r->drawn_items = (int)(r->item_count * r->settings.share + 0.5);
-    return ok;
 }
 
-static struct rg_image *create_image(struct raster *r, enum rg_format format, int width, int height,
-                                     const char *name)
+static void add_targets(struct raster *r)
 {
-    return rg_image_create(r->base.device, &(struct rg_image_desc){format, width, height, 1, 1},
-                           name);
+    static const enum rg_format formats[] = {
+        [RASTER_RGBA16F] = RG_RGBA16F, [RASTER_RGBA8] = RG_RGBA8, [RASTER_RGBA32F] = RG_RGBA32F};
+    struct rg_instance *i = &r->base;
+    const struct rg_image_desc *target = &i->target->desc;
+    const enum rg_format format = formats[r->settings.format];
+    rg_add_image(i, "depth", RG_D32F, target->width, target->height);
+    const struct rg_asset *drawn =
+        format == RG_RGBA16F ? rg_lend_image(i, "drawn", i->target)
+                             : rg_add_image(i, "drawn", format, target->width, target->height);
+    r->colour = drawn ? drawn->image : NULL;
 }
 
-static bool create_targets(struct raster *r, int width, int height)
+static void add_counting(struct raster *r)
 {
-    const int format = r->settings.format;
-    if (!(r->base.target = create_image(r, RG_RGBA16F, width, height, "target")) ||
-        !(r->depth = create_image(r, RG_D32F, width, height, "depth")))
-        return false;
-    r->colour = r->base.target;
-    if (format == RASTER_RGBA16F)
-        return true;
-    const bool is_8 = format == RASTER_RGBA8;
-    r->colour = create_image(r, is_8 ? RG_RGBA8 : RG_RGBA32F, width, height, "drawing");
-    r->show = rg_pass_create(r->base.device, is_8 ? "raster_show_rgba8" : "raster_show_rgba32f");
-    return r->colour && r->show;
-}
-
-static bool create_counting(struct raster *r, int width, int height)
-{
+    const struct rg_image_desc *target = &r->base.target->desc;
     if (!r->settings.count)
-        return true;
-    return (r->counted = create_image(r, RG_D32F, width, height, "counted")) &&
-           (r->samples = rg_buf_create(r->base.device, (int64_t)r->item_count * 4, "samples")) &&
-           (r->counts = rg_alloc((size_t)r->item_count, sizeof(*r->counts), "samples"));
-}
-
-static void show_facts(struct raster *r)
-{
-    struct rg_fact *facts = r->base.facts;
-    if (!r->shape.face_count)
         return;
-    facts[0] = (struct rg_fact){.name = "model"};
-    snprintf(facts[0].text, RG_FACT_SIZE, "%.*s", RG_FACT_SIZE - 1, r->shape.name);
-    facts[1] = (struct rg_fact){.name = "faces", .number = r->shape.face_count};
-    facts[2] = (struct rg_fact){.name = "model_hash"};
-    snprintf(facts[2].text, RG_FACT_SIZE, "%016llx", (unsigned long long)r->shape.hash);
-    r->base.fact_count = r->shape.hash ? 3 : 2;
-}
-
-static void show_state(struct raster *r)
-{
-    r->base.counter_count = r->settings.count ? COUNTER_COUNT : ITEMS + 1;
-    for (int i = 0; i < COUNTER_COUNT; i++)
-        r->base.counters[i].name = counter_names[i];
-    if (r->settings.scene != RASTER_BILLBOARDS)
-        return;
-    r->base.state_count = 1;
-    r->base.state[0] = (struct rg_state){
-        .name = "drops", .buf = r->slots[0], .is_float = true, .row = r->item_count};
-}
-
-static struct rg_instance *raster_create(struct rg_device *device, const void *settings, int width,
-                                         int height)
-{
-    struct raster *r = rg_alloc(1, sizeof(*r), "raster");
-    if (!r)
-        return NULL;
-    r->base.technique = rg_technique_find("raster");
-    r->base.device = device;
-    r->settings = *(const struct raster_settings *)settings;
-    if (!create_scene(r) || !create_targets(r, width, height) ||
-        !create_counting(r, width, height)) {
-        raster_destroy(&r->base);
-        return NULL;
-    }
-    show_facts(r);
-    show_state(r);
-    return &r->base;
-}
-
-// --- a frame ---
-
-static bool raster_step(struct rg_instance *instance)
-{
-    instance->frame++;
-    return true;
+    rg_add_image(&r->base, "counted", RG_D32F, target->width, target->height);
+    rg_add_room(&r->base, "samples", r->item_count);
+    r->counts = rg_alloc((size_t)r->item_count, sizeof(*r->counts), "samples");
+    r->base.has_failed |= !r->counts;
 }
 
 // A value that the settings may leave to the scene: 0 does, 1 is the first of the enum.
@@ -208,20 +130,60 @@ static int choose(int setting, int of_scene)
     return setting ? setting - 1 : of_scene;
 }
 
-static struct rg_draw draw_of(const struct raster *r)
+#define AT(field) offsetof(struct raster, field)
+
+static bool open_stages(struct raster *r)
 {
     const struct raster_settings *s = &r->settings;
     const struct scene *scene = &scenes[s->scene];
     const bool looks_out = scene->cull == RG_CULL_BACK && s->inside;
-    struct rg_draw draw = {
-        .colour = r->colour,
-        .blend = (enum rg_blend)choose(s->blend, (int)scene->blend),
-        .depth_mode = (enum rg_depth_mode)choose(s->depth, (int)scene->depth),
-        .cull = (enum rg_cull)choose(s->cull, looks_out ? RG_CULL_FRONT : (int)scene->cull),
+    const enum rg_cull cull =
+        (enum rg_cull)choose(s->cull, looks_out ? RG_CULL_FRONT : (int)scene->cull);
+    const enum rg_depth_mode depth = (enum rg_depth_mode)choose(s->depth, (int)scene->depth);
+    const struct rg_stage stages[PASS_COUNT] = {
+        [SCATTER] = {s->scene == RASTER_BILLBOARDS ? "raster_drops" : NULL, .params = AT(drops),
+                     .over = "drops"},
+        [DRAW] = {scene->program, .params = AT(view), .colour = "drawn",
+                  .depth = depth == RG_DEPTH_OFF ? NULL : "depth", .depth_mode = depth,
+                  .blend = (enum rg_blend)choose(s->blend, (int)scene->blend), .cull = cull},
+        // Once more, into a depth that nothing is tested against.
+        [COUNT] = {s->count ? scene->program : NULL, .params = AT(view), .depth = "counted",
+                   .samples = "samples", .cull = cull},
+        [SHOW] = {s->format == RASTER_RGBA8     ? "raster_show_rgba8"
+                  : s->format == RASTER_RGBA32F ? "raster_show_rgba32f"
+                                                : NULL,
+                  .params = AT(show), .over = "target"},
     };
-    if (draw.depth_mode != RG_DEPTH_OFF)
-        draw.depth = r->depth;
-    return draw;
+    return rg_open_stages(&r->base, stages, PASS_COUNT, r, NULL) >= 0;
+}
+
+static void tell_facts(struct raster *r)
+{
+    if (!r->mesh.face_count)
+        return;
+    rg_tell_text(&r->base, "model", "%.*s", RG_FACT_SIZE - 1, r->mesh.name);
+    rg_tell(&r->base, "faces", r->mesh.face_count);
+    if (r->mesh.hash)
+        rg_tell_text(&r->base, "model_hash", "%016llx", (unsigned long long)r->mesh.hash);
+}
+
+static bool raster_open(struct rg_instance *instance)
+{
+    struct raster *r = (struct raster *)instance;
+    add_scene(r);
+    add_targets(r);
+    add_counting(r);
+    tell_facts(r);
+    rg_add_counters(instance, counter_names, r->settings.count ? COUNTER_COUNT : ITEMS + 1);
+    return open_stages(r) && rg_stage(instance, SCATTER);
+}
+
+// --- a frame ---
+
+static bool raster_step(struct rg_instance *instance)
+{
+    instance->frame++;
+    return true;
 }
 
 static bool clear(struct raster *r)
@@ -233,48 +195,37 @@ static bool clear(struct raster *r)
     const void *texel = r->settings.format == RASTER_RGBA32F ? (const void *)background
                         : r->settings.format == RASTER_RGBA8 ? (const void *)codes
                                                              : (const void *)halves;
-    return rg_image_clear(r->colour, texel) && rg_image_clear(r->depth, &farthest);
+    return rg_image_clear(r->colour, texel) &&
+           rg_image_clear(rg_asset_find(&r->base, "depth")->image, &farthest);
 }
 
-// All parameters that a program may have.
-union params {
-    raster_streaks_params streaks;
-    raster_mesh_params mesh;
-    raster_quads_params quads;
-};
-
-static bool fill_params(const struct raster *r, union params *p)
+static bool look(struct raster *r)
 {
     const struct raster_settings *s = &r->settings;
     const int width = r->base.target->desc.width, height = r->base.target->desc.height;
     if (s->scene == RASTER_BILLBOARDS)
-        p->streaks = raster_streaks_at(s, width, height, r->base.frame);
+        r->view.streaks = raster_streaks_at(s, width, height, r->base.frame);
     else if (s->scene == RASTER_QUADS)
-        p->quads = raster_quads_at(s, width, height, r->base.frame);
+        r->view.quads = raster_quads_at(s, width, height, r->base.frame);
     else
-        return raster_mesh_at(s, &r->shape, width, height, r->base.frame, &p->mesh);
+        return raster_mesh_at(s, &r->mesh, width, height, r->base.frame, &r->view.mesh);
     return true;
 }
 
-static bool draw_items(struct raster *r, const struct rg_draw *draw)
+static bool draw_items(struct raster *r, enum raster_pass pass)
 {
-    union params params;
-    if (!fill_params(r, &params))
-        return false;
-    struct rg_run run = {.params = &params, .extent = {r->drawn_items, 1, 1}, .draw = draw};
-    for (int i = 0; i < MAX_SLOTS; i++)
-        run.slots[i + 1].buf = r->slots[i];
-    return !r->drawn_items || rg_instance_run(&r->base, r->program, &run);
+    const struct rg_draw draw = rg_stage_draw(&r->base, pass);
+    return !r->drawn_items || rg_stage_onto(&r->base, pass, r->drawn_items, &draw);
 }
 
-// Draws once more, into a depth that nothing is tested against, and reads what each item covers.
+// Draws once more, and reads what each item covers.
 static bool count_items(struct raster *r)
 {
     const int64_t bytes = (int64_t)r->item_count * 4;
-    struct rg_draw draw = {.depth = r->counted, .cull = draw_of(r).cull, .samples = r->samples};
+    struct rg_buf *samples = rg_asset_find(&r->base, "samples")->buf;
     memset(r->counts, 0, (size_t)bytes);
-    if (!rg_buf_write(r->samples, 0, r->counts, bytes) || !draw_items(r, &draw) ||
-        !rg_buf_read(r->samples, 0, r->counts, bytes))
+    if (!rg_buf_write(samples, 0, r->counts, bytes) || !draw_items(r, COUNT) ||
+        !rg_buf_read(samples, 0, r->counts, bytes))
         return false;
     for (int i = 0; i < r->item_count; i++) {
         r->base.counters[ITEMS_SEEN].value += r->counts[i] > 0;
@@ -283,24 +234,12 @@ static bool count_items(struct raster *r)
     return true;
 }
 
-static bool show(struct raster *r)
-{
-    const raster_show_params p = {.layer = 0};
-    const struct rg_image_desc *desc = &r->base.target->desc;
-    return !r->show ||
-           rg_instance_run(
-               &r->base, r->show,
-               &(struct rg_run){.params = &p,
-                                .slots = {[1].image = r->colour, [2].image = r->base.target},
-                                .extent = {desc->width, desc->height, 1}});
-}
-
 static bool raster_draw(struct rg_instance *instance)
 {
     struct raster *r = (struct raster *)instance;
-    const struct rg_draw draw = draw_of(r);
     instance->counters[ITEMS].value += r->drawn_items;
-    return clear(r) && draw_items(r, &draw) && (!r->settings.count || count_items(r)) && show(r);
+    return clear(r) && look(r) && draw_items(r, DRAW) && (!r->settings.count || count_items(r)) &&
+           rg_stage(instance, SHOW);
 }
 
 const struct rg_technique rg_technique_raster = {
@@ -309,8 +248,10 @@ const struct rg_technique rg_technique_raster = {
     .about = "drawing itself: rain as billboards, models, a million triangles, overlapping panes",
     .params = &raster_param_table,
     .proof = &raster_proof,
-    .create = raster_create,
-    .destroy = raster_destroy,
+    .size = sizeof(struct raster),
+    .settings = offsetof(struct raster, settings),
+    .open = raster_open,
+    .close = raster_close,
     .step = raster_step,
     .draw = raster_draw,
 };

@@ -36,7 +36,7 @@ extern const struct rg_param_table raster_param_table;
 extern const struct rg_proof raster_proof;
 
 // A mesh as raster_mesh draws it.
-struct raster_shape {
+struct raster_mesh {
     int vertex_count, face_count;
     float *positions;      // x, y, z a vertex
     uint32_t *normals;     // mesh_normal_pack
@@ -48,10 +48,10 @@ struct raster_shape {
 };
 
 // The settings' model; or the knot, a closed tube of `triangles` faces, rounded down to whole
-// rings. raster_shape_free in either case. False, with one logged line, on failure.
-bool raster_shape_load(const struct raster_settings *settings, struct raster_shape *shape);
-bool raster_shape_knot(int triangles, struct raster_shape *shape);
-void raster_shape_free(struct raster_shape *shape);
+// rings. raster_mesh_free in either case. False, with one logged line, on failure.
+bool raster_mesh_load(const struct raster_settings *settings, struct raster_mesh *shape);
+bool raster_mesh_knot(int triangles, struct raster_mesh *shape);
+void raster_mesh_free(struct raster_mesh *shape);
 
 // The quads' buffer, RASTER_QUAD_WORDS floats each; the caller frees it.
 float *raster_quads_make(const struct raster_settings *settings);
@@ -60,7 +60,7 @@ float *raster_quads_make(const struct raster_settings *settings);
 // logged line, where the camera cannot see.
 raster_streaks_params raster_streaks_at(const struct raster_settings *settings, int width,
                                         int height, int64_t frame);
-bool raster_mesh_at(const struct raster_settings *settings, const struct raster_shape *shape,
+bool raster_mesh_at(const struct raster_settings *settings, const struct raster_mesh *shape,
                     int width, int height, int64_t frame, raster_mesh_params *params);
 raster_quads_params raster_quads_at(const struct raster_settings *settings, int width, int height,
                                     int64_t frame);

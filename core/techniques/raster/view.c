@@ -73,7 +73,7 @@ static void direction_of(int view, double direction[3])
         direction[i] = corner[i] / length;
 }
 
-static struct rg_camera camera_of(const struct raster_settings *s, const struct raster_shape *shape,
+static struct rg_camera camera_of(const struct raster_settings *s, const struct raster_mesh *shape,
                                   int width, int height)
 {
     const double angle_deg = s->inside ? 90 : 30;
@@ -111,7 +111,7 @@ static void light(const float view[16], raster_mesh_params *p)
     p->light_z = (float)(own[2] / length);
 }
 
-bool raster_mesh_at(const struct raster_settings *s, const struct raster_shape *shape, int width,
+bool raster_mesh_at(const struct raster_settings *s, const struct raster_mesh *shape, int width,
                     int height, int64_t frame, raster_mesh_params *p)
 {
     const struct rg_camera camera = camera_of(s, shape, width, height);

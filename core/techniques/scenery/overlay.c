@@ -6,56 +6,60 @@
 #include "core/base/alloc.h"
 #include "kernels/scenery/overlay/lines_params.h"
 
-// Items of one program, on the host and on the device.
+enum overlay_pass { SHEETS, LINES, INSET, PASS_COUNT };
+
+// Items of one stage, on the host and on the device.
 struct items {
-    const char *kernel, *name;
+    const char *name;
     int words; // an item
-    struct rg_pass *pass;
-    struct rg_buf *buf;
+    struct rg_asset *asset;
     float *list;
-    int count, room, buf_room; // items
-    bool full;                 // there was no memory
+    int count, room; // items
+    bool full;       // there was no memory
 };
 
 struct scenery_overlay {
-    struct rg_device *device;
+    struct rg_instance *instance;
+    int first_stage;
     struct items sheets, lines;
-    struct rg_pass *inset;
+    struct rg_asset *map; // of the inset
+    scenery_lines_params view;
+    scenery_inset_params inset;
 };
 
-struct scenery_overlay *scenery_overlay_open(struct rg_device *device)
+#define AT(field) offsetof(struct scenery_overlay, field)
+
+struct scenery_overlay *scenery_overlay_open(struct rg_instance *instance)
 {
+    static const struct rg_stage stages[PASS_COUNT] = {
+        [SHEETS] = {"streaks_sheets", .params = AT(view)},
+        [LINES] = {"streaks_lines", .params = AT(view)},
+        [INSET] = {"streaks_inset", .params = AT(inset)},
+    };
     struct scenery_overlay *overlay = rg_alloc(1, sizeof(*overlay), "overlay");
     if (!overlay)
         return NULL;
-    overlay->device = device;
-    overlay->sheets = (struct items){
-        .kernel = "streaks_sheets", .name = "overlay's sheets", .words = SCENERY_SHEET_WORDS};
-    overlay->lines = (struct items){
-        .kernel = "streaks_lines", .name = "overlay's lines", .words = SCENERY_LINE_WORDS};
-    if (!(overlay->sheets.pass = rg_pass_create(device, overlay->sheets.kernel)) ||
-        !(overlay->lines.pass = rg_pass_create(device, overlay->lines.kernel)) ||
-        !(overlay->inset = rg_pass_create(device, "streaks_inset"))) {
-        scenery_overlay_close(overlay);
-        return NULL;
-    }
-    return overlay;
-}
-
-static void free_items(struct items *items)
-{
-    rg_pass_destroy(items->pass);
-    rg_buf_destroy(items->buf);
-    free(items->list);
+    overlay->instance = instance;
+    overlay->sheets = (struct items){.name = "overlay's sheets",
+                                     .words = SCENERY_SHEET_WORDS,
+                                     .asset = rg_lend_buf(instance, "overlay.sheets", NULL)};
+    overlay->lines = (struct items){.name = "overlay's lines",
+                                    .words = SCENERY_LINE_WORDS,
+                                    .asset = rg_lend_buf(instance, "overlay.lines", NULL)};
+    overlay->map = rg_lend_image(instance, "overlay.map", NULL);
+    overlay->first_stage = rg_open_stages(instance, stages, PASS_COUNT, overlay, "overlay");
+    if (overlay->first_stage >= 0)
+        return overlay;
+    scenery_overlay_close(overlay);
+    return NULL;
 }
 
 void scenery_overlay_close(struct scenery_overlay *overlay)
 {
     if (!overlay)
         return;
-    free_items(&overlay->sheets);
-    free_items(&overlay->lines);
-    rg_pass_destroy(overlay->inset);
+    free(overlay->sheets.list);
+    free(overlay->lines.list);
     free(overlay);
 }
 
@@ -127,56 +131,43 @@ void scenery_overlay_sheet(struct scenery_overlay *overlay, float corners[4][3],
 
 // --- drawing ---
 
-static bool upload(struct items *items, struct rg_device *device)
+static bool upload(struct items *items, struct rg_instance *instance)
 {
-    const int64_t item_bytes = (int64_t)items->words * 4;
     if (items->full)
         return rg_error("%s: no memory for more than %d; show less", items->name, items->room);
-    if (items->buf_room < items->count) {
-        rg_buf_destroy(items->buf);
-        items->buf_room = items->room;
-        items->buf = rg_buf_create(device, items->room * item_bytes, items->name);
-    }
-    return items->buf && rg_buf_write(items->buf, 0, items->list, items->count * item_bytes);
+    return rg_make_room(instance, items->asset, (int64_t)items->room * items->words) &&
+           rg_buf_write(items->asset->buf, 0, items->list,
+                        (int64_t)items->count * items->words * 4);
 }
 
-static bool draw_items(struct items *items, struct rg_instance *instance,
-                       const scenery_lines_params *params, const struct rg_draw *draw)
+static bool draw_items(struct scenery_overlay *overlay, struct items *items, enum overlay_pass pass,
+                       const struct rg_draw *draw)
 {
     if (!items->count && !items->full)
         return true;
-    if (!upload(items, items->pass->device)) {
-        items->buf_room = items->buf ? items->buf_room : 0;
-        return false;
-    }
-    return rg_instance_run(instance, items->pass,
-                           &(struct rg_run){.params = params,
-                                            .slots = {[1].buf = items->buf},
-                                            .extent = {items->count, 1, 1},
-                                            .draw = draw});
+    return upload(items, overlay->instance) &&
+           rg_stage_onto(overlay->instance, overlay->first_stage + (int)pass, items->count, draw);
 }
 
-bool scenery_overlay_draw(struct scenery_overlay *overlay, struct rg_instance *instance,
-                          const float to_clip[16], struct rg_image *colour, struct rg_image *depth)
+bool scenery_overlay_draw(struct scenery_overlay *overlay, const float to_clip[16],
+                          struct rg_image *colour, struct rg_image *depth)
 {
     const struct rg_draw draw = {.colour = colour,
                                  .depth = depth,
                                  .blend = RG_BLEND_OVER,
                                  .depth_mode = depth ? RG_DEPTH_TEST : RG_DEPTH_OFF};
-    scenery_lines_params params;
-    memcpy(&params.to_clip, to_clip, sizeof(params.to_clip));
-    return draw_items(&overlay->sheets, instance, &params, &draw) &&
-           draw_items(&overlay->lines, instance, &params, &draw);
+    memcpy(&overlay->view.to_clip, to_clip, sizeof(overlay->view.to_clip));
+    return draw_items(overlay, &overlay->sheets, SHEETS, &draw) &&
+           draw_items(overlay, &overlay->lines, LINES, &draw);
 }
 
-bool scenery_overlay_inset(struct scenery_overlay *overlay, struct rg_instance *instance,
-                           const scenery_inset_params *inset, struct rg_image *map,
-                           struct rg_image *colour)
+bool scenery_overlay_inset(struct scenery_overlay *overlay, const scenery_inset_params *inset,
+                           struct rg_image *map, struct rg_image *colour)
 {
-    const struct rg_draw draw = {
-        .colour = colour, .x0 = inset->x0, .y0 = inset->y0, .x1 = inset->x1, .y1 = inset->y1};
-    return rg_instance_run(
-        instance, overlay->inset,
-        &(struct rg_run){
-            .params = inset, .slots = {[1].image = map}, .extent = {1, 1, 1}, .draw = &draw});
+    overlay->inset = *inset;
+    overlay->map->image = map;
+    return rg_stage_onto(
+        overlay->instance, overlay->first_stage + INSET, 1,
+        &(struct rg_draw){
+            .colour = colour, .x0 = inset->x0, .y0 = inset->y0, .x1 = inset->x1, .y1 = inset->y1});
 }

@@ -18,8 +18,9 @@ struct scenery_ink {
     float width_px;
 };
 
-// NULL, and one logged line, on failure.
-struct scenery_overlay *scenery_overlay_open(struct rg_device *device);
+// Adds the overlay's assets and stages to an instance. NULL, and one logged line, on failure. To be
+// closed before the instance's assets go.
+struct scenery_overlay *scenery_overlay_open(struct rg_instance *instance);
 void scenery_overlay_close(struct scenery_overlay *overlay);
 
 // Begins anew. What is added then is kept until the next call. Without memory for it the next
@@ -45,11 +46,10 @@ void scenery_overlay_light(struct scenery_overlay *overlay, const scenery_light 
 
 // Draws sheets, then lines, over a colour target, with a matrix from the world to clip space.
 // `depth`: what hides them; NULL: nothing does.
-bool scenery_overlay_draw(struct scenery_overlay *overlay, struct rg_instance *instance,
-                          const float to_clip[16], struct rg_image *colour, struct rg_image *depth);
+bool scenery_overlay_draw(struct scenery_overlay *overlay, const float to_clip[16],
+                          struct rg_image *colour, struct rg_image *depth);
 // Draws a map into the pixels that `inset` names, which lie within the target.
-bool scenery_overlay_inset(struct scenery_overlay *overlay, struct rg_instance *instance,
-                           const scenery_inset_params *inset, struct rg_image *map,
-                           struct rg_image *colour);
+bool scenery_overlay_inset(struct scenery_overlay *overlay, const scenery_inset_params *inset,
+                           struct rg_image *map, struct rg_image *colour);
 
 #endif

@@ -11,36 +11,36 @@
 #include "kernels/dialect/image/format.h"
 #include "kernels/scenery/city_shade_params.h"
 
+enum scenery_pass { FACES, SHADE, PASS_COUNT };
+
 struct scenery {
-    struct rg_device *device;
+    struct rg_instance *instance;
     const struct scenery_made *made;
-    struct rg_buf *block_words; // of the last draw
-    struct rg_image *numbers;   // of the target's size
-    struct rg_pass *draw, *shade;
+    int first_stage;
+    // What a draw sets: blocks that are seen, numbers of the target's size, and the caller's.
+    struct rg_asset *blocks, *numbers, *depths, *lights, *shadows;
     struct scenery_cull cull;
-    bool *seen;       // by chunk: in the last draw
-    uint32_t *blocks; // two words each
+    bool *seen;            // by chunk: in the last draw
+    uint32_t *block_words; // two each
     struct scenery_work work;
+    scenery_city_params faces_params;
+    scenery_city_shade_params shade_params;
 };
 
 // --- opening ---
 
-void scenery_put(struct scenery *s)
+void scenery_close(struct scenery *s)
 {
     if (!s)
         return;
-    rg_pass_destroy(s->draw);
-    rg_pass_destroy(s->shade);
-    rg_buf_destroy(s->block_words);
-    rg_image_destroy(s->numbers);
     if (s->made)
-        scenery_made_put(s->device, s->made);
+        scenery_made_put(s->instance->device, s->made);
     free(s->seen);
-    free(s->blocks);
+    free(s->block_words);
     free(s);
 }
 
-static bool create_blocks(struct scenery *s)
+static bool make_blocks(struct scenery *s)
 {
     const struct city *city = s->made->city;
     const struct city_faces *f = &city->faces;
@@ -51,22 +51,44 @@ static bool create_blocks(struct scenery *s)
     s->cull.box_count = city->box_count;
     s->cull.boxes = city->boxes;
     s->seen = rg_alloc((size_t)f->chunk_count, sizeof(*s->seen), "scene");
-    s->blocks = rg_alloc((size_t)blocks, 2 * sizeof(*s->blocks), "scene");
-    s->block_words = rg_buf_create(s->device, (int64_t)blocks * 8, "blocks of faces");
-    return s->seen && s->blocks && s->block_words;
+    s->block_words = rg_alloc((size_t)blocks, 2 * sizeof(*s->block_words), "scene");
+    s->blocks = rg_add_room(s->instance, "scene.blocks", 2 * (int64_t)blocks);
+    return s->seen && s->block_words && s->blocks;
 }
 
-struct scenery *scenery_get(struct rg_device *device, const struct scenery_settings *settings)
+static void lend(struct scenery *s)
 {
+    struct rg_instance *i = s->instance;
+    rg_lend_buf(i, "scene.faces", s->made->faces);
+    rg_lend_buf(i, "scene.surface_of", s->made->surface_of);
+    rg_lend_buf(i, "scene.surfaces", s->made->surfaces);
+    rg_lend_buf(i, "scene.openness", s->made->openness);
+    rg_lend_image(i, "scene.textures", s->made->textures);
+    s->numbers = rg_lend_image(i, "scene.numbers", NULL);
+    s->depths = rg_lend_image(i, "scene.depths", NULL);
+    s->lights = rg_lend_buf(i, "scene.lights", NULL);
+    s->shadows = rg_lend_image(i, "scene.shadows", NULL);
+}
+
+#define AT(field) offsetof(struct scenery, field)
+
+struct scenery *scenery_open(struct rg_instance *instance, const struct scenery_settings *settings)
+{
+    static const struct rg_stage stages[PASS_COUNT] = {
+        [FACES] = {"streaks_city", .params = AT(faces_params)},
+        [SHADE] = {"streaks_city_shade", .params = AT(shade_params)},
+    };
     struct scenery *s = rg_alloc(1, sizeof(*s), "scene");
     if (!s)
         return NULL;
-    s->device = device;
-    if ((s->made = scenery_made_get(device, settings)) && create_blocks(s) &&
-        (s->draw = rg_pass_create(device, "streaks_city")) &&
-        (s->shade = rg_pass_create(device, "streaks_city_shade")))
-        return s;
-    scenery_put(s);
+    s->instance = instance;
+    if ((s->made = scenery_made_get(instance->device, settings)) && make_blocks(s)) {
+        lend(s);
+        s->first_stage = rg_open_stages(instance, stages, PASS_COUNT, s, "scene");
+        if (s->first_stage >= 0)
+            return s;
+    }
+    scenery_close(s);
     return NULL;
 }
 
@@ -103,8 +125,8 @@ static int list_blocks(struct scenery *s)
         const struct city_chunk *chunk = &f->chunks[i];
         for (int k = 0; s->seen[i] && k < chunk->count; k += SCENERY_BLOCK_FACES) {
             const int rest = chunk->count - k;
-            s->blocks[2 * blocks] = (uint32_t)(chunk->first + k);
-            s->blocks[2 * blocks + 1] =
+            s->block_words[2 * blocks] = (uint32_t)(chunk->first + k);
+            s->block_words[2 * blocks + 1] =
                 (uint32_t)(rest < SCENERY_BLOCK_FACES ? rest : SCENERY_BLOCK_FACES);
             blocks++;
         }
@@ -112,10 +134,9 @@ static int list_blocks(struct scenery *s)
     return blocks;
 }
 
-static bool draw_faces(struct scenery *s, struct rg_instance *instance, m4 to_clip,
-                       const struct rg_draw *onto, enum rg_cull cull, bool everything)
+static bool draw_faces(struct scenery *s, m4 to_clip, const struct rg_draw *onto, enum rg_cull cull,
+                       bool everything)
 {
-    const scenery_city_params params = {to_clip};
     struct rg_draw draw = *onto;
     draw.blend = RG_BLEND_OFF;
     draw.depth_mode = RG_DEPTH_WRITE;
@@ -129,39 +150,21 @@ static bool draw_faces(struct scenery *s, struct rg_instance *instance, m4 to_cl
         s->work.chunks_drawn += s->seen[i] ? 1 : 0;
     if (!blocks)
         return true;
-    return rg_buf_write(s->block_words, 0, s->blocks, (int64_t)blocks * 8) &&
-           rg_instance_run(instance, s->draw,
-                           &(struct rg_run){.params = &params,
-                                            .slots = {[1].buf = s->made->faces,
-                                                      [2].buf = s->made->surface_of,
-                                                      [3].buf = s->block_words},
-                                            .extent = {blocks * SCENERY_BLOCK_FACES, 1, 1},
-                                            .draw = &draw});
+    s->faces_params = (scenery_city_params){to_clip};
+    return rg_buf_write(s->blocks->buf, 0, s->block_words, (int64_t)blocks * 8) &&
+           rg_stage_onto(s->instance, s->first_stage + FACES, blocks * SCENERY_BLOCK_FACES, &draw);
 }
 
-bool scenery_depth(struct scenery *scene, struct rg_instance *instance, m4 to_clip,
-                   const struct rg_draw *onto)
+bool scenery_depth(struct scenery *scene, m4 to_clip, const struct rg_draw *onto)
 {
     struct rg_draw depth = *onto;
     depth.colour = NULL;
-    return draw_faces(scene, instance, to_clip, &depth, RG_CULL_NONE, false);
+    return draw_faces(scene, to_clip, &depth, RG_CULL_NONE, false);
 }
 
-bool scenery_numbers(struct scenery *scene, struct rg_instance *instance, m4 to_clip,
-                     const struct rg_draw *onto)
+bool scenery_numbers(struct scenery *scene, m4 to_clip, const struct rg_draw *onto)
 {
-    return draw_faces(scene, instance, to_clip, onto, RG_CULL_NONE, false);
-}
-
-static bool fit_numbers(struct scenery *s, const struct rg_image *target)
-{
-    const int width = target->desc.width, height = target->desc.height;
-    if (s->numbers && s->numbers->desc.width == width && s->numbers->desc.height == height)
-        return true;
-    rg_image_destroy(s->numbers);
-    s->numbers = rg_image_create(s->device, &(struct rg_image_desc){RG_RGBA8, width, height, 1, 1},
-                                 "surfaces' numbers");
-    return s->numbers;
+    return draw_faces(scene, to_clip, onto, RG_CULL_NONE, false);
 }
 
 // One step of Gauss and Jordan: column c of `rows` becomes that of the unit matrix. False where it
@@ -217,11 +220,12 @@ static bool invert(const m4 *to_clip, int width, int height, m4 *from_pixel)
     return true;
 }
 
-static bool shade(struct scenery *s, struct rg_instance *instance, const struct scenery_view *view,
+static bool shade(struct scenery *s, const struct scenery_view *view,
                   const struct scenery_look *look, const struct scenery_lights *lights)
 {
     const struct rg_image_desc *d = &view->colour->desc;
-    scenery_city_shade_params p = {
+    scenery_city_shade_params *p = &s->shade_params;
+    *p = (scenery_city_shade_params){
         .sky = look->sky,
         .eye_x = view->eye[0],
         .eye_y = view->eye[1],
@@ -234,25 +238,18 @@ static bool shade(struct scenery *s, struct rg_instance *instance, const struct 
         .texture_px = s->made->city->texture_px,
         .last_level = s->made->levels - 1,
     };
-    if (!invert(&view->to_clip, d->width, d->height, &p.from_pixel))
+    if (!invert(&view->to_clip, d->width, d->height, &p->from_pixel))
         return false;
-    p.pixel_m = sqrtf(p.from_pixel.xx * p.from_pixel.xx + p.from_pixel.yx * p.from_pixel.yx +
-                      p.from_pixel.zx * p.from_pixel.zx);
-    const struct rg_draw draw = {.colour = view->colour};
-    return rg_instance_run(instance, s->shade,
-                           &(struct rg_run){.params = &p,
-                                            .slots = {[1].image = s->numbers,
-                                                      [2].image = view->depth,
-                                                      [3].buf = s->made->surfaces,
-                                                      [4].image = s->made->textures,
-                                                      [5].buf = lights->in_world,
-                                                      [6].image = lights->shadows,
-                                                      [7].buf = s->made->openness},
-                                            .extent = {1, 1, 1},
-                                            .draw = &draw});
+    p->pixel_m = sqrtf(p->from_pixel.xx * p->from_pixel.xx + p->from_pixel.yx * p->from_pixel.yx +
+                       p->from_pixel.zx * p->from_pixel.zx);
+    s->depths->image = view->depth;
+    s->lights->buf = lights->in_world;
+    s->shadows->image = lights->shadows;
+    return rg_stage_onto(s->instance, s->first_stage + SHADE, 1,
+                         &(struct rg_draw){.colour = view->colour});
 }
 
-bool scenery_draw(struct scenery *s, struct rg_instance *instance, const struct scenery_view *view,
+bool scenery_draw(struct scenery *s, const struct scenery_view *view,
                   const struct scenery_look *look, const struct scenery_lights *lights,
                   bool geometry)
 {
@@ -264,12 +261,14 @@ bool scenery_draw(struct scenery *s, struct rg_instance *instance, const struct 
         return false;
     if (!geometry)
         return rg_image_clear(view->colour, sky);
-    if (!fit_numbers(s, view->colour))
+    const struct rg_image_desc *target = &view->colour->desc;
+    if (!rg_make_image(s->instance, s->numbers,
+                       &(struct rg_image_desc){RG_RGBA8, target->width, target->height, 1, 1}))
         return false;
-    const struct rg_draw numbered = {.colour = s->numbers, .depth = view->depth};
+    const struct rg_draw numbered = {.colour = s->numbers->image, .depth = view->depth};
     const enum rg_cull cull = s->made->city->is_mesh ? RG_CULL_NONE : RG_CULL_BACK;
-    return draw_faces(s, instance, view->to_clip, &numbered, cull, view->everything) &&
-           shade(s, instance, view, look, lights);
+    return draw_faces(s, view->to_clip, &numbered, cull, view->everything) &&
+           shade(s, view, look, lights);
 }
 
 struct scenery_look scenery_day(void)

@@ -20,10 +20,11 @@ struct scenery_settings {
 
 struct scenery;
 
-// NULL, and one logged line, on failure. scenery_put when it is no longer needed, before the
-// device closes.
-struct scenery *scenery_get(struct rg_device *device, const struct scenery_settings *settings);
-void scenery_put(struct scenery *scene);
+// Adds the scene's assets and stages to an instance, under names that begin with "scene.". NULL,
+// and one logged line, on failure. scenery_close when it is no longer needed, before the instance's
+// assets go.
+struct scenery *scenery_open(struct rg_instance *instance, const struct scenery_settings *settings);
+void scenery_close(struct scenery *scene);
 
 // What it is: name, faces, bounds, hash, boxes. It lives as long as the scene.
 const struct city *scenery_city(const struct scenery *scene);
@@ -54,16 +55,14 @@ struct scenery_view {
 
 // Draws colour and depth in this light, whose shadow maps are drawn already; with `geometry` false,
 // an even sky as bright as the horizon, and depth 1. The images need not be cleared.
-bool scenery_draw(struct scenery *scene, struct rg_instance *instance,
-                  const struct scenery_view *view, const struct scenery_look *look,
-                  const struct scenery_lights *lights, bool geometry);
+bool scenery_draw(struct scenery *scene, const struct scenery_view *view,
+                  const struct scenery_look *look, const struct scenery_lights *lights,
+                  bool geometry);
 // Draws depth alone, of both sides of faces: `onto` names the image and its layer. It is not
 // cleared.
-bool scenery_depth(struct scenery *scene, struct rg_instance *instance, m4 to_clip,
-                   const struct rg_draw *onto);
+bool scenery_depth(struct scenery *scene, m4 to_clip, const struct rg_draw *onto);
 // The same, and the number of each pixel's surface into onto->colour, an image of RGBA8.
-bool scenery_numbers(struct scenery *scene, struct rg_instance *instance, m4 to_clip,
-                     const struct rg_draw *onto);
+bool scenery_numbers(struct scenery *scene, m4 to_clip, const struct rg_draw *onto);
 
 // What the last draw left out, of how many.
 struct scenery_work {

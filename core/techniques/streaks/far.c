@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "core/techniques/streaks/instance.h"
-#include "kernels/streaks/far_params.h"
 
 // A layer hides what all drops in it hide: each its cross-section, at any time of the exposure.
 static double opacity_of(const struct streaks *s)
@@ -40,12 +39,9 @@ static streaks_far_params params_of(const struct streaks *s)
 
 bool streaks_draw_far(struct streaks *s)
 {
-    const streaks_far_params p = params_of(s);
-    const struct rg_draw onto = {.colour = s->base.target,
-                                 .depth = s->depth,
-                                 .blend = RG_BLEND_OVER,
-                                 .depth_mode = RG_DEPTH_TEST};
-    return rg_instance_run(
-        &s->base, s->far,
-        &(struct rg_run){.params = &p, .extent = {s->settings.far_layers, 1, 1}, .draw = &onto});
+    if (!rg_stage_runs(&s->base, s->first_stage + STREAKS_FAR))
+        return true;
+    const struct rg_extent first = {0, 0, 0}, layers = {s->settings.far_layers, 1, 1};
+    s->of_far = params_of(s);
+    return rg_stage_over(&s->base, s->first_stage + STREAKS_FAR, first, layers);
 }

@@ -167,14 +167,13 @@ static bool settle(struct fit *f)
     struct streaks *s = f->s;
     s->settings.culling_radius_m = f->radius_m;
     s->settings.local_height_m = f->height_m;
-    s->base.facts[STREAKS_FACT_ERROR].number = rint(f->error * 1e6) / 1e6;
+    s->fit_error = rint(f->error * 1e6) / 1e6;
     for (int i = 0; i < STREAKS_COUNTERS; i++)
         s->base.counters[i].value = 0;
     s->map_due = 0;
     // Rain without limits took many blocks.
     streaks_selection_release(&s->selection);
-    rg_buf_destroy(s->blocks);
-    s->blocks = NULL;
+    rg_empty(s->blocks);
     return f->made_m == f->height_m || streaks_make_particles(s);
 }
 
@@ -182,14 +181,9 @@ bool streaks_fit(struct streaks *s)
 {
     struct fit f = {
         .s = s, .radius_m = s->settings.culling_radius_m, .height_m = s->settings.local_height_m};
-    struct scenery_overlay *overlay = s->overlay;
-    struct rg_pass *far = s->far;
-    // Only rain itself is compared.
-    s->overlay = NULL;
-    s->far = NULL;
+    s->rain_alone = true; // rain itself is compared
     const bool ok = search(&f) && settle(&f);
-    s->overlay = overlay;
-    s->far = far;
+    s->rain_alone = false;
     rg_picture_destroy(&f.dry);
     rg_picture_destroy(&f.truth);
     return ok;

@@ -10,6 +10,7 @@
 #include "core/techniques/streaks/streaks.h"
 #include "core/techniques/streaks/textures.h"
 #include "core/techniques/technique.h"
+#include "kernels/streaks/far_params.h"
 #include "kernels/streaks/params.h"
 
 enum streaks_counter {
@@ -19,19 +20,7 @@ enum streaks_counter {
     STREAKS_COUNTERS
 };
 
-enum streaks_fact {
-    STREAKS_FACT_PARTICLES,
-    STREAKS_FACT_TOTAL,
-    STREAKS_FACT_SCHEME,
-    STREAKS_FACT_PACKETS,
-    STREAKS_FACT_MEMORY,
-    STREAKS_FACT_ATLAS,
-    STREAKS_FACT_SCENE,
-    STREAKS_FACT_RADIUS, // this and those below: of fit=on alone
-    STREAKS_FACT_HEIGHT,
-    STREAKS_FACT_ERROR,
-    STREAKS_FACTS
-};
+enum streaks_pass { STREAKS_RAIN, STREAKS_STATES, STREAKS_FAR, STREAKS_PASS_COUNT };
 
 enum { STREAKS_MAX_BUFFERS = 64, STREAKS_STATE_WORDS = 7 };
 
@@ -49,23 +38,29 @@ struct streaks {
     struct scenery *scene;
     struct streaks_textures *textures;
     struct scenery_lights *lights;
-    struct scenery_overlay *overlay;    // NULL: none
-    struct rg_camera camera;            // at frame 0
-    struct streaks_map *map;            // the scene seen along the fall
-    struct rg_image *depth;             // the target's
-    struct rg_pass *rain, *state, *far; // NULL: not run
-    double drops_m3;                    // where the camera stands at frame 0
+    struct scenery_overlay *overlay; // NULL: none
+    struct rg_camera camera;         // at frame 0
+    struct streaks_map *map;         // the scene seen along the fall
+    double drops_m3;                 // where the camera stands at frame 0
+    double fit_error;                // that fit=on found
+    int first_stage;                 // of enum streaks_pass, behind those of the scene
+    bool rain_alone;                 // is drawn, as the search for fit=on wants it
     int buffer_count;
-    struct rg_buf *particles[STREAKS_MAX_BUFFERS], *blocks, *places;
+    struct rg_buf *particles[STREAKS_MAX_BUFFERS];
+    // What is bound in turn, grows, and is made anew.
+    struct rg_asset *particles_now, *blocks, *places;
+    struct rg_fact *particles_told; // NULL: not yet
     // of the present frame
     struct streaks_observer observer;
     struct streaks_selection selection;
     streaks_params params;
     int64_t map_due; // the frame in which a dynamic depth map is drawn anew
+    // Of the present stage.
+    streaks_params of_rain;
+    streaks_far_params of_far;
 };
 
-struct rg_instance *streaks_open(struct rg_device *device, const void *settings, int width,
-                                 int height);
+bool streaks_open(struct rg_instance *instance);
 void streaks_close(struct rg_instance *instance);
 
 // The largest culling radius that may be set.

@@ -68,8 +68,8 @@ static bool draw(struct streaks *s, const struct streaks_map *map)
     if (!rg_image_clear(map->depths, &farthest))
         return false;
     if (!is_numbered(s))
-        return scenery_depth(s->scene, &s->base, matrix_of(s), &onto);
-    return clear_numbers(map->numbers) && scenery_numbers(s->scene, &s->base, matrix_of(s), &onto);
+        return scenery_depth(s->scene, matrix_of(s), &onto);
+    return clear_numbers(map->numbers) && scenery_numbers(s->scene, matrix_of(s), &onto);
 }
 
 static struct rg_image *create_image(const struct streaks *s, enum rg_format format, int side_px,

@@ -24,24 +24,14 @@ static void destroy_particles(struct streaks *s)
 void streaks_close(struct rg_instance *instance)
 {
     struct streaks *s = (struct streaks *)instance;
-    struct rg_device *device = instance->device;
-    rg_pass_destroy(s->rain);
-    rg_pass_destroy(s->state);
-    rg_pass_destroy(s->far);
     destroy_particles(s);
-    rg_buf_destroy(s->blocks);
-    rg_buf_destroy(s->places);
     streaks_map_close(s);
-    rg_image_destroy(s->depth);
-    rg_image_destroy(s->base.target);
     scenery_overlay_close(s->overlay);
     scenery_lights_close(s->lights);
-    if (s->scene)
-        scenery_put(s->scene);
+    scenery_close(s->scene);
     if (s->textures)
-        streaks_textures_put(device, s->textures);
+        streaks_textures_put(instance->device, s->textures);
     streaks_selection_release(&s->selection);
-    free(s);
 }
 
 // --- the rain space and its particles ---
@@ -137,7 +127,7 @@ static bool create_scene(struct streaks *s)
         .city = {.seed = set->city_seed, .size = (enum city_size)set->city}};
     if (strcmp(set->scene, "city") != 0)
         memcpy(settings.model, set->scene, sizeof(settings.model));
-    s->scene = scenery_get(s->base.device, &settings);
+    s->scene = scenery_open(&s->base, &settings);
     return s->scene;
 }
 
@@ -162,7 +152,7 @@ static bool draw_shadow(void *user, const float to_clip[16], const struct rg_dra
     struct streaks *s = user;
     m4 matrix;
     memcpy(&matrix, to_clip, sizeof(matrix));
-    return scenery_depth(s->scene, &s->base, matrix, onto);
+    return scenery_depth(s->scene, matrix, onto);
 }
 
 // Lamps ahead of the camera light what it sees: a place so far ahead on level ground.
@@ -196,96 +186,100 @@ static bool create_lights(struct streaks *s)
     return s->lights && scenery_lights_shade(s->lights, draw_shadow, s);
 }
 
-// --- passes and images ---
+// --- assets and stages ---
 
-static struct rg_image *create_image(struct streaks *s, enum rg_format format, int width,
-                                     int height, const char *name)
+static void add_assets(struct streaks *s)
 {
-    return rg_image_create(s->base.device, &(struct rg_image_desc){format, width, height, 1, 1},
-                           name);
+    struct rg_instance *i = &s->base;
+    const struct rg_image_desc *target = &i->target->desc;
+    rg_add_image(i, "depth", RG_D32F, target->width, target->height);
+    s->particles_now = rg_lend_buf(i, "particles", NULL);
+    s->blocks = rg_lend_buf(i, "blocks", NULL);
+    s->places = rg_lend_buf(i, "places", NULL);
+    rg_lend_image(i, "depths", s->map->depths);
+    rg_lend_image(i, "numbers", s->map->numbers);
+    rg_lend_image(i, "points", s->textures->points);
+    rg_lend_image(i, "skies", s->textures->skies);
+    rg_lend_image(i, "crowns", s->textures->crowns);
+    rg_lend_buf(i, "factors", s->textures->factors);
+    rg_lend_buf(i, "lights", s->lights->in_frame);
+    rg_lend_image(i, "shadows", s->lights->shadows);
+    rg_add_state(i, s->places, "places", true, STREAKS_STATE_WORDS, 0);
+    i->state_count = 0; // until a step has kept it
+    rg_add_counters(i, counter_names, STREAKS_COUNTERS);
 }
 
-static bool create_images(struct streaks *s, int width, int height)
-{
-    return (s->base.target = create_image(s, RG_RGBA16F, width, height, "target")) &&
-           (s->depth = create_image(s, RG_D32F, width, height, "depth"));
-}
+#define AT(field) offsetof(struct streaks, field)
 
-static bool create_passes(struct streaks *s)
+static bool open_stages(struct streaks *s)
 {
     static const char *const programs[] = {"streaks_rain_2", "streaks_rain_4", "streaks_rain_8"};
-    s->rain = rg_pass_create(s->base.device, programs[s->settings.taps]);
-    return s->rain &&
-           (!s->settings.keeps_state ||
-            (s->state = rg_pass_create(s->base.device, "streaks_state"))) &&
-           (!s->settings.far_layers || (s->far = rg_pass_create(s->base.device, "streaks_far"))) &&
-           (!s->settings.overlay || (s->overlay = scenery_overlay_open(s->base.device)));
+    const struct streaks_settings *set = &s->settings;
+    const struct rg_stage stages[STREAKS_PASS_COUNT] = {
+        [STREAKS_RAIN] = {programs[set->taps], .params = AT(of_rain), .colour = "target",
+                          .depth = "depth", .blend = RG_BLEND_OVER, .depth_mode = RG_DEPTH_TEST,
+                          .named = {{"surfaces", "scene.surfaces"}}},
+        [STREAKS_STATES] = {set->keeps_state ? "streaks_state" : NULL, .params = AT(of_rain),
+                            .named = {{"surfaces", "scene.surfaces"}}},
+        [STREAKS_FAR] = {set->far_layers ? "streaks_far" : NULL, .params = AT(of_far),
+                         .colour = "target", .depth = "depth", .blend = RG_BLEND_OVER,
+                         .depth_mode = RG_DEPTH_TEST},
+    };
+    s->first_stage = rg_open_stages(&s->base, stages, STREAKS_PASS_COUNT, s, NULL);
+    return s->first_stage >= 0 && (!set->overlay || (s->overlay = scenery_overlay_open(&s->base)));
 }
 
 // --- what is told of it ---
 
-static struct rg_fact *tell(struct streaks *s, enum streaks_fact which, const char *name)
+static void tell_facts(struct streaks *s)
 {
-    struct rg_fact *fact = &s->base.facts[which];
-    fact->name = name;
-    return fact;
+    struct rg_instance *i = &s->base;
+    const struct streaks_packets_info *info = streaks_packets_info(s->packets);
+    const struct streaks_settings *set = &s->settings;
+    s->particles_told = rg_tell(i, "particles", 0);
+    rg_tell(i, "total_particles", (double)info->total_particles);
+    rg_tell_text(i, "packets", "%s", streaks_scheme_name(info->scheme));
+    rg_tell(i, "packet_count", (double)info->packets);
+    rg_tell(i, "particle_bytes", (double)info->particle_bytes);
+    rg_tell_text(i, "atlas_hash", "%016" PRIx64, s->textures->hash);
+    rg_tell_text(i, "scene_hash", "%016" PRIx64, scenery_city(s->scene)->hash);
+    if (!set->fit)
+        return;
+    rg_tell(i, "culling_radius_m", set->culling_radius_m);
+    rg_tell(i, "local_height_m", set->local_height_m);
+    rg_tell(i, "flip_mask_mean", s->fit_error);
 }
 
 static void tell_textures(struct streaks *s)
 {
     const struct streaks_textures *t = s->textures;
-    s->base.texture_count = 3;
-    s->base.textures[0] = (struct rg_texture){"environment", t->skies, t->first_level};
-    s->base.textures[1] = (struct rg_texture){"point", t->points, t->first_level};
-    s->base.textures[2] = (struct rg_texture){"splash", t->crowns, 0};
+    rg_tell_texture(&s->base, "environment", t->skies, t->first_level);
+    rg_tell_texture(&s->base, "point", t->points, t->first_level);
+    rg_tell_texture(&s->base, "splash", t->crowns, 0);
 }
 
-static void tell_facts(struct streaks *s)
+// --- opening ---
+
+static bool create_textures(struct streaks *s)
 {
-    const struct streaks_packets_info *info = streaks_packets_info(s->packets);
-    const struct streaks_settings *set = &s->settings;
-    s->base.fact_count = set->fit ? STREAKS_FACTS : STREAKS_FACT_RADIUS;
-    tell(s, STREAKS_FACT_TOTAL, "total_particles")->number = (double)info->total_particles;
-    snprintf(tell(s, STREAKS_FACT_SCHEME, "packets")->text, RG_FACT_SIZE, "%s",
-             streaks_scheme_name(info->scheme));
-    tell(s, STREAKS_FACT_PACKETS, "packet_count")->number = (double)info->packets;
-    tell(s, STREAKS_FACT_MEMORY, "particle_bytes")->number = (double)info->particle_bytes;
-    snprintf(tell(s, STREAKS_FACT_ATLAS, "atlas_hash")->text, RG_FACT_SIZE, "%016" PRIx64,
-             s->textures->hash);
-    snprintf(tell(s, STREAKS_FACT_SCENE, "scene_hash")->text, RG_FACT_SIZE, "%016" PRIx64,
-             scenery_city(s->scene)->hash);
-    tell(s, STREAKS_FACT_PARTICLES, "particles");
-    tell(s, STREAKS_FACT_RADIUS, "culling_radius_m")->number = set->culling_radius_m;
-    tell(s, STREAKS_FACT_HEIGHT, "local_height_m")->number = set->local_height_m;
-    tell(s, STREAKS_FACT_ERROR, "flip_mask_mean");
-    s->base.counter_count = STREAKS_COUNTERS;
-    for (int i = 0; i < STREAKS_COUNTERS; i++)
-        s->base.counters[i].name = counter_names[i];
+    s->textures = streaks_textures_get(s->base.device, (enum rg_atlas_size)s->settings.atlas);
+    return s->textures;
 }
 
-struct rg_instance *streaks_open(struct rg_device *device, const void *settings, int width,
-                                 int height)
+// The scene comes first, for maps are drawn with its stages, and the rain's stages read them.
+bool streaks_open(struct rg_instance *instance)
 {
-    struct streaks *s = rg_alloc(1, sizeof(*s), "streaks");
-    if (!s)
-        return NULL;
-    s->base.technique = rg_technique_find("streaks");
-    s->base.device = device;
-    s->settings = *(const struct streaks_settings *)settings;
+    struct streaks *s = (struct streaks *)instance;
     choose_camera(s);
     const bool fit = s->settings.fit;
-    const bool ok =
-        (!fit || streaks_fit_begin(&s->settings)) && create_space(s) &&
-        (fit || streaks_make_particles(s)) && create_scene(s) && create_lights(s) &&
-        streaks_map_open(s) && create_images(s, width, height) && create_passes(s) &&
-        (s->textures = streaks_textures_get(device, (enum rg_atlas_size)s->settings.atlas)) &&
-        (!fit || streaks_fit(s));
-    if (ok) {
-        tell_textures(s);
-        tell_facts(s);
-    }
-    if (ok && streaks_look(s))
-        return &s->base;
-    streaks_close(&s->base);
-    return NULL;
+    if ((fit && !streaks_fit_begin(&s->settings)) || !create_space(s) ||
+        (!fit && !streaks_make_particles(s)) || !create_scene(s) || !create_lights(s) ||
+        !streaks_map_open(s) || !create_textures(s))
+        return false;
+    add_assets(s);
+    if (!open_stages(s) || (fit && !streaks_fit(s)))
+        return false;
+    tell_textures(s);
+    tell_facts(s);
+    return streaks_look(s);
 }

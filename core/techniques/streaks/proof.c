@@ -40,7 +40,7 @@ static bool particles_are_sound(const struct rg_instance *instance, char *detail
         return true; // states are not kept
     float *places = rg_alloc((size_t)count, STREAKS_STATE_WORDS * sizeof(float), "places");
     const char *fault = NULL;
-    bool ok = places && rg_buf_read(instance->state[0].buf, 0, places,
+    bool ok = places && rg_buf_read(instance->state[0].asset->buf, 0, places,
                                     count * STREAKS_STATE_WORDS * (int64_t)sizeof(float));
     if (!ok)
         snprintf(detail, size, "%s", rg_last_error());

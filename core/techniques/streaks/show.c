@@ -110,7 +110,7 @@ static bool show_map(struct streaks *s)
                                         .u1 = 1,
                                         .v1 = 1,
                                         .far_depth = 1};
-    return scenery_overlay_inset(s->overlay, &s->base, &inset, s->map->depths, s->base.target);
+    return scenery_overlay_inset(s->overlay, &inset, s->map->depths, s->base.target);
 }
 
 bool streaks_show(struct streaks *s)
@@ -120,7 +120,7 @@ bool streaks_show(struct streaks *s)
     show_packets(s);
     for (int i = 0; i < s->lights->count; i++)
         scenery_overlay_light(s->overlay, &s->lights->world[i], &white);
-    return scenery_overlay_draw(s->overlay, &s->base, s->observer.world_to_clip, s->base.target,
-                                s->depth) &&
+    return scenery_overlay_draw(s->overlay, s->observer.world_to_clip, s->base.target,
+                                rg_asset_find(&s->base, "depth")->image) &&
            show_map(s);
 }

@@ -1,6 +1,6 @@
 // streaks: rain as particles that fall through a scene, lit by a database of streaks (C. Creus,
 // "Real-time rendering of rain", 2010). The order of the passes stands here; open.c makes
-// what they run on, kernels/streaks_*.h is what they compute, and docs/streaks.md explains.
+// what they run on, kernels/streaks/ is what they compute, and docs/streaks.md explains.
 #include "core/techniques/streaks/streaks.h"
 
 #include <math.h>
@@ -124,16 +124,13 @@ static void set_params(struct streaks *s, const double eye[3], double top_m)
 
 static bool write_blocks(struct streaks *s, const struct streaks_draw *draw)
 {
-    const int64_t bytes = (int64_t)draw->block_count * STREAKS_BLOCK_WORDS * 4;
-    if (!s->blocks || (int64_t)s->blocks->size < bytes) {
-        const int64_t most = (int64_t)STREAKS_DRAW_BLOCKS * STREAKS_BLOCK_WORDS * 4;
-        const int64_t room = bytes + bytes / 2 < most ? bytes + bytes / 2 : most;
-        rg_buf_destroy(s->blocks);
-        s->blocks = rg_buf_create(s->base.device, room / 4 * 4, "blocks");
-    }
-    return s->blocks &&
-           rg_buf_write(s->blocks, 0, s->selection.blocks + draw->first_block * STREAKS_BLOCK_WORDS,
-                        bytes);
+    const int64_t words = (int64_t)draw->block_count * STREAKS_BLOCK_WORDS;
+    const int64_t most = (int64_t)STREAKS_DRAW_BLOCKS * STREAKS_BLOCK_WORDS;
+    const int64_t room = words + words / 2 < most ? words + words / 2 : most;
+    const bool fits = s->blocks->buf && (int64_t)s->blocks->buf->size >= words * 4;
+    return (fits || rg_make_room(&s->base, s->blocks, room)) &&
+           rg_buf_write(s->blocks->buf, 0,
+                        s->selection.blocks + draw->first_block * STREAKS_BLOCK_WORDS, words * 4);
 }
 
 // What a local space of this top shows. A selection of one draw has its blocks on the device.
@@ -156,53 +153,30 @@ bool streaks_look(struct streaks *s)
     set_params(s, eye, top_m);
     if (!streaks_map_renew(s) || !select_blocks(s, eye, top_m))
         return false;
-    s->base.facts[STREAKS_FACT_PARTICLES].number = (double)s->selection.particles;
+    if (s->particles_told)
+        s->particles_told->number = (double)s->selection.particles;
     return true;
 }
 
-static struct rg_run run_over(const struct streaks *s, const struct streaks_draw *draw,
-                              const streaks_params *p)
+// Runs a stage over a draw's particles, whose blocks are on the device already where they are those
+// of all draws.
+static bool run_over(struct streaks *s, enum streaks_pass pass, const struct streaks_draw *draw)
 {
-    return (struct rg_run){.params = p,
-                           .slots = {[1].buf = s->particles[draw->buffer],
-                                     [2].buf = s->blocks,
-                                     [3].image = s->map->depths,
-                                     [10].image = s->map->numbers,
-                                     [11].buf = scenery_surfaces(s->scene)},
-                           .extent = {draw->block_count * STREAKS_BLOCK, 1, 1}};
-}
-
-static bool draw_blocks(struct streaks *s, const struct streaks_draw *draw, const streaks_params *p)
-{
-    const struct rg_draw onto = {.colour = s->base.target,
-                                 .depth = s->depth,
-                                 .blend = RG_BLEND_OVER,
-                                 .depth_mode = RG_DEPTH_TEST};
-    struct rg_run run = run_over(s, draw, p);
-    run.draw = &onto;
-    run.slots[4].image = s->textures->points;
-    run.slots[5].image = s->textures->skies;
-    run.slots[6].image = s->textures->crowns;
-    run.slots[7].buf = s->textures->factors;
-    run.slots[8].buf = s->lights->in_frame;
-    run.slots[9].image = s->lights->shadows;
-    s->base.counters[STREAKS_ITEMS].value += run.extent.width;
-    return rg_instance_run(&s->base, s->rain, &run);
-}
-
-static bool ready_blocks(struct streaks *s, const struct streaks_draw *draw)
-{
-    return s->selection.draw_count == 1 || write_blocks(s, draw);
+    const struct rg_extent first = {0, 0, 0}, items = {draw->block_count * STREAKS_BLOCK, 1, 1};
+    s->particles_now->buf = s->particles[draw->buffer];
+    return (s->selection.draw_count == 1 || write_blocks(s, draw)) &&
+           rg_stage_over(&s->base, s->first_stage + (int)pass, first, items);
 }
 
 // All that is selected, in a local space of this top.
 static bool draw_rain_at(struct streaks *s, float top)
 {
-    streaks_params p = s->params;
-    p.top = top;
+    s->of_rain = s->params;
+    s->of_rain.top = top;
     for (int i = 0; i < s->selection.draw_count; i++) {
         const struct streaks_draw *draw = &s->selection.draws[i];
-        if (!ready_blocks(s, draw) || !draw_blocks(s, draw, &p))
+        s->base.counters[STREAKS_ITEMS].value += (int64_t)draw->block_count * STREAKS_BLOCK;
+        if (!run_over(s, STREAKS_RAIN, draw))
             return false;
     }
     return true;
@@ -230,24 +204,17 @@ static bool draw_rain(struct streaks *s)
 static bool keep_state(struct streaks *s)
 {
     const int64_t items = s->selection.block_count * STREAKS_BLOCK;
-    rg_buf_destroy(s->places);
-    s->base.state_count = 0;
-    s->places =
-        rg_buf_create(s->base.device, items ? items * STREAKS_STATE_WORDS * 4 : 4, "places");
-    if (!s->places || !items)
-        return s->places;
-    streaks_params p = s->params;
+    s->base.state_count = items ? 1 : 0;
+    rg_empty(s->places); // it is as long as the state
+    if (!rg_make_room(&s->base, s->places, items ? items * STREAKS_STATE_WORDS : 1))
+        return false;
+    s->of_rain = s->params;
     for (int i = 0; i < s->selection.draw_count; i++) {
         const struct streaks_draw *draw = &s->selection.draws[i];
-        struct rg_run run = run_over(s, draw, &p);
-        run.slots[4].buf = s->places;
-        if (!ready_blocks(s, draw) || !rg_instance_run(&s->base, s->state, &run))
+        if (!run_over(s, STREAKS_STATES, draw))
             return false;
-        p.first_place += run.extent.width;
+        s->of_rain.first_place += draw->block_count * STREAKS_BLOCK;
     }
-    s->base.state_count = 1;
-    s->base.state[0] = (struct rg_state){
-        .name = "places", .buf = s->places, .is_float = true, .row = STREAKS_STATE_WORDS};
     return true;
 }
 
@@ -255,7 +222,18 @@ static bool streaks_step(struct rg_instance *instance)
 {
     struct streaks *s = (struct streaks *)instance;
     instance->frame++;
-    return streaks_look(s) && (!s->state || keep_state(s));
+    return streaks_look(s) && (!s->settings.keeps_state || keep_state(s));
+}
+
+// What is drawn behind the rain, and over it.
+static bool draw_far(struct streaks *s)
+{
+    return s->rain_alone || streaks_draw_far(s);
+}
+
+static bool draw_overlay(struct streaks *s)
+{
+    return s->rain_alone || !s->overlay || streaks_show(s);
 }
 
 static bool streaks_draw(struct rg_instance *instance)
@@ -263,13 +241,14 @@ static bool streaks_draw(struct rg_instance *instance)
     struct streaks *s = (struct streaks *)instance;
     const struct scenery_look look =
         s->settings.time == SCENERY_NIGHT ? scenery_night() : scenery_day();
-    struct scenery_view view = {.colour = instance->target, .depth = s->depth};
+    struct scenery_view view = {.colour = instance->target,
+                                .depth = rg_asset_find(instance, "depth")->image};
     memcpy(&view.to_clip, s->observer.world_to_clip, sizeof(view.to_clip));
     memcpy(view.eye, s->observer.camera.position, sizeof(view.eye));
     instance->counters[STREAKS_PARTICLES].value += s->selection.particles;
     instance->counters[STREAKS_PACKETS].value += s->selection.packets;
-    return scenery_draw(s->scene, instance, &view, &look, s->lights, s->settings.geometry) &&
-           (!s->far || streaks_draw_far(s)) && draw_rain(s) && (!s->overlay || streaks_show(s));
+    return scenery_draw(s->scene, &view, &look, s->lights, s->settings.geometry) && draw_far(s) &&
+           draw_rain(s) && draw_overlay(s);
 }
 
 const struct rg_technique rg_technique_streaks = {
@@ -278,8 +257,10 @@ const struct rg_technique rg_technique_streaks = {
     .about = "rain as particles that fall through a city, with streaks, splashes and lights",
     .params = &streaks_param_table,
     .proof = &streaks_proof,
-    .create = streaks_open,
-    .destroy = streaks_close,
+    .size = sizeof(struct streaks),
+    .settings = offsetof(struct streaks, settings),
+    .open = streaks_open,
+    .close = streaks_close,
     .step = streaks_step,
     .draw = streaks_draw,
 };

@@ -84,7 +84,8 @@ int64_t rg_verify_device_work(const struct rg_verify *v)
 struct rg_instance *rg_verify_run(struct rg_verify *v, struct rg_device *device,
                                   const void *settings, int steps)
 {
-    struct rg_instance *instance = v->technique->create(device, settings, v->width, v->height);
+    struct rg_instance *instance =
+        rg_instance_open(v->technique, device, settings, v->width, v->height);
     bool ok = instance != NULL;
     for (int i = 0; ok && i < steps; i++) {
         ok = v->technique->step(instance);
@@ -93,7 +94,7 @@ struct rg_instance *rg_verify_run(struct rg_verify *v, struct rg_device *device,
     if (ok)
         return instance;
     if (instance)
-        v->technique->destroy(instance);
+        rg_instance_close(instance);
     return NULL;
 }
 
@@ -103,8 +104,10 @@ struct rg_instance *rg_verify_run(struct rg_verify *v, struct rg_device *device,
 static void describe_first(struct rg_verify *v, struct rg_device *device, const struct one_case *c,
                            char *text, size_t size)
 {
-    struct rg_instance *a = v->technique->create(device, c->settings, v->width, v->height);
-    struct rg_instance *b = v->technique->create(v->reference, c->settings, v->width, v->height);
+    struct rg_instance *a =
+        rg_instance_open(v->technique, device, c->settings, v->width, v->height);
+    struct rg_instance *b =
+        rg_instance_open(v->technique, v->reference, c->settings, v->width, v->height);
     char element[160] = "";
     int step = 0;
     for (bool ok = a && b; ok && !*element && step <= v->steps; step++) {
@@ -121,9 +124,9 @@ static void describe_first(struct rg_verify *v, struct rg_device *device, const 
     else
         snprintf(text, size, "differs, but not in a second run");
     if (a)
-        v->technique->destroy(a);
+        rg_instance_close(a);
     if (b)
-        v->technique->destroy(b);
+        rg_instance_close(b);
 }
 
 static void check_state(struct rg_verify *v, struct row *row, const struct one_case *c,
@@ -218,7 +221,7 @@ static struct rg_instance *run_case(struct rg_verify *v, struct row *row, struct
     if (instance && v->technique->draw(instance) && rg_snapshot_take(instance, true, now))
         return instance;
     if (instance)
-        v->technique->destroy(instance);
+        rg_instance_close(instance);
     note_errors(v, row);
     return NULL;
 }
@@ -233,7 +236,7 @@ static void check_device(struct rg_verify *v, struct row *row, struct one_case *
     check_state(v, row, c, &now);
     check_image(row, c, instance, &now);
     rg_snapshot_free(&now);
-    v->technique->destroy(instance);
+    rg_instance_close(instance);
 }
 
 // What the others are compared with. False, and noted in the reference's row, on failure.
@@ -246,7 +249,7 @@ static bool expect(struct rg_verify *v, struct row *reference, struct one_case *
     bool ok = rg_frame_picture(instance, c->expected.texels, &c->expected_picture) &&
               (!c->with_dry || rg_frame_draw_dry(v->technique, c->settings, v->reference, v->width,
                                                  v->height, 0, &c->dry));
-    v->technique->destroy(instance);
+    rg_instance_close(instance);
     if (!ok)
         note_errors(v, reference);
     return ok;

@@ -53,7 +53,7 @@ static bool draw(struct rg_verify *v, const char *assignments, struct rg_picture
     bool ok = texels && rg_frame_picture(instance, texels, picture);
     free(texels);
     if (instance)
-        v->technique->destroy(instance);
+        rg_instance_close(instance);
     free(settings);
     return ok;
 }

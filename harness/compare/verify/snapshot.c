@@ -11,12 +11,13 @@ static bool take_state(const struct rg_state *state, struct rg_snapshot *s)
 {
     const int i = s->state_count;
     s->layout[i] = *state;
-    s->layout[i].buf = NULL;
-    s->state_bytes[i] = state->buf->size;
-    if (!(s->state[i] = malloc(state->buf->size)))
-        return rg_error("buffer '%s': no memory for %zu bytes", state->name, state->buf->size);
+    s->layout[i].asset = NULL;
+    struct rg_buf *buf = state->asset->buf;
+    s->state_bytes[i] = buf->size;
+    if (!(s->state[i] = malloc(buf->size)))
+        return rg_error("buffer '%s': no memory for %zu bytes", state->name, buf->size);
     s->state_count++;
-    return rg_buf_read(state->buf, 0, s->state[i], (int64_t)state->buf->size);
+    return rg_buf_read(buf, 0, s->state[i], (int64_t)buf->size);
 }
 
 bool rg_snapshot_take(struct rg_instance *instance, bool with_image, struct rg_snapshot *s)

@@ -294,7 +294,7 @@ static struct rg_instance *open_rain(struct rg_device *device)
                                       "atlas=cave-small city=small rain_width_m=50 rain_depth_m=50 "
                                       "depth_map_px=64 shadow_map_px=16 drops_m2_s=20");
     assert_non_null(settings);
-    struct rg_instance *instance = technique->create(device, settings, 64, 36);
+    struct rg_instance *instance = rg_instance_open(technique, device, settings, 64, 36);
     free(settings);
     free(defaults);
     return instance;
@@ -335,7 +335,7 @@ static void test_drawn_with(void **state)
     expect_texels((struct streaks *)instance, atlas);
     assert_int_equal(((struct streaks *)instance)->textures->first_level, 2);
     assert_true(instance->technique->step(instance) && instance->technique->draw(instance));
-    instance->technique->destroy(instance);
+    rg_instance_close(instance);
     rg_atlas_destroy(atlas);
     assert_true(rg_device_close(device));
 }

@@ -32,8 +32,8 @@ void rig_open_sized(struct rig *rig, const char *device, const char *assignments
     assert_non_null(rig->device);
     rig->width = width > 0 ? width : rig->settings.resolution_px * 3 / 2;
     rig->height = height > 0 ? height : rig->settings.resolution_px * 5 / 4;
-    rig->instance =
-        rg_technique_find("flow")->create(rig->device, &rig->settings, rig->width, rig->height);
+    rig->instance = rg_instance_open(rg_technique_find("flow"), rig->device, &rig->settings,
+                                     rig->width, rig->height);
     assert_non_null(rig->instance);
     const struct flow *flow = (const struct flow *)rig->instance;
     rig->size = flow->settings.resolution_px;
@@ -52,7 +52,7 @@ void rig_set(struct rig *rig, const char *assignments)
 
 void rig_close(struct rig *rig)
 {
-    rig->instance->technique->destroy(rig->instance);
+    rg_instance_close(rig->instance);
     assert_true(rg_device_close(rig->device));
 }
 
@@ -70,7 +70,7 @@ static size_t map_bytes(const struct rig *rig)
 static float *read_maps(const struct rig *rig)
 {
     float *maps = malloc(map_bytes(rig));
-    assert_true(rg_buf_read(rig->instance->state[0].buf, 0, maps, (int64_t)map_bytes(rig)));
+    assert_true(rg_buf_read(rig->instance->state[0].asset->buf, 0, maps, (int64_t)map_bytes(rig)));
     return maps;
 }
 
@@ -118,7 +118,7 @@ void rig_put(struct rig *rig, const int64_t *water)
             for (int x = 0; x < n; x++)
                 maps[flow_pane_index(n, pane, x, y)] =
                     (float)((double)water[rig_texel(rig, pane, x, y)] / 65536);
-    assert_true(rg_buf_write(rig->instance->state[0].buf, 0, maps, (int64_t)map_bytes(rig)));
+    assert_true(rg_buf_write(rig->instance->state[0].asset->buf, 0, maps, (int64_t)map_bytes(rig)));
     free(maps);
 }
 
@@ -134,7 +134,7 @@ int64_t rig_sum(const struct rig *rig)
 uint32_t rig_ledger(const struct rig *rig, int word)
 {
     uint32_t words[FLOW_LEDGER_WORDS];
-    assert_true(rg_buf_read(rig->instance->state[1].buf, 0, words, sizeof(words)));
+    assert_true(rg_buf_read(rig->instance->state[1].asset->buf, 0, words, sizeof(words)));
     return words[word];
 }
 

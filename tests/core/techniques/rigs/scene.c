@@ -26,8 +26,8 @@ struct mesh_scene mesh_scene_open(const char *assignments)
     struct mesh_scene scene;
     mesh_scene_set(&scene, assignments);
     assert_true(scene.settings.scene == RASTER_TRIANGLES
-                    ? raster_shape_knot(scene.settings.triangles, &scene.shape)
-                    : raster_shape_load(&scene.settings, &scene.shape));
+                    ? raster_mesh_knot(scene.settings.triangles, &scene.shape)
+                    : raster_mesh_load(&scene.settings, &scene.shape));
     scene.faces = (struct faces){scene.shape.vertex_count, scene.shape.face_count,
                                  scene.shape.positions, scene.shape.normals, scene.shape.indices};
     return scene;
@@ -35,7 +35,7 @@ struct mesh_scene mesh_scene_open(const char *assignments)
 
 void mesh_scene_close(struct mesh_scene *scene)
 {
-    raster_shape_free(&scene->shape);
+    raster_mesh_free(&scene->shape);
 }
 
 raster_mesh_params mesh_scene_look(const struct mesh_scene *scene, int width, int height)

@@ -7,7 +7,7 @@
 
 struct mesh_scene {
     struct raster_settings settings;
-    struct raster_shape shape;
+    struct raster_mesh shape;
     struct faces faces; // the shape's arrays
 };
 

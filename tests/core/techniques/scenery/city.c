@@ -28,7 +28,7 @@ static bool cast(void *user, const float to_clip[16], const struct rg_draw *onto
     struct stage *stage = user;
     m4 m;
     memcpy(&m, to_clip, sizeof(m));
-    return scenery_depth(stage->scene, &stage->instance, m, onto);
+    return scenery_depth(stage->scene, m, onto);
 }
 
 static void open_stage(struct rg_device *device, const char *model, enum scenery_time time,
@@ -38,7 +38,7 @@ static void open_stage(struct rg_device *device, const char *model, enum scenery
     if (model)
         strcpy(settings.model, model);
     *stage = (struct stage){.instance = {.device = device}};
-    assert_non_null(stage->scene = scenery_get(device, &settings));
+    assert_non_null(stage->scene = scenery_open(&stage->instance, &settings));
     struct scenery_lights_settings light = {
         .count = lights,
         .time = time,
@@ -62,7 +62,9 @@ static void open_stage(struct rg_device *device, const char *model, enum scenery
 static void close_stage(struct stage *stage)
 {
     scenery_lights_close(stage->lights);
-    scenery_put(stage->scene);
+    scenery_close(stage->scene);
+    rg_stages_free(&stage->instance);
+    rg_assets_free(&stage->instance);
     rg_image_destroy(stage->colour);
     rg_image_destroy(stage->depth);
 }
@@ -80,7 +82,7 @@ static void draw(struct stage *stage, const struct rg_camera *camera,
     assert_true(rg_camera_matrix(camera, (float)WIDTH / HEIGHT, to_clip));
     memcpy(&view.to_clip, to_clip, sizeof(to_clip));
     memcpy(view.eye, camera->position, sizeof(view.eye));
-    assert_true(scenery_draw(stage->scene, &stage->instance, &view, look, stage->lights, true));
+    assert_true(scenery_draw(stage->scene, &view, look, stage->lights, true));
     assert_true(rg_image_read(stage->colour, 0, 0, picture->colour));
     assert_true(rg_image_read(stage->depth, 0, 0, picture->depth));
 }
@@ -150,7 +152,7 @@ static void without_geometry_all_is_horizon(void **state)
     struct scenery_view view;
     open_stage(*state, NULL, SCENERY_NIGHT, 0, &stage);
     view = (struct scenery_view){.colour = stage.colour, .depth = stage.depth};
-    assert_true(scenery_draw(stage.scene, &stage.instance, &view, &look, stage.lights, false));
+    assert_true(scenery_draw(stage.scene, &view, &look, stage.lights, false));
     assert_true(rg_image_read(stage.colour, 0, 0, picture->colour));
     assert_true(rg_image_read(stage.depth, 0, 0, picture->depth));
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
@@ -234,7 +236,7 @@ static void depth_from_above_is_the_height(void **state)
     const m4 down = {1 / 200.0f, 0, 0, 0, 0, 0, 1 / 200.0f, 0, 0, -1 / top, 0, 1, 0, 0, 0, 1};
     float depth[MAP_PX * MAP_PX];
     assert_true(rg_image_clear(map, &farthest));
-    assert_true(scenery_depth(stage.scene, &stage.instance, down, &(struct rg_draw){.depth = map}));
+    assert_true(scenery_depth(stage.scene, down, &(struct rg_draw){.depth = map}));
     assert_true(rg_image_read(map, 0, 0, depth));
     const struct city_faces *faces = &scenery_city(stage.scene)->faces;
     int above = 0, wrong = 0;
@@ -364,7 +366,8 @@ static void depth_is_where_rays_end(void **state)
 static void an_absent_mesh_is_refused(void **state)
 {
     struct scenery_settings settings = {.model = "no/such/mesh.obj"};
-    assert_null(scenery_get(*state, &settings));
+    struct rg_instance instance = {.device = *state};
+    assert_null(scenery_open(&instance, &settings));
     assert_non_null(strstr(rg_last_error(), "no/such/mesh.obj"));
 }
 

@@ -57,14 +57,27 @@ static float *picture_read(const struct picture *p)
     return texels;
 }
 
+static struct scenery_overlay *open_overlay(struct rg_device *device, struct rg_instance *instance)
+{
+    *instance = (struct rg_instance){.device = device};
+    struct scenery_overlay *overlay = scenery_overlay_open(instance);
+    assert_non_null(overlay);
+    return overlay;
+}
+
+static void close_overlay(struct scenery_overlay *overlay, struct rg_instance *instance)
+{
+    scenery_overlay_close(overlay);
+    rg_stages_free(instance);
+    rg_assets_free(instance);
+}
+
 // What an overlay shows with a matrix, over a depth: its texels, which the caller frees.
 static float *show(struct scenery_overlay *overlay, struct rg_device *device,
                    const float to_clip[16], const float *depth)
 {
-    struct rg_instance instance = {.device = device};
     struct picture p = picture_make(device, RG_RGBA32F, depth ? *depth : 1);
-    assert_true(
-        scenery_overlay_draw(overlay, &instance, to_clip, p.colour, depth ? p.depth : NULL));
+    assert_true(scenery_overlay_draw(overlay, to_clip, p.colour, depth ? p.depth : NULL));
     float *texels = picture_read(&p);
     picture_free(&p);
     return texels;
@@ -183,7 +196,8 @@ static void check_line(struct rg_device *device, struct scenery_overlay *overlay
 
 static void lines_cover_what_is_near_them(void **state)
 {
-    struct scenery_overlay *overlay = scenery_overlay_open(*state);
+    struct rg_instance instance;
+    struct scenery_overlay *overlay = open_overlay(*state, &instance);
     struct counts counts = {0};
     float to_clip[16];
     look(to_clip);
@@ -204,14 +218,15 @@ static void lines_cover_what_is_near_them(void **state)
     print_message("lines: %d pixels whole, %d in part, %d behind the depth\n", counts.full,
                   counts.part, counts.hidden);
     assert_true(counts.full > 10000 && counts.part > 10000 && counts.hidden > 1000);
-    scenery_overlay_close(overlay);
+    close_overlay(overlay, &instance);
 }
 
 // A long line past the eye ends millions of pixels beside the picture, and stays in its place
 // there.
 static void long_lines_stay_in_place(void **state)
 {
-    struct scenery_overlay *overlay = scenery_overlay_open(*state);
+    struct rg_instance instance;
+    struct scenery_overlay *overlay = open_overlay(*state, &instance);
     struct counts counts = {0};
     float to_clip[16];
     look_from(0.005f, to_clip);
@@ -222,7 +237,7 @@ static void long_lines_stay_in_place(void **state)
         check_line(*state, overlay, to_clip, a, b, 3, &counts);
     }
     assert_true(counts.full > 1000);
-    scenery_overlay_close(overlay);
+    close_overlay(overlay, &instance);
 }
 
 // Along rows of pixels, where all is known to the pixel; a point, and lines that are not seen.
@@ -243,7 +258,8 @@ static void plain_lines_are_exact(void **state)
         {{-50, 8, 0}, {-20, 8, 0}, 0, 0, 0, 0, 2},
         {{20, 2000, 0}, {90, 3000, 0}, 0, 0, 0, 0, 2},
     };
-    struct scenery_overlay *overlay = scenery_overlay_open(*state);
+    struct rg_instance instance;
+    struct scenery_overlay *overlay = open_overlay(*state, &instance);
     for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); k++) {
         const struct scenery_ink ink = {1, 1, 1, 1, cases[k].width_px};
         scenery_overlay_begin(overlay);
@@ -259,7 +275,7 @@ static void plain_lines_are_exact(void **state)
         }
         free(texels);
     }
-    scenery_overlay_close(overlay);
+    close_overlay(overlay, &instance);
 }
 
 // --- sheets ---
@@ -292,7 +308,8 @@ static void sheets_fill_their_polygons(void **state)
         const struct corner c = project(to_clip, corners[k]);
         px[k] = (struct corner){(c.x / c.w + 1) / 2 * WIDTH, (c.y / c.w + 1) / 2 * HEIGHT, 0, 1};
     }
-    struct scenery_overlay *overlay = scenery_overlay_open(*state);
+    struct rg_instance instance;
+    struct scenery_overlay *overlay = open_overlay(*state, &instance);
     scenery_overlay_begin(overlay);
     scenery_overlay_sheet(overlay, corners, &ink, 0.25f);
     float *texels = show(overlay, *state, to_clip, NULL),
@@ -320,7 +337,7 @@ static void sheets_fill_their_polygons(void **state)
     assert_true(filled > 1000 && hidden > filled / 20 && hidden < filled * 9 / 10);
     free(texels);
     free(tested);
-    scenery_overlay_close(overlay);
+    close_overlay(overlay, &instance);
 }
 
 // --- boxes and frusta ---
@@ -344,7 +361,8 @@ static double sum_of(const float *texels)
 // The frustum of a light is the box, or the pyramid's stump, that its settings say.
 static void check_frustum(struct rg_device *device, const scenery_light *light, float corners[8][3])
 {
-    struct scenery_overlay *overlay = scenery_overlay_open(device);
+    struct rg_instance instance;
+    struct scenery_overlay *overlay = open_overlay(device, &instance);
     const struct scenery_ink ink = {1, 1, 1, 1, 2};
     float to_clip[16];
     look(to_clip);
@@ -361,7 +379,7 @@ static void check_frustum(struct rg_device *device, const scenery_light *light, 
     assert_true(difference(shown, due) < 0.02);
     free(shown);
     free(due);
-    scenery_overlay_close(overlay);
+    close_overlay(overlay, &instance);
 }
 
 static void frusta_are_where_lights_shine(void **state)
@@ -396,7 +414,8 @@ static void frusta_are_where_lights_shine(void **state)
 static void boxes_have_twelve_edges(void **state)
 {
     static const float flat[16] = {0.5f, 0.11f, 0, 0, 0, 0.5f, 0.17f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 1};
-    struct scenery_overlay *overlay = scenery_overlay_open(*state);
+    struct rg_instance instance;
+    struct scenery_overlay *overlay = open_overlay(*state, &instance);
     const struct scenery_ink ink = {1, 1, 1, 0.001f, 1}; // so thin that inks add up
     float corners[8][3];
     double due = 0;
@@ -412,7 +431,7 @@ static void boxes_have_twelve_edges(void **state)
     float *texels = show(overlay, *state, flat, NULL);
     assert_true(fabs(sum_of(texels) / 0.001 / due - 1) < 0.02);
     free(texels);
-    scenery_overlay_close(overlay);
+    close_overlay(overlay, &instance);
 }
 
 // --- insets ---
@@ -438,10 +457,10 @@ static void insets_show_the_part_of_a_map(void **state)
     for (int i = 0; i < MAP * MAP; i++)
         depths[i] = between((uint32_t)i, 0, 0, 1);
     assert_true(rg_image_clear(map, &nothing) && rg_image_write(map, 1, 0, depths));
-    struct scenery_overlay *overlay = scenery_overlay_open(device);
-    struct rg_instance instance = {.device = device};
+    struct rg_instance instance;
+    struct scenery_overlay *overlay = open_overlay(device, &instance);
     struct picture p = picture_make(device, RG_RGBA32F, 1);
-    assert_true(scenery_overlay_inset(overlay, &instance, &inset, map, p.colour));
+    assert_true(scenery_overlay_inset(overlay, &inset, map, p.colour));
     float *texels = picture_read(&p);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         const int x = i % WIDTH - inset.x0, y = i / WIDTH - inset.y0;
@@ -455,7 +474,7 @@ static void insets_show_the_part_of_a_map(void **state)
     }
     free(texels);
     picture_free(&p);
-    scenery_overlay_close(overlay);
+    close_overlay(overlay, &instance);
     rg_image_destroy(map);
 }
 
@@ -491,15 +510,15 @@ static void all_bytes_are_those_of_the_reference(void **state)
         const size_t bytes = (size_t)(WIDTH * HEIGHT * rg_format_size(formats[f]));
         void *texels[2];
         for (int d = 0; d < 2; d++) {
-            struct rg_instance instance = {.device = devices[d]};
-            struct scenery_overlay *overlay = scenery_overlay_open(devices[d]);
+            struct rg_instance instance;
+            struct scenery_overlay *overlay = open_overlay(devices[d], &instance);
             struct picture p = picture_make(devices[d], formats[f], 0.95f);
             texels[d] = malloc(bytes);
             fill(overlay);
-            assert_true(scenery_overlay_draw(overlay, &instance, to_clip, p.colour, p.depth));
+            assert_true(scenery_overlay_draw(overlay, to_clip, p.colour, p.depth));
             assert_true(rg_image_read(p.colour, 0, 0, texels[d]));
             picture_free(&p);
-            scenery_overlay_close(overlay);
+            close_overlay(overlay, &instance);
         }
         assert_memory_equal(texels[0], texels[1], bytes);
         free(texels[0]);

@@ -321,7 +321,7 @@ static void test_layers_stand_in_the_scene(void **state)
     struct streaks *s = open_far(settings);
     rain_step(s, 1);
     struct rain_texels *wet = rain_read(s);
-    assert_true(rg_image_read(s->depth, 0, 0, depths));
+    assert_true(rg_image_read(rg_asset_find(&s->base, "depth")->image, 0, 0, depths));
     snprintf(settings, sizeof(settings), scene, 0);
     struct streaks *bare = open_far(settings);
     rain_step(bare, 1);

@@ -32,7 +32,7 @@ static struct streaks *open_rain(struct rg_device *on, const char *settings)
     assert_non_null(defaults);
     assert_non_null(small = rg_settings_copy(technique, defaults, SMALL));
     assert_non_null(all = rg_settings_copy(technique, small, settings));
-    struct rg_instance *instance = technique->create(on, all, WIDTH, HEIGHT);
+    struct rg_instance *instance = rg_instance_open(technique, on, all, WIDTH, HEIGHT);
     assert_non_null(instance);
     free(defaults);
     free(small);
@@ -42,7 +42,7 @@ static struct streaks *open_rain(struct rg_device *on, const char *settings)
 
 static void close_rain(struct streaks *s)
 {
-    s->base.technique->destroy(&s->base);
+    rg_instance_close(&s->base);
 }
 
 static struct rg_picture read_picture(struct streaks *s)

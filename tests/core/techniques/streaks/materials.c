@@ -32,7 +32,7 @@ static struct streaks *open_rain(struct rg_device *device, const char *settings)
     void *defaults = rg_settings_create(technique);
     void *copy = rg_settings_copy(technique, defaults, all);
     assert_non_null(copy);
-    struct rg_instance *instance = technique->create(device, copy, WIDTH, HEIGHT);
+    struct rg_instance *instance = rg_instance_open(technique, device, copy, WIDTH, HEIGHT);
     assert_non_null(instance);
     free(copy);
     free(defaults);
@@ -42,7 +42,7 @@ static struct streaks *open_rain(struct rg_device *device, const char *settings)
 
 static void close_rain(struct streaks *s)
 {
-    s->base.technique->destroy(&s->base);
+    rg_instance_close(&s->base);
 }
 
 // --- what is seen along the fall ---

@@ -21,7 +21,8 @@ struct streaks *rain_open(const char *settings)
     void *defaults = rg_settings_create(technique);
     void *copy = rg_settings_copy(technique, defaults, all);
     assert_non_null(copy);
-    struct rg_instance *instance = technique->create(rain_device, copy, RAIN_WIDTH, RAIN_HEIGHT);
+    struct rg_instance *instance =
+        rg_instance_open(technique, rain_device, copy, RAIN_WIDTH, RAIN_HEIGHT);
     assert_non_null(instance);
     free(copy);
     free(defaults);
@@ -30,7 +31,7 @@ struct streaks *rain_open(const char *settings)
 
 void rain_close(struct streaks *s)
 {
-    s->base.technique->destroy(&s->base);
+    rg_instance_close(&s->base);
 }
 
 void rain_step(struct streaks *s, int frames)
@@ -46,7 +47,7 @@ struct rain_places rain_read_places(const struct streaks *s)
     places.words = malloc((size_t)bytes);
     assert_non_null(places.words);
     assert_int_equal(s->base.state_count, 1);
-    assert_true(rg_buf_read(s->base.state[0].buf, 0, places.words, bytes));
+    assert_true(rg_buf_read(s->base.state[0].asset->buf, 0, places.words, bytes));
     return places;
 }
 

@@ -11,25 +11,25 @@
 #include "kernels/dialect/mesh/normal.h"
 #include "kernels/dialect/rng.h"
 
-static bool make_room(int vertices, int faces, struct raster_shape *shape)
+static bool make_room(int vertices, int faces, struct raster_mesh *shape)
 {
-    *shape = (struct raster_shape){.vertex_count = vertices, .face_count = faces};
+    *shape = (struct raster_mesh){.vertex_count = vertices, .face_count = faces};
     shape->positions = rg_alloc((size_t)vertices, 3 * sizeof(float), "positions");
     shape->normals = rg_alloc((size_t)vertices, sizeof(uint32_t), "normals");
     shape->indices = rg_alloc((size_t)faces, 3 * sizeof(uint32_t), "indices");
     return shape->positions && shape->normals && shape->indices;
 }
 
-void raster_shape_free(struct raster_shape *shape)
+void raster_mesh_free(struct raster_mesh *shape)
 {
     free(shape->positions);
     free(shape->normals);
     free(shape->indices);
-    *shape = (struct raster_shape){0};
+    *shape = (struct raster_mesh){0};
 }
 
 // How far the positions reach from the middle of their bounds.
-static void find_radius(struct raster_shape *shape)
+static void find_radius(struct raster_mesh *shape)
 {
     double longest = 0, farthest = 0;
     for (int c = 0; c < 3; c++)
@@ -49,7 +49,7 @@ static void find_radius(struct raster_shape *shape)
 // --- models ---
 
 // The mesh's arrays become the shape's.
-static bool take_mesh(struct rg_mesh *mesh, struct raster_shape *shape)
+static bool take_mesh(struct rg_mesh *mesh, struct raster_mesh *shape)
 {
     shape->vertex_count = mesh->vertex_count;
     shape->face_count = mesh->face_count;
@@ -68,9 +68,9 @@ static bool take_mesh(struct rg_mesh *mesh, struct raster_shape *shape)
     return true;
 }
 
-bool raster_shape_load(const struct raster_settings *settings, struct raster_shape *shape)
+bool raster_mesh_load(const struct raster_settings *settings, struct raster_mesh *shape)
 {
-    *shape = (struct raster_shape){0};
+    *shape = (struct raster_mesh){0};
     struct rg_mesh *mesh = rg_mesh_load_faces(settings->model, settings->faces);
     const bool ok = mesh && take_mesh(mesh, shape);
     rg_mesh_destroy(mesh);
@@ -121,7 +121,7 @@ static struct point on_tube(double t, double around, struct point *out)
     return plus(centre, 0.55 + 0.04 * cos(9 * around + 30 * t), *out);
 }
 
-static void put_vertex(struct raster_shape *shape, int i, struct point at, struct point out)
+static void put_vertex(struct raster_mesh *shape, int i, struct point at, struct point out)
 {
     const float position[3] = {(float)at.x, (float)at.y, (float)at.z};
     memcpy(shape->positions + 3 * (size_t)i, position, sizeof(position));
@@ -144,7 +144,7 @@ static struct point tube_normal(double t, double around)
     return unit(cross(by_around, by_t));
 }
 
-bool raster_shape_knot(int triangles, struct raster_shape *shape)
+bool raster_mesh_knot(int triangles, struct raster_mesh *shape)
 {
     const double turn = 6.283185307179586;
     const int around = (int)(sqrt(triangles / 2.0 / 8)), along = triangles / 2 / around;

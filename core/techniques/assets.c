@@ -1,0 +1,178 @@
+#include "core/techniques/assets.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+
+static void *fail(struct rg_instance *instance)
+{
+    instance->has_failed = true;
+    return NULL;
+}
+
+// A new asset that holds nothing yet.
+static struct rg_asset *add(struct rg_instance *instance, const char *name)
+{
+    if (instance->has_failed)
+        return NULL;
+    instance->has_failed = true;
+    if (instance->asset_count == RG_MAX_ASSETS)
+        return rg_error_null("asset '%s': one more than an instance has room for; raise "
+                             "RG_MAX_ASSETS",
+                             name);
+    if (strlen(name) >= RG_ASSET_NAME || rg_asset_find(instance, name))
+        return rg_error_null("asset '%s': its name is too long or taken; give it another", name);
+    instance->has_failed = false;
+    struct rg_asset *asset = &instance->assets[instance->asset_count++];
+    memset(asset, 0, sizeof(*asset));
+    memcpy(asset->name, name, strlen(name));
+    return asset;
+}
+
+struct rg_asset *rg_asset_find(struct rg_instance *instance, const char *name)
+{
+    for (int i = 0; i < instance->asset_count; i++)
+        if (!strcmp(instance->assets[i].name, name))
+            return &instance->assets[i];
+    return NULL;
+}
+
+// --- buffers ---
+
+struct rg_asset *rg_lend_buf(struct rg_instance *instance, const char *name, struct rg_buf *buf)
+{
+    struct rg_asset *asset = add(instance, name);
+    if (!asset)
+        return NULL;
+    asset->buf = buf;
+    rg_set_items(asset, buf ? (int)(buf->size / 4) : 1, 1, 1);
+    return asset;
+}
+
+struct rg_asset *rg_add_room(struct rg_instance *instance, const char *name, int64_t count)
+{
+    struct rg_asset *asset = rg_lend_buf(instance, name, NULL);
+    if (!asset)
+        return NULL;
+    return rg_make_room(instance, asset, count) ? asset : fail(instance);
+}
+
+struct rg_asset *rg_add_buf(struct rg_instance *instance, const char *name, int64_t count,
+                            const void *words)
+{
+    struct rg_asset *asset = rg_add_room(instance, name, count);
+    void *zeroes = asset && !words ? rg_alloc((size_t)count, 4, name) : NULL;
+    const void *contents = words ? words : zeroes;
+    const bool ok = asset && contents && rg_buf_write(asset->buf, 0, contents, count * 4);
+    free(zeroes);
+    return ok ? asset : fail(instance);
+}
+
+bool rg_make_room(struct rg_instance *instance, struct rg_asset *asset, int64_t count)
+{
+    if (asset->buf && (int64_t)asset->buf->size >= count * 4)
+        return true;
+    rg_empty(asset);
+    asset->buf = rg_buf_create(instance->device, count * 4, asset->name);
+    asset->is_owned = true;
+    rg_set_items(asset, count <= INT32_MAX ? (int)count : 0, 1, 1);
+    return asset->buf;
+}
+
+// --- images ---
+
+struct rg_asset *rg_lend_image(struct rg_instance *instance, const char *name,
+                               struct rg_image *image)
+{
+    struct rg_asset *asset = add(instance, name);
+    if (!asset)
+        return NULL;
+    asset->is_image = true;
+    asset->image = image;
+    if (image)
+        rg_set_items(asset, image->desc.width, image->desc.height, image->desc.layers);
+    return asset;
+}
+
+struct rg_asset *rg_add_image_of(struct rg_instance *instance, const char *name,
+                                 const struct rg_image_desc *desc)
+{
+    struct rg_asset *asset = rg_lend_image(instance, name, NULL);
+    if (!asset)
+        return NULL;
+    return rg_make_image(instance, asset, desc) ? asset : fail(instance);
+}
+
+bool rg_make_image(struct rg_instance *instance, struct rg_asset *asset,
+                   const struct rg_image_desc *desc)
+{
+    const struct rg_image_desc *is = asset->image ? &asset->image->desc : NULL;
+    if (is && is->format == desc->format && is->width == desc->width &&
+        is->height == desc->height && is->layers == desc->layers && is->levels == desc->levels)
+        return true;
+    rg_empty(asset);
+    asset->image = rg_image_create(instance->device, desc, asset->name);
+    asset->is_owned = true;
+    rg_set_items(asset, desc->width, desc->height, desc->layers);
+    return asset->image;
+}
+
+struct rg_asset *rg_give_image(struct rg_instance *instance, const char *name,
+                               struct rg_image *image)
+{
+    struct rg_asset *asset = image ? rg_lend_image(instance, name, image) : fail(instance);
+    if (asset)
+        asset->is_owned = true;
+    else
+        rg_image_destroy(image);
+    return asset;
+}
+
+struct rg_asset *rg_add_image(struct rg_instance *instance, const char *name, enum rg_format format,
+                              int width, int height)
+{
+    return rg_add_image_of(instance, name, &(struct rg_image_desc){format, width, height, 1, 1});
+}
+
+// --- both ---
+
+void rg_set_items(struct rg_asset *asset, int width, int height, int depth)
+{
+    if (asset)
+        asset->items = (struct rg_extent){width, height, depth};
+}
+
+void rg_empty(struct rg_asset *asset)
+{
+    if (asset->is_owned) {
+        rg_buf_destroy(asset->buf);
+        rg_image_destroy(asset->image);
+    }
+    asset->buf = NULL;
+    asset->image = NULL;
+}
+
+void rg_swap(struct rg_asset *a, struct rg_asset *b)
+{
+    struct rg_buf *buf = a->buf;
+    struct rg_image *image = a->image;
+    a->buf = b->buf;
+    a->image = b->image;
+    b->buf = buf;
+    b->image = image;
+}
+
+void rg_add_state(struct rg_instance *instance, struct rg_asset *asset, const char *name,
+                  bool is_float, int row, int margin)
+{
+    if (!instance->has_failed && instance->state_count < RG_MAX_STATE)
+        instance->state[instance->state_count++] =
+            (struct rg_state){name, asset, is_float, row, margin};
+}
+
+void rg_assets_free(struct rg_instance *instance)
+{
+    while (instance->asset_count > 0)
+        rg_empty(&instance->assets[--instance->asset_count]);
+}
