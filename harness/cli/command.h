@@ -3,16 +3,7 @@
 #define RG_HARNESS_CLI_COMMAND_H
 
 #include "harness/cli/option.h"
-
-enum rg_exit {
-    RG_EXIT_PASS = 0,
-    RG_EXIT_FAIL = 1,  // differs, regressed, not verified
-    RG_EXIT_USAGE = 2, // bad usage or input
-    RG_EXIT_INCONCLUSIVE = 3,
-    RG_EXIT_NOTHING = 4,      // nothing was measured
-    RG_EXIT_UNSUPPORTED = 77, // not supported on this machine
-    RG_EXIT_SIGNALLED = 128,  // and the signal's number: ended early because it was asked to
-};
+#include "harness/console/exit.h"
 
 struct rg_command {
     const char *name;

@@ -55,13 +55,8 @@ static bool take_names(struct rg_doctor_report *report, const char *names)
 static int verdict(const struct rg_doctor_report *report)
 {
     int exit = report->count ? RG_EXIT_PASS : RG_EXIT_UNSUPPORTED;
-    for (int i = 0; i < report->count; i++) {
-        const struct rg_examination *e = &report->examinations[i];
-        if (e->status == RG_UNSUPPORTED && exit == RG_EXIT_PASS)
-            exit = RG_EXIT_UNSUPPORTED;
-        else if (e->status != RG_OK && e->status != RG_UNSUPPORTED)
-            exit = RG_EXIT_FAIL;
-    }
+    for (int i = 0; i < report->count; i++)
+        exit = rg_exit_worse(exit, rg_exit_of(report->examinations[i].status));
     return exit;
 }
 

@@ -105,14 +105,15 @@ static int render_on(struct rg_device *device, const struct rg_technique *techni
     const char *output = o->output ? o->output : path;
     struct rg_instance *instance =
         rg_frame_run(technique, settings, device, o->size.width, o->size.height, o->frames);
-    bool ok = instance && write_frame(instance, output, o->exposure);
+    const bool ok = instance && write_frame(instance, output, o->exposure);
+    const int exit = ok ? RG_EXIT_PASS : rg_exit_of_error();
     if (ok && o->json)
         print_json(instance, settings, output);
     else if (ok)
         print_text(instance, output);
     if (instance)
         rg_instance_close(instance);
-    return ok ? RG_EXIT_PASS : RG_EXIT_USAGE;
+    return exit;
 }
 
 static bool names_one_device(const char *names)

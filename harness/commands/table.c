@@ -98,21 +98,17 @@ static bool write_all(const struct rg_table_run *run, const char *folder)
     return ok;
 }
 
-// Fail when a cell disagreed or could not be measured, pass when one was measured, nothing when
-// there was none.
+// What its cells come to, and what came between them and the truth.
 static int judge(const struct rg_table_run *run)
 {
     const int devices = run->devices->count;
-    int counts[4] = {0};
+    int counts[RG_OUTCOME_COUNT] = {0};
     for (int i = 0; i < run->cell_count; i++) {
         counts[run->cells[i].status] += !run->groups[i / devices].is_missing;
-        counts[RG_ERROR] += run->groups[i / devices].error_status == RG_ERROR;
+        if (rg_exit_of(run->groups[i / devices].error_status) == RG_EXIT_FAIL)
+            counts[RG_FAIL]++;
     }
-    if (counts[RG_FAIL] || counts[RG_ERROR])
-        return RG_EXIT_FAIL;
-    if (counts[RG_OK])
-        return RG_EXIT_PASS;
-    return counts[RG_UNSUPPORTED] ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
+    return rg_exit_of_all(counts);
 }
 
 // One table of the command.
@@ -120,18 +116,6 @@ struct job {
     struct rg_table_run run;
     struct rg_journal *journal;
 };
-
-// Bad input outweighs a failure, a failure nothing measured, and an interruption all.
-static int worse(int a, int b)
-{
-    static const int order[] = {RG_EXIT_USAGE, RG_EXIT_FAIL, RG_EXIT_NOTHING, RG_EXIT_UNSUPPORTED};
-    if (a > RG_EXIT_SIGNALLED || b > RG_EXIT_SIGNALLED)
-        return a > b ? a : b;
-    for (int i = 0; i < 4; i++)
-        if (a == order[i] || b == order[i])
-            return order[i];
-    return RG_EXIT_PASS;
-}
 
 static void tell_resumed(const struct job *job)
 {
@@ -171,7 +155,7 @@ static int run_job(struct job *job, struct rg_kept *kept, const struct table_opt
         exit = RG_EXIT_FAIL;
     fflush(stdout);
     if (is_whole && o->output && !write_all(run, o->output))
-        exit = worse(exit, RG_EXIT_USAGE);
+        exit = rg_exit_worse(exit, RG_EXIT_USAGE);
     if (rg_interrupted()) {
         tell_interrupted(job);
         exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
@@ -238,7 +222,7 @@ static int run_jobs(struct job *jobs, int count, const struct rg_devices *device
     for (int i = 0; i < count && !rg_interrupted(); i++) {
         if (i)
             printf("\n");
-        exit = worse(exit, run_job(&jobs[i], &kept, o));
+        exit = rg_exit_worse(exit, run_job(&jobs[i], &kept, o));
     }
     for (int i = 0; i < count; i++) {
         if (!rg_interrupted())
@@ -246,7 +230,7 @@ static int run_jobs(struct job *jobs, int count, const struct rg_devices *device
         rg_table_run_free(&jobs[i].run);
         rg_journal_close(jobs[i].journal);
     }
-    return rg_kept_free(&kept) ? exit : worse(exit, RG_EXIT_FAIL);
+    return rg_kept_free(&kept) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
 }
 
 static int table(const void *values, const struct rg_words *arguments)
@@ -265,7 +249,7 @@ static int table(const void *values, const struct rg_words *arguments)
                 : RG_EXIT_FAIL;
     free(jobs);
     if (devices.broken_count)
-        exit = worse(exit, RG_EXIT_FAIL);
+        exit = rg_exit_worse(exit, RG_EXIT_FAIL);
     rg_devices_close(&devices);
     return exit;
 }

@@ -138,8 +138,10 @@ static int verify_on(const struct verify_options *o, const struct rg_devices *de
         .devices = devices,
         .checks = &checks,
     };
-    int exit = RG_EXIT_UNSUPPORTED;
-    if (v.reference && v.mutant_device) {
+    int exit;
+    if (!v.reference || !v.mutant_device) {
+        exit = rg_exit_of_error();
+    } else {
         note_missing(devices, subjects, count, &checks);
         note_broken(devices, subjects, count, &checks);
         verify_all(&v, subjects, count);
@@ -148,8 +150,8 @@ static int verify_on(const struct verify_options *o, const struct rg_devices *de
     }
     rg_checks_free(&checks);
     for (int i = 0; i < 2; i++)
-        if (extra[i] && !rg_device_close(extra[i]))
-            exit = RG_EXIT_FAIL;
+        if (!rg_device_close(extra[i]))
+            exit = rg_exit_worse(exit, RG_EXIT_FAIL);
     return exit;
 }
 
@@ -164,7 +166,7 @@ static int verify(const void *values, const struct rg_words *arguments)
         if (exit == RG_EXIT_PASS) {
             exit = verify_on(o, &devices, subjects, count);
             if (!rg_devices_close(&devices))
-                exit = RG_EXIT_FAIL;
+                exit = rg_exit_worse(exit, RG_EXIT_FAIL);
         }
     }
     for (int i = 0; i < count; i++)

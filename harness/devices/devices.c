@@ -6,7 +6,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "harness/cli/command.h"
+#include "harness/console/exit.h"
 #include "harness/devices/child.h"
 
 enum { LIST_TIMEOUT_S = 60 };
@@ -47,14 +47,6 @@ void rg_devices_list(struct rg_device_list *list)
 }
 
 // --- opening ---
-
-static int exit_of_error(void)
-{
-    static const int exits[] = {[RG_ERROR_INPUT] = RG_EXIT_USAGE,
-                                [RG_ERROR_UNSUPPORTED] = RG_EXIT_UNSUPPORTED,
-                                [RG_ERROR_DRIVER] = RG_EXIT_FAIL};
-    return exits[rg_last_error_kind()];
-}
 
 static void note_broken(struct rg_devices *devices, const char *name)
 {
@@ -99,7 +91,7 @@ static int open_named(const char *names, struct rg_devices *devices)
         if (device)
             devices->devices[devices->count++] = device;
         else
-            exit = exit_of_error();
+            exit = rg_exit_of_error();
     }
     free(copy);
     if (exit == RG_EXIT_PASS && !devices->count) {

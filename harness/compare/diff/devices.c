@@ -6,8 +6,8 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "harness/cli/command.h"
 #include "harness/compare/diff/report.h"
+#include "harness/console/exit.h"
 #include "harness/console/progress.h"
 #include "harness/devices/devices.h"
 #include "harness/frames/frame.h"
@@ -103,10 +103,8 @@ static int compare_all(struct session *s)
         printf("%-30s %-5s %-5s %10s %10s %8s %9s %8s\n", "pair", "", "tier", "differing",
                "largest", "mask px", "FLIP mean", "PSNR dB");
     for (int i = 0; i < s->shot_count; i++) {
-        for (int j = i + 1; j < s->shot_count && exit != RG_EXIT_USAGE; j++) {
-            const int found = compare_pair(s, &s->shots[i], &s->shots[j]);
-            exit = found > exit ? found : exit;
-        }
+        for (int j = i + 1; j < s->shot_count && exit != RG_EXIT_USAGE; j++)
+            exit = rg_exit_worse(exit, compare_pair(s, &s->shots[i], &s->shots[j]));
     }
     if (s->pairs && !rg_pairs_print_json(s->pairs))
         exit = RG_EXIT_USAGE;
@@ -125,9 +123,9 @@ int rg_diff_devices(const struct rg_diff_devices_request *request)
         rg_error("--device %s: a comparison takes two devices", request->devices);
         exit = RG_EXIT_USAGE;
     } else if (exit == RG_EXIT_PASS) {
-        exit = take_pictures(s, &devices) ? compare_all(s) : RG_EXIT_USAGE;
-        if (exit == RG_EXIT_PASS && devices.broken_count)
-            exit = RG_EXIT_FAIL;
+        exit = take_pictures(s, &devices) ? compare_all(s) : rg_exit_of_error();
+        if (devices.broken_count)
+            exit = rg_exit_worse(exit, RG_EXIT_FAIL);
     }
     for (int i = 0; i < s->shot_count; i++)
         rg_picture_destroy(&s->shots[i].picture);

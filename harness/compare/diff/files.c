@@ -2,8 +2,7 @@
 
 #include "core/image/files/io.h"
 #include "harness/compare/diff/report.h"
-
-enum { SAME = 0, DIFFERS = 1, BAD_INPUT = 2 };
+#include "harness/console/exit.h"
 
 static bool print_json(const struct rg_diff_request *request,
                        const struct rg_comparison *comparison)
@@ -27,7 +26,7 @@ int rg_diff_files(const struct rg_diff_request *request)
         good = print_json(request, &comparison);
     else if (good)
         rg_pair_print(request->a, request->b, &comparison);
-    int status = !good ? BAD_INPUT : comparison.tiers.t0.holds ? SAME : DIFFERS;
+    int status = !good ? RG_EXIT_USAGE : comparison.tiers.t0.holds ? RG_EXIT_PASS : RG_EXIT_FAIL;
     rg_comparison_destroy(&comparison);
     for (int i = 0; i < 3; i++)
         rg_picture_destroy(&pictures[i]);

@@ -14,8 +14,9 @@ struct rg_diff_request {
     struct rg_compare_options options;
 };
 
-// Prints the comparison of `b` with `a` to stdout. Returns the exit status: 0 the same to the bit
-// (T0), 1 not, 2 bad input or a heat map that cannot be written, with one line logged.
+// Prints the comparison of `b` with `a` to stdout. Returns an enum rg_exit: pass when they are
+// the same to the bit (T0); usage, with one line logged, for bad input or a heat map that cannot be
+// written.
 int rg_diff_files(const struct rg_diff_request *request);
 
 #endif

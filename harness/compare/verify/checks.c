@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/cli/command.h"
+#include "harness/console/exit.h"
 
 void rg_checks_add(struct rg_checks *checks, const char *technique, const char *check,
                    const char *device, enum rg_outcome status, const char *format, ...)
@@ -77,14 +77,10 @@ void rg_checks_print(const struct rg_checks *checks, bool json)
 
 int rg_checks_exit(const struct rg_checks *checks)
 {
-    int counts[4] = {0};
+    int counts[RG_OUTCOME_COUNT] = {[RG_ERROR] = checks->incomplete};
     for (int i = 0; i < checks->count; i++)
         counts[checks->rows[i].status]++;
-    if (counts[RG_FAIL] || counts[RG_ERROR] || checks->incomplete)
-        return RG_EXIT_FAIL;
-    if (counts[RG_OK])
-        return RG_EXIT_PASS;
-    return counts[RG_UNSUPPORTED] ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
+    return rg_exit_of_all(counts);
 }
 
 void rg_checks_free(struct rg_checks *checks)

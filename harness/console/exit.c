@@ -1,0 +1,45 @@
+#include "harness/console/exit.h"
+
+#include "core/base/log.h"
+
+int rg_exit_of(enum rg_outcome outcome)
+{
+    switch (outcome) {
+    case RG_OK:
+        return RG_EXIT_PASS;
+    case RG_UNSUPPORTED:
+        return RG_EXIT_UNSUPPORTED;
+    default:
+        return RG_EXIT_FAIL;
+    }
+}
+
+int rg_exit_of_all(const int counts[RG_OUTCOME_COUNT])
+{
+    bool failed = false;
+    for (int i = 0; i < RG_OUTCOME_COUNT; i++)
+        failed = failed || (counts[i] && rg_exit_of((enum rg_outcome)i) == RG_EXIT_FAIL);
+    if (failed)
+        return RG_EXIT_FAIL;
+    if (counts[RG_OK])
+        return RG_EXIT_PASS;
+    return counts[RG_UNSUPPORTED] ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
+}
+
+int rg_exit_of_error(void)
+{
+    return rg_last_error_kind() == RG_ERROR_INPUT ? RG_EXIT_USAGE
+                                                  : rg_exit_of(rg_outcome_of_error());
+}
+
+int rg_exit_worse(int a, int b)
+{
+    static const int order[] = {RG_EXIT_USAGE, RG_EXIT_FAIL, RG_EXIT_INCONCLUSIVE, RG_EXIT_NOTHING,
+                                RG_EXIT_UNSUPPORTED};
+    if (a > RG_EXIT_SIGNALLED || b > RG_EXIT_SIGNALLED)
+        return a > b ? a : b;
+    for (int i = 0; i < (int)(sizeof(order) / sizeof(order[0])); i++)
+        if (a == order[i] || b == order[i])
+            return order[i];
+    return RG_EXIT_PASS;
+}

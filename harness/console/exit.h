@@ -1,0 +1,31 @@
+// How the program ends: its exit statuses, and which of them outcomes and errors become.
+#ifndef RG_HARNESS_CONSOLE_EXIT_H
+#define RG_HARNESS_CONSOLE_EXIT_H
+
+#include "core/base/outcome.h"
+
+// docs/environment.md lists them. Functions that return one return an int, for that of a signal has
+// no name.
+enum rg_exit {
+    RG_EXIT_PASS = 0,
+    RG_EXIT_FAIL = 1,  // differs, regressed, not verified; a driver failed
+    RG_EXIT_USAGE = 2, // bad usage or input
+    RG_EXIT_INCONCLUSIVE = 3,
+    RG_EXIT_NOTHING = 4,      // nothing was measured
+    RG_EXIT_UNSUPPORTED = 77, // not supported on this machine
+    RG_EXIT_SIGNALLED = 128,  // and the signal's number: ended early because it was asked to
+};
+
+// Of work that had one outcome.
+int rg_exit_of(enum rg_outcome outcome);
+// Of work with so many of each outcome: a failure of any kind outweighs all; then it passes where
+// something was ok, and is unsupported where all was. Without any, nothing was measured.
+int rg_exit_of_all(const int counts[RG_OUTCOME_COUNT]);
+// Of work that the last error (core/base/log.h) ended: bad usage where that is the user's.
+int rg_exit_of_error(void);
+
+// Of two parts of a command. Bad usage outweighs a failure, a failure what proves nothing, and an
+// interruption all.
+int rg_exit_worse(int a, int b);
+
+#endif

@@ -1,0 +1,82 @@
+// Which exit status outcomes and errors become.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "core/base/log.h"
+#include "harness/console/exit.h"
+
+static void each_outcome_has_one(void **state)
+{
+    (void)state;
+    static const int due[RG_OUTCOME_COUNT] = {[RG_OK] = 0,    [RG_FAIL] = 1,  [RG_UNSUPPORTED] = 77,
+                                              [RG_ERROR] = 1, [RG_CRASH] = 1, [RG_TIMEOUT] = 1};
+    for (int i = 0; i < RG_OUTCOME_COUNT; i++)
+        assert_int_equal(rg_exit_of((enum rg_outcome)i), due[i]);
+}
+
+static void failures_outweigh_what_is_ok(void **state)
+{
+    (void)state;
+    int counts[RG_OUTCOME_COUNT] = {0};
+    assert_int_equal(rg_exit_of_all(counts), RG_EXIT_NOTHING);
+    counts[RG_UNSUPPORTED] = 3;
+    assert_int_equal(rg_exit_of_all(counts), RG_EXIT_UNSUPPORTED);
+    counts[RG_OK] = 1;
+    assert_int_equal(rg_exit_of_all(counts), RG_EXIT_PASS);
+    static const enum rg_outcome failures[] = {RG_FAIL, RG_ERROR, RG_CRASH, RG_TIMEOUT};
+    for (int i = 0; i < 4; i++) {
+        counts[failures[i]] = 1;
+        assert_int_equal(rg_exit_of_all(counts), RG_EXIT_FAIL);
+        counts[failures[i]] = 0;
+    }
+}
+
+static void ignore(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)line;
+    (void)user;
+}
+
+static void only_users_make_bad_usage(void **state)
+{
+    (void)state;
+    rg_log_listen(ignore, NULL);
+    rg_driver_error("the driver's");
+    assert_int_equal(rg_exit_of_error(), RG_EXIT_FAIL);
+    rg_unsupported("nobody's");
+    assert_int_equal(rg_exit_of_error(), RG_EXIT_UNSUPPORTED);
+    rg_error("the user's");
+    assert_int_equal(rg_exit_of_error(), RG_EXIT_USAGE);
+    rg_log_listen(NULL, NULL);
+}
+
+// Each outweighs those behind it, whichever comes first.
+static void the_worse_of_two_is_kept(void **state)
+{
+    (void)state;
+    static const int order[] = {RG_EXIT_SIGNALLED + 15, RG_EXIT_SIGNALLED + 2, RG_EXIT_USAGE,
+                                RG_EXIT_FAIL,           RG_EXIT_INCONCLUSIVE,  RG_EXIT_NOTHING,
+                                RG_EXIT_UNSUPPORTED,    RG_EXIT_PASS};
+    for (int i = 0; i < 8; i++) {
+        for (int j = i; j < 8; j++) {
+            assert_int_equal(rg_exit_worse(order[i], order[j]), order[i]);
+            assert_int_equal(rg_exit_worse(order[j], order[i]), order[i]);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_outcome_has_one),
+        cmocka_unit_test(failures_outweigh_what_is_ok),
+        cmocka_unit_test(only_users_make_bad_usage),
+        cmocka_unit_test(the_worse_of_two_is_kept),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
