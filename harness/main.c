@@ -11,8 +11,7 @@
 
 static void print_usage(void)
 {
-    printf("raingauge COMMAND [OPTION]...\n"
-           "Runs the rain of published papers on every graphics API, compares, and measures.\n\n");
+    printf("raingauge COMMAND [OPTION]...\n%s\n\n", rg_program_about);
     for (int i = 0; rg_commands[i]; i++)
         printf("  %-8s %s\n", rg_commands[i]->name, rg_commands[i]->about);
     printf("\n`raingauge COMMAND --help` prints a command's options.\n");

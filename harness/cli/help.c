@@ -34,7 +34,7 @@ static void print_wrapped(const char *words, int column)
 
 static void print_row(const struct rg_option *row, int column)
 {
-    char left[LEFT_SIZE], about[512];
+    char left[LEFT_SIZE], about[RG_ABOUT_SIZE];
     if (row->kind == RG_OPTION_GROUP) {
         printf("\n%s\n", row->about);
         return;
@@ -44,9 +44,7 @@ static void print_row(const struct rg_option *row, int column)
         printf("%s\n%*s", left, column, "");
     else
         printf("%-*s", column, left);
-    snprintf(about, sizeof(about), "%s%s%s%s", row->about, row->initial ? " (default " : "",
-             row->initial ? row->initial : "", row->initial ? ")" : "");
-    print_wrapped(about, column);
+    print_wrapped(rg_option_about(row, about), column);
     printf("\n");
 }
 

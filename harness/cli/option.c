@@ -48,3 +48,11 @@ const char *rg_option_argument(const struct rg_option *row, char text[RG_ARGUMEN
                                  row->choices[i]);
     return text;
 }
+
+const char *rg_option_about(const struct rg_option *row, char text[RG_ABOUT_SIZE])
+{
+    if (!row->initial)
+        return row->about;
+    snprintf(text, RG_ABOUT_SIZE, "%s (default %s)", row->about, row->initial);
+    return text;
+}

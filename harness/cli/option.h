@@ -10,7 +10,12 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { RG_MAX_WORDS = 64, RG_MAX_OPTION_ROWS = 64, RG_ARGUMENT_SIZE = 64 };
+enum {
+    RG_MAX_WORDS = 64,
+    RG_MAX_OPTION_ROWS = 64,
+    RG_ARGUMENT_SIZE = 64, // of text that stands for a value
+    RG_ABOUT_SIZE = 512,
+};
 
 // What a row is, and the type of the value at its offset.
 enum rg_option_kind {
@@ -93,6 +98,9 @@ bool rg_option_is_given_by_name(const struct rg_option *row);
 
 // What stands for a row's value, "md|csv|json|tex" where it is chosen; "" if it takes none.
 const char *rg_option_argument(const struct rg_option *row, char text[RG_ARGUMENT_SIZE]);
+
+// What a row means, with its default.
+const char *rg_option_about(const struct rg_option *row, char text[RG_ABOUT_SIZE]);
 
 // Makes the value of a row in a zeroed struct that of an option which was not given and has no
 // default.

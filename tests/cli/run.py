@@ -8,6 +8,8 @@
            results  what table, diff and verify print, on the CPU
            wrong    a driver that draws wrongly is found
            doctor   the report about this machine
+           pages    the manual page and bash's completion
+           install  what meson installs
 
 Prints TAP, for meson.
 """
@@ -17,6 +19,8 @@ sys.dont_write_bytecode = True  # the sources' folder stays as it is
 
 import cases
 import doctor
+import installed
+import pages
 import results
 from runner import Runner
 
@@ -26,6 +30,8 @@ SUITES = {
     "results": lambda runner: runner.check_all(results.CHECKS),
     "wrong": lambda runner: runner.check_all(results.WRONG),
     "doctor": lambda runner: runner.check_all(doctor.CHECKS),
+    "pages": lambda runner: runner.check_all(pages.CHECKS),
+    "install": lambda runner: runner.check_all(installed.CHECKS),
 }
 
 

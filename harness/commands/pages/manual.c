@@ -1,0 +1,115 @@
+#include <stdio.h>
+#include <string.h>
+
+#include "core/techniques/technique.h"
+#include "harness/commands/commands.h"
+#include "harness/commands/pages/pages.h"
+#include "harness/record/build_info.h"
+#include "harness/tables/papers/papers.h"
+
+// Text as roff wants it: what stands between backquotes is bold, and a dash is one that can be
+// copied into a shell.
+static void print_text(const char *text)
+{
+    bool is_bold = false;
+    if (*text == '.' || *text == '\'')
+        printf("\\&");
+    for (; *text; text++) {
+        if (*text == '`')
+            printf((is_bold = !is_bold) ? "\\fB" : "\\fR");
+        else if (*text == '\\')
+            printf("\\e");
+        else if (*text == '-')
+            printf("\\-");
+        else
+            putchar(*text);
+    }
+}
+
+// One line: roff around a text.
+static void print_line(const char *before, const char *text, const char *after)
+{
+    printf("%s", before);
+    print_text(text);
+    printf("%s\n", after);
+}
+
+// The name in bold, and what stands for the value in italics.
+static void print_row(const struct rg_option *row)
+{
+    char argument[RG_ARGUMENT_SIZE], about[RG_ABOUT_SIZE];
+    const char *value = rg_option_argument(row, argument);
+    if (row->kind == RG_OPTION_GROUP) {
+        print_line(".PP\n\\fB", row->about, "\\fR");
+        return;
+    }
+    printf(".TP\n");
+    if (row->letter)
+        printf("\\fB\\-%c\\fR, ", row->letter);
+    if (row->name) {
+        printf("\\fB\\-\\-");
+        print_text(row->name);
+        printf("\\fR%s", *value ? " " : "");
+    }
+    print_line(*value ? "\\fI" : "", value, *value ? "\\fR" : "");
+    print_line("", rg_option_about(row, about), "");
+}
+
+static const char description[] =
+    "Every technique is the rain of a paper, written once and run on interchangeable devices: the "
+    "CPU, OpenGL, Vulkan and OpenCL. The commands draw it, prove that all devices compute the "
+    "same, "
+    "and measure it beside the numbers that the papers printed.";
+
+static void print_command(const struct rg_command *command)
+{
+    struct rg_option rows[RG_MAX_OPTION_ROWS];
+    const int count = rg_option_rows(command->options, rows);
+    printf(".SS raingauge %s\n", command->name);
+    printf("\\fBraingauge %s\\fR ", command->name);
+    print_line("", command->usage, "\n.PP");
+    print_line("", command->about, ".");
+    for (int i = 0; i < count; i++)
+        print_row(&rows[i]);
+}
+
+static void print_entry(const char *name, const char *about)
+{
+    print_line(".TP\n\\fB", name, "\\fR");
+    print_line("", about, "");
+}
+
+static void print_statuses(void)
+{
+    static const struct {
+        const char *status, *meaning;
+    } rows[] = {
+        {"0", "pass"},
+        {"1", "fail: devices differ, a law is broken, a driver that is present fails"},
+        {"2", "bad usage or input"},
+        {"3", "inconclusive: the samples neither prove nor exclude a change"},
+        {"4", "nothing was measured"},
+        {"77", "not supported on this machine"},
+        {"130, 143", "interrupted by SIGINT or SIGTERM; the same command goes on"},
+    };
+    printf(".SH EXIT STATUS\n");
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
+        print_entry(rows[i].status, rows[i].meaning);
+}
+
+void rg_print_manual(void)
+{
+    printf(".TH RAINGAUGE 1 \"\" \"raingauge %s\" \"User Commands\"\n", rg_build_version);
+    print_line(".SH NAME\nraingauge \\- ", rg_program_about, "");
+    printf(".SH SYNOPSIS\n\\fBraingauge\\fR \\fICOMMAND\\fR [\\fIOPTION\\fR]...\n");
+    print_line(".SH DESCRIPTION\n", description, "\n.SH COMMANDS");
+    for (int i = 0; rg_commands[i]; i++)
+        print_command(rg_commands[i]);
+    printf(".SH TECHNIQUES\n");
+    for (int i = 0; rg_techniques[i]; i++)
+        print_entry(rg_techniques[i]->name, rg_techniques[i]->about);
+    printf(".SH TABLES\n");
+    for (int i = 0; rg_tables[i]; i++)
+        print_entry(rg_tables[i]->id, rg_tables[i]->about);
+    print_statuses();
+}

@@ -1,0 +1,65 @@
+"""`meson install`: what it puts where, and that the installed program runs by itself."""
+import json
+import os
+import subprocess
+import tempfile
+
+TETRAHEDRON = """v -1 -1 -1
+v 1 1 -1
+v 1 -1 1
+v -1 1 1
+f 1 2 3
+f 1 3 4
+f 1 4 2
+f 2 4 3
+"""
+RENDER = "render flow --set environment=sky --set environment_px=16 --set resolution_px=32 --size 32x32 --frame 1 "
+
+
+def install(runner, folder):
+    """Installs into a folder; where it is, as the build's options say, relative to that."""
+    build = os.path.dirname(os.path.dirname(runner.raingauge))
+    done = subprocess.run(["meson", "install", "-C", build, "--destdir", folder, "--no-rebuild", "--quiet"],
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8")
+    with open(os.path.join(build, "meson-info", "intro-buildoptions.json")) as file:
+        options = {option["name"]: option["value"] for option in json.load(file)}
+    return options, [] if done.returncode == 0 else [done.stdout]
+
+
+def check_install(runner):
+    """meson install puts program, importer, module, manual page and completion in place, and the program draws a mesh"""
+    with tempfile.TemporaryDirectory() as folder:
+        options, problems = install(runner, folder)
+        places = {os.path.join(options[where].lstrip("/"), name) for where, name in (
+            ("bindir", "raingauge"), ("libdir", "raingauge/raingauge_importer"), ("libdir", "raingauge/raingauge_oiio.so"),
+            ("mandir", "man1/raingauge.1"), ("datadir", "bash-completion/completions/raingauge"))}
+        prefix = folder + options["prefix"]
+        found = {os.path.relpath(os.path.join(path, name), prefix) for path, _, names in os.walk(folder) for name in names}
+        if found != places:
+            problems.append("installed: %s, not %s" % (sorted(found), sorted(places)))
+        return problems or draw(runner, os.path.join(prefix, options["bindir"], "raingauge"))
+
+
+def draw(runner, installed):
+    """Problems: where the installed program, alone in a folder, draws something else than the build's."""
+    with tempfile.TemporaryDirectory() as folder:
+        model = os.path.join(folder, "tetrahedron.obj")
+        with open(model, "w") as file:
+            file.write(TETRAHEDRON)
+        pictures, problems = [], []
+        for program in (runner.raingauge, installed):
+            for name in ("a.png", "a.tif"):  # a TIFF is OpenImageIO's, in the module
+                path = os.path.join(folder, name)
+                done = subprocess.run([program] + (RENDER + "--set model=%s -o %s" % (model, path)).split(), cwd=folder,
+                                      env=runner.variables({}), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8")
+                if done.returncode or "faces 4" not in done.stdout:
+                    problems.append("%s: exit status %d: %s" % (program, done.returncode, done.stdout))
+                    continue
+                with open(path, "rb") as file:
+                    pictures.append(file.read())
+        if not problems and (pictures[0] != pictures[2] or len(pictures[1]) != len(pictures[3])):
+            problems.append("the installed program draws another picture")
+        return problems
+
+
+CHECKS = [check_install]

@@ -1,0 +1,177 @@
+"""The manual page and bash's completion, which the build makes from the tables that `--help` prints."""
+import os
+import pty
+import re
+import select
+import shutil
+import subprocess
+import time
+
+COMMANDS = ("doctor", "list", "render", "table", "diff", "verify", "atlas")
+PARTS = r"\.(TH|SH|SS|TP|PP)\b"  # the macros that the page uses
+ESCAPES = r"\\(f[BIR]|[-&e])"
+
+
+def page(runner, name):
+    return os.path.join(os.path.dirname(runner.raingauge), "commands", "pages", name)
+
+
+def words(text):
+    """A text without line breaks and without what marks commands in it."""
+    return re.sub(r"\s+", " ", text.replace("`", "")).strip()
+
+
+def plain(roff):
+    """What a reader of the page sees, but for its layout."""
+    return words(re.sub(ESCAPES, lambda escape: {"-": "-", "e": "\\"}.get(escape.group(1), ""), roff))
+
+
+def sections(roff):
+    """The part of the page about each command, as roff."""
+    parts = re.split(r"^\.SS raingauge (\w+)\n", roff.split("\n.SH TECHNIQUES")[0], flags=re.M)
+    return dict(zip(parts[1::2], parts[2::2]))
+
+
+def check_manual_is_roff(runner):
+    """each line of the manual page is text or a known macro, with known escapes, and ends in the font it began in"""
+    problems = []
+    with open(page(runner, "raingauge.1")) as file:
+        lines = file.read().splitlines()
+    for line in lines:
+        if line[:1] in (".", "'") and not re.match(PARTS, line) or "\\" in re.sub(ESCAPES, "", line):
+            problems.append(line)
+        fonts = re.findall(r"\\f([BIR])", line)
+        if fonts[::2].count("R") or fonts[1::2].count("R") * 2 != len(fonts):
+            problems.append("fonts: " + line)
+    if not lines[0].startswith(".TH RAINGAUGE 1 ") or len(lines) < 200:
+        problems.append("%d lines: %s" % (len(lines), lines[0]))
+    return problems
+
+
+def check_manual_says_what_help_says(runner):
+    """the manual page has each option and argument of each command, its meaning and its default"""
+    problems = []
+    with open(page(runner, "raingauge.1")) as file:
+        found = sections(file.read())
+    for command in COMMANDS:
+        text = runner.run([command, "--help"]).stdout
+        options = re.findall(r"^ +(?:-\w, )?(--\w+)", text, re.M)
+        entries = re.findall(r"^\.TP\n(.*)\n(.*)", found.get(command, ""), re.M)
+        tags = " ".join(plain(tag) for tag, _ in entries)
+        if len(options) < 2 or re.findall(r"--\w+", tags) != options:
+            problems.append("%s has %s, the page %s" % (command, options, tags))
+        problems += ["%s --help lacks: %s" % (command, plain(about)) for _, about in entries
+                     if plain(about) not in words(text)]
+    return problems
+
+
+def check_manual_renders(runner):
+    """man renders the page without a warning"""
+    done = subprocess.run(["man", "--warnings", "-E", "UTF-8", "-l", page(runner, "raingauge.1")], encoding="utf-8",
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=dict(os.environ, MANWIDTH="100"))
+    text = re.sub(".\b", "", done.stdout)  # bold letters are struck twice
+    problems = [done.stderr] if done.stderr or done.returncode else []
+    return problems + [word for word in ("NAME", "EXIT STATUS", "raingauge verify", "--background FILE") if word not in text]
+
+
+def complete(runner, lines):
+    """What the completion offers for each of the lines, whose cursors are at their ends."""
+    script = 'source "$0"; for line; do COMP_LINE=$line COMP_POINT=${#line}; _raingauge; echo "${COMPREPLY[*]}"; done'
+    done = subprocess.run(["bash", "-c", script, page(runner, "raingauge")] +
+                          [runner.raingauge + " " + line for line in lines], env=runner.variables({}), encoding="utf-8",
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=os.path.dirname(os.path.abspath(__file__)))
+    return [line.split() for line in done.stdout.split("\n")[:-1]], done.stderr
+
+
+def listed(runner, *what):
+    return [line.split()[0] for line in runner.run(["list", *what]).stdout.splitlines()]
+
+
+def check_completed_words(runner):
+    """bash completes commands, options, techniques, tables, devices, parameters, their values, files and folders"""
+    techniques, tables, devices = listed(runner, "techniques"), listed(runner, "tables"), listed(runner, "devices")
+    flow, streaks = listed(runner, "params", "flow"), listed(runner, "params", "streaks")
+    expected = {
+        "": [*COMMANDS, "--help", "--version"],
+        "re": ["render"],
+        "list ": ["techniques", "tables", "devices", "params"],
+        "list params ": techniques,
+        "list params flow ": [],
+        "render ": techniques,
+        "render --frame 3 f": ["flow"],
+        "render --frame ": [],
+        "render flow ": [],
+        "render flow --s": ["--set", "--size"],
+        "atlas --": re.findall(r"^ +(?:-\w, )?(--\w+)", runner.run(["atlas", "--help"]).stdout, re.M),
+        "atlas ": [],
+        "render flow --set ": [name + "=" for name in flow],
+        "render flow --set view=": ["box", "pane"],
+        "render flow --set=view=p": ["pane"],
+        "render flow --set=dire": ["direction="],
+        "render flow --set drops=": [],
+        "render flow --set environment=run": ["run.py", "runner.py"],
+        "verify --set atl": ["atlas="],
+        "verify raster streaks --set fi": [name + "=" for name in streaks if name.startswith("fi")],
+        "render flow --device ": devices,
+        "render flow --device cpu:": ["reference"],
+        "verify --device ": ["all", *devices],
+        "verify --device cpu,cpu:r": ["reference"],
+        "verify --device=cpu,cp": ["cpu,cpu", "cpu,cpu:reference"],
+        "verify flow r": ["raster"],
+        "table ": tables,
+        "table creus-5.1 stu": ["stuppacher-1", "stuppacher-2"],
+        "table --format ": ["md", "csv", "json", "tex"],
+        "table -o ": [],
+        "table -o ../c": ["../core", "../cli"],
+        "diff run": ["run.py", "runner.py"],
+        "diff fl": ["flow"],
+        "diff run.py runn": ["runner.py"],
+        "nonsense ": [],
+        "nonsense --": [],
+    }
+    found, errors = complete(runner, expected)
+    problems = ["stderr: " + errors] if errors else []
+    for line, offered in zip(expected, found):
+        if sorted(offered) != sorted(expected[line]):
+            problems.append("%r: %s, not %s" % (line, offered, expected[line]))
+    if len(found) != len(expected):
+        problems.append("%d of %d lines" % (len(found), len(expected)))
+    return problems
+
+
+def type_into_bash(runner, text, limit_s=60):
+    """What a terminal shows of an interactive bash with our completion, into which `text` is typed."""
+    variables = runner.variables({"PS1": "$ ", "TERM": "dumb", "HISTFILE": "", "PAGE": page(runner, "raingauge"),
+                                  "PATH": os.path.dirname(runner.raingauge) + ":" + os.environ["PATH"]})
+    child, terminal = pty.fork()
+    if child == 0:
+        os.execvpe("bash", ["bash", "--norc", "--noprofile", "-i"], variables)
+    os.write(terminal, text.encode())
+    shown, end = b"", time.monotonic() + limit_s
+    while time.monotonic() < end and select.select([terminal], [], [], end - time.monotonic())[0]:
+        try:
+            shown += os.read(terminal, 4096)
+        except OSError:
+            break
+    os.close(terminal)
+    os.waitpid(child, 0)
+    return shown.decode(errors="replace")
+
+
+def check_typed_lines(runner):
+    """a Tab in a terminal completes the word, with "=" and ":" in it"""
+    typed = {"verify --device cpu,cpu:r": "verify --device cpu,cpu:reference",
+             "render flow --set=dire\tsp": "render flow --set=direction=split",
+             "list params st": "list params streaks"}
+    lines = ["bind 'set enable-bracketed-paste off'; source $PAGE\n"]
+    # The line is completed, and printed instead of run: Ctrl-A goes to its beginning.
+    lines += ["raingauge %s\t\001echo + \n" % line for line in typed]
+    shown = type_into_bash(runner, "".join(lines) + "exit\n").replace("\r", "").splitlines()
+    printed = [line.strip() for line in shown if line.startswith("+ ")]
+    wanted = ["+ raingauge " + line for line in typed.values()]
+    return [] if printed == wanted else shown
+
+
+CHECKS = [check_manual_is_roff, check_manual_says_what_help_says, check_completed_words, check_typed_lines]
+if shutil.which("man"):
+    CHECKS.append(check_manual_renders)
