@@ -1,4 +1,4 @@
-#include "backends/cpu/draw.h"
+#include "backends/cpu/cpu.h"
 
 #include <fenv.h>
 #include <limits.h>
@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "backends/cpu/draw.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 

@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include "backends/cpu/cpu.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 

@@ -15,7 +15,9 @@
 #ifndef RG_BACKENDS_CPU_DRAW_H
 #define RG_BACKENDS_CPU_DRAW_H
 
-#include "backends/cpu/cpu.h"
+#include <stddef.h>
+
+#include "backends/cpu/call.h"
 #include "kernels/dialect/draw/clip.h"
 
 enum {
@@ -157,6 +159,8 @@ struct cpu_raster {
     void (*shade)(const struct cpu_program *program, const struct cpu_call *call,
                   const struct cpu_bins *bins, int tile);
 };
+
+struct cpu_device;
 
 // draw.c: a run of a program. False, and one logged line, where memory is missing.
 bool cpu_draw(struct cpu_device *device, const char *name, const struct cpu_program *program,

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "backends/cpu/cpu.h"
+
 // A round's records take no more than this, its primitives otherwise and its references about as
 // much.
 #define MOST_BYTES ((size_t)128 << 20)

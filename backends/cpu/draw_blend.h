@@ -22,10 +22,10 @@ ALWAYS void test_as(struct cpu_fragments *f, struct pixels *pixels, int mode)
 #pragma omp simd
     for (int i = 0; i < padded; i++) {
         int passes = f->kept[i] != 0 ? 1 : 0;
-        if (mode != RG_DEPTH_OFF) {
+        if (mode != RG_DEPTH_IS_OFF) {
             const uint behind = pixels->depth[i];
             passes &= f->depth[i] < rg_bits_float(behind) ? 1 : 0;
-            if (mode == RG_DEPTH_WRITE)
+            if (mode == RG_DEPTH_IS_WRITE)
                 pixels->depth[i] = passes != 0 ? rg_float_bits(f->depth[i]) : behind;
         }
         f->kept[i] = passes;
@@ -34,12 +34,12 @@ ALWAYS void test_as(struct cpu_fragments *f, struct pixels *pixels, int mode)
 
 static void test_fragments(struct cpu_fragments *f, struct pixels *pixels, int mode)
 {
-    if (mode == RG_DEPTH_OFF)
-        test_as(f, pixels, RG_DEPTH_OFF);
-    else if (mode == RG_DEPTH_TEST)
-        test_as(f, pixels, RG_DEPTH_TEST);
+    if (mode == RG_DEPTH_IS_OFF)
+        test_as(f, pixels, RG_DEPTH_IS_OFF);
+    else if (mode == RG_DEPTH_IS_TEST)
+        test_as(f, pixels, RG_DEPTH_IS_TEST);
     else
-        test_as(f, pixels, RG_DEPTH_WRITE);
+        test_as(f, pixels, RG_DEPTH_IS_WRITE);
 }
 
 ALWAYS void blend_RGBA8(const struct cpu_fragments *f, uint *texels, int blend)
@@ -93,9 +93,9 @@ ALWAYS void blend_RGBA32F(const struct cpu_fragments *f, uint *texels, int blend
 
 ALWAYS void blend_as(const struct cpu_fragments *f, uint *texels, int format, int blend)
 {
-    if (format == RG_RGBA8)
+    if (format == RG_RGBA8_FORMAT)
         blend_RGBA8(f, texels, blend);
-    else if (format == RG_RGBA16F)
+    else if (format == RG_RGBA16F_FORMAT)
         blend_RGBA16F(f, texels, blend);
     else
         blend_RGBA32F(f, texels, blend);

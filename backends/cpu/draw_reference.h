@@ -14,11 +14,11 @@ struct drawing {
 static void blend(const struct drawing *d, int texel, rgba c)
 {
     const rg_draw_state *draw = &d->p.draw;
-    if (draw->colour_format == RG_RGBA8)
+    if (draw->colour_format == RG_RGBA8_FORMAT)
         rg_blend_RGBA8(d->target.colour, texel, c, draw->blend);
-    else if (draw->colour_format == RG_RGBA16F)
+    else if (draw->colour_format == RG_RGBA16F_FORMAT)
         rg_blend_RGBA16F(d->target.colour, texel * 2, c, draw->blend);
-    else if (draw->colour_format == RG_RGBA32F)
+    else if (draw->colour_format == RG_RGBA32F_FORMAT)
         rg_blend_RGBA32F(d->target.colour, texel * 4, c, draw->blend);
 }
 
@@ -29,9 +29,9 @@ static void draw_pixel(const struct drawing *d, const RG_RECORD *record, int ite
     rg_fragment f = rg_drawn_fragment(d->rg, d->p.program, *record, px, py);
     if (!f.kept)
         return;
-    if (draw->depth_mode != RG_DEPTH_OFF && !(f.depth < rg_bits_float(d->target.depth[texel])))
+    if (draw->depth_mode != RG_DEPTH_IS_OFF && !(f.depth < rg_bits_float(d->target.depth[texel])))
         return;
-    if (draw->depth_mode == RG_DEPTH_WRITE)
+    if (draw->depth_mode == RG_DEPTH_IS_WRITE)
         d->target.depth[texel] = rg_float_bits(f.depth);
     if (draw->counted)
         d->target.samples[item]++;

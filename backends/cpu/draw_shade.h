@@ -72,7 +72,7 @@ static void gather_texels(struct shader *s, const size_t *texel, int count)
         gather(s->pixels.texels, s->target.colour, texel, count, 2);
     else if (s->texel_words == 4)
         gather(s->pixels.texels, s->target.colour, texel, count, 4);
-    if (s->draw.depth_mode != RG_DEPTH_OFF)
+    if (s->draw.depth_mode != RG_DEPTH_IS_OFF)
         gather(s->pixels.depth, s->target.depth, texel, count, 1);
 }
 
@@ -84,7 +84,7 @@ static void scatter_texels(struct shader *s, const size_t *texel, int count)
         scatter(s->target.colour, s->pixels.texels, texel, count, 2);
     else if (s->texel_words == 4)
         scatter(s->target.colour, s->pixels.texels, texel, count, 4);
-    if (s->draw.depth_mode == RG_DEPTH_WRITE)
+    if (s->draw.depth_mode == RG_DEPTH_IS_WRITE)
         scatter(s->target.depth, s->pixels.depth, texel, count, 1);
 }
 
@@ -213,12 +213,12 @@ static void draw_row(struct shader *s, int prim, int x, int y, int count)
     s->program->row(s->call, record, x, y, count, &s->fragments);
     if (words)
         memcpy(pixels->texels, s->target.colour + first * words, size * words);
-    if (s->draw.depth_mode != RG_DEPTH_OFF)
+    if (s->draw.depth_mode != RG_DEPTH_IS_OFF)
         memcpy(pixels->depth, s->target.depth + first, size);
     meet(s);
     if (words)
         memcpy(s->target.colour + first * words, pixels->texels, size * words);
-    if (s->draw.depth_mode == RG_DEPTH_WRITE)
+    if (s->draw.depth_mode == RG_DEPTH_IS_WRITE)
         memcpy(s->target.depth + first, pixels->depth, size);
     if (s->draw.counted) {
         int samples = 0;
@@ -280,7 +280,10 @@ static void draw_corners(struct shader *s, int prim)
 
 static int texel_words(int format)
 {
-    return format == RG_RGBA8 ? 1 : format == RG_RGBA16F ? 2 : format == RG_RGBA32F ? 4 : 0;
+    return format == RG_RGBA8_FORMAT     ? 1
+           : format == RG_RGBA16F_FORMAT ? 2
+           : format == RG_RGBA32F_FORMAT ? 4
+                                         : 0;
 }
 
 static void begin_tile(struct shader *s, int tile)
@@ -290,7 +293,7 @@ static void begin_tile(struct shader *s, int tile)
     s->target = s->call->target;
     s->draw = *(const rg_draw_state *)s->call->params;
     s->texel_words = texel_words(s->draw.colour_format);
-    s->drops_hidden = s->draw.depth_mode != RG_DEPTH_OFF && s->program->lights &&
+    s->drops_hidden = s->draw.depth_mode != RG_DEPTH_IS_OFF && s->program->lights &&
                       s->program->lights(s->call) >= WORTH_LIGHTS;
     s->x0 = tile % tiling->across * side;
     s->y0 = tile / tiling->across * side;

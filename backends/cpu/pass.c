@@ -1,11 +1,12 @@
-#include "backends/cpu/draw.h"
+#include "backends/cpu/cpu.h"
 
 #include <omp.h>
 #include <stdlib.h>
 
+#include "backends/cpu/draw.h"
 #include "core/base/alloc.h"
-#include "core/device/device.h"
 #include "core/base/log.h"
+#include "core/device/device.h"
 
 struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
 {
@@ -43,7 +44,7 @@ static struct cpu_call bind(const struct rg_kernel *kernel, const struct rg_run 
 {
     struct cpu_call call = {
         .params = run->params,
-        .begin = run->origin,
+        .begin = {run->origin.width, run->origin.height, run->origin.depth},
         .end = {run->origin.width + run->extent.width, run->origin.height + run->extent.height,
                 run->origin.depth + run->extent.depth},
         .fault = fault,
@@ -87,14 +88,14 @@ static struct cpu_call block(const struct cpu_call *call, const struct rg_extent
 {
     struct cpu_call mine = *call;
     if (extent->height >= blocks) {
-        mine.begin.height = call->begin.height + part(extent->height, index, blocks);
-        mine.end.height = call->begin.height + part(extent->height, index + 1, blocks);
+        mine.begin.y = call->begin.y + part(extent->height, index, blocks);
+        mine.end.y = call->begin.y + part(extent->height, index + 1, blocks);
     } else if (extent->depth >= blocks) {
-        mine.begin.depth = call->begin.depth + part(extent->depth, index, blocks);
-        mine.end.depth = call->begin.depth + part(extent->depth, index + 1, blocks);
+        mine.begin.z = call->begin.z + part(extent->depth, index, blocks);
+        mine.end.z = call->begin.z + part(extent->depth, index + 1, blocks);
     } else {
-        mine.begin.width = call->begin.width + part(extent->width, index, blocks);
-        mine.end.width = call->begin.width + part(extent->width, index + 1, blocks);
+        mine.begin.x = call->begin.x + part(extent->width, index, blocks);
+        mine.end.x = call->begin.x + part(extent->width, index + 1, blocks);
     }
     return mine;
 }

@@ -7,10 +7,20 @@
 #include "core/base/require.h"
 #include "core/device/device.h"
 #include "core/device/scan.h"
+#include "kernels/dialect/draw/blend.h"
 #include "kernels/dialect/draw/clip.h"
 
-static_assert((int)RG_RGBA8_FORMAT == (int)RG_RGBA8 && (int)RG_RGBA16F_FORMAT == (int)RG_RGBA16F,
+static_assert((int)RG_RGBA8_FORMAT == (int)RG_RGBA8 && (int)RG_RGBA16F_FORMAT == (int)RG_RGBA16F &&
+                  (int)RG_RGBA32F_FORMAT == (int)RG_RGBA32F,
               "kernels/dialect/draw/state.h and core/device/kernel.h number formats alike");
+static_assert((int)RG_DEPTH_IS_OFF == (int)RG_DEPTH_OFF &&
+                  (int)RG_DEPTH_IS_TEST == (int)RG_DEPTH_TEST &&
+                  (int)RG_DEPTH_IS_WRITE == (int)RG_DEPTH_WRITE,
+              "kernels/dialect/draw/state.h and backends/backend.h number depth modes alike");
+static_assert((int)RG_BLEND_IS_OFF == (int)RG_BLEND_OFF &&
+                  (int)RG_BLEND_IS_OVER == (int)RG_BLEND_OVER &&
+                  (int)RG_BLEND_IS_ADD == (int)RG_BLEND_ADD,
+              "kernels/dialect/draw/blend.h and backends/backend.h number blends alike");
 
 // Primitives of a batch take no more than this, whatever a device would allow.
 #define MAX_PACKED_BYTES ((int64_t)128 << 20)

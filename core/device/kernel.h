@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { RG_MAX_SLOTS = 16, RG_MAX_PARAMS_SIZE = 1024 };
+#include "kernels/dialect/limits.h"
 
 enum rg_format {
     RG_FORMAT_NONE,

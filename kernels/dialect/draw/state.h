@@ -10,6 +10,12 @@
 // enum rg_format of core/device/kernel.h.
 #define RG_RGBA8_FORMAT   1
 #define RG_RGBA16F_FORMAT 2
+#define RG_RGBA32F_FORMAT 3
+
+// enum rg_depth_mode of backends/backend.h.
+#define RG_DEPTH_IS_OFF   0
+#define RG_DEPTH_IS_TEST  1
+#define RG_DEPTH_IS_WRITE 2
 
 RG_STRUCT(rg_draw_state)
 {

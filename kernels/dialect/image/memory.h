@@ -8,8 +8,7 @@
 #define RG_KERNELS_DIALECT_IMAGE_MEMORY_H
 
 #include "kernels/dialect/image/format.h"
-
-#define RG_MAX_LEVELS 16
+#include "kernels/dialect/limits.h"
 
 typedef struct rg_image_shape {
     int width;

@@ -1,0 +1,40 @@
+// What a compiled kernel gets and hands out. Kernels include nothing else of the backend, so that a
+// change there compiles none of them again.
+#ifndef RG_BACKENDS_CPU_CALL_H
+#define RG_BACKENDS_CPU_CALL_H
+
+#include "backends/cpu/fault.h"
+#include "kernels/dialect/image/memory.h"
+
+struct cpu_slot {
+    void *data;
+    int count;                   // elements, or words of an image
+    const rg_image_shape *shape; // of an image
+};
+
+// What a DRAW program draws to: the texels of one layer of one level.
+struct cpu_target {
+    uint *colour, *depth; // NULL: none
+    uint *samples;        // by item; NULL: not counted
+};
+
+struct cpu_xyz {
+    int x, y, z;
+};
+
+// A block of items begin <= (x, y, z) < end, to be run by one thread.
+struct cpu_call {
+    const void *params;
+    struct cpu_slot slots[RG_MAX_SLOTS];
+    struct cpu_xyz begin, end;
+    struct rg_fault *fault;   // noted by the reference level alone
+    struct cpu_target target; // of a DRAW program
+};
+
+// A kernel of one instruction set.
+struct cpu_kernel {
+    void (*run)(const struct cpu_call *call); // NULL: a DRAW program, run by its stages (draw.h)
+    const struct cpu_program *program;        // those stages; else NULL
+};
+
+#endif

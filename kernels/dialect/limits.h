@@ -1,0 +1,9 @@
+// What a kernel may have at most, for kernels and their host alike.
+#ifndef RG_KERNELS_DIALECT_LIMITS_H
+#define RG_KERNELS_DIALECT_LIMITS_H
+
+#define RG_MAX_SLOTS       16   // counted from 0, which none has
+#define RG_MAX_LEVELS      16   // of an image
+#define RG_MAX_PARAMS_SIZE 1024 // bytes
+
+#endif
