@@ -1,17 +1,17 @@
-// How cpu draws, apart from cpu:reference, whose plain loops are in draw_reference.h.
+// How cpu draws, apart from cpu:reference, whose plain loops are in draw/reference_tmpl.h.
 //
 // A run goes in rounds of two steps, each on all cores:
-//   1. Items, in chunks (draw_emit.c): a batch of items becomes snapped corners; those that cover
+//   1. Items, in chunks (draw/emit.c): a batch of items becomes snapped corners; those that cover
 //      pixels become primitives, which have a number, a record and, for every tile of the target
 //      that they touch, a reference. A chunk sorts its references by tile.
-//   2. Tiles (draw_shade.h): each walks the chunks in order, so that primitives meet a pixel in the
-//      order of their items, whoever made them. Different pixels of many primitives are listed, and
-//      their fragments computed, tested and blended side by side.
-// A round ends where the room for primitives or references does (draw_bins.c).
+//   2. Tiles (draw/shade_tmpl.h): each walks the chunks in order, so that primitives meet a pixel
+//      in the order of their items, whoever made them. Different pixels of many primitives are
+//      listed, and their fragments computed, tested and blended side by side.
+// A round ends where the room for primitives or references does (draw/bins.c).
 //
-// What depends on the program are five loops, and two more with lights (draw_stages.h), compiled
-// once a program and level. What does not, but is worth vectors, is in raster.c, compiled once a
-// level.
+// What depends on the program are five loops, and two more with lights (draw/stages_tmpl.h),
+// compiled once a program and level. What does not, but is worth vectors, is in draw/raster.c,
+// compiled once a level.
 #ifndef RG_BACKENDS_CPU_DRAW_H
 #define RG_BACKENDS_CPU_DRAW_H
 
@@ -166,7 +166,7 @@ struct cpu_device;
 bool cpu_draw(struct cpu_device *device, const char *name, const struct cpu_program *program,
               const struct cpu_call *call);
 
-// draw_emit.c: what one thread does of a round's first step, a chunk.
+// draw/emit.c: what one thread does of a round's first step, a chunk.
 struct cpu_emitter {
     const struct cpu_program *program;
     const struct cpu_raster *raster;
@@ -177,7 +177,7 @@ struct cpu_emitter {
 };
 void cpu_emit(const struct cpu_emitter *emitter, int chunk, int end);
 
-// draw_bins.c: the memory behind it. Sees to room for a round of a run; false: there is no memory.
+// draw/bins.c: the memory behind it. Sees to room for a round of a run; false: there is no memory.
 bool cpu_bins_prepare(struct cpu_bins *bins, const rg_draw_state *draw, size_t record_size,
                       int threads);
 // Numbers for `count` primitives or references, the first one; -1: no room.

@@ -1,8 +1,8 @@
 // Depth test and blending of fragments whose pixels all differ, side by side. The pixels' texels
 // and depths have been copied together, and are copied back: what is not kept is as it was. Loops
 // run to a multiple of CPU_LANES. What is the same for a whole run is a constant in each.
-#ifndef RG_BACKENDS_CPU_DRAW_BLEND_H
-#define RG_BACKENDS_CPU_DRAW_BLEND_H
+#ifndef RG_BACKENDS_CPU_DRAW_BLEND_TMPL_H
+#define RG_BACKENDS_CPU_DRAW_BLEND_TMPL_H
 
 #include "backends/cpu/draw.h"
 #include "kernels/dialect/draw/blend.h"

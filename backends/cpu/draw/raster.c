@@ -1,6 +1,6 @@
 // What drawing shares among programs, compiled once a level.
-#include "backends/cpu/draw_cover.h"
-#include "backends/cpu/draw_shade.h"
+#include "backends/cpu/draw/cover_tmpl.h"
+#include "backends/cpu/draw/shade_tmpl.h"
 
 #define NAME_(level) rg_cpu_raster_##level
 #define NAME(level)  NAME_(level)

@@ -1,6 +1,6 @@
 // Makes what a level draws with of the DRAW program that was just included.
 #if RG_CHECKED
-#include "backends/cpu/draw_reference.h"
+#include "backends/cpu/draw/reference_tmpl.h"
 #else
-#include "backends/cpu/draw_stages.h"
+#include "backends/cpu/draw/stages_tmpl.h"
 #endif

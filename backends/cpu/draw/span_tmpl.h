@@ -1,11 +1,11 @@
 // Which pixels of each row a triangle covers: spans for a block of the target, rows side by side.
 //
-// Edge functions are divided by 256 as in draw_cover.h. Bounds: corners lie within 16380 pixels of
+// Edge functions are divided by 256 as in cover_tmpl.h. Bounds: corners lie within 16380 pixels of
 // each other (kernels/dialect/draw/clip.h), so |dx| and |dy| are below 2^22, and a function varies
 // by less than 2^29 within a block of 64 pixels a side. One that is cut off at 2^30 keeps its sign
 // there, and its quotients stay beyond the block: 32 bits serve.
-#ifndef RG_BACKENDS_CPU_DRAW_SPAN_H
-#define RG_BACKENDS_CPU_DRAW_SPAN_H
+#ifndef RG_BACKENDS_CPU_DRAW_SPAN_TMPL_H
+#define RG_BACKENDS_CPU_DRAW_SPAN_TMPL_H
 
 #include "backends/cpu/draw.h"
 #include "kernels/dialect/draw/coverage.h"

@@ -2,11 +2,11 @@
 //
 // Pixels of small primitives and short spans are gathered in a list that many primitives share,
 // until one comes again. Wide spans are shaded at once, when what is listed has been drawn.
-#ifndef RG_BACKENDS_CPU_DRAW_SHADE_H
-#define RG_BACKENDS_CPU_DRAW_SHADE_H
+#ifndef RG_BACKENDS_CPU_DRAW_SHADE_TMPL_H
+#define RG_BACKENDS_CPU_DRAW_SHADE_TMPL_H
 
-#include "backends/cpu/draw_blend.h"
-#include "backends/cpu/draw_span.h"
+#include "backends/cpu/draw/blend_tmpl.h"
+#include "backends/cpu/draw/span_tmpl.h"
 
 enum {
     LISTED_PX = 128,  // side of the square of pixels that a list tells apart

@@ -11,8 +11,8 @@
 //
 // Bounds: a small shape's corners lie within 2^14 of each other (64 pixels), and of a pixel of its
 // box, so that products are below 2^28, and sums of four of them below 2^30.
-#ifndef RG_BACKENDS_CPU_DRAW_COVER_H
-#define RG_BACKENDS_CPU_DRAW_COVER_H
+#ifndef RG_BACKENDS_CPU_DRAW_COVER_TMPL_H
+#define RG_BACKENDS_CPU_DRAW_COVER_TMPL_H
 
 #include "backends/cpu/draw.h"
 
