@@ -33,8 +33,9 @@ struct cpu_call {
 
 // A kernel of one instruction set.
 struct cpu_kernel {
-    void (*run)(const struct cpu_call *call); // NULL: a DRAW program, run by its stages (draw.h)
-    const struct cpu_program *program;        // those stages; else NULL
+    void (*run)(
+        const struct cpu_call *call);  // NULL: a DRAW program, run by its stages (draw/program.h)
+    const struct cpu_program *program; // those stages; else NULL
 };
 
 #endif

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "backends/cpu/draw.h"
+#include "backends/cpu/draw/bins.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 

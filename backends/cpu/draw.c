@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include "backends/cpu/cpu.h"
+#include "backends/cpu/draw/emit.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 

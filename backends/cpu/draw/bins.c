@@ -1,4 +1,4 @@
-#include "backends/cpu/draw.h"
+#include "backends/cpu/draw/bins.h"
 
 #include <stdlib.h>
 #include <string.h>

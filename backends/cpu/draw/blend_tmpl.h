@@ -4,7 +4,7 @@
 #ifndef RG_BACKENDS_CPU_DRAW_BLEND_TMPL_H
 #define RG_BACKENDS_CPU_DRAW_BLEND_TMPL_H
 
-#include "backends/cpu/draw.h"
+#include "backends/cpu/draw/program.h"
 #include "kernels/dialect/draw/blend.h"
 
 #define ALWAYS static inline __attribute__((always_inline))

@@ -1,4 +1,4 @@
-#include "backends/cpu/draw.h"
+#include "backends/cpu/draw/emit.h"
 
 #include <string.h>
 

@@ -2,8 +2,8 @@
 // over items, triangles and pixels, in order.
 #include "backends/cpu/bind_tmpl.h"
 #include "kernels/dialect/draw/blend.h"
-#include "kernels/dialect/draw/lit.h"
 #include "kernels/dialect/draw/coverage.h"
+#include "kernels/dialect/draw/lit.h"
 
 struct drawing {
     rg_ctx rg;

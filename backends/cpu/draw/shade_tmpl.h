@@ -5,6 +5,7 @@
 #ifndef RG_BACKENDS_CPU_DRAW_SHADE_TMPL_H
 #define RG_BACKENDS_CPU_DRAW_SHADE_TMPL_H
 
+#include "backends/cpu/draw/bins.h"
 #include "backends/cpu/draw/blend_tmpl.h"
 #include "backends/cpu/draw/span_tmpl.h"
 
@@ -254,10 +255,10 @@ static void draw_convex(struct shader *s, int prim, const struct convex *shape)
     const int begin_x = rg_imax(t->first_x, s->x0), end_x = rg_imin(t->end_x, s->x1);
     const int begin_y = rg_imax(t->first_y, s->y0), end_y = rg_imin(t->end_y, s->y1);
     bool flushed = false;
-    for (int y = begin_y; y < end_y; y += CPU_BLOCK_PX)
-        for (int x = begin_x; x < end_x; x += CPU_BLOCK_PX)
-            draw_block(s, prim, shape, x, y, rg_imin(end_x - x, CPU_BLOCK_PX),
-                       rg_imin(end_y - y, CPU_BLOCK_PX), &flushed);
+    for (int y = begin_y; y < end_y; y += BLOCK_PX)
+        for (int x = begin_x; x < end_x; x += BLOCK_PX)
+            draw_block(s, prim, shape, x, y, rg_imin(end_x - x, BLOCK_PX),
+                       rg_imin(end_y - y, BLOCK_PX), &flushed);
 }
 
 static void draw_triangle(struct shader *s, int prim, rg_triangle t)

@@ -7,12 +7,14 @@
 #ifndef RG_BACKENDS_CPU_DRAW_SPAN_TMPL_H
 #define RG_BACKENDS_CPU_DRAW_SPAN_TMPL_H
 
-#include "backends/cpu/draw.h"
+#include "backends/cpu/draw/program.h"
 #include "kernels/dialect/draw/coverage.h"
+
+enum { BLOCK_PX = 64 }; // side of a block, in pixels
 
 // The rows of a block, from its first one; pixels counted from its first column.
 struct spans {
-    int begin[CPU_BLOCK_PX], end[CPU_BLOCK_PX];
+    int begin[BLOCK_PX], end[BLOCK_PX];
 };
 
 // floor(value / by), cut off at 128 or so either way. The estimate is wrong by less than 1, for its

@@ -3,7 +3,7 @@
 // They run to a multiple of CPU_LANES, which spares them a remainder. What is added repeats the
 // last element, for nothing else may be read.
 #include "backends/cpu/bind_tmpl.h"
-#include "backends/cpu/draw.h"
+#include "backends/cpu/draw/program.h"
 
 static void make_items(const struct cpu_call *call, int begin, int count, struct cpu_items *items)
 {
