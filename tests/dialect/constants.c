@@ -10,13 +10,11 @@
 #include <cmocka.h>
 #include <ctype.h>
 #include <math.h>
+#include <spirv/unified1/spirv.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "tests/dialect/spirv.h"
-
-// SPIR-V specification, section 3.49.
-enum { OP_TYPE_FLOAT = 22, OP_CONSTANT = 43, OP_SPEC_CONSTANT = 50 };
 
 // --- what the text has ---
 
@@ -206,52 +204,63 @@ static struct values values_of(const struct rg_kernel_code *text)
 
 // --- what the module has ---
 
-// The float constants of a module, in their order; returns their number.
-static int read_constants(const struct rg_kernel_code *code, float *constants, int room)
+enum { MOST_CONSTANTS = 1000 };
+
+struct constants {
+    float all[MOST_CONSTANTS];
+    int count;
+};
+
+// All floats have 32 bits, and none is left to whoever makes a pipeline of the module.
+static bool read_constant(const struct spirv_instruction *at, void *data)
 {
-    const uint32_t *words = spirv_words(code);
-    uint32_t float_type = 0;
-    int count = 0;
-    for (size_t at = SPIRV_HEADER_WORDS; at < code->size / 4; at += spirv_length(words[at])) {
-        assert_true(spirv_length(words[at]) > 0);
-        const int op = spirv_op(words[at]);
-        if (op == OP_TYPE_FLOAT) {
-            assert_int_equal(words[at + 2], 32);
-            float_type = words[at + 1];
-        }
-        assert_int_not_equal(op, OP_SPEC_CONSTANT);
-        if (op != OP_CONSTANT || words[at + 1] != float_type)
-            continue;
-        assert_true(count < room);
-        memcpy(&constants[count++], &words[at + 3], sizeof(*constants));
-    }
-    return count;
+    struct constants *constants = data;
+    if (at->op == SpvOpSpecConstant || (at->op == SpvOpTypeFloat && at->words[2] != 32))
+        return false;
+    if (!at->of_float)
+        return true;
+    if (constants->count == MOST_CONSTANTS)
+        return false;
+    memcpy(&constants->all[constants->count++], &at->words[3], sizeof(*constants->all));
+    return true;
 }
 
-enum { MOST_CONSTANTS = 1000 };
+// The float constants of a stage's module, in their order, and what its text has. Neither is read
+// where the kernel lacks the stage.
+struct stage {
+    struct constants constants;
+    struct values values; // for the caller to free
+};
+
+static struct stage read_stage(const struct rg_kernel *kernel, const struct spirv_stage *stage)
+{
+    struct stage read = {0};
+    const struct spirv_module module = spirv_module(kernel, stage->kind);
+    if (module.count) {
+        read.values = values_of(&kernel->code[stage->text]);
+        spirv_read(module, read_constant, &read.constants);
+    }
+    return read;
+}
 
 static void every_constant_is_written(void **state)
 {
     (void)state;
     const struct rg_kernel *const *all;
     const int count = rg_kernel_all(&all);
-    float constants[MOST_CONSTANTS];
     int faults = 0;
     for (int i = 0; i < count * SPIRV_STAGES; i++) {
         const struct rg_kernel *kernel = all[i / SPIRV_STAGES];
         const struct spirv_stage *stage = &spirv_stages[i % SPIRV_STAGES];
-        if (!kernel->code[stage->kind].bytes)
-            continue;
-        struct values values = values_of(&kernel->code[stage->text]);
-        const int found = read_constants(&kernel->code[stage->kind], constants, MOST_CONSTANTS);
-        for (int c = 0; c < found; c++) {
-            if (has_value(&values, constants[c]))
+        struct stage read = read_stage(kernel, stage);
+        for (int c = 0; c < read.constants.count; c++) {
+            if (has_value(&read.values, read.constants.all[c]))
                 continue;
             print_error("kernel '%s', %s stage: no expression comes to %.9g in floats\n",
-                        kernel->name, stage->name, (double)constants[c]);
+                        kernel->name, stage->name, (double)read.constants.all[c]);
             faults++;
         }
-        free(values.all);
+        free(read.values.all);
     }
     if (faults)
         fail_msg("glslc folded them in double precision: write such constants out");
@@ -289,15 +298,11 @@ static void expressions_come_to_what_c_makes_of_them(void **state)
 static void count_steps(const struct rg_kernel *kernel, const struct spirv_stage *stage,
                         int *constants, int *missed)
 {
-    if (!kernel->code[stage->kind].bytes)
-        return;
-    float all[MOST_CONSTANTS];
-    struct values values = values_of(&kernel->code[stage->text]);
-    const int found = read_constants(&kernel->code[stage->kind], all, MOST_CONSTANTS);
-    for (int i = 0; i < found; i++)
-        *missed += has_value(&values, nextafterf(all[i], INFINITY));
-    *constants += found;
-    free(values.all);
+    struct stage read = read_stage(kernel, stage);
+    for (int i = 0; i < read.constants.count; i++)
+        *missed += has_value(&read.values, nextafterf(read.constants.all[i], INFINITY));
+    *constants += read.constants.count;
+    free(read.values.all);
 }
 
 static void a_last_bit_is_seen(void **state)

@@ -1,29 +1,18 @@
-// What the tests of SPIR-V share: the stages of a kernel, and how a module's words are walked.
+// What the tests of SPIR-V share: the modules of a kernel, which spirv-tools reads.
 #ifndef RG_TESTS_DIALECT_SPIRV_H
 #define RG_TESTS_DIALECT_SPIRV_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "core/device/kernel.h"
 
-// Words of the SPIR-V specification, section 2.3: a header, then instructions, the first word of
-// each of which is how many words it has (above) and what it does (below).
-enum { SPIRV_HEADER_WORDS = 5 };
-
-static inline int spirv_op(uint32_t first_word)
-{
-    return (int)(first_word & 0xffff);
-}
-
-static inline uint32_t spirv_length(uint32_t first_word)
-{
-    return first_word >> 16;
-}
-
-static inline const uint32_t *spirv_words(const struct rg_kernel_code *code)
-{
-    return (const uint32_t *)(const void *)code->bytes;
-}
+// A module's words. NULL and 0 where the kernel lacks the stage.
+struct spirv_module {
+    const uint32_t *words;
+    size_t count;
+};
 
 struct spirv_stage {
     enum rg_code_kind kind, text;
@@ -32,9 +21,26 @@ struct spirv_stage {
 
 enum { SPIRV_STAGES = 3 };
 
-static const struct spirv_stage spirv_stages[SPIRV_STAGES] = {
-    {RG_CODE_SPIRV, RG_CODE_GLSL, "compute"},
-    {RG_CODE_VERTEX_SPIRV, RG_CODE_VERTEX_GLSL, "vertex"},
-    {RG_CODE_FRAGMENT_SPIRV, RG_CODE_FRAGMENT_GLSL, "fragment"}};
+extern const struct spirv_stage spirv_stages[SPIRV_STAGES];
+
+struct spirv_instruction {
+    const uint32_t *words; // the first holds the number of words and the operation
+    size_t count;
+    uint32_t op;      // SpvOp
+    const char *name; // of the operation, "FAdd"
+    uint32_t result;  // its id; 0: it has none
+    bool of_glsl;     // OpExtInst calls a function of GLSL.std.450
+    bool of_float;    // OpConstant holds a float
+};
+
+struct spirv_module spirv_module(const struct rg_kernel *kernel, enum rg_code_kind kind);
+
+// Calls `look` for every instruction, in their order. Fails the test where the words are no SPIR-V,
+// or where `look` returns false.
+void spirv_read(struct spirv_module module,
+                bool (*look)(const struct spirv_instruction *instruction, void *data), void *data);
+
+// Whether Vulkan 1.2 allows the module; else `why` says in one line what it forbids.
+bool spirv_is_valid(struct spirv_module module, char *why, size_t size);
 
 #endif
