@@ -32,11 +32,6 @@ int rg_option_rows(const struct rg_option *table, struct rg_option *rows)
     return add_rows(help_rows, 0, NULL, rows, add_rows(table, 0, NULL, rows, 0));
 }
 
-bool rg_option_is_given_by_name(const struct rg_option *row)
-{
-    return row->name != NULL;
-}
-
 const char *rg_option_argument(const struct rg_option *row, char text[RG_ARGUMENT_SIZE])
 {
     if (row->argument)

@@ -48,7 +48,7 @@ enum rg_names {
 
 struct rg_option {
     enum rg_option_kind kind;
-    const char *name;     // "output", which follows two dashes
+    const char *name;     // "output", which follows two dashes; NULL: the row is no option
     const char *argument; // what stands for its value: "WxH"; of a choice, NULL: all choices
     const char *about;    // one line: what it means
     size_t offset;        // of its value
@@ -92,9 +92,6 @@ struct rg_rows {
 // The rows of a table with what it includes in its place, and --help after them; offsets count from
 // the command's struct. `rows` has room for RG_MAX_OPTION_ROWS. Returns how many there are.
 int rg_option_rows(const struct rg_option *table, struct rg_option *rows);
-
-// Whether a row is an option, rather than a heading or an operand.
-bool rg_option_is_given_by_name(const struct rg_option *row);
 
 // What stands for a row's value, "md|csv|json|tex" where it is chosen; "" if it takes none.
 const char *rg_option_argument(const struct rg_option *row, char text[RG_ARGUMENT_SIZE]);

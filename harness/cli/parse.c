@@ -37,7 +37,7 @@ static void make_table(const struct line *line, struct poptOption *table)
     char text[RG_ARGUMENT_SIZE];
     for (int i = 0; i < line->count; i++) {
         const struct rg_option *row = &line->rows[i];
-        if (!rg_option_is_given_by_name(row))
+        if (!row->name)
             continue;
         const bool takes_value = *rg_option_argument(row, text);
         *table++ = (struct poptOption){.longName = row->name,

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import time
 
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 COMMANDS = ("doctor", "list", "render", "table", "diff", "verify", "atlas")
 PARTS = r"\.(TH|SH|SS|TP|PP)\b"  # the macros that the page uses
 ESCAPES = r"\\(f[BIR]|[-&e])"
@@ -63,6 +64,19 @@ def check_manual_says_what_help_says(runner):
         problems += ["%s --help lacks: %s" % (command, plain(about)) for _, about in entries
                      if plain(about) not in words(text)]
     return problems
+
+
+def check_manual_lists_statuses(runner):
+    """the manual page has each exit status, with the meaning that docs/environment.md gives it"""
+    with open(page(runner, "raingauge.1")) as file:
+        entries = [(plain(tag), plain(about)) for tag, about in
+                   re.findall(r"^\.TP\n(.*)\n(.*)", file.read().split(".SH EXIT STATUS")[1], re.M)]
+    with open(os.path.join(ROOT, "docs", "environment.md")) as file:
+        rows = re.findall(r"^\| ([\d, ]+) \| ([^|]+) \|", file.read(), re.M)
+    documented = [(status, meaning) for statuses, meaning in rows for status in statuses.split(", ")]
+    same = len(entries) == len(documented) > 5 and all(
+        status == other and about.startswith(meaning) for (status, about), (other, meaning) in zip(entries, documented))
+    return [] if same else ["the page has %s, docs/environment.md %s" % (entries, documented)]
 
 
 def check_manual_renders(runner):
@@ -172,6 +186,7 @@ def check_typed_lines(runner):
     return [] if printed == wanted else shown
 
 
-CHECKS = [check_manual_is_roff, check_manual_says_what_help_says, check_completed_words, check_typed_lines]
+CHECKS = [check_manual_is_roff, check_manual_says_what_help_says, check_manual_lists_statuses, check_completed_words,
+          check_typed_lines]
 if shutil.which("man"):
     CHECKS.append(check_manual_renders)

@@ -97,11 +97,11 @@ static void print_command(const struct rg_command *command)
     const int count = rg_option_rows(command->options, rows);
     begin_entry(command->name, "options");
     for (int i = 0; i < count; i++)
-        if (rg_option_is_given_by_name(&rows[i]))
+        if (rows[i].name)
             printf(" --%s", rows[i].name);
     end_entry();
     for (int i = 0; i < count; i++)
-        if (rg_option_is_given_by_name(&rows[i]))
+        if (rows[i].name)
             print_option(command->name, &rows[i]);
     print_places(command->name, rows, count);
 }

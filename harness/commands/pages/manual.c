@@ -1,3 +1,4 @@
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -82,19 +83,24 @@ static void print_entry(const char *name, const char *about)
 static void print_statuses(void)
 {
     static const struct {
-        const char *status, *meaning;
+        int status;
+        const char *meaning;
     } rows[] = {
-        {"0", "pass"},
-        {"1", "fail: devices differ, a law is broken, a driver that is present fails"},
-        {"2", "bad usage or input"},
-        {"3", "inconclusive: the samples neither prove nor exclude a change"},
-        {"4", "nothing was measured"},
-        {"77", "not supported on this machine"},
-        {"130, 143", "interrupted by SIGINT or SIGTERM; the same command goes on"},
+        {RG_EXIT_PASS, "pass"},
+        {RG_EXIT_FAIL, "fail: devices differ, a law is broken, a driver that is present fails"},
+        {RG_EXIT_USAGE, "bad usage or input"},
+        {RG_EXIT_INCONCLUSIVE, "inconclusive: the samples neither prove nor exclude a change"},
+        {RG_EXIT_NOTHING, "nothing was measured"},
+        {RG_EXIT_UNSUPPORTED, "not supported on this machine"},
+        {RG_EXIT_SIGNALLED + SIGINT, "interrupted by SIGINT; the same command goes on"},
+        {RG_EXIT_SIGNALLED + SIGTERM, "interrupted by SIGTERM; the same command goes on"},
     };
     printf(".SH EXIT STATUS\n");
-    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
-        print_entry(rows[i].status, rows[i].meaning);
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        char status[16];
+        snprintf(status, sizeof(status), "%d", rows[i].status);
+        print_entry(status, rows[i].meaning);
+    }
 }
 
 void rg_print_manual(void)

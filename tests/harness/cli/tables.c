@@ -38,7 +38,7 @@ static void check_row(const struct rg_command *command, const struct rg_option *
         assert_true(row->first >= 1 && (!row->last || row->last >= row->first) && *argument);
         return;
     }
-    if (!rg_option_is_given_by_name(row))
+    if (!row->name)
         return;
     assert_ptr_equal(named(rows, count, row->name), row);
     assert_int_equal(*argument == 0, row->kind == RG_OPTION_FLAG || row->kind == RG_OPTION_HELP);
