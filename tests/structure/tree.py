@@ -18,6 +18,7 @@ NOISE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|^[ \t]*#[ \t]*includ
 OUTER = r"^(?![^;{}()=#]*?\b(?:static|typedef|extern|using)\b)[A-Za-z_][^;{}()=#]*?\b(\w+)"
 FUNCTION = re.compile(OUTER + r"\([^;{}#]*\)\n\{", re.M)
 OBJECT = re.compile(OUTER + r"(?:\[[^\]\n]*\])*(?: =|;)", re.M)
+TAG = re.compile(r"\b(?:struct|enum|union)\s+\w+")
 WORD = re.compile(r"\b[A-Za-z_]\w*\b")
 PASTED = re.compile(r"\bextern (const struct \w+) (\w+_)##")
 
@@ -38,7 +39,7 @@ class Tree:
     """All sources below `root`.
 
     known, scripts: the paths of sources, and of Python
-    text, words: of each path, without comments, strings and includes
+    text, words: of each path, without comments, strings and includes; words without the names of structs
     includes: (path, text of the include, path of the file it names or None) of each include
     headers: the files that each path includes
     """
@@ -53,7 +54,7 @@ class Tree:
             with open(os.path.join(root, path), encoding="utf-8") as file:
                 text = file.read()
             self.text[path] = NOISE.sub(" ", text)
-            self.words[path] = set(WORD.findall(self.text[path]))
+            self.words[path] = set(WORD.findall(TAG.sub(" ", self.text[path])))
             named = [(path, name, self.find(path, name)) for name in INCLUDE.findall(text) if "@" not in name]
             self.includes += named
             self.headers[path] = {target for _, _, target in named if target}

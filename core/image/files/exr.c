@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "core/image/files/exr_unpack.h"
-#include "core/image/format.h"
+#include "core/image/files/format.h"
 
 // What OpenEXRCore's callbacks and the chunk loop share.
 struct exr_job {

@@ -3,7 +3,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +11,7 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
-#include "core/image/format.h"
+#include "core/image/files/format.h"
 
 static const struct {
     const char *extension;
@@ -24,15 +23,6 @@ static const struct {
     {"hdr", rg_oiio_read, rg_oiio_write_hdr},   {"tif", rg_oiio_read, rg_oiio_write_tiff},
     {"tiff", rg_oiio_read, rg_oiio_write_tiff},
 };
-
-bool rg_why_set(struct rg_why *why, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    vsnprintf(why->text, sizeof(why->text), format, args);
-    va_end(args);
-    return false;
-}
 
 // The index into formats, or -1 with `why` set.
 static int find_format(const char *path, struct rg_why *why)

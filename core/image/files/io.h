@@ -6,13 +6,8 @@
 #ifndef RG_CORE_IMAGE_FILES_IO_H
 #define RG_CORE_IMAGE_FILES_IO_H
 
+#include "core/image/files/options.h"
 #include "core/image/picture.h"
-
-// How a picture is written. Zeroed: half floats for EXR and TIFF, exposure 1.
-struct rg_write_options {
-    bool full_float; // EXR and TIFF: 32-bit floats, which keep every bit, instead of half floats
-    float exposure;  // PNG: linear colours are multiplied by this, clamped and sRGB-encoded; 0: 1
-};
 
 // Reads a file of 8-bit codes (PNG, TIFF of integers) from sRGB to linear light, one of floats as
 // it is. A file that cannot be read leaves `picture` zeroed and logs one line: file, what is wrong,

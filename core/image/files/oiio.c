@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/image/format.h"
+#include "core/image/files/format.h"
 #include "core/image/srgb.h"
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/image/format.h"
+#include "core/image/files/format.h"
 #include "core/image/srgb.h"
 
 // Everything a read or a write holds: kept outside the frames that libpng's longjmp leaves.

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 
 #include "core/base/alloc.h"
-#include "core/image/format.h"
+#include "core/image/files/format.h"
 #include "core/scene/atlas/cave_factors.h"
 #include "core/scene/atlas/drop.h"
 #include "core/scene/atlas/levels.h"

@@ -1,16 +1,10 @@
-// What io.c asks of one file format. Everything here reports into `why`, a sentence without the
-// file's name, and logs nothing.
-#ifndef RG_CORE_IMAGE_FORMAT_H
-#define RG_CORE_IMAGE_FORMAT_H
+// What io.c asks of one file format. Everything here reports into `why` and logs nothing.
+#ifndef RG_CORE_IMAGE_FILES_FORMAT_H
+#define RG_CORE_IMAGE_FILES_FORMAT_H
 
-#include "core/image/files/io.h"
-
-struct rg_why {
-    char text[512];
-};
-
-// Sets the sentence and returns false.
-bool rg_why_set(struct rg_why *why, const char *format, ...) __attribute__((format(printf, 2, 3)));
+#include "core/image/files/options.h"
+#include "core/image/files/why.h"
+#include "core/image/picture.h"
 
 bool rg_exr_read(const char *path, int64_t file_bytes, struct rg_picture *picture,
                  struct rg_why *why);
