@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/scene/mesh/importer/reply.h"
+#include "core/scene/mesh/reply.h"
 #include "core/scene/mesh/read.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -264,13 +264,3 @@ struct rg_mesh *rg_mesh_resize(const struct rg_mesh *mesh, int faces)
         rename_mesh(exact, mesh->name, "decimated");
     return exact;
 }
-
-struct rg_mesh *rg_mesh_load_faces(const char *name, int faces)
-{
-    struct rg_mesh *mesh = rg_mesh_load(name);
-    if (!mesh || !faces)
-        return mesh;
-    struct rg_mesh *resized = rg_mesh_resize(mesh, faces);
-    rg_mesh_destroy(mesh);
-    return resized;
-}

@@ -146,3 +146,13 @@ struct rg_mesh *rg_mesh_load(const char *name)
         return rg_mesh_make_torus();
     return strpbrk(name, "./") ? rg_mesh_read(name, NULL) : load_named(name);
 }
+
+struct rg_mesh *rg_mesh_load_faces(const char *name, int faces)
+{
+    struct rg_mesh *mesh = rg_mesh_load(name);
+    if (!mesh || !faces)
+        return mesh;
+    struct rg_mesh *resized = rg_mesh_resize(mesh, faces);
+    rg_mesh_destroy(mesh);
+    return resized;
+}

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
-#include "core/scene/mesh/importer/reply.h"
+#include "core/scene/mesh/reply.h"
 
 // Where the importer is, seen from the folder of the running program: beside it, installed, or in
 // the build, whose programs and tests lie at several depths.

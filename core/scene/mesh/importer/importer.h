@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "core/scene/mesh/importer/reply.h"
+#include "core/scene/mesh/reply.h"
 
 struct import {
     const char *name;      // as Assimp is told it: the path, or the archive's member

@@ -1,20 +1,9 @@
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
 #include "core/scene/mesh/importer/importer.h"
-
-bool import_refuse(struct import *import, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    vsnprintf(import->reply.error, sizeof(import->reply.error), format, args);
-    va_end(args);
-    return false;
-}
 
 static bool refuse_for_assimp(struct import *import, const char *error)
 {

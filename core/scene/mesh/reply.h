@@ -4,8 +4,8 @@
 // positions and as many normals (three floats each; a normal of 0 is an absent one), then
 // face_count faces (three 32-bit indices each). `error` is "" or the line to show instead, and then
 // nothing follows. The reader trusts none of it.
-#ifndef RG_CORE_SCENE_MESH_IMPORTER_REPLY_H
-#define RG_CORE_SCENE_MESH_IMPORTER_REPLY_H
+#ifndef RG_CORE_SCENE_MESH_REPLY_H
+#define RG_CORE_SCENE_MESH_REPLY_H
 
 #include <stdint.h>
 
