@@ -7,12 +7,6 @@
 #include "core/base/log.h"
 #include "core/techniques/streaks/packets/inner.h"
 
-const char *streaks_scheme_name(enum streaks_scheme scheme)
-{
-    static const char *const names[] = {"auto", "world", "kd", "quad", "grid"};
-    return names[scheme];
-}
-
 // Moves packets that lie one after the other apart, so that each begins a block. From the last on:
 // none is written over before it has moved.
 static bool spread(struct streaks_packets *p)

@@ -4,6 +4,12 @@
 #include "core/base/log.h"
 #include "core/techniques/streaks/packets/inner.h"
 
+const char *streaks_scheme_name(enum streaks_scheme scheme)
+{
+    static const char *const names[] = {"auto", "world", "kd", "quad", "grid"};
+    return names[scheme];
+}
+
 // --- the amount (section 4.3.2) ---
 
 static double densest_m3(const struct streaks_packets_settings *settings)

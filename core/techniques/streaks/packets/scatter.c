@@ -1,7 +1,5 @@
 #include "core/techniques/streaks/packets/scatter.h"
 
-#include "core/techniques/streaks/packets/part.h"
-
 enum {
     LEAF = 16,         // particles that are drawn one by one
     TASK = 1 << 17,    // particles that are worth a task of their own
