@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
+#include "core/base/array.h"
 #include "kernels/scenery/overlay/lines_params.h"
 
 enum overlay_pass { SHEETS, LINES, INSET, PASS_COUNT };
@@ -14,8 +15,9 @@ struct items {
     int words; // an item
     struct rg_asset *asset;
     float *list;
-    int count, room; // items
-    bool full;       // there was no memory
+    int count; // items
+    int64_t room;
+    bool full; // there was no memory
 };
 
 struct scenery_overlay {
@@ -71,19 +73,13 @@ void scenery_overlay_begin(struct scenery_overlay *overlay)
     overlay->sheets.full = overlay->lines.full = false;
 }
 
-// The words of a new item; NULL where there is no memory.
+// The words of a new item; NULL, once logged, where there is no memory.
 static float *add_item(struct items *items)
 {
-    if (items->count == items->room) {
-        const int room = items->room ? 2 * items->room : 64;
-        float *list = realloc(items->list, (size_t)room * (size_t)items->words * sizeof(float));
-        if (!list) {
-            items->full = true;
-            return NULL;
-        }
-        items->list = list;
-        items->room = room;
-    }
+    items->full = items->full || !rg_array_fit(&items->list, &items->room, items->count + 1,
+                                               (size_t)items->words * sizeof(float), items->name);
+    if (items->full)
+        return NULL;
     return items->list + (size_t)items->count++ * (size_t)items->words;
 }
 
@@ -134,8 +130,8 @@ void scenery_overlay_sheet(struct scenery_overlay *overlay, float corners[4][3],
 static bool upload(struct items *items, struct rg_instance *instance)
 {
     if (items->full)
-        return rg_error("%s: no memory for more than %d; show less", items->name, items->room);
-    return rg_make_room(instance, items->asset, (int64_t)items->room * items->words) &&
+        return false;
+    return rg_make_room(instance, items->asset, items->room * items->words) &&
            rg_buf_write(items->asset->buf, 0, items->list,
                         (int64_t)items->count * items->words * 4);
 }

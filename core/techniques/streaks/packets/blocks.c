@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/base/array.h"
 #include "core/techniques/streaks/packets/inner.h"
 
 // --- packets to runs ---
@@ -50,8 +51,8 @@ static int buffer_of(int64_t slot)
 static bool add_draws(struct streaks_selection *s, int buffer, int64_t first, int64_t count)
 {
     for (int64_t done = 0; done < count; done += STREAKS_DRAW_BLOCKS) {
-        if (!streaks_reserve(s, STREAKS_DRAWS, &s->draws, s->draw_count + 1, sizeof(*s->draws),
-                             true))
+        if (!rg_array_fit(&s->draws, &s->room[STREAKS_DRAWS], s->draw_count + 1, sizeof(*s->draws),
+                          "rain: draws"))
             return false;
         const int64_t left = count - done;
         s->draws[s->draw_count++] = (struct streaks_draw){
@@ -64,8 +65,9 @@ static bool add_draws(struct streaks_selection *s, int buffer, int64_t first, in
 
 static bool reserve_blocks(struct streaks_selection *s, int64_t count)
 {
-    const bool good = streaks_reserve(s, STREAKS_BLOCKS, &s->blocks, count * STREAKS_BLOCK_WORDS,
-                                      sizeof(*s->blocks), false);
+    const bool good =
+        rg_array_fit(&s->blocks, &s->room[STREAKS_BLOCKS], count,
+                     STREAKS_BLOCK_WORDS * sizeof(*s->blocks), "rain: blocks of particles");
     s->block_count = good ? count : 0;
     s->draw_count = good ? s->draw_count : 0;
     return good;
@@ -155,16 +157,16 @@ static int64_t make_runs(const struct streaks_packets *p, const struct streaks_v
 bool streaks_list_by_packet(const struct streaks_packets *p, const struct streaks_view *view,
                             struct streaks_selection *s)
 {
-    if (!streaks_reserve(s, STREAKS_RUNS, &s->scratch[0],
-                         (int64_t)s->packets + STREAKS_BUFFER_LIMIT, sizeof(struct streaks_run),
-                         false))
+    if (!rg_array_fit(&s->runs, &s->room[STREAKS_RUNS], (int64_t)s->packets + STREAKS_BUFFER_LIMIT,
+                      sizeof(*s->runs), "rain: runs of particles"))
         return false;
-    struct streaks_run *runs = s->scratch[0];
+    struct streaks_run *runs = s->runs;
     int64_t blocks;
     const int64_t count = make_runs(p, view, s, runs, &blocks);
-    if (!streaks_reserve(s, STREAKS_SEEN, &s->scratch[2], blocks, 1, false))
+    if (!rg_array_fit(&s->seen, &s->room[STREAKS_SEEN], blocks, sizeof(*s->seen),
+                      "rain: blocks of particles"))
         return false;
-    uint8_t *seen = s->scratch[2];
+    uint8_t *seen = s->seen;
     cull(p, view, runs, count, seen);
     if (!lay_out(p, s, runs, count))
         return false;
@@ -204,9 +206,10 @@ bool streaks_list_by_id(const struct streaks_packets *p, const struct streaks_vi
 {
     enum { BUFFER_MASKS = STREAKS_BUFFER_PARTICLES / STREAKS_BLOCK };
     const int64_t count = p->slots / STREAKS_BLOCK;
-    if (!streaks_reserve(s, STREAKS_MASKS, &s->scratch[1], count, sizeof(uint32_t), false))
+    if (!rg_array_fit(&s->masks, &s->room[STREAKS_MASKS], count, sizeof(*s->masks),
+                      "rain: blocks of particles"))
         return false;
-    uint32_t *masks = s->scratch[1];
+    uint32_t *masks = s->masks;
     memset(masks, 0, (size_t)count * sizeof(*masks));
     for (int i = 0; i < s->packets; i++)
         set_packet(p, &p->packets[s->selected[i]], masks);

@@ -50,9 +50,9 @@ struct streaks_packets {
     float *particles; // all buffers, one after the other
     int64_t slots;    // particles with padding, a multiple of STREAKS_BLOCK
     struct streaks_node *nodes;
-    int64_t node_count, nodes_reserved;
+    int64_t node_count, node_room;
     struct streaks_packet *packets; // leaves
-    int64_t packets_reserved;
+    int64_t packet_room;
     uint32_t *ids; // leaf after leaf, where particles lie by id and the tree is kd
     struct streaks_grid grid;
     struct streaks_bounds bounds;
@@ -155,20 +155,6 @@ void streaks_sight_of(const struct streaks_packets *packets, const struct streak
 int64_t streaks_bounds_seen(const struct streaks_packets *packets,
                             const struct streaks_sight *sight, const struct streaks_run *run,
                             uint8_t *seen);
-
-// What streaks_selection.reserved counts: each in elements.
-enum {
-    STREAKS_SELECTED,
-    STREAKS_DRAWS,
-    STREAKS_BLOCKS,
-    STREAKS_RUNS,
-    STREAKS_MASKS,
-    STREAKS_SEEN,
-};
-// Makes room for `count` elements in the array that `memory` points to. What it held stays only
-// where `keep` is set.
-bool streaks_reserve(struct streaks_selection *selection, int array, void *memory, int64_t count,
-                     size_t size, bool keep);
 
 // --- what a view sees of the top plane ---
 

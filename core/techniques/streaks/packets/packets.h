@@ -128,6 +128,19 @@ struct streaks_draw {
     int block_count;     // 1 to STREAKS_DRAW_BLOCKS
 };
 
+// The arrays of a selection.
+enum streaks_list {
+    STREAKS_SELECTED,
+    STREAKS_DRAWS,
+    STREAKS_BLOCKS,
+    STREAKS_RUNS,
+    STREAKS_MASKS,
+    STREAKS_SEEN,
+    STREAKS_LIST_COUNT
+};
+
+struct streaks_run; // inner.h
+
 // What a frame draws. Zero it before the first use; it is used again and again.
 struct streaks_selection {
     int64_t particles; // that the selected packets hold, in blocks that are seen or not
@@ -136,9 +149,13 @@ struct streaks_selection {
     int draw_count;
     struct streaks_draw *draws;
     int64_t block_count;
-    uint32_t *blocks;    // STREAKS_BLOCK_WORDS each
-    int64_t reserved[6]; // how many each array can hold
-    void *scratch[3];
+    uint32_t *blocks; // STREAKS_BLOCK_WORDS each
+    // For streaks_select alone: runs of particles; which particles of a block, and which blocks,
+    // are drawn.
+    struct streaks_run *runs;
+    uint32_t *masks;
+    uint8_t *seen;
+    int64_t room[STREAKS_LIST_COUNT]; // how many elements each array can hold
 };
 
 // Selects the packets that meet prism and frustum, and lists their blocks that the frustum can see;

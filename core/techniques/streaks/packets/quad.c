@@ -1,38 +1,26 @@
 // streaks: the quad-tree over the top plane.
-#include <stdlib.h>
-
+#include "core/base/array.h"
 #include "core/base/log.h"
 #include "core/techniques/streaks/packets/inner.h"
 
 static int32_t add_node(struct streaks_packets *p, struct streaks_node node)
 {
-    if (p->node_count == p->nodes_reserved) {
-        const int64_t reserved = p->nodes_reserved ? 2 * p->nodes_reserved : 1024;
-        struct streaks_node *nodes = realloc(p->nodes, (size_t)reserved * sizeof(*nodes));
-        if (!nodes || reserved > INT32_MAX) {
-            p->nodes = nodes ? nodes : p->nodes;
-            rg_error("rain: no memory for a tree of %lld nodes; use larger packets",
-                     (long long)reserved);
-            return -1;
-        }
-        p->nodes = nodes;
-        p->nodes_reserved = reserved;
+    if (p->node_count == INT32_MAX) {
+        rg_error("rain: a tree of more than %d nodes; use larger packets", INT32_MAX);
+        return -1;
     }
+    if (!rg_array_fit(&p->nodes, &p->node_room, p->node_count + 1, sizeof(*p->nodes),
+                      "rain: nodes of a tree"))
+        return -1;
     p->nodes[p->node_count] = node;
     return (int32_t)p->node_count++;
 }
 
 static bool add_packet(struct streaks_packets *p, int64_t first, int64_t count, int32_t node)
 {
-    if (p->info.packets == p->packets_reserved) {
-        const int64_t reserved = p->packets_reserved ? 2 * p->packets_reserved : 1024;
-        struct streaks_packet *packets = realloc(p->packets, (size_t)reserved * sizeof(*packets));
-        if (!packets)
-            return rg_error("rain: no memory for %lld packets; use larger ones",
-                            (long long)reserved);
-        p->packets = packets;
-        p->packets_reserved = reserved;
-    }
+    if (!rg_array_fit(&p->packets, &p->packet_room, p->info.packets + 1, sizeof(*p->packets),
+                      "rain: packets"))
+        return false;
     p->nodes[node].packet = (int32_t)p->info.packets;
     p->packets[p->info.packets++] =
         (struct streaks_packet){.first = first, .count = (int32_t)count, .node = node};

@@ -2,47 +2,25 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/array.h"
 #include "core/base/log.h"
 #include "core/techniques/streaks/packets/inner.h"
-
-bool streaks_reserve(struct streaks_selection *s, int array, void *memory, int64_t count,
-                     size_t size, bool keep)
-{
-    if (count <= s->reserved[array])
-        return true;
-    const int64_t wanted = count > 2 * s->reserved[array] ? count : 2 * s->reserved[array];
-    void *old;
-    memcpy(&old, memory, sizeof(old));
-    if (!keep) {
-        free(old);
-        old = NULL;
-        s->reserved[array] = 0;
-    }
-    void *grown = realloc(old, (size_t)wanted * size);
-    if (grown)
-        s->reserved[array] = wanted;
-    if (grown || !keep)
-        memcpy(memory, &grown, sizeof(grown));
-    return grown || rg_error("rain: no memory for a list of %lld selected; use larger packets or a "
-                             "smaller radius",
-                             (long long)wanted);
-}
 
 void streaks_selection_release(struct streaks_selection *selection)
 {
     free(selection->selected);
     free(selection->draws);
     free(selection->blocks);
-    free(selection->scratch[0]);
-    free(selection->scratch[1]);
-    free(selection->scratch[2]);
+    free(selection->runs);
+    free(selection->masks);
+    free(selection->seen);
     memset(selection, 0, sizeof(*selection));
 }
 
 static bool add_place(struct streaks_selection *s, int place, int64_t particles)
 {
-    if (!streaks_reserve(s, STREAKS_SELECTED, &s->selected, s->packets + 1, sizeof(*s->selected),
-                         true))
+    if (!rg_array_fit(&s->selected, &s->room[STREAKS_SELECTED], s->packets + 1,
+                      sizeof(*s->selected), "rain: selected packets"))
         return false;
     s->selected[s->packets++] = place;
     s->particles += particles;

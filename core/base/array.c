@@ -1,0 +1,26 @@
+#include "core/base/array.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+
+enum { FIRST_ROOM = 64 };
+
+bool rg_array_fit(void *array, int64_t *room, int64_t count, size_t size, const char *what)
+{
+    if (count <= *room)
+        return true;
+    int64_t wanted = 2 * *room > FIRST_ROOM ? 2 * *room : FIRST_ROOM;
+    if (wanted < count)
+        wanted = count;
+    void *memory;
+    memcpy(&memory, array, sizeof(memory));
+    void *grown = (size_t)wanted > SIZE_MAX / size ? NULL : realloc(memory, (size_t)wanted * size);
+    if (!grown)
+        return rg_error("%s: no memory for %lld; ask for less, or close other programs", what,
+                        (long long)wanted);
+    memcpy(array, &grown, sizeof(grown));
+    *room = wanted;
+    return true;
+}
