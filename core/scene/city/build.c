@@ -5,6 +5,7 @@
 #include <string.h>
 #include <xxhash.h>
 
+#include "core/base/array.h"
 #include "core/base/log.h"
 #include "kernels/dialect/mesh/normal.h"
 #include "kernels/dialect/rng.h"
@@ -17,22 +18,10 @@ double city_chance(const struct city_builder *b, uint32_t what, uint32_t which, 
 }
 
 // Room for one more element; false, once logged, without memory.
-static bool grow(struct city_builder *b, void *array, int count, int *room, size_t size)
+static bool grow(struct city_builder *b, void *array, int count, int64_t *room, size_t size)
 {
-    if (b->failed)
-        return false;
-    if (count < *room)
-        return true;
-    const int more = *room ? 2 * *room : 4096;
-    void *held, *grown;
-    memcpy(&held, array, sizeof(held));
-    if (!(grown = realloc(held, (size_t)more * size))) {
-        b->failed = true;
-        return rg_error("city: no memory for %d more parts; close other programs", more);
-    }
-    memcpy(array, &grown, sizeof(grown));
-    *room = more;
-    return true;
+    b->failed = b->failed || !rg_array_fit(array, room, (int64_t)count + 1, size, "city");
+    return !b->failed;
 }
 
 // --- surfaces ---
@@ -150,7 +139,7 @@ static void put_corner(float *to, point p)
 void city_quad_on(struct city_builder *b, const point corners[4], uint32_t surface)
 {
     struct city_faces *f = &b->city->faces;
-    int room = b->face_room;
+    int64_t room = b->face_room;
     if (!grow(b, &f->corners, f->face_count, &room, SCENERY_FACE_WORDS * sizeof(float)) ||
         !grow(b, &f->surface_of, f->face_count, &b->face_room, sizeof(uint32_t)))
         return;

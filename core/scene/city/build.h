@@ -3,7 +3,7 @@
 #define RG_CORE_SCENE_CITY_BUILD_H
 
 #include "core/scene/city/city.h"
-#include "core/scene/city/paint/paint.h"
+#include "core/scene/city/textures.h"
 
 typedef struct {
     double x, y, z;
@@ -28,7 +28,7 @@ struct mapping {
 struct city_builder {
     struct city_settings settings;
     struct city *city;
-    int face_room, surface_room, lamp_room, box_room;
+    int64_t face_room, surface_room, lamp_room, box_room;
     bool failed; // no memory: one line is logged, and what follows is left out
     // Surfaces by what they are, so that equal ones are one.
     int *places;
@@ -87,7 +87,8 @@ struct city_island city_island_at(int column, int row);
 
 void city_build_streets(struct city_builder *b);   // street.c
 void city_build_furniture(struct city_builder *b); // furniture.c
-// building.c: all buildings, so that the city has as many triangles as wanted. To be called last.
+// buildings/building.c: all buildings, so that the city has as many triangles as wanted. To be
+// called last.
 void city_build_buildings(struct city_builder *b, int triangles);
 
 #endif

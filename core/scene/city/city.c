@@ -9,23 +9,6 @@
 #include "core/base/log.h"
 #include "core/scene/city/build.h"
 
-const struct rg_camera city_first_camera = {
-    .position = {-4.9f, 1.7f, 93.0f},
-    .target = {0.5f, 11.0f, 32.8f},
-    .up = {0, 1, 0},
-    .angle_deg = 60,
-    .near_plane = 0.2f,
-    .far_plane = 1000,
-};
-const struct rg_camera city_second_camera = {
-    .position = {-5.4f, 6.0f, 64.2f},
-    .target = {-8.0f, 20.0f, -107.7f},
-    .up = {0, 1, 0},
-    .angle_deg = 60,
-    .near_plane = 0.2f,
-    .far_plane = 1000,
-};
-
 void city_faces_free(struct city_faces *faces)
 {
     free(faces->corners);

@@ -1,4 +1,5 @@
-// The city's plan: an avenue along z, streets across it and beside it, blocks between them.
+// The city's plan: an avenue along z, streets across it and beside it, blocks between them; and
+// where Creus stands in it.
 #include "core/scene/city/build.h"
 
 #define SIDE_M   (CITY_SIDE_M / 2.0)
@@ -46,3 +47,20 @@ struct city_island city_island_at(int column, int row)
         block.z1 + WALK_M,
     };
 }
+
+const struct rg_camera city_first_camera = {
+    .position = {-4.9f, 1.7f, 93.0f},
+    .target = {0.5f, 11.0f, 32.8f},
+    .up = {0, 1, 0},
+    .angle_deg = 60,
+    .near_plane = 0.2f,
+    .far_plane = 1000,
+};
+const struct rg_camera city_second_camera = {
+    .position = {-5.4f, 6.0f, 64.2f},
+    .target = {-8.0f, 20.0f, -107.7f},
+    .up = {0, 1, 0},
+    .angle_deg = 60,
+    .near_plane = 0.2f,
+    .far_plane = 1000,
+};

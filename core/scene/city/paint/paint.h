@@ -1,44 +1,9 @@
-// The city's textures by number, what of them the geometry has to know, and what painters share:
-// for this folder alone.
+// What painters of textures share: for this folder alone.
 #ifndef RG_CORE_SCENE_CITY_PAINT_PAINT_H
 #define RG_CORE_SCENE_CITY_PAINT_PAINT_H
 
-#include <assert.h>
-
-#include "core/scene/city/city.h"
+#include "core/scene/city/textures.h"
 #include "kernels/dialect/lang.h"
-
-// The first texture of each group; the next group's first ends it.
-enum {
-    PAINT_FACADE = 0, // walls with windows: PAINT_CELLS x PAINT_CELLS bays
-    PAINT_CURTAIN = 72,
-    PAINT_SHOP = 96, // ground floors: a shop
-    PAINT_WALL = 108,
-    PAINT_ROOF = 124,
-    PAINT_ASPHALT = 130, // plain, a street's width, the avenue's width
-    PAINT_PAVING = 133,  // slabs, kerb, plaza, cobbles, tiles
-    PAINT_CROSSING = 138,
-    PAINT_STOP = 139,
-    PAINT_METAL = 140, // grey, dark, painted
-    PAINT_GRASS = 143,
-    PAINT_LEAVES = 144,
-    PAINT_BARK = 146,
-    PAINT_LIGHT = 147,
-    PAINT_WATER = 148,
-    PAINT_CELLS = 4,
-    PAINT_WALLS = PAINT_ROOF - PAINT_WALL,
-};
-static_assert(PAINT_WATER + 1 == CITY_TEXTURES, "every texture has a painter");
-
-// A facade's window in its bay, in shares of the bay's width and of the floor's height.
-struct facade_style {
-    double left, right, bottom, top; // bottom: from the floor's lower edge
-    int wall;                        // the wall's texture, for what is not painted with windows
-    double depth_m;                  // how far windows lie behind the wall
-};
-struct facade_style city_facade_style(const struct city_settings *settings, int texture);
-
-// --- for painters ---
 
 // A colour as square roots of light, and the share of a lamp behind it.
 struct paint {

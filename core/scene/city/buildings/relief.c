@@ -1,11 +1,11 @@
-// The facades' relief: bands between floors, piers between bays, sills and bars at windows. What
-// is nearest to the streets in the middle comes first, until all triangles are spent.
+// What is nearest to the streets in the middle comes first, until all triangles are spent.
+#include "core/scene/city/buildings/relief.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "core/scene/city/building.h"
 
 // A part of the relief, which is built whole or not at all.
 enum part_kind { PART_BAND, PART_PIER, PART_WINDOW, PART_FRAME };

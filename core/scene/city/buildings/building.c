@@ -1,10 +1,10 @@
 // Buildings: tiers that step back, with facades, cornices, roofs and what stands on them.
-#include "core/scene/city/building.h"
-
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/base/log.h"
+#include "core/scene/city/buildings/facade.h"
+#include "core/scene/city/buildings/lots.h"
+#include "core/scene/city/buildings/relief.h"
 
 enum { CHANCE_HEIGHT = 300, CHANCE_STYLE, CHANCE_TIER, CHANCE_ROOF, CHANCE_SHOP };
 
@@ -35,79 +35,6 @@ static double chance(const struct building *t, int what, uint32_t k)
 
 // --- facades ---
 
-point city_facade_at(const struct city_facade *f, double u, double y, double d)
-{
-    return (point){f->x + f->out.z * u + f->out.x * d, y, f->z - f->out.x * u + f->out.z * d};
-}
-
-static void facade_quad(struct city_builder *b, const struct city_facade *f, double u0, double u1,
-                        double y0, double y1, double d, uint32_t surface)
-{
-    const point corners[4] = {city_facade_at(f, u0, y0, d), city_facade_at(f, u1, y0, d),
-                              city_facade_at(f, u1, y1, d), city_facade_at(f, u0, y1, d)};
-    city_quad_on(b, corners, surface);
-}
-
-// The texture so that its bays and floors are the facade's, upwards from y0.
-static struct mapping bays_mapping(const struct city_facade *f, double bays, double y0,
-                                   double tall_m)
-{
-    return (struct mapping){1 / (bays * f->bay_m), -1 / tall_m, f->out.z * f->x - f->out.x * f->z,
-                            y0, false};
-}
-
-void city_facade_core(struct city_builder *b, struct city_facade *f)
-{
-    const struct look look = {
-        f->texture, f->texture < PAINT_CURTAIN ? SCENERY_KIND_WALL : SCENERY_KIND_GLASS, 0, 0, 0};
-    const struct mapping m = bays_mapping(f, PAINT_CELLS, f->y0, PAINT_CELLS * f->floor_m);
-    // In a frame, the windows' plane ends where those of the sides begin.
-    const bool framed = b->settings.size == CITY_FULL;
-    const double in = framed ? f->style.depth_m : 0;
-    f->core = -in;
-    f->front = framed ? 0 : 0.1;
-    f->painted = city_surface(b, &look, f->out, &m);
-    facade_quad(b, f, in, f->length - in, f->y0, f->y0 + f->height_m, f->core, f->painted);
-}
-
-// The posts at a facade's ends: its front and the side that looks to the windows.
-static void facade_ends(struct city_builder *b, const struct city_facade *f, double y0)
-{
-    const double d = f->style.depth_m, y1 = f->y0 + f->height_m;
-    const double wide = fmax(f->style.left * f->bay_m, d + 0.05);
-    for (int end = 0; end < 2; end++) {
-        const double u0 = end ? f->length - wide : 0, u1 = end ? f->length : wide;
-        const double inner = end ? u0 : u1, turn = end ? -1 : 1;
-        city_quad(b, city_facade_at(f, u0, y0, 0), city_facade_at(f, u1, y0, 0),
-                  city_facade_at(f, u1, y1, 0), city_facade_at(f, u0, y1, 0), &f->wall);
-        const point near0 = city_facade_at(f, inner, y0, 0),
-                    far0 = city_facade_at(f, inner, y0, -d);
-        const point near1 = city_facade_at(f, inner, y1, 0),
-                    far1 = city_facade_at(f, inner, y1, -d);
-        if (turn > 0)
-            city_quad(b, near0, far0, far1, near1, &f->wall);
-        else
-            city_quad(b, far0, near0, near1, far1, &f->wall);
-    }
-}
-
-static bool keep(struct building *t, const struct city_facade *f)
-{
-    struct city_facades *all = t->facades;
-    if (all->count == all->room) {
-        const int room = all->room ? 2 * all->room : 256;
-        struct city_facade *more = realloc(all->facades, (size_t)room * sizeof(*more));
-        if (!more) {
-            t->b->failed = true;
-            return rg_error("city: no memory for its facades; close other programs");
-        }
-        all->facades = more;
-        all->room = room;
-    }
-    all->facades[all->count++] = *f;
-    return true;
-}
-
 // The ground floor: shops behind posts, a band with their signs above.
 static void build_shops(struct building *t, const struct city_facade *f, double y0)
 {
@@ -118,9 +45,9 @@ static void build_shops(struct building *t, const struct city_facade *f, double 
     const double shops = fmax(1, floor(f->length / 7 + 0.5));
     struct city_facade wide = *f;
     wide.bay_m = f->length / shops;
-    const struct mapping m = bays_mapping(&wide, 1, y1, SHOP_M);
+    const struct mapping m = city_facade_mapping(&wide, 1, y1, SHOP_M);
     const uint32_t surface = city_surface(t->b, &look, f->out, &m);
-    facade_quad(t->b, f, d, f->length - d, y0, y1, -d, surface);
+    city_facade_quad(t->b, f, d, f->length - d, y0, y1, -d, surface);
     if (!framed)
         return;
     // the band over the windows, and its lower side
@@ -176,8 +103,8 @@ static void build_side(struct building *t, const struct tier *r, int side)
     f.floor_m = f.height_m / f.floors;
     city_facade_core(t->b, &f);
     if (t->b->settings.size == CITY_FULL)
-        facade_ends(t->b, &f, f.y0);
-    keep(t, &f);
+        city_facade_ends(t->b, &f, f.y0);
+    city_facade_keep(t->b, t->facades, &f);
 }
 
 // --- roofs ---

@@ -1,5 +1,4 @@
-// Cuts blocks into lots.
-#include "core/scene/city/building.h"
+#include "core/scene/city/buildings/lots.h"
 
 enum { CHANCE_CUT = 200 };
 
