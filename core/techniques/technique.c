@@ -4,21 +4,6 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
-#include "core/techniques/lists.h"
-
-#define DECLARE(name) extern const struct rg_technique rg_technique_##name;
-#define ENTRY(name)   &rg_technique_##name,
-
-RG_TECHNIQUES(DECLARE)
-const struct rg_technique *const rg_techniques[] = {RG_TECHNIQUES(ENTRY) NULL};
-
-const struct rg_technique *rg_technique_find(const char *name)
-{
-    for (int i = 0; rg_techniques[i]; i++)
-        if (!strcmp(rg_techniques[i]->name, name))
-            return rg_techniques[i];
-    return NULL;
-}
 
 struct rg_instance *rg_instance_open(const struct rg_technique *technique, struct rg_device *device,
                                      const void *settings, int width, int height)

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
-#include "core/device/device.h"
 #include "core/device/shared.h"
 #include "kernels/scenery/openness_grid.h"
 

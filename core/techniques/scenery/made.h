@@ -2,7 +2,8 @@
 #ifndef RG_CORE_TECHNIQUES_SCENERY_MADE_H
 #define RG_CORE_TECHNIQUES_SCENERY_MADE_H
 
-#include "core/techniques/scenery/scenery.h"
+#include "core/device/device.h"
+#include "core/techniques/scenery/settings.h"
 
 struct scenery_made {
     struct rg_device *device;

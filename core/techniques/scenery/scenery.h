@@ -9,14 +9,10 @@
 
 #include "core/scene/city/city.h"
 #include "core/techniques/scenery/lights/lights.h"
+#include "core/techniques/scenery/settings.h"
 #include "core/techniques/technique.h"
 #include "kernels/dialect/matrix.h"
 #include "kernels/scenery/sky.h"
-
-struct scenery_settings {
-    struct city_settings city;
-    char model[RG_PATH_SIZE]; // a user's mesh instead, as rg_mesh_load takes it; "": the city
-};
 
 struct scenery;
 
