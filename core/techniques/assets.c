@@ -46,6 +46,7 @@ struct rg_asset *rg_lend_buf(struct rg_instance *instance, const char *name, str
     if (!asset)
         return NULL;
     asset->buf = buf;
+    asset->is_defined = buf;
     rg_set_items(asset, buf ? (int)(buf->size / 4) : 1, 1, 1);
     return asset;
 }
@@ -66,7 +67,10 @@ struct rg_asset *rg_add_buf(struct rg_instance *instance, const char *name, int6
     const void *contents = words ? words : zeroes;
     const bool ok = asset && contents && rg_buf_write(asset->buf, 0, contents, count * 4);
     free(zeroes);
-    return ok ? asset : fail(instance);
+    if (!ok)
+        return fail(instance);
+    asset->is_defined = true;
+    return asset;
 }
 
 bool rg_make_room(struct rg_instance *instance, struct rg_asset *asset, int64_t count)
@@ -90,6 +94,7 @@ struct rg_asset *rg_lend_image(struct rg_instance *instance, const char *name,
         return NULL;
     asset->is_image = true;
     asset->image = image;
+    asset->is_defined = image;
     if (image)
         rg_set_items(asset, image->desc.width, image->desc.height, image->desc.layers);
     return asset;
@@ -112,10 +117,12 @@ bool rg_make_image(struct rg_instance *instance, struct rg_asset *asset,
         is->height == desc->height && is->layers == desc->layers && is->levels == desc->levels)
         return true;
     rg_empty(asset);
+    static const uint32_t nothing[4] = {0};
     asset->image = rg_image_create(instance->device, desc, asset->name);
     asset->is_owned = true;
     rg_set_items(asset, desc->width, desc->height, desc->layers);
-    return asset->image;
+    asset->is_defined = asset->image && rg_image_clear(asset->image, nothing);
+    return asset->is_defined;
 }
 
 struct rg_asset *rg_give_image(struct rg_instance *instance, const char *name,
@@ -151,16 +158,18 @@ void rg_empty(struct rg_asset *asset)
     }
     asset->buf = NULL;
     asset->image = NULL;
+    asset->is_defined = false;
 }
 
 void rg_swap(struct rg_asset *a, struct rg_asset *b)
 {
-    struct rg_buf *buf = a->buf;
-    struct rg_image *image = a->image;
+    const struct rg_asset was = *a;
     a->buf = b->buf;
     a->image = b->image;
-    b->buf = buf;
-    b->image = image;
+    a->is_defined = b->is_defined;
+    b->buf = was.buf;
+    b->image = was.image;
+    b->is_defined = was.is_defined;
 }
 
 void rg_add_state(struct rg_instance *instance, struct rg_asset *asset, const char *name,

@@ -13,8 +13,8 @@ struct rg_asset *rg_add_buf(struct rg_instance *instance, const char *name, int6
                             const void *words);
 // A buffer whose contents are undefined until a kernel or the host writes them.
 struct rg_asset *rg_add_room(struct rg_instance *instance, const char *name, int64_t count);
-// An image of one layer and level, and one of any kind. A stage over it has an item a texel of
-// level 0.
+// An image of one layer and level, and one of any kind, all zeroes. A stage over it has an item a
+// texel of level 0.
 struct rg_asset *rg_add_image(struct rg_instance *instance, const char *name, enum rg_format format,
                               int width, int height);
 struct rg_asset *rg_add_image_of(struct rg_instance *instance, const char *name,
@@ -36,8 +36,8 @@ void rg_set_items(struct rg_asset *asset, int width, int height, int depth);
 // Makes a buffer hold at least so many words. Its contents are undefined then. False, with one
 // logged line and no buffer, on failure.
 bool rg_make_room(struct rg_instance *instance, struct rg_asset *asset, int64_t count);
-// Makes an image of this description of it, unless it is one already; its contents are undefined
-// then. False, with one logged line and no image, on failure.
+// Makes an image of this description of it, all zeroes, unless it is one already. False, with one
+// logged line and no image, on failure.
 bool rg_make_image(struct rg_instance *instance, struct rg_asset *asset,
                    const struct rg_image_desc *desc);
 // Destroys what the asset is, which is made anew later.

@@ -21,6 +21,7 @@ struct rg_asset {
     char name[RG_ASSET_NAME];
     bool is_image;
     bool is_owned;      // destroyed with the instance
+    bool is_defined;    // it has been written, so that its contents are the same on all devices
     struct rg_buf *buf; // of the two the one that it is; NULL: it is made later
     struct rg_image *image;
     struct rg_extent items; // of a stage that goes over it
@@ -50,8 +51,8 @@ struct rg_opened_stage {
     const void *owner;    // of the parameters
     struct rg_pass *pass; // NULL: not run
     bool owns_pass;       // stages of one kernel share a pass
-    const struct rg_asset *slots[RG_MAX_SLOTS];
-    const struct rg_asset *over, *colour, *depth, *samples;
+    struct rg_asset *slots[RG_MAX_SLOTS];
+    struct rg_asset *over, *colour, *depth, *samples;
     struct rg_draw drawn; // how its last run drew
 };
 

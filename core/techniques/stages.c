@@ -17,10 +17,10 @@ struct opening {
 
 // The asset of a name, in the scope first. NULL, and one logged line about `what` asks, where there
 // is none.
-static const struct rg_asset *find(const struct opening *o, const char *name, const char *what)
+static struct rg_asset *find(const struct opening *o, const char *name, const char *what)
 {
     char scoped[RG_ASSET_NAME];
-    const struct rg_asset *asset = NULL;
+    struct rg_asset *asset = NULL;
     if (o->scope && snprintf(scoped, sizeof(scoped), "%s.%s", o->scope, name) < RG_ASSET_NAME)
         asset = rg_asset_find(o->instance, scoped);
     if (!asset)
@@ -44,7 +44,7 @@ static bool bind_slot(const struct opening *o, const struct rg_slot_info *slot)
 {
     const struct rg_stage *row = &o->stage->row;
     const bool wants_image = slot->kind == RG_SLOT_IMAGE || slot->kind == RG_SLOT_OUT_IMAGE;
-    const struct rg_asset *asset = find(o, asset_name(row, slot->name), "slot");
+    struct rg_asset *asset = find(o, asset_name(row, slot->name), "slot");
     o->stage->slots[slot->slot] = asset;
     if (!asset)
         return false;
@@ -77,7 +77,7 @@ static bool check_names(const struct rg_stage *row, const struct rg_kernel *kern
 }
 
 static bool find_optional(const struct opening *o, const char *name, const char *what,
-                          const struct rg_asset **asset)
+                          struct rg_asset **asset)
 {
     *asset = name ? find(o, name, what) : NULL;
     return *asset || !name;
@@ -142,6 +142,19 @@ void rg_stages_free(struct rg_instance *instance)
 
 // --- running ---
 
+static bool is_written(enum rg_slot_kind kind)
+{
+    return kind != RG_SLOT_IN && kind != RG_SLOT_IMAGE;
+}
+
+static void note_written(struct rg_opened_stage *stage)
+{
+    const struct rg_kernel *kernel = stage->pass->kernel;
+    for (int i = 0; i < kernel->slot_count; i++)
+        if (is_written(kernel->slots[i].kind))
+            stage->slots[kernel->slots[i].slot]->is_defined = true;
+}
+
 static bool run(struct rg_instance *instance, int at, struct rg_run *run)
 {
     struct rg_opened_stage *stage = &instance->stages[at];
@@ -152,6 +165,7 @@ static bool run(struct rg_instance *instance, int at, struct rg_run *run)
             run->slots[i] = (struct rg_binding){stage->slots[i]->buf, stage->slots[i]->image};
     if (!rg_pass_run(stage->pass, run))
         return false;
+    note_written(stage);
     if (instance->after_stage)
         instance->after_stage(stage, instance->user);
     return true;
@@ -203,8 +217,7 @@ bool rg_stage_wrote(const struct rg_opened_stage *s, const struct rg_asset *asse
     for (int i = 0; i < kernel->slot_count; i++) {
         const struct rg_slot_info *slot = &kernel->slots[i];
         const struct rg_asset *bound = s->slots[slot->slot];
-        if (slot->kind != RG_SLOT_IN && slot->kind != RG_SLOT_IMAGE && bound->buf == asset->buf &&
-            bound->image == asset->image)
+        if (is_written(slot->kind) && bound->buf == asset->buf && bound->image == asset->image)
             return true;
     }
     if (asset->buf)

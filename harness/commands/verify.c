@@ -9,13 +9,14 @@
 #include "harness/cli/subject.h"
 #include "harness/compare/verify/verify.h"
 
-enum { QUICK_STEPS = 100, FULL_STEPS = 1000, MAX_TECHNIQUES = 16 };
+enum { QUICK_STEPS = 100, FULL_STEPS = 1000, STAGE_FRAMES = 3, MAX_TECHNIQUES = 16 };
 
 struct verify_options {
     struct rg_words sets;
     struct rg_size size;
     int steps; // -1: as the length says
     struct rg_length length;
+    bool stages;
     char *devices; // their names
     bool json;
 };
@@ -31,6 +32,8 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     RG_INCLUDE(rg_frame_option, AT(steps), NULL),
     RG_INCLUDE(rg_size_option, AT(size), NULL),
+    {RG_OPTION_FLAG, "stages", .offset = AT(stages),
+     .about = "names the first stage that leaves other bits in an asset, instead; 3 frames"},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices), "all"),
     RG_GROUP("Output"),
@@ -103,12 +106,13 @@ static void note_missing(const struct rg_devices *devices, const struct subject 
     }
 }
 
-static void verify_all(struct rg_verify *v, const struct subject *subjects, int count)
+static void verify_all(struct rg_verify *v, bool stages, const struct subject *subjects, int count)
 {
     int64_t work = 0;
     for (int i = 0; i < count; i++) {
         v->technique = subjects[i].technique;
-        work += rg_verify_device_work(v) + rg_verify_mutant_work(v);
+        work +=
+            stages ? rg_verify_stage_work(v) : rg_verify_device_work(v) + rg_verify_mutant_work(v);
     }
     struct rg_progress progress;
     v->progress = &progress;
@@ -116,6 +120,10 @@ static void verify_all(struct rg_verify *v, const struct subject *subjects, int 
     for (int i = 0; i < count; i++) {
         v->technique = subjects[i].technique;
         v->settings = subjects[i].settings;
+        if (stages) {
+            rg_verify_stages(v);
+            continue;
+        }
         rg_verify_devices(v);
         rg_verify_mutants(v);
     }
@@ -131,6 +139,7 @@ static int verify_on(const struct verify_options *o, const struct rg_devices *de
         .width = o->size.width,
         .height = o->size.height,
         .steps = o->steps >= 0     ? o->steps
+                 : o->stages       ? STAGE_FRAMES
                  : o->length.quick ? QUICK_STEPS
                                    : FULL_STEPS,
         .reference = find_or_open(devices, reference_name, &extra[0]),
@@ -144,7 +153,7 @@ static int verify_on(const struct verify_options *o, const struct rg_devices *de
     } else {
         note_missing(devices, subjects, count, &checks);
         note_broken(devices, subjects, count, &checks);
-        verify_all(&v, subjects, count);
+        verify_all(&v, o->stages, subjects, count);
         rg_checks_print(&checks, o->json);
         exit = rg_checks_exit(&checks);
     }

@@ -323,4 +323,18 @@ def check_wrong_verify(runner, kernels):
     return problems
 
 
-WRONG = [check_broken_table, check_wrong_table, check_wrong_diff, check_wrong_verify]
+@with_wrong_normals
+def check_wrong_stage(runner, kernels):
+    """verify --stages names the stage that is wrong, the asset, the word, and by how much"""
+    report, status, problems = run_json(runner, "verify flow --stages --device cpu,gl " + SMALL, kernels)
+    checks = {device: [c for c in report["checks"] if c["device"] == device] for device in ("cpu", "gl")}
+    if status != 1 or not checks["cpu"] or any(check["status"] != "ok" for check in checks["cpu"]):
+        problems.append("exit status %d, cpu: %s" % (status, checks["cpu"]))
+    found = r"frame 1, stage flow_normals: normals\[\d+\] is .*, not .*, off by \d.*; \d+ of \d+ words differ"
+    for check in checks["gl"]:
+        if check["check"] != "stages" or check["status"] != "fail" or not re.search(found, check["detail"]):
+            problems.append("gl: %s" % check)
+    return problems
+
+
+WRONG = [check_broken_table, check_wrong_table, check_wrong_diff, check_wrong_verify, check_wrong_stage]

@@ -25,11 +25,15 @@ struct rg_verify {
 // Steps that each of the parts below runs, for the progress bar.
 int64_t rg_verify_device_work(const struct rg_verify *verify);
 int64_t rg_verify_mutant_work(const struct rg_verify *verify);
+int64_t rg_verify_stage_work(const struct rg_verify *verify);
 
 // State, image and laws on every device, over seeds and poses.
 void rg_verify_devices(struct rg_verify *verify);
 // Whether the comparison of images notices a model that is a little off.
 void rg_verify_mutants(struct rg_verify *verify);
+
+// Which stage first leaves other bits in an asset than the reference, over poses, with one seed.
+void rg_verify_stages(struct rg_verify *verify);
 
 // Opens the technique on a device and simulates `steps`; the caller destroys it. NULL, with one
 // logged line, on failure.

@@ -1,0 +1,107 @@
+// Stages: which stage is the first that leaves other bits in an asset than cpu:reference, where,
+// and by how much. It takes a few frames of each pose, since every asset is read after every stage.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/compare/verify/verify.h"
+#include "harness/frames/digests.h"
+
+int64_t rg_verify_stage_work(const struct rg_verify *v)
+{
+    int64_t poses = 0;
+    while (v->technique->proof->poses[poses])
+        poses++;
+    return poses * (v->devices->count + 1);
+}
+
+// The first row in which two runs differ; -1: none.
+static int first_difference(const struct rg_digests *a, const struct rg_digests *b)
+{
+    const int count = a->count < b->count ? a->count : b->count;
+    for (int i = 0; i < count; i++) {
+        const struct rg_digest *p = &a->rows[i], *q = &b->rows[i];
+        if (p->hash != q->hash || p->stages_run != q->stages_run || strcmp(p->asset, q->asset) != 0)
+            return i;
+    }
+    return a->count == b->count ? -1 : count;
+}
+
+// Where and by how much, from a second run of both.
+static void describe(struct rg_verify *v, const struct rg_digest_run *run, struct rg_device *device,
+                     int row, char *text, size_t size)
+{
+    struct rg_contents now, expected;
+    struct rg_state state;
+    const bool ok = rg_digests_contents(run, device, row, &now, &state);
+    if (!ok)
+        snprintf(text, size, ": %s", rg_last_error());
+    else if (!rg_digests_contents(run, v->reference, row, &expected, &state))
+        snprintf(text, size, ": %s", rg_last_error());
+    else
+        rg_contents_describe(&now, &expected, state.name ? &state : NULL, text, size);
+    if (ok)
+        rg_contents_free(&expected);
+    rg_contents_free(&now);
+}
+
+static void blame(struct rg_verify *v, const struct rg_digest_run *run, struct rg_device *device,
+                  const char *pose, const struct rg_digests *now, const struct rg_digests *expected)
+{
+    const int row = first_difference(now, expected);
+    const struct rg_digest *d = row < now->count ? &now->rows[row] : &expected->rows[row];
+    const bool same_place = row < now->count && row < expected->count &&
+                            !strcmp(d->asset, expected->rows[row].asset) &&
+                            d->stages_run == expected->rows[row].stages_run;
+    char where[400] = " is written by one of the two alone";
+    if (same_place)
+        describe(v, run, device, row, where, sizeof(where));
+    rg_checks_add(v->checks, run->technique->name, "stages", device->info.name,
+                  device->info.software ? RG_FAIL : RG_OK, "%s%sframe %lld, %s %s: %s%s", pose,
+                  *pose ? ": " : "", (long long)d->frame, *d->stage ? "stage" : "opening", d->stage,
+                  d->asset, where);
+}
+
+static void compare(struct rg_verify *v, const struct rg_digest_run *run, struct rg_device *device,
+                    const char *pose, const struct rg_digests *expected)
+{
+    struct rg_digests now = {0};
+    rg_progress_label(v->progress, "%s: stages on %s", run->technique->name, device->info.name);
+    const bool ok = rg_digests_take(run, device, &now);
+    if (!ok)
+        rg_checks_add(v->checks, run->technique->name, "stages", device->info.name, RG_ERROR, "%s",
+                      rg_last_error());
+    else if (first_difference(&now, expected) < 0)
+        rg_checks_add(v->checks, run->technique->name, "stages", device->info.name, RG_OK,
+                      "%s%s%d frames, %d digests of assets behind %d stages, as on %s", pose,
+                      *pose ? ": " : "", run->frames, now.count,
+                      now.count ? now.rows[now.count - 1].stages_run : 0, v->reference->info.name);
+    else
+        blame(v, run, device, pose, &now, expected);
+    rg_digests_free(&now);
+    rg_progress_add(v->progress, 1);
+}
+
+static void verify_pose(struct rg_verify *v, const char *pose)
+{
+    void *settings = rg_settings_copy(v->technique, v->settings, pose);
+    const struct rg_digest_run run = {v->technique, settings, v->width, v->height, v->steps};
+    struct rg_digests expected = {0};
+    if (!settings || !rg_digests_take(&run, v->reference, &expected))
+        rg_checks_add(v->checks, v->technique->name, "stages", v->reference->info.name, RG_ERROR,
+                      "%s", rg_last_error());
+    else
+        for (int i = 0; i < v->devices->count; i++)
+            if (v->devices->devices[i] != v->reference)
+                compare(v, &run, v->devices->devices[i], pose, &expected);
+    rg_progress_add(v->progress, 1);
+    rg_digests_free(&expected);
+    free(settings);
+}
+
+void rg_verify_stages(struct rg_verify *v)
+{
+    for (const char *const *pose = v->technique->proof->poses; *pose; pose++)
+        verify_pose(v, *pose);
+}

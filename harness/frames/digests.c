@@ -1,0 +1,131 @@
+#include "harness/frames/digests.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+
+// A run that is recorded.
+struct recorder {
+    struct rg_instance *instance;
+    struct rg_digests *digests;
+    uint64_t last[RG_MAX_ASSETS]; // by asset
+    bool seen[RG_MAX_ASSETS];
+    int stages_run;
+    bool ok;
+    // Of one row alone: what it held.
+    int wanted; // -1: none
+    struct rg_contents *contents;
+    struct rg_state *state;
+};
+
+static bool add(struct rg_digests *digests, const struct rg_digest *digest)
+{
+    if (digests->count == digests->room) {
+        const int room = digests->room ? 2 * digests->room : 256;
+        struct rg_digest *rows = realloc(digests->rows, (size_t)room * sizeof(*rows));
+        if (!rows)
+            return rg_error("digests: no memory for %d; run fewer frames", room);
+        digests->rows = rows;
+        digests->room = room;
+    }
+    digests->rows[digests->count++] = *digest;
+    return true;
+}
+
+// What is made later, was never written, or is another's under a second name, has no digest.
+static bool is_own(const struct rg_instance *instance, int asset)
+{
+    const struct rg_asset *a = &instance->assets[asset];
+    for (int i = 0; i < asset; i++)
+        if (instance->assets[i].buf == a->buf && instance->assets[i].image == a->image)
+            return false;
+    return a->is_defined && (a->buf || a->image);
+}
+
+static void keep_state(struct recorder *r, const struct rg_asset *asset)
+{
+    for (int i = 0; i < r->instance->state_count; i++)
+        if (r->instance->state[i].asset == asset)
+            *r->state = r->instance->state[i];
+}
+
+// What is lent and was not written is read once: nobody changes it.
+static void record(struct recorder *r, const struct rg_opened_stage *stage, int at)
+{
+    const struct rg_asset *asset = &r->instance->assets[at];
+    const bool wrote = stage && rg_stage_wrote(stage, asset);
+    struct rg_contents now = {0};
+    if (!is_own(r->instance, at) || (!wrote && r->seen[at] && !asset->is_owned))
+        return;
+    r->ok = r->ok && rg_contents_read(asset, &now);
+    const uint64_t hash = r->ok ? rg_contents_hash(&now) : 0;
+    if (r->ok && (wrote || !r->seen[at] || hash != r->last[at])) {
+        struct rg_digest digest = {
+            .frame = r->instance->frame, .stages_run = r->stages_run, .hash = hash};
+        strncat(digest.stage, stage ? stage->row.kernel : "", RG_ASSET_NAME - 1);
+        strncat(digest.asset, asset->name, RG_ASSET_NAME - 1);
+        if (r->digests->count == r->wanted) {
+            *r->contents = now;
+            now = (struct rg_contents){0};
+            keep_state(r, asset);
+        }
+        r->ok = add(r->digests, &digest);
+    }
+    r->seen[at] = true;
+    r->last[at] = hash;
+    rg_contents_free(&now);
+}
+
+static void after_stage(const struct rg_opened_stage *stage, void *user)
+{
+    struct recorder *r = user;
+    r->stages_run++;
+    for (int i = 0; r->ok && i < r->instance->asset_count; i++)
+        record(r, stage, i);
+}
+
+static bool run_recorded(const struct rg_digest_run *run, struct rg_device *device,
+                         struct recorder *r)
+{
+    const struct rg_technique *technique = run->technique;
+    r->instance = rg_instance_open(technique, device, run->settings, run->width, run->height);
+    if (!r->instance)
+        return false;
+    r->ok = true;
+    for (int i = 0; r->ok && i < r->instance->asset_count; i++)
+        record(r, NULL, i); // what opening has left
+    r->instance->after_stage = after_stage;
+    r->instance->user = r;
+    for (int i = 0; r->ok && i < run->frames; i++)
+        r->ok = technique->step(r->instance) && technique->draw(r->instance) && r->ok;
+    rg_instance_close(r->instance);
+    return r->ok;
+}
+
+bool rg_digests_take(const struct rg_digest_run *run, struct rg_device *device,
+                     struct rg_digests *digests)
+{
+    struct recorder r = {.digests = digests, .wanted = -1};
+    return run_recorded(run, device, &r);
+}
+
+bool rg_digests_contents(const struct rg_digest_run *run, struct rg_device *device, int row,
+                         struct rg_contents *contents, struct rg_state *state)
+{
+    struct rg_digests digests = {0};
+    struct recorder r = {.digests = &digests, .wanted = row, .contents = contents, .state = state};
+    *contents = (struct rg_contents){0};
+    *state = (struct rg_state){0};
+    const bool ok = run_recorded(run, device, &r);
+    rg_digests_free(&digests);
+    return ok && (contents->bytes ||
+                  rg_error("%s: a second run on %s has not come as far as the first; run again",
+                           run->technique->name, device->info.name));
+}
+
+void rg_digests_free(struct rg_digests *digests)
+{
+    free(digests->rows);
+    *digests = (struct rg_digests){0};
+}

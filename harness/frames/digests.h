@@ -1,0 +1,42 @@
+// What each stage of a run left in each asset, as digests: equal runs have equal ones, so that two
+// of them tell which stage differed first.
+#ifndef RG_HARNESS_FRAMES_DIGESTS_H
+#define RG_HARNESS_FRAMES_DIGESTS_H
+
+#include "core/techniques/contents.h"
+#include "core/techniques/technique.h"
+
+// So many frames of a technique, each simulated and drawn.
+struct rg_digest_run {
+    const struct rg_technique *technique;
+    const void *settings; // not owned
+    int width, height, frames;
+};
+
+// One asset after one stage. An asset has a digest after each stage that wrote it, and after any
+// other behind which it was found to have changed.
+struct rg_digest {
+    int64_t frame;  // that is being simulated or drawn
+    int stages_run; // since the instance was opened, this one included
+    char stage[RG_ASSET_NAME], asset[RG_ASSET_NAME];
+    uint64_t hash;
+};
+
+// Zeroed: none.
+struct rg_digests {
+    int count, room;
+    struct rg_digest *rows; // owned
+};
+
+// Runs and records. False, and one logged line, on failure; to be freed in either case.
+bool rg_digests_take(const struct rg_digest_run *run, struct rg_device *device,
+                     struct rg_digests *digests);
+void rg_digests_free(struct rg_digests *digests);
+
+// Runs once more, and brings what the asset of a row held then, with what is known of it as a state
+// (`state`: its name is NULL where it is none). False, and one logged line, on failure; the
+// contents are to be freed in either case.
+bool rg_digests_contents(const struct rg_digest_run *run, struct rg_device *device, int row,
+                         struct rg_contents *contents, struct rg_state *state);
+
+#endif
