@@ -33,7 +33,7 @@ struct streaks_map {
 struct streaks {
     struct rg_instance base;
     struct streaks_settings settings;
-    struct streaks_rain_space space;
+    struct rg_rain_space space;
     struct streaks_packets *packets;
     struct scenery *scene;
     struct streaks_textures *textures;

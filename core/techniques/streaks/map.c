@@ -42,7 +42,7 @@ static m4 matrix_of(const struct streaks *s)
     to_map[10] = 1 / p->map_height;
     to_map[11] = -p->map_top / p->map_height;
     to_map[15] = 1;
-    streaks_rain_matrices(&s->space, world_to_rain, NULL);
+    rg_rain_matrices(&s->space, world_to_rain, NULL);
     rg_matrix_multiply(to_map, world_to_rain, to_map);
     m4 to_clip;
     memcpy(&to_clip, to_map, sizeof(to_clip));
@@ -120,7 +120,7 @@ static const struct rg_shared_kind kind = {.name = "depth map", .make = make, .d
 // Everything that decides what a static map holds.
 static struct streaks_map *get_static(struct streaks *s)
 {
-    const struct streaks_rain_space *space = &s->space;
+    const struct rg_rain_space *space = &s->space;
     const double numbers[] = {space->origin_m[0], space->origin_m[1], space->origin_m[2],
                               space->s[0],        space->s[1],        space->s[2],
                               space->half_x_m,    space->half_y_m,    space->height_m};

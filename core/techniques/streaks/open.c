@@ -44,10 +44,10 @@ double streaks_widest_m(const struct streaks_settings *set)
 static bool create_space(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
-    struct streaks_rain_space_settings space = {
+    struct rg_rain_space_settings space = {
         .width_m = set->rain_width_m, .depth_m = set->rain_depth_m, .height_m = set->rain_height_m};
-    streaks_rain_fall(set->slant_deg, set->slant_azimuth_deg, space.fall);
-    if (!streaks_rain_space_make(&space, &s->space))
+    rg_rain_fall(set->slant_deg, set->slant_azimuth_deg, space.fall);
+    if (!rg_rain_space_make(&space, &s->space))
         return false;
     if (set->limits && set->culling_radius_m > streaks_widest_m(set))
         return rg_error("culling_radius_m: %.4g m is wider than the rain space of %.4g m x %.4g m; "
@@ -63,7 +63,7 @@ static bool create_space(struct streaks *s)
 static double drops_at_camera(const struct streaks *s, const struct rg_density *density)
 {
     double rain[3];
-    streaks_rain_eye(&s->space, &s->camera, rain);
+    rg_rain_eye(&s->space, &s->camera, rain);
     const double column = (rain[0] / s->space.half_x_m + 1) / 2 * density->width;
     const double row = (rain[1] / s->space.half_y_m + 1) / 2 * density->height;
     if (!(column >= 0 && column < density->width && row >= 0 && row < density->height))
@@ -181,7 +181,7 @@ static bool create_lights(struct streaks *s)
     look_ahead(&s->camera, settings.about_m);
     memcpy(settings.low_m, faces->low, sizeof(settings.low_m));
     memcpy(settings.high_m, faces->high, sizeof(settings.high_m));
-    streaks_rain_matrices(&s->space, settings.world_to_frame, NULL);
+    rg_rain_matrices(&s->space, settings.world_to_frame, NULL);
     s->lights = scenery_lights_open(s->base.device, &settings);
     return s->lights && scenery_lights_shade(s->lights, draw_shadow, s);
 }

@@ -22,7 +22,7 @@ static void to_world(const struct streaks *s, double x, double y, double along, 
 {
     const double rain[3] = {x, y, along};
     double point[3];
-    streaks_world_point(&s->space, rain, point);
+    rg_rain_world_point(&s->space, rain, point);
     for (int i = 0; i < 3; i++)
         world[i] = (float)point[i];
 }

@@ -39,7 +39,7 @@ static bool select_packets(struct streaks *s, const double eye[3], double top_m)
         .eye = {eye[0], eye[1], eye[2]},
         .radius_m = set->limits ? set->culling_radius_m : (double)INFINITY,
         .top_m = top_m,
-        .run = streaks_run(set->fall_speed_m_s, set->step_s * (double)s->base.frame, top_m,
+        .run = rg_rain_run(set->fall_speed_m_s, set->step_s * (double)s->base.frame, top_m,
                            set->local_height_m),
         .across_m = fmax(splash, 2 * margin(set)),
         .above_m = streak + set->splash_s * set->fall_speed_m_s + splash,
@@ -47,7 +47,7 @@ static bool select_packets(struct streaks *s, const double eye[3], double top_m)
         .hull = set->select,
         .whole = set->all_blocks || set->keeps_state,
     };
-    return streaks_view_corners(&s->space, &s->observer.camera, (double)desc->width / desc->height,
+    return rg_rain_view_corners(&s->space, &s->observer.camera, (double)desc->width / desc->height,
                                 view.corners) &&
            streaks_select(s->packets, &view, &s->selection);
 }
@@ -78,15 +78,15 @@ static void set_looks(streaks_params *p, const struct streaks_settings *set,
 }
 
 // The camera's matrix, rays and depth in the rain frame.
-static void set_view(streaks_params *p, const struct streaks_rain_space *space,
+static void set_view(streaks_params *p, const struct rg_rain_space *space,
                      const struct streaks_observer *observer)
 {
     const double near_m = (double)observer->camera.near_plane;
     const double far_m = (double)observer->camera.far_plane;
     float to_clip[16], rays[16];
-    streaks_rain_to_clip(space, observer->world_to_clip, to_clip);
+    rg_rain_to_clip(space, observer->world_to_clip, to_clip);
     memcpy(&p->to_clip, to_clip, sizeof(p->to_clip));
-    streaks_rain_rays(space, observer->rays, rays);
+    rg_rain_rays(space, observer->rays, rays);
     memcpy(&p->rays, rays, sizeof(p->rays));
     p->depth_far = (float)(far_m / (far_m - near_m));
     p->depth_per_w = (float)(-near_m * far_m / (far_m - near_m));
@@ -99,7 +99,7 @@ static void set_params(struct streaks *s, const double eye[3], double top_m)
     streaks_params *p = &s->params;
     const double up[3] = {0, 1, 0};
     double up_rain[3];
-    streaks_rain_direction(&s->space, up, up_rain);
+    rg_rain_direction(&s->space, up, up_rain);
     set_view(p, &s->space, &s->observer);
     p->half_x = (float)s->space.half_x_m;
     p->half_y = (float)s->space.half_y_m;
@@ -148,8 +148,8 @@ bool streaks_look(struct streaks *s)
     if (!streaks_observer_at(set, &s->camera, desc->width, desc->height, s->base.frame,
                              &s->observer))
         return false;
-    streaks_rain_eye(&s->space, &s->observer.camera, eye);
-    const double top_m = streaks_local_top(eye[2], set->local_height_m);
+    rg_rain_eye(&s->space, &s->observer.camera, eye);
+    const double top_m = rg_rain_local_top(eye[2], set->local_height_m);
     set_params(s, eye, top_m);
     if (!streaks_map_renew(s) || !select_blocks(s, eye, top_m))
         return false;
@@ -190,7 +190,7 @@ static bool draw_rain(struct streaks *s)
     double top_m = (double)s->params.top, eye[3];
     if (s->settings.limits)
         return draw_rain_at(s, s->params.top);
-    streaks_rain_eye(&s->space, &s->observer.camera, eye);
+    rg_rain_eye(&s->space, &s->observer.camera, eye);
     top_m -= ceil(top_m / height_m) * height_m;
     for (; top_m < s->space.height_m; top_m += height_m)
         if (!select_blocks(s, eye, top_m) || !draw_rain_at(s, (float)top_m))

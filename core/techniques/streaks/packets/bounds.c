@@ -114,7 +114,7 @@ static void plane_through(const double a[3], const double b[3], const double c[3
 void streaks_sight_of(const struct streaks_packets *p, const struct streaks_view *view,
                       struct streaks_sight *sight)
 {
-    // Corners of each side, two near and one far (streaks_view_corners).
+    // Corners of each side, two near and one far (rg_rain_view_corners).
     static const int sides[4][3] = {{0, 4, 6}, {1, 5, 7}, {0, 4, 5}, {2, 6, 7}};
     double middle[3] = {0};
     for (int i = 0; i < 24; i++)

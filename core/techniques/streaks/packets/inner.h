@@ -92,7 +92,7 @@ struct streaks_plan {
 };
 
 // Particles in the local space; false, and one logged line, if the settings make no rain.
-bool streaks_plan_amount(const struct streaks_rain_space *space, const struct rg_density *density,
+bool streaks_plan_amount(const struct rg_rain_space *space, const struct rg_density *density,
                          const struct streaks_packets_settings *settings, int64_t *total);
 // For packets whose total is known. A plan for the grid leaves it in packets->grid. False, and one
 // logged line with the numbers, if the scheme asked for, or any, does not fit into memory.

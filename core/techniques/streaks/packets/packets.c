@@ -121,7 +121,7 @@ bool streaks_by_id(const struct streaks_packets *p)
     return p->settings.by_id && p->info.scheme != STREAKS_GRID;
 }
 
-struct streaks_packets *streaks_packets_create(const struct streaks_rain_space *space,
+struct streaks_packets *streaks_packets_create(const struct rg_rain_space *space,
                                                const struct rg_density *density,
                                                const struct streaks_packets_settings *settings)
 {

@@ -27,7 +27,7 @@
 #include <stdint.h>
 
 #include "core/scene/density.h"
-#include "core/techniques/streaks/rain_space.h"
+#include "core/scene/rain_space.h"
 #include "kernels/streaks/params.h"
 
 enum {
@@ -79,7 +79,7 @@ struct streaks_packets;
 
 // Makes the particles. NULL, and one logged line with the numbers, if a setting makes no rain, or
 // more particles than 2^31 - 1 or than memory. The map is needed only until it returns.
-struct streaks_packets *streaks_packets_create(const struct streaks_rain_space *space,
+struct streaks_packets *streaks_packets_create(const struct rg_rain_space *space,
                                                const struct rg_density *density,
                                                const struct streaks_packets_settings *settings);
 void streaks_packets_destroy(struct streaks_packets *packets); // accepts NULL
@@ -97,8 +97,7 @@ void streaks_packets_forget(struct streaks_packets *packets);
 
 // How many particles a local space holds: the numbers alone, without making them; 0 for settings
 // that are refused, which is not logged.
-int64_t streaks_packets_total(const struct streaks_rain_space *space,
-                              const struct rg_density *density,
+int64_t streaks_packets_total(const struct rg_rain_space *space, const struct rg_density *density,
                               const struct streaks_packets_settings *settings);
 
 // --- selection ---
@@ -106,10 +105,10 @@ int64_t streaks_packets_total(const struct streaks_rain_space *space,
 // Where the observer is and what is seen, in metres of the rain frame.
 struct streaks_view {
     double eye[3];
-    double corners[8][3]; // of the view frustum, as streaks_view_corners orders them
+    double corners[8][3]; // of the view frustum, as rg_rain_view_corners orders them
     double radius_m;      // half a side of the culling prism; INFINITY: no prism
-    double top_m;         // of the local space (streaks_local_top)
-    double run;           // streaks_run
+    double top_m;         // of the local space (rg_rain_local_top)
+    double run;           // rg_rain_run
     // How far what a particle draws may reach: across the fall from the particle's place; along the
     // fall above the local top, where splashes last on surfaces that a drop has passed (so: the
     // streak's length, the way of a drop while a splash lasts, and a splash's height); and below

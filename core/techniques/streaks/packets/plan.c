@@ -17,7 +17,7 @@ static double densest_m3(const struct streaks_packets_settings *settings)
     return settings->drops_m2_s / settings->fall_speed_m_s;
 }
 
-static double amount(const struct streaks_rain_space *space, const struct rg_density *density,
+static double amount(const struct rg_rain_space *space, const struct rg_density *density,
                      const struct streaks_packets_settings *settings)
 {
     const double volume = 4 * space->half_x_m * space->half_y_m * settings->local_height_m;
@@ -29,8 +29,7 @@ static bool above_zero(double value)
     return isfinite(value) && value > 0;
 }
 
-int64_t streaks_packets_total(const struct streaks_rain_space *space,
-                              const struct rg_density *density,
+int64_t streaks_packets_total(const struct rg_rain_space *space, const struct rg_density *density,
                               const struct streaks_packets_settings *settings)
 {
     if (!above_zero(settings->drops_m2_s) || !above_zero(settings->fall_speed_m_s) ||
@@ -40,7 +39,7 @@ int64_t streaks_packets_total(const struct streaks_rain_space *space,
     return total <= INT32_MAX ? (int64_t)total : 0;
 }
 
-bool streaks_plan_amount(const struct streaks_rain_space *space, const struct rg_density *density,
+bool streaks_plan_amount(const struct rg_rain_space *space, const struct rg_density *density,
                          const struct streaks_packets_settings *settings, int64_t *whole)
 {
     if (!above_zero(settings->drops_m2_s))

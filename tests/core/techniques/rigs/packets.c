@@ -12,13 +12,13 @@
 
 #include "core/base/log.h"
 
-const struct streaks_rain_space rig_space = {.origin_m = {0, 230, 0},
-                                             .x = {1, 0, 0},
-                                             .y = {0, 0, 1},
-                                             .s = {0, -1, 0},
-                                             .half_x_m = 200,
-                                             .half_y_m = 200,
-                                             .height_m = 230};
+const struct rg_rain_space rig_space = {.origin_m = {0, 230, 0},
+                                        .x = {1, 0, 0},
+                                        .y = {0, 0, 1},
+                                        .s = {0, -1, 0},
+                                        .half_x_m = 200,
+                                        .half_y_m = 200,
+                                        .height_m = 230};
 
 const float rig_uneven[UNEVEN_X * UNEVEN_Y] = {
     0.1f, 0.5f, 0, 0,    1,    0.2f, 0.3f, 0.9f, 0.9f, 0, 0.4f,  0.7f, 0.1f, 0,    0, 0, 0,    0,
@@ -26,7 +26,7 @@ const float rig_uneven[UNEVEN_X * UNEVEN_Y] = {
 
 const enum streaks_scheme rig_schemes[4] = {STREAKS_WORLD, STREAKS_KD, STREAKS_QUAD, STREAKS_GRID};
 
-struct streaks_packets_settings rig_settings(const struct streaks_rain_space *space,
+struct streaks_packets_settings rig_settings(const struct rg_rain_space *space,
                                              const struct rg_density *density, double particles)
 {
     const double volume = 4 * space->half_x_m * space->half_y_m * 20 * rg_density_mean(density);
@@ -39,7 +39,7 @@ struct streaks_packets_settings rig_settings(const struct streaks_rain_space *sp
                                              .memory_bytes = (int64_t)1 << 30};
 }
 
-struct streaks_packets *rig_packets(const struct streaks_rain_space *space,
+struct streaks_packets *rig_packets(const struct rg_rain_space *space,
                                     const struct rg_density *density,
                                     const struct streaks_packets_settings *settings)
 {
@@ -48,7 +48,7 @@ struct streaks_packets *rig_packets(const struct streaks_rain_space *space,
     return packets;
 }
 
-struct streaks_view rig_everywhere(const struct streaks_rain_space *space, double local_height_m)
+struct streaks_view rig_everywhere(const struct rg_rain_space *space, double local_height_m)
 {
     struct streaks_view view = {.eye = {0, 0, space->height_m / 2},
                                 .radius_m = INFINITY,
@@ -70,9 +70,8 @@ static float as_float(uint32_t bits)
     return value;
 }
 
-static void read_block(const struct streaks_packets *packets,
-                       const struct streaks_rain_space *space, int buffer, const uint32_t *block,
-                       struct rig_particles *to)
+static void read_block(const struct streaks_packets *packets, const struct rg_rain_space *space,
+                       int buffer, const uint32_t *block, struct rig_particles *to)
 {
     int64_t bytes;
     const float *particles = streaks_packets_buffer(packets, buffer, &bytes);
@@ -100,7 +99,7 @@ static void read_block(const struct streaks_packets *packets,
 }
 
 struct rig_particles rig_read(const struct streaks_packets *packets,
-                              const struct streaks_rain_space *space,
+                              const struct rg_rain_space *space,
                               const struct streaks_selection *selection)
 {
     struct rig_particles read = {
@@ -123,7 +122,7 @@ struct rig_particles rig_read(const struct streaks_packets *packets,
 }
 
 struct rig_particles rig_read_all(const struct streaks_packets *packets,
-                                  const struct streaks_rain_space *space, double local_height_m)
+                                  const struct rg_rain_space *space, double local_height_m)
 {
     const struct streaks_view view = rig_everywhere(space, local_height_m);
     struct streaks_selection selection = {0};

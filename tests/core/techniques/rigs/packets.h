@@ -19,32 +19,32 @@ struct rig_particles {
     struct rig_particle *all;
 };
 
-extern const struct streaks_rain_space rig_space; // 400 m x 400 m, 230 m high, straight down
+extern const struct rg_rain_space rig_space; // 400 m x 400 m, 230 m high, straight down
 
 extern const enum streaks_scheme rig_schemes[4]; // STREAKS_WORLD first, STREAKS_GRID last
 
 // So many particles in a local space of 20 m, in packets of 1000; worldwide.
-struct streaks_packets_settings rig_settings(const struct streaks_rain_space *space,
+struct streaks_packets_settings rig_settings(const struct rg_rain_space *space,
                                              const struct rg_density *density, double particles);
 
 // Fails the test if they cannot be made.
-struct streaks_packets *rig_packets(const struct streaks_rain_space *space,
+struct streaks_packets *rig_packets(const struct rg_rain_space *space,
                                     const struct rg_density *density,
                                     const struct streaks_packets_settings *settings);
 
 // A view that has everything in it, from the rain space's middle, at this run position.
 #define RIG_RUN 0.25
-struct streaks_view rig_everywhere(const struct streaks_rain_space *space, double local_height_m);
+struct streaks_view rig_everywhere(const struct rg_rain_space *space, double local_height_m);
 
 // Reads the blocks as a kernel does. Fails the test where a block breaks a rule of the header: a
 // particle outside its buffer, a mask of none, draws that overlap or leave blocks out, and where
 // there are more than the selection counts. The caller frees `all`.
 struct rig_particles rig_read(const struct streaks_packets *packets,
-                              const struct streaks_rain_space *space,
+                              const struct rg_rain_space *space,
                               const struct streaks_selection *selection);
 // All particles: of a view of everything.
 struct rig_particles rig_read_all(const struct streaks_packets *packets,
-                                  const struct streaks_rain_space *space, double local_height_m);
+                                  const struct rg_rain_space *space, double local_height_m);
 
 // Orders by slot, then shift. Comparable with qsort and bsearch.
 int rig_compare(const void *a, const void *b);

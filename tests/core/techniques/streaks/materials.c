@@ -73,7 +73,7 @@ static struct hit_face face_of(const struct streaks *s, const struct city_faces 
     for (int k = 0; k < 12; k += 3) {
         const float *corner = from->corners + (size_t)i * 12 + k;
         const double world[3] = {(double)corner[0], (double)corner[1], (double)corner[2]};
-        streaks_rain_point(&s->space, world, f.corners + k);
+        rg_rain_point(&s->space, world, f.corners + k);
         for (int c = 0; c < 2; c++) {
             f.low[c] = fmin(f.low[c], f.corners[k + c]);
             f.high[c] = fmax(f.high[c], f.corners[k + c]);
@@ -143,7 +143,7 @@ struct extent {
 static struct extent extent_of(const struct streaks *s, bool around)
 {
     double eye[3];
-    streaks_rain_eye(&s->space, &s->observer.camera, eye);
+    rg_rain_eye(&s->space, &s->observer.camera, eye);
     const double r = s->settings.culling_radius_m, x = s->space.half_x_m, y = s->space.half_y_m;
     return around ? (struct extent){eye[0] - r, eye[1] - r, 2 * r, 2 * r}
                   : (struct extent){-x, -y, 2 * x, 2 * y};

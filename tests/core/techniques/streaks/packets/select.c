@@ -21,7 +21,7 @@ static const float texels[MAP_SIDE * MAP_SIDE] = {
 
 // A rain space, what the library makes of it, and the oracle's frame of the same.
 struct scene {
-    struct streaks_rain_space space;
+    struct rg_rain_space space;
     struct oracle_frame frame;
     struct rg_density *map;
 };
@@ -32,15 +32,15 @@ static struct scene make_scene(uint64_t *random, bool slanted)
     if (slanted)
         for (int i = 0; i < 3; i++)
             fall[i] = oracle_uniform(random, -1, 1);
-    const struct streaks_rain_space_settings settings = {
-        .ground_m = {oracle_uniform(random, -50, 50), oracle_uniform(random, -50, 50),
-                     oracle_uniform(random, -50, 50)},
-        .fall = {fall[0], fall[1], fall[2]},
-        .width_m = oracle_uniform(random, 60, 400),
-        .depth_m = oracle_uniform(random, 60, 400),
-        .height_m = oracle_uniform(random, 50, 300)};
+    const struct rg_rain_space_settings settings = {.ground_m = {oracle_uniform(random, -50, 50),
+                                                                 oracle_uniform(random, -50, 50),
+                                                                 oracle_uniform(random, -50, 50)},
+                                                    .fall = {fall[0], fall[1], fall[2]},
+                                                    .width_m = oracle_uniform(random, 60, 400),
+                                                    .depth_m = oracle_uniform(random, 60, 400),
+                                                    .height_m = oracle_uniform(random, 50, 300)};
     struct scene scene;
-    assert_true(streaks_rain_space_make(&settings, &scene.space));
+    assert_true(rg_rain_space_make(&settings, &scene.space));
     double length = sqrt(fall[0] * fall[0] + fall[1] * fall[1] + fall[2] * fall[2]), origin[3];
     for (int i = 0; i < 3; i++)
         origin[i] = settings.ground_m[i] - settings.height_m * fall[i] / length;
@@ -78,9 +78,9 @@ static struct look make_look(const struct scene *scene, double height_m, uint64_
     look.view.above_m = oracle_uniform(random, 0, 4);
     look.view.below_m = oracle_uniform(random, 0, 2);
     look.view.radius_m = oracle_random(random) % 4 ? oracle_uniform(random, 5, 60) : INFINITY;
-    streaks_rain_point(&scene->space, eye, look.view.eye);
-    assert_true(streaks_view_corners(&scene->space, &camera, aspect, look.view.corners));
-    look.view.top_m = streaks_local_top(look.view.eye[2], height_m);
+    rg_rain_point(&scene->space, eye, look.view.eye);
+    assert_true(rg_rain_view_corners(&scene->space, &camera, aspect, look.view.corners));
+    look.view.top_m = rg_rain_local_top(look.view.eye[2], height_m);
     look.view.run = oracle_uniform(random, 0, 1);
     look.view.whole = true;
     return look;

@@ -1,4 +1,4 @@
-#include "core/techniques/streaks/rain_space.h"
+#include "core/scene/rain_space.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,7 +18,7 @@ static bool all_finite(const double *values, int count)
 
 // x is the world's x axis as far as it lies across the fall; where rain falls along it, the world's
 // y axis.
-static void make_axes(struct streaks_rain_space *space, const double fall[3])
+static void make_axes(struct rg_rain_space *space, const double fall[3])
 {
     memcpy(space->s, fall, sizeof(space->s));
     rg_to_unit(space->s);
@@ -32,8 +32,7 @@ static void make_axes(struct streaks_rain_space *space, const double fall[3])
     rg_cross(space->y, space->s, space->x);
 }
 
-bool streaks_rain_space_make(const struct streaks_rain_space_settings *settings,
-                             struct streaks_rain_space *space)
+bool rg_rain_space_make(const struct rg_rain_space_settings *settings, struct rg_rain_space *space)
 {
     const double sizes[3] = {settings->width_m, settings->depth_m, settings->height_m};
     if (!all_finite(settings->ground_m, 3) || !all_finite(settings->fall, 3))
@@ -53,7 +52,7 @@ bool streaks_rain_space_make(const struct streaks_rain_space_settings *settings,
     return true;
 }
 
-void streaks_rain_fall(double slant_deg, double azimuth_deg, double fall[3])
+void rg_rain_fall(double slant_deg, double azimuth_deg, double fall[3])
 {
     const double slant = slant_deg * PI / 180, azimuth = azimuth_deg * PI / 180;
     fall[0] = sin(slant) * cos(azimuth);
@@ -61,32 +60,28 @@ void streaks_rain_fall(double slant_deg, double azimuth_deg, double fall[3])
     fall[2] = sin(slant) * sin(azimuth);
 }
 
-void streaks_rain_eye(const struct streaks_rain_space *space, const struct rg_camera *camera,
-                      double rain[3])
+void rg_rain_eye(const struct rg_rain_space *space, const struct rg_camera *camera, double rain[3])
 {
     const double world[3] = {(double)camera->position[0], (double)camera->position[1],
                              (double)camera->position[2]};
-    streaks_rain_point(space, world, rain);
+    rg_rain_point(space, world, rain);
 }
 
-void streaks_rain_direction(const struct streaks_rain_space *space, const double world[3],
-                            double rain[3])
+void rg_rain_direction(const struct rg_rain_space *space, const double world[3], double rain[3])
 {
     const double turned[3] = {rg_dot(space->x, world), rg_dot(space->y, world),
                               rg_dot(space->s, world)};
     memcpy(rain, turned, sizeof(turned));
 }
 
-void streaks_rain_point(const struct streaks_rain_space *space, const double world[3],
-                        double rain[3])
+void rg_rain_point(const struct rg_rain_space *space, const double world[3], double rain[3])
 {
     const double from[3] = {world[0] - space->origin_m[0], world[1] - space->origin_m[1],
                             world[2] - space->origin_m[2]};
-    streaks_rain_direction(space, from, rain);
+    rg_rain_direction(space, from, rain);
 }
 
-void streaks_world_point(const struct streaks_rain_space *space, const double rain[3],
-                         double world[3])
+void rg_rain_world_point(const struct rg_rain_space *space, const double rain[3], double world[3])
 {
     const double at[3] = {rain[0], rain[1], rain[2]};
     for (int i = 0; i < 3; i++)
@@ -95,7 +90,7 @@ void streaks_world_point(const struct streaks_rain_space *space, const double ra
 }
 
 // Row by row, in double precision.
-static void to_rain(const struct streaks_rain_space *space, double matrix[16])
+static void to_rain(const struct rg_rain_space *space, double matrix[16])
 {
     const double *const axes[3] = {space->x, space->y, space->s};
     memset(matrix, 0, 16 * sizeof(*matrix));
@@ -106,7 +101,7 @@ static void to_rain(const struct streaks_rain_space *space, double matrix[16])
     matrix[15] = 1;
 }
 
-static void to_world(const struct streaks_rain_space *space, double matrix[16])
+static void to_world(const struct rg_rain_space *space, double matrix[16])
 {
     for (int row = 0; row < 3; row++) {
         matrix[4 * row] = space->x[row];
@@ -118,8 +113,8 @@ static void to_world(const struct streaks_rain_space *space, double matrix[16])
     memcpy(matrix + 12, last, sizeof(last));
 }
 
-void streaks_rain_matrices(const struct streaks_rain_space *space, float world_to_rain[16],
-                           float rain_to_world[16])
+void rg_rain_matrices(const struct rg_rain_space *space, float world_to_rain[16],
+                      float rain_to_world[16])
 {
     double there[16], back[16];
     to_rain(space, there);
@@ -132,8 +127,8 @@ void streaks_rain_matrices(const struct streaks_rain_space *space, float world_t
     }
 }
 
-void streaks_rain_to_clip(const struct streaks_rain_space *space, const float world_to_clip[16],
-                          float rain_to_clip[16])
+void rg_rain_to_clip(const struct rg_rain_space *space, const float world_to_clip[16],
+                     float rain_to_clip[16])
 {
     double world[16];
     to_world(space, world);
@@ -146,8 +141,7 @@ void streaks_rain_to_clip(const struct streaks_rain_space *space, const float wo
         }
 }
 
-void streaks_rain_rays(const struct streaks_rain_space *space, const float world[16],
-                       float rain[16])
+void rg_rain_rays(const struct rg_rain_space *space, const float world[16], float rain[16])
 {
     const double *const axes[3] = {space->x, space->y, space->s};
     memset(rain, 0, 16 * sizeof(*rain));
@@ -161,16 +155,16 @@ void streaks_rain_rays(const struct streaks_rain_space *space, const float world
 
 // --- the view ---
 
-static double farthest_corner(const struct streaks_rain_space *space, const double eye[3])
+static double farthest_corner(const struct rg_rain_space *space, const double eye[3])
 {
     double rain[3];
-    streaks_rain_point(space, eye, rain);
+    rg_rain_point(space, eye, rain);
     const double x = fabs(rain[0]) + space->half_x_m, y = fabs(rain[1]) + space->half_y_m;
     const double s = fmax(fabs(rain[2]), fabs(rain[2] - space->height_m));
     return sqrt(x * x + y * y + s * s);
 }
 
-bool streaks_view_corners(const struct streaks_rain_space *space, const struct rg_camera *camera,
+bool rg_rain_view_corners(const struct rg_rain_space *space, const struct rg_camera *camera,
                           double aspect, double corners[8][3])
 {
     float checked[16];
@@ -188,19 +182,19 @@ bool streaks_view_corners(const struct streaks_rain_space *space, const struct r
         double world[3];
         for (int k = 0; k < 3; k++)
             world[k] = eye[k] + z * axes.ahead[k] + y * axes.up[k] + x * aspect * axes.right[k];
-        streaks_rain_point(space, world, corners[i]);
+        rg_rain_point(space, world, corners[i]);
     }
     return true;
 }
 
 // --- the local space ---
 
-double streaks_local_top(double eye_s_m, double local_height_m)
+double rg_rain_local_top(double eye_s_m, double local_height_m)
 {
     return eye_s_m - local_height_m / 2;
 }
 
-double streaks_run(double fall_speed_m_s, double time_s, double top_m, double local_height_m)
+double rg_rain_run(double fall_speed_m_s, double time_s, double top_m, double local_height_m)
 {
     const double turns = (fall_speed_m_s * time_s - top_m) / local_height_m;
     const double run = turns - floor(turns);

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/techniques/streaks/rain_space.h"
+#include "core/scene/rain_space.h"
 #include "tests/core/techniques/rigs/packets.h"
 #include "tests/oracle/packets.h"
 
@@ -32,16 +32,16 @@ static void apply(const float matrix[16], const double point[3], double result[4
 static void test_straight_down(void **state)
 {
     (void)state;
-    const struct streaks_rain_space_settings settings = {
+    const struct rg_rain_space_settings settings = {
         .ground_m = {1, 2, 3}, .fall = {0, -7, 0}, .width_m = 400, .depth_m = 300, .height_m = 230};
-    struct streaks_rain_space space;
-    assert_true(streaks_rain_space_make(&settings, &space));
+    struct rg_rain_space space;
+    assert_true(rg_rain_space_make(&settings, &space));
     const double top[3] = {1, 232, 3}, sizes[3] = {200, 150, 230};
     expect_near(space.origin_m, top, 3, 1e-12);
     expect_near(&space.half_x_m, sizes, 3, 0);
     const double world[3] = {11, 232 - 50, 23}, expected[3] = {10, 20, 50};
     double rain[3];
-    streaks_rain_point(&space, world, rain);
+    rg_rain_point(&space, world, rain);
     expect_near(rain, expected, 3, 1e-12);
 }
 
@@ -52,7 +52,7 @@ static void test_any_fall(void **state)
     (void)state;
     uint64_t random = 11;
     for (int i = 0; i < 200; i++) {
-        struct streaks_rain_space_settings settings = {
+        struct rg_rain_space_settings settings = {
             .width_m = 1, .depth_m = 2, .height_m = oracle_uniform(&random, 1, 100)};
         double length = 0, origin[3], world[3], rain[3], there[4], back[4];
         for (int k = 0; k < 3; k++) {
@@ -63,8 +63,8 @@ static void test_any_fall(void **state)
         }
         if (fabs(settings.fall[0]) > 0.98 * sqrt(length))
             continue; // along x there is no x axis across the fall; see below
-        struct streaks_rain_space space;
-        assert_true(streaks_rain_space_make(&settings, &space));
+        struct rg_rain_space space;
+        assert_true(rg_rain_space_make(&settings, &space));
         for (int k = 0; k < 3; k++)
             origin[k] = settings.ground_m[k] - settings.height_m * settings.fall[k] / sqrt(length);
         const struct oracle_frame frame = oracle_frame_at(origin, settings.fall);
@@ -73,17 +73,17 @@ static void test_any_fall(void **state)
         expect_near(space.s, frame.axes[2], 3, 1e-12);
         oracle_to_world(&frame, rain, world);
         float to_rain[16], to_world[16];
-        streaks_rain_matrices(&space, to_rain, to_world);
-        streaks_world_point(&space, rain, there);
+        rg_rain_matrices(&space, to_rain, to_world);
+        rg_rain_world_point(&space, rain, there);
         expect_near(there, world, 3, 1e-9);
-        streaks_rain_point(&space, world, back);
+        rg_rain_point(&space, world, back);
         expect_near(back, rain, 3, 1e-9);
         apply(to_world, rain, there);
         apply(to_rain, world, back);
         expect_near(there, world, 3, 1e-4);
         expect_near(back, rain, 3, 1e-4);
         assert_true(there[3] == 1 && back[3] == 1);
-        streaks_rain_to_clip(&space, to_rain, to_world); // there and back: nothing
+        rg_rain_to_clip(&space, to_rain, to_world); // there and back: nothing
         for (int k = 0; k < 16; k++)
             assert_true(fabs((double)to_world[k] - (k % 5 == 0)) < 1e-4);
     }
@@ -94,10 +94,10 @@ static void test_fall_along_x(void **state)
 {
     (void)state;
     for (int sign = -1; sign < 2; sign += 2) {
-        const struct streaks_rain_space_settings settings = {
+        const struct rg_rain_space_settings settings = {
             .fall = {sign, 0, 0}, .width_m = 1, .depth_m = 1, .height_m = 1};
-        struct streaks_rain_space space;
-        assert_true(streaks_rain_space_make(&settings, &space));
+        struct rg_rain_space space;
+        assert_true(rg_rain_space_make(&settings, &space));
         for (int i = 0; i < 3; i++) {
             const int j = (i + 1) % 3, k = (i + 2) % 3;
             const double s = space.x[j] * space.y[k] - space.x[k] * space.y[j];
@@ -110,11 +110,11 @@ static void test_slant(void **state)
 {
     (void)state;
     double fall[3];
-    streaks_rain_fall(0, 77, fall);
+    rg_rain_fall(0, 77, fall);
     expect_near(fall, (const double[]){0, -1, 0}, 3, 1e-12);
-    streaks_rain_fall(30, 0, fall);
+    rg_rain_fall(30, 0, fall);
     expect_near(fall, (const double[]){0.5, -sqrt(0.75), 0}, 3, 1e-12);
-    streaks_rain_fall(30, 90, fall);
+    rg_rain_fall(30, 90, fall);
     expect_near(fall, (const double[]){0, -sqrt(0.75), 0.5}, 3, 1e-12);
 }
 
@@ -123,19 +123,19 @@ static void test_slant(void **state)
 static void test_view_corners(void **state)
 {
     (void)state;
-    const struct streaks_rain_space_settings settings = {.ground_m = {5, -3, 8},
-                                                         .fall = {0.4, -1, 0.2},
-                                                         .width_m = 100,
-                                                         .depth_m = 60,
-                                                         .height_m = 80};
-    struct streaks_rain_space space;
-    assert_true(streaks_rain_space_make(&settings, &space));
+    const struct rg_rain_space_settings settings = {.ground_m = {5, -3, 8},
+                                                    .fall = {0.4, -1, 0.2},
+                                                    .width_m = 100,
+                                                    .depth_m = 60,
+                                                    .height_m = 80};
+    struct rg_rain_space space;
+    assert_true(rg_rain_space_make(&settings, &space));
     const struct rg_camera camera = {{3, -2, 7}, {-1, 4, 1.5f}, {0.3f, 2, -0.4f}, 37, 0.25f, 20};
     double corners[8][3], clip[4];
     float to_clip[16], rain_to_clip[16];
-    assert_true(streaks_view_corners(&space, &camera, 1.6, corners));
+    assert_true(rg_rain_view_corners(&space, &camera, 1.6, corners));
     assert_true(rg_camera_matrix(&camera, 1.6f, to_clip));
-    streaks_rain_to_clip(&space, to_clip, rain_to_clip);
+    rg_rain_to_clip(&space, to_clip, rain_to_clip);
     int seen = 0;
     double far_m = 0;
     for (int i = 0; i < 8; i++) {
@@ -161,7 +161,7 @@ static void test_view_corners(void **state)
 // Where a drop is in the world, s in the rain frame.
 static double place(double start, double time_s, double top_m, double height_m)
 {
-    const double turns = start + streaks_run(8.16, time_s, top_m, height_m);
+    const double turns = start + rg_rain_run(8.16, time_s, top_m, height_m);
     return top_m + height_m * (turns - floor(turns));
 }
 
@@ -204,7 +204,7 @@ static void test_run_is_the_thesis_sum(void **state)
     uint64_t random = 13;
     const double local = 20, total = 230;
     double eye = 100, time = 0;
-    double run = streaks_run(8.16, time, streaks_local_top(eye, local), local);
+    double run = rg_rain_run(8.16, time, rg_rain_local_top(eye, local), local);
     for (int frame = 0; frame < 2000; frame++) {
         const double dt = oracle_uniform(&random, 0, 0.1);
         const double next = oracle_uniform(&random, 0, total);
@@ -213,11 +213,11 @@ static void test_run_is_the_thesis_sum(void **state)
         run -= floor(run);
         time += dt;
         eye = next;
-        const double ours = streaks_run(8.16, time, streaks_local_top(eye, local), local);
+        const double ours = rg_rain_run(8.16, time, rg_rain_local_top(eye, local), local);
         assert_true(ours >= 0 && ours < 1);
         const double apart = ours - run;
         assert_true(fabs(apart - rint(apart)) < 1e-9);
-        expect_near((const double[]){streaks_local_top(eye, local)},
+        expect_near((const double[]){rg_rain_local_top(eye, local)},
                     (const double[]){eye - local / 2}, 1, 1e-12);
     }
 }
@@ -225,9 +225,9 @@ static void test_run_is_the_thesis_sum(void **state)
 static void test_wrong_spaces(void **state)
 {
     (void)state;
-    const struct streaks_rain_space_settings good = {
+    const struct rg_rain_space_settings good = {
         .fall = {0, -1, 0}, .width_m = 1, .depth_m = 1, .height_m = 1};
-    struct streaks_rain_space_settings wrong[7];
+    struct rg_rain_space_settings wrong[7];
     for (int i = 0; i < 7; i++)
         wrong[i] = good;
     wrong[0].fall[1] = 0;
@@ -238,17 +238,17 @@ static void test_wrong_spaces(void **state)
     wrong[5].ground_m[0] = NAN;
     wrong[6].fall[1] = 1e300;
     for (int i = 0; i < 7; i++) {
-        struct streaks_rain_space space;
+        struct rg_rain_space space;
         rig_listen();
-        assert_false(streaks_rain_space_make(&wrong[i], &space));
+        assert_false(rg_rain_space_make(&wrong[i], &space));
         assert_int_equal(rig_errors(), 1);
     }
-    struct streaks_rain_space space;
-    assert_true(streaks_rain_space_make(&good, &space));
+    struct rg_rain_space space;
+    assert_true(rg_rain_space_make(&good, &space));
     const struct rg_camera blind = {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 50, 1, 2};
     double corners[8][3];
     rig_listen();
-    assert_false(streaks_view_corners(&space, &blind, 1, corners));
+    assert_false(rg_rain_view_corners(&space, &blind, 1, corners));
     assert_int_equal(rig_errors(), 1);
 }
 
