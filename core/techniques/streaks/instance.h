@@ -63,15 +63,19 @@ struct streaks {
 bool streaks_open(struct rg_instance *instance);
 void streaks_close(struct rg_instance *instance);
 
-// The largest culling radius that may be set.
-double streaks_widest_m(const struct streaks_settings *settings);
 // Makes the particles of the settings as they are now, in place of those there were. False, and one
 // logged line, on failure.
 bool streaks_make_particles(struct streaks *streaks);
+void streaks_free_particles(struct streaks *streaks);
 
 // Moves the observer to the present frame, and makes what it draws: the selection, its blocks, the
 // parameters, the depth map where it is due. False, and one logged line, on failure.
 bool streaks_look(struct streaks *streaks);
+// Selects what a local space of this top shows to an eye in the rain frame. A selection of one draw
+// has its blocks on the device. False, and one logged line, on failure.
+bool streaks_select_blocks(struct streaks *streaks, const double eye[3], double top_m);
+// Puts a draw's blocks on the device.
+bool streaks_write_blocks(struct streaks *streaks, const struct streaks_draw *draw);
 // Opens the depth map; a static one is drawn by whoever is first. False, and one logged line, on
 // failure. streaks_map_close accepts what was never opened.
 bool streaks_map_open(struct streaks *streaks);

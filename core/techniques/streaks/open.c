@@ -1,10 +1,9 @@
-// Opens streaks on a device: its particles, scene, textures, lights and images.
+// Opens streaks on a device: its scene, textures, lights and images.
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "core/techniques/streaks/fit.h"
 #include "core/techniques/streaks/instance.h"
@@ -12,19 +11,10 @@
 static const char *const counter_names[STREAKS_COUNTERS] = {"particles_selected",
                                                             "packets_selected", "items_drawn"};
 
-static void destroy_particles(struct streaks *s)
-{
-    for (int i = 0; i < s->buffer_count; i++)
-        rg_buf_destroy(s->particles[i]);
-    s->buffer_count = 0;
-    streaks_packets_destroy(s->packets);
-    s->packets = NULL;
-}
-
 void streaks_close(struct rg_instance *instance)
 {
     struct streaks *s = (struct streaks *)instance;
-    destroy_particles(s);
+    streaks_free_particles(s);
     streaks_map_close(s);
     scenery_overlay_close(s->overlay);
     scenery_lights_close(s->lights);
@@ -34,12 +24,7 @@ void streaks_close(struct rg_instance *instance)
     streaks_selection_release(&s->selection);
 }
 
-// --- the rain space and its particles ---
-
-double streaks_widest_m(const struct streaks_settings *set)
-{
-    return hypot(set->rain_width_m, set->rain_depth_m);
-}
+// --- the rain space ---
 
 static bool create_space(struct streaks *s)
 {
@@ -57,65 +42,6 @@ static bool create_space(struct streaks *s)
         return rg_error("local_height_m: %.4g m is higher than the rain space, rain_height_m=%.4g",
                         set->local_height_m, set->rain_height_m);
     return true;
-}
-
-// Drops a cubic metre where the camera stands.
-static double drops_at_camera(const struct streaks *s, const struct rg_density *density)
-{
-    double rain[3];
-    rg_rain_eye(&s->space, &s->camera, rain);
-    const double column = (rain[0] / s->space.half_x_m + 1) / 2 * density->width;
-    const double row = (rain[1] / s->space.half_y_m + 1) / 2 * density->height;
-    if (!(column >= 0 && column < density->width && row >= 0 && row < density->height))
-        return 0;
-    return rg_density_at(density, (int)column, (int)row) * s->settings.drops_m2_s /
-           s->settings.fall_speed_m_s;
-}
-
-static bool create_packets(struct streaks *s)
-{
-    const struct streaks_settings *set = &s->settings;
-    const struct streaks_packets_settings settings = {
-        .seed = (uint32_t)set->seed,
-        .drops_m2_s = set->drops_m2_s,
-        .fall_speed_m_s = set->fall_speed_m_s,
-        .local_height_m = set->local_height_m,
-        .packet_size = set->packet_size,
-        .scheme = (enum streaks_scheme)set->scheme,
-        .by_id = set->by_id,
-        .memory_bytes = (int64_t)set->memory_mb * 1000000,
-    };
-    struct rg_density *density =
-        set->density_map[0] ? rg_density_read(set->density_map) : rg_density_gradient();
-    s->packets = density ? streaks_packets_create(&s->space, density, &settings) : NULL;
-    s->drops_m3 = density ? drops_at_camera(s, density) : 0;
-    rg_density_destroy(density);
-    return s->packets;
-}
-
-static bool upload_particles(struct streaks *s)
-{
-    const int count = streaks_packets_buffers(s->packets);
-    if (count > STREAKS_MAX_BUFFERS)
-        return rg_error("particles: %d buffers of 128 MiB are too many; raise packet_size or take "
-                        "packets=grid",
-                        count);
-    for (int i = 0; i < count; i++) {
-        int64_t bytes;
-        const float *particles = streaks_packets_buffer(s->packets, i, &bytes);
-        s->particles[i] = rg_buf_create(s->base.device, bytes, "particles");
-        s->buffer_count = i + 1;
-        if (!s->particles[i] || !rg_buf_write(s->particles[i], 0, particles, bytes))
-            return false;
-    }
-    streaks_packets_forget(s->packets);
-    return true;
-}
-
-bool streaks_make_particles(struct streaks *s)
-{
-    destroy_particles(s);
-    return create_packets(s) && upload_particles(s);
 }
 
 // --- the scene, its lights and what they need ---

@@ -1,3 +1,5 @@
+#include <math.h>
+
 #include "core/techniques/streaks/packets/packets.h"
 #include "core/techniques/streaks/streaks.h"
 
@@ -76,3 +78,8 @@ const struct rg_param_table streaks_param_table = {
     .count = sizeof(rows) / sizeof(rows[0]),
     .settings_size = sizeof(struct streaks_settings),
 };
+
+double streaks_widest_m(const struct streaks_settings *set)
+{
+    return hypot(set->rain_width_m, set->rain_depth_m);
+}

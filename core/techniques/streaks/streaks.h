@@ -41,6 +41,9 @@ struct streaks_settings {
     int far_layers, overlay, keeps_state;
 };
 
+// The largest culling radius that may be set.
+double streaks_widest_m(const struct streaks_settings *settings);
+
 extern const struct rg_param_table streaks_param_table;
 extern const struct rg_proof streaks_proof;
 
