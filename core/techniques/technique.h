@@ -5,10 +5,10 @@
 #ifndef RG_CORE_TECHNIQUES_TECHNIQUE_H
 #define RG_CORE_TECHNIQUES_TECHNIQUE_H
 
-#include "core/techniques/assets.h"
-#include "core/techniques/instance.h"
+#include "core/techniques/stages/assets.h"
+#include "core/techniques/stages/instance.h"
 #include "core/techniques/params.h"
-#include "core/techniques/stages.h"
+#include "core/techniques/stages/stages.h"
 
 struct rg_proof;
 

@@ -3,7 +3,7 @@
 #ifndef RG_HARNESS_FRAMES_DIGESTS_H
 #define RG_HARNESS_FRAMES_DIGESTS_H
 
-#include "core/techniques/contents.h"
+#include "core/techniques/stages/contents.h"
 #include "core/techniques/technique.h"
 
 // So many frames of a technique, each simulated and drawn.

@@ -22,6 +22,7 @@ FLOORS = [
     "core/techniques/T",
     "core/techniques/scenery",
     "core/techniques",
+    "core/techniques/stages",
     "core/scene",
     "core/image",
     "backends/B kernels/build",
@@ -57,8 +58,9 @@ class Order:
     def __init__(self, tree):
         self.tree = tree
         self.floor = {room: i for i, rooms in enumerate(FLOORS) for room in rooms.split()}
-        self.techniques = {path.split("/")[2] for path in tree.known
-                           if path.startswith("core/techniques/") and path.count("/") > 2} - {"scenery"}
+        folders = {os.path.dirname(path) for path in tree.known}
+        self.techniques = {folder.split("/")[2] for folder in folders
+                           if re.match("core/techniques/[^/]+$", folder) and folder not in self.floor}
         self.room = {path: self.find_room(path) for path in tree.known}
 
     def find_room(self, path):

@@ -1,8 +1,8 @@
 // What an instance works on: buffers and images by name.
-#ifndef RG_CORE_TECHNIQUES_ASSETS_H
-#define RG_CORE_TECHNIQUES_ASSETS_H
+#ifndef RG_CORE_TECHNIQUES_STAGES_ASSETS_H
+#define RG_CORE_TECHNIQUES_STAGES_ASSETS_H
 
-#include "core/techniques/instance.h"
+#include "core/techniques/stages/instance.h"
 
 // Each adds an asset and returns it; it stays where it is for the instance's life. NULL, and one
 // logged line unless adding has failed before, on failure. Names are copied.

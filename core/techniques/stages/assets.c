@@ -1,4 +1,4 @@
-#include "core/techniques/assets.h"
+#include "core/techniques/stages/assets.h"
 
 #include <stdio.h>
 #include <string.h>

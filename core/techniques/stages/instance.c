@@ -1,4 +1,4 @@
-#include "core/techniques/instance.h"
+#include "core/techniques/stages/instance.h"
 
 #include <stdarg.h>
 #include <stdio.h>

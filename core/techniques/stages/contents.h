@@ -1,8 +1,8 @@
 // What an asset holds, brought to the host: for those who compare instances.
-#ifndef RG_CORE_TECHNIQUES_CONTENTS_H
-#define RG_CORE_TECHNIQUES_CONTENTS_H
+#ifndef RG_CORE_TECHNIQUES_STAGES_CONTENTS_H
+#define RG_CORE_TECHNIQUES_STAGES_CONTENTS_H
 
-#include "core/techniques/instance.h"
+#include "core/techniques/stages/instance.h"
 
 // A copy of an asset's words, which need not be there any more. Zeroed: none.
 struct rg_contents {

@@ -1,4 +1,4 @@
-#include "core/techniques/contents.h"
+#include "core/techniques/stages/contents.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,8 +4,8 @@
 // Assets and stages belong to the instance and go with it. Once adding one has failed, which is one
 // logged line, adding more does nothing: who opens an instance adds what it needs, and asks once,
 // at the end, whether all is there.
-#ifndef RG_CORE_TECHNIQUES_INSTANCE_H
-#define RG_CORE_TECHNIQUES_INSTANCE_H
+#ifndef RG_CORE_TECHNIQUES_STAGES_INSTANCE_H
+#define RG_CORE_TECHNIQUES_STAGES_INSTANCE_H
 
 #include "core/device/device.h"
 
@@ -16,7 +16,7 @@ enum { RG_MAX_TEXTURES = 8 };
 struct rg_instance;
 struct rg_technique;
 
-// A buffer or an image under the name that stages know it by (core/techniques/assets.h).
+// A buffer or an image under the name that stages know it by (core/techniques/stages/assets.h).
 struct rg_asset {
     char name[RG_ASSET_NAME];
     bool is_image;
@@ -27,8 +27,8 @@ struct rg_asset {
     struct rg_extent items; // of a stage that goes over it
 };
 
-// One row a stage: a kernel, and what it is run with (core/techniques/stages.h). Names are those of
-// assets.
+// One row a stage: a kernel, and what it is run with (core/techniques/stages/stages.h). Names are
+// those of assets.
 struct rg_stage {
     const char *kernel; // NULL: none, and running the stage does nothing
     bool (*when)(const struct rg_instance *instance); // else likewise; NULL: always

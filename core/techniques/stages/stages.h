@@ -5,10 +5,10 @@
 //       [MOVE] = {"drops_move", .params = AT(move), .over = "drops"},
 //       [SHOW] = {"drops_show", .params = AT(view), .over = "drops", .colour = "target"},
 //   };
-#ifndef RG_CORE_TECHNIQUES_STAGES_H
-#define RG_CORE_TECHNIQUES_STAGES_H
+#ifndef RG_CORE_TECHNIQUES_STAGES_STAGES_H
+#define RG_CORE_TECHNIQUES_STAGES_STAGES_H
 
-#include "core/techniques/instance.h"
+#include "core/techniques/stages/instance.h"
 
 // Opens stages: the first is `return` of the call, the others follow in order. `owner` is the
 // struct that rows say where in it their parameters lie; it outlives the instance's last run. A

@@ -1,10 +1,10 @@
-#include "core/techniques/stages.h"
+#include "core/techniques/stages/stages.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #include "core/base/log.h"
-#include "core/techniques/assets.h"
+#include "core/techniques/stages/assets.h"
 
 // --- opening ---
 
