@@ -9,7 +9,7 @@
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
 #include "harness/devices/devices.h"
-#include "harness/frames/frame.h"
+#include "harness/frames/session.h"
 #include "harness/record/facts.h"
 #include "harness/record/passport.h"
 
@@ -45,10 +45,10 @@ static const struct rg_option options[] = {
     {RG_OPTION_END},
 };
 
-static bool write_frame(struct rg_instance *instance, const char *path, double exposure)
+static bool write_frame(struct rg_session *session, const char *path, double exposure)
 {
     struct rg_picture picture = {0};
-    bool ok = rg_frame_read_picture(instance, &picture);
+    bool ok = rg_session_read_picture(session, &picture);
     if (ok) {
         rg_picture_drop_opaque_alpha(&picture);
         ok = rg_picture_write(path, &picture,
@@ -70,31 +70,37 @@ static json_t *settings_json(const struct rg_technique *technique, const void *s
     return json;
 }
 
-// What was drawn (docs/records.md).
-static void print_json(const struct rg_instance *instance, const void *settings, const char *path)
+// What was drawn, and where.
+struct drawn {
+    struct rg_subject subject;
+    const struct rg_device_info *on;
+    const char *path;
+    struct rg_account account;
+};
+
+// docs/records.md
+static void print_json(const struct drawn *d)
 {
-    const struct rg_image_desc *desc = &instance->target->desc;
-    json_t *json =
-        json_pack("{sisosssssisisIsosososo}", "format", 1, "file", rg_json_text(path), "technique",
-                  instance->technique->name, "device", instance->device->info.name, "width",
-                  desc->width, "height", desc->height, "frame", (json_int_t)instance->frame,
-                  "settings", settings_json(instance->technique, settings), "facts",
-                  rg_facts_json(instance->facts, instance->fact_count), "counters",
-                  rg_counters_json(instance->counters, instance->counter_count), "passport",
-                  rg_passport_json(&instance->device->info, 1));
+    const struct rg_account *a = &d->account;
+    json_t *json = json_pack(
+        "{sisosssssisisIsosososo}", "format", 1, "file", rg_json_text(d->path), "technique",
+        d->subject.technique->name, "device", d->on->name, "width", d->subject.width, "height",
+        d->subject.height, "frame", (json_int_t)a->frame, "settings",
+        settings_json(d->subject.technique, d->subject.settings), "facts",
+        rg_facts_json(a->facts, a->fact_count), "counters",
+        rg_counters_json(a->counters, a->counter_count), "passport", rg_passport_json(d->on, 1));
     json_dumpf(json, stdout, JSON_INDENT(1));
     printf("\n");
     json_decref(json);
 }
 
-static void print_text(const struct rg_instance *instance, const char *path)
+static void print_text(const struct drawn *d)
 {
-    const struct rg_device_info *info = &instance->device->info;
     char facts[RG_FACTS_TEXT];
-    rg_facts_text(instance->facts, instance->fact_count, NULL, facts, sizeof(facts));
-    printf("%s: %s, frame %lld, %dx%d, on %s (%s)%s%s\n", path, instance->technique->name,
-           (long long)instance->frame, instance->target->desc.width, instance->target->desc.height,
-           info->name, info->device, *facts ? "; " : "", facts);
+    rg_facts_text(d->account.facts, d->account.fact_count, NULL, facts, sizeof(facts));
+    printf("%s: %s, frame %lld, %dx%d, on %s (%s)%s%s\n", d->path, d->subject.technique->name,
+           (long long)d->account.frame, d->subject.width, d->subject.height, d->on->name,
+           d->on->device, *facts ? "; " : "", facts);
 }
 
 static int render_on(struct rg_device *device, const struct rg_technique *technique,
@@ -102,17 +108,17 @@ static int render_on(struct rg_device *device, const struct rg_technique *techni
 {
     char path[256];
     snprintf(path, sizeof(path), "%s.png", technique->name);
-    const char *output = o->output ? o->output : path;
-    struct rg_instance *instance =
-        rg_frame_run(technique, settings, device, o->size.width, o->size.height, o->frames);
-    const bool ok = instance && write_frame(instance, output, o->exposure);
+    struct drawn drawn = {.subject = {technique, settings, o->size.width, o->size.height},
+                          .on = &device->info,
+                          .path = o->output ? o->output : path};
+    struct rg_session *session = rg_session_run(device, &drawn.subject, o->frames);
+    const bool ok = session && write_frame(session, drawn.path, o->exposure);
     const int exit = ok ? RG_EXIT_PASS : rg_exit_of_error();
-    if (ok && o->json)
-        print_json(instance, settings, output);
-    else if (ok)
-        print_text(instance, output);
-    if (instance)
-        rg_instance_close(instance);
+    if (ok) {
+        rg_session_tell(session, &drawn.account);
+        (o->json ? print_json : print_text)(&drawn);
+    }
+    rg_session_close(session);
     return exit;
 }
 

@@ -8,13 +8,7 @@
 #include "core/image/picture.h"
 #include "core/techniques/technique.h"
 #include "harness/devices/devices.h"
-
-// The cells of a table: what is opened, and for how large an image.
-struct rg_subject {
-    const struct rg_technique *technique;
-    const void *settings; // not owned
-    int width, height;
-};
+#include "harness/frames/session.h"
 
 enum { RG_KEPT_DEVICES = 2, RG_KEPT_TRUTHS = 8 };
 

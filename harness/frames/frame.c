@@ -22,11 +22,10 @@ bool rg_frame_draw(const struct rg_technique *technique, const void *settings,
                    struct rg_device *device, int width, int height, int frames,
                    struct rg_picture *picture)
 {
-    struct rg_instance *instance = rg_frame_run(technique, settings, device, width, height, frames);
-    if (!instance)
-        return false;
-    const bool ok = rg_frame_read_picture(instance, picture);
-    rg_instance_close(instance);
+    struct rg_session *session =
+        rg_session_run(device, &(struct rg_subject){technique, settings, width, height}, frames);
+    const bool ok = session && rg_session_read_picture(session, picture);
+    rg_session_close(session);
     return ok;
 }
 

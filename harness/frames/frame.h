@@ -3,6 +3,7 @@
 #define RG_HARNESS_FRAMES_FRAME_H
 
 #include "core/techniques/frame.h"
+#include "harness/frames/session.h"
 
 // Opens a technique on a device, simulates `frames` frames and draws the last. The caller destroys
 // it with rg_technique->destroy. NULL, and one logged line, on failure.

@@ -81,20 +81,25 @@ int64_t rg_verify_device_work(const struct rg_verify *v)
     return v->steps * count_poses(v) * RG_VERIFY_SEEDS * devices;
 }
 
-struct rg_instance *rg_verify_run(struct rg_verify *v, struct rg_device *device,
-                                  const void *settings, int steps)
+static struct rg_session *open_session(const struct rg_verify *v, struct rg_device *device,
+                                       const void *settings)
 {
-    struct rg_instance *instance =
-        rg_instance_open(v->technique, device, settings, v->width, v->height);
-    bool ok = instance != NULL;
+    return rg_session_open(device,
+                           &(struct rg_subject){v->technique, settings, v->width, v->height});
+}
+
+struct rg_session *rg_verify_run(struct rg_verify *v, struct rg_device *device,
+                                 const void *settings, int steps)
+{
+    struct rg_session *session = open_session(v, device, settings);
+    bool ok = session != NULL;
     for (int i = 0; ok && i < steps; i++) {
-        ok = v->technique->step(instance);
+        ok = rg_session_step(session);
         rg_progress_add(v->progress, 1);
     }
     if (ok)
-        return instance;
-    if (instance)
-        rg_instance_close(instance);
+        return session;
+    rg_session_close(session);
     return NULL;
 }
 
@@ -104,15 +109,13 @@ struct rg_instance *rg_verify_run(struct rg_verify *v, struct rg_device *device,
 static void describe_first(struct rg_verify *v, struct rg_device *device, const struct one_case *c,
                            char *text, size_t size)
 {
-    struct rg_instance *a =
-        rg_instance_open(v->technique, device, c->settings, v->width, v->height);
-    struct rg_instance *b =
-        rg_instance_open(v->technique, v->reference, c->settings, v->width, v->height);
+    struct rg_session *a = open_session(v, device, c->settings);
+    struct rg_session *b = open_session(v, v->reference, c->settings);
     char element[160] = "";
     int step = 0;
     for (bool ok = a && b; ok && !*element && step <= v->steps; step++) {
         struct rg_snapshot now = {0}, expected = {0};
-        ok = (step == 0 || (v->technique->step(a) && v->technique->step(b))) &&
+        ok = (step == 0 || (rg_session_step(a) && rg_session_step(b))) &&
              rg_snapshot_take(a, false, &now) && rg_snapshot_take(b, false, &expected);
         if (ok)
             rg_snapshot_describe(&now, &expected, element, sizeof(element));
@@ -123,10 +126,8 @@ static void describe_first(struct rg_verify *v, struct rg_device *device, const 
         snprintf(text, size, "%s after step %d", element, step - 1);
     else
         snprintf(text, size, "differs, but not in a second run");
-    if (a)
-        rg_instance_close(a);
-    if (b)
-        rg_instance_close(b);
+    rg_session_close(a);
+    rg_session_close(b);
 }
 
 static void check_state(struct rg_verify *v, struct row *row, const struct one_case *c,
@@ -173,15 +174,15 @@ static void check_t0(struct tally *tally, const struct one_case *c,
         note_error(tally);
 }
 
-static void check_image(struct row *row, const struct one_case *c,
-                        const struct rg_instance *instance, const struct rg_snapshot *now)
+static void check_image(struct row *row, const struct one_case *c, const struct rg_session *session,
+                        const struct rg_snapshot *now)
 {
     struct tally *tally = &row->tallies[IMAGE];
     struct rg_picture picture = {0};
     tally->runs++;
     if (rg_snapshot_same_image(now, &c->expected))
         return;
-    if (!rg_frame_picture(instance, now->texels, &picture))
+    if (!rg_session_picture(session, now->texels, &picture))
         note_error(tally);
     else if (row->device->info.software)
         check_t0(tally, c, &picture);
@@ -194,13 +195,13 @@ static void check_image(struct row *row, const struct one_case *c,
 // --- a case ---
 
 static void check_laws(const struct rg_verify *v, struct row *row, const struct one_case *c,
-                       const struct rg_instance *instance)
+                       const struct rg_session *session)
 {
     for (int i = 0; i < count_laws(v); i++) {
         struct tally *tally = &row->tallies[LAWS + i];
         char detail[256] = "";
         tally->runs++;
-        if (!v->technique->proof->laws[i].holds(instance, detail, sizeof(detail)))
+        if (!rg_session_obeys(session, &v->technique->proof->laws[i], detail, sizeof(detail)))
             blame(tally, c, "%s", detail);
     }
 }
@@ -212,16 +213,15 @@ static void note_errors(const struct rg_verify *v, struct row *row)
 }
 
 // Runs a case on a row's device up to its snapshot. NULL on failure.
-static struct rg_instance *run_case(struct rg_verify *v, struct row *row, struct one_case *c,
-                                    struct rg_snapshot *now)
+static struct rg_session *run_case(struct rg_verify *v, struct row *row, struct one_case *c,
+                                   struct rg_snapshot *now)
 {
     rg_progress_label(v->progress, "%s: %s on %s", v->technique->name, c->name,
                       row->device->info.name);
-    struct rg_instance *instance = rg_verify_run(v, row->device, c->settings, v->steps);
-    if (instance && v->technique->draw(instance) && rg_snapshot_take(instance, true, now))
-        return instance;
-    if (instance)
-        rg_instance_close(instance);
+    struct rg_session *session = rg_verify_run(v, row->device, c->settings, v->steps);
+    if (session && rg_session_draw(session) && rg_snapshot_take(session, true, now))
+        return session;
+    rg_session_close(session);
     note_errors(v, row);
     return NULL;
 }
@@ -229,27 +229,27 @@ static struct rg_instance *run_case(struct rg_verify *v, struct row *row, struct
 static void check_device(struct rg_verify *v, struct row *row, struct one_case *c)
 {
     struct rg_snapshot now = {0};
-    struct rg_instance *instance = run_case(v, row, c, &now);
-    if (!instance)
+    struct rg_session *session = run_case(v, row, c, &now);
+    if (!session)
         return;
-    check_laws(v, row, c, instance);
+    check_laws(v, row, c, session);
     check_state(v, row, c, &now);
-    check_image(row, c, instance, &now);
+    check_image(row, c, session, &now);
     rg_snapshot_free(&now);
-    rg_instance_close(instance);
+    rg_session_close(session);
 }
 
 // What the others are compared with. False, and noted in the reference's row, on failure.
 static bool expect(struct rg_verify *v, struct row *reference, struct one_case *c)
 {
-    struct rg_instance *instance = run_case(v, reference, c, &c->expected);
-    if (!instance)
+    struct rg_session *session = run_case(v, reference, c, &c->expected);
+    if (!session)
         return false;
-    check_laws(v, reference, c, instance);
-    bool ok = rg_frame_picture(instance, c->expected.texels, &c->expected_picture) &&
+    check_laws(v, reference, c, session);
+    bool ok = rg_session_picture(session, c->expected.texels, &c->expected_picture) &&
               (!c->with_dry || rg_frame_draw_dry(v->technique, c->settings, v->reference, v->width,
                                                  v->height, 0, &c->dry));
-    rg_instance_close(instance);
+    rg_session_close(session);
     if (!ok)
         note_errors(v, reference);
     return ok;

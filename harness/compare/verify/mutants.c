@@ -45,15 +45,11 @@ static bool draw(struct rg_verify *v, const char *assignments, struct rg_picture
     char all[256];
     snprintf(all, sizeof(all), "%s %s", scene ? scene : "", assignments);
     void *settings = rg_settings_copy(v->technique, v->settings, all);
-    struct rg_instance *instance =
+    struct rg_session *session =
         settings ? rg_verify_run(v, v->mutant_device, settings, MUTANT_STEPS) : NULL;
-    size_t bytes;
-    void *texels =
-        instance && v->technique->draw(instance) ? rg_frame_read(instance, &bytes) : NULL;
-    bool ok = texels && rg_frame_picture(instance, texels, picture);
-    free(texels);
-    if (instance)
-        rg_instance_close(instance);
+    const bool ok =
+        session && rg_session_draw(session) && rg_session_read_picture(session, picture);
+    rg_session_close(session);
     free(settings);
     return ok;
 }

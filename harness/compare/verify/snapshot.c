@@ -4,30 +4,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/base/log.h"
-#include "harness/frames/frame.h"
-
-static bool take_state(const struct rg_state *state, struct rg_snapshot *s)
-{
-    const int i = s->state_count;
-    s->layout[i] = *state;
-    s->layout[i].asset = NULL;
-    struct rg_buf *buf = state->asset->buf;
-    s->state_bytes[i] = buf->size;
-    if (!(s->state[i] = malloc(buf->size)))
-        return rg_error("buffer '%s': no memory for %zu bytes", state->name, buf->size);
-    s->state_count++;
-    return rg_buf_read(buf, 0, s->state[i], (int64_t)buf->size);
-}
-
-bool rg_snapshot_take(struct rg_instance *instance, bool with_image, struct rg_snapshot *s)
+bool rg_snapshot_take(struct rg_session *session, bool with_image, struct rg_snapshot *s)
 {
     memset(s, 0, sizeof(*s));
     bool ok = true;
-    for (int i = 0; ok && i < instance->state_count; i++)
-        ok = take_state(&instance->state[i], s);
+    for (int i = 0; ok && i < rg_session_state_count(session); i++) {
+        s->state[i] = rg_session_read_state(session, i, &s->layout[i], &s->state_bytes[i]);
+        ok = s->state[i] != NULL;
+        s->state_count += ok;
+    }
     if (ok && with_image)
-        ok = (s->texels = rg_frame_read(instance, &s->texels_bytes)) != NULL;
+        ok = (s->texels = rg_session_read(session, &s->texels_bytes)) != NULL;
     if (!ok)
         rg_snapshot_free(s);
     return ok;

@@ -1,12 +1,12 @@
-// What an instance holds at one moment, on the host: its state, and the image it drew.
+// What a session holds at one moment, on the host: its state, and the image it drew.
 #ifndef RG_HARNESS_COMPARE_VERIFY_SNAPSHOT_H
 #define RG_HARNESS_COMPARE_VERIFY_SNAPSHOT_H
 
-#include "core/techniques/technique.h"
+#include "harness/frames/session.h"
 
 struct rg_snapshot {
     int state_count;
-    struct rg_state layout[RG_MAX_STATE]; // names and rows; `buf` is NULL
+    struct rg_state layout[RG_MAX_STATE]; // names and rows; `asset` is NULL
     void *state[RG_MAX_STATE];
     size_t state_bytes[RG_MAX_STATE];
     void *texels; // of the target, as the device holds them; NULL: not taken
@@ -15,7 +15,7 @@ struct rg_snapshot {
 
 // Reads the state, and the image where `with_image`. False, with one logged line, on failure; the
 // snapshot is empty then. The caller calls rg_snapshot_free.
-bool rg_snapshot_take(struct rg_instance *instance, bool with_image, struct rg_snapshot *snapshot);
+bool rg_snapshot_take(struct rg_session *session, bool with_image, struct rg_snapshot *snapshot);
 // A zeroed snapshot is accepted.
 void rg_snapshot_free(struct rg_snapshot *snapshot);
 

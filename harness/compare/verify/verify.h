@@ -2,12 +2,10 @@
 #ifndef RG_HARNESS_COMPARE_VERIFY_VERIFY_H
 #define RG_HARNESS_COMPARE_VERIFY_VERIFY_H
 
-#include "core/image/picture.h"
-#include "core/techniques/proof.h"
-#include "core/techniques/technique.h"
 #include "harness/compare/verify/checks.h"
 #include "harness/console/progress.h"
 #include "harness/devices/devices.h"
+#include "harness/frames/session.h"
 
 enum { RG_VERIFY_SEEDS = 3 };
 
@@ -35,9 +33,9 @@ void rg_verify_mutants(struct rg_verify *verify);
 // Which stage first leaves other bits in an asset than the reference, over poses, with one seed.
 void rg_verify_stages(struct rg_verify *verify);
 
-// Opens the technique on a device and simulates `steps`; the caller destroys it. NULL, with one
+// Opens the technique on a device and simulates `steps`; the caller closes it. NULL, with one
 // logged line, on failure.
-struct rg_instance *rg_verify_run(struct rg_verify *verify, struct rg_device *device,
-                                  const void *settings, int steps);
+struct rg_session *rg_verify_run(struct rg_verify *verify, struct rg_device *device,
+                                 const void *settings, int steps);
 
 #endif

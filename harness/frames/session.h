@@ -1,0 +1,87 @@
+// A technique open on a device: the one way by which the harness reaches an instance.
+//
+// What comes back is copied, and nothing points into the instance or the device's memory. So the
+// instance may one day live in a process of its own, which a driver can bring down without harming
+// the command; session.c alone would know.
+//
+// Functions that return false or NULL have logged one line. A session that has failed is closed.
+#ifndef RG_HARNESS_FRAMES_SESSION_H
+#define RG_HARNESS_FRAMES_SESSION_H
+
+#include "core/image/picture.h"
+#include "core/techniques/proof.h"
+#include "core/techniques/technique.h"
+
+// What is opened, and for how large an image. Nothing in it is owned.
+struct rg_subject {
+    const struct rg_technique *technique;
+    const void *settings;
+    int width, height; // pixels
+};
+
+struct rg_session;
+
+// Opens a subject, whose settings are copied, on a device, at frame 0.
+struct rg_session *rg_session_open(struct rg_device *device, const struct rg_subject *subject);
+// Opens it, simulates so many frames and draws the last.
+struct rg_session *rg_session_run(struct rg_device *device, const struct rg_subject *subject,
+                                  int frames);
+void rg_session_close(struct rg_session *session); // NULL is accepted
+
+struct rg_device *rg_session_device(const struct rg_session *session);
+
+// --- work ---
+
+// Simulates one frame.
+bool rg_session_step(struct rg_session *session);
+// Draws the present state.
+bool rg_session_draw(struct rg_session *session);
+// Waits until all is done.
+bool rg_session_sync(struct rg_session *session);
+// Simulates and draws so many frames, and waits; fewer when the user interrupts
+// (harness/console/interrupt.h), which is no failure.
+bool rg_session_frames(struct rg_session *session, int frames);
+// One such frame that also waits after every stage, and tells how long each took by wall clock, by
+// the name of its kernel and in the order of the frame.
+bool rg_session_stages(struct rg_session *session,
+                       void (*tell)(const char *kernel, double ms, void *user), void *user);
+// The API's own clock (rg_device_time).
+bool rg_session_time(struct rg_session *session, int64_t *time_ns);
+
+// --- what it has drawn ---
+
+// The target's texels as the device holds them: *size bytes, which the caller frees.
+void *rg_session_read(struct rg_session *session, size_t *size);
+// The same as a picture of 4 channels, which the caller destroys; `texels` as rg_session_read gave
+// them.
+bool rg_session_picture(const struct rg_session *session, const void *texels,
+                        struct rg_picture *picture);
+// Both at once.
+bool rg_session_read_picture(struct rg_session *session, struct rg_picture *picture);
+
+// --- what it holds, and tells of itself ---
+
+// What an instance tells of itself now.
+struct rg_account {
+    int64_t frame; // frames simulated
+    int counter_count;
+    struct rg_counter counters[RG_MAX_COUNTERS];
+    int fact_count;
+    struct rg_fact facts[RG_MAX_FACTS];
+};
+void rg_session_tell(const struct rg_session *session, struct rg_account *account);
+
+// The number of the state's buffers, and the words of one, which the caller frees. `layout` gets
+// its name and rows, and no asset.
+int rg_session_state_count(const struct rg_session *session);
+void *rg_session_read_state(struct rg_session *session, int index, struct rg_state *layout,
+                            size_t *size);
+// Whether a law of the technique's proof holds now; else `detail` says what is wrong.
+bool rg_session_obeys(const struct rg_session *session, const struct rg_law *law, char *detail,
+                      size_t size);
+// The size of a texture that the technique reads from, and the level of the whole texture that its
+// level 0 is. False, and nothing is logged, where there is none of this name.
+bool rg_session_texture(const struct rg_session *session, const char *name,
+                        struct rg_image_desc *desc, int *first_level);
+
+#endif
