@@ -14,7 +14,8 @@ void rg_checks_add(struct rg_checks *checks, const char *technique, const char *
 {
     struct rg_check *rows = realloc(checks->rows, (size_t)(checks->count + 1) * sizeof(*rows));
     if (!rows) {
-        checks->incomplete = !rg_error("%s on %s: no memory for its result", check, device);
+        rg_error("%s on %s: no memory for its result", check, device);
+        checks->exit = rg_exit_worse(checks->exit, RG_EXIT_FAIL);
         return;
     }
     checks->rows = rows;
@@ -28,6 +29,14 @@ void rg_checks_add(struct rg_checks *checks, const char *technique, const char *
     va_start(args, format);
     vsnprintf(row->detail, sizeof(row->detail), format, args);
     va_end(args);
+}
+
+void rg_checks_add_error(struct rg_checks *checks, const char *technique, const char *check,
+                         const char *device)
+{
+    if (rg_last_error_kind() == RG_ERROR_INPUT)
+        checks->exit = rg_exit_worse(checks->exit, RG_EXIT_USAGE);
+    rg_checks_add(checks, technique, check, device, rg_outcome_of_error(), "%s", rg_last_error());
 }
 
 static void print_json(const struct rg_checks *checks)
@@ -77,10 +86,10 @@ void rg_checks_print(const struct rg_checks *checks, bool json)
 
 int rg_checks_exit(const struct rg_checks *checks)
 {
-    int counts[RG_OUTCOME_COUNT] = {[RG_ERROR] = checks->incomplete};
+    int counts[RG_OUTCOME_COUNT] = {0};
     for (int i = 0; i < checks->count; i++)
         counts[checks->rows[i].status]++;
-    return rg_exit_of_all(counts);
+    return rg_exit_worse(checks->exit, rg_exit_of_all(counts));
 }
 
 void rg_checks_free(struct rg_checks *checks)

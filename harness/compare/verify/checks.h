@@ -16,18 +16,22 @@ struct rg_check {
 struct rg_checks {
     int count;
     struct rg_check *rows;
-    bool incomplete; // a result was lost for want of memory, which one logged line said
+    int exit; // an enum rg_exit: what they come to at least, whatever the results say
 };
 
+// A result that is lost for want of memory is one logged line, and fails them all.
 void rg_checks_add(struct rg_checks *checks, const char *technique, const char *check,
                    const char *device, enum rg_outcome status, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
+// The last error as a result. The user's is bad usage of the command.
+void rg_checks_add_error(struct rg_checks *checks, const char *technique, const char *check,
+                         const char *device);
+
 // To stdout: a line a check, or one JSON object {"format":1, "checks":[...]}.
 void rg_checks_print(const struct rg_checks *checks, bool json);
 
-// An enum rg_exit: failed, in error or incomplete, nothing but unsupported, nothing at all, or
-// passed.
+// An enum rg_exit: `exit`, or what rg_exit_of_all makes of the results where that is worse.
 int rg_checks_exit(const struct rg_checks *checks);
 
 void rg_checks_free(struct rg_checks *checks);

@@ -9,13 +9,16 @@
 #include "core/image/compare/compare.h"
 #include "harness/compare/verify/snapshot.h"
 #include "harness/compare/verify/verify.h"
+#include "harness/console/exit.h"
 #include "harness/frames/frame.h"
 
 // One check on one device, over all cases.
 struct tally {
     int runs, failed, errors;
-    int unlike;      // not identical, where that is allowed
-    char first[400]; // what went wrong first
+    int unlike;            // not identical, where that is allowed
+    enum rg_outcome ended; // what the errors come to
+    bool is_bad_input;     // one of them is the user's
+    char first[400];       // what went wrong first
 };
 
 enum { MAX_LAWS = 8, STATE = 0, IMAGE = 1, LAWS = 2 };
@@ -51,9 +54,15 @@ static void blame(struct tally *tally, const struct one_case *c, const char *for
     va_end(args);
 }
 
+// Keeps the first error; one that is more than something unsupported takes that one's place.
 static void note_error(struct tally *tally)
 {
-    if (!tally->errors++ && !tally->failed)
+    const enum rg_outcome ended = rg_outcome_of_error();
+    tally->is_bad_input = tally->is_bad_input || rg_last_error_kind() == RG_ERROR_INPUT;
+    if (tally->errors++ && (tally->ended != RG_UNSUPPORTED || ended == RG_UNSUPPORTED))
+        return;
+    tally->ended = ended;
+    if (!tally->failed)
         snprintf(tally->first, sizeof(tally->first), "%s", rg_last_error());
 }
 
@@ -307,18 +316,30 @@ static const char *check_name(const struct rg_verify *v, int check)
     return check < LAWS ? names[check] : v->technique->proof->laws[check - LAWS].name;
 }
 
-static void report(struct rg_verify *v, const struct row *row, int check)
+// What the exit status must be at least: without what the others are compared with nothing is
+// proven, however much else is ok.
+static int least_exit(const struct tally *t, bool is_reference)
+{
+    if (t->is_bad_input)
+        return RG_EXIT_USAGE;
+    return is_reference && t->errors ? rg_exit_of(t->ended) : RG_EXIT_PASS;
+}
+
+// `reference` is the first row.
+static void report(struct rg_verify *v, const struct row *reference, const struct row *row,
+                   int check)
 {
     const struct tally *t = &row->tallies[check];
     const char *technique = v->technique->name, *name = check_name(v, check);
     const char *device = row->device->info.name;
+    v->checks->exit = rg_exit_worse(v->checks->exit, least_exit(t, row == reference));
     if (t->failed)
         rg_checks_add(v->checks, technique, name, device, RG_FAIL, "%d of %d runs; %s", t->failed,
                       t->runs, t->first);
     else if (t->errors)
-        rg_checks_add(v->checks, technique, name, device, RG_ERROR, "%s", t->first);
+        rg_checks_add(v->checks, technique, name, device, t->ended, "%s", t->first);
     else if (!t->runs)
-        rg_checks_add(v->checks, technique, name, device, RG_ERROR,
+        rg_checks_add(v->checks, technique, name, device, reference->tallies[check].ended,
                       "not run: %s, which it is compared with, failed", v->reference->info.name);
     else if (check >= LAWS)
         rg_checks_add(v->checks, technique, name, device, RG_OK, "holds after %d runs of %d steps",
@@ -348,8 +369,7 @@ void rg_verify_devices(struct rg_verify *v)
 {
     struct row *rows = rg_alloc(RG_MAX_DEVICES + 1, sizeof(*rows), "verify");
     if (!rows) {
-        rg_checks_add(v->checks, v->technique->name, "state", v->reference->info.name, RG_ERROR,
-                      "%s", rg_last_error());
+        rg_checks_add_error(v->checks, v->technique->name, "state", v->reference->info.name);
         return;
     }
     const int count = list_rows(v, rows);
@@ -367,6 +387,6 @@ void rg_verify_devices(struct rg_verify *v)
     for (int check = 0; check < LAWS + count_laws(v); check++)
         for (int i = 0; i < count; i++)
             if (i > 0 || check >= LAWS || rows[i].tallies[check].errors)
-                report(v, &rows[i], check);
+                report(v, rows, &rows[i], check);
     free(rows);
 }

@@ -135,7 +135,7 @@ static void report(struct rg_verify *v, const struct verdicts *verdicts)
 {
     const char *technique = v->technique->name, *device = v->mutant_device->info.name;
     if (verdicts->error)
-        rg_checks_add(v->checks, technique, "mutants", device, RG_ERROR, "%s", rg_last_error());
+        rg_checks_add_error(v->checks, technique, "mutants", device);
     else if (verdicts->killed == verdicts->run && verdicts->run)
         rg_checks_add(v->checks, technique, "mutants", device, RG_OK, "killed %d/%d",
                       verdicts->killed, verdicts->run);

@@ -6,6 +6,7 @@
 
 #include "core/base/log.h"
 #include "harness/compare/verify/verify.h"
+#include "harness/console/exit.h"
 #include "harness/frames/digests.h"
 
 int64_t rg_verify_stage_work(const struct rg_verify *v)
@@ -70,8 +71,7 @@ static void compare(struct rg_verify *v, const struct rg_digest_run *run, struct
     rg_progress_label(v->progress, "%s: stages on %s", run->technique->name, device->info.name);
     const bool ok = rg_digests_take(run, device, &now);
     if (!ok)
-        rg_checks_add(v->checks, run->technique->name, "stages", device->info.name, RG_ERROR, "%s",
-                      rg_last_error());
+        rg_checks_add_error(v->checks, run->technique->name, "stages", device->info.name);
     else if (first_difference(&now, expected) < 0)
         rg_checks_add(v->checks, run->technique->name, "stages", device->info.name, RG_OK,
                       "%s%s%d frames, %d digests of assets behind %d stages, as on %s", pose,
@@ -88,13 +88,14 @@ static void verify_pose(struct rg_verify *v, const char *pose)
     void *settings = rg_settings_copy(v->technique, v->settings, pose);
     const struct rg_digest_run run = {v->technique, settings, v->width, v->height, v->steps};
     struct rg_digests expected = {0};
-    if (!settings || !rg_digests_take(&run, v->reference, &expected))
-        rg_checks_add(v->checks, v->technique->name, "stages", v->reference->info.name, RG_ERROR,
-                      "%s", rg_last_error());
-    else
-        for (int i = 0; i < v->devices->count; i++)
-            if (v->devices->devices[i] != v->reference)
-                compare(v, &run, v->devices->devices[i], pose, &expected);
+    const bool ok = settings && rg_digests_take(&run, v->reference, &expected);
+    if (!ok) {
+        v->checks->exit = rg_exit_worse(v->checks->exit, rg_exit_of_error());
+        rg_checks_add_error(v->checks, v->technique->name, "stages", v->reference->info.name);
+    }
+    for (int i = 0; ok && i < v->devices->count; i++)
+        if (v->devices->devices[i] != v->reference)
+            compare(v, &run, v->devices->devices[i], pose, &expected);
     rg_progress_add(v->progress, 1);
     rg_digests_free(&expected);
     free(settings);

@@ -1,0 +1,142 @@
+// What `verify` makes of work that could not be done: whose error it was decides how it ends.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/compare/verify/verify.h"
+#include "harness/console/exit.h"
+
+#define CHEAP                                                                                      \
+    "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"
+
+// flow in one pose, without laws and mutants.
+static const char *const poses[] = {"", NULL};
+static const struct rg_law laws[] = {{NULL, NULL}};
+static const struct rg_proof proof = {
+    .poses = poses, .dry = "drops=0 rain_drops_s=0", .laws = laws};
+static struct rg_technique flow;
+
+// A driver that fails on one device.
+static bool fail_on_cpu(struct rg_instance *instance)
+{
+    if (strcmp(instance->device->info.name, "cpu"))
+        return rg_technique_find("flow")->step(instance);
+    return rg_driver_error("kernel 'rain': its driver is tired");
+}
+
+static void ignore(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)line;
+    (void)user;
+}
+
+// Verifies `cpu` at this size and with these settings, beside a check that is ok.
+static void verify(const char *assignments, int width, struct rg_checks *checks)
+{
+    void *defaults = rg_settings_create(&flow);
+    void *settings = rg_settings_copy(&flow, defaults, assignments);
+    struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu")}};
+    struct rg_device *reference = rg_device_open("cpu:reference");
+    struct rg_progress progress;
+    struct rg_verify v = {.technique = &flow,
+                          .settings = settings,
+                          .width = width,
+                          .height = 16,
+                          .steps = 2,
+                          .reference = reference,
+                          .devices = &devices,
+                          .checks = checks,
+                          .progress = &progress};
+    *checks = (struct rg_checks){0};
+    rg_checks_add(checks, "another", "state", "cpu", RG_OK, "well");
+    rg_log_listen(ignore, NULL);
+    rg_progress_start(&progress, rg_verify_device_work(&v));
+    rg_verify_devices(&v);
+    rg_progress_end(&progress);
+    rg_log_listen(NULL, NULL);
+    assert_true(rg_device_close(reference));
+    assert_true(rg_device_close(devices.devices[0]));
+    free(settings);
+    free(defaults);
+}
+
+static enum rg_outcome outcome_of(const struct rg_checks *checks, const char *check,
+                                  const char *device)
+{
+    for (int i = 1; i < checks->count; i++)
+        if (!strcmp(checks->rows[i].check, check) && !strcmp(checks->rows[i].device, device))
+            return checks->rows[i].status;
+    fail_msg("no check %s on %s", check, device);
+    return RG_OK;
+}
+
+static int setup(void **state)
+{
+    (void)state;
+    flow = *rg_technique_find("flow");
+    flow.proof = &proof;
+    return 0;
+}
+
+static void what_agrees_passes(void **state)
+{
+    (void)state;
+    struct rg_checks checks;
+    verify(CHEAP " drops=40", 16, &checks);
+    assert_int_equal(outcome_of(&checks, "state", "cpu"), RG_OK);
+    assert_int_equal(outcome_of(&checks, "image", "cpu"), RG_OK);
+    assert_int_equal(rg_checks_exit(&checks), RG_EXIT_PASS);
+    rg_checks_free(&checks);
+}
+
+static void bad_input_is_bad_usage(void **state)
+{
+    (void)state;
+    struct rg_checks checks;
+    verify(CHEAP " environment=/nonexistent.exr", 16, &checks);
+    assert_int_equal(outcome_of(&checks, "state", "cpu:reference"), RG_ERROR);
+    assert_int_equal(outcome_of(&checks, "image", "cpu"), RG_ERROR);
+    assert_int_equal(rg_checks_exit(&checks), RG_EXIT_USAGE);
+    rg_checks_free(&checks);
+}
+
+static void what_no_device_can_do_is_unsupported(void **state)
+{
+    (void)state;
+    struct rg_checks checks;
+    verify(CHEAP, 1 << 20, &checks);
+    assert_int_equal(outcome_of(&checks, "state", "cpu:reference"), RG_UNSUPPORTED);
+    assert_int_equal(outcome_of(&checks, "image", "cpu"), RG_UNSUPPORTED);
+    assert_int_equal(rg_checks_exit(&checks), RG_EXIT_UNSUPPORTED); // though another check is ok
+    rg_checks_free(&checks);
+}
+
+static void a_drivers_failure_fails(void **state)
+{
+    (void)state;
+    struct rg_checks checks;
+    flow.step = fail_on_cpu;
+    verify(CHEAP, 16, &checks);
+    assert_int_equal(outcome_of(&checks, "state", "cpu"), RG_ERROR);
+    assert_int_equal(outcome_of(&checks, "image", "cpu"), RG_ERROR);
+    assert_int_equal(rg_checks_exit(&checks), RG_EXIT_FAIL);
+    rg_checks_free(&checks);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(what_agrees_passes, setup),
+        cmocka_unit_test_setup(bad_input_is_bad_usage, setup),
+        cmocka_unit_test_setup(what_no_device_can_do_is_unsupported, setup),
+        cmocka_unit_test_setup(a_drivers_failure_fails, setup),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
