@@ -8,7 +8,7 @@
 // The instruction sets that the kernels were built for, slowest first, "reference" before all.
 struct cpu_level {
     const char *name;
-    const struct cpu_kernel *const *kernels; // in the order of rg_kernel_all
+    const struct cpu_kernel *const *kernels; // in the order of rg_kernel_all; NULL: packs items
     const struct cpu_raster *raster;         // what all its DRAW programs share; NULL: none
 };
 extern const struct cpu_level cpu_levels[];

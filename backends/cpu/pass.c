@@ -10,10 +10,16 @@
 
 struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
 {
+    const struct cpu_level *level = ((struct cpu_device *)device)->level;
+    const struct cpu_kernel *code = level->kernels[rg_kernel_index(kernel)];
+    if (!code)
+        return rg_error_null("kernel '%s': it packs the items of a program, which '%s' draws "
+                             "unpacked; open the program",
+                             kernel->name, device->info.name);
     struct cpu_pass *pass = rg_alloc(1, sizeof(*pass), kernel->name);
     if (!pass)
         return NULL;
-    pass->code = ((struct cpu_device *)device)->level->kernels[rg_kernel_index(kernel)];
+    pass->code = code;
     return &pass->pub;
 }
 

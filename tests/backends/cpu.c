@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/log.h"
 #include "core/device/device.h"
 #include "tests/core/device/quads.h"
 
@@ -185,9 +186,32 @@ static void many_clipped_items_are_drawn(void **state)
                           RG_DEPTH_OFF});
 }
 
+static void hush(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level, (void)line, (void)user;
+}
+
+// It draws without them, and has no code of theirs.
+static void kernels_that_pack_are_refused(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"cpu", "cpu:reference"};
+    for (int i = 0; i < COUNT_OF(names); i++) {
+        struct rg_device *device = rg_device_open(names[i]);
+        assert_non_null(device);
+        rg_log_listen(hush, NULL);
+        assert_null(rg_pass_create(device, "test_quads_count"));
+        assert_null(rg_pass_create(device, "test_quads_emit"));
+        rg_log_listen(NULL, NULL);
+        assert_non_null(strstr(rg_last_error(), "kernel 'test_quads_emit'"));
+        assert_true(rg_device_close(device));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(kernels_that_pack_are_refused),
         cmocka_unit_test(depth_is_drawn_alone),
         cmocka_unit_test(one_layer_of_one_level_is_drawn_to),
         cmocka_unit_test(few_pixels_are_drawn_to),
