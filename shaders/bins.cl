@@ -1,5 +1,5 @@
-// Sorts packed primitives of any DRAW program into bins (kernels/dialect/draw/bins.h): rg_bins_walk counts,
-// rg_bins_scan finds each place in the list, rg_bins_walk again fills the list.
+// Sorts packed primitives of any DRAW program into bins (kernels/dialect/draw/bins.h): rg_bins_walk
+// counts, rg_bins_scan finds each place in the list, rg_bins_walk again fills the list.
 #include "kernels/dialect/draw/coverage.h"
 #include "kernels/dialect/draw/bins.h"
 
@@ -10,7 +10,7 @@ typedef struct rg_tile_box {
     int last_y;
 } rg_tile_box;
 
-// The tiles that the box of a primitive's corners meets; none: last_x or last_y is below the first.
+// The tiles that the box of a primitive's corners meets; none: a last one is below its first.
 static inline rg_tile_box rg_tiles_of(rg_draw_state draw, rg_snapped s)
 {
     int low_x = rg_imax((rg_ileast4(s.x0, s.x1, s.x2, s.x3) + 127) >> 8, draw.x0);
@@ -25,7 +25,7 @@ static inline rg_tile_box rg_tiles_of(rg_draw_state draw, rg_snapped s)
     return box;
 }
 
-// One more of primitive i in a place.
+// Counts primitive i in a place, or, with `scatter`, puts it into the list.
 static inline void rg_place(__global uint *place, __global uint *list, int i, int scatter)
 {
     uint at = *place;

@@ -1,4 +1,4 @@
-// Makes an OpenCL kernel of a DRAW program: shades the tiles whose primitives kernels/dialect/draw/bins.h has
+// Makes an OpenCL kernel of a DRAW program: shades the tiles whose primitives shaders/bins.cl has
 // sorted. A work item owns a block of pixels of one tile and draws the tile's primitives there, in
 // order.
 #include RG_KERNEL_HEADER
@@ -59,9 +59,9 @@ RG_FN int rg_will_be_seen(const rg_shading *s, RG_RECORD record, int px, int py)
     return f.kept != 0 && f.depth < as_float(s->depth[py * s->p.draw.width + px]) ? 1 : 0;
 }
 
-// One light after the other, in the order of kernels/dialect/draw/lit.h, each for pixels side by side: a loop within
-// theirs would keep PoCL from that. A pixel that will not be seen takes the place of one that will,
-// for nothing else may be read.
+// Adds one light after the other, in the order of kernels/dialect/draw/lit.h, each for pixels side
+// by side: PoCL would not vectorise the loop over pixels if a loop over lights lay inside it. A
+// pixel that will be seen is lit in place of one that will not: programs may read for no others.
 RG_PROC void rg_light_row(const rg_shading *s, RG_RECORD record, rg_block_triangle ta,
                           rg_block_triangle tb, int x0, int py, int y, int count, rg_lit_row *lit)
 {

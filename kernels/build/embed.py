@@ -3,7 +3,7 @@
 
 The files are NAME.glsl, NAME.spv, NAME.cl and so on; each kernel gets `rg_code_NAME`, in the order of
 enum rg_code_kind, with nothing where it has no such file. The assembler reads their bytes, which a
-compiler would need many seconds for. OUTPUT.S names a sum of them, so that it changes with them.
+compiler would need many seconds for. OUTPUT.S holds their checksum, so that it changes with them.
 """
 import hashlib
 import os

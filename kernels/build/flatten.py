@@ -6,8 +6,8 @@ flatten.py SHADERS DEPFILE COMPILER... -- FOLDER [SHELL HEADER OUTPUT]...
 Runs the C preprocessor over each SHELL (a file of SHADERS), which includes the kernel's HEADER, so
 that FOLDER/OUTPUT is one flat file without includes or macros. For GLSL it then makes every float
 `precise`, which forbids a driver to contract or reorder: the one thing that the dialect cannot say
-in C and OpenCL C alike. A text that has not changed is not written again, so that nothing is made
-anew of it. All are made by this one process and its helpers, as many as there are processors.
+in C and OpenCL C alike. A text that has not changed is not written again, so that the build does
+not make anew what depends on it. One process makes all texts, with a helper for each processor.
 """
 import multiprocessing
 import os
@@ -16,8 +16,8 @@ import subprocess
 import sys
 
 
-# OpenGL and Vulkan name one thing differently, and OpenGL reads words from buffer textures, structs
-# of them too: llvmpipe fetches those side by side, and goes through a storage buffer lane by lane.
+# OpenGL and Vulkan name the vertex's number differently. OpenGL reads words, and structs of words,
+# from buffer textures: llvmpipe fetches these side by side, but a storage buffer lane by lane.
 VERSION = """#version 450 core
 #ifdef VULKAN
 #define RG_VERTEX_INDEX gl_VertexIndex
@@ -89,7 +89,7 @@ def make_returns_precise(text, types):
 
 class PreciseExpressions:
     """Conditions and arguments that compute pass through precise globals, one for each place:
-    `precise` reaches what a variable is assigned, and neither is assigned to any."""
+    `precise` holds for what is assigned to a variable, and these are assigned to none."""
 
     scalars = {"float", "int", "uint", "bool"}
     literal = re.compile(r"\s*-?[\d.]+(e-?\d+)?[fu]?\s*")
@@ -137,8 +137,8 @@ class PreciseExpressions:
 
 
 def make_precise(text):
-    """All that is computed becomes `precise`: locals, results, conditions and arguments, of
-    integers and truths too, since floats may stand behind them."""
+    """All that is computed becomes `precise`: locals, results, conditions and arguments;
+    those that are integers or truth values too, since they may be computed from floats."""
     structs = re.findall(r"\bstruct\s+(\w+)\s*\{", text)
     types = "|".join(["float", "int", "uint", "bool"] + [s for s in structs if s != "rg_ctx"])
     expressions = PreciseExpressions(text, types)
@@ -165,7 +165,7 @@ def words_of(name, structs):
 
 
 def add_struct_readers(text):
-    """Puts before the first slot of a struct how OpenGL reads one, word by word."""
+    """Puts a function before the first slot of a struct: with it OpenGL reads one, word by word."""
     structs = dict(re.findall(r"\bstruct\s+(\w+)\s*\{([^}]*)\}", text))
     read = set()
 

@@ -1,10 +1,10 @@
 // The kernel dialect: what C11, OpenCL C 1.2 and GLSL 4.50 agree on, and the few words that differ.
 //
 // A kernel body is a pure function over float, int, uint and structs of them, passed and returned
-// by value: no pointers, no native vectors, no arrays, no recursion. Exactly rounded operations
-// only:
-// + - * /, sqrt, floor, comparisons, integers; everything else is written out in math.h. So every
-// device computes the same bits. docs/dialect.md is the guide.
+// by value: no pointers, no native vectors, no arrays, no recursion. It uses exactly rounded
+// operations alone, + - * /, sqrt, floor, comparisons and integers; math.h writes everything else
+// out in these. So every device computes the same bits.
+// docs/dialect.md is the guide.
 //
 // The build defines RG_GLSL or RG_OPENCL when it flattens a kernel for a driver
 // (kernels/build/flatten.py); a C compiler defines neither. Feature words are 0 or 1 and tested

@@ -4,7 +4,7 @@
 // Bounds are measured against double precision over all exponents and millions of values, and
 // tests/dialect/math.c measures them again. An ulp is the distance of two neighbouring floats at the
 // true result. Results are finite and never subnormal: RG_LARGEST or 0 stand for what would not be.
-// No argument may be NaN or, but where it is said what then happens, subnormal.
+// No argument may be NaN, and none subnormal unless a function says what then happens.
 #ifndef RG_KERNELS_DIALECT_MATH_H
 #define RG_KERNELS_DIALECT_MATH_H
 

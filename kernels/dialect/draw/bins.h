@@ -3,8 +3,8 @@
 //
 // The tiles lie over the scissor, row by row. The primitives fall into `lanes` ranges, each of
 // which one work item walks; each tile has one place a lane in the array of places. First a place
-// counts; after the scan it is where the lane's primitives of the tile begin in the list; after the
-// scatter it is where they end, which is where the next place's begin.
+// counts the lane's primitives in the tile; after the scan it says where they begin in the list;
+// after the scatter, where they end, which is where those of the next place begin.
 #ifndef RG_KERNELS_DIALECT_DRAW_BINS_H
 #define RG_KERNELS_DIALECT_DRAW_BINS_H
 

@@ -1,5 +1,5 @@
-// How a fragment's colour meets the target's, format by format, as llvmpipe and lavapipe do it
-// (docs/drawing.md says what was measured). For the devices that keep images in plain memory.
+// How a fragment's colour is blended with the target's, format by format, as llvmpipe and lavapipe
+// do it (docs/drawing.md says what was measured). Devices that keep images in plain memory need it.
 #ifndef RG_KERNELS_DIALECT_DRAW_BLEND_H
 #define RG_KERNELS_DIALECT_DRAW_BLEND_H
 
@@ -12,7 +12,7 @@
 
 // --- RGBA8: integers of 8 bits ---
 
-// a b / 255, nearly rounded: 1 too high or too low for some.
+// a b / 255, rounded; for some a and b the result is 1 too high or too low.
 RG_FN uint rg_unorm8_times(uint a, uint b)
 {
     uint t = a * b;

@@ -2,9 +2,9 @@
 // snapping, and, for the few items that need it, clipping. Part of every DRAW program
 // (kernels/dialect/draw/draw.h), so that all devices rasterise the very same integers.
 //
-// Clip space is as matrices make it: pixel = (x / w + 1) * width / 2, likewise y, which grows
-// downwards; depth = z / w, 0 at the near plane. Items are clipped where z < 0 and at the guard
-// band, RG_GUARD_PX beyond the target. Depth beyond 1 is clamped, not clipped.
+// Clip space is as matrices make it: pixel x = (x / w + 1) * width / 2, pixel y = (y / w + 1) *
+// height / 2, y grows downwards; depth = z / w, 0 at the near plane. Items are clipped where z < 0
+// and at the guard band, RG_GUARD_PX beyond the target. Depth beyond 1 is clamped, not clipped.
 #ifndef RG_KERNELS_DIALECT_DRAW_CLIP_H
 #define RG_KERNELS_DIALECT_DRAW_CLIP_H
 
@@ -335,7 +335,7 @@ RG_SELDOM rg_polygon rg_clip_by(rg_draw_state draw, rg_polygon g, int plane)
     return kept;
 }
 
-// A closed item's polygon: as it is where it is whole (the loop runs for nobody then), clipped
+// A closed item's polygon: unchanged where the item is whole (the loop then has no rounds), clipped
 // where it has to be, empty where it is dead.
 RG_FN rg_polygon rg_clip(rg_draw_state draw, rg_item t, int corners, int fate)
 {
@@ -356,7 +356,7 @@ RG_FN int rg_polygon_prims(rg_polygon g, int corners)
     return g.count < 3 ? 0 : corners == 3 ? g.count - 2 : (g.count - 1) / 2;
 }
 
-// The most that an item falls into.
+// The most primitives that an item falls into.
 #define RG_MOST_PRIMS(corners) ((corners) == 3 ? 6 : 4)
 
 // The k-th primitive: a triangle, or a quad whose last two corners coincide where the polygon's
@@ -383,7 +383,7 @@ RG_FN int rg_ones(uint bits)
     return rg_to_int((((fours + (fours >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24);
 }
 
-// The bits below the lowest one.
+// All bits below the lowest bit that is set.
 RG_FN uint rg_bits_below(uint bits)
 {
     return (bits & (0u - bits)) - 1u;

@@ -3,8 +3,8 @@
 // C only, for it needs 64 bits.
 //
 // Pixel (px, py) is covered where its centre lies inside all three edges. A centre on an edge
-// belongs to the triangle whose top or left edge that is, so that neighbours share no pixel and
-// leave none out.
+// belongs to the triangle that has this edge as its top or left one, so that neighbours share no
+// pixel and leave none out.
 #ifndef RG_KERNELS_DIALECT_DRAW_COVERAGE_H
 #define RG_KERNELS_DIALECT_DRAW_COVERAGE_H
 
@@ -84,9 +84,9 @@ RG_FN bool rg_triangle_covers(rg_triangle t, int px, int py)
 // The most pixels a side of a block.
 #define RG_MOST_BLOCK_PX 64
 
-// An edge function over a block, scaled down by 256, which loses nothing for steps are multiples of
-// it: not negative inside. at is the block's first pixel; one pixel on adds a step. Far from the
-// edge, at is clamped: no step within a block changes its sign.
+// An edge function over a block: not negative inside. Scaling it down by 256 loses nothing, because
+// steps are multiples of 256. `at` is its value at the block's first pixel; each pixel adds a step.
+// Far from the edge `at` is clamped, where no step within a block changes its sign.
 typedef struct rg_block_edge {
     int at;
     int step_x;

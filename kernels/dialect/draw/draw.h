@@ -4,30 +4,30 @@
 // kernel's does, RG_CORNERS (3 or 4: corners of an item) and RG_RECORD (the struct of 4-byte
 // scalars that its fragments need), includes this, and holds three functions:
 //
-//   RG_DRAW_ITEM(name)      { ... }  item i's corners in clip space (kernels/dialect/draw/clip.h).
-//   Run for every
-//                                    item: short and without branches.
-//   RG_DRAW_RECORD(name)    { ... }  what the fragments of item i need. Run for items that are
-//                                    seen.
-//   RG_DRAW_FRAGMENT(name)  { ... }  colour and depth of pixel (px, py), from the record r alone.
+//   RG_DRAW_ITEM(name)      { ... }  returns item i's corners in clip space (clip.h). It runs for
+//                                    every item, so it is short and has no branches.
+//   RG_DRAW_RECORD(name)    { ... }  returns what the fragments of item i need. It runs for items
+//                                    that are seen.
+//   RG_DRAW_FRAGMENT(name)  { ... }  returns colour and depth of pixel (px, py), from the record r
+//                                    alone.
 //
-// All get the slots `rg` and the parameters `p`; the first two the draw's state `draw`.
+// All three get the slots `rg` and the parameters `p`; the first two also get the state `draw`.
 //
 // A program that defines RG_LIGHTS has lights, as many as its parameters' `int lights` says, and
 // holds a fourth function:
 //
-//   RG_DRAW_LIGHT(name)     { ... }  the rgba that light number `light` adds at pixel (px, py),
-//                                    from r.
+//   RG_DRAW_LIGHT(name)     { ... }  returns the rgba that light number `light` adds at pixel
+//                                    (px, py), from r.
 //
-// Its RG_DRAW_FRAGMENT also gets `rgba lit`: what the lights add, from 0 to p.lights - 1, to zero.
-// Only the colour may depend on it: depth and `kept` are also asked for before there is light, so
-// that none falls on what is hidden.
+// Its RG_DRAW_FRAGMENT also gets `rgba lit`: zero and what lights 0 to p.lights - 1 add, in order.
+// Only the colour may depend on `lit`: devices ask for depth and `kept` before they run the lights,
+// so that they need not light what is hidden.
 #ifndef RG_KERNELS_DIALECT_DRAW_DRAW_H
 #define RG_KERNELS_DIALECT_DRAW_DRAW_H
 
 #include "kernels/dialect/draw/clip.h"
 
-#define RG_DRAW_SLOTS 12 // of the 16, the last four are the stages' own
+#define RG_DRAW_SLOTS 12 // the stages take the last four of the 16 slots
 
 // A primitive as it is packed: corners on the grid, the item it came from, the item's record.
 RG_STRUCT(rg_prim)

@@ -2,8 +2,8 @@
 // Included behind a DRAW program. rg_draw_args becomes what an indirect draw takes: vertices,
 // instances, first vertex, first instance; then the number of primitives.
 //
-// Whole items and clipped ones have a loop each, over the items that are so: software drivers run
-// a loop's body once for all items side by side, even where none of them enters it.
+// Whole items and clipped items have a loop each: software drivers run a loop's body once for all
+// items side by side, even where no item enters it.
 
 RG_FN rg_prim rg_prim_of(rg_ctx rg, rg_draw_call p, rg_snapped corners, int i)
 {

@@ -1,6 +1,6 @@
-// The fragments of the DRAW program that was just included, with what lights add to them (draw.h):
-// one light after the other, from zero on. Shells that have loops of their own for lights, so that
-// fragments go side by side, add in this order too.
+// A fragment of the DRAW program that was just included, with the sum of what its lights add
+// (draw.h): one light after the other is added to zero. Shells with their own loop over lights,
+// which lets them run fragments side by side, add in this order too.
 
 #if defined(RG_LIGHTS)
 

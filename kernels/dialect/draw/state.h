@@ -4,7 +4,7 @@
 
 #include "kernels/dialect/lang.h"
 
-// Items that one work item of the packing stages counts and packs, in order: a bit each of a word.
+// Items that one work item of the packing stages handles, in order; each has a bit of a word.
 #define RG_DRAW_CHUNK 32
 
 // enum rg_format of core/device/kernel.h.

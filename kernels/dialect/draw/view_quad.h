@@ -1,5 +1,5 @@
-// One quad that fills the view, for programs whose fragments need nothing but their place: included
-// in draw.h's stead, behind RG_PARAMS and RG_SLOTS, and RG_RECORD where there is more to know.
+// One quad that fills the view, for programs whose fragments need only their place. Such a program
+// includes this instead of draw.h, after RG_PARAMS and RG_SLOTS, and RG_RECORD if it needs more.
 #ifndef RG_KERNELS_DIALECT_DRAW_VIEW_QUAD_H
 #define RG_KERNELS_DIALECT_DRAW_VIEW_QUAD_H
 

@@ -36,8 +36,8 @@ RG_FN rgba rg_fetched_RGBA8(rgba c)
 
 // --- RGBA16F: half floats, 2 words a texel. Subnormal halves are stored as zero. ---
 
-// The magnitude that a half can hold, cut off, as a float's bits: at most 65504, and so for what is
-// no number.
+// The magnitude that a half can hold, cut off, as a float's bits: at most 65504, which also
+// stands for what is no number.
 RG_FN uint rg_half_magnitude(uint float_bits)
 {
     uint magnitude = float_bits & 0x7fffffffu;

@@ -1,9 +1,9 @@
 // Images in plain memory, for C and OpenCL C: a header that says at which word each level begins,
-// then level 0 of all layers, then level 1, and so on; rows without padding; texels packed in
-// 32-bit words as format.h says, those of half a word two by two, from one row and layer to the
-// next, so that a level alone may end with a half to spare. The header lies in memory, not in the
-// shape, so that the shape stays small enough for compilers to keep in registers, and items of one
-// vector may read different levels.
+// then level 0 of all layers, then level 1, and so on; rows without padding. Texels are packed in
+// 32-bit words as format.h says; two texels of half a word share a word, even if they are of two
+// rows or layers, so that only a level's end may leave a half unused.
+// The header lies in memory, not in the shape: the shape is then small enough for compilers to keep
+// in registers, and items of one vector may read different levels.
 #ifndef RG_KERNELS_DIALECT_IMAGE_MEMORY_H
 #define RG_KERNELS_DIALECT_IMAGE_MEMORY_H
 
@@ -41,8 +41,8 @@ RG_FN int rg_texel_half(RG_GLOBAL const uint *image, rg_image_shape s, int x, in
     return rg_to_int(image[level]) * 2 + ((layer * height + y) * width + x);
 }
 
-// Two halves, one after the other, the first in the lower bits. Behind the last texel lies a word
-// more, so that any may be the first.
+// Two halves, one after the other, the first in the lower bits. One more word lies behind the last
+// texel, so that any half may be the first.
 RG_FN uint rg_two_halves(RG_GLOBAL const uint *image, int half_of)
 {
 #if RG_OPENCL

@@ -144,7 +144,7 @@ typedef struct rg_ctx {
         t.right = rg_load_##F(two, x1 - x0);                                                       \
         return t;                                                                                  \
     }
-// Which of the two a format takes: a macro of its own tells those of half a word.
+// Chooses between the two: formats of half a word, and only these, have a macro RG_HALVES_F.
 #define RG_HALVES_R16F                         , RG_TEXEL_OF_HALVES
 #define RG_TEXEL_AS(F, name, form, texel, ...) texel(F, name)
 #define RG_TEXEL(F, name, ...)                 RG_TEXEL_AS(F, name, __VA_ARGS__)

@@ -26,8 +26,8 @@
 
 #include "kernels/dialect/image/format.h"
 
-// What a run's parameters are, and what is bound beside the kernel's own: the stages of DRAW
-// programs add to both (draw.h).
+// The parameters of a run, and the slots beside the kernel's own. Stages of DRAW programs bring
+// larger parameters and further slots (draw.h).
 #ifndef RG_RUN_PARAMS
 #define RG_RUN_PARAMS RG_PARAMS
 #endif
@@ -36,7 +36,7 @@
 #endif
 #define RG_ALL_SLOTS RG_SLOTS RG_STAGE_SLOTS
 
-// name_texels where two texels are no cheaper together than one by one.
+// name_texels for formats and languages in which two texels together cost as much as one by one.
 #define RG_TEXELS_SINGLY(name)                                                                     \
     RG_FN rg_texels name##_texels(rg_ctx rg, int x0, int x1, int y, int layer, int level)          \
     {                                                                                              \
