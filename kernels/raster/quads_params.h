@@ -5,7 +5,8 @@
 #include "kernels/dialect/lang.h"
 
 // Floats a quad: centre x and y in clip space; half its length and half its width in the target's
-// heights; angle and what it turns, in radians and of one turn of all; depth; a colour.
+// heights; its angle at the start in radians; what the angle grows by as `turned` grows by 1, -1 to
+// 1; depth; a colour.
 #define RASTER_QUAD_WORDS 11
 
 RG_STRUCT(raster_quads_params)

@@ -1,4 +1,4 @@
-// The scene's faces, which leave the number of their surface in each pixel, and its depth.
+// Draws the scene's faces: each pixel gets the number of its surface, and its depth.
 // What a pixel looks like is reckoned once, when all faces are drawn (city_shade.h). Drawn
 // without a colour target, it makes depth maps.
 #include "kernels/scenery/city_params.h"

@@ -14,8 +14,8 @@ RG_STRUCT_SIZE(scenery_city_params, 16)
 // in one plane. A triangle has its last corner twice.
 #define SCENERY_FACE_WORDS 12
 
-// What is drawn are blocks of faces: items 32 k and on are the faces of block k, the first one of
-// which, and their number, are two words.
+// Faces are drawn in blocks: items from 32 k on are the faces of block k. A block is two words: its
+// first face, and how many it has.
 #define SCENERY_BLOCK_FACES 32
 
 #endif

@@ -22,7 +22,7 @@
 
 // How much more than its texture's light a wet ground throws back in the mirror's direction.
 #define SCENERY_GLEAM 14.0f
-// Openness is asked for so far before a surface, lest it be that of the inside of walls.
+// Openness is read this far in front of a surface, so as not to read that of the walls' inside.
 #define SCENERY_BEFORE_M 3.0f
 
 RG_DRAW_ITEM(streaks_city_shade)
@@ -134,7 +134,7 @@ RG_FN rgba scenery_painted(rg_ctx rg, scenery_city_shade_params p, scenery_seen 
     float along_v = level != 0 ? ground_v : s.at.y;
     float u = scale_u * along_u + scenery_lower(offsets) * (1.0f / 65536.0f);
     float v = scale_v * along_v + scenery_upper(offsets) * (1.0f / 65536.0f);
-    // Texels that a pixel is wide, squared; as wide across as it is long, seen at a slant.
+    // The product of the texels that a pixel is wide and, seen at a slant, long.
     float width = s.w * p.pixel_m * rg_to_float(p.texture_px);
     float texels = width * width * rg_abs(scale_u * scale_v) / rg_max(facing, 0.04f);
     rgba t = scenery_texture(rg, u, v, rg_to_int(look & 255u), texels, p.texture_px, p.last_level);
@@ -166,7 +166,7 @@ RG_DRAW_FRAGMENT(streaks_city_shade)
     float beside = p.bounced * (1.0f - open);
     float glow = p.glow * t.a + rg_to_float((look >> SCENERY_GLOW_BIT) & 7u) * (1.0f / 7.0f);
     float mirrored = scenery_mirrored(wet, facing) * open;
-    // What a lamp behind lights up shows little of the light before it.
+    // What a lamp from behind lights up shows little of the light that falls on its front.
     float own = (1.0f - 0.45f * wet) * (1.0f - 0.7f * t.a);
     float shown = 1.0f - rg_exp(-s.distance * p.sky.haze_per_m);
     v3 seen =

@@ -27,8 +27,8 @@ RG_STRUCT(scenery_light)
     // which it is dark. The first is larger, in lights of all kinds.
     float cos_inner, cos_outer;
     int shadow_layer;    // of the image of shadow maps; -1: casts none
-    int shadow_faces;    // 1, or of a point 6: so many layers from shadow_layer on
-    float shadow_bias_m; // so far towards the light from a point what shades it begins
+    int shadow_faces;    // 1, or 6 for a point: the layers from shadow_layer on
+    float shadow_bias_m; // what is nearer to a point than this does not shade it
     float shadow_texel;  // a texel's width in metres; of points and spots, at 1 m along the axis
     // With one face, from this frame to the shadow map's clip space. With six, the first three rows
     // lead to the frame of the cube map, which is left-handed, with the light in its origin; depth

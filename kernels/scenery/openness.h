@@ -28,7 +28,7 @@ RG_FN float scenery_openness(rg_ctx rg, v3 at)
     float z = rg_clamp((at.z - SCENERY_OPEN_LOW_M) * (1.0f / SCENERY_OPEN_CELL_M), 0.0f, side);
     float y = rg_clamp(at.y * (1.0f / SCENERY_OPEN_CELL_M), 0.0f,
                        rg_to_float(SCENERY_OPEN_LEVELS - 1) - 0.001f);
-    // Floored before they are whole numbers: else gcc makes branches of the clamps, and no vectors.
+    // Floored as floats, before rg_to_int: else gcc makes branches of the clamps, and no vectors.
     float lx = rg_floor(x);
     float lz = rg_floor(z);
     float ly = rg_floor(y);

@@ -1,5 +1,5 @@
 // Whether a light reaches a point, by its shadow maps. A program that asks has the slot
-//   IMAGE(n, D32F, shadows)  all lights' maps, a layer each or six
+//   IMAGE(n, D32F, shadows)  all lights' maps: a layer for each, six for a point light
 // and includes this behind draw.h or slots.h. Where no light casts shadows any image of one texel
 // will do.
 //
@@ -22,8 +22,8 @@ RG_STRUCT(scenery_shadow_place)
 };
 
 // The point is first moved towards the light along the ray itself. So it stays within its texel,
-// and the bias is in metres whatever the map's depth is like: straight for suns, as 1 / distance
-// for others.
+// and the bias is in metres however depth depends on distance: linearly in the maps of suns, by
+// 1 / distance in others.
 RG_FN scenery_shadow_place scenery_shadow_locate(scenery_light l, v3 at, int size)
 {
     v3 near = v3_add(at, v3_scale(scenery_light_reach(l, at).to_light, l.shadow_bias_m));

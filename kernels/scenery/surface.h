@@ -7,7 +7,7 @@
 
 // The words of a surface. Textures lie upon the world. On ground and roofs, u runs along x and v
 // along z, or, turned, u along z and v along x; on walls u runs to the right as seen from outside,
-// and v along y. Places are in whole textures: u = scale_u * along + offset_u, likewise v.
+// and v along y. Places are in whole textures: u = scale_u * along + offset_u, and so for v.
 #define SCENERY_SCALES        0 // u's and v's in 1 / SCENERY_SCALE_STEPS, 16 bits each with a sign
 #define SCENERY_OFFSETS       1 // u's and v's in 1 / 65536
 #define SCENERY_NORMAL        2 // mesh_normal_pack; above it two bits: how wet it gets, 0 to 3
@@ -44,7 +44,7 @@ RG_FN uint scenery_kind(uint look)
 #define SCENERY_KIND_LIGHT   9 // lamps: they glow
 #define SCENERY_KINDS        10
 
-// Where a map of surfaces' numbers shows none.
+// What a map of surface numbers holds where there is no surface.
 #define SCENERY_NO_SURFACE 0xffffffffu
 
 #endif

@@ -63,7 +63,7 @@ RG_FN rgba scenery_texture(rg_ctx rg, float u, float v, int layer, float texels,
 {
     float across = u - rg_floor(u);
     float down = v - rg_floor(v);
-    // log2, from the float's exponent: of twice the square, so that it is rounded.
+    // log2 of the width, from the exponent of twice its square: so it is rounded.
     uint bits = rg_float_bits(rg_clamp(texels + texels, 1.0f, 1e9f)) - 0x3f800000u;
     int level = rg_imin(rg_to_int(bits >> 24), last_level);
     scenery_texel t =

@@ -19,8 +19,8 @@
 // Brightness factors: of the point atlases by oscillation, view and column, then of the skies.
 #define STREAKS_SKY_FACTORS 4500
 
-// The first texel of a view's row in level 0; the atlas' height for the one after the last. A sum,
-// for gcc makes a table of choices, which it does not read for several pixels at once.
+// The first texel of a view's row in level 0; the atlas' height for the view after the last. It
+// is a sum, because gcc makes choices a table, and reads a table for one pixel at a time.
 RG_FN int streaks_row(int view)
 {
     return 1050 * rg_iclamp(view, 0, 1) + 988 * rg_iclamp(view - 1, 0, 1) +
@@ -28,8 +28,8 @@ RG_FN int streaks_row(int view)
            214 * rg_iclamp(view - 4, 0, 1);
 }
 
-// A place across `size` texels, of which the first is `first`, at least half a texel within them:
-// nothing bleeds in.
+// A place across `size` texels from `first` on. It stays half a texel inside: nothing from beside
+// them bleeds in.
 RG_FN float streaks_within(float first, float size, float share)
 {
     return first + rg_clamp(share * size, 0.5f, size - 0.5f);

@@ -1,6 +1,6 @@
 // streaks: rain beyond the culling radius as layers around the observer, patterns that scroll down
 // with the fall (Creus, section 5.5, after section 3.2.1). A layer is a cylinder about the fall's
-// axis, and hides what lies behind it by what all drops of its thickness would.
+// axis. It hides as much of what lies behind it as all drops within its thickness would.
 #include "kernels/dialect/math.h"
 #include "kernels/dialect/rng.h"
 #include "kernels/streaks/far_params.h"

@@ -1,7 +1,7 @@
-// Which of the atlas' crowns a splash makes: that of the surface which is hit. Programs and kernels
+// Which of the atlas' crowns a splash makes: that of the surface it hits. Programs and kernels
 // that include it behind their slots have those of particle.h and
 //   IMAGE(10, RGBA8, numbers)  the numbers of the surfaces seen along the fall, r lowest, with the
-//                              extent of the depth map; of one texel: all splashes are of one kind
+//                              extent of the depth map; or one texel: all splashes are of one kind
 //   IN(11, uint, surfaces)     SCENERY_SURFACE_WORDS each
 #ifndef RG_KERNELS_STREAKS_MATERIAL_H
 #define RG_KERNELS_STREAKS_MATERIAL_H
@@ -10,7 +10,7 @@
 #include "kernels/scenery/surface.h"
 
 // The atlas' materials (core/scene/atlas/atlas.h).
-#define STREAKS_FILM   0u // a thin film of water; 0, whereby what is not known has one
+#define STREAKS_FILM   0u // a thin film of water; 0, so that what is not known has one
 #define STREAKS_PUDDLE 1u
 #define STREAKS_ROUGH  2u // dry asphalt, and all that is rough and holds no water
 #define STREAKS_SMOOTH 3u // metal or glass

@@ -36,8 +36,8 @@ RG_STRUCT(streaks_params)
     int exact;              // whether particles are culled one by one
     int lights;
     int paper_angles;          // whether a view from below counts as one from above (section 4.3.1)
-    int first_level;           // of the full atlas' levels, that is there
-    int last_level;            // and that is read
+    int first_level;           // the first of the full atlas' levels that is there
+    int last_level;            // the last one that is read
     float focal_px;            // pixels a metre at a distance of one
     float sky_r, sky_g, sky_b; // light from all around
     float gain, opacity;       // of streaks

@@ -48,9 +48,9 @@ RG_FN streaks_map_place streaks_map_place_at(streaks_params p, float x, float y,
     return t;
 }
 
-// s of the first surface at a place, and of the ground where the map does not reach. Sums of
-// products with 0 and 1 choose, for gcc moves what only one branch of a choice reads into the
-// branch.
+// s of the first surface at a place, and of the ground where the map does not reach. A sum of
+// products with 0 and 1 makes the choice, because gcc moves what only one branch of a choice reads
+// into that branch.
 RG_FN float streaks_hit(rg_ctx rg, streaks_params p, float x, float y)
 {
     streaks_map_place at = streaks_map_place_at(p, x, y, depths_width(rg, 0), depths_height(rg, 0));
@@ -59,9 +59,9 @@ RG_FN float streaks_hit(rg_ctx rg, streaks_params p, float x, float y)
     return inside * (p.map_top + depth * p.map_height) + (1.0f - inside) * p.ground;
 }
 
-// What a particle is, its streak's upper end being `past` below the surface that it hits. It comes
-// in again at the local top when it leaves the local ground: where its splash is not over by then,
-// it stays a splash. So each drop that hits makes one splash, as long as all others.
+// What a particle is, by how far its streak's upper end is `past` the surface it hits. It comes
+// in again at the local top when it leaves the local ground; if its splash is not over by then, it
+// stays a splash. So each drop that hits makes one splash, and all splashes last equally long.
 RG_FN streaks_particle streaks_state(streaks_params p, streaks_particle particle)
 {
     streaks_particle t = particle;

@@ -22,8 +22,8 @@
 #define RG_LIGHTS
 
 // What the fragments of a billboard share: v grows from its lower end upwards, u to the side. Where
-// a pixel lies in space follows from its w. As few words as will do, for a cpu gathers each of them
-// for each pixel of a small billboard. Flat: gcc gathers no words of nested records.
+// a pixel lies in space follows from its w. It has few words, because cpu gathers each of
+// them for each pixel of a small billboard, and no structs, because gcc gathers nothing from these.
 RG_STRUCT(streaks_billboard)
 {
     // rg_planes
@@ -129,9 +129,9 @@ RG_FN float streaks_elevation(v3 d)
     return streaks_steps(rg_atan2(-d.z, rg_sqrt(rg_max(1.0f - d.z * d.z, 0.0f))));
 }
 
-// The word `look`: bits 0 to 2 as named, then three of the level, as the full atlas or a splash's
-// images count, six of the layer, a drop's oscillation or the first of a splash's, and twelve of
-// the row behind a drop's second view.
+// The word `look` from the lowest bit: three bits with names; three of the level, counted as in the
+// full atlas or in a splash's images; six of the layer, which is a drop's oscillation or the first
+// of a splash's; twelve of the row behind a drop's second view.
 #define STREAKS_LOOK_SPLASH   1u
 #define STREAKS_LOOK_MIRRORED 2u // of splashes
 #define STREAKS_LOOK_BELOW    4u // of drops: seen from below, so that elevations change their signs

@@ -8,8 +8,8 @@
 // The environment's light from a direction of any length but zero, in one of its levels, which is
 // `size` texels along a face, between four texels. The outermost texels of a face have their
 // centres on the cube's edges (core/scene/environment/cube.h), so that light is the same from both
-// sides of an edge. A place on a face always lies between its texels' centres, so none of the
-// bounds that filter.h keeps is needed; half of what is drawn is light from here.
+// sides of an edge. A place on a face always lies between its texels' centres, so the bounds
+// that filter.h keeps are left out; it pays, for half of what is drawn is light from here.
 RG_FN v3 light_from(rg_ctx rg, v3 d, int level, int size)
 {
     cube_point c = cube_locate(d, size - 1);

@@ -26,7 +26,7 @@ RG_FN wet_normal normal_between(rg_ctx rg, int first, int size, flow_point at)
 RG_STRUCT(flow_water)
 {
     float wetness; // 0 dry to 1
-    v3 bend;       // what of the normal lies in the pane, in the world
+    v3 bend;       // the part of the normal that lies in the pane, in the world
     v3 normal;     // of unit length, towards the viewer: from inside the box drops are hollow
 };
 

@@ -1,6 +1,6 @@
-// flow: takes in what came over the edges from neighbouring panes. After the movement. Where two
-// panes lead water to the edge between them it gathers, and what is too much for the edge drips off:
-// so amounts stay below what a float counts droplet by droplet.
+// flow: takes in the water that came over the edges from neighbouring panes, after the movement.
+// Where two panes lead water to the edge between them it gathers; what is too much for the edge
+// drips off, so that amounts stay small enough for a float to count every droplet.
 #include "kernels/flow/water/strip.h"
 
 #define RG_PARAMS flow_params

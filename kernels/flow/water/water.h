@@ -43,7 +43,7 @@ RG_STRUCT(flow_params)
 };
 RG_STRUCT_SIZE(flow_params, 12)
 
-// Where water goes that leaves a pane over one of its edges.
+// Where water that leaves a pane over an edge goes.
 RG_STRUCT(flow_neighbour)
 {
     int pane;   // the one beyond the edge; FLOW_NO_PANE: it is lost
@@ -80,7 +80,7 @@ RG_FN int flow_noise_index(float begin, float step, int x, int noise_size)
 
 // What a texel gives away in one step, by its water and the remainder and noise found for it:
 // the second line of equation 3, scaled by the pane's inclination (equation 2). Water above the
-// capacity spills whatever the maps say: a dam of the user's would pile it up without end.
+// capacity spills whatever the maps say: else a user's map could dam it and pile it up without end.
 RG_FN float flow_given(flow_params p, float speed, float water, float remainder, float noise)
 {
     float given = flow_whole_droplets(water * (1.0f - remainder * noise) * speed);
