@@ -75,7 +75,7 @@ static bool read_numbers(const json_t *object, const char *name, const struct pl
     return true;
 }
 
-// What is missing is `missing`.
+// Where the property is missing, the number is `missing`.
 static bool read_number(const json_t *object, const char *name, const struct place *place,
                         double low, double high, double missing, double *number)
 {

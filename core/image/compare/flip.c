@@ -316,7 +316,7 @@ RG_MULTIVERSION static void difference_row(const struct filtered *restrict a,
                                            const struct filtered *restrict b, int width, float cmax,
                                            float *restrict map)
 {
-    // Plain pointers: members of a struct that vectors were stored to are not vectorised.
+    // Plain pointers: gcc does not vectorise members of a struct that vectors were stored to.
     const float *ay = a->y, *acx = a->cx, *acz = a->cz, *a_edge = a->edge, *a_point = a->point;
     const float *by = b->y, *bcx = b->cx, *bcz = b->cz, *b_edge = b->edge, *b_point = b->point;
     float knee = 0.4f * cmax, below = 0.95f / knee, above = 0.05f / (cmax - knee);

@@ -11,7 +11,7 @@ const float rg_above_thresholds[RG_ABOVE_COUNT] = {1e-6f, 1e-4f, 1e-3f, 1e-2f};
 // Sums run in LANES fixed lanes and are added row by row, whatever the vector width and threads.
 enum { LANES = 16 };
 
-// fmaxf without its care for NaN, which costs a call a value.
+// fmaxf takes care of NaN, which costs a call for each value; this does not.
 static inline float larger(float a, float b)
 {
     return a > b ? a : b;

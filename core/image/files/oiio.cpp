@@ -65,7 +65,7 @@ void close_file(rg_oiio_file *file) noexcept
 try {
     delete static_cast<ImageInput *>(file->input);
     file->input = nullptr;
-    OIIO::geterror(); // what is never asked for is printed when the process ends
+    OIIO::geterror(); // OpenImageIO prints errors that nobody asked for when the process ends
 } catch (const std::exception &) {
 }
 

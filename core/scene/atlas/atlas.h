@@ -77,16 +77,17 @@ struct rg_atlas {
         hash; // XXH3 of the factors, then the texels of the three images, as little-endian bytes
 };
 
-// Is told of progress: `done` of `total` units of like length. Called by one thread at a time.
+// What hears of progress: `done` of `total` units, which take about equally long. One thread at a
+// time calls it.
 struct rg_atlas_progress {
     void (*tell)(void *user, int done, int total);
     void *user;
 };
 
-// The atlas of a size, from the user's cache or, where it is not there or not sound, made and put
-// there (core/scene/atlas/cache.h); a cache that cannot be used costs a warning. What comes from
-// the original database is not made: it has to be there. `progress` may be NULL. NULL, and one
-// logged line, on failure. The caller destroys it.
+// The atlas of a size, from the user's cache. If it is not there, or not sound, it is made and put
+// there (core/scene/atlas/cache.h); a cache that cannot be used costs a warning. An atlas of the
+// original database is not made: it has to be there. `progress` may be NULL. NULL, and one logged
+// line, on failure. The caller destroys it.
 struct rg_atlas *rg_atlas_load(enum rg_atlas_size size, const struct rg_atlas_progress *progress);
 
 // The same without a cache: traced, in parallel, in about two minutes of one core, or four seconds

@@ -2,8 +2,7 @@
 //
 // A file holds a header, the factors and the texels, and their checksum. It is written beside its
 // name and renamed, so that nobody reads half a file, whoever else writes at the same time. It is
-// stale when what this program traces differs from what the file's writer traced, which a small
-// sample tells.
+// stale when this program traces something else than the file's writer did; a small sample tells.
 #ifndef RG_CORE_SCENE_ATLAS_CACHE_H
 #define RG_CORE_SCENE_ATLAS_CACHE_H
 

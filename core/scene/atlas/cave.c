@@ -43,7 +43,7 @@ static bool read_picture(const char *path, int width, int height, float *texels,
     if (!rg_png_read_codes(path, st.st_size, &picture, &reason))
         return rg_cave_refuse(why, "%s: %s", path, reason.text);
     const bool good = check_size(path, &picture, width, height, why);
-    // the first channel alone: grey, or as good as it
+    // the first channel alone: the pictures are grey, or nearly
     const size_t pixels = (size_t)picture.width * (size_t)picture.height;
     for (size_t i = 0; good && i < pixels; i++)
         picture.texels[i] = picture.texels[i * (size_t)picture.channels];
@@ -67,7 +67,7 @@ static void point_path(const struct packing *p, int oscillation, int view, int l
              20 * phi + 10, oscillation);
 }
 
-// Packs what one path after the other gives for the levels of a cell.
+// Packs a cell, from one path for each of its levels.
 static bool pack_cell(const struct packing *p, enum rg_atlas_part part, int oscillation, int view,
                       int column, const char paths[WIDTHS][PATH_SIZE], struct rg_cave_why *why)
 {
@@ -87,7 +87,7 @@ static bool pack_cell(const struct packing *p, enum rg_atlas_part part, int osci
     return good;
 }
 
-// The azimuth under which a direction of light is stored: its own, or at the poles any.
+// The azimuth under which a direction of light is stored: its own; at the poles, any that is there.
 static int stored_phi(const struct packing *p, int oscillation, int view, int light, int phi)
 {
     char path[PATH_SIZE];

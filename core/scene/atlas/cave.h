@@ -17,7 +17,7 @@
 //   env_light_database/txt/normalized_env_max.txt            "cv{V}", then f0 ... f9
 //
 // Four widths become levels 0 to 3, each resampled to its row's height. Where the light is at 90 or
-// -90 degrees, one azimuth is enough, whichever is there. Environment factors are scaled so that
+// -90 degrees, one azimuth, no matter which, is enough. Environment factors are scaled so that
 // oscillation 0 from the front covers its middle for the time that a drop takes to fall its own
 // diameter. `size` is RG_ATLAS_CAVE or RG_ATLAS_CAVE_SMALL, which needs widths 8 and 4 alone.
 // `progress` may be NULL. NULL, and one logged line that names the file, when a file is missing or

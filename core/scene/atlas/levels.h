@@ -33,7 +33,7 @@ bool rg_atlas_shrink_layer(struct rg_atlas_image *image, int layer, int level);
 uint16_t rg_half_of(float value);
 float rg_half_value(uint16_t half);
 
-// What follows when every cell is in place: the levels below the cells', the splashes, the hash.
+// The steps after the last cell: levels below those of the cells, the splashes, the hash.
 // False, and one logged line, when memory is short.
 bool rg_atlas_finish(struct rg_atlas *atlas);
 

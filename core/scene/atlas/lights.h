@@ -6,7 +6,7 @@
 
 #include "core/scene/atlas/atlas.h"
 
-// A light at one elevation -90 and 90 has no azimuth, so 74 directions fill the 90 cells.
+// A light at elevation -90 or 90 has no azimuth, so 74 directions fill the 90 cells.
 enum { RG_LOBE_COUNT = 2 + (RG_ATLAS_LIGHTS - 2) * RG_ATLAS_PHIS };
 
 // The standard deviation of a light's radiance about its direction, a Gaussian on the sphere.
@@ -28,7 +28,7 @@ struct rg_lobes {
 // A light at an elevation and an azimuth from the viewer's (+z) towards the right (+x).
 void rg_lobe_direction(double elevation_deg, double azimuth_deg, float direction[3]);
 
-// The lobe that fills a cell: light 0 to 9, phi 0 to 8.
+// The lobe of a cell: light 0 to 9, phi 0 to 8.
 int rg_lobe_of_cell(int light, int phi);
 
 // Lobes about the directions of the 74, or about any `count` others, up to RG_LOBE_COUNT.

@@ -8,7 +8,7 @@
 
 enum { STREAK_SETS = RG_ATLAS_OSCILLATIONS * RG_ATLAS_VIEWS };
 
-// Divides a picture by its largest value, which is returned; a dark one stays.
+// Divides a picture by its largest value, and returns that; a dark picture stays as it is.
 static float normalise(float *texels, int count)
 {
     float largest = 0;

@@ -4,8 +4,8 @@
 
 #include "core/scene/atlas/atlas.h"
 
-// A hash of a few coarse streaks and of some splashes, and of how finely the size is traced: a file
-// of the cache with another one was made by another tracer. Takes some milliseconds. 0 where the
+// A hash of a few coarse streaks and of some splashes, and of how finely the size is traced. If a
+// file of the cache has another hash, another tracer made it. Takes some milliseconds. 0 where the
 // atlas is not traced, or when memory is short.
 uint64_t rg_atlas_sample(enum rg_atlas_size size);
 

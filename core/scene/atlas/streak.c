@@ -46,7 +46,7 @@ static double tent(double s)
     return s - 0.5 * s * fabs(s);
 }
 
-// What one ray saw by one way of light goes to the lights that it looked into.
+// Adds what one ray saw, by one way of light, to the lights that it looked into.
 static void scatter(struct tracing *t, int way, int i, int column)
 {
     const float share = t->row.share[way][i];
@@ -103,7 +103,7 @@ static void trace_row(struct tracing *t, const struct rg_drop_shape *shape, int 
     const int half = (int)ceilf(reach / t->step_u), left = t->rays / 2 - half;
     rg_drop_trace(shape, &t->view, v, t->step_u * (0.5f - (float)half), t->step_u, 2 * half,
                   &t->row);
-    // Where the light is 1 from everywhere, so it is inside, and after any number of reflections.
+    // Light that is 1 from everywhere is 1 inside too, after any number of reflections.
     for (int i = 0; i < 2 * half; i++)
         t->env[t->column[left + i]] += t->row.hit[i];
     for (int way = 0; way < RG_DROP_WAYS; way++)
@@ -122,8 +122,8 @@ static void trace_row(struct tracing *t, const struct rg_drop_shape *shape, int 
     add_row(t, t->env, weights, first, count, t->streaks->env);
 }
 
-// Traces the drop as it is at the end of k of the exposure's parts. Rows of rays lie elsewhere each
-// time, by the golden ratio, so that what falls between them is met by others.
+// Traces the drop as it is at the end of k of the exposure's parts. Each time the rows of
+// rays are moved by the golden ratio, so that later rows meet what falls between these.
 static void trace_moment(struct tracing *t, int oscillation, int k)
 {
     const struct rg_drop_shape shape = rg_drop_shape(oscillation, RG_EXPOSURE_S * k / t->moments);

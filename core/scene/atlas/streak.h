@@ -10,8 +10,8 @@
 struct rg_streak_detail {
     int moments; // parts of the exposure: the drop's image fades from one end to the other
     int column;  // rays across a column of the picture
-    int along;   // rows of rays along the diameter of the drop at rest, seen from the front; more
-                 // from above, whence the fall blurs them less: up to half as many again
+    int along;   // rows of rays along the diameter of the drop at rest, seen from the front. From
+                 // above there are up to half as many again, because the fall blurs these less
 };
 
 // How finely the streaks of a size are traced: no step and no noise is to be seen.

@@ -90,8 +90,8 @@ INLINE float solve(struct rg_drop_shape s, struct vector p, struct vector d, flo
 // distance along d; `hit` becomes 0 where it passes by.
 INLINE float enter(struct rg_drop_shape s, struct vector p, struct vector d, float *hit)
 {
-    // p is nearest to the centre. Where it lies outside, near the rim, a lower place is looked for;
-    // near the centre the field is too steep for that.
+    // p is nearest to the centre. Where p is outside of the drop, near the rim, a lower place on
+    // the ray is looked for; near the centre the field is too steep for that.
     const float outside_here = field_at(s, p).value > 0 ? 1.0f : 0.0f;
     float deepest = 0;
 #pragma GCC unroll 8

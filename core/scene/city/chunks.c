@@ -83,7 +83,7 @@ static uint64_t order_of(const struct city_faces *f, int face)
     // Six ways to look, and all others.
     static const float ways[6][3] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
                                      {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
-    // Leaves do not look the way that they are lit from.
+    // A leaf's normal serves its light alone; its face may look another way.
     const uint32_t look =
         f->surfaces[(size_t)f->surface_of[face] * SCENERY_SURFACE_WORDS + SCENERY_LOOK];
     uint64_t way = 6;

@@ -94,7 +94,7 @@ static void build_mesh(struct city_builder *b, const struct rg_mesh *mesh)
     }
 }
 
-// In tiles, that the planes of depth stay near their corners.
+// In tiles, so that the planes of depth stay near their corners.
 static void build_ground(struct city_builder *b)
 {
     const struct look ground = {0, SCENERY_KIND_PAVING, 0, 0x585858u, 0};

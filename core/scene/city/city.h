@@ -14,7 +14,7 @@
 #include "kernels/scenery/surface.h"
 
 enum {
-    CITY_TRIANGLES = 779287,      // as Creus' model has, from Daz3D
+    CITY_TRIANGLES = 779287,      // as many as Creus' model from Daz3D has
     CITY_SMALL_TRIANGLES = 20001, // of the small one: the same streets and heights, less relief
     CITY_TEXTURES = 149,
     CITY_TEXTURE_PX = 624, // a side: 149 of them make 58 megapixels
@@ -40,7 +40,7 @@ struct city_box {
 struct city_chunk {
     int first, count;
     float low[3], high[3];
-    // The way that all of them look, of unit length; 0 where they differ.
+    // The direction in which all of them look, of unit length; 0 where directions differ.
     float normal[3];
 };
 
@@ -81,13 +81,13 @@ struct city {
 
 // NULL, and one logged line, without memory. The caller destroys it.
 struct city *city_create(const struct city_settings *settings);
-// A user's mesh in a city's place, in matt grey, on a plain ground: as large as the city's space
-// takes it, in its middle. Without lamps, boxes and textures but one. `name` is what rg_mesh_load
+// A user's mesh instead of a city, in matt grey, on a plain ground. It stands in the middle of the
+// city's space and fills it. It has no lamps, no boxes and one texture. `name` is what rg_mesh_load
 // takes. NULL, and one logged line, on failure.
 struct city *city_of_mesh(const char *name);
 void city_destroy(struct city *city);
 
-// What paints a city's textures, not a mesh's, which is white. NULL, and one logged line, without
+// The painter of a city's textures; a mesh's one is white. NULL, and one logged line, without
 // memory. The caller destroys it.
 struct city_painter *city_painter_create(const struct city_settings *settings);
 void city_painter_destroy(struct city_painter *painter);

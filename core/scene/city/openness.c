@@ -1,5 +1,5 @@
-// How much of the sky is seen from the points of a grid over the city: for the light of an overcast
-// sky, which reaches streets by as much.
+// How much of the sky is seen from the points of a grid over the city: as much of an overcast sky's
+// light reaches them.
 #include <math.h>
 #include <stdlib.h>
 

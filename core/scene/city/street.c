@@ -6,7 +6,7 @@
 #define SIDE_M     (CITY_SIDE_M / 2.0)
 #define CROSSING_M 4.0  // how long a crossing is along its road, and how far from the junction's
 #define STOP_M     3.0  // the strip with the stop lines
-#define STRIP_M    18.0 // of a road, that its planes stay near their corners
+#define STRIP_M    18.0 // a road's piece: so the planes of depth stay near its corners
 #define KERB_TOP_M 0.3
 
 static const struct look plain = {PAINT_ASPHALT, SCENERY_KIND_ASPHALT, 9, 0, 0};

@@ -10,7 +10,7 @@
 void rg_cube_direction(int face, int x, int y, int size, double direction[3]);
 
 // An environment of this size, dark; the caller destroys it. NULL, and one logged line, without
-// memory for it; so do rg_environment_halve and, with false, rg_environment_pack.
+// memory. Without it rg_environment_halve also returns NULL, and rg_environment_pack false.
 struct rg_environment *rg_environment_create(int size);
 // The red, green and blue of a texel; x and y from -1 to size, the border included.
 float *rg_environment_texel(const struct rg_environment *environment, int face, int x, int y);
@@ -27,7 +27,7 @@ struct rg_environment *rg_environment_halve(const struct rg_environment *environ
 
 // All six faces resampled to size_px^2 texels of RG11B10F each: halved while they are twice as
 // large or more, then bilinearly. The outermost texels' centres lie on the cube's edges, so that
-// neighbouring faces hold the same light there, and who filters within a face sees no seam. The
+// neighbouring faces hold the same light there, and filtering within a face shows no seam. The
 // format is coarse (6 bits of mantissa), so a seeded noise dithers what it rounds. Light that is
 // negative or no number becomes 0.
 bool rg_environment_pack(const struct rg_environment *environment, int size_px, uint32_t *texels);

@@ -9,7 +9,7 @@
 #include "core/base/log.h"
 #include "core/scene/mesh/mesh.h"
 
-// meshoptimizer stops at this error; in extents of the mesh, so that it never does.
+// The error at which meshoptimizer stops, in extents of the mesh: so large that it never does.
 #define ANY_ERROR 1e4f
 
 static bool check_wanted(const struct rg_mesh *mesh, int faces)
@@ -36,7 +36,7 @@ static int simplify(const struct rg_mesh *mesh, int faces, uint32_t *indices)
     const size_t wanted = 3 * (size_t)faces;
     size_t count = meshopt_simplify(indices, mesh->indices, 3 * (size_t)mesh->face_count,
                                     mesh->positions, vertices, stride, wanted, ANY_ERROR, 0, NULL);
-    // What the topology keeps it from, the sloppy way reaches.
+    // Where the topology keeps it from so few faces, the sloppy way reaches them.
     if (count > wanted)
         count = meshopt_simplifySloppy(indices, mesh->indices, 3 * (size_t)mesh->face_count,
                                        mesh->positions, vertices, stride, wanted, ANY_ERROR, NULL);
@@ -176,8 +176,8 @@ static void halve(struct refinement *r, const struct edge *edge)
     }
 }
 
-// One round: from the longest edge that can be halved down to half its length. False when there is
-// none that does not lead beyond the wanted number.
+// One round: halves edges, from the longest that can be halved down to half its length. False when
+// every edge would lead beyond the wanted number.
 static bool run_round(struct refinement *r)
 {
     const int before = r->face_count;

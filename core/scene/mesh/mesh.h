@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// What a mesh may hold: each of its arrays then takes 120 MB, and fits into a buffer of 128 MiB,
-// the most that some drivers bind.
+// What a mesh may hold at most: each of its arrays then takes 120 MB, and fits into a buffer of 128
+// MiB, which is the most that some drivers bind.
 enum { RG_MESH_MAX_VERTICES = 10000000, RG_MESH_MAX_FACES = 10000000, RG_MESH_NAME_SIZE = 160 };
 
 // No coordinate is further from 0: squares and products of three stay within a float.

@@ -10,7 +10,7 @@ enum { CHANCE_HEIGHT = 300, CHANCE_STYLE, CHANCE_TIER, CHANCE_ROOF, CHANCE_SHOP 
 
 #define SHOP_M    4.4 // a ground floor's height
 #define CORNICE_M 0.35
-#define WITHIN_M  0.6 // what is so far from a tier's sides lies behind its faces
+#define WITHIN_M  0.6 // this far inside a tier's sides all is hidden behind its faces
 
 // A building that is being made.
 struct building {
@@ -197,7 +197,7 @@ static void build_tier(struct building *t, const struct tier *r, bool top)
         build_plant(t, r);
 }
 
-// Steps back, on sides at the street and, above its neighbours, on all.
+// The next tier stands back by `in` on all sides; all have windows, for it is above its neighbours.
 static struct tier next_tier(const struct tier *r, double in, double y1)
 {
     return (struct tier){r->x0 + in, r->z0 + in, r->x1 - in, r->z1 - in, r->y1, y1, BOX_WALLS};

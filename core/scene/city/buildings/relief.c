@@ -1,4 +1,4 @@
-// What is nearest to the streets in the middle comes first, until all triangles are spent.
+// Relief near the streets in the middle comes first, until all triangles are spent.
 #include "core/scene/city/buildings/relief.h"
 
 #include <math.h>

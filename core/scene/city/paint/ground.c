@@ -19,7 +19,7 @@ static struct paint asphalt(const struct spot *s)
     return (struct paint){v, v * 0.995f, v * 0.985f, 0};
 }
 
-// Worn paint over it; `off` is how far from the line's middle in half widths.
+// Worn paint over the ground; `off` is the distance from the line's middle, in half widths.
 static struct paint lined(const struct spot *s, struct paint ground, struct paint line, float off)
 {
     const bool worn = paint_cloud(s, 2) > 0.62f && paint_fine(s) > 0.35f;

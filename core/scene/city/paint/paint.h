@@ -30,7 +30,7 @@ struct spot {
     float u, v; // 0 to 1, v from the top
 };
 
-// One place of the noise; textures see different parts of it, and so does `part` of a texture.
+// The noise at one place. Each texture, and each `part` of a texture, sees another piece of it.
 static inline float paint_noise(const struct spot *s, const float *noise, int part)
 {
     const int size = s->painter->size;
@@ -80,7 +80,7 @@ static inline struct paint paint_scaled(struct paint p, float by)
     return (struct paint){p.r * by, p.g * by, p.b * by, p.a};
 }
 
-// The distance from the middle of the nearest line, lines being `every` apart, in `every`.
+// The distance from the middle of the nearest line, in units of `every`, by which lines are apart.
 static inline float paint_line(float at, float every)
 {
     const float lines = at * (1 / every), share = lines - rg_floor(lines);

@@ -45,8 +45,8 @@ static int64_t count_lines(const unsigned char *c, const unsigned char *end)
     return lines;
 }
 
-// Assimp (5.2) loops on lines that are not of a header, without an end of it, and repeats the last
-// line of a text that is cut short: so all that is looked at here.
+// Assimp (5.2) loops on lines that do not belong to a header, if the header has no end, and repeats
+// the last line of a text that is cut short. So these are refused here.
 static bool check_ply_header(struct import *import, const char *header)
 {
     static const char *const words[] = {"ply",      "format ",  "comment",

@@ -167,7 +167,7 @@ static struct aiFile *open_file(struct aiFileIO *files, const char *name, const 
     return &memory->callbacks;
 }
 
-// What was read stays: it is read once more when Assimp opens it again, and ends with the process.
+// The bytes stay until the process ends, since Assimp may open the file again.
 static void close_file(struct aiFileIO *files, struct aiFile *file)
 {
     (void)files;

@@ -1,7 +1,7 @@
 // raingauge_importer: reads one mesh with Assimp and hands back plain arrays (reply.h).
 //
-// Assimp reads 40 formats and crashes or loops on some damaged files of them. Here that harms
-// nobody.
+// Assimp reads 40 formats, and crashes or loops on some damaged files. In a process of its own it
+// harms nobody.
 #define _DEFAULT_SOURCE // RLIMIT_AS
 #include <errno.h>
 #include <signal.h>
