@@ -45,8 +45,8 @@ void rg_rain_world_point(const struct rg_rain_space *space, const double rain[3]
 // Both as matrices, row by row, as core/scene/camera.h has them. Either may be NULL.
 void rg_rain_matrices(const struct rg_rain_space *space, float world_to_rain[16],
                       float rain_to_world[16]);
-// What takes the rain frame to clip space, of what takes the world there; multiplied in double
-// precision and rounded once.
+// The matrix from the rain frame to clip space, made from the world's to clip space; multiplied in
+// double precision and rounded once.
 void rg_rain_to_clip(const struct rg_rain_space *space, const float world_to_clip[16],
                      float rain_to_clip[16]);
 

@@ -22,8 +22,8 @@ struct rg_mutant {
     double factor, offset;
 };
 
-// A mutant in a scene of its own, or one that no factor makes: assignments over the defaults, and
-// what the mutant has over these.
+// A mutant in a scene of its own, or one that no factor makes: `truth` is assigned over the
+// defaults, and the mutant has `mutant` over both.
 struct rg_contrast {
     const char *about;  // "culling turned round"
     const char *truth;  // "scene=mesh"

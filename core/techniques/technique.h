@@ -1,7 +1,7 @@
 // A technique: one paper's simulation and rendering, written once for all backends.
 //
-// A frame is a step of the simulation and a drawing of it, both stages in one order for all
-// devices.
+// A frame is a step of the simulation and a drawing of it. Both run their stages in one order, the
+// same on all devices.
 #ifndef RG_CORE_TECHNIQUES_TECHNIQUE_H
 #define RG_CORE_TECHNIQUES_TECHNIQUE_H
 

@@ -32,8 +32,8 @@ static bool draw_glow(struct flow *flow)
            rg_stage(i, FLOW_GLOW_DOWN) && rg_stage(i, FLOW_GLOW);
 }
 
-// The last pass: through glass the far panes first; of mirrors only those that face the viewer,
-// before the sky, for nothing is seen through them.
+// The last pass. Of panes of glass the far ones are drawn first, for one sees through near ones.
+// Of mirrors only those that face the viewer are drawn, over the sky: nothing is seen through them.
 static bool draw_final(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;

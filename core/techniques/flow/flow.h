@@ -76,11 +76,12 @@ flow_normals_params flow_normals_params_of(const struct flow_settings *settings)
 // panes and the sky. False, with one logged line, when the camera sees nothing.
 bool flow_view_params_at(const struct flow_settings *settings, int64_t frame, int width, int height,
                          flow_view_params *params);
-// Makes them those of a model with these bounds.
+// Changes the parameters of the panes to those of a model with these bounds.
 void flow_view_model(const struct flow_settings *settings, int64_t frame, const float low[3],
                      const float high[3], flow_view_params *params);
 
-// Levels of the environment: down to what lights from all sides; and the one that drops reflect.
+// How many levels of the environment: down to the one that lights from all sides; and the level
+// that drops reflect.
 int flow_environment_levels(const struct flow_settings *settings);
 int flow_reflection_level(const struct flow_settings *settings);
 

@@ -56,7 +56,7 @@ bool flow_open(struct rg_instance *instance);
 bool flow_step(struct rg_instance *instance);
 bool flow_draw(struct rg_instance *instance);
 
-// Lands so many drops on each pane: the seeded ones (`frame` is -1), or those of a frame.
+// Lands `count` drops on each pane: the seeded ones (`frame` is -1), or those of a frame.
 bool flow_land(struct flow *flow, int64_t frame, int count);
 // Writes how the panes stand at the present frame.
 bool flow_turn_panes(struct flow *flow);

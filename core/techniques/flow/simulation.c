@@ -67,7 +67,7 @@ static void set_gravity(const struct flow_settings *s, double axes[3][3], flow_p
         direction_of((int)floor(eighths + 0.5), &pane->ax, &pane->ay);
         return;
     }
-    // A hair's breadth, so that an angle that is whole but for its last bits is whole.
+    // A little is added, so that an angle that is whole but for its last bits counts as whole.
     double whole = floor(eighths + 1e-9);
     direction_of((int)whole, &pane->ax, &pane->ay);
     direction_of((int)whole + 1, &pane->bx, &pane->by);
@@ -141,8 +141,8 @@ static double fraction(double x)
     return x - floor(x);
 }
 
-// Water from which on a texel reaches the one so many below it: as much more for each as M is above
-// L.
+// The water above which a texel reaches the texel so many below it: M for two below, and M - L more
+// for each further one.
 static float threshold_of(const struct flow_settings *s, int texels)
 {
     const double never = 1e30, step = fmax(s->fast_threshold - s->move_threshold, 0);

@@ -9,7 +9,7 @@
 #include "core/base/alloc.h"
 #include "core/techniques/technique.h"
 
-// What a scene is drawn with, and how where the settings leave it to the scene.
+// A scene's program, and how the scene is drawn where the settings leave that to it.
 static const struct scene {
     const char *program;
     enum rg_blend blend;

@@ -114,7 +114,7 @@ static bool cross(const struct polygon *g, float y, float *left, float *right)
     return *left <= *right;
 }
 
-// Cells that lie whole within the polygon are hidden behind it: behind its farthest point there.
+// A cell that lies whole within the polygon hides all behind the polygon's farthest point there.
 static void hide(struct scenery_cull *cull, const struct polygon *g, float slack)
 {
     float low = INFINITY, high = -INFINITY, farthest = 0;

@@ -7,7 +7,7 @@
 
 enum { SCENERY_CULL_ACROSS = 192, SCENERY_CULL_DOWN = 108 };
 
-// Cells of the view, each of which has the depth behind which boxes hide all of it.
+// The view in cells; boxes hide all that lies behind a cell's depth.
 struct scenery_cull {
     const struct city_faces *faces;
     int box_count;
@@ -16,8 +16,8 @@ struct scenery_cull {
 };
 
 // Sets `seen`, by chunk, for a matrix from the world to clip space: false for what lies outside of
-// the view, is hidden by boxes, or, with `backs_culled`, turns away. What it leaves out changes no
-// pixel. Not true of views from within a box.
+// the view, is hidden by boxes, or, with `backs_culled`, turns away. Leaving these out
+// changes no pixel, unless the eye is inside a box.
 void scenery_cull(struct scenery_cull *cull, m4 to_clip, bool backs_culled, bool *seen);
 
 #endif

@@ -37,7 +37,7 @@ void scenery_overlay_frustum(struct scenery_overlay *overlay, const float to_cli
         scenery_overlay_box(overlay, corners, ink);
 }
 
-// Depth in a light's map at the distance up to which its frustum is shown. Depth at w metres is
+// Depth in a light's map at SHOWN_M, up to which its frustum is shown. Depth at w metres is
 // scale + offset / w; a perspective matrix has both in its third row.
 static float reach_depth(const scenery_light *light, const float to_clip[16])
 {

@@ -28,15 +28,15 @@ void scenery_overlay_close(struct scenery_overlay *overlay);
 void scenery_overlay_begin(struct scenery_overlay *overlay);
 void scenery_overlay_line(struct scenery_overlay *overlay, const float a[3], const float b[3],
                           const struct scenery_ink *ink);
-// The edges of what a box has become: corner k has its high x, y or z where bit 0, 1 or 2 of k is
-// set.
+// The edges of a box that a matrix may have changed: corner k has its high x, y or z where bit 0, 1
+// or 2 of k is set.
 void scenery_overlay_box(struct scenery_overlay *overlay, float corners[8][3],
                          const struct scenery_ink *ink);
 // The edges of what a matrix takes to clip space. What has no inverse adds nothing.
 void scenery_overlay_frustum(struct scenery_overlay *overlay, const float to_clip[16],
                              const struct scenery_ink *ink);
-// A flat rectangle, or what of it a frame makes: its corners in turn. Edges, and within them
-// `fill` of the ink's alpha, 0 to 1.
+// A flat rectangle that a matrix may have changed, by its corners in turn: its edges, and within
+// them `fill` of the ink's alpha, 0 to 1.
 void scenery_overlay_sheet(struct scenery_overlay *overlay, float corners[4][3],
                            const struct scenery_ink *ink, float fill);
 // A light's frustum, or its six, up to 10 m from it along the axis; of a sun, what its map holds.

@@ -1,9 +1,9 @@
 // The scene that rain falls on: the city, or a user's mesh in its place, as one instance draws it;
 // what is large is shared by all instances on the device.
 //
-// Its faces lie in chunks; a draw leaves out those that the view does not touch, that all turn
-// away, or that buildings hide. Faces leave the number of their surface in each pixel; then every
-// pixel is lit once (kernels/scenery/city.h, kernels/scenery/city_shade.h).
+// Its faces lie in chunks; a draw leaves out chunks that the view does not touch, whose faces all
+// turn away, or that buildings hide. Faces leave the number of their surface in each pixel; then
+// every pixel is lit once (kernels/scenery/city.h, kernels/scenery/city_shade.h).
 #ifndef RG_CORE_TECHNIQUES_SCENERY_SCENERY_H
 #define RG_CORE_TECHNIQUES_SCENERY_SCENERY_H
 
@@ -32,8 +32,8 @@ struct rg_buf *scenery_surfaces(const struct scenery *scene);
 // How it looks at a time.
 struct scenery_look {
     scenery_sky sky;
-    float ambient; // of the sky's light from above: what surfaces get that see all of it
-    float bounced; // of the horizon's: what those get that see no sky
+    float ambient; // the share of the sky's light that reaches surfaces which see all of the sky
+    float bounced; // the share of the horizon's light that reaches those which see no sky
     float glow;    // light of lit windows
     float wet;     // 0 to 1: how wet the ground is
 };

@@ -96,8 +96,8 @@ static void word_text(uint32_t bits, bool as_float, char *text, size_t size)
         snprintf(text, size, "%u (0x%08x)", bits, bits);
 }
 
-// Words whose exponent is neither that of a small integer nor all ones are taken for floats, where
-// nothing says what they are.
+// Where nothing says what words are, they count as floats if their exponent is neither that of a
+// small integer nor all ones.
 static bool looks_like_float(const struct rg_contents *c, const struct rg_state *state,
                              uint32_t bits)
 {

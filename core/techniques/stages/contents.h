@@ -1,10 +1,10 @@
-// What an asset holds, brought to the host: for those who compare instances.
+// What an asset holds, brought to the host, so that instances can be compared.
 #ifndef RG_CORE_TECHNIQUES_STAGES_CONTENTS_H
 #define RG_CORE_TECHNIQUES_STAGES_CONTENTS_H
 
 #include "core/techniques/stages/instance.h"
 
-// A copy of an asset's words, which need not be there any more. Zeroed: none.
+// A copy of an asset's words, which outlives the asset. Zeroed: none.
 struct rg_contents {
     struct rg_image_desc desc; // of an image; a buffer has no levels
     size_t size;               // in bytes

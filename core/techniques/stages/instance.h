@@ -1,9 +1,9 @@
 // An instance: a technique opened on a device. What it works on are assets, buffers and images by
 // name; what it runs are stages, kernels bound to assets by name.
 //
-// Assets and stages belong to the instance and go with it. Once adding one has failed, which is one
-// logged line, adding more does nothing: who opens an instance adds what it needs, and asks once,
-// at the end, whether all is there.
+// Assets and stages belong to the instance and go with it. When adding one fails, one line is
+// logged, and from then on adding does nothing. So a technique adds all that it needs, and asks
+// once, at the end, whether all is there.
 #ifndef RG_CORE_TECHNIQUES_STAGES_INSTANCE_H
 #define RG_CORE_TECHNIQUES_STAGES_INSTANCE_H
 
@@ -22,7 +22,7 @@ struct rg_asset {
     bool is_image;
     bool is_owned;      // destroyed with the instance
     bool is_defined;    // it has been written, so that its contents are the same on all devices
-    struct rg_buf *buf; // of the two the one that it is; NULL: it is made later
+    struct rg_buf *buf; // this or `image`, whichever it is; both NULL: it is made later
     struct rg_image *image;
     struct rg_extent items; // of a stage that goes over it
 };
@@ -31,7 +31,7 @@ struct rg_asset {
 // those of assets.
 struct rg_stage {
     const char *kernel; // NULL: none, and running the stage does nothing
-    bool (*when)(const struct rg_instance *instance); // else likewise; NULL: always
+    bool (*when)(const struct rg_instance *instance); // false: it does nothing; NULL: always
     size_t params;    // where the kernel's parameters lie in the owner's struct
     const char *over; // a run's items are this asset's; NULL: one item, or what the run says
     // Of a DRAW program: what it draws onto, and how (struct rg_draw).
@@ -56,8 +56,8 @@ struct rg_opened_stage {
     struct rg_draw drawn; // how its last run drew
 };
 
-// An asset that is part of the simulation's state: what `verify` compares byte by byte. The rest is
-// there to name an element in a message: (index % row - margin, index / row - margin).
+// An asset that is part of the simulation's state: what `verify` compares byte by byte. `row` and
+// `margin` name an element in a message: (index % row - margin, index / row - margin).
 struct rg_state {
     const char *name;
     const struct rg_asset *asset; // a buffer

@@ -3,7 +3,7 @@
 
 #include "core/techniques/streaks/instance.h"
 
-// A layer hides what all drops in it hide: each its cross-section, at any time of the exposure.
+// A layer hides as much as all its drops do: each hides its cross-section all through the exposure.
 static double opacity_of(const struct streaks *s)
 {
     const double pi = 3.14159265358979323846, radius_m = s->settings.drop_radius_mm / 1000;

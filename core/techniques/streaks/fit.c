@@ -8,8 +8,8 @@
 
 // Sizes are tried in steps of 5 %. A rain space 100 km wide has 242 of them.
 static const double step_factor = 1.05, least_radius_m = 1;
-// What of the error is the radius's. With all of it, the height would have to be so large that it
-// adds nothing; and from one height to the next, whose drops are others, errors differ by some 3 %.
+// The share of the error that the radius may use. If it used all, the height could add no error and
+// would be large. Errors also differ by some 3 % from one height to the next, whose drops differ.
 static const double share_of_radius = 0.9;
 
 struct fit {
@@ -51,7 +51,7 @@ static bool draw_dry(struct fit *f)
     return ok;
 }
 
-// What the hull leaves out is not seen.
+// The hull is enough: what it leaves out is not seen.
 static bool draw_unlimited(struct fit *f)
 {
     struct streaks *s = f->s;
@@ -109,8 +109,8 @@ static double size_at(double least_m, double most_m, int step)
 }
 
 // Makes one of the sizes, which is good enough, as small as the error allows: the next step below
-// has more. The steps that are tried do not depend on the error, so allowing more of it never makes
-// a size larger.
+// has a larger error. The steps that are tried do not depend on the error, so allowing a larger one
+// never makes a size larger.
 static bool shrink(struct fit *f, double *size_m, double least_m, double most_error)
 {
     const double most_m = *size_m;

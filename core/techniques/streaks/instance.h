@@ -71,12 +71,12 @@ void streaks_free_particles(struct streaks *streaks);
 // Moves the observer to the present frame, and makes what it draws: the selection, its blocks, the
 // parameters, the depth map where it is due. False, and one logged line, on failure.
 bool streaks_look(struct streaks *streaks);
-// Selects what a local space of this top shows to an eye in the rain frame. A selection of one draw
-// has its blocks on the device. False, and one logged line, on failure.
+// Selects what an eye in the rain frame sees of a local space with this top. If one draw takes it
+// all, its blocks go to the device. False, and one logged line, on failure.
 bool streaks_select_blocks(struct streaks *streaks, const double eye[3], double top_m);
 // Puts a draw's blocks on the device.
 bool streaks_write_blocks(struct streaks *streaks, const struct streaks_draw *draw);
-// Opens the depth map; a static one is drawn by whoever is first. False, and one logged line, on
+// Opens the depth map; the first instance draws a static one. False, and one logged line, on
 // failure. streaks_map_close accepts what was never opened.
 bool streaks_map_open(struct streaks *streaks);
 void streaks_map_close(struct streaks *streaks);

@@ -10,8 +10,8 @@
 
 // --- passes over the selected particles ---
 
-// Runs a stage over a draw's particles, whose blocks are on the device already where they are those
-// of all draws.
+// Runs a stage over a draw's particles. Their blocks are written first, unless it is the only draw,
+// whose blocks are on the device already.
 static bool run_over(struct streaks *s, enum streaks_pass pass, const struct streaks_draw *draw)
 {
     const struct rg_extent first = {0, 0, 0}, items = {draw->block_count * STREAKS_BLOCK, 1, 1};
@@ -34,8 +34,8 @@ static bool draw_rain_at(struct streaks *s, float top)
     return true;
 }
 
-// The local space; without limits, all copies of it that reach into the rain space, each with what
-// is seen of it.
+// Draws the local space; without limits, every copy of it that reaches into the rain space, each
+// with a selection of its own.
 static bool draw_rain(struct streaks *s)
 {
     const double height_m = s->settings.local_height_m;
@@ -52,7 +52,7 @@ static bool draw_rain(struct streaks *s)
 
 // --- a frame ---
 
-// Each particle's place and state, for those who compare.
+// Keeps each particle's place and state, for `verify` to compare.
 static bool keep_state(struct streaks *s)
 {
     const int64_t items = s->selection.block_count * STREAKS_BLOCK;
@@ -77,7 +77,7 @@ static bool streaks_step(struct rg_instance *instance)
     return streaks_look(s) && (!s->settings.keeps_state || keep_state(s));
 }
 
-// What is drawn behind the rain, and over it.
+// Far rain is drawn behind the rain, and the overlay over it.
 static bool draw_far(struct streaks *s)
 {
     return s->rain_alone || streaks_draw_far(s);

@@ -29,9 +29,9 @@ static void bound(const double (*points)[2], int count, double box[4])
 
 // --- the hull ---
 
-// The corners of what a convex body, given by its corners, has between two planes across the fall:
-// corners between them, and points where its edges meet them. All pairs of corners are taken for
-// edges; those that are none give points inside, which the hull leaves out.
+// Cuts a convex body, given by its corners, at two planes across the fall, and finds the corners of
+// what is between them: the body's corners there, and points where its edges meet the planes. All
+// pairs of corners count as edges; pairs that are no edge give points inside, which the hull drops.
 static int slice(const double corners[CORNERS][3], double above, double below, double (*points)[2])
 {
     const double planes[2] = {above, below};

@@ -138,8 +138,8 @@ static inline float inside(const float plane[4], const float middle[3], const fl
            fabsf(plane[0]) * half[0] + fabsf(plane[1]) * half[1] + fabsf(plane[2]) * half[2];
 }
 
-// Where particles come in again at the local top they may still be splashes at the local ground, so
-// that their block is as high as the local space; and so is one that is coming in.
+// A block is as high as the local space where its particles are coming in again at the local top,
+// or have just come in: those may still be splashes at the local ground.
 static inline bool is_seen(const struct streaks_sight *s, const float low[3], const float high[3],
                            float turn)
 {

@@ -21,8 +21,8 @@ struct streaks_node {
     int32_t second, packet;
 };
 
-// A leaf's particles: from slot `first` of the buffers, of all buffers counted through; where
-// particles lie by id and the tree is kd, from `first` of `ids`.
+// A leaf's particles: from slot `first` on, counted through all buffers; where particles lie by id
+// and the tree is kd, from element `first` of `ids` on.
 struct streaks_packet {
     int64_t first;
     int32_t count, node;
@@ -36,8 +36,8 @@ struct streaks_grid {
     struct streaks_packet buckets[STREAKS_LEVELS];
 };
 
-// Boxes around the particles of each block, of all buffers counted through: x and y as particles
-// have them, and start. None where particles are drawn by id.
+// Boxes around the particles of each block, counted through all buffers: x and y in the particles'
+// own coordinates, and start. None where particles are drawn by id.
 struct streaks_bounds {
     float *memory;
     float *low[3], *high[3];

@@ -7,7 +7,7 @@
 
 enum { TASK = 1 << 15, MAX_BINS = 4096 };
 
-// Numbers of particles are handed down, in order, from node to node.
+// Each node hands the numbers of its particles down to its two children, in order.
 
 struct kd {
     struct streaks_packets *packets;
@@ -26,8 +26,8 @@ int64_t streaks_kd_leaves(int64_t count, int size)
     int depth = 0;
     while (count >> depth > size)
         depth++;
-    // At this depth parts hold `least` or one more, and `more` of them do; what is one too many is
-    // halved once more.
+    // At this depth parts hold `least` particles, and `more` parts hold one more; a part that holds
+    // one too many is halved once more.
     const int64_t least = count >> depth, more = count - (least << depth);
     return ((int64_t)1 << depth) + (least == size ? more : 0);
 }

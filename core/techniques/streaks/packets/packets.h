@@ -1,17 +1,17 @@
 // streaks: the rain's particles, grouped in packets, and which of them a frame draws (Creus,
 // sections 4.3.2, 4.3.3 and 4.4.1). docs/packets.md explains the choices.
 //
-// The local space, of a density map's amount of particles, is cut across the fall. `world`: one
-// packet. `kd`: halves of equal numbers, across the longer side, until none exceeds the packet
-// size. `quad`: quarters of equal size. These three hold the very same particles, whose numbers
-// (ids) follow a Morton curve over the top plane, so that neighbours are drawn together. `grid`:
-// buckets of evenly spread particles, one for each density that occurs, set down at the places of a
-// grid, each place with a fall of its own.
+// The local space holds as many particles as the density map asks for. A scheme cuts it, across the
+// fall, into packets. `world`: one packet. `kd`: halves of equal numbers, across the longer side,
+// until none exceeds the packet size. `quad`: quarters of equal size. These three hold the same
+// particles, whose numbers (ids) follow a Morton curve over the top plane, so that neighbours are
+// drawn together. `grid`: buckets of evenly spread particles, one for each density that occurs, set
+// down at the places of a grid, each place with a fall of its own.
 //
 // A particle is 3 floats: x and y in the rain space's clip coordinates, -1 to 1, and oscillation
 // (0 to 9) + start (in [0, 1), to 20 bits). A bucket's x and y are those of the grid's first place.
-// They lie in buffers of at most STREAKS_BUFFER_PARTICLES, each packet beginning at a multiple of
-// 32; what fills up its last 32 is zero.
+// Particles lie in buffers of at most STREAKS_BUFFER_PARTICLES. Each packet begins at a multiple of
+// 32, and zeros fill up its last 32.
 //
 // A frame draws blocks of 32 particles of one buffer: STREAKS_BLOCK_WORDS words each, which are the
 // first particle's place in the buffer, a mask of the particles that count (bit k: the k-th),
@@ -109,10 +109,11 @@ struct streaks_view {
     double radius_m;      // half a side of the culling prism; INFINITY: no prism
     double top_m;         // of the local space (rg_rain_local_top)
     double run;           // rg_rain_run
-    // How far what a particle draws may reach: across the fall from the particle's place; along the
-    // fall above the local top, where splashes last on surfaces that a drop has passed (so: the
-    // streak's length, the way of a drop while a splash lasts, and a splash's height); and below
-    // the local ground. No particle is left out whose streak or splash could touch the frustum.
+    // How far a streak or splash may reach: across the fall from its particle's place; along the
+    // fall above the local top and below the local ground. Above the top splashes last on surfaces
+    // that a drop has passed, so above_m is a streak's length, the way of a drop while a splash
+    // lasts, and a splash's height. No particle is left out whose streak or splash could touch the
+    // frustum.
     double across_m, above_m, below_m;
     // Exact: the convex hull of what is seen of the local space within the prism. Else as Creus has
     // it: the bounding rectangles of prism and frustum on the top plane.

@@ -59,7 +59,7 @@ bool streaks_part_even(const struct streaks_scatter *scatter, const struct strea
 // Halves a part, and its particles with it: at random, as the map asks.
 void streaks_part_halve(const struct streaks_scatter *scatter, const struct streaks_part *part,
                         struct streaks_part halves[2]);
-// The lattice point of a part that is not even at which two random words point.
+// Of a part whose density is not even: the lattice point that two random words choose.
 void streaks_part_place(const struct rg_density *map, const struct streaks_part *part,
                         rg_uint4 random, uint32_t *x, uint32_t *y);
 

@@ -136,7 +136,7 @@ static struct streaks_plan plan_grid(const struct streaks_grid *grid)
                                  bytes_of(slots, false) + (int64_t)grid->across * grid->down};
 }
 
-// What may be taken: numbers of packets and buffers are sure to suffice for that.
+// The memory that may be taken, at most what the numbers of packets and buffers suffice for.
 static int64_t allowed(const struct streaks_packets_settings *settings)
 {
     const int64_t most =
@@ -193,7 +193,8 @@ static bool choose_automatically(struct streaks_packets *p, const struct rg_dens
         *plan = better(settings, *plan, plan_grid(&p->grid));
     else if (p->grid.across)
         return false;
-    // Counting a quad-tree's leaves takes long; it is spared where full packets were too many yet.
+    // Counting a quad-tree's leaves takes long, so it is left out where even full packets would not
+    // be fewer.
     if (!fits(settings, plan) || (total + size - 1) / size < plan->packets)
         *plan = better(settings, *plan, plan_quad(settings, scatter, total));
     return true;

@@ -75,7 +75,7 @@ static bool build_halves(struct streaks_packets *p, const struct quad *quad, int
     return build_quad(p, high);
 }
 
-// More particles on one lattice point than a packet takes: cut by their numbers.
+// One lattice point may hold more particles than a packet takes: they are cut by their numbers.
 static bool build_heap(struct streaks_packets *p, const struct quad *quad)
 {
     struct quad low = *quad, high = *quad;

@@ -4,7 +4,7 @@
 
 #include "core/techniques/streaks/instance.h"
 
-// How far what a particle draws reaches from it, in metres.
+// How far streaks and splashes reach from their particle, in metres.
 static double splash_reach(const struct streaks_settings *set)
 {
     const double largest = 1.15; // of a splash, by the size that is set

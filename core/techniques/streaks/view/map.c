@@ -1,7 +1,7 @@
 // The depth map: the scene seen along the fall, which tells what drops hit (Creus, sections 4.2 and
 // 4.4.2), and, where splashes ask for it, the number of the surface that is seen. A static map
-// covers the rain space and is shared by all who ask for the same on a device; a dynamic one covers
-// the surroundings of the observer.
+// covers the rain space, and instances on a device that need the same map share it; a dynamic one
+// covers the surroundings of the observer.
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
