@@ -94,9 +94,10 @@ static bool holds_t1(struct rg_cell *cell, const struct rg_expected *expected, c
     bool ok = rg_frame_picture(cell->instance, texels, &picture) &&
               rg_compare(&expected->picture, "cpu:reference", &picture, cell->device->info.name,
                          dry, &(struct rg_compare_options){0}, &comparison);
-    bool holds = ok && comparison.tiers.t1.holds;
+    bool holds = ok && comparison.tiers.of[RG_T1].holds;
     if (!holds)
-        rg_cell_end(cell, ok ? RG_FAIL : RG_ERROR, ok ? comparison.tiers.t1.why : rg_last_error());
+        rg_cell_end(cell, ok ? RG_FAIL : RG_ERROR,
+                    ok ? comparison.tiers.of[RG_T1].why : rg_last_error());
     rg_comparison_destroy(&comparison);
     rg_picture_destroy(&picture);
     return holds;

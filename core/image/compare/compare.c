@@ -65,7 +65,10 @@ static bool compute(const struct rg_picture *a, const struct rg_picture *b,
 
 static const char *tier_name(const struct rg_tiers *tiers)
 {
-    return tiers->t0.holds ? "T0" : tiers->t1.holds ? "T1" : tiers->t2.holds ? "T2" : "none";
+    for (int i = 0; i < RG_TIER_COUNT; i++)
+        if (tiers->of[i].holds)
+            return rg_tier_name((enum rg_tier)i);
+    return "none";
 }
 
 bool rg_compare(const struct rg_picture *a, const char *name_a, const struct rg_picture *b,

@@ -10,6 +10,7 @@
 #ifndef RG_CORE_IMAGE_COMPARE_COMPARE_H
 #define RG_CORE_IMAGE_COMPARE_COMPARE_H
 
+#include "core/base/tier.h"
 #include "core/image/picture.h"
 
 enum { RG_ABOVE_COUNT = 4 };
@@ -53,8 +54,8 @@ struct rg_verdict {
 // from the background's in A or B. Without a background it is the whole picture.
 struct rg_tiers {
     int64_t mask_pixels;
-    bool mask_is_whole; // no background was given
-    struct rg_verdict t0, t1, t2;
+    bool mask_is_whole;                  // no background was given
+    struct rg_verdict of[RG_TIER_COUNT]; // by tier
     // T1
     int max_codes;               // largest difference anywhere, alpha included
     double above_one_fraction;   // of the mask: pixels with a difference above 1 code

@@ -207,43 +207,44 @@ static void fail_tier(struct rg_verdict *verdict, const char *format, ...)
 static void judge_t1(struct rg_tiers *t)
 {
     if (t->coverage_mismatches)
-        fail_tier(&t->t1, "coverage differs in %lld pixels", (long long)t->coverage_mismatches);
+        fail_tier(&t->of[RG_T1], "coverage differs in %lld pixels",
+                  (long long)t->coverage_mismatches);
     if (t->max_codes > T1_MAX_CODES)
-        fail_tier(&t->t1, "largest difference %d/255 is above %d/255", t->max_codes, T1_MAX_CODES);
+        fail_tier(&t->of[RG_T1], "largest difference %d/255 is above %d/255", t->max_codes,
+                  T1_MAX_CODES);
     if (t->above_one_fraction > T1_ABOVE_ONE)
-        fail_tier(&t->t1, "%.3g %% of the mask is above 1/255, allowed %g %%",
+        fail_tier(&t->of[RG_T1], "%.3g %% of the mask is above 1/255, allowed %g %%",
                   100 * t->above_one_fraction, 100 * T1_ABOVE_ONE);
     if (fabs(t->bias_codes) > T1_BIAS_CODES)
-        fail_tier(&t->t1, "bias %.3g/255 is beyond %g/255", t->bias_codes, T1_BIAS_CODES);
+        fail_tier(&t->of[RG_T1], "bias %.3g/255 is beyond %g/255", t->bias_codes, T1_BIAS_CODES);
 }
 
 static void judge_t2(struct rg_tiers *t)
 {
     double matched = fmin(t->matched_a, t->matched_b);
     if (matched < T2_MATCHED)
-        fail_tier(&t->t2, "only %.4g %% of the mask is found within 1 pixel, needed %g %%",
+        fail_tier(&t->of[RG_T2], "only %.4g %% of the mask is found within 1 pixel, needed %g %%",
                   100 * matched, 100 * T2_MATCHED);
     if (!(t->energy_ratio >= T2_ENERGY_LOW && t->energy_ratio <= T2_ENERGY_HIGH))
-        fail_tier(&t->t2, "energy ratio %.5g is outside %g to %g", t->energy_ratio, T2_ENERGY_LOW,
-                  T2_ENERGY_HIGH);
+        fail_tier(&t->of[RG_T2], "energy ratio %.5g is outside %g to %g", t->energy_ratio,
+                  T2_ENERGY_LOW, T2_ENERGY_HIGH);
     if (t->tile_max_codes > T2_TILE_CODES)
-        fail_tier(&t->t2, "a 16 x 16 tile's mean differs by %.3g/255, above %g/255",
+        fail_tier(&t->of[RG_T2], "a 16 x 16 tile's mean differs by %.3g/255, above %g/255",
                   t->tile_max_codes, T2_TILE_CODES);
 }
 
 static void judge(const struct rg_metrics *metrics, struct rg_tiers *t)
 {
-    t->t0.holds = t->t1.holds = t->t2.holds = true;
-    struct rg_verdict *all[] = {&t->t0, &t->t1, &t->t2};
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < RG_TIER_COUNT; i++) {
+        t->of[i].holds = true;
         if (t->mask_pixels == 0)
-            fail_tier(all[i], "the rain mask is empty: neither picture has rain");
-        if (i > 0 && metrics->nonfinite_mismatches)
-            fail_tier(all[i], "%lld values are NaN or infinite in one picture only",
+            fail_tier(&t->of[i], "the rain mask is empty: neither picture has rain");
+        if (i > RG_T0 && metrics->nonfinite_mismatches)
+            fail_tier(&t->of[i], "%lld values are NaN or infinite in one picture only",
                       (long long)metrics->nonfinite_mismatches);
     }
     if (metrics->differing_values)
-        fail_tier(&t->t0, "%lld values differ", (long long)metrics->differing_values);
+        fail_tier(&t->of[RG_T0], "%lld values differ", (long long)metrics->differing_values);
     judge_t1(t);
     judge_t2(t);
 }

@@ -82,7 +82,8 @@ static int compare_pair(const struct session *s, const struct shot *a, const str
     if (!rg_compare(&a->picture, a->info->name, &b->picture, b->info->name, &s->background,
                     &(struct rg_compare_options){.exposure = (float)s->asked->exposure}, &c))
         return RG_EXIT_USAGE;
-    const bool holds = a->info->software && b->info->software ? c.tiers.t0.holds : c.tiers.t1.holds;
+    const bool holds =
+        a->info->software && b->info->software ? c.tiers.of[RG_T0].holds : c.tiers.of[RG_T1].holds;
     bool ok = true;
     if (s->pairs)
         ok = json_array_append_new(s->pairs, rg_pair_json(a->info->name, b->info->name, &c)) == 0;

@@ -26,7 +26,9 @@ int rg_diff_files(const struct rg_diff_request *request)
         good = print_json(request, &comparison);
     else if (good)
         rg_pair_print(request->a, request->b, &comparison);
-    int status = !good ? RG_EXIT_USAGE : comparison.tiers.t0.holds ? RG_EXIT_PASS : RG_EXIT_FAIL;
+    int status = !good                              ? RG_EXIT_USAGE
+                 : comparison.tiers.of[RG_T0].holds ? RG_EXIT_PASS
+                                                    : RG_EXIT_FAIL;
     rg_comparison_destroy(&comparison);
     for (int i = 0; i < 3; i++)
         rg_picture_destroy(&pictures[i]);

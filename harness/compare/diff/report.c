@@ -16,9 +16,9 @@ static const char *yes(const struct rg_verdict *verdict)
 
 static void print_verdicts(const struct rg_tiers *t)
 {
-    printf("\n  T0 identical                 %s%s\n", yes(&t->t0), t->t0.why);
-    printf("  T1 arithmetic                %s%s\n", yes(&t->t1), t->t1.why);
-    printf("  T2 geometry                  %s%s\n", yes(&t->t2), t->t2.why);
+    printf("\n  T0 identical                 %s%s\n", yes(&t->of[RG_T0]), t->of[RG_T0].why);
+    printf("  T1 arithmetic                %s%s\n", yes(&t->of[RG_T1]), t->of[RG_T1].why);
+    printf("  T2 geometry                  %s%s\n", yes(&t->of[RG_T2]), t->of[RG_T2].why);
 }
 
 static void print_metrics(const struct rg_metrics *m)
@@ -90,13 +90,13 @@ static json_t *verdict_json(const struct rg_verdict *verdict)
 static json_t *tiers_json(const struct rg_tiers *t)
 {
     return json_pack("{s:o, s:o, s:o, s:b, s:f, s:f, s:I, s:f, s:f, s:o, s:f, s:f, s:f}", "t0",
-                     verdict_json(&t->t0), "t1", verdict_json(&t->t1), "t2", verdict_json(&t->t2),
-                     "mask_is_whole", t->mask_is_whole, "above_one_fraction", t->above_one_fraction,
-                     "bias_codes", t->bias_codes, "coverage_mismatches",
-                     (json_int_t)t->coverage_mismatches, "matched_a", t->matched_a, "matched_b",
-                     t->matched_b, "energy_ratio", number(t->energy_ratio), "tile_max_codes",
-                     t->tile_max_codes, "relative_mean", t->relative_mean, "relative_max",
-                     t->relative_max);
+                     verdict_json(&t->of[RG_T0]), "t1", verdict_json(&t->of[RG_T1]), "t2",
+                     verdict_json(&t->of[RG_T2]), "mask_is_whole", t->mask_is_whole,
+                     "above_one_fraction", t->above_one_fraction, "bias_codes", t->bias_codes,
+                     "coverage_mismatches", (json_int_t)t->coverage_mismatches, "matched_a",
+                     t->matched_a, "matched_b", t->matched_b, "energy_ratio",
+                     number(t->energy_ratio), "tile_max_codes", t->tile_max_codes, "relative_mean",
+                     t->relative_mean, "relative_max", t->relative_max);
 }
 
 static json_t *metrics_json(const struct rg_metrics *m)

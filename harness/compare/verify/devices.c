@@ -167,8 +167,8 @@ static void check_t1(struct tally *tally, const struct one_case *c,
         note_error(tally);
         return;
     }
-    if (!comparison.tiers.t1.holds)
-        blame(tally, c, "%s (T1)", comparison.tiers.t1.why);
+    if (!comparison.tiers.of[RG_T1].holds)
+        blame(tally, c, "%s (T1)", comparison.tiers.of[RG_T1].why);
     rg_comparison_destroy(&comparison);
 }
 

@@ -70,7 +70,7 @@ static bool is_rejected(const struct rg_picture *truth, const struct rg_picture 
         verdicts->error = true;
         return false;
     }
-    bool rejected = !comparison.tiers.t1.holds && comparison.tiers.mask_pixels;
+    bool rejected = !comparison.tiers.of[RG_T1].holds && comparison.tiers.mask_pixels;
     rg_comparison_destroy(&comparison);
     return rejected;
 }

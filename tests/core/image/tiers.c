@@ -58,9 +58,9 @@ static struct rg_tiers judge(const struct rg_picture *b)
 // "holds" as a word of the tiers that hold, for messages that show all at once.
 static void assert_holds(const struct rg_tiers *t, bool t0, bool t1, bool t2)
 {
-    if (t->t0.holds != t0 || t->t1.holds != t1 || t->t2.holds != t2)
-        fail_msg("T0 %d %s; T1 %d %s; T2 %d %s", t->t0.holds, t->t0.why, t->t1.holds, t->t1.why,
-                 t->t2.holds, t->t2.why);
+    if (t->of[RG_T0].holds != t0 || t->of[RG_T1].holds != t1 || t->of[RG_T2].holds != t2)
+        fail_msg("T0 %d %s; T1 %d %s; T2 %d %s", t->of[RG_T0].holds, t->of[RG_T0].why,
+                 t->of[RG_T1].holds, t->of[RG_T1].why, t->of[RG_T2].holds, t->of[RG_T2].why);
 }
 
 static void the_same_rain_is_identical(void **state)
@@ -112,7 +112,7 @@ static void a_shift_by_one_is_geometry(void **state)
     look.shift_px = 1;
     rain_draw(&mutant, look);
     struct rg_tiers t = judge(&mutant);
-    assert_false(t.t1.holds);
+    assert_false(t.of[RG_T1].holds);
     assert_true(t.coverage_mismatches > 1000);
     // The block's edge and tiles of few streaks apart, every streak is found again.
     assert_true(t.matched_a > 0.97 && t.matched_b > 0.97);
@@ -126,7 +126,7 @@ static void a_streak_two_pixels_off_is_caught_by_t1(void **state)
     look.shifted_streak_px = 2;
     rain_draw(&mutant, look);
     struct rg_tiers t = judge(&mutant);
-    assert_false(t.t1.holds);
+    assert_false(t.of[RG_T1].holds);
     assert_true(t.coverage_mismatches > 10);
     assert_true(t.matched_a < 1 && t.matched_b < 1); // seen by T2 too, below its share here
 }
@@ -138,10 +138,10 @@ static void stronger_rain_is_caught_by_t1_and_t2(void **state)
     look.alpha_scale = 1.02f;
     rain_draw(&mutant, look);
     struct rg_tiers t = judge(&mutant);
-    assert_false(t.t1.holds);
+    assert_false(t.of[RG_T1].holds);
     assert_true(t.bias_codes > 0.25);
     assert_true(t.relative_mean > 0.005);
-    if (t.t2.holds)
+    if (t.of[RG_T2].holds)
         fail_msg("energy %g", t.energy_ratio);
 }
 
@@ -189,7 +189,7 @@ static void no_rain_fails_every_tier(void **state)
                            &(struct rg_compare_options){0}, &c));
     assert_holds(&c.tiers, false, false, false);
     assert_int_equal(c.tiers.mask_pixels, 0);
-    assert_non_null(strstr(c.tiers.t0.why, "empty"));
+    assert_non_null(strstr(c.tiers.of[RG_T0].why, "empty"));
     assert_string_equal(c.tier, "none");
     rg_comparison_destroy(&c);
 }
@@ -232,7 +232,7 @@ static void exposure_reveals_dim_rain(void **state)
     const struct rg_compare_options bright = {.exposure = 1000};
     assert_true(rg_compare(&dim, "a", &dim, "b", &dark, &bright, &c));
     assert_int_equal(c.tiers.mask_pixels, 64);
-    assert_true(c.tiers.t0.holds);
+    assert_true(c.tiers.of[RG_T0].holds);
     rg_comparison_destroy(&c);
     rg_picture_destroy(&dark);
     rg_picture_destroy(&dim);
