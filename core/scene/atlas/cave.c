@@ -9,7 +9,7 @@
 #include "core/base/alloc.h"
 #include "core/image/files/format.h"
 #include "core/scene/atlas/cave_factors.h"
-#include "core/scene/atlas/drop.h"
+#include "core/scene/atlas/optics/drop.h"
 #include "core/scene/atlas/levels.h"
 
 // The widths of the database are levels 0 to 3.

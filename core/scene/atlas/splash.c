@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
-#include "core/scene/atlas/drop.h"
+#include "core/scene/atlas/optics/drop.h"
 #include "kernels/dialect/rng.h"
 
 #define PI            3.14159265358979323846

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
-#include "core/scene/atlas/trace.h"
+#include "core/scene/atlas/optics/trace.h"
 
 #define PI 3.14159265358979323846
 

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "core/scene/atlas/trace.h"
+#include "core/scene/atlas/optics/trace.h"
 #include "tests/oracle/drop.h"
 
 #define PI    3.14159265358979323846

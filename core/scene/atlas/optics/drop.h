@@ -1,7 +1,7 @@
 // The oscillating drop of Garg and Nayar: its ten oscillations, its shape at a moment, and how its
 // image moves over the exposure.
-#ifndef RG_CORE_SCENE_ATLAS_DROP_H
-#define RG_CORE_SCENE_ATLAS_DROP_H
+#ifndef RG_CORE_SCENE_ATLAS_OPTICS_DROP_H
+#define RG_CORE_SCENE_ATLAS_OPTICS_DROP_H
 
 // The surface, in radii of the drop at rest:
 //   r = 1 + a P20(cos theta) + b P31(cos theta) cos(phi - phi_drop)

@@ -1,4 +1,4 @@
-#include "core/scene/atlas/trace.h"
+#include "core/scene/atlas/optics/trace.h"
 
 #include <math.h>
 

@@ -1,8 +1,8 @@
 // Rays through a drop: where the light that leaves it towards the viewer came from.
-#ifndef RG_CORE_SCENE_ATLAS_TRACE_H
-#define RG_CORE_SCENE_ATLAS_TRACE_H
+#ifndef RG_CORE_SCENE_ATLAS_OPTICS_TRACE_H
+#define RG_CORE_SCENE_ATLAS_OPTICS_TRACE_H
 
-#include "core/scene/atlas/drop.h"
+#include "core/scene/atlas/optics/drop.h"
 
 // The ways of light: reflected outside; refracted in and out; the same with one and with two
 // reflections inside.

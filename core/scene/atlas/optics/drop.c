@@ -1,4 +1,4 @@
-#include "core/scene/atlas/drop.h"
+#include "core/scene/atlas/optics/drop.h"
 
 #include <math.h>
 
