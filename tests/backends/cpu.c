@@ -12,7 +12,7 @@
 
 #include "core/base/log.h"
 #include "core/device/device.h"
-#include "tests/core/device/quads.h"
+#include "tests/core/device/draws/quads.h"
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof((array)[0])))
 

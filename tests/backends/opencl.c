@@ -14,7 +14,7 @@
 #include "core/base/log.h"
 #include "core/device/device.h"
 #include "kernels/probe/copy_params.h"
-#include "tests/core/device/quads.h"
+#include "tests/core/device/draws/quads.h"
 #include "tests/kernels/image_copy_params.h"
 
 static int open_device(void **state)

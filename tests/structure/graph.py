@@ -35,9 +35,6 @@ KNOWN = (
     "harness/record/rows.h includes harness/tables/table.h",
     "backends/cpu: ",
     "backends/vulkan: ",
-    "core/scene/atlas: ",
-    "tests/core/device: ",
-    "tests/kernels/texels: ",
 )
 
 

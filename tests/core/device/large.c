@@ -2,7 +2,7 @@
 #include "tests/core/device/suite.h"
 #include "tests/core/device/texels.h"
 #include "tests/kernels/quads_params.h"
-#include "tests/kernels/texels/filter_params.h"
+#include "tests/kernels/texels/filter/params.h"
 
 enum { READS = 4096, APART = 96 }; // texels between where layers and levels begin in the pool
 

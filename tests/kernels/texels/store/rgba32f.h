@@ -1,6 +1,6 @@
 // Stores colours in an image of RGBA32F.
 #define RG_SLOTS IN(1, rgba, colours) OUT_IMAGE(2, RGBA32F, target)
-#include "tests/kernels/texels/store_body.h"
+#include "tests/kernels/texels/store/body.h"
 
 RG_GRID_KERNEL(test_store_rgba32f)
 {

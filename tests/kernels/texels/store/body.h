@@ -1,5 +1,5 @@
 // The body of test_store_*.h, which define RG_SLOTS: stores colours of a buffer in an image.
-#include "tests/kernels/texels_params.h"
+#include "tests/kernels/texels/params.h"
 
 #define RG_PARAMS test_texels_params
 #include "kernels/dialect/slots/slots.h"

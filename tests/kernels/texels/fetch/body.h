@@ -1,5 +1,5 @@
 // The body of test_fetch_*.h, which define RG_SLOTS: fetches one level of an image to a buffer.
-#include "tests/kernels/texels_params.h"
+#include "tests/kernels/texels/params.h"
 
 #define RG_PARAMS test_texels_params
 #include "kernels/dialect/slots/slots.h"

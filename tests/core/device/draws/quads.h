@@ -1,6 +1,6 @@
 // Seeded quads of every kind that a rasteriser may stumble over, for tests of DRAW passes.
-#ifndef RG_TESTS_CORE_DEVICE_QUADS_H
-#define RG_TESTS_CORE_DEVICE_QUADS_H
+#ifndef RG_TESTS_CORE_DEVICE_DRAWS_QUADS_H
+#define RG_TESTS_CORE_DEVICE_DRAWS_QUADS_H
 
 #include "tests/kernels/quads_params.h"
 

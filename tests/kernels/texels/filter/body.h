@@ -1,6 +1,6 @@
 // The body of test_filter_*.h, which define RG_SLOTS: reads an image between its texels. Elements
 // of `at` are u, v, the layer and the level.
-#include "tests/kernels/texels/filter_params.h"
+#include "tests/kernels/texels/filter/params.h"
 
 #define RG_PARAMS test_filter_params
 #include "kernels/dialect/slots/slots.h"

@@ -5,7 +5,7 @@
 #include "tests/core/device/suite.h"
 #include "tests/core/device/texels.h"
 #include "tests/kernels/image_copy_params.h"
-#include "tests/kernels/texels_params.h"
+#include "tests/kernels/texels/params.h"
 
 static const char *const format_names[RG_FORMAT_COUNT] = {NULL,   "rgba8", "rgba16f",  "rgba32f",
                                                           "r32f", "r16f",  "rg11b10f", "d32f"};

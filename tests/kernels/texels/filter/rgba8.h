@@ -1,6 +1,6 @@
 // Reads an image of RGBA8 between its texels.
 #define RG_SLOTS IMAGE(1, RGBA8, source) IN(2, rgba, at) OUT(3, rgba, colours)
-#include "tests/kernels/texels/filter_body.h"
+#include "tests/kernels/texels/filter/body.h"
 
 RG_GRID_KERNEL(test_filter_rgba8)
 {

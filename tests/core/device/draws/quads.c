@@ -1,4 +1,4 @@
-#include "tests/core/device/quads.h"
+#include "tests/core/device/draws/quads.h"
 
 #include <math.h>
 

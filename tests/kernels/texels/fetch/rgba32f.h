@@ -1,6 +1,6 @@
 // Fetches the colours of an image of RGBA32F.
 #define RG_SLOTS IMAGE(1, RGBA32F, source) OUT(2, rgba, colours)
-#include "tests/kernels/texels/fetch_body.h"
+#include "tests/kernels/texels/fetch/body.h"
 
 RG_GRID_KERNEL(test_fetch_rgba32f)
 {

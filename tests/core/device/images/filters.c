@@ -5,7 +5,7 @@
 
 #include "tests/core/device/suite.h"
 #include "tests/core/device/texels.h"
-#include "tests/kernels/texels/filter_params.h"
+#include "tests/kernels/texels/filter/params.h"
 
 enum { LAYERS = 3, LEVELS = 7, READS = 6000 };
 

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "tests/core/device/quads.h"
+#include "tests/core/device/draws/quads.h"
 #include "tests/core/device/suite.h"
 
 enum { WIDTH = 333, HEIGHT = 217, QUADS = 20000 };

@@ -1,7 +1,7 @@
 // DRAW programs with lights: every device as cpu:reference, to the last bit, and lights add up.
 #include <stdio.h>
 
-#include "tests/core/device/quads.h"
+#include "tests/core/device/draws/quads.h"
 #include "tests/core/device/suite.h"
 #include "tests/core/device/texels.h"
 #include "tests/kernels/lights_params.h"
