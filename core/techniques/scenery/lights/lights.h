@@ -44,7 +44,7 @@ typedef bool (*scenery_depth_fn)(void *user, const float to_clip[16], const stru
 // Draws all shadow maps: once, or again where the scene has changed.
 bool scenery_lights_shade(struct scenery_lights *lights, scenery_depth_fn draw, void *user);
 
-// What scenery_lights_open does step by step: --------------------------------------------------
+// --- the steps of scenery_lights_open ---
 
 // The lights that settings ask for. False, and one logged line, where the file is none or the scene
 // has too few lamps.

@@ -76,8 +76,10 @@ static inline uint32_t streaks_lattice(const struct streaks_packets *packets, in
     return streaks_lattice_of(packets->particles[3 * id + axis]);
 }
 
-// --- trees: over particles that lie by id from slot 0; false, with one logged line, without memory
-// ---
+// --- trees ---
+//
+// They are built over particles that lie by id from slot 0 on. False, with one logged line, without
+// memory.
 
 // How many leaves halving makes of `count` particles.
 int64_t streaks_kd_leaves(int64_t count, int size);
@@ -116,8 +118,10 @@ bool streaks_grid_build(struct streaks_packets *packets);
 // How far ahead of the run position a cell's particles are, in [0, 1).
 double streaks_cell_turn(uint32_t seed, int64_t cell);
 
-// --- blocks: of the packets in selection->selected; false, with one logged line, without memory
-// ---
+// --- blocks ---
+//
+// They are those of the packets in selection->selected. False, with one logged line, without
+// memory.
 
 bool streaks_list_by_packet(const struct streaks_packets *packets, const struct streaks_view *view,
                             struct streaks_selection *selection);

@@ -27,9 +27,10 @@ static bool add_packet(struct streaks_packets *p, int64_t first, int64_t count, 
     return true;
 }
 
-// --- quad: ids follow a Morton curve, so that a node's particles follow each other. Each
-// quartering is two halvings, first across y, then across x; branches between them have no packets
-// ---
+// --- building the tree ---
+//
+// Ids follow a Morton curve, so that a node's particles follow each other. Each quartering is two
+// halvings, first across y, then across x; the branches between these have no packets.
 
 struct quad {
     struct streaks_node node;
