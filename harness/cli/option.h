@@ -60,7 +60,7 @@ struct rg_option {
     enum rg_names names;
     int first, last;      // of operands: where it may stand among them, from 1; last 0: anywhere
                           // from the first on
-    const char *excludes; // the name of an option that cannot be given with it
+    const char *excludes; // names of options that cannot be given with it, with spaces between them
     const struct rg_option *included;
 };
 

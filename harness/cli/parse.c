@@ -5,6 +5,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/base/words.h"
 #include "harness/cli/command.h"
 
 struct line {
@@ -83,7 +84,7 @@ static bool check_exclusions(const struct line *line)
 {
     for (int i = 0; i < line->count; i++)
         for (int j = 0; line->given[i] && line->rows[i].excludes && j < line->count; j++)
-            if (line->given[j] && !strcmp(line->rows[j].name, line->rows[i].excludes))
+            if (line->given[j] && rg_has_word(line->rows[i].excludes, line->rows[j].name))
                 return rg_error("--%s and --%s: choose one", line->rows[i].name,
                                 line->rows[j].name);
     return true;

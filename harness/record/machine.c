@@ -7,6 +7,8 @@
 #include <string.h>
 #include <sys/utsname.h>
 
+#include "core/base/words.h"
+
 enum { LINE_SIZE = 8192, MAX_PATH = 1024 };
 
 // --- files of "key: value" or "key=value" lines ---
@@ -51,15 +53,6 @@ static const char *const interesting[] = {
     "sse4_2",   "avx",      "f16c",     "fma",   "avx2",    "bmi2", "avx512f", "avx512bw",
     "avx512cd", "avx512dq", "avx512vl", "asimd", "asimdhp", "sve",  "sve2",    NULL};
 
-static bool has_word(const char *words, const char *word)
-{
-    const size_t length = strlen(word);
-    for (const char *at = words; (at = strstr(at, word)); at += length)
-        if ((at == words || at[-1] == ' ') && (at[length] == ' ' || !at[length]))
-            return true;
-    return false;
-}
-
 static void read_cpu(struct rg_machine *machine, const char *root)
 {
     char flags[LINE_SIZE];
@@ -69,7 +62,7 @@ static void read_cpu(struct rg_machine *machine, const char *root)
         return;
     size_t used = 0;
     for (int i = 0; interesting[i]; i++)
-        if (has_word(flags, interesting[i]))
+        if (rg_has_word(flags, interesting[i]))
             used += (size_t)snprintf(machine->features + used, sizeof(machine->features) - used,
                                      "%s%s", used ? " " : "", interesting[i]);
 }
@@ -154,7 +147,7 @@ static void read_quota(struct rg_machine *machine, const char *root)
         if (!*controllers) {
             take_quota(machine, root, "/sys/fs/cgroup", group, true);
             take_quota(machine, root, "/sys/fs/cgroup/unified", group, true);
-        } else if (has_word(controllers, "cpu")) {
+        } else if (rg_has_word(controllers, "cpu")) {
             take_quota(machine, root, "/sys/fs/cgroup/cpu", group, false);
             take_quota(machine, root, "/sys/fs/cgroup/cpu,cpuacct", group, false);
         }
