@@ -7,7 +7,7 @@
 
 #include "core/base/log.h"
 #include "harness/commands/commands.h"
-#include "harness/record/build_info.h"
+#include "harness/record/passport/build_info.h"
 
 static void print_usage(void)
 {

@@ -13,7 +13,7 @@
 #include "harness/cli/shared.h"
 #include "harness/console/clock.h"
 #include "harness/console/progress.h"
-#include "harness/record/passport.h"
+#include "harness/record/named.h"
 
 struct atlas_options {
     struct rg_length length;

@@ -8,7 +8,7 @@
 #include "harness/cli/shared.h"
 #include "harness/devices/devices.h"
 #include "harness/doctor/report.h"
-#include "harness/record/passport.h"
+#include "harness/record/passport/passport.h"
 
 struct doctor_options {
     char *devices; // their names

@@ -10,8 +10,8 @@
 #include "harness/cli/subject.h"
 #include "harness/devices/devices.h"
 #include "harness/frames/session.h"
-#include "harness/record/facts.h"
-#include "harness/record/passport.h"
+#include "harness/record/named.h"
+#include "harness/record/passport/passport.h"
 
 struct render_options {
     struct rg_words sets;
@@ -82,13 +82,17 @@ struct drawn {
 static void print_json(const struct drawn *d)
 {
     const struct rg_account *a = &d->account;
+    struct rg_named facts[RG_MAX_FACTS];
+    struct rg_count counters[RG_MAX_COUNTERS];
+    rg_facts_copy(facts, a->facts, a->fact_count);
+    rg_counters_copy(counters, a->counters, a->counter_count);
     json_t *json = json_pack(
         "{sisosssssisisIsosososo}", "format", 1, "file", rg_json_text(d->path), "technique",
         d->subject.technique->name, "device", d->on->name, "width", d->subject.width, "height",
         d->subject.height, "frame", (json_int_t)a->frame, "settings",
         settings_json(d->subject.technique, d->subject.settings), "facts",
-        rg_facts_json(a->facts, a->fact_count), "counters",
-        rg_counters_json(a->counters, a->counter_count), "passport", rg_passport_json(d->on, 1));
+        rg_named_json(facts, a->fact_count), "counters", rg_counts_json(counters, a->counter_count),
+        "passport", rg_passport_json(d->on, 1));
     json_dumpf(json, stdout, JSON_INDENT(1));
     printf("\n");
     json_decref(json);
@@ -96,8 +100,10 @@ static void print_json(const struct drawn *d)
 
 static void print_text(const struct drawn *d)
 {
+    struct rg_named told[RG_MAX_FACTS];
     char facts[RG_FACTS_TEXT];
-    rg_facts_text(d->account.facts, d->account.fact_count, NULL, facts, sizeof(facts));
+    rg_facts_copy(told, d->account.facts, d->account.fact_count);
+    rg_named_text(told, d->account.fact_count, NULL, facts, sizeof(facts));
     printf("%s: %s, frame %lld, %dx%d, on %s (%s)%s%s\n", d->path, d->subject.technique->name,
            (long long)d->account.frame, d->subject.width, d->subject.height, d->on->name,
            d->on->device, *facts ? "; " : "", facts);

@@ -3,7 +3,8 @@
 #include <stdio.h>
 
 #include "harness/doctor/report.h"
-#include "harness/record/passport.h"
+#include "harness/record/named.h"
+#include "harness/record/passport/passport.h"
 
 static json_t *limit(int64_t value)
 {

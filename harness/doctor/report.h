@@ -26,7 +26,7 @@ struct rg_doctor_report {
     struct rg_device_list list; // all devices, asked for or not, and what is missing
     int count;
     struct rg_examination *examinations; // `count` of them
-    json_t *passport;                    // harness/record/passport.h
+    json_t *passport;                    // harness/record/passport/passport.h
     json_t *warnings;                    // array of strings
 };
 

@@ -8,8 +8,8 @@
 
 #include "core/device/kernel.h"
 #include "harness/doctor/report.h"
-#include "harness/record/machine.h"
-#include "harness/record/passport.h"
+#include "harness/record/passport/machine.h"
+#include "harness/record/named.h"
 
 static void warn(json_t *warnings, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -4,7 +4,7 @@
 
 #include "core/device/device.h"
 #include "harness/console/clock.h"
-#include "harness/measure/stats.h"
+#include "harness/record/stats.h"
 #include "kernels/probe/copy_params.h"
 
 // Large enough to leave the caches of one core, small enough for every device.

@@ -10,60 +10,15 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/record/output.h"
-#include "harness/record/passport.h"
-#include "harness/record/rows.h"
-
-enum { FORMAT = 1 };
+#include "harness/record/schema/stored.h"
 
 struct rg_journal {
     char folder[1536], name[128], path[2048]; // no folder: there is none to be had
     bool is_in_state;                         // of the user's; else with the results
-    json_t *root;                             // {"format", "key", "rows": {"0": a row, ...}}
+    struct rg_result held;                    // the rows that are whole
     bool has_file, is_followed;
     bool is_broken; // it could not be written, which one logged line said
 };
-
-// --- the key ---
-
-// Which program this is. A changed tree has the same commit before and after a change.
-static json_t *program_json(void)
-{
-    struct stat file;
-    if (stat("/proc/self/exe", &file))
-        return json_null();
-    return json_pack("[II]", (json_int_t)file.st_size, (json_int_t)file.st_mtime);
-}
-
-static json_t *passport_json(const struct rg_devices *devices)
-{
-    struct rg_device_info infos[RG_MAX_DEVICES];
-    for (int d = 0; d < devices->count; d++)
-        infos[d] = devices->devices[d]->info;
-    return rg_passport_json(infos, devices->count);
-}
-
-static json_t *settings_json(const struct rg_table_run *run)
-{
-    json_t *settings = json_array();
-    for (int row = run->first_row; row <= run->last_row; row++) {
-        for (int v = 0; v < rg_table_variant_count(run->table); v++) {
-            char *text = rg_table_assignments(run, row, v);
-            json_array_append_new(settings, text ? json_string(text) : json_null());
-            free(text);
-        }
-    }
-    return settings;
-}
-
-static json_t *key_json(const struct rg_table_run *run)
-{
-    const struct rg_table *table = run->table;
-    return json_pack("{sssss[ii]s[ii]ssss?sososo}", "table", table->id, "length",
-                     run->full ? "full" : "quick", "rows", run->first_row, run->last_row, "size",
-                     table->width, table->height, "technique", table->technique, "truth",
-                     table->truth, "settings", settings_json(run), "program", program_json(),
-                     "passport", passport_json(run->devices));
-}
 
 // --- its folder ---
 
@@ -93,34 +48,49 @@ static void find_state_folder(char *folder, size_t size)
 
 // --- reading ---
 
-// Whether a file's JSON is a journal with this key; says in one line if not.
-static bool is_usable(const json_t *root, const json_t *key, const char *path)
+// A result without its rows: what decides its numbers. Nothing in it is owned.
+static struct rg_result head_of(const struct rg_result *result)
 {
-    const json_t *format = json_object_get(root, "format"), *found = json_object_get(root, "key");
-    if (json_integer_value(format) != FORMAT || !json_is_object(found) ||
-        !json_is_object(json_object_get(root, "rows"))) {
-        rg_warning("%s: is damaged; the table begins anew", path);
-        return false;
+    struct rg_result head = *result;
+    memset(head.rows, 0, sizeof(head.rows));
+    head.resumed_rows = 0;
+    return head;
+}
+
+static bool has_same_head(const struct rg_result *a, const struct rg_result *b)
+{
+    const struct rg_result head_a = head_of(a), head_b = head_of(b);
+    json_t *json_a = rg_result_json(&head_a), *json_b = rg_result_json(&head_b);
+    const bool same = json_equal(json_a, json_b);
+    json_decref(json_a);
+    json_decref(json_b);
+    return same;
+}
+
+// Takes over the rows of the file, where it is this result's.
+static void read_file(struct rg_journal *journal)
+{
+    char why[RG_WHY_SIZE];
+    struct rg_result found = {0};
+    if (access(journal->path, F_OK))
+        return;
+    if (!rg_stored_read_one(journal->path, &found, why)) {
+        rg_warning("%s: is damaged; the table begins anew", journal->path);
+        return;
     }
-    if (json_equal(found, key))
-        return true;
-    rg_info("%s: is of another build, machine, choice of devices or of rows; the table begins anew",
-            path);
-    return false;
+    journal->has_file = has_same_head(&found, &journal->held);
+    if (journal->has_file) {
+        memcpy(journal->held.rows, found.rows, sizeof(found.rows));
+        memset(found.rows, 0, sizeof(found.rows));
+    } else {
+        rg_info("%s: is of another build, machine, choice of devices or of rows; the table begins "
+                "anew",
+                journal->path);
+    }
+    rg_result_free(&found);
 }
 
-static json_t *read_file(const char *path, const json_t *key)
-{
-    if (access(path, F_OK))
-        return NULL;
-    json_t *root = json_load_file(path, JSON_REJECT_DUPLICATES, NULL);
-    if (is_usable(root, key, path))
-        return root;
-    json_decref(root);
-    return NULL;
-}
-
-struct rg_journal *rg_journal_open(const struct rg_table_run *run, const char *folder, bool fresh,
+struct rg_journal *rg_journal_open(const struct rg_result *result, const char *folder, bool fresh,
                                    bool is_followed)
 {
     struct rg_journal *j = rg_alloc(1, sizeof(*j), "journal");
@@ -132,60 +102,53 @@ struct rg_journal *rg_journal_open(const struct rg_table_run *run, const char *f
         find_state_folder(j->folder, sizeof(j->folder));
     else if (strlen(folder) < sizeof(j->folder))
         memcpy(j->folder, folder, strlen(folder) + 1);
-    snprintf(j->name, sizeof(j->name), "%s-%s.journal", run->table->id,
-             run->full ? "full" : "quick");
+    snprintf(j->name, sizeof(j->name), "%s-%s.journal", result->table,
+             result->full ? "full" : "quick");
     snprintf(j->path, sizeof(j->path), "%s/%s", j->folder, j->name);
-    json_t *key = key_json(run);
-    j->root = fresh || !*j->folder ? NULL : read_file(j->path, key);
-    j->has_file = j->root != NULL;
-    if (j->root)
-        json_decref(key);
-    else
-        j->root = json_pack("{sisoso}", "format", FORMAT, "key", key, "rows", json_object());
+    j->held = head_of(result);
+    json_incref(j->held.passport);
+    if (!fresh && *j->folder)
+        read_file(j);
     return j;
-}
-
-static const char *row_name(int row, char text[16])
-{
-    snprintf(text, 16, "%d", row);
-    return text;
-}
-
-static json_t *rows_of(const struct rg_journal *journal)
-{
-    return journal ? json_object_get(journal->root, "rows") : NULL;
 }
 
 bool rg_journal_has(const struct rg_journal *journal, int row)
 {
-    char name[16];
-    return json_object_get(rows_of(journal), row_name(row, name)) != NULL;
+    return journal && rg_result_has(&journal->held, row);
 }
 
-bool rg_journal_take(struct rg_journal *journal, struct rg_table_run *run, int row)
+static bool is_of_same(const struct rg_record *a, const struct rg_record *b)
 {
-    char name[16];
-    const json_t *json = json_object_get(rows_of(journal), row_name(row, name));
-    if (!json)
+    return !strcmp(a->set, b->set) && a->row_count == b->row_count &&
+           a->published_count == b->published_count && !memcmp(a->row, b->row, sizeof(a->row)) &&
+           !memcmp(a->published, b->published, sizeof(a->published));
+}
+
+bool rg_journal_take(const struct rg_journal *journal, struct rg_result *result, int row)
+{
+    if (!rg_journal_has(journal, row))
         return false;
-    if (!run->journal)
-        run->journal = json_incref(journal->root);
-    if (rg_journal_row_read(json, run, row))
-        return true;
-    rg_warning("%s: row %d is damaged; it is measured anew", journal->path, row + 1);
-    json_object_del(rows_of(journal), name);
-    return false;
+    struct rg_place at;
+    for (at = rg_result_start_row(row); rg_result_next_in_row(result, &at);)
+        if (!is_of_same(rg_result_at(result, at), rg_result_at(&journal->held, at)))
+            return false;
+    for (at = rg_result_start_row(row); rg_result_next_in_row(result, &at);) {
+        struct rg_record *record = rg_result_at(result, at);
+        const struct rg_device_info device = record->device; // the file has no limits of it
+        *record = *rg_result_at(&journal->held, at);
+        record->device = device;
+    }
+    return true;
 }
 
 // --- writing ---
 
-static bool has_error(const struct rg_table_run *run, int row)
+static bool has_error(const struct rg_result *result, int row)
 {
     bool found = false;
-    for (int v = 0; v < rg_table_variant_count(run->table); v++) {
-        found = found || rg_table_group(run, row, v)->error_status == RG_ERROR;
-        for (int d = 0; d < run->devices->count; d++)
-            found = found || rg_table_cell(run, row, v, d)->status == RG_ERROR;
+    for (struct rg_place at = rg_result_start_row(row); rg_result_next_in_row(result, &at);) {
+        const struct rg_record *record = rg_result_at(result, at);
+        found = found || record->outcome == RG_ERROR || record->truth_error.outcome == RG_ERROR;
     }
     return found;
 }
@@ -200,20 +163,28 @@ static bool write_file(struct rg_journal *j)
     }
     if (j->is_in_state)
         make_parents(j->folder);
-    char *text = json_dumps(j->root, JSON_REAL_PRECISION(17) | JSON_COMPACT);
+    json_t *document = rg_result_json(&j->held);
+    char *text = json_dumps(document, RG_JSON_FLAGS | JSON_COMPACT);
     const bool ok = text && rg_output_write(j->folder, j->name, text);
     free(text);
+    json_decref(document);
     return ok;
 }
 
-void rg_journal_add(struct rg_journal *j, const struct rg_table_run *run, int first, int last)
+static void hold_row(struct rg_journal *j, const struct rg_result *result, int row)
 {
-    char name[16];
+    if (has_error(result, row) || !rg_result_add_row(&j->held, row))
+        return;
+    for (struct rg_place at = rg_result_start_row(row); rg_result_next_in_row(result, &at);)
+        *rg_result_at(&j->held, at) = *rg_result_at(result, at);
+}
+
+void rg_journal_add(struct rg_journal *j, const struct rg_result *result, int first, int last)
+{
     for (int row = first; j && row <= last; row++)
-        if (!has_error(run, row))
-            json_object_set_new(rows_of(j), row_name(row, name), rg_journal_row_json(run, row));
+        hold_row(j, result, row);
     // Nothing is lost once the last row is measured and printed.
-    if (!j || j->is_broken || (last == run->last_row && !j->is_followed))
+    if (!j || j->is_broken || (last == result->last_row && !j->is_followed))
         return;
     j->is_broken = !write_file(j);
     j->has_file = !j->is_broken;
@@ -234,6 +205,6 @@ void rg_journal_close(struct rg_journal *journal)
 {
     if (!journal)
         return;
-    json_decref(journal->root);
+    rg_result_free(&journal->held);
     free(journal);
 }

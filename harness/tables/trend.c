@@ -1,16 +1,24 @@
-// Whether the numbers of a table fall as published.
-#include <math.h>
+#include "harness/tables/trend.h"
 
-#include "harness/tables/table.h"
+#include <math.h>
+#include <string.h>
 
 // Slopes closer than this, in powers of the axis, count as the same.
 #define SAME_SLOPE 0.25
 
 const char *rg_trend_text(enum rg_trend_verdict verdict)
 {
-    static const char *const texts[] = {"reproduced", "trend only", "same order", "not reproduced",
-                                        "not comparable"};
+    static const char *const texts[] = {"reproduced",     "trend only",     "same order",
+                                        "not reproduced", "not comparable", "other work"};
     return texts[verdict];
+}
+
+const struct rg_named *rg_trend_axis(const struct rg_record *record)
+{
+    for (int i = 0; i < record->row_count; i++)
+        if (!*record->row[i].text)
+            return &record->row[i];
+    return NULL;
 }
 
 // Counts the pairs that a row forms with those before it. Equal numbers in print order nothing.
@@ -24,33 +32,74 @@ static void count_pairs(struct rg_trend *trend, const double *published, const d
     }
 }
 
-struct rg_trend rg_table_trend(const struct rg_table_run *run, int variant, int device)
+// What of a table can be held against print: all its rows, timed.
+static bool is_comparable(const struct rg_result *result)
 {
-    const struct rg_table *table = run->table;
-    double axis[RG_TABLE_ROWS], published[RG_TABLE_ROWS], measured[RG_TABLE_ROWS];
-    struct rg_trend trend = {.verdict = RG_TREND_UNKNOWN};
-    int rows = 0;
-    if (!rg_table_is_published(table) || table->is_of_textures ||
-        rg_table_first_missing(run) <= run->last_row)
-        return trend;
-    for (int row = run->first_row; row <= run->last_row; row++, rows++) {
-        const struct rg_cell *cell = rg_table_cell(run, row, variant, device);
-        if (cell->status != RG_OK)
-            return (struct rg_trend){.verdict = RG_TREND_UNKNOWN};
-        axis[rows] = log(table->rows[row].values[0]);
-        published[rows] = log(rg_table_published_fps(table, row, variant));
-        measured[rows] = log(rg_cell_fps(cell));
-        count_pairs(&trend, published, measured, rows);
-    }
-    if (!trend.pairs)
-        return trend;
-    trend.slope = table->key_count ? rg_slope(axis, measured, rows) : NAN;
-    trend.published_slope = table->key_count ? rg_slope(axis, published, rows) : NAN;
-    trend.has_slope = isfinite(trend.slope) && isfinite(trend.published_slope);
+    return *result->hardware && !result->is_of_textures &&
+           rg_result_first_missing(result) > result->last_row;
+}
+
+static struct rg_trend judge(struct rg_trend trend)
+{
     const double apart = fabs(trend.slope - trend.published_slope);
+    trend.has_slope = isfinite(trend.slope) && isfinite(trend.published_slope);
     trend.verdict = trend.pairs_in_order < trend.pairs ? RG_TREND_NOT
                     : !trend.has_slope                 ? RG_TREND_ORDER
                     : apart <= SAME_SLOPE              ? RG_TREND_REPRODUCED
                                                        : RG_TREND_ONLY;
     return trend;
+}
+
+struct rg_trend rg_trend_of(const struct rg_result *result, struct rg_place of)
+{
+    double axis[RG_RESULT_ROWS], published[RG_RESULT_ROWS], measured[RG_RESULT_ROWS];
+    struct rg_trend trend = {.verdict = RG_TREND_UNKNOWN};
+    int rows = 0;
+    if (!is_comparable(result))
+        return trend;
+    if (*result->works[of.work].saves)
+        return (struct rg_trend){.verdict = RG_TREND_OTHER_WORK};
+    for (of.row = result->first_row; of.row <= result->last_row; of.row++, rows++) {
+        const struct rg_record *record = rg_result_at(result, of);
+        const struct rg_named *along = rg_trend_axis(record);
+        if (record->outcome != RG_OK)
+            return (struct rg_trend){.verdict = RG_TREND_UNKNOWN};
+        axis[rows] = along ? log(along->number) : NAN;
+        published[rows] = log(rg_record_published_fps(record));
+        measured[rows] = log(rg_record_fps(record));
+        count_pairs(&trend, published, measured, rows);
+    }
+    if (!trend.pairs)
+        return trend;
+    trend.slope = rg_slope(axis, measured, rows);
+    trend.published_slope = rg_slope(axis, published, rows);
+    return judge(trend);
+}
+
+static json_t *trend_json(const struct rg_result *result, struct rg_place of)
+{
+    const struct rg_trend s = rg_trend_of(result, of);
+    const bool known = s.verdict < RG_TREND_UNKNOWN;
+    const double slope = known && !s.has_slope ? NAN : s.slope;
+    const double published = known && !s.has_slope ? NAN : s.published_slope;
+    json_t *json = json_pack("{ssss}", "device", result->devices[of.device].name, "variant",
+                             result->variants[of.variant]);
+    if (result->work_count)
+        json_object_set_new(json, "work", json_string(result->works[of.work].name));
+    json_t *rest =
+        json_pack("{sssbsisisoso}", "verdict", rg_trend_text(s.verdict), "same_ranking",
+                  s.pairs_in_order == s.pairs, "pairs", s.pairs, "pairs_in_order", s.pairs_in_order,
+                  "slope", rg_number_json(slope), "published_slope", rg_number_json(published));
+    json_object_update(json, rest);
+    json_decref(rest);
+    return json;
+}
+
+json_t *rg_trends_json(const struct rg_result *result)
+{
+    json_t *trends = json_array();
+    struct rg_place of = rg_result_start_row(result->first_row);
+    while (!result->is_of_textures && rg_result_next_in_row(result, &of))
+        json_array_append_new(trends, trend_json(result, of));
+    return trends;
 }

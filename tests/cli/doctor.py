@@ -81,11 +81,7 @@ def check_warnings(runner):
 def check_crash(runner):
     """A driver that crashes is named, and harms no other device."""
     with tempfile.TemporaryDirectory() as tmp:
-        driver = os.path.join(tmp, "crash.json")
-        with open(driver, "w") as file:
-            json.dump({"file_format_version": "1.0.0",
-                       "ICD": {"library_path": runner.crasher, "api_version": "1.3.0"}}, file)
-        report, status, errors = examine(runner, ["--device", "cpu,vulkan"], {"VK_DRIVER_FILES": driver})
+        report, status, errors = examine(runner, ["--device", "cpu,vulkan"], runner.crashing_vulkan(tmp))
     devices = by_name(report)
     problems = []
     if devices["cpu"]["status"] != "ok":

@@ -203,6 +203,43 @@ def check_interrupted(runner):
     return problems
 
 
+def check_stored(runner):
+    """table --from prints what was measured as it was printed then, in every format, and opens no device"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        out = tmp + "/out"
+        printed = runner.run((TWO_TABLES + "-o " + out).split()).stdout
+        env = runner.crashing_vulkan(tmp)  # whoever lists Vulkan's devices says so on stderr
+        again = runner.run(["table", "--from", out], env)
+        if again.returncode or again.stderr:
+            problems.append("exit status %d, stderr: %s, printed:\n%s" % (again.returncode, again.stderr, again.stdout))
+        for table in ("stuppacher-2", "raster-1"):
+            for form in FORMATS:
+                with open("%s/%s.%s" % (out, table, form)) as file:
+                    written = file.read()
+                one = runner.run(["table", table, "--from", out + "/%s.json" % table, "--format", form], env)
+                if one.returncode or one.stdout != written or (form == "md" and written.strip() not in printed):
+                    problems.append("%s, %s:\n%s" % (table, form, one.stdout))
+        both = runner.run(["table", "--from", out, "--json", "-o", tmp + "/again"], env)
+        with open(tmp + "/both.json", "w") as file:
+            file.write(both.stdout)
+        joined = runner.run(["table", "--from", tmp + "/both.json"], env)
+        if joined.stdout != again.stdout or sorted(os.listdir(tmp + "/again")) != sorted(os.listdir(out)):
+            problems.append("several in a file:\n" + joined.stdout)
+        with open(out + "/raster-1.json", "a") as file:
+            file.write("{")
+        for args, says in (("--from " + out, r"raster-1\.json: line \d+ is no JSON: .*; name a file .*"),
+                           ("--from %s/none" % tmp, r".*/none: cannot be read: No such file or directory; name .*"),
+                           ("--from " + tmp + "/both.json --rows 7-8", r".*both\.json: holds nothing of the .*; .*"),
+                           ("creus-5.1 --from %s/both.json" % tmp, r".*both\.json: holds nothing of the .*; .*"),
+                           ("--from %s --device cpu" % out, r"--from and --device: choose one"),
+                           ("--from %s --full" % out, r"--from and --full: choose one")):
+            refused = runner.run(["table"] + args.split(), env)
+            if refused.returncode != 2 or refused.stdout or not re.fullmatch(r"raingauge: .*" + says + r"\n", refused.stderr):
+                problems.append("%s: exit status %d, stderr: %s" % (args, refused.returncode, refused.stderr))
+    return problems
+
+
 def check_fresh(runner):
     """table --fresh takes nothing from an interrupted run; nor does a run of other devices"""
     problems = []
@@ -248,7 +285,7 @@ def check_atlas(runner):
 
 
 CHECKS = [check_table_json, check_table_files, check_tables_in_a_row, check_render_json, check_diff_json, check_verify_json, check_full_stdout,
-          check_interrupted, check_fresh, check_atlas]
+          check_interrupted, check_stored, check_fresh, check_atlas]
 
 
 # --- a driver that draws wrongly: its kernel is another ---

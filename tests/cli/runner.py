@@ -1,4 +1,5 @@
 """Runs raingauge as a person would, and prints TAP."""
+import json
 import os
 import re
 import resource
@@ -59,6 +60,13 @@ class Runner:
     def finish(self):
         print("1..%d" % self.count)
         return 1 if self.failed else 0
+
+    def crashing_vulkan(self, folder):
+        """Variables that make Vulkan's only driver one that crashes whoever asks for its devices."""
+        path = os.path.join(folder, "crash.json")
+        with open(path, "w") as file:
+            json.dump({"file_format_version": "1.0.0", "ICD": {"library_path": self.crasher, "api_version": "1.3.0"}}, file)
+        return {"VK_DRIVER_FILES": path}
 
     def kernels_with(self, folder, name, right, wrong):
         """Copies the kernels into `folder`, with one piece of one file's text made another."""

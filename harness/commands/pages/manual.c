@@ -5,7 +5,7 @@
 #include "core/techniques/technique.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/pages/pages.h"
-#include "harness/record/build_info.h"
+#include "harness/record/passport/build_info.h"
 #include "harness/tables/papers/papers.h"
 
 // Text as roff wants it: what stands between backquotes is bold, and a dash is one that can be

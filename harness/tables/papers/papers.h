@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { RG_TABLE_ROWS = 64, RG_TABLE_VALUES = 8, RG_TABLE_VARIANTS = 8 };
+enum { RG_TABLE_ROWS = 64, RG_TABLE_VALUES = 8, RG_TABLE_VARIANTS = 8, RG_TABLE_WORKS = 2 };
 
 // One row: settings of the technique and what the paper printed. Assignments are "key=value
 // key=value", as --set takes each; "" for none.
@@ -23,6 +23,14 @@ struct rg_table_variant {
                       // where nothing is published
 };
 
+// How much work a row's cells do: "paper", what was printed of, and "ours", the same picture for
+// less. A table without either has cells of one kind, which it does not name.
+struct rg_table_work {
+    const char *name;
+    const char *set;   // over the row's and the variant's
+    const char *saves; // what saves work, one line; "" of what was printed
+};
+
 struct rg_table {
     const char *id;        // "stuppacher-2"
     const char *technique; // "flow"
@@ -35,6 +43,7 @@ struct rg_table {
     // along which frame rates fall. 0: there is none, and only the order of rows can be reproduced.
     int key_count;
     struct rg_table_variant variants[RG_TABLE_VARIANTS + 1]; // the last has no name
+    struct rg_table_work works[RG_TABLE_WORKS + 1];          // likewise
     const char *truth; // over a row's: an image without its approximations, which gives the error
                        // of the row's own; NULL: no column for that
     // Nothing is timed: a row is about the technique's texture of the row's name, and of it the
@@ -60,12 +69,11 @@ extern const struct rg_table *const rg_tables[];
 const struct rg_table *rg_table_find(const char *id);
 
 bool rg_table_is_published(const struct rg_table *table);
-int rg_table_variant_count(const struct rg_table *table);
 // The number in a row's column; NAN where the table has no such column.
 double rg_table_value(const struct rg_table *table, int row, const char *column);
+// Frames a second of a row and variant in print; NAN where nothing is.
+double rg_table_published_fps(const struct rg_table *table, int row, int variant);
 // Whether a column is neither a key nor a frame rate: "vertices".
 bool rg_table_is_extra(const struct rg_table *table, int column);
-// What a row is called: "glass with bunny", "texture_px 128", "local_height_m 5, camera 1".
-void rg_table_row_name(const struct rg_table *table, int row, char *text, size_t size);
 
 #endif

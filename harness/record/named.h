@@ -1,0 +1,56 @@
+// Named values as a record keeps them: what an instance tells of itself, what tells a row from
+// others. Plain data, without a pointer, so that a record can be copied as it is.
+#ifndef RG_HARNESS_RECORD_NAMED_H
+#define RG_HARNESS_RECORD_NAMED_H
+
+#include <jansson.h>
+
+#include "core/techniques/technique.h"
+
+enum { RG_NAME_SIZE = 48, RG_FACTS_TEXT = 2048 };
+
+// Digits of a number that is not whole, in every machine form.
+enum { RG_NUMBER_DIGITS = 9 };
+
+struct rg_named {
+    char name[RG_NAME_SIZE];
+    char text[RG_FACT_SIZE]; // UTF-8; "": the value is the number
+    double number;
+};
+
+struct rg_count {
+    char name[RG_NAME_SIZE];
+    int64_t value;
+};
+
+// Copies text as JSON can hold it: whole characters of UTF-8, as many as fit, and question marks
+// for bytes of what is none.
+void rg_text_copy(char *to, size_t size, const char *from);
+// The number that is read back of this one once it has been written; NAN where there is none.
+double rg_number_kept(double number);
+
+void rg_named_set_text(struct rg_named *named, const char *name, const char *text);
+void rg_named_set_number(struct rg_named *named, const char *name, double number);
+
+// What an instance tells.
+void rg_facts_copy(struct rg_named *named, const struct rg_fact *facts, int count);
+void rg_counters_copy(struct rg_count *counts, const struct rg_counter *counters, int count);
+
+// "model bunny.obj, faces 69666": those whose names are not among `except` (NULL-terminated; NULL:
+// no exception). "" where there is none.
+void rg_named_text(const struct rg_named *named, int count, const char *const *except, char *text,
+                   size_t size);
+
+// The number of this name, or NULL.
+const double *rg_named_number(const struct rg_named *named, int count, const char *name);
+
+// Objects with a field each; the caller owns them.
+json_t *rg_named_json(const struct rg_named *named, int count);
+json_t *rg_counts_json(const struct rg_count *counts, int count);
+
+// A whole number as one, any other as it is; null for what JSON cannot say.
+json_t *rg_number_json(double number);
+// A JSON string of text from outside, as rg_text_copy copies it, of any length.
+json_t *rg_json_text(const char *text);
+
+#endif

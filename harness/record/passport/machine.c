@@ -1,0 +1,200 @@
+#include "harness/record/passport/machine.h"
+
+#include <glob.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/utsname.h>
+
+#include "core/base/words.h"
+
+enum { LINE_SIZE = 8192, MAX_PATH = 1024 };
+
+// --- files of "key: value" or "key=value" lines ---
+
+static FILE *open_under(const char *root, const char *path)
+{
+    char whole[2 * MAX_PATH];
+    int length = snprintf(whole, sizeof(whole), "%s%s", root, path);
+    return length < (int)sizeof(whole) ? fopen(whole, "r") : NULL;
+}
+
+static void copy(char *target, size_t size, const char *text)
+{
+    snprintf(target, size, "%.*s", (int)size - 1, text);
+}
+
+// The value of the first line that begins with `key`, without what separates and quotes it.
+static bool read_value(const char *root, const char *path, const char *key, char *value,
+                       size_t size)
+{
+    FILE *file = open_under(root, path);
+    char line[LINE_SIZE];
+    bool found = false;
+    while (file && !found && fgets(line, sizeof(line), file)) {
+        if (strncmp(line, key, strlen(key)) != 0)
+            continue;
+        const char *text = line + strlen(key);
+        text += strspn(text, " \t:=\"");
+        line[strlen(line) - strlen(text) + strcspn(text, "\"\n")] = 0;
+        copy(value, size, text);
+        found = true;
+    }
+    if (file)
+        fclose(file);
+    return found;
+}
+
+// --- CPU ---
+
+// Of hundreds of flags, those that raingauge, LLVM and glibc choose code by.
+static const char *const interesting[] = {
+    "sse4_2",   "avx",      "f16c",     "fma",   "avx2",    "bmi2", "avx512f", "avx512bw",
+    "avx512cd", "avx512dq", "avx512vl", "asimd", "asimdhp", "sve",  "sve2",    NULL};
+
+static void read_cpu(struct rg_machine *machine, const char *root)
+{
+    char flags[LINE_SIZE];
+    read_value(root, "/proc/cpuinfo", "model name", machine->cpu, sizeof(machine->cpu));
+    if (!read_value(root, "/proc/cpuinfo", "flags", flags, sizeof(flags)) &&
+        !read_value(root, "/proc/cpuinfo", "Features", flags, sizeof(flags)))
+        return;
+    size_t used = 0;
+    for (int i = 0; interesting[i]; i++)
+        if (rg_has_word(flags, interesting[i]))
+            used += (size_t)snprintf(machine->features + used, sizeof(machine->features) - used,
+                                     "%s%s", used ? " " : "", interesting[i]);
+}
+
+int rg_cpu_list_count(const char *list)
+{
+    int count = 0;
+    while (*list) {
+        char *end;
+        long first = strtol(list, &end, 10), last = first;
+        if (end == list)
+            return 0;
+        if (*end == '-') {
+            list = end + 1;
+            last = strtol(list, &end, 10);
+            if (end == list || last < first)
+                return 0;
+        }
+        count += (int)(last - first) + 1;
+        if (*end && *end != ',')
+            return 0;
+        list = *end ? end + 1 : end;
+    }
+    return count;
+}
+
+// --- the cgroup's share of CPU time ---
+
+// CPUs that a pair of files, or one file with a pair, grants; 0: no limit.
+static double quota_in(const char *root, const char *folder, bool v2)
+{
+    char path[MAX_PATH + 32];
+    long long quota_us = -1, period_us = 0;
+    snprintf(path, sizeof(path), "%s/%s", folder, v2 ? "cpu.max" : "cpu.cfs_quota_us");
+    FILE *file = open_under(root, path);
+    if (!file || fscanf(file, v2 ? "%lld %lld" : "%lld", &quota_us, &period_us) < 1)
+        quota_us = -1; // "max"
+    if (file)
+        fclose(file);
+    snprintf(path, sizeof(path), "%s/cpu.cfs_period_us", folder);
+    if (!v2 && (file = open_under(root, path))) {
+        if (fscanf(file, "%lld", &period_us) != 1)
+            period_us = 0;
+        fclose(file);
+    }
+    return quota_us > 0 && period_us > 0 ? (double)quota_us / (double)period_us : 0;
+}
+
+// The smallest quota of a group and those around it. Inside a container the group's path may be the
+// host's and lead nowhere; the mount point itself is then our group.
+static void take_quota(struct rg_machine *machine, const char *root, const char *mount,
+                       const char *group, bool v2)
+{
+    char folder[MAX_PATH];
+    const size_t mount_length = strlen(mount);
+    if ((size_t)snprintf(folder, sizeof(folder), "%s%s", mount, group) >= sizeof(folder))
+        return;
+    for (;;) {
+        double quota = quota_in(root, folder, v2);
+        if (quota > 0 && (machine->quota_cpus == 0 || quota < machine->quota_cpus))
+            machine->quota_cpus = quota;
+        if (strlen(folder) <= mount_length)
+            return;
+        *strrchr(folder, '/') = 0;
+    }
+}
+
+// A line of /proc/self/cgroup is ID:CONTROLLERS:PATH; version 2 has no controllers.
+static void read_quota(struct rg_machine *machine, const char *root)
+{
+    FILE *file = open_under(root, "/proc/self/cgroup");
+    char line[LINE_SIZE];
+    while (file && fgets(line, sizeof(line), file)) {
+        line[strcspn(line, "\n")] = 0;
+        char *controllers = strchr(line, ':');
+        char *group = controllers ? strchr(controllers + 1, ':') : NULL;
+        if (!group || group[1] != '/')
+            continue;
+        *controllers++ = *group++ = 0;
+        for (char *c = controllers; *c; c++)
+            *c = *c == ',' ? ' ' : *c;
+        if (!*controllers) {
+            take_quota(machine, root, "/sys/fs/cgroup", group, true);
+            take_quota(machine, root, "/sys/fs/cgroup/unified", group, true);
+        } else if (rg_has_word(controllers, "cpu")) {
+            take_quota(machine, root, "/sys/fs/cgroup/cpu", group, false);
+            take_quota(machine, root, "/sys/fs/cgroup/cpu,cpuacct", group, false);
+        }
+    }
+    if (file)
+        fclose(file);
+}
+
+// --- the rest ---
+
+static int count_files(const char *root, const char *pattern)
+{
+    char path[MAX_PATH];
+    glob_t found;
+    snprintf(path, sizeof(path), "%s%s", root, pattern);
+    if (glob(path, GLOB_NOSORT, NULL, &found))
+        return 0;
+    int count = (int)found.gl_pathc;
+    globfree(&found);
+    return count;
+}
+
+static void read_system(struct rg_machine *machine, const char *root)
+{
+    struct utsname name;
+    if (!uname(&name))
+        snprintf(machine->kernel, sizeof(machine->kernel), "%.40s %.80s %.30s", name.sysname,
+                 name.release, name.machine);
+    read_value(root, "/etc/os-release", "PRETTY_NAME", machine->distribution,
+               sizeof(machine->distribution));
+    char kib[64];
+    if (read_value(root, "/proc/meminfo", "MemTotal", kib, sizeof(kib)))
+        machine->memory_bytes = (int64_t)strtoll(kib, NULL, 10) * 1024;
+}
+
+void rg_machine_read(struct rg_machine *machine, const char *root)
+{
+    *machine = (struct rg_machine){0};
+    char online[128];
+    read_cpu(machine, root);
+    read_system(machine, root);
+    if (read_value(root, "/sys/devices/system/cpu/online", "", online, sizeof(online)))
+        machine->cores_online = rg_cpu_list_count(online);
+    read_value(root, "/proc/self/status", "Cpus_allowed_list", machine->cores_list,
+               sizeof(machine->cores_list));
+    machine->cores_allowed = rg_cpu_list_count(machine->cores_list);
+    read_quota(machine, root);
+    machine->gpu_nodes =
+        count_files(root, "/dev/dri/renderD*") + count_files(root, "/dev/nvidia[0-9]*");
+}

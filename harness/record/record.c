@@ -1,0 +1,76 @@
+#include "harness/record/record.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/log.h"
+
+bool rg_record_end(struct rg_record *record, enum rg_outcome outcome, const char *detail)
+{
+    record->outcome = outcome;
+    rg_text_copy(record->detail, sizeof(record->detail), detail);
+    return false;
+}
+
+bool rg_record_end_by_error(struct rg_record *record)
+{
+    return rg_record_end(record, rg_outcome_of_error(), rg_last_error());
+}
+
+static void settle(double *number)
+{
+    *number = rg_number_kept(*number);
+}
+
+void rg_record_settle(struct rg_record *record)
+{
+    double sorted[RG_MAX_SAMPLES];
+    settle(&record->truth_error.flip_mask_mean);
+    settle(&record->truth_error.flip_mean);
+    settle(&record->create_ms);
+    settle(&record->first_frame_ms);
+    settle(&record->api_over_wall);
+    for (int i = 0; i < record->pass_count; i++)
+        settle(&record->passes[i].ms);
+    for (int i = 0; i < record->sample_count; i++)
+        settle(&record->samples_ms[i]);
+    if (!record->sample_count)
+        return;
+    memcpy(sorted, record->samples_ms, (size_t)record->sample_count * sizeof(double));
+    record->frame_ms = rg_median(sorted, record->sample_count);
+}
+
+double rg_record_fps(const struct rg_record *record)
+{
+    return 1000 / record->frame_ms.median;
+}
+
+double rg_record_passes_ms(const struct rg_record *record)
+{
+    double sum = 0;
+    for (int i = 0; i < record->pass_count; i++)
+        sum += record->passes[i].ms;
+    return sum;
+}
+
+double rg_record_published_fps(const struct rg_record *record)
+{
+    const double *fps = rg_named_number(record->published, record->published_count, "fps");
+    return fps ? *fps : NAN;
+}
+
+void rg_record_row_name(const struct rg_record *record, char *text, size_t size)
+{
+    size_t used = 0;
+    *text = 0;
+    for (int i = 0; i < record->row_count && used < size; i++) {
+        const struct rg_named *named = &record->row[i];
+        const char *comma = used ? ", " : "";
+        const int added = *named->text
+                              ? snprintf(text + used, size - used, "%s%s", comma, named->text)
+                              : snprintf(text + used, size - used, "%s%s %.10g", comma, named->name,
+                                         named->number);
+        used += (size_t)added;
+    }
+}

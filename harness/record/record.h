@@ -1,0 +1,83 @@
+// A record: what running one cell of a table leaves behind, as plain data. It holds no pointer, and
+// nothing that lives: who made it (harness/measure/job.h) may be gone, or be another process.
+#ifndef RG_HARNESS_RECORD_RECORD_H
+#define RG_HARNESS_RECORD_RECORD_H
+
+#include "backends/backend.h"
+#include "core/base/outcome.h"
+#include "harness/record/named.h"
+#include "harness/record/stats.h"
+
+enum {
+    // Passes of so many names are told apart; what all others take is summed as "other".
+    RG_MAX_PASS_TIMES = 32,
+    RG_MAX_SAMPLES = 256,
+    RG_MAX_VALUES = 10, // what tells a row from others, and what the paper printed of it
+    RG_SET_SIZE = 1024,
+    RG_DETAIL_SIZE = 200,
+};
+
+struct rg_pass_time {
+    char name[RG_NAME_SIZE];
+    double ms; // a frame, in a run of its own that syncs after every pass
+};
+
+// How far a row's image is from the table's truth: 8-bit encoded, over the rain mask and the whole.
+struct rg_truth_error {
+    enum rg_outcome outcome;
+    double flip_mask_mean, flip_mean; // 0 the same, 1 as different as can be
+    int max_codes;                    // largest difference, of 255
+    char detail[RG_DETAIL_SIZE];      // why the outcome is not OK
+};
+
+struct rg_record {
+    // What it is of
+    char technique[RG_NAME_SIZE];
+    char variant[RG_NAME_SIZE];   // what is timed: "full"
+    char work[RG_NAME_SIZE];      // "paper" or "ours"; "" in tables that do not tell them apart
+    char set[RG_SET_SIZE];        // the parameters that are set, as --set takes each
+    struct rg_device_info device; // a copy; read back, it has no limits
+    int row_count;
+    struct rg_named row[RG_MAX_VALUES]; // what tells its row from others: names, then numbers
+    int published_count;
+    struct rg_named published[RG_MAX_VALUES]; // what the paper printed: "fps" and others
+    // How it ended
+    enum rg_outcome outcome;
+    char detail[RG_DETAIL_SIZE];       // why the outcome is not OK
+    struct rg_truth_error truth_error; // where the table has a truth; the same on every device
+    // What was measured
+    double create_ms;      // opening: buffers, inputs, and what the driver compiles then
+    double first_frame_ms; // the first step and drawing, with what the driver compiles then
+    int frames_a_sample, sample_count;
+    double samples_ms[RG_MAX_SAMPLES]; // a frame, in the order in which they were taken
+    struct rg_interval frame_ms;       // of the samples
+    double api_over_wall; // the API's own clock by wall clock; trusted from 0.8 to 1.05
+    int pass_frames;      // of the run in which passes are told apart
+    int pass_count;
+    struct rg_pass_time passes[RG_MAX_PASS_TIMES]; // each name once, in the order of the frame
+    // What its instance told, after the frames before the image is compared
+    int counter_count;
+    struct rg_count counters[RG_MAX_COUNTERS];
+    int fact_count;
+    struct rg_named facts[RG_MAX_FACTS];
+};
+
+// Ends it with an outcome other than OK, and says why. False.
+bool rg_record_end(struct rg_record *record, enum rg_outcome outcome, const char *detail);
+// The same with the last error, which may be that something is unsupported.
+bool rg_record_end_by_error(struct rg_record *record);
+
+// Rounds its numbers to what is read back of them once they have been written, and makes frame_ms
+// of its samples: what is printed of a record is the same before and after it was on disk.
+void rg_record_settle(struct rg_record *record);
+
+// Frames a second.
+double rg_record_fps(const struct rg_record *record);
+// What all its passes take together, in the run that syncs after every pass.
+double rg_record_passes_ms(const struct rg_record *record);
+// The frame rate in print; NAN where none is.
+double rg_record_published_fps(const struct rg_record *record);
+// What its row is called: "glass with bunny", "texture_px 128", "local_height_m 5, camera 1".
+void rg_record_row_name(const struct rg_record *record, char *text, size_t size);
+
+#endif

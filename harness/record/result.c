@@ -1,0 +1,140 @@
+#include "harness/record/result.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+
+// --- rows ---
+
+static int works(const struct rg_result *result)
+{
+    return result->work_count ? result->work_count : 1;
+}
+
+int rg_result_row_cells(const struct rg_result *result)
+{
+    return works(result) * result->variant_count * result->device_count;
+}
+
+bool rg_result_has(const struct rg_result *result, int row)
+{
+    return row >= result->first_row && row <= result->last_row &&
+           result->rows[row - result->first_row];
+}
+
+int rg_result_first_missing(const struct rg_result *result)
+{
+    int row = result->first_row;
+    while (row <= result->last_row && rg_result_has(result, row))
+        row++;
+    return row;
+}
+
+bool rg_result_add_row(struct rg_result *result, int row)
+{
+    rg_result_drop_row(result, row);
+    result->rows[row - result->first_row] =
+        rg_alloc((size_t)rg_result_row_cells(result), sizeof(struct rg_record), result->table);
+    return rg_result_has(result, row);
+}
+
+void rg_result_drop_row(struct rg_result *result, int row)
+{
+    free(result->rows[row - result->first_row]);
+    result->rows[row - result->first_row] = NULL;
+}
+
+bool rg_result_keep_rows(struct rg_result *result, int first, int last)
+{
+    if (first > result->last_row || last < result->first_row)
+        return false;
+    for (int row = result->first_row; row <= result->last_row; row++)
+        if (row < first || row > last)
+            rg_result_drop_row(result, row);
+    const int before = first > result->first_row ? first - result->first_row : 0;
+    const size_t left = (size_t)(RG_RESULT_ROWS - before), size = sizeof(result->rows[0]);
+    memmove(result->rows, result->rows + before, left * size);
+    memset(result->rows + left, 0, (size_t)before * size);
+    result->first_row += before;
+    result->last_row = last < result->last_row ? last : result->last_row;
+    return true;
+}
+
+bool rg_result_keep_work(struct rg_result *result, const char *work)
+{
+    int kept = 0;
+    while (kept < result->work_count && strcmp(result->works[kept].name, work) != 0)
+        kept++;
+    if (!result->work_count || kept == result->work_count)
+        return !result->work_count;
+    const size_t cells = (size_t)(result->variant_count * result->device_count);
+    for (int i = 0; i < RG_RESULT_ROWS; i++)
+        if (result->rows[i])
+            memmove(result->rows[i], result->rows[i] + (size_t)kept * cells,
+                    cells * sizeof(struct rg_record));
+    result->works[0] = result->works[kept];
+    result->work_count = 1;
+    return true;
+}
+
+// --- cells ---
+
+struct rg_record *rg_result_at(const struct rg_result *result, struct rg_place place)
+{
+    const int variant = place.work * result->variant_count + place.variant;
+    return &result->rows[place.row - result->first_row]
+                        [variant * result->device_count + place.device];
+}
+
+struct rg_place rg_result_start_row(int row)
+{
+    return (struct rg_place){.row = row, .device = -1};
+}
+
+bool rg_result_next_in_row(const struct rg_result *result, struct rg_place *at)
+{
+    if (++at->device < result->device_count)
+        return true;
+    at->device = 0;
+    if (++at->variant < result->variant_count)
+        return true;
+    at->variant = 0;
+    return ++at->work < works(result);
+}
+
+struct rg_place rg_result_start(const struct rg_result *result)
+{
+    return rg_result_start_row(result->first_row);
+}
+
+bool rg_result_next(const struct rg_result *result, struct rg_place *at)
+{
+    while (at->row <= result->last_row) {
+        if (rg_result_has(result, at->row) && rg_result_next_in_row(result, at))
+            return true;
+        *at = rg_result_start_row(at->row + 1);
+    }
+    return false;
+}
+
+void rg_result_samples(const struct rg_result *result, int *least, int *most)
+{
+    *least = *most = 0;
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);) {
+        const struct rg_record *record = rg_result_at(result, at);
+        const int samples = record->sample_count;
+        if (record->outcome != RG_OK || !samples)
+            continue;
+        *least = !*least || samples < *least ? samples : *least;
+        *most = samples > *most ? samples : *most;
+    }
+}
+
+void rg_result_free(struct rg_result *result)
+{
+    for (int i = 0; i < RG_RESULT_ROWS; i++)
+        free(result->rows[i]);
+    json_decref(result->passport);
+    *result = (struct rg_result){0};
+}

@@ -1,0 +1,89 @@
+// A result: a table as it was measured, as plain data. What prints tables, and what compares them,
+// takes results: it opens no device, and need not know where one came from.
+#ifndef RG_HARNESS_RECORD_RESULT_H
+#define RG_HARNESS_RECORD_RESULT_H
+
+#include <jansson.h>
+
+#include "core/device/device.h"
+#include "harness/record/record.h"
+
+enum {
+    RG_RESULT_ROWS = 256,
+    RG_RESULT_WORKS = 2,
+    RG_RESULT_VARIANTS = 8,
+    RG_RESULT_MISSING = RG_MAX_BACKENDS + RG_MAX_DEVICES,
+    RG_NOTE_SIZE = 1024,
+    RG_TITLE_SIZE = 256,
+};
+
+// What tells apart how much work a row's cells do.
+struct rg_result_work {
+    char name[RG_NAME_SIZE];   // "paper": what was printed; "ours"
+    char saves[RG_TITLE_SIZE]; // what saves work, one line; "": nothing
+};
+
+struct rg_result {
+    char table[RG_NAME_SIZE]; // "creus-5.4"
+    char technique[RG_NAME_SIZE];
+    char hardware[RG_TITLE_SIZE]; // what the paper measured on; "": nothing is published
+    char truth[RG_TITLE_SIZE]; // set over a row's own for the image that errors are told of; "": no
+                               // errors are told
+    char quick[RG_TITLE_SIZE]; // what quick mode sets; "": nothing
+    char note[RG_NOTE_SIZE];   // what a reader of the table must know
+    bool full;                 // else quick
+    bool is_of_textures;       // nothing is timed
+    int width, height;         // of the image, in pixels
+    int check_frames;          // simulated and drawn before images are compared
+    int first_row, last_row;   // of the table, from 0
+    int resumed_rows;          // not measured now but by an earlier run that was interrupted
+    int work_count;            // 0: the table does not tell works apart
+    struct rg_result_work works[RG_RESULT_WORKS];
+    int variant_count;
+    char variants[RG_RESULT_VARIANTS][RG_NAME_SIZE];
+    int device_count;
+    struct rg_device_info devices[RG_MAX_DEVICES];
+    json_t *passport; // docs/records.md; owned
+    int missing_count;
+    char missing[RG_RESULT_MISSING][256]; // one sentence each device that a reader looks for in
+                                          // vain
+    // Of first_row and those behind it, a record a cell; owned. NULL: the row was not measured.
+    struct rg_record *rows[RG_RESULT_ROWS];
+};
+
+// Where a cell stands: indices of a row of the table, and among works, variants and devices.
+struct rg_place {
+    int row, work, variant, device;
+};
+
+// THE way to a cell: its record. Its row must be there (rg_result_has).
+struct rg_record *rg_result_at(const struct rg_result *result, struct rg_place place);
+
+// The cells of the rows that are there, row by row, work by work, variant by variant, device by
+// device:   for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);)
+struct rg_place rg_result_start(const struct rg_result *result);
+bool rg_result_next(const struct rg_result *result, struct rg_place *at);
+// The same of one row alone.
+struct rg_place rg_result_start_row(int row);
+bool rg_result_next_in_row(const struct rg_result *result, struct rg_place *at);
+
+int rg_result_row_cells(const struct rg_result *result); // cells of a row
+bool rg_result_has(const struct rg_result *result, int row);
+// The first row that is missing; one behind the last where none is.
+int rg_result_first_missing(const struct rg_result *result);
+
+// Zeroed records for a row. False, with one logged line, without memory for them.
+bool rg_result_add_row(struct rg_result *result, int row);
+void rg_result_drop_row(struct rg_result *result, int row);
+// Leaves out the rows before `first` and behind `last`, or the cells of other works. A table that
+// does not tell works apart stays as it is. False where nothing is left.
+bool rg_result_keep_rows(struct rg_result *result, int first, int last);
+bool rg_result_keep_work(struct rg_result *result, const char *work);
+
+// How many samples its measured cells took, at least and at most; 0 where none was measured.
+void rg_result_samples(const struct rg_result *result, int *least, int *most);
+
+// Frees what it owns.
+void rg_result_free(struct rg_result *result);
+
+#endif

@@ -1,0 +1,52 @@
+// Reading a document's fields: each is of the kind, and within the bounds, that the schema says, or
+// one line names the file, the place and the mend.
+#ifndef RG_HARNESS_RECORD_SCHEMA_FIELDS_H
+#define RG_HARNESS_RECORD_SCHEMA_FIELDS_H
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "harness/record/named.h"
+
+struct rg_reader {
+    const char *file;
+    char
+        place[96]; // "cells[3].measured", of the object that fields are read from; "": the document
+    char *why;     // receives the line
+    size_t why_size;
+};
+
+// Names the place; "" for the document.
+void rg_reader_enter(struct rg_reader *reader, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+// Says that `field` ("": the place itself) is not as it should be: "is no number above 0". False.
+bool rg_reader_refuse(struct rg_reader *reader, const char *field, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+// A field of an object, of this type. NULL, and the reader refuses, where it is another's.
+json_t *rg_field(struct rg_reader *reader, const json_t *object, const char *name, json_type type);
+
+// An array of 1 to `most` elements. NULL, with *count 0, where it is none.
+json_t *rg_field_array(struct rg_reader *reader, const json_t *object, const char *name, int most,
+                       int *count);
+
+bool rg_field_text(struct rg_reader *reader, const json_t *object, const char *name, char *text,
+                   size_t size);
+// The same of null, which is "".
+bool rg_field_text_or_null(struct rg_reader *reader, const json_t *object, const char *name,
+                           char *text, size_t size);
+bool rg_field_bool(struct rg_reader *reader, const json_t *object, const char *name, bool *value);
+bool rg_field_int(struct rg_reader *reader, const json_t *object, const char *name, int least,
+                  int most, int *value);
+// A number that is not negative.
+bool rg_field_number(struct rg_reader *reader, const json_t *object, const char *name,
+                     double *value);
+
+// Objects with a field each: named values and counts, `most` of them at most.
+bool rg_field_named(struct rg_reader *reader, const json_t *object, const char *name,
+                    struct rg_named *named, int most, int *count);
+bool rg_field_counts(struct rg_reader *reader, const json_t *object, const char *name,
+                     struct rg_count *counts, int most, int *count);
+
+#endif

@@ -1,0 +1,13 @@
+// The two halves of reading a result's document, of which harness/record/schema/schema.h is the
+// whole.
+#ifndef RG_HARNESS_RECORD_SCHEMA_READ_H
+#define RG_HARNESS_RECORD_SCHEMA_READ_H
+
+#include "harness/record/schema/fields.h"
+#include "harness/record/result.h"
+
+bool rg_read_head(struct rg_reader *reader, const json_t *document, struct rg_result *result);
+// The cells of the rows that are there, each row's all.
+bool rg_read_cells(struct rg_reader *reader, const json_t *document, struct rg_result *result);
+
+#endif

@@ -1,0 +1,140 @@
+// Results as JSON.
+#include <string.h>
+
+#include "harness/record/schema/schema.h"
+
+static json_t *samples_json(const struct rg_record *record)
+{
+    json_t *samples = json_array();
+    for (int i = 0; i < record->sample_count; i++)
+        json_array_append_new(samples, json_real(record->samples_ms[i]));
+    return samples;
+}
+
+// Milliseconds a frame divided by `unit`.
+static json_t *passes_json(const struct rg_record *record, double unit)
+{
+    json_t *passes = json_object();
+    for (int i = 0; i < record->pass_count; i++)
+        json_object_set_new(passes, record->passes[i].name, json_real(record->passes[i].ms / unit));
+    return passes;
+}
+
+static json_t *times_json(const struct rg_record *record)
+{
+    return json_pack("{sfsfsfsfsfsfsfsisosisoso}", "fps", rg_record_fps(record), "ms",
+                     record->frame_ms.median, "ms_low", record->frame_ms.low, "ms_high",
+                     record->frame_ms.high, "create_ms", record->create_ms, "first_frame_ms",
+                     record->first_frame_ms, "api_over_wall", record->api_over_wall,
+                     "frames_a_sample", record->frames_a_sample, "samples_ms", samples_json(record),
+                     "pass_frames", record->pass_frames, "passes_ms", passes_json(record, 1),
+                     "passes_share", passes_json(record, rg_record_passes_ms(record)));
+}
+
+// Beside what the paper printed, but for frame rates, stands the fact of the same name.
+static json_t *measured_json(const struct rg_record *record, bool is_timed)
+{
+    json_t *json = is_timed ? times_json(record) : json_object();
+    for (int i = 0; i < record->published_count; i++) {
+        const char *name = record->published[i].name;
+        const double *told = rg_named_number(record->facts, record->fact_count, name);
+        if (told && strcmp(name, "fps") != 0)
+            json_object_set_new(json, name, rg_number_json(*told));
+    }
+    return json;
+}
+
+static json_t *error_json(const struct rg_truth_error *error)
+{
+    if (error->outcome != RG_OK)
+        return json_pack("{ssso}", "status", rg_outcome_name(error->outcome), "detail",
+                         rg_json_text(error->detail));
+    return json_pack("{sssfsfsi}", "status", "ok", "flip_mask_mean", error->flip_mask_mean,
+                     "flip_mean", error->flip_mean, "max", error->max_codes);
+}
+
+static json_t *cell_json(const struct rg_result *result, struct rg_place at)
+{
+    const struct rg_record *record = rg_result_at(result, at);
+    json_t *json = json_pack("{sosisossss}", "row", rg_named_json(record->row, record->row_count),
+                             "row_number", at.row + 1, "set", rg_json_text(record->set), "device",
+                             record->device.name, "variant", record->variant);
+    if (*record->work)
+        json_object_set_new(json, "work", json_string(record->work));
+    json_object_set_new(json, "status", json_string(rg_outcome_name(record->outcome)));
+    json_object_set_new(json, "published",
+                        rg_named_json(record->published, record->published_count));
+    json_object_set_new(json, "counters", rg_counts_json(record->counters, record->counter_count));
+    json_object_set_new(json, "facts", rg_named_json(record->facts, record->fact_count));
+    if (*result->truth)
+        json_object_set_new(json, "error", error_json(&record->truth_error));
+    if (record->outcome == RG_OK)
+        json_object_set_new(json, "measured", measured_json(record, !result->is_of_textures));
+    else
+        json_object_set_new(json, "detail", rg_json_text(record->detail));
+    return json;
+}
+
+static json_t *cells_json(const struct rg_result *result)
+{
+    json_t *cells = json_array();
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);)
+        json_array_append_new(cells, cell_json(result, at));
+    return cells;
+}
+
+static json_t *missing_json(const struct rg_result *result)
+{
+    json_t *missing = json_array();
+    for (int i = 0; i < result->missing_count; i++)
+        json_array_append_new(missing, rg_json_text(result->missing[i]));
+    return missing;
+}
+
+static json_t *variants_json(const struct rg_result *result)
+{
+    json_t *variants = json_array();
+    for (int i = 0; i < result->variant_count; i++)
+        json_array_append_new(variants, json_string(result->variants[i]));
+    return variants;
+}
+
+static json_t *works_json(const struct rg_result *result)
+{
+    json_t *works = json_array();
+    for (int i = 0; i < result->work_count; i++)
+        json_array_append_new(works, json_pack("{ssso}", "name", result->works[i].name, "saves",
+                                               rg_json_text(result->works[i].saves)));
+    return works;
+}
+
+// Text, or null where there is none.
+static json_t *text_or_null(const char *text)
+{
+    return *text ? rg_json_text(text) : json_null();
+}
+
+// What the table is, and which part of it was to be measured.
+static json_t *head_json(const struct rg_result *result)
+{
+    return json_pack("{sisssosssbsisss[ii]sisbs[ii]sosososo}", "format", RG_FORMAT_VERSION, "table",
+                     result->table, "hardware", text_or_null(result->hardware), "length",
+                     result->full ? "full" : "quick", "interrupted",
+                     rg_result_first_missing(result) <= result->last_row, "resumed_rows",
+                     result->resumed_rows, "technique", result->technique, "size_px", result->width,
+                     result->height, "check_frames", result->check_frames, "timed",
+                     !result->is_of_textures, "rows", result->first_row + 1, result->last_row + 1,
+                     "variants", variants_json(result), "truth", text_or_null(result->truth),
+                     "quick", text_or_null(result->quick), "note", rg_json_text(result->note));
+}
+
+json_t *rg_result_json(const struct rg_result *result)
+{
+    json_t *json = head_json(result);
+    if (result->work_count)
+        json_object_set_new(json, "works", works_json(result));
+    json_object_set(json, "passport", result->passport);
+    json_object_set_new(json, "missing", missing_json(result));
+    json_object_set_new(json, "cells", cells_json(result));
+    return json;
+}

@@ -1,0 +1,38 @@
+#include "harness/tables/batch.h"
+
+#include <stdlib.h>
+
+#include "core/base/alloc.h"
+
+bool rg_batch_open(struct rg_batch *batch, int rows)
+{
+    batch->job_room = rows * rg_result_row_cells(batch->result);
+    batch->jobs = rg_alloc((size_t)batch->job_room, sizeof(*batch->jobs), batch->table->id);
+    batch->settings = rg_alloc((size_t)batch->job_room, sizeof(void *), batch->table->id);
+    return batch->jobs && batch->settings;
+}
+
+void rg_batch_close(struct rg_batch *batch)
+{
+    for (int i = 0; i < batch->job_count; i++)
+        if (batch->jobs[i].instance)
+            rg_kept_put(batch->kept, batch->jobs[i].instance);
+    for (int i = 0; i < batch->settings_count; i++)
+        free(batch->settings[i]);
+    free(batch->settings);
+    free(batch->jobs);
+}
+
+const void *rg_batch_settings(struct rg_batch *batch, struct rg_place at)
+{
+    const struct rg_technique *technique = rg_technique_find(batch->table->technique);
+    void *defaults = rg_settings_create(technique), *settings = NULL;
+    char *assignments = rg_table_assignments(batch->result, batch->table, at);
+    if (defaults && assignments)
+        settings = rg_settings_copy(technique, defaults, assignments);
+    free(assignments);
+    free(defaults);
+    if (settings)
+        batch->settings[batch->settings_count++] = settings;
+    return settings;
+}

@@ -1,0 +1,147 @@
+// What a table's records say before they are measured: what they are of.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/measure/expected.h"
+#include "harness/record/passport/passport.h"
+#include "harness/tables/table.h"
+
+// --- the whole ---
+
+static void name_devices(struct rg_result *result, const struct rg_devices *devices)
+{
+    result->device_count = devices->count;
+    for (int d = 0; d < devices->count; d++)
+        result->devices[d] = devices->devices[d]->info;
+    result->passport = rg_passport_json(result->devices, result->device_count);
+    for (int i = 0; devices->missing[i][0]; i++)
+        rg_text_copy(result->missing[result->missing_count++], sizeof(result->missing[0]),
+                     devices->missing[i]);
+    for (int i = 0; i < devices->broken_count; i++)
+        rg_text_copy(result->missing[result->missing_count++], sizeof(result->missing[0]),
+                     devices->broken[i].why);
+}
+
+static void name_works(struct rg_result *result, const struct rg_table *table, const char *wanted)
+{
+    for (const struct rg_table_work *work = table->works; work->name; work++) {
+        if (wanted && strcmp(work->name, wanted) != 0)
+            continue;
+        struct rg_result_work *named = &result->works[result->work_count++];
+        rg_text_copy(named->name, sizeof(named->name), work->name);
+        rg_text_copy(named->saves, sizeof(named->saves), work->saves);
+    }
+}
+
+static void copy_or_none(char *to, size_t size, const char *from)
+{
+    rg_text_copy(to, size, from ? from : "");
+}
+
+void rg_table_begin(struct rg_result *result, const struct rg_table *table,
+                    const struct rg_table_part *part, const struct rg_devices *devices)
+{
+    rg_text_copy(result->table, sizeof(result->table), table->id);
+    rg_text_copy(result->technique, sizeof(result->technique), table->technique);
+    copy_or_none(result->hardware, sizeof(result->hardware), table->hardware);
+    copy_or_none(result->truth, sizeof(result->truth), table->truth);
+    copy_or_none(result->quick, sizeof(result->quick), table->quick);
+    rg_text_copy(result->note, sizeof(result->note), table->note);
+    result->full = part->full;
+    result->is_of_textures = table->is_of_textures;
+    result->width = table->width;
+    result->height = table->height;
+    result->check_frames = table->check_frames ? table->check_frames : RG_CHECK_FRAMES;
+    result->first_row = part->first_row;
+    result->last_row = part->last_row;
+    while (table->variants[result->variant_count].name) {
+        const char *name = table->variants[result->variant_count].name;
+        rg_text_copy(result->variants[result->variant_count++], RG_NAME_SIZE, name);
+    }
+    name_works(result, table, part->work);
+    name_devices(result, devices);
+}
+
+// --- a row ---
+
+static const struct rg_table_work *work_at(const struct rg_result *result,
+                                           const struct rg_table *table, struct rg_place at)
+{
+    const struct rg_table_work *work = table->works;
+    while (work->name && strcmp(work->name, result->works[at.work].name) != 0)
+        work++;
+    return work;
+}
+
+char *rg_table_assignments(const struct rg_result *result, const struct rg_table *table,
+                           struct rg_place at)
+{
+    const struct rg_table_work *work = work_at(result, table, at);
+    const char *const parts[] = {table->rows[at.row].set, table->variants[at.variant].set,
+                                 work->name ? work->set : "",
+                                 result->full || !table->quick ? "" : table->quick};
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    bool any = false;
+    for (int i = 0; out && i < 4; i++) {
+        if (!*parts[i])
+            continue;
+        fprintf(out, "%s%s", any ? " " : "", parts[i]);
+        any = true;
+    }
+    if (out && fclose(out) == 0)
+        return text;
+    free(text);
+    return rg_error_null("table '%s': no memory for a row's settings", table->id);
+}
+
+// What tells the row from others: its name, the keys.
+static void name_row(struct rg_record *record, const struct rg_table *table, int row)
+{
+    if (table->names)
+        rg_named_set_text(&record->row[record->row_count++], table->names, table->rows[row].name);
+    for (int c = 0; c < table->key_count; c++)
+        rg_named_set_number(&record->row[record->row_count++], table->columns[c],
+                            table->rows[row].values[c]);
+}
+
+static void name_published(struct rg_record *record, const struct rg_table *table,
+                           struct rg_place at)
+{
+    if (rg_table_is_published(table) && !table->is_of_textures)
+        rg_named_set_number(&record->published[record->published_count++], "fps",
+                            rg_table_published_fps(table, at.row, at.variant));
+    for (int c = 0; table->columns[c]; c++)
+        if (rg_table_is_extra(table, c))
+            rg_named_set_number(&record->published[record->published_count++], table->columns[c],
+                                table->rows[at.row].values[c]);
+}
+
+static bool name_cell(const struct rg_result *result, const struct rg_table *table,
+                      struct rg_place at)
+{
+    struct rg_record *record = rg_result_at(result, at);
+    char *assignments = rg_table_assignments(result, table, at);
+    if (!assignments)
+        return false;
+    rg_text_copy(record->set, sizeof(record->set), assignments);
+    free(assignments);
+    memcpy(record->technique, result->technique, sizeof(record->technique));
+    memcpy(record->variant, result->variants[at.variant], sizeof(record->variant));
+    memcpy(record->work, result->works[at.work].name, sizeof(record->work));
+    record->device = result->devices[at.device];
+    name_row(record, table, at.row);
+    name_published(record, table, at);
+    return true;
+}
+
+bool rg_table_add_row(struct rg_result *result, const struct rg_table *table, int row)
+{
+    bool ok = rg_result_add_row(result, row);
+    for (struct rg_place at = rg_result_start_row(row); ok && rg_result_next_in_row(result, &at);)
+        ok = name_cell(result, table, at);
+    return ok;
+}

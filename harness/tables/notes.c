@@ -1,0 +1,204 @@
+// What is said below a table.
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/tables/sheet.h"
+#include "harness/tables/trend.h"
+
+// ", no_geometry", ", ours, full": what tells a row's cells on one device apart, where there are
+// several.
+static void name_kind(const struct rg_result *result, struct rg_place at, char *text, size_t size)
+{
+    size_t used = 0;
+    *text = 0;
+    if (result->work_count)
+        used = (size_t)snprintf(text, size, ", %s", result->works[at.work].name);
+    if (result->variant_count > 1)
+        snprintf(text + used, size - used, ", %s", result->variants[at.variant]);
+}
+
+// "glass with bunny", "texture_px 128, no_geometry".
+static void name_cell(const struct rg_result *result, struct rg_place at, char *text, size_t size)
+{
+    rg_record_row_name(rg_result_at(result, at), text, size);
+    const size_t used = strlen(text);
+    name_kind(result, at, text + used, size - used);
+}
+
+// --- what could not be had ---
+
+// Whether two cells were left out for the same reason.
+static bool ended_alike(const struct rg_record *a, const struct rg_record *b)
+{
+    return a->outcome == b->outcome && !strcmp(a->detail, b->detail);
+}
+
+// The devices of a row that were left out for the same reason as this one, from it on: "gl,
+// vulkan"; "" when one before it was.
+static void name_alike(const struct rg_result *result, struct rg_place at, char *text, size_t size)
+{
+    const struct rg_record *record = rg_result_at(result, at);
+    const int device = at.device;
+    size_t used = 0;
+    *text = 0;
+    for (at.device = 0; at.device < device; at.device++)
+        if (ended_alike(record, rg_result_at(result, at)))
+            return;
+    for (; at.device < result->device_count && used < size; at.device++)
+        if (ended_alike(record, rg_result_at(result, at)))
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
+                                     result->devices[at.device].name);
+}
+
+static void note_outcome(const struct rg_result *result, struct rg_sheet *sheet, struct rg_place at)
+{
+    const struct rg_record *record = rg_result_at(result, at);
+    char name[256], devices[512];
+    name_cell(result, at, name, sizeof(name));
+    name_alike(result, at, devices, sizeof(devices));
+    if (record->outcome != RG_OK && *devices)
+        rg_sheet_note(sheet, "%s on %s: %s", name, devices, record->detail);
+    if (at.device == 0 && record->truth_error.outcome != RG_OK)
+        rg_sheet_note(sheet, "%s: no error: %s", name, record->truth_error.detail);
+}
+
+// --- the trend ---
+
+static void note_trend(const struct rg_result *result, struct rg_sheet *sheet, struct rg_place of)
+{
+    const struct rg_trend s = rg_trend_of(result, of);
+    char slopes[160] = "", kind[128];
+    if (s.verdict >= RG_TREND_UNKNOWN)
+        return;
+    if (s.has_slope)
+        snprintf(slopes, sizeof(slopes), "; it goes with %s to the power %.2f, published %.2f",
+                 rg_trend_axis(rg_result_at(result, of))->name, s.slope, s.published_slope);
+    name_kind(result, of, kind, sizeof(kind));
+    rg_sheet_note(
+        sheet, "Shape on %s%s: %s. fps %s the published order (%d of %d pairs of rows)%s.",
+        result->devices[of.device].name, kind, rg_trend_text(s.verdict),
+        s.pairs_in_order == s.pairs ? "keeps" : "does not keep", s.pairs_in_order, s.pairs, slopes);
+}
+
+// --- the inputs ---
+
+// Whether all measured cells tell the same, which is `text` then.
+static bool is_same_everywhere(const struct rg_result *result, const char *const *shown,
+                               char text[RG_FACTS_TEXT])
+{
+    char other[RG_FACTS_TEXT];
+    bool any = false;
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);) {
+        const struct rg_record *record = rg_result_at(result, at);
+        if (record->outcome != RG_OK)
+            continue;
+        rg_named_text(record->facts, record->fact_count, shown, any ? other : text, RG_FACTS_TEXT);
+        if (any && strcmp(other, text))
+            return false;
+        any = true;
+    }
+    return any;
+}
+
+// Each text once: for the table, or for a row's cells that follow each other and tell it.
+static void note_facts(const struct rg_result *result, const char *const *shown,
+                       struct rg_sheet *sheet)
+{
+    char now[RG_FACTS_TEXT], before[RG_FACTS_TEXT] = "", name[256];
+    if (is_same_everywhere(result, shown, now)) {
+        if (*now)
+            rg_sheet_note(sheet, "Inputs of every row: %s.", now);
+        return;
+    }
+    int row = -1;
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at); row = at.row) {
+        const struct rg_record *record = rg_result_at(result, at);
+        if (at.row != row)
+            *before = 0;
+        rg_named_text(record->facts, record->fact_count, shown, now, sizeof(now));
+        if (!*now || !strcmp(now, before))
+            continue;
+        name_cell(result, at, name, sizeof(name));
+        rg_sheet_note(sheet, "Inputs of %s: %s.", name, now);
+        memcpy(before, now, sizeof(now));
+    }
+}
+
+// --- the method ---
+
+// How the numbers were come by.
+static void note_method(const struct rg_result *result, struct rg_sheet *sheet)
+{
+    char published[RG_TITLE_SIZE + 32] = "", samples[48];
+    int least, most;
+    if (*result->hardware)
+        snprintf(published, sizeof(published), "Published on %s. ", result->hardware);
+    rg_result_samples(result, &least, &most);
+    snprintf(samples, sizeof(samples), "%d", most);
+    if (least < most)
+        snprintf(samples, sizeof(samples), "%d to %d", least, most);
+    if (!result->is_of_textures) {
+        rg_sheet_note(sheet,
+                      "%sTimes are wall clock between full syncs, medians of %s samples (%s).",
+                      published, samples, result->full ? "full" : "quick");
+        rg_sheet_note(sheet, "Shares of the passes come from a run of its own that syncs after "
+                             "every pass.");
+    } else {
+        rg_sheet_note(sheet, "Sizes are those of the images that the devices made.");
+    }
+    if (!result->full && *result->quick)
+        rg_sheet_note(sheet, "Quick mode sets %s; --full leaves that as the paper has it.",
+                      result->quick);
+}
+
+// The last row of those that are missing from this one on.
+static int end_of_gap(const struct rg_result *result, int row)
+{
+    while (row < result->last_row && !rg_result_has(result, row + 1))
+        row++;
+    return row;
+}
+
+// What is not of this run, or not there.
+static void note_interruption(const struct rg_result *result, struct rg_sheet *sheet)
+{
+    if (result->resumed_rows)
+        rg_sheet_note(sheet, "Of its rows, %d were measured by a run that was interrupted before.",
+                      result->resumed_rows);
+    for (int row = result->first_row; row <= result->last_row; row++) {
+        if (rg_result_has(result, row))
+            continue;
+        const int last = end_of_gap(result, row);
+        rg_sheet_note(sheet, "Rows %d to %d are missing: the run was interrupted.", row + 1,
+                      last + 1);
+        row = last;
+    }
+}
+
+static void note_works(const struct rg_result *result, struct rg_sheet *sheet)
+{
+    for (int i = 0; i < result->work_count; i++)
+        if (*result->works[i].saves)
+            rg_sheet_note(sheet, "Cells of work %s do less than what was printed: %s.",
+                          result->works[i].name, result->works[i].saves);
+}
+
+void rg_result_notes(const struct rg_result *result, const char *const *shown,
+                     struct rg_sheet *sheet)
+{
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);)
+        note_outcome(result, sheet, at);
+    for (struct rg_place of = rg_result_start_row(result->first_row);
+         rg_result_next_in_row(result, &of);)
+        note_trend(result, sheet, of);
+    note_facts(result, shown, sheet);
+    note_works(result, sheet);
+    note_method(result, sheet);
+    note_interruption(result, sheet);
+    if (*result->truth)
+        rg_sheet_note(sheet,
+                      "The error is the image's mean FLIP over the rain mask, 0 to 1, against "
+                      "the image with %s.",
+                      result->truth);
+    rg_sheet_note(sheet, "%s", result->note);
+}

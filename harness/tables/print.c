@@ -1,0 +1,65 @@
+#include "harness/tables/print.h"
+
+#include <stdlib.h>
+
+#include "core/base/log.h"
+#include "harness/record/output.h"
+#include "harness/record/schema/schema.h"
+#include "harness/tables/sheet.h"
+#include "harness/tables/trend.h"
+
+enum { MD, CSV, JSON = RG_RESULT_JSON, TEX };
+const char *const rg_result_formats[] = {
+    [MD] = "md", [CSV] = "csv", [JSON] = "json", [TEX] = "tex", NULL};
+
+// Beside what can be read back stands what is said of it.
+static void print_json(const struct rg_result *result, FILE *out)
+{
+    json_t *json = rg_result_json(result);
+    json_object_set_new(json, "shapes", rg_trends_json(result));
+    json_dumpf(json, out, JSON_INDENT(1) | RG_JSON_FLAGS);
+    fprintf(out, "\n");
+    json_decref(json);
+}
+
+bool rg_result_print(const struct rg_result *result, int format, FILE *out)
+{
+    if (format == JSON) {
+        print_json(result, out);
+        return true;
+    }
+    struct rg_sheet sheet;
+    rg_result_sheet(result, &sheet);
+    if (format == CSV)
+        rg_sheet_print_csv(&sheet, out);
+    else if (format == TEX)
+        rg_sheet_print_tex(&sheet, out);
+    else
+        rg_sheet_print_md(&sheet, out);
+    rg_sheet_free(&sheet);
+    return !sheet.incomplete;
+}
+
+static bool write_as(const struct rg_result *result, int format, const char *folder)
+{
+    char *text = NULL, name[RG_NAME_SIZE + 8];
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return rg_error("table '%s': no memory to print it", result->table);
+    bool ok = rg_result_print(result, format, out);
+    if (fclose(out))
+        ok = rg_error("table '%s': no memory to print it", result->table);
+    snprintf(name, sizeof(name), "%s.%s", result->table, rg_result_formats[format]);
+    ok = ok && rg_output_write(folder, name, text);
+    free(text);
+    return ok;
+}
+
+bool rg_result_write(const struct rg_result *result, const char *folder)
+{
+    bool ok = true;
+    for (int i = 0; ok && rg_result_formats[i]; i++)
+        ok = write_as(result, i, folder);
+    return ok;
+}

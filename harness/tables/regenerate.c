@@ -1,0 +1,110 @@
+#include "harness/tables/regenerate.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "harness/console/exit.h"
+#include "harness/console/interrupt.h"
+
+// One table of the command.
+struct task {
+    const struct rg_table *table;
+    struct rg_result result;
+    struct rg_journal *journal;
+};
+
+static void tell_resumed(const struct task *task)
+{
+    const struct rg_result *result = &task->result;
+    int rows = 0;
+    for (int row = result->first_row; row <= result->last_row; row++)
+        rows += rg_journal_has(task->journal, row);
+    if (rows)
+        rg_info("%s: %d of %d rows are those of a run that was interrupted; --fresh measures them "
+                "anew",
+                result->table, rows, result->last_row - result->first_row + 1);
+}
+
+static void tell_interrupted(const struct task *task)
+{
+    const int missing = rg_result_first_missing(&task->result);
+    const char *path = rg_journal_path(task->journal), *id = task->result.table;
+    if (missing > task->result.last_row)
+        rg_info("%s: done, and then interrupted; the same command goes on with the next table", id);
+    else if (path)
+        rg_info("%s: interrupted; the same command goes on with row %d (%s)", id, missing + 1,
+                path);
+    else
+        rg_info("%s: interrupted before a row of it was done; the same command begins it anew", id);
+}
+
+static int run_task(struct task *task, struct rg_kept *kept,
+                    const struct rg_regenerate_options *options)
+{
+    tell_resumed(task);
+    if (!rg_table_measure(&task->result, task->table, kept, task->journal))
+        return RG_EXIT_FAIL;
+    int exit = options->print(&task->result, options->user);
+    if (rg_interrupted()) {
+        tell_interrupted(task);
+        exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
+    }
+    return exit;
+}
+
+// The tables that have some of the rows. Journals are read before one is written: a table may be
+// named twice.
+static int make_tasks(const struct rg_regenerate_options *o, const struct rg_devices *devices,
+                      const struct rg_table *const tables[], int count, struct task *tasks)
+{
+    int made = 0;
+    for (int i = 0; i < count; i++) {
+        const int rows = tables[i]->row_count;
+        const struct rg_table_part part = {
+            .first_row = o->first_row ? o->first_row - 1 : 0,
+            .last_row = (o->last_row && o->last_row < rows ? o->last_row : rows) - 1,
+            .full = o->full,
+            .work = o->work};
+        if (part.first_row > part.last_row)
+            continue;
+        tasks[made].table = tables[i];
+        rg_table_begin(&tasks[made++].result, tables[i], &part, devices);
+    }
+    for (int i = 0; i < made; i++)
+        tasks[i].journal = rg_journal_open(&tasks[i].result, o->folder, o->fresh, i < made - 1);
+    return made;
+}
+
+// A table that fails keeps none of the others from being measured and written.
+static int run_tasks(struct task *tasks, int count, const struct rg_devices *devices,
+                     const struct rg_regenerate_options *o)
+{
+    struct rg_kept kept = {.devices = devices};
+    int exit = RG_EXIT_PASS;
+    rg_interrupt_watch();
+    for (int i = 0; i < count && !rg_interrupted(); i++) {
+        if (i)
+            printf("\n");
+        exit = rg_exit_worse(exit, run_task(&tasks[i], &kept, o));
+    }
+    for (int i = 0; i < count; i++) {
+        if (!rg_interrupted())
+            rg_journal_remove(tasks[i].journal);
+        rg_result_free(&tasks[i].result);
+        rg_journal_close(tasks[i].journal);
+    }
+    return rg_kept_free(&kept) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
+}
+
+int rg_tables_regenerate(const struct rg_table *const tables[], int count,
+                         const struct rg_devices *devices,
+                         const struct rg_regenerate_options *options)
+{
+    struct task *tasks = rg_alloc((size_t)count, sizeof(*tasks), "tables");
+    const int made = tasks ? make_tasks(options, devices, tables, count, tasks) : 0;
+    const int exit = tasks ? run_tasks(tasks, made, devices, options) : RG_EXIT_FAIL;
+    free(tasks);
+    return exit;
+}

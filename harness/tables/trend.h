@@ -1,0 +1,36 @@
+// Whether a device's numbers fall along a table's rows as the published ones do.
+#ifndef RG_HARNESS_TABLES_TREND_H
+#define RG_HARNESS_TABLES_TREND_H
+
+#include "harness/record/result.h"
+
+enum rg_trend_verdict {
+    RG_TREND_REPRODUCED, // same order of the rows, and same slope along the axis
+    RG_TREND_ONLY,       // same order, another slope
+    RG_TREND_ORDER,      // same order, of rows without an axis
+    RG_TREND_NOT,        // another order
+    RG_TREND_UNKNOWN,
+    RG_TREND_OTHER_WORK, // what was measured is not the work that was printed
+};
+const char *rg_trend_text(enum rg_trend_verdict verdict);
+
+struct rg_trend {
+    enum rg_trend_verdict verdict;
+    int pairs;                     // of rows whose published numbers differ
+    int pairs_in_order;            // so many of them stand in the published order
+    bool has_slope;                // the rows have an axis
+    double slope, published_slope; // of log(fps) over log(axis)
+};
+
+// The trend of a work and variant on a device; the place's row is nothing to it.
+struct rg_trend rg_trend_of(const struct rg_result *result, struct rg_place of);
+
+// What rows have as their axis: the first of the numbers that tell them apart. NULL where there is
+// none.
+const struct rg_named *rg_trend_axis(const struct rg_record *record);
+
+// The trends of all works, variants and devices as in docs/records.md (`shapes`); the caller owns
+// it.
+json_t *rg_trends_json(const struct rg_result *result);
+
+#endif

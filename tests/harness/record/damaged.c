@@ -1,0 +1,160 @@
+// Documents that are damaged in ways that nobody thought of: they are refused in one line, or taken
+// and printed, and harm nothing.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/record/schema/schema.h"
+#include "harness/tables/print.h"
+#include "tests/harness/record/made.h"
+
+// A document that is taken prints, and is written as it was read; one that is not is told of in one
+// line that begins with the file.
+static bool try_document(const json_t *document)
+{
+    char why[RG_WHY_SIZE];
+    struct rg_result result = {0};
+    if (!rg_result_from_json(document, "some/file.json", &result, why)) {
+        if (strncmp(why, "some/file.json: ", 16) != 0 || strchr(why, '\n') || !strstr(why, "; "))
+            fail_msg("refused with: %s", why);
+        return false;
+    }
+    struct rg_result again = {0};
+    json_t *written = rg_result_json(&result);
+    assert_true(rg_result_from_json(written, "again", &again, why));
+    assert_prints_same(&result, &again);
+    json_decref(written);
+    rg_result_free(&again);
+    rg_result_free(&result);
+    return true;
+}
+
+static json_t *make_document(void)
+{
+    struct rg_result made = make_result();
+    json_t *document = rg_result_json(&made);
+    rg_result_free(&made);
+    return document;
+}
+
+static json_t *other_value(int kind)
+{
+    static char long_text[4096];
+    memset(long_text, 'x', sizeof(long_text) - 1);
+    switch (kind) {
+    case 0:
+        return json_null();
+    case 1:
+        return json_true();
+    case 2:
+        return json_integer(-1);
+    case 3:
+        return json_integer(INT64_MAX);
+    case 4:
+        return json_real(1e300);
+    case 5:
+        return json_string("");
+    case 6:
+        return json_string(long_text);
+    case 7:
+        return json_array();
+    default:
+        return json_object();
+    }
+}
+enum { KINDS = 9 };
+
+// Puts every kind of value in the place of each field and element, one at a time. Of a list of what
+// is alike, the first stands for all.
+static void vary(const json_t *document, json_t *at, int *refused, int *taken)
+{
+    const char *key;
+    json_t *value;
+    const size_t size = json_is_array(at) ? json_array_size(at) : 0;
+    for (size_t i = 0; i < size; i += size) {
+        json_t *kept = json_incref(json_array_get(at, i));
+        for (int kind = 0; kind < KINDS; kind++) {
+            json_array_set_new(at, i, other_value(kind));
+            ++*(try_document(document) ? taken : refused);
+        }
+        json_array_set(at, i, kept);
+        vary(document, kept, refused, taken);
+        json_decref(kept);
+    }
+    json_t *fields = json_is_object(at) ? json_copy(at) : NULL;
+    json_object_foreach(fields, key, value)
+    {
+        for (int kind = 0; kind < KINDS; kind++) {
+            json_object_set_new(at, key, other_value(kind));
+            ++*(try_document(document) ? taken : refused);
+        }
+        json_object_set(at, key, value);
+        vary(document, value, refused, taken);
+    }
+    json_decref(fields);
+}
+
+// Of a cell that was left out, too.
+static void vary_left_out(const json_t *document, int *refused, int *taken)
+{
+    json_t *cell = json_array_get(json_object_get(document, "cells"), 3);
+    assert_non_null(json_object_get(cell, "detail"));
+    vary(document, cell, refused, taken);
+}
+
+static void test_other_kinds(void **state)
+{
+    (void)state;
+    int refused = 0, taken = 0;
+    json_t *document = make_document();
+    assert_true(try_document(document));
+    vary(document, document, &refused, &taken);
+    vary_left_out(document, &refused, &taken);
+    assert_true(try_document(document));
+    assert_true(refused > 300 && taken > 50); // derived fields are not read
+    json_decref(document);
+}
+
+// Whether a text is a document, and one that is taken.
+static bool try_text(const char *text, size_t size)
+{
+    json_t *document = json_loadb(text, size, JSON_REJECT_DUPLICATES, NULL);
+    const bool ok = document && try_document(document);
+    json_decref(document);
+    return ok;
+}
+
+// Texts that were cut, or of which some bytes are others.
+static void test_bytes(void **state)
+{
+    (void)state;
+    struct rg_result made = make_result();
+    char *text = print_result(&made, RG_RESULT_JSON);
+    const size_t size = strlen(text);
+    assert_true(try_text(text, size));
+    for (size_t length = 0; length < size - 2; length += 1 + size / 97)
+        assert_false(try_text(text, length));
+    uint32_t random = 12345;
+    int refused = 0;
+    for (int i = 0; i < 600; i++) {
+        char *damaged = strdup(text);
+        for (int changes = 0; changes <= i % 3; changes++) {
+            random = random * 1664525 + 1013904223;
+            damaged[(random >> 8) % size] = (char)(random >> 4 & 0xff);
+        }
+        refused += !try_text(damaged, size);
+        free(damaged);
+    }
+    assert_true(refused > 200);
+    free(text);
+    rg_result_free(&made);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_other_kinds),
+        cmocka_unit_test(test_bytes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,332 @@
+// A table that is interrupted, and goes on: what its journal keeps, and what it does not.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <dirent.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+#include "harness/console/interrupt.h"
+#include "harness/record/journal.h"
+#include "harness/record/schema/schema.h"
+#include "harness/tables/sheet.h"
+#include "harness/tables/table.h"
+
+#define CHEAP                                                                                      \
+    "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"
+
+static const struct rg_table_row rows[] = {
+    {CHEAP " drops=40", {1, 160}, NULL},
+    {CHEAP " environment=/nonexistent.exr", {2, 50}, NULL},
+};
+static const struct rg_table table = {
+    .id = "test",
+    .technique = "flow",
+    .about = "a test",
+    .hardware = "paper",
+    .columns = {"row", "fps"},
+    .key_count = 1,
+    .variants = {{"full", "", "fps"}, {"bare", "rain_drops_s=0", NULL}},
+    .truth = "drops=20",
+    .quick = "drops=25",
+    .rows_at_once = 1,
+    .check_frames = 2,
+    .width = 32,
+    .height = 32,
+    .row_count = 2,
+    .rows = rows,
+    .note = "a note",
+};
+
+struct rig {
+    char folder[64];
+    struct rg_devices devices;
+    struct rg_kept kept;
+    int messages;
+    bool interrupts; // at the first message, which is about the second row's file
+};
+
+static int setup(void **state)
+{
+    struct rig *rig = calloc(1, sizeof(*rig));
+    snprintf(rig->folder, sizeof(rig->folder), "/tmp/raingauge-test-XXXXXX");
+    rig->devices = (struct rg_devices){.count = 1, .devices = {rg_device_open("cpu")}};
+    rig->kept.devices = &rig->devices;
+    rg_interrupt_watch();
+    *state = rig;
+    return mkdtemp(rig->folder) && rig->devices.devices[0] ? 0 : -1;
+}
+
+static int teardown(void **state)
+{
+    struct rig *rig = *state;
+    const bool clean = rg_kept_free(&rig->kept) && rg_device_close(rig->devices.devices[0]);
+    char path[128];
+    snprintf(path, sizeof(path), "%s/test-quick.journal", rig->folder);
+    unlink(path);
+    const bool empty = rmdir(rig->folder) == 0;
+    free(rig);
+    return clean && empty ? 0 : -1;
+}
+
+static void hear(enum rg_log_level level, const char *line, void *user)
+{
+    struct rig *rig = user;
+    (void)level;
+    (void)line;
+    if (!rig->messages++ && rig->interrupts)
+        raise(SIGINT);
+}
+
+static void begin(struct rig *rig, struct rg_result *result, int last_row)
+{
+    const struct rg_table_part part = {.last_row = last_row};
+    *result = (struct rg_result){0};
+    rg_table_begin(result, &table, &part, &rig->devices);
+}
+
+// Runs the table with its journal, which stays on disk, and returns its JSON. Other tables follow,
+// so that all rows are kept.
+static json_t *run_table(struct rig *rig, struct rg_result *result, bool fresh)
+{
+    begin(rig, result, 1);
+    rig->messages = 0;
+    rg_interrupt_watch();
+    rg_log_listen(hear, rig);
+    struct rg_journal *journal = rg_journal_open(result, rig->folder, fresh, true);
+    assert_true(rg_table_measure(result, &table, &rig->kept, journal));
+    rg_log_listen(NULL, NULL);
+    rg_journal_close(journal);
+    return rg_result_json(result);
+}
+
+static const json_t *cell_at(const json_t *json, size_t cell)
+{
+    return json_array_get(json_object_get(json, "cells"), cell);
+}
+
+static int resumed_rows(const json_t *json)
+{
+    return (int)json_integer_value(json_object_get(json, "resumed_rows"));
+}
+
+// The first row is whole when the second interrupts the run; the next run takes it to the last
+// digit.
+static void test_resumes(void **state)
+{
+    struct rig *rig = *state;
+    struct rg_result result;
+    rig->interrupts = true;
+    json_t *first = run_table(rig, &result, false);
+    assert_int_equal(rg_interrupt_signal(), SIGINT);
+    assert_int_equal(rg_result_first_missing(&result), 1);
+    assert_true(json_is_true(json_object_get(first, "interrupted")));
+    assert_int_equal(json_array_size(json_object_get(first, "cells")), 2);
+    assert_int_equal(resumed_rows(first), 0);
+    rg_result_free(&result);
+
+    rig->interrupts = false;
+    json_t *second = run_table(rig, &result, false);
+    assert_int_equal(rg_result_first_missing(&result), 2);
+    assert_true(json_is_false(json_object_get(second, "interrupted")));
+    assert_int_equal(json_array_size(json_object_get(second, "cells")), 4);
+    assert_int_equal(resumed_rows(second), 1);
+    for (size_t i = 0; i < 2; i++)
+        assert_true(json_equal(cell_at(first, i), cell_at(second, i)));
+    struct rg_sheet sheet;
+    rg_result_sheet(&result, &sheet);
+    bool is_told = false;
+    for (int n = 0; n < sheet.note_count; n++)
+        is_told =
+            is_told || strstr(sheet.notes[n], "1 were measured by a run that was interrupted");
+    assert_true(is_told);
+    rg_sheet_free(&sheet);
+    rg_result_free(&result);
+    json_decref(first);
+    json_decref(second);
+}
+
+// A row with an error is measured again; --fresh takes nothing.
+static void test_keeps_no_errors(void **state)
+{
+    struct rig *rig = *state;
+    struct rg_result result;
+    json_t *first = run_table(rig, &result, false);
+    assert_int_equal(rig->messages, 2); // the second row's two variants
+    rg_result_free(&result);
+    json_t *second = run_table(rig, &result, false);
+    assert_int_equal(rig->messages, 2);
+    assert_int_equal(resumed_rows(second), 1);
+    rg_result_free(&result);
+    json_t *third = run_table(rig, &result, true);
+    assert_int_equal(resumed_rows(third), 0);
+    rg_result_free(&result);
+    json_decref(first);
+    json_decref(second);
+    json_decref(third);
+}
+
+// --- what is no journal of this run ---
+
+// The journal's JSON, of a run that ended in the second row.
+static json_t *make_journal(struct rig *rig, char path[128])
+{
+    struct rg_result result;
+    rig->interrupts = true;
+    json_t *printed = run_table(rig, &result, true);
+    rig->interrupts = false;
+    rg_result_free(&result);
+    snprintf(path, 128, "%s/test-quick.journal", rig->folder);
+    json_t *json = json_load_file(path, 0, NULL);
+    // It is what is printed of these rows.
+    char *text = json_dumps(cell_at(printed, 1), RG_JSON_FLAGS);
+    json_t *cell = json_loads(text, 0, NULL);
+    assert_true(json_equal(cell_at(json, 1), cell));
+    json_decref(cell);
+    free(text);
+    json_decref(printed);
+    return json;
+}
+
+// How many rows a run of these rows takes from the journal, and with how many messages.
+static int taken(struct rig *rig, int last_row, int messages)
+{
+    struct rg_result result;
+    int count = 0;
+    begin(rig, &result, last_row);
+    rig->messages = 0;
+    rg_log_listen(hear, rig);
+    struct rg_journal *journal = rg_journal_open(&result, rig->folder, false, false);
+    for (int row = 0; row <= last_row; row++) {
+        assert_true(rg_table_add_row(&result, &table, row));
+        count += rg_journal_take(journal, &result, row);
+    }
+    rg_log_listen(NULL, NULL);
+    assert_int_equal(rig->messages, messages);
+    rg_result_free(&result);
+    rg_journal_close(journal);
+    return count;
+}
+
+// Writes the journal with a field of an object changed, and counts what is taken of it.
+static int taken_with(struct rig *rig, json_t *journal, const char *path, json_t *object,
+                      const char *field, json_t *value, int messages)
+{
+    json_t *kept = json_incref(json_object_get(object, field));
+    assert_non_null(kept);
+    json_object_set_new(object, field, value);
+    assert_int_equal(0, json_dump_file(journal, path, 0));
+    const int count = taken(rig, 1, messages);
+    json_object_set_new(object, field, kept);
+    return count;
+}
+
+static void test_other_runs(void **state)
+{
+    struct rig *rig = *state;
+    char path[128];
+    json_t *json = make_journal(rig, path);
+    assert_int_equal(taken(rig, 1, 0), 1);
+    assert_int_equal(taken(rig, 0, 1), 0); // other rows
+    static const char *const fields[] = {"technique", "truth", "quick", "note"};
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(taken_with(rig, json, path, json, fields[i], json_string("another"), 1),
+                         0);
+    assert_int_equal(taken_with(rig, json, path, json, "length", json_string("full"), 1), 0);
+    json_t *passport = json_object_get(json, "passport");
+    json_t *build = json_object_get(passport, "raingauge");
+    assert_int_equal(taken_with(rig, json, path, build, "program", json_string("0123"), 1), 0);
+    assert_int_equal(taken_with(rig, json, path, passport, "machine", json_object(), 1), 0);
+    // A row of other settings counts for nothing, whoever wrote it.
+    json_t *cell = json_array_get(json_object_get(json, "cells"), 1);
+    assert_int_equal(taken_with(rig, json, path, cell, "set", json_string("drops=1"), 0), 0);
+    assert_int_equal(0, json_dump_file(json, path, 0));
+    assert_int_equal(taken(rig, 1, 0), 1);
+    json_decref(json);
+}
+
+static void test_damage(void **state)
+{
+    struct rig *rig = *state;
+    char path[128];
+    json_t *json = make_journal(rig, path);
+    char *text = json_dumps(json, 0);
+    // Cut anywhere, it is no journal, and harms nothing.
+    for (size_t length = 0; length < strlen(text); length += 1 + strlen(text) / 16) {
+        FILE *file = fopen(path, "w");
+        fwrite(text, 1, length, file);
+        fclose(file);
+        assert_int_equal(taken(rig, 1, 1), 0);
+    }
+    free(text);
+    json_decref(json);
+}
+
+// --- where it is ---
+
+static int files_in(const char *folder)
+{
+    DIR *dir = opendir(folder);
+    int count = 0;
+    for (struct dirent *entry = dir ? readdir(dir) : NULL; entry; entry = readdir(dir))
+        count += entry->d_name[0] != '.';
+    if (dir)
+        closedir(dir);
+    return count;
+}
+
+// A run that ends has nothing to keep but for tables that follow; what is done is removed.
+static void test_leaves_nothing(void **state)
+{
+    struct rig *rig = *state;
+    for (int is_followed = 0; is_followed < 2; is_followed++) {
+        struct rg_result result;
+        begin(rig, &result, 0);
+        struct rg_journal *journal = rg_journal_open(&result, rig->folder, false, is_followed);
+        assert_true(rg_table_measure(&result, &table, &rig->kept, journal));
+        assert_int_equal(files_in(rig->folder), is_followed);
+        assert_int_equal(rg_journal_path(journal) != NULL, is_followed);
+        rg_journal_remove(journal);
+        assert_int_equal(files_in(rig->folder), 0);
+        rg_journal_close(journal);
+        rg_result_free(&result);
+    }
+}
+
+static void test_quick_settings(void **state)
+{
+    struct rig *rig = *state;
+    struct rg_result result;
+    const struct rg_place bare = {.variant = 1};
+    begin(rig, &result, 0);
+    char *quick = rg_table_assignments(&result, &table, bare);
+    result.full = true;
+    char *full = rg_table_assignments(&result, &table, bare);
+    assert_string_equal(quick, CHEAP " drops=40 rain_drops_s=0 drops=25");
+    assert_string_equal(full, CHEAP " drops=40 rain_drops_s=0");
+    free(quick);
+    free(full);
+    result.full = false;
+    assert_true(rg_table_measure(&result, &table, &rig->kept, NULL));
+    assert_true(rg_result_at(&result, bare)->counters[0].value == 25); // drops that landed
+    rg_result_free(&result);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(test_resumes), TEST(test_keeps_no_errors), TEST(test_other_runs),
+        TEST(test_damage),  TEST(test_leaves_nothing),  TEST(test_quick_settings),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

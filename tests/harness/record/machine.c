@@ -1,0 +1,144 @@
+// The machine is read from Linux' files, here from copies in a folder of our own.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "harness/record/passport/machine.h"
+
+static char root[64];
+
+static void put(const char *path, const char *text)
+{
+    char whole[256];
+    snprintf(whole, sizeof(whole), "%s%s", root, path);
+    for (char *slash = whole + strlen(root) + 1; (slash = strchr(slash, '/')); slash++) {
+        *slash = 0;
+        mkdir(whole, 0755);
+        *slash = '/';
+    }
+    FILE *file = fopen(whole, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+static int make_root(void **state)
+{
+    (void)state;
+    strcpy(root, "/tmp/raingauge-machine-XXXXXX");
+    return mkdtemp(root) ? 0 : -1;
+}
+
+static int remove_root(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof(command), "rm -r '%s'", root);
+    return system(command);
+}
+
+static struct rg_machine read_machine(void)
+{
+    struct rg_machine machine;
+    rg_machine_read(&machine, root);
+    return machine;
+}
+
+static void a_machine_is_read(void **state)
+{
+    (void)state;
+    put("/proc/cpuinfo", "processor\t: 0\nmodel name\t: Toy CPU @ 1.00GHz\ncpu MHz\t\t: 999.9\n"
+                         "flags\t\t: fpu sse4_2 avx2 avx512f_not fma\n");
+    put("/proc/meminfo", "MemFree: 1 kB\nMemTotal:       2048 kB\n");
+    put("/proc/self/status", "Name:\tx\nCpus_allowed:\tff\nCpus_allowed_list:\t0-2,5\n");
+    put("/sys/devices/system/cpu/online", "0-7\n");
+    put("/etc/os-release", "NAME=\"Toy\"\nPRETTY_NAME=\"Toy Linux 3\"\n");
+    put("/dev/dri/renderD128", "");
+    struct rg_machine machine = read_machine();
+    assert_string_equal(machine.cpu, "Toy CPU @ 1.00GHz");
+    assert_string_equal(machine.features, "sse4_2 fma avx2");
+    assert_int_equal(machine.memory_bytes, 2048 * 1024);
+    assert_int_equal(machine.cores_allowed, 4);
+    assert_string_equal(machine.cores_list, "0-2,5");
+    assert_int_equal(machine.cores_online, 8);
+    assert_string_equal(machine.distribution, "Toy Linux 3");
+    assert_int_equal(machine.gpu_nodes, 1);
+    assert_true(machine.quota_cpus == 0);
+}
+
+static void an_empty_root_is_all_unknown(void **state)
+{
+    (void)state;
+    struct rg_machine machine = read_machine();
+    assert_string_equal(machine.cpu, "");
+    assert_int_equal(machine.cores_allowed, 0);
+    assert_int_equal(machine.cores_online, 0);
+    assert_int_equal(machine.memory_bytes, 0);
+    assert_true(machine.quota_cpus == 0);
+}
+
+// The tightest of the group and those around it holds.
+static void version_2_quotas_are_found(void **state)
+{
+    (void)state;
+    put("/proc/self/cgroup", "0::/outer/inner\n");
+    put("/sys/fs/cgroup/outer/inner/cpu.max", "max 100000\n");
+    assert_true(read_machine().quota_cpus == 0);
+    put("/sys/fs/cgroup/outer/cpu.max", "150000 100000\n");
+    assert_true(read_machine().quota_cpus == 1.5);
+    put("/sys/fs/cgroup/outer/inner/cpu.max", "50000 100000\n");
+    assert_true(read_machine().quota_cpus == 0.5);
+    put("/sys/fs/cgroup/outer/cpu.max", "25000 100000\n");
+    assert_true(read_machine().quota_cpus == 0.25);
+}
+
+static void version_1_quotas_are_found(void **state)
+{
+    (void)state;
+    put("/proc/self/cgroup", "9:cpuset:/elsewhere\n4:cpu,cpuacct:/docker/abc\n");
+    put("/sys/fs/cgroup/cpu/docker/abc/cpu.cfs_quota_us", "-1\n");
+    put("/sys/fs/cgroup/cpu/docker/abc/cpu.cfs_period_us", "100000\n");
+    assert_true(read_machine().quota_cpus == 0);
+    put("/sys/fs/cgroup/cpu/docker/abc/cpu.cfs_quota_us", "250000\n");
+    assert_true(read_machine().quota_cpus == 2.5);
+}
+
+// In a container the path is the host's, and the group is mounted at the top.
+static void a_containers_quota_is_found(void **state)
+{
+    (void)state;
+    put("/proc/self/cgroup", "4:cpu:/docker/abc\n");
+    put("/sys/fs/cgroup/cpu/cpu.cfs_quota_us", "100000\n");
+    put("/sys/fs/cgroup/cpu/cpu.cfs_period_us", "50000\n");
+    assert_true(read_machine().quota_cpus == 2);
+}
+
+static void lists_are_counted(void **state)
+{
+    (void)state;
+    assert_int_equal(rg_cpu_list_count("0"), 1);
+    assert_int_equal(rg_cpu_list_count("0-3,6"), 5);
+    assert_int_equal(rg_cpu_list_count(""), 0);
+    assert_int_equal(rg_cpu_list_count("x"), 0);
+    assert_int_equal(rg_cpu_list_count("3-1"), 0);
+    assert_int_equal(rg_cpu_list_count("1;2"), 0);
+}
+
+#define IN_A_FOLDER(test) cmocka_unit_test_setup_teardown(test, make_root, remove_root)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_A_FOLDER(a_machine_is_read),           IN_A_FOLDER(an_empty_root_is_all_unknown),
+        IN_A_FOLDER(version_2_quotas_are_found),  IN_A_FOLDER(version_1_quotas_are_found),
+        IN_A_FOLDER(a_containers_quota_is_found), cmocka_unit_test(lists_are_counted),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,223 @@
+// Tables from their settings to their results, and what the tables of a command keep.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/tables/table.h"
+
+#define CHEAP                                                                                      \
+    "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"
+
+static void *settings_of(const char *assignments)
+{
+    const struct rg_technique *flow = rg_technique_find("flow");
+    void *defaults = rg_settings_create(flow);
+    void *settings = rg_settings_copy(flow, defaults, assignments);
+    assert_non_null(settings);
+    free(defaults);
+    return settings;
+}
+
+// --- a table ---
+
+#define PANE "view=pane panes=mirror reflection_px=16 "
+
+static const struct rg_table_row rows[] = {
+    {PANE "resolution_px=64 drops=40", {6, 160}, "small"},
+    {PANE "environment=/nonexistent.exr", {7, 100}, "broken"},
+    {PANE "resolution_px=96 drops=0", {8, 50}, "dry"},
+};
+static const struct rg_table table = {
+    .id = "test",
+    .technique = "flow",
+    .about = "a test",
+    .hardware = "paper",
+    .names = "scene",
+    .columns = {"faces", "fps"},
+    .variants = {{"full", "environment_px=16 environment=sky", "fps"},
+                 {"bare", "environment_px=16 rain_drops_s=0", "fps"}},
+    .truth = "drops=20",
+    .width = 64,
+    .height = 64,
+    .row_count = 3,
+    .rows = rows,
+    .note = "a note",
+};
+
+static void keep_quiet(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)line;
+    (*(int *)user)++;
+}
+
+// A table that is measured on cpu.
+struct rig {
+    struct rg_devices devices;
+    struct rg_kept kept;
+    struct rg_result result;
+};
+
+// Returns how many messages there were.
+static int measure(struct rig *rig, const struct rg_table *of, int count)
+{
+    int messages = 0;
+    const struct rg_table_part part = {.last_row = count - 1};
+    *rig = (struct rig){.devices = {.count = 1, .devices = {rg_device_open("cpu")}}};
+    rig->kept.devices = &rig->devices;
+    rg_table_begin(&rig->result, of, &part, &rig->devices);
+    rg_log_listen(keep_quiet, &messages);
+    assert_true(rg_table_measure(&rig->result, of, &rig->kept, NULL));
+    rg_log_listen(NULL, NULL);
+    return messages;
+}
+
+static void finish(struct rig *rig)
+{
+    rg_result_free(&rig->result);
+    assert_true(rg_kept_free(&rig->kept));
+    assert_true(rg_device_close(rig->devices.devices[0]));
+}
+
+static const struct rg_record *record_at(const struct rig *rig, int row, int variant)
+{
+    return rg_result_at(&rig->result, (struct rg_place){.row = row, .variant = variant});
+}
+
+// A row whose file is missing takes no other row with it.
+static void test_table(void **state)
+{
+    (void)state;
+    struct rig rig;
+    assert_int_equal(measure(&rig, &table, 3), 1);
+    assert_int_equal(rg_result_first_missing(&rig.result), 3);
+    for (int row = 0; row < 3; row++) {
+        for (int variant = 0; variant < 2; variant++) {
+            const struct rg_record *record = record_at(&rig, row, variant);
+            // The variant's sky goes over the row's file.
+            const bool broken = row == 1 && variant == 1;
+            assert_int_equal(record->outcome, broken ? RG_ERROR : RG_OK);
+            assert_int_equal(record->truth_error.outcome, broken ? RG_ERROR : RG_OK);
+            assert_true(broken || record->truth_error.flip_mask_mean > 0.001);
+        }
+    }
+    const struct rg_record *broken = record_at(&rig, 1, 1);
+    if (!strstr(broken->detail, "/nonexistent.exr"))
+        fail_msg("the file is not named: %s", broken->detail);
+    // Both assignments of a row are taken, the number of texels and that of drops.
+    const int64_t small = record_at(&rig, 0, 1)->counters[0].value;
+    const int64_t dry = record_at(&rig, 2, 1)->counters[0].value;
+    assert_true(small == 40 && dry == 0);
+    finish(&rig);
+}
+
+// --- tables of textures, and what a device cannot hold ---
+
+static const struct rg_table_row levels[] = {
+    {"", {0, 16, 16}, "environment"},
+    {"", {9, 1, 1}, "environment"},
+    {"", {0, 16, 16}, "carpet"},
+    {"resolution_px=nonsense", {0, 16, 16}, "environment"},
+};
+static const struct rg_table texture_table = {
+    .id = "textures",
+    .technique = "flow",
+    .about = "a test",
+    .hardware = "paper",
+    .names = "texture",
+    .columns = {"level", "width_px", "height_px"},
+    .key_count = 1,
+    .variants = {{"full", CHEAP, NULL}},
+    .is_of_textures = true,
+    .width = 64,
+    .height = 64,
+    .row_count = 4,
+    .rows = levels,
+    .note = "a note",
+};
+
+static double told(const struct rg_record *record, const char *name)
+{
+    return *rg_named_number(record->facts, record->fact_count, name);
+}
+
+static void test_textures(void **state)
+{
+    (void)state;
+    struct rig rig;
+    measure(&rig, &texture_table, 4);
+    const struct rg_record *whole = record_at(&rig, 0, 0);
+    assert_int_equal(whole->outcome, RG_OK);
+    assert_true(told(whole, "width_px") == 16);
+    assert_true(told(whole, "height_px") == 16);
+    assert_int_equal(record_at(&rig, 1, 0)->outcome, RG_FAIL); // no such level
+    assert_int_equal(record_at(&rig, 2, 0)->outcome, RG_ERROR);
+    assert_int_equal(record_at(&rig, 3, 0)->outcome, RG_ERROR);
+    finish(&rig);
+}
+
+static void test_unsupported(void **state)
+{
+    (void)state;
+    struct rg_table wide = table;
+    struct rig rig;
+    wide.width = 1 << 20;
+    measure(&rig, &wide, 1);
+    const struct rg_record *record = record_at(&rig, 0, 0);
+    assert_int_equal(record->outcome, RG_UNSUPPORTED);
+    assert_non_null(strstr(record->detail, "1048576x64"));
+    finish(&rig);
+}
+
+// --- what the cells of a table share ---
+
+static void test_kept(void **state)
+{
+    (void)state;
+    struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu")}};
+    struct rg_kept kept = {.devices = &devices};
+    struct rg_device *cpu = devices.devices[0];
+    assert_ptr_equal(rg_kept_device(&kept, "cpu"), cpu);
+    struct rg_device *reference = rg_kept_device(&kept, "cpu:reference");
+    assert_non_null(reference);
+    assert_ptr_equal(rg_kept_device(&kept, "cpu:reference"), reference);
+    void *settings = settings_of(CHEAP " drops=20"), *others = settings_of(CHEAP " drops=30");
+    struct rg_subject subject = {rg_technique_find("flow"), settings, 32, 32};
+    // One instance a device, for as long as the same is asked for.
+    struct rg_instance *first = rg_kept_open(&kept, cpu, &subject);
+    const int64_t bytes = rg_device_work(cpu)->live_bytes;
+    assert_ptr_equal(rg_kept_open(&kept, cpu, &subject), first);
+    assert_ptr_not_equal(rg_kept_open(&kept, reference, &subject), first);
+    subject.settings = others;
+    assert_non_null(rg_kept_open(&kept, cpu, &subject));
+    assert_true(rg_device_work(cpu)->live_bytes == bytes);
+    // A truth is drawn once.
+    const struct rg_picture *truth = rg_kept_truth(&kept, &subject, 2);
+    const int64_t runs = rg_device_work(cpu)->runs;
+    assert_ptr_equal(rg_kept_truth(&kept, &subject, 2), truth);
+    assert_true(rg_device_work(cpu)->runs == runs);
+    assert_ptr_not_equal(rg_kept_truth(&kept, &subject, 3), truth);
+    subject.settings = settings;
+    assert_ptr_not_equal(rg_kept_truth(&kept, &subject, 2), truth);
+    free(others);
+    free(settings);
+    assert_true(rg_kept_free(&kept));
+    assert_true(rg_device_close(cpu));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_table),
+        cmocka_unit_test(test_textures),
+        cmocka_unit_test(test_unsupported),
+        cmocka_unit_test(test_kept),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
