@@ -19,6 +19,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "core/base/tier.h"
 #include "core/device/kernel.h"
 
 struct rg_extent {
@@ -40,6 +41,9 @@ struct rg_device_info {
     char driver[160]; // driver and version: "Mesa 22.3.6"
     char api[64];     // "OpenGL 4.5 core", "Vulkan 1.3.230", "OpenCL 1.2", "C11, AVX-512"
     bool software;    // runs on the CPU
+    // How closely its pictures agree with those of cpu:reference: T0 of a driver that computes as C
+    // does, T1 of one whose arithmetic is a GPU's, T2 of a device that draws in another way.
+    enum rg_tier tier;
     struct rg_limits limits;
 };
 

@@ -64,6 +64,7 @@ static void describe(int index, struct rg_device_info *info)
     const struct cpu_level *level = index == INDEX_REFERENCE ? &cpu_levels[0] : choose_level();
     *info = (struct rg_device_info){
         .software = true,
+        .tier = RG_T0,
         .limits = {.max_buffer_bytes = (int64_t)INT_MAX * 4,
                    .max_image_px = 32768,
                    .max_image_layers = 2048,

@@ -58,6 +58,7 @@ static void describe(int index, const struct gl_egl *egl, struct rg_device_info 
         .software = egl->software || strstr(renderer, "llvmpipe"),
         .limits = read_limits(),
     };
+    info->tier = info->software ? RG_T0 : RG_T1;
     snprintf(info->name, sizeof(info->name), index ? "gl:%d" : "gl", index);
     snprintf(info->device, sizeof(info->device), "%s", renderer);
     snprintf(info->driver, sizeof(info->driver), "%s", driver_version());

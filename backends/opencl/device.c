@@ -134,6 +134,7 @@ static void describe(cl_device_id id, int index, struct rg_device_info *info)
         .software = device_number(id, CL_DEVICE_TYPE, sizeof(cl_device_type)) & CL_DEVICE_TYPE_CPU,
         .limits = read_limits(id),
     };
+    info->tier = info->software ? RG_T0 : RG_T1;
     snprintf(info->name, sizeof(info->name), index ? "opencl:%d" : "opencl", index);
     snprintf(info->device, sizeof(info->device), "%.120s", device_text(id, CL_DEVICE_NAME, text));
     int api = version_number(device_text(id, CL_DEVICE_VERSION, version));

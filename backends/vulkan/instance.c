@@ -211,6 +211,7 @@ void vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info
     snprintf(info->api, sizeof(info->api), "Vulkan %u.%u.%u", VK_API_VERSION_MAJOR(p->apiVersion),
              VK_API_VERSION_MINOR(p->apiVersion), VK_API_VERSION_PATCH(p->apiVersion));
     info->software = p->deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    info->tier = info->software ? RG_T0 : RG_T1;
     info->limits = (struct rg_limits){
         .max_buffer_bytes = (int64_t)(max_bytes / 4 * 4),
         .max_image_px = at_most_int(l->maxImageDimension2D),

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/techniques/frame.h"
 #include "harness/compare/verify/verify.h"
 #include "harness/console/exit.h"
 
@@ -30,6 +31,25 @@ static bool fail_on_cpu(struct rg_instance *instance)
     return rg_driver_error("kernel 'rain': its driver is tired");
 }
 
+// How far one texel that `cpu` draws is from what the others draw, in steps of a half: 1 is a
+// rounding, 80 some 4 codes of 255.
+static int steps_off;
+
+static bool draw(struct rg_instance *instance)
+{
+    if (!rg_technique_find("flow")->draw(instance))
+        return false;
+    if (strcmp(instance->device->info.name, "cpu"))
+        return true;
+    size_t size;
+    uint16_t *texels = rg_frame_read(instance, &size);
+    assert_non_null(texels);
+    texels[0] = (uint16_t)(texels[0] + steps_off);
+    assert_true(rg_image_write(instance->target, 0, 0, texels));
+    free(texels);
+    return true;
+}
+
 static void ignore(enum rg_log_level level, const char *line, void *user)
 {
     (void)level;
@@ -37,18 +57,21 @@ static void ignore(enum rg_log_level level, const char *line, void *user)
     (void)user;
 }
 
-// Verifies `cpu` at this size and with these settings, beside a check that is ok.
-static void verify(const char *assignments, int width, struct rg_checks *checks)
+// Verifies `cpu`, which is held to a tier, at this size and with these settings, beside a check
+// that is ok.
+static void verify(const char *assignments, enum rg_tier tier, int width, int height,
+                   struct rg_checks *checks)
 {
     void *defaults = rg_settings_create(&flow);
     void *settings = rg_settings_copy(&flow, defaults, assignments);
     struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu")}};
     struct rg_device *reference = rg_device_open("cpu:reference");
+    devices.devices[0]->info.tier = tier;
     struct rg_progress progress;
     struct rg_verify v = {.technique = &flow,
                           .settings = settings,
                           .width = width,
-                          .height = 16,
+                          .height = height,
                           .steps = 2,
                           .reference = reference,
                           .devices = &devices,
@@ -89,7 +112,7 @@ static void what_agrees_passes(void **state)
 {
     (void)state;
     struct rg_checks checks;
-    verify(CHEAP " drops=40", 16, &checks);
+    verify(CHEAP " drops=40", RG_T0, 16, 16, &checks);
     assert_int_equal(outcome_of(&checks, "state", "cpu"), RG_OK);
     assert_int_equal(outcome_of(&checks, "image", "cpu"), RG_OK);
     assert_int_equal(rg_checks_exit(&checks), RG_EXIT_PASS);
@@ -100,7 +123,7 @@ static void bad_input_is_bad_usage(void **state)
 {
     (void)state;
     struct rg_checks checks;
-    verify(CHEAP " environment=/nonexistent.exr", 16, &checks);
+    verify(CHEAP " environment=/nonexistent.exr", RG_T0, 16, 16, &checks);
     assert_int_equal(outcome_of(&checks, "state", "cpu:reference"), RG_ERROR);
     assert_int_equal(outcome_of(&checks, "image", "cpu"), RG_ERROR);
     assert_int_equal(rg_checks_exit(&checks), RG_EXIT_USAGE);
@@ -111,7 +134,7 @@ static void what_no_device_can_do_is_unsupported(void **state)
 {
     (void)state;
     struct rg_checks checks;
-    verify(CHEAP, 1 << 20, &checks);
+    verify(CHEAP, RG_T0, 1 << 20, 16, &checks);
     assert_int_equal(outcome_of(&checks, "state", "cpu:reference"), RG_UNSUPPORTED);
     assert_int_equal(outcome_of(&checks, "image", "cpu"), RG_UNSUPPORTED);
     assert_int_equal(rg_checks_exit(&checks), RG_EXIT_UNSUPPORTED); // though another check is ok
@@ -123,11 +146,38 @@ static void a_drivers_failure_fails(void **state)
     (void)state;
     struct rg_checks checks;
     flow.step = fail_on_cpu;
-    verify(CHEAP, 16, &checks);
+    verify(CHEAP, RG_T0, 16, 16, &checks);
     assert_int_equal(outcome_of(&checks, "state", "cpu"), RG_ERROR);
     assert_int_equal(outcome_of(&checks, "image", "cpu"), RG_ERROR);
     assert_int_equal(rg_checks_exit(&checks), RG_EXIT_FAIL);
     rg_checks_free(&checks);
+}
+
+// What an image on a device of this tier comes to.
+static enum rg_outcome judge(enum rg_tier tier, const char *says)
+{
+    enum { SIDE_PX = 64 };
+    struct rg_checks checks;
+    flow.draw = draw;
+    verify(CHEAP " drops=90", tier, SIDE_PX, SIDE_PX, &checks);
+    const enum rg_outcome outcome = outcome_of(&checks, "image", "cpu");
+    const char *detail = checks.rows[checks.count - 1].detail;
+    if (!strstr(detail, says))
+        fail_msg("'%s' does not say '%s'", detail, says);
+    assert_int_equal(rg_checks_exit(&checks), outcome == RG_OK ? RG_EXIT_PASS : RG_EXIT_FAIL);
+    rg_checks_free(&checks);
+    return outcome;
+}
+
+static void devices_are_held_to_what_they_owe(void **state)
+{
+    (void)state;
+    steps_off = 1;
+    assert_int_equal(judge(RG_T0, "(T0)"), RG_FAIL);
+    assert_int_equal(judge(RG_T1, "but within T1"), RG_OK);
+    steps_off = 80;
+    assert_int_equal(judge(RG_T1, "(T1)"), RG_FAIL);
+    assert_int_equal(judge(RG_T2, "but within T2"), RG_OK);
 }
 
 int main(void)
@@ -137,6 +187,7 @@ int main(void)
         cmocka_unit_test_setup(bad_input_is_bad_usage, setup),
         cmocka_unit_test_setup(what_no_device_can_do_is_unsupported, setup),
         cmocka_unit_test_setup(a_drivers_failure_fails, setup),
+        cmocka_unit_test_setup(devices_are_held_to_what_they_owe, setup),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

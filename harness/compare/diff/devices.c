@@ -6,6 +6,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/device/tier.h"
 #include "harness/compare/diff/report.h"
 #include "harness/console/exit.h"
 #include "harness/console/progress.h"
@@ -82,8 +83,7 @@ static int compare_pair(const struct session *s, const struct shot *a, const str
     if (!rg_compare(&a->picture, a->info->name, &b->picture, b->info->name, &s->background,
                     &(struct rg_compare_options){.exposure = (float)s->asked->exposure}, &c))
         return RG_EXIT_USAGE;
-    const bool holds =
-        a->info->software && b->info->software ? c.tiers.of[RG_T0].holds : c.tiers.of[RG_T1].holds;
+    const bool holds = c.tiers.of[rg_tier_owed(a->info, b->info)].holds;
     bool ok = true;
     if (s->pairs)
         ok = json_array_append_new(s->pairs, rg_pair_json(a->info->name, b->info->name, &c)) == 0;

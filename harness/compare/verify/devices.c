@@ -6,6 +6,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/device/tier.h"
 #include "core/image/compare/compare.h"
 #include "harness/compare/verify/snapshot.h"
 #include "harness/compare/verify/verify.h"
@@ -26,6 +27,7 @@ enum { MAX_LAWS = 8, STATE = 0, IMAGE = 1, LAWS = 2 };
 // One device's tallies: state, image, and each law.
 struct row {
     struct rg_device *device;
+    enum rg_tier tier; // that it owes the reference
     struct tally tallies[LAWS + MAX_LAWS];
 };
 
@@ -146,8 +148,8 @@ static void check_state(struct rg_verify *v, struct row *row, const struct one_c
     tally->runs++;
     if (rg_snapshot_same_state(now, &c->expected))
         return;
-    if (!row->device->info.software) {
-        tally->unlike++; // tier T1 judges the image alone
+    if (row->tier != RG_T0) {
+        tally->unlike++; // the other tiers judge the image alone
         return;
     }
     char text[256] = "";
@@ -158,8 +160,8 @@ static void check_state(struct rg_verify *v, struct row *row, const struct one_c
 
 // --- image ---
 
-static void check_t1(struct tally *tally, const struct one_case *c,
-                     const struct rg_picture *picture)
+static void check_tier(struct tally *tally, const struct one_case *c, enum rg_tier tier,
+                       const struct rg_picture *picture)
 {
     struct rg_comparison comparison;
     if (!rg_compare(&c->expected_picture, "cpu:reference", picture, c->name, &c->dry,
@@ -167,8 +169,9 @@ static void check_t1(struct tally *tally, const struct one_case *c,
         note_error(tally);
         return;
     }
-    if (!comparison.tiers.of[RG_T1].holds)
-        blame(tally, c, "%s (T1)", comparison.tiers.of[RG_T1].why);
+    const struct rg_verdict *verdict = &comparison.tiers.of[tier];
+    if (!verdict->holds)
+        blame(tally, c, "%s (%s)", verdict->why, rg_tier_name(tier));
     rg_comparison_destroy(&comparison);
 }
 
@@ -193,10 +196,10 @@ static void check_image(struct row *row, const struct one_case *c, const struct 
         return;
     if (!rg_session_picture(session, now->texels, &picture))
         note_error(tally);
-    else if (row->device->info.software)
+    else if (row->tier == RG_T0)
         check_t0(tally, c, &picture);
     else
-        check_t1(tally, c, &picture);
+        check_tier(tally, c, row->tier, &picture);
     tally->unlike++;
     rg_picture_destroy(&picture);
 }
@@ -286,12 +289,12 @@ static void run_one(struct rg_verify *v, struct row *rows, int count, struct one
     rg_picture_destroy(&c->dry);
 }
 
-// T1 needs the rain mask always; T0 once a pose, to see that there is rain at all.
+// The other tiers need the rain mask always; T0 once a pose, to see that there is rain at all.
 static bool wants_dry(const struct row *rows, int count, int seed)
 {
     bool wanted = seed == 0;
     for (int i = 1; i < count; i++)
-        wanted = wanted || !rows[i].device->info.software;
+        wanted = wanted || rows[i].tier != RG_T0;
     return wanted;
 }
 
@@ -346,22 +349,29 @@ static void report(struct rg_verify *v, const struct row *reference, const struc
                       t->runs, v->steps);
     else if (t->unlike)
         rg_checks_add(v->checks, technique, name, device, RG_OK,
-                      "%d of %d runs of %d steps are not identical to %s, %s", t->unlike, t->runs,
-                      v->steps, v->reference->info.name,
-                      check == STATE ? "which T1 leaves to the image" : "but within T1");
+                      "%d of %d runs of %d steps are not identical to %s, %s %s%s", t->unlike,
+                      t->runs, v->steps, v->reference->info.name,
+                      check == STATE ? "which" : "but within", rg_tier_name(row->tier),
+                      check == STATE ? " leaves to the image" : "");
     else
         rg_checks_add(v->checks, technique, name, device, RG_OK,
                       "%d runs of %d steps, identical to %s", t->runs, v->steps,
                       v->reference->info.name);
 }
 
+static void add_row(const struct rg_verify *v, struct row *row, struct rg_device *device)
+{
+    row->device = device;
+    row->tier = rg_tier_owed(&device->info, &v->reference->info);
+}
+
 static int list_rows(const struct rg_verify *v, struct row *rows)
 {
     int count = 0;
-    rows[count++].device = v->reference;
+    add_row(v, &rows[count++], v->reference);
     for (int i = 0; i < v->devices->count; i++)
         if (v->devices->devices[i] != v->reference)
-            rows[count++].device = v->devices->devices[i];
+            add_row(v, &rows[count++], v->devices->devices[i]);
     return count;
 }
 
