@@ -11,8 +11,7 @@
 #include <string.h>
 
 #include "core/techniques/technique.h"
-#include "harness/record/result.h"
-#include "harness/tables/papers/papers.h"
+#include "harness/tables/table.h"
 
 static const char *folder;
 
@@ -80,50 +79,69 @@ static void test_published(void **state)
             compare(rg_tables[i]);
 }
 
-static int count_variants(const struct rg_table *table)
+// Every cell's assignments are ones that its technique takes, in either length, the truth's over
+// them; and its record holds them whole.
+static void check_cells(const struct rg_table *table, bool full)
 {
-    int count = 0;
-    while (table->variants[count].name)
-        count++;
-    return count;
+    static struct rg_device device = {.info = {.name = "cpu"}};
+    const struct rg_devices devices = {.count = 1, .devices = {&device}};
+    const struct rg_table_part part = {.last_row = table->row_count - 1, .full = full};
+    const struct rg_technique *technique = rg_technique_find(table->technique);
+    struct rg_result result = {0};
+    rg_table_begin(&result, table, &part, &devices);
+    assert_string_equal(result.note, table->note);
+    void *defaults = rg_settings_create(technique);
+    for (int row = 0; row < table->row_count; row++)
+        assert_true(rg_table_add_row(&result, table, row));
+    for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at);) {
+        char *assignments = rg_table_assignments(&result, table, at);
+        assert_string_equal(rg_result_at(&result, at)->set, assignments);
+        void *settings = rg_settings_copy(technique, defaults, assignments);
+        assert_non_null(settings);
+        void *truth = rg_settings_copy(technique, settings, table->truth ? table->truth : "");
+        assert_non_null(truth);
+        if (table->is_of_textures)
+            assert_true(table->rows[at.row].name && rg_table_value(table, at.row, "level") >= 0);
+        else if (rg_table_is_published(table))
+            assert_true(rg_record_published_fps(rg_result_at(&result, at)) > 0);
+        free(truth);
+        free(settings);
+        free(assignments);
+    }
+    free(defaults);
+    rg_result_free(&result);
 }
 
-// Every assignment of every table is one that its technique takes, and every variant has its
-// column.
 static void test_settings(void **state)
 {
     (void)state;
     for (int i = 0; rg_tables[i]; i++) {
         const struct rg_table *table = rg_tables[i];
-        const struct rg_technique *technique = rg_technique_find(table->technique);
-        assert_non_null(technique);
+        assert_non_null(rg_technique_find(table->technique));
         assert_in_range(table->row_count, 1, RG_TABLE_ROWS);
-        const int variants = count_variants(table);
-        assert_in_range(variants, 1, RG_TABLE_VARIANTS);
         assert_true(table->names || table->key_count > 0);
-        assert_in_range(strlen(table->note), 1, RG_NOTE_SIZE - 1); // a result holds it whole
-        void *defaults = rg_settings_create(technique);
-        for (int j = 0; j < table->row_count * variants; j++) {
-            const int row = j % table->row_count, variant = j / table->row_count;
-            void *of_row = rg_settings_copy(technique, defaults, table->rows[row].set);
-            assert_non_null(of_row);
-            void *all = rg_settings_copy(technique, of_row, table->variants[variant].set);
-            assert_non_null(all);
-            void *quick = rg_settings_copy(technique, all, table->quick ? table->quick : "");
-            assert_non_null(quick);
-            void *truth = rg_settings_copy(technique, quick, table->truth ? table->truth : "");
-            assert_non_null(truth);
-            if (table->is_of_textures)
-                assert_true(table->rows[row].name && rg_table_value(table, row, "level") >= 0);
-            else if (rg_table_is_published(table))
-                assert_true(rg_table_published_fps(table, row, variant) > 0);
-            free(truth);
-            free(quick);
-            free(all);
-            free(of_row);
-        }
-        free(defaults);
+        check_cells(table, false);
+        check_cells(table, true);
     }
+}
+
+// Works are those that --work chooses among: what was printed, and what saves work and says so.
+static void test_works(void **state)
+{
+    (void)state;
+    int found = 0;
+    for (int i = 0; rg_tables[i]; i++) {
+        const struct rg_table_work *works = rg_tables[i]->works;
+        if (!works[0].name)
+            continue;
+        found++;
+        assert_string_equal(works[0].name, "paper");
+        assert_string_equal(works[0].saves, "");
+        assert_string_equal(works[1].name, "ours");
+        assert_in_range(strlen(works[1].saves), 1, RG_TITLE_SIZE - 1);
+        assert_string_not_equal(works[0].set, works[1].set);
+    }
+    assert_true(found > 0);
 }
 
 int main(int argc, char **argv)
@@ -132,6 +150,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_published),
         cmocka_unit_test(test_settings),
+        cmocka_unit_test(test_works),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
