@@ -1,5 +1,5 @@
 // flow: what lies behind the panes, onto the target.
-#include "kernels/flow/view_params.h"
+#include "kernels/flow/panes/view_params.h"
 
 #define RG_PARAMS flow_view_params
 #define RG_SLOTS  IMAGE(1, RGBA16F, behind) OUT_IMAGE(2, RGBA16F, target)

@@ -1,5 +1,5 @@
 // flow: the environment behind everything, one quad that fills the view.
-#include "kernels/flow/view_params.h"
+#include "kernels/flow/panes/view_params.h"
 
 #define RG_PARAMS flow_view_params
 #define RG_SLOTS  IMAGE(1, RG11B10F, environment)

@@ -17,14 +17,14 @@ text {{ text-anchor: middle }} #tip path {{ fill: #68a; marker-end: none }}
 
 
 def gather(tree, of):
-    """Includes between what `of` makes of their paths: {from: {to: how many}}."""
+    """Includes between what `of` makes of their paths, each with a file that shows it: {from: {to: file}}."""
     graph = {}
     for path, _, target in tree.includes:
         if target and of(path) and of(target):
             targets = graph.setdefault(of(path), {})
             graph.setdefault(of(target), {})
             if of(path) != of(target):
-                targets[of(target)] = targets.get(of(target), 0) + 1
+                targets.setdefault(of(target), path)
     return graph
 
 

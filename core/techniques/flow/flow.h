@@ -6,7 +6,7 @@
 
 #include "core/techniques/params.h"
 #include "kernels/flow/panes/normals_params.h"
-#include "kernels/flow/view_params.h"
+#include "kernels/flow/panes/view_params.h"
 #include "kernels/flow/water/splat_params.h"
 #include "kernels/flow/water/water.h"
 

@@ -8,6 +8,7 @@
 #ifndef RG_KERNELS_DIALECT_DRAW_CLIP_H
 #define RG_KERNELS_DIALECT_DRAW_CLIP_H
 
+#include "kernels/dialect/corner.h"
 #include "kernels/dialect/draw/state.h"
 
 // A driver draws in a viewport of RG_VIEWPORT_PX around the target's centre. Snapped coordinates
@@ -20,16 +21,6 @@
 #define RG_GUARD_PX    2048.0f
 #define RG_SUBPIXELS   256
 #define RG_LEAST_W     1e-9f
-
-// A corner in clip space.
-RG_STRUCT(rg_corner)
-{
-    float x;
-    float y;
-    float z;
-    float w;
-};
-RG_STRUCT_SIZE(rg_corner, 4)
 
 // What a program's item emits: a convex polygon of 3 or 4 corners (RG_CORNERS; d is unused with 3),
 // or nothing where `alive` is 0.
@@ -67,16 +58,6 @@ RG_STRUCT(rg_projected)
     int fate;
     rg_snapped corners; // where whole
 };
-
-RG_FN rg_corner rg_corner_make(float x, float y, float z, float w)
-{
-    rg_corner c;
-    c.x = x;
-    c.y = y;
-    c.z = z;
-    c.w = w;
-    return c;
-}
 
 // How far the guard band reaches from the target's centre, in pixels.
 RG_FN float rg_reach_px(float half_size)

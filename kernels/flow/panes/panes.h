@@ -4,7 +4,7 @@
 #define RG_KERNELS_FLOW_PANES_PANES_H
 
 #include "kernels/flow/water/water.h"
-#include "kernels/flow/view_params.h"
+#include "kernels/flow/panes/view_params.h"
 #include "kernels/dialect/math.h"
 #include "kernels/flow/panes/normal_map.h"
 #include "kernels/dialect/draw/triangle.h"

@@ -1,7 +1,7 @@
 // What flow's drawing passes share: the view, the light and the look of the panes. The scene is a
 // box of half side 1 about the world's origin.
-#ifndef RG_KERNELS_FLOW_VIEW_PARAMS_H
-#define RG_KERNELS_FLOW_VIEW_PARAMS_H
+#ifndef RG_KERNELS_FLOW_PANES_VIEW_PARAMS_H
+#define RG_KERNELS_FLOW_PANES_VIEW_PARAMS_H
 
 #include "kernels/dialect/matrix.h"
 
