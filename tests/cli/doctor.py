@@ -4,13 +4,15 @@ import os
 import re
 import tempfile
 
+import forms
 from runner import NO_DRIVERS
 
 
 def examine(runner, args, env={}):
-    """A doctor's report as JSON, its exit status and its messages."""
+    """A doctor's report as JSON, its exit status and its messages, with what the schema says against it."""
     result = runner.run(["doctor", "--json"] + args, env)
-    return json.loads(result.stdout), result.returncode, result.stderr
+    report = json.loads(result.stdout)
+    return report, result.returncode, result.stderr + "".join(line + "\n" for line in forms.problems("doctor", report))
 
 
 def by_name(report):

@@ -7,13 +7,16 @@ import re
 import signal
 import tempfile
 
+import forms
 from cases import DIFF, FORMATS, RENDER, SMALL, TABLE, VERIFY
 
 
 def run_json(runner, args, env={}):
     """What the command prints as JSON, its exit status, and its messages as a list of problems."""
     result = runner.run((args + " --json").split(), env)
-    return json.loads(result.stdout), result.returncode, ["stderr: " + line for line in result.stderr.splitlines()]
+    document = json.loads(result.stdout)
+    problems = forms.problems(args.split()[0], document)
+    return document, result.returncode, problems + ["stderr: " + line for line in result.stderr.splitlines()]
 
 
 def lacking(where, record, fields):
@@ -39,6 +42,20 @@ def check_table_json(runner):
         shares, passes = cell["measured"]["passes_share"], cell["measured"]["passes_ms"]
         if list(shares) != list(passes) or abs(sum(shares.values()) - 1) > 1e-6 or "flow_mirror" not in shares:
             problems.append("passes: %s, shares: %s" % (passes, shares))
+    return problems
+
+
+def check_forms(runner):
+    """what list prints, and a table of textures, are as the schema has them, whose fields are all documented"""
+    problems = ["docs/records.md does not tell of %s" % name for name in forms.undocumented()]
+    for args in ("list techniques", "list tables", "list devices", "list params raster", "table creus-5.2 --rows 1-1 --device cpu"):
+        problems += [line for line in run_json(runner, args)[2] if not line.startswith("stderr: ")]
+    # What is wrong is found.
+    document = run_json(runner, "list techniques")[0]
+    document["techniques"][0]["colour"] = "red"
+    document["techniques"][1]["about"] = 1
+    if not forms.problems("list", document):
+        problems.append("a wrong document is taken")
     return problems
 
 
@@ -190,6 +207,8 @@ def check_interrupted(runner):
                 problems.append("printed, interrupted:\n" + first)
             if "stuppacher-2-quick.journal" not in os.listdir(place):
                 problems.append("%s holds %s" % (place, os.listdir(place)))
+            with open(place + "/stuppacher-2-quick.journal") as file:
+                problems += forms.problems("table", json.load(file))
             second = runner.run((TWO_TABLES + more).split(), env)
             if second.returncode or not re.fullmatch(r"raingauge: stuppacher-2: 1 of 1 rows .*\n", second.stderr):
                 problems.append("again: exit status %d, stderr: %s" % (second.returncode, second.stderr))
@@ -284,7 +303,7 @@ def check_atlas(runner):
     return problems
 
 
-CHECKS = [check_table_json, check_table_files, check_tables_in_a_row, check_render_json, check_diff_json, check_verify_json, check_full_stdout,
+CHECKS = [check_forms, check_table_json, check_table_files, check_tables_in_a_row, check_render_json, check_diff_json, check_verify_json, check_full_stdout,
           check_interrupted, check_stored, check_fresh, check_atlas]
 
 
