@@ -51,11 +51,8 @@ static int diff_devices(const struct diff_options *o, const struct rg_words *arg
     if (!technique)
         return RG_EXIT_USAGE;
     const int exit = rg_diff_devices(&(struct rg_diff_devices_request){
-        .technique = technique,
-        .settings = settings,
+        .subject = {technique, settings, o->size.width, o->size.height},
         .devices = o->devices,
-        .width = o->size.width,
-        .height = o->size.height,
         .frames = o->frames,
         .heatmap_prefix = o->heatmap_prefix,
         .exposure = o->exposure,

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
-#include "harness/frames/frame.h"
 
 // --- what was opened with what ---
 
@@ -44,44 +43,42 @@ struct rg_device *rg_kept_device(struct rg_kept *kept, const char *name)
     return *own;
 }
 
-// --- instances ---
+// --- sessions ---
 
-// Where the instance of a device is kept, or will be: there is a place for each.
-static struct rg_kept_instance *kept_on(struct rg_kept *kept, const struct rg_device *device)
+// Where the session on a device is kept, or will be: there is a place for each.
+static struct rg_kept_session *kept_on(struct rg_kept *kept, const struct rg_device *device)
 {
-    struct rg_kept_instance *place = kept->instances;
-    while (place->instance && place->instance->device != device)
+    struct rg_kept_session *place = kept->sessions;
+    while (place->session && rg_session_device(place->session) != device)
         place++;
     return place;
 }
 
-static void close_kept(struct rg_kept_instance *place)
+static void close_kept(struct rg_kept_session *place)
 {
-    if (place->instance)
-        rg_instance_close(place->instance);
+    rg_session_close(place->session);
     free_subject(&place->of);
-    place->instance = NULL;
+    place->session = NULL;
 }
 
-void rg_kept_put(struct rg_kept *kept, struct rg_instance *instance)
+void rg_kept_put(struct rg_kept *kept, struct rg_session *session)
 {
-    struct rg_kept_instance *place = kept_on(kept, instance->device);
+    struct rg_kept_session *place = kept_on(kept, rg_session_device(session));
     close_kept(place);
-    place->instance = instance;
+    place->session = session;
 }
 
-struct rg_instance *rg_kept_open(struct rg_kept *kept, struct rg_device *device,
-                                 const struct rg_subject *subject)
+struct rg_session *rg_kept_open(struct rg_kept *kept, struct rg_device *device,
+                                const struct rg_subject *subject)
 {
-    struct rg_kept_instance *place = kept_on(kept, device);
-    if (place->instance && is_same(&place->of, subject))
-        return place->instance;
-    struct rg_instance *instance = rg_instance_open(subject->technique, device, subject->settings,
-                                                    subject->width, subject->height);
-    if (!instance)
+    struct rg_kept_session *place = kept_on(kept, device);
+    if (place->session && is_same(&place->of, subject))
+        return place->session;
+    struct rg_session *session = rg_session_open(device, subject);
+    if (!session)
         return NULL;
-    rg_kept_put(kept, instance);
-    return own_subject(&place->of, subject) ? instance : NULL;
+    rg_kept_put(kept, session);
+    return own_subject(&place->of, subject) ? session : NULL;
 }
 
 // --- truths ---
@@ -90,14 +87,11 @@ static bool draw_truth(struct rg_kept *kept, const struct rg_subject *subject, i
                        struct rg_picture *picture)
 {
     struct rg_device *device = rg_kept_device(kept, "cpu");
-    struct rg_instance *instance = device
-                                       ? rg_frame_run(subject->technique, subject->settings, device,
-                                                      subject->width, subject->height, frames)
-                                       : NULL;
-    if (!instance)
+    struct rg_session *session = device ? rg_session_run(device, subject, frames) : NULL;
+    if (!session)
         return false;
-    const bool ok = rg_frame_read_picture(instance, picture);
-    rg_kept_put(kept, instance);
+    const bool ok = rg_session_read_picture(session, picture);
+    rg_kept_put(kept, session);
     return ok;
 }
 
@@ -121,7 +115,7 @@ bool rg_kept_free(struct rg_kept *kept)
 {
     bool clean = true;
     for (int i = 0; i < RG_MAX_DEVICES + RG_KEPT_DEVICES; i++)
-        close_kept(&kept->instances[i]);
+        close_kept(&kept->sessions[i]);
     for (int i = 0; i < RG_KEPT_TRUTHS; i++) {
         rg_picture_destroy(&kept->truths[i].picture);
         free_subject(&kept->truths[i].of);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "harness/frames/inside.h"
 
 // A run that is recorded.
 struct recorder {
@@ -88,18 +89,18 @@ static void after_stage(const struct rg_opened_stage *stage, void *user)
 static bool run_recorded(const struct rg_digest_run *run, struct rg_device *device,
                          struct recorder *r)
 {
-    const struct rg_technique *technique = run->technique;
-    r->instance = rg_instance_open(technique, device, run->settings, run->width, run->height);
-    if (!r->instance)
+    struct rg_session *session = rg_session_open(device, &run->subject);
+    if (!session)
         return false;
+    r->instance = rg_session_instance(session);
     r->ok = true;
     for (int i = 0; r->ok && i < r->instance->asset_count; i++)
         record(r, NULL, i); // what opening has left
     r->instance->after_stage = after_stage;
     r->instance->user = r;
     for (int i = 0; r->ok && i < run->frames; i++)
-        r->ok = technique->step(r->instance) && technique->draw(r->instance) && r->ok;
-    rg_instance_close(r->instance);
+        r->ok = rg_session_step(session) && rg_session_draw(session) && r->ok;
+    rg_session_close(session);
     return r->ok;
 }
 
@@ -121,7 +122,7 @@ bool rg_digests_contents(const struct rg_digest_run *run, struct rg_device *devi
     rg_digests_free(&digests);
     return ok && (contents->bytes ||
                   rg_error("%s: a second run on %s has not come as far as the first; run again",
-                           run->technique->name, device->info.name));
+                           run->subject.technique->name, device->info.name));
 }
 
 void rg_digests_free(struct rg_digests *digests)

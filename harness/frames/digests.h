@@ -4,13 +4,12 @@
 #define RG_HARNESS_FRAMES_DIGESTS_H
 
 #include "core/techniques/stages/contents.h"
-#include "core/techniques/technique.h"
+#include "harness/frames/session.h"
 
-// So many frames of a technique, each simulated and drawn.
+// So many frames of a subject, each simulated and drawn.
 struct rg_digest_run {
-    const struct rg_technique *technique;
-    const void *settings; // not owned
-    int width, height, frames;
+    struct rg_subject subject;
+    int frames;
 };
 
 // One asset after one stage. An asset has a digest after each stage that wrote it, and after any

@@ -7,6 +7,7 @@
 #include "core/techniques/frame.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
+#include "harness/frames/inside.h"
 
 struct rg_session {
     struct rg_instance *instance;
@@ -48,6 +49,11 @@ void rg_session_close(struct rg_session *session)
 struct rg_device *rg_session_device(const struct rg_session *session)
 {
     return session->instance->device;
+}
+
+struct rg_instance *rg_session_instance(struct rg_session *session)
+{
+    return session->instance;
 }
 
 // --- work ---

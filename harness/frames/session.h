@@ -2,7 +2,7 @@
 //
 // What comes back is copied, and nothing points into the instance or the device's memory. So the
 // instance may one day live in a process of its own, which a driver can bring down without harming
-// the command; session.c alone would know.
+// the command; this folder alone would know.
 //
 // Functions that return false or NULL have logged one line. A session that has failed is closed.
 #ifndef RG_HARNESS_FRAMES_SESSION_H

@@ -2,12 +2,11 @@
 
 #include <stdlib.h>
 
-#include "harness/frames/frame.h"
-
-bool rg_expected_read(struct rg_expected *expected, struct rg_instance *instance)
+bool rg_expected_read(struct rg_expected *expected, struct rg_session *session)
 {
-    expected->texels = rg_frame_read(instance, &expected->size);
-    return expected->texels && rg_frame_picture(instance, expected->texels, &expected->picture);
+    expected->device = rg_session_device(session)->info;
+    expected->texels = rg_session_read(session, &expected->size);
+    return expected->texels && rg_session_picture(session, expected->texels, &expected->picture);
 }
 
 void rg_expected_free(struct rg_expected *expected)

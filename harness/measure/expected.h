@@ -2,22 +2,22 @@
 #ifndef RG_HARNESS_MEASURE_EXPECTED_H
 #define RG_HARNESS_MEASURE_EXPECTED_H
 
-#include "core/image/picture.h"
-#include "core/techniques/technique.h"
+#include "harness/frames/session.h"
 
 enum { RG_CHECK_FRAMES = 10 }; // simulated before the image is compared, where a table does not say
 
 // The image of cpu:reference after a table's check frames. Zeroed: none.
 struct rg_expected {
-    void *texels; // as the target holds them, `size` bytes; owned
+    struct rg_device_info device; // cpu:reference's
+    void *texels;                 // as the target holds them, `size` bytes; owned
     size_t size;
     struct rg_picture picture; // the same
     struct rg_picture dry;     // without rain: the background of the rain mask; empty: not wanted
 };
 
-// Reads what an instance shows now. False, and one logged line, on failure. The caller calls
+// Reads what a session shows now. False, and one logged line, on failure. The caller calls
 // rg_expected_free in either case.
-bool rg_expected_read(struct rg_expected *expected, struct rg_instance *instance);
+bool rg_expected_read(struct rg_expected *expected, struct rg_session *session);
 void rg_expected_free(struct rg_expected *expected);
 
 #endif

@@ -4,91 +4,86 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/base/log.h"
+#include "core/device/tier.h"
 #include "core/image/compare/compare.h"
 #include "harness/console/clock.h"
-#include "harness/console/interrupt.h"
-#include "harness/frames/frame.h"
 
 enum { MAX_WARM_UP_FRAMES = 20, MIN_WARM_UP_FRAMES = 4 };
-
-bool rg_job_run(struct rg_job *job, int frames)
-{
-    bool ok = true;
-    for (int i = 0; ok && i < frames && !rg_interrupted(); i++)
-        ok = job->technique->step(job->instance) && job->technique->draw(job->instance);
-    return ok && rg_device_sync(job->device);
-}
 
 double rg_job_time(struct rg_job *job, int frames)
 {
     const double start = rg_now_ms();
-    if (!rg_job_run(job, frames))
+    if (!rg_session_frames(job->session, frames))
         rg_record_end_by_error(job->record);
     return (rg_now_ms() - start) / frames;
 }
 
 // --- preparing: open, check, warm up ---
 
-static bool open_instance(struct rg_job *job)
+static bool open_session(struct rg_job *job)
 {
     const double start = rg_now_ms();
-    job->instance =
-        rg_instance_open(job->technique, job->device, job->settings, job->width, job->height);
-    if (!job->instance || !rg_device_sync(job->device))
+    job->session = rg_session_open(job->device, &job->subject);
+    if (!job->session || !rg_session_sync(job->session))
         return rg_record_end_by_error(job->record);
     const double opened = rg_now_ms();
-    if (!rg_job_run(job, 1))
+    if (!rg_session_frames(job->session, 1))
         return rg_record_end_by_error(job->record);
     job->record->create_ms = opened - start;
     job->record->first_frame_ms = rg_now_ms() - opened;
     return true;
 }
 
-static void keep_told(struct rg_record *record, const struct rg_instance *instance)
+static void keep_told(struct rg_record *record, const struct rg_session *session)
 {
-    record->counter_count = instance->counter_count;
-    record->fact_count = instance->fact_count;
-    rg_counters_copy(record->counters, instance->counters, instance->counter_count);
-    rg_facts_copy(record->facts, instance->facts, instance->fact_count);
+    struct rg_account told;
+    rg_session_tell(session, &told);
+    record->counter_count = told.counter_count;
+    record->fact_count = told.fact_count;
+    rg_counters_copy(record->counters, told.counters, told.counter_count);
+    rg_facts_copy(record->facts, told.facts, told.fact_count);
 }
 
 bool rg_job_open(struct rg_job *job)
 {
     job->record->outcome = RG_OK;
-    if (!open_instance(job))
+    if (!open_session(job))
         return false;
     job->warm_frame_ms = job->record->first_frame_ms;
     if (job->check_frames > 1)
         job->warm_frame_ms = rg_job_time(job, job->check_frames - 1);
-    keep_told(job->record, job->instance);
+    keep_told(job->record, job->session);
     return job->record->outcome == RG_OK;
 }
 
-// Whether an image holds tier T1, which other drivers than the software ones are held to.
-static bool holds_t1(struct rg_job *job, const struct rg_expected *expected, const void *texels)
+// Whether an image that is not identical holds the tier that its device owes.
+static bool holds(struct rg_job *job, const struct rg_expected *expected, const void *texels,
+                  enum rg_tier tier)
 {
     struct rg_picture picture = {0};
     struct rg_comparison comparison = {0};
     const struct rg_picture *dry = expected->dry.texels ? &expected->dry : NULL;
-    bool ok = rg_frame_picture(job->instance, texels, &picture) &&
-              rg_compare(&expected->picture, "cpu:reference", &picture, job->device->info.name, dry,
-                         &(struct rg_compare_options){0}, &comparison);
-    bool holds = ok && comparison.tiers.of[RG_T1].holds;
-    if (!holds)
-        rg_record_end(job->record, ok ? RG_FAIL : RG_ERROR,
-                      ok ? comparison.tiers.of[RG_T1].why : rg_last_error());
+    const bool ok =
+        rg_session_picture(job->session, texels, &picture) &&
+        rg_compare(&expected->picture, expected->device.name, &picture, job->device->info.name, dry,
+                   &(struct rg_compare_options){0}, &comparison);
+    const struct rg_verdict *verdict = &comparison.tiers.of[tier];
+    if (!ok)
+        rg_record_end_by_error(job->record);
+    else if (!verdict->holds)
+        rg_record_end(job->record, RG_FAIL, verdict->why);
     rg_comparison_destroy(&comparison);
     rg_picture_destroy(&picture);
-    return holds;
+    return job->record->outcome == RG_OK;
 }
 
 static bool agrees(struct rg_job *job, const struct rg_expected *expected, const void *texels)
 {
+    const enum rg_tier tier = rg_tier_owed(&job->device->info, &expected->device);
     if (!memcmp(expected->texels, texels, expected->size))
         return true;
-    if (!job->device->info.software)
-        return holds_t1(job, expected, texels);
+    if (tier != RG_T0)
+        return holds(job, expected, texels, tier);
     return rg_record_end(
         job->record, RG_FAIL,
         "its image differs from cpu:reference's (T0); `raingauge diff` shows where");
@@ -97,7 +92,7 @@ static bool agrees(struct rg_job *job, const struct rg_expected *expected, const
 bool rg_job_check(struct rg_job *job, const struct rg_expected *expected)
 {
     size_t size;
-    void *texels = rg_frame_read(job->instance, &size);
+    void *texels = rg_session_read(job->session, &size);
     const bool ok = texels && size == expected->size ? agrees(job, expected, texels)
                                                      : rg_record_end_by_error(job->record);
     free(texels);
@@ -121,7 +116,6 @@ bool rg_job_warm_up(struct rg_job *job, const struct rg_measure_options *options
 
 void rg_job_close(struct rg_job *job)
 {
-    if (job->instance)
-        rg_instance_close(job->instance);
-    job->instance = NULL;
+    rg_session_close(job->session);
+    job->session = NULL;
 }

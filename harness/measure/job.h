@@ -3,20 +3,18 @@
 #ifndef RG_HARNESS_MEASURE_JOB_H
 #define RG_HARNESS_MEASURE_JOB_H
 
-#include "core/techniques/technique.h"
+#include "harness/frames/session.h"
 #include "harness/measure/expected.h"
 #include "harness/record/record.h"
 
 struct rg_job {
     // Given:
-    const struct rg_technique *technique;
-    const void *settings; // not owned
+    struct rg_subject subject;
     struct rg_device *device;
-    int width, height;        // of the image
     int check_frames;         // simulated and drawn before the image is compared, at least 1
     struct rg_record *record; // not owned; its outcome says whether the job goes on
     // Found:
-    struct rg_instance *instance;
+    struct rg_session *session;
     double warm_frame_ms; // the last frame of the warm-up
     int wanted_samples;   // so many will be taken
 };
@@ -35,18 +33,16 @@ struct rg_measure_options {
 //
 // Opens it and draws its check frames.
 bool rg_job_open(struct rg_job *job);
-// Compares its image. A device that is no software must hold tier T1, by the rain mask where
+// Compares its image, which must hold the tier that its device owes; by the rain mask where
 // `expected` has the background.
 bool rg_job_check(struct rg_job *job, const struct rg_expected *expected);
 bool rg_job_warm_up(struct rg_job *job, const struct rg_measure_options *options);
 
-// Simulates and draws some frames, and waits for them. False, and nothing is ended, on failure.
-bool rg_job_run(struct rg_job *job, int frames);
 // The time that each of some frames takes by wall clock, between full syncs. Ends the record on
 // failure.
 double rg_job_time(struct rg_job *job, int frames);
 
-// Closes its instance.
+// Closes its session.
 void rg_job_close(struct rg_job *job);
 
 #endif

@@ -50,9 +50,9 @@ static void take_sample(struct rg_job *job)
     int64_t begin, end;
     if (needs_run_up(job->warm_frame_ms))
         rg_job_time(job, 1);
-    const bool has_begun = is_last && rg_device_time(job->device, &begin);
+    const bool has_begun = is_last && rg_session_time(job->session, &begin);
     const double ms = rg_job_time(job, record->frames_a_sample);
-    if (has_begun && rg_device_time(job->device, &end))
+    if (has_begun && rg_session_time(job->session, &end))
         record->api_over_wall = (double)(end - begin) * 1e-6 / (ms * record->frames_a_sample);
     record->samples_ms[record->sample_count++] = ms;
 }

@@ -9,12 +9,6 @@ enum { MOST_FRAMES = 10, LEAST_FRAMES = 2 };
 // The run ends with the frame in which it has taken so long.
 #define PASSES_MS 400
 
-struct pass_clock {
-    struct rg_job *job;
-    double last_ms;
-    bool ok;
-};
-
 // Where the time of a pass is kept.
 static struct rg_pass_time *pass_of(struct rg_record *record, const char *name)
 {
@@ -31,30 +25,22 @@ static struct rg_pass_time *pass_of(struct rg_record *record, const char *name)
     return pass;
 }
 
-static void after_stage(const struct rg_opened_stage *stage, void *user)
+static void add_stage(const char *kernel, double ms, void *user)
 {
-    struct pass_clock *clock = user;
-    clock->ok = rg_device_sync(clock->job->device) && clock->ok;
-    const double now = rg_now_ms();
-    pass_of(clock->job->record, stage->row.kernel)->ms += now - clock->last_ms;
-    clock->last_ms = now;
+    pass_of(user, kernel)->ms += ms;
 }
 
 bool rg_job_time_passes(struct rg_job *job)
 {
     struct rg_record *record = job->record;
     const double start = rg_now_ms();
-    struct pass_clock clock = {job, start, true};
-    job->instance->after_stage = after_stage;
-    job->instance->user = &clock;
     bool ok = true;
     while (ok && record->pass_frames < MOST_FRAMES &&
            (record->pass_frames < LEAST_FRAMES || rg_now_ms() - start < PASSES_MS)) {
-        ok = rg_job_run(job, 1);
+        ok = rg_session_stages(job->session, add_stage, record);
         record->pass_frames++;
     }
-    job->instance->after_stage = NULL;
     for (int i = 0; i < record->pass_count; i++)
         record->passes[i].ms /= record->pass_frames;
-    return ok && clock.ok;
+    return ok;
 }

@@ -15,8 +15,8 @@ bool rg_batch_open(struct rg_batch *batch, int rows)
 void rg_batch_close(struct rg_batch *batch)
 {
     for (int i = 0; i < batch->job_count; i++)
-        if (batch->jobs[i].instance)
-            rg_kept_put(batch->kept, batch->jobs[i].instance);
+        if (batch->jobs[i].session)
+            rg_kept_put(batch->kept, batch->jobs[i].session);
     for (int i = 0; i < batch->settings_count; i++)
         free(batch->settings[i]);
     free(batch->settings);

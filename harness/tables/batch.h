@@ -18,7 +18,7 @@ struct rg_batch {
 
 // Room for the jobs of so many rows. False, with one logged line, without memory.
 bool rg_batch_open(struct rg_batch *batch, int rows);
-// Hands the instances over to what the tables of a command keep, and frees the rest.
+// Hands the sessions over to what the tables of a command keep, and frees the rest.
 void rg_batch_close(struct rg_batch *batch);
 
 // Opens, checks and warms up the jobs of a row's variant on all devices, or ends their records.

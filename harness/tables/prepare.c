@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/device/tier.h"
 #include "core/image/compare/compare.h"
 #include "harness/console/interrupt.h"
 #include "harness/frames/frame.h"
@@ -34,11 +35,8 @@ static struct preparation begin(struct rg_batch *batch, struct rg_place at)
                             .jobs = batch->jobs + batch->job_count};
     batch->job_count += p.count;
     for (at.device = 0; at.device < p.count; at.device++)
-        p.jobs[at.device] = (struct rg_job){.technique = p.subject.technique,
-                                            .settings = p.subject.settings,
+        p.jobs[at.device] = (struct rg_job){.subject = p.subject,
                                             .device = batch->kept->devices->devices[at.device],
-                                            .width = table->width,
-                                            .height = table->height,
                                             .check_frames = p.check_frames,
                                             .record = rg_result_at(batch->result, at)};
     return p;
@@ -47,12 +45,12 @@ static struct preparation begin(struct rg_batch *batch, struct rg_place at)
 // --- the image ---
 
 // The background is what a mask of rain is made from: for the distance from the truth, and for
-// devices that are held to tier T1.
+// devices that owe another tier than T0.
 static bool needs_dry(const struct preparation *p)
 {
     bool needed = p->table->truth != NULL;
     for (int d = 0; d < p->count; d++)
-        needed = needed || !p->jobs[d].device->info.software;
+        needed = needed || rg_tier_owed(&p->jobs[d].device->info, &p->expected.device) != RG_T0;
     return needed;
 }
 
@@ -62,24 +60,20 @@ static bool draw_expected(struct preparation *p)
     struct rg_device *device = rg_kept_device(p->kept, "cpu:reference");
     for (int d = 0; device && d < p->count; d++)
         if (p->jobs[d].device == device)
-            return rg_job_open(&p->jobs[d]) && rg_expected_read(&p->expected, p->jobs[d].instance);
-    struct rg_instance *instance =
-        device ? rg_frame_run(p->subject.technique, p->subject.settings, device, p->subject.width,
-                              p->subject.height, p->check_frames)
-               : NULL;
-    if (!instance)
+            return rg_job_open(&p->jobs[d]) && rg_expected_read(&p->expected, p->jobs[d].session);
+    struct rg_session *session =
+        device ? rg_session_run(device, &p->subject, p->check_frames) : NULL;
+    if (!session)
         return false;
-    const bool ok = rg_expected_read(&p->expected, instance);
-    rg_kept_put(p->kept, instance);
+    const bool ok = rg_expected_read(&p->expected, session);
+    rg_kept_put(p->kept, session);
     return ok;
 }
 
 static bool draw_dry(struct preparation *p)
 {
-    return !needs_dry(p) ||
-           rg_frame_draw_dry(p->subject.technique, p->subject.settings,
-                             rg_kept_device(p->kept, "cpu:reference"), p->subject.width,
-                             p->subject.height, p->check_frames, &p->expected.dry);
+    return !needs_dry(p) || rg_frame_draw_dry(rg_kept_device(p->kept, "cpu:reference"), &p->subject,
+                                              p->check_frames, &p->expected.dry);
 }
 
 static void end_error(struct rg_truth_error *error, enum rg_outcome outcome, const char *why)
@@ -132,7 +126,7 @@ static void prepare_jobs(struct preparation *p, const struct rg_measure_options 
 {
     for (int d = 0; d < p->count && !rg_interrupted(); d++) {
         struct rg_job *job = &p->jobs[d];
-        const bool is_open = job->instance != NULL; // it made what is expected
+        const bool is_open = job->session != NULL; // it made what is expected
         if (is_open || (rg_job_open(job) && rg_job_check(job, &p->expected)))
             rg_job_warm_up(job, options);
     }

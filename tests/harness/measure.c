@@ -32,7 +32,7 @@ static void *settings_of(const char *assignments)
     return settings;
 }
 
-// --- tier T1 goes by the rain mask ---
+// --- a device is judged by the tier that it owes, over the rain mask ---
 
 // So many pixels on which it rains become two codes brighter in red.
 static void brighten(struct rg_picture *picture, const struct rg_picture *dry, int pixels)
@@ -53,11 +53,8 @@ static enum rg_outcome judge(struct rg_device *device, const void *settings,
                              const struct rg_expected *expected, char *detail, size_t size)
 {
     struct rg_record record = {0};
-    struct rg_job job = {.technique = rg_technique_find("flow"),
-                         .settings = settings,
+    struct rg_job job = {.subject = {rg_technique_find("flow"), settings, SIZE_PX, SIZE_PX},
                          .device = device,
-                         .width = SIZE_PX,
-                         .height = SIZE_PX,
                          .check_frames = RG_CHECK_FRAMES,
                          .record = &record};
     if (rg_job_open(&job))
@@ -72,17 +69,16 @@ static void expect(struct rg_expected *expected, const struct rg_technique *tech
                    const void *settings)
 {
     struct rg_device *device = rg_device_open("cpu:reference");
-    struct rg_instance *instance =
-        rg_frame_run(technique, settings, device, SIZE_PX, SIZE_PX, RG_CHECK_FRAMES);
+    const struct rg_subject subject = {technique, settings, SIZE_PX, SIZE_PX};
+    struct rg_session *session = rg_session_run(device, &subject, RG_CHECK_FRAMES);
     *expected = (struct rg_expected){0};
-    assert_true(rg_expected_read(expected, instance));
-    rg_instance_close(instance);
-    assert_true(rg_frame_draw_dry(technique, settings, device, SIZE_PX, SIZE_PX, RG_CHECK_FRAMES,
-                                  &expected->dry));
+    assert_true(rg_expected_read(expected, session));
+    rg_session_close(session);
+    assert_true(rg_frame_draw_dry(device, &subject, RG_CHECK_FRAMES, &expected->dry));
     assert_true(rg_device_close(device));
 }
 
-static void test_t1_by_the_mask(void **state)
+static void test_tiers_by_the_mask(void **state)
 {
     (void)state;
     enum { PIXELS = 12 }; // below 0.1 % of the picture, above 0.1 % of where it rains
@@ -96,10 +92,13 @@ static void test_t1_by_the_mask(void **state)
     ((char *)expected.texels)[0] ^= 1; // what the device draws is no longer identical
     assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_FAIL);
     assert_non_null(strstr(detail, "(T0)"));
-    device->info.software = false;
+    device->info.tier = RG_T1;
     assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_FAIL);
     if (!strstr(detail, "of the mask is above 1/255"))
         fail_msg("failed for another reason: %s", detail);
+    device->info.tier = RG_T2; // which takes pixels of two codes more for the same rain
+    assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_OK);
+    device->info.tier = RG_T1;
     rg_picture_destroy(&expected.dry); // without a background the whole picture is the mask
     assert_int_equal(judge(device, settings, &expected, detail, sizeof(detail)), RG_OK);
     rg_expected_free(&expected);
@@ -144,11 +143,8 @@ static void test_what_a_record_keeps(void **state)
     struct rg_expected expected;
     expect(&expected, &talker, settings);
     struct rg_record record = {0};
-    struct rg_job job = {.technique = &talker,
-                         .settings = settings,
+    struct rg_job job = {.subject = {&talker, settings, SIZE_PX, SIZE_PX},
                          .device = device,
-                         .width = SIZE_PX,
-                         .height = SIZE_PX,
                          .check_frames = RG_CHECK_FRAMES,
                          .record = &record};
     const struct rg_measure_options options = {
@@ -198,11 +194,8 @@ static void test_samples(void **state)
     struct rg_record records[2] = {0};
     struct rg_job jobs[2];
     for (int i = 0; i < 2; i++) {
-        jobs[i] = (struct rg_job){.technique = i ? &slow : flow,
-                                  .settings = settings,
+        jobs[i] = (struct rg_job){.subject = {i ? &slow : flow, settings, 16, 16},
                                   .device = device,
-                                  .width = 16,
-                                  .height = 16,
                                   .check_frames = 1,
                                   .record = &records[i]};
         assert_true(rg_job_open(&jobs[i]) && rg_job_warm_up(&jobs[i], &options));
@@ -223,7 +216,7 @@ static void test_samples(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_t1_by_the_mask),
+        cmocka_unit_test(test_tiers_by_the_mask),
         cmocka_unit_test(test_what_a_record_keeps),
         cmocka_unit_test(test_samples),
     };

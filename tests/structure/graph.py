@@ -57,6 +57,7 @@ def wrong(tree, order):
     """All that the structure must not be, a line each."""
     lines = circle_lines(tree.uses()) + circle_lines(draw.folder_graph(tree))
     lines += [f"{path} includes {target}: {why}" for path, target, why in order.upwards()]
+    lines += [f"{path} uses {name}: only {folder} may" for path, name, folder in order.torn()]
     lines += unrooted(tree) + order.stale()
     lines += [f"{folder}: {len(names)} rooms, more than {LIMIT}: {' '.join(names)}"
               for folder, (_, names) in sorted(rooms(tree).items()) if len(names) > LIMIT]

@@ -52,6 +52,14 @@ FENCES = {
 }
 
 
+# Names that one folder of the harness alone may use: what stands above it goes through its functions.
+SEAMS = {
+    # An instance may come to live in another process: commands know sessions.
+    "harness/frames": "rg_instance rg_instance_open rg_instance_close rg_frame_read rg_frame_picture "
+                      "rg_frame_read_picture rg_session_instance",
+}
+
+
 class Order:
     """The rooms of a tree: where each of its files lives, and which includes go against FLOORS and FENCES."""
 
@@ -102,6 +110,12 @@ class Order:
         wrong = [(path, target, self.why_not(path, target))
                  for path, _, target in self.tree.includes if target and self.room[path] and self.room[target]]
         return [row for row in wrong if row[2]]
+
+    def torn(self):
+        """(file, name, folder) of each name that a file of the harness uses past the folder that it belongs to."""
+        return [(path, name, folder) for folder, names in SEAMS.items() for path in sorted(self.tree.known)
+                if path.startswith("harness/") and not path.startswith(folder + "/")
+                for name in names.split() if re.search(rf"\b{name}\b", self.tree.text[path])]
 
     def stale(self):
         """What FLOORS and FENCES name that is not there, and files that no room of FLOORS holds."""

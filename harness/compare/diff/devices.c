@@ -31,8 +31,7 @@ static bool take_background(struct session *s)
 {
     const struct rg_diff_devices_request *r = s->asked;
     struct rg_device *device = rg_device_open("cpu");
-    bool ok = device && rg_frame_draw_dry(r->technique, r->settings, device, r->width, r->height,
-                                          r->frames, &s->background);
+    bool ok = device && rg_frame_draw_dry(device, &r->subject, r->frames, &s->background);
     return rg_device_close(device) && ok;
 }
 
@@ -46,8 +45,7 @@ static bool take_pictures(struct session *s, const struct rg_devices *devices)
         rg_progress_add(&progress, 1);
         struct shot *shot = &s->shots[s->shot_count++];
         shot->info = &devices->devices[d]->info;
-        ok = rg_frame_draw(r->technique, r->settings, devices->devices[d], r->width, r->height,
-                           r->frames, &shot->picture);
+        ok = rg_frame_draw(devices->devices[d], &r->subject, r->frames, &shot->picture);
     }
     rg_progress_end(&progress);
     return ok;

@@ -4,14 +4,12 @@
 
 #include <stdbool.h>
 
-#include "core/techniques/technique.h"
+#include "harness/frames/session.h"
 
 // Nothing in it is owned.
 struct rg_diff_devices_request {
-    const struct rg_technique *technique;
-    const void *settings;
+    struct rg_subject subject;
     const char *devices;        // their names, as rg_devices_open takes them
-    int width, height;          // pixels
     int frames;                 // simulated before the picture is drawn
     const char *heatmap_prefix; // NULL: none; else PREFIX-A-B-flip.png and -difference.png
     double exposure;

@@ -92,17 +92,16 @@ int64_t rg_verify_device_work(const struct rg_verify *v)
     return v->steps * count_poses(v) * RG_VERIFY_SEEDS * devices;
 }
 
-static struct rg_session *open_session(const struct rg_verify *v, struct rg_device *device,
-                                       const void *settings)
+static struct rg_subject subject_of(const struct rg_verify *v, const void *settings)
 {
-    return rg_session_open(device,
-                           &(struct rg_subject){v->technique, settings, v->width, v->height});
+    return (struct rg_subject){v->technique, settings, v->width, v->height};
 }
 
 struct rg_session *rg_verify_run(struct rg_verify *v, struct rg_device *device,
                                  const void *settings, int steps)
 {
-    struct rg_session *session = open_session(v, device, settings);
+    const struct rg_subject subject = subject_of(v, settings);
+    struct rg_session *session = rg_session_open(device, &subject);
     bool ok = session != NULL;
     for (int i = 0; ok && i < steps; i++) {
         ok = rg_session_step(session);
@@ -120,8 +119,9 @@ struct rg_session *rg_verify_run(struct rg_verify *v, struct rg_device *device,
 static void describe_first(struct rg_verify *v, struct rg_device *device, const struct one_case *c,
                            char *text, size_t size)
 {
-    struct rg_session *a = open_session(v, device, c->settings);
-    struct rg_session *b = open_session(v, v->reference, c->settings);
+    const struct rg_subject subject = subject_of(v, c->settings);
+    struct rg_session *a = rg_session_open(device, &subject);
+    struct rg_session *b = rg_session_open(v->reference, &subject);
     char element[160] = "";
     int step = 0;
     for (bool ok = a && b; ok && !*element && step <= v->steps; step++) {
@@ -257,10 +257,10 @@ static bool expect(struct rg_verify *v, struct row *reference, struct one_case *
     struct rg_session *session = run_case(v, reference, c, &c->expected);
     if (!session)
         return false;
+    const struct rg_subject subject = subject_of(v, c->settings);
     check_laws(v, reference, c, session);
     bool ok = rg_session_picture(session, c->expected.texels, &c->expected_picture) &&
-              (!c->with_dry || rg_frame_draw_dry(v->technique, c->settings, v->reference, v->width,
-                                                 v->height, 0, &c->dry));
+              (!c->with_dry || rg_frame_draw_dry(v->reference, &subject, 0, &c->dry));
     rg_session_close(session);
     if (!ok)
         note_errors(v, reference);

@@ -108,8 +108,9 @@ static void run_all(struct rg_verify *v, const struct rg_picture *truth,
 
 static bool draw_dry(struct rg_verify *v, struct rg_picture *dry)
 {
-    return rg_frame_draw_dry(v->technique, v->settings, v->mutant_device, v->width, v->height, 0,
-                             dry);
+    return rg_frame_draw_dry(v->mutant_device,
+                             &(struct rg_subject){v->technique, v->settings, v->width, v->height},
+                             0, dry);
 }
 
 static void run_contrast(const struct rg_verify *defaults, const struct rg_contrast *contrast,

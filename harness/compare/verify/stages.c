@@ -60,7 +60,7 @@ static void blame(struct rg_verify *v, const struct rg_digest_run *run, struct r
     const bool is_exact = rg_tier_owed(&device->info, &v->reference->info) == RG_T0;
     if (same_place)
         describe(v, run, device, row, where, sizeof(where));
-    rg_checks_add(v->checks, run->technique->name, "stages", device->info.name,
+    rg_checks_add(v->checks, run->subject.technique->name, "stages", device->info.name,
                   is_exact ? RG_FAIL : RG_OK, "%s%sframe %lld, %s %s: %s%s", pose,
                   *pose ? ": " : "", (long long)d->frame, *d->stage ? "stage" : "opening", d->stage,
                   d->asset, where);
@@ -70,12 +70,13 @@ static void compare(struct rg_verify *v, const struct rg_digest_run *run, struct
                     const char *pose, const struct rg_digests *expected)
 {
     struct rg_digests now = {0};
-    rg_progress_label(v->progress, "%s: stages on %s", run->technique->name, device->info.name);
+    rg_progress_label(v->progress, "%s: stages on %s", run->subject.technique->name,
+                      device->info.name);
     const bool ok = rg_digests_take(run, device, &now);
     if (!ok)
-        rg_checks_add_error(v->checks, run->technique->name, "stages", device->info.name);
+        rg_checks_add_error(v->checks, run->subject.technique->name, "stages", device->info.name);
     else if (first_difference(&now, expected) < 0)
-        rg_checks_add(v->checks, run->technique->name, "stages", device->info.name, RG_OK,
+        rg_checks_add(v->checks, run->subject.technique->name, "stages", device->info.name, RG_OK,
                       "%s%s%d frames, %d digests of assets behind %d stages, as on %s", pose,
                       *pose ? ": " : "", run->frames, now.count,
                       now.count ? now.rows[now.count - 1].stages_run : 0, v->reference->info.name);
@@ -88,7 +89,7 @@ static void compare(struct rg_verify *v, const struct rg_digest_run *run, struct
 static void verify_pose(struct rg_verify *v, const char *pose)
 {
     void *settings = rg_settings_copy(v->technique, v->settings, pose);
-    const struct rg_digest_run run = {v->technique, settings, v->width, v->height, v->steps};
+    const struct rg_digest_run run = {{v->technique, settings, v->width, v->height}, v->steps};
     struct rg_digests expected = {0};
     const bool ok = settings && rg_digests_take(&run, v->reference, &expected);
     if (!ok) {

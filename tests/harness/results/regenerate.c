@@ -189,8 +189,8 @@ static void test_kept(void **state)
     assert_ptr_equal(rg_kept_device(&kept, "cpu:reference"), reference);
     void *settings = settings_of(CHEAP " drops=20"), *others = settings_of(CHEAP " drops=30");
     struct rg_subject subject = {rg_technique_find("flow"), settings, 32, 32};
-    // One instance a device, for as long as the same is asked for.
-    struct rg_instance *first = rg_kept_open(&kept, cpu, &subject);
+    // One session a device, for as long as the same is asked for.
+    struct rg_session *first = rg_kept_open(&kept, cpu, &subject);
     const int64_t bytes = rg_device_work(cpu)->live_bytes;
     assert_ptr_equal(rg_kept_open(&kept, cpu, &subject), first);
     assert_ptr_not_equal(rg_kept_open(&kept, reference, &subject), first);
