@@ -1,12 +1,12 @@
 // The backend contract: what an API must do to run raingauge's passes.
 //
 // A backend is one folder with one `const struct rg_backend`. It is only ever called through
-// core/device/device.c, which has checked every argument: a backend contains no checks of its callers.
+// core/device, which has checked every argument: a backend contains no checks of its callers.
 // It reports what its driver says: an error is logged in one line with the call, its code and the
 // object's name (rg_error), and comes back as false or NULL. Nothing aborts, nothing prints else.
 //
 // Objects: a backend's own struct begins with the public one (struct gl_buf { struct rg_buf pub; })
-// and is allocated zeroed by the backend. core/device/device.c fills the public part after a create.
+// and is allocated zeroed by the backend. core/device fills the public part after a create.
 // Destroy functions are never called with NULL, and only when the device is idle (after a sync).
 //
 // Threads: a device is used by one thread at a time. Several devices live side by side.
@@ -50,8 +50,8 @@ struct rg_device_info {
 struct rg_device {
     const struct rg_backend *backend;
     struct rg_device_info info;
-    struct rg_work *work;       // what core/device/device.c counts; not the backend's business
-    struct rg_packing *packing; // core/device/draw.c's; likewise
+    struct rg_work *work;       // what core/device counts; not the backend's business
+    struct rg_packing *packing; // core/device/packing.c's; likewise
     struct rg_shared *shared;   // core/device/shared.c's; likewise
 };
 
@@ -59,12 +59,6 @@ struct rg_buf {
     struct rg_device *device;
     size_t size;
     const char *name; // for messages and debug labels; the caller's, for the object's life
-};
-
-struct rg_image_desc {
-    enum rg_format format;
-    int width, height, layers;
-    int levels; // 1 to 16; level l is max(1, width >> l) wide
 };
 
 struct rg_image {
@@ -76,7 +70,7 @@ struct rg_image {
 struct rg_pass {
     struct rg_device *device;
     const struct rg_kernel *kernel;
-    struct rg_packer *packer; // core/device/draw.c's, of a DRAW pass; NULL for others
+    struct rg_packer *packer; // core/device/packing.c's, of a DRAW pass; NULL for others
 };
 
 struct rg_binding {
@@ -109,7 +103,7 @@ struct rg_draw {
     struct rg_buf *samples; // uints, by item: grow by its visible samples. NULL: not counted
 };
 
-// A DRAW pass's primitives, packed by core/device/draw.c, for backends whose `packed` asks for it.
+// A DRAW pass's primitives, packed by core/device/packing.c, for backends whose `packed` asks for it.
 struct rg_packed {
     struct rg_buf *prims; // rg_prim of kernels/dialect/draw/draw.h, drawn in this order
     struct rg_buf *args;  // 5 uints: vertices, 1, 0, 0 (an indirect draw), then the number of prims
@@ -123,13 +117,15 @@ struct rg_run {
     struct rg_extent extent;               // at least 1 each
     struct rg_extent origin;               // of the first item; 0 for most
     const struct rg_draw *draw;            // of a DRAW pass, whose items lie along x; else NULL
-    const struct rg_packed *packed;        // set by core/device/draw.c, NULL for its callers
+    const struct rg_packed *packed;        // set by core/device/packing.c, NULL for its callers
 };
+
+enum { RG_MAX_DEVICES = 32 }; // that a list takes
 
 struct rg_backend {
     const char *name;    // "vulkan"
     const char *package; // the Debian package whose absence explains a missing device; NULL: none
-    bool packed;         // draws what core/device/draw.c has packed, rather than items
+    bool packed;         // draws what core/device/packing.c has packed, rather than items
 
     // Fills `infos` with up to `max` devices, best first, and returns their number; 0: none, and
     // `why` (of `why_size` bytes) says so in one line. Quiet: it logs nothing and leaves nothing

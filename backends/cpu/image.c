@@ -3,9 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/device/device.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/device/formats.h"
+#include "core/device/objects.h"
 
 struct rg_image *cpu_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                   const char *name)

@@ -6,7 +6,7 @@
 #include "backends/cpu/draw.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "core/device/device.h"
+#include "core/device/formats.h"
 
 struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
 {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
-#include "core/device/device.h"
+#include "core/device/formats.h"
 
 // How a format lies in the driver's memory and in ours, where rows are packed tightly
 // (gl_images_begin).

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/device/device.h"
 #include "core/base/log.h"
 
 enum { MAX_PLATFORMS = 16, MAX_TEXT = 1024 };

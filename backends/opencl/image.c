@@ -3,8 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/device/device.h"
 #include "core/base/log.h"
+#include "core/device/formats.h"
+#include "core/device/objects.h"
 
 struct rg_image *opencl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                      const char *name)

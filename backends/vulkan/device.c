@@ -6,16 +6,14 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 
-enum { MAX_LISTED = 32 };
-
 static int vk_list(struct rg_device_info *infos, int max, char *why, size_t why_size)
 {
     struct vk_instance instance;
     if (!vk_instance_open(&instance, false, why, why_size))
         return 0;
-    VkPhysicalDevice devices[MAX_LISTED];
-    int count =
-        vk_physical_devices(&instance, devices, max < MAX_LISTED ? max : MAX_LISTED, why, why_size);
+    VkPhysicalDevice devices[RG_MAX_DEVICES];
+    int count = vk_physical_devices(&instance, devices, max < RG_MAX_DEVICES ? max : RG_MAX_DEVICES,
+                                    why, why_size);
     for (int i = 0; i < count; i++)
         vk_describe(devices[i], i, &infos[i]);
     vk_instance_close(&instance);
@@ -31,8 +29,8 @@ static bool validation_wanted(void)
 static bool choose_physical(struct vk_device *device, int index)
 {
     char why[160];
-    VkPhysicalDevice devices[MAX_LISTED];
-    int count = vk_physical_devices(&device->instance, devices, MAX_LISTED, why, sizeof(why));
+    VkPhysicalDevice devices[RG_MAX_DEVICES];
+    int count = vk_physical_devices(&device->instance, devices, RG_MAX_DEVICES, why, sizeof(why));
     if (count == 0)
         return rg_error("device 'vulkan': %s", why);
     if (index >= count)

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
-#include "core/device/device.h"
 #include "core/base/log.h"
+#include "core/device/formats.h"
 #include "kernels/dialect/image/memory.h"
 
 static const VkFormat formats[RG_FORMAT_COUNT] = {

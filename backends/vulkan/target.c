@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
-#include "core/device/device.h"
+#include "core/device/formats.h"
 
 struct vk_framebuffer {
     struct vk_framebuffer *next;

@@ -8,19 +8,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "core/device/formats.h"
 #include "kernels/dialect/limits.h"
-
-enum rg_format {
-    RG_FORMAT_NONE,
-    RG_RGBA8,
-    RG_RGBA16F,
-    RG_RGBA32F,
-    RG_R32F,
-    RG_R16F,
-    RG_RG11B10F,
-    RG_D32F, // depth of a DRAW pass's target; fetched by later passes
-    RG_FORMAT_COUNT
-};
 
 enum rg_slot_kind {
     RG_SLOT_IN = 1,

@@ -5,7 +5,8 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "core/device/device.h"
+#include "core/device/grid.h"
+#include "core/device/objects.h"
 #include "kernels/scan/params.h"
 
 enum { MAX_LEVELS = 6, MAX_COUNT = 1 << 30 };
@@ -49,9 +50,9 @@ struct rg_scan *rg_scan_create(struct rg_device *device, int max_count)
     scan->device = device;
     scan->max_count = max_count;
     const unsigned zero = 0;
-    if ((scan->sum_chunks = rg_pass_create(device, "scan_sums")) &&
-        (scan->spread = rg_pass_create(device, "scan_spread")) &&
-        (scan->compact = rg_pass_create(device, "scan_compact")) &&
+    if ((scan->sum_chunks = rg_grid_create(device, "scan_sums")) &&
+        (scan->spread = rg_grid_create(device, "scan_spread")) &&
+        (scan->compact = rg_grid_create(device, "scan_compact")) &&
         (scan->nothing = rg_buf_create(device, sizeof(zero), "scan nothing")) &&
         rg_buf_write(scan->nothing, 0, &zero, sizeof(zero)) && create_levels(scan))
         return scan;
@@ -68,9 +69,9 @@ void rg_scan_destroy(struct rg_scan *scan)
         rg_buf_destroy(scan->before[level]);
     }
     rg_buf_destroy(scan->nothing);
-    rg_pass_destroy(scan->sum_chunks);
-    rg_pass_destroy(scan->spread);
-    rg_pass_destroy(scan->compact);
+    rg_grid_destroy(scan->sum_chunks);
+    rg_grid_destroy(scan->spread);
+    rg_grid_destroy(scan->compact);
     free(scan);
 }
 
@@ -78,7 +79,7 @@ static bool run_sum_chunks(struct rg_scan *scan, struct rg_buf *values, struct r
                            int count, bool flags)
 {
     const struct scan_params params = {.count = count, .flags = flags};
-    return rg_pass_run(scan->sum_chunks, &(struct rg_run){
+    return rg_grid_run(scan->sum_chunks, &(struct rg_run){
                                              .params = &params,
                                              .slots = {[1].buf = values, [2].buf = sums},
                                              .extent = {chunks_of(count), 1, 1},
@@ -89,7 +90,7 @@ static bool run_spread(struct rg_scan *scan, struct rg_buf *values, struct rg_bu
                        struct rg_buf *sums, int count)
 {
     const struct scan_params params = {.count = count};
-    return rg_pass_run(scan->spread,
+    return rg_grid_run(scan->spread,
                        &(struct rg_run){
                            .params = &params,
                            .slots = {[1].buf = values, [2].buf = before, [3].buf = sums},
@@ -150,7 +151,7 @@ bool rg_scan_compact(struct rg_scan *scan, struct rg_buf *flags, struct rg_buf *
     const size_t capacity = indices->size / 4;
     const struct scan_params params = {.count = count,
                                        .capacity = capacity > INT_MAX ? INT_MAX : (int)capacity};
-    return rg_pass_run(
+    return rg_grid_run(
         scan->compact,
         &(struct rg_run){
             .params = &params,

@@ -1,0 +1,42 @@
+// Formats of images, and how images lie in plain memory.
+#ifndef RG_CORE_DEVICE_FORMATS_H
+#define RG_CORE_DEVICE_FORMATS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "kernels/dialect/limits.h"
+
+enum rg_format {
+    RG_FORMAT_NONE,
+    RG_RGBA8,
+    RG_RGBA16F,
+    RG_RGBA32F,
+    RG_R32F,
+    RG_R16F,
+    RG_RG11B10F,
+    RG_D32F, // depth of a DRAW pass's target; fetched by later passes
+    RG_FORMAT_COUNT
+};
+
+struct rg_image_desc {
+    enum rg_format format;
+    int width, height, layers;
+    int levels; // 1 to RG_MAX_LEVELS; level l is max(1, width >> l) wide
+};
+
+// Bytes a texel; 0 for RG_FORMAT_NONE. Name as in kernels ("RGBA16F").
+int rg_format_size(enum rg_format format);
+const char *rg_format_name(enum rg_format format);
+// Width or height of a level.
+int rg_level_size(int size, int level);
+
+// How the devices that keep images in plain memory lay them out (kernels/dialect/image/memory.h):
+// the word at which each level begins, which is also the image's header, and the words of the whole
+// image, header included.
+int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX_LEVELS]);
+// Where a layer of a level begins in it, and its size, both in bytes.
+size_t rg_image_locate(const struct rg_image_desc *desc, const uint32_t header[RG_MAX_LEVELS],
+                       int layer, int level, size_t *size);
+
+#endif

@@ -1,0 +1,162 @@
+#include "core/device/grid.h"
+
+#include <limits.h>
+
+#include "core/base/require.h"
+#include "core/device/work.h"
+
+// --- passes ---
+
+struct rg_pass *rg_grid_create(struct rg_device *device, const char *name)
+{
+    const struct rg_kernel *kernel = rg_kernel_find(name);
+    require_or_null(kernel, "kernel '%s': unknown; kernels/meson.build lists them", name);
+    struct rg_pass *pass = device->backend->pass_create(device, kernel);
+    if (!pass)
+        return NULL;
+    pass->device = device;
+    pass->kernel = kernel;
+    device->work->live_passes++;
+    return pass;
+}
+
+void rg_grid_destroy(struct rg_pass *pass)
+{
+    if (!pass)
+        return;
+    pass->device->backend->sync(pass->device);
+    pass->device->work->live_passes--;
+    pass->device->backend->pass_destroy(pass);
+}
+
+// --- checks ---
+
+static bool is_buffer(enum rg_slot_kind kind)
+{
+    return kind < RG_SLOT_IMAGE;
+}
+
+static bool is_written(enum rg_slot_kind kind)
+{
+    return kind != RG_SLOT_IN && kind != RG_SLOT_IMAGE;
+}
+
+static bool check_slot(const struct rg_pass *pass, const struct rg_slot_info *slot,
+                       const struct rg_binding *bound)
+{
+    const char *kernel = pass->kernel->name;
+    if (is_buffer(slot->kind)) {
+        require(bound->buf && !bound->image, "kernel '%s': slot %d, '%s', wants a buffer", kernel,
+                slot->slot, slot->name);
+        require(bound->buf->device == pass->device,
+                "kernel '%s': buffer '%s' belongs to another device", kernel, bound->buf->name);
+        require(bound->buf->size % (size_t)slot->element_size == 0,
+                "kernel '%s': buffer '%s' of %zu bytes holds no whole number of elements of %d",
+                kernel, bound->buf->name, bound->buf->size, slot->element_size);
+        return true;
+    }
+    require(bound->image && !bound->buf, "kernel '%s': slot %d, '%s', wants an image", kernel,
+            slot->slot, slot->name);
+    require(bound->image->device == pass->device,
+            "kernel '%s': image '%s' belongs to another device", kernel, bound->image->name);
+    require(bound->image->desc.format == slot->format,
+            "kernel '%s': slot %d wants an image of %s, and '%s' is %s", kernel, slot->slot,
+            rg_format_name(slot->format), bound->image->name,
+            rg_format_name(bound->image->desc.format));
+    return true;
+}
+
+// An object that a pass writes is bound once, so that no item sees another's writes.
+static bool check_aliases(const struct rg_kernel *kernel, const struct rg_run *run)
+{
+    for (int i = 0; i < kernel->slot_count; i++) {
+        for (int j = 0; j < kernel->slot_count; j++) {
+            const struct rg_binding *a = &run->slots[kernel->slots[i].slot];
+            const struct rg_binding *b = &run->slots[kernel->slots[j].slot];
+            bool same = (a->buf && a->buf == b->buf) || (a->image && a->image == b->image);
+            require(i == j || !same || !is_written(kernel->slots[i].kind),
+                    "kernel '%s': slots '%s' and '%s' are one object, and it is written",
+                    kernel->name, kernel->slots[i].name, kernel->slots[j].name);
+        }
+    }
+    return true;
+}
+
+// Drivers pad the last work group; its items must not overflow an int either.
+enum { MAX_ITEMS = INT_MAX - 1024 };
+
+static bool check_span(const struct rg_kernel *kernel, char axis, int64_t origin, int64_t count)
+{
+    require(count > 0 && origin >= 0 && origin + count <= MAX_ITEMS,
+            "kernel '%s': %lld items in %c from %lld; at least 1, and within 2147482623",
+            kernel->name, (long long)count, axis, (long long)origin);
+    return true;
+}
+
+bool rg_run_check(const struct rg_pass *pass, const struct rg_run *run)
+{
+    const struct rg_kernel *kernel = pass->kernel;
+    require(run->params, "kernel '%s': no parameters given", kernel->name);
+    if (!check_span(kernel, 'x', run->origin.width, run->extent.width) ||
+        !check_span(kernel, 'y', run->origin.height, run->extent.height) ||
+        !check_span(kernel, 'z', run->origin.depth, run->extent.depth))
+        return false;
+    for (int i = 0; i < kernel->slot_count; i++)
+        if (!check_slot(pass, &kernel->slots[i], &run->slots[kernel->slots[i].slot]))
+            return false;
+    return check_aliases(kernel, run);
+}
+
+// --- running ---
+
+void rg_run_count(struct rg_pass *pass, const struct rg_run *run)
+{
+    struct rg_work *work = pass->device->work;
+    work->runs++;
+    work->items += (int64_t)run->extent.width * run->extent.height * run->extent.depth;
+}
+
+bool rg_dispatch(struct rg_pass *pass, const struct rg_run *run)
+{
+    pass->device->work->dispatches++;
+    return pass->device->backend->pass_run(pass, run);
+}
+
+static int smaller(int64_t a, int b)
+{
+    return a < b ? (int)a : b;
+}
+
+// Runs what exceeds a device's work groups as several dispatches, each with its own origin.
+static bool run_folded(struct rg_pass *pass, const struct rg_run *run)
+{
+    const struct rg_limits *limits = &pass->device->info.limits;
+    const int64_t max_width = (int64_t)limits->max_groups[0] * limits->group_items;
+    struct rg_run part = *run;
+    struct rg_extent done = {0, 0, 0};
+    for (done.depth = 0; done.depth < run->extent.depth; done.depth += part.extent.depth) {
+        part.origin.depth = run->origin.depth + done.depth;
+        part.extent.depth = smaller(limits->max_groups[2], run->extent.depth - done.depth);
+        for (done.height = 0; done.height < run->extent.height; done.height += part.extent.height) {
+            part.origin.height = run->origin.height + done.height;
+            part.extent.height = smaller(limits->max_groups[1], run->extent.height - done.height);
+            for (done.width = 0; done.width < run->extent.width; done.width += part.extent.width) {
+                part.origin.width = run->origin.width + done.width;
+                part.extent.width = smaller(max_width, run->extent.width - done.width);
+                if (!rg_dispatch(pass, &part))
+                    return false;
+            }
+        }
+    }
+    return true;
+}
+
+bool rg_grid_run(struct rg_pass *pass, const struct rg_run *run)
+{
+    if (!rg_run_check(pass, run))
+        return false;
+    require(!run->draw, "kernel '%s': a GRID kernel, and the run names a target",
+            pass->kernel->name);
+    rg_run_count(pass, run);
+    return run_folded(pass, run);
+}

@@ -1,0 +1,169 @@
+#include "core/device/objects.h"
+
+#include <limits.h>
+
+#include "core/base/require.h"
+#include "core/device/work.h"
+
+// --- buffers ---
+
+struct rg_buf *rg_buf_create(struct rg_device *device, int64_t size, const char *name)
+{
+    require_or_null(size > 0, "buffer '%s': its size is %lld bytes, and must be above 0", name,
+                    (long long)size);
+    require_or_null(size % 4 == 0, "buffer '%s': its size, %lld bytes, is no multiple of 4", name,
+                    (long long)size);
+    if (size > device->info.limits.max_buffer_bytes)
+        return rg_unsupported_null(
+            "buffer '%s': %lld bytes exceed the %lld bytes that %s allows a buffer", name,
+            (long long)size, (long long)device->info.limits.max_buffer_bytes, device->info.name);
+    struct rg_buf *buf = device->backend->buf_create(device, (size_t)size, name);
+    if (!buf)
+        return NULL;
+    buf->device = device;
+    buf->size = (size_t)size;
+    buf->name = name;
+    device->work->live_buffers++;
+    device->work->live_bytes += size;
+    return buf;
+}
+
+void rg_buf_destroy(struct rg_buf *buf)
+{
+    if (!buf)
+        return;
+    struct rg_device *device = buf->device;
+    device->backend->sync(device);
+    device->work->live_buffers--;
+    device->work->live_bytes -= (int64_t)buf->size;
+    device->backend->buf_destroy(buf);
+}
+
+static bool check_range(const struct rg_buf *buf, const char *verb, int64_t offset, int64_t size)
+{
+    require(offset >= 0 && size > 0 && offset % 4 == 0 && size % 4 == 0 &&
+                offset <= (int64_t)buf->size && size <= (int64_t)buf->size - offset,
+            "buffer '%s': cannot %s %lld bytes at %lld; it holds %lld, in words of 4", buf->name,
+            verb, (long long)size, (long long)offset, (long long)buf->size);
+    return true;
+}
+
+bool rg_buf_write(struct rg_buf *buf, int64_t offset, const void *data, int64_t size)
+{
+    if (!check_range(buf, "write", offset, size))
+        return false;
+    buf->device->work->bytes_written += size;
+    return buf->device->backend->buf_write(buf, (size_t)offset, data, (size_t)size);
+}
+
+bool rg_buf_read(struct rg_buf *buf, int64_t offset, void *data, int64_t size)
+{
+    if (!check_range(buf, "read", offset, size))
+        return false;
+    buf->device->work->bytes_read += size;
+    return buf->device->backend->buf_read(buf, (size_t)offset, data, (size_t)size);
+}
+
+// --- images ---
+
+bool rg_image_layout_fits(const struct rg_device *device, const struct rg_image_desc *desc,
+                          const char *name)
+{
+    uint32_t header[RG_MAX_LEVELS];
+    const int64_t words = rg_image_layout(desc, header);
+    const int64_t most = rg_format_size(desc->format) < 4 ? INT_MAX / 2 : INT_MAX;
+    require(words <= most,
+            "image '%s': %lld bytes exceed the %lld bytes that %s allows an image of %s", name,
+            (long long)words * 4, (long long)most * 4, device->info.name,
+            rg_format_name(desc->format));
+    return true;
+}
+
+static int64_t image_bytes(const struct rg_image_desc *desc)
+{
+    uint32_t header[RG_MAX_LEVELS];
+    return (rg_image_layout(desc, header) - RG_MAX_LEVELS) * 4;
+}
+
+static bool check_desc(const struct rg_device *device, const struct rg_image_desc *d,
+                       const char *name)
+{
+    const struct rg_limits *limits = &device->info.limits;
+    require(d->format > RG_FORMAT_NONE && d->format < RG_FORMAT_COUNT,
+            "image '%s': unknown format %d", name, (int)d->format);
+    require(d->width > 0 && d->height > 0 && d->layers > 0,
+            "image '%s': %dx%d with %d layers; each must be above 0", name, d->width, d->height,
+            d->layers);
+    if (d->width > limits->max_image_px || d->height > limits->max_image_px ||
+        d->layers > limits->max_image_layers)
+        return rg_unsupported(
+            "image '%s': %dx%d with %d layers exceeds the %d px and %d layers that %s allows", name,
+            d->width, d->height, d->layers, limits->max_image_px, limits->max_image_layers,
+            device->info.name);
+    int largest = d->width > d->height ? d->width : d->height;
+    require(d->levels >= 1 && d->levels <= 16 && largest >> (d->levels - 1) >= 1,
+            "image '%s': %d levels do not fit %dx%d", name, d->levels, d->width, d->height);
+    return true;
+}
+
+struct rg_image *rg_image_create(struct rg_device *device, const struct rg_image_desc *desc,
+                                 const char *name)
+{
+    if (!check_desc(device, desc, name))
+        return NULL;
+    struct rg_image *image = device->backend->image_create(device, desc, name);
+    if (!image)
+        return NULL;
+    image->device = device;
+    image->desc = *desc;
+    image->name = name;
+    device->work->live_images++;
+    device->work->live_bytes += image_bytes(desc);
+    return image;
+}
+
+void rg_image_destroy(struct rg_image *image)
+{
+    if (!image)
+        return;
+    struct rg_device *device = image->device;
+    device->backend->sync(device);
+    device->work->live_images--;
+    device->work->live_bytes -= image_bytes(&image->desc);
+    device->backend->image_destroy(image);
+}
+
+static bool check_layer(const struct rg_image *image, int layer, int level)
+{
+    require(layer >= 0 && layer < image->desc.layers && level >= 0 && level < image->desc.levels,
+            "image '%s': no layer %d, level %d; it has %d layers and %d levels", image->name, layer,
+            level, image->desc.layers, image->desc.levels);
+    return true;
+}
+
+static int64_t level_bytes(const struct rg_image *image, int level)
+{
+    return (int64_t)rg_level_size(image->desc.width, level) *
+           rg_level_size(image->desc.height, level) * rg_format_size(image->desc.format);
+}
+
+bool rg_image_write(struct rg_image *image, int layer, int level, const void *texels)
+{
+    if (!check_layer(image, layer, level))
+        return false;
+    image->device->work->bytes_written += level_bytes(image, level);
+    return image->device->backend->image_write(image, layer, level, texels);
+}
+
+bool rg_image_read(struct rg_image *image, int layer, int level, void *texels)
+{
+    if (!check_layer(image, layer, level))
+        return false;
+    image->device->work->bytes_read += level_bytes(image, level);
+    return image->device->backend->image_read(image, layer, level, texels);
+}
+
+bool rg_image_clear(struct rg_image *image, const void *texel)
+{
+    return image->device->backend->image_clear(image, texel);
+}

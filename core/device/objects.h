@@ -1,0 +1,29 @@
+// Buffers and images, checked.
+//
+// Each function refuses bad arguments with one logged line that names the object and the number,
+// and counts what it moves (core/device/work.h). create returns NULL and every other function false
+// when it has failed and logged why. Destroy functions accept NULL. Types are in
+// backends/backend.h. An object's name, for messages and debug labels, is not copied: it outlives
+// the object, as a string literal does.
+#ifndef RG_CORE_DEVICE_OBJECTS_H
+#define RG_CORE_DEVICE_OBJECTS_H
+
+#include "backends/backend.h"
+
+struct rg_buf *rg_buf_create(struct rg_device *device, int64_t size, const char *name);
+void rg_buf_destroy(struct rg_buf *buf);
+bool rg_buf_write(struct rg_buf *buf, int64_t offset, const void *data, int64_t size);
+bool rg_buf_read(struct rg_buf *buf, int64_t offset, void *data, int64_t size);
+
+struct rg_image *rg_image_create(struct rg_device *device, const struct rg_image_desc *desc,
+                                 const char *name);
+void rg_image_destroy(struct rg_image *image);
+bool rg_image_write(struct rg_image *image, int layer, int level, const void *texels);
+bool rg_image_read(struct rg_image *image, int layer, int level, void *texels);
+bool rg_image_clear(struct rg_image *image, const void *texel);
+
+// Whether kernels can count such an image's texels in an int; if not, logs one line and is false.
+bool rg_image_layout_fits(const struct rg_device *device, const struct rg_image_desc *desc,
+                          const char *name);
+
+#endif

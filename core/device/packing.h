@@ -1,0 +1,28 @@
+// The packing of items into primitives, for the backends that ask for it. Items are counted, chunk
+// by chunk; a scan gives each chunk its place; then the primitives of the items that are seen are
+// written there, in order (kernels/dialect/draw/count.h, kernels/dialect/draw/emit.h).
+#ifndef RG_CORE_DEVICE_PACKING_H
+#define RG_CORE_DEVICE_PACKING_H
+
+#include "backends/backend.h"
+#include "kernels/dialect/draw/state.h"
+
+// The two packing passes of a DRAW pass; what they write is shared by all passes of a device.
+struct rg_packer {
+    struct rg_pass *count, *emit;
+};
+
+// Makes pass->packer; false and one logged line on failure. Destroying none is allowed.
+bool rg_packer_create(struct rg_pass *pass);
+void rg_packer_destroy(struct rg_pass *pass);
+
+// Sees to room for a batch of a pass's primitives: of `items` items, or of fewer, so that it stays
+// below what the device allows a buffer. Returns how many, 0 where there is no memory, and in
+// `capacity` the primitives that there is room for.
+int rg_packing_prepare(struct rg_pass *pass, int items, int *capacity);
+// Packs and draws the items of `state`, a batch.
+bool rg_packing_run(struct rg_pass *pass, const struct rg_run *run, const rg_draw_state *state);
+// Frees what packing holds of a device, before it closes.
+void rg_packing_destroy(struct rg_device *device);
+
+#endif

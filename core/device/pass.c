@@ -1,0 +1,26 @@
+#include "core/device/pass.h"
+
+#include "core/device/draw.h"
+#include "core/device/grid.h"
+#include "core/device/packing.h"
+
+struct rg_pass *rg_pass_create(struct rg_device *device, const char *kernel)
+{
+    struct rg_pass *pass = rg_grid_create(device, kernel);
+    if (!pass || !pass->kernel->draw || !device->backend->packed || rg_packer_create(pass))
+        return pass;
+    rg_pass_destroy(pass);
+    return NULL;
+}
+
+void rg_pass_destroy(struct rg_pass *pass)
+{
+    if (pass)
+        rg_packer_destroy(pass);
+    rg_grid_destroy(pass);
+}
+
+bool rg_pass_run(struct rg_pass *pass, const struct rg_run *run)
+{
+    return pass->kernel->draw ? rg_draw_run(pass, run) : rg_grid_run(pass, run);
+}

@@ -1,0 +1,16 @@
+// What a run of a DRAW pass draws to.
+#ifndef RG_CORE_DEVICE_TARGETS_H
+#define RG_CORE_DEVICE_TARGETS_H
+
+#include "backends/backend.h"
+
+// The size in pixels of the level that is drawn to.
+void rg_target_size(const struct rg_draw *draw, int *width, int *height);
+// Whether there is no scissor.
+bool rg_target_is_whole(const struct rg_draw *draw);
+
+// Whether a run of a DRAW pass names sound targets, and items that lie along x; else one logged
+// line.
+bool rg_target_check(const struct rg_pass *pass, const struct rg_run *run);
+
+#endif
