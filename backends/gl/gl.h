@@ -135,7 +135,7 @@ void gl_egl_close(struct gl_egl *egl);
 // Makes the device's context current on this thread unless it is.
 bool gl_use(struct gl_device *device);
 
-// debug.c
+// error.c
 
 // Turns the driver's messages about errors into the text that gl_check logs.
 void gl_debug_begin(struct gl_device *device);
@@ -184,7 +184,7 @@ GLuint gl_program_create(struct gl_device *device, const struct rg_kernel *kerne
 // The slots whose buffers the program reads as textures of words, a bit each.
 unsigned gl_program_word_slots(GLuint program, const struct rg_kernel *kernel);
 
-// framebuffer.c
+// target.c
 
 // The framebuffer of a draw's images, and the depth that it counts against; NULL and one logged
 // line on failure. Valid until the next call.
