@@ -37,16 +37,6 @@ GLuint gl_buf_words(struct rg_buf *buf)
     return mine->words = 0;
 }
 
-// Deleting an object unbinds it, and its number may come back for another one.
-static void forget(struct gl_bound *bound, GLuint id)
-{
-    for (int slot = 0; slot < RG_MAX_SLOTS; slot++)
-        if (bound->buffers[slot] == id)
-            bound->buffers[slot] = 0;
-    if (bound->arguments == id)
-        bound->arguments = 0;
-}
-
 void gl_buf_destroy(struct rg_buf *buf)
 {
     struct gl_device *gl = (struct gl_device *)buf->device;
@@ -55,8 +45,8 @@ void gl_buf_destroy(struct rg_buf *buf)
         glDeleteTextures(1, &mine->words);
         glDeleteBuffers(1, &mine->id);
     }
-    gl_texture_forget(&gl->bound, mine->words);
-    forget(&gl->bound, mine->id);
+    gl_forget_texture(&gl->bound, mine->words);
+    gl_forget_buffer(&gl->bound, mine->id);
     free(mine);
 }
 

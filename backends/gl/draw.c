@@ -88,20 +88,15 @@ bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const str
     struct gl_bound *bound = &device->bound;
     const struct gl_draw_state state = state_of(draw, framebuffer);
     set_state(&bound->draw, &state);
-    if (bound->framebuffer != framebuffer->id)
-        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer->id);
-    bound->framebuffer = framebuffer->id;
-    const GLuint arguments = ((const struct gl_buf *)run->packed->args)->id;
-    if (bound->arguments != arguments)
-        glBindBuffer(GL_DRAW_INDIRECT_BUFFER, arguments);
-    bound->arguments = arguments;
+    gl_bind_framebuffer(bound, framebuffer->id);
+    gl_bind_arguments(bound, ((const struct gl_buf *)run->packed->args)->id);
     // Vertices read corners as they lie, fragments read records as words.
-    gl_bind_buffer(bound, RG_SLOT_PRIMS, run->packed->prims);
-    if (!gl_bind_words(bound, RG_SLOT_PRIMS, run->packed->prims))
+    gl_slot_buffer(bound, RG_SLOT_PRIMS, run->packed->prims);
+    if (!gl_slot_words(bound, RG_SLOT_PRIMS, run->packed->prims))
         return false;
     gl_bind_texture(bound, RG_SLOT_BEHIND, framebuffer->behind);
     if (draw->samples)
-        gl_bind_buffer(bound, RG_SLOT_SAMPLES, draw->samples);
+        gl_slot_buffer(bound, RG_SLOT_SAMPLES, draw->samples);
     glDrawArraysIndirect(GL_TRIANGLES, NULL);
     // The next run may write what this one reads, and read what it counts.
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);

@@ -148,6 +148,27 @@ bool gl_check_reported(struct gl_device *device, const char *call, const char *k
 // Names an object for debuggers.
 void gl_label(GLenum type, GLuint id, const char *name);
 
+// formats.c
+
+// How a format lies in the driver's memory and in ours, where rows are packed tightly
+// (gl_images_begin).
+struct gl_format {
+    GLenum internal, format, type;
+};
+struct gl_format gl_format(enum rg_format format);
+
+// bound.c
+void gl_bind_program(struct gl_bound *bound, GLuint id);
+void gl_bind_buffer(struct gl_bound *bound, int slot, GLuint id);
+void gl_bind_texture(struct gl_bound *bound, int slot, GLuint id);
+void gl_bind_image(struct gl_bound *bound, int slot, GLuint id, GLenum format);
+void gl_bind_framebuffer(struct gl_bound *bound, GLuint id);
+void gl_bind_arguments(struct gl_bound *bound, GLuint id);
+// Deleting an object unbinds it, and its number may come back for another one.
+void gl_forget_buffer(struct gl_bound *bound, GLuint id);
+void gl_forget_texture(struct gl_bound *bound, GLuint id);
+void gl_forget_framebuffer(struct gl_bound *bound, GLuint id);
+
 // params.c
 bool gl_params_create(struct gl_device *device);
 void gl_params_destroy(struct gl_device *device);
@@ -172,10 +193,16 @@ void gl_image_destroy(struct rg_image *image);
 bool gl_image_write(struct rg_image *image, int layer, int level, const void *texels);
 bool gl_image_read(struct rg_image *image, int layer, int level, void *texels);
 bool gl_image_clear(struct rg_image *image, const void *texel);
-// What OpenGL calls a format's memory.
-GLenum gl_internal_format(enum rg_format format);
-// Deleting an object unbinds it, and its number may come back for another one.
-void gl_texture_forget(struct gl_bound *bound, GLuint id);
+
+// slots.c
+
+// Whether the driver has what a kernel's slots want; else one logged line.
+bool gl_slots_fit(const struct gl_device *device, const struct rg_kernel *kernel);
+// Binds what a run's slots name; false and one logged line on failure.
+bool gl_slots_bind(struct gl_bound *bound, const struct gl_pass *pass, const struct rg_run *run);
+void gl_slot_buffer(struct gl_bound *bound, int slot, const struct rg_buf *buf);
+// A buffer as a texture of words; false and one logged line on failure.
+bool gl_slot_words(struct gl_bound *bound, int slot, struct rg_buf *buf);
 
 // program.c
 
@@ -203,10 +230,6 @@ bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const str
 struct rg_pass *gl_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
 void gl_pass_destroy(struct rg_pass *pass);
 bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run);
-void gl_bind_buffer(struct gl_bound *bound, int slot, const struct rg_buf *buf);
-void gl_bind_texture(struct gl_bound *bound, int slot, GLuint id);
-// A buffer as a texture of words; false and one logged line on failure.
-bool gl_bind_words(struct gl_bound *bound, int slot, struct rg_buf *buf);
 
 // time.c
 bool gl_sync(struct rg_device *device);

@@ -37,10 +37,9 @@ static void release(struct gl_device *gl, struct gl_framebuffer *framebuffer)
     if (!framebuffer->id)
         return;
     glDeleteFramebuffers(1, &framebuffer->id);
-    if (gl->bound.framebuffer == framebuffer->id)
-        gl->bound.framebuffer = 0;
+    gl_forget_framebuffer(&gl->bound, framebuffer->id);
     glDeleteTextures(1, &framebuffer->behind);
-    gl_texture_forget(&gl->bound, framebuffer->behind);
+    gl_forget_texture(&gl->bound, framebuffer->behind);
     *framebuffer = (struct gl_framebuffer){0};
 }
 
@@ -58,7 +57,7 @@ static GLuint layer_view(const struct gl_framebuffer_key *key)
 {
     GLuint view = 0;
     glGenTextures(1, &view);
-    glTextureView(view, GL_TEXTURE_2D_ARRAY, key->behind, gl_internal_format(RG_D32F),
+    glTextureView(view, GL_TEXTURE_2D_ARRAY, key->behind, gl_format(RG_D32F).internal,
                   (GLuint)key->level, 1, (GLuint)key->layer, 1);
     glTextureParameteri(view, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
     glTextureParameteri(view, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

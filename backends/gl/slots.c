@@ -1,0 +1,70 @@
+#include "backends/gl/gl.h"
+
+#include "core/base/log.h"
+
+// A slot is the binding of the same number, which the driver must have.
+bool gl_slots_fit(const struct gl_device *device, const struct rg_kernel *kernel)
+{
+    if (kernel->draw && device->slots.buffers <= RG_SLOT_SAMPLES)
+        return rg_error("kernel '%s': drawing needs storage buffer binding %d, and %s has %d",
+                        kernel->name, RG_SLOT_SAMPLES, device->pub.info.name,
+                        device->slots.buffers);
+    for (int i = 0; i < kernel->slot_count; i++) {
+        const struct rg_slot_info *slot = &kernel->slots[i];
+        int limit = slot->kind == RG_SLOT_OUT_IMAGE ? device->slots.image_units
+                    : slot->kind == RG_SLOT_IMAGE   ? device->slots.texture_units
+                                                    : device->slots.buffers;
+        if (slot->slot >= limit)
+            return rg_error("kernel '%s': slot %d, '%s', is beyond the %d %s that %s has",
+                            kernel->name, slot->slot, slot->name, limit,
+                            slot->kind == RG_SLOT_OUT_IMAGE ? "image units"
+                            : slot->kind == RG_SLOT_IMAGE   ? "texture units"
+                                                            : "storage buffer bindings",
+                            device->pub.info.name);
+    }
+    return true;
+}
+
+static bool is_image(enum rg_slot_kind kind)
+{
+    return kind == RG_SLOT_IMAGE || kind == RG_SLOT_OUT_IMAGE;
+}
+
+static void bind_image(struct gl_bound *bound, const struct rg_slot_info *slot,
+                       const struct rg_image *image)
+{
+    const GLuint id = ((const struct gl_image *)image)->id;
+    if (slot->kind == RG_SLOT_IMAGE)
+        gl_bind_texture(bound, slot->slot, id);
+    else
+        gl_bind_image(bound, slot->slot, id, gl_format(slot->format).internal);
+}
+
+void gl_slot_buffer(struct gl_bound *bound, int slot, const struct rg_buf *buf)
+{
+    gl_bind_buffer(bound, slot, ((const struct gl_buf *)buf)->id);
+}
+
+bool gl_slot_words(struct gl_bound *bound, int slot, struct rg_buf *buf)
+{
+    const GLuint words = gl_buf_words(buf);
+    if (words)
+        gl_bind_texture(bound, slot, words);
+    return words != 0;
+}
+
+bool gl_slots_bind(struct gl_bound *bound, const struct gl_pass *pass, const struct rg_run *run)
+{
+    const struct rg_kernel *kernel = pass->pub.kernel;
+    for (int i = 0; i < kernel->slot_count; i++) {
+        const struct rg_slot_info *slot = &kernel->slots[i];
+        const struct rg_binding *binding = &run->slots[slot->slot];
+        if (is_image(slot->kind))
+            bind_image(bound, slot, binding->image);
+        else if (!(pass->word_slots >> slot->slot & 1))
+            gl_slot_buffer(bound, slot->slot, binding->buf);
+        else if (!gl_slot_words(bound, slot->slot, binding->buf))
+            return false;
+    }
+    return true;
+}
