@@ -7,31 +7,11 @@
 #include "core/device/formats.h"
 #include "kernels/dialect/image/memory.h"
 
-static const VkFormat formats[RG_FORMAT_COUNT] = {
-    [RG_RGBA8] = VK_FORMAT_R8G8B8A8_UNORM,
-    [RG_RGBA16F] = VK_FORMAT_R16G16B16A16_SFLOAT,
-    [RG_RGBA32F] = VK_FORMAT_R32G32B32A32_SFLOAT,
-    [RG_R32F] = VK_FORMAT_R32_SFLOAT,
-    [RG_R16F] = VK_FORMAT_R16_SFLOAT,
-    [RG_RG11B10F] = VK_FORMAT_B10G11R11_UFLOAT_PACK32,
-    [RG_D32F] = VK_FORMAT_D32_SFLOAT,
-};
-
-VkFormat vk_format(enum rg_format format)
-{
-    return formats[format];
-}
-
-VkImageAspectFlags vk_aspect(enum rg_format format)
-{
-    return format == RG_D32F ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
-}
-
 // All that this backend may do with images of the format.
 static VkImageUsageFlags usage(const struct vk_device *device, enum rg_format format)
 {
     VkFormatProperties properties;
-    vkGetPhysicalDeviceFormatProperties(device->physical, formats[format], &properties);
+    vkGetPhysicalDeviceFormatProperties(device->physical, vk_format(format), &properties);
     const VkFormatFeatureFlags able = properties.optimalTilingFeatures;
     VkImageUsageFlags flags = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                               VK_IMAGE_USAGE_TRANSFER_DST_BIT;
@@ -50,7 +30,7 @@ static VkImageCreateInfo image_info(const struct vk_device *device,
     return (VkImageCreateInfo){
         .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
         .imageType = VK_IMAGE_TYPE_2D,
-        .format = formats[desc->format],
+        .format = vk_format(desc->format),
         .extent = {(uint32_t)desc->width, (uint32_t)desc->height, 1},
         .mipLevels = (uint32_t)desc->levels,
         .arrayLayers = (uint32_t)desc->layers,

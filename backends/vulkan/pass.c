@@ -4,63 +4,15 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
-#include "core/base/log.h"
 
 // The uniform block of shaders/grid.glsl: where the items lie, then the kernel's parameters.
 struct run_block {
     int32_t origin[4], end[4];
 };
 
-bool vk_module_create(struct vk_device *device, const struct rg_kernel *kernel,
-                      enum rg_code_kind kind, VkShaderModule *module)
-{
-    struct rg_kernel_code code;
-    void *owned;
-    if (!rg_kernel_code(kernel, kind, &code, &owned))
-        return false;
-    const uint32_t spirv_magic = 0x07230203, header_bytes = 20;
-    bool ok = code.size >= header_bytes && code.size % 4 == 0 &&
-              !memcmp(code.bytes, &spirv_magic, sizeof(spirv_magic));
-    if (!ok)
-        rg_error("kernel '%s': its %zu bytes are no SPIR-V; build it with glslc", kernel->name,
-                 code.size);
-    const VkShaderModuleCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-        .codeSize = code.size,
-        .pCode = (const uint32_t *)(const void *)code.bytes,
-    };
-    ok = ok &&
-         vk_try("kernel", kernel->name, vkCreateShaderModule, device->handle, &info, NULL, module);
-    free(owned);
-    return ok;
-}
-
-static bool create_pipeline(struct vk_device *device, const struct rg_kernel *kernel,
-                            struct vk_pass *pass)
-{
-    VkShaderModule module;
-    if (!vk_module_create(device, kernel, RG_CODE_SPIRV, &module))
-        return false;
-    const VkComputePipelineCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                  .module = module,
-                  .pName = "main"},
-        .layout = pass->layout,
-    };
-    bool ok = vk_try("kernel", kernel->name, vkCreateComputePipelines, device->handle,
-                     VK_NULL_HANDLE, 1, &info, NULL, &pass->pipeline);
-    vkDestroyShaderModule(device->handle, module, NULL);
-    if (ok)
-        vk_name(device, VK_OBJECT_TYPE_PIPELINE, VK_HANDLE(pass->pipeline), kernel->name);
-    return ok;
-}
-
 static void destroy(struct vk_device *device, struct vk_pass *pass)
 {
-    vkDestroyPipeline(device->handle, pass->pipeline, NULL);
-    vk_draw_destroy(device, pass);
+    vk_program_destroy(device, pass);
     vk_slots_destroy(device, pass);
     free(pass);
 }
@@ -83,9 +35,8 @@ struct rg_pass *vk_pass_create(struct rg_device *device, const struct rg_kernel 
     memcpy(pass->slots, kernel->slots, (size_t)kernel->slot_count * sizeof(*kernel->slots));
     if (kernel->draw)
         vk_draw_slots(pass);
-    bool created =
-        vk_slots_create(vk, pass, kernel) &&
-        (kernel->draw ? vk_draw_create(vk, kernel, pass) : create_pipeline(vk, kernel, pass));
+    const bool created = vk_slots_create(vk, pass, kernel) && vk_program_create(vk, kernel, pass) &&
+                         (!kernel->draw || vk_draw_prepare(vk));
     if (vk_healthy(vk) && created)
         return &pass->pub;
     destroy(vk, pass);

@@ -195,9 +195,11 @@ void vk_buf_destroy(struct rg_buf *buf);
 bool vk_buf_write(struct rg_buf *buf, size_t offset, const void *data, size_t size);
 bool vk_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size);
 
-// image.c
+// formats.c
 VkFormat vk_format(enum rg_format format);
 VkImageAspectFlags vk_aspect(enum rg_format format);
+
+// image.c
 struct rg_image *vk_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                  const char *name);
 void vk_image_destroy(struct rg_image *image);
@@ -222,26 +224,6 @@ void vk_slot_image(union vk_descriptor *descriptor, const struct vk_device *devi
 bool vk_slots_bind(struct vk_device *device, struct vk_batch *batch, struct vk_pass *pass,
                    union vk_descriptor descriptors[RG_MAX_SLOTS]);
 
-// pass.c
-struct rg_pass *vk_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
-void vk_pass_destroy(struct rg_pass *pass);
-bool vk_pass_run(struct rg_pass *pass, const struct rg_run *run);
-bool vk_module_create(struct vk_device *device, const struct rg_kernel *kernel,
-                      enum rg_code_kind kind, VkShaderModule *module);
-
-// draw.c
-// Adds to pass->slots those of the stages that draw.
-void vk_draw_slots(struct vk_pass *pass);
-bool vk_draw_create(struct vk_device *device, const struct rg_kernel *kernel, struct vk_pass *pass);
-void vk_draw_destroy(struct vk_device *device, struct vk_pass *pass);
-// What the stages' slots are bound to. False: the driver failed.
-bool vk_draw_fill(struct vk_device *device, const struct rg_run *run,
-                  union vk_descriptor descriptors[RG_MAX_SLOTS]);
-// Records the draw, with pass->set.
-bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_pass *pass,
-             const struct rg_run *run, uint32_t params_offset);
-void vk_draw_close(struct vk_device *device); // what all passes share, before the device closes
-
 // target.c
 // What a run draws to: colour, or RG_FORMAT_NONE, and whether depth is attached.
 struct vk_target {
@@ -257,6 +239,38 @@ VkFramebuffer vk_framebuffer(struct vk_device *device, const struct rg_draw *dra
 // Destroys the views and framebuffers of an image.
 void vk_target_forget(struct vk_device *device, struct vk_image *image);
 void vk_targets_close(struct vk_device *device);
+
+// program.c
+// Compiles what a pass runs: false, and one logged line, on failure. Destroying takes what was
+// made.
+bool vk_program_create(struct vk_device *device, const struct rg_kernel *kernel,
+                       struct vk_pass *pass);
+void vk_program_destroy(struct vk_device *device, struct vk_pass *pass);
+
+// pipeline.c
+// The pipeline of a program's way to draw, which the pass keeps; VK_NULL_HANDLE where the driver
+// failed.
+VkPipeline vk_pipeline_of(struct vk_device *device, struct vk_pass *pass,
+                          const struct rg_draw *draw);
+
+// draw.c
+// Adds to pass->slots those of the stages that draw.
+void vk_draw_slots(struct vk_pass *pass);
+// Sees to what draws that count nothing bind: a shader's slots must be bound. False: the driver
+// failed.
+bool vk_draw_prepare(struct vk_device *device);
+// What the stages' slots are bound to. False: the driver failed.
+bool vk_draw_fill(struct vk_device *device, const struct rg_run *run,
+                  union vk_descriptor descriptors[RG_MAX_SLOTS]);
+// Records the draw, with pass->set.
+bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_pass *pass,
+             const struct rg_run *run, uint32_t params_offset);
+void vk_draw_close(struct vk_device *device); // what all passes share, before the device closes
+
+// pass.c
+struct rg_pass *vk_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
+void vk_pass_destroy(struct rg_pass *pass);
+bool vk_pass_run(struct rg_pass *pass, const struct rg_run *run);
 
 // time.c
 bool vk_sync(struct rg_device *device);

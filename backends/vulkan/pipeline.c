@@ -1,0 +1,155 @@
+// The graphics pipelines of a DRAW program: one for each way to draw, made when first used.
+#include "backends/vulkan/vulkan.h"
+
+#include "core/base/log.h"
+#include "core/device/formats.h"
+
+// One way to draw.
+struct look {
+    struct vk_target target;
+    enum rg_blend blend;
+    enum rg_depth_mode depth_mode;
+};
+
+static struct look look_of(const struct rg_draw *draw)
+{
+    const struct vk_target target = vk_target_of(draw);
+    return (struct look){
+        .target = target,
+        .blend = target.colour == RG_FORMAT_NONE ? RG_BLEND_OFF : draw->blend,
+        .depth_mode = target.depth ? draw->depth_mode : RG_DEPTH_OFF,
+    };
+}
+
+// Drivers need not draw to every format, nor blend.
+static bool check_formats(const struct vk_device *device, const struct look *look, const char *name)
+{
+    const enum rg_format formats[] = {look->target.colour,
+                                      look->target.depth ? RG_D32F : RG_FORMAT_NONE};
+    const VkFormatFeatureFlags needed[] = {
+        VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT |
+            (look->blend == RG_BLEND_OFF ? 0 : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT),
+        VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT};
+    for (int i = 0; i < 2; i++) {
+        VkFormatProperties able;
+        if (formats[i] == RG_FORMAT_NONE)
+            continue;
+        vkGetPhysicalDeviceFormatProperties(device->physical, vk_format(formats[i]), &able);
+        if ((able.optimalTilingFeatures & needed[i]) != needed[i])
+            return rg_error("unsupported: kernel '%s': %s does not %s to %s", name,
+                            device->pub.info.name, look->blend == RG_BLEND_OFF ? "draw" : "blend",
+                            rg_format_name(formats[i]));
+    }
+    return true;
+}
+
+static VkPipelineColorBlendAttachmentState blend_state(enum rg_blend blend)
+{
+    const VkBlendFactor kept =
+        blend == RG_BLEND_OVER ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
+    return (VkPipelineColorBlendAttachmentState){
+        .blendEnable = blend != RG_BLEND_OFF,
+        .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
+        .dstColorBlendFactor = kept,
+        .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+        .dstAlphaBlendFactor = kept,
+        .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                          VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT,
+    };
+}
+
+static VkPipelineDepthStencilStateCreateInfo depth_state(enum rg_depth_mode mode)
+{
+    return (VkPipelineDepthStencilStateCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+        .depthTestEnable = mode != RG_DEPTH_OFF,
+        .depthWriteEnable = mode == RG_DEPTH_WRITE,
+        .depthCompareOp = VK_COMPARE_OP_LESS,
+    };
+}
+
+static VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, VkShaderModule module)
+{
+    return (VkPipelineShaderStageCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+        .stage = bit,
+        .module = module,
+        .pName = "main",
+    };
+}
+
+// Both faces are filled: packing has culled. Corners come from the packed primitives alone.
+static VkGraphicsPipelineCreateInfo plain_pipeline(void)
+{
+    static const VkPipelineVertexInputStateCreateInfo no_input = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    static const VkPipelineInputAssemblyStateCreateInfo triangles = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+    static const VkPipelineViewportStateCreateInfo viewport = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+        .viewportCount = 1,
+        .scissorCount = 1};
+    static const VkPipelineRasterizationStateCreateInfo fill = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+        .polygonMode = VK_POLYGON_MODE_FILL,
+        .cullMode = VK_CULL_MODE_NONE,
+        .lineWidth = 1.0f};
+    static const VkPipelineMultisampleStateCreateInfo one_sample = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
+    static const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    static const VkPipelineDynamicStateCreateInfo dynamic = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+        .dynamicStateCount = 2,
+        .pDynamicStates = states};
+    return (VkGraphicsPipelineCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+        .pVertexInputState = &no_input,
+        .pInputAssemblyState = &triangles,
+        .pViewportState = &viewport,
+        .pRasterizationState = &fill,
+        .pMultisampleState = &one_sample,
+        .pDynamicState = &dynamic,
+    };
+}
+
+static bool create_pipeline(struct vk_device *device, struct vk_pass *pass, const struct look *look,
+                            VkPipeline *pipeline)
+{
+    const char *name = pass->pub.kernel->name;
+    const VkPipelineShaderStageCreateInfo stages[] = {
+        stage(VK_SHADER_STAGE_VERTEX_BIT, pass->drawing->vertex),
+        stage(VK_SHADER_STAGE_FRAGMENT_BIT, pass->drawing->fragment)};
+    const VkPipelineColorBlendAttachmentState attachment = blend_state(look->blend);
+    const VkPipelineColorBlendStateCreateInfo blend = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+        .attachmentCount = 1,
+        .pAttachments = &attachment,
+    };
+    const VkPipelineDepthStencilStateCreateInfo depth = depth_state(look->depth_mode);
+    VkGraphicsPipelineCreateInfo info = plain_pipeline();
+    info.stageCount = 2;
+    info.pStages = stages;
+    info.pColorBlendState = &blend;
+    info.pDepthStencilState = &depth;
+    info.layout = pass->layout;
+    info.renderPass = vk_render_pass(device, look->target, name);
+    if (!info.renderPass || !vk_try("kernel", name, vkCreateGraphicsPipelines, device->handle,
+                                    VK_NULL_HANDLE, 1, &info, NULL, pipeline)) {
+        *pipeline = VK_NULL_HANDLE;
+        return false;
+    }
+    vk_name(device, VK_OBJECT_TYPE_PIPELINE, VK_HANDLE(*pipeline), name);
+    return true;
+}
+
+VkPipeline vk_pipeline_of(struct vk_device *device, struct vk_pass *pass,
+                          const struct rg_draw *draw)
+{
+    const struct look look = look_of(draw);
+    VkPipeline *kept = &pass->drawing->pipelines[look.target.colour][look.blend][look.depth_mode];
+    if (!*kept && check_formats(device, &look, pass->pub.kernel->name))
+        create_pipeline(device, pass, &look, kept);
+    return *kept;
+}

@@ -1,0 +1,109 @@
+// A pass's shaders, and the pipeline of a GRID kernel.
+#include "backends/vulkan/vulkan.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "kernels/dialect/draw/clip.h"
+
+static bool create_module(struct vk_device *device, const struct rg_kernel *kernel,
+                          enum rg_code_kind kind, VkShaderModule *module)
+{
+    struct rg_kernel_code code;
+    void *owned;
+    if (!rg_kernel_code(kernel, kind, &code, &owned))
+        return false;
+    const uint32_t spirv_magic = 0x07230203, header_bytes = 20;
+    bool ok = code.size >= header_bytes && code.size % 4 == 0 &&
+              !memcmp(code.bytes, &spirv_magic, sizeof(spirv_magic));
+    if (!ok)
+        rg_error("kernel '%s': its %zu bytes are no SPIR-V; build it with glslc", kernel->name,
+                 code.size);
+    const VkShaderModuleCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+        .codeSize = code.size,
+        .pCode = (const uint32_t *)(const void *)code.bytes,
+    };
+    ok = ok &&
+         vk_try("kernel", kernel->name, vkCreateShaderModule, device->handle, &info, NULL, module);
+    free(owned);
+    return ok;
+}
+
+static bool create_pipeline(struct vk_device *device, const struct rg_kernel *kernel,
+                            struct vk_pass *pass)
+{
+    VkShaderModule module;
+    if (!create_module(device, kernel, RG_CODE_SPIRV, &module))
+        return false;
+    const VkComputePipelineCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                  .module = module,
+                  .pName = "main"},
+        .layout = pass->layout,
+    };
+    bool ok = vk_try("kernel", kernel->name, vkCreateComputePipelines, device->handle,
+                     VK_NULL_HANDLE, 1, &info, NULL, &pass->pipeline);
+    vkDestroyShaderModule(device->handle, module, NULL);
+    if (ok)
+        vk_name(device, VK_OBJECT_TYPE_PIPELINE, VK_HANDLE(pass->pipeline), kernel->name);
+    return ok;
+}
+
+// What a device may lack. Corners keep their place on the grid only in a viewport as large as
+// kernels/dialect/draw/clip.h says.
+static bool check_able(const struct vk_device *device, const struct rg_kernel *kernel)
+{
+    const VkPhysicalDeviceLimits *limits = &device->limits;
+    const char *name = device->pub.info.name, *says = "unsupported: kernel '%s': %s %s";
+    if (!device->family.draws)
+        return rg_unsupported(says, kernel->name, name, "has no queue that draws");
+    if (!device->counts_samples)
+        return rg_error(says, kernel->name, name,
+                        "lets no fragment write (fragmentStoresAndAtomics is false)");
+    if (limits->maxViewportDimensions[0] < RG_VIEWPORT_PX ||
+        limits->maxViewportDimensions[1] < RG_VIEWPORT_PX || limits->subPixelPrecisionBits < 8)
+        return rg_error("unsupported: kernel '%s': %s has viewports of %ux%u px and %u bits below "
+                        "a pixel; %d px and 8 bits are needed",
+                        kernel->name, name, limits->maxViewportDimensions[0],
+                        limits->maxViewportDimensions[1], limits->subPixelPrecisionBits,
+                        RG_VIEWPORT_PX);
+    return true;
+}
+
+static bool create_drawing(struct vk_device *device, const struct rg_kernel *kernel,
+                           struct vk_pass *pass)
+{
+    struct vk_drawing *drawing = pass->drawing = rg_alloc(1, sizeof(*drawing), kernel->name);
+    return drawing && check_able(device, kernel) &&
+           create_module(device, kernel, RG_CODE_VERTEX_SPIRV, &drawing->vertex) &&
+           create_module(device, kernel, RG_CODE_FRAGMENT_SPIRV, &drawing->fragment);
+}
+
+bool vk_program_create(struct vk_device *device, const struct rg_kernel *kernel,
+                       struct vk_pass *pass)
+{
+    return kernel->draw ? create_drawing(device, kernel, pass)
+                        : create_pipeline(device, kernel, pass);
+}
+
+static void destroy_drawing(struct vk_device *device, struct vk_drawing *drawing)
+{
+    const int count = sizeof(drawing->pipelines) / sizeof(VkPipeline);
+    for (int i = 0; i < count; i++)
+        vkDestroyPipeline(device->handle, (&drawing->pipelines[0][0][0])[i], NULL);
+    vkDestroyShaderModule(device->handle, drawing->fragment, NULL);
+    vkDestroyShaderModule(device->handle, drawing->vertex, NULL);
+    free(drawing);
+}
+
+void vk_program_destroy(struct vk_device *device, struct vk_pass *pass)
+{
+    vkDestroyPipeline(device->handle, pass->pipeline, NULL);
+    if (pass->drawing)
+        destroy_drawing(device, pass->drawing);
+}
