@@ -25,16 +25,6 @@ static cl_kernel variant_of(struct opencl_pass *pass, const struct rg_draw *draw
                             defines);
 }
 
-static cl_int set_target(cl_kernel kernel, cl_uint *next, const struct rg_image *image,
-                         const struct rg_draw *draw)
-{
-    const struct opencl_image *target = (const struct opencl_image *)image;
-    const cl_int word = image ? opencl_image_word(image, draw->layer, draw->level) : 0;
-    cl_int code =
-        clSetKernelArg(kernel, (*next)++, sizeof(cl_mem), image ? &target->memory.mem : NULL);
-    return code ? code : clSetKernelArg(kernel, (*next)++, sizeof(word), &word);
-}
-
 // The arguments of shaders/draw.cl, in its order.
 static cl_int set_arguments(cl_kernel kernel, const struct rg_kernel *info,
                             const struct opencl_bins *bins, const struct rg_run *run)
@@ -47,8 +37,8 @@ static cl_int set_arguments(cl_kernel kernel, const struct rg_kernel *info,
     code = code ? code : clSetKernelArg(kernel, next++, sizeof(cl_mem), &prims->memory.mem);
     code = code ? code : clSetKernelArg(kernel, next++, sizeof(cl_mem), &bins->places.mem);
     code = code ? code : clSetKernelArg(kernel, next++, sizeof(cl_mem), &bins->list.mem);
-    code = code ? code : set_target(kernel, &next, run->draw->colour, run->draw);
-    code = code ? code : set_target(kernel, &next, run->draw->depth, run->draw);
+    code = code ? code : opencl_set_target(kernel, &next, run->draw->colour, run->draw);
+    code = code ? code : opencl_set_target(kernel, &next, run->draw->depth, run->draw);
     code = code ? code
                 : clSetKernelArg(kernel, next++, sizeof(cl_mem),
                                  samples ? &samples->memory.mem : NULL);

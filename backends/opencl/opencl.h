@@ -73,6 +73,12 @@ bool opencl_check(cl_int code, const char *call, const char *kind, const char *n
 int opencl_hide_messages(void);
 void opencl_show_messages(int hidden);
 
+// queue.c
+// Call before each command that is queued without waiting for it.
+void opencl_will_queue(struct opencl_device *device);
+// Call when the queue is known to have ended.
+void opencl_ended(struct opencl_device *device);
+
 // buf.c
 struct rg_buf *opencl_buf_create(struct rg_device *device, size_t size, const char *name);
 void opencl_buf_destroy(struct rg_buf *buf);
@@ -93,20 +99,25 @@ bool opencl_image_clear(struct rg_image *image, const void *texel);
 // The word of the image's memory at which a layer of a level begins.
 int opencl_image_word(const struct rg_image *image, int layer, int level);
 
-// pass.c
-struct rg_pass *opencl_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
-void opencl_pass_destroy(struct rg_pass *pass);
-bool opencl_pass_run(struct rg_pass *pass, const struct rg_run *run);
+// slots.c
+// Sets what a kernel's slots are bound to, from argument `next` on: a buffer and its element count,
+// and an image's shape.
+cl_int opencl_set_slots(cl_kernel kernel, cl_uint next, const struct rg_kernel *info,
+                        const struct rg_run *run);
+
+// target.c
+// Sets a target that a kernel draws to, or none, from argument *next on: its memory, and the word
+// at which the layer and level begins.
+cl_int opencl_set_target(cl_kernel kernel, cl_uint *next, const struct rg_image *image,
+                         const struct rg_draw *draw);
+
+// program.c
 // Builds a program with -D options (" -DX=1"); NULL and one logged line that names it on failure.
 cl_program opencl_build(struct opencl_device *device, const struct rg_kernel_code *text,
                         const char *defines, const char *name);
 // A pass's kernel in a variant, built with `defines` at the first call; NULL and one logged line.
 cl_kernel opencl_kernel_of(struct opencl_pass *pass, int variant, const char *entry,
                            const char *defines);
-// Sets what a kernel's slots are bound to, from argument `next` on: a buffer and its element count,
-// and an image's shape.
-cl_int opencl_set_slots(cl_kernel kernel, cl_uint next, const struct rg_kernel *info,
-                        const struct rg_run *run);
 
 // bins.c: sorts a draw's packed primitives into tiles (kernels/dialect/draw/bins.h). Scratch of a
 // device.
@@ -132,12 +143,13 @@ bool opencl_bins_sort(struct opencl_bins *bins, const struct rg_run *run, bool *
 // draw.c
 bool opencl_draw(struct rg_pass *pass, const struct rg_run *run);
 
+// pass.c
+struct rg_pass *opencl_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
+void opencl_pass_destroy(struct rg_pass *pass);
+bool opencl_pass_run(struct rg_pass *pass, const struct rg_run *run);
+
 // time.c
 bool opencl_sync(struct rg_device *device);
 bool opencl_time(struct rg_device *device, int64_t *time_ns);
-// Call before each command that is queued without waiting for it.
-void opencl_will_queue(struct opencl_device *device);
-// Call when the queue is known to have ended.
-void opencl_ended(struct opencl_device *device);
 
 #endif

@@ -1,31 +1,6 @@
 #include "backends/opencl/opencl.h"
 
-#include <stdlib.h>
-
 #include "core/base/log.h"
-
-// Some drivers begin only when told to. Telling them each time would cost as much as a small run.
-enum { COMMANDS_A_FLUSH = 16 };
-
-// Flushes before a command, never after it: rusticl's clFinish (Mesa 22.3.6) does not wait for what
-// was flushed when nothing came after.
-void opencl_will_queue(struct opencl_device *device)
-{
-    if (device->queued && device->queued % COMMANDS_A_FLUSH == 0)
-        clFlush(device->queue);
-    device->queued++;
-}
-
-void opencl_ended(struct opencl_device *device)
-{
-    device->queued = 0;
-    device->staged_bytes = 0;
-    while (device->staged) {
-        struct opencl_staged *next = device->staged->next;
-        free(device->staged);
-        device->staged = next;
-    }
-}
 
 bool opencl_sync(struct rg_device *device)
 {
