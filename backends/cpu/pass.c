@@ -6,7 +6,6 @@
 #include "backends/cpu/draw.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "core/device/formats.h"
 
 struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
 {
@@ -28,52 +27,11 @@ void cpu_pass_destroy(struct rg_pass *pass)
     free(pass);
 }
 
-static uint *texels_of(struct rg_image *image, const struct rg_draw *draw)
-{
-    struct cpu_image *cpu = (struct cpu_image *)image;
-    return image ? cpu->texels + rg_texel_word(cpu->texels, cpu->shape, 0, 0, draw->layer,
-                                               draw->level, rg_format_size(image->desc.format) / 4)
-                 : NULL;
-}
-
-static struct cpu_target target_of(const struct rg_draw *draw)
-{
-    return (struct cpu_target){
-        .colour = texels_of(draw->colour, draw),
-        .depth = texels_of(draw->depth, draw),
-        .samples = draw->samples ? ((struct cpu_buf *)draw->samples)->data : NULL,
-    };
-}
-
-static struct cpu_call bind(const struct rg_kernel *kernel, const struct rg_run *run,
-                            struct rg_fault *fault)
-{
-    struct cpu_call call = {
-        .params = run->params,
-        .begin = {run->origin.width, run->origin.height, run->origin.depth},
-        .end = {run->origin.width + run->extent.width, run->origin.height + run->extent.height,
-                run->origin.depth + run->extent.depth},
-        .fault = fault,
-    };
-    if (run->draw)
-        call.target = target_of(run->draw);
-    for (int i = 0; i < kernel->slot_count; i++) {
-        const struct rg_slot_info *slot = &kernel->slots[i];
-        struct cpu_buf *buf = (struct cpu_buf *)run->slots[slot->slot].buf;
-        struct cpu_image *image = (struct cpu_image *)run->slots[slot->slot].image;
-        call.slots[slot->slot] =
-            buf ? (struct cpu_slot){buf->data, (int)(buf->pub.size / (size_t)slot->element_size),
-                                    NULL}
-                : (struct cpu_slot){image->texels, image->words, &image->shape};
-    }
-    return call;
-}
-
 // In order, one item after the other, on the calling thread.
 static bool run_in_order(struct cpu_pass *pass, const struct rg_run *run)
 {
     struct rg_fault fault = {0};
-    struct cpu_call call = bind(pass->pub.kernel, run, &fault);
+    struct cpu_call call = cpu_bind(pass->pub.kernel, run, &fault);
     pass->code->run(&call);
     if (fault.slot)
         return rg_error("kernel '%s': %s[%d] is out of range; it holds %d", pass->pub.kernel->name,
@@ -111,7 +69,7 @@ enum { MIN_ITEMS_A_THREAD = 4096 };
 
 static bool run_parallel(struct cpu_pass *pass, const struct rg_run *run)
 {
-    struct cpu_call call = bind(pass->pub.kernel, run, NULL);
+    struct cpu_call call = cpu_bind(pass->pub.kernel, run, NULL);
     int64_t items = (int64_t)run->extent.width * run->extent.height * run->extent.depth;
     int blocks = omp_get_max_threads();
     if (items / blocks < MIN_ITEMS_A_THREAD)
@@ -135,7 +93,7 @@ bool cpu_pass_run(struct rg_pass *pass, const struct rg_run *run)
     if (device->reference)
         return run_in_order(cpu, run);
     if (cpu->code->program) {
-        const struct cpu_call call = bind(pass->kernel, run, NULL);
+        const struct cpu_call call = cpu_bind(pass->kernel, run, NULL);
         return cpu_draw(device, pass->kernel->name, cpu->code->program, &call);
     }
     return run_parallel(cpu, run);
