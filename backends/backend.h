@@ -2,8 +2,10 @@
 //
 // A backend is one folder with one `const struct rg_backend`. It is only ever called through
 // core/device, which has checked every argument: a backend contains no checks of its callers.
+// What its device lacks it says in data, struct rg_limits, and core/device refuses it.
 // It reports what its driver says: an error is logged in one line with the call, its code and the
-// object's name (rg_error), and comes back as false or NULL. Nothing aborts, nothing prints else.
+// object's name (rg_driver_error), and comes back as false or NULL. Nothing aborts, nothing prints
+// else.
 //
 // Objects: a backend's own struct begins with the public one (struct gl_buf { struct rg_buf pub; })
 // and is allocated zeroed by the backend. core/device fills the public part after a create.
@@ -26,13 +28,25 @@ struct rg_extent {
     int width, height, depth; // items
 };
 
-// What a device can do. Data, set at creation: 0 means that it cannot.
+// Of the slots of a kernel, by what is bound to them.
+struct rg_slot_limits {
+    int buffers, images, out_images;
+};
+
+// What a device can do. Data, set at creation: 0 means that it cannot. core/device refuses what
+// exceeds it, so that no backend is asked for it.
 struct rg_limits {
+    int max_objects; // buffers and images that live at once; INT_MAX: no limit
     int64_t max_buffer_bytes;
-    int max_image_px; // width and height
+    int max_image_px; // width and height, of any format
     int max_image_layers;
     int max_groups[3]; // work groups a dispatch, in x, y and z; INT_MAX: no limit
     int group_items;   // items a work group, along x
+    struct rg_format_limits formats[RG_FORMAT_COUNT];
+    struct rg_slot_limits slot_count; // slots that a kernel may have
+    struct rg_slot_limits slot_end;   // their numbers are below
+    char no_draws[120];               // why DRAW programs cannot run: "has no queue that draws"
+    bool has_clock;                   // `time` tells it
 };
 
 struct rg_device_info {

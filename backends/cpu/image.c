@@ -6,15 +6,12 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "core/device/formats.h"
-#include "core/device/objects.h"
 
 struct rg_image *cpu_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                   const char *name)
 {
     uint32_t header[RG_MAX_LEVELS];
     int64_t words = rg_image_layout(desc, header);
-    if (!rg_image_layout_fits(device, desc, name))
-        return NULL;
     struct cpu_image *image = rg_alloc(1, sizeof(*image), name);
     if (!image)
         return NULL;

@@ -34,8 +34,8 @@ static bool run_in_order(struct cpu_pass *pass, const struct rg_run *run)
     struct cpu_call call = cpu_bind(pass->pub.kernel, run, &fault);
     pass->code->run(&call);
     if (fault.slot)
-        return rg_error("kernel '%s': %s[%d] is out of range; it holds %d", pass->pub.kernel->name,
-                        fault.slot, fault.index, fault.count);
+        return rg_driver_error("kernel '%s': %s[%d] is out of range; it holds %d",
+                               pass->pub.kernel->name, fault.slot, fault.index, fault.count);
     return true;
 }
 

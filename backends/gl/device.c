@@ -21,11 +21,22 @@ static struct rg_limits read_limits(void)
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &storage_bytes);
     glGetInteger64v(GL_MAX_TEXTURE_BUFFER_SIZE, &words);
     struct rg_limits limits = {
+        .max_objects = INT_MAX,
         .max_buffer_bytes = words * 4 < storage_bytes ? words * 4 : storage_bytes,
         .max_image_px = integer(GL_MAX_TEXTURE_SIZE),
         .max_image_layers = integer(GL_MAX_ARRAY_TEXTURE_LAYERS),
         .group_items = GL_GROUP_ITEMS,
+        .slot_count = {RG_MAX_SLOTS, RG_MAX_SLOTS, RG_MAX_SLOTS},
+        // A slot is the binding of the same number, which the driver must have.
+        .slot_end = {.buffers = integer(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS),
+                     .images = integer(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS),
+                     .out_images = integer(GL_MAX_IMAGE_UNITS)},
+        .has_clock = true,
     };
+    // OpenGL 4.5 has all formats for all uses.
+    for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++)
+        limits.formats[f] = (struct rg_format_limits){
+            RG_USE_ALL, limits.max_image_px, limits.max_image_layers, RG_MAX_LEVELS, INT64_MAX};
     for (GLuint axis = 0; axis < 3; axis++) {
         GLint64 groups = 0;
         glGetInteger64i_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, axis, &groups);
@@ -92,8 +103,8 @@ static bool open_at(int index, struct gl_egl *egl)
             return true;
         gl_egl_close(egl);
     }
-    return rg_error("device 'gl:%d': %s", index,
-                    search.why[0] ? search.why : "its driver opens no more");
+    return rg_driver_error("device 'gl:%d': %s", index,
+                           search.why[0] ? search.why : "its driver opens no more");
 }
 
 static void gl_destroy(struct rg_device *device)
@@ -118,11 +129,6 @@ static struct rg_device *gl_create(int index)
         return NULL;
     }
     describe(index, &gl->egl, &gl->pub.info);
-    gl->slots = (struct gl_slot_limits){
-        .buffers = integer(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS),
-        .texture_units = integer(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS),
-        .image_units = integer(GL_MAX_IMAGE_UNITS),
-    };
     gl_debug_begin(gl);
     gl_images_begin();
     glCreateQueries(GL_TIMESTAMP, 1, &gl->timestamp);

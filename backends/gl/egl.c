@@ -238,8 +238,9 @@ bool gl_use(struct gl_device *device)
     if (current == egl->serial)
         return true;
     if (!eglMakeCurrent(egl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl->context))
-        return rg_error("device '%s': eglMakeCurrent failed with %s; use it on one thread only",
-                        device->pub.info.name, error_name(eglGetError()));
+        return rg_driver_error(
+            "device '%s': eglMakeCurrent failed with %s; use it on one thread only",
+            device->pub.info.name, error_name(eglGetError()));
     current = egl->serial;
     return true;
 }

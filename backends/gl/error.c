@@ -46,8 +46,8 @@ void gl_debug_begin(struct gl_device *device)
 static bool report(struct gl_device *device, GLenum code, const char *call, const char *kind,
                    const char *name)
 {
-    rg_error("%s '%s': %s failed on %s with %s%s%s", kind, name, call, device->pub.info.name,
-             error_name(code), device->fault[0] ? ": " : "", device->fault);
+    rg_driver_error("%s '%s': %s failed on %s with %s%s%s", kind, name, call, device->pub.info.name,
+                    error_name(code), device->fault[0] ? ": " : "", device->fault);
     device->fault[0] = 0;
     return false;
 }

@@ -40,11 +40,6 @@ struct gl_egl {
     bool software;
 };
 
-// What a slot number may reach: a slot is a binding in the shader.
-struct gl_slot_limits {
-    GLint buffers, texture_units, image_units;
-};
-
 // Parameters of queued runs, in memory that the driver reads. Two halves: while one is filled, the
 // runs that read the other are waited for.
 struct gl_params {
@@ -98,7 +93,6 @@ struct gl_bound {
 struct gl_device {
     struct rg_device pub;
     struct gl_egl egl;
-    struct gl_slot_limits slots;
     struct gl_params params;
     struct gl_bound bound;
     struct gl_framebuffers framebuffers;
@@ -196,8 +190,6 @@ bool gl_image_clear(struct rg_image *image, const void *texel);
 
 // slots.c
 
-// Whether the driver has what a kernel's slots want; else one logged line.
-bool gl_slots_fit(const struct gl_device *device, const struct rg_kernel *kernel);
 // Binds what a run's slots name; false and one logged line on failure.
 bool gl_slots_bind(struct gl_bound *bound, const struct gl_pass *pass, const struct rg_run *run);
 void gl_slot_buffer(struct gl_bound *bound, int slot, const struct rg_buf *buf);

@@ -23,7 +23,7 @@ static GLbitfield barriers_after(const struct rg_kernel *kernel)
 struct rg_pass *gl_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
 {
     struct gl_device *gl = (struct gl_device *)device;
-    if (!gl_slots_fit(gl, kernel) || !gl_use(gl))
+    if (!gl_use(gl))
         return NULL;
     struct gl_pass *pass = rg_alloc(1, sizeof(*pass), kernel->name);
     if (!pass)

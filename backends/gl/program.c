@@ -22,8 +22,9 @@ static const struct stage draw_stages[MAX_STAGES] = {
 static bool refuse(const struct gl_device *device, const char *kernel, const char *step,
                    const char *log)
 {
-    return rg_error("kernel '%s': %s failed on %s: %.*s", kernel, step, device->pub.info.name,
-                    (int)strcspn(log, "\r\n"), log[0] ? log : "the driver says nothing");
+    return rg_driver_error("kernel '%s': %s failed on %s: %.*s", kernel, step,
+                           device->pub.info.name, (int)strcspn(log, "\r\n"),
+                           log[0] ? log : "the driver says nothing");
 }
 
 static bool compile(const struct gl_device *device, const struct rg_kernel *kernel,

@@ -1,30 +1,5 @@
 #include "backends/gl/gl.h"
 
-#include "core/base/log.h"
-
-// A slot is the binding of the same number, which the driver must have.
-bool gl_slots_fit(const struct gl_device *device, const struct rg_kernel *kernel)
-{
-    if (kernel->draw && device->slots.buffers <= RG_SLOT_SAMPLES)
-        return rg_error("kernel '%s': drawing needs storage buffer binding %d, and %s has %d",
-                        kernel->name, RG_SLOT_SAMPLES, device->pub.info.name,
-                        device->slots.buffers);
-    for (int i = 0; i < kernel->slot_count; i++) {
-        const struct rg_slot_info *slot = &kernel->slots[i];
-        int limit = slot->kind == RG_SLOT_OUT_IMAGE ? device->slots.image_units
-                    : slot->kind == RG_SLOT_IMAGE   ? device->slots.texture_units
-                                                    : device->slots.buffers;
-        if (slot->slot >= limit)
-            return rg_error("kernel '%s': slot %d, '%s', is beyond the %d %s that %s has",
-                            kernel->name, slot->slot, slot->name, limit,
-                            slot->kind == RG_SLOT_OUT_IMAGE ? "image units"
-                            : slot->kind == RG_SLOT_IMAGE   ? "texture units"
-                                                            : "storage buffer bindings",
-                            device->pub.info.name);
-    }
-    return true;
-}
-
 static bool is_image(enum rg_slot_kind kind)
 {
     return kind == RG_SLOT_IMAGE || kind == RG_SLOT_OUT_IMAGE;

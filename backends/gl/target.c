@@ -91,8 +91,8 @@ static bool is_complete(struct gl_device *gl, const struct gl_framebuffer *frame
     if (!gl_check(gl, "glCreateFramebuffers", "target", name))
         return false;
     return status == GL_FRAMEBUFFER_COMPLETE ||
-           rg_error("target '%s': %s cannot draw to it, framebuffer status %04x", name,
-                    gl->pub.info.name, (unsigned)status);
+           rg_driver_error("target '%s': %s cannot draw to it, framebuffer status %04x", name,
+                           gl->pub.info.name, (unsigned)status);
 }
 
 static struct gl_framebuffer *make(struct gl_device *gl, const struct gl_framebuffer_key *key,

@@ -192,8 +192,9 @@ bool opencl_bins_sort(struct opencl_bins *bins, const struct rg_run *run, bool *
         if (!grow_list(bins, round[RG_ROUND_PAIRS], &fits))
             return false;
         if (!fits && shape->end_prim - shape->first_prim == 1)
-            return rg_error("device '%s': a primitive meets %u tiles, more than a buffer holds",
-                            bins->device->pub.info.name, round[RG_ROUND_PAIRS]);
+            return rg_driver_error(
+                "device '%s': a primitive meets %u tiles, more than a buffer holds",
+                bins->device->pub.info.name, round[RG_ROUND_PAIRS]);
         if (fits) {
             bins->tried_prims = at_most(2 * bins->tried_prims, run->packed->capacity);
             return !round[RG_ROUND_PAIRS] || walk(bins, run, true);

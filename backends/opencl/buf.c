@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/base/log.h"
+#include "core/base/alloc.h"
 
 bool opencl_memory_create(struct opencl_memory *memory, size_t size)
 {
@@ -59,9 +59,9 @@ bool opencl_memory_read(const struct opencl_memory *memory, size_t offset, void 
 
 struct rg_buf *opencl_buf_create(struct rg_device *device, size_t size, const char *name)
 {
-    struct opencl_buf *buf = calloc(1, sizeof(*buf));
+    struct opencl_buf *buf = rg_alloc(1, sizeof(*buf), name);
     if (!buf)
-        return rg_error_null("buffer '%s': no memory left", name);
+        return NULL;
     buf->memory = (struct opencl_memory){NULL, (struct opencl_device *)device, "buffer", name};
     if (opencl_memory_create(&buf->memory, size))
         return &buf->pub;

@@ -5,9 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/alloc.h"
 #include "core/base/log.h"
 
 enum { MAX_PLATFORMS = 16, MAX_TEXT = 1024 };
+
+// Images lie in buffers: these bound no driver, and are as cpu has them.
+enum { MAX_PX = 32768, MAX_LAYERS = 2048 };
 
 // As shaders/grid.cl has it. On PoCL, 64 to 512 along x are equally fast, fewer or squarer slower.
 enum { GROUP_ITEMS = 64 };
@@ -111,17 +115,32 @@ static int find_devices(cl_device_id *ids, int max, char *why, size_t why_size)
     return count;
 }
 
+static int64_t smaller(int64_t a, int64_t b)
+{
+    return a < b ? a : b;
+}
+
 static struct rg_limits read_limits(cl_device_id id)
 {
-    int64_t alloc = (int64_t)device_number(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof(cl_ulong));
-    const int64_t countable = (int64_t)INT_MAX * 4; // kernels count words in an int
-    return (struct rg_limits){
-        .max_buffer_bytes = alloc < countable ? alloc : countable,
-        .max_image_px = 32768,
-        .max_image_layers = 2048,
+    const int64_t alloc =
+        (int64_t)device_number(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof(cl_ulong));
+    const struct rg_slot_limits any = {RG_MAX_SLOTS, RG_MAX_SLOTS, RG_MAX_SLOTS};
+    struct rg_limits limits = {
+        .max_objects = INT_MAX,
+        .max_buffer_bytes = smaller(alloc, (int64_t)INT_MAX * 4), // kernels count words in an int
+        .max_image_px = MAX_PX,
+        .max_image_layers = MAX_LAYERS,
         .max_groups = {INT_MAX / GROUP_ITEMS, 65535, 65535}, // CUDA's, which NVIDIA runs on
         .group_items = GROUP_ITEMS,
+        .slot_count = any,
+        .slot_end = any,
+        .has_clock = device_number(id, CL_DEVICE_PROFILING_TIMER_RESOLUTION, sizeof(size_t)) > 0,
     };
+    for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++)
+        limits.formats[f] = (struct rg_format_limits){
+            RG_USE_ALL, MAX_PX, MAX_LAYERS, RG_MAX_LEVELS,
+            smaller(rg_image_most_bytes((enum rg_format)f), limits.max_buffer_bytes)};
+    return limits;
 }
 
 static void describe(cl_device_id id, int index, struct rg_device_info *info)
@@ -197,18 +216,17 @@ static struct rg_device *opencl_create(int index)
     cl_device_id ids[RG_MAX_DEVICES];
     char why[160] = "";
     if (find_devices(ids, RG_MAX_DEVICES, why, sizeof(why)) <= index)
-        return rg_error_null("device 'opencl:%d': it is gone; %s", index, why);
-    struct opencl_device *device = calloc(1, sizeof(*device));
+        return rg_driver_error_null("device 'opencl:%d': it is gone; %s", index, why);
+    struct opencl_device *device = rg_alloc(1, sizeof(*device), "device 'opencl'");
     if (device)
-        device->programs = calloc((size_t)kernel_count() * OPENCL_VARIANTS, sizeof(cl_program));
+        device->programs = rg_alloc((size_t)kernel_count() * OPENCL_VARIANTS, sizeof(cl_program),
+                                    "device 'opencl'");
     if (!device || !device->programs) {
         free(device);
-        return rg_error_null("device 'opencl:%d': no memory left", index);
+        return NULL;
     }
     device->id = ids[index];
     describe(device->id, index, &device->pub.info);
-    device->has_clock =
-        device_number(device->id, CL_DEVICE_PROFILING_TIMER_RESOLUTION, sizeof(size_t)) > 0;
     if (open_queue(device))
         return &device->pub;
     opencl_destroy(&device->pub);

@@ -71,7 +71,7 @@ const char *opencl_error_name(cl_int code)
 bool opencl_check(cl_int code, const char *call, const char *kind, const char *name)
 {
     return code == CL_SUCCESS ||
-           rg_error("%s '%s': %s failed with %s", kind, name, call, opencl_error_name(code));
+           rg_driver_error("%s '%s': %s failed with %s", kind, name, call, opencl_error_name(code));
 }
 
 int opencl_hide_messages(void)

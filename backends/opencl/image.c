@@ -3,24 +3,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/base/log.h"
+#include "core/base/alloc.h"
 #include "core/device/formats.h"
-#include "core/device/objects.h"
 
 struct rg_image *opencl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                      const char *name)
 {
     uint32_t header[RG_MAX_LEVELS];
     int64_t bytes = rg_image_layout(desc, header) * (int64_t)sizeof(cl_uint);
-    if (!rg_image_layout_fits(device, desc, name))
-        return NULL;
-    if (bytes > device->info.limits.max_buffer_bytes)
-        return rg_error_null("image '%s': %lld bytes exceed the %lld that %s allows", name,
-                             (long long)bytes, (long long)device->info.limits.max_buffer_bytes,
-                             device->info.name);
-    struct opencl_image *image = calloc(1, sizeof(*image));
+    struct opencl_image *image = rg_alloc(1, sizeof(*image), name);
     if (!image)
-        return rg_error_null("image '%s': no memory left", name);
+        return NULL;
     image->shape = (rg_image_shape){desc->width, desc->height, desc->layers, desc->levels};
     memcpy(image->header, header, sizeof(header));
     image->words = (int)(bytes / 4);

@@ -24,7 +24,6 @@ struct opencl_device {
     cl_context context;
     cl_command_queue queue; // in order, with profiling
     int queued;             // commands since the queue was last known to have ended
-    bool has_clock;
     // Of the kernels built so far, by rg_kernel_index and variant: PoCL takes 30 ms for one.
     cl_program *programs;
     struct opencl_staged *staged;

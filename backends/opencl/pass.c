@@ -3,7 +3,7 @@
 #include <limits.h>
 #include <stdlib.h>
 
-#include "core/base/log.h"
+#include "core/base/alloc.h"
 
 void opencl_pass_destroy(struct rg_pass *pass)
 {
@@ -16,9 +16,9 @@ void opencl_pass_destroy(struct rg_pass *pass)
 
 struct rg_pass *opencl_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
 {
-    struct opencl_pass *pass = calloc(1, sizeof(*pass));
+    struct opencl_pass *pass = rg_alloc(1, sizeof(*pass), kernel->name);
     if (!pass)
-        return rg_error_null("kernel '%s': no memory left", kernel->name);
+        return NULL;
     pass->device = (struct opencl_device *)device;
     pass->info = kernel;
     if (kernel->draw || opencl_kernel_of(pass, 0, "rg_grid", ""))

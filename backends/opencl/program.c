@@ -33,8 +33,9 @@ static void build_failed(const struct opencl_device *device, cl_program program,
     while (error && error > line && error[-1] != '\n')
         error--;
     line = error ? error : line;
-    rg_error("kernel '%s': clBuildProgram failed with %s on %s: %.*s", name,
-             opencl_error_name(code), device->pub.info.name, (int)strcspn(line, "\r\n"), line);
+    rg_driver_error("kernel '%s': clBuildProgram failed with %s on %s: %.*s", name,
+                    opencl_error_name(code), device->pub.info.name, (int)strcspn(line, "\r\n"),
+                    line);
     free(log);
 }
 

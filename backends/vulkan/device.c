@@ -32,9 +32,9 @@ static bool choose_physical(struct vk_device *device, int index)
     VkPhysicalDevice devices[RG_MAX_DEVICES];
     int count = vk_physical_devices(&device->instance, devices, RG_MAX_DEVICES, why, sizeof(why));
     if (count == 0)
-        return rg_error("device 'vulkan': %s", why);
+        return rg_driver_error("device 'vulkan': %s", why);
     if (index >= count)
-        return rg_error("device 'vulkan:%d': it is gone; %d are left", index, count);
+        return rg_driver_error("device 'vulkan:%d': it is gone; %d are left", index, count);
     device->physical = devices[index];
     vk_describe(device->physical, index, &device->pub.info);
     VkPhysicalDeviceMaintenance3Properties allocation = {
@@ -63,7 +63,6 @@ static bool create_logical(struct vk_device *device)
     };
     VkPhysicalDeviceFeatures able;
     vkGetPhysicalDeviceFeatures(device->physical, &able);
-    device->counts_samples = able.fragmentStoresAndAtomics;
     const VkPhysicalDeviceFeatures wanted = {.fragmentStoresAndAtomics =
                                                  able.fragmentStoresAndAtomics};
     const VkDeviceCreateInfo info = {
@@ -130,7 +129,7 @@ static struct rg_device *vk_create(int index)
     char why[256];
     if (!vk_instance_open(&device->instance, validation_wanted(), why, sizeof(why))) {
         free(device);
-        return rg_error_null("device 'vulkan': %s", why);
+        return rg_driver_error_null("device 'vulkan': %s", why);
     }
     bool created =
         choose_physical(device, index) && create_logical(device) && create_shared_objects(device);

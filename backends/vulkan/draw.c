@@ -10,13 +10,8 @@
 
 void vk_draw_slots(struct vk_pass *pass)
 {
-    static const struct rg_slot_info stages[] = {
-        {"packed primitives", RG_SLOT_PRIMS, RG_SLOT_IN, 4, RG_FORMAT_NONE},
-        {"visible samples", RG_SLOT_SAMPLES, RG_SLOT_ATOMIC, 4, RG_FORMAT_NONE},
-        {"depth behind", RG_SLOT_BEHIND, RG_SLOT_IMAGE, 0, RG_D32F},
-    };
-    for (size_t i = 0; i < sizeof(stages) / sizeof(stages[0]); i++)
-        pass->slots[pass->slot_count++] = stages[i];
+    for (int i = 0; i < RG_DRAWN_SLOTS; i++)
+        pass->slots[pass->slot_count++] = rg_drawn_slots[i];
 }
 
 bool vk_draw_prepare(struct vk_device *device)

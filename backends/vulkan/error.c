@@ -58,8 +58,8 @@ bool vk_check(VkResult result, const char *call, const char *noun, const char *n
 {
     if (result >= 0)
         return true;
-    return rg_error("%s '%s': %s failed with %s%s", noun, name, call, vk_result_name(result),
-                    mend(result));
+    return rg_driver_error("%s '%s': %s failed with %s%s", noun, name, call, vk_result_name(result),
+                           mend(result));
 }
 
 bool vk_healthy(struct vk_device *device)

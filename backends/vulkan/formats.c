@@ -15,6 +15,18 @@ VkFormat vk_format(enum rg_format format)
     return formats[format];
 }
 
+VkImageUsageFlags vk_usage(enum rg_format format, unsigned uses)
+{
+    VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                              VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    if (uses & RG_USE_STORE)
+        usage |= VK_IMAGE_USAGE_STORAGE_BIT;
+    if (uses & RG_USE_DRAW)
+        usage |= format == RG_D32F ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                   : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    return usage;
+}
+
 VkImageAspectFlags vk_aspect(enum rg_format format)
 {
     return format == RG_D32F ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;

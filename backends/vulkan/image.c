@@ -3,26 +3,6 @@
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
-#include "core/base/log.h"
-#include "core/device/formats.h"
-#include "kernels/dialect/image/memory.h"
-
-// All that this backend may do with images of the format.
-static VkImageUsageFlags usage(const struct vk_device *device, enum rg_format format)
-{
-    VkFormatProperties properties;
-    vkGetPhysicalDeviceFormatProperties(device->physical, vk_format(format), &properties);
-    const VkFormatFeatureFlags able = properties.optimalTilingFeatures;
-    VkImageUsageFlags flags = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                              VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    if (able & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT)
-        flags |= VK_IMAGE_USAGE_STORAGE_BIT;
-    if (able & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT)
-        flags |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    if (able & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT)
-        flags |= VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
-    return flags;
-}
 
 static VkImageCreateInfo image_info(const struct vk_device *device,
                                     const struct rg_image_desc *desc)
@@ -36,35 +16,11 @@ static VkImageCreateInfo image_info(const struct vk_device *device,
         .arrayLayers = (uint32_t)desc->layers,
         .samples = VK_SAMPLE_COUNT_1_BIT,
         .tiling = VK_IMAGE_TILING_OPTIMAL,
-        .usage = usage(device, desc->format),
+        // All that this backend may do with images of the format.
+        .usage = vk_usage(desc->format, device->pub.info.limits.formats[desc->format].uses),
         .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
         .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
     };
-}
-
-// A driver may allow less for a format than for images in general.
-static bool check_supported(const struct vk_device *device, const VkImageCreateInfo *info,
-                            const struct rg_image_desc *desc, const char *name)
-{
-    VkImageFormatProperties most;
-    if (desc->format == RG_D32F && !device->family.draws)
-        return rg_unsupported("image '%s': %s has no queue that draws, and so no images of depth",
-                              name, device->pub.info.name);
-    if (!vk_try("image", name, vkGetPhysicalDeviceImageFormatProperties, device->physical,
-                info->format, info->imageType, info->tiling, info->usage, info->flags, &most))
-        return false;
-    uint32_t header[RG_MAX_LEVELS];
-    int64_t bytes = rg_image_layout(desc, header) * 4;
-    if (info->extent.width > most.maxExtent.width || info->extent.height > most.maxExtent.height ||
-        info->mipLevels > most.maxMipLevels || info->arrayLayers > most.maxArrayLayers ||
-        (uint64_t)bytes > most.maxResourceSize)
-        return rg_error("image '%s': %dx%d of %s with %d layers and %d levels; %s allows %ux%u, %u "
-                        "layers, %u levels and %llu bytes",
-                        name, desc->width, desc->height, rg_format_name(desc->format), desc->layers,
-                        desc->levels, device->pub.info.name, most.maxExtent.width,
-                        most.maxExtent.height, most.maxArrayLayers, most.maxMipLevels,
-                        (unsigned long long)most.maxResourceSize);
-    return true;
 }
 
 static bool create_view(struct vk_device *device, const struct vk_image *image,
@@ -117,8 +73,7 @@ static bool create(struct vk_device *device, struct vk_image *image,
                    const struct rg_image_desc *desc, const char *name)
 {
     const VkImageCreateInfo info = image_info(device, desc);
-    if (!check_supported(device, &info, desc, name) ||
-        !vk_try("image", name, vkCreateImage, device->handle, &info, NULL, &image->handle))
+    if (!vk_try("image", name, vkCreateImage, device->handle, &info, NULL, &image->handle))
         return false;
     vk_name(device, VK_OBJECT_TYPE_IMAGE, VK_HANDLE(image->handle), name);
     const VkImageAspectFlags aspect = vk_aspect(desc->format);

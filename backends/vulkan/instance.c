@@ -1,6 +1,5 @@
 #include "backends/vulkan/vulkan.h"
 
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +17,7 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL complain(VkDebugUtilsMessageSeverityFlagBi
     (void)types;
     struct vk_instance *instance = user;
     instance->complaints++;
-    rg_error("Vulkan validation: %s", data->pMessage);
+    rg_driver_error("Vulkan validation: %s", data->pMessage);
     return VK_FALSE;
 }
 
@@ -179,11 +178,6 @@ int vk_physical_devices(const struct vk_instance *instance, VkPhysicalDevice *de
     return count;
 }
 
-static int at_most_int(uint64_t value)
-{
-    return value < INT_MAX ? (int)value : INT_MAX;
-}
-
 void vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info)
 {
     VkPhysicalDeviceDriverProperties driver = {
@@ -194,10 +188,6 @@ void vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info
                                        .pNext = &allocation};
     vkGetPhysicalDeviceProperties2(device, &all);
     const VkPhysicalDeviceProperties *p = &all.properties;
-    const VkPhysicalDeviceLimits *l = &p->limits;
-    const uint64_t max_bytes = l->maxStorageBufferRange < allocation.maxMemoryAllocationSize
-                                   ? l->maxStorageBufferRange
-                                   : allocation.maxMemoryAllocationSize;
     memset(info, 0, sizeof(*info));
     if (index == 0)
         snprintf(info->name, sizeof(info->name), "vulkan");
@@ -212,12 +202,5 @@ void vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info
              VK_API_VERSION_MINOR(p->apiVersion), VK_API_VERSION_PATCH(p->apiVersion));
     info->software = p->deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     info->tier = info->software ? RG_T0 : RG_T1;
-    info->limits = (struct rg_limits){
-        .max_buffer_bytes = (int64_t)(max_bytes / 4 * 4),
-        .max_image_px = at_most_int(l->maxImageDimension2D),
-        .max_image_layers = at_most_int(l->maxImageArrayLayers),
-        .group_items = 64,
-    };
-    for (int i = 0; i < 3; i++)
-        info->limits.max_groups[i] = at_most_int(l->maxComputeWorkGroupCount[i]);
+    info->limits = vk_limits(device, &p->limits, allocation.maxMemoryAllocationSize);
 }

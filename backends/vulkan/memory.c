@@ -41,16 +41,13 @@ static bool allocate(struct vk_device *device, VkDeviceSize size, uint32_t type,
                      const char *name, struct vk_memory *memory)
 {
     const VkMemoryType *chosen = &device->memory.memoryTypes[type];
-    if (device->allocations >= device->limits.maxMemoryAllocationCount)
-        return rg_error("%s '%s': %s allows %u buffers and images, and has as many; use fewer",
-                        noun, name, device->pub.info.name, device->allocations);
     VkDeviceSize most = device->memory.memoryHeaps[chosen->heapIndex].size;
     if (most > device->max_allocation_bytes)
         most = device->max_allocation_bytes;
     if (size > most)
-        return rg_error("%s '%s': %llu bytes exceed the %llu bytes that %s allows an allocation",
-                        noun, name, (unsigned long long)size, (unsigned long long)most,
-                        device->pub.info.name);
+        return rg_driver_error(
+            "%s '%s': %llu bytes exceed the %llu bytes that %s allows an allocation", noun, name,
+            (unsigned long long)size, (unsigned long long)most, device->pub.info.name);
     const VkMemoryAllocateInfo info = {
         .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
         .allocationSize = size,
@@ -60,7 +57,6 @@ static bool allocate(struct vk_device *device, VkDeviceSize size, uint32_t type,
         memory->handle = VK_NULL_HANDLE;
         return false;
     }
-    device->allocations++;
     if ((chosen->propertyFlags & host_flags) == host_flags &&
         !vk_try(noun, name, vkMapMemory, device->handle, memory->handle, 0, VK_WHOLE_SIZE, 0,
                 &memory->mapped)) {
@@ -76,7 +72,8 @@ bool vk_memory_create(struct vk_device *device, const VkMemoryRequirements *need
 {
     int type = choose_type(device, needs->memoryTypeBits, use);
     if (type < 0)
-        return rg_error("%s '%s': %s has no memory type for it", noun, name, device->pub.info.name);
+        return rg_driver_error("%s '%s': %s has no memory type for it", noun, name,
+                               device->pub.info.name);
     return allocate(device, needs->size, (uint32_t)type, noun, name, memory);
 }
 
@@ -86,7 +83,6 @@ void vk_memory_destroy(struct vk_device *device, struct vk_memory *memory)
         return;
     vkFreeMemory(device->handle, memory->handle, NULL);
     *memory = (struct vk_memory){0};
-    device->allocations--;
 }
 
 bool vk_block_create(struct vk_device *device, VkDeviceSize size, VkBufferUsageFlags usage,

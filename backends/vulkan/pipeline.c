@@ -1,9 +1,6 @@
 // The graphics pipelines of a DRAW program: one for each way to draw, made when first used.
 #include "backends/vulkan/vulkan.h"
 
-#include "core/base/log.h"
-#include "core/device/formats.h"
-
 // One way to draw.
 struct look {
     struct vk_target target;
@@ -19,28 +16,6 @@ static struct look look_of(const struct rg_draw *draw)
         .blend = target.colour == RG_FORMAT_NONE ? RG_BLEND_OFF : draw->blend,
         .depth_mode = target.depth ? draw->depth_mode : RG_DEPTH_OFF,
     };
-}
-
-// Drivers need not draw to every format, nor blend.
-static bool check_formats(const struct vk_device *device, const struct look *look, const char *name)
-{
-    const enum rg_format formats[] = {look->target.colour,
-                                      look->target.depth ? RG_D32F : RG_FORMAT_NONE};
-    const VkFormatFeatureFlags needed[] = {
-        VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT |
-            (look->blend == RG_BLEND_OFF ? 0 : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT),
-        VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT};
-    for (int i = 0; i < 2; i++) {
-        VkFormatProperties able;
-        if (formats[i] == RG_FORMAT_NONE)
-            continue;
-        vkGetPhysicalDeviceFormatProperties(device->physical, vk_format(formats[i]), &able);
-        if ((able.optimalTilingFeatures & needed[i]) != needed[i])
-            return rg_error("unsupported: kernel '%s': %s does not %s to %s", name,
-                            device->pub.info.name, look->blend == RG_BLEND_OFF ? "draw" : "blend",
-                            rg_format_name(formats[i]));
-    }
-    return true;
 }
 
 static VkPipelineColorBlendAttachmentState blend_state(enum rg_blend blend)
@@ -149,7 +124,7 @@ VkPipeline vk_pipeline_of(struct vk_device *device, struct vk_pass *pass,
 {
     const struct look look = look_of(draw);
     VkPipeline *kept = &pass->drawing->pipelines[look.target.colour][look.blend][look.depth_mode];
-    if (!*kept && check_formats(device, &look, pass->pub.kernel->name))
+    if (!*kept)
         create_pipeline(device, pass, &look, kept);
     return *kept;
 }

@@ -6,7 +6,6 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "kernels/dialect/draw/clip.h"
 
 static bool create_module(struct vk_device *device, const struct rg_kernel *kernel,
                           enum rg_code_kind kind, VkShaderModule *module)
@@ -54,33 +53,11 @@ static bool create_pipeline(struct vk_device *device, const struct rg_kernel *ke
     return ok;
 }
 
-// What a device may lack. Corners keep their place on the grid only in a viewport as large as
-// kernels/dialect/draw/clip.h says.
-static bool check_able(const struct vk_device *device, const struct rg_kernel *kernel)
-{
-    const VkPhysicalDeviceLimits *limits = &device->limits;
-    const char *name = device->pub.info.name, *says = "unsupported: kernel '%s': %s %s";
-    if (!device->family.draws)
-        return rg_unsupported(says, kernel->name, name, "has no queue that draws");
-    if (!device->counts_samples)
-        return rg_error(says, kernel->name, name,
-                        "lets no fragment write (fragmentStoresAndAtomics is false)");
-    if (limits->maxViewportDimensions[0] < RG_VIEWPORT_PX ||
-        limits->maxViewportDimensions[1] < RG_VIEWPORT_PX || limits->subPixelPrecisionBits < 8)
-        return rg_error("unsupported: kernel '%s': %s has viewports of %ux%u px and %u bits below "
-                        "a pixel; %d px and 8 bits are needed",
-                        kernel->name, name, limits->maxViewportDimensions[0],
-                        limits->maxViewportDimensions[1], limits->subPixelPrecisionBits,
-                        RG_VIEWPORT_PX);
-    return true;
-}
-
 static bool create_drawing(struct vk_device *device, const struct rg_kernel *kernel,
                            struct vk_pass *pass)
 {
     struct vk_drawing *drawing = pass->drawing = rg_alloc(1, sizeof(*drawing), kernel->name);
-    return drawing && check_able(device, kernel) &&
-           create_module(device, kernel, RG_CODE_VERTEX_SPIRV, &drawing->vertex) &&
+    return drawing && create_module(device, kernel, RG_CODE_VERTEX_SPIRV, &drawing->vertex) &&
            create_module(device, kernel, RG_CODE_FRAGMENT_SPIRV, &drawing->fragment);
 }
 

@@ -3,8 +3,6 @@
 
 #include <string.h>
 
-#include "core/base/log.h"
-
 static VkDescriptorType descriptor_type(enum rg_slot_kind kind)
 {
     if (kind == RG_SLOT_IMAGE)
@@ -12,30 +10,6 @@ static VkDescriptorType descriptor_type(enum rg_slot_kind kind)
     if (kind == RG_SLOT_OUT_IMAGE)
         return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-}
-
-static bool check_slots(const struct vk_device *device, const struct vk_pass *pass,
-                        const struct rg_kernel *kernel)
-{
-    uint32_t buffers = 0, sampled = 0, stored = 0;
-    for (int i = 0; i < pass->slot_count; i++) {
-        VkDescriptorType type = descriptor_type(pass->slots[i].kind);
-        buffers += type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        sampled += type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        stored += type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    }
-    const VkPhysicalDeviceLimits *most = &device->limits;
-    uint32_t max_sampled = most->maxPerStageDescriptorSampledImages;
-    if (max_sampled > most->maxPerStageDescriptorSamplers)
-        max_sampled = most->maxPerStageDescriptorSamplers;
-    if (buffers > most->maxPerStageDescriptorStorageBuffers || sampled > max_sampled ||
-        stored > most->maxPerStageDescriptorStorageImages)
-        return rg_error("kernel '%s': %u buffers, %u images and %u images to store to; %s allows "
-                        "%u, %u and %u",
-                        kernel->name, buffers, sampled, stored, device->pub.info.name,
-                        most->maxPerStageDescriptorStorageBuffers, max_sampled,
-                        most->maxPerStageDescriptorStorageImages);
-    return true;
 }
 
 // Who reads the uniform block, and who reads a slot: no program's vertices read its own.
@@ -105,8 +79,7 @@ static bool create_update(struct vk_device *device, const struct rg_kernel *kern
 
 bool vk_slots_create(struct vk_device *device, struct vk_pass *pass, const struct rg_kernel *kernel)
 {
-    return check_slots(device, pass, kernel) && create_set_layout(device, kernel, pass) &&
-           create_update(device, kernel, pass);
+    return create_set_layout(device, kernel, pass) && create_update(device, kernel, pass);
 }
 
 void vk_slots_destroy(struct vk_device *device, struct vk_pass *pass)

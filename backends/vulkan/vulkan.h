@@ -12,8 +12,9 @@
 
 enum {
     VK_BATCHES = 3,
-    VK_BATCH_RUNS = 64,         // pass runs a batch, at most
-    VK_BATCH_DESCRIPTORS = 512, // of each type
+    VK_BATCH_RUNS = 64,                      // pass runs a batch, at most
+    VK_BATCH_DESCRIPTORS = 512,              // of each type
+    VK_OWN_ALLOCATIONS = 2 * VK_BATCHES + 2, // parameters, staging and what stands for nothing
     VK_PARAMS_BYTES = 128 * 1024,
     VK_MIN_STAGING_BYTES = 256 * 1024,
     VK_MAX_STAGING_BYTES = 16 * 1024 * 1024, // larger transfers travel in parts
@@ -69,12 +70,10 @@ struct vk_device {
     VkPhysicalDeviceLimits limits;
     VkPhysicalDeviceMemoryProperties memory;
     VkDeviceSize max_allocation_bytes;
-    uint32_t allocations; // alive; drivers limit their number
-    bool direct;          // the host reads and writes device memory at full speed
+    bool direct; // the host reads and writes device memory at full speed
     VkDevice handle;
     VkQueue queue;
     struct vk_family family;
-    bool counts_samples; // fragments may add to buffers
     VkSampler sampler;
     VkQueryPool queries; // one timestamp
     uint64_t ticks_mask; // the valid bits of a timestamp; 0: there are none
@@ -145,6 +144,10 @@ int vk_physical_devices(const struct vk_instance *instance, VkPhysicalDevice *de
 bool vk_queue_family(VkPhysicalDevice device, struct vk_family *family);
 void vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info);
 
+// limits.c
+struct rg_limits vk_limits(VkPhysicalDevice device, const VkPhysicalDeviceLimits *limits,
+                           uint64_t max_allocation_bytes);
+
 // error.c
 const char *vk_result_name(VkResult result);
 // True if `result` is a success; else logs "noun 'name': call failed with ..." and is false.
@@ -197,6 +200,8 @@ bool vk_buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size);
 
 // formats.c
 VkFormat vk_format(enum rg_format format);
+// All that images of a format are made for: bits of enum rg_format_use.
+VkImageUsageFlags vk_usage(enum rg_format format, unsigned uses);
 VkImageAspectFlags vk_aspect(enum rg_format format);
 
 // image.c

@@ -7,6 +7,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/require.h"
+#include "core/device/limits.h"
 #include "core/device/packing.h"
 #include "core/device/shared.h"
 
@@ -130,5 +131,5 @@ bool rg_device_sync(struct rg_device *device)
 
 bool rg_device_time(struct rg_device *device, int64_t *time_ns)
 {
-    return device->backend->time(device, time_ns);
+    return rg_limits_allow_time(&device->info) && device->backend->time(device, time_ns);
 }

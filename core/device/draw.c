@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/device/grid.h"
+#include "core/device/limits.h"
 #include "core/device/packing.h"
 #include "core/device/targets.h"
 #include "kernels/dialect/draw/blend.h"
@@ -45,7 +46,8 @@ static void fill_state(const struct rg_draw *draw, rg_draw_state *state)
 
 bool rg_draw_run(struct rg_pass *pass, const struct rg_run *run)
 {
-    if (!rg_run_check(pass, run) || !rg_target_check(pass, run))
+    if (!rg_run_check(pass, run) || !rg_target_check(pass, run) ||
+        !rg_limits_allow_draw(&pass->device->info, pass->kernel, run->draw))
         return false;
     rg_run_count(pass, run);
     const bool packed = pass->device->backend->packed;

@@ -1,5 +1,6 @@
 #include "core/device/formats.h"
 
+#include <limits.h>
 #include <string.h>
 
 static const struct {
@@ -37,6 +38,12 @@ int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX
         words += (texels * rg_format_size(desc->format) + 3) / 4;
     }
     return rg_format_size(desc->format) < 4 ? words + 1 : words; // two texels are read at once
+}
+
+// A texel of half a word is counted in halves.
+int64_t rg_image_most_bytes(enum rg_format format)
+{
+    return (int64_t)(rg_format_size(format) < 4 ? INT_MAX / 2 : INT_MAX) * 4;
 }
 
 size_t rg_image_locate(const struct rg_image_desc *desc, const uint32_t header[RG_MAX_LEVELS],

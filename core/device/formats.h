@@ -19,6 +19,22 @@ enum rg_format {
     RG_FORMAT_COUNT
 };
 
+// What images of a format may be for: bits. Kernels fetch all that there are.
+enum rg_format_use {
+    RG_USE_FETCH = 1,
+    RG_USE_STORE = 2, // kernels store to them
+    RG_USE_DRAW = 4,
+    RG_USE_BLEND = 8,
+    RG_USE_ALL = 15,
+};
+
+// What a device allows an image of a format.
+struct rg_format_limits {
+    unsigned uses;                      // enum rg_format_use; 0: it has no such images
+    int max_px, max_layers, max_levels; // px: width and height
+    int64_t max_bytes;                  // of all layers and levels as rg_image_layout counts them
+};
+
 struct rg_image_desc {
     enum rg_format format;
     int width, height, layers;
@@ -35,6 +51,8 @@ int rg_level_size(int size, int level);
 // the word at which each level begins, which is also the image's header, and the words of the whole
 // image, header included.
 int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX_LEVELS]);
+// The most bytes of such an image whose texels kernels can count in an int.
+int64_t rg_image_most_bytes(enum rg_format format);
 // Where a layer of a level begins in it, and its size, both in bytes.
 size_t rg_image_locate(const struct rg_image_desc *desc, const uint32_t header[RG_MAX_LEVELS],
                        int layer, int level, size_t *size);

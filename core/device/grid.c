@@ -3,6 +3,7 @@
 #include <limits.h>
 
 #include "core/base/require.h"
+#include "core/device/limits.h"
 #include "core/device/work.h"
 
 // --- passes ---
@@ -11,7 +12,9 @@ struct rg_pass *rg_grid_create(struct rg_device *device, const char *name)
 {
     const struct rg_kernel *kernel = rg_kernel_find(name);
     require_or_null(kernel, "kernel '%s': unknown; kernels/meson.build lists them", name);
-    struct rg_pass *pass = device->backend->pass_create(device, kernel);
+    struct rg_pass *pass = rg_limits_allow_kernel(&device->info, kernel)
+                               ? device->backend->pass_create(device, kernel)
+                               : NULL;
     if (!pass)
         return NULL;
     pass->device = device;

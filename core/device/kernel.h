@@ -57,6 +57,10 @@ enum {
     RG_SLOT_BEHIND = 15,  // of fragments: the depth that counted samples are held against
 };
 
+// What its fragments are bound to, where a driver draws them, beside the program's own slots.
+enum { RG_DRAWN_SLOTS = 3 };
+extern const struct rg_slot_info rg_drawn_slots[RG_DRAWN_SLOTS];
+
 // What a DRAW program has that a GRID kernel has not.
 struct rg_draw_info {
     int corners;              // of an item: 3 or 4

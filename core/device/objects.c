@@ -1,8 +1,7 @@
 #include "core/device/objects.h"
 
-#include <limits.h>
-
 #include "core/base/require.h"
+#include "core/device/limits.h"
 #include "core/device/work.h"
 
 // --- buffers ---
@@ -13,11 +12,10 @@ struct rg_buf *rg_buf_create(struct rg_device *device, int64_t size, const char 
                     (long long)size);
     require_or_null(size % 4 == 0, "buffer '%s': its size, %lld bytes, is no multiple of 4", name,
                     (long long)size);
-    if (size > device->info.limits.max_buffer_bytes)
-        return rg_unsupported_null(
-            "buffer '%s': %lld bytes exceed the %lld bytes that %s allows a buffer", name,
-            (long long)size, (long long)device->info.limits.max_buffer_bytes, device->info.name);
-    struct rg_buf *buf = device->backend->buf_create(device, (size_t)size, name);
+    struct rg_buf *buf = rg_limits_allow_object(device, "buffer", name) &&
+                                 rg_limits_allow_buf(&device->info, size, name)
+                             ? device->backend->buf_create(device, (size_t)size, name)
+                             : NULL;
     if (!buf)
         return NULL;
     buf->device = device;
@@ -66,42 +64,21 @@ bool rg_buf_read(struct rg_buf *buf, int64_t offset, void *data, int64_t size)
 
 // --- images ---
 
-bool rg_image_layout_fits(const struct rg_device *device, const struct rg_image_desc *desc,
-                          const char *name)
-{
-    uint32_t header[RG_MAX_LEVELS];
-    const int64_t words = rg_image_layout(desc, header);
-    const int64_t most = rg_format_size(desc->format) < 4 ? INT_MAX / 2 : INT_MAX;
-    require(words <= most,
-            "image '%s': %lld bytes exceed the %lld bytes that %s allows an image of %s", name,
-            (long long)words * 4, (long long)most * 4, device->info.name,
-            rg_format_name(desc->format));
-    return true;
-}
-
 static int64_t image_bytes(const struct rg_image_desc *desc)
 {
     uint32_t header[RG_MAX_LEVELS];
     return (rg_image_layout(desc, header) - RG_MAX_LEVELS) * 4;
 }
 
-static bool check_desc(const struct rg_device *device, const struct rg_image_desc *d,
-                       const char *name)
+static bool check_desc(const struct rg_image_desc *d, const char *name)
 {
-    const struct rg_limits *limits = &device->info.limits;
     require(d->format > RG_FORMAT_NONE && d->format < RG_FORMAT_COUNT,
             "image '%s': unknown format %d", name, (int)d->format);
     require(d->width > 0 && d->height > 0 && d->layers > 0,
             "image '%s': %dx%d with %d layers; each must be above 0", name, d->width, d->height,
             d->layers);
-    if (d->width > limits->max_image_px || d->height > limits->max_image_px ||
-        d->layers > limits->max_image_layers)
-        return rg_unsupported(
-            "image '%s': %dx%d with %d layers exceeds the %d px and %d layers that %s allows", name,
-            d->width, d->height, d->layers, limits->max_image_px, limits->max_image_layers,
-            device->info.name);
     int largest = d->width > d->height ? d->width : d->height;
-    require(d->levels >= 1 && d->levels <= 16 && largest >> (d->levels - 1) >= 1,
+    require(d->levels >= 1 && d->levels <= RG_MAX_LEVELS && largest >> (d->levels - 1) >= 1,
             "image '%s': %d levels do not fit %dx%d", name, d->levels, d->width, d->height);
     return true;
 }
@@ -109,7 +86,8 @@ static bool check_desc(const struct rg_device *device, const struct rg_image_des
 struct rg_image *rg_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                  const char *name)
 {
-    if (!check_desc(device, desc, name))
+    if (!check_desc(desc, name) || !rg_limits_allow_object(device, "image", name) ||
+        !rg_limits_allow_image(&device->info, desc, name))
         return NULL;
     struct rg_image *image = device->backend->image_create(device, desc, name);
     if (!image)

@@ -22,8 +22,4 @@ bool rg_image_write(struct rg_image *image, int layer, int level, const void *te
 bool rg_image_read(struct rg_image *image, int layer, int level, void *texels);
 bool rg_image_clear(struct rg_image *image, const void *texel);
 
-// Whether kernels can count such an image's texels in an int; if not, logs one line and is false.
-bool rg_image_layout_fits(const struct rg_device *device, const struct rg_image_desc *desc,
-                          const char *name);
-
 #endif

@@ -27,7 +27,7 @@ struct suite_tests {
 };
 extern const struct suite_tests buffer_tests, image_tests, texel_tests, kernel_tests, refusal_tests,
     lifetime_tests, scan_tests, probe_tests, draw_tests, target_tests, filter_tests, large_tests,
-    light_tests;
+    light_tests, lack_tests;
 
 // Seeded words that look random.
 uint32_t noise(uint32_t i);
@@ -53,6 +53,13 @@ const char *heard_all(void);
         if (accepted_ || !strstr(line_, part))                                                     \
             fail_msg("%s: %s, '%s' does not say '%s'", #call, accepted_ ? "accepted" : "refused",  \
                      line_, part);                                                                 \
+    } while (0)
+
+// As assert_refused, because the device lacks it.
+#define assert_lacks(call, part)                                                                   \
+    do {                                                                                           \
+        assert_refused(call, part);                                                                \
+        assert_int_equal(rg_last_error_kind(), RG_ERROR_UNSUPPORTED);                              \
     } while (0)
 
 #endif

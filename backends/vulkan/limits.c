@@ -1,0 +1,105 @@
+// What a device can do, as core/device checks it.
+#include "backends/vulkan/vulkan.h"
+
+#include <limits.h>
+#include <stdio.h>
+
+#include "kernels/dialect/draw/clip.h"
+
+static int at_most_int(uint64_t value)
+{
+    return value < INT_MAX ? (int)value : INT_MAX;
+}
+
+static int64_t at_most_int64(uint64_t value)
+{
+    return value < INT64_MAX ? (int64_t)value : INT64_MAX;
+}
+
+// Images of depth belong to a queue that draws: another may not even write them.
+static unsigned uses_of(VkPhysicalDevice device, enum rg_format format, bool draws)
+{
+    VkFormatProperties properties;
+    vkGetPhysicalDeviceFormatProperties(device, vk_format(format), &properties);
+    const VkFormatFeatureFlags able = properties.optimalTilingFeatures;
+    const VkFormatFeatureFlags drawn_to = format == RG_D32F
+                                              ? VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                              : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
+    unsigned uses = format != RG_D32F || draws ? RG_USE_FETCH : 0;
+    if (uses && able & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT)
+        uses |= RG_USE_STORE;
+    if (uses && able & drawn_to)
+        uses |= RG_USE_DRAW;
+    if (uses && able & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT)
+        uses |= RG_USE_BLEND;
+    return uses;
+}
+
+// A driver may allow less for a format than for images in general.
+static struct rg_format_limits format_limits(VkPhysicalDevice device, enum rg_format format,
+                                             bool draws)
+{
+    const unsigned uses = uses_of(device, format, draws);
+    VkImageFormatProperties most;
+    if (!uses || vkGetPhysicalDeviceImageFormatProperties(
+                     device, vk_format(format), VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL,
+                     vk_usage(format, uses), 0, &most) != VK_SUCCESS)
+        return (struct rg_format_limits){0};
+    const uint32_t side =
+        most.maxExtent.width < most.maxExtent.height ? most.maxExtent.width : most.maxExtent.height;
+    return (struct rg_format_limits){
+        .uses = uses,
+        .max_px = at_most_int(side),
+        .max_layers = at_most_int(most.maxArrayLayers),
+        .max_levels = at_most_int(most.maxMipLevels),
+        .max_bytes = at_most_int64(most.maxResourceSize),
+    };
+}
+
+// Corners keep their place on the grid only in a viewport as large as
+// kernels/dialect/draw/clip.h says.
+static void say_no_draws(VkPhysicalDevice device, const VkPhysicalDeviceLimits *l, bool draws,
+                         char *why, size_t size)
+{
+    VkPhysicalDeviceFeatures able;
+    vkGetPhysicalDeviceFeatures(device, &able);
+    const uint32_t *px = l->maxViewportDimensions;
+    if (!draws)
+        snprintf(why, size, "has no queue that draws");
+    else if (!able.fragmentStoresAndAtomics)
+        snprintf(why, size, "lets no fragment write (fragmentStoresAndAtomics is false)");
+    else if (px[0] < RG_VIEWPORT_PX || px[1] < RG_VIEWPORT_PX || l->subPixelPrecisionBits < 8)
+        snprintf(why, size,
+                 "has viewports of %ux%u px and %u bits below a pixel; %d px and 8 bits are needed",
+                 px[0], px[1], l->subPixelPrecisionBits, RG_VIEWPORT_PX);
+}
+
+struct rg_limits vk_limits(VkPhysicalDevice device, const VkPhysicalDeviceLimits *l,
+                           uint64_t max_allocation_bytes)
+{
+    struct vk_family family = {0};
+    vk_queue_family(device, &family);
+    const uint64_t max_bytes = l->maxStorageBufferRange < max_allocation_bytes
+                                   ? l->maxStorageBufferRange
+                                   : max_allocation_bytes;
+    const uint32_t sampled = l->maxPerStageDescriptorSampledImages,
+                   samplers = l->maxPerStageDescriptorSamplers;
+    struct rg_limits limits = {
+        .max_objects = at_most_int(l->maxMemoryAllocationCount) - VK_OWN_ALLOCATIONS,
+        .max_buffer_bytes = (int64_t)(max_bytes / 4 * 4),
+        .max_image_px = at_most_int(l->maxImageDimension2D),
+        .max_image_layers = at_most_int(l->maxImageArrayLayers),
+        .group_items = 64,
+        .slot_count = {.buffers = at_most_int(l->maxPerStageDescriptorStorageBuffers),
+                       .images = at_most_int(sampled < samplers ? sampled : samplers),
+                       .out_images = at_most_int(l->maxPerStageDescriptorStorageImages)},
+        .slot_end = {RG_MAX_SLOTS, RG_MAX_SLOTS, RG_MAX_SLOTS},
+        .has_clock = family.timestamp_bits > 0,
+    };
+    for (int i = 0; i < 3; i++)
+        limits.max_groups[i] = at_most_int(l->maxComputeWorkGroupCount[i]);
+    for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++)
+        limits.formats[f] = format_limits(device, (enum rg_format)f, family.draws);
+    say_no_draws(device, l, family.draws, limits.no_draws, sizeof(limits.no_draws));
+    return limits;
+}

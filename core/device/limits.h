@@ -1,0 +1,20 @@
+// What a device lacks, said once, from its limits: each function logs one line with rg_unsupported
+// and is false where the device cannot do what it is asked.
+#ifndef RG_CORE_DEVICE_LIMITS_H
+#define RG_CORE_DEVICE_LIMITS_H
+
+#include "backends/backend.h"
+
+// One more buffer or image (`noun`) beside those that live.
+bool rg_limits_allow_object(const struct rg_device *device, const char *noun, const char *name);
+bool rg_limits_allow_buf(const struct rg_device_info *info, int64_t size, const char *name);
+bool rg_limits_allow_image(const struct rg_device_info *info, const struct rg_image_desc *desc,
+                           const char *name);
+// Slots and formats of a kernel, and of a DRAW program that the device draws at all.
+bool rg_limits_allow_kernel(const struct rg_device_info *info, const struct rg_kernel *kernel);
+// Formats that a run of a DRAW program draws to and blends with.
+bool rg_limits_allow_draw(const struct rg_device_info *info, const struct rg_kernel *kernel,
+                          const struct rg_draw *draw);
+bool rg_limits_allow_time(const struct rg_device_info *info);
+
+#endif
