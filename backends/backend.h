@@ -21,8 +21,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "backends/kernel.h"
 #include "core/base/tier.h"
-#include "core/device/kernel.h"
 
 struct rg_extent {
     int width, height, depth; // items

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "backends/formats.h"
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "core/device/formats.h"
 
 struct rg_image *cpu_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                   const char *name)

@@ -1,6 +1,6 @@
 #include "backends/cpu/cpu.h"
 
-#include "core/device/formats.h"
+#include "backends/formats.h"
 
 static uint *texels_of(struct rg_image *image, const struct rg_draw *draw)
 {

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "backends/formats.h"
 #include "core/base/alloc.h"
-#include "core/device/formats.h"
 
 void gl_images_begin(void)
 {

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
+#include "backends/formats.h"
 #include "core/base/log.h"
-#include "core/device/formats.h"
 
 static GLuint id_of(const struct rg_image *image)
 {

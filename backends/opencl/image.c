@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "backends/formats.h"
 #include "core/base/alloc.h"
-#include "core/device/formats.h"
 
 struct rg_image *opencl_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                      const char *name)

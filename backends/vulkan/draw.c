@@ -3,7 +3,7 @@
 // grid.
 #include "backends/vulkan/vulkan.h"
 
-#include "core/device/formats.h"
+#include "backends/formats.h"
 #include "kernels/dialect/draw/clip.h"
 
 // --- slots ---

@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
+#include "backends/formats.h"
 #include "core/base/alloc.h"
-#include "core/device/formats.h"
 
 struct vk_framebuffer {
     struct vk_framebuffer *next;

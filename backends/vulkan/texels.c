@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "core/device/formats.h"
+#include "backends/formats.h"
 #include "kernels/dialect/image/memory.h"
 
 // Part of one layer of one level.

@@ -12,7 +12,7 @@
 
 static_assert((int)RG_RGBA8_FORMAT == (int)RG_RGBA8 && (int)RG_RGBA16F_FORMAT == (int)RG_RGBA16F &&
                   (int)RG_RGBA32F_FORMAT == (int)RG_RGBA32F,
-              "kernels/dialect/draw/state.h and core/device/formats.h number formats alike");
+              "kernels/dialect/draw/state.h and backends/formats.h number formats alike");
 static_assert((int)RG_DEPTH_IS_OFF == (int)RG_DEPTH_OFF &&
                   (int)RG_DEPTH_IS_TEST == (int)RG_DEPTH_TEST &&
                   (int)RG_DEPTH_IS_WRITE == (int)RG_DEPTH_WRITE,

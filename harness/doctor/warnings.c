@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/device/kernel.h"
+#include "backends/kernel.h"
 #include "harness/doctor/report.h"
 #include "harness/record/passport/machine.h"
 #include "harness/record/named.h"

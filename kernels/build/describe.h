@@ -1,5 +1,5 @@
-// Turns the kernel header that was just included into its row for core/device/kernel.h. C only.
-#include "core/device/kernel.h"
+// Turns the kernel header that was just included into its row for backends/kernel.h. C only.
+#include "backends/kernel.h"
 
 #define RG_CAT_(a, b)            a##b
 #define RG_CAT(a, b)             RG_CAT_(a, b)

@@ -25,7 +25,7 @@ def main():
     for path in files:
         kernel, kind = os.path.basename(path).split(".", 1)
         by_kernel.setdefault(kernel, {})[kind] = path
-    c = ['#include "core/device/kernel.h"\n']
+    c = ['#include "backends/kernel.h"\n']
     s = ['    .section .note.GNU-stack,"",%progbits\n    .section .rodata\n']
     for kernel, paths in by_kernel.items():
         entries = []

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "core/device/kernel.h"
+#include "backends/kernel.h"
 
 // A module's words. NULL and 0 where the kernel lacks the stage.
 struct spirv_module {

@@ -31,7 +31,6 @@ KNOWN = (
     "circle: backends",
     "circle: harness/record uses ",
     "circle: harness/tables/papers/creus",
-    "backends/backend.h includes core/device/kernel.h",
     "harness/record/journal.h includes harness/tables/table.h",
     "harness/record/rows.h includes harness/tables/table.h",
     "backends/cpu: ",

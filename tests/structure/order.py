@@ -47,7 +47,7 @@ FENCES = {
     "core/scene": "core/image core/device core/base kernels/scenery kernels/dialect",
     "core/image": "core/base",
     # A backend runs any kernel, and so knows none.
-    "backends/B": "core/device backends core/base kernels/dialect",
+    "backends/B": "backends core/base kernels/dialect",
     "core/base": "",
 }
 

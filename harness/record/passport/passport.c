@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/device/kernel.h"
+#include "backends/kernel.h"
 #include "harness/record/passport/build_info.h"
 #include "harness/record/passport/machine.h"
 #include "harness/record/named.h"

@@ -7,7 +7,7 @@
 // Items that one work item of the packing stages handles, in order; each has a bit of a word.
 #define RG_DRAW_CHUNK 32
 
-// enum rg_format of core/device/formats.h.
+// enum rg_format of backends/formats.h.
 #define RG_RGBA8_FORMAT   1
 #define RG_RGBA16F_FORMAT 2
 #define RG_RGBA32F_FORMAT 3

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "core/device/kernel.h"
+#include "backends/kernel.h"
 
 struct colour {
     float r, g, b, a;

@@ -1,4 +1,4 @@
-#include "core/device/kernel.h"
+#include "backends/kernel.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,13 +2,13 @@
 //
 // One table row a kernel, made by the build from kernels/*.h (kernels/meson.build lists them). A
 // kernel's C functions belong to the cpu backend and are not here.
-#ifndef RG_CORE_DEVICE_KERNEL_H
-#define RG_CORE_DEVICE_KERNEL_H
+#ifndef RG_BACKENDS_KERNEL_H
+#define RG_BACKENDS_KERNEL_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "core/device/formats.h"
+#include "backends/formats.h"
 #include "kernels/dialect/limits.h"
 
 enum rg_slot_kind {

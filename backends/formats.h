@@ -1,6 +1,6 @@
 // Formats of images, and how images lie in plain memory.
-#ifndef RG_CORE_DEVICE_FORMATS_H
-#define RG_CORE_DEVICE_FORMATS_H
+#ifndef RG_BACKENDS_FORMATS_H
+#define RG_BACKENDS_FORMATS_H
 
 #include <stddef.h>
 #include <stdint.h>

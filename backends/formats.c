@@ -1,4 +1,4 @@
-#include "core/device/formats.h"
+#include "backends/formats.h"
 
 #include <limits.h>
 #include <string.h>
