@@ -3,7 +3,7 @@
 #define RG_BACKENDS_CPU_CPU_H
 
 #include "backends/backend.h"
-#include "backends/cpu/call.h"
+#include "backends/cpu/kernels/call.h"
 
 // The instruction sets that the kernels were built for, slowest first, "reference" before all.
 struct cpu_level {

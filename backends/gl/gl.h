@@ -121,7 +121,7 @@ struct gl_pass {
     GLbitfield after_runs; // barriers that make this pass's writes visible
 };
 
-// egl.c
+// api/egl.c
 void gl_search_begin(struct gl_search *search);
 // Opens the next target that works and makes its context current; false: there is none left.
 bool gl_search_next(struct gl_search *search, struct gl_egl *egl);
@@ -129,7 +129,7 @@ void gl_egl_close(struct gl_egl *egl);
 // Makes the device's context current on this thread unless it is.
 bool gl_use(struct gl_device *device);
 
-// error.c
+// api/error.c
 
 // Turns the driver's messages about errors into the text that gl_check logs.
 void gl_debug_begin(struct gl_device *device);
@@ -151,7 +151,7 @@ struct gl_format {
 };
 struct gl_format gl_format(enum rg_format format);
 
-// bound.c
+// api/bound.c
 void gl_bind_program(struct gl_bound *bound, GLuint id);
 void gl_bind_buffer(struct gl_bound *bound, int slot, GLuint id);
 void gl_bind_texture(struct gl_bound *bound, int slot, GLuint id);
@@ -163,7 +163,7 @@ void gl_forget_buffer(struct gl_bound *bound, GLuint id);
 void gl_forget_texture(struct gl_bound *bound, GLuint id);
 void gl_forget_framebuffer(struct gl_bound *bound, GLuint id);
 
-// params.c
+// api/params.c
 bool gl_params_create(struct gl_device *device);
 void gl_params_destroy(struct gl_device *device);
 // Puts a run's uniform block where its dispatch finds it: binding 0.

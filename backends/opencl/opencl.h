@@ -62,7 +62,7 @@ struct opencl_pass {
     cl_kernel variants[OPENCL_VARIANTS];
 };
 
-// error.c: an error code by its name in cl.h, "CL_INVALID_VALUE"; "error -9999" for others.
+// api/error.c: an error code by its name in cl.h, "CL_INVALID_VALUE"; "error -9999" for others.
 const char *opencl_error_name(cl_int code);
 // True for CL_SUCCESS. Else logs one line that names object, call and code, and is false.
 bool opencl_check(cl_int code, const char *call, const char *kind, const char *name);
@@ -72,7 +72,7 @@ bool opencl_check(cl_int code, const char *call, const char *kind, const char *n
 int opencl_hide_messages(void);
 void opencl_show_messages(int hidden);
 
-// queue.c
+// api/queue.c
 // Call before each command that is queued without waiting for it.
 void opencl_will_queue(struct opencl_device *device);
 // Call when the queue is known to have ended.

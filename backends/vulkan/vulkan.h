@@ -132,7 +132,7 @@ struct vk_pass {
     union vk_descriptor bound[RG_MAX_SLOTS];
 };
 
-// instance.c
+// api/instance.c
 // Opens an instance, with the validation layer if `validate`. `why` receives one line on failure.
 bool vk_instance_open(struct vk_instance *instance, bool validate, char *why, size_t why_size);
 void vk_instance_close(struct vk_instance *instance);
@@ -144,11 +144,11 @@ int vk_physical_devices(const struct vk_instance *instance, VkPhysicalDevice *de
 bool vk_queue_family(VkPhysicalDevice device, struct vk_family *family);
 void vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info);
 
-// limits.c
+// api/limits.c
 struct rg_limits vk_limits(VkPhysicalDevice device, const VkPhysicalDeviceLimits *limits,
                            uint64_t max_allocation_bytes);
 
-// error.c
+// api/error.c
 const char *vk_result_name(VkResult result);
 // True if `result` is a success; else logs "noun 'name': call failed with ..." and is false.
 bool vk_check(VkResult result, const char *call, const char *noun, const char *name);
@@ -160,7 +160,7 @@ bool vk_healthy(struct vk_device *device);
 void vk_name(struct vk_device *device, VkObjectType type, uint64_t handle, const char *name);
 #define VK_HANDLE(handle) ((uint64_t)(uintptr_t)(handle))
 
-// memory.c
+// api/memory.c
 enum vk_memory_use { VK_USE_DEVICE, VK_USE_HOST };
 bool vk_memory_create(struct vk_device *device, const VkMemoryRequirements *needs,
                       enum vk_memory_use use, const char *noun, const char *name,
@@ -172,7 +172,7 @@ void vk_block_destroy(struct vk_device *device, struct vk_block *block);
 // Whether VK_USE_DEVICE memory is mapped, and read by the host without waiting for a bus.
 bool vk_memory_is_direct(const VkPhysicalDeviceMemoryProperties *memory);
 
-// batch.c
+// api/batch.c
 bool vk_batches_create(struct vk_device *device);
 void vk_batches_destroy(struct vk_device *device);
 // The batch to record into, begun if need be; NULL when the driver failed.
@@ -209,7 +209,7 @@ struct rg_image *vk_image_create(struct rg_device *device, const struct rg_image
                                  const char *name);
 void vk_image_destroy(struct rg_image *image);
 
-// texels.c
+// api/texels.c
 bool vk_image_write(struct rg_image *image, int layer, int level, const void *texels);
 bool vk_image_read(struct rg_image *image, int layer, int level, void *texels);
 bool vk_image_clear(struct rg_image *image, const void *texel);
@@ -252,7 +252,7 @@ bool vk_program_create(struct vk_device *device, const struct rg_kernel *kernel,
                        struct vk_pass *pass);
 void vk_program_destroy(struct vk_device *device, struct vk_pass *pass);
 
-// pipeline.c
+// api/pipeline.c
 // The pipeline of a program's way to draw, which the pass keeps; VK_NULL_HANDLE where the driver
 // failed.
 VkPipeline vk_pipeline_of(struct vk_device *device, struct vk_pass *pass,

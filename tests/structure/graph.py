@@ -33,8 +33,6 @@ KNOWN = (
     "circle: harness/tables/papers/creus",
     "harness/record/journal.h includes harness/tables/table.h",
     "harness/record/rows.h includes harness/tables/table.h",
-    "backends/cpu: ",
-    "backends/vulkan: ",
 )
 
 

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "backends/cpu/call.h"
+#include "backends/cpu/kernels/call.h"
 #include "kernels/dialect/draw/clip.h"
 
 enum {

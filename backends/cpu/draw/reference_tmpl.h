@@ -1,6 +1,6 @@
 // Makes a C function of the DRAW program that was just included, for cpu:reference: plain loops
 // over items, triangles and pixels, in order.
-#include "backends/cpu/bind_tmpl.h"
+#include "backends/cpu/kernels/bind_tmpl.h"
 #include "kernels/dialect/draw/blend.h"
 #include "kernels/dialect/draw/coverage.h"
 #include "kernels/dialect/draw/lit.h"

@@ -2,8 +2,8 @@
 //
 // They run to a multiple of CPU_LANES, which spares them a remainder. What is added repeats the
 // last element, for nothing else may be read.
-#include "backends/cpu/bind_tmpl.h"
 #include "backends/cpu/draw/program.h"
+#include "backends/cpu/kernels/bind_tmpl.h"
 
 static void make_items(const struct cpu_call *call, int begin, int count, struct cpu_items *items)
 {

@@ -2,8 +2,8 @@
 #include <stdio.h>
 
 #include "tests/core/device/draws/quads.h"
+#include "tests/core/device/images/texels.h"
 #include "tests/core/device/suite.h"
-#include "tests/core/device/texels.h"
 #include "tests/kernels/lights_params.h"
 
 enum { WIDTH = 333, HEIGHT = 217, PIXELS = WIDTH * HEIGHT, LIGHTS = 16, LAYERS = 3 };

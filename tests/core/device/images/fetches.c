@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "tests/core/device/images/texels.h"
 #include "tests/core/device/suite.h"
-#include "tests/core/device/texels.h"
 #include "tests/kernels/image_copy_params.h"
 #include "tests/kernels/texels/params.h"
 

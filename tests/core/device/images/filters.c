@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "tests/core/device/images/texels.h"
 #include "tests/core/device/suite.h"
-#include "tests/core/device/texels.h"
 #include "tests/kernels/texels/filter/params.h"
 
 enum { LAYERS = 3, LEVELS = 7, READS = 6000 };

@@ -1,6 +1,6 @@
 // Images keep texels of every format, layer and level.
+#include "tests/core/device/images/texels.h"
 #include "tests/core/device/suite.h"
-#include "tests/core/device/texels.h"
 
 static const struct {
     int width, height, layers, levels;

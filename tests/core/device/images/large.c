@@ -1,6 +1,6 @@
 // Images of hundreds of megabytes: an atlas of streaks, a city's textures, a map of depth.
+#include "tests/core/device/images/texels.h"
 #include "tests/core/device/suite.h"
-#include "tests/core/device/texels.h"
 #include "tests/kernels/quads_params.h"
 #include "tests/kernels/texels/filter/params.h"
 

@@ -1,6 +1,6 @@
 // An index out of range, found by cpu:reference: the first one of a run.
-#ifndef RG_BACKENDS_CPU_FAULT_H
-#define RG_BACKENDS_CPU_FAULT_H
+#ifndef RG_BACKENDS_CPU_KERNELS_FAULT_H
+#define RG_BACKENDS_CPU_KERNELS_FAULT_H
 
 struct rg_fault {
     const char *slot; // NULL: none

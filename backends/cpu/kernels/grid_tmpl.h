@@ -1,5 +1,5 @@
 // Makes a C function of the GRID kernel that was just included: one call runs a block of items.
-#include "backends/cpu/bind_tmpl.h"
+#include "backends/cpu/kernels/bind_tmpl.h"
 
 static void run_block(const struct cpu_call *call)
 {

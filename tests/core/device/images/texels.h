@@ -1,6 +1,6 @@
 // Image formats as the host understands them, apart from kernels/dialect/image/format.h.
-#ifndef RG_TESTS_CORE_DEVICE_TEXELS_H
-#define RG_TESTS_CORE_DEVICE_TEXELS_H
+#ifndef RG_TESTS_CORE_DEVICE_IMAGES_TEXELS_H
+#define RG_TESTS_CORE_DEVICE_IMAGES_TEXELS_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,5 +1,5 @@
 // Makes the context of the kernel that was just included from what a call binds.
-#include "backends/cpu/call.h"
+#include "backends/cpu/kernels/call.h"
 
 #define RG_CAT_(a, b) rg_cpu_##a##_##b
 #define RG_CAT(a, b)  RG_CAT_(a, b)

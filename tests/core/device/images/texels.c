@@ -1,4 +1,4 @@
-#include "tests/core/device/texels.h"
+#include "tests/core/device/images/texels.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 // What a compiled kernel gets and hands out. Kernels include nothing else of the backend, so that a
 // change there compiles none of them again.
-#ifndef RG_BACKENDS_CPU_CALL_H
-#define RG_BACKENDS_CPU_CALL_H
+#ifndef RG_BACKENDS_CPU_KERNELS_CALL_H
+#define RG_BACKENDS_CPU_KERNELS_CALL_H
 
-#include "backends/cpu/fault.h"
+#include "backends/cpu/kernels/fault.h"
 #include "kernels/dialect/image/memory.h"
 
 struct cpu_slot {
