@@ -145,8 +145,8 @@ bool vk_queue_family(VkPhysicalDevice device, struct vk_family *family);
 void vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info);
 
 // api/limits.c
-struct rg_limits vk_limits(VkPhysicalDevice device, const VkPhysicalDeviceLimits *limits,
-                           uint64_t max_allocation_bytes);
+struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *family,
+                           const VkPhysicalDeviceLimits *limits, uint64_t max_allocation_bytes);
 
 // api/error.c
 const char *vk_result_name(VkResult result);

@@ -2,7 +2,7 @@
 #ifndef RG_BACKENDS_CPU_DRAW_BINS_H
 #define RG_BACKENDS_CPU_DRAW_BINS_H
 
-#include "backends/cpu/draw/raster.h"
+#include "backends/cpu/draw/shapes.h"
 
 enum { CPU_MOST_CHUNKS = 256 };
 

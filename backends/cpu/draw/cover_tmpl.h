@@ -14,7 +14,7 @@
 #ifndef RG_BACKENDS_CPU_DRAW_COVER_TMPL_H
 #define RG_BACKENDS_CPU_DRAW_COVER_TMPL_H
 
-#include "backends/cpu/draw/raster.h"
+#include "backends/cpu/draw/shapes.h"
 
 enum { SMALL = 1 << 14, MOST_GROUPS = CPU_MASKS * 2 };
 

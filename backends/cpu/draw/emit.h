@@ -2,7 +2,7 @@
 #ifndef RG_BACKENDS_CPU_DRAW_EMIT_H
 #define RG_BACKENDS_CPU_DRAW_EMIT_H
 
-#include "backends/cpu/draw/bins.h"
+#include "backends/cpu/draw/raster.h"
 
 // What one thread does of it, a chunk.
 struct cpu_emitter {

@@ -1,4 +1,5 @@
-// What drawing shares among programs, compiled once a level.
+#include "backends/cpu/draw/raster.h"
+
 #include "backends/cpu/draw/cover_tmpl.h"
 #include "backends/cpu/draw/shade_tmpl.h"
 

@@ -202,5 +202,7 @@ void vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info
              VK_API_VERSION_MINOR(p->apiVersion), VK_API_VERSION_PATCH(p->apiVersion));
     info->software = p->deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     info->tier = info->software ? RG_T0 : RG_T1;
-    info->limits = vk_limits(device, &p->limits, allocation.maxMemoryAllocationSize);
+    struct vk_family family = {0};
+    vk_queue_family(device, &family);
+    info->limits = vk_limits(device, &family, &p->limits, allocation.maxMemoryAllocationSize);
 }

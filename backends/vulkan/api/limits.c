@@ -74,11 +74,9 @@ static void say_no_draws(VkPhysicalDevice device, const VkPhysicalDeviceLimits *
                  px[0], px[1], l->subPixelPrecisionBits, RG_VIEWPORT_PX);
 }
 
-struct rg_limits vk_limits(VkPhysicalDevice device, const VkPhysicalDeviceLimits *l,
-                           uint64_t max_allocation_bytes)
+struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *family,
+                           const VkPhysicalDeviceLimits *l, uint64_t max_allocation_bytes)
 {
-    struct vk_family family = {0};
-    vk_queue_family(device, &family);
     const uint64_t max_bytes = l->maxStorageBufferRange < max_allocation_bytes
                                    ? l->maxStorageBufferRange
                                    : max_allocation_bytes;
@@ -94,12 +92,12 @@ struct rg_limits vk_limits(VkPhysicalDevice device, const VkPhysicalDeviceLimits
                        .images = at_most_int(sampled < samplers ? sampled : samplers),
                        .out_images = at_most_int(l->maxPerStageDescriptorStorageImages)},
         .slot_end = {RG_MAX_SLOTS, RG_MAX_SLOTS, RG_MAX_SLOTS},
-        .has_clock = family.timestamp_bits > 0,
+        .has_clock = family->timestamp_bits > 0,
     };
     for (int i = 0; i < 3; i++)
         limits.max_groups[i] = at_most_int(l->maxComputeWorkGroupCount[i]);
     for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++)
-        limits.formats[f] = format_limits(device, (enum rg_format)f, family.draws);
-    say_no_draws(device, l, family.draws, limits.no_draws, sizeof(limits.no_draws));
+        limits.formats[f] = format_limits(device, (enum rg_format)f, family->draws);
+    say_no_draws(device, l, family->draws, limits.no_draws, sizeof(limits.no_draws));
     return limits;
 }
