@@ -13,18 +13,18 @@
 
 #include "core/base/log.h"
 
-void *rg_shared_create(size_t size)
+void *rg_child_answer_create(size_t size)
 {
-    void *shared = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (shared == MAP_FAILED)
+    void *answer = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (answer == MAP_FAILED)
         return rg_error_null("no memory for %zu bytes: %s", size, strerror(errno));
-    return shared;
+    return answer;
 }
 
-void rg_shared_destroy(void *shared, size_t size)
+void rg_child_answer_destroy(void *answer, size_t size)
 {
-    if (shared)
-        munmap(shared, size);
+    if (answer)
+        munmap(answer, size);
 }
 
 static void ignore_line(enum rg_log_level level, const char *line, void *user)
@@ -35,12 +35,12 @@ static void ignore_line(enum rg_log_level level, const char *line, void *user)
 }
 
 // _exit: a driver's destructors are not part of the work, and some of them crash.
-static void run_child(void (*work)(void *), void *shared, FILE *printed)
+static void run_child(void (*work)(void *), void *answer, FILE *printed)
 {
     dup2(fileno(printed), STDOUT_FILENO);
     dup2(fileno(printed), STDERR_FILENO);
     rg_log_listen(ignore_line, NULL);
-    work(shared);
+    work(answer);
     _exit(0);
 }
 
@@ -92,14 +92,14 @@ static enum rg_outcome explain(int status, bool ended, int timeout_s, FILE *prin
     return RG_CRASH;
 }
 
-enum rg_outcome rg_child_run(void (*work)(void *), void *shared, int timeout_s, char *why,
+enum rg_outcome rg_child_run(void (*work)(void *), void *answer, int timeout_s, char *why,
                              size_t why_size)
 {
     FILE *printed = tmpfile();
     fflush(NULL);
     pid_t child = printed ? fork() : -1;
     if (child == 0)
-        run_child(work, shared, printed);
+        run_child(work, answer, printed);
     if (child < 0) {
         snprintf(why, why_size, "no child process could be started: %s", strerror(errno));
         if (printed)

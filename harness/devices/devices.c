@@ -18,16 +18,16 @@ struct listing {
     struct rg_device_list list;
 };
 
-static void list_one(void *shared)
+static void list_one(void *answer)
 {
-    struct listing *listing = shared;
+    struct listing *listing = answer;
     rg_device_list_add(&listing->list, listing->backend);
 }
 
 void rg_devices_list(struct rg_device_list *list)
 {
     memset(list, 0, sizeof(*list));
-    struct listing *listing = rg_shared_create(sizeof(*listing));
+    struct listing *listing = rg_child_answer_create(sizeof(*listing));
     for (int b = 0; listing && rg_backends[b]; b++) {
         char why[256];
         *listing = (struct listing){rg_backends[b], *list};
@@ -43,7 +43,7 @@ void rg_devices_list(struct rg_device_list *list)
                  rg_backends[b]->package ? "; reinstall the Debian package " : "",
                  rg_backends[b]->package ? rg_backends[b]->package : "");
     }
-    rg_shared_destroy(listing, sizeof(*listing));
+    rg_child_answer_destroy(listing, sizeof(*listing));
 }
 
 // --- opening ---

@@ -43,9 +43,9 @@ static struct rg_device *open_device(struct rg_examination *examination)
     return device;
 }
 
-static void examine(void *shared)
+static void examine(void *answer)
 {
-    struct rg_examination *examination = shared;
+    struct rg_examination *examination = answer;
     struct rg_device *device = open_device(examination);
     if (!device)
         return;
@@ -77,15 +77,15 @@ static void examine(void *shared)
 void rg_doctor_examine(struct rg_examination *examination)
 {
     char why[256];
-    struct rg_examination *shared = rg_shared_create(sizeof(*shared));
-    if (!shared) {
+    struct rg_examination *answer = rg_child_answer_create(sizeof(*answer));
+    if (!answer) {
         fail(examination, RG_ERROR);
         return;
     }
-    *shared = (struct rg_examination){.info = examination->info};
-    const enum rg_outcome end = rg_child_run(examine, shared, EXAMINE_TIMEOUT_S, why, sizeof(why));
-    *examination = *shared;
-    rg_shared_destroy(shared, sizeof(*shared));
+    *answer = (struct rg_examination){.info = examination->info};
+    const enum rg_outcome end = rg_child_run(examine, answer, EXAMINE_TIMEOUT_S, why, sizeof(why));
+    *examination = *answer;
+    rg_child_answer_destroy(answer, sizeof(*answer));
     if (end == RG_OK)
         return;
     char step[64];

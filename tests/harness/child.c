@@ -14,14 +14,14 @@
 #include "core/base/log.h"
 #include "harness/devices/child.h"
 
-static int *shared;
+static int *answer;
 static char why[256];
 
 static enum rg_outcome run(void (*work)(void *), int timeout_s)
 {
     *why = 0;
-    *shared = 0;
-    return rg_child_run(work, shared, timeout_s, why, sizeof(why));
+    *answer = 0;
+    return rg_child_run(work, answer, timeout_s, why, sizeof(why));
 }
 
 static void return_seven(void *result)
@@ -35,7 +35,7 @@ static void results_come_back(void **state)
 {
     (void)state;
     assert_int_equal(run(return_seven, 10), RG_OK);
-    assert_int_equal(*shared, 7);
+    assert_int_equal(*answer, 7);
     assert_string_equal(why, "");
 }
 
@@ -51,7 +51,7 @@ static void crashes_are_told_with_the_last_words(void **state)
     (void)state;
     assert_int_equal(run(print_and_crash, 10), RG_CRASH);
     assert_string_equal(why, "its driver crashed (Killed): second line");
-    assert_int_equal(*shared, 3);
+    assert_int_equal(*answer, 3);
 }
 
 static void leave(void *result)
@@ -89,8 +89,8 @@ int main(void)
         cmocka_unit_test(an_exit_is_no_result),
         cmocka_unit_test(a_hang_is_ended),
     };
-    shared = rg_shared_create(sizeof(*shared));
-    int failed = shared ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
-    rg_shared_destroy(shared, sizeof(*shared));
+    answer = rg_child_answer_create(sizeof(*answer));
+    int failed = answer ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
+    rg_child_answer_destroy(answer, sizeof(*answer));
     return failed;
 }
