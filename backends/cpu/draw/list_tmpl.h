@@ -1,0 +1,179 @@
+// Pixels of small primitives and short spans, gathered in a list that many primitives share, until
+// one comes again: then their fragments are computed, tested and blended side by side.
+#ifndef RG_BACKENDS_CPU_DRAW_LIST_TMPL_H
+#define RG_BACKENDS_CPU_DRAW_LIST_TMPL_H
+
+#include "backends/cpu/draw/bins.h"
+#include "backends/cpu/draw/blend_tmpl.h"
+
+enum { LISTED_PX = 128 }; // side of the square of pixels that a list tells apart
+
+// What a tile is shaded with.
+struct shader {
+    const struct cpu_program *program;
+    const struct cpu_call *call;
+    const struct cpu_bins *bins;
+    struct cpu_target target;
+    rg_draw_state draw;
+    int texel_words;    // of the colour target; 0: none
+    int x0, y0, x1, y1; // the tile's pixels
+    struct cpu_list list;
+    struct cpu_fragments fragments;
+    struct pixels pixels;
+    bool drops_hidden; // before lights fall on them
+    // The list that each pixel was last in, by the low bits of x and y: pixels that share an entry
+    // pass for the same.
+    uint16_t listing; // counts from 1
+    uint16_t listed[LISTED_PX][LISTED_PX];
+};
+
+// Depth test and blending of the fragments, once their pixels are gathered.
+static void meet(struct shader *s)
+{
+    test_fragments(&s->fragments, &s->pixels, s->draw.depth_mode);
+    if (s->texel_words)
+        blend_fragments(&s->fragments, &s->pixels, s->draw.colour_format, s->draw.blend);
+}
+
+static void count_sample(const struct shader *s, int prim, int samples)
+{
+    if (samples)
+        __atomic_fetch_add(&s->target.samples[s->bins->items[prim]], (uint)samples,
+                           __ATOMIC_RELAXED);
+}
+
+// `words` is a constant where this is called.
+static inline __attribute__((always_inline)) void gather(uint *to, const uint *from,
+                                                         const size_t *texel, int count, int words)
+{
+    for (int i = 0; i < count; i++)
+        memcpy(to + i * words, from + texel[i] * (size_t)words, (size_t)words * sizeof(uint));
+}
+
+static inline __attribute__((always_inline)) void scatter(uint *to, const uint *from,
+                                                          const size_t *texel, int count, int words)
+{
+    for (int i = 0; i < count; i++)
+        memcpy(to + texel[i] * (size_t)words, from + i * words, (size_t)words * sizeof(uint));
+}
+
+static void gather_texels(struct shader *s, const size_t *texel, int count)
+{
+    if (s->texel_words == 1)
+        gather(s->pixels.texels, s->target.colour, texel, count, 1);
+    else if (s->texel_words == 2)
+        gather(s->pixels.texels, s->target.colour, texel, count, 2);
+    else if (s->texel_words == 4)
+        gather(s->pixels.texels, s->target.colour, texel, count, 4);
+    if (s->draw.depth_mode != RG_DEPTH_IS_OFF)
+        gather(s->pixels.depth, s->target.depth, texel, count, 1);
+}
+
+static void scatter_texels(struct shader *s, const size_t *texel, int count)
+{
+    if (s->texel_words == 1)
+        scatter(s->target.colour, s->pixels.texels, texel, count, 1);
+    else if (s->texel_words == 2)
+        scatter(s->target.colour, s->pixels.texels, texel, count, 2);
+    else if (s->texel_words == 4)
+        scatter(s->target.colour, s->pixels.texels, texel, count, 4);
+    if (s->draw.depth_mode == RG_DEPTH_IS_WRITE)
+        scatter(s->target.depth, s->pixels.depth, texel, count, 1);
+}
+
+// Repeats the last pixel up to a multiple of CPU_LANES.
+static void pad_list(struct cpu_list *list)
+{
+    for (int i = list->count; i < cpu_padded(list->count); i++) {
+        list->at[i] = list->at[i - 1];
+        list->prim[i] = list->prim[i - 1];
+    }
+}
+
+static inline size_t texel_of(const struct shader *s, int at)
+{
+    return (size_t)((at >> 16) * s->draw.width + (at & 0xffff));
+}
+
+static inline bool is_seen(const struct shader *s, int i, size_t texel)
+{
+    return s->fragments.kept[i] && s->fragments.depth[i] < rg_bits_float(s->target.depth[texel]);
+}
+
+// Leaves listed what will pass the test of depth.
+static void drop_hidden(struct shader *s)
+{
+    struct cpu_list *list = &s->list;
+    int seen = 0;
+    pad_list(list);
+    s->program->list_depth(s->call, s->bins->records, list, &s->fragments);
+    for (int i = 0; i < list->count; i++) {
+        list->at[seen] = list->at[i];
+        list->prim[seen] = list->prim[i];
+        seen += is_seen(s, i, texel_of(s, list->at[i]));
+    }
+    list->count = seen;
+}
+
+// Draws what is listed, one pixel at least.
+static void draw_list(struct shader *s)
+{
+    struct cpu_list *list = &s->list;
+    const int count = list->count;
+    size_t texel[CPU_FRAGMENTS];
+    pad_list(list);
+    s->program->list(s->call, s->bins->records, list, &s->fragments);
+    for (int i = 0; i < count; i++)
+        texel[i] = texel_of(s, list->at[i]);
+    gather_texels(s, texel, count);
+    meet(s);
+    scatter_texels(s, texel, count);
+    if (s->draw.counted)
+        for (int i = 0; i < count; i++)
+            count_sample(s, list->prim[i], s->fragments.kept[i]);
+}
+
+static void begin_listing(struct shader *s)
+{
+    s->listing = 1;
+    memset(s->listed, 0, sizeof(s->listed));
+}
+
+static void flush(struct shader *s)
+{
+    if (!s->list.count)
+        return;
+    if (s->drops_hidden)
+        drop_hidden(s);
+    if (s->list.count)
+        draw_list(s);
+    s->list.count = 0;
+    if (++s->listing == 0)
+        begin_listing(s);
+}
+
+static inline void list_pixel(struct shader *s, int prim, int x, int y)
+{
+    struct cpu_list *list = &s->list;
+    uint16_t *listed = &s->listed[y & (LISTED_PX - 1)][x & (LISTED_PX - 1)];
+    if (*listed == s->listing || list->count == CPU_FRAGMENTS)
+        flush(s);
+    *listed = s->listing;
+    list->at[list->count] = y << 16 | x;
+    list->prim[list->count] = prim;
+    list->count++;
+}
+
+static void list_mask(struct shader *s, const struct cpu_ref *ref)
+{
+    const int x = ref->place & 0xffff, y = ref->place >> 16;
+    const char *record = s->bins->records + (size_t)ref->prim * s->bins->record_size;
+    __builtin_prefetch(record);
+    __builtin_prefetch(record + s->bins->record_size - 1);
+    for (uint64_t rest = ref->mask; rest; rest &= rest - 1) {
+        const int bit = __builtin_ctzll(rest);
+        list_pixel(s, ref->prim, x + (bit & 7), y + (bit >> 3));
+    }
+}
+
+#endif
