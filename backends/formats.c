@@ -40,10 +40,15 @@ int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX
     return rg_format_size(desc->format) < 4 ? words + 1 : words; // two texels are read at once
 }
 
-// A texel of half a word is counted in halves.
-int64_t rg_image_most_bytes(enum rg_format format)
+void rg_plain_formats(struct rg_format_limits limits[RG_FORMAT_COUNT], int64_t max_bytes)
 {
-    return (int64_t)(rg_format_size(format) < 4 ? INT_MAX / 2 : INT_MAX) * 4;
+    for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++) {
+        // A texel of half a word is counted in halves.
+        const int64_t countable = (int64_t)(formats[f].size < 4 ? INT_MAX / 2 : INT_MAX) * 4;
+        limits[f] =
+            (struct rg_format_limits){RG_USE_ALL, RG_PLAIN_MAX_PX, RG_PLAIN_MAX_LAYERS,
+                                      RG_MAX_LEVELS, countable < max_bytes ? countable : max_bytes};
+    }
 }
 
 size_t rg_image_locate(const struct rg_image_desc *desc, const uint32_t header[RG_MAX_LEVELS],

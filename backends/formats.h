@@ -51,8 +51,10 @@ int rg_level_size(int size, int level);
 // the word at which each level begins, which is also the image's header, and the words of the whole
 // image, header included.
 int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX_LEVELS]);
-// The most bytes of such an image whose texels kernels can count in an int.
-int64_t rg_image_most_bytes(enum rg_format format);
+// What such a device allows: images of every format for all uses, of at most `max_bytes`, whose
+// texels kernels can count in an int.
+enum { RG_PLAIN_MAX_PX = 32768, RG_PLAIN_MAX_LAYERS = 2048 };
+void rg_plain_formats(struct rg_format_limits limits[RG_FORMAT_COUNT], int64_t max_bytes);
 // Where a layer of a level begins in it, and its size, both in bytes.
 size_t rg_image_locate(const struct rg_image_desc *desc, const uint32_t header[RG_MAX_LEVELS],
                        int layer, int level, size_t *size);

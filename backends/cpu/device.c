@@ -59,25 +59,21 @@ static void read_cpu_name(char *name, size_t size)
         fclose(file);
 }
 
-enum { MAX_PX = 32768, MAX_LAYERS = 2048 };
-
 static struct rg_limits limits_of_memory(void)
 {
     const struct rg_slot_limits any = {RG_MAX_SLOTS, RG_MAX_SLOTS, RG_MAX_SLOTS};
     struct rg_limits limits = {
         .max_objects = INT_MAX,
         .max_buffer_bytes = (int64_t)INT_MAX * 4, // kernels count words in an int
-        .max_image_px = MAX_PX,
-        .max_image_layers = MAX_LAYERS,
+        .max_image_px = RG_PLAIN_MAX_PX,
+        .max_image_layers = RG_PLAIN_MAX_LAYERS,
         .max_groups = {INT_MAX, INT_MAX, INT_MAX},
         .group_items = 1,
         .slot_count = any,
         .slot_end = any,
         .has_clock = true,
     };
-    for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++)
-        limits.formats[f] = (struct rg_format_limits){RG_USE_ALL, MAX_PX, MAX_LAYERS, RG_MAX_LEVELS,
-                                                      rg_image_most_bytes((enum rg_format)f)};
+    rg_plain_formats(limits.formats, INT64_MAX);
     return limits;
 }
 

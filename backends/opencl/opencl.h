@@ -72,6 +72,16 @@ bool opencl_check(cl_int code, const char *call, const char *kind, const char *n
 int opencl_hide_messages(void);
 void opencl_show_messages(int hidden);
 
+// api/search.c
+// The usable devices in the loader's order (GPUs first); 0: none, and `why` says so.
+int opencl_find(cl_device_id *ids, int max, char *why, size_t why_size);
+// What a device or platform says of itself; "unnamed" and 0 where its driver does not know it.
+enum { OPENCL_TEXT = 1024 };
+const char *opencl_text(cl_device_id id, cl_device_info what, char text[OPENCL_TEXT]);
+const char *opencl_platform_text(cl_platform_id id, cl_platform_info what, char text[OPENCL_TEXT]);
+cl_ulong opencl_number(cl_device_id id, cl_device_info what, size_t size);
+int opencl_version(const char *version); // 30 of "OpenCL 3.0 PoCL 3.1"
+
 // api/queue.c
 // Call before each command that is queued without waiting for it.
 void opencl_will_queue(struct opencl_device *device);
