@@ -65,7 +65,7 @@ struct rg_device {
     const struct rg_backend *backend;
     struct rg_device_info info;
     struct rg_work *work;       // what core/device counts; not the backend's business
-    struct rg_packing *packing; // core/device/draws/packing.c's; likewise
+    struct rg_packing *packing; // core/device/packing.c's; likewise
     struct rg_shared *shared;   // core/device/shared.c's; likewise
 };
 
@@ -84,7 +84,7 @@ struct rg_image {
 struct rg_pass {
     struct rg_device *device;
     const struct rg_kernel *kernel;
-    struct rg_packer *packer; // core/device/draws/packing.c's, of a DRAW pass; NULL for others
+    struct rg_packer *packer; // core/device/packing.c's, of a DRAW pass; NULL for others
 };
 
 struct rg_binding {
@@ -117,7 +117,7 @@ struct rg_draw {
     struct rg_buf *samples; // uints, by item: grow by its visible samples. NULL: not counted
 };
 
-// A DRAW pass's primitives, packed by core/device/draws/packing.c, for backends whose `packed` asks for it.
+// A DRAW pass's primitives, packed by core/device/packing.c, for backends whose `packed` asks for it.
 struct rg_packed {
     struct rg_buf *prims; // rg_prim of kernels/dialect/draw/draw.h, drawn in this order
     struct rg_buf *args;  // 5 uints: vertices, 1, 0, 0 (an indirect draw), then the number of prims
@@ -131,7 +131,7 @@ struct rg_run {
     struct rg_extent extent;               // at least 1 each
     struct rg_extent origin;               // of the first item; 0 for most
     const struct rg_draw *draw;            // of a DRAW pass, whose items lie along x; else NULL
-    const struct rg_packed *packed;        // set by core/device/draws/packing.c, NULL for its callers
+    const struct rg_packed *packed;        // set by core/device/packing.c, NULL for its callers
 };
 
 enum { RG_MAX_DEVICES = 32 }; // that a list takes
@@ -139,7 +139,7 @@ enum { RG_MAX_DEVICES = 32 }; // that a list takes
 struct rg_backend {
     const char *name;    // "vulkan"
     const char *package; // the Debian package whose absence explains a missing device; NULL: none
-    bool packed;         // draws what core/device/draws/packing.c has packed, rather than items
+    bool packed;         // draws what core/device/packing.c has packed, rather than items
 
     // Fills `infos` with up to `max` devices, best first, and returns their number; 0: none, and
     // `why` (of `why_size` bytes) says so in one line. Quiet: it logs nothing and leaves nothing

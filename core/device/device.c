@@ -8,7 +8,7 @@
 #include "core/base/alloc.h"
 #include "core/base/require.h"
 #include "core/device/limits.h"
-#include "core/device/draws/packing.h"
+#include "core/device/packing.h"
 #include "core/device/shared.h"
 
 void rg_device_list_add(struct rg_device_list *list, const struct rg_backend *backend)

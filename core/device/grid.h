@@ -1,4 +1,4 @@
-// Passes of GRID kernels, and what DRAW passes (core/device/draws/draw.h) have in common with them. For
+// Passes of GRID kernels, and what DRAW passes (core/device/draw.h) have in common with them. For
 // core/device: others go through core/device/pass.h.
 #ifndef RG_CORE_DEVICE_GRID_H
 #define RG_CORE_DEVICE_GRID_H

@@ -1,8 +1,8 @@
 #include "core/device/pass.h"
 
-#include "core/device/draws/draw.h"
+#include "core/device/draw.h"
 #include "core/device/grid.h"
-#include "core/device/draws/packing.h"
+#include "core/device/packing.h"
 
 struct rg_pass *rg_pass_create(struct rg_device *device, const char *kernel)
 {

@@ -1,4 +1,4 @@
-// What a DRAW pass's stages know of the draw: made by core/device/draws/draw.c, read by the shells.
+// What a DRAW pass's stages know of the draw: made by core/device/draw.c, read by the shells.
 #ifndef RG_KERNELS_DIALECT_DRAW_STATE_H
 #define RG_KERNELS_DIALECT_DRAW_STATE_H
 

@@ -1,7 +1,7 @@
 // Runs of DRAW passes. Long ranges of items go in batches, each packed first where the backend asks
-// for it (core/device/draws/packing.h).
-#ifndef RG_CORE_DEVICE_DRAWS_DRAW_H
-#define RG_CORE_DEVICE_DRAWS_DRAW_H
+// for it (core/device/packing.h).
+#ifndef RG_CORE_DEVICE_DRAW_H
+#define RG_CORE_DEVICE_DRAW_H
 
 #include "backends/backend.h"
 

@@ -1,6 +1,6 @@
 // What a run of a DRAW pass draws to.
-#ifndef RG_CORE_DEVICE_DRAWS_TARGETS_H
-#define RG_CORE_DEVICE_DRAWS_TARGETS_H
+#ifndef RG_CORE_DEVICE_TARGETS_H
+#define RG_CORE_DEVICE_TARGETS_H
 
 #include "backends/backend.h"
 

@@ -1,4 +1,4 @@
-#include "core/device/draws/packing.h"
+#include "core/device/packing.h"
 
 #include "core/base/alloc.h"
 #include "core/device/grid.h"

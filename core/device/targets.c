@@ -1,4 +1,4 @@
-#include "core/device/draws/targets.h"
+#include "core/device/targets.h"
 
 #include "core/base/require.h"
 #include "kernels/dialect/draw/clip.h"

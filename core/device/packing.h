@@ -1,8 +1,8 @@
 // The packing of items into primitives, for the backends that ask for it. Items are counted, chunk
 // by chunk; a scan gives each chunk its place; then the primitives of the items that are seen are
 // written there, in order (kernels/dialect/draw/count.h, kernels/dialect/draw/emit.h).
-#ifndef RG_CORE_DEVICE_DRAWS_PACKING_H
-#define RG_CORE_DEVICE_DRAWS_PACKING_H
+#ifndef RG_CORE_DEVICE_PACKING_H
+#define RG_CORE_DEVICE_PACKING_H
 
 #include "backends/backend.h"
 #include "kernels/dialect/draw/state.h"

@@ -1,12 +1,12 @@
-#include "core/device/draws/draw.h"
+#include "core/device/draw.h"
 
 #include <assert.h>
 #include <string.h>
 
 #include "core/device/grid.h"
 #include "core/device/limits.h"
-#include "core/device/draws/packing.h"
-#include "core/device/draws/targets.h"
+#include "core/device/packing.h"
+#include "core/device/targets.h"
 #include "kernels/dialect/draw/blend.h"
 #include "kernels/dialect/draw/state.h"
 
