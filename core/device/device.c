@@ -133,3 +133,8 @@ bool rg_device_time(struct rg_device *device, int64_t *time_ns)
 {
     return rg_limits_allow_time(&device->info) && device->backend->time(device, time_ns);
 }
+
+enum rg_tier rg_tier_owed(const struct rg_device_info *a, const struct rg_device_info *b)
+{
+    return a->tier > b->tier ? a->tier : b->tier;
+}

@@ -36,4 +36,8 @@ const struct rg_work *rg_device_work(const struct rg_device *device);
 bool rg_device_sync(struct rg_device *device);
 bool rg_device_time(struct rg_device *device, int64_t *time_ns);
 
+// The tier that pictures of two devices must hold, in either order: the looser of theirs, for what
+// one of them may differ by from cpu:reference it may differ by from the other.
+enum rg_tier rg_tier_owed(const struct rg_device_info *a, const struct rg_device_info *b);
+
 #endif

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/device/tier.h"
+#include "core/device/device.h"
 #include "core/image/compare/compare.h"
 #include "harness/console/clock.h"
 

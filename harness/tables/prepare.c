@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "core/device/tier.h"
+#include "core/device/device.h"
 #include "core/image/compare/compare.h"
 #include "harness/console/interrupt.h"
 #include "harness/frames/frame.h"

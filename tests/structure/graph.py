@@ -28,6 +28,7 @@ HERE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 
 # What is still to be mended: how lines of --check begin that are not held against anybody yet.
 KNOWN = (
+    "circle: backends/cpu uses ",
     "circle: harness/record uses ",
     "circle: harness/tables/papers/creus",
     "harness/record/journal.h includes harness/tables/table.h",

@@ -6,7 +6,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "core/device/tier.h"
+#include "core/device/device.h"
 #include "harness/compare/diff/report.h"
 #include "harness/console/exit.h"
 #include "harness/console/progress.h"

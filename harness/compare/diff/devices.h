@@ -17,7 +17,7 @@ struct rg_diff_devices_request {
 };
 
 // Renders on every device, compares every pair and prints it. Returns an enum rg_exit: pass when
-// every pair holds the tier that its devices owe each other (core/device/tier.h).
+// every pair holds the tier that its devices owe each other (core/device/device.h).
 int rg_diff_devices(const struct rg_diff_devices_request *request);
 
 #endif

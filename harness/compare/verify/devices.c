@@ -6,7 +6,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "core/device/tier.h"
+#include "core/device/device.h"
 #include "core/image/compare/compare.h"
 #include "harness/compare/verify/snapshot.h"
 #include "harness/compare/verify/verify.h"

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "core/device/tier.h"
+#include "core/device/device.h"
 #include "harness/compare/verify/verify.h"
 #include "harness/console/exit.h"
 #include "harness/frames/digests.h"

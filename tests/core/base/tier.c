@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "core/device/tier.h"
+#include "core/device/device.h"
 
 static const struct rg_device_info reference = {.name = "cpu:reference", .tier = RG_T0},
                                    software = {.name = "gl", .tier = RG_T0},
