@@ -9,7 +9,8 @@
 #ifndef RG_KERNELS_PROBE_LIST_H
 #define RG_KERNELS_PROBE_LIST_H
 
-// What the dialect allows, and what math.h, rng.h and format.h build from it: exact everywhere.
+// What the dialect allows, and what math.h, rng.h and image/format.h build from it: exact
+// everywhere.
 #define RG_PROBE_OPS(X)                                                                            \
     X(0, add, WIDE, FLOAT, a + b)                                                                  \
     X(1, subtract, WIDE, FLOAT, a - b)                                                             \

@@ -1,7 +1,7 @@
 // Whether a light reaches a point, by its shadow maps. A program that asks has the slot
 //   IMAGE(n, D32F, shadows)  all lights' maps: a layer for each, six for a point light
-// and includes this behind draw.h or slots.h. Where no light casts shadows any image of one texel
-// will do.
+// and includes this behind dialect/draw/draw.h or dialect/slots/slots.h. Where no light casts
+// shadows any image of one texel will do.
 //
 // No branches: a cpu runs pixels side by side with one light for all. So texels are read whether a
 // light casts shadows or not, at places that lie within the image.

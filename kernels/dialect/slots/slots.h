@@ -27,7 +27,7 @@
 #include "kernels/dialect/image/format.h"
 
 // The parameters of a run, and the slots beside the kernel's own. Stages of DRAW programs bring
-// larger parameters and further slots (draw.h).
+// larger parameters and further slots (dialect/draw/draw.h).
 #ifndef RG_RUN_PARAMS
 #define RG_RUN_PARAMS RG_PARAMS
 #endif

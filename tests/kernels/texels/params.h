@@ -1,4 +1,4 @@
-// The parameters of test_store_*.h and test_fetch_*.h.
+// The parameters of what fetches and stores texels.
 #ifndef RG_TESTS_KERNELS_TEXELS_PARAMS_H
 #define RG_TESTS_KERNELS_TEXELS_PARAMS_H
 

@@ -1,4 +1,4 @@
-// The body of test_fetch_*.h, which define RG_SLOTS: fetches one level of an image to a buffer.
+// What all files here do, each of which defines RG_SLOTS: fetches a level of an image to a buffer.
 #include "tests/kernels/texels/params.h"
 
 #define RG_PARAMS test_texels_params

@@ -1,5 +1,5 @@
-// The body of test_filter_*.h, which define RG_SLOTS: reads an image between its texels. Elements
-// of `at` are u, v, the layer and the level.
+// What all files here do, each of which defines RG_SLOTS: reads an image between its texels.
+// Elements of `at` are u, v, the layer and the level.
 #include "tests/kernels/texels/filter/params.h"
 
 #define RG_PARAMS test_filter_params

@@ -1,4 +1,4 @@
-// The body of test_store_*.h, which define RG_SLOTS: stores colours of a buffer in an image.
+// What all files here do, each of which defines RG_SLOTS: stores colours of a buffer in an image.
 #include "tests/kernels/texels/params.h"
 
 #define RG_PARAMS test_texels_params
