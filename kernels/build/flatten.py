@@ -7,7 +7,8 @@ Runs the C preprocessor over each SHELL (a file of SHADERS), which includes the 
 that FOLDER/OUTPUT is one flat file without includes or macros. For GLSL it then makes every float
 `precise`, which forbids a driver to contract or reorder: the one thing that the dialect cannot say
 in C and OpenCL C alike. A text that has not changed is not written again, so that the build does
-not make anew what depends on it. One process makes all texts, with a helper for each processor.
+not make anew what depends on it. One process makes all texts, with a helper for each processor. A
+kernel with a name that another language reserves is refused.
 """
 import multiprocessing
 import os
@@ -15,6 +16,7 @@ import re
 import subprocess
 import sys
 
+import reserved
 
 # OpenGL and Vulkan name the vertex's number differently. OpenGL reads words, and structs of words,
 # from buffer textures: llvmpipe fetches these side by side, but a storage buffer lane by lane.
@@ -200,14 +202,17 @@ def write_if_changed(path, text):
 
 
 def flatten(job):
-    """Writes one text; returns the files that it was made of."""
+    """Writes one text; returns the files that it was made of, and what is wrong with its names."""
     shell, header, output, compiler = job
     language = "OPENCL" if shell.endswith(".cl") else "GLSL"
     text, needs = preprocess(language, header, shell, compiler)
+    refusal = reserved.refusal(language, text)
+    if refusal:
+        return needs, f"{header}: {refusal}"
     if language == "GLSL":
         text = VERSION + add_struct_readers(make_precise(text))
     write_if_changed(output, text)
-    return needs
+    return needs, None
 
 
 def main():
@@ -219,7 +224,11 @@ def main():
         for shell, header, output in zip(jobs[::3], jobs[1::3], jobs[2::3])
     ]
     with multiprocessing.Pool() as pool:
-        needs = sorted(set().union(*pool.map(flatten, jobs, chunksize=4)))
+        done = pool.map(flatten, jobs, chunksize=4)
+    refusals = sorted({refusal for _, refusal in done if refusal})
+    if refusals:
+        sys.exit("\n".join(refusals))
+    needs = sorted(set().union(*(needs for needs, _ in done)))
     with open(depfile, "w", encoding="utf-8") as file:
         file.write(f"{jobs[0][2]}: {' '.join(needs)}\n")
 
