@@ -62,7 +62,7 @@ struct rg_table {
     const char *note; // what a reader of the table must know, one line
 };
 
-// All tables, NULL-terminated, made by the build from the list in harness/meson.build.
+// All tables, NULL-terminated, made by the build from the list in meson.build beside this.
 extern const struct rg_table *const rg_tables[];
 
 // The table of this id, or NULL.
