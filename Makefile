@@ -40,8 +40,8 @@ $(BUILD)/build.ninja:
 
 $(ASAN)/build.ninja:
 	@echo "== configuring $(ASAN), with address and undefined-behaviour sanitizers"
-	@meson setup $(ASAN) -Dbuildtype=debugoptimized -Db_sanitize=address,undefined \
-	  -Db_lundef=false >/dev/null || { cat $(ASAN)/meson-logs/meson-log.txt; exit 1; }
+	@meson setup $(ASAN) -Doptimization=1 -Ddebug=true -Db_sanitize=address,undefined \
+	  -Db_lundef=false -Ddrivers=false >/dev/null || { cat $(ASAN)/meson-logs/meson-log.txt; exit 1; }
 
 build: setup $(BUILD)/build.ninja
 	@echo "== building in $(BUILD)"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Puts code for drivers into the program: embed.py OUTPUT.c OUTPUT.S FILE...
+"""Puts code for drivers into the program: embed.py OUTPUT.c OUTPUT.S NAME... -- FILE...
 
 The files are NAME.glsl, NAME.spv, NAME.cl and so on; each kernel gets `rg_code_NAME`, in the order of
 enum rg_code_kind, with nothing where it has no such file. The assembler reads their bytes, which a
@@ -20,11 +20,11 @@ def assembler(symbol, path, data):
 
 
 def main():
-    c_path, s_path, files = sys.argv[1], sys.argv[2], sys.argv[3:]
-    by_kernel = {}
-    for path in files:
+    c_path, s_path, end = sys.argv[1], sys.argv[2], sys.argv.index("--")
+    by_kernel = {name: {} for name in sys.argv[3:end]}
+    for path in sys.argv[end + 1:]:
         kernel, kind = os.path.basename(path).split(".", 1)
-        by_kernel.setdefault(kernel, {})[kind] = path
+        by_kernel[kernel][kind] = path
     c = ['#include "backends/kernel.h"\n']
     s = ['    .section .note.GNU-stack,"",%progbits\n    .section .rodata\n']
     for kernel, paths in by_kernel.items():
