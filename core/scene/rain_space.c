@@ -6,8 +6,6 @@
 #include "core/base/log.h"
 #include "core/scene/vector.h"
 
-#define PI 3.14159265358979323846
-
 static bool all_finite(const double *values, int count)
 {
     for (int i = 0; i < count; i++)
@@ -54,7 +52,7 @@ bool rg_rain_space_make(const struct rg_rain_space_settings *settings, struct rg
 
 void rg_rain_fall(double slant_deg, double azimuth_deg, double fall[3])
 {
-    const double slant = slant_deg * PI / 180, azimuth = azimuth_deg * PI / 180;
+    const double slant = slant_deg * M_PI / 180, azimuth = azimuth_deg * M_PI / 180;
     fall[0] = sin(slant) * cos(azimuth);
     fall[1] = -cos(slant);
     fall[2] = sin(slant) * sin(azimuth);
@@ -174,7 +172,7 @@ bool rg_rain_view_corners(const struct rg_rain_space *space, const struct rg_cam
     double eye[3];
     for (int i = 0; i < 3; i++)
         eye[i] = (double)camera->position[i];
-    const double tall = tan((double)camera->angle_deg * PI / 360);
+    const double tall = tan((double)camera->angle_deg * M_PI / 360);
     const double planes[2] = {(double)camera->near_plane,
                               fmax((double)camera->far_plane, farthest_corner(space, eye))};
     for (int i = 0; i < 8; i++) {

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
-
 // A light is dark beyond so many standard deviations: 4e-5 of the peak.
 #define EDGE_DEVIATIONS 4.5
 
@@ -13,7 +11,7 @@
 
 void rg_lobe_direction(double elevation_deg, double azimuth_deg, float direction[3])
 {
-    const double elevation = elevation_deg * PI / 180, azimuth = azimuth_deg * PI / 180;
+    const double elevation = elevation_deg * M_PI / 180, azimuth = azimuth_deg * M_PI / 180;
     direction[0] = (float)(cos(elevation) * sin(azimuth));
     direction[1] = (float)sin(elevation);
     direction[2] = (float)(cos(elevation) * cos(azimuth));
@@ -66,12 +64,12 @@ int rg_lobes_square(float x, float y, float z)
 
 void rg_lobes_fill(struct rg_lobes *lobes, int count, float (*directions)[3])
 {
-    const double deviation = RG_LOBE_DEG * PI / 180, edge = EDGE_DEVIATIONS * deviation;
+    const double deviation = RG_LOBE_DEG * M_PI / 180, edge = EDGE_DEVIATIONS * deviation;
     // von Mises and Fisher's density on the sphere
     const double kappa = 1 / (deviation * deviation);
     lobes->count = count;
     memcpy(lobes->direction, directions, (size_t)count * sizeof(*directions));
-    lobes->peak = (float)(kappa / (2 * PI * (1 - exp(-2 * kappa))));
+    lobes->peak = (float)(kappa / (2 * M_PI * (1 - exp(-2 * kappa))));
     lobes->edge = (float)cos(edge);
     for (int i = 0; i < RG_LOBE_STEPS + 2; i++)
         lobes->profile[i] =

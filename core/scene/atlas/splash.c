@@ -8,12 +8,11 @@
 #include "core/scene/atlas/optics/drop.h"
 #include "kernels/dialect/rng.h"
 
-#define PI            3.14159265358979323846
 #define GRAVITY_M_S2  9.81
 #define FRAME_S       0.006
 #define PICTURE_M     0.06  // across
 #define FOOT_M        0.008 // of the impact above the lower edge
-#define TILT_RAD      (15 * PI / 180)
+#define TILT_RAD      (15 * M_PI / 180)
 #define DIAMETER_M    (2 * RG_DROP_RADIUS_M)
 #define SPEED_M_S     (RG_DROP_FALL * DIAMETER_M / RG_EXPOSURE_S)
 #define OPACITY_PER_M 800.0 // optical depth of a metre of splashed water: sheets are see-through
@@ -173,7 +172,7 @@ static void add_ball(float *depth, double x, double y, double z, double radius_m
 
 static double ball_m3(double radius_m)
 {
-    return 4.0 / 3 * PI * radius_m * radius_m * radius_m;
+    return 4.0 / 3 * M_PI * radius_m * radius_m * radius_m;
 }
 
 // The sheet: its edge is scalloped between the spikes and leans outwards.
@@ -183,13 +182,13 @@ static void add_sheet(float *depth, const struct material *m, const struct rg_sp
     if (crown->height_m < 1e-4)
         return;
     for (int a = 0; a < AROUND; a++) {
-        const double phi = 2 * PI * a / AROUND;
+        const double phi = 2 * M_PI * a / AROUND;
         const double edge = 0.87 + 0.13 * cos(m->spikes * phi + turn);
         const double slant = crown->height_m * edge;
         for (int u = 0; u < UP; u++) {
             const double s = (u + 0.5) / UP;
             const double r = crown->radius_m * (1 + m->flare * s * s);
-            const double area = r * 2 * PI / AROUND * slant / UP;
+            const double area = r * 2 * M_PI / AROUND * slant / UP;
             // water gathers in the rim
             const double thickness = crown->thickness_m * (s > 0.93 ? 3.5 : 1);
             double column, row;
@@ -205,9 +204,9 @@ static void add_spikes(float *depth, const struct material *m, int material,
 {
     for (int k = 0; k < m->spikes && crown->height_m > 1e-3; k++) {
         const struct chance chance = chance_of(material, k, 0);
-        const double phi = (2 * PI * k - turn) / m->spikes + 0.15 * (chance.a - 0.5);
+        const double phi = (2 * M_PI * k - turn) / m->spikes + 0.15 * (chance.a - 0.5);
         const double length = crown->height_m * (0.15 + 0.4 * chance.b) * (1 - passed);
-        const double lift = m->lift_deg * PI / 180, r = crown->radius_m * (1 + m->flare);
+        const double lift = m->lift_deg * M_PI / 180, r = crown->radius_m * (1 + m->flare);
         for (int i = 0; i < 12; i++) {
             const double s = i / 11.0, out = r + length * s * cos(lift);
             const double radius = m->droplet_m * (0.75 - 0.45 * s + (i == 11 ? 0.5 : 0));
@@ -226,8 +225,8 @@ static void add_droplets(float *depth, const struct material *m, int material, d
         if (flown <= 0)
             continue;
         const struct rg_splash_crown crown = rg_splash_crown(material, leaves);
-        const double phi = 2 * PI * when.b;
-        const double lift = (m->lift_deg + 24 * (when.c - 0.5)) * PI / 180;
+        const double phi = 2 * M_PI * when.b;
+        const double lift = (m->lift_deg + 24 * (when.c - 0.5)) * M_PI / 180;
         const double speed = m->speed_m_s * (0.55 + 0.9 * how.a);
         const double r = crown.radius_m * (1 + m->flare) + speed * cos(lift) * flown;
         const double y =
@@ -247,13 +246,13 @@ static void add_ring(float *depth, const struct material *m, const struct rg_spl
     const double height = m->ring_m * exp(-time_s / 0.035);
     const double width = 0.0012 + 0.012 * time_s;
     for (int a = 0; a < AROUND; a++) {
-        const double phi = 2 * PI * a / AROUND;
+        const double phi = 2 * M_PI * a / AROUND;
         for (int u = 0; u < 16; u++) {
             const double across = (u + 0.5) / 8 - 1, r = crown->radius_m + width * across;
-            const double area = fabs(r) * 2 * PI / AROUND * width / 8;
+            const double area = fabs(r) * 2 * M_PI / AROUND * width / 8;
             double column, row;
             project(r * cos(phi), 0, r * sin(phi), &column, &row);
-            add_volume(depth, column, row, area * height * (1 + cos(PI * across)));
+            add_volume(depth, column, row, area * height * (1 + cos(M_PI * across)));
         }
     }
 }
@@ -268,7 +267,7 @@ static void add_jet(float *depth, const struct material *m, double time_s)
     const double height = m->jet_m * 4 * passed * (1 - passed), bead = 0.0017 * sqrt(1 - passed);
     for (int i = 0; i < SLICES; i++) {
         const double s = (i + 0.5) / SLICES, radius = 0.0006 + 0.0022 * pow(1 - s, 3);
-        add_ball(depth, 0, height * s, 0, radius, PI * radius * radius * height / SLICES);
+        add_ball(depth, 0, height * s, 0, radius, M_PI * radius * radius * height / SLICES);
     }
     add_ball(depth, 0, height, 0, bead, ball_m3(bead));
 }
@@ -292,7 +291,7 @@ bool rg_splash_draw(int material, int frame, float texels[RG_SPLASH_HEIGHT_PX * 
         return false;
     const struct material *m = &materials[material];
     const double time_s = (frame + 0.5) * FRAME_S, passed = fmin(time_s / m->life_s, 1);
-    const double turn = 2 * PI * chance_of(material, 0, 3).a;
+    const double turn = 2 * M_PI * chance_of(material, 0, 3).a;
     const struct rg_splash_crown crown = rg_splash_crown(material, time_s);
     add_ring(depth, m, &crown, time_s);
     add_sheet(depth, m, &crown, turn);

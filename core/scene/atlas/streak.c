@@ -7,8 +7,6 @@
 #include "core/base/alloc.h"
 #include "core/scene/atlas/optics/trace.h"
 
-#define PI 3.14159265358979323846
-
 // One row of rays adds to at most so many rows of the picture: twice the fall between two moments,
 // and one more at either end.
 enum { MAX_BLUR = 256 };
@@ -139,7 +137,7 @@ static bool prepare(struct tracing *t, int view, int level, const struct rg_stre
     const double shrink = (double)height / rg_atlas_row_height(view, 0);
     t->radius_x = 0.5f * RG_ATLAS_DROP_PX / (float)(1 << level);
     t->radius_y = (float)(0.5 * (double)RG_ATLAS_DROP_PX * shrink);
-    const double foreshortening = cos(view * 20 * PI / 180);
+    const double foreshortening = cos(view * 20 * M_PI / 180);
     t->fall_rows = RG_DROP_FALL * 2 * (double)t->radius_y * foreshortening;
     t->top_row = 0.5 * (height - t->fall_rows);
     t->moments = detail->moments;

@@ -191,7 +191,7 @@ void city_box(struct city_builder *b, point l, point h, int sides, const struct 
 
 static point on_circle(double x, double y, double z, double radius, double turn)
 {
-    const double angle = 6.283185307179586 * turn;
+    const double angle = 2 * M_PI * turn;
     return (point){x + radius * cos(angle), y, z - radius * sin(angle)};
 }
 

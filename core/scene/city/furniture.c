@@ -137,14 +137,13 @@ static void leaf_triangle(struct city_builder *b, const struct look *look, point
 static void build_crown(struct city_builder *b, point centre, double radius, int rings, uint32_t id)
 {
     const struct look leaves = {PAINT_LEAVES + (int)(id & 1), SCENERY_KIND_LEAVES, 1.6, 0, 0};
-    const double pi = 3.141592653589793;
     const int sides = 2 * rings;
     point at[9][18];
     for (int i = 0; i <= rings; i++) {
         for (int j = 0; j <= sides; j++) {
             const uint32_t k = (uint32_t)(i * sides + j % sides) * (i > 0 && i < rings);
             const double r = radius * (0.86 + 0.28 * city_chance(b, CHANCE_TREE, id, k));
-            const double down = pi * i / rings, around = 2 * pi * (j % sides) / sides;
+            const double down = M_PI * i / rings, around = 2 * M_PI * (j % sides) / sides;
             at[i][j] = (point){centre.x + r * sin(down) * cos(around), centre.y + r * cos(down),
                                centre.z - r * sin(down) * sin(around)};
         }

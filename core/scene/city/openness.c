@@ -34,7 +34,7 @@ static void find_column(float heights[SIDE][SIDE], int x, int z, float open[LEVE
     for (int level = 0; level < LEVELS; level++)
         open[level] = 0;
     for (int way = 0; way < WAYS; way++) {
-        const float angle = 6.2831853f * ((float)way + 0.5f) / WAYS;
+        const float angle = (float)(2 * M_PI) * ((float)way + 0.5f) / WAYS;
         const float dx = cosf(angle), dz = sinf(angle);
         float steepest[LEVELS] = {0};
         for (int step = 1; step <= FARTHEST_CELLS; step++) {

@@ -14,8 +14,6 @@
 // Where Debian's open3d-gui-data installs its maps; RG_ENVIRONMENT_DIR may name another folder.
 #define PACKAGE_DIR "/usr/share/open3d-gui/resources"
 
-#define PI 3.14159265358979323846
-
 enum { SKY_SIZE = 256, MIN_SIZE = 16, MAX_SIZE = 1024 };
 
 // --- the procedural sky: overcast, brighter towards the horizon, over dark ground ---
@@ -63,8 +61,8 @@ static void lat_long_light(const double d[3], const void *user, double light[3])
 {
     const struct rg_picture *picture = user;
     const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    const double u = (atan2(d[0], -d[2]) / (2 * PI) + 0.5) * picture->width - 0.5;
-    const double v = acos(d[1] / length) / PI * picture->height - 0.5;
+    const double u = (atan2(d[0], -d[2]) / (2 * M_PI) + 0.5) * picture->width - 0.5;
+    const double v = acos(d[1] / length) / M_PI * picture->height - 0.5;
     const int x = (int)floor(u), y = (int)floor(v);
     const double fx = u - x, fy = v - y;
     for (int c = 0; c < 3; c++)

@@ -5,8 +5,6 @@
 #include "core/base/alloc.h"
 #include "core/scene/mesh/models.h"
 
-#define PI 3.14159265358979323846
-
 enum { SPHERE_CELLS = 48, TORUS_AROUND = 256, TORUS_THROUGH = 64 };
 
 // u and v go from -1 to 1. Points where patches meet must be equal to the bit, to be joined.
@@ -15,7 +13,7 @@ typedef void (*surface_fn)(int patch, double u, double v, float position[3], flo
 // Makes the cells of a cube's side nearly equal on the sphere; -1, 0 and 1 stay.
 static double spread(double u)
 {
-    return fabs(u) < 1 ? tan(u * PI / 4) : u;
+    return fabs(u) < 1 ? tan(u * M_PI / 4) : u;
 }
 
 // A side of a cube, blown up to a sphere of radius 1.
@@ -36,7 +34,7 @@ static void sphere_point(int patch, double u, double v, float position[3], float
 static void torus_point(int patch, double u, double v, float position[3], float normal[3])
 {
     (void)patch;
-    const double a = (u < 1 ? u : -1) * PI, b = (v < 1 ? v : -1) * PI;
+    const double a = (u < 1 ? u : -1) * M_PI, b = (v < 1 ? v : -1) * M_PI;
     const double n[3] = {cos(b) * sin(a), sin(b), cos(b) * cos(a)};
     for (int c = 0; c < 3; c++)
         normal[c] = (float)n[c];

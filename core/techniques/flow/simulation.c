@@ -6,8 +6,6 @@
 
 #include "kernels/dialect/rng.h"
 
-#define PI 3.14159265358979323846
-
 static void multiply(const double a[3][3], double b[3][3], double product[3][3])
 {
     for (int i = 0; i < 3; i++)
@@ -34,9 +32,9 @@ int flow_pane_count(const struct flow_settings *s)
 void flow_pane_frame(const struct flow_settings *s, int pane, int64_t frame, double axes[3][3])
 {
     const double t = (double)frame * s->step_s;
-    const double r = (s->roll_deg + s->spin_roll_deg_s * t) * PI / 180;
-    const double p = (s->pitch_deg + s->spin_pitch_deg_s * t) * PI / 180;
-    const double y = (s->yaw_deg + s->spin_yaw_deg_s * t) * PI / 180;
+    const double r = (s->roll_deg + s->spin_roll_deg_s * t) * M_PI / 180;
+    const double p = (s->pitch_deg + s->spin_pitch_deg_s * t) * M_PI / 180;
+    const double y = (s->yaw_deg + s->spin_yaw_deg_s * t) * M_PI / 180;
     double roll[3][3] = {{cos(r), -sin(r), 0}, {sin(r), cos(r), 0}, {0, 0, 1}};
     double pitch[3][3] = {{1, 0, 0}, {0, cos(p), -sin(p)}, {0, sin(p), cos(p)}};
     double yaw[3][3] = {{cos(y), 0, -sin(y)}, {0, 1, 0}, {sin(y), 0, cos(y)}};
@@ -62,7 +60,7 @@ static void set_gravity(const struct flow_settings *s, double axes[3][3], flow_p
     double gx = -axes[0][1], gy = -axes[1][1]; // of (0, -1, 0) in the world
     double along = sqrt(gx * gx + gy * gy);
     pane->speed = along > 1e-6 ? (float)fmin(along, 1) : 0;
-    double eighths = atan2(gy, gx) / (PI / 4);
+    double eighths = atan2(gy, gx) / (M_PI / 4);
     if (s->direction == FLOW_NEAREST) {
         direction_of((int)floor(eighths + 0.5), &pane->ax, &pane->ay);
         return;

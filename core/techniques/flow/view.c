@@ -6,8 +6,6 @@
 
 #include "core/scene/camera.h"
 
-#define PI 3.14159265358979323846
-
 enum { AMBIENT_PX = 8 }; // texels along a face of what lights from all sides
 
 // How far a drop displaces the picture behind a pane, in heights of the view, for a normal that
@@ -43,7 +41,7 @@ int flow_texels(const struct flow_settings *s, int height_px)
     if (s->texels_a_pixel <= 0)
         return s->resolution_px;
     // Pixels that the side of a pane covers at the box's middle.
-    const double half = tan(s->view_angle_deg * PI / 360);
+    const double half = tan(s->view_angle_deg * M_PI / 360);
     const double px =
         s->view == FLOW_BOX ? height_px * s->pane_mm / (2 * s->distance_mm * half) : height_px;
     int texels = s->resolution_px;
@@ -54,7 +52,7 @@ int flow_texels(const struct flow_settings *s, int height_px)
 
 static void direction_of(double azimuth_deg, double elevation_deg, double d[3])
 {
-    const double a = azimuth_deg * PI / 180, e = elevation_deg * PI / 180;
+    const double a = azimuth_deg * M_PI / 180, e = elevation_deg * M_PI / 180;
     d[0] = sin(a) * cos(e);
     d[1] = sin(e);
     d[2] = cos(a) * cos(e);
@@ -88,7 +86,7 @@ static void see_pane(const struct flow_settings *s, int64_t frame, int width, in
 {
     double axes[3][3], right[3], down[3], ahead[3], eye[3];
     flow_pane_frame(s, 0, frame, axes);
-    const double pixel = 2 * tan(s->view_angle_deg * PI / 360) / height;
+    const double pixel = 2 * tan(s->view_angle_deg * M_PI / 360) / height;
     float to_clip[16] = {[11] = 0.5f, [15] = 1};
     for (int i = 0; i < 3; i++) {
         to_clip[i] = (float)axes[0][i];
@@ -120,7 +118,7 @@ static bool see_box(const struct flow_settings *s, int width, int height, flow_v
     if (!rg_camera_matrix(&camera, (float)width / (float)height, to_clip) ||
         !rg_camera_view(&camera, view))
         return false;
-    const double pixel = 2 * tan(s->view_angle_deg * PI / 360) / height;
+    const double pixel = 2 * tan(s->view_angle_deg * M_PI / 360) / height;
     for (int i = 0; i < 3; i++) {
         right[i] = pixel * (double)view[i];
         down[i] = -pixel * (double)view[4 + i];
@@ -136,7 +134,7 @@ bool flow_view_params_at(const struct flow_settings *s, int64_t frame, int width
 {
     double lamp[3];
     direction_of(s->light_azimuth_deg, s->light_elevation_deg, lamp);
-    const double pixel = 2 * tan(s->view_angle_deg * PI / 360) / height;
+    const double pixel = 2 * tan(s->view_angle_deg * M_PI / 360) / height;
     *p = (flow_view_params){
         .size = s->resolution_px,
         .environment_size = s->environment_px,

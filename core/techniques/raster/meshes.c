@@ -146,7 +146,7 @@ static struct point tube_normal(double t, double around)
 
 bool raster_mesh_knot(int triangles, struct raster_mesh *shape)
 {
-    const double turn = 6.283185307179586;
+    const double turn = 2 * M_PI;
     const int around = (int)(sqrt(triangles / 2.0 / 8)), along = triangles / 2 / around;
     if (!make_room(around * along, 2 * around * along, shape))
         return false;
@@ -186,7 +186,7 @@ static void put_quad(float *quad, uint32_t seed, uint32_t i)
         2.2f * rg_uniform(place.y) - 1.1f,
         rg_exp2(octaves - 12),
         rg_exp2(octaves * rg_uniform(shape.y) - 12),
-        6.2831853f * rg_uniform(shape.z),
+        (float)(2 * M_PI) * rg_uniform(shape.z),
         2 * rg_uniform(shape.w) - 1,
         rg_uniform(place.z),
         alpha * rg_uniform(colour.x),

@@ -5,11 +5,9 @@
 #include "core/scene/camera.h"
 #include "core/techniques/raster/raster.h"
 
-static const double pi = 3.14159265358979323846;
-
 static double radians(double degrees)
 {
-    return degrees / 180 * pi;
+    return degrees / 180 * M_PI;
 }
 
 static double smaller(double a, double b)
@@ -82,7 +80,7 @@ static struct rg_camera camera_of(const struct raster_settings *s, const struct 
     const double distance = s->inside ? 0 : 1.03 * radius / sin(narrowest) / s->zoom;
     struct rg_camera camera = {
         .up = {0, 1, 0},
-        .angle_deg = (float)(s->inside ? 2 * atan(tan(half) / s->zoom) / pi * 180 : angle_deg),
+        .angle_deg = (float)(s->inside ? 2 * atan(tan(half) / s->zoom) / M_PI * 180 : angle_deg),
         .near_plane = (float)s->near_plane,
         .far_plane = (float)(distance + radius + s->near_plane),
     };

@@ -6,8 +6,8 @@
 // A layer hides as much as all its drops do: each hides its cross-section all through the exposure.
 static double opacity_of(const struct streaks *s)
 {
-    const double pi = 3.14159265358979323846, radius_m = s->settings.drop_radius_mm / 1000;
-    return s->drops_m3 * s->settings.culling_radius_m * pi * radius_m * radius_m *
+    const double radius_m = s->settings.drop_radius_mm / 1000;
+    return s->drops_m3 * s->settings.culling_radius_m * M_PI * radius_m * radius_m *
            s->settings.streak_opacity;
 }
 

@@ -5,14 +5,12 @@
 
 #include "core/base/log.h"
 
-static const double pi = 3.14159265358979323846;
-
 // A walk ahead on level ground, with steps that sway and bob and a head that turns.
 static void walk(struct rg_camera *camera, double metres)
 {
     const double stride_m = 1.5, sway_m = 0.1, bob_m = 0.15, reach_m = 40, turn = 0.2;
     const struct rg_camera_axes axes = rg_camera_axes(camera);
-    const double level = hypot(axes.ahead[0], axes.ahead[2]), phase = 2 * pi * metres / stride_m;
+    const double level = hypot(axes.ahead[0], axes.ahead[2]), phase = 2 * M_PI * metres / stride_m;
     if (metres == 0 || level == 0)
         return;
     for (int i = 0; i < 3; i++) {
@@ -49,7 +47,7 @@ bool streaks_observer_at(const struct streaks_settings *settings, const struct r
         return rg_error("camera: its eye is %.3g m below the ground; raise eye_y_m",
                         -(double)moved.position[1]);
     const struct rg_camera_axes axes = rg_camera_axes(&moved);
-    const double half_height = tan((double)moved.angle_deg / 360 * pi);
+    const double half_height = tan((double)moved.angle_deg / 360 * M_PI);
     const double half_width = half_height * width / height;
     observer->focal_px = (float)(height / (2 * half_height));
     find_rays(&axes, half_width, half_height, width, height, observer->rays);

@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#define PI            3.14159265358979323846
 #define TENSION_N_M   0.0728
 #define DENSITY_KG_M3 1000.0
 
@@ -24,7 +23,7 @@ static double angular_frequency(int n)
 
 struct rg_drop_shape rg_drop_shape(int oscillation, double time_s)
 {
-    const double phi = oscillations[oscillation].phi_deg * PI / 180;
+    const double phi = oscillations[oscillation].phi_deg * M_PI / 180;
     return (struct rg_drop_shape){
         .a = (float)(oscillations[oscillation].a20 * sin(angular_frequency(2) * time_s)),
         .b = (float)(oscillations[oscillation].a31 * sin(angular_frequency(3) * time_s)),

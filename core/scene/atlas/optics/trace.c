@@ -4,8 +4,6 @@
 
 #include "core/image/compare/multiversion.h"
 
-#define PI 3.14159265358979323846
-
 #define INLINE static inline __attribute__((always_inline))
 
 // How often Newton's method improves a point on the surface: from outside, and through the drop,
@@ -180,6 +178,7 @@ void rg_drop_trace(const struct rg_drop_shape *shape, const struct rg_drop_view 
 
 struct rg_drop_view rg_drop_view(double elevation_deg)
 {
-    const float c = (float)cos(elevation_deg * PI / 180), s = (float)sin(elevation_deg * PI / 180);
+    const float c = (float)cos(elevation_deg * M_PI / 180),
+                s = (float)sin(elevation_deg * M_PI / 180);
     return (struct rg_drop_view){{0, s, c}, {1, 0, 0}, {0, c, -s}};
 }

@@ -6,7 +6,7 @@
 #include "core/scene/vector.h"
 #include "core/techniques/scenery/lights/lights.h"
 
-static const double degree = 3.14159265358979323846 / 180;
+static const double degree = M_PI / 180;
 
 struct axes {
     double right[3], down[3], ahead[3];
