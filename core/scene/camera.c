@@ -17,13 +17,6 @@ static void put_rows(mat4 columns, float rows[16])
             rows[4 * i + j] = columns[j][i];
 }
 
-static void get_columns(const float rows[16], mat4 columns)
-{
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++)
-            columns[j][i] = rows[4 * i + j];
-}
-
 static void get_vector(const float from[3], vec3 to)
 {
     memcpy(to, from, 3 * sizeof(float));
@@ -132,13 +125,4 @@ void rg_place(const float low[3], const float high[3], const struct rg_placement
     glm_scale_uni(place, (float)((double)placement->size / longest));
     glm_translate(place, to_origin);
     put_rows(place, matrix);
-}
-
-void rg_matrix_multiply(const float left[16], const float right[16], float product[16])
-{
-    mat4 a, b;
-    get_columns(left, a);
-    get_columns(right, b);
-    glm_mat4_mul(a, b, a);
-    put_rows(a, product);
 }

@@ -1,6 +1,6 @@
 // Cameras and placements: from a mesh's own coordinates to clip space.
 //
-// Matrices are 16 floats, row by row, and act on columns: clip = matrix * (x, y, z, 1). The world
+// Matrices are 16 floats, row by row (core/scene/matrix.h): clip = matrix * (x, y, z, 1). The world
 // is right-handed. Clip space is what kernels expect (kernels/dialect/draw/clip.h): x to the right,
 // y DOWN, since row 0 of a target is its top, depth 0 on the near plane and 1 on the far plane, w
 // the distance ahead of the camera.
@@ -41,8 +41,5 @@ struct rg_placement {
 // must not be 0; a mesh's never is. Its upper left 3x3 turns normals too, up to their length.
 void rg_place(const float low[3], const float high[3], const struct rg_placement *placement,
               float matrix[16]);
-
-// product = left * right: first `right` acts, then `left`. `product` may be either of them.
-void rg_matrix_multiply(const float left[16], const float right[16], float product[16]);
 
 #endif

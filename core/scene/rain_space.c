@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/scene/matrix.h"
 #include "core/scene/vector.h"
 
 static bool all_finite(const double *values, int count)
@@ -87,56 +88,47 @@ void rg_rain_world_point(const struct rg_rain_space *space, const double rain[3]
             space->origin_m[i] + at[0] * space->x[i] + at[1] * space->y[i] + at[2] * space->s[i];
 }
 
-// Row by row, in double precision.
-static void to_rain(const struct rg_rain_space *space, double matrix[16])
+static struct rg_matrix to_rain(const struct rg_rain_space *space)
 {
     const double *const axes[3] = {space->x, space->y, space->s};
-    memset(matrix, 0, 16 * sizeof(*matrix));
+    struct rg_matrix matrix = {{{0}}};
     for (int row = 0; row < 3; row++) {
-        memcpy(matrix + 4 * row, axes[row], 3 * sizeof(*matrix));
-        matrix[4 * row + 3] = -rg_dot(axes[row], space->origin_m);
+        memcpy(matrix.rows[row], axes[row], 3 * sizeof(double));
+        matrix.rows[row][3] = -rg_dot(axes[row], space->origin_m);
     }
-    matrix[15] = 1;
+    matrix.rows[3][3] = 1;
+    return matrix;
 }
 
-static void to_world(const struct rg_rain_space *space, double matrix[16])
+static struct rg_matrix to_world(const struct rg_rain_space *space)
 {
+    struct rg_matrix matrix = {{{0}}};
     for (int row = 0; row < 3; row++) {
-        matrix[4 * row] = space->x[row];
-        matrix[4 * row + 1] = space->y[row];
-        matrix[4 * row + 2] = space->s[row];
-        matrix[4 * row + 3] = space->origin_m[row];
+        matrix.rows[row][0] = space->x[row];
+        matrix.rows[row][1] = space->y[row];
+        matrix.rows[row][2] = space->s[row];
+        matrix.rows[row][3] = space->origin_m[row];
     }
-    const double last[4] = {0, 0, 0, 1};
-    memcpy(matrix + 12, last, sizeof(last));
+    matrix.rows[3][3] = 1;
+    return matrix;
 }
 
 void rg_rain_matrices(const struct rg_rain_space *space, float world_to_rain[16],
                       float rain_to_world[16])
 {
-    double there[16], back[16];
-    to_rain(space, there);
-    to_world(space, back);
-    for (int i = 0; i < 16; i++) {
-        if (world_to_rain)
-            world_to_rain[i] = (float)there[i];
-        if (rain_to_world)
-            rain_to_world[i] = (float)back[i];
-    }
+    const struct rg_matrix there = to_rain(space), back = to_world(space);
+    if (world_to_rain)
+        rg_matrix_round(&there, world_to_rain);
+    if (rain_to_world)
+        rg_matrix_round(&back, rain_to_world);
 }
 
 void rg_rain_to_clip(const struct rg_rain_space *space, const float world_to_clip[16],
                      float rain_to_clip[16])
 {
-    double world[16];
-    to_world(space, world);
-    for (int row = 0; row < 4; row++)
-        for (int column = 0; column < 4; column++) {
-            double sum = 0;
-            for (int i = 0; i < 4; i++)
-                sum += (double)world_to_clip[4 * row + i] * world[4 * i + column];
-            rain_to_clip[4 * row + column] = (float)sum;
-        }
+    const struct rg_matrix clip = rg_matrix_of(world_to_clip), world = to_world(space);
+    const struct rg_matrix product = rg_matrix_product(&clip, &world);
+    rg_matrix_round(&product, rain_to_clip);
 }
 
 void rg_rain_rays(const struct rg_rain_space *space, const float world[16], float rain[16])

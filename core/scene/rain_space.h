@@ -42,7 +42,7 @@ void rg_rain_eye(const struct rg_rain_space *space, const struct rg_camera *came
 void rg_rain_direction(const struct rg_rain_space *space, const double world[3], double rain[3]);
 void rg_rain_world_point(const struct rg_rain_space *space, const double rain[3], double world[3]);
 
-// Both as matrices, row by row, as core/scene/camera.h has them. Either may be NULL.
+// Both as matrices, row by row, as core/scene/matrix.h has them. Either may be NULL.
 void rg_rain_matrices(const struct rg_rain_space *space, float world_to_rain[16],
                       float rain_to_world[16]);
 // The matrix from the rain frame to clip space, made from the world's to clip space; multiplied in

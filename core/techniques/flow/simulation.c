@@ -2,16 +2,10 @@
 #include "core/techniques/flow/flow.h"
 
 #include <math.h>
-#include <string.h>
 
+#include "core/scene/matrix.h"
+#include "core/scene/vector.h"
 #include "kernels/dialect/rng.h"
-
-static void multiply(const double a[3][3], double b[3][3], double product[3][3])
-{
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            product[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
-}
 
 // In the world x runs right, y up and z towards the viewer. Rows are a pane's tangent, binormal and
 // normal before the box turns.
@@ -35,13 +29,13 @@ void flow_pane_frame(const struct flow_settings *s, int pane, int64_t frame, dou
     const double r = (s->roll_deg + s->spin_roll_deg_s * t) * M_PI / 180;
     const double p = (s->pitch_deg + s->spin_pitch_deg_s * t) * M_PI / 180;
     const double y = (s->yaw_deg + s->spin_yaw_deg_s * t) * M_PI / 180;
-    double roll[3][3] = {{cos(r), -sin(r), 0}, {sin(r), cos(r), 0}, {0, 0, 1}};
-    double pitch[3][3] = {{1, 0, 0}, {0, cos(p), -sin(p)}, {0, sin(p), cos(p)}};
-    double yaw[3][3] = {{cos(y), 0, -sin(y)}, {0, 1, 0}, {sin(y), 0, cos(y)}};
+    const double roll[3][3] = {{cos(r), -sin(r), 0}, {sin(r), cos(r), 0}, {0, 0, 1}};
+    const double pitch[3][3] = {{1, 0, 0}, {0, cos(p), -sin(p)}, {0, sin(p), cos(p)}};
+    const double yaw[3][3] = {{cos(y), 0, -sin(y)}, {0, 1, 0}, {sin(y), 0, cos(y)}};
     double rolled[3][3], pitched[3][3];
-    multiply(rest[pane], roll, rolled);
-    multiply(rolled, pitch, pitched);
-    multiply(pitched, yaw, axes);
+    rg_turn_multiply(rest[pane], roll, rolled);
+    rg_turn_multiply(rolled, pitch, pitched);
+    rg_turn_multiply(pitched, yaw, axes);
 }
 
 // The nearest of the eight directions to (x, y), y down: whole steps of 45 degrees (figure 8).
@@ -72,11 +66,6 @@ static void set_gravity(const struct flow_settings *s, double axes[3][3], flow_p
     pane->b_share = (float)fmax(eighths - whole, 0);
 }
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 // The way out of a resting pane over a side: 0 top, 1 bottom, 2 left, 3 right.
 static void way_out(int pane, int side, double out[3])
 {
@@ -96,14 +85,14 @@ static flow_neighbour neighbour_of(const struct flow_settings *s, int pane, int 
     if (!s->run_on || flow_pane_count(s) == 1)
         return over;
     for (int q = 0; q < FLOW_MAX_PANES; q++)
-        if (dot(rest[q][2], out) > 0.5)
+        if (rg_dot(rest[q][2], out) > 0.5)
             over.pane = q;
     for (int e = 0; e < 4; e++) {
         way_out(over.pane, e, back);
-        if (dot(back, rest[pane][2]) > 0.5)
+        if (rg_dot(back, rest[pane][2]) > 0.5)
             over.side = e;
     }
-    over.turned = dot(rest[pane][side < 2 ? 0 : 1], rest[over.pane][over.side < 2 ? 0 : 1]) < 0;
+    over.turned = rg_dot(rest[pane][side < 2 ? 0 : 1], rest[over.pane][over.side < 2 ? 0 : 1]) < 0;
     flow_pane_frame(s, over.pane, frame, axes);
     if (axes[2][1] < -0.5)
         over.pane = FLOW_NO_PANE;

@@ -2,9 +2,9 @@
 #include "core/techniques/flow/flow.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "core/scene/camera.h"
+#include "core/scene/matrix.h"
 
 enum { AMBIENT_PX = 8 }; // texels along a face of what lights from all sides
 
@@ -58,13 +58,6 @@ static void direction_of(double azimuth_deg, double elevation_deg, double d[3])
     d[2] = cos(a) * cos(e);
 }
 
-static m4 m4_of(const float rows[16])
-{
-    m4 m;
-    memcpy(&m, rows, sizeof(m));
-    return m;
-}
-
 // Rays through pixels: `right` and `down` a pixel, `ahead` at the view's middle, all from the eye.
 static m4 rays_of(double right[3], double down[3], double ahead[3], double eye[3], int width,
                   int height)
@@ -77,7 +70,7 @@ static m4 rays_of(double right[3], double down[3], double ahead[3], double eye[3
             (float)(ahead[i] - right[i] * (0.5 * width - 0.5) - down[i] * (0.5 * height - 0.5));
         m[4 * i + 3] = (float)eye[i];
     }
-    return m4_of(m);
+    return rg_m4_of(m);
 }
 
 // One pane that fills the view, whatever the target's shape, seen along its normal.
@@ -96,7 +89,7 @@ static void see_pane(const struct flow_settings *s, int64_t frame, int width, in
         ahead[i] = -axes[2][i];
         eye[i] = 2 * axes[2][i];
     }
-    p->to_clip = m4_of(to_clip);
+    p->to_clip = rg_m4_of(to_clip);
     p->rays = rays_of(right, down, ahead, eye, width, height);
 }
 
@@ -124,7 +117,7 @@ static bool see_box(const struct flow_settings *s, int width, int height, flow_v
         down[i] = -pixel * (double)view[4 + i];
         ahead[i] = -(double)view[8 + i];
     }
-    p->to_clip = m4_of(to_clip);
+    p->to_clip = rg_m4_of(to_clip);
     p->rays = rays_of(right, down, ahead, eye, width, height);
     return true;
 }
@@ -178,10 +171,10 @@ void flow_view_model(const struct flow_settings *s, int64_t frame, const float l
         turn[4 * i + 1] = -(float)axes[1][i];
         turn[4 * i + 2] = (float)axes[2][i];
     }
-    p->turn = m4_of(turn);
+    p->turn = rg_m4_of(turn);
     float to_clip[16];
-    memcpy(to_clip, &p->to_clip, sizeof(to_clip));
+    rg_m4_rows(&p->to_clip, to_clip);
     rg_matrix_multiply(turn, placed, placed);
     rg_matrix_multiply(to_clip, placed, to_clip);
-    p->to_clip = m4_of(to_clip);
+    p->to_clip = rg_m4_of(to_clip);
 }

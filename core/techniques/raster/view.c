@@ -1,8 +1,8 @@
 // Where raster's eye is, and what moves with the frames.
 #include <math.h>
-#include <string.h>
 
 #include "core/scene/camera.h"
+#include "core/scene/matrix.h"
 #include "core/techniques/raster/raster.h"
 
 static double radians(double degrees)
@@ -127,7 +127,7 @@ bool raster_mesh_at(const struct raster_settings *s, const struct raster_mesh *s
     const float shift = (float)(2 * s->shift_px / width);
     for (int i = 0; i < 4; i++)
         to_clip[i] += shift * to_clip[12 + i];
-    memcpy(&p->to_clip, to_clip, sizeof(to_clip));
+    p->to_clip = rg_m4_of(to_clip);
     light(view, p);
     p->ambient = 0.15f;
     return true;

@@ -1,8 +1,7 @@
 // Frusta as lines: what a matrix takes to clip space, and how far lights reach.
-#include <cglm/cglm.h>
 #include <math.h>
-#include <string.h>
 
+#include "core/scene/matrix.h"
 #include "core/techniques/scenery/lights/lights.h"
 #include "core/techniques/scenery/overlay.h"
 
@@ -12,19 +11,10 @@
 static bool find_corners(const float to_clip[16], float near_depth, float far_depth,
                          float corners[8][3])
 {
-    mat4 columns, inverse;
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++)
-            columns[j][i] = to_clip[4 * i + j];
-    glm_mat4_inv(columns, inverse);
     for (int k = 0; k < 8; k++) {
-        vec4 corner = {k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? far_depth : near_depth, 1}, at;
-        glm_mat4_mulv(inverse, corner, at);
-        for (int c = 0; c < 3; c++) {
-            corners[k][c] = at[c] / at[3];
-            if (!isfinite(corners[k][c]))
-                return false;
-        }
+        const float corner[3] = {k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? far_depth : near_depth};
+        if (!rg_matrix_undo(to_clip, corner, corners[k]))
+            return false;
     }
     return true;
 }

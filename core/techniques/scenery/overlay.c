@@ -5,6 +5,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/array.h"
+#include "core/scene/matrix.h"
 #include "kernels/scenery/overlay/lines_params.h"
 
 enum overlay_pass { SHEETS, LINES, INSET, PASS_COUNT };
@@ -152,7 +153,7 @@ bool scenery_overlay_draw(struct scenery_overlay *overlay, const float to_clip[1
                                  .depth = depth,
                                  .blend = RG_BLEND_OVER,
                                  .depth_mode = depth ? RG_DEPTH_TEST : RG_DEPTH_OFF};
-    memcpy(&overlay->view.to_clip, to_clip, sizeof(overlay->view.to_clip));
+    overlay->view.to_clip = rg_m4_of(to_clip);
     return draw_items(overlay, &overlay->sheets, SHEETS, &draw) &&
            draw_items(overlay, &overlay->lines, LINES, &draw);
 }

@@ -6,6 +6,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/scene/matrix.h"
 #include "core/techniques/scenery/cull.h"
 #include "core/techniques/scenery/made.h"
 #include "kernels/dialect/image/format.h"
@@ -167,56 +168,24 @@ bool scenery_numbers(struct scenery *scene, m4 to_clip, const struct rg_draw *on
     return draw_faces(scene, to_clip, onto, RG_CULL_NONE, false);
 }
 
-// One step of Gauss and Jordan: column c of `rows` becomes that of the unit matrix. False where it
-// cannot.
-static bool eliminate(double rows[4][8], int c)
-{
-    int pivot = c;
-    for (int r = c + 1; r < 4; r++)
-        if (fabs(rows[r][c]) > fabs(rows[pivot][c]))
-            pivot = r;
-    const double by = rows[pivot][c];
-    if (!(fabs(by) > 1e-12))
-        return false;
-    for (int k = 0; k < 8; k++) {
-        const double swapped = rows[c][k];
-        rows[c][k] = rows[pivot][k] / by;
-        if (pivot != c)
-            rows[pivot][k] = swapped;
-    }
-    for (int r = 0; r < 4; r++) {
-        const double times = rows[r][c];
-        for (int k = 0; r != c && k < 8; k++)
-            rows[r][k] -= times * rows[c][k];
-    }
-    return true;
-}
-
 // From pixels and depth to the world: the matrix's inverse, behind the viewport's. In double
 // precision, since far away all depends on the last digits.
 static bool invert(const m4 *to_clip, int width, int height, m4 *from_pixel)
 {
-    const float m[16] = {to_clip->xx, to_clip->xy, to_clip->xz, to_clip->xw,
-                         to_clip->yx, to_clip->yy, to_clip->yz, to_clip->yw,
-                         to_clip->zx, to_clip->zy, to_clip->zz, to_clip->zw,
-                         to_clip->wx, to_clip->wy, to_clip->wz, to_clip->ww};
-    double rows[4][8] = {{0}};
-    for (int i = 0; i < 16; i++)
-        rows[i / 4][i % 4] = (double)m[i];
-    for (int i = 0; i < 4; i++)
-        rows[i][4 + i] = 1;
-    for (int c = 0; c < 4; c++)
-        if (!eliminate(rows, c))
-            return rg_error("scene: its matrix maps space to less; move the camera");
-    float from[16];
+    float rows[16];
+    rg_m4_rows(to_clip, rows);
+    const struct rg_matrix clip = rg_matrix_of(rows);
+    struct rg_matrix from;
+    if (!rg_matrix_inverse(&clip, &from))
+        return rg_error("scene: its matrix maps space to less; move the camera");
     for (int i = 0; i < 4; i++) {
-        const double x = rows[i][4], y = rows[i][5];
-        from[4 * i] = (float)(x * 2 / width);
-        from[4 * i + 1] = (float)(y * 2 / height);
-        from[4 * i + 2] = (float)rows[i][6];
-        from[4 * i + 3] = (float)(rows[i][7] - x - y);
+        double *row = from.rows[i];
+        row[3] = row[3] - row[0] - row[1];
+        row[0] = row[0] * 2 / width;
+        row[1] = row[1] * 2 / height;
     }
-    memcpy(from_pixel, from, sizeof(from));
+    rg_matrix_round(&from, rows);
+    *from_pixel = rg_m4_of(rows);
     return true;
 }
 

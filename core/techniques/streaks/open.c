@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/scene/matrix.h"
 #include "core/techniques/streaks/fit.h"
 #include "core/techniques/streaks/instance.h"
 
@@ -76,9 +77,7 @@ static void choose_camera(struct streaks *s)
 static bool draw_shadow(void *user, const float to_clip[16], const struct rg_draw *onto)
 {
     struct streaks *s = user;
-    m4 matrix;
-    memcpy(&matrix, to_clip, sizeof(matrix));
-    return scenery_depth(s->scene, matrix, onto);
+    return scenery_depth(s->scene, rg_m4_of(to_clip), onto);
 }
 
 // Lamps ahead of the camera light what it sees: a place so far ahead on level ground.

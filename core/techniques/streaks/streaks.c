@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/scene/matrix.h"
 #include "core/techniques/streaks/instance.h"
 
 // --- passes over the selected particles ---
@@ -94,8 +95,8 @@ static bool streaks_draw(struct rg_instance *instance)
     const struct scenery_look look =
         s->settings.time == SCENERY_NIGHT ? scenery_night() : scenery_day();
     struct scenery_view view = {.colour = instance->target,
-                                .depth = rg_asset_find(instance, "depth")->image};
-    memcpy(&view.to_clip, s->observer.world_to_clip, sizeof(view.to_clip));
+                                .depth = rg_asset_find(instance, "depth")->image,
+                                .to_clip = rg_m4_of(s->observer.world_to_clip)};
     memcpy(view.eye, s->observer.camera.position, sizeof(view.eye));
     instance->counters[STREAKS_PARTICLES].value += s->selection.particles;
     instance->counters[STREAKS_PACKETS].value += s->selection.packets;

@@ -168,33 +168,13 @@ static void test_placements(void **state)
     }
 }
 
-static void test_multiplication(void **state)
-{
-    (void)state;
-    float a[16], b[16], product[16];
-    for (int i = 0; i < 16; i++) {
-        a[i] = (float)(i * i % 7 - 3);
-        b[i] = (float)(i * 5 % 11 - 4);
-    }
-    rg_matrix_multiply(a, b, product);
-    for (int row = 0; row < 4; row++) {
-        for (int column = 0; column < 4; column++) {
-            double sum = 0;
-            for (int k = 0; k < 4; k++)
-                sum += (double)a[4 * row + k] * (double)b[4 * k + column];
-            assert_true((double)product[4 * row + column] == sum); // small integers
-        }
-    }
-    rg_matrix_multiply(a, b, a);
-    assert_memory_equal(a, product, sizeof(a));
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_corners_of_the_view),      cmocka_unit_test(test_any_camera),
-        cmocka_unit_test(test_cameras_that_see_nothing), cmocka_unit_test(test_placements),
-        cmocka_unit_test(test_multiplication),
+        cmocka_unit_test(test_corners_of_the_view),
+        cmocka_unit_test(test_any_camera),
+        cmocka_unit_test(test_cameras_that_see_nothing),
+        cmocka_unit_test(test_placements),
     };
     return cmocka_run_group_tests_name("cameras", tests, NULL, NULL);
 }

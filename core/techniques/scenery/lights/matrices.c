@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/scene/matrix.h"
 #include "core/scene/vector.h"
 #include "core/techniques/scenery/lights/lights.h"
 
@@ -164,54 +165,17 @@ scenery_light scenery_light_of(const struct rg_light *light, const float low_m[3
 
 // --- other frames ---
 
-static void multiply(const double left[4][4], const double right[4][4], double product[4][4])
-{
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++) {
-            product[i][j] = 0;
-            for (int k = 0; k < 4; k++)
-                product[i][j] += left[i][k] * right[k][j];
-        }
-}
-
-static void widen(const float from[16], double to[4][4])
-{
-    for (int i = 0; i < 16; i++)
-        to[i / 4][i % 4] = (double)from[i];
-}
-
-static void narrow(const double from[4][4], float to[16])
-{
-    for (int i = 0; i < 16; i++)
-        to[i] = (float)from[i / 4][i % 4];
-}
-
-// Of a matrix that turns and moves.
-static void invert(const double m[4][4], double inverse[4][4])
-{
-    for (int i = 0; i < 3; i++) {
-        inverse[i][3] = 0;
-        for (int j = 0; j < 3; j++) {
-            inverse[i][j] = m[j][i];
-            inverse[i][3] -= m[j][i] * m[j][3];
-        }
-        inverse[3][i] = 0;
-    }
-    inverse[3][3] = 1;
-}
-
 scenery_light scenery_light_moved(const scenery_light *light, const float matrix[16])
 {
     scenery_light l = *light;
-    double m[4][4], back[4][4], shadow[4][4], moved[4][4], place[3], way[3];
+    const struct rg_matrix m = rg_matrix_of(matrix), back = rg_matrix_back(&m);
+    double place[3], way[3];
     float to_shadow[16];
-    widen(matrix, m);
-    invert(m, back);
     const double from[3] = {(double)l.x, (double)l.y, (double)l.z},
                  direction[3] = {(double)l.dx, (double)l.dy, (double)l.dz};
     for (int c = 0; c < 3; c++) {
-        place[c] = rg_dot(m[c], from) + m[c][3];
-        way[c] = rg_dot(m[c], direction);
+        place[c] = rg_dot(m.rows[c], from) + m.rows[c][3];
+        way[c] = rg_dot(m.rows[c], direction);
     }
     l.x = (float)place[0];
     l.y = (float)place[1];
@@ -219,13 +183,13 @@ scenery_light scenery_light_moved(const scenery_light *light, const float matrix
     l.dx = (float)way[0];
     l.dy = (float)way[1];
     l.dz = (float)way[2];
-    memcpy(to_shadow, &light->to_shadow, sizeof(to_shadow));
-    widen(to_shadow, shadow);
-    multiply(shadow, back, moved);
+    rg_m4_rows(&light->to_shadow, to_shadow);
+    const struct rg_matrix shadow = rg_matrix_of(to_shadow);
+    struct rg_matrix moved = rg_matrix_product(&shadow, &back);
     if (l.shadow_faces == 6) // its last row is no row of a matrix
-        memcpy(moved[3], shadow[3], sizeof(moved[3]));
-    narrow(moved, to_shadow);
-    memcpy(&l.to_shadow, to_shadow, sizeof(to_shadow));
+        memcpy(moved.rows[3], shadow.rows[3], sizeof(moved.rows[3]));
+    rg_matrix_round(&moved, to_shadow);
+    l.to_shadow = rg_m4_of(to_shadow);
     return l;
 }
 

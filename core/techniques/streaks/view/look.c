@@ -1,7 +1,7 @@
 // What the observer sees at the present frame: the packets, and what kernels are told of the view.
 #include <math.h>
-#include <string.h>
 
+#include "core/scene/matrix.h"
 #include "core/techniques/streaks/instance.h"
 
 // How far streaks and splashes reach from their particle, in metres.
@@ -77,9 +77,9 @@ static void set_view(streaks_params *p, const struct rg_rain_space *space,
     const double far_m = (double)observer->camera.far_plane;
     float to_clip[16], rays[16];
     rg_rain_to_clip(space, observer->world_to_clip, to_clip);
-    memcpy(&p->to_clip, to_clip, sizeof(p->to_clip));
+    p->to_clip = rg_m4_of(to_clip);
     rg_rain_rays(space, observer->rays, rays);
-    memcpy(&p->rays, rays, sizeof(p->rays));
+    p->rays = rg_m4_of(rays);
     p->depth_far = (float)(far_m / (far_m - near_m));
     p->depth_per_w = (float)(-near_m * far_m / (far_m - near_m));
     p->focal_px = observer->focal_px;

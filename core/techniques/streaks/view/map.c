@@ -5,10 +5,10 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/base/alloc.h"
 #include "core/device/shared.h"
+#include "core/scene/matrix.h"
 #include "core/techniques/streaks/instance.h"
 
 static bool is_around(const struct streaks *s)
@@ -44,9 +44,7 @@ static m4 matrix_of(const struct streaks *s)
     to_map[15] = 1;
     rg_rain_matrices(&s->space, world_to_rain, NULL);
     rg_matrix_multiply(to_map, world_to_rain, to_map);
-    m4 to_clip;
-    memcpy(&to_clip, to_map, sizeof(to_clip));
-    return to_clip;
+    return rg_m4_of(to_map);
 }
 
 static bool is_numbered(const struct streaks *s)
