@@ -62,6 +62,16 @@ bool rg_buf_read(struct rg_buf *buf, int64_t offset, void *data, int64_t size)
     return buf->device->backend->buf_read(buf, (size_t)offset, data, (size_t)size);
 }
 
+struct rg_buf *rg_buf_create_with(struct rg_device *device, const void *data, int64_t size,
+                                  const char *name)
+{
+    struct rg_buf *buf = rg_buf_create(device, size, name);
+    if (buf && rg_buf_write(buf, 0, data, size))
+        return buf;
+    rg_buf_destroy(buf);
+    return NULL;
+}
+
 // --- images ---
 
 static int64_t image_bytes(const struct rg_image_desc *desc)
@@ -144,4 +154,14 @@ bool rg_image_read(struct rg_image *image, int layer, int level, void *texels)
 bool rg_image_clear(struct rg_image *image, const void *texel)
 {
     return image->device->backend->image_clear(image, texel);
+}
+
+struct rg_image *rg_image_create_with(struct rg_device *device, const struct rg_image_desc *desc,
+                                      const void *texel, const char *name)
+{
+    struct rg_image *image = rg_image_create(device, desc, name);
+    if (image && rg_image_clear(image, texel))
+        return image;
+    rg_image_destroy(image);
+    return NULL;
 }

@@ -53,8 +53,8 @@ struct rg_scan *rg_scan_create(struct rg_device *device, int max_count)
     if ((scan->sum_chunks = rg_grid_create(device, "scan_sums")) &&
         (scan->spread = rg_grid_create(device, "scan_spread")) &&
         (scan->compact = rg_grid_create(device, "scan_compact")) &&
-        (scan->nothing = rg_buf_create(device, sizeof(zero), "scan nothing")) &&
-        rg_buf_write(scan->nothing, 0, &zero, sizeof(zero)) && create_levels(scan))
+        (scan->nothing = rg_buf_create_with(device, &zero, sizeof(zero), "scan nothing")) &&
+        create_levels(scan))
         return scan;
     rg_scan_destroy(scan);
     return NULL;

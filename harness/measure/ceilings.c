@@ -30,13 +30,14 @@ static bool time_run(struct rg_pass *pass, const struct rg_run *run, int batch, 
 // Gigabytes a second, read and written, of a copy of so many bytes.
 static bool measure_copy(struct rg_device *device, int bytes, int batch, double *gb_s)
 {
-    struct rg_buf *source = rg_buf_create(device, bytes, "ceiling source");
+    void *zeroes = calloc(1, (size_t)bytes);
+    struct rg_buf *source =
+        zeroes ? rg_buf_create_with(device, zeroes, bytes, "ceiling source") : NULL;
     struct rg_buf *target = rg_buf_create(device, bytes, "ceiling target");
     struct rg_pass *copy = rg_pass_create(device, "probe_copy");
-    void *zeroes = calloc(1, (size_t)bytes);
     const struct probe_copy_params params = {bytes / 4096, 1024, 0};
     double ms = 0;
-    bool ok = source && target && copy && zeroes && rg_buf_write(source, 0, zeroes, bytes) &&
+    bool ok = source && target && copy &&
               time_run(copy,
                        &(struct rg_run){.params = &params,
                                         .slots = {[1].buf = source, [2].buf = target},

@@ -28,10 +28,10 @@ static bool load_init(struct load *load, struct rg_device *device)
 {
     *load = (struct load){.device = device};
     uint32_t *words = calloc(WORDS, 4);
-    bool ok = words && (load->source = rg_buf_create(device, WORDS * 4, "timer source")) &&
+    bool ok = words &&
+              (load->source = rg_buf_create_with(device, words, WORDS * 4, "timer source")) &&
               (load->target = rg_buf_create(device, WORDS * 4, "timer target")) &&
-              (load->copy = rg_pass_create(device, "probe_copy")) &&
-              rg_buf_write(load->source, 0, words, WORDS * 4);
+              (load->copy = rg_pass_create(device, "probe_copy"));
     free(words);
     return ok;
 }

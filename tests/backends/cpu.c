@@ -37,12 +37,9 @@ struct drawn {
 static struct drawn target(struct rg_device *device, const struct scene *s, enum rg_format format)
 {
     const uint32_t texel[4] = {poison, poison, poison, poison};
-    struct drawn drawn = {
-        rg_image_create(device,
-                        &(struct rg_image_desc){format, s->width, s->height, s->layers, s->levels},
-                        "target"),
-        NULL, 0};
-    assert_true(drawn.image && rg_image_clear(drawn.image, texel));
+    const struct rg_image_desc desc = {format, s->width, s->height, s->layers, s->levels};
+    struct drawn drawn = {rg_image_create_with(device, &desc, texel, "target"), NULL, 0};
+    assert_non_null(drawn.image);
     return drawn;
 }
 
@@ -70,8 +67,8 @@ static void draw(const char *name, const struct scene *s, const float *quads, st
     struct rg_device *device = rg_device_open(name);
     assert_non_null(device);
     struct rg_pass *pass = rg_pass_create(device, "test_quads");
-    struct rg_buf *input = rg_buf_create(device, size, "quads");
-    assert_true(pass && input && rg_buf_write(input, 0, quads, size));
+    struct rg_buf *input = rg_buf_create_with(device, quads, size, "quads");
+    assert_true(pass && input);
     *colour = target(device, s, s->format ? s->format : RG_RGBA8);
     *depth = target(device, s, RG_D32F);
     const struct rg_draw to = {

@@ -159,9 +159,9 @@ static struct filler make_filler(struct rg_device *device)
     const float quad[TEST_QUAD_WORDS] = {-1,   -1, 0.5f, 1, 1,    -1, 0.5f,  1,    1,     1,
                                          0.5f, 1,  -1,   1, 0.5f, 1,  0.25f, 0.5f, 0.75f, 1};
     struct filler f = {device, rg_pass_create(device, "test_quads"),
-                       rg_buf_create(device, sizeof(quad), "one quad"),
+                       rg_buf_create_with(device, quad, sizeof(quad), "one quad"),
                        rg_buf_create(device, 4, "samples")};
-    assert_true(f.pass && f.quad && f.samples && rg_buf_write(f.quad, 0, quad, sizeof(quad)));
+    assert_true(f.pass && f.quad && f.samples);
     return f;
 }
 

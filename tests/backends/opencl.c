@@ -191,16 +191,13 @@ static struct drawn draw(struct rg_device *device, bool with_colour, int64_t max
     float *quads = make_quads();
     uint32_t *zeros = calloc(QUADS, 4);
     struct rg_image_desc desc = {RG_RGBA8, TARGET_PX, TARGET_PX, LAYERS, LEVEL + 1};
-    struct rg_image *colour = rg_image_create(device, &desc, "colour");
+    struct rg_image *colour = rg_image_create_with(device, &desc, &black, "colour");
     desc.format = RG_D32F;
-    struct rg_image *depth = rg_image_create(device, &desc, "depth");
-    struct rg_buf *input = rg_buf_create(device, QUADS * TEST_QUAD_WORDS * 4, "quads");
-    struct rg_buf *samples = rg_buf_create(device, QUADS * 4, "samples");
+    struct rg_image *depth = rg_image_create_with(device, &desc, &far_half, "depth");
+    struct rg_buf *input = rg_buf_create_with(device, quads, QUADS * TEST_QUAD_WORDS * 4, "quads");
+    struct rg_buf *samples = rg_buf_create_with(device, zeros, QUADS * 4, "samples");
     struct rg_pass *pass = rg_pass_create(device, "test_quads");
-    assert_true(colour && depth && input && samples && pass && rg_image_clear(colour, &black) &&
-                rg_image_clear(depth, &far_half) &&
-                rg_buf_write(input, 0, quads, QUADS * TEST_QUAD_WORDS * 4) &&
-                rg_buf_write(samples, 0, zeros, QUADS * 4));
+    assert_true(colour && depth && input && samples && pass);
     const struct rg_draw to = {
         .colour = with_colour ? colour : NULL,
         .depth = depth,

@@ -101,35 +101,26 @@ static bool create_textures(struct scenery_made *s)
 
 // --- buffers ---
 
-static struct rg_buf *filled(struct rg_device *device, const void *words, int64_t count,
-                             const char *name)
-{
-    struct rg_buf *buf = rg_buf_create(device, 4 * count, name);
-    if (buf && rg_buf_write(buf, 0, words, 4 * count))
-        return buf;
-    rg_buf_destroy(buf);
-    return NULL;
-}
-
 static bool create_openness(struct scenery_made *s)
 {
     uint32_t *words = rg_alloc(SCENERY_OPEN_WORDS, sizeof(*words), "scene");
     if (words && city_openness(s->city, words))
-        s->openness = filled(s->device, words, SCENERY_OPEN_WORDS, "openness to the sky");
+        s->openness =
+            rg_buf_create_with(s->device, words, SCENERY_OPEN_WORDS * 4, "openness to the sky");
     free(words);
     return s->openness;
 }
 
 static bool create_buffers(struct scenery_made *s)
 {
+    struct rg_device *device = s->device;
     const struct city_faces *f = &s->city->faces;
-    const int64_t faces = f->face_count;
-    return (s->faces =
-                filled(s->device, f->corners, faces * SCENERY_FACE_WORDS, "scene's faces")) &&
-           (s->surface_of = filled(s->device, f->surface_of, faces, "faces' surfaces")) &&
-           (s->surfaces =
-                filled(s->device, f->surfaces, (int64_t)f->surface_count * SCENERY_SURFACE_WORDS,
-                       "scene's surfaces"));
+    const int64_t corners = 4 * (int64_t)f->face_count * SCENERY_FACE_WORDS;
+    const int64_t surfaces = 4 * (int64_t)f->surface_count * SCENERY_SURFACE_WORDS;
+    return (s->faces = rg_buf_create_with(device, f->corners, corners, "scene's faces")) &&
+           (s->surface_of = rg_buf_create_with(device, f->surface_of, 4 * (int64_t)f->face_count,
+                                               "faces' surfaces")) &&
+           (s->surfaces = rg_buf_create_with(device, f->surfaces, surfaces, "scene's surfaces"));
 }
 
 // --- making ---

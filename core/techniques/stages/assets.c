@@ -118,10 +118,10 @@ bool rg_make_image(struct rg_instance *instance, struct rg_asset *asset,
         return true;
     rg_empty(asset);
     static const uint32_t nothing[4] = {0};
-    asset->image = rg_image_create(instance->device, desc, asset->name);
+    asset->image = rg_image_create_with(instance->device, desc, nothing, asset->name);
     asset->is_owned = true;
     rg_set_items(asset, desc->width, desc->height, desc->layers);
-    asset->is_defined = asset->image && rg_image_clear(asset->image, nothing);
+    asset->is_defined = asset->image;
     return asset->is_defined;
 }
 

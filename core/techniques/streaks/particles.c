@@ -55,9 +55,9 @@ static bool upload_particles(struct streaks *s)
     for (int i = 0; i < count; i++) {
         int64_t bytes;
         const float *particles = streaks_packets_buffer(s->packets, i, &bytes);
-        s->particles[i] = rg_buf_create(s->base.device, bytes, "particles");
+        s->particles[i] = rg_buf_create_with(s->base.device, particles, bytes, "particles");
         s->buffer_count = i + 1;
-        if (!s->particles[i] || !rg_buf_write(s->particles[i], 0, particles, bytes))
+        if (!s->particles[i])
             return false;
     }
     streaks_packets_forget(s->packets);

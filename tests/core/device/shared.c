@@ -21,9 +21,8 @@ uint32_t *noise_words(int count, uint32_t seed)
 
 struct rg_buf *make_buf(struct rg_device *device, const void *words, int count, const char *name)
 {
-    struct rg_buf *buf = rg_buf_create(device, (int64_t)count * 4, name);
+    struct rg_buf *buf = rg_buf_create_with(device, words, (int64_t)count * 4, name);
     assert_non_null(buf);
-    assert_true(rg_buf_write(buf, 0, words, (int64_t)count * 4));
     return buf;
 }
 

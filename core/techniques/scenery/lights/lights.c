@@ -40,10 +40,8 @@ static bool create_buffers(struct rg_device *device, const float world_to_frame[
     for (int i = 0; i < lights->count; i++)
         moved[i] = scenery_light_moved(&lights->world[i], world_to_frame);
     const int64_t bytes = (lights->count ? lights->count : 1) * (int64_t)sizeof(scenery_light);
-    return (lights->in_world = rg_buf_create(device, bytes, "lights")) &&
-           (lights->in_frame = rg_buf_create(device, bytes, "lights of the frame")) &&
-           rg_buf_write(lights->in_world, 0, lights->world, bytes) &&
-           rg_buf_write(lights->in_frame, 0, moved, bytes);
+    return (lights->in_world = rg_buf_create_with(device, lights->world, bytes, "lights")) &&
+           (lights->in_frame = rg_buf_create_with(device, moved, bytes, "lights of the frame"));
 }
 
 static bool create_maps(struct rg_device *device, int map_px, struct scenery_lights *lights)
@@ -56,9 +54,9 @@ static bool create_maps(struct rg_device *device, int map_px, struct scenery_lig
         "smaller maps, fewer lights, or no shadows of point lights, which have six maps each",
         lights->map_count, map_px, (long long)(bytes >> 20), (long long)(MOST_MAP_BYTES >> 20));
     const int size = lights->map_count ? map_px : 1, layers = lights->map_count;
-    lights->shadows = rg_image_create(
-        device, &(struct rg_image_desc){RG_D32F, size, size, layers ? layers : 1, 1}, "shadows");
-    return lights->shadows && rg_image_clear(lights->shadows, &farthest);
+    const struct rg_image_desc desc = {RG_D32F, size, size, layers ? layers : 1, 1};
+    lights->shadows = rg_image_create_with(device, &desc, &farthest, "shadows");
+    return lights->shadows;
 }
 
 struct scenery_lights *scenery_lights_open(struct rg_device *device,

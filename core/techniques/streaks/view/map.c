@@ -52,29 +52,19 @@ static bool is_numbered(const struct streaks *s)
     return s->settings.splash_materials;
 }
 
-static bool clear_numbers(struct rg_image *numbers)
-{
-    static const uint32_t none = SCENERY_NO_SURFACE;
-    return rg_image_clear(numbers, &none);
-}
+static const uint32_t no_surface = SCENERY_NO_SURFACE;
+static const float farthest = 1;
 
 static bool draw(struct streaks *s, const struct streaks_map *map)
 {
-    static const float farthest = 1;
     const struct rg_draw onto = {
         .colour = map->numbers, .depth = map->depths, .depth_mode = RG_DEPTH_WRITE};
     if (!rg_image_clear(map->depths, &farthest))
         return false;
     if (!is_numbered(s))
         return scenery_depth(s->scene, matrix_of(s), &onto);
-    return clear_numbers(map->numbers) && scenery_numbers(s->scene, matrix_of(s), &onto);
-}
-
-static struct rg_image *create_image(const struct streaks *s, enum rg_format format, int side_px,
-                                     const char *name)
-{
-    return rg_image_create(s->base.device, &(struct rg_image_desc){format, side_px, side_px, 1, 1},
-                           name);
+    return rg_image_clear(map->numbers, &no_surface) &&
+           scenery_numbers(s->scene, matrix_of(s), &onto);
 }
 
 static void destroy(void *thing)
@@ -90,11 +80,13 @@ static void destroy(void *thing)
 static struct streaks_map *create(const struct streaks *s)
 {
     struct streaks_map *map = rg_alloc(1, sizeof(*map), "depth map");
-    const int side_px = s->settings.map_px;
-    if (map && (map->depths = create_image(s, RG_D32F, side_px, "depth map")) &&
-        (map->numbers =
-             create_image(s, RG_RGBA8, is_numbered(s) ? side_px : 1, "map of surfaces' numbers")) &&
-        clear_numbers(map->numbers))
+    const int side_px = s->settings.map_px, numbers_px = is_numbered(s) ? side_px : 1;
+    const struct rg_image_desc depths = {RG_D32F, side_px, side_px, 1, 1};
+    const struct rg_image_desc numbers = {RG_RGBA8, numbers_px, numbers_px, 1, 1};
+    if (map &&
+        (map->depths = rg_image_create_with(s->base.device, &depths, &farthest, "depth map")) &&
+        (map->numbers = rg_image_create_with(s->base.device, &numbers, &no_surface,
+                                             "map of surfaces' numbers")))
         return map;
     destroy(map);
     return NULL;

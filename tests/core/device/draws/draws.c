@@ -37,14 +37,13 @@ static struct drawn draw(struct rg_device *device, const struct way *way, const 
     struct rg_pass *pass = rg_pass_create(device, "test_quads");
     struct rg_buf *input = make_buf(device, quads, count * TEST_QUAD_WORDS, "quads");
     struct rg_buf *samples = filled_buf(device, 0, count, "samples");
-    struct rg_image *colour = rg_image_create(
-        device, &(struct rg_image_desc){way->format, WIDTH, HEIGHT, 1, 1}, "colour");
-    struct rg_image *depth =
-        rg_image_create(device, &(struct rg_image_desc){RG_D32F, WIDTH, HEIGHT, 1, 1}, "depth");
-    assert_true(pass && input && samples && colour && depth);
     const uint32_t black[4] = {0};
     const float far_half = 0.5f;
-    assert_true(rg_image_clear(colour, black) && rg_image_clear(depth, &far_half));
+    const struct rg_image_desc coloured = {way->format, WIDTH, HEIGHT, 1, 1};
+    const struct rg_image_desc deep = {RG_D32F, WIDTH, HEIGHT, 1, 1};
+    struct rg_image *colour = rg_image_create_with(device, &coloured, black, "colour");
+    struct rg_image *depth = rg_image_create_with(device, &deep, &far_half, "depth");
+    assert_true(pass && input && samples && colour && depth);
     const struct rg_draw to = {
         .colour = colour,
         .depth = way->depth == RG_DEPTH_OFF ? NULL : depth,

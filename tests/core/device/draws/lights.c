@@ -104,12 +104,11 @@ static uint32_t *draw(const struct rig *rig, const struct way *way, size_t *word
     const test_lights_params p = {way->lights, way->first, way->plain, 4.0f / WIDTH};
     const uint32_t black[4] = {0};
     const float far_away = 1.0f;
-    struct rg_image *colour = rg_image_create(
-        device, &(struct rg_image_desc){way->format, WIDTH, HEIGHT, 1, 1}, "colour");
-    struct rg_image *depth =
-        rg_image_create(device, &(struct rg_image_desc){RG_D32F, WIDTH, HEIGHT, 1, 1}, "depth");
+    const struct rg_image_desc coloured = {way->format, WIDTH, HEIGHT, 1, 1};
+    const struct rg_image_desc deep = {RG_D32F, WIDTH, HEIGHT, 1, 1};
+    struct rg_image *colour = rg_image_create_with(device, &coloured, black, "colour");
+    struct rg_image *depth = rg_image_create_with(device, &deep, &far_away, "depth");
     assert_true(colour && depth);
-    assert_true(rg_image_clear(colour, black) && rg_image_clear(depth, &far_away));
     assert_true(rg_pass_run(rig->pass, &(struct rg_run){.params = &p,
                                                         .slots = {[1].buf = rig->quads,
                                                                   [2].buf = rig->lights,

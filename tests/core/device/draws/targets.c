@@ -42,9 +42,8 @@ static struct rg_image *cleared(struct rg_device *device, struct rg_image_desc d
                                 enum rg_format format, const void *texel, const char *name)
 {
     desc.format = format;
-    struct rg_image *image = rg_image_create(device, &desc, name);
+    struct rg_image *image = rg_image_create_with(device, &desc, texel, name);
     assert_non_null(image);
-    assert_true(rg_image_clear(image, texel));
     return image;
 }
 

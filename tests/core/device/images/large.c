@@ -148,10 +148,10 @@ static void large_maps_of_depth_are_drawn(void **state)
     const float far_away = 1.0f;
     float quads[QUADS * TEST_QUAD_WORDS];
     fill_quads(quads);
-    struct rg_image *depth = rg_image_create(*state, &desc, "map");
+    struct rg_image *depth = rg_image_create_with(*state, &desc, &far_away, "map");
     struct rg_buf *input = make_buf(*state, quads, QUADS * TEST_QUAD_WORDS, "quads");
     struct rg_pass *pass = rg_pass_create(*state, "test_quads");
-    assert_true(pass && depth && rg_image_clear(depth, &far_away));
+    assert_true(pass && depth);
     assert_true(rg_pass_run(
         pass,
         &(struct rg_run){.params = &p,

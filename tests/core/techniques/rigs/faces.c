@@ -30,8 +30,8 @@ void faces_free(struct faces *faces)
 static struct rg_buf *upload(struct rg_device *device, const void *words, int count,
                              const char *name)
 {
-    struct rg_buf *buf = rg_buf_create(device, (int64_t)count * 4, name);
-    assert_true(buf && rg_buf_write(buf, 0, words, (int64_t)count * 4));
+    struct rg_buf *buf = rg_buf_create_with(device, words, (int64_t)count * 4, name);
+    assert_non_null(buf);
     return buf;
 }
 
@@ -62,9 +62,9 @@ void faces_close(struct faces_on *on)
 static struct rg_image *target(struct rg_device *device, enum rg_format format, int width,
                                int height, const void *texel)
 {
-    struct rg_image *image = rg_image_create(
-        device, &(struct rg_image_desc){format, width, height, 1, 1}, rg_format_name(format));
-    assert_true(image && rg_image_clear(image, texel));
+    const struct rg_image_desc desc = {format, width, height, 1, 1};
+    struct rg_image *image = rg_image_create_with(device, &desc, texel, rg_format_name(format));
+    assert_non_null(image);
     return image;
 }
 

@@ -230,13 +230,12 @@ static void depth_from_above_is_the_height(void **state)
     struct stage stage;
     open_stage(*state, NULL, SCENERY_DAY, 1, &stage);
     const struct rg_image_desc desc = {RG_D32F, MAP_PX, MAP_PX, 1, 1};
-    struct rg_image *map = rg_image_create(*state, &desc, "map");
     const float farthest = 1, top = 240;
+    struct rg_image *map = rg_image_create_with(*state, &desc, &farthest, "map");
     // x to the right, z down, depth 0 at the top and 1 on the ground
     const m4 down = {1 / 200.0f, 0, 0, 0, 0, 0, 1 / 200.0f, 0, 0, -1 / top, 0, 1, 0, 0, 0, 1};
     float depth[MAP_PX * MAP_PX];
-    assert_true(rg_image_clear(map, &farthest));
-    assert_true(scenery_depth(stage.scene, down, &(struct rg_draw){.depth = map}));
+    assert_true(map && scenery_depth(stage.scene, down, &(struct rg_draw){.depth = map}));
     assert_true(rg_image_read(map, 0, 0, depth));
     const struct city_faces *faces = &scenery_city(stage.scene)->faces;
     int above = 0, wrong = 0;

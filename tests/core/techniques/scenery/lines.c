@@ -35,11 +35,11 @@ struct picture {
 static struct picture picture_make(struct rg_device *device, enum rg_format format, float depth)
 {
     static const uint32_t nothing[4] = {0};
-    struct picture p = {WIDTH, HEIGHT, NULL, NULL};
-    p.colour = rg_image_create(device, &(struct rg_image_desc){format, WIDTH, HEIGHT, 1, 1}, "c");
-    p.depth = rg_image_create(device, &(struct rg_image_desc){RG_D32F, WIDTH, HEIGHT, 1, 1}, "d");
-    assert_true(p.colour && p.depth && rg_image_clear(p.colour, nothing) &&
-                rg_image_clear(p.depth, &depth));
+    const struct rg_image_desc coloured = {format, WIDTH, HEIGHT, 1, 1};
+    const struct rg_image_desc deep = {RG_D32F, WIDTH, HEIGHT, 1, 1};
+    struct picture p = {WIDTH, HEIGHT, rg_image_create_with(device, &coloured, nothing, "c"),
+                        rg_image_create_with(device, &deep, &depth, "d")};
+    assert_true(p.colour && p.depth);
     return p;
 }
 
@@ -451,12 +451,12 @@ static void insets_show_the_part_of_a_map(void **state)
                                         .far_depth = 0.75f};
     float depths[MAP * MAP];
     struct rg_device *device = *state;
-    struct rg_image *map =
-        rg_image_create(device, &(struct rg_image_desc){RG_D32F, MAP, MAP, 2, 1}, "map");
+    const struct rg_image_desc desc = {RG_D32F, MAP, MAP, 2, 1};
     const float nothing = 0;
+    struct rg_image *map = rg_image_create_with(device, &desc, &nothing, "map");
     for (int i = 0; i < MAP * MAP; i++)
         depths[i] = between((uint32_t)i, 0, 0, 1);
-    assert_true(rg_image_clear(map, &nothing) && rg_image_write(map, 1, 0, depths));
+    assert_true(map && rg_image_write(map, 1, 0, depths));
     struct rg_instance instance;
     struct scenery_overlay *overlay = open_overlay(device, &instance);
     struct picture p = picture_make(device, RG_RGBA32F, 1);

@@ -179,19 +179,20 @@ test_streaks_lit *rig_light_points(const struct rig *rig, const scenery_light *l
                                    const float *points, int point_count)
 {
     const int64_t out_bytes = (int64_t)count * point_count * (int64_t)sizeof(test_streaks_lit);
-    struct rg_buf *in = rg_buf_create(rig->device, (int64_t)point_count * 12, "points"),
-                  *by = rg_buf_create(rig->device, count * (int64_t)sizeof(*lights), "lights"),
+    struct rg_buf *in = rg_buf_create_with(rig->device, points, point_count * 12ll, "points"),
+                  *by = rg_buf_create_with(rig->device, lights, count * (int64_t)sizeof(*lights),
+                                           "lights"),
                   *out = rg_buf_create(rig->device, out_bytes, "lit");
     struct rg_pass *pass = rg_pass_create(rig->device, "test_scenery_lights");
     const test_scenery_lights_params p = {.points = point_count};
     test_streaks_lit *lit = malloc((size_t)out_bytes);
-    assert_true(rg_buf_write(in, 0, points, (int64_t)point_count * 12) &&
-                rg_buf_write(by, 0, lights, count * (int64_t)sizeof(*lights)));
-    assert_true(rg_pass_run(
-        pass, &(struct rg_run){
-                  .params = &p,
-                  .slots = {[1].buf = in, [2].buf = by, [3].image = rig->maps, [4].buf = out},
-                  .extent = {point_count, count, 1}}));
+    assert_true(
+        in && by && out &&
+        rg_pass_run(pass,
+                    &(struct rg_run){
+                        .params = &p,
+                        .slots = {[1].buf = in, [2].buf = by, [3].image = rig->maps, [4].buf = out},
+                        .extent = {point_count, count, 1}}));
     assert_true(rg_buf_read(out, 0, lit, out_bytes));
     rg_pass_destroy(pass);
     rg_buf_destroy(in);

@@ -100,9 +100,8 @@ static const streaks_params base = {
 
 static struct rg_buf *upload(struct rg_device *device, const void *data, size_t size)
 {
-    struct rg_buf *buf = rg_buf_create(device, (int64_t)size, "scene");
+    struct rg_buf *buf = rg_buf_create_with(device, data, (int64_t)size, "scene");
     assert_non_null(buf);
-    assert_true(rg_buf_write(buf, 0, data, (int64_t)size));
     return buf;
 }
 
