@@ -124,6 +124,12 @@ struct rg_packed {
     int capacity;         // the most that `prims` holds
 };
 
+// What a run comes to, for those who count it; core/device/work.h says of what. -1: not counted,
+// for this device cannot have it exactly, or core/device finds it itself.
+struct rg_counts {
+    int64_t records, fragments, fragments_kept, texels_fetched;
+};
+
 // One run of a pass over the items origin <= (x, y, z) < origin + extent, in any order.
 struct rg_run {
     const void *params;                    // kernel->params_size bytes, copied during the call
@@ -132,6 +138,7 @@ struct rg_run {
     struct rg_extent origin;               // of the first item; 0 for most
     const struct rg_draw *draw;            // of a DRAW pass, whose items lie along x; else NULL
     const struct rg_packed *packed;        // set by core/device/packing.c, NULL for its callers
+    struct rg_counts *counts;              // set by core/device/work.c; NULL: nobody counts
 };
 
 enum { RG_MAX_DEVICES = 32 }; // that a list takes

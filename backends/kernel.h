@@ -66,6 +66,7 @@ struct rg_draw_info {
     int corners;              // of an item: 3 or 4
     int prim_size;            // of a packed primitive, in bytes
     int call_size;            // of rg_draw_call: the draw's state and the parameters, in bytes
+    int lights_at;            // where its parameters say how many lights there are; -1: not lit
     const char *count, *emit; // the GRID kernels that pack it
 };
 

@@ -55,9 +55,9 @@ bool cpu_image_clear(struct rg_image *image, const void *texel);
 // target.c: where the texels of what a draw draws to begin.
 struct cpu_target cpu_target_of(const struct rg_draw *draw);
 
-// slots.c: a call with all that a run binds. `fault` may be NULL.
+// slots.c: a call with all that a run binds. `notes` may be NULL.
 struct cpu_call cpu_bind(const struct rg_kernel *kernel, const struct rg_run *run,
-                         struct rg_fault *fault);
+                         struct rg_notes *notes);
 
 // pass.c
 struct rg_pass *cpu_pass_create(struct rg_device *device, const struct rg_kernel *kernel);

@@ -18,9 +18,14 @@
 #include "backends/cpu/draw/program.h"
 
 struct cpu_device;
+struct rg_counts;
 
 // draw.c: a run of a program. False, and one logged line, where memory is missing.
 bool cpu_draw(struct cpu_device *device, const char *name, const struct cpu_program *program,
               const struct cpu_call *call);
+
+// count.c: what it comes to, from the same items by plain loops.
+void cpu_count(const struct cpu_program *program, const struct cpu_call *call,
+               struct rg_counts *counts);
 
 #endif

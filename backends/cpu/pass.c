@@ -30,12 +30,15 @@ void cpu_pass_destroy(struct rg_pass *pass)
 // In order, one item after the other, on the calling thread.
 static bool run_in_order(struct cpu_pass *pass, const struct rg_run *run)
 {
-    struct rg_fault fault = {0};
-    struct cpu_call call = cpu_bind(pass->pub.kernel, run, &fault);
+    struct rg_notes notes = {0};
+    struct cpu_call call = cpu_bind(pass->pub.kernel, run, &notes);
     pass->code->run(&call);
-    if (fault.slot)
+    if (notes.slot)
         return rg_driver_error("kernel '%s': %s[%d] is out of range; it holds %d",
-                               pass->pub.kernel->name, fault.slot, fault.index, fault.count);
+                               pass->pub.kernel->name, notes.slot, notes.index, notes.count);
+    if (run->counts)
+        *run->counts = (struct rg_counts){notes.records, notes.fragments, notes.fragments_kept,
+                                          notes.texels_fetched};
     return true;
 }
 
@@ -94,6 +97,8 @@ bool cpu_pass_run(struct rg_pass *pass, const struct rg_run *run)
         return run_in_order(cpu, run);
     if (cpu->code->program) {
         const struct cpu_call call = cpu_bind(pass->kernel, run, NULL);
+        if (run->counts)
+            cpu_count(cpu->code->program, &call, run->counts);
         return cpu_draw(device, pass->kernel->name, cpu->code->program, &call);
     }
     return run_parallel(cpu, run);

@@ -1,14 +1,14 @@
 #include "backends/cpu/cpu.h"
 
 struct cpu_call cpu_bind(const struct rg_kernel *kernel, const struct rg_run *run,
-                         struct rg_fault *fault)
+                         struct rg_notes *notes)
 {
     struct cpu_call call = {
         .params = run->params,
         .begin = {run->origin.width, run->origin.height, run->origin.depth},
         .end = {run->origin.width + run->extent.width, run->origin.height + run->extent.height,
                 run->origin.depth + run->extent.depth},
-        .fault = fault,
+        .notes = notes,
     };
     if (run->draw)
         call.target = cpu_target_of(run->draw);

@@ -7,6 +7,7 @@
 #include "core/device/limits.h"
 #include "core/device/packing.h"
 #include "core/device/targets.h"
+#include "core/device/work.h"
 #include "kernels/dialect/draw/blend.h"
 #include "kernels/dialect/draw/state.h"
 
@@ -44,6 +45,15 @@ static void fill_state(const struct rg_draw *draw, rg_draw_state *state)
     state->half_height = 0.5f * (float)state->height;
 }
 
+// Passes that pack, and what they write, nobody asked for: other devices do without.
+static void leave_out_packing(struct rg_work *work, const struct rg_work *asked)
+{
+    work->runs = asked->runs;
+    work->items = asked->items;
+    work->bytes_written = asked->bytes_written;
+    work->bytes_read = asked->bytes_read;
+}
+
 bool rg_draw_run(struct rg_pass *pass, const struct rg_run *run)
 {
     if (!rg_run_check(pass, run) || !rg_target_check(pass, run) ||
@@ -57,6 +67,7 @@ bool rg_draw_run(struct rg_pass *pass, const struct rg_run *run)
     memcpy(call + sizeof(state), run->params, (size_t)pass->kernel->params_size);
     struct rg_run part = *run;
     part.params = call;
+    const struct rg_work asked = *pass->device->work;
     const int items = run->extent.width;
     const int batch = packed ? rg_packing_prepare(pass, items, &state.capacity) : items;
     for (int64_t done = 0; batch && done < items; done += batch) {
@@ -66,5 +77,6 @@ bool rg_draw_run(struct rg_pass *pass, const struct rg_run *run)
         if (!(packed ? rg_packing_run(pass, &part, &state) : rg_dispatch(pass, &part)))
             return false;
     }
+    leave_out_packing(pass->device->work, &asked);
     return batch != 0;
 }

@@ -121,8 +121,10 @@ void rg_run_count(struct rg_pass *pass, const struct rg_run *run)
 
 bool rg_dispatch(struct rg_pass *pass, const struct rg_run *run)
 {
-    pass->device->work->dispatches++;
-    return pass->device->backend->pass_run(pass, run);
+    struct rg_work *work = pass->device->work;
+    work->dispatches++;
+    return work->tally ? rg_tally_run(work->tally, pass, run)
+                       : pass->device->backend->pass_run(pass, run);
 }
 
 static int smaller(int64_t a, int b)

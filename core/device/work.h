@@ -1,8 +1,12 @@
-// What was done on a device since it was opened.
+// What was done on a device since it was opened; and on request what its passes come to, counted
+// exactly: the same on all devices that do the same work, however each of them schedules it.
+//
+// While that is counted, each draw waits for the device and its primitives are looked at on the
+// host. So what is timed is not counted, and what is counted is not timed.
 #ifndef RG_CORE_DEVICE_WORK_H
 #define RG_CORE_DEVICE_WORK_H
 
-#include <stdint.h>
+#include "backends/backend.h"
 
 struct rg_work {
     int64_t runs;                      // pass runs asked for
@@ -10,7 +14,28 @@ struct rg_work {
     int64_t items;                     // items run
     int64_t bytes_written, bytes_read; // between host and device
     int64_t live_buffers, live_images, live_passes;
-    int64_t live_bytes; // of buffers and images
+    int64_t live_bytes;     // of buffers and images
+    struct rg_tally *tally; // NULL: only this is counted
 };
+
+// A count of -1 is unknown: this device cannot have it exactly.
+struct rg_tally {
+    int64_t runs;                      // pass runs asked for
+    int64_t dispatches;                // what the device made of them: folded, packed, in batches
+    int64_t items;                     // of all runs
+    int64_t records;                   // of the items of draws, those that are seen
+    int64_t fragments;                 // pixels that their primitives cover
+    int64_t fragments_kept;            // of these, those that are neither discarded nor hidden
+    int64_t light_evaluations;         // lights of lit programs, each once a fragment
+    int64_t texels_fetched;            // from images
+    int64_t bytes_written, bytes_read; // between host and device
+};
+
+// Counts into a tally from here on, until the end.
+void rg_tally_begin(struct rg_device *device, struct rg_tally *tally);
+void rg_tally_end(struct rg_device *device);
+
+// Hands the backend a run, past all checks, and counts what it comes to: for core/device/grid.c.
+bool rg_tally_run(struct rg_tally *tally, struct rg_pass *pass, const struct rg_run *run);
 
 #endif

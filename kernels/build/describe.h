@@ -18,10 +18,16 @@ static_assert(sizeof(RG_RUN_PARAMS) % 4 == 0 && sizeof(RG_RUN_PARAMS) <= RG_MAX_
               "parameters are 4-byte scalars, at most RG_MAX_PARAMS_SIZE bytes");
 
 #if RG_IS_PROGRAM
+#if defined(RG_LIGHTS)
+#define RG_LIGHTS_AT (int)offsetof(RG_PARAMS, lights)
+#else
+#define RG_LIGHTS_AT -1
+#endif
 static const struct rg_draw_info draw = {
     .corners = RG_CORNERS,
     .prim_size = sizeof(rg_prim),
     .call_size = sizeof(rg_draw_call),
+    .lights_at = RG_LIGHTS_AT,
     .count = RG_STRING(RG_KERNEL_NAME) "_count",
     .emit = RG_STRING(RG_KERNEL_NAME) "_emit",
 };

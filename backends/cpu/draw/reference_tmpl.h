@@ -26,11 +26,13 @@ static void draw_pixel(const struct drawing *d, const RG_RECORD *record, int ite
 {
     const rg_draw_state *draw = &d->p.draw;
     const int texel = py * draw->width + px;
+    d->rg.notes->fragments++;
     rg_fragment f = rg_drawn_fragment(d->rg, d->p.program, *record, px, py);
     if (!f.kept)
         return;
     if (draw->depth_mode != RG_DEPTH_IS_OFF && !(f.depth < rg_bits_float(d->target.depth[texel])))
         return;
+    d->rg.notes->fragments_kept++;
     if (draw->depth_mode == RG_DEPTH_IS_WRITE)
         d->target.depth[texel] = rg_float_bits(f.depth);
     if (draw->counted)
@@ -61,6 +63,7 @@ static void draw_item(const struct drawing *d, int item)
     const rg_projected projected = rg_project(draw, t);
     if (projected.fate == RG_FATE_DEAD)
         return;
+    d->rg.notes->records++;
     const RG_RECORD record = rg_program_record(d->rg, draw, d->p.program, item);
     if (projected.fate == RG_FATE_WHOLE) {
         draw_prim(d, &record, item, projected.corners);

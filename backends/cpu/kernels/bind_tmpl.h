@@ -26,6 +26,6 @@ static inline __attribute__((always_inline)) rg_ctx bind_context(const struct cp
 {
     rg_ctx rg;
     RG_ALL_SLOTS
-    rg.fault = call->fault;
+    rg.notes = call->notes;
     return rg;
 }

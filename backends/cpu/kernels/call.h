@@ -3,7 +3,7 @@
 #ifndef RG_BACKENDS_CPU_KERNELS_CALL_H
 #define RG_BACKENDS_CPU_KERNELS_CALL_H
 
-#include "backends/cpu/kernels/fault.h"
+#include "backends/cpu/kernels/notes.h"
 #include "kernels/dialect/image/memory.h"
 
 struct cpu_slot {
@@ -27,7 +27,7 @@ struct cpu_call {
     const void *params;
     struct cpu_slot slots[RG_MAX_SLOTS];
     struct cpu_xyz begin, end;
-    struct rg_fault *fault;   // noted by the reference level alone
+    struct rg_notes *notes;   // of the reference level alone
     struct cpu_target target; // of a DRAW program
 };
 

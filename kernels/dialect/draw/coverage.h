@@ -79,6 +79,25 @@ RG_FN bool rg_triangle_covers(rg_triangle t, int px, int py)
            rg_edge_at(t.c, px, py) > 0;
 }
 
+RG_FN int rg_triangle_pixels(rg_triangle t)
+{
+    int pixels = 0;
+    for (int py = t.first_y; py < t.end_y; py++)
+        for (int px = t.first_x; px < t.end_x; px++)
+            pixels += rg_triangle_covers(t, px, py) ? 1 : 0;
+    return pixels;
+}
+
+// How many pixels a primitive of 3 or 4 corners covers: those of its two triangles, which share
+// none unless it is folded.
+RG_FN int rg_covered_pixels(rg_draw_state draw, rg_snapped s, int corners)
+{
+    int pixels = rg_triangle_pixels(rg_triangle_make(draw, s.x0, s.y0, s.x1, s.y1, s.x2, s.y2));
+    if (corners == 4)
+        pixels += rg_triangle_pixels(rg_triangle_make(draw, s.x0, s.y0, s.x2, s.y2, s.x3, s.y3));
+    return pixels;
+}
+
 // --- over a block of pixels, in 32 bits ---
 
 // The most pixels a side of a block.

@@ -2,14 +2,18 @@
 
 #if RG_OPENCL
 #define RG_UNUSED
-#define RG_INDEX(rg, name, i) (i)
+#define RG_INDEX(rg, name, i)               (i)
+#define RG_TEXEL_INDEX(rg, name, i, texels) (i)
 #else
 #define RG_UNUSED __attribute__((unused))
 // The reference device is built with RG_CHECKED 1 and reports every index out of range.
 #if RG_CHECKED
-#define RG_INDEX(rg, name, i) rg_checked_index(rg.fault, i, rg.name##_count, #name)
+#define RG_INDEX(rg, name, i) rg_checked_index(rg.notes, i, rg.name##_count, #name)
+#define RG_TEXEL_INDEX(rg, name, i, texels)                                                        \
+    rg_checked_texels(rg.notes, i, rg.name##_count, #name, texels)
 #else
-#define RG_INDEX(rg, name, i) (i)
+#define RG_INDEX(rg, name, i)               (i)
+#define RG_TEXEL_INDEX(rg, name, i, texels) (i)
 #endif
 #endif
 
@@ -28,7 +32,7 @@
 typedef struct rg_ctx {
     RG_ALL_SLOTS
 #if !RG_OPENCL
-    struct rg_fault *fault;
+    struct rg_notes *notes;
 #endif
 } rg_ctx;
 
@@ -121,24 +125,24 @@ typedef struct rg_ctx {
     RG_FN rgba name##_texel(rg_ctx rg, int x, int y, int layer, int level)                         \
     {                                                                                              \
         int i = rg_texel_word(rg.name, rg.name##_shape, x, y, layer, level, RG_WORDS_##F);         \
-        return rg_load_##F(rg.name, RG_INDEX(rg, name, i));                                        \
+        return rg_load_##F(rg.name, RG_TEXEL_INDEX(rg, name, i, 1));                               \
     }                                                                                              \
     RG_TEXELS_SINGLY(name)                                                                         \
     RG_FN uint name##_bytes(rg_ctx rg, int x, int y, int layer, int level)                         \
     {                                                                                              \
         int i = rg_texel_word(rg.name, rg.name##_shape, x, y, layer, level, RG_WORDS_##F);         \
-        return rg.name[RG_INDEX(rg, name, i)];                                                     \
+        return rg.name[RG_TEXEL_INDEX(rg, name, i, 1)];                                            \
     }
 #define RG_TEXEL_OF_HALVES(F, name)                                                                \
     RG_FN rgba name##_texel(rg_ctx rg, int x, int y, int layer, int level)                         \
     {                                                                                              \
         int i = rg_texel_half(rg.name, rg.name##_shape, x, y, layer, level);                       \
-        return rg_load_##F(rg.name[RG_INDEX(rg, name, i >> 1)], i);                                \
+        return rg_load_##F(rg.name[RG_TEXEL_INDEX(rg, name, i >> 1, 1)], i);                       \
     }                                                                                              \
     RG_FN rg_texels name##_texels(rg_ctx rg, int x0, int x1, int y, int layer, int level)          \
     {                                                                                              \
         int i = rg_texel_half(rg.name, rg.name##_shape, x0, y, layer, level);                      \
-        uint two = rg_two_halves(rg.name, RG_INDEX(rg, name, i >> 1) * 2 + (i & 1));               \
+        uint two = rg_two_halves(rg.name, RG_TEXEL_INDEX(rg, name, i >> 1, 2) * 2 + (i & 1));      \
         rg_texels t;                                                                               \
         t.left = rg_load_##F(two, 0);                                                              \
         t.right = rg_load_##F(two, x1 - x0);                                                       \

@@ -35,7 +35,7 @@ int main(int argc, char **argv)
     const struct suite_tests *const files[] = {
         &buffer_tests,   &image_tests, &texel_tests, &kernel_tests, &refusal_tests,
         &lifetime_tests, &scan_tests,  &probe_tests, &draw_tests,   &target_tests,
-        &filter_tests,   &large_tests, &light_tests, &lack_tests,
+        &filter_tests,   &large_tests, &light_tests, &lack_tests,   &tally_tests,
     };
     size_t total = 0, count = 0;
     for (int f = 0; f < COUNT_OF(files); f++)
