@@ -81,6 +81,15 @@ bool rg_session_frames(struct rg_session *session, int frames)
     return ok && rg_session_sync(session);
 }
 
+bool rg_session_count(struct rg_session *session, struct rg_tally *tally)
+{
+    struct rg_device *device = session->instance->device;
+    rg_tally_begin(device, tally);
+    const bool ok = rg_session_frames(session, 1);
+    rg_tally_end(device);
+    return ok;
+}
+
 struct stage_clock {
     struct rg_session *session;
     void (*tell)(const char *kernel, double ms, void *user);

@@ -8,6 +8,7 @@
 #ifndef RG_HARNESS_FRAMES_SESSION_H
 #define RG_HARNESS_FRAMES_SESSION_H
 
+#include "core/device/work.h"
 #include "core/image/picture.h"
 #include "core/techniques/proof.h"
 #include "core/techniques/technique.h"
@@ -41,6 +42,8 @@ bool rg_session_sync(struct rg_session *session);
 // Simulates and draws so many frames, and waits; fewer when the user interrupts
 // (harness/console/interrupt.h), which is no failure.
 bool rg_session_frames(struct rg_session *session, int frames);
+// One such frame, with what it comes to counted exactly, which takes its time.
+bool rg_session_count(struct rg_session *session, struct rg_tally *tally);
 // One such frame that also waits after every stage, and tells how long each took by wall clock, by
 // the name of its kernel and in the order of the frame.
 bool rg_session_stages(struct rg_session *session,

@@ -99,6 +99,12 @@ bool rg_job_check(struct rg_job *job, const struct rg_expected *expected)
     return ok;
 }
 
+bool rg_job_count(struct rg_job *job)
+{
+    job->record->has_tally = rg_session_count(job->session, &job->record->tally);
+    return job->record->has_tally || rg_record_end_by_error(job->record);
+}
+
 // Until two frames in a row take the same time to 10 %: drivers go on compiling for a while. The
 // check frames have begun it.
 bool rg_job_warm_up(struct rg_job *job, const struct rg_measure_options *options)

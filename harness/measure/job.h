@@ -28,7 +28,7 @@ struct rg_measure_options {
     void *user;
 };
 
-// Preparing a job is these three in turn. Each returns false when it cannot go on, and has ended
+// Preparing a job is these four in turn. Each returns false when it cannot go on, and has ended
 // its record.
 //
 // Opens it and draws its check frames.
@@ -36,6 +36,8 @@ bool rg_job_open(struct rg_job *job);
 // Compares its image, which must hold the tier that its device owes; by the rain mask where
 // `expected` has the background.
 bool rg_job_check(struct rg_job *job, const struct rg_expected *expected);
+// Counts the work of the next frame.
+bool rg_job_count(struct rg_job *job);
 bool rg_job_warm_up(struct rg_job *job, const struct rg_measure_options *options);
 
 // The time that each of some frames takes by wall clock, between full syncs. Ends the record on

@@ -1,10 +1,24 @@
 #include "harness/record/record.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "core/base/log.h"
+
+const struct rg_tally_field rg_tally_fields[RG_TALLY_FIELDS] = {
+    {"runs", offsetof(struct rg_tally, runs)},
+    {"dispatches", offsetof(struct rg_tally, dispatches)},
+    {"items", offsetof(struct rg_tally, items)},
+    {"records", offsetof(struct rg_tally, records)},
+    {"fragments", offsetof(struct rg_tally, fragments)},
+    {"fragments_kept", offsetof(struct rg_tally, fragments_kept)},
+    {"light_evaluations", offsetof(struct rg_tally, light_evaluations)},
+    {"texels_fetched", offsetof(struct rg_tally, texels_fetched)},
+    {"bytes_written", offsetof(struct rg_tally, bytes_written)},
+    {"bytes_read", offsetof(struct rg_tally, bytes_read)},
+};
 
 bool rg_record_end(struct rg_record *record, enum rg_outcome outcome, const char *detail)
 {

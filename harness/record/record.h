@@ -5,6 +5,7 @@
 
 #include "backends/backend.h"
 #include "core/base/outcome.h"
+#include "core/device/work.h"
 #include "harness/record/named.h"
 #include "harness/record/stats.h"
 
@@ -60,7 +61,17 @@ struct rg_record {
     struct rg_count counters[RG_MAX_COUNTERS];
     int fact_count;
     struct rg_named facts[RG_MAX_FACTS];
+    bool has_tally;
+    struct rg_tally tally; // of one frame, the one behind those
 };
+
+// The counts of a tally, by the names that documents have for them.
+struct rg_tally_field {
+    const char *name;
+    size_t offset; // of an int64_t in struct rg_tally
+};
+enum { RG_TALLY_FIELDS = 10 };
+extern const struct rg_tally_field rg_tally_fields[RG_TALLY_FIELDS];
 
 // Ends it with an outcome other than OK, and says why. False.
 bool rg_record_end(struct rg_record *record, enum rg_outcome outcome, const char *detail);

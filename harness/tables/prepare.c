@@ -127,7 +127,7 @@ static void prepare_jobs(struct preparation *p, const struct rg_measure_options 
     for (int d = 0; d < p->count && !rg_interrupted(); d++) {
         struct rg_job *job = &p->jobs[d];
         const bool is_open = job->session != NULL; // it made what is expected
-        if (is_open || (rg_job_open(job) && rg_job_check(job, &p->expected)))
+        if ((is_open || (rg_job_open(job) && rg_job_check(job, &p->expected))) && rg_job_count(job))
             rg_job_warm_up(job, options);
     }
 }

@@ -45,6 +45,18 @@ def check_table_json(runner):
     return problems
 
 
+def check_tallies(runner):
+    """table --json tells the exact work of a frame, the same on two devices but for what cpu:reference alone can count"""
+    report, _, problems = run_json(runner, TABLE.replace("--device cpu", "--device cpu:reference,cpu"))
+    reference, cpu = (cell["tally"] for cell in report["cells"])
+    alone = {name for name in reference if cpu[name] != reference[name]}
+    if alone != {"fragments_kept", "texels_fetched"} or any(cpu[name] is not None for name in alone):
+        problems.append("cpu:reference: %s, cpu: %s" % (reference, cpu))
+    if not all(reference[name] for name in ("runs", "dispatches", "items", "records", "fragments", "texels_fetched")):
+        problems.append("counted: %s" % reference)
+    return problems
+
+
 def check_forms(runner):
     """what list prints, and a table of textures, are as the schema has them, whose fields are all documented"""
     problems = ["docs/records.md does not tell of %s" % name for name in forms.undocumented()]
@@ -303,7 +315,7 @@ def check_atlas(runner):
     return problems
 
 
-CHECKS = [check_forms, check_table_json, check_table_files, check_tables_in_a_row, check_render_json, check_diff_json, check_verify_json, check_full_stdout,
+CHECKS = [check_forms, check_table_json, check_tallies, check_table_files, check_tables_in_a_row, check_render_json, check_diff_json, check_verify_json, check_full_stdout,
           check_interrupted, check_stored, check_fresh, check_atlas]
 
 

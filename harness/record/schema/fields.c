@@ -130,6 +130,16 @@ bool rg_field_number(struct rg_reader *reader, const json_t *object, const char 
     return found != NULL;
 }
 
+bool rg_field_count(struct rg_reader *reader, const json_t *object, const char *name,
+                    int64_t *value)
+{
+    const json_t *found = find(reader, object, name);
+    *value = json_is_integer(found) ? json_integer_value(found) : -1;
+    if (found && !json_is_null(found) && *value < 0)
+        return rg_reader_refuse(reader, name, "is no whole number from 0 on");
+    return found != NULL;
+}
+
 // Reads the fields of an object one by one, each by `take`, whose elements have this size.
 static bool read_list(struct rg_reader *reader, const json_t *object, const char *name, void *list,
                       size_t size, int most, int *count,

@@ -43,6 +43,10 @@ bool rg_field_int(struct rg_reader *reader, const json_t *object, const char *na
 bool rg_field_number(struct rg_reader *reader, const json_t *object, const char *name,
                      double *value);
 
+// A whole number that is not negative; -1 for null.
+bool rg_field_count(struct rg_reader *reader, const json_t *object, const char *name,
+                    int64_t *value);
+
 // Objects with a field each: named values and counts, `most` of them at most.
 bool rg_field_named(struct rg_reader *reader, const json_t *object, const char *name,
                     struct rg_named *named, int most, int *count);

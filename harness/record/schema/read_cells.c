@@ -80,6 +80,25 @@ static bool read_truth_error(struct rg_reader *r, const json_t *cell, struct rg_
     return ok;
 }
 
+static bool read_tally(struct rg_reader *r, const json_t *cell, struct rg_record *record)
+{
+    char cell_place[sizeof(r->place)];
+    if (json_is_null(json_object_get(cell, "tally")))
+        return true;
+    const json_t *json = rg_field(r, cell, "tally", JSON_OBJECT);
+    memcpy(cell_place, r->place, sizeof(cell_place));
+    rg_reader_enter(r, "%.60s.tally", cell_place);
+    record->has_tally = json != NULL;
+    for (int i = 0; record->has_tally && i < RG_TALLY_FIELDS; i++) {
+        const struct rg_tally_field *field = &rg_tally_fields[i];
+        int64_t count;
+        record->has_tally = rg_field_count(r, json, field->name, &count);
+        memcpy((char *)&record->tally + field->offset, &count, sizeof(count));
+    }
+    memcpy(r->place, cell_place, sizeof(cell_place));
+    return record->has_tally;
+}
+
 static bool read_record(struct rg_reader *r, const json_t *cell, const struct rg_result *result,
                         struct rg_record *record)
 {
@@ -89,6 +108,7 @@ static bool read_record(struct rg_reader *r, const json_t *cell, const struct rg
                         &record->published_count) ||
         !rg_field_counts(r, cell, "counters", record->counters, RG_MAX_COUNTERS,
                          &record->counter_count) ||
+        !read_tally(r, cell, record) ||
         !rg_field_named(r, cell, "facts", record->facts, RG_MAX_FACTS, &record->fact_count) ||
         !read_outcome(r, cell, &record->outcome, record->detail) ||
         (*result->truth && !read_truth_error(r, cell, &record->truth_error)))

@@ -30,6 +30,13 @@ static void tell_measured(struct rg_record *record, struct rg_place at)
     rg_text_copy(record->passes[1].name, RG_NAME_SIZE, "flow_light");
     record->passes[0].ms = 1e-7 / 3;
     record->passes[1].ms = 100;
+    record->has_tally = at.row == 1;
+    record->tally = (struct rg_tally){.runs = 3,
+                                      .dispatches = 5,
+                                      .items = INT64_MAX,
+                                      .records = 7,
+                                      .fragments_kept = -1,
+                                      .texels_fetched = 9};
     rg_text_copy(record->counters[0].name, RG_NAME_SIZE, "drops");
     record->counters[0].value = INT64_MAX;
     record->counter_count = 1;

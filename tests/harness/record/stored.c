@@ -22,6 +22,8 @@ static void assert_same_records(const struct rg_result *a, const struct rg_resul
         assert_memory_equal(x->published, y->published, sizeof(x->published));
         assert_memory_equal(x->facts, y->facts, sizeof(x->facts));
         assert_memory_equal(x->counters, y->counters, sizeof(x->counters));
+        assert_int_equal(x->has_tally, y->has_tally);
+        assert_true(!x->has_tally || !memcmp(&x->tally, &y->tally, sizeof(x->tally)));
         assert_memory_equal(x->passes, y->passes, sizeof(x->passes));
         assert_memory_equal(x->samples_ms, y->samples_ms, sizeof(x->samples_ms));
         assert_memory_equal(&x->frame_ms, &y->frame_ms, sizeof(x->frame_ms));
@@ -118,6 +120,9 @@ static void test_refusals(void **state)
     expect_refusal("cells.0.measured.passes_ms.flow_move", json_string("x"),
                    "f: cells[0].measured.passes_ms has 'flow_move'");
     expect_refusal("cells.0.counters.drops", json_real(1.5), "f: cells[0].counters has 'drops'");
+    expect_refusal("cells.0.tally.runs", json_integer(-1), "f: cells[0].tally.runs is no whole");
+    expect_refusal("cells.0.tally.items", NULL, "f: cells[0].tally.items is missing");
+    expect_refusal("cells.0.tally", NULL, "f: cells[0].tally is missing");
     expect_refusal("cells.0.error.max", json_integer(256), "f: cells[0].error.max is no whole");
     expect_refusal("cells.0.set", json_array(), "f: cells[0].set is no text");
 }
