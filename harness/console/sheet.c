@@ -4,22 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/array.h"
 #include "core/base/log.h"
-
-// `array` with room for one element more; NULL, with the array as it was, without memory for it.
-static void *grow(struct rg_sheet *sheet, void *array, int count, int *capacity, size_t size)
-{
-    if (count < *capacity)
-        return array;
-    const int wanted = *capacity ? *capacity * 2 : 16;
-    void *grown = realloc(array, (size_t)wanted * size);
-    if (!grown) {
-        sheet->incomplete = !rg_error("table '%s': no memory for %d rows", sheet->title, wanted);
-        return NULL;
-    }
-    *capacity = wanted;
-    return grown;
-}
 
 int rg_sheet_column(struct rg_sheet *sheet, const char *format, ...)
 {
@@ -38,22 +24,22 @@ int rg_sheet_column(struct rg_sheet *sheet, const char *format, ...)
 
 char (*rg_sheet_row(struct rg_sheet *sheet))[RG_SHEET_CELL]
 {
-    void *cells =
-        grow(sheet, sheet->cells, sheet->row_count, &sheet->row_capacity, sizeof(*sheet->cells));
-    if (!cells)
+    if (!rg_array_fit(&sheet->cells, &sheet->row_room, sheet->row_count + 1, sizeof(*sheet->cells),
+                      "rows of a table")) {
+        sheet->incomplete = true;
         return NULL;
-    sheet->cells = cells;
+    }
     memset(sheet->cells[sheet->row_count], 0, sizeof(*sheet->cells));
     return sheet->cells[sheet->row_count++];
 }
 
 void rg_sheet_note(struct rg_sheet *sheet, const char *format, ...)
 {
-    void *notes =
-        grow(sheet, sheet->notes, sheet->note_count, &sheet->note_capacity, sizeof(*sheet->notes));
-    if (!notes)
+    if (!rg_array_fit(&sheet->notes, &sheet->note_room, sheet->note_count + 1,
+                      sizeof(*sheet->notes), "notes of a table")) {
+        sheet->incomplete = true;
         return;
-    sheet->notes = notes;
+    }
     char *note = NULL;
     size_t size;
     FILE *text = open_memstream(&note, &size);

@@ -3,6 +3,7 @@
 #define RG_HARNESS_CONSOLE_SHEET_H
 
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 
 enum { RG_SHEET_COLUMNS = 32, RG_SHEET_CELL = 96 };
@@ -11,9 +12,11 @@ struct rg_sheet {
     const char *title;
     int column_count;
     char columns[RG_SHEET_COLUMNS][RG_SHEET_CELL];
-    int row_count, row_capacity;
+    int row_count;
+    int64_t row_room;
     char (*cells)[RG_SHEET_COLUMNS][RG_SHEET_CELL]; // owned
-    int note_count, note_capacity;
+    int note_count;
+    int64_t note_room;
     char **notes;    // owned; printed below, in Markdown and LaTeX
     bool incomplete; // what was added found no memory, which one logged line said
 };

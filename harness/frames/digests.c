@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/array.h"
 #include "core/base/log.h"
 #include "harness/frames/inside.h"
 
@@ -22,14 +23,9 @@ struct recorder {
 
 static bool add(struct rg_digests *digests, const struct rg_digest *digest)
 {
-    if (digests->count == digests->room) {
-        const int room = digests->room ? 2 * digests->room : 256;
-        struct rg_digest *rows = realloc(digests->rows, (size_t)room * sizeof(*rows));
-        if (!rows)
-            return rg_error("digests: no memory for %d; run fewer frames", room);
-        digests->rows = rows;
-        digests->room = room;
-    }
+    if (!rg_array_fit(&digests->rows, &digests->room, digests->count + 1, sizeof(*digests->rows),
+                      "digests"))
+        return false;
     digests->rows[digests->count++] = *digest;
     return true;
 }

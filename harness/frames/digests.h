@@ -23,7 +23,8 @@ struct rg_digest {
 
 // Zeroed: none.
 struct rg_digests {
-    int count, room;
+    int count;
+    int64_t room;
     struct rg_digest *rows; // owned
 };
 

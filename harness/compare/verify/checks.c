@@ -6,20 +6,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/array.h"
 #include "core/base/log.h"
 #include "harness/console/exit.h"
 
 void rg_checks_add(struct rg_checks *checks, const char *technique, const char *check,
                    const char *device, enum rg_outcome status, const char *format, ...)
 {
-    struct rg_check *rows = realloc(checks->rows, (size_t)(checks->count + 1) * sizeof(*rows));
-    if (!rows) {
-        rg_error("%s on %s: no memory for its result", check, device);
+    if (!rg_array_fit(&checks->rows, &checks->room, checks->count + 1, sizeof(*checks->rows),
+                      "results of checks")) {
         checks->exit = rg_exit_worse(checks->exit, RG_EXIT_FAIL);
         return;
     }
-    checks->rows = rows;
-    struct rg_check *row = &rows[checks->count++];
+    struct rg_check *row = &checks->rows[checks->count++];
     memset(row, 0, sizeof(*row));
     row->status = status;
     snprintf(row->technique, sizeof(row->technique), "%s", technique);

@@ -3,6 +3,7 @@
 #define RG_HARNESS_COMPARE_VERIFY_CHECKS_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "core/base/outcome.h"
 
@@ -15,6 +16,7 @@ struct rg_check {
 // Zeroed: none. The owner calls rg_checks_free.
 struct rg_checks {
     int count;
+    int64_t room; // of the rows, for rg_array_fit
     struct rg_check *rows;
     int exit; // an enum rg_exit: what they come to at least, whatever the results say
 };

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "core/base/alloc.h"
+#include "core/base/array.h"
 #include "core/base/log.h"
 
 // --- texts of documents ---
@@ -74,14 +75,9 @@ static json_t *next_document(const char *path, const char *text, size_t size, si
 
 static struct rg_result *add(struct rg_stored *stored)
 {
-    if (stored->count == stored->capacity) {
-        const int wanted = stored->capacity ? 2 * stored->capacity : 16;
-        void *grown = realloc(stored->results, (size_t)wanted * sizeof(*stored->results));
-        if (!grown)
-            return rg_error_null("no memory for %d results; name fewer", wanted);
-        stored->results = grown;
-        stored->capacity = wanted;
-    }
+    if (!rg_array_fit(&stored->results, &stored->room, stored->count + 1, sizeof(*stored->results),
+                      "results"))
+        return NULL;
     struct rg_result *result = &stored->results[stored->count++];
     *result = (struct rg_result){0};
     return result;

@@ -5,7 +5,8 @@
 #include "harness/record/schema/schema.h"
 
 struct rg_stored {
-    int count, capacity;
+    int count;
+    int64_t room;              // of the results, for rg_array_fit
     struct rg_result *results; // owned, and what they own
 };
 
