@@ -3,9 +3,9 @@
 #define RG_HARNESS_TABLES_TABLE_H
 
 #include "harness/devices/kept.h"
-#include "harness/record/journal.h"
+#include "harness/record/disk/journal.h"
 #include "harness/record/result.h"
-#include "harness/tables/papers/papers.h"
+#include "harness/tables/papers/published.h"
 
 // What of a table is measured.
 struct rg_table_part {

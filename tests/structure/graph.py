@@ -30,9 +30,6 @@ HERE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 KNOWN = (
     "circle: backends/cpu uses ",
     "circle: harness/record uses ",
-    "circle: harness/tables/papers/creus",
-    "harness/record/journal.h includes harness/tables/table.h",
-    "harness/record/rows.h includes harness/tables/table.h",
 )
 
 

@@ -1,6 +1,6 @@
 // Creus, "Real-time rendering of rain" (2010), chapter 5. The numbers are those of
 // results/published/creus-*.csv, which a test compares.
-#include "harness/tables/papers/papers.h"
+#include "harness/tables/papers/published.h"
 
 // The thesis's machine and view. A row is opened alone: an instance's atlas, city and depth map
 // are large, and its frames can take seconds on the slower devices.

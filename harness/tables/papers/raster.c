@@ -1,5 +1,5 @@
 // Drawing itself. No paper: its rows compare devices with each other.
-#include "harness/tables/papers/papers.h"
+#include "harness/tables/papers/published.h"
 
 static const struct rg_table_row rows_1[] = {
     {"scene=billboards", {0}, "785,000 billboards"},

@@ -1,6 +1,6 @@
 // Stuppacher & Supan, "Rendering of Water Drops in Real-Time" (2007). The numbers are those of
 // results/published/stuppacher-*.csv, which a test compares.
-#include "harness/tables/papers/papers.h"
+#include "harness/tables/papers/published.h"
 
 // Table 1: frame rates of a mirror, and of glass with a model behind it.
 static const struct rg_table_row rows_1[] = {

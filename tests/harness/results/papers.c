@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "core/techniques/technique.h"
+#include "harness/tables/papers/papers.h"
 #include "harness/tables/table.h"
 
 static const char *folder;

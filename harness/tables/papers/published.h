@@ -1,0 +1,73 @@
+// Published tables: which cells each has, and the numbers in print.
+#ifndef RG_HARNESS_TABLES_PAPERS_PUBLISHED_H
+#define RG_HARNESS_TABLES_PAPERS_PUBLISHED_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { RG_TABLE_ROWS = 64, RG_TABLE_VALUES = 8, RG_TABLE_VARIANTS = 8, RG_TABLE_WORKS = 2 };
+
+// One row: settings of the technique and what the paper printed. Assignments are "key=value
+// key=value", as --set takes each; "" for none.
+struct rg_table_row {
+    const char *set;                // "panes=glass model=bunny"
+    double values[RG_TABLE_VALUES]; // in the order of the table's columns
+    const char *name; // "glass with bunny", in tables whose rows have names, or are of textures
+};
+
+// What is timed of each row: "full", and the frames with less in them that the paper also timed.
+struct rg_table_variant {
+    const char *name; // "no_geometry"
+    const char *set;  // over the row's
+    const char *fps;  // the column that its frame rate is compared with: "fps_no_geometry"; NULL
+                      // where nothing is published
+};
+
+// How much work a row's cells do: "paper", what was printed of, and "ours", the same picture for
+// less. A table without either has cells of one kind, which it does not name.
+struct rg_table_work {
+    const char *name;
+    const char *set;   // over the row's and the variant's
+    const char *saves; // what saves work, one line; "" of what was printed
+};
+
+struct rg_table {
+    const char *id;        // "stuppacher-2"
+    const char *technique; // "flow"
+    const char *about;     // one line
+    const char *hardware;  // what the paper measured on; NULL: nothing is published, and all
+                           // columns are keys
+    const char *names;     // what the rows' names are: "scene"; NULL: none
+    const char *columns[RG_TABLE_VALUES + 1]; // as in results/published/ID.csv, NULL after the last
+    // So many columns, the first, are settings and tell rows apart. The first of them is the axis
+    // along which frame rates fall. 0: there is none, and only the order of rows can be reproduced.
+    int key_count;
+    struct rg_table_variant variants[RG_TABLE_VARIANTS + 1]; // the last has no name
+    struct rg_table_work works[RG_TABLE_WORKS + 1];          // likewise
+    const char *truth; // over a row's: an image without its approximations, which gives the error
+                       // of the row's own; NULL: no column for that
+    // Nothing is timed: a row is about the technique's texture of the row's name, and of it the
+    // level in the column "level". Devices tell its "width_px" and "height_px".
+    bool is_of_textures;
+    // What quick mode sets over rows and variants, for less work: "atlas=small"; NULL: nothing.
+    const char *quick;
+    // So many rows have their cells open, and are visited in turn, at the same time; 0: all rows.
+    // One where instances are large, or a row takes long: an interrupted table goes on with the
+    // first row that is not measured.
+    int rows_at_once;
+    int check_frames;  // simulated and drawn before images are compared; 0: RG_CHECK_FRAMES
+    int width, height; // of the image, in pixels
+    int row_count;     // at most RG_TABLE_ROWS
+    const struct rg_table_row *rows;
+    const char *note; // what a reader of the table must know, one line
+};
+
+bool rg_table_is_published(const struct rg_table *table);
+// The number in a row's column; NAN where the table has no such column.
+double rg_table_value(const struct rg_table *table, int row, const char *column);
+// Frames a second of a row and variant in print; NAN where nothing is.
+double rg_table_published_fps(const struct rg_table *table, int row, int variant);
+// Whether a column is neither a key nor a frame rate: "vertices".
+bool rg_table_is_extra(const struct rg_table *table, int column);
+
+#endif
