@@ -7,7 +7,7 @@
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/console/exit.h"
-#include "harness/record/schema/stored.h"
+#include "harness/record/disk/stored.h"
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/print.h"
 #include "harness/tables/regenerate.h"

@@ -15,7 +15,7 @@
 
 #include "core/base/log.h"
 #include "harness/console/interrupt.h"
-#include "harness/record/journal.h"
+#include "harness/record/disk/journal.h"
 #include "harness/record/schema/schema.h"
 #include "harness/tables/sheet.h"
 #include "harness/tables/table.h"

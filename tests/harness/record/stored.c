@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
-#include "harness/record/schema/stored.h"
+#include "harness/record/disk/stored.h"
 #include "harness/tables/print.h"
 #include "tests/harness/record/made.h"
 

@@ -7,8 +7,8 @@
 // that says otherwise than the run what decides the numbers (the table, its rows and settings, the
 // length, the passport with the program), nor does one that is damaged. Journals are only ever
 // lost, never trusted: without one, tables are measured whole.
-#ifndef RG_HARNESS_RECORD_JOURNAL_H
-#define RG_HARNESS_RECORD_JOURNAL_H
+#ifndef RG_HARNESS_RECORD_DISK_JOURNAL_H
+#define RG_HARNESS_RECORD_DISK_JOURNAL_H
 
 #include "harness/record/result.h"
 

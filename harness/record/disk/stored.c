@@ -1,4 +1,4 @@
-#include "harness/record/schema/stored.h"
+#include "harness/record/disk/stored.h"
 
 #include <dirent.h>
 #include <errno.h>

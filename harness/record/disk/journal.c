@@ -1,4 +1,4 @@
-#include "harness/record/journal.h"
+#include "harness/record/disk/journal.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/record/output.h"
-#include "harness/record/schema/stored.h"
+#include "harness/record/disk/stored.h"
 
 struct rg_journal {
     char folder[1536], name[128], path[2048]; // no folder: there is none to be had

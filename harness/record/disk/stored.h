@@ -1,6 +1,6 @@
 // Results that lie on disk.
-#ifndef RG_HARNESS_RECORD_SCHEMA_STORED_H
-#define RG_HARNESS_RECORD_SCHEMA_STORED_H
+#ifndef RG_HARNESS_RECORD_DISK_STORED_H
+#define RG_HARNESS_RECORD_DISK_STORED_H
 
 #include "harness/record/schema/schema.h"
 
