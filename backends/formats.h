@@ -19,7 +19,8 @@ enum rg_format {
     RG_FORMAT_COUNT
 };
 
-// What images of a format may be for: bits. Kernels fetch all that there are.
+// What a device can do with images of a format, a bit each. It fetches from images of every format
+// that it has.
 enum rg_format_use {
     RG_USE_FETCH = 1,
     RG_USE_STORE = 2, // kernels store to them
@@ -47,9 +48,9 @@ const char *rg_format_name(enum rg_format format);
 // Width or height of a level.
 int rg_level_size(int size, int level);
 
-// How the devices that keep images in plain memory lay them out (kernels/dialect/image/memory.h):
-// the word at which each level begins, which is also the image's header, and the words of the whole
-// image, header included.
+// How cpu and opencl, which keep images in plain memory, lay them out
+// (kernels/dialect/image/memory.h): first a header, the word at which each level begins, which
+// `header` gets; then the levels. Returns the words of the whole image, header included.
 int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX_LEVELS]);
 // What such a device allows: images of every format for all uses, of at most `max_bytes`, whose
 // texels kernels can count in an int.

@@ -6,7 +6,7 @@
 #include "backends/formats.h"
 #include "kernels/dialect/draw/clip.h"
 
-// --- slots ---
+// --- the slots of a draw's own buffers ---
 
 void vk_draw_slots(struct vk_pass *pass)
 {

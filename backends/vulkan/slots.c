@@ -89,7 +89,7 @@ void vk_slots_destroy(struct vk_device *device, struct vk_pass *pass)
     vkDestroyDescriptorSetLayout(device->handle, pass->set_layout, NULL);
 }
 
-// --- what is bound ---
+// --- binding ---
 
 // Member by member, so that the bytes between them stay zero and descriptors can be compared.
 void vk_slot_buffer(union vk_descriptor *descriptor, const struct rg_buf *buf)

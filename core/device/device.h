@@ -2,7 +2,8 @@
 //
 // It checks all arguments and refuses with one logged line that names the object and the number;
 // splits runs that exceed a device's work-group limits; counts work; and finds what was not
-// destroyed. This header has it all: devices, and of objects.h and pass.h what is done on them.
+// destroyed. This header has devices, and includes what is done on them: objects.h, buffers and
+// images; pass.h, runs of kernels; work.h, the counts.
 #ifndef RG_CORE_DEVICE_DEVICE_H
 #define RG_CORE_DEVICE_DEVICE_H
 
@@ -31,9 +32,14 @@ struct rg_device *rg_device_open(const char *name);
 // Waits, reports what still lives on it as an error, and closes it. Returns false on a leak.
 bool rg_device_close(struct rg_device *device);
 
+// What was done on the device so far; it stays the device's.
 const struct rg_work *rg_device_work(const struct rg_device *device);
 
+// Waits until all that was asked for has been done. False, and one logged line, if some of it
+// failed.
 bool rg_device_sync(struct rg_device *device);
+// The API's own clock, in nanoseconds from an arbitrary start, after the same wait. False, and one
+// logged line, on failure, and unsupported where the device has no clock.
 bool rg_device_time(struct rg_device *device, int64_t *time_ns);
 
 // The tier that pictures of two devices must hold, in either order: the looser of theirs, for what

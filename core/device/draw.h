@@ -5,7 +5,7 @@
 
 #include "backends/backend.h"
 
-// Checks and runs a DRAW pass.
+// Checks and runs a DRAW pass. False, and one logged line, where a check or the driver refuses it.
 bool rg_draw_run(struct rg_pass *pass, const struct rg_run *run);
 
 #endif

@@ -1,5 +1,5 @@
-// Passes of GRID kernels, and what DRAW passes (core/device/draw.h) have in common with them. For
-// core/device: others go through core/device/pass.h.
+// Passes of GRID kernels, and what DRAW passes (core/device/draw.h) have in common with them. Only
+// core/device uses it: all others go through core/device/pass.h.
 #ifndef RG_CORE_DEVICE_GRID_H
 #define RG_CORE_DEVICE_GRID_H
 

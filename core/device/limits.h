@@ -1,5 +1,5 @@
-// What a device lacks, said once, from its limits: each function logs one line with rg_unsupported
-// and is false where the device cannot do what it is asked.
+// What a device lacks, read from its limits and said here alone. Each function returns whether the
+// device can do what it is asked; where it cannot, it has logged one line with rg_unsupported.
 #ifndef RG_CORE_DEVICE_LIMITS_H
 #define RG_CORE_DEVICE_LIMITS_H
 

@@ -2,9 +2,9 @@
 //
 // Each function refuses bad arguments with one logged line that names the object and the number,
 // and counts what it moves (core/device/work.h). create returns NULL and every other function false
-// when it has failed and logged why. Destroy functions accept NULL. Types are in
-// backends/backend.h. An object's name, for messages and debug labels, is not copied: it outlives
-// the object, as a string literal does.
+// when it has failed and logged why. Destroy functions accept NULL. Types, and how texels travel,
+// are in backends/backend.h; sizes and offsets are bytes, multiples of 4. An object's name, for
+// messages and debug labels, is not copied: it outlives the object, as a string literal does.
 #ifndef RG_CORE_DEVICE_OBJECTS_H
 #define RG_CORE_DEVICE_OBJECTS_H
 

@@ -17,7 +17,7 @@ struct rg_packing {
     struct rg_scan *scan;
 };
 
-// --- what packs ---
+// --- the packing passes and their buffers ---
 
 bool rg_packer_create(struct rg_pass *pass)
 {

@@ -12,15 +12,16 @@ struct rg_packer {
     struct rg_pass *count, *emit;
 };
 
-// Makes pass->packer; false and one logged line on failure. Destroying none is allowed.
+// Makes pass->packer; false and one logged line on failure. A pass without one may be destroyed.
 bool rg_packer_create(struct rg_pass *pass);
 void rg_packer_destroy(struct rg_pass *pass);
 
-// Sees to room for a batch of a pass's primitives: of `items` items, or of fewer, so that it stays
-// below what the device allows a buffer. Returns how many, 0 where there is no memory, and in
-// `capacity` the primitives that there is room for.
+// Makes room for the primitives of a batch: of `items` items, or of as many as keep it below what
+// the device allows a buffer. Returns how many items; 0, and one logged line, without memory.
+// `capacity` gets how many primitives there is room for.
 int rg_packing_prepare(struct rg_pass *pass, int items, int *capacity);
-// Packs and draws the items of `state`, a batch.
+// Packs the batch of items that `state` names, and draws it. False, and one logged line, on
+// failure.
 bool rg_packing_run(struct rg_pass *pass, const struct rg_run *run, const rg_draw_state *state);
 // Frees what packing holds of a device, before it closes.
 void rg_packing_destroy(struct rg_device *device);

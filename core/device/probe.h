@@ -25,9 +25,9 @@ struct rg_probe_result {
     uint32_t largest_ulps; // distance in neighbouring floats, or of integers
 };
 
-// Runs every operation of kernels/probe/list.h on seeded inputs and compares: plain operations with
-// C computed on the host, what the kernels compose of them and the builtins with cpu:reference.
-// False when the device or cpu:reference failed.
+// Runs every operation of kernels/probe/list.h on seeded inputs and compares the bits. Plain
+// operations are held against C on the host; builtins, and what the dialect composes of plain
+// operations, against cpu:reference. False, and one logged line, when one of the devices failed.
 bool rg_probe_run(struct rg_device *device, struct rg_probe_result results[RG_PROBE_COUNT]);
 
 #endif

@@ -13,7 +13,8 @@ struct rg_device;
 struct rg_scan;
 
 // Kernels and scratch buffers (about max_count / 16 bytes) for up to `max_count` elements,
-// 1 to 2^30. NULL when the device failed. One scan serves one run after the other.
+// 1 to 2^30. NULL, and one logged line, on failure. One scan serves one run after the other. Both
+// functions below are false, with one logged line, when the device failed.
 struct rg_scan *rg_scan_create(struct rg_device *device, int max_count);
 void rg_scan_destroy(struct rg_scan *scan);
 

@@ -74,7 +74,7 @@ static bool count_packed(struct rg_counts *counts, const struct rg_pass *pass,
     return ok;
 }
 
-// --- a run ---
+// --- counting a run ---
 
 static int lights_of(const struct rg_kernel *kernel, const struct rg_run *run)
 {

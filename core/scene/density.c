@@ -130,7 +130,7 @@ struct rg_density *rg_density_read(const char *path)
     return density;
 }
 
-// --- sums ---
+// --- sums of the map over areas ---
 
 // A range of whole texels, and how much of each of them counts.
 struct piece {

@@ -9,7 +9,8 @@
 // logged line, on failure.
 void *rg_frame_read(struct rg_instance *instance, size_t *size);
 
-// The same as a picture of 4 channels; `texels` as rg_frame_read gave them.
+// The same as a picture of 4 channels, which the caller destroys; `texels` as rg_frame_read gave
+// them. False, and one logged line, without memory.
 bool rg_frame_picture(const struct rg_instance *instance, const void *texels,
                       struct rg_picture *picture);
 

@@ -43,6 +43,7 @@ extern const struct rg_technique *const rg_techniques[];
 // copied. NULL, with one logged line, on failure.
 struct rg_instance *rg_instance_open(const struct rg_technique *technique, struct rg_device *device,
                                      const void *settings, int width, int height);
+// Frees the instance with its assets and stages; NULL is accepted.
 void rg_instance_close(struct rg_instance *instance);
 
 // Settings with every default; the caller frees them. NULL, with one logged line, without memory.

@@ -135,7 +135,7 @@ static bool add_text(const struct rg_option *row, struct rg_words *words, const 
     return set_text(row, &copy, text) && (words->items[words->count++] = copy);
 }
 
-// --- all of them ---
+// --- a value of any kind ---
 
 void rg_option_clear(const struct rg_option *row, void *values)
 {

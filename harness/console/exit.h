@@ -4,8 +4,8 @@
 
 #include "core/base/outcome.h"
 
-// docs/environment.md lists them. Functions that return one return an int, for that of a signal has
-// no name.
+// docs/environment.md lists them. Functions return one as an int, since 128 plus a signal's number
+// has no name in the enum.
 enum rg_exit {
     RG_EXIT_PASS = 0,
     RG_EXIT_FAIL = 1,  // differs, regressed, not verified; a driver failed

@@ -18,7 +18,7 @@ struct rg_sheet {
     int note_count;
     int64_t note_room;
     char **notes;    // owned; printed below, in Markdown and LaTeX
-    bool incomplete; // what was added found no memory, which one logged line said
+    bool incomplete; // a row, column or note was lost, for which there is one logged line
 };
 
 // Adds a column, before any row, and returns its index.

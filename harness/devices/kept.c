@@ -5,7 +5,7 @@
 
 #include "core/base/alloc.h"
 
-// --- what was opened with what ---
+// --- subjects ---
 
 static bool is_same(const struct rg_subject *a, const struct rg_subject *b)
 {

@@ -220,7 +220,7 @@ static void print_builtin_table(const struct rg_doctor_report *report)
         print_builtins(probed + first, count - first < COLUMNS ? count - first : COLUMNS);
 }
 
-// --- all ---
+// --- the report ---
 
 static void print_verdict(const struct rg_doctor_report *report)
 {

@@ -1,4 +1,5 @@
-// The instance of a session, for what else looks into it in this folder, and nowhere else.
+// The instance of a session. Only files of this folder may include this: all others go through
+// session.h.
 #ifndef RG_HARNESS_FRAMES_INSIDE_H
 #define RG_HARNESS_FRAMES_INSIDE_H
 

@@ -56,7 +56,7 @@ struct rg_instance *rg_session_instance(struct rg_session *session)
     return session->instance;
 }
 
-// --- work ---
+// --- simulating and drawing ---
 
 bool rg_session_step(struct rg_session *session)
 {
@@ -123,7 +123,7 @@ bool rg_session_time(struct rg_session *session, int64_t *time_ns)
     return rg_device_time(session->instance->device, time_ns);
 }
 
-// --- what it has drawn ---
+// --- its picture ---
 
 void *rg_session_read(struct rg_session *session, size_t *size)
 {
@@ -141,7 +141,7 @@ bool rg_session_read_picture(struct rg_session *session, struct rg_picture *pict
     return rg_frame_read_picture(session->instance, picture);
 }
 
-// --- what it holds, and tells of itself ---
+// --- its state, and what it tells of itself ---
 
 void rg_session_tell(const struct rg_session *session, struct rg_account *account)
 {

@@ -31,7 +31,7 @@ void rg_session_close(struct rg_session *session); // NULL is accepted
 
 struct rg_device *rg_session_device(const struct rg_session *session);
 
-// --- work ---
+// --- simulating and drawing ---
 
 // Simulates one frame.
 bool rg_session_step(struct rg_session *session);
@@ -51,7 +51,7 @@ bool rg_session_stages(struct rg_session *session,
 // The API's own clock (rg_device_time).
 bool rg_session_time(struct rg_session *session, int64_t *time_ns);
 
-// --- what it has drawn ---
+// --- its picture ---
 
 // The target's texels as the device holds them: *size bytes, which the caller frees.
 void *rg_session_read(struct rg_session *session, size_t *size);
@@ -62,7 +62,7 @@ bool rg_session_picture(const struct rg_session *session, const void *texels,
 // Both at once.
 bool rg_session_read_picture(struct rg_session *session, struct rg_picture *picture);
 
-// --- what it holds, and tells of itself ---
+// --- its state, and what it tells of itself ---
 
 // What an instance tells of itself now.
 struct rg_account {

@@ -1,4 +1,4 @@
-// What the cells of a row must show, so that none is timed that does not.
+// The image that the cells of a row must show: a cell that shows another is not timed.
 #ifndef RG_HARNESS_MEASURE_EXPECTED_H
 #define RG_HARNESS_MEASURE_EXPECTED_H
 

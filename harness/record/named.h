@@ -26,13 +26,13 @@ struct rg_count {
 // Copies text as JSON can hold it: whole characters of UTF-8, as many as fit, and question marks
 // for bytes of what is none.
 void rg_text_copy(char *to, size_t size, const char *from);
-// The number that is read back of this one once it has been written; NAN where there is none.
+// What a document gives back for a number: rounded to RG_NUMBER_DIGITS; NAN where JSON has none.
 double rg_number_kept(double number);
 
 void rg_named_set_text(struct rg_named *named, const char *name, const char *text);
 void rg_named_set_number(struct rg_named *named, const char *name, double number);
 
-// What an instance tells.
+// Copies what an instance tells: `count` of them.
 void rg_facts_copy(struct rg_named *named, const struct rg_fact *facts, int count);
 void rg_counters_copy(struct rg_count *counts, const struct rg_counter *counters, int count);
 
@@ -44,11 +44,11 @@ void rg_named_text(const struct rg_named *named, int count, const char *const *e
 // The number of this name, or NULL.
 const double *rg_named_number(const struct rg_named *named, int count, const char *name);
 
-// Objects with a field each; the caller owns them.
+// A JSON object with a field for each value, by its name; the caller owns it.
 json_t *rg_named_json(const struct rg_named *named, int count);
 json_t *rg_counts_json(const struct rg_count *counts, int count);
 
-// A whole number as one, any other as it is; null for what JSON cannot say.
+// A JSON number, without a point where it is whole; null for infinity and NaN, which JSON lacks.
 json_t *rg_number_json(double number);
 // A JSON string of text from outside, as rg_text_copy copies it, of any length.
 json_t *rg_json_text(const char *text);

@@ -1,5 +1,6 @@
-// A record: what running one cell of a table leaves behind, as plain data. It holds no pointer, and
-// nothing that lives: who made it (harness/measure/job.h) may be gone, or be another process.
+// A record: what running one cell of a table leaves behind, as plain data. It holds no pointer and
+// no open device, so that it outlives the job that made it (harness/measure/job.h), and can come
+// from a file or another process.
 #ifndef RG_HARNESS_RECORD_RECORD_H
 #define RG_HARNESS_RECORD_RECORD_H
 
@@ -73,16 +74,17 @@ struct rg_tally_field {
 enum { RG_TALLY_FIELDS = 10 };
 extern const struct rg_tally_field rg_tally_fields[RG_TALLY_FIELDS];
 
-// Ends it with an outcome other than OK, and says why. False.
+// Ends the record with an outcome other than OK, for the reason `detail`. Returns false, so that a
+// caller can end with it.
 bool rg_record_end(struct rg_record *record, enum rg_outcome outcome, const char *detail);
-// The same with the last error, which may be that something is unsupported.
+// The same with the outcome and the line of the last error (rg_outcome_of_error).
 bool rg_record_end_by_error(struct rg_record *record);
 
-// Rounds its numbers to what is read back of them once they have been written, and makes frame_ms
-// of its samples: what is printed of a record is the same before and after it was on disk.
+// Rounds the record's numbers to the digits that a document keeps, and makes frame_ms of its
+// samples. So a record prints the same before it is written as after it is read back.
 void rg_record_settle(struct rg_record *record);
 
-// Frames a second.
+// Frames a second: 1000 over the median of its frame_ms.
 double rg_record_fps(const struct rg_record *record);
 // What all its passes take together, in the run that syncs after every pass.
 double rg_record_passes_ms(const struct rg_record *record);

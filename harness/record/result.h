@@ -27,8 +27,9 @@ struct rg_result {
     char table[RG_NAME_SIZE]; // "creus-5.4"
     char technique[RG_NAME_SIZE];
     char hardware[RG_TITLE_SIZE]; // what the paper measured on; "": nothing is published
-    char truth[RG_TITLE_SIZE]; // set over a row's own for the image that errors are told of; "": no
-                               // errors are told
+    // The settings, over a row's own, of the image that a row's error is reckoned against; "": rows
+    // have no error.
+    char truth[RG_TITLE_SIZE];
     char quick[RG_TITLE_SIZE]; // what quick mode sets; "": nothing
     char note[RG_NOTE_SIZE];   // what a reader of the table must know
     bool full;                 // else quick
@@ -45,8 +46,8 @@ struct rg_result {
     struct rg_device_info devices[RG_MAX_DEVICES];
     json_t *passport; // docs/records.md; owned
     int missing_count;
-    char missing[RG_RESULT_MISSING][256]; // one sentence each device that a reader looks for in
-                                          // vain
+    // A sentence for each device that a reader may look for in vain.
+    char missing[RG_RESULT_MISSING][256];
     // Of first_row and those behind it, a record a cell; owned. NULL: the row was not measured.
     struct rg_record *rows[RG_RESULT_ROWS];
 };
@@ -56,7 +57,7 @@ struct rg_place {
     int row, work, variant, device;
 };
 
-// THE way to a cell: its record. Its row must be there (rg_result_has).
+// The record of a cell; nothing else indexes the rows. Its row must be there (rg_result_has).
 struct rg_record *rg_result_at(const struct rg_result *result, struct rg_place place);
 
 // The cells of the rows that are there, row by row, work by work, variant by variant, device by

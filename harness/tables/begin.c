@@ -8,7 +8,7 @@
 #include "harness/record/passport/passport.h"
 #include "harness/tables/table.h"
 
-// --- the whole ---
+// --- the head of a result ---
 
 static void name_devices(struct rg_result *result, const struct rg_devices *devices)
 {

@@ -25,7 +25,7 @@ static void name_cell(const struct rg_result *result, struct rg_place at, char *
     name_kind(result, at, text + used, size - used);
 }
 
-// --- what could not be had ---
+// --- cells without a measurement ---
 
 // Whether two cells were left out for the same reason.
 static bool ended_alike(const struct rg_record *a, const struct rg_record *b)

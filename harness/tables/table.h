@@ -7,7 +7,7 @@
 #include "harness/record/result.h"
 #include "harness/tables/papers/published.h"
 
-// What of a table is measured.
+// Which part of a table is measured.
 struct rg_table_part {
     int first_row, last_row; // from 0
     bool full;

@@ -22,7 +22,7 @@ struct rg_trend {
     double slope, published_slope; // of log(fps) over log(axis)
 };
 
-// The trend of a work and variant on a device; the place's row is nothing to it.
+// The trend of the work, variant and device that a place names; its row is not looked at.
 struct rg_trend rg_trend_of(const struct rg_result *result, struct rg_place of);
 
 // What rows have as their axis: the first of the numbers that tell them apart. NULL where there is

@@ -55,7 +55,7 @@ bool cpu_sorter_sort(struct cpu_sorter *sorter, struct cpu_bins *bins, int chunk
     return fits;
 }
 
-// --- room ---
+// --- room for primitives and references ---
 
 // Threads take room without waiting for each other. Where it ends, the round does.
 static int take(int *taken, int count, int room, bool *full)

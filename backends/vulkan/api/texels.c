@@ -112,7 +112,7 @@ bool vk_image_read(struct rg_image *image, int layer, int level, void *texels)
     }
 }
 
-// --- clear ---
+// --- clearing ---
 
 static rgba unpack(enum rg_format format, const void *texel)
 {

@@ -39,7 +39,7 @@ static bool because(char why[256], const char *format, ...)
     return false;
 }
 
-// --- where ---
+// --- paths ---
 
 static bool folder_path(char folder[RG_ATLAS_PATH_SIZE], char why[256])
 {
@@ -78,7 +78,7 @@ static bool make_folders(const char *path, char why[256])
     return true;
 }
 
-// --- reading ---
+// --- reading a file ---
 
 static enum rg_atlas_cached check_header(const struct header *header, enum rg_atlas_size size,
                                          char why[256])
@@ -156,7 +156,7 @@ struct rg_atlas *rg_atlas_cache_read(enum rg_atlas_size size, enum rg_atlas_cach
     return atlas;
 }
 
-// --- writing ---
+// --- writing a file ---
 
 static bool write_all(FILE *file, const struct rg_atlas *atlas)
 {

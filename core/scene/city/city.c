@@ -69,7 +69,7 @@ struct city *city_create(const struct city_settings *settings)
     return finish(&b);
 }
 
-// --- a mesh in its place ---
+// --- a mesh instead of the city ---
 
 // Its buffers on a device stay below 128 MiB.
 enum { MOST_MESH_FACES = 2500000, GROUND_TILES = 8 };

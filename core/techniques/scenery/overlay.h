@@ -23,8 +23,8 @@ struct scenery_ink {
 struct scenery_overlay *scenery_overlay_open(struct rg_instance *instance);
 void scenery_overlay_close(struct scenery_overlay *overlay);
 
-// Begins anew. What is added then is kept until the next call. Without memory for it the next
-// draw fails, with one logged line.
+// Empties the list. What is added then stays until the next call of this. Where memory for it is
+// missing, the next draw fails, with one logged line.
 void scenery_overlay_begin(struct scenery_overlay *overlay);
 void scenery_overlay_line(struct scenery_overlay *overlay, const float a[3], const float b[3],
                           const struct scenery_ink *ink);

@@ -142,7 +142,7 @@ struct rg_asset *rg_add_image(struct rg_instance *instance, const char *name, en
     return rg_add_image_of(instance, name, &(struct rg_image_desc){format, width, height, 1, 1});
 }
 
-// --- both ---
+// --- buffers and images alike ---
 
 void rg_set_items(struct rg_asset *asset, int width, int height, int depth)
 {

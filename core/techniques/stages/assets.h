@@ -45,7 +45,8 @@ void rg_empty(struct rg_asset *asset);
 // Two assets of one kind and size become each other.
 void rg_swap(struct rg_asset *a, struct rg_asset *b);
 
-// An added buffer is part of the state.
+// Says that a buffer among the assets is part of the simulation's state, which `verify` compares
+// (struct rg_state has the arguments).
 void rg_add_state(struct rg_instance *instance, struct rg_asset *asset, const char *name,
                   bool is_float, int row, int margin);
 

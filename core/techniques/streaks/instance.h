@@ -44,10 +44,10 @@ struct streaks {
     double drops_m3;                 // where the camera stands at frame 0
     double fit_error;                // that fit=on found
     int first_stage;                 // of enum streaks_pass, behind those of the scene
-    bool rain_alone;                 // is drawn, as the search for fit=on wants it
+    bool rain_alone;                 // nothing but rain is drawn, for the search of fit=on
     int buffer_count;
     struct rg_buf *particles[STREAKS_MAX_BUFFERS];
-    // What is bound in turn, grows, and is made anew.
+    // Assets whose buffers change: another buffer of particles for each draw, and lists that grow.
     struct rg_asset *particles_now, *blocks, *places;
     struct rg_fact *particles_told; // NULL: not yet
     // of the present frame

@@ -154,7 +154,7 @@ static bool open_stages(struct streaks *s)
     return s->first_stage >= 0 && (!set->overlay || (s->overlay = scenery_overlay_open(&s->base)));
 }
 
-// --- what is told of it ---
+// --- facts and textures that are told ---
 
 static void tell_facts(struct streaks *s)
 {

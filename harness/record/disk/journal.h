@@ -3,10 +3,10 @@
 //
 // A journal is the result of the rows that are whole, one document of
 // harness/record/schema/schema.h, in the file TABLE-LENGTH.journal in the folder of the results or,
-// without one, in raingauge's folder of the user's state (XDG_STATE_HOME). One counts for nothing
-// that says otherwise than the run what decides the numbers (the table, its rows and settings, the
-// length, the passport with the program), nor does one that is damaged. Journals are only ever
-// lost, never trusted: without one, tables are measured whole.
+// without one, in raingauge's folder of the user's state (XDG_STATE_HOME). A journal is ignored
+// unless it agrees with the run in all that decides the numbers: the table, its rows and settings,
+// the length, the passport with the program. A damaged one is ignored, too. Without a journal the
+// table is measured whole.
 #ifndef RG_HARNESS_RECORD_DISK_JOURNAL_H
 #define RG_HARNESS_RECORD_DISK_JOURNAL_H
 

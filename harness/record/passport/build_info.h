@@ -3,8 +3,8 @@
 #define RG_HARNESS_RECORD_PASSPORT_BUILD_INFO_H
 
 extern const char rg_build_version[]; // "0.1.0"
-extern const char
-    rg_build_commit[]; // git's, with "-dirty" for a changed tree; "unknown" outside git
+// git's, with "-dirty" for a changed tree; "unknown" outside git
+extern const char rg_build_commit[];
 extern const char rg_build_compiler[]; // "gcc 12.2.0"
 extern const char rg_build_type[];     // meson's: "release", "debug"; with sanitizers, if any
 

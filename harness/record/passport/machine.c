@@ -156,7 +156,7 @@ static void read_quota(struct rg_machine *machine, const char *root)
         fclose(file);
 }
 
-// --- the rest ---
+// --- GPUs and the system ---
 
 static int count_files(const char *root, const char *pattern)
 {

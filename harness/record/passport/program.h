@@ -4,9 +4,9 @@
 
 enum { RG_PROGRAM_ID_SIZE = 129 };
 
-// What the linker made of all that the program was linked from, in hexadecimal digits: equal for
-// equal programs, and another after any change, which a commit's name with "-dirty" is not.
-// "unknown" where the linker left none.
+// The linker's build id, in hexadecimal digits: a hash of the program, so that any change gives
+// another one. A commit's name with "-dirty" would stay the same. "unknown" where the linker left
+// no build id.
 void rg_program_id(char id[RG_PROGRAM_ID_SIZE]);
 
 #endif

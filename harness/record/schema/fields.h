@@ -11,9 +11,9 @@
 
 struct rg_reader {
     const char *file;
-    char
-        place[96]; // "cells[3].measured", of the object that fields are read from; "": the document
-    char *why;     // receives the line
+    // Of the object that fields are read from: "cells[3].measured"; "": the document.
+    char place[96];
+    char *why; // receives the line
     size_t why_size;
 };
 
@@ -24,7 +24,8 @@ void rg_reader_enter(struct rg_reader *reader, const char *format, ...)
 bool rg_reader_refuse(struct rg_reader *reader, const char *field, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// A field of an object, of this type. NULL, and the reader refuses, where it is another's.
+// A field of an object, of this type. NULL, and the reader refuses, where it is missing or of
+// another type.
 json_t *rg_field(struct rg_reader *reader, const json_t *object, const char *name, json_type type);
 
 // An array of 1 to `most` elements. NULL, with *count 0, where it is none.
@@ -47,7 +48,7 @@ bool rg_field_number(struct rg_reader *reader, const json_t *object, const char 
 bool rg_field_count(struct rg_reader *reader, const json_t *object, const char *name,
                     int64_t *value);
 
-// Objects with a field each: named values and counts, `most` of them at most.
+// An object whose fields are named values, or counts: at most `most` of them.
 bool rg_field_named(struct rg_reader *reader, const json_t *object, const char *name,
                     struct rg_named *named, int most, int *count);
 bool rg_field_counts(struct rg_reader *reader, const json_t *object, const char *name,

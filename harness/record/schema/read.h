@@ -1,5 +1,5 @@
-// The two halves of reading a result's document, of which harness/record/schema/schema.h is the
-// whole.
+// The two halves of reading a result's document: rg_result_from_json (schema.h) calls both. False,
+// and the reader's line, where the document is no result.
 #ifndef RG_HARNESS_RECORD_SCHEMA_READ_H
 #define RG_HARNESS_RECORD_SCHEMA_READ_H
 

@@ -6,7 +6,7 @@
 #include "harness/record/schema/read.h"
 #include "harness/record/schema/schema.h"
 
-// --- the head ---
+// --- what the table is ---
 
 static bool read_format(struct rg_reader *r, const json_t *document)
 {
@@ -85,7 +85,7 @@ static bool read_numbers(struct rg_reader *r, const json_t *document, struct rg_
            rg_reader_refuse(r, "rows", "is no range of 1 to %d rows", RG_RESULT_ROWS);
 }
 
-// --- what its cells are told apart by ---
+// --- works, variants and devices ---
 
 static bool read_variants(struct rg_reader *r, const json_t *document, struct rg_result *result)
 {

@@ -100,7 +100,7 @@ static bool claim_of_ply(struct import *import, struct claim *claim)
                           (long long)there, is_text ? "lines" : "bytes", (long long)elements));
 }
 
-// --- others ---
+// --- STL and OBJ ---
 
 // Binary files may begin with "solid" like text ones, but their size is that of their faces.
 static bool claim_of_stl(struct import *import, struct claim *claim)

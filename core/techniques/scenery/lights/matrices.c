@@ -163,7 +163,7 @@ scenery_light scenery_light_of(const struct rg_light *light, const float low_m[3
     return l;
 }
 
-// --- other frames ---
+// --- a light in another frame ---
 
 scenery_light scenery_light_moved(const scenery_light *light, const float matrix[16])
 {
@@ -193,7 +193,7 @@ scenery_light scenery_light_moved(const scenery_light *light, const float matrix
     return l;
 }
 
-// --- clip space ---
+// --- from a light to clip space ---
 
 // A face of a cube map, as kernels/dialect/image/cube.h has them: rows of the cube's frame, with
 // their signs, that run across, down and ahead.

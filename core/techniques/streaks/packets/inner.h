@@ -1,4 +1,4 @@
-// What the files of streaks_packets share; nobody else includes it.
+// What the files of this folder share. All others include packets.h.
 #ifndef RG_CORE_TECHNIQUES_STREAKS_PACKETS_INNER_H
 #define RG_CORE_TECHNIQUES_STREAKS_PACKETS_INNER_H
 

@@ -44,7 +44,7 @@ static bool select_packets(struct streaks *s, const double eye[3], double top_m)
            streaks_select(s->packets, &view, &s->selection);
 }
 
-// --- what kernels are told ---
+// --- the kernels' parameters ---
 
 static void set_looks(streaks_params *p, const struct streaks_settings *set,
                       const struct streaks_textures *textures)
@@ -112,7 +112,7 @@ static void set_params(struct streaks *s, const double eye[3], double top_m)
     set_looks(p, set, s->textures);
 }
 
-// --- what is drawn ---
+// --- which blocks are drawn ---
 
 bool streaks_write_blocks(struct streaks *s, const struct streaks_draw *draw)
 {

@@ -92,7 +92,7 @@ static struct streaks_map *create(const struct streaks *s)
     return NULL;
 }
 
-// --- the shared one ---
+// --- the static map, which instances share ---
 
 static void *make(struct rg_device *device, const void *arg)
 {
