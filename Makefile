@@ -1,8 +1,9 @@
 # raingauge: `make tables` regenerates the papers' tables, `make test` runs every test. Both install
 # what Debian packages are missing, build, say what they do, and can be run again at no cost.
-# `make results` replaces the tables that the repository keeps.
+# `make results` replaces the tables that the repository keeps; `make thorough` runs the tests that
+# take too long for every change.
 .POSIX:
-.PHONY: all setup build tables results test clean format
+.PHONY: all setup build tables results test thorough clean format
 
 BUILD = build
 ASAN = build-asan
@@ -63,6 +64,11 @@ test: build $(ASAN)/build.ninja
 	@echo "== testing under sanitizers, the CPU devices and the harness"
 	@meson test -C $(ASAN) --no-rebuild --print-errorlogs --suite sanitized || true
 	@python3 tests/summary.py $(BUILD)/meson-logs/testlog.json $(ASAN)/meson-logs/testlog.json
+
+thorough: build
+	@echo "== testing at length, all devices"
+	@meson test -C $(BUILD) --no-rebuild --print-errorlogs --setup thorough --suite thorough || true
+	@python3 tests/summary.py $(BUILD)/meson-logs/testlog-thorough.json
 
 format:
 	@git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i

@@ -1,22 +1,33 @@
 #!/usr/bin/env python3
-"""Adds up meson's test logs into one line: summary.py LOG...
+"""Adds up meson's test logs: summary.py LOG... prints the slowest tests, what failed, and one line of sums.
 
 A test that was skipped has not passed: set-up installs every driver, so nothing may be missing. Exits
 1 if anything failed or nothing ran.
 """
 import json
+import os
 import sys
+
+SLOWEST = 10
+
+
+def read(path):
+    """The results of a log, each with the build it is of: what a sanitizer watches has the same name."""
+    try:
+        with open(path, encoding="utf-8") as log:
+            tests = [json.loads(line) for line in log]
+    except OSError as error:
+        return [(0, path, f"missing: {error.strerror}")]
+    build = os.path.dirname(os.path.dirname(path))
+    return [(test["duration"], f"{build}: {test['name']}", test["result"]) for test in tests]
 
 
 def main():
-    results = []
-    for path in sys.argv[1:]:
-        try:
-            with open(path, encoding="utf-8") as log:
-                results += [(json.loads(line)["name"], json.loads(line)["result"]) for line in log]
-        except OSError as error:
-            results.append((path, f"missing: {error.strerror}"))
-    failed = [(name, result) for name, result in results if result not in ("OK", "EXPECTEDFAIL")]
+    results = [result for path in sys.argv[1:] for result in read(path)]
+    print(f"slowest of {sum(seconds for seconds, _, _ in results):.0f} s, others at their side:")
+    for seconds, name, _ in sorted(results, reverse=True)[:SLOWEST]:
+        print(f"{seconds:8.1f} s  {name}")
+    failed = [(name, result) for _, name, result in results if result not in ("OK", "EXPECTEDFAIL")]
     for name, result in failed:
         print(f"{result}: {name}")
     print(f"{len(results) - len(failed)} passed, {len(failed)} failed")

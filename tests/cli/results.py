@@ -1,4 +1,4 @@
-"""What table, diff and verify print: each form well-formed, the machine forms as docs/records.md has them."""
+"""What table, diff, render and verify print: each form well-formed, the machine forms as docs/records.md has them."""
 import csv
 import io
 import json
@@ -8,7 +8,7 @@ import signal
 import tempfile
 
 import forms
-from cases import DIFF, FORMATS, RENDER, SMALL, TABLE, VERIFY
+from cases import DIFF, FORMATS, NO_CACHE, RENDER, SMALL, STAGES, TABLE
 
 
 def run_json(runner, args, env={}):
@@ -168,21 +168,10 @@ def check_diff_json(runner):
     return problems
 
 
-def check_verify_json(runner):
-    """verify --json has a record for every check on every device"""
-    report, status, problems = run_json(runner, VERIFY)
-    for check in report["checks"]:
-        problems += lacking("check", check, dict.fromkeys(("technique", "check", "device", "status", "detail"), str))
-    named = {(check["check"], check["device"], check["status"]) for check in report["checks"]}
-    if (report["format"], status) != (1, 0) or not {("state", "cpu", "ok"), ("image", "cpu", "ok"), ("mutants", "cpu", "ok")} <= named:
-        problems.append("format %s, exit status %d, checks %s" % (report["format"], status, sorted(named)))
-    return problems
-
-
 def check_full_stdout(runner):
     """results that do not fit on standard output are an error"""
     problems = []
-    for args in ("list techniques", "list params flow --json", VERIFY, DIFF + "--json"):
+    for args in ("list techniques", "list params flow --json", STAGES, DIFF + "--json"):
         with open("/dev/full", "w") as full:
             result = runner.run(args.split(), stdout=full)
         if result.returncode != 2 or not re.fullmatch(r"raingauge: standard output: .*\n", result.stderr):
@@ -290,15 +279,18 @@ def check_fresh(runner):
 def check_atlas(runner):
     """atlas makes its streaks once, then reads them; --json describes them, -o writes them"""
     problems = []
-    with tempfile.TemporaryDirectory() as cache, tempfile.TemporaryDirectory() as out:
-        env = {"XDG_CACHE_HOME": cache}
-        first, status, messages = run_json(runner, "atlas --quick", env)
-        second, again, more = run_json(runner, "atlas --quick -o " + out, env)
+    cache = os.environ["XDG_CACHE_HOME"]
+    kept = os.path.join(cache, "raingauge", "streaks-small.atlas")
+    if os.path.exists(kept):
+        os.unlink(kept)
+    with tempfile.TemporaryDirectory() as out:
+        first, status, messages = run_json(runner, "atlas --quick")
+        second, again, more = run_json(runner, "atlas --quick -o " + out)
         problems += messages + more + lacking("atlas", first, {
             "format": int, "size": str, "from": str, "seconds": float, "file": str, "bytes": int, "hash": str, "images": list})
         if (status, again, first["from"], second["from"]) != (0, 0, "made", "cache") or first["hash"] != second["hash"]:
             problems.append("exit status %d and %d: %s, %s" % (status, again, first, second))
-        if os.path.dirname(first["file"]) != os.path.join(cache, "raingauge") or not os.path.getsize(first["file"]) > first["bytes"]:
+        if first["file"] != kept or not os.path.getsize(first["file"]) > first["bytes"]:
             problems.append("file: %s" % first)
         shapes = [tuple(image[k] for k in ("name", "width", "height", "layers", "levels")) for image in first["images"]]
         if shapes != [("point", 720, 901, 10, 10), ("env", 8, 901, 10, 10), ("splash", 48, 32, 84, 6)]:
@@ -315,8 +307,52 @@ def check_atlas(runner):
     return problems
 
 
-CHECKS = [check_forms, check_table_json, check_tallies, check_table_files, check_tables_in_a_row, check_render_json, check_diff_json, check_verify_json, check_full_stdout,
-          check_interrupted, check_stored, check_fresh, check_atlas]
+CHECKS = [check_forms, check_table_json, check_tallies, check_table_files, check_tables_in_a_row, check_render_json, check_diff_json,
+          check_full_stdout]
+STORED = [check_interrupted, check_stored, check_fresh]
+
+
+# --- what takes long and leads sanitizers nowhere else: verify's mutants have a scene of their own ---
+
+VERIFY = "verify flow --frame 5 --device cpu " + SMALL
+
+
+def check_verify_json(runner):
+    """verify --json has a record for every check on every device"""
+    report, status, problems = run_json(runner, VERIFY)
+    for check in report["checks"]:
+        problems += lacking("check", check, dict.fromkeys(("technique", "check", "device", "status", "detail"), str))
+    named = {(check["check"], check["device"], check["status"]) for check in report["checks"]}
+    if (report["format"], status) != (1, 0) or not {("state", "cpu", "ok"), ("image", "cpu", "ok"), ("mutants", "cpu", "ok")} <= named:
+        problems.append("format %s, exit status %d, checks %s" % (report["format"], status, sorted(named)))
+    return problems
+
+
+def check_verify_dry(runner):
+    """verify fails an image without rain, which proves nothing, and no other check"""
+    result = runner.run((VERIFY + "--set drops=0 --set rain_drops_s=0").split())
+    lines = result.stdout.splitlines()
+    failed = [line for line in lines if not line.startswith("ok ")]
+    problems = ["stderr: " + line for line in result.stderr.splitlines()]
+    if result.returncode != 1 or len(lines) != 5 or len(failed) != 1:
+        problems.append("exit status %d, printed:\n%s" % (result.returncode, result.stdout))
+    if not re.match(r"fail +flow +image +cpu .*: no rain in the image, which therefore proves nothing$", failed[0] if failed else ""):
+        problems.append("failed: %s" % failed)
+    return problems
+
+
+def check_atlas_not_kept(runner):
+    """atlas that cannot be kept is made all the same, with a warning"""
+    result = runner.run(["atlas", "--quick"], NO_CACHE)
+    kept = runner.run(["atlas", "--quick"])
+    problems = []
+    if result.returncode or not re.fullmatch(r"raingauge: warning: the streak atlas is not kept: /proc/none.*\n", result.stderr):
+        problems.append("exit status %d, stderr: %s" % (result.returncode, result.stderr))
+    images = [text.stdout.partition("\nimage ")[2] for text in (result, kept)]
+    return problems if images[0] == images[1] and images[0] else problems + ["printed:\n%s, kept:\n%s" % tuple(images)]
+
+
+LONG = [check_verify_json, check_verify_dry, check_atlas_not_kept]
 
 
 # --- a driver that draws wrongly: its kernel is another ---

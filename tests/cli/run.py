@@ -3,9 +3,14 @@
 
     run.py SUITE RAINGAUGE KERNEL_DIR CRASHING_DRIVER
 
-    SUITE: cases    a table: a new command adds rows
+    SUITE: atlas    the streak atlas is made, kept where XDG_CACHE_HOME says, and read
+           cases    a table of commands and how they end: a new command adds rows
+           renders  the same of `render`
+           tables   the same of `table`
            drivers  the same, of devices that need a driver or lack one
-           results  what table, diff and verify print, on the CPU
+           results  what table, diff and render print, on the CPU
+           stored   tables that were interrupted, or are printed again
+           long     what verify prints, and an atlas that is not kept, on the CPU
            wrong    a driver that draws wrongly is found
            doctor   the report about this machine
            pages    the manual page and bash's completion
@@ -25,9 +30,14 @@ import results
 from runner import Runner
 
 SUITES = {
-    "cases": lambda runner: cases.run(runner, cases.ON_CPU),
+    "atlas": lambda runner: runner.check_all([results.check_atlas]),
+    "cases": lambda runner: cases.run(runner, cases.COMMANDS),
+    "renders": lambda runner: cases.run(runner, cases.RENDERS),
+    "tables": lambda runner: cases.run(runner, cases.TABLES),
     "drivers": lambda runner: cases.run(runner, cases.WITH_DRIVERS),
     "results": lambda runner: runner.check_all(results.CHECKS),
+    "stored": lambda runner: runner.check_all(results.STORED),
+    "long": lambda runner: runner.check_all(results.LONG),
     "wrong": lambda runner: runner.check_all(results.WRONG),
     "doctor": lambda runner: runner.check_all(doctor.CHECKS),
     "pages": lambda runner: runner.check_all(pages.CHECKS),

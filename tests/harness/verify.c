@@ -180,6 +180,34 @@ static void devices_are_held_to_what_they_owe(void **state)
     assert_int_equal(judge(RG_T2, "but within T2"), RG_OK);
 }
 
+// flow in a scene where its seed shows and its model does not.
+static void a_mutant_that_lives_fails(void **state)
+{
+    (void)state;
+    const struct rg_mutant mutants[] = {{"another seed", "seed", 1, 1},
+                                        {"a model behind", "model_size", 1.01, 0},
+                                        {NULL, NULL, 0, 0}};
+    const struct rg_proof seen = {.dry = "drops=0 rain_drops_s=0",
+                                  .mutant_scene = CHEAP " rain_drops_s=0 drops=400",
+                                  .mutants = mutants};
+    struct rg_checks checks = {0};
+    struct rg_progress progress;
+    struct rg_verify v = {.technique = &flow,
+                          .mutant_device = rg_device_open("cpu"),
+                          .checks = &checks,
+                          .progress = &progress};
+    flow.proof = &seen;
+    rg_progress_start(&progress, rg_verify_mutant_work(&v));
+    rg_verify_mutants(&v);
+    rg_progress_end(&progress);
+    assert_int_equal(checks.count, 1);
+    assert_string_equal(checks.rows[0].check, "mutants");
+    assert_string_equal(checks.rows[0].detail, "killed 1/2; T1 accepts: a model behind");
+    assert_int_equal(rg_checks_exit(&checks), RG_EXIT_FAIL);
+    assert_true(rg_device_close(v.mutant_device));
+    rg_checks_free(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -188,6 +216,7 @@ int main(void)
         cmocka_unit_test_setup(what_no_device_can_do_is_unsupported, setup),
         cmocka_unit_test_setup(a_drivers_failure_fails, setup),
         cmocka_unit_test_setup(devices_are_held_to_what_they_owe, setup),
+        cmocka_unit_test_setup(a_mutant_that_lives_fails, setup),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
