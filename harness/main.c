@@ -20,7 +20,7 @@ static void print_usage(void)
 static int run(const struct rg_command *command, int argc, char **argv)
 {
     int exit = rg_command_run(command, argc - 1, (const char **)argv + 1);
-    // A full disk shows itself at the last write.
+    // A full disk may be noticed at the last write alone.
     if ((fflush(stdout) || ferror(stdout)) && exit == RG_EXIT_PASS) {
         rg_error("standard output: cannot be written; is the disk full?");
         exit = RG_EXIT_USAGE;

@@ -45,7 +45,8 @@ static void fill_state(const struct rg_draw *draw, rg_draw_state *state)
     state->half_height = 0.5f * (float)state->height;
 }
 
-// Passes that pack, and what they write, nobody asked for: other devices do without.
+// The passes that pack are not counted, nor what they write: nobody asked for them, and other
+// devices do without.
 static void leave_out_packing(struct rg_work *work, const struct rg_work *asked)
 {
     work->runs = asked->runs;

@@ -100,8 +100,9 @@ int rg_packing_prepare(struct rg_pass *pass, int items, int *capacity)
 
 // --- running ---
 
-// Past the checks: they have been done, and programs whose primitives differ in size share a buffer
-// that is no whole number of each. A batch's chunks are fewer than any device's work groups.
+// It goes past the checks, which have been done. They would also refuse the buffer of primitives:
+// programs whose primitives differ in size share it, so that its size is no multiple of each. A
+// batch's chunks are fewer than any device's work groups.
 bool rg_packing_run(struct rg_pass *pass, const struct rg_run *run, const rg_draw_state *state)
 {
     struct rg_device *device = pass->device;

@@ -88,7 +88,8 @@ HOST_FLOAT(min, fminf(a, b))
 HOST_FLOAT(max, fmaxf(a, b))
 HOST_FLOAT(clamp, a < -1.0f ? -1.0f : (a > 1.0f ? 1.0f : a))
 
-// Missing rows are what the kernels compose: cpu:reference is the measure for them.
+// Operations without a row here are composed by the dialect of others: they are held against
+// cpu:reference.
 #define HOST_ROW(name) [OP_##name] = host_##name
 static uint32_t (*const host[RG_PROBE_OP_COUNT])(struct input) = {
     HOST_ROW(add),           HOST_ROW(subtract),      HOST_ROW(multiply),

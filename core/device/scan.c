@@ -98,7 +98,8 @@ static bool run_spread(struct rg_scan *scan, struct rg_buf *values, struct rg_bu
                        });
 }
 
-// Makes of level 1's sums, `count` of them, level 1's prefix sums: up all levels, then down.
+// Makes the prefix sums of level 1 from its `count` sums: sums go up level by level, then prefix
+// sums come down.
 static bool scan_levels(struct rg_scan *scan, int count)
 {
     int counts[MAX_LEVELS] = {0, count};

@@ -27,7 +27,7 @@ static struct rg_shared *entry_make(struct rg_device *device, const char *key,
         free(entry);
         return NULL;
     }
-    // Behind what it may have asked for itself.
+    // A thing joins the list after those that its making has asked for.
     entry->next = device->shared;
     device->shared = entry;
     return entry;
@@ -47,7 +47,8 @@ void *rg_shared_get(struct rg_device *device, const char *key, const struct rg_s
     return entry->thing;
 }
 
-// Out of the list first: what it holds itself is put back while it is destroyed.
+// It leaves the list before it is destroyed, since destroying it puts back what it holds, which
+// changes the list.
 static void entry_destroy(struct rg_shared **at)
 {
     struct rg_shared *entry = *at;
@@ -72,7 +73,7 @@ void rg_shared_put(struct rg_device *device, void *thing)
 bool rg_shared_close(struct rg_device *device)
 {
     const bool clean = !device->shared;
-    // The latest first, which may hold earlier ones.
+    // The latest first, for it may hold earlier ones.
     while (device->shared) {
         const struct rg_shared *entry = device->shared;
         rg_error("device '%s': closed with %s '%.80s' not put back by %d", device->info.name,

@@ -76,7 +76,7 @@ static bool check_samples(const struct rg_pass *pass, const struct rg_run *run)
     return true;
 }
 
-// What is drawn to is not read in the same run.
+// An image that is drawn to cannot be read in the same run.
 static bool check_feedback(const struct rg_pass *pass, const struct rg_run *run)
 {
     const struct rg_draw *draw = run->draw;

@@ -49,7 +49,7 @@ static void count_prim(struct rg_counts *counts, const struct rg_draw_info *draw
     *last_item = head.item;
 }
 
-// Reads them in pieces, past the counting of bytes: nobody asked for that.
+// Reads them in pieces, without counting the bytes: no technique asked for this reading.
 static bool count_packed(struct rg_counts *counts, const struct rg_pass *pass,
                          const struct rg_run *run)
 {

@@ -20,7 +20,7 @@ struct line {
 
 enum parsed { RUN, HELP, REFUSED };
 
-// Every option without being given.
+// Sets every option's value to that of an option that is not given.
 static bool set_defaults(struct line *line)
 {
     bool ok = true;

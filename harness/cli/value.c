@@ -1,4 +1,4 @@
-// What the user writes, as values.
+// Texts that the user writes, as values of options.
 #include <errno.h>
 #include <limits.h>
 #include <popt.h>
@@ -54,7 +54,8 @@ static bool set_factor(const struct rg_option *row, double *number, const char *
 
 // --- pairs of numbers ---
 
-// A whole number at *text, which moves behind it; what does not fit becomes the nearest int.
+// Reads a whole number at *text and moves *text behind it. A number that does not fit becomes the
+// nearest int.
 static bool take_int(const char **text, int *number)
 {
     char *end;

@@ -55,7 +55,8 @@ static void tell(void *user, int done, int total)
     rg_progress_add(progress, done - progress->done);
 }
 
-// Packs the database and keeps the pack, which is what for it is made.
+// Packs the database and keeps the pack in the cache. A pack that cannot be kept is an error, since
+// to be kept is all that it is made for.
 static struct rg_atlas *pack(const char *folder, enum rg_atlas_size size,
                              const struct rg_atlas_progress *tells)
 {
@@ -67,7 +68,7 @@ static struct rg_atlas *pack(const char *folder, enum rg_atlas_size size,
     return rg_error_null("the packed database cannot be kept: %s", why);
 }
 
-// False, and one logged line, when there is none to be had.
+// Gets the atlas. False, and one logged line, on failure.
 static bool find(const struct atlas_options *o, struct found *found)
 {
     char why[256];

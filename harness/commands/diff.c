@@ -29,7 +29,7 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_size_option, AT(size), NULL),
     RG_INCLUDE(rg_devices_option, AT(devices), "all"),
     RG_GROUP("What to compare: two files"),
-    // No last place: what is neither one argument nor two gets a line of its own below.
+    // The operand has no last place, so that a wrong number of arguments comes to the line below.
     {RG_OPTION_OPERAND, .argument = "A B", .about = "picture files of one size; A is the true one",
      .names = RG_NAMES_FILE, .first = 1},
     {RG_OPTION_TEXT, "background", .argument = "FILE",

@@ -1,4 +1,5 @@
-// raingauge list: what there is to name on the command line.
+// raingauge list: techniques, tables, devices and parameters, by the names that the command line
+// takes.
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -70,7 +70,7 @@ static json_t *settings_json(const struct rg_technique *technique, const void *s
     return json;
 }
 
-// What was drawn, and where.
+// What was drawn, and the file that it is in.
 struct drawn {
     struct rg_subject subject;
     const struct rg_device_info *on;

@@ -62,7 +62,8 @@ static const char *chosen_work(const struct table_options *o)
 
 // --- what is printed ---
 
-// What its cells come to, and what came between them and the truth.
+// The exit status of a result: what its cells come to; an error against the truth that could not be
+// found counts as a failure.
 static int judge(const struct rg_result *result)
 {
     int counts[RG_OUTCOME_COUNT] = {0};
@@ -155,7 +156,7 @@ static bool is_named(const struct rg_words *ids, const char *table)
     return found;
 }
 
-// Leaves of a result what is asked for. False where that is nothing.
+// Leaves out of a result what is not asked for. False where nothing is left.
 static bool keep(struct rg_result *result, const struct table_options *o)
 {
     return (!o->rows.first || rg_result_keep_rows(result, o->rows.first - 1, o->rows.last - 1)) &&

@@ -81,7 +81,7 @@ static struct rg_device *find_or_open(const struct rg_devices *devices, const ch
     return *extra = rg_device_open(name);
 }
 
-// A driver that is there and does not open its device is no lack, but a failure.
+// A driver that is there but does not open its device has failed: that is not "unsupported".
 static void note_broken(const struct rg_devices *devices, const struct subject *subjects, int count,
                         struct rg_checks *checks)
 {
@@ -91,7 +91,7 @@ static void note_broken(const struct rg_devices *devices, const struct subject *
                           RG_ERROR, "%s", devices->broken[i].why);
 }
 
-// What the machine lacks is said, not passed over.
+// A device that the machine lacks is a row of the report, not left out.
 static void note_missing(const struct rg_devices *devices, const struct subject *subjects,
                          int count, struct rg_checks *checks)
 {

@@ -12,7 +12,7 @@ static void note(int number)
 
 void rg_interrupt_watch(void)
 {
-    // Drivers' system calls go on; the second signal finds the default again.
+    // SA_RESTART: drivers' system calls go on. SA_RESETHAND: a second signal kills, as by default.
     struct sigaction action = {.sa_handler = note, .sa_flags = SA_RESTART | (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
     noted = 0;

@@ -27,7 +27,7 @@ static void draw(struct rg_progress *p)
     const double passed_s = (p->drawn_ms - p->start_ms) * 1e-3;
     wipe();
     fprintf(stderr, "[%s] %3d %%", bar, (int)(part * 100));
-    // The first moments say nothing about the rest.
+    // The first moments do not tell how long the rest takes.
     if (part > 0.01 && passed_s > 1) {
         const int left_s = (int)(passed_s / part - passed_s + 0.5);
         fprintf(stderr, "  %d:%02d left", left_s / 60, left_s % 60);

@@ -17,7 +17,7 @@ int rg_examination_failures(const struct rg_examination *examination)
     return failures;
 }
 
-// What a crash happens in, is written before it happens.
+// The child writes what it is about to do, so that a crash shows what it happened in.
 static void begin(struct rg_examination *examination, const char *step)
 {
     snprintf(examination->why, sizeof(examination->why), "%s", step);

@@ -15,7 +15,7 @@ struct recorder {
     bool seen[RG_MAX_ASSETS];
     int stages_run;
     bool ok;
-    // Of one row alone: what it held.
+    // Where one row's contents are asked for: which row, and where they go.
     int wanted; // -1: none
     struct rg_contents *contents;
     struct rg_state *state;
@@ -30,7 +30,8 @@ static bool add(struct rg_digests *digests, const struct rg_digest *digest)
     return true;
 }
 
-// What is made later, was never written, or is another's under a second name, has no digest.
+// Whether an asset has a digest: it has been made and written, and is not another asset under a
+// second name.
 static bool is_own(const struct rg_instance *instance, int asset)
 {
     const struct rg_asset *a = &instance->assets[asset];
@@ -47,7 +48,7 @@ static void keep_state(struct recorder *r, const struct rg_asset *asset)
             *r->state = r->instance->state[i];
 }
 
-// What is lent and was not written is read once: nobody changes it.
+// A lent asset that no stage writes is read once, since nobody changes it.
 static void record(struct recorder *r, const struct rg_opened_stage *stage, int at)
 {
     const struct rg_asset *asset = &r->instance->assets[at];

@@ -7,11 +7,11 @@
 #include "harness/console/interrupt.h"
 #include "kernels/dialect/rng.h"
 
-// A frame that takes longer feels nothing of what the job before left in the caches.
+// A frame that takes longer than this is not slowed by what the job before left in the caches.
 #define LONG_FRAME_MS 100
 
-// Whether a sample is preceded by a frame that is not timed: what the job before left in the
-// caches is not this one's business.
+// Whether a frame that is not timed comes before a sample, so that what another job left in the
+// caches does not slow the sample.
 static bool needs_run_up(double frame_ms)
 {
     return frame_ms < LONG_FRAME_MS;

@@ -67,7 +67,7 @@ static bool time_wall(struct load *load, int passes, int side, double *wall_ns)
     return true;
 }
 
-// The faster of two, so that what disturbs one of them counts for nothing.
+// The faster of two runs, so that a disturbance of one does not count.
 static bool time_twice(struct load *load, int passes, double *wall_ns)
 {
     double again_ns;
@@ -77,7 +77,8 @@ static bool time_twice(struct load *load, int passes, double *wall_ns)
     return true;
 }
 
-// Passes enough for the load. The first run is the compiler's.
+// Finds how many passes make the load long enough. Of two runs the faster counts, for drivers
+// compile in the first.
 static bool calibrate(struct load *load, int *passes)
 {
     double wall_ns;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Whether jansson takes it, which takes nothing but UTF-8.
+// Whether a text is UTF-8: jansson takes nothing else.
 static bool is_utf8(const char *text)
 {
     json_t *json = json_string(text);
@@ -43,7 +43,7 @@ json_t *rg_json_text(const char *text)
     return json;
 }
 
-// Whether JSON has it as an integer, to the last digit.
+// Whether a number is whole, and small enough to be written as an integer without loss.
 static bool is_whole(double number)
 {
     return number == floor(number) && fabs(number) < 9007199254740992.0;

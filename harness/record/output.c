@@ -24,7 +24,7 @@ static bool write_all(int fd, const char *text)
     return fsync(fd) == 0 || errno == EINVAL;
 }
 
-// The umask's permissions, which mkstemp does not give.
+// mkstemp makes files that only the owner reads: gives the file the permissions of any other.
 static bool open_up(int fd)
 {
     const mode_t mask = umask(0);

@@ -1,4 +1,4 @@
-// What a table's records say before they are measured: what they are of.
+// Fills in what a table's records are of, before they are measured.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -98,7 +98,7 @@ char *rg_table_assignments(const struct rg_result *result, const struct rg_table
     return rg_error_null("table '%s': no memory for a row's settings", table->id);
 }
 
-// What tells the row from others: its name, the keys.
+// What tells the row from others: its name, and the settings that are the table's keys.
 static void name_row(struct rg_record *record, const struct rg_table *table, int row)
 {
     if (table->names)

@@ -82,7 +82,7 @@ static void note_trend(const struct rg_result *result, struct rg_sheet *sheet, s
 
 // --- the inputs ---
 
-// Whether all measured cells tell the same, which is `text` then.
+// Whether all measured cells tell the same; `text` gets it.
 static bool is_same_everywhere(const struct rg_result *result, const char *const *shown,
                                char text[RG_FACTS_TEXT])
 {
@@ -126,7 +126,7 @@ static void note_facts(const struct rg_result *result, const char *const *shown,
 
 // --- the method ---
 
-// How the numbers were come by.
+// How the numbers were measured.
 static void note_method(const struct rg_result *result, struct rg_sheet *sheet)
 {
     char published[RG_TITLE_SIZE + 32] = "", samples[48];
@@ -151,7 +151,7 @@ static void note_method(const struct rg_result *result, struct rg_sheet *sheet)
                       result->quick);
 }
 
-// The last row of those that are missing from this one on.
+// The last of the missing rows that follow this one without a gap.
 static int end_of_gap(const struct rg_result *result, int row)
 {
     while (row < result->last_row && !rg_result_has(result, row + 1))
@@ -159,7 +159,7 @@ static int end_of_gap(const struct rg_result *result, int row)
     return row;
 }
 
-// What is not of this run, or not there.
+// Rows that an earlier run measured, and rows that are missing.
 static void note_interruption(const struct rg_result *result, struct rg_sheet *sheet)
 {
     if (result->resumed_rows)

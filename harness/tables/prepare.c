@@ -54,7 +54,8 @@ static bool needs_dry(const struct preparation *p)
     return needed;
 }
 
-// What cpu:reference shows: as a job of the table, where it is one, else aside.
+// Gets the image of cpu:reference: from its job where the table measures it, else from a session
+// opened for that.
 static bool draw_expected(struct preparation *p)
 {
     struct rg_device *device = rg_kept_device(p->kept, "cpu:reference");
@@ -110,7 +111,8 @@ static void measure_error(struct preparation *p)
 
 // --- the jobs ---
 
-// Ends the jobs that are not open, which nothing can be compared with.
+// Ends the records of jobs that are not open: without the image there is nothing to compare them
+// with.
 static void give_up(struct preparation *p)
 {
     const enum rg_outcome outcome = rg_outcome_of_error();

@@ -12,7 +12,7 @@ enum { MD, CSV, JSON = RG_RESULT_JSON, TEX };
 const char *const rg_result_formats[] = {
     [MD] = "md", [CSV] = "csv", [JSON] = "json", [TEX] = "tex", NULL};
 
-// Beside what can be read back stands what is said of it.
+// The document of a result, with the trends beside, which are reckoned from it and not read back.
 static void print_json(const struct rg_result *result, FILE *out)
 {
     json_t *json = rg_result_json(result);

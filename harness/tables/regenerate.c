@@ -54,8 +54,8 @@ static int run_task(struct task *task, struct rg_kept *kept,
     return exit;
 }
 
-// The tables that have some of the rows. Journals are read before one is written: a table may be
-// named twice.
+// Begins the tables that have some of the rows that are asked for. All journals are read before one
+// is written, since a table may be named twice.
 static int make_tasks(const struct rg_regenerate_options *o, const struct rg_devices *devices,
                       const struct rg_table *const tables[], int count, struct task *tasks)
 {
@@ -77,7 +77,7 @@ static int make_tasks(const struct rg_regenerate_options *o, const struct rg_dev
     return made;
 }
 
-// A table that fails keeps none of the others from being measured and written.
+// When a table fails, the others are still measured and written.
 static int run_tasks(struct task *tasks, int count, const struct rg_devices *devices,
                      const struct rg_regenerate_options *o)
 {

@@ -5,7 +5,7 @@
 
 #include "harness/measure/timer_audit.h"
 
-// Where each thing stands; -1: not in this table.
+// The column of each thing; -1: it is not in this table.
 struct columns {
     int row[RG_MAX_VALUES];       // what tells rows apart
     int published[RG_MAX_VALUES]; // what was printed
@@ -174,7 +174,8 @@ static void fill_named(char text[RG_SHEET_CELL], const struct rg_named *named)
         snprintf(text, RG_SHEET_CELL, "%.10g", named->number);
 }
 
-// What a cell is of. Of another table's names it shows as many as this one has.
+// Fills in what a cell is of, and what the paper printed of it. The columns are those of the first
+// record: no cell has more.
 static void fill_names(const struct rg_result *result, const struct rg_record *first,
                        const struct columns *at, char (*cells)[RG_SHEET_CELL],
                        const struct rg_record *record)
@@ -218,7 +219,7 @@ static void add_row(const struct rg_result *result, const struct rg_record *firs
     if (result->is_of_textures)
         return;
     fill_times(at, cells, record, reference_of(result, place));
-    // What saves work has no number in print to be compared with.
+    // Only the work that was printed is compared with print; "ours" has no number there.
     if (at->ratio >= 0 && !*result->works[place.work].saves)
         snprintf(cells[at->ratio], RG_SHEET_CELL, "%.2f",
                  rg_record_fps(record) / rg_record_published_fps(record));

@@ -1,4 +1,4 @@
-// Rows that are about textures.
+// The sizes of textures, for tables whose rows are about them.
 #include <stdio.h>
 #include <string.h>
 

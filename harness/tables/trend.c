@@ -32,7 +32,7 @@ static void count_pairs(struct rg_trend *trend, const double *published, const d
     }
 }
 
-// What of a table can be held against print: all its rows, timed.
+// Whether a table can be held against print: all its rows are there, and timed.
 static bool is_comparable(const struct rg_result *result)
 {
     return *result->hardware && !result->is_of_textures &&

@@ -12,8 +12,8 @@ static bool draw_model(struct flow *flow)
     return rg_stage(&flow->base, FLOW_MODEL);
 }
 
-// The paper's first pass: all that does not refract, as a picture for those that do; and a copy of
-// it to draw the panes onto.
+// The paper's first pass draws all that does not refract. Panes read this picture, and are drawn
+// onto a copy of it.
 static bool draw_behind(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;

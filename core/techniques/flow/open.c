@@ -29,7 +29,7 @@ static bool is_stage(const struct rg_instance *i)
     return !is_final(i);
 }
 
-// Behind glass lies what does not refract, drawn apart, as a picture for the glass to show.
+// Glass shows what lies behind it, so that is drawn first, as a picture of its own.
 static bool is_glass(const struct rg_instance *i)
 {
     return is_final(i) && settings_of(i)->panes == FLOW_GLASS;
@@ -40,7 +40,7 @@ static bool is_mirror(const struct rg_instance *i)
     return is_final(i) && settings_of(i)->panes == FLOW_MIRROR;
 }
 
-// Nothing is seen through mirrors: the sky around them is drawn where it is shown.
+// Nothing is seen through mirrors, so the sky around them is drawn onto the target at once.
 static bool has_sky_around(const struct rg_instance *i)
 {
     return is_mirror(i) && settings_of(i)->view == FLOW_BOX;
@@ -175,7 +175,7 @@ static flow_glow_params glow_of(const struct rg_image_desc *from, int step_x, in
                               .last_y = from->height - 1};
 }
 
-// The image before the glow, and, at a quarter of the size, what is spread.
+// The image before the glow, and the light that is spread, at a quarter of the size.
 static void add_glow(struct flow *flow)
 {
     const struct rg_image_desc *target = &flow->base.target->desc;

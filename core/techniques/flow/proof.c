@@ -73,7 +73,8 @@ static bool water_is_conserved(const struct rg_instance *instance, char *detail,
     return holds;
 }
 
-// The box with small panes, for there are six of them; one pane as large as the user asks.
+// The box has small panes, since there are six of them; one pane alone is as large as the user
+// asks.
 static const char *const poses[] = {
     "resolution_px=96",
     "resolution_px=96 pane_pitch_deg=40 pane_roll_deg=30 direction=split run_on=on reach_texels=4",

@@ -40,7 +40,7 @@ int flow_texels(const struct flow_settings *s, int height_px)
 {
     if (s->texels_a_pixel <= 0)
         return s->resolution_px;
-    // Pixels that the side of a pane covers at the box's middle.
+    // How many pixels the side of a pane covers, at the distance of the box's middle.
     const double half = tan(s->view_angle_deg * M_PI / 360);
     const double px =
         s->view == FLOW_BOX ? height_px * s->pane_mm / (2 * s->distance_mm * half) : height_px;

@@ -48,7 +48,7 @@ static void find_radius(struct raster_mesh *shape)
 
 // --- models ---
 
-// The mesh's arrays become the shape's.
+// Moves the mesh's arrays into the shape, which then owns them.
 static bool take_mesh(struct rg_mesh *mesh, struct raster_mesh *shape)
 {
     shape->vertex_count = mesh->vertex_count;

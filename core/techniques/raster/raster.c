@@ -35,7 +35,7 @@ struct raster {
     struct raster_mesh mesh;     // its bounds; the arrays are on the device
     struct rg_image *colour;     // drawn to: the target, or one of another format
     uint32_t *counts;            // samples an item, where they are counted
-    // Of the present frame, for its stages.
+    // The stages' parameters at the present frame.
     raster_drops_params drops;
     raster_show_params show;
     union {
@@ -77,7 +77,7 @@ static void add_quads(struct raster *r)
     free(quads);
 }
 
-// The scattering of drops writes them.
+// The stage SCATTER writes the drops, so that they need no contents here.
 static void add_drops(struct raster *r)
 {
     r->drops = (raster_drops_params){.count = r->settings.billboards, .seed = r->settings.seed};
@@ -124,7 +124,7 @@ static void add_counting(struct raster *r)
     r->base.has_failed |= !r->counts;
 }
 
-// A value that the settings may leave to the scene: 0 does, 1 is the first of the enum.
+// What a setting chooses: 0 leaves it to the scene, 1 is the first value of the enum.
 static int choose(int setting, int of_scene)
 {
     return setting ? setting - 1 : of_scene;
@@ -146,7 +146,7 @@ static bool open_stages(struct raster *r)
         [DRAW] = {scene->program, .params = AT(view), .colour = "drawn",
                   .depth = depth == RG_DEPTH_OFF ? NULL : "depth", .depth_mode = depth,
                   .blend = (enum rg_blend)choose(s->blend, (int)scene->blend), .cull = cull},
-        // Once more, into a depth that nothing is tested against.
+        // Draws once more to count, into a depth image of its own, so that nothing is hidden.
         [COUNT] = {s->count ? scene->program : NULL, .params = AT(view), .depth = "counted",
                    .samples = "samples", .cull = cull},
         [SHOW] = {s->format == RASTER_RGBA8     ? "raster_show_rgba8"

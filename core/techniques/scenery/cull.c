@@ -50,7 +50,7 @@ static struct corner corner_of(const float low[3], const float high[3], int i, c
     return (struct corner){c.x, c.y, c.z, c.w};
 }
 
-// The sides of the view on whose wrong side a corner lies.
+// The sides of the view beyond which a corner lies, a bit each.
 static int outside(const struct corner *c)
 {
     return (c->x < -c->w) | (c->x > c->w) << 1 | (c->y < -c->w) << 2 | (c->y > c->w) << 3 |

@@ -74,7 +74,7 @@ void scenery_overlay_begin(struct scenery_overlay *overlay)
     overlay->sheets.full = overlay->lines.full = false;
 }
 
-// The words of a new item; NULL, once logged, where there is no memory.
+// The words of a new item; NULL without memory, which is logged for the first item that is lost.
 static float *add_item(struct items *items)
 {
     items->full = items->full || !rg_array_fit(&items->list, &items->room, items->count + 1,

@@ -18,7 +18,8 @@ struct scenery {
     struct rg_instance *instance;
     const struct scenery_made *made;
     int first_stage;
-    // What a draw sets: blocks that are seen, numbers of the target's size, and the caller's.
+    // Assets that a draw sets: blocks that are seen, numbers of the target's size, and what the
+    // caller brings.
     struct rg_asset *blocks, *numbers, *depths, *lights, *shadows;
     struct scenery_cull cull;
     bool *seen;            // by chunk: in the last draw
@@ -116,8 +117,8 @@ struct scenery_work scenery_last(const struct scenery *s)
 
 // --- drawing ---
 
-// The blocks of the chunks that are seen; returns how many. All that is known of a block's words is
-// in kernels/scenery/city_params.h.
+// Writes the blocks of the chunks that are seen, and returns how many.
+// kernels/scenery/city_params.h says what a block's words are.
 static int list_blocks(struct scenery *s)
 {
     const struct city_faces *f = &s->made->city->faces;

@@ -55,7 +55,7 @@ uint64_t rg_contents_hash(const struct rg_contents *contents)
 
 // --- differences ---
 
-// Where a byte of an image is.
+// Which texel, layer and level a byte of an image belongs to.
 static void texel_text(const struct rg_image_desc *desc, size_t byte, char *text, size_t size)
 {
     int level = 0, layer = 0;
@@ -85,7 +85,7 @@ static void place_text(const struct rg_contents *c, const struct rg_state *state
         snprintf(text, size, "[%zu]", word);
 }
 
-// A word as the float that it may be and as bits, one of a format of smaller values as bits alone.
+// A word in text: as a float and as bits; a word that holds several smaller values as bits alone.
 static void word_text(uint32_t bits, bool as_float, char *text, size_t size)
 {
     float value;

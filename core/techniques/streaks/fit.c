@@ -51,7 +51,7 @@ static bool draw_dry(struct fit *f)
     return ok;
 }
 
-// The hull is enough: what it leaves out is not seen.
+// The packets of the hull are enough: those that it leaves out are not seen.
 static bool draw_unlimited(struct fit *f)
 {
     struct streaks *s = f->s;
@@ -64,7 +64,7 @@ static bool draw_unlimited(struct fit *f)
     return ok;
 }
 
-// Another height has other drops, and so a truth of its own.
+// Another height makes other drops, so that each height is compared with a truth of its own.
 static bool make_height(struct fit *f)
 {
     if (f->made_m == f->height_m)
@@ -85,7 +85,7 @@ static bool compare(const struct fit *f, const struct rg_picture *picture, doubl
     return true;
 }
 
-// Of the sizes that are tried.
+// The error of the sizes that are being tried.
 static bool find_error(struct fit *f, double *error)
 {
     struct rg_picture picture = {0};
@@ -99,7 +99,7 @@ static bool find_error(struct fit *f, double *error)
 
 // --- sizes ---
 
-// Centimetres are enough, and read well.
+// Rounds to centimetres, which are exact enough and read well.
 static double size_at(double least_m, double most_m, int step)
 {
     double size_m = least_m;
@@ -171,7 +171,8 @@ static bool settle(struct fit *f)
     for (int i = 0; i < STREAKS_COUNTERS; i++)
         s->base.counters[i].value = 0;
     s->map_due = 0;
-    // Rain without limits took many blocks.
+    // The truth, rain without limits, has left a buffer for many blocks; the sizes that were found
+    // need few.
     streaks_selection_release(&s->selection);
     rg_empty(s->blocks);
     return f->made_m == f->height_m || streaks_make_particles(s);

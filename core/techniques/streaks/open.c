@@ -73,14 +73,15 @@ static void choose_camera(struct streaks *s)
     }
 }
 
-// Draws what casts shadows.
+// Draws the depth of what casts shadows: scenery_lights_shade calls it for each map.
 static bool draw_shadow(void *user, const float to_clip[16], const struct rg_draw *onto)
 {
     struct streaks *s = user;
     return scenery_depth(s->scene, rg_m4_of(to_clip), onto);
 }
 
-// Lamps ahead of the camera light what it sees: a place so far ahead on level ground.
+// The place that lamps are chosen near: so far ahead of the camera, on level ground, since these
+// light what it sees.
 static void look_ahead(const struct rg_camera *camera, float place_m[3])
 {
     const double ahead_m = 20, x = (double)camera->target[0] - (double)camera->position[0];

@@ -16,7 +16,7 @@
 #include "harness/commands/pages/pages.h"
 #include "harness/tables/papers/papers.h"
 
-// What a value names, as a list's name.
+// The name of the list that holds what a value can name.
 static const char *const lists[] = {
     [RG_NAMES_TECHNIQUE] = "@techniques", [RG_NAMES_TABLE] = "@tables",
     [RG_NAMES_DEVICE] = "@device",        [RG_NAMES_DEVICES] = "@devices",

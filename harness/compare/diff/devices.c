@@ -26,7 +26,7 @@ struct session {
     json_t *pairs; // with --json
 };
 
-// The same frame without rain: where a picture differs from it, it rains.
+// Draws the same frame without rain. The rain mask is where a picture differs from it.
 static bool take_background(struct session *s)
 {
     const struct rg_diff_devices_request *r = s->asked;

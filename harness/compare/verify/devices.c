@@ -56,7 +56,7 @@ static void blame(struct tally *tally, const struct one_case *c, const char *for
     va_end(args);
 }
 
-// Keeps the first error; one that is more than something unsupported takes that one's place.
+// Keeps the first error. An error takes the place of an "unsupported", which says less.
 static void note_error(struct tally *tally)
 {
     const enum rg_outcome ended = rg_outcome_of_error();
@@ -251,7 +251,8 @@ static void check_device(struct rg_verify *v, struct row *row, struct one_case *
     rg_session_close(session);
 }
 
-// What the others are compared with. False, and noted in the reference's row, on failure.
+// Takes the snapshots of cpu:reference that the others are compared with. False on failure, which
+// the reference's row tells.
 static bool expect(struct rg_verify *v, struct row *reference, struct one_case *c)
 {
     struct rg_session *session = run_case(v, reference, c, &c->expected);
@@ -289,7 +290,8 @@ static void run_one(struct rg_verify *v, struct row *rows, int count, struct one
     rg_picture_destroy(&c->dry);
 }
 
-// The other tiers need the rain mask always; T0 once a pose, to see that there is rain at all.
+// Tiers T1 and T2 are judged over the rain mask, and so always need `dry`. T0 needs it once a pose,
+// to see that there is rain at all.
 static bool wants_dry(const struct row *rows, int count, int seed)
 {
     bool wanted = seed == 0;
@@ -319,8 +321,8 @@ static const char *check_name(const struct rg_verify *v, int check)
     return check < LAWS ? names[check] : v->technique->proof->laws[check - LAWS].name;
 }
 
-// What the exit status must be at least: without what the others are compared with nothing is
-// proven, however much else is ok.
+// The least exit status of the whole: where cpu:reference failed, nothing is proven, however many
+// other checks are ok.
 static int least_exit(const struct tally *t, bool is_reference)
 {
     if (t->is_bad_input)

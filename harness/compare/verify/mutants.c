@@ -60,7 +60,7 @@ struct verdicts {
     char alive[400]; // what survived, separated by ", "
 };
 
-// Whether T1 finds rain, and that it is not the model's.
+// Whether T1 notices the mutant: there is rain, and it is not the model's.
 static bool is_rejected(const struct rg_picture *truth, const struct rg_picture *other,
                         const struct rg_picture *dry, struct verdicts *verdicts)
 {

@@ -22,7 +22,7 @@ struct rg_journal {
 
 // --- its folder ---
 
-// Makes those that a folder lies in. Writing into it says what could not be made.
+// Makes the folders that a folder lies in. What fails here is told by the writing that follows.
 static void make_parents(char *folder)
 {
     for (char *end = strchr(folder + 1, '/'); end; end = strchr(end + 1, '/')) {
@@ -48,7 +48,7 @@ static void find_state_folder(char *folder, size_t size)
 
 // --- reading ---
 
-// A result without its rows: what decides its numbers. Nothing in it is owned.
+// The result's head without rows, which holds all that decides its numbers. Nothing in it is owned.
 static struct rg_result head_of(const struct rg_result *result)
 {
     struct rg_result head = *result;

@@ -157,7 +157,7 @@ static bool read_place(struct rg_reader *r, const json_t *cell, const struct rg_
            rg_reader_refuse(r, "work", "is '%.40s', which 'works' does not name", work);
 }
 
-// Copies the names that all cells of a place have.
+// Copies to a record what its place says: technique, work, variant and device.
 static void name_record(const struct rg_result *result, struct rg_place at,
                         struct rg_record *record)
 {
@@ -168,7 +168,7 @@ static void name_record(const struct rg_result *result, struct rg_place at,
     record->device = result->devices[at.device];
 }
 
-// `rows_left`: so many more rows can be whole.
+// Reads a cell into its place. `rows_left`: how many more rows the number of cells allows.
 static bool read_cell(struct rg_reader *r, const json_t *cell, struct rg_result *result,
                       size_t *rows_left)
 {
@@ -197,7 +197,8 @@ bool rg_read_cells(struct rg_reader *r, const json_t *document, struct rg_result
     if (cells && count % a_row)
         return rg_reader_refuse(r, "cells", "has %zu elements, and a row has %zu cells", count,
                                 a_row);
-    // No cell stands there twice, and no more rows begin than are whole: then all of them are.
+    // The number of cells is a multiple of a row's. As no cell comes twice, and no more rows begin
+    // than that number allows, every row is whole.
     json_array_foreach(cells, i, cell)
     {
         rg_reader_enter(r, "cells[%zu]", i);

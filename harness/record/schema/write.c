@@ -31,7 +31,8 @@ static json_t *times_json(const struct rg_record *record)
                      "passes_share", passes_json(record, rg_record_passes_ms(record)));
 }
 
-// Beside what the paper printed, but for frame rates, stands the fact of the same name.
+// A number that the paper printed, other than a frame rate, is written with the fact of the same
+// name.
 static json_t *measured_json(const struct rg_record *record, bool is_timed)
 {
     json_t *json = is_timed ? times_json(record) : json_object();

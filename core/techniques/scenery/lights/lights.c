@@ -32,7 +32,7 @@ static void put_lights(const struct scenery_lights_settings *s, const struct rg_
     }
 }
 
-// Without lights the buffers hold one that nobody reads.
+// A buffer cannot be empty: without lights it holds one that nobody reads.
 static bool create_buffers(struct rg_device *device, const float world_to_frame[16],
                            struct scenery_lights *lights)
 {

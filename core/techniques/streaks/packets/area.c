@@ -100,7 +100,8 @@ static int hull_of(double (*points)[2], int count, double (*hull)[2])
     return size;
 }
 
-// Sutherland and Hodgman: leaves what a polygon has on one side of a line across an axis.
+// Clips a polygon, as Sutherland and Hodgman do: what lies on one side of a line across an axis
+// stays.
 static int clip(double (*corners)[2], int count, int axis, double border, double sign)
 {
     double kept[80][2];

@@ -82,7 +82,7 @@ static void write_block(uint32_t *to, int64_t slot, uint32_t mask, const struct 
     memcpy(to + 4, &run->turn, 4);
 }
 
-// Of a run's blocks, those that are seen.
+// Writes those of a run's blocks that are seen.
 static void write_run(const struct streaks_run *run, const uint8_t *seen, uint32_t *to)
 {
     const int64_t blocks = streaks_blocks_in(run);
@@ -96,7 +96,7 @@ static void write_run(const struct streaks_run *run, const uint8_t *seen, uint32
     }
 }
 
-// Sets which blocks are seen, and leaves in run->block how many of a run are.
+// Sets which blocks are seen; run->block gets how many of a run's are.
 static void cull(const struct streaks_packets *p, const struct streaks_view *view,
                  struct streaks_run *runs, int64_t count, uint8_t *seen)
 {

@@ -71,8 +71,8 @@ static struct cut find_cut(const struct kd *kd, const struct kd_part *part, int 
     return (struct cut){axis, low, wanted};
 }
 
-// Hands the ids on, the lower part's first; both stay in order. Tells the largest coordinate of the
-// lower part and the least of the upper one.
+// Moves the ids of the lower part before those of the upper one; both stay in order. Tells the
+// largest coordinate of the lower part and the least of the upper one.
 static void hand_on(const struct kd *kd, const struct kd_part *part, struct cut cut,
                     int64_t low_count, uint32_t *lower_end, uint32_t *upper_begin)
 {

@@ -115,7 +115,7 @@ static bool build(struct streaks_packets *p, const struct streaks_scatter *scatt
     return true;
 }
 
-// As streaks_select decides how to list blocks.
+// The same condition by which streaks_select lists blocks.
 bool streaks_by_id(const struct streaks_packets *p)
 {
     return p->settings.by_id && p->info.scheme != STREAKS_GRID;

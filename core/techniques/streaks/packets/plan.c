@@ -79,7 +79,7 @@ int64_t streaks_tree_bytes(int64_t nodes, int64_t packets)
            packets * (int64_t)sizeof(struct streaks_packet);
 }
 
-// Of particles that are there, and of their blocks' bounds.
+// The bytes of so many particles and of their blocks' bounds.
 static int64_t bytes_of(int64_t slots, bool by_id)
 {
     return slots * STREAKS_PARTICLE_BYTES +

@@ -44,7 +44,7 @@ static struct site draw_site(const struct streaks_scatter *scatter, const struct
     return site;
 }
 
-// Of at most LEAF particles.
+// Fills a part of at most LEAF particles.
 static void fill(const struct streaks_scatter *scatter, const struct streaks_part *part,
                  struct site sites[LEAF])
 {

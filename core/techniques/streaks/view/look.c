@@ -16,7 +16,7 @@ static double streak_length(const struct streaks_settings *set)
     return set->fall_speed_m_s * set->exposure_s;
 }
 
-// What the atlas' pictures show beside the drop itself.
+// The margin around the drop in the atlas' pictures.
 static double margin(const struct streaks_settings *set)
 {
     return set->drop_radius_mm / 1000;

@@ -107,7 +107,7 @@ static void *make(struct rg_device *device, const void *arg)
 
 static const struct rg_shared_kind kind = {.name = "depth map", .make = make, .destroy = destroy};
 
-// Everything that decides what a static map holds.
+// The static map's key holds everything that decides its contents.
 static struct streaks_map *get_static(struct streaks *s)
 {
     const struct rg_rain_space *space = &s->space;
