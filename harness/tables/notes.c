@@ -82,12 +82,15 @@ static void note_trend(const struct rg_result *result, struct rg_sheet *sheet, s
 
 // --- the inputs ---
 
-// Whether all measured cells tell the same; `text` gets it.
+// Whether all measured cells tell the same; `text` gets it. Of rows that are missing nobody knows
+// what they would tell.
 static bool is_same_everywhere(const struct rg_result *result, const char *const *shown,
                                char text[RG_FACTS_TEXT])
 {
     char other[RG_FACTS_TEXT];
     bool any = false;
+    if (rg_result_first_missing(result) <= result->last_row)
+        return false;
     for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);) {
         const struct rg_record *record = rg_result_at(result, at);
         if (record->outcome != RG_OK)
