@@ -198,7 +198,7 @@ static int table(const void *values, const struct rg_words *arguments)
 const struct rg_command rg_command_table = {
     .name = "table",
     .usage = "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--work paper|ours] "
-             "[--format F] [-o DIR] [--fresh] [--from FILE|DIR]",
+             "[--format F|--json] [-o DIR] [--fresh] [--from FILE|DIR]",
     .about = "regenerates the papers' tables: published beside measured, on every device",
     .options = options,
     .options_size = sizeof(struct table_options),
