@@ -3,12 +3,14 @@
 # `make results` replaces the tables that the repository keeps; `make thorough` runs the tests that
 # take too long for every change.
 .POSIX:
-.PHONY: all setup build tables results test thorough clean format
+.PHONY: all setup build tables committed results test thorough clean format
 
 BUILD = build
 ASAN = build-asan
 TABLES = $(BUILD)/tables
 RESULTS = results/tables
+# What `make results` measures: names of tables, all unless it has any, and --quick or --full.
+WHAT = --quick
 MODELS = /usr/share/doc/libcgal-dev/data.tar.gz
 
 all: build
@@ -52,9 +54,16 @@ tables: build
 	@echo "== regenerating the tables on every device, quick mode, into $(TABLES)"
 	@$(BUILD)/harness/raingauge table --quick -o $(TABLES)
 
-results: build
-	@echo "== regenerating the tables on every device, quick mode, into $(RESULTS)"
-	@$(BUILD)/harness/raingauge table --quick -o $(RESULTS)
+# A record names the commit that it was measured with.
+committed:
+	@changes=$$(git status --porcelain) && test -z "$$changes" || { \
+	  echo "make results: the tree has changes that no commit holds, so that records could not name" \
+	    "what they measured; commit them, or put them by with git stash -u" >&2; exit 2; }
+
+results: committed build
+	@echo "== regenerating the tables on every device, $(WHAT), into $(RESULTS)"
+	@$(BUILD)/harness/raingauge table $(WHAT) -o $(BUILD)/results
+	@python3 results/keep.py $(BUILD)/results $(RESULTS)
 
 test: build $(ASAN)/build.ninja
 	@echo "== building in $(ASAN)"

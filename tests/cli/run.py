@@ -14,6 +14,7 @@
            wrong    a driver that draws wrongly is found
            doctor   the report about this machine
            pages    the manual page and bash's completion
+           kept     the tables that the repository keeps
            install  what meson installs
 
 Prints TAP, for meson.
@@ -25,6 +26,7 @@ sys.dont_write_bytecode = True  # the sources' folder stays as it is
 import cases
 import doctor
 import installed
+import kept
 import pages
 import results
 from runner import Runner
@@ -41,6 +43,7 @@ SUITES = {
     "wrong": lambda runner: runner.check_all(results.WRONG),
     "doctor": lambda runner: runner.check_all(doctor.CHECKS),
     "pages": lambda runner: runner.check_all(pages.CHECKS),
+    "kept": lambda runner: runner.check_all(kept.CHECKS),
     "install": lambda runner: runner.check_all(installed.CHECKS),
 }
 

@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""Moves the tables that `raingauge table -o FROM` wrote into the folder that the repository keeps.
+
+    keep.py FROM TO
+
+Of each table TO gets ID.md, ID.csv and ID.json, a record with a line a cell. What `raingauge table --from` makes anew
+is left out of it, so that it prints the other two from it byte for byte (docs/records.md). LaTeX is not kept: it is
+printed from the record too.
+"""
+import json
+import os
+import sys
+
+# Follow from the samples and the passes; numbers beside published ones follow from the facts.
+MEASURED = ("create_ms", "first_frame_ms", "api_over_wall", "frames_a_sample", "samples_ms", "pass_frames", "passes_ms")
+
+
+def compact(record):
+    """The text of a record: its head a line a field, then a line a cell."""
+    for cell in record["cells"]:
+        if "measured" in cell:
+            cell["measured"] = {name: cell["measured"][name] for name in MEASURED if name in cell["measured"]}
+    cells = ",\n".join(json.dumps(cell, ensure_ascii=False, separators=(",", ":")) for cell in record["cells"])
+    head = [json.dumps(name) + ": " + json.dumps(value, ensure_ascii=False) for name, value in record.items()
+            if name not in ("cells", "shapes")]
+    return "{\n" + ",\n".join(head + ['"cells": [\n' + cells + "\n]"]) + "\n}\n"
+
+
+def write(path, text):
+    """Whole or not at all."""
+    with open(path + ".part", "w", encoding="utf-8") as file:
+        file.write(text)
+    os.replace(path + ".part", path)
+
+
+def keep(folder, table, to):
+    texts = {}
+    for form in ("md", "csv", "json"):
+        with open(os.path.join(folder, table + "." + form), encoding="utf-8", newline="") as file:
+            texts[form] = file.read()
+    texts["json"] = compact(json.loads(texts["json"]))
+    for form, text in texts.items():
+        write(os.path.join(to, table + "." + form), text)
+    for form in ("md", "csv", "json", "tex"):
+        os.remove(os.path.join(folder, table + "." + form))
+
+
+def main():
+    folder, to = sys.argv[1:]
+    os.makedirs(to, exist_ok=True)
+    for name in sorted(os.listdir(folder)):
+        if name.endswith(".json"):
+            keep(folder, name[:-len(".json")], to)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,127 @@
+"""The tables that the repository keeps: what is printed from each record is what lies beside it."""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import forms
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+KEPT = os.path.join(ROOT, "results", "tables")
+KEEP = os.path.join(ROOT, "results", "keep.py")
+TRANSLATE = os.path.join(ROOT, "tests", "translate_records.py")
+FORMS = ("csv", "json", "md")
+SMALL = "stuppacher-2"
+
+
+def read(*path):
+    with open(os.path.join(*path), encoding="utf-8", newline="") as file:
+        return file.read()
+
+
+def python(*args):
+    subprocess.run([sys.executable, "-B", *args], check=True)
+
+
+def check_printed(runner):
+    """each table that is kept has a record, from which table --from prints its other forms byte for byte"""
+    tables = [table["name"] for table in json.loads(runner.run(["list", "tables", "--json"]).stdout)["tables"]]
+    wanted = sorted("%s.%s" % (table, form) for table in tables for form in FORMS)
+    problems = [] if sorted(os.listdir(KEPT)) == wanted else ["kept: %s" % sorted(os.listdir(KEPT))]
+    for table in tables:
+        record = os.path.join(KEPT, table + ".json")
+        problems += [table + ": " + problem for problem in forms.problems("table", json.loads(read(record)))]
+        for form in ("csv", "md"):
+            printed = runner.run(["table", "--from", record, "--format", form])
+            if printed.stderr or printed.stdout != read(KEPT, table + "." + form):
+                problems.append("%s.%s is another: %s" % (table, form, printed.stderr))
+    return problems
+
+
+def check_compact(runner):
+    """keep.py makes the same records of what table -o writes of them, a line a cell, and leaves nothing behind"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        runner.run(["table", "--from", KEPT, "-o", tmp + "/written"])
+        python(KEEP, tmp + "/written", tmp + "/kept")
+        if os.listdir(tmp + "/written") or sorted(os.listdir(tmp + "/kept")) != sorted(os.listdir(KEPT)):
+            problems.append("left: %s, kept: %s" % (os.listdir(tmp + "/written"), os.listdir(tmp + "/kept")))
+        problems += [name + " is another" for name in os.listdir(KEPT) if read(tmp, "kept", name) != read(KEPT, name)]
+    for name in sorted(name for name in os.listdir(KEPT) if name.endswith(".json")):
+        text = read(KEPT, name)
+        lines = text.split('"cells": [\n')[1].splitlines()[:-2]
+        if [json.loads(line.rstrip(",")) for line in lines] != json.loads(text)["cells"]:
+            problems.append(name + ": not a line a cell")
+    return problems
+
+
+def earlier(record):
+    """A record as it was printed before results could be read back."""
+    old = {name: record[name] for name in ("format", "table", "hardware", "length", "passport", "missing", "cells")}
+    for cell in old["cells"]:
+        del cell["tally"], cell["row_number"]
+    return old
+
+
+def journal(record):
+    """A journal of then: cells by row, what was measured beside the status, pairs for objects."""
+    devices = [device["name"] for device in record["passport"]["devices"]]
+    settings = {cell["row_number"]: cell["set"] for cell in record["cells"]}
+    rows = {}
+    for cell in record["cells"]:
+        flat = {"status": cell["status"], **cell["measured"], "passes": list(cell["measured"]["passes_ms"].items())}
+        flat.update(counters=list(cell["counters"].items()), facts=list(cell["facts"].items()))
+        rows.setdefault(str(cell["row_number"] - 1), {"cells": [], "errors": [{}]})["cells"].append(flat)
+        assert cell["device"] == devices[len(rows[str(cell["row_number"] - 1)]["cells"]) - 1]
+    key = {"table": record["table"], "length": record["length"], "passport": record["passport"],
+           "rows": [row - 1 for row in record["rows"]], "settings": [settings[row] for row in sorted(settings)]}
+    return {"key": key, "rows": rows}
+
+
+def check_translated(runner):
+    """translate_records.py makes today's records of earlier ones, and of earlier journals"""
+    problems = []
+    for name, form in (("table.json", earlier), ("table.journal", journal)):
+        with tempfile.TemporaryDirectory() as tmp:
+            with open(os.path.join(tmp, name), "w", encoding="utf-8") as file:
+                json.dump(form(json.loads(read(KEPT, SMALL + ".json"))), file)
+            python(TRANSLATE, KEPT, tmp + "/new", os.path.join(tmp, name))
+            record = os.path.join(tmp, "new", name)
+            problems += forms.problems("table", json.loads(read(record)))
+            printed = runner.run(["table", "--from", record])
+        if printed.stderr or printed.stdout != read(KEPT, SMALL + ".md"):
+            problems.append("%s: %s\n%s" % (name, printed.stderr, printed.stdout))
+    return problems
+
+
+def check_dirty_tree(runner):
+    """make results refuses a tree with changes that no commit holds, with one line, before it builds"""
+    git = ["git", "-c", "user.name=a", "-c", "user.email=a", "-c", "commit.gpgsign=false"]
+    with tempfile.TemporaryDirectory() as tmp:
+        tools, tree = tmp + "/tools", tmp + "/tree"
+        os.makedirs(tools)
+        os.makedirs(tree)
+        for tool in ("git", "make", "sh"):  # nothing that could install or build
+            os.symlink(shutil.which(tool), os.path.join(tools, tool))
+        shutil.copy(os.path.join(ROOT, "Makefile"), tree)
+        subprocess.run(git + ["init", "-q"], cwd=tree, check=True)
+
+        def make(target):
+            return subprocess.run(["make", target], cwd=tree, env={"PATH": tools, "HOME": tmp},
+                                  stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                  encoding="utf-8")
+
+        dirty = make("results")
+        subprocess.run(git + ["add", "-A"], cwd=tree, check=True)
+        subprocess.run(git + ["commit", "-qm", "a"], cwd=tree, check=True)
+        clean = make("committed")
+    lines = [line for line in dirty.stderr.splitlines() if not line.startswith("make: ***")]
+    problems = [] if not clean.returncode and not clean.stderr else ["clean: %s" % clean]
+    if dirty.returncode != 2 or dirty.stdout or len(lines) != 1 or "commit them" not in lines[0]:
+        problems.append("dirty: %s" % dirty)
+    return problems
+
+
+CHECKS = [check_printed, check_compact, check_translated, check_dirty_tree]
