@@ -328,5 +328,5 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_water_is_conserved_on_the_box),
         cmocka_unit_test(test_water_rests_on_level_panes),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, rig_close_devices);
 }

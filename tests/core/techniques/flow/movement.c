@@ -451,5 +451,5 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_rain_falls_at_its_rate),
         cmocka_unit_test(test_a_drop_holds_its_volume),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, rig_close_devices);
 }

@@ -229,5 +229,5 @@ int main(void)
         cmocka_unit_test(test_state_of_many_poses),
         cmocka_unit_test(test_mutants_are_rejected),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, rig_close_devices);
 }

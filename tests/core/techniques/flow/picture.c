@@ -292,5 +292,5 @@ int main(void)
         cmocka_unit_test(test_mutants_of_glass_are_rejected),
         cmocka_unit_test(test_mutants_of_mirror_and_model_are_rejected),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, rig_close_devices);
 }

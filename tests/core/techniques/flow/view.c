@@ -511,5 +511,5 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_water_follows_the_spin),
         cmocka_unit_test(test_resolution_follows_the_distance),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, rig_close_devices);
 }

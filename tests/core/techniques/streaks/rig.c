@@ -11,6 +11,7 @@
     "rain_height_m=40 camera=free eye_y_m=3 culling_radius_m=12 drops_m2_s=60 streak_gain=20 "     \
     "view_angle_deg=70 "
 
+static const char *device_name = "cpu";
 struct rg_device *rain_device;
 
 struct streaks *rain_open(const char *settings)
@@ -74,26 +75,30 @@ double rain_texel(const struct rain_texels *picture, int x, int y, int colour)
     return (double)rg_unpack_half(picture->halves[4 * (y * RAIN_WIDTH + x) + colour]);
 }
 
+static struct streaks *shared;
+
+// One instance stays open beside those of the tests: what instances share on a device, the city and
+// the atlas, is made once.
 static int set_up(void **state)
 {
-    rain_device = rg_device_open(*state);
-    return rain_device ? 0 : -1;
+    (void)state;
+    rain_device = rg_device_open(device_name);
+    if (!rain_device)
+        return -1;
+    shared = rain_open("");
+    return 0;
 }
 
 static int tear_down(void **state)
 {
     (void)state;
+    rain_close(shared);
     return rg_device_close(rain_device) ? 0 : -1;
 }
 
-int rain_tests_run(int argc, char **argv, struct CMUnitTest *tests, int count)
+int rain_tests_run(int argc, char **argv, const struct CMUnitTest *tests, int count)
 {
-    static char name[64];
-    snprintf(name, sizeof(name), "%s", argc > 1 ? argv[1] : "cpu");
-    for (int i = 0; i < count; i++) {
-        tests[i].setup_func = set_up;
-        tests[i].teardown_func = tear_down;
-        tests[i].initial_state = name;
-    }
-    return _cmocka_run_group_tests("streaks", tests, (size_t)count, NULL, NULL);
+    if (argc > 1)
+        device_name = argv[1];
+    return _cmocka_run_group_tests("streaks", tests, (size_t)count, set_up, tear_down);
 }

@@ -13,7 +13,7 @@
 
 enum { RAIN_WIDTH = 160, RAIN_HEIGHT = 90, RAIN_TEXELS = RAIN_WIDTH * RAIN_HEIGHT };
 
-// The device that the program was called with, for the present test.
+// The device that the program was called with.
 extern struct rg_device *rain_device;
 
 // Opens streaks with these "key=value key=value", over those of a small rain in a corner of the
@@ -41,7 +41,8 @@ struct rain_texels *rain_draw_at(const char *settings, int frames);
 // Of red, green and blue, colour 0 to 2.
 double rain_texel(const struct rain_texels *picture, int x, int y, int colour);
 
-// Runs tests, each with the device that argv[1] names opened for it, and closed without a leak.
-int rain_tests_run(int argc, char **argv, struct CMUnitTest *tests, int count);
+// Runs tests on the device that argv[1] names, which is opened before them and closed behind them
+// without a leak.
+int rain_tests_run(int argc, char **argv, const struct CMUnitTest *tests, int count);
 
 #endif
