@@ -43,7 +43,7 @@ int64_t rg_image_layout(const struct rg_image_desc *desc, uint32_t header[RG_MAX
 void rg_plain_formats(struct rg_format_limits limits[RG_FORMAT_COUNT], int64_t max_bytes)
 {
     for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++) {
-        // A texel of half a word is counted in halves.
+        // Texels of half a word are counted in half words, so that an int reaches half as far.
         const int64_t countable = (int64_t)(formats[f].size < 4 ? INT_MAX / 2 : INT_MAX) * 4;
         limits[f] =
             (struct rg_format_limits){RG_USE_ALL, RG_PLAIN_MAX_PX, RG_PLAIN_MAX_LAYERS,

@@ -1,5 +1,5 @@
-// What a draw comes to, for those who count it: apart from the drawing, which leaves out early what
-// covers nothing, and need not know.
+// Counts what a draw comes to, by plain loops. The drawing itself cannot tell, since it leaves out
+// early what covers nothing.
 #include "backends/backend.h"
 #include "backends/cpu/draw.h"
 #include "kernels/dialect/draw/coverage.h"

@@ -25,7 +25,7 @@ static int chunk_items(const struct drawing *d)
     return rg_iclamp(share / CPU_BATCH * CPU_BATCH, LEAST_CHUNK, MOST_CHUNK);
 }
 
-// The first step of a round: `most` chunks at most.
+// The first step of a round: makes primitives of the items of at most `most` chunks.
 static void emit_items(const struct drawing *d, int most)
 {
     struct cpu_bins *bins = d->emitter.bins;
@@ -41,13 +41,13 @@ static void emit_items(const struct drawing *d, int most)
         const int begin = bins->chunks[i].begin;
         cpu_emit(&mine, i, d->end - begin > size ? begin + size : d->end);
     }
-    // What comes behind items that are left for the next round waits with them.
+    // Where a chunk has left items for the next round, the chunks behind it wait with them.
     bins->chunk_count = 0;
     while (bins->chunk_count < chunks && bins->chunks[bins->chunk_count++].whole)
         ;
 }
 
-// The second step.
+// The second step of a round: shades the tiles.
 static void shade_tiles(const struct drawing *d)
 {
     const struct cpu_bins *bins = d->emitter.bins;
@@ -73,7 +73,7 @@ static bool draw_rounds(struct drawing *d)
             return false;
         shade_tiles(d);
         const int done = bins->chunks[bins->chunk_count - 1].end;
-        // One chunk alone has all the room.
+        // A chunk that is alone in a round has all the room.
         most = done > d->begin ? CPU_MOST_CHUNKS : 1;
         d->begin = done;
     }

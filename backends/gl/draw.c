@@ -4,7 +4,7 @@
 
 #include "kernels/dialect/draw/clip.h"
 
-// Memory row 0 is our row 0, which clip control and viewport leave as they are.
+// Row 0 in memory is row 0 of the target, the top: clip control and viewport turn nothing over.
 bool gl_draw_begin(struct gl_device *device)
 {
     glCreateVertexArrays(1, &device->no_vertices);
@@ -90,7 +90,8 @@ bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const str
     set_state(&bound->draw, &state);
     gl_bind_framebuffer(bound, framebuffer->id);
     gl_bind_arguments(bound, ((const struct gl_buf *)run->packed->args)->id);
-    // Vertices read corners as they lie, fragments read records as words.
+    // Vertex shaders read corners from the storage block, fragment shaders read records as a
+    // texture of words.
     gl_slot_buffer(bound, RG_SLOT_PRIMS, run->packed->prims);
     if (!gl_slot_words(bound, RG_SLOT_PRIMS, run->packed->prims))
         return false;

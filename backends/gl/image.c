@@ -29,7 +29,7 @@ struct rg_image *gl_image_create(struct rg_device *device, const struct rg_image
     glTextureParameteri(image->id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTextureStorage3D(image->id, desc->levels, gl_format(desc->format).internal, desc->width,
                        desc->height, desc->layers);
-    // What drivers say of an image that is too large has no numbers.
+    // Drivers refuse an image that is too large without numbers, so this line has them.
     char call[128];
     snprintf(call, sizeof(call), "glTextureStorage3D of %dx%d texels of %s, %d layers, %d levels,",
              desc->width, desc->height, rg_format_name(desc->format), desc->layers, desc->levels);

@@ -11,7 +11,8 @@ extern const struct rg_kernel_code rg_code_bins[RG_CODE_COUNT];
 // Lanes keep several cores busy and leave little to scan. Places take MAX_PLACES words at most.
 enum { MAX_LANES = 64, ITEMS_A_LANE = 64, MAX_PLACES = 4 << 20 };
 
-// The list begins with the first and doubles up to the second. What needs more takes rounds.
+// The list's bytes: it begins with the first and doubles up to the second. A draw that needs more
+// takes several rounds.
 enum { MIN_LIST_BYTES = 256 << 10, MAX_LIST_BYTES = 64 << 20 };
 
 // Pixels a work item shades, squared: a processor's core walks a tile alone, a GPU gives a tile a
@@ -163,7 +164,8 @@ static bool scan(struct opencl_bins *bins, const struct rg_run *run)
     return opencl_check(code, "clEnqueueNDRangeKernel", "kernel", "rg_bins_scan");
 }
 
-// Sees to a list of `pairs` elements. *fits: there is memory for it.
+// Makes a list of `pairs` elements. *fits: whether there is memory for it. False, and one logged
+// line, on failure.
 static bool grow_list(struct opencl_bins *bins, cl_uint pairs, bool *fits)
 {
     const int64_t allowed = bins->device->pub.info.limits.max_buffer_bytes;

@@ -12,10 +12,11 @@ bool opencl_memory_create(struct opencl_memory *memory, size_t size)
     return opencl_check(code, "clCreateBuffer", memory->kind, memory->name);
 }
 
-// More than this waits for the device rather than take the host's memory.
+// Copies of more bytes than this are not made: the call waits for the device instead.
 enum { MAX_STAGED_BYTES = 64 << 20 };
 
-// A copy of the caller's data that the device may still read after the call; NULL: better wait.
+// A copy of the caller's data, which the device may read after the call has returned; NULL: wait
+// instead.
 static void *stage(struct opencl_device *device, const void *data, size_t size)
 {
     if (size > MAX_STAGED_BYTES - device->staged_bytes)

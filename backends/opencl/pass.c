@@ -41,7 +41,8 @@ static cl_int set_arguments(cl_kernel kernel, const struct rg_kernel *info,
     return failed ? failed : opencl_set_slots(kernel, 3, info, run);
 }
 
-// The items that run for so many in a row: the last group's surplus ends at once.
+// How many work items are run for so many items: whole groups, of which the last one's surplus ends
+// at once.
 static int64_t whole_groups(const struct opencl_device *device, int width)
 {
     int64_t group = device->pub.info.limits.group_items;

@@ -35,7 +35,8 @@ static size_t part_of(size_t size)
     return size < VK_MAX_STAGING_BYTES ? size : VK_MAX_STAGING_BYTES;
 }
 
-// In the order of the calls, so through the queue as long as something is in it.
+// Writes go through the queue as long as something is in it, so that the order of the calls is
+// kept.
 static bool write_staged(struct vk_device *device, struct vk_buf *buf, size_t offset,
                          const char *data, size_t size)
 {

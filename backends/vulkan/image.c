@@ -16,7 +16,7 @@ static VkImageCreateInfo image_info(const struct vk_device *device,
         .arrayLayers = (uint32_t)desc->layers,
         .samples = VK_SAMPLE_COUNT_1_BIT,
         .tiling = VK_IMAGE_TILING_OPTIMAL,
-        // All that this backend may do with images of the format.
+        // The usage flags for all that this backend does with images of the format.
         .usage = vk_usage(desc->format, device->pub.info.limits.formats[desc->format].uses),
         .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
         .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,

@@ -50,7 +50,7 @@ void vk_pass_destroy(struct rg_pass *pass)
 
 // --- running ---
 
-// A batch with room for one more run.
+// Gets a batch with room for one more run.
 static struct vk_batch *record_run(struct vk_device *device, const struct vk_pass *pass)
 {
     struct vk_batch *batch = vk_record(device);

@@ -12,7 +12,8 @@ static VkDescriptorType descriptor_type(enum rg_slot_kind kind)
     return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
-// Who reads the uniform block, and who reads a slot: no program's vertices read its own.
+// The shader stages that read the uniform block, and those that read a slot: a program's own slots
+// are read by its fragments alone.
 static VkShaderStageFlags block_stages(const struct rg_kernel *kernel)
 {
     return kernel->draw ? VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT

@@ -19,7 +19,8 @@ struct vk_target vk_target_of(const struct rg_draw *draw)
 {
     return (struct vk_target){
         .colour = draw->colour ? draw->colour->desc.format : RG_FORMAT_NONE,
-        // Counted samples are held against the depth by the fragments themselves.
+        // Where samples are counted, the fragment shader tests the depth, so that it is no
+        // attachment.
         .depth = draw->depth_mode != RG_DEPTH_OFF && !draw->samples,
     };
 }
@@ -169,7 +170,7 @@ void vk_target_forget(struct vk_device *device, struct vk_image *image)
     image->places = NULL;
 }
 
-// Framebuffers went with their images.
+// Framebuffers were destroyed with their images, before.
 void vk_targets_close(struct vk_device *device)
 {
     for (int colour = 0; colour < VK_COLOURS; colour++)

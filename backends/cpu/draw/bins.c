@@ -5,11 +5,11 @@
 
 #include "backends/cpu/cpu.h"
 
-// A round's records take no more than this, its primitives otherwise and its references about as
-// much.
+// The records of a round take no more than this; its primitives without records, and its
+// references, take about as much each.
 #define MOST_BYTES ((size_t)128 << 20)
 
-// Large tiles list more pixels before one comes twice; many are shared out evenly.
+// Large tiles list more pixels before one comes twice; many small tiles are shared out more evenly.
 enum { LEAST_SIDE_LOG2 = 6, WANTED_SIDE_LOG2 = 7, TILES_A_THREAD = 16, MOST_TILES = 4096 };
 enum { FIRST_ROOM = 1 << 16, MOST_PRIMS = 1 << 21, MOST_REFS = 1 << 23 };
 
@@ -77,7 +77,7 @@ int cpu_bins_refs(struct cpu_bins *bins, int count)
     return take(&bins->ref_count, count, bins->ref_room, &bins->full);
 }
 
-// Frees what was there: nothing is kept from round to round.
+// Memory of another size in place of the old: the contents need not stay from round to round.
 static void *renewed(void *held, size_t size)
 {
     free(held);

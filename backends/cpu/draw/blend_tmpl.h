@@ -9,7 +9,7 @@
 
 #define ALWAYS static inline __attribute__((always_inline))
 
-// What fragments meet.
+// What fragments are tested against and blended with.
 struct pixels {
     uint depth[CPU_FRAGMENTS];
     uint texels[4 * CPU_FRAGMENTS];

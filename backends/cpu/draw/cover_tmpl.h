@@ -33,7 +33,8 @@ static inline int cross(int ax, int ay, int bx, int by, int cx, int cy)
     return (ax - bx) * (cy - ay) - (cx - ax) * (ay - by);
 }
 
-// Boxes of pixels, which small shapes are told by, and corners from there.
+// The box of pixels of each shape, by whose size shapes are small, and the corners as seen from the
+// box.
 static void box_lanes(const rg_draw_state *state, const struct cpu_items *items,
                       struct cpu_shapes *shapes, int first, struct lanes *l)
 {
@@ -114,7 +115,7 @@ static void edge_lanes(struct lanes *l, int k)
     }
 }
 
-// Which of `columns` columns are covered at most, in four rows; and on to the next ones.
+// Which of `columns` columns may be covered, in four rows; then moves on to the next four rows.
 static inline __attribute__((always_inline)) void group_lanes(struct lanes *l, int group,
                                                               int columns)
 {

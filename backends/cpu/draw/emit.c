@@ -18,7 +18,8 @@ static bool add_ref(struct cpu_sorter *sorter, int tile, struct cpu_ref ref)
     return true;
 }
 
-// What of a mask of eight by eight lies in its columns and rows [x0, x1), [y0, y1): some of each.
+// The part of a mask of 8 x 8 pixels that lies in its columns [x0, x1) and rows [y0, y1), neither
+// of which is empty.
 static uint64_t cut_mask(uint64_t mask, int x0, int y0, int x1, int y1)
 {
     const uint64_t columns = (UINT64_C(0xff) << x0) & (UINT64_C(0xff) >> (8 - x1));
@@ -26,7 +27,7 @@ static uint64_t cut_mask(uint64_t mask, int x0, int y0, int x1, int y1)
     return mask & rows & columns * UINT64_C(0x0101010101010101);
 }
 
-// A mask that lies in several tiles goes to each in part.
+// Gives each tile that a mask lies in its part of the mask.
 static bool bin_cut(const struct cpu_emitter *e, int prim, uint64_t mask, int x, int y)
 {
     const struct cpu_tiling *tiling = &e->bins->tiling;
@@ -77,7 +78,7 @@ static bool triangle_reaches(const rg_triangle *t, int x0, int y0, int x1, int y
            reaches(t->c, x0, y0, x1, y1);
 }
 
-// To the tiles that one of its two triangles may cover pixels of.
+// Refers a shape to the tiles whose pixels one of its two triangles may cover.
 static bool bin_corners(const struct cpu_emitter *e, const rg_snapped *c, int prim, int64_t *pixels)
 {
     const struct cpu_tiling *tiling = &e->bins->tiling;

@@ -100,7 +100,7 @@ static inline bool is_seen(const struct shader *s, int i, size_t texel)
     return s->fragments.kept[i] && s->fragments.depth[i] < rg_bits_float(s->target.depth[texel]);
 }
 
-// Leaves listed what will pass the test of depth.
+// Takes from the list what will not pass the test of depth.
 static void drop_hidden(struct shader *s)
 {
     struct cpu_list *list = &s->list;

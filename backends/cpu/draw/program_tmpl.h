@@ -1,4 +1,4 @@
-// Makes what a level draws with of the DRAW program that was just included.
+// Makes of the DRAW program that was just included the functions that a level draws it with.
 #if RG_CHECKED
 #include "backends/cpu/draw/reference_tmpl.h"
 #else

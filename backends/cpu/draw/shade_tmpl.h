@@ -54,7 +54,8 @@ static void draw_row(struct shader *s, int prim, int x, int y, int count)
     }
 }
 
-// A shape's pixels do not coincide, so that only what was listed before it comes before its rows.
+// Draws a shape's pixels in a block. What was listed before the shape is drawn before its first
+// long row; what is listed of the shape itself can wait, for its pixels are all different.
 static void draw_block(struct shader *s, int prim, const struct convex *shape, int x, int y,
                        int width, int height, bool *flushed)
 {

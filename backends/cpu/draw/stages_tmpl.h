@@ -1,7 +1,8 @@
-// The loops of the DRAW program that was just included: what of cpu's drawing depends on it.
+// The loops of the DRAW program that was just included: the part of cpu's drawing that depends on
+// the program.
 //
-// They run to a multiple of CPU_LANES, which spares them a remainder. What is added repeats the
-// last element, for nothing else may be read.
+// They run to a multiple of CPU_LANES, which spares them a remainder. The elements that this adds
+// repeat the last one, for nothing else may be read.
 #include "backends/cpu/draw/program.h"
 #include "backends/cpu/kernels/bind_tmpl.h"
 
@@ -97,7 +98,7 @@ static inline __attribute__((always_inline)) rgba light_of(const struct lit *lit
 
 #endif
 
-// The record of a fragment in a list. In 32 bits, as gather instructions want it.
+// Where the record of a listed fragment begins: in 32 bits, as gather instructions want it.
 static inline __attribute__((always_inline)) const RG_RECORD *
 record_of(const void *records, const struct cpu_list *list, int i)
 {
@@ -114,7 +115,7 @@ static inline __attribute__((always_inline)) rgba only_light(rg_ctx rg, RG_PARAM
     return rg_rgba(0.0f + c.r, 0.0f + c.g, 0.0f + c.b, 0.0f + c.a);
 }
 
-// One light alone is added where colours are made: what both need is reckoned once.
+// One light alone is added in the loop that makes colours, so that what both need is reckoned once.
 static inline __attribute__((always_inline)) void
 shade_lit_list(rg_ctx rg, RG_PARAMS p, const void *records, const struct cpu_list *list, int padded,
                struct cpu_fragments *fragments)

@@ -4,7 +4,7 @@
 #define RG_CAT_(a, b) rg_cpu_##a##_##b
 #define RG_CAT(a, b)  RG_CAT_(a, b)
 
-// Begins the definition of what the kernel's file hands out.
+// Begins the definition of the object by which the kernel's file is called.
 #define RG_EXPORT_KERNEL                                                                           \
     extern const struct cpu_kernel RG_CAT(RG_LEVEL, RG_KERNEL_NAME);                               \
     const struct cpu_kernel RG_CAT(RG_LEVEL, RG_KERNEL_NAME)

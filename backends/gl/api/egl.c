@@ -13,8 +13,8 @@
 // The serial of the context that is current on this thread, 0 for none.
 static _Thread_local unsigned current;
 
-// EGL hands every caller the same display for the same device and ends it for all of them at once:
-// so the last user ends it.
+// EGL hands every caller the same display for the same device, and eglTerminate ends it for all of
+// them. So users are counted, and the last one ends it.
 static pthread_mutex_t displays_lock = PTHREAD_MUTEX_INITIALIZER;
 static struct {
     EGLDisplay display;
@@ -50,7 +50,8 @@ __attribute__((format(printf, 2, 3))) static bool refuse(struct gl_search *searc
 
 // --- targets ---
 
-// Mesa warns on stderr of devices that it cannot open, which here is no news.
+// Mesa warns on stderr of devices that it cannot open: kept quiet, since the search goes on to the
+// next.
 static void silence_mesa(void)
 {
     setenv("EGL_LOG_LEVEL", "fatal", 0);

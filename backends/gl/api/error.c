@@ -57,7 +57,7 @@ bool gl_check(struct gl_device *device, const char *call, const char *kind, cons
     GLenum code = glGetError();
     if (code == GL_NO_ERROR && !device->fault[0])
         return true;
-    // A driver may hold several errors; a lost context would go on for ever.
+    // A driver may hold several errors, and a lost context has no last one: so the loop is bounded.
     for (int i = 0; i < 8 && glGetError() != GL_NO_ERROR; i++)
         ;
     return report(device, code, call, kind, name);

@@ -33,7 +33,7 @@ int opencl_version(const char *version)
     return sscanf(version, "OpenCL %d.%d", &major, &minor) == 2 ? major * 10 + minor : 0;
 }
 
-// Why kernels cannot run there, or NULL.
+// Why kernels cannot run on a device, or NULL.
 static const char *missing(cl_device_id id)
 {
     char text[OPENCL_TEXT];

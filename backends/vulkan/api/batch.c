@@ -103,7 +103,7 @@ struct vk_batch *vk_record(struct vk_device *device)
     return batch;
 }
 
-// Nothing that is recorded refers to the staging memory of a batch that has used none.
+// A batch that has used no staging memory gets another: no recorded command refers to it.
 static bool grow_staging(struct vk_device *device, struct vk_batch *batch, size_t size)
 {
     VkDeviceSize grown = VK_MIN_STAGING_BYTES;
@@ -149,8 +149,8 @@ void vk_barrier(const struct vk_batch *batch)
                 VK_ACCESS_TRANSFER_WRITE_BIT);
 }
 
-// A draw's own barriers speak of the stages that draw, so that all others need not, and a device
-// without them computes.
+// A draw brings barriers for the stages that draw. So no other barrier names these stages, which a
+// queue that only computes has not.
 enum {
     DRAW_STAGES =
         VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |

@@ -21,8 +21,8 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL complain(VkDebugUtilsMessageSeverityFlagBi
     return VK_FALSE;
 }
 
-// Validation alone: what the loader says of absent drivers is not about us, and the general layout
-// is our choice, whatever the performance hints say.
+// Takes messages of validation alone. The loader's messages are about absent drivers, and the
+// performance hints object to the general layout, which is our choice.
 static VkDebugUtilsMessengerCreateInfoEXT messenger_info(struct vk_instance *instance)
 {
     return (VkDebugUtilsMessengerCreateInfoEXT){
@@ -89,7 +89,8 @@ static void say_no_instance(VkResult result, char *why, size_t why_size)
 
 bool vk_instance_open(struct vk_instance *instance, bool validate, char *why, size_t why_size)
 {
-    // lavapipe and others announce themselves on stderr; 0: what the user set stays.
+    // Keeps lavapipe and others from announcing themselves on stderr. The 0 keeps what the user has
+    // set.
     setenv("MESA_VK_IGNORE_CONFORMANCE_WARNING", "1", 0);
     memset(instance, 0, sizeof(*instance));
     uint32_t version = VK_API_VERSION_1_0;

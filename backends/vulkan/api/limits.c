@@ -16,7 +16,7 @@ static int64_t at_most_int64(uint64_t value)
     return value < INT64_MAX ? (int64_t)value : INT64_MAX;
 }
 
-// Images of depth belong to a queue that draws: another may not even write them.
+// Depth images need a queue that draws: on another queue they cannot even be written.
 static unsigned uses_of(VkPhysicalDevice device, enum rg_format format, bool draws)
 {
     VkFormatProperties properties;

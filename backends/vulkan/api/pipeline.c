@@ -53,7 +53,8 @@ static VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, VkShader
     };
 }
 
-// Both faces are filled: packing has culled. Corners come from the packed primitives alone.
+// Nothing is culled here, for packing has culled. There are no vertex attributes: corners come from
+// the packed primitives.
 static VkGraphicsPipelineCreateInfo plain_pipeline(void)
 {
     static const VkPipelineVertexInputStateCreateInfo no_input = {

@@ -192,7 +192,7 @@ static bool measure_relative(const struct pictures *p, struct rg_tiers *tiers)
 static void fail_tier(struct rg_verdict *verdict, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-// Keeps the first reason.
+// Notes why a tier fails; the first reason stays.
 static void fail_tier(struct rg_verdict *verdict, const char *format, ...)
 {
     if (!verdict->holds)

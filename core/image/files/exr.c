@@ -6,7 +6,7 @@
 #include "core/image/files/exr_unpack.h"
 #include "core/image/files/format.h"
 
-// What OpenEXRCore's callbacks and the chunk loop share.
+// What reading one file keeps, for OpenEXRCore's callbacks and the loop over chunks.
 struct exr_job {
     exr_context_t exr;
     struct rg_picture *picture;
@@ -37,7 +37,8 @@ static exr_context_initializer_t initializer(void)
     with.error_handler_fn = on_error;
     with.max_image_width = RG_PICTURE_MAX_SIDE_PX;
     with.max_image_height = RG_PICTURE_MAX_SIDE_PX;
-    // A third of the time of the default level, for a twentieth more bytes.
+    // This level of compression takes a third of the time of the default, and makes a twentieth
+    // more bytes.
     with.zip_level = 2;
     return with;
 }

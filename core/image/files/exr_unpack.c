@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Exact, for every half: zeros, subnormals, infinities and NaN too.
+// A half as a float, exact for every half: zeros, subnormals, infinities and NaN too.
 static float float_of_half(uint16_t half)
 {
     uint32_t magnitude = half & 0x7fffu, bits = magnitude << 13;

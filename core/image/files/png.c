@@ -8,7 +8,8 @@
 #include "core/image/files/format.h"
 #include "core/image/srgb.h"
 
-// Everything a read or a write holds: kept outside the frames that libpng's longjmp leaves.
+// Everything that a read or a write holds. libpng reports errors by longjmp, so it lives outside
+// the functions that this leaves.
 struct png_job {
     png_structp png;
     png_infop info;

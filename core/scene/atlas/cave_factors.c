@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Words are read one after the other; the line is for messages.
+// A reader of words, one after the other. `line` is for messages.
 struct reader {
     FILE *file;
     const char *path;

@@ -95,8 +95,8 @@ static bool check_values(const char *name, int vertex_count, int face_count, con
 
 // --- bounds, normals, hash ---
 
-// What is too small for a normal float becomes 0, as some devices would make it; so does -0, so
-// that equal places have equal bits.
+// Subnormal numbers become 0, as some devices would make them; so does -0, so that equal places
+// have equal bits.
 static float plain(double value)
 {
     return fabs(value) < (double)FLT_MIN ? 0.0f : (float)value;
