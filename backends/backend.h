@@ -28,7 +28,7 @@ struct rg_extent {
     int width, height, depth; // items
 };
 
-// Of the slots of a kernel, by what is bound to them.
+// Numbers of slots, by what is bound to them.
 struct rg_slot_limits {
     int buffers, images, out_images;
 };
@@ -43,8 +43,8 @@ struct rg_limits {
     int max_groups[3]; // work groups a dispatch, in x, y and z; INT_MAX: no limit
     int group_items;   // items a work group, along x
     struct rg_format_limits formats[RG_FORMAT_COUNT];
-    struct rg_slot_limits slot_count; // slots that a kernel may have
-    struct rg_slot_limits slot_end;   // their numbers are below
+    struct rg_slot_limits slot_count; // how many a kernel may have
+    struct rg_slot_limits slot_end;   // and below what their numbers must be
     char no_draws[120];               // why DRAW programs cannot run: "has no queue that draws"
     bool has_clock;                   // `time` tells it
 };
@@ -65,8 +65,8 @@ struct rg_device {
     const struct rg_backend *backend;
     struct rg_device_info info;
     struct rg_work *work;       // what core/device counts; not the backend's business
-    struct rg_packing *packing; // core/device/packing.c's; likewise
-    struct rg_shared *shared;   // core/device/shared.c's; likewise
+    struct rg_packing *packing; // owned by core/device/packing.c; likewise
+    struct rg_shared *shared;   // owned by core/device/shared.c; likewise
 };
 
 struct rg_buf {
@@ -84,7 +84,7 @@ struct rg_image {
 struct rg_pass {
     struct rg_device *device;
     const struct rg_kernel *kernel;
-    struct rg_packer *packer; // core/device/packing.c's, of a DRAW pass; NULL for others
+    struct rg_packer *packer; // of a DRAW pass: core/device/packing.c owns it; NULL for others
 };
 
 struct rg_binding {
@@ -117,7 +117,7 @@ struct rg_draw {
     struct rg_buf *samples; // uints, by item: grow by its visible samples. NULL: not counted
 };
 
-// A DRAW pass's primitives, packed by core/device/packing.c, for backends whose `packed` asks for it.
+// A DRAW pass's primitives, packed by core/device/packing.c, for backends with `packed` true.
 struct rg_packed {
     struct rg_buf *prims; // rg_prim of kernels/dialect/draw/draw.h, drawn in this order
     struct rg_buf *args;  // 5 uints: vertices, 1, 0, 0 (an indirect draw), then the number of prims

@@ -34,7 +34,7 @@ struct rg_kernel_code {
     size_t size;
 };
 
-// A GRID kernel has the first three, a DRAW program the others and OpenCL C.
+// A GRID kernel has the first three; a DRAW program has OpenCL C and the last four.
 enum rg_code_kind {
     RG_CODE_GLSL,
     RG_CODE_SPIRV,
@@ -57,7 +57,7 @@ enum {
     RG_SLOT_BEHIND = 15,  // of fragments: the depth that counted samples are held against
 };
 
-// What its fragments are bound to, where a driver draws them, beside the program's own slots.
+// The slots that fragments have beside the program's own, on backends that draw packed primitives.
 enum { RG_DRAWN_SLOTS = 3 };
 extern const struct rg_slot_info rg_drawn_slots[RG_DRAWN_SLOTS];
 
