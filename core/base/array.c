@@ -16,7 +16,9 @@ bool rg_array_fit(void *array, int64_t *room, int64_t count, size_t size, const 
         wanted = count;
     void *memory;
     memcpy(&memory, array, sizeof(memory));
-    void *grown = (size_t)wanted > SIZE_MAX / size ? NULL : realloc(memory, (size_t)wanted * size);
+    // More is refused here, because no object is so large and sanitizers end a program that asks.
+    const bool fits = (size_t)wanted <= PTRDIFF_MAX / size;
+    void *grown = fits ? realloc(memory, (size_t)wanted * size) : NULL;
     if (!grown)
         return rg_error("%s: no memory for %lld; ask for less, or close other programs", what,
                         (long long)wanted);
