@@ -57,7 +57,7 @@ static const char *const poses[] = {
     SMALL,
     SMALL "walk_m_s=3 time=night lights=6 packets=quad packet_size=3000 drops_m2_s=100 select=hull "
           "splash_materials=on",
-    SMALL "geometry=off walk_m_s=8 slant_deg=25 slant_azimuth_deg=40 packets=kd packet_size=700 "
+    SMALL "geometry=off walk_m_s=8 slant_deg=25 slant_azimuth_deg=20 packets=kd packet_size=700 "
           "drops_m2_s=60 cull=exact order=id depth_map=dynamic depth_map_period=3 taps=8 "
           "far_layers=3 splash_materials=on",
     NULL,
