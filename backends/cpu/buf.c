@@ -6,18 +6,12 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 
-void *cpu_alloc(size_t size)
-{
-    const size_t line = 64;
-    return aligned_alloc(line, (size + line - 1) / line * line);
-}
-
 struct rg_buf *cpu_buf_create(struct rg_device *device, size_t size, const char *name)
 {
     struct cpu_buf *buf = rg_alloc(1, sizeof(*buf), name);
     if (!buf)
         return NULL;
-    buf->data = cpu_alloc(size);
+    buf->data = rg_alloc_lines(size);
     if (!buf->data) {
         free(buf);
         return rg_error_null("buffer '%s': %s has no %zu bytes of memory left", name,

@@ -68,7 +68,4 @@ bool cpu_pass_run(struct rg_pass *pass, const struct rg_run *run);
 bool cpu_sync(struct rg_device *device);
 bool cpu_time(struct rg_device *device, int64_t *time_ns);
 
-// Memory for buffers and images, aligned to a cache line; NULL when there is none.
-void *cpu_alloc(size_t size);
-
 #endif

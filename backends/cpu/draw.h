@@ -24,7 +24,7 @@ struct rg_counts;
 bool cpu_draw(struct cpu_device *device, const char *name, const struct cpu_program *program,
               const struct cpu_call *call);
 
-// count.c: what it comes to, from the same items by plain loops.
+// What it comes to, from the same items by plain loops.
 void cpu_count(const struct cpu_program *program, const struct cpu_call *call,
                struct rg_counts *counts);
 

@@ -17,7 +17,7 @@ struct rg_image *cpu_image_create(struct rg_device *device, const struct rg_imag
         return NULL;
     image->shape = (rg_image_shape){desc->width, desc->height, desc->layers, desc->levels};
     image->words = (int)words;
-    image->texels = cpu_alloc((size_t)words * sizeof(uint));
+    image->texels = rg_alloc_lines((size_t)words * sizeof(uint));
     if (!image->texels) {
         free(image);
         return rg_error_null("image '%s': %s has no %lld bytes of memory left", name,

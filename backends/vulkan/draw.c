@@ -1,4 +1,4 @@
-// DRAW passes: the primitives that core/device/packing.c has packed, through the graphics pipeline.
+// DRAW passes: the primitives that core/device has packed, through the graphics pipeline.
 // Nothing is left to it that a driver may round: shaders/draw.vert says how corners stay on their
 // grid.
 #include "backends/vulkan/vulkan.h"

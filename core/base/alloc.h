@@ -17,4 +17,12 @@ static inline void *rg_alloc(size_t count, size_t size, const char *what)
                                   what, count, size);
 }
 
+// Memory aligned to cache lines, not zeroed, which the caller frees. NULL, without a message, when
+// there is none.
+static inline void *rg_alloc_lines(size_t size)
+{
+    const size_t line = 64;
+    return aligned_alloc(line, (size + line - 1) / line * line);
+}
+
 #endif

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "backends/cpu/cpu.h"
+#include "core/base/alloc.h"
 
 // The records of a round take no more than this; its primitives without records, and its
 // references, take about as much each.
@@ -81,7 +81,7 @@ int cpu_bins_refs(struct cpu_bins *bins, int count)
 static void *renewed(void *held, size_t size)
 {
     free(held);
-    return cpu_alloc(size);
+    return rg_alloc_lines(size);
 }
 
 // Twice the room where the last round lacked it.
@@ -168,7 +168,7 @@ static bool make_sorters(struct cpu_bins *bins, int threads)
         bins->sorters = more;
     }
     for (; bins->sorter_count < threads; bins->sorter_count++) {
-        struct cpu_sorter *sorter = cpu_alloc(sizeof(*sorter));
+        struct cpu_sorter *sorter = rg_alloc_lines(sizeof(*sorter));
         if (!sorter)
             return false;
         memset(sorter, 0, sizeof(*sorter));
