@@ -130,6 +130,7 @@ static void a_kernel_that_does_not_compile_is_one_line(void **state)
     assert_int_equal(errors, 1);
     assert_non_null(strstr(rg_last_error(), "kernel 'probe_copy': glCompileShader failed on gl: "));
     assert_non_null(strstr(rg_last_error(), "missing"));
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
 }
 
 static void a_program_that_does_not_link_is_one_line(void **state)
@@ -272,6 +273,7 @@ static void what_the_driver_refuses_is_one_line(void **state)
     assert_non_null(strstr(rg_last_error(), "image 'all there is': glTextureStorage3D of "));
     assert_non_null(strstr(rg_last_error(), " texels of RGBA32F, "));
     assert_non_null(strstr(rg_last_error(), " levels, failed on gl with GL_"));
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
     assert_int_equal(walk(device, 3, 5), expected_walk(3, 5));
 }
 

@@ -333,6 +333,7 @@ static void a_broken_kernel_is_one_line(void **state)
     assert_non_null(strstr(rg_last_error(), "kernel 'probe_copy'"));
     assert_non_null(strstr(rg_last_error(), "CL_BUILD_PROGRAM_FAILURE"));
     assert_non_null(strstr(rg_last_error(), "this_is_missing"));
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
     assert_true(rg_device_close(device));
 }
 

@@ -168,6 +168,7 @@ static void files_that_are_no_spirv_are_refused(void **state)
 {
     assert_false(takes_kernel(*state, "#version 450 core\n", 18));
     assert_non_null(strstr(rg_last_error(), "are no SPIR-V"));
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_INPUT); // RG_KERNEL_DIR names them
     assert_int_equal(errors, 1);
 }
 
@@ -183,6 +184,7 @@ static void complaints_of_validation_fail_calls(void **state)
             words[i + 3] = 9;
     assert_false(takes_kernel(*state, words, code->size));
     assert_non_null(strstr(rg_last_error(), "Vulkan validation: "));
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
     free(words);
     assert_true(takes_kernel(*state, code->bytes, code->size));
 }
