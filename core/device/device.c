@@ -20,13 +20,13 @@ void rg_device_list_add(struct rg_device_list *list, const struct rg_backend *ba
         list->backends[list->count] = backend;
         list->backend_index[list->count++] = i;
     }
-    int missing = 0;
-    while (list->missing[missing][0])
-        missing++;
-    if (found == 0)
-        snprintf(list->missing[missing], sizeof(list->missing[0]), "%s: %s%s%s%s", backend->name,
-                 why, backend->package ? "; the Debian package " : "",
-                 backend->package ? backend->package : "", backend->package ? " brings one" : "");
+    if (found > 0)
+        return;
+    struct rg_missing *missing = &list->missing[list->missing_count++];
+    *missing = (struct rg_missing){.backend = backend, .outcome = RG_UNSUPPORTED};
+    snprintf(missing->why, sizeof(missing->why), "%s: %s%s%s%s", backend->name, why,
+             backend->package ? "; the Debian package " : "",
+             backend->package ? backend->package : "", backend->package ? " brings one" : "");
 }
 
 void rg_device_list_all(struct rg_device_list *list)

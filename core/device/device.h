@@ -8,6 +8,7 @@
 #define RG_CORE_DEVICE_DEVICE_H
 
 #include "backends/backend.h"
+#include "core/base/outcome.h"
 #include "core/device/objects.h"
 #include "core/device/pass.h"
 #include "core/device/work.h"
@@ -18,8 +19,12 @@ struct rg_device_list {
     struct rg_device_info infos[RG_MAX_DEVICES];
     int backend_index[RG_MAX_DEVICES]; // what backend->create takes
     const struct rg_backend *backends[RG_MAX_DEVICES];
-    // One line a backend without a device, "" after the last.
-    char missing[RG_MAX_BACKENDS + 1][256];
+    int missing_count; // backends without a device
+    struct rg_missing {
+        const struct rg_backend *backend;
+        enum rg_outcome outcome; // unsupported, or how its driver failed when it was asked
+        char why[256];           // one line, which begins with the backend's name
+    } missing[RG_MAX_BACKENDS];
 };
 void rg_device_list_all(struct rg_device_list *list);
 // Adds one backend's to a list that began zeroed; each backend once.

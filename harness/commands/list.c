@@ -74,10 +74,12 @@ static json_t *list_tables(void)
     return rows;
 }
 
-static json_t *list_devices(void)
+// `exit` gets fail where a driver failed.
+static json_t *list_devices(int *exit)
 {
     json_t *rows = json_array();
     struct rg_device_list *list = rg_alloc(1, sizeof(*list), "list of devices");
+    *exit = RG_EXIT_FAIL;
     if (!list)
         return rows;
     rg_devices_list(list);
@@ -85,8 +87,7 @@ static json_t *list_devices(void)
         json_array_append_new(rows, json_pack("{ssssssss}", "name", list->infos[i].name, "api",
                                               list->infos[i].api, "device", list->infos[i].device,
                                               "driver", list->infos[i].driver));
-    for (int i = 0; list->missing[i][0]; i++)
-        rg_warning("unsupported here: %s", list->missing[i]);
+    *exit = rg_devices_complain(list);
     free(list);
     return rows;
 }
@@ -154,8 +155,11 @@ static int list(const void *values, const struct rg_words *arguments)
         return print(list_techniques(), what, about_fields, o->json);
     if (!strcmp(what, "tables"))
         return print(list_tables(), what, about_fields, o->json);
-    if (!strcmp(what, "devices"))
-        return print(list_devices(), what, device_fields, o->json);
+    if (!strcmp(what, "devices")) {
+        int exit;
+        print(list_devices(&exit), what, device_fields, o->json);
+        return exit;
+    }
     rg_error("list '%s': list techniques, tables, devices, or params TECHNIQUE", what);
     return RG_EXIT_USAGE;
 }

@@ -139,9 +139,8 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
     int exit = rg_devices_open(o->devices, &devices);
     if (exit != RG_EXIT_PASS)
         return exit;
-    exit = rg_tables_regenerate(chosen, count, &devices, &wanted);
-    if (devices.broken_count)
-        exit = rg_exit_worse(exit, RG_EXIT_FAIL);
+    exit = rg_exit_worse(rg_tables_regenerate(chosen, count, &devices, &wanted),
+                         rg_devices_exit(&devices));
     rg_devices_close(&devices);
     return exit;
 }

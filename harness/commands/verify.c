@@ -81,29 +81,14 @@ static struct rg_device *find_or_open(const struct rg_devices *devices, const ch
     return *extra = rg_device_open(name);
 }
 
-// A driver that is there but does not open its device has failed: that is not "unsupported".
-static void note_broken(const struct rg_devices *devices, const struct subject *subjects, int count,
+// What the machine lacks, and what fails there, is said, not passed over.
+static void note_absent(const struct rg_devices *devices, const struct subject *subjects, int count,
                         struct rg_checks *checks)
 {
     for (int s = 0; s < count; s++)
-        for (int i = 0; i < devices->broken_count; i++)
-            rg_checks_add(checks, subjects[s].technique->name, "device", devices->broken[i].name,
-                          RG_ERROR, "%s", devices->broken[i].why);
-}
-
-// A device that the machine lacks is a row of the report, not left out.
-static void note_missing(const struct rg_devices *devices, const struct subject *subjects,
-                         int count, struct rg_checks *checks)
-{
-    for (int s = 0; s < count; s++) {
-        for (int i = 0; devices->missing[i][0]; i++) {
-            char name[32] = "";
-            strncat(name, devices->missing[i], strcspn(devices->missing[i], " "));
-            name[strlen(name) - (name[0] && name[strlen(name) - 1] == ':')] = 0;
-            rg_checks_add(checks, subjects[s].technique->name, "device", name, RG_UNSUPPORTED, "%s",
-                          devices->missing[i]);
-        }
-    }
+        for (int i = 0; i < devices->absent_count; i++)
+            rg_checks_add(checks, subjects[s].technique->name, "device", devices->absent[i].name,
+                          devices->absent[i].outcome, "%s", devices->absent[i].why);
 }
 
 static void verify_all(struct rg_verify *v, bool stages, const struct subject *subjects, int count)
@@ -151,8 +136,7 @@ static int verify_on(const struct verify_options *o, const struct rg_devices *de
     if (!v.reference || !v.mutant_device) {
         exit = rg_exit_of_error();
     } else {
-        note_missing(devices, subjects, count, &checks);
-        note_broken(devices, subjects, count, &checks);
+        note_absent(devices, subjects, count, &checks);
         verify_all(&v, o->stages, subjects, count);
         rg_checks_print(&checks, o->json);
         exit = rg_checks_exit(&checks);

@@ -24,6 +24,16 @@ static void list_one(void *answer)
     rg_device_list_add(&listing->list, listing->backend);
 }
 
+static void note_failure(struct rg_device_list *list, const struct rg_backend *backend,
+                         enum rg_outcome outcome, const char *why)
+{
+    struct rg_missing *missing = &list->missing[list->missing_count++];
+    *missing = (struct rg_missing){.backend = backend, .outcome = outcome};
+    snprintf(missing->why, sizeof(missing->why), "%s: %.140s%s%s", backend->name, why,
+             backend->package ? "; reinstall the Debian package " : "",
+             backend->package ? backend->package : "");
+}
+
 void rg_devices_list(struct rg_device_list *list)
 {
     memset(list, 0, sizeof(*list));
@@ -31,28 +41,54 @@ void rg_devices_list(struct rg_device_list *list)
     for (int b = 0; listing && rg_backends[b]; b++) {
         char why[256];
         *listing = (struct listing){rg_backends[b], *list};
-        if (rg_child_run(list_one, listing, LIST_TIMEOUT_S, why, sizeof(why)) == RG_OK) {
+        const enum rg_outcome end =
+            rg_child_run(list_one, listing, LIST_TIMEOUT_S, why, sizeof(why));
+        if (end == RG_OK)
             *list = listing->list;
-            continue;
-        }
-        int missing = 0;
-        while (list->missing[missing][0])
-            missing++;
-        snprintf(list->missing[missing], sizeof(list->missing[0]), "%s: %.140s%s%s",
-                 rg_backends[b]->name, why,
-                 rg_backends[b]->package ? "; reinstall the Debian package " : "",
-                 rg_backends[b]->package ? rg_backends[b]->package : "");
+        else
+            note_failure(list, rg_backends[b], end, why);
     }
     rg_child_answer_destroy(listing, sizeof(*listing));
 }
 
+int rg_devices_complain(const struct rg_device_list *list)
+{
+    int exit = RG_EXIT_PASS;
+    for (int i = 0; i < list->missing_count; i++) {
+        const struct rg_missing *missing = &list->missing[i];
+        if (missing->outcome == RG_UNSUPPORTED) {
+            rg_warning("unsupported here: %s", missing->why);
+            continue;
+        }
+        rg_driver_error("%s", missing->why);
+        exit = RG_EXIT_FAIL;
+    }
+    return exit;
+}
+
 // --- opening ---
 
-static void note_broken(struct rg_devices *devices, const char *name)
+static void leave_out(struct rg_devices *devices, const char *name, enum rg_outcome outcome,
+                      const char *why)
 {
-    struct rg_broken_device *broken = &devices->broken[devices->broken_count++];
-    snprintf(broken->name, sizeof(broken->name), "%s", name);
-    snprintf(broken->why, sizeof(broken->why), "%.255s", rg_last_error());
+    struct rg_absent_device *absent = &devices->absent[devices->absent_count++];
+    absent->outcome = outcome;
+    snprintf(absent->name, sizeof(absent->name), "%s", name);
+    snprintf(absent->why, sizeof(absent->why), "%.255s", why);
+}
+
+static void open_listed(struct rg_devices *devices, const struct rg_device_list *list)
+{
+    for (int i = 0; i < list->missing_count; i++)
+        leave_out(devices, list->missing[i].backend->name, list->missing[i].outcome,
+                  list->missing[i].why);
+    for (int i = 0; i < list->count; i++) {
+        struct rg_device *device = rg_device_open(list->infos[i].name);
+        if (device)
+            devices->devices[devices->count++] = device;
+        else
+            leave_out(devices, list->infos[i].name, rg_outcome_of_error(), rg_last_error());
+    }
 }
 
 static int open_all(struct rg_devices *devices)
@@ -61,18 +97,11 @@ static int open_all(struct rg_devices *devices)
     if (!list)
         return RG_EXIT_FAIL;
     rg_devices_list(list);
-    memcpy(devices->missing, list->missing, sizeof(devices->missing));
-    for (int i = 0; list->missing[i][0]; i++)
-        rg_warning("unsupported here: %s", list->missing[i]);
-    for (int i = 0; i < list->count; i++) {
-        struct rg_device *device = rg_device_open(list->infos[i].name);
-        if (device)
-            devices->devices[devices->count++] = device;
-        else
-            note_broken(devices, list->infos[i].name);
-    }
+    rg_devices_complain(list);
+    open_listed(devices, list);
     free(list);
-    return devices->count ? RG_EXIT_PASS : RG_EXIT_UNSUPPORTED;
+    return devices->count ? RG_EXIT_PASS
+                          : rg_exit_worse(RG_EXIT_UNSUPPORTED, rg_devices_exit(devices));
 }
 
 static int open_named(const char *names, struct rg_devices *devices)
@@ -107,6 +136,15 @@ int rg_devices_open(const char *names, struct rg_devices *devices)
     int exit = !strcmp(names, "all") ? open_all(devices) : open_named(names, devices);
     if (exit != RG_EXIT_PASS)
         rg_devices_close(devices);
+    return exit;
+}
+
+int rg_devices_exit(const struct rg_devices *devices)
+{
+    int exit = RG_EXIT_PASS;
+    for (int i = 0; i < devices->absent_count; i++)
+        if (devices->absent[i].outcome != RG_UNSUPPORTED)
+            exit = rg_exit_worse(exit, rg_exit_of(devices->absent[i].outcome));
     return exit;
 }
 

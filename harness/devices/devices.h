@@ -5,25 +5,30 @@
 #include "core/device/device.h"
 
 // Lists the devices of every backend, each in a child process: a driver that crashes, hangs or
-// prints is missing, and its line says so. To be called before this process uses a driver or
-// OpenMP.
+// prints harms nothing, and its backend is missing with that outcome. To be called before this
+// process uses a driver or OpenMP.
 void rg_devices_list(struct rg_device_list *list);
+// Says what is missing of a list, in a line each: a warning where it is unsupported, else an error.
+// Returns an enum rg_exit: fail where a driver failed.
+int rg_devices_complain(const struct rg_device_list *list);
 
 // The devices that `names` holds: "all", or names separated by commas. Opened, in order. A name
-// that is unknown is bad usage; a driver that is absent is unsupported, and skipped with its line
-// when the list was "all". So is one that is there and does not open, which the command reports as
-// a failure. Returns an enum rg_exit.
+// that is unknown is bad usage, a driver that is absent unsupported, one that fails a failure; when
+// the list is "all", what is absent or fails is left out, with its line. Returns an enum rg_exit.
 struct rg_devices {
     int count;
     struct rg_device *devices[RG_MAX_DEVICES];
-    // With "all": one line a backend without a device, "" after the last.
-    char missing[RG_MAX_BACKENDS + 1][256];
-    int broken_count; // with "all": devices that are listed and do not open
-    struct rg_broken_device {
-        char name[32], why[256];
-    } broken[RG_MAX_DEVICES];
+    // What is left out: backends without a device, and devices that are listed and do not open.
+    int absent_count;
+    struct rg_absent_device {
+        char name[32];           // the backend's or the device's
+        enum rg_outcome outcome; // unsupported, or how its driver failed
+        char why[256];           // one line
+    } absent[RG_MAX_BACKENDS + RG_MAX_DEVICES];
 };
 int rg_devices_open(const char *names, struct rg_devices *devices);
+// Of what was left out, an enum rg_exit: fail where a driver failed.
+int rg_devices_exit(const struct rg_devices *devices);
 // Closes them; false on a leak.
 bool rg_devices_close(struct rg_devices *devices);
 

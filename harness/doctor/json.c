@@ -67,8 +67,8 @@ void rg_doctor_print_json(const struct rg_doctor_report *report)
     json_t *devices = json_array(), *missing = json_array();
     for (int i = 0; i < report->count; i++)
         json_array_append_new(devices, device(&report->examinations[i]));
-    for (int i = 0; report->list.missing[i][0]; i++)
-        json_array_append_new(missing, rg_json_text(report->list.missing[i]));
+    for (int i = 0; i < report->list.missing_count; i++)
+        json_array_append_new(missing, rg_json_text(report->list.missing[i].why));
     json_t *root = json_pack("{sisOsososO}", "format", 1, "passport", report->passport, "devices",
                              devices, "missing", missing, "warnings", report->warnings);
     json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(6));

@@ -239,10 +239,10 @@ void rg_doctor_print_text(const struct rg_doctor_report *report)
     for (int d = 0; d < report->count; d++)
         print_device(&report->examinations[d]);
     print_builtin_table(report);
-    if (report->list.missing[0][0])
+    if (report->list.missing_count)
         printf("\nmissing\n");
-    for (int m = 0; report->list.missing[m][0]; m++)
-        print_field(m ? "" : "drivers", report->list.missing[m]);
+    for (int m = 0; m < report->list.missing_count; m++)
+        print_field(m ? "" : "drivers", report->list.missing[m].why);
     if (json_array_size(report->warnings))
         printf("\nwarnings\n");
     json_array_foreach(report->warnings, i, warning) print_field("-", json_string_value(warning));

@@ -16,12 +16,9 @@ static void name_devices(struct rg_result *result, const struct rg_devices *devi
     for (int d = 0; d < devices->count; d++)
         result->devices[d] = devices->devices[d]->info;
     result->passport = rg_passport_json(result->devices, result->device_count);
-    for (int i = 0; devices->missing[i][0]; i++)
+    for (int i = 0; i < devices->absent_count; i++)
         rg_text_copy(result->missing[result->missing_count++], sizeof(result->missing[0]),
-                     devices->missing[i]);
-    for (int i = 0; i < devices->broken_count; i++)
-        rg_text_copy(result->missing[result->missing_count++], sizeof(result->missing[0]),
-                     devices->broken[i].why);
+                     devices->absent[i].why);
 }
 
 static void name_works(struct rg_result *result, const struct rg_table *table, const char *wanted)

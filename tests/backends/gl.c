@@ -285,9 +285,9 @@ static void a_missing_driver_has_a_reason(void **state)
     rg_device_list_all(&list);
     assert_int_equal(errors, 0);
     const char *line = "";
-    for (int i = 0; list.missing[i][0]; i++)
-        if (!strncmp(list.missing[i], "gl: ", 4))
-            line = list.missing[i];
+    for (int i = 0; i < list.missing_count; i++)
+        if (!strncmp(list.missing[i].why, "gl: ", 4))
+            line = list.missing[i].why;
     if (!strstr(line, reason))
         fail_msg("'%s' does not say '%s'", line, reason);
     assert_null(rg_device_open("gl"));

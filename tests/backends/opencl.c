@@ -349,9 +349,9 @@ static void absence_is_explained(void **state)
     for (int i = 0; i < list.count; i++)
         assert_string_not_equal(list.infos[i].name, "opencl");
     const char *why = NULL;
-    for (int i = 0; list.missing[i][0]; i++)
-        if (!strncmp(list.missing[i], "opencl:", 7))
-            why = list.missing[i];
+    for (int i = 0; i < list.missing_count; i++)
+        if (!strncmp(list.missing[i].why, "opencl:", 7))
+            why = list.missing[i].why;
     assert_non_null(why);
     assert_non_null(strstr(why, expected_code));
     lines = 0;

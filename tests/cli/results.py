@@ -9,6 +9,7 @@ import tempfile
 
 import forms
 from cases import DIFF, FORMATS, NO_CACHE, RENDER, SMALL, STAGES, TABLE
+from runner import NO_DRIVERS
 
 
 def run_json(runner, args, env={}):
@@ -390,6 +391,29 @@ def check_broken_table(runner, kernels):
     return problems
 
 
+def check_crashing_driver(runner):
+    """a driver that crashes when it is asked for devices fails list, diff, table and verify, and harms no other device"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        env = dict(NO_DRIVERS, **runner.crashing_vulkan(tmp))
+        reports = {}
+        for command, args in (("list", "devices"), ("diff", "flow --frame 1 " + SMALL), ("table", "stuppacher-2 --rows 1-1"),
+                              ("verify", "flow --frame 1 " + SMALL)):
+            reports[command], status, messages = run_json(runner, command + " " + args, env)
+            crashed = [line for line in messages if "raingauge: vulkan: its driver crashed (Aborted)" in line]
+            absent = [line for line in messages if re.search("warning: unsupported here: (gl|opencl): ", line)]
+            if status != 1 or len(crashed) != 1 or len(absent) != 2 or len(messages) != 3:
+                problems += ["%s: exit status %d" % (command, status)] + messages
+    found = {"list": [device["name"] for device in reports["list"]["devices"]],
+             "diff": [pair["tier"] for pair in reports["diff"]["pairs"]],
+             "table": [cell["status"] for cell in reports["table"]["cells"]],
+             "verify": [(c["device"], c["status"]) for c in reports["verify"]["checks"] if c["check"] == "device"]}
+    if found != {"list": ["cpu", "cpu:reference"], "diff": ["T0"], "table": ["ok", "ok"],
+                 "verify": [("gl", "unsupported"), ("vulkan", "crash"), ("opencl", "unsupported")]}:
+        problems.append("found: %s" % found)
+    return problems
+
+
 @with_wrong_normals
 def check_wrong_table(runner, kernels):
     """a table does not time a device whose image is wrong, and fails"""
@@ -441,4 +465,5 @@ def check_wrong_stage(runner, kernels):
     return problems
 
 
-WRONG = [check_broken_table, check_wrong_table, check_wrong_diff, check_wrong_verify, check_wrong_stage]
+WRONG = [check_broken_table, check_crashing_driver, check_wrong_table, check_wrong_diff, check_wrong_verify,
+         check_wrong_stage]

@@ -123,8 +123,7 @@ int rg_diff_devices(const struct rg_diff_devices_request *request)
         exit = RG_EXIT_USAGE;
     } else if (exit == RG_EXIT_PASS) {
         exit = take_pictures(s, &devices) ? compare_all(s) : rg_exit_of_error();
-        if (devices.broken_count)
-            exit = rg_exit_worse(exit, RG_EXIT_FAIL);
+        exit = rg_exit_worse(exit, rg_devices_exit(&devices));
     }
     for (int i = 0; i < s->shot_count; i++)
         rg_picture_destroy(&s->shots[i].picture);
