@@ -25,6 +25,11 @@ bool rg_outcome_find(const char *name, enum rg_outcome *outcome)
     return false;
 }
 
+bool rg_outcome_is_broken(enum rg_outcome outcome)
+{
+    return outcome == RG_ERROR || outcome == RG_CRASH || outcome == RG_TIMEOUT;
+}
+
 enum rg_outcome rg_outcome_of_error(void)
 {
     return rg_last_error_kind() == RG_ERROR_UNSUPPORTED ? RG_UNSUPPORTED : RG_ERROR;

@@ -21,6 +21,10 @@ const char *rg_outcome_name(enum rg_outcome outcome);
 // The outcome of this name. False where there is none.
 bool rg_outcome_find(const char *name, enum rg_outcome *outcome);
 
+// Whether it kept the work from being done, and may pass by another time: an error, a crash or a
+// timeout.
+bool rg_outcome_is_broken(enum rg_outcome outcome);
+
 // How work ended that the last error (core/base/log.h) kept from being done: RG_UNSUPPORTED, or
 // RG_ERROR for every other kind of error.
 enum rg_outcome rg_outcome_of_error(void);

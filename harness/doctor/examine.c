@@ -23,9 +23,10 @@ static void begin(struct rg_examination *examination, const char *step)
     snprintf(examination->why, sizeof(examination->why), "%s", step);
 }
 
-static void fail(struct rg_examination *examination, enum rg_outcome status)
+// Ends it with the last error.
+static void fail(struct rg_examination *examination)
 {
-    examination->status = status;
+    examination->status = rg_outcome_of_error();
     snprintf(examination->why, sizeof(examination->why), "%.500s", rg_last_error());
 }
 
@@ -34,7 +35,7 @@ static struct rg_device *open_device(struct rg_examination *examination)
     begin(examination, "opening the device");
     struct rg_device *device = rg_device_open(examination->info.name);
     if (!device) {
-        fail(examination, rg_outcome_of_error());
+        fail(examination);
         examination->is_unknown = rg_last_error_kind() == RG_ERROR_INPUT;
         return NULL;
     }
@@ -52,7 +53,7 @@ static void examine(void *answer)
     begin(examination, "probing its arithmetic");
     examination->probed = rg_probe_run(device, examination->probe);
     if (!examination->probed) {
-        fail(examination, RG_ERROR);
+        fail(examination);
         return;
     }
     const int failures = rg_examination_failures(examination);
@@ -63,7 +64,7 @@ static void examine(void *answer)
         examination->measured = rg_ceilings_measure(device, &examination->ceilings);
     }
     if (!examination->measured || !rg_device_close(device)) {
-        fail(examination, RG_ERROR);
+        fail(examination);
         return;
     }
     examination->status = failures ? RG_FAIL : RG_OK;
@@ -79,7 +80,7 @@ void rg_doctor_examine(struct rg_examination *examination)
     char why[256];
     struct rg_examination *answer = rg_child_answer_create(sizeof(*answer));
     if (!answer) {
-        fail(examination, RG_ERROR);
+        fail(examination);
         return;
     }
     *answer = (struct rg_examination){.info = examination->info};

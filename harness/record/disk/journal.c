@@ -148,7 +148,8 @@ static bool has_error(const struct rg_result *result, int row)
     bool found = false;
     for (struct rg_place at = rg_result_start_row(row); rg_result_next_in_row(result, &at);) {
         const struct rg_record *record = rg_result_at(result, at);
-        found = found || record->outcome == RG_ERROR || record->truth_error.outcome == RG_ERROR;
+        found = found || rg_outcome_is_broken(record->outcome) ||
+                rg_outcome_is_broken(record->truth_error.outcome);
     }
     return found;
 }

@@ -25,6 +25,15 @@ static void outcomes_are_found_by_their_names(void **state)
     assert_int_equal(untouched, RG_CRASH);
 }
 
+static void what_kept_work_from_being_done_is_broken(void **state)
+{
+    (void)state;
+    static const bool due[RG_OUTCOME_COUNT] = {
+        [RG_ERROR] = true, [RG_CRASH] = true, [RG_TIMEOUT] = true};
+    for (int i = 0; i < RG_OUTCOME_COUNT; i++)
+        assert_int_equal(rg_outcome_is_broken((enum rg_outcome)i), due[i]);
+}
+
 static void ignore(enum rg_log_level level, const char *line, void *user)
 {
     (void)level;
@@ -62,6 +71,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(outcomes_are_found_by_their_names),
+        cmocka_unit_test(what_kept_work_from_being_done_is_broken),
         cmocka_unit_test(errors_are_of_a_kind),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
