@@ -1,7 +1,8 @@
-// What every device must do: device_suite DEVICE runs the same tests on any of them.
+// What every device must do: device_suite DEVICE [PART] runs the same tests on any of them.
 #include "tests/core/device/suite.h"
 
-#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { EXIT_UNSUPPORTED = 77 };
 
@@ -25,6 +26,30 @@ static int device_is_missing(void)
     return rg_outcome_of_error() == RG_UNSUPPORTED ? EXIT_UNSUPPORTED : 1;
 }
 
+// The parts of the suite, which can run side by side.
+static const struct part {
+    const char *name;
+    const struct suite_tests *files[8];
+} parts[] = {
+    {"kernels",
+     {&buffer_tests, &kernel_tests, &refusal_tests, &lifetime_tests, &scan_tests, &probe_tests,
+      &lack_tests}},
+    {"images", {&image_tests, &texel_tests, &filter_tests, &large_tests}},
+    {"draws", {&draw_tests, &tally_tests}},
+    {"targets", {&target_tests, &light_tests}},
+};
+
+// Adds the tests of a part to an array of so many, which may move.
+static void add_part(const struct part *part, struct CMUnitTest **tests, size_t *count)
+{
+    for (int f = 0; part->files[f]; f++) {
+        const size_t more = (size_t)part->files[f]->count;
+        *tests = realloc(*tests, (*count + more) * sizeof(**tests));
+        memcpy(*tests + *count, part->files[f]->tests, more * sizeof(**tests));
+        *count += more;
+    }
+}
+
 int main(int argc, char **argv)
 {
     if (argc > 1)
@@ -32,19 +57,13 @@ int main(int argc, char **argv)
     int missing = device_is_missing();
     if (missing)
         return missing;
-    const struct suite_tests *const files[] = {
-        &buffer_tests,   &image_tests, &texel_tests, &kernel_tests, &refusal_tests,
-        &lifetime_tests, &scan_tests,  &probe_tests, &draw_tests,   &target_tests,
-        &filter_tests,   &large_tests, &light_tests, &lack_tests,   &tally_tests,
-    };
-    size_t total = 0, count = 0;
-    for (int f = 0; f < COUNT_OF(files); f++)
-        total += (size_t)files[f]->count;
-    struct CMUnitTest *tests = calloc(total, sizeof(*tests));
-    for (int f = 0; f < COUNT_OF(files); f++)
-        for (int t = 0; t < files[f]->count; t++)
-            tests[count++] = files[f]->tests[t];
-    int failed = _cmocka_run_group_tests(suite_device, tests, count, open_device, close_device);
+    struct CMUnitTest *tests = NULL;
+    size_t count = 0;
+    for (int i = 0; i < COUNT_OF(parts); i++)
+        if (argc < 3 || !strcmp(argv[2], parts[i].name))
+            add_part(&parts[i], &tests, &count);
+    const int failed =
+        count ? _cmocka_run_group_tests(suite_device, tests, count, open_device, close_device) : 1;
     free(tests);
     return failed;
 }
