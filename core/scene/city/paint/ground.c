@@ -1,6 +1,4 @@
-// Roofs, roads, pavements, metal and plants.
-
-#include "core/scene/city/paint/paint.h"
+#include "core/scene/city/paint/ground.h"
 
 static const struct paint white_line = {0.80f, 0.80f, 0.77f, 0};
 static const struct paint yellow_line = {0.82f, 0.66f, 0.22f, 0};

@@ -1,9 +1,10 @@
 // Paints the city's textures: shared noise, and which painter paints what.
-#include "core/scene/city/paint/paint.h"
-
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
+#include "core/scene/city/paint/ground.h"
+#include "core/scene/city/paint/spot.h"
+#include "core/scene/city/paint/walls.h"
 #include "kernels/dialect/rng.h"
 
 enum { CHANCE_NOISE = 401 };

@@ -1,5 +1,4 @@
-// Walls, facades with windows, curtain walls and shops.
-#include "core/scene/city/paint/paint.h"
+#include "core/scene/city/paint/walls.h"
 
 // --- walls ---
 

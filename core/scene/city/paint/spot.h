@@ -1,6 +1,6 @@
-// What painters of textures share: for this folder alone.
-#ifndef RG_CORE_SCENE_CITY_PAINT_PAINT_H
-#define RG_CORE_SCENE_CITY_PAINT_PAINT_H
+// A texel that is painted, and what all painters of textures share: for this folder alone.
+#ifndef RG_CORE_SCENE_CITY_PAINT_SPOT_H
+#define RG_CORE_SCENE_CITY_PAINT_SPOT_H
 
 #include "core/scene/city/textures.h"
 #include "kernels/dialect/lang.h"
@@ -86,13 +86,5 @@ static inline float paint_line(float at, float every)
     const float lines = at * (1 / every), share = lines - rg_floor(lines);
     return rg_min(share, 1 - share);
 }
-
-// walls.c: a wall's kind at (u, v) in whole walls of `across` x `down` bricks.
-struct paint paint_wall(const struct spot *s, int wall, float u, float v, int across, int down);
-struct paint paint_facade(const struct spot *s);
-struct paint paint_curtain(const struct spot *s);
-struct paint paint_shop(const struct spot *s);
-// ground.c
-struct paint paint_ground(const struct spot *s);
 
 #endif
