@@ -38,13 +38,10 @@ static bool mutate(const struct rg_verify *v, const struct rg_mutant *mutant, ch
     return mutated != own && mutated >= param->min && mutated <= param->max;
 }
 
-// The image of the mutants' scene, with `assignments` over it.
+// The image of the scene, with `assignments` over it.
 static bool draw(struct rg_verify *v, const char *assignments, struct rg_picture *picture)
 {
-    const char *scene = v->technique->proof->mutant_scene;
-    char all[256];
-    snprintf(all, sizeof(all), "%s %s", scene ? scene : "", assignments);
-    void *settings = rg_settings_copy(v->technique, v->settings, all);
+    void *settings = rg_settings_copy(v->technique, v->settings, assignments);
     struct rg_session *session =
         settings ? rg_verify_run(v, v->mutant_device, settings, MUTANT_STEPS) : NULL;
     const bool ok =
@@ -113,10 +110,10 @@ static bool draw_dry(struct rg_verify *v, struct rg_picture *dry)
                              0, dry);
 }
 
-static void run_contrast(const struct rg_verify *defaults, const struct rg_contrast *contrast,
+static void run_contrast(const struct rg_verify *scene, const struct rg_contrast *contrast,
                          struct verdicts *verdicts)
 {
-    struct rg_verify v = *defaults;
+    struct rg_verify v = *scene;
     void *settings = rg_settings_copy(v.technique, v.settings, contrast->truth);
     struct rg_picture truth = {0}, dry = {0}, mutated = {0};
     rg_progress_label(v.progress, "%s: mutant: %s", v.technique->name, contrast->about);
@@ -146,10 +143,20 @@ static void report(struct rg_verify *v, const struct verdicts *verdicts)
                       *verdicts->alive ? verdicts->alive : "none was in its parameter's range");
 }
 
+// The proof's scene over the technique's defaults. NULL, and one logged line, on failure.
+static void *scene_settings(const struct rg_technique *technique)
+{
+    const char *scene = technique->proof->mutant_scene;
+    void *defaults = rg_settings_create(technique);
+    void *settings = defaults ? rg_settings_copy(technique, defaults, scene ? scene : "") : NULL;
+    free(defaults);
+    return settings;
+}
+
 void rg_verify_mutants(struct rg_verify *verify)
 {
     struct rg_verify scene = *verify;
-    void *settings = rg_settings_create(verify->technique);
+    void *settings = scene_settings(verify->technique);
     scene.settings = settings;
     scene.width = scene.height = SCENE_PX;
     struct verdicts verdicts = {0};
