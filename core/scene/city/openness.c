@@ -44,7 +44,9 @@ static void find_column(float heights[SIDE][SIDE], int x, int z, float open[LEVE
                 break;
             const float height = heights[at_z][at_x];
             const float over = 1 / (SCENERY_OPEN_CELL_M * (float)step);
-            for (int level = 0; level < LEVELS; level++)
+            // What ends below a level hides no sky from it, and most points are streets.
+            for (int level = 0; level < LEVELS && height > SCENERY_OPEN_CELL_M * (float)level;
+                 level++)
                 steepest[level] =
                     rg_max(steepest[level], (height - SCENERY_OPEN_CELL_M * (float)level) * over);
         }
