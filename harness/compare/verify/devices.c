@@ -29,6 +29,7 @@ struct row {
     struct rg_device *device;
     enum rg_tier tier; // that it owes the reference
     struct tally tallies[LAWS + MAX_LAWS];
+    struct rg_session *last; // open until the next one is: what instances share is made once
 };
 
 // One seed and one pose.
@@ -224,16 +225,17 @@ static void note_errors(const struct rg_verify *v, struct row *row)
         note_error(&row->tallies[i]);
 }
 
-// Runs a case on a row's device up to its snapshot. NULL on failure.
+// Runs a case on a row's device up to its snapshot. The session is the row's. NULL on failure.
 static struct rg_session *run_case(struct rg_verify *v, struct row *row, struct one_case *c,
                                    struct rg_snapshot *now)
 {
     rg_progress_label(v->progress, "%s: %s on %s", v->technique->name, c->name,
                       row->device->info.name);
     struct rg_session *session = rg_verify_run(v, row->device, c->settings, v->steps);
+    rg_session_close(row->last);
+    row->last = session;
     if (session && rg_session_draw(session) && rg_snapshot_take(session, true, now))
         return session;
-    rg_session_close(session);
     note_errors(v, row);
     return NULL;
 }
@@ -248,7 +250,6 @@ static void check_device(struct rg_verify *v, struct row *row, struct one_case *
     check_state(v, row, c, &now);
     check_image(row, c, session, &now);
     rg_snapshot_free(&now);
-    rg_session_close(session);
 }
 
 // Takes the snapshots of cpu:reference that the others are compared with. False on failure, which
@@ -262,7 +263,6 @@ static bool expect(struct rg_verify *v, struct row *reference, struct one_case *
     check_laws(v, reference, c, session);
     bool ok = rg_session_picture(session, c->expected.texels, &c->expected_picture) &&
               (!c->with_dry || rg_frame_draw_dry(v->reference, &subject, 0, &c->dry));
-    rg_session_close(session);
     if (!ok)
         note_errors(v, reference);
     return ok;
@@ -400,5 +400,7 @@ void rg_verify_devices(struct rg_verify *v)
         for (int i = 0; i < count; i++)
             if (i > 0 || check >= LAWS || rows[i].tallies[check].errors)
                 report(v, rows, &rows[i], check);
+    for (int i = 0; i < count; i++)
+        rg_session_close(rows[i].last);
     free(rows);
 }

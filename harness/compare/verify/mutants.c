@@ -161,7 +161,10 @@ void rg_verify_mutants(struct rg_verify *verify)
     scene.width = scene.height = SCENE_PX;
     struct verdicts verdicts = {0};
     struct rg_picture truth = {0}, dry = {0};
-    if (settings && draw(&scene, "", &truth) && draw_dry(&scene, &dry))
+    // It stays open, so that what instances share on a device is made once.
+    struct rg_session *first =
+        settings ? rg_verify_run(&scene, scene.mutant_device, settings, 0) : NULL;
+    if (first && draw(&scene, "", &truth) && draw_dry(&scene, &dry))
         run_all(&scene, &truth, &dry, &verdicts);
     else
         verdicts.error = true;
@@ -171,5 +174,6 @@ void rg_verify_mutants(struct rg_verify *verify)
     report(&scene, &verdicts);
     rg_picture_destroy(&truth);
     rg_picture_destroy(&dry);
+    rg_session_close(first);
     free(settings);
 }
