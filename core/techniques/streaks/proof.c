@@ -61,7 +61,7 @@ static const char *const poses[] = {
     NEAR "rain_width_m=150 walk_m_s=3 time=night lights=6 packets=quad packet_size=3000 select=hull "
          "splash_materials=on",
     SMALL "geometry=off walk_m_s=8 slant_deg=25 slant_azimuth_deg=20 packets=kd packet_size=700 "
-          "drops_m2_s=30 cull=exact order=id depth_map=dynamic depth_map_period=3 depth_map_px=512 "
+          "drops_m2_s=20 cull=exact order=id depth_map=dynamic depth_map_period=3 depth_map_px=512 "
           "taps=8 far_layers=3 splash_materials=on",
     NULL,
 };
