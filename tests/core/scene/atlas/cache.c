@@ -56,11 +56,13 @@ static struct rg_atlas *make(uint32_t seed)
 {
     struct rg_atlas *atlas = rg_atlas_allocate(RG_ATLAS_SMALL);
     assert_non_null(atlas);
-    for (int part = 0; part < RG_ATLAS_PART_COUNT; part++)
-        for (size_t i = 0; i < rg_atlas_image_texels(&atlas->images[part]); i++) {
+    for (int part = 0; part < RG_ATLAS_PART_COUNT; part++) {
+        const size_t count = rg_atlas_image_texels(&atlas->images[part]);
+        for (size_t i = 0; i < count; i++) {
             seed = seed * 1664525u + 1013904223u;
             atlas->images[part].texels[i] = (uint16_t)(seed >> 16 & 0x3bff);
         }
+    }
     for (int i = 0; i < 4500; i++)
         (&atlas->point_factor[0][0][0][0])[i] = (float)(i + 1) / 4500;
     for (int i = 0; i < 50; i++)
