@@ -102,7 +102,7 @@ def check_render_json(runner):
 
 
 def check_table_files(runner):
-    """table -o writes what it prints: csv of equal lines, balanced tex, an md table of equal columns"""
+    """table -o writes what table prints: csv of equal lines, balanced tex, an md table of equal columns"""
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         runner.run(TABLE.split() + ["-o", tmp])
@@ -112,9 +112,9 @@ def check_table_files(runner):
                 texts[name.split(".")[-1]] = file.read()
     if json.loads(texts["json"])["table"] != "stuppacher-2":
         problems.append("json: " + texts["json"])
-    for form, check in (("csv", check_csv), ("tex", check_tex), ("md", check_md)):
-        printed = runner.run(TABLE.split() + ["--format", form]).stdout
-        problems += check(texts[form]) + check(printed)
+        for form, check in (("csv", check_csv), ("tex", check_tex), ("md", check_md)):
+            problems += check(texts[form]) + check(runner.run(["table", "--from", tmp, "--format", form]).stdout)
+    problems += check_md(runner.run(TABLE.split()).stdout)
     return problems
 
 
@@ -308,19 +308,18 @@ def check_atlas(runner):
     return problems
 
 
-CHECKS = [check_forms, check_table_json, check_tallies, check_table_files, check_tables_in_a_row, check_render_json, check_diff_json,
-          check_full_stdout]
-STORED = [check_interrupted, check_stored, check_fresh]
+CHECKS = [check_forms, check_table_json, check_table_files, check_render_json, check_diff_json, check_full_stdout]
+STORED = [check_interrupted, check_stored]
 
 
 # --- what takes long and leads sanitizers nowhere else: verify's mutants have a scene of their own ---
 
-VERIFY = "verify flow --frame 5 --device cpu " + SMALL
+VERIFY = "verify %s --frame 5 --device cpu --size 96x96 "
 
 
 def check_verify_json(runner):
     """verify --json has a record for every check on every device"""
-    report, status, problems = run_json(runner, VERIFY)
+    report, status, problems = run_json(runner, VERIFY % "raster")
     for check in report["checks"]:
         problems += lacking("check", check, dict.fromkeys(("technique", "check", "device", "status", "detail"), str))
     named = {(check["check"], check["device"], check["status"]) for check in report["checks"]}
@@ -331,7 +330,7 @@ def check_verify_json(runner):
 
 def check_verify_dry(runner):
     """verify fails an image without rain, which proves nothing, and no other check"""
-    result = runner.run((VERIFY + "--set drops=0 --set rain_drops_s=0").split())
+    result = runner.run((VERIFY % "flow" + "--set drops=0 --set rain_drops_s=0 --set environment_px=64 --set resolution_px=96").split())
     lines = result.stdout.splitlines()
     failed = [line for line in lines if not line.startswith("ok ")]
     problems = ["stderr: " + line for line in result.stderr.splitlines()]
@@ -353,7 +352,7 @@ def check_atlas_not_kept(runner):
     return problems if images[0] == images[1] and images[0] else problems + ["printed:\n%s, kept:\n%s" % tuple(images)]
 
 
-LONG = [check_verify_json, check_verify_dry, check_atlas_not_kept]
+LONG = [check_tallies, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept]
 
 
 # --- a driver that draws wrongly: its kernel is another ---
@@ -398,7 +397,7 @@ def check_crashing_driver(runner):
         env = dict(NO_DRIVERS, **runner.crashing_vulkan(tmp))
         reports = {}
         for command, args in (("list", "devices"), ("diff", "flow --frame 1 " + SMALL), ("table", "stuppacher-2 --rows 1-1"),
-                              ("verify", "flow --frame 1 " + SMALL)):
+                              ("verify", "raster --frame 1 --size 96x96")):
             reports[command], status, messages = run_json(runner, command + " " + args, env)
             crashed = [line for line in messages if "raingauge: vulkan: its driver crashed (Aborted)" in line]
             absent = [line for line in messages if re.search("warning: unsupported here: (gl|opencl): ", line)]

@@ -10,7 +10,7 @@
            drivers  the same, of devices that need a driver or lack one
            results  what table, diff and render print, on the CPU
            stored   tables that were interrupted, or are printed again
-           long     what verify prints, and an atlas that is not kept, on the CPU
+           long     what verify prints, tables that are counted, set in a row or begun anew, an atlas that is not kept
            wrong    a driver that draws wrongly is found
            doctor   the report about this machine
            pages    the manual page and bash's completion

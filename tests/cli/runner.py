@@ -23,11 +23,13 @@ class Runner:
         self.state = tempfile.TemporaryDirectory()  # what commands keep between runs
 
     def variables(self, env):
-        """This process's, without those that change what raingauge does, and with these."""
+        """This process's, without those that change what raingauge does, and with these, of which None is left out.
+        Threads do not spin, since other tests run on the same cores."""
         variables = {k: v for k, v in os.environ.items() if not CHANGES.match(k)}
+        variables["GOMP_SPINCOUNT"] = "0"
         variables["XDG_STATE_HOME"] = self.state.name
         variables.update(env)
-        return variables
+        return {name: value for name, value in variables.items() if value is not None}
 
     def start(self, args, env={}):
         """A command that goes on beside this process; the caller waits for it."""
