@@ -163,7 +163,7 @@ static void some_items_of_a_buffer_are_drawn(void **state)
     const int firsts[] = {1, 255, 4097}, items[] = {1, 15, 257, 4099};
     for (int i = 0; i < COUNT_OF(firsts); i++)
         for (int k = 0; k < COUNT_OF(items); k++)
-            check(&(struct scene){97, 61, 1, 1, 0, 0, firsts[i], items[k], QUAD_LARGE, RG_RGBA8,
+            check(&(struct scene){40, 30, 1, 1, 0, 0, firsts[i], items[k], QUAD_LARGE, RG_RGBA8,
                                   RG_BLEND_OVER, RG_DEPTH_OFF});
 }
 
