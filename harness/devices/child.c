@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "core/base/program.h"
 
 void *rg_child_answer_create(size_t size)
 {
@@ -60,26 +61,13 @@ static bool wait_for(pid_t child, int timeout_s, int *status)
     return true;
 }
 
-// The last line with a letter in it; "" when nothing was printed.
-static void read_last_line(FILE *printed, char *last, size_t size)
-{
-    char line[512];
-    *last = 0;
-    rewind(printed);
-    while (fgets(line, sizeof(line), printed)) {
-        line[strcspn(line, "\r\n")] = 0;
-        if (strpbrk(line, "abcdefghijklmnopqrstuvwxyz"))
-            snprintf(last, size, ": %.160s", line);
-    }
-}
-
 static enum rg_outcome explain(int status, bool ended, int timeout_s, FILE *printed, char *why,
                                size_t why_size)
 {
     char last[200];
     if (ended && WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return RG_OK;
-    read_last_line(printed, last, sizeof(last));
+    rg_program_last_line(printed, last, sizeof(last));
     if (!ended) {
         snprintf(why, why_size, "its driver did not come back within %d s%s", timeout_s, last);
         return RG_TIMEOUT;

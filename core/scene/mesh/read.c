@@ -1,4 +1,4 @@
-#define _GNU_SOURCE // memfd_create, posix_spawn_file_actions_addclosefrom_np
+#define _GNU_SOURCE // memfd_create
 #include "core/scene/mesh/read.h"
 
 #include <errno.h>
@@ -6,7 +6,6 @@
 #include <limits.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +16,7 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "core/base/program.h"
 #include "core/scene/mesh/reply.h"
 
 // Where the importer is, seen from the folder of the running program: beside it, installed, or in
@@ -74,28 +74,6 @@ static struct rg_mesh *map_reply(const char *name, int fd)
 
 // --- the process ---
 
-// Starts the program, silent, with the reply's file as RG_REPLY_FD and `alive` as the next one,
-// which closes when the process ends. 0, or the errno.
-static int start(const char *program, const char *path, const char *member, int reply, int alive,
-                 pid_t *child)
-{
-    const char *const args[] = {program, path, member, NULL};
-    posix_spawn_file_actions_t actions;
-    int error = posix_spawn_file_actions_init(&actions);
-    if (error)
-        return error;
-    // Both are above the numbers they get, so that neither is overwritten before it is copied.
-    if (!(error = posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDWR, 0)) &&
-        !(error = posix_spawn_file_actions_adddup2(&actions, 0, 1)) &&
-        !(error = posix_spawn_file_actions_adddup2(&actions, 0, 2)) &&
-        !(error = posix_spawn_file_actions_adddup2(&actions, reply, RG_REPLY_FD)) &&
-        !(error = posix_spawn_file_actions_adddup2(&actions, alive, RG_REPLY_FD + 1)) &&
-        !(error = posix_spawn_file_actions_addclosefrom_np(&actions, RG_REPLY_FD + 2)))
-        error = posix_spawn(child, program, &actions, NULL, (char *const *)args, environ);
-    posix_spawn_file_actions_destroy(&actions);
-    return error;
-}
-
 // False when it had to be killed.
 static bool wait_for_end(pid_t child, int alive, int timeout_s, int *status)
 {
@@ -132,25 +110,18 @@ static struct rg_mesh *judge(const char *name, int status, bool ended, int reply
     return map_reply(name, reply);
 }
 
-// A descriptor above those that the program gets.
-static int move_up(int fd)
-{
-    const int moved = fd < 0 ? -1 : fcntl(fd, F_DUPFD_CLOEXEC, RG_REPLY_FD + 2);
-    if (fd >= 0)
-        close(fd);
-    return moved;
-}
-
 struct rg_mesh *rg_mesh_read_by(const char *program, int timeout_s, const char *name,
                                 const char *path, const char *member)
 {
     int alive[2] = {-1, -1}, status = 0;
-    const int reply = move_up(memfd_create("raingauge mesh", MFD_CLOEXEC));
+    const int reply = memfd_create("raingauge mesh", MFD_CLOEXEC);
     int error = reply < 0 || pipe2(alive, O_CLOEXEC) ? errno : 0;
     pid_t child = 0;
     if (!error) {
-        alive[1] = move_up(alive[1]);
-        error = start(program, path, member, reply, alive[1], &child);
+        // The end of `alive` that the process has closes when it ends.
+        error = rg_program_start((const char *const[]){program, path, member, NULL},
+                                 (const int[]){-1, -1, -1, [RG_REPLY_FD] = reply, alive[1]},
+                                 RG_REPLY_FD + 2, &child);
         close(alive[1]);
     }
     struct rg_mesh *mesh = NULL;

@@ -1,0 +1,81 @@
+#define _GNU_SOURCE // posix_spawn_file_actions_addclosefrom_np
+#include "core/base/program.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MAX_FDS = 8 };
+
+// The descriptors as the program has them. `moved` are above all numbers that they get, so that
+// none is overwritten before it is copied.
+static int set_fds(posix_spawn_file_actions_t *actions, const int moved[], int fd_count)
+{
+    int error = 0;
+    for (int i = 0; !error && i < fd_count; i++)
+        error = moved[i] < 0 ? posix_spawn_file_actions_addopen(actions, i, "/dev/null", O_RDWR, 0)
+                             : posix_spawn_file_actions_adddup2(actions, moved[i], i);
+    return error ? error : posix_spawn_file_actions_addclosefrom_np(actions, fd_count);
+}
+
+// A group of its own: a terminal sends Ctrl-C to the whole group of the program that it runs.
+static int set_signals(posix_spawnattr_t *attributes)
+{
+    sigset_t all, none;
+    sigfillset(&all);
+    sigemptyset(&none);
+    posix_spawnattr_setsigdefault(attributes, &all);
+    posix_spawnattr_setsigmask(attributes, &none);
+    posix_spawnattr_setpgroup(attributes, 0);
+    return posix_spawnattr_setflags(attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK |
+                                                    POSIX_SPAWN_SETPGROUP);
+}
+
+static int spawn(const char *const args[], const int moved[], int fd_count, pid_t *child)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    int error = posix_spawn_file_actions_init(&actions);
+    if (error)
+        return error;
+    error = posix_spawnattr_init(&attributes);
+    if (!error) {
+        if (!(error = set_fds(&actions, moved, fd_count)) && !(error = set_signals(&attributes)))
+            error =
+                posix_spawnp(child, args[0], &actions, &attributes, (char *const *)args, environ);
+        posix_spawnattr_destroy(&attributes);
+    }
+    posix_spawn_file_actions_destroy(&actions);
+    return error;
+}
+
+int rg_program_start(const char *const args[], const int fds[], int fd_count, pid_t *child)
+{
+    int moved[MAX_FDS] = {0}, count = 0, error = fd_count > MAX_FDS ? EINVAL : 0;
+    for (; !error && count < fd_count; count++) {
+        moved[count] = fds[count] < 0 ? -1 : fcntl(fds[count], F_DUPFD_CLOEXEC, fd_count);
+        if (fds[count] >= 0 && moved[count] < 0)
+            error = errno;
+    }
+    if (!error)
+        error = spawn(args, moved, fd_count, child);
+    for (int i = 0; i < count; i++)
+        if (moved[i] >= 0)
+            close(moved[i]);
+    return error;
+}
+
+void rg_program_last_line(FILE *printed, char *last, size_t size)
+{
+    char line[512];
+    *last = 0;
+    rewind(printed);
+    while (fgets(line, sizeof(line), printed)) {
+        line[strcspn(line, "\r\n")] = 0;
+        if (strpbrk(line, "abcdefghijklmnopqrstuvwxyz"))
+            snprintf(last, size, ": %.160s", line);
+    }
+}
