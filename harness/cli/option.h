@@ -28,7 +28,7 @@ enum rg_option_kind {
     RG_OPTION_FACTOR,  // double, above 0 and at most `most`; 0: not given, without a default
     RG_OPTION_CHOICE,  // int, the index among `choices`; -1: not given, without a default
     RG_OPTION_SIZE,    // struct rg_size
-    RG_OPTION_ROWS,    // struct rg_rows
+    RG_OPTION_RANGE,   // struct rg_range, from `least` to `most`; least - 1: not given
     RG_OPTION_TEXT,    // char *, which the parser owns; NULL: not given, without a default
     RG_OPTION_TEXTS,   // struct rg_words: one for each time that it was given
     RG_OPTION_HELP,    // --help, which every command has
@@ -55,7 +55,7 @@ struct rg_option {
     char letter;          // 'o', which follows one dash; 0: none
     const char *initial;  // the default, as the user would write it; NULL: none. An include's goes
                           // before those of its rows.
-    double least, most;   // inclusive, of numbers
+    double least, most;   // inclusive, of numbers and ranges
     const char *const *choices; // the only values, of options and operands; NULL-terminated
     enum rg_names names;
     int first, last;      // of operands: where it may stand among them, from 1; last 0: anywhere
@@ -85,8 +85,8 @@ struct rg_size {
     int width, height; // pixels; 0: not given
 };
 
-struct rg_rows {
-    int first, last; // from 1; 0: not given
+struct rg_range {
+    int first, last; // inclusive
 };
 
 // The rows of a table with what it includes in its place, and --help after them; offsets count from

@@ -83,17 +83,20 @@ static bool set_size(const struct rg_option *row, struct rg_size *size, const ch
     return true;
 }
 
-static bool set_rows(const struct rg_option *row, struct rg_rows *rows, const char *text)
+// Two numbers, or one that is both.
+static bool set_range(const struct rg_option *row, struct rg_range *range, const char *text)
 {
     const char *rest = text;
-    if (!take_pair(text, '-', &rows->first, &rows->last)) {
-        if (!take_int(&rest, &rows->first) || *rest)
+    if (!take_pair(text, '-', &range->first, &range->last)) {
+        if (!take_int(&rest, &range->first) || *rest)
             return rg_error("--%s %s: write it as FIRST-LAST, as in 2-4", row->name, text);
-        rows->last = rows->first;
+        range->last = range->first;
     }
-    if (rows->first < 1 || rows->last < rows->first)
-        return rg_error("--%s %s: rows count from 1, the first not after the last", row->name,
-                        text);
+    if (range->first < row->least || range->last < range->first)
+        return rg_error("--%s %s: %s count from %.10g, the first not after the last", row->name,
+                        text, row->name, row->least);
+    if (range->last > row->most)
+        return rg_error("--%s %s: must be %.10g to %.10g", row->name, text, row->least, row->most);
     return true;
 }
 
@@ -144,6 +147,10 @@ void rg_option_clear(const struct rg_option *row, void *values)
         *(int *)at(row, values) = (int)row->least - 1;
     if (row->kind == RG_OPTION_CHOICE)
         *(int *)at(row, values) = -1;
+    if (row->kind == RG_OPTION_RANGE) {
+        const int none = (int)row->least - 1;
+        *(struct rg_range *)at(row, values) = (struct rg_range){none, none};
+    }
 }
 
 bool rg_option_set(const struct rg_option *row, void *values, const char *text, const char *command)
@@ -159,8 +166,8 @@ bool rg_option_set(const struct rg_option *row, void *values, const char *text, 
         return set_choice(row, at(row, values), text);
     case RG_OPTION_SIZE:
         return set_size(row, at(row, values), text);
-    case RG_OPTION_ROWS:
-        return set_rows(row, at(row, values), text);
+    case RG_OPTION_RANGE:
+        return set_range(row, at(row, values), text);
     case RG_OPTION_TEXT:
         return set_text(row, at(row, values), text);
     case RG_OPTION_TEXTS:

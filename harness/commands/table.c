@@ -1,4 +1,5 @@
 // raingauge table: regenerates the papers' tables, or prints results that lie on disk.
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +14,7 @@
 #include "harness/tables/regenerate.h"
 
 struct table_options {
-    struct rg_rows rows;
+    struct rg_range rows; // 0: not given
     struct rg_length length;
     char *devices, *output; // names; a folder
     char *from;             // a file or folder; NULL: the tables are measured
@@ -31,8 +32,8 @@ static const struct rg_option options[] = {
     {RG_OPTION_OPERAND, .argument = "ID",
      .about = "a table; `raingauge list tables` prints them, and all are meant where none is named",
      .names = RG_NAMES_TABLE, .first = 1},
-    {RG_OPTION_ROWS, "rows", .argument = "A-B", .about = "only these rows, counted from 1",
-     .offset = AT(rows)},
+    {RG_OPTION_RANGE, "rows", .argument = "A-B", .about = "only these rows, counted from 1",
+     .offset = AT(rows), .least = 1, .most = INT_MAX},
     {RG_OPTION_CHOICE, "work",
      .about = "the work that was printed, or ours, where a table tells them apart; both without",
      .offset = AT(work), .choices = works},
@@ -110,7 +111,7 @@ static bool choose(const struct rg_words *ids, const struct rg_table *chosen[], 
 }
 
 // Whether a table has all the rows that are asked for; the others then give those that they have.
-static bool have_rows(struct rg_rows rows, const struct rg_table *const chosen[], int count)
+static bool have_rows(struct rg_range rows, const struct rg_table *const chosen[], int count)
 {
     const struct rg_table *longest = chosen[0];
     for (int i = 1; i < count; i++)

@@ -1,5 +1,6 @@
 // A command runs with what its line says, in values of each kind, or the line is refused in one
 // line that says why.
+#include <limits.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +17,7 @@
 struct sample_options {
     struct rg_words sets;
     struct rg_size size;
-    struct rg_rows rows;
+    struct rg_range rows, things;
     int frames, steps, format, form;
     double factor, exposure;
     char *devices, *output;
@@ -32,7 +33,10 @@ static const struct rg_option options[] = {
     {RG_OPTION_OPERAND, .argument = "THING", .about = "a thing", .first = 1, .last = 2},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     RG_INCLUDE(rg_size_option, AT(size), NULL),
-    {RG_OPTION_ROWS, "rows", .argument = "A-B", .about = "rows", .offset = AT(rows)},
+    {RG_OPTION_RANGE, "rows", .argument = "A-B", .about = "rows", .offset = AT(rows), .least = 1,
+     .most = INT_MAX},
+    {RG_OPTION_RANGE, "things", .argument = "A-B", .about = "things", .offset = AT(things),
+     .least = 0, .most = 9},
     RG_INCLUDE(rg_frame_option, AT(frames), "60"),
     {RG_OPTION_INT, "steps", .argument = "N", .about = "steps", .offset = AT(steps), .least = 2,
      .most = 9},
@@ -55,10 +59,11 @@ static char seen[1024];
 static int see(const void *values, const struct rg_words *arguments)
 {
     const struct sample_options *o = values;
-    int used = snprintf(seen, sizeof(seen), "%dx%d %d-%d %d %d %d %d %g %g %s %s %d%d",
-                        o->size.width, o->size.height, o->rows.first, o->rows.last, o->frames,
-                        o->steps, o->format, o->form, o->factor, o->exposure, o->devices,
-                        o->output ? o->output : "none", o->length.quick, o->length.full);
+    int used =
+        snprintf(seen, sizeof(seen), "%dx%d %d-%d %d-%d %d %d %d %d %g %g %s %s %d%d",
+                 o->size.width, o->size.height, o->rows.first, o->rows.last, o->things.first,
+                 o->things.last, o->frames, o->steps, o->format, o->form, o->factor, o->exposure,
+                 o->devices, o->output ? o->output : "none", o->length.quick, o->length.full);
     for (int i = 0; i < o->sets.count; i++)
         used += snprintf(seen + used, sizeof(seen) - (size_t)used, " %s", o->sets.items[i]);
     for (int i = 0; i < arguments->count; i++)
@@ -121,24 +126,25 @@ static void expect_refusal(const char *line, const char *message)
 static void what_is_not_given_has_its_default_or_none(void **state)
 {
     (void)state;
-    expect_run("", "512x512 0-0 60 1 1 -1 0 1 cpu none 00");
+    expect_run("", "512x512 0-0 -1--1 60 1 1 -1 0 1 cpu none 00");
 }
 
 static void values_are_of_their_kinds(void **state)
 {
     (void)state;
-    expect_run("--size 3x4 --rows 5-6 --frame 7 --steps 0x8 --format tex --form md --factor 9.5 "
+    expect_run("--size 3x4 --rows 5-6 --things 3-9 --frame 7 --steps 0x8 --format tex --form md "
+               "--factor 9.5 "
                "--exposure 1e-3 --device gl,vulkan --output a --quick --set k=1 --set l=2 one two",
-               "3x4 5-6 7 8 2 0 9.5 0.001 gl,vulkan a 10 k=1 l=2 'one' 'two'");
-    expect_run("--rows 5 --full -o b", "512x512 5-5 60 1 1 -1 0 1 cpu b 01");
+               "3x4 5-6 3-9 7 8 2 0 9.5 0.001 gl,vulkan a 10 k=1 l=2 'one' 'two'");
+    expect_run("--rows 5 --things 0 --full -o b", "512x512 5-5 0-0 60 1 1 -1 0 1 cpu b 01");
 }
 
 static void arguments_stand_anywhere_and_the_last_value_counts(void **state)
 {
     (void)state;
-    expect_run("one -oa --size=3x4 -- --two", "3x4 0-0 60 1 1 -1 0 1 cpu a 00 'one' '--two'");
+    expect_run("one -oa --size=3x4 -- --two", "3x4 0-0 -1--1 60 1 1 -1 0 1 cpu a 00 'one' '--two'");
     expect_run("-o a -o b --frame 1 --frame 2 --device x --device y",
-               "512x512 0-0 2 1 1 -1 0 1 y b 00");
+               "512x512 0-0 -1--1 2 1 1 -1 0 1 y b 00");
 }
 
 static void what_is_wrong_is_refused_in_one_line(void **state)
@@ -149,6 +155,12 @@ static void what_is_wrong_is_refused_in_one_line(void **state)
     expect_refusal("--size 4", "--size 4: write it as WIDTHxHEIGHT, as in 1280x720");
     expect_refusal("--rows 2-1", "--rows 2-1: rows count from 1, the first not after the last");
     expect_refusal("--rows 2-", "--rows 2-: write it as FIRST-LAST, as in 2-4");
+    expect_refusal("--rows 0", "--rows 0: rows count from 1, the first not after the last");
+    expect_refusal("--things 4-3",
+                   "--things 4-3: things count from 0, the first not after the last");
+    expect_refusal("--things -1-3",
+                   "--things -1-3: things count from 0, the first not after the last");
+    expect_refusal("--things 9-10", "--things 9-10: must be 0 to 9");
     expect_refusal("--steps 1", "--steps 1: must be 2 to 9");
     expect_refusal("--steps 10", "--steps 10: must be 2 to 9");
     expect_refusal("--frame 3x", "--frame 3x: invalid numeric value; `raingauge sample --help` "

@@ -14,7 +14,7 @@
 static const size_t value_sizes[] = {
     [RG_OPTION_FLAG] = sizeof(bool),           [RG_OPTION_INT] = sizeof(int),
     [RG_OPTION_FACTOR] = sizeof(double),       [RG_OPTION_CHOICE] = sizeof(int),
-    [RG_OPTION_SIZE] = sizeof(struct rg_size), [RG_OPTION_ROWS] = sizeof(struct rg_rows),
+    [RG_OPTION_SIZE] = sizeof(struct rg_size), [RG_OPTION_RANGE] = sizeof(struct rg_range),
     [RG_OPTION_TEXT] = sizeof(char *),         [RG_OPTION_TEXTS] = sizeof(struct rg_words),
 };
 
