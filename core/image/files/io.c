@@ -1,7 +1,6 @@
 #include "core/image/files/io.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +11,7 @@
 
 #include "core/base/log.h"
 #include "core/image/files/format.h"
+#include "core/image/files/temporary.h"
 
 static const struct {
     const char *extension;
@@ -112,27 +112,11 @@ bool rg_picture_read(const char *path, struct rg_picture *picture)
     return rg_pictures_read(&path, picture, 1);
 }
 
-// Makes an empty file beside `path`: what cannot be made there is found out before any work.
-static bool make_temporary(const char *path, char *temporary, size_t size, struct rg_why *why)
+bool rg_picture_can_be_written(const char *path)
 {
-    struct stat st;
-    if (!stat(path, &st) && !S_ISREG(st.st_mode))
-        return rg_why_set(why, S_ISDIR(st.st_mode) ? "is a folder; name a file in it"
-                                                   : "is not a regular file; name another");
-    for (int attempt = 0; attempt < 100; attempt++) {
-        if (snprintf(temporary, size, "%s.%ld-%d.tmp", path, (long)getpid(), attempt) >= (int)size)
-            return rg_why_set(why, "the path is too long; choose a shorter one");
-        int fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL, 0666);
-        if (fd >= 0) {
-            close(fd);
-            return true;
-        }
-        if (errno == ENOENT || errno == ENOTDIR)
-            return rg_why_set(why, "its folder is not there; make it first");
-        if (errno != EEXIST)
-            return rg_why_set(why, "cannot be written: %s; choose another folder", strerror(errno));
-    }
-    return rg_why_set(why, "temporary files of this name are in the way; remove them");
+    struct rg_why why;
+    return (find_format(path, &why) >= 0 && rg_temporary_try(path, &why)) ||
+           rg_error("%s: %s", path, why.text);
 }
 
 bool rg_picture_write(const char *path, const struct rg_picture *picture,
@@ -144,14 +128,8 @@ bool rg_picture_write(const char *path, const struct rg_picture *picture,
         with.exposure = 1.0f;
     char temporary[PATH_MAX];
     int format = find_format(path, &why);
-    if (format < 0 || !make_temporary(path, temporary, sizeof(temporary), &why))
+    if (format < 0 || !rg_temporary_make(path, temporary, sizeof(temporary), &why))
         return rg_error("%s: %s", path, why.text);
-    bool written = formats[format].write(temporary, picture, &with, &why);
-    if (written && rename(temporary, path))
-        written = rg_why_set(&why, "cannot be put in place: %s", strerror(errno));
-    if (!written) {
-        unlink(temporary);
-        return rg_error("%s: %s", path, why.text);
-    }
-    return true;
+    const bool written = formats[format].write(temporary, picture, &with, &why);
+    return rg_temporary_end(temporary, path, written, &why) || rg_error("%s: %s", path, why.text);
 }
