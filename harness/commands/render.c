@@ -1,26 +1,32 @@
-// raingauge render: one frame of a technique as an image file.
+// raingauge render: one frame of a technique as an image file, or several as a clip or as numbered
+// image files.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/base/log.h"
-#include "core/image/files/io.h"
+#include "core/image/clip/clip.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
+#include "harness/commands/drawn.h"
+#include "harness/console/interrupt.h"
 #include "harness/devices/devices.h"
-#include "harness/frames/session.h"
-#include "harness/record/named.h"
-#include "harness/record/passport/passport.h"
+#include "harness/frames/frame.h"
+#include "harness/frames/numbered.h"
 
 struct render_options {
     struct rg_words sets;
     struct rg_size size;
-    int frames;
-    char *device, *output; // a name; a file, NULL for the technique's name with .png
+    int frame;
+    struct rg_range frames; // -1: not given
+    int fps;                // 0: not given
+    char *device, *output;  // a name; a file, NULL for the technique's name with .png or .webm
     double exposure;
     bool json;
 };
+
+enum { DEFAULT_FPS = 60 };
 
 #define AT(field) offsetof(struct render_options, field)
 
@@ -30,7 +36,10 @@ static const struct rg_option options[] = {
      .about = "its picture; `raingauge list techniques` prints them", .names = RG_NAMES_TECHNIQUE,
      .first = 1, .last = 1},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
-    RG_INCLUDE(rg_frame_option, AT(frames), "60"),
+    RG_INCLUDE(rg_frame_option, AT(frame), "60"),
+    {RG_OPTION_RANGE, "frames", .argument = "A-B",
+     .about = "every frame from A to B instead, as a clip or as numbered pictures",
+     .offset = AT(frames), .least = 0, .most = 1e7, .excludes = "frame"},
     RG_INCLUDE(rg_size_option, AT(size), NULL),
     RG_GROUP("Devices"),
     {RG_OPTION_TEXT, "device", .argument = "D",
@@ -38,94 +47,85 @@ static const struct rg_option options[] = {
      .initial = "cpu", .names = RG_NAMES_DEVICE},
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "FILE",
-     .about = "the picture: .png, .exr, .hdr, .tif or .tiff; TECHNIQUE.png where none is named",
+     .about =
+         "the picture: .png, .exr, .hdr, .tif or .tiff; TECHNIQUE.png where none is named. Of "
+         "several frames a clip: .webm; TECHNIQUE.webm where none is named; or pictures, whose "
+         "name has %04d where the frame's number goes",
      .offset = AT(output), .letter = 'o', .names = RG_NAMES_FILE},
+    {RG_OPTION_INT, "fps", .argument = "N",
+     .about =
+         "frames a second of a clip; where it is not given 60, which is real time for steps of "
+         "1/60 s",
+     .offset = AT(fps), .least = 1, .most = 240},
     RG_INCLUDE(rg_exposure_option, AT(exposure), NULL),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
 };
 
-static bool write_frame(struct rg_session *session, const char *path, double exposure)
+static bool has_frames(const struct render_options *o)
 {
-    struct rg_picture picture = {0};
-    bool ok = rg_session_read_picture(session, &picture);
-    if (ok) {
-        rg_picture_drop_opaque_alpha(&picture);
-        ok = rg_picture_write(path, &picture,
-                              &(struct rg_write_options){.exposure = (float)exposure});
-    }
-    rg_picture_destroy(&picture);
-    return ok;
+    return o->frames.first >= 0;
 }
 
-// Every parameter with its value, as --set takes it.
-static json_t *settings_json(const struct rg_technique *technique, const void *settings)
+// Whether what is named can hold the frames that are asked for.
+static bool check_output(const struct render_options *o)
 {
-    json_t *json = json_object();
-    for (int i = 0; i < technique->params->count; i++) {
-        char value[RG_PATH_SIZE];
-        rg_params_text(&technique->params->rows[i], settings, value, sizeof(value));
-        json_object_set_new(json, technique->params->rows[i].name, rg_json_text(value));
-    }
-    return json;
+    const char *path = o->output;
+    const bool clip = path ? rg_clip_is_named(path) : has_frames(o);
+    const int places = path && has_frames(o) ? rg_numbered_places(path) : 0;
+    if (clip && !has_frames(o))
+        return rg_error("%s: a clip holds several frames; give --frames A-B, or name a picture",
+                        path);
+    if (o->fps && !clip)
+        return rg_error("--fps %d: a clip alone has it; name one (-o NAME.webm), or leave it out",
+                        o->fps);
+    if (clip && places)
+        return rg_error("%s: a clip holds all frames; leave out the place of a number, or name a "
+                        "picture",
+                        path);
+    if (has_frames(o) && !clip && places != 1)
+        return rg_error("%s: has %s for the frame's number; name pictures as in rain-%%04d.png, or "
+                        "a clip, as in rain.webm",
+                        path, places ? "more than one place" : "no place");
+    return true;
 }
 
-// What was drawn, and the file that it is in.
-struct drawn {
-    struct rg_subject subject;
-    const struct rg_device_info *on;
-    const char *path;
-    struct rg_account account;
-};
-
-// docs/records.md
-static void print_json(const struct drawn *d)
+// Draws what is asked for and writes it: the session, or NULL where it failed.
+static struct rg_session *draw(struct rg_device *device, const struct rg_drawn *drawn, int frame,
+                               double exposure)
 {
-    const struct rg_account *a = &d->account;
-    struct rg_named facts[RG_MAX_FACTS];
-    struct rg_count counters[RG_MAX_COUNTERS];
-    rg_facts_copy(facts, a->facts, a->fact_count);
-    rg_counters_copy(counters, a->counters, a->counter_count);
-    json_t *json = json_pack(
-        "{sisosssssisisIsosososo}", "format", 1, "file", rg_json_text(d->path), "technique",
-        d->subject.technique->name, "device", d->on->name, "width", d->subject.width, "height",
-        d->subject.height, "frame", (json_int_t)a->frame, "settings",
-        settings_json(d->subject.technique, d->subject.settings), "facts",
-        rg_named_json(facts, a->fact_count), "counters", rg_counts_json(counters, a->counter_count),
-        "passport", rg_passport_json(d->on, 1));
-    json_dumpf(json, stdout, JSON_INDENT(1));
-    printf("\n");
-    json_decref(json);
-}
-
-static void print_text(const struct drawn *d)
-{
-    struct rg_named told[RG_MAX_FACTS];
-    char facts[RG_FACTS_TEXT];
-    rg_facts_copy(told, d->account.facts, d->account.fact_count);
-    rg_named_text(told, d->account.fact_count, NULL, facts, sizeof(facts));
-    printf("%s: %s, frame %lld, %dx%d, on %s (%s)%s%s\n", d->path, d->subject.technique->name,
-           (long long)d->account.frame, d->subject.width, d->subject.height, d->on->name,
-           d->on->device, *facts ? "; " : "", facts);
+    if (drawn->sequence)
+        return rg_sequence_run(drawn->sequence, device);
+    struct rg_session *session = rg_session_run(device, &drawn->subject, frame);
+    if (session && rg_frame_write(session, drawn->path, exposure))
+        return session;
+    rg_session_close(session);
+    return NULL;
 }
 
 static int render_on(struct rg_device *device, const struct rg_technique *technique,
                      const void *settings, const struct render_options *o)
 {
     char path[256];
-    snprintf(path, sizeof(path), "%s.png", technique->name);
-    struct drawn drawn = {.subject = {technique, settings, o->size.width, o->size.height},
-                          .on = &device->info,
-                          .path = o->output ? o->output : path};
-    struct rg_session *session = rg_session_run(device, &drawn.subject, o->frames);
-    const bool ok = session && write_frame(session, drawn.path, o->exposure);
-    const int exit = ok ? RG_EXIT_PASS : rg_exit_of_error();
-    if (ok) {
-        rg_session_tell(session, &drawn.account);
-        (o->json ? print_json : print_text)(&drawn);
-    }
+    const bool several = has_frames(o);
+    snprintf(path, sizeof(path), several ? "%s.webm" : "%s.png", technique->name);
+    struct rg_drawn drawn = {.subject = {technique, settings, o->size.width, o->size.height},
+                             .on = &device->info,
+                             .path = o->output ? o->output : path};
+    const struct rg_sequence sequence = {.subject = drawn.subject,
+                                         .first = o->frames.first,
+                                         .last = o->frames.last,
+                                         .path = drawn.path,
+                                         .fps = o->fps ? o->fps : DEFAULT_FPS,
+                                         .exposure = o->exposure};
+    drawn.sequence = several ? &sequence : NULL;
+    struct rg_session *session = draw(device, &drawn, o->frame, o->exposure);
+    if (!session)
+        return rg_interrupted() ? RG_EXIT_SIGNALLED + rg_interrupt_signal() : rg_exit_of_error();
+    rg_session_tell(session, &drawn.account);
+    (o->json ? rg_drawn_print_json : rg_drawn_print_text)(&drawn);
     rg_session_close(session);
-    return exit;
+    return RG_EXIT_PASS;
 }
 
 static bool names_one_device(const char *names)
@@ -140,7 +140,7 @@ static int render(const void *values, const struct rg_words *arguments)
 {
     const struct render_options *o = values;
     void *settings;
-    if (!names_one_device(o->device))
+    if (!names_one_device(o->device) || !check_output(o))
         return RG_EXIT_USAGE;
     const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
     if (!technique)
@@ -156,9 +156,9 @@ static int render(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_render = {
     .name = "render",
-    .usage = "TECHNIQUE [--device D] [--frame N] [--size WxH] [--set KEY=VALUE]... [-o FILE] "
-             "[--json]",
-    .about = "draws one frame of a technique into an image file (PNG, EXR, HDR, TIFF)",
+    .usage = "TECHNIQUE [--device D] [--frame N|--frames A-B] [--size WxH] [--set KEY=VALUE]... "
+             "[-o FILE] [--fps N] [--json]",
+    .about = "draws a frame of a technique into an image file, or several into a clip",
     .options = options,
     .options_size = sizeof(struct render_options),
     .run = render,

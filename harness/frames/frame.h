@@ -13,4 +13,8 @@ bool rg_frame_draw(struct rg_device *device, const struct rg_subject *subject, i
 bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subject, int frames,
                        struct rg_picture *picture);
 
+// Writes the frame that a session has drawn last as a picture file, without an alpha that is 1
+// everywhere. False, and one logged line, on failure.
+bool rg_frame_write(struct rg_session *session, const char *path, double exposure);
+
 #endif

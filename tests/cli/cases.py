@@ -27,6 +27,8 @@ STAGES = "verify flow --stages --device cpu " + SMALL
 RENDER = ("render flow --set environment=sky --set environment_px=16 --set resolution_px=32 --set model=none "
           "--size 32x32 --frame 1 ")
 
+FRAMES = RENDER.replace("--frame 1", "--frames 1-2")
+
 RAIN = ("render streaks --size 32x18 --frame 1 --set atlas=small --set city=small --set depth_map_px=64 "
         "--set shadow_map_px=16 ")
 FIT = RAIN + ("--set fit=on --set rain_width_m=60 --set rain_depth_m=60 --set rain_height_m=40 --set camera=free "
@@ -134,6 +136,19 @@ RENDERS = [
     Case(RENDER + "--frame -1 -o {tmp}/a.png", 2, r"--frame -1: must be 0 to 10000000"),
     Case(RENDER + "--frame 99999999999999999999 -o {tmp}/a.png", 2, r"--frame 9{20}: .*`raingauge render --help`"),
     Case(RENDER + "--frame x -o {tmp}/a.png", 2, r"--frame x: .*`raingauge render --help`"),
+    Case(FRAMES + "--frame 1 -o {tmp}/a.webm", 2, r"--frames and --frame: choose one"),
+    Case(FRAMES + "--frames 3-2 -o {tmp}/a.webm", 2, r"--frames 3-2: frames count from 0, the first not after the last"),
+    Case(FRAMES + "--frames -1-2 -o {tmp}/a.webm", 2, r"--frames -1-2: frames count from 0"),
+    Case(FRAMES + "--frames 1-99999999999999999999 -o {tmp}/a.webm", 2, r"--frames 1-9{20}: must be 0 to 10000000"),
+    Case(FRAMES + "--frames 1-x -o {tmp}/a.webm", 2, r"--frames 1-x: write it as FIRST-LAST, as in 2-4"),
+    Case(FRAMES + "--fps 0 -o {tmp}/a.webm", 2, r"--fps 0: must be 1 to 240"),
+    Case(FRAMES + "--fps 30 -o {tmp}/a-%d.png", 2, r"--fps 30: a clip alone has it; name one"),
+    Case(RENDER + "--fps 30 -o {tmp}/a.png", 2, r"--fps 30: a clip alone has it; name one"),
+    Case(RENDER + "-o {tmp}/a.webm", 2, r"a\.webm: a clip holds several frames; give --frames A-B"),
+    Case(FRAMES + "-o {tmp}/a-%d.webm", 2, r"a-%d\.webm: a clip holds all frames; leave out the place of a number"),
+    Case(FRAMES + "-o {tmp}/a.png", 2, r"a\.png: has no place for the frame's number; name pictures as in rain-%04d\.png, or a clip"),
+    Case(FRAMES + "-o {tmp}/%d-%d.png", 2, r"%d-%d\.png: has more than one place for the frame's number"),
+    Case(FRAMES + "-o {tmp}/%d/a.png", 2, r"%d/a\.png: has no place for the frame's number"),
     Case(RENDER + "--exposure nan -o {tmp}/a.png", 2, r"--exposure nan: must be above 0"),
     Case(RENDER + "--exposure 0 -o {tmp}/a.png", 2, r"--exposure 0: must be above 0, at most 1000000"),
     Case(RENDER + "-o {tmp}/a.png -z", 2, r"-z: unknown option"),
@@ -207,6 +222,19 @@ RENDERS = [
     Case(RENDER + "-o /dev/full/a.png", 2, r"/dev/full/a\.png: "),
     Case(RENDER + "--size 256x256 -o {tmp}/a.png", 2, r"a\.png: ", limit=64),
     Case(RENDER + "--size 256x256 -o {tmp}/a.exr", 2, r"a\.exr: ", limit=64),
+
+    # frames in a row
+    Case(FRAMES + "-o {tmp}/a.webm", 0, None, made=("a.webm",)),
+    Case(FRAMES + "--frames 3 --size 1x1 -o {tmp}/a.WebM", 0, None, made=("a.WebM",)),
+    Case(FRAMES + "--frames 0-2 -o {tmp}/a%d.exr", 0, None, made=("a0.exr", "a1.exr", "a2.exr")),
+    Case(FRAMES + "-o {tmp}/%03d.tif", 0, None, made=("001.tif", "002.tif")),
+    Case(FRAMES + "--frames 5000000-5000001 -o {tmp}/none/a.webm", 2, r"none/a\.webm: its folder is not there; make it first"),
+    Case(FRAMES + "--frames 5000000-5000001 -o {tmp}/none/%d.png", 2, r"none/5000000\.png: its folder is not there; make it first"),
+    Case(FRAMES + "--frames 5000000-5000001 -o {tmp}/%d.nonsense", 2, r"5000000\.nonsense: the extension \"\.nonsense\" is not a known picture's"),
+    Case(FRAMES + "--frames 5000000-5000001 -o {tmp}/a.webm", 77,
+         r"a\.webm: a clip is made by vpxenc, which is not here; install the Debian package vpx-tools", {"PATH": "/nonexistent"}),
+    Case(FRAMES + "-o {tmp}/a.webm", 2, r"a\.webm: cannot be written: File too large; allow larger files \(ulimit -f\)", limit=64),
+    Case(FRAMES + "--set environment=/nonexistent.exr -o {tmp}/a.webm", 2, r"/nonexistent\.exr: .*check the name"),
 ]
 
 TABLES = [

@@ -9,6 +9,7 @@
            tables   the same of `table`
            drivers  the same, of devices that need a driver or lack one
            results  what table, diff and render print, on the CPU
+           clips    frames in a row, as clips and as numbered pictures, on the CPU
            stored   tables that were interrupted, or are printed again
            long     what verify prints, tables that are counted, set in a row or begun anew, an atlas that is not kept
            wrong    a driver that draws wrongly is found
@@ -24,6 +25,7 @@ import sys
 sys.dont_write_bytecode = True  # the sources' folder stays as it is
 
 import cases
+import clips
 import doctor
 import installed
 import kept
@@ -38,6 +40,7 @@ SUITES = {
     "tables": lambda runner: cases.run(runner, cases.TABLES),
     "drivers": lambda runner: cases.run(runner, cases.WITH_DRIVERS),
     "results": lambda runner: runner.check_all(results.CHECKS),
+    "clips": lambda runner: runner.check_all(clips.CHECKS),
     "stored": lambda runner: runner.check_all(results.STORED),
     "long": lambda runner: runner.check_all(results.LONG),
     "wrong": lambda runner: runner.check_all(results.WRONG),

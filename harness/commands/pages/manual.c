@@ -92,8 +92,8 @@ static void print_statuses(void)
         {RG_EXIT_INCONCLUSIVE, "inconclusive: the samples neither prove nor exclude a change"},
         {RG_EXIT_NOTHING, "nothing was measured"},
         {RG_EXIT_UNSUPPORTED, "not supported on this machine"},
-        {RG_EXIT_SIGNALLED + SIGINT, "interrupted by SIGINT; the same command goes on"},
-        {RG_EXIT_SIGNALLED + SIGTERM, "interrupted by SIGTERM; the same command goes on"},
+        {RG_EXIT_SIGNALLED + SIGINT, "interrupted by SIGINT; `table` goes on where it was"},
+        {RG_EXIT_SIGNALLED + SIGTERM, "interrupted by SIGTERM; `table` goes on where it was"},
     };
     printf(".SH EXIT STATUS\n");
     for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {

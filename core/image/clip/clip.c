@@ -1,0 +1,111 @@
+#include "core/image/clip/clip.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/sendfile.h>
+#include <unistd.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "core/image/clip/encoder.h"
+#include "core/image/clip/yuv.h"
+#include "core/image/files/temporary.h"
+
+struct rg_clip {
+    const char *path;
+    struct rg_clip_options options;
+    struct rg_encoder encoder;
+    uint8_t *yuv; // a frame
+};
+
+bool rg_clip_is_named(const char *path)
+{
+    const size_t length = strlen(path), ending = strlen(".webm");
+    return length > ending && !strcasecmp(path + length - ending, ".webm");
+}
+
+// --- frames ---
+
+// Y4M. 420jpeg says that a difference of colour stands amid its four pixels, as vpxenc codes it.
+static bool feed_header(struct rg_clip *clip)
+{
+    char header[128];
+    const struct rg_clip_options *o = &clip->options;
+    const int length = snprintf(header, sizeof(header),
+                                "YUV4MPEG2 W%d H%d F%d:1 Ip A1:1 C420jpeg XCOLORRANGE=LIMITED\n",
+                                o->width, o->height, o->fps);
+    return rg_encoder_feed(&clip->encoder, header, (size_t)length);
+}
+
+bool rg_clip_add(struct rg_clip *clip, const struct rg_picture *picture)
+{
+    static const char header[] = "FRAME\n";
+    const struct rg_clip_options *o = &clip->options;
+    rg_yuv_encode(picture, o->exposure, clip->yuv);
+    return rg_encoder_feed(&clip->encoder, header, strlen(header)) &&
+           rg_encoder_feed(&clip->encoder, clip->yuv, rg_yuv_bytes(o->width, o->height));
+}
+
+// --- the file ---
+
+static bool copy(int from, off_t bytes, const char *path, struct rg_why *why)
+{
+    const int to = open(path, O_WRONLY | O_CLOEXEC);
+    off_t at = 0;
+    ssize_t copied = 1;
+    while (to >= 0 && at < bytes && copied > 0)
+        copied = sendfile(to, from, &at, (size_t)(bytes - at));
+    bool ok = to >= 0 && at == bytes;
+    if (!ok)
+        rg_why_set(why, "cannot be written: %s; make room", strerror(errno));
+    if (to >= 0 && close(to) && ok)
+        ok = rg_why_set(why, "cannot be written: %s; make room", strerror(errno));
+    return ok;
+}
+
+bool rg_clip_finish(struct rg_clip *clip)
+{
+    int64_t bytes;
+    struct rg_why why;
+    char temporary[PATH_MAX];
+    if (!rg_encoder_finish(&clip->encoder, &bytes))
+        return false;
+    if (rg_temporary_make(clip->path, temporary, sizeof(temporary), &why)) {
+        const bool written = copy(clip->encoder.coded, bytes, temporary, &why);
+        if (rg_temporary_end(temporary, clip->path, written, &why))
+            return true;
+    }
+    return rg_error("%s: %s", clip->path, why.text);
+}
+
+// --- opening and closing ---
+
+struct rg_clip *rg_clip_open(const char *path, const struct rg_clip_options *options)
+{
+    struct rg_why why;
+    if (!rg_temporary_try(path, &why))
+        return rg_error_null("%s: %s", path, why.text);
+    struct rg_clip *clip = rg_alloc(1, sizeof(*clip), path);
+    if (!clip)
+        return NULL;
+    *clip = (struct rg_clip){.path = path, .options = *options};
+    clip->yuv = rg_alloc(rg_yuv_bytes(options->width, options->height), 1, path);
+    if (rg_encoder_start(&clip->encoder, path, options->stop) && clip->yuv && feed_header(clip))
+        return clip;
+    rg_clip_close(clip);
+    return NULL;
+}
+
+void rg_clip_close(struct rg_clip *clip)
+{
+    if (!clip)
+        return;
+    rg_encoder_end(&clip->encoder);
+    free(clip->yuv);
+    free(clip);
+}

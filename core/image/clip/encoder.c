@@ -1,0 +1,173 @@
+#define _GNU_SOURCE // memfd_create
+#include "core/image/clip/encoder.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+#include "core/base/program.h"
+
+enum { FRAMES_FD = 0, MESSAGES_FD = 2, CODED_FD = 3, FDS };
+enum { WAIT_MS = 100 };
+
+// One pass, because frames come once. A constant quality, level 16 of 63: the eye hardly tells a
+// frame from its picture, and rain, which is all edges, takes as many bytes as it needs. -D leaves
+// out the date and the random number that else make two files differ. Each thread codes columns of
+// tiles, whose number follows from the width, so that the machine's cores change no byte.
+static const char *const arguments[] = {
+    "vpxenc",
+    "--codec=vp9",
+    "--profile=0",
+    "-D",
+    "--quiet",
+    "--disable-warning-prompt",
+    "--passes=1",
+    "--good",
+    "--cpu-used=2",
+    "--end-usage=q",
+    "--cq-level=16",
+    "--color-space=bt709",
+    "--threads=8",
+    "--output=/proc/self/fd/3",
+    "-",
+    NULL,
+};
+
+static bool make_room(struct rg_encoder *e)
+{
+    e->coded = memfd_create("raingauge clip", MFD_CLOEXEC);
+    e->messages = tmpfile();
+    return (e->coded >= 0 && e->messages) ||
+           rg_error("%s: no memory for it: %s; close other programs", e->name, strerror(errno));
+}
+
+// A socket, since a write to a pipe that nobody reads would kill this process.
+static bool start(struct rg_encoder *e)
+{
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends))
+        return rg_error("%s: no way to hand frames to vpxenc: %s", e->name, strerror(errno));
+    e->feed = ends[1];
+    const int fds[FDS] = {
+        [FRAMES_FD] = ends[0], -1, [MESSAGES_FD] = fileno(e->messages), [CODED_FD] = e->coded};
+    const int error = rg_program_start(arguments, fds, FDS, &e->process);
+    close(ends[0]);
+    if (!error)
+        return true;
+    e->process = 0;
+    if (error == ENOENT || error == EACCES)
+        return rg_unsupported("%s: a clip is made by vpxenc, which is not here; install the Debian "
+                              "package vpx-tools, or write pictures (-o NAME-%%04d.png)",
+                              e->name);
+    return rg_driver_error("%s: vpxenc could not be started: %s", e->name, strerror(error));
+}
+
+bool rg_encoder_start(struct rg_encoder *e, const char *name, bool (*stop)(void))
+{
+    *e = (struct rg_encoder){.name = name, .stop = stop, .feed = -1, .coded = -1};
+    return make_room(e) && start(e);
+}
+
+// --- while it runs ---
+
+static bool stopped(const struct rg_encoder *e)
+{
+    return e->stop && e->stop();
+}
+
+// Waits for the encoder's end; false: told to stop.
+static bool wait_for_end(struct rg_encoder *e, int *status)
+{
+    const struct timespec pause = {0, 2000000};
+    while (waitpid(e->process, status, WNOHANG) == 0) {
+        if (stopped(e))
+            return false;
+        nanosleep(&pause, NULL);
+    }
+    e->process = 0;
+    return true;
+}
+
+// Logs how the encoder ended: badly, or before it had all frames.
+static bool tell_end(const struct rg_encoder *e, int status)
+{
+    char last[200];
+    rg_program_last_line(e->messages, last, sizeof(last));
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ)
+        return rg_error("%s: cannot be written: %s; allow larger files (ulimit -f)", e->name,
+                        strerror(EFBIG));
+    if (WIFSIGNALED(status))
+        return rg_driver_error("%s: vpxenc was ended by a signal (%s)%s; nothing was written",
+                               e->name, strsignal(WTERMSIG(status)), last);
+    if (WEXITSTATUS(status))
+        return rg_driver_error("%s: vpxenc ended with status %d%s; nothing was written", e->name,
+                               WEXITSTATUS(status), last);
+    return rg_driver_error("%s: vpxenc ended before it had coded all frames%s; nothing was written",
+                           e->name, last);
+}
+
+bool rg_encoder_feed(struct rg_encoder *e, const void *data, size_t bytes)
+{
+    for (const char *at = data; bytes > 0;) {
+        if (stopped(e))
+            return false;
+        struct pollfd ready = {.fd = e->feed, .events = POLLOUT};
+        if (poll(&ready, 1, WAIT_MS) <= 0)
+            continue;
+        const ssize_t sent = send(e->feed, at, bytes, MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent < 0 && (errno == EAGAIN || errno == EINTR))
+            continue;
+        if (sent <= 0) {
+            int status = 0;
+            return wait_for_end(e, &status) && tell_end(e, status);
+        }
+        at += sent;
+        bytes -= (size_t)sent;
+    }
+    return true;
+}
+
+// A socket whose other end is closed with bytes unread has an error.
+static bool has_read_all(const struct rg_encoder *e)
+{
+    int error = 0;
+    socklen_t size = sizeof(error);
+    return getsockopt(e->feed, SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0;
+}
+
+bool rg_encoder_finish(struct rg_encoder *e, int64_t *file_bytes)
+{
+    int status = 0;
+    struct stat st;
+    shutdown(e->feed, SHUT_WR);
+    if (!wait_for_end(e, &status))
+        return false;
+    if (status || !has_read_all(e) || fstat(e->coded, &st) || st.st_size == 0)
+        return tell_end(e, status);
+    *file_bytes = st.st_size;
+    return true;
+}
+
+void rg_encoder_end(struct rg_encoder *e)
+{
+    if (e->process) {
+        kill(e->process, SIGKILL);
+        while (waitpid(e->process, NULL, 0) < 0 && errno == EINTR)
+            continue;
+    }
+    if (e->feed >= 0)
+        close(e->feed);
+    if (e->coded >= 0)
+        close(e->coded);
+    if (e->messages)
+        fclose(e->messages);
+    *e = (struct rg_encoder){.feed = -1, .coded = -1};
+}
