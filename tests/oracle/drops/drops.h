@@ -6,49 +6,55 @@
 // substeps and wets the pane; neighbours on the ID map merge; drops at rest wet the pane; heights
 // and IDs are smoothed; water erodes.
 //
-// Where the paper is silent, or says two things, the model does this:
-//   generation   Each step adds a drop with the probability drops_a_step (above 1: its whole part
-//   and a chance for the
-//                rest) while fewer than max_drops are there. It lies anywhere alike and is at rest.
-//                Its mass is N(least + (max - least) / 5, 1.5 mg), clamped to least and max; least
-//                is 2 cell^3 rho, as in table 1.
-//   affinity     N(0.5, 1.5), clamped to 0 to 1, drawn once a cell.
-//   tilt         Gravity along the pane is g sin(tilt) and the force that holds a drop stays m_c g:
-//   a drop runs where
-//                m sin(tilt) > m_c, with a = g sin(tilt) - m_c g / m. At 90 degrees that is the
-//                paper's equation 2.
-//   stopping     A drop that no longer runs when its turn comes stands still at once.
-//   residue      The chance is drawn once a step with the whole timestep, before the drop moves.
-//   Its time begins at 0,
-//                starts anew after each draw that succeeds, even where max_drops forbids a birth,
-//                and with a merge.
-//   equation 5   p grows by v dt: speed first, place after.
-//   regions      The mean of a region's cells that are on the pane; a region whose centre is not
-//   counts 0. direction    South unless one of the others is greater; where both are, and are
-//   equal, south-west. Meandering turns
-//                every way south, also one that follows water, in every substep.
-//   trails       Hemispheres at 1.5 cells, 3 cells and so on from the old place, and one at the new
-//   place. leaving      A drop whose cell (equation 1) is off the pane is gone after its hemisphere
-//   is placed, moves no more in
-//                that step and merges with none. The whole path of its last substep counts as
-//                trail.
-//   hemispheres  The ID is written where the height rises, so that an equal height keeps its owner.
-//   merging      One pass over the cells, row by row, each against the cell on its right and then
-//   the one below. Two
-//                living IDs: their connected cells get a new ID, then the new drop's hemisphere is
-//                placed. One: the dead ID's connected cells take the living ID. None: both take the
-//                smaller. Equally low: the older drop's place. Only a living parent and its living
-//                child are kept apart; the new drop is the parent of both drops' children and the
-//                child of nobody.
-//   smoothing    A mean of 3 x 3 cells with the pane's edges repeated, then 0 below
-//   erode_threshold_mm: what the paper
-//                calls a high-pass filter is a floor.
-//   IDs          Part of smoothing. A cell without an ID takes that of the cell below, else right
-//   (not in the last row
-//                and column); then of the cell above, else left (not in the first ones); each
-//                spreads by one cell. Then cells below id_threshold_mm, and dry ones, have none.
-//   erosion      Every run of wet cells in a row loses the cell at each end that has a dry
-//   neighbour.
+// Where the paper is silent, or says two things, the model does this.
+//
+// Generation: each step adds a drop with the probability drops_a_step (above 1: its whole part, and
+// a chance for the rest) while fewer than max_drops are there. It lies anywhere alike and is at
+// rest. Its mass is N(least + (max - least) / 5, 1.5 mg), clamped to least and max; least is
+// 2 cell^3 rho, as in table 1.
+//
+// Affinity: N(0.5, 1.5), clamped to 0 to 1, drawn once a cell.
+//
+// Tilt: gravity along the pane is g sin(tilt), and the force that holds a drop stays m_c g. So a
+// drop runs where m sin(tilt) > m_c, with a = g sin(tilt) - m_c g / m. At 90 degrees that is the
+// paper's equation 2.
+//
+// Stopping: a drop that no longer runs when its turn comes stands still at once.
+//
+// Residue: the chance is drawn once a step with the whole timestep, before the drop moves. Its time
+// begins at 0, and starts anew with a merge and after each draw that succeeds, even where max_drops
+// forbids a birth.
+//
+// Equation 5: p grows by v dt; speed comes first, place after.
+//
+// Regions: the mean of a region's cells that are on the pane; a region whose centre is not counts
+// 0.
+//
+// Direction: south, unless one of the others is greater; where both are, and are equal, south-west.
+// Meandering turns every way south in every substep, also one that follows water.
+//
+// Trails: hemispheres at 1.5 cells, 3 cells and so on from the old place, and one at the new place.
+//
+// Leaving: a drop whose cell (equation 1) is off the pane is gone after its hemisphere is placed,
+// moves no more in that step, and merges with none. The whole path of its last substep counts as
+// trail.
+//
+// Hemispheres: the ID is written where the height rises, so that an equal height keeps its owner.
+//
+// Merging: one pass over the cells, row by row, each against the cell on its right and then the one
+// below. Two living IDs: their connected cells get a new ID, then the new drop's hemisphere is
+// placed. One: the dead ID's connected cells take the living ID. None: both take the smaller.
+// Equally low: the older drop's place. Only a living parent and its living child are kept apart;
+// the new drop is the parent of both drops' children, and the child of nobody.
+//
+// Smoothing: a mean of 3 x 3 cells with the pane's edges repeated, then 0 below erode_threshold_mm.
+// What the paper calls a high-pass filter is a floor.
+//
+// IDs are part of smoothing. A cell without an ID takes that of the cell below, else right (not in
+// the last row and column); then of the cell above, else left (not in the first ones); each spreads
+// by one cell. Then cells below id_threshold_mm, and dry ones, have none.
+//
+// Erosion: every run of wet cells in a row loses the cell at each end that has a dry neighbour.
 #ifndef RG_TESTS_ORACLE_DROPS_DROPS_H
 #define RG_TESTS_ORACLE_DROPS_DROPS_H
 
