@@ -314,12 +314,12 @@ STORED = [check_interrupted, check_stored]
 
 # --- what takes long and leads sanitizers nowhere else: verify's mutants have a scene of their own ---
 
-VERIFY = "verify %s --frame 5 --device cpu --size 96x96 "
+VERIFY = "verify raster --frame 5 --device cpu --size 96x96 "
 
 
 def check_verify_json(runner):
     """verify --json has a record for every check on every device"""
-    report, status, problems = run_json(runner, VERIFY % "raster")
+    report, status, problems = run_json(runner, VERIFY)
     for check in report["checks"]:
         problems += lacking("check", check, dict.fromkeys(("technique", "check", "device", "status", "detail"), str))
     named = {(check["check"], check["device"], check["status"]) for check in report["checks"]}
@@ -330,13 +330,13 @@ def check_verify_json(runner):
 
 def check_verify_dry(runner):
     """verify fails an image without rain, which proves nothing, and no other check"""
-    result = runner.run((VERIFY % "flow" + "--set drops=0 --set rain_drops_s=0 --set environment_px=64 --set resolution_px=96").split())
+    result = runner.run((VERIFY + "--set share=0").split())
     lines = result.stdout.splitlines()
     failed = [line for line in lines if not line.startswith("ok ")]
     problems = ["stderr: " + line for line in result.stderr.splitlines()]
     if result.returncode != 1 or len(lines) != 5 or len(failed) != 1:
         problems.append("exit status %d, printed:\n%s" % (result.returncode, result.stdout))
-    if not re.match(r"fail +flow +image +cpu .*: no rain in the image, which therefore proves nothing$", failed[0] if failed else ""):
+    if not re.match(r"fail +raster +image +cpu .*: no rain in the image, which therefore proves nothing$", failed[0] if failed else ""):
         problems.append("failed: %s" % failed)
     return problems
 
