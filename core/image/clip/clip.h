@@ -21,8 +21,8 @@ struct rg_clip;
 // Whether a path names a clip: it ends in ".webm".
 bool rg_clip_is_named(const char *path);
 
-// Starts vpxenc. NULL, and one logged line, where it is missing, which is unsupported, or where the
-// clip could not be written.
+// Starts vpxenc. `path` stays the caller's, and outlives the clip. NULL, and one logged line, where
+// vpxenc is missing, which is unsupported, or where the clip could not be written.
 struct rg_clip *rg_clip_open(const char *path, const struct rg_clip_options *options);
 // Hands the next frame on. False, and one logged line, where vpxenc has failed.
 bool rg_clip_add(struct rg_clip *clip, const struct rg_picture *picture);
