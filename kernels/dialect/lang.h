@@ -22,7 +22,8 @@
 // RG_STRUCT(name) { int a; float b; }; is a struct of 4-byte scalars that crosses the host
 // boundary; RG_STRUCT_SIZE(name, words) states its size where it is declared. RG_FN starts every
 // function that returns a value, RG_PROC every one that returns nothing, RG_SELDOM a long one that
-// few items need.
+// few items need. RG_APART before a loop says that no turn of it reads what another one writes, so
+// that compilers for processors do several at once.
 #if RG_GLSL
 
 #define RG_STRUCT(name) struct name
@@ -30,6 +31,7 @@
 #define RG_FN
 #define RG_PROC
 #define RG_SELDOM
+#define RG_APART
 
 #define rg_to_float(i)   float(i)
 #define rg_to_int(f)     int(f)
@@ -61,6 +63,7 @@ RG_FN uint rg_mul_hi(uint a, uint b)
 #define RG_PROC   static inline __attribute__((always_inline))
 // Called: PoCL compiles the kernels around it in two thirds of the time.
 #define RG_SELDOM static __attribute__((noinline))
+#define RG_APART
 
 #define rg_to_float(i)   convert_float(i)
 #define rg_to_int(f)     convert_int(f)
@@ -93,6 +96,11 @@ typedef unsigned int uint;
 #define RG_FN     static inline __attribute__((always_inline, unused))
 #define RG_PROC   static inline __attribute__((always_inline, unused))
 #define RG_SELDOM RG_FN
+#if defined(__GNUC__) && !defined(__clang__)
+#define RG_APART _Pragma("GCC ivdep")
+#else
+#define RG_APART
+#endif
 
 #define rg_to_float(i) ((float)(i))
 #define rg_to_int(f)   ((int)(f))
