@@ -1,0 +1,42 @@
+#include "core/techniques/drops/drops.h"
+
+#define AT(field) offsetof(struct drops_settings, field)
+
+// clang-format off
+static const struct rg_param rows[] = {
+    {"seed", RG_PARAM_INT, AT(seed), 1, 0, 2147483647, "1", "of all chance", NULL},
+    {"columns", RG_PARAM_INT, AT(columns), 1000, 16, 16384, "1", "cells of the pane across", NULL},
+    {"rows", RG_PARAM_INT, AT(rows), 600, 16, 16384, "1", "cells of the pane from top to bottom", NULL},
+    {"cell_mm", RG_PARAM_FLOAT, AT(cell_mm), 0.5, 0.1, 10, "mm", "side of a cell (l)", NULL},
+    {"tilt_deg", RG_PARAM_FLOAT, AT(tilt_deg), 90, 0, 180, "deg", "of the pane from lying flat; 90: upright, as in the paper", NULL},
+    {"turn_deg", RG_PARAM_FLOAT, AT(turn_deg), 0, -180, 180, "deg", "of the pane in its plane; 180: upside down", NULL},
+    {"max_drops", RG_PARAM_INT, AT(max_drops), 700, 1, 1000000, "1", "drops that there may be (n)", NULL},
+    {"drops_s", RG_PARAM_FLOAT, AT(drops_s), 12, 0, 1000000, "1/s", "drops that land, by chance; the paper's program: in every fifth step one", NULL},
+    {"critical_mass_mg", RG_PARAM_FLOAT, AT(critical_mass_mg), 20, 0.1, 10000, "mg", "of a drop that an upright pane just holds (m_c)", NULL},
+    {"max_mass_mg", RG_PARAM_FLOAT, AT(max_mass_mg), 100, 0.1, 10000, "mg", "of a drop that lands (m_max)", NULL},
+    {"meander_rad", RG_PARAM_FLOAT, AT(meander_rad), 0.3, 0, 1.2, "rad", "by which a drop that runs straight may turn aside (theta)", NULL},
+    {"residual_beta", RG_PARAM_FLOAT, AT(residual_beta), 3, 0, 1000, "1", "how readily drops leave others behind (beta)", NULL},
+    {"residual_max_s", RG_PARAM_FLOAT, AT(residual_max_s), 0.1, 0.001, 10, "s", "after which time they do so as readily as ever (tau_max)", NULL},
+    {"residual_low", RG_PARAM_FLOAT, AT(residual_low), 0.1, 0, 1, "1", "least share of its mass that a drop leaves behind (alpha)", NULL},
+    {"residual_high", RG_PARAM_FLOAT, AT(residual_high), 0.3, 0, 1, "1", "largest share of its mass that a drop leaves behind", NULL},
+    {"step_s", RG_PARAM_FLOAT, AT(step_s), 1.0 / 60, 0.0001, 0.1, "s", "time that a frame stands for", NULL},
+    {"substeps", RG_PARAM_INT, AT(substeps), 4, 1, 64, "1", "parts of a step in which drops choose their way anew (b)", NULL},
+    {"remove_s", RG_PARAM_FLOAT, AT(remove_s), -1, -1, 1000000, "s", "when all drops are removed, so that water shrinks; -1: never", NULL},
+    {"trail", RG_PARAM_CHOICE, AT(trail), DROPS_HEMISPHERES, 0, 1, "1", "what a drop leaves on its way: hemispheres 1.5 cells apart, or one swept along the line", "hemispheres lines"},
+    {"erode_mm", RG_PARAM_FLOAT, AT(erode_mm), 0.01, 0, 10, "mm", "lower water is none, where it is smoothed (T_e)", NULL},
+    {"owned_mm", RG_PARAM_FLOAT, AT(owned_mm), 0.5, 0, 10, "mm", "lower water is no drop's, where it is smoothed (T_id)", NULL},
+    {"erode", RG_PARAM_CHOICE, AT(erode), 1, 0, 1, "1", "whether trails thin", "off on"},
+    {"merge", RG_PARAM_CHOICE, AT(merge), 1, 0, 1, "1", "whether waters that meet become one", "off on"},
+    {"residual", RG_PARAM_CHOICE, AT(residual), 1, 0, 1, "1", "whether running drops leave others behind", "off on"},
+    {"smooth", RG_PARAM_CHOICE, AT(smooth), 1, 0, 1, "1", "whether water flattens", "off on"},
+    {"sleep", RG_PARAM_CHOICE, AT(sleep), 1, 0, 1, "1", "whether work is left out where nothing changes; the result is the same", "off on"},
+    {"view", RG_PARAM_CHOICE, AT(view), DROPS_VIEW_HEIGHT, 0, DROPS_VIEWS - 1, "1", "what is drawn", "height ids"},
+};
+// clang-format on
+
+const struct rg_param_table drops_param_table = {
+    .technique = "drops",
+    .rows = rows,
+    .count = sizeof(rows) / sizeof(rows[0]),
+    .settings_size = sizeof(struct drops_settings),
+};

@@ -1,0 +1,121 @@
+// What proves drops: panes, conservation in whole quanta, and mutants.
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "core/techniques/drops/instance.h"
+#include "core/techniques/proof.h"
+
+// All that a law looks at.
+struct reading {
+    uint32_t tally[DROPS_TALLY];
+    drops_drop *drops;
+};
+
+static bool read_drops(const struct drops *d, struct reading *r, char *detail, size_t size)
+{
+    const int64_t bytes = d->settings.max_drops * (int64_t)sizeof(*r->drops);
+    r->drops = rg_alloc((size_t)d->settings.max_drops, sizeof(*r->drops), "drops");
+    const bool ok = r->drops && rg_buf_read(d->tally->buf, 0, r->tally, sizeof(r->tally)) &&
+                    rg_buf_read(d->drops->buf, 0, r->drops, bytes);
+    if (!ok)
+        snprintf(detail, size, "%s", rg_last_error());
+    return ok;
+}
+
+// What lands is on the pane, has left it or was removed.
+static bool mass_is_conserved(const struct rg_instance *instance, char *detail, size_t size)
+{
+    struct reading r;
+    bool holds = read_drops((const struct drops *)instance, &r, detail, size);
+    uint32_t mass = 0;
+    for (uint32_t i = 0; holds && i < r.tally[DROPS_COUNT]; i++)
+        mass += r.drops[i].mass;
+    if (holds && mass != r.tally[DROPS_SOURCED] - r.tally[DROPS_DRAINED] - r.tally[DROPS_REMOVED]) {
+        snprintf(detail, size,
+                 "the pane holds %u quanta, but %u came, %u left and %u were removed (modulo 2^32)",
+                 mass, r.tally[DROPS_SOURCED], r.tally[DROPS_DRAINED], r.tally[DROPS_REMOVED]);
+        holds = false;
+    }
+    free(r.drops);
+    return holds;
+}
+
+// Drops run in the order of their IDs, each on the pane, and those that are too heavy to rest move.
+static const char *fault_of(const struct drops *d, const drops_drop *drop, uint32_t before)
+{
+    const drops_params *p = &d->params;
+    const float right = (float)p->columns * p->cell_mm, bottom = (float)p->rows * p->cell_mm;
+    if (drop->id <= before)
+        return "is out of order";
+    if (!drop->mass)
+        return "weighs nothing";
+    if (!(drop->x >= 0 && drop->x < right && drop->y >= 0 && drop->y < bottom))
+        return "is off the pane";
+    if (drop->mass > p->critical && !drop->is_new && drop->vx == 0 && drop->vy == 0)
+        return "is heavy and rests";
+    return NULL;
+}
+
+static bool drops_are_sound(const struct rg_instance *instance, char *detail, size_t size)
+{
+    const struct drops *d = (const struct drops *)instance;
+    struct reading r;
+    bool holds = read_drops(d, &r, detail, size);
+    for (uint32_t i = 0; holds && i < r.tally[DROPS_COUNT]; i++) {
+        const char *fault = fault_of(d, &r.drops[i], i ? r.drops[i - 1].id : 0);
+        if (fault)
+            snprintf(detail, size, "drop %u %s", r.drops[i].id, fault);
+        holds = !fault;
+    }
+    free(r.drops);
+    return holds;
+}
+
+#define SMALL "columns=250 rows=150 drops_s=20 max_drops=300 "
+
+static const char *const poses[] = {
+    SMALL,
+    SMALL "turn_deg=180 trail=lines substeps=2 residual=off",
+    SMALL "tilt_deg=50 turn_deg=70 merge=off cell_mm=0.4",
+    SMALL "smooth=off erode=off drops_s=60 remove_s=4",
+    NULL,
+};
+
+static const struct rg_law laws[] = {
+    {"conservation", mass_is_conserved},
+    {"sound drops", drops_are_sound},
+    {NULL, NULL},
+};
+
+static const struct rg_mutant mutants[] = {
+    {"another seed", "seed", 1, 1},
+    {"1 % less rain", "drops_s", 0.99, 0},
+    {"critical mass 1 % higher", "critical_mass_mg", 1.01, 0},
+    {"meander 1 % wider", "meander_rad", 1.01, 0},
+    {"1 % more residual drops", "residual_beta", 1.01, 0},
+    {"residual drops 1 % heavier", "residual_high", 1.01, 0},
+    {"erosion's threshold 10 % higher", "erode_mm", 1.1, 0},
+    {"a substep more", "substeps", 1, 1},
+    {"the pane tilted by 10 degrees", "tilt_deg", 1, -10},
+    {NULL, NULL, 0, 0},
+};
+
+static const struct rg_contrast contrasts[] = {
+    {"water that does not thin", SMALL, "erode=off"},
+    {"waters that do not merge", SMALL "drops_s=60", "merge=off"},
+    {"no residual drops", SMALL, "residual=off"},
+    {"water that does not flatten", SMALL, "smooth=off"},
+    {"IDs that do not spread", SMALL "view=ids", "owned_mm=0.6"},
+    {NULL, NULL, NULL},
+};
+
+const struct rg_proof drops_proof = {
+    .poses = poses,
+    .dry = "drops_s=0",
+    .mutant_scene = SMALL "drops_s=120",
+    .laws = laws,
+    .mutants = mutants,
+    .contrasts = contrasts,
+};

@@ -1,0 +1,294 @@
+// A pass over the water: drops at rest put theirs back, it flattens (a blur, below a least height
+// none is left, section 4.2), IDs spread by a cell, as water may (section 4.3), and trails thin:
+// runs of wet cells lose one at either side (section 4.2; simplified, as its program has it). A
+// step has one pass by the paper's rules. What a pass makes of a map goes into another one.
+//
+// Heights are whole steps of a quarter of a micrometre, so that water comes to rest instead of
+// nearing rest for ever. A tile that no pass changes, and that nothing around it changes, sleeps:
+// it is the same on both maps.
+#include "kernels/drops/params.h"
+
+#define RG_PARAMS drops_params
+#define RG_SLOTS                                                                                   \
+    ATOMIC(1, uint, tiles)                                                                         \
+    IN(2, float, height)                                                                           \
+    IN(3, uint, ids)                                                                               \
+    IN(4, float, still)                                                                            \
+    IN(5, uint, still_ids) INOUT(6, float, next_height) INOUT(7, uint, next_ids)
+#include "kernels/dialect/slots/slots.h"
+
+#include "kernels/drops/tiles/stir.h"
+
+// Trails thin across the way that water runs: from a cell to the next one there, `across` it is so
+// far in cells of a map, and `along` to the next one down.
+RG_STRUCT(ways)
+{
+    int across;
+    int along;
+};
+RG_STRUCT_SIZE(ways, 2)
+
+// Where a cell is, in masks: at the pane's ends across, where it has no neighbour, or beside them,
+// or at its ends along; and whether it is beyond.
+RG_STRUCT(ends)
+{
+    uint is_first;
+    uint is_second;      // or first
+    uint is_second_last; // or last
+    uint is_last;
+    uint is_top;
+    uint is_bottom;
+    uint is_beyond;
+};
+RG_STRUCT_SIZE(ends, 7)
+
+RG_FN uint mask_of(bool b)
+{
+    return b ? 0xffffffffu : 0u;
+}
+
+// Chooses by bits, so that all heights are read in any case: compilers for processors then do
+// several cells at once.
+RG_FN float either(uint is_a, float a, float b)
+{
+    return rg_bits_float((rg_float_bits(a) & is_a) | (rg_float_bits(b) & ~is_a));
+}
+
+// With the water of drops at rest.
+RG_FN float wet_at(rg_ctx rg, int cell)
+{
+    float h = height_at(rg, cell);
+    return rg_max(h, still_at(rg, cell));
+}
+
+RG_FN uint owner_at(rg_ctx rg, int cell)
+{
+    uint id = ids_at(rg, cell);
+    uint still_id = still_ids_at(rg, cell);
+    uint is_still = mask_of(still_at(rg, cell) > height_at(rg, cell));
+    return drops_owner((still_id & is_still) | (id & ~is_still));
+}
+
+// Blurred along the way, the pane's edges as high as their last cells.
+RG_FN float along_at(rg_ctx rg, drops_params p, ends at, int along, int cell)
+{
+    float h = wet_at(rg, cell);
+    float above = either(at.is_top, h, wet_at(rg, cell - along));
+    float below = either(at.is_bottom, h, wet_at(rg, cell + along));
+    return h + (above + below - 2.0f * h) * p.side_share;
+}
+
+// Blurred across it as well, from three columns; `was` where water does not flatten.
+RG_FN float flattened(drops_params p, float left, float middle, float right, float was)
+{
+    float h = middle + (left + right - 2.0f * middle) * p.side_share;
+    return either(rg_to_uint(-p.does_smooth), h, was);
+}
+
+// Of whole steps, or nothing where it is low.
+RG_FN float rounded(drops_params p, float h)
+{
+    float whole = rg_floor(h * DROPS_HEIGHTS_A_MM + 0.5f) * (1.0f / DROPS_HEIGHTS_A_MM);
+    float kept = either(rg_to_uint(-p.does_smooth), whole, h);
+    return h < p.dry_mm ? 0.0f : kept;
+}
+
+RG_FN float thinned(rg_ctx rg, drops_params p, ends at, ways w, int cell)
+{
+    float far_left = along_at(rg, p, at, w.along, cell - 2 * w.across);
+    float left = along_at(rg, p, at, w.along, cell - w.across);
+    float middle = along_at(rg, p, at, w.along, cell);
+    float right = along_at(rg, p, at, w.along, cell + w.across);
+    float far_right = along_at(rg, p, at, w.along, cell + 2 * w.across);
+    float was_left = wet_at(rg, cell - w.across);
+    float was = wet_at(rg, cell);
+    float was_right = wet_at(rg, cell + w.across);
+    float before = either(at.is_second, left, far_left);
+    float after = either(at.is_second_last, right, far_right);
+    float beside_left = either(at.is_first, middle, left);
+    float beside_right = either(at.is_last, middle, right);
+    float here = rounded(p, flattened(p, beside_left, middle, beside_right, was));
+    float at_left = flattened(p, before, left, middle, was_left);
+    float at_right = flattened(p, middle, right, after, was_right);
+    // Beyond the pane there is no bank.
+    uint has_left = mask_of(at_left < p.dry_mm) & ~at.is_first;
+    uint has_right = mask_of(at_right < p.dry_mm) & ~at.is_last;
+    return either((has_left | has_right) & rg_to_uint(-p.does_erode), 0.0f, here);
+}
+
+// The first that is not 0.
+RG_FN uint or_else(uint first, uint second, uint third)
+{
+    uint two = first | (second & mask_of(first == 0u));
+    return two | (third & mask_of(two == 0u));
+}
+
+// First from below, else from the right, then from above, else from the left.
+RG_FN uint owner_around(rg_ctx rg, drops_params p, int cell)
+{
+    int down = p.down_cell;
+    int right = p.right_cell;
+    uint own = owner_at(rg, cell);
+    uint above = owner_at(rg, cell - down);
+    uint above_right = owner_at(rg, cell - down + right);
+    uint left = owner_at(rg, cell - right);
+    uint left_below = owner_at(rg, cell - right + down);
+    uint here = or_else(own, owner_at(rg, cell + down), owner_at(rg, cell + right));
+    return or_else(here, or_else(above, own, above_right), or_else(left, left_below, own));
+}
+
+RG_FN bool is_upright(drops_params p)
+{
+    return p.right_cell == 1 || p.right_cell == -1;
+}
+
+RG_FN ways ways_of(drops_params p)
+{
+    ways w;
+    w.across = is_upright(p) ? 1 : p.stride;
+    w.along = is_upright(p) ? p.stride : 1;
+    return w;
+}
+
+// All bits where a is below b, else none: by arithmetic, for no compiler to take for a choice.
+RG_FN uint below(int a, int b)
+{
+    return rg_to_uint((a - b) >> 31);
+}
+
+RG_FN ends ends_of(drops_params p, int column, int row)
+{
+    int across = is_upright(p) ? column : row;
+    int last = (is_upright(p) ? p.columns : p.rows) - 1;
+    int down = is_upright(p) ? row : column;
+    int lowest = (is_upright(p) ? p.rows : p.columns) - 1;
+    ends e;
+    e.is_first = below(across, 1);
+    e.is_second = below(across, 2);
+    e.is_second_last = below(last - 2, across);
+    e.is_last = below(last - 1, across);
+    e.is_top = below(down, 1);
+    e.is_bottom = below(lowest - 1, down);
+    e.is_beyond = below(p.columns - 1, column) | below(p.rows - 1, row);
+    return e;
+}
+
+RG_FN ends all_ends(uint mask)
+{
+    ends e;
+    e.is_first = mask;
+    e.is_second = mask;
+    e.is_second_last = mask;
+    e.is_last = mask;
+    e.is_top = mask;
+    e.is_bottom = mask;
+    e.is_beyond = mask;
+    return e;
+}
+
+// What the cells of a row change by, in bits: somewhere, near its left end, and near its right; and
+// where water has no owner.
+RG_STRUCT(changes)
+{
+    uint any;
+    uint at_left;
+    uint at_right;
+    uint unowned;
+};
+RG_STRUCT_SIZE(changes, 4)
+
+RG_FN changes no_changes(uint none)
+{
+    changes c;
+    c.any = none;
+    c.at_left = none;
+    c.at_right = none;
+    c.unowned = none;
+    return c;
+}
+
+RG_FN changes changed(changes was, int i, uint change)
+{
+    changes c = was;
+    c.any = was.any | change;
+    c.at_left = was.at_left | (i < DROPS_REACH ? change : 0u);
+    c.at_right = was.at_right | (i >= DROPS_TILE_COLUMNS - DROPS_REACH ? change : 0u);
+    return c;
+}
+
+// Makes a cell of the next maps, the i-th of its row.
+RG_FN changes renewed(rg_ctx rg, drops_params p, changes was, ends at, ways w, int first, int i)
+{
+    int cell = first + i;
+    float h = either(at.is_beyond, 0.0f, thinned(rg, p, at, w, cell));
+    uint own = owner_at(rg, cell);
+    uint id = h >= p.owned_mm ? own : 0u;
+    next_height_put(rg, cell, h);
+    next_ids_put(rg, cell, id);
+    changes c = was;
+    c.unowned = c.unowned | (h >= p.owned_mm ? mask_of(own == 0u) : 0u);
+    uint height_change = rg_float_bits(h) ^ rg_float_bits(height_at(rg, cell));
+    return changed(c, i, height_change | (id ^ ids_at(rg, cell)));
+}
+
+// The same for a row of any tile, and for one that has the pane all around, where there is less to
+// do.
+RG_FN changes row_at_ends(rg_ctx rg, drops_params p, int left, int row)
+{
+    int first = drops_cell(p, left, row);
+    ways w = ways_of(p);
+    changes c = no_changes(0u);
+    RG_APART
+    for (int i = 0; i < DROPS_TILE_COLUMNS; i++)
+        c = renewed(rg, p, c, ends_of(p, left + i, row), w, first, i);
+    return c;
+}
+
+RG_FN changes row_inside(rg_ctx rg, drops_params p, int left, int row)
+{
+    int first = drops_cell(p, left, row);
+    ways w = ways_of(p);
+    changes c = no_changes(0u);
+    RG_APART
+    for (int i = 0; i < DROPS_TILE_COLUMNS; i++)
+        c = renewed(rg, p, c, all_ends(0u), w, first, i);
+    return c;
+}
+
+// Water without an owner gets that of a cell beside it. Most rows have none.
+RG_FN changes spread(rg_ctx rg, drops_params p, changes was, int first)
+{
+    changes c = was;
+    RG_APART
+    for (int i = 0; i < DROPS_TILE_COLUMNS; i++) {
+        int cell = first + i;
+        uint around = owner_around(rg, p, cell);
+        uint had = next_ids_at(rg, cell);
+        uint id = next_height_at(rg, cell) >= p.owned_mm ? around : 0u;
+        next_ids_put(rg, cell, id);
+        c = changed(c, i, id ^ had);
+    }
+    return c;
+}
+
+RG_FN bool is_inside(drops_params p, int left, int row)
+{
+    return row > 1 && row < p.rows - 2 && left > 1 && left + DROPS_TILE_COLUMNS < p.columns - 1;
+}
+
+RG_GRID_KERNEL(drops_flatten)
+{
+    int row = drops_row_of(p, y);
+    int left = x * DROPS_TILE_COLUMNS;
+    if (!is_awake_at(rg, p, left, row))
+        return;
+    changes c =
+        is_inside(p, left, row) ? row_inside(rg, p, left, row) : row_at_ends(rg, p, left, row);
+    if (c.unowned != 0u && p.does_spread != 0)
+        c = spread(rg, p, c, drops_cell(p, left, row));
+    if (c.any == 0u)
+        return;
+    int last = left + DROPS_TILE_COLUMNS - 1;
+    mark_row(rg, p, row, c.at_left != 0u ? left : left + DROPS_REACH,
+             c.at_right != 0u ? last : last - DROPS_REACH, DROPS_STIRRED);
+}
