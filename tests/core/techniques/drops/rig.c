@@ -1,0 +1,73 @@
+#include "tests/core/techniques/drops/rig.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdlib.h>
+
+struct drops *rig_open(struct rg_device *device, const char *assignments)
+{
+    const struct rg_technique *technique = rg_technique_find("drops");
+    void *defaults = rg_settings_create(technique);
+    void *settings = rg_settings_copy(technique, defaults, assignments);
+    assert_non_null(settings);
+    struct rg_instance *instance = rg_instance_open(technique, device, settings, 32, 32);
+    assert_non_null(instance);
+    free(settings);
+    free(defaults);
+    return (struct drops *)instance;
+}
+
+void rig_close(struct drops *d)
+{
+    rg_instance_close(&d->base);
+}
+
+void rig_step(struct drops *d, int steps)
+{
+    for (int i = 0; i < steps; i++)
+        assert_true(d->base.technique->step(&d->base));
+}
+
+void *rig_words(struct drops *d, const char *name)
+{
+    const struct rg_asset *asset = rg_asset_find(&d->base, name);
+    assert_non_null(asset);
+    void *words = malloc(asset->buf->size);
+    assert_non_null(words);
+    assert_true(rg_buf_read(asset->buf, 0, words, (int64_t)asset->buf->size));
+    return words;
+}
+
+uint32_t rig_tally(struct drops *d, int word)
+{
+    uint32_t value;
+    assert_true(rg_buf_read(d->tally->buf, word * 4, &value, sizeof(value)));
+    return value;
+}
+
+drops_drop *rig_drops(struct drops *d, int *count)
+{
+    *count = (int)rig_tally(d, DROPS_COUNT);
+    return rig_words(d, "drops");
+}
+
+void rig_put(struct drops *d, const drops_drop *all, int count)
+{
+    uint32_t tally[DROPS_TALLY] = {
+        [DROPS_COUNT] = (uint32_t)count, [DROPS_NEXT_ID] = (uint32_t)count + 1};
+    for (int i = 0; i < count; i++) {
+        drops_drop drop = all[i];
+        drop.id = (uint32_t)i + 1;
+        drop.is_new = DROPS_LANDED_NOW;
+        tally[DROPS_SOURCED] += drop.mass;
+        assert_true(rg_buf_write(d->drops->buf, i * (int64_t)sizeof(drop), &drop, sizeof(drop)));
+    }
+    assert_true(rg_buf_write(d->tally->buf, 0, tally, sizeof(tally)));
+    const int tiles = d->params.tile_columns * d->params.tile_rows;
+    for (int i = 0; i < tiles; i++)
+        assert_true(rg_buf_write(d->tiles->buf, i * 4, &(uint32_t){DROPS_AWAKE}, 4));
+}
