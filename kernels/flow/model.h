@@ -14,7 +14,7 @@
 #define RG_RECORD  mesh_record
 #include "kernels/dialect/draw/draw.h"
 
-#include "kernels/flow/panes/optics.h"
+#include "kernels/dialect/image/cube_light.h"
 #include "kernels/dialect/mesh/item.h"
 
 RG_DRAW_ITEM(flow_model)

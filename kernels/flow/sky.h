@@ -5,7 +5,7 @@
 #define RG_SLOTS  IMAGE(1, RG11B10F, environment)
 #include "kernels/dialect/draw/view_quad.h"
 
-#include "kernels/flow/panes/optics.h"
+#include "kernels/dialect/image/cube_light.h"
 
 RG_DRAW_ITEM(flow_sky)
 {

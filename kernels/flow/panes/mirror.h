@@ -10,7 +10,7 @@
 #define RG_RECORD  flow_pane_record
 #include "kernels/dialect/draw/draw.h"
 
-#include "kernels/flow/panes/optics.h"
+#include "kernels/dialect/image/cube_light.h"
 #include "kernels/flow/panes/item.h"
 #include "kernels/flow/panes/surface.h"
 

@@ -1,7 +1,6 @@
-// What flow's lighting passes read from the slots normals and environment of the kernel that
-// includes this: the water's normal anywhere on a pane, and the light that comes from anywhere.
-#ifndef RG_KERNELS_FLOW_PANES_OPTICS_H
-#define RG_KERNELS_FLOW_PANES_OPTICS_H
+// The light that comes from anywhere, from the slot environment of the program that includes this.
+#ifndef RG_KERNELS_DIALECT_IMAGE_CUBE_LIGHT_H
+#define RG_KERNELS_DIALECT_IMAGE_CUBE_LIGHT_H
 
 #include "kernels/dialect/image/cube.h"
 
