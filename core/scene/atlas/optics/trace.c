@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "core/image/compare/multiversion.h"
+#include "kernels/dialect/dielectric.h"
 
 #define INLINE static inline __attribute__((always_inline))
 
@@ -117,11 +118,9 @@ INLINE struct vector cross(struct rg_drop_shape s, struct vector p, struct vecto
 INLINE struct parted part(struct vector d, struct vector n, float ratio)
 {
     const float cos_in = least(most(-dot(d, n), 0), 1);
-    const float squared = 1 - ratio * ratio * (1 - cos_in * cos_in);
+    const float squared = rg_cos_refracted2(cos_in, ratio);
     const float cos_out = sqrtf(most(squared, 0));
-    const float across = (ratio * cos_in - cos_out) / (ratio * cos_in + cos_out + 1e-12f);
-    const float in_plane = (cos_in - ratio * cos_out) / (cos_in + ratio * cos_out + 1e-12f);
-    const float fresnel = 0.5f * (across * across + in_plane * in_plane);
+    const float fresnel = rg_reflectance(cos_in, cos_out, ratio);
     return (struct parted){squared > 0 ? fresnel : 1, along(d, 2 * cos_in, n),
                            along(scaled(d, ratio), ratio * cos_in - cos_out, n)};
 }
