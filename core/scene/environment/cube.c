@@ -71,6 +71,7 @@ void rg_environment_close_borders(struct rg_environment *environment)
 void rg_environment_fill(struct rg_environment *environment, rg_light_fn fn, const void *user)
 {
     const int size = environment->size;
+#pragma omp parallel for collapse(2) schedule(static)
     for (int face = 0; face < 6; face++) {
         for (int y = -1; y <= size; y++) {
             for (int x = -1; x <= size; x++) {

@@ -17,7 +17,8 @@ float *rg_environment_texel(const struct rg_environment *environment, int face, 
 // Fills the borders from the neighbouring faces.
 void rg_environment_close_borders(struct rg_environment *environment);
 
-// Fills an environment from a function of direction (of any length), borders included.
+// Fills an environment from a function of direction (of any length), borders included. Several
+// threads call the function at once.
 typedef void (*rg_light_fn)(const double direction[3], const void *user, double light[3]);
 void rg_environment_fill(struct rg_environment *environment, rg_light_fn fn, const void *user);
 

@@ -14,6 +14,7 @@
 
 #include "core/base/log.h"
 #include "core/image/files/io.h"
+#include "core/scene/environment/blur.h"
 #include "core/scene/environment/cube.h"
 #include "kernels/dialect/image/cube.h"
 #include "tests/core/folder.h"
@@ -328,6 +329,58 @@ static void test_light_is_smooth_across_edges(void **state)
     rg_environment_destroy(environment);
 }
 
+// --- out of focus ---
+
+// One half of all directions is lit: those on this side of a plane.
+static void half_light(const double d[3], const void *user, double light[3])
+{
+    const double *axis = user;
+    const double along = d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2];
+    for (int i = 0; i < 3; i++)
+        light[i] = along > 0 ? i + 1 : 0;
+}
+
+// The part of a unit disc that lies beyond a chord at this distance from its middle.
+static double beyond_chord(double distance)
+{
+    const double at = fmin(fmax(distance, -1), 1);
+    return (acos(at) - at * sqrt(1 - at * at)) / M_PI;
+}
+
+// Each direction sees what its disc has on the lit side, over edges and corners of the cube too.
+// A disc is 29 to 256 places, each between four texels: that is 1 in 29 off, and half a texel.
+static void test_a_disc_around_each_direction(void **state)
+{
+    (void)state;
+    const double axis[3] = {0.48, 0.6, 0.64};
+    for (double diameter = 0.08; diameter < 0.7; diameter *= 2) {
+        struct rg_environment *sharp = rg_environment_create(96);
+        assert_non_null(sharp);
+        rg_environment_fill(sharp, half_light, axis);
+        struct rg_environment *seen = rg_environment_blur(sharp, diameter);
+        assert_non_null(seen);
+        assert_in_range(seen->size, diameter < 0.2 ? 96 : 24, 96);
+        for (int i = 0; i < 6 * seen->size * seen->size; i++) {
+            const int x = i % seen->size, y = i / seen->size % seen->size;
+            const int face = i / (seen->size * seen->size);
+            double d[3];
+            rg_cube_direction(face, x, y, seen->size, d);
+            const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+            const double along = (d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2]) / length;
+            const double due = beyond_chord(-tan(asin(along)) / tan(diameter / 2));
+            const double texels = diameter * seen->size / (M_PI / 2);
+            const double off = 1.0 / fmin(texels * texels, 29) + 0.6 / texels;
+            const float *found = rg_environment_texel(seen, face, x, y);
+            for (int c = 0; c < 3; c++)
+                if (fabs((double)found[c] - due * (c + 1)) > off * (c + 1))
+                    fail_msg("disc of %g, face %d, texel %d %d: %g, not %g", diameter, face, x, y,
+                             (double)found[c], due * (c + 1));
+        }
+        rg_environment_destroy(seen);
+        rg_environment_destroy(sharp);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -341,6 +394,7 @@ int main(void)
         cmocka_unit_test(test_borders_come_from_the_neighbour),
         cmocka_unit_test(test_packed_faces_end_on_the_edges),
         cmocka_unit_test(test_light_is_smooth_across_edges),
+        cmocka_unit_test(test_a_disc_around_each_direction),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
