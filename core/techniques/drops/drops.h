@@ -6,7 +6,13 @@
 #include "core/techniques/params.h"
 
 enum drops_trail { DROPS_HEMISPHERES, DROPS_LINES };
-enum drops_view { DROPS_VIEW_HEIGHT, DROPS_VIEW_IDS, DROPS_VIEWS };
+enum drops_view {
+    DROPS_VIEW_PANE,
+    DROPS_VIEW_HEIGHT,
+    DROPS_VIEW_IDS,
+    DROPS_VIEW_PARTICLES,
+    DROPS_VIEWS
+};
 
 struct drops_settings {
     int seed;
@@ -30,7 +36,14 @@ struct drops_settings {
     double erode_mm, owned_mm;
     int erode, merge, residual, smooth; // 1: on
     int sleep;
+    // The picture.
     int view; // enum drops_view
+    double distance_mm, aperture_mm; // of the camera
+    double refractive_index, contact_mm;
+    int rays_px; // along a side of a pixel
+    char environment[RG_PATH_SIZE], background[RG_PATH_SIZE];
+    int environment_px;
+    double background_m, background_deg;
 };
 
 extern const struct rg_param_table drops_param_table;

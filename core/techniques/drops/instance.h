@@ -6,7 +6,8 @@
 #include "core/techniques/drops/drops.h"
 #include "core/techniques/technique.h"
 #include "kernels/drops/params.h"
-#include "kernels/drops/show_params.h"
+#include "kernels/drops/view/pane_params.h"
+#include "kernels/drops/view/params.h"
 
 enum drops_stage {
     DROPS_RUN_AFFINITY,
@@ -32,7 +33,10 @@ enum drops_stage {
     DROPS_RUN_OWN,
     DROPS_RUN_FLATTEN,
     DROPS_RUN_DOZE,
+    // pictures
+    DROPS_RUN_PANE,
     DROPS_RUN_SHOW,
+    DROPS_RUN_DISCS,
     DROPS_STAGES
 };
 
@@ -43,8 +47,10 @@ struct drops {
     struct drops_settings settings;
     struct rg_scan *scan;
     drops_params params;
-    drops_show_params show;
+    drops_view_params show;
+    drops_pane_params pane;
     struct rg_asset *drops, *packed, *flags, *before, *tally, *tiles;
+    struct rg_asset *background; // of the lit pane
     struct rg_asset *height, *next_height, *ids, *next_ids; // which take turns
     uint32_t tiles_before;                                  // DROPS_TILES at the step's beginning
 };
@@ -58,5 +64,15 @@ bool drops_open(struct rg_instance *instance);
 void drops_close(struct rg_instance *instance);
 bool drops_step(struct rg_instance *instance);
 bool drops_draw(struct rg_instance *instance);
+
+// The pictures, in view/.
+
+// The whole pane as large as a picture of width x height pixels has room for, in its middle.
+drops_view_params drops_view_of(const struct drops *d, int width, int height);
+// The same of the lit pane, as `view` has it; the camera stands before the pane's middle.
+drops_pane_params drops_pane_of(const struct drops *d, const drops_view_params *view);
+// Adds the images `environment` and `background`, out of focus as a lens sees them that is focused
+// on the pane. Without a background it is one dark texel.
+void drops_add_outside(struct drops *d);
 
 #endif

@@ -11,6 +11,26 @@
 #define PARAMS    .params = AT(params)
 #define AT_REST   .named = {{"height", "still"}, {"ids", "still_ids"}}
 
+static int view_of(const struct rg_instance *instance)
+{
+    return ((const struct drops *)instance)->settings.view;
+}
+
+static bool shows_pane(const struct rg_instance *i)
+{
+    return view_of(i) == DROPS_VIEW_PANE;
+}
+
+static bool shows_maps(const struct rg_instance *i)
+{
+    return !shows_pane(i);
+}
+
+static bool shows_discs(const struct rg_instance *i)
+{
+    return view_of(i) == DROPS_VIEW_PARTICLES;
+}
+
 static const struct rg_stage stages[DROPS_STAGES] = {
     [DROPS_RUN_AFFINITY] = {"drops_affinity", PARAMS},
     [DROPS_RUN_RUN] = {"drops_run", PARAMS},
@@ -35,7 +55,10 @@ static const struct rg_stage stages[DROPS_STAGES] = {
     [DROPS_RUN_OWN] = {"drops_own", PARAMS, AT_REST},
     [DROPS_RUN_FLATTEN] = {"drops_flatten", PARAMS},
     [DROPS_RUN_DOZE] = {"drops_doze", PARAMS, .over = "tiles"},
-    [DROPS_RUN_SHOW] = {"drops_show", .params = AT(show), .colour = "target"},
+    [DROPS_RUN_PANE] = {"drops_pane", shows_pane, .params = AT(pane), .colour = "target"},
+    [DROPS_RUN_SHOW] = {"drops_show", shows_maps, .params = AT(show), .colour = "target"},
+    [DROPS_RUN_DISCS] = {"drops_discs", shows_discs, .params = AT(show), .colour = "target",
+                         .blend = RG_BLEND_OVER},
 };
 
 static const char *const counter_names[DROPS_COUNTERS] = {"drops_stepped", "cells_stepped",
@@ -162,6 +185,8 @@ bool drops_open(struct rg_instance *instance)
     add_maps(d);
     add_drops(d);
     d->tiles = rg_add_buf(instance, "tiles", tiles, NULL);
+    if (shows_pane(instance))
+        drops_add_outside(d);
     if (rg_open_stages(instance, stages, DROPS_STAGES, d, NULL) < 0)
         return false;
     d->scan = rg_scan_create(instance->device, 3 * s->max_drops);

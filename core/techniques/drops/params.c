@@ -30,7 +30,17 @@ static const struct rg_param rows[] = {
     {"residual", RG_PARAM_CHOICE, AT(residual), 1, 0, 1, "1", "whether running drops leave others behind", "off on"},
     {"smooth", RG_PARAM_CHOICE, AT(smooth), 1, 0, 1, "1", "whether water flattens", "off on"},
     {"sleep", RG_PARAM_CHOICE, AT(sleep), 1, 0, 1, "1", "whether work is left out where nothing changes; the result is the same", "off on"},
-    {"view", RG_PARAM_CHOICE, AT(view), DROPS_VIEW_HEIGHT, 0, DROPS_VIEWS - 1, "1", "what is drawn", "height ids"},
+    {"view", RG_PARAM_CHOICE, AT(view), DROPS_VIEW_PANE, 0, DROPS_VIEWS - 1, "1", "what is drawn: the lit pane, the height map, the ID map, or drops over the height map", "pane height ids particles"},
+    {"distance_mm", RG_PARAM_FLOAT, AT(distance_mm), 600, 100, 100000, "mm", "of the camera before the pane's middle", NULL},
+    {"aperture_mm", RG_PARAM_FLOAT, AT(aperture_mm), 20, 0, 100, "mm", "of its lens, which is focused on the pane; 0: all is sharp", NULL},
+    {"refractive_index", RG_PARAM_FLOAT, AT(refractive_index), 1.333, 1, 3, "1", "of water", NULL},
+    {"contact_mm", RG_PARAM_FLOAT, AT(contact_mm), 0.1, 0, 10, "mm", "lower water bends no light", NULL},
+    {"rays_px", RG_PARAM_INT, AT(rays_px), 2, 1, 8, "1", "rays of a pixel of the lit pane, along a side", NULL},
+    {"environment", RG_PARAM_FILE, AT(environment), 0, 0, 0, "file", "a map of open3d-gui-data by name, 'sky', a KTX cube map, or a lat-long image", "crossroads"},
+    {"environment_px", RG_PARAM_INT, AT(environment_px), 256, 16, 4096, "px", "texels along a face that the environment is resampled to", NULL},
+    {"background", RG_PARAM_FILE, AT(background), 0, 0, 0, "file", "a picture that stands behind the pane; none: the environment is seen", ""},
+    {"background_m", RG_PARAM_FLOAT, AT(background_m), 20, 0.1, 100000, "m", "of the background behind the pane", NULL},
+    {"background_deg", RG_PARAM_FLOAT, AT(background_deg), 90, 1, 170, "deg", "that the background is wide, seen from the pane; beyond its edges it is mirrored", NULL},
 };
 // clang-format on
 

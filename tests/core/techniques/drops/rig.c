@@ -6,19 +6,28 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <stdio.h>
 #include <stdlib.h>
 
-struct drops *rig_open(struct rg_device *device, const char *assignments)
+struct drops *rig_open_sized(struct rg_device *device, const char *assignments, int width,
+                             int height)
 {
     const struct rg_technique *technique = rg_technique_find("drops");
     void *defaults = rg_settings_create(technique);
     void *settings = rg_settings_copy(technique, defaults, assignments);
     assert_non_null(settings);
-    struct rg_instance *instance = rg_instance_open(technique, device, settings, 32, 32);
+    struct rg_instance *instance = rg_instance_open(technique, device, settings, width, height);
     assert_non_null(instance);
     free(settings);
     free(defaults);
     return (struct drops *)instance;
+}
+
+struct drops *rig_open(struct rg_device *device, const char *assignments)
+{
+    char of_maps[1024];
+    snprintf(of_maps, sizeof(of_maps), "view=height %s", assignments);
+    return rig_open_sized(device, of_maps, 32, 32);
 }
 
 void rig_close(struct drops *d)

@@ -4,7 +4,11 @@
 
 #include "core/techniques/drops/instance.h"
 
-// Opens drops with these "key=value key=value" over its defaults; fails the test otherwise.
+// Opens drops with these "key=value key=value" over its defaults, and a picture of this size; fails
+// the test otherwise.
+struct drops *rig_open_sized(struct rg_device *device, const char *assignments, int width,
+                             int height);
+// The same for tests of what it does alone: its picture is small, and of the height map.
 struct drops *rig_open(struct rg_device *device, const char *assignments);
 void rig_close(struct drops *d);
 void rig_step(struct drops *d, int steps);

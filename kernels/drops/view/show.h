@@ -1,17 +1,11 @@
 // The height map in grey, or the ID map in colours that tell owners apart (figures 2 to 7).
 #include "kernels/drops/params.h"
-#include "kernels/drops/show_params.h"
+#include "kernels/drops/view/colour.h"
+#include "kernels/drops/view/params.h"
 
-#define RG_PARAMS drops_show_params
+#define RG_PARAMS drops_view_params
 #define RG_SLOTS  IN(1, float, height) IN(2, uint, ids)
 #include "kernels/dialect/draw/view_quad.h"
-
-RG_FN float channel_of(uint id, uint shift)
-{
-    uint mixed = id * 2654435761u;
-    mixed = (mixed ^ (mixed >> 15)) * 2246822519u;
-    return 0.25f + 0.75f * rg_to_float((mixed >> shift) & 255u) * (1.0f / 255.0f);
-}
 
 RG_DRAW_ITEM(drops_show)
 {
@@ -31,10 +25,8 @@ RG_DRAW_FRAGMENT(drops_show)
     int cell = (rg_iclamp(row, 0, p.rows - 1) + DROPS_MARGIN) * p.stride +
                rg_iclamp(column, 0, p.columns - 1) + DROPS_MARGIN;
     float grey = rg_min(height_at(rg, cell) / p.white_mm, 1.0f);
-    uint id = ids_at(rg, cell);
     rgba c = rg_rgba(grey, grey, grey, 1.0f);
     if (p.is_of_ids != 0)
-        c = id == 0u ? rg_rgba(0.0f, 0.0f, 0.0f, 1.0f)
-                     : rg_rgba(channel_of(id, 0u), channel_of(id, 8u), channel_of(id, 16u), 1.0f);
-    return rg_fragment_make(is_on ? c : rg_rgba(0.02f, 0.02f, 0.02f, 1.0f), 1.0f);
+        c = drops_colour_of(ids_at(rg, cell));
+    return rg_fragment_make(is_on ? c : DROPS_BESIDE, 1.0f);
 }
