@@ -39,7 +39,8 @@ RG_FN v3 through_water(rg_ctx rg, drops_pane_params p, float x_mm, float y_mm, v
         v3_unit(v3_add(v3_scale(inside, p.index), v3_scale(normal, cos_out - p.index * cos_in)));
     float mirrored = rg_reflectance(ahead, ahead_in, into);
     v3 front = drops_light_from(rg, p, x_mm, y_mm, v3_make(d.x, d.y, ahead), spread_rad);
-    v3 back = drops_light_from(rg, p, x_mm, y_mm, v3_reflect(inside, normal), spread_rad);
+    v3 back = drops_light_from(rg, p, x_mm, y_mm, v3_add(inside, v3_scale(normal, -2.0f * cos_in)),
+                               spread_rad);
     v3 passed = drops_light_from(rg, p, x_mm, y_mm, outside, spread_rad);
     return v3_add(v3_scale(front, mirrored),
                   v3_add(v3_scale(back, (1.0f - mirrored) * kept),
