@@ -29,6 +29,8 @@ RENDER = ("render flow --set environment=sky --set environment_px=16 --set resol
 
 FRAMES = RENDER.replace("--frame 1", "--frames 1-2")
 
+PANE = "render drops --set environment=sky --set environment_px=16 --set columns=32 --set rows=32 --size 32x32 --frame 1 "
+
 RAIN = ("render streaks --size 32x18 --frame 1 --set atlas=small --set city=small --set depth_map_px=64 "
         "--set shadow_map_px=16 ")
 FIT = RAIN + ("--set fit=on --set rain_width_m=60 --set rain_depth_m=60 --set rain_height_m=40 --set camera=free "
@@ -173,6 +175,10 @@ RENDERS = [
     # rain that cannot be
     Case(RAIN + "--set density_map=/nonexistent.png -o {tmp}/a.png", 2, r"/nonexistent\.png: .*check the name"),
     Case(RAIN + "--set density_map={data}/folder.exr -o {tmp}/a.png", 2, r"folder\.exr: "),
+    Case(PANE + "--set background=/nonexistent.png -o {tmp}/a.png", 2, r"/nonexistent\.png: .*check the name"),
+    Case(PANE + "--set background={data}/short.exr -o {tmp}/a.png", 2, r"short\.exr: "),
+    Case(PANE + "--set aperture_mm=101 -o {tmp}/a.png", 2, r"parameter 'aperture_mm': 101 is out of range; 0 to 100 mm"),
+    Case(PANE + "--set aperture_mm=100 --set distance_mm=100 -o {tmp}/a.png", 0, None, made=("a.png",)),
     Case(RAIN + "--set drops_m2_s=0 -o {tmp}/a.png", 2, r"0 drops a square metre and second; give a number above 0"),
     Case(RAIN + "--set drops_m2_s=1e9 -o {tmp}/a.png", 2, r"1\.02666e\+14 particles .*lower drops_m2_s"),
     Case(RAIN + "--set packet_size=1 --set packets=kd --set rain_width_m=60 --set rain_depth_m=60 --set memory_mb=500 "
