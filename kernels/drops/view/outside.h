@@ -25,8 +25,11 @@ RG_FN v3 drops_environment(rg_ctx rg, drops_pane_params p, v3 d, float spread_ra
     int coarse = rg_imin(fine + 1, last);
     float t = lod - rg_to_float(fine);
     v3 a = light_from(rg, to, fine, p.environment_px >> rg_to_uint(fine));
-    v3 b = light_from(rg, to, coarse, p.environment_px >> rg_to_uint(coarse));
-    return v3_make(a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t);
+    if (t > 0.0f) {
+        v3 b = light_from(rg, to, coarse, p.environment_px >> rg_to_uint(coarse));
+        a = v3_make(a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t);
+    }
+    return a;
 }
 
 // The same of the picture behind the pane, from a place on the pane; `away` is the direction's part
