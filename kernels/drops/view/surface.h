@@ -21,8 +21,8 @@ RG_FN drops_weights drops_value_weights(float f)
     float g = 1.0f - f;
     drops_weights w;
     w.a = 0.16666667f * g * g * g;
-    w.b = 0.6666667f - f * f * (1.0f - 0.5f * f);
-    w.c = 0.6666667f - g * g * (1.0f - 0.5f * g);
+    w.b = 0.16666667f * (4.0f - f * f * (6.0f - 3.0f * f));
+    w.c = 0.16666667f * (4.0f - g * g * (6.0f - 3.0f * g));
     w.d = 0.16666667f * f * f * f;
     return w;
 }
