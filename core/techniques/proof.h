@@ -8,6 +8,15 @@
 
 struct rg_instance;
 
+enum { RG_POSE_LEFT_OUT = -1 };
+
+// A scene of verify. It takes so many steps with --full and with --quick; 0: as many as verify
+// takes of its own, RG_POSE_LEFT_OUT: it is not run.
+struct rg_pose {
+    const char *set; // "panes=mirror"
+    int full_steps, quick_steps;
+};
+
 // A law that the state obeys on every device, whatever happened before.
 struct rg_law {
     const char *name; // "conservation"
@@ -32,7 +41,7 @@ struct rg_contrast {
 
 // Assignments are "key=value key=value", "" for none; they go over what the user sets.
 struct rg_proof {
-    const char *const *poses;        // of the scene, NULL-terminated
+    const struct rg_pose *poses;     // the last has no assignments, which is NULL
     const char *dry;                 // takes all rain away: the background of the rain mask
     const char *mutant_scene;        // over the defaults, where the mutants are drawn; NULL: none
     const struct rg_law *laws;       // the last has no name

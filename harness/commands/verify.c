@@ -9,12 +9,12 @@
 #include "harness/cli/subject.h"
 #include "harness/compare/verify/verify.h"
 
-enum { QUICK_STEPS = 100, FULL_STEPS = 1000, STAGE_FRAMES = 3, MAX_TECHNIQUES = 16 };
+enum { STAGE_FRAMES = 3, MAX_TECHNIQUES = 16 };
 
 struct verify_options {
     struct rg_words sets;
     struct rg_size size;
-    int steps; // -1: as the length says
+    int steps; // -1: as poses and the length say
     struct rg_length length;
     bool stages;
     char *devices; // their names
@@ -123,10 +123,8 @@ static int verify_on(const struct verify_options *o, const struct rg_devices *de
     struct rg_verify v = {
         .width = o->size.width,
         .height = o->size.height,
-        .steps = o->steps >= 0     ? o->steps
-                 : o->stages       ? STAGE_FRAMES
-                 : o->length.quick ? QUICK_STEPS
-                                   : FULL_STEPS,
+        .quick = o->length.quick,
+        .steps = o->steps < 0 && o->stages ? STAGE_FRAMES : o->steps,
         .reference = find_or_open(devices, reference_name, &extra[0]),
         .mutant_device = find_or_open(devices, mutant_name, &extra[1]),
         .devices = devices,

@@ -17,11 +17,15 @@
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"
 
 // flow in one pose, without laws and mutants.
-static const char *const poses[] = {"", NULL};
+static const struct rg_pose poses[] = {{.set = ""}, {.set = NULL}};
 static const struct rg_law laws[] = {{NULL, NULL}};
 static const struct rg_proof proof = {
     .poses = poses, .dry = "drops=0 rain_drops_s=0", .laws = laws};
 static struct rg_technique flow;
+
+// How long poses are run.
+static bool is_quick;
+static int steps;
 
 // A driver that fails on one device.
 static bool fail_on_cpu(struct rg_instance *instance)
@@ -72,7 +76,8 @@ static void verify(const char *assignments, enum rg_tier tier, int width, int he
                           .settings = settings,
                           .width = width,
                           .height = height,
-                          .steps = 2,
+                          .quick = is_quick,
+                          .steps = steps,
                           .reference = reference,
                           .devices = &devices,
                           .checks = checks,
@@ -105,6 +110,8 @@ static int setup(void **state)
     (void)state;
     flow = *rg_technique_find("flow");
     flow.proof = &proof;
+    is_quick = false;
+    steps = 2;
     return 0;
 }
 
@@ -180,6 +187,67 @@ static void devices_are_held_to_what_they_owe(void **state)
     assert_int_equal(judge(RG_T2, "but within T2"), RG_OK);
 }
 
+// --- how long poses are run ---
+
+static int taken; // steps on `cpu`
+
+static bool count_step(struct rg_instance *instance)
+{
+    taken += !strcmp(instance->device->info.name, "cpu");
+    return rg_technique_find("flow")->step(instance);
+}
+
+static const struct rg_pose long_poses[] = {{"drops=40", 3, 2},
+                                            {"drops=50", 5, RG_POSE_LEFT_OUT},
+                                            {"drops=60", 2, RG_POSE_LEFT_OUT},
+                                            {NULL, 0, 0}};
+static const struct rg_proof long_proof = {
+    .poses = long_poses, .dry = "drops=0 rain_drops_s=0", .laws = laws};
+
+// Verifies these poses: so many steps are taken with each seed, and the line says how many.
+static void expect_steps(bool quick, int asked, int a_seed, const char *says)
+{
+    struct rg_checks checks;
+    flow.proof = &long_proof;
+    flow.step = count_step;
+    is_quick = quick;
+    steps = asked;
+    taken = 0;
+    verify(CHEAP, RG_T0, 16, 16, &checks);
+    assert_int_equal(outcome_of(&checks, "state", "cpu"), RG_OK);
+    assert_string_equal(checks.rows[1].detail, says);
+    assert_int_equal(taken, a_seed * RG_VERIFY_SEEDS);
+    rg_checks_free(&checks);
+}
+
+static void poses_say_how_long(void **state)
+{
+    (void)state;
+    expect_steps(false, -1, 10, "9 runs of 2 to 5 steps, identical to cpu:reference");
+    expect_steps(true, -1, 2, "3 runs of 2 steps, identical to cpu:reference");
+    expect_steps(false, 4, 12, "9 runs of 4 steps, identical to cpu:reference");
+    expect_steps(true, 4, 4, "3 runs of 4 steps, identical to cpu:reference");
+}
+
+// Poses that say nothing take what verify takes of its own; the bar knows them all.
+static void poses_need_not_say(void **state)
+{
+    (void)state;
+    const struct rg_devices none = {0};
+    struct rg_verify v = {.technique = &flow, .devices = &none, .steps = -1};
+    assert_int_equal(rg_verify_steps(&v, &poses[0]), 1000);
+    assert_int_equal(rg_verify_device_work(&v), 1000 * RG_VERIFY_SEEDS);
+    v.quick = true;
+    assert_int_equal(rg_verify_steps(&v, &poses[0]), 100);
+    v.steps = 0;
+    assert_int_equal(rg_verify_steps(&v, &poses[0]), 0);
+    flow.proof = &long_proof;
+    v.steps = -1;
+    assert_int_equal(rg_verify_device_work(&v), 2 * RG_VERIFY_SEEDS);
+    assert_int_equal(rg_verify_poses(&v), 1);
+    assert_int_equal(rg_verify_stage_work(&v), 1);
+}
+
 // Draws mutants of flow in this scene, and says what came of them.
 static void verify_mutants(const char *scene, const struct rg_mutant *mutants, const char *says)
 {
@@ -233,6 +301,8 @@ int main(void)
         cmocka_unit_test_setup(what_no_device_can_do_is_unsupported, setup),
         cmocka_unit_test_setup(a_drivers_failure_fails, setup),
         cmocka_unit_test_setup(devices_are_held_to_what_they_owe, setup),
+        cmocka_unit_test_setup(poses_say_how_long, setup),
+        cmocka_unit_test_setup(poses_need_not_say, setup),
         cmocka_unit_test_setup(a_mutant_that_lives_fails, setup),
         cmocka_unit_test_setup(a_mutant_is_judged_where_it_rains, setup),
     };

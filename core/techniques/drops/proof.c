@@ -75,12 +75,12 @@ static bool drops_are_sound(const struct rg_instance *instance, char *detail, si
 
 #define SMALL "columns=250 rows=150 drops_s=20 max_drops=300 "
 
-static const char *const poses[] = {
-    SMALL,
-    SMALL "turn_deg=180 trail=lines substeps=2 residual=off",
-    SMALL "tilt_deg=50 turn_deg=70 merge=off cell_mm=0.4",
-    SMALL "smooth=off erode=off drops_s=60 remove_s=4",
-    NULL,
+static const struct rg_pose poses[] = {
+    {.set = SMALL},
+    {.set = SMALL "turn_deg=180 trail=lines substeps=2 residual=off"},
+    {.set = SMALL "tilt_deg=50 turn_deg=70 merge=off cell_mm=0.4"},
+    {.set = SMALL "smooth=off erode=off drops_s=60 remove_s=4"},
+    {.set = NULL},
 };
 
 static const struct rg_law laws[] = {

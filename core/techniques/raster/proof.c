@@ -46,14 +46,14 @@ static bool drops_lie_evenly(const struct rg_instance *instance, char *detail, s
     return holds;
 }
 
-static const char *const poses[] = {
-    "",
-    "blend=add format=rgba8 wind_m_s=-6 view_angle_deg=70",
-    "scene=mesh",
-    "scene=mesh model=torus view=13 inside=1",
-    "scene=triangles triangles=100000 near=4.5",
-    "scene=quads format=rgba32f",
-    NULL,
+static const struct rg_pose poses[] = {
+    {.set = ""},
+    {.set = "blend=add format=rgba8 wind_m_s=-6 view_angle_deg=70"},
+    {.set = "scene=mesh"},
+    {.set = "scene=mesh model=torus view=13 inside=1"},
+    {.set = "scene=triangles triangles=100000 near=4.5"},
+    {.set = "scene=quads format=rgba32f"},
+    {.set = NULL},
 };
 
 static const struct rg_law laws[] = {

@@ -9,8 +9,9 @@
 #include "core/techniques/streaks/instance.h"
 
 #define SMALL "atlas=small city=small depth_map_px=1024 shadow_map_px=256 state=on "
-// A sixteenth of the rain space around the city's middle, where the camera then stands: opening makes
-// every particle, and most of them are never near enough to be seen. Its rain is a fifth as dense.
+// A sixteenth of the rain space around the city's middle, where the camera then stands: opening
+// makes every particle, and most of them are never near enough to be seen. Its rain is a fifth as
+// dense.
 #define NEAR SMALL "camera=free rain_width_m=100 rain_depth_m=100 drops_m2_s=100 "
 
 // A particle that is seen lies in the local space, a drop's streak not wholly below what it hits, a
@@ -56,14 +57,14 @@ static bool particles_are_sound(const struct rg_instance *instance, char *detail
     return ok;
 }
 
-static const char *const poses[] = {
-    NEAR,
-    NEAR "rain_width_m=150 walk_m_s=3 time=night lights=6 packets=quad packet_size=3000 select=hull "
-         "splash_materials=on",
-    SMALL "geometry=off walk_m_s=8 slant_deg=25 slant_azimuth_deg=20 packets=kd packet_size=700 "
-          "drops_m2_s=20 cull=exact order=id depth_map=dynamic depth_map_period=3 depth_map_px=512 "
-          "taps=8 far_layers=3 splash_materials=on",
-    NULL,
+static const struct rg_pose poses[] = {
+    {.set = NEAR},
+    {.set = NEAR "rain_width_m=150 walk_m_s=3 time=night lights=6 packets=quad packet_size=3000 "
+                 "select=hull splash_materials=on"},
+    {.set = SMALL "geometry=off walk_m_s=8 slant_deg=25 slant_azimuth_deg=20 packets=kd "
+                  "packet_size=700 drops_m2_s=20 cull=exact order=id depth_map=dynamic "
+                  "depth_map_period=3 depth_map_px=512 taps=8 far_layers=3 splash_materials=on"},
+    {.set = NULL},
 };
 
 static const struct rg_law laws[] = {

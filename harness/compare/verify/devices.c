@@ -16,10 +16,11 @@
 // One check on one device, over all cases.
 struct tally {
     int runs, failed, errors;
-    int unlike;            // not identical, where that is allowed
-    enum rg_outcome ended; // what the errors come to
-    bool is_bad_input;     // one of them is the user's
-    char first[400];       // what went wrong first
+    int least_steps, most_steps; // of the runs
+    int unlike;                  // not identical, where that is allowed
+    enum rg_outcome ended;       // what the errors come to
+    bool is_bad_input;           // one of them is the user's
+    char first[400];             // what went wrong first
 };
 
 enum { MAX_LAWS = 8, STATE = 0, IMAGE = 1, LAWS = 2 };
@@ -36,6 +37,7 @@ struct row {
 struct one_case {
     char name[256];
     void *settings;
+    int steps;
     struct rg_snapshot expected;
     struct rg_picture expected_picture;
     bool with_dry; // whether `dry`, the background of the rain mask, is wanted
@@ -69,6 +71,15 @@ static void note_error(struct tally *tally)
         snprintf(tally->first, sizeof(tally->first), "%s", rg_last_error());
 }
 
+static void count_run(struct tally *tally, const struct one_case *c)
+{
+    if (!tally->runs || c->steps < tally->least_steps)
+        tally->least_steps = c->steps;
+    if (c->steps > tally->most_steps)
+        tally->most_steps = c->steps;
+    tally->runs++;
+}
+
 static int count_laws(const struct rg_verify *v)
 {
     int count = 0;
@@ -77,20 +88,15 @@ static int count_laws(const struct rg_verify *v)
     return count;
 }
 
-static int count_poses(const struct rg_verify *v)
-{
-    int count = 0;
-    while (v->technique->proof->poses[count])
-        count++;
-    return count;
-}
-
 int64_t rg_verify_device_work(const struct rg_verify *v)
 {
-    int64_t devices = 1;
+    int64_t devices = 1, steps = 0;
     for (int i = 0; i < v->devices->count; i++)
         devices += v->devices->devices[i] != v->reference;
-    return v->steps * count_poses(v) * RG_VERIFY_SEEDS * devices;
+    for (const struct rg_pose *pose = v->technique->proof->poses; pose->set; pose++)
+        if (rg_verify_steps(v, pose) != RG_POSE_LEFT_OUT)
+            steps += rg_verify_steps(v, pose);
+    return steps * RG_VERIFY_SEEDS * devices;
 }
 
 static struct rg_subject subject_of(const struct rg_verify *v, const void *settings)
@@ -125,7 +131,7 @@ static void describe_first(struct rg_verify *v, struct rg_device *device, const 
     struct rg_session *b = rg_session_open(v->reference, &subject);
     char element[160] = "";
     int step = 0;
-    for (bool ok = a && b; ok && !*element && step <= v->steps; step++) {
+    for (bool ok = a && b; ok && !*element && step <= c->steps; step++) {
         struct rg_snapshot now = {0}, expected = {0};
         ok = (step == 0 || (rg_session_step(a) && rg_session_step(b))) &&
              rg_snapshot_take(a, false, &now) && rg_snapshot_take(b, false, &expected);
@@ -146,7 +152,7 @@ static void check_state(struct rg_verify *v, struct row *row, const struct one_c
                         const struct rg_snapshot *now)
 {
     struct tally *tally = &row->tallies[STATE];
-    tally->runs++;
+    count_run(tally, c);
     if (rg_snapshot_same_state(now, &c->expected))
         return;
     if (row->tier != RG_T0) {
@@ -192,7 +198,7 @@ static void check_image(struct row *row, const struct one_case *c, const struct 
 {
     struct tally *tally = &row->tallies[IMAGE];
     struct rg_picture picture = {0};
-    tally->runs++;
+    count_run(tally, c);
     if (rg_snapshot_same_image(now, &c->expected))
         return;
     if (!rg_session_picture(session, now->texels, &picture))
@@ -213,7 +219,7 @@ static void check_laws(const struct rg_verify *v, struct row *row, const struct 
     for (int i = 0; i < count_laws(v); i++) {
         struct tally *tally = &row->tallies[LAWS + i];
         char detail[256] = "";
-        tally->runs++;
+        count_run(tally, c);
         if (!rg_session_obeys(session, &v->technique->proof->laws[i], detail, sizeof(detail)))
             blame(tally, c, "%s", detail);
     }
@@ -231,7 +237,7 @@ static struct rg_session *run_case(struct rg_verify *v, struct row *row, struct 
 {
     rg_progress_label(v->progress, "%s: %s on %s", v->technique->name, c->name,
                       row->device->info.name);
-    struct rg_session *session = rg_verify_run(v, row->device, c->settings, v->steps);
+    struct rg_session *session = rg_verify_run(v, row->device, c->settings, c->steps);
     rg_session_close(row->last);
     row->last = session;
     if (session && rg_session_draw(session) && rg_snapshot_take(session, true, now))
@@ -301,15 +307,17 @@ static bool wants_dry(const struct row *rows, int count, int seed)
 }
 
 // The user's settings in a pose, with one of the seeds that follow the user's.
-static bool set_case(const struct rg_verify *v, int seed, const char *pose, struct one_case *c)
+static bool set_case(const struct rg_verify *v, int seed, const struct rg_pose *pose,
+                     struct one_case *c)
 {
     const struct rg_param *param = rg_params_find(v->technique->params, "seed");
     char text[RG_PATH_SIZE];
     rg_params_text(param, v->settings, text, sizeof(text));
     const double first = strtod(text, NULL);
     const double value = first + seed <= param->max ? first + seed : first - seed;
-    snprintf(c->name, sizeof(c->name), "seed %.0f%s%s", value, *pose ? ", " : "", pose);
-    snprintf(text, sizeof(text), "seed=%.0f %s", value, pose);
+    snprintf(c->name, sizeof(c->name), "seed %.0f%s%s", value, *pose->set ? ", " : "", pose->set);
+    snprintf(text, sizeof(text), "seed=%.0f %s", value, pose->set);
+    c->steps = rg_verify_steps(v, pose);
     return (c->settings = rg_settings_copy(v->technique, v->settings, text)) != NULL;
 }
 
@@ -330,6 +338,16 @@ static int least_exit(const struct tally *t, bool is_reference)
     return is_reference && t->errors ? rg_exit_of(t->ended) : RG_EXIT_PASS;
 }
 
+// "12 runs of 1000 steps", "30 runs of 300 to 2000 steps".
+static void name_runs(const struct tally *t, char *text, size_t size)
+{
+    const int used = snprintf(text, size, "%d runs of %d", t->runs, t->least_steps);
+    if (t->least_steps < t->most_steps)
+        snprintf(text + used, size - (size_t)used, " to %d steps", t->most_steps);
+    else
+        snprintf(text + used, size - (size_t)used, " steps");
+}
+
 // `reference` is the first row.
 static void report(struct rg_verify *v, const struct row *reference, const struct row *row,
                    int check)
@@ -337,6 +355,8 @@ static void report(struct rg_verify *v, const struct row *reference, const struc
     const struct tally *t = &row->tallies[check];
     const char *technique = v->technique->name, *name = check_name(v, check);
     const char *device = row->device->info.name;
+    char runs[64];
+    name_runs(t, runs, sizeof(runs));
     v->checks->exit = rg_exit_worse(v->checks->exit, least_exit(t, row == reference));
     if (t->failed)
         rg_checks_add(v->checks, technique, name, device, RG_FAIL, "%d of %d runs; %s", t->failed,
@@ -347,17 +367,14 @@ static void report(struct rg_verify *v, const struct row *reference, const struc
         rg_checks_add(v->checks, technique, name, device, reference->tallies[check].ended,
                       "not run: %s, which it is compared with, failed", v->reference->info.name);
     else if (check >= LAWS)
-        rg_checks_add(v->checks, technique, name, device, RG_OK, "holds after %d runs of %d steps",
-                      t->runs, v->steps);
+        rg_checks_add(v->checks, technique, name, device, RG_OK, "holds after %s", runs);
     else if (t->unlike)
         rg_checks_add(v->checks, technique, name, device, RG_OK,
-                      "%d of %d runs of %d steps are not identical to %s, %s %s%s", t->unlike,
-                      t->runs, v->steps, v->reference->info.name,
-                      check == STATE ? "which" : "but within", rg_tier_name(row->tier),
-                      check == STATE ? " leaves to the image" : "");
+                      "%d of %s are not identical to %s, %s %s%s", t->unlike, runs,
+                      v->reference->info.name, check == STATE ? "which" : "but within",
+                      rg_tier_name(row->tier), check == STATE ? " leaves to the image" : "");
     else
-        rg_checks_add(v->checks, technique, name, device, RG_OK,
-                      "%d runs of %d steps, identical to %s", t->runs, v->steps,
+        rg_checks_add(v->checks, technique, name, device, RG_OK, "%s, identical to %s", runs,
                       v->reference->info.name);
 }
 
@@ -377,6 +394,18 @@ static int list_rows(const struct rg_verify *v, struct row *rows)
     return count;
 }
 
+static void run_pose(struct rg_verify *v, struct row *rows, int count, const struct rg_pose *pose)
+{
+    for (int seed = 0; seed < RG_VERIFY_SEEDS; seed++) {
+        struct one_case c = {.with_dry = wants_dry(rows, count, seed)};
+        if (set_case(v, seed, pose, &c))
+            run_one(v, rows, count, &c);
+        else
+            note_errors(v, &rows[0]);
+        free(c.settings);
+    }
+}
+
 void rg_verify_devices(struct rg_verify *v)
 {
     struct row *rows = rg_alloc(RG_MAX_DEVICES + 1, sizeof(*rows), "verify");
@@ -385,17 +414,9 @@ void rg_verify_devices(struct rg_verify *v)
         return;
     }
     const int count = list_rows(v, rows);
-    const char *const *poses = v->technique->proof->poses;
-    for (int pose = 0; poses[pose]; pose++) {
-        for (int seed = 0; seed < RG_VERIFY_SEEDS; seed++) {
-            struct one_case c = {.with_dry = wants_dry(rows, count, seed)};
-            if (set_case(v, seed, poses[pose], &c))
-                run_one(v, rows, count, &c);
-            else
-                note_errors(v, &rows[0]);
-            free(c.settings);
-        }
-    }
+    for (const struct rg_pose *pose = v->technique->proof->poses; pose->set; pose++)
+        if (rg_verify_steps(v, pose) != RG_POSE_LEFT_OUT)
+            run_pose(v, rows, count, pose);
     for (int check = 0; check < LAWS + count_laws(v); check++)
         for (int i = 0; i < count; i++)
             if (i > 0 || check >= LAWS || rows[i].tallies[check].errors)

@@ -12,10 +12,7 @@
 
 int64_t rg_verify_stage_work(const struct rg_verify *v)
 {
-    int64_t poses = 0;
-    while (v->technique->proof->poses[poses])
-        poses++;
-    return poses * (v->devices->count + 1);
+    return (int64_t)rg_verify_poses(v) * (v->devices->count + 1);
 }
 
 // The first row in which two runs differ; -1: none.
@@ -86,10 +83,11 @@ static void compare(struct rg_verify *v, const struct rg_digest_run *run, struct
     rg_progress_add(v->progress, 1);
 }
 
-static void verify_pose(struct rg_verify *v, const char *pose)
+static void verify_pose(struct rg_verify *v, const struct rg_pose *pose)
 {
-    void *settings = rg_settings_copy(v->technique, v->settings, pose);
-    const struct rg_digest_run run = {{v->technique, settings, v->width, v->height}, v->steps};
+    void *settings = rg_settings_copy(v->technique, v->settings, pose->set);
+    const struct rg_digest_run run = {{v->technique, settings, v->width, v->height},
+                                      rg_verify_steps(v, pose)};
     struct rg_digests expected = {0};
     const bool ok = settings && rg_digests_take(&run, v->reference, &expected);
     if (!ok) {
@@ -98,7 +96,7 @@ static void verify_pose(struct rg_verify *v, const char *pose)
     }
     for (int i = 0; ok && i < v->devices->count; i++)
         if (v->devices->devices[i] != v->reference)
-            compare(v, &run, v->devices->devices[i], pose, &expected);
+            compare(v, &run, v->devices->devices[i], pose->set, &expected);
     rg_progress_add(v->progress, 1);
     rg_digests_free(&expected);
     free(settings);
@@ -106,6 +104,7 @@ static void verify_pose(struct rg_verify *v, const char *pose)
 
 void rg_verify_stages(struct rg_verify *v)
 {
-    for (const char *const *pose = v->technique->proof->poses; *pose; pose++)
-        verify_pose(v, *pose);
+    for (const struct rg_pose *pose = v->technique->proof->poses; pose->set; pose++)
+        if (rg_verify_steps(v, pose) != RG_POSE_LEFT_OUT)
+            verify_pose(v, pose);
 }

@@ -12,13 +12,20 @@ enum { RG_VERIFY_SEEDS = 3 };
 struct rg_verify {
     const struct rg_technique *technique;
     const void *settings;             // the user's
-    int width, height, steps;         // of the image; simulated before it is drawn
+    int width, height;                // of the image
+    bool quick;                       // else full
+    int steps;                        // of every pose; -1: as many as a pose says
     struct rg_device *reference;      // what the others are compared with
     const struct rg_devices *devices; // may hold the reference: it is not compared with itself
     struct rg_device *mutant_device;
     struct rg_checks *checks;
     struct rg_progress *progress;
 };
+
+// Steps of a pose before it is drawn; RG_POSE_LEFT_OUT where it is not run.
+int rg_verify_steps(const struct rg_verify *verify, const struct rg_pose *pose);
+// How many poses are run.
+int rg_verify_poses(const struct rg_verify *verify);
 
 // Steps that each of the parts below runs, for the progress bar.
 int64_t rg_verify_device_work(const struct rg_verify *verify);
