@@ -15,4 +15,8 @@ struct rg_interval rg_median(double *samples, int count);
 // The slope of the least-squares line through (x, y). At least two different x.
 double rg_slope(const double *x, const double *y, int count);
 
+// The slope and its interval of 95 % by Student's t, as if the points scattered about a line alike
+// and independently. All NAN where no two x differ or one is NAN; no interval below three points.
+struct rg_interval rg_slope_interval(const double *x, const double *y, int count);
+
 #endif

@@ -1,4 +1,5 @@
 // What is said below a table.
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -64,11 +65,27 @@ static void note_outcome(const struct rg_result *result, struct rg_sheet *sheet,
 
 // --- the trend ---
 
+// Times grow where frame rates fall: the exponent has the slope's opposite sign.
+static void note_growth(const struct rg_result *result, struct rg_sheet *sheet, struct rg_place of,
+                        const struct rg_trend *s)
+{
+    char interval[80] = "", kind[128];
+    if (isfinite(s->slope_low))
+        snprintf(interval, sizeof(interval), " (95 %%: %.2f to %.2f)", -s->slope_high,
+                 -s->slope_low);
+    name_kind(result, of, kind, sizeof(kind));
+    rg_sheet_note(sheet, "Growth on %s%s: the time of a frame goes with %s to the power %.2f%s.",
+                  result->devices[of.device].name, kind,
+                  rg_trend_axis(rg_result_at(result, of))->name, -s->slope, interval);
+}
+
 static void note_trend(const struct rg_result *result, struct rg_sheet *sheet, struct rg_place of)
 {
     const struct rg_trend s = rg_trend_of(result, of);
     char slopes[160] = "", kind[128];
-    if (s.verdict >= RG_TREND_UNKNOWN)
+    if (s.verdict == RG_TREND_GROWTH)
+        note_growth(result, sheet, of, &s);
+    if (s.verdict >= RG_TREND_GROWTH)
         return;
     if (s.has_slope)
         snprintf(slopes, sizeof(slopes), "; it goes with %s to the power %.2f, published %.2f",

@@ -8,8 +8,9 @@
 
 const char *rg_trend_text(enum rg_trend_verdict verdict)
 {
-    static const char *const texts[] = {"reproduced",     "trend only",     "same order",
-                                        "not reproduced", "not comparable", "other work"};
+    static const char *const texts[] = {"reproduced",     "trend only", "same order",
+                                        "not reproduced", "growth",     "not comparable",
+                                        "other work"};
     return texts[verdict];
 }
 
@@ -32,12 +33,17 @@ static void count_pairs(struct rg_trend *trend, const double *published, const d
     }
 }
 
-// Whether a table can be held against print: all its rows are there, and timed.
-static bool is_comparable(const struct rg_result *result)
+// Whether a table has a trend: all its rows are there, and timed.
+static bool is_whole(const struct rg_result *result)
 {
-    return *result->hardware && !result->is_of_textures &&
-           rg_result_first_missing(result) > result->last_row;
+    return !result->is_of_textures && rg_result_first_missing(result) > result->last_row;
 }
+
+// What the rows of a trend have: logarithms of what is beside each other.
+struct points {
+    int count;
+    double axis[RG_RESULT_ROWS], published[RG_RESULT_ROWS], measured[RG_RESULT_ROWS];
+};
 
 static struct rg_trend judge(struct rg_trend trend)
 {
@@ -50,29 +56,57 @@ static struct rg_trend judge(struct rg_trend trend)
     return trend;
 }
 
-struct rg_trend rg_trend_of(const struct rg_result *result, struct rg_place of)
+// False where a row has no time.
+static bool collect(const struct rg_result *result, struct rg_place of, struct points *points)
 {
-    double axis[RG_RESULT_ROWS], published[RG_RESULT_ROWS], measured[RG_RESULT_ROWS];
-    struct rg_trend trend = {.verdict = RG_TREND_UNKNOWN};
-    int rows = 0;
-    if (!is_comparable(result))
-        return trend;
-    if (*result->works[of.work].saves)
-        return (struct rg_trend){.verdict = RG_TREND_OTHER_WORK};
-    for (of.row = result->first_row; of.row <= result->last_row; of.row++, rows++) {
+    for (of.row = result->first_row; of.row <= result->last_row; of.row++) {
         const struct rg_record *record = rg_result_at(result, of);
         const struct rg_named *along = rg_trend_axis(record);
+        const int row = points->count++;
         if (record->outcome != RG_OK)
-            return (struct rg_trend){.verdict = RG_TREND_UNKNOWN};
-        axis[rows] = along ? log(along->number) : NAN;
-        published[rows] = log(rg_record_published_fps(record));
-        measured[rows] = log(rg_record_fps(record));
-        count_pairs(&trend, published, measured, rows);
+            return false;
+        points->axis[row] = along ? log(along->number) : NAN;
+        points->published[row] = log(rg_record_published_fps(record));
+        points->measured[row] = log(rg_record_fps(record));
     }
+    return true;
+}
+
+static struct rg_trend growth_of(const struct points *points)
+{
+    const struct rg_interval slope =
+        rg_slope_interval(points->axis, points->measured, points->count);
+    return (struct rg_trend){
+        .verdict = isfinite(slope.median) ? RG_TREND_GROWTH : RG_TREND_UNKNOWN,
+        .has_slope = isfinite(slope.median),
+        .slope = slope.median,
+        .slope_low = slope.low,
+        .slope_high = slope.high,
+        .published_slope = NAN,
+    };
+}
+
+struct rg_trend rg_trend_of(const struct rg_result *result, struct rg_place of)
+{
+    struct rg_trend trend = {.verdict = RG_TREND_UNKNOWN};
+    struct points points = {0};
+    if (!is_whole(result))
+        return trend;
+    if (*result->hardware && *result->works[of.work].saves)
+        return (struct rg_trend){.verdict = RG_TREND_OTHER_WORK};
+    if (!collect(result, of, &points))
+        return trend;
+    if (!*result->hardware)
+        return growth_of(&points);
+    for (int row = 0; row < points.count; row++)
+        count_pairs(&trend, points.published, points.measured, row);
     if (!trend.pairs)
         return trend;
-    trend.slope = rg_slope(axis, measured, rows);
-    trend.published_slope = rg_slope(axis, published, rows);
+    const struct rg_interval slope = rg_slope_interval(points.axis, points.measured, points.count);
+    trend.slope = slope.median;
+    trend.slope_low = slope.low;
+    trend.slope_high = slope.high;
+    trend.published_slope = rg_slope(points.axis, points.published, points.count);
     return judge(trend);
 }
 
@@ -86,6 +120,10 @@ static json_t *trend_json(const struct rg_result *result, struct rg_place of)
                              result->variants[of.variant]);
     if (result->work_count)
         json_object_set_new(json, "work", json_string(result->works[of.work].name));
+    if (s.has_slope) {
+        json_object_set_new(json, "slope_low", rg_number_json(s.slope_low));
+        json_object_set_new(json, "slope_high", rg_number_json(s.slope_high));
+    }
     json_t *rest =
         json_pack("{sssbsisisoso}", "verdict", rg_trend_text(s.verdict), "same_ranking",
                   s.pairs_in_order == s.pairs, "pairs", s.pairs, "pairs_in_order", s.pairs_in_order,

@@ -1,4 +1,5 @@
-// Whether a device's numbers fall along a table's rows as the published ones do.
+// Whether a device's numbers fall along a table's rows as the published ones do, or, of a table of
+// no paper, how they fall.
 #ifndef RG_HARNESS_TABLES_TREND_H
 #define RG_HARNESS_TABLES_TREND_H
 
@@ -9,6 +10,7 @@ enum rg_trend_verdict {
     RG_TREND_ONLY,       // same order, another slope
     RG_TREND_ORDER,      // same order, of rows without an axis
     RG_TREND_NOT,        // another order
+    RG_TREND_GROWTH,     // nothing is published: how the time of a frame grows along the axis
     RG_TREND_UNKNOWN,
     RG_TREND_OTHER_WORK, // what was measured is not the work that was printed
 };
@@ -19,7 +21,8 @@ struct rg_trend {
     int pairs;                     // of rows whose published numbers differ
     int pairs_in_order;            // so many of them stand in the published order
     bool has_slope;                // the rows have an axis
-    double slope, published_slope; // of log(fps) over log(axis)
+    double slope, published_slope; // of log(fps) over log(axis); NAN: nothing is published
+    double slope_low, slope_high;  // the slope's interval of 95 %; NAN of fewer than three rows
 };
 
 // The trend of the work, variant and device that a place names; its row is not looked at.

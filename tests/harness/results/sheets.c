@@ -401,6 +401,67 @@ static void test_textures(void **state)
     rg_result_free(&rig.result);
 }
 
+// --- tables of no paper ---
+
+static const struct rg_table growth_table = {
+    .id = "growth",
+    .technique = "flow",
+    .columns = {"drops"},
+    .key_count = 1,
+    .variants = {{"full", "", NULL}},
+    .row_count = 4,
+    .rows =
+        (const struct rg_table_row[]){
+            {"", {10}, NULL}, {"", {100}, NULL}, {"", {1000}, NULL}, {"", {10000}, NULL}},
+    .note = "a note",
+};
+
+// The exponent of the time of a frame, with its interval as another program reckons it.
+static void test_growth(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_sheet sheet;
+    const double fps[] = {1000 / 1., 1000 / 2.2, 1000 / 3.9, 1000 / 8.1};
+    measure(&rig, &growth_table, fps);
+    const struct rg_trend s = rg_trend_of(&rig.result, (struct rg_place){.row = 0});
+    assert_int_equal(s.verdict, RG_TREND_GROWTH);
+    assert_true(s.has_slope);
+    assert_float_equal(s.slope, -0.29740970, 1e-7);
+    assert_float_equal(s.slope_low, -0.34971045, 1e-5);
+    assert_float_equal(s.slope_high, -0.24510894, 1e-5);
+    rg_result_sheet(&rig.result, &sheet);
+    assert_true(has_note(&sheet, "Growth on cpu: the time of a frame goes with drops to the power "
+                                 "0.30 (95 %: 0.25 to 0.35)."));
+    assert_false(has_note(&sheet, "Shape on cpu"));
+    rg_sheet_free(&sheet);
+    json_t *trends = rg_trends_json(&rig.result);
+    const char *verdict;
+    double low, high;
+    assert_int_equal(0, json_unpack(trends, "[{ss, sF, sF, sn}]", "verdict", &verdict, "slope_low",
+                                    &low, "slope_high", &high, "published_slope"));
+    assert_string_equal(verdict, "growth");
+    assert_true(low < s.slope && s.slope < high);
+    json_decref(trends);
+    rg_result_free(&rig.result);
+}
+
+// Two rows have a line and no interval; a row without a time leaves nothing to say.
+static void test_growth_of_few_rows(void **state)
+{
+    (void)state;
+    struct rg_table two = growth_table;
+    struct rig rig;
+    struct rg_sheet sheet;
+    two.row_count = 2;
+    measure(&rig, &two, (double[]){1000, 100});
+    rg_result_sheet(&rig.result, &sheet);
+    assert_true(has_note(&sheet, "goes with drops to the power 1.00."));
+    rg_sheet_free(&sheet);
+    rg_result_free(&rig.result);
+    assert_int_equal(trend_of(&growth_table, 0, (double[]){9, 0, 3, 1}).verdict, RG_TREND_UNKNOWN);
+}
+
 // --- works ---
 
 static const struct rg_table works_table = {
@@ -479,12 +540,19 @@ static void test_keeping(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_order_of_names), cmocka_unit_test(test_slope_along_axis),
-        cmocka_unit_test(test_sheet),          cmocka_unit_test(test_sheet_of_names),
-        cmocka_unit_test(test_passes),         cmocka_unit_test(test_json),
-        cmocka_unit_test(test_missing_rows),   cmocka_unit_test(test_unsupported),
-        cmocka_unit_test(test_textures),       cmocka_unit_test(test_works),
+        cmocka_unit_test(test_order_of_names),
+        cmocka_unit_test(test_slope_along_axis),
+        cmocka_unit_test(test_sheet),
+        cmocka_unit_test(test_sheet_of_names),
+        cmocka_unit_test(test_passes),
+        cmocka_unit_test(test_json),
+        cmocka_unit_test(test_missing_rows),
+        cmocka_unit_test(test_unsupported),
+        cmocka_unit_test(test_textures),
+        cmocka_unit_test(test_works),
         cmocka_unit_test(test_keeping),
+        cmocka_unit_test(test_growth),
+        cmocka_unit_test(test_growth_of_few_rows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
