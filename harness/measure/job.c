@@ -99,10 +99,37 @@ bool rg_job_check(struct rg_job *job, const struct rg_expected *expected)
     return ok;
 }
 
+static int64_t count_of(const struct rg_account *account, const char *name)
+{
+    for (int i = 0; i < account->counter_count; i++)
+        if (!strcmp(account->counters[i].name, name))
+            return account->counters[i].value;
+    return 0;
+}
+
+// What the counters that are asked for grew by since then.
+static void keep_counted(struct rg_job *job, const struct rg_account *before)
+{
+    struct rg_record *record = job->record;
+    struct rg_account now;
+    rg_session_tell(job->session, &now);
+    record->counted_count = 0;
+    for (const char *const *name = job->counted; name && *name; name++) {
+        struct rg_count *count = &record->counted[record->counted_count++];
+        rg_text_copy(count->name, sizeof(count->name), *name);
+        count->value = count_of(&now, *name) - count_of(before, *name);
+    }
+}
+
 bool rg_job_count(struct rg_job *job)
 {
+    struct rg_account before;
+    rg_session_tell(job->session, &before);
     job->record->has_tally = rg_session_count(job->session, &job->record->tally);
-    return job->record->has_tally || rg_record_end_by_error(job->record);
+    if (!job->record->has_tally)
+        return rg_record_end_by_error(job->record);
+    keep_counted(job, &before);
+    return true;
 }
 
 // Until two frames in a row take the same time to 10 %: drivers go on compiling for a while. The

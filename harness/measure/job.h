@@ -11,8 +11,9 @@ struct rg_job {
     // Given:
     struct rg_subject subject;
     struct rg_device *device;
-    int check_frames;         // simulated and drawn before the image is compared, at least 1
-    struct rg_record *record; // not owned; its outcome says whether the job goes on
+    int check_frames;           // simulated and drawn before the image is compared, at least 1
+    const char *const *counted; // counters whose growth in a frame is kept; NULL: none
+    struct rg_record *record;   // not owned; its outcome says whether the job goes on
     // Found:
     struct rg_session *session;
     double warm_frame_ms; // the last frame of the warm-up
@@ -36,7 +37,7 @@ bool rg_job_open(struct rg_job *job);
 // Compares its image, which must hold the tier that its device owes; by the rain mask where
 // `expected` has the background.
 bool rg_job_check(struct rg_job *job, const struct rg_expected *expected);
-// Counts the work of the next frame.
+// Counts the work of the next frame, and what counters grow by in it.
 bool rg_job_count(struct rg_job *job);
 bool rg_job_warm_up(struct rg_job *job, const struct rg_measure_options *options);
 

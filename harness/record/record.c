@@ -74,17 +74,29 @@ double rg_record_published_fps(const struct rg_record *record)
     return fps ? *fps : NAN;
 }
 
+void rg_record_published_range(const struct rg_record *record, double *low, double *high)
+{
+    const struct rg_named *published = record->published;
+    const double *least = rg_named_number(published, record->published_count, "ms_per_frame_min");
+    const double *most = rg_named_number(published, record->published_count, "ms_per_frame_max");
+    *low = most ? 1000 / *most : rg_record_published_fps(record);
+    *high = least ? 1000 / *least : rg_record_published_fps(record);
+}
+
 void rg_record_row_name(const struct rg_record *record, char *text, size_t size)
 {
     size_t used = 0;
     *text = 0;
     for (int i = 0; i < record->row_count && used < size; i++) {
         const struct rg_named *named = &record->row[i];
+        char *to = text + used;
         const char *comma = used ? ", " : "";
-        const int added = *named->text
-                              ? snprintf(text + used, size - used, "%s%s", comma, named->text)
-                              : snprintf(text + used, size - used, "%s%s %.10g", comma, named->name,
-                                         named->number);
-        used += (size_t)added;
+        if (*named->text && i == 0)
+            used += (size_t)snprintf(to, size - used, "%s", named->text);
+        else if (*named->text)
+            used += (size_t)snprintf(to, size - used, "%s%s %s", comma, named->name, named->text);
+        else
+            used +=
+                (size_t)snprintf(to, size - used, "%s%s %.10g", comma, named->name, named->number);
     }
 }

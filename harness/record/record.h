@@ -12,8 +12,9 @@
 
 enum {
     // Passes of so many names are told apart; what all others take is summed as "other".
-    RG_MAX_PASS_TIMES = 32,
+    RG_MAX_PASS_TIMES = 64,
     RG_MAX_SAMPLES = 256,
+    RG_MAX_COUNTED = 4,
     RG_MAX_VALUES = 10, // what tells a row from others, and what the paper printed of it
     RG_SET_SIZE = 1024,
     RG_DETAIL_SIZE = 200,
@@ -64,6 +65,9 @@ struct rg_record {
     struct rg_named facts[RG_MAX_FACTS];
     bool has_tally;
     struct rg_tally tally; // of one frame, the one behind those
+    int counted_count;
+    // What counters grew by in that frame: those that the table has columns for.
+    struct rg_count counted[RG_MAX_COUNTED];
 };
 
 // The counts of a tally, by the names that documents have for them.
@@ -90,7 +94,11 @@ double rg_record_fps(const struct rg_record *record);
 double rg_record_passes_ms(const struct rg_record *record);
 // The frame rate in print; NAN where none is.
 double rg_record_published_fps(const struct rg_record *record);
-// What its row is called: "glass with bunny", "texture_px 128", "local_height_m 5, camera 1".
+// The lowest and the highest frame rate in print, where that printed times from `ms_per_frame_min`
+// to `ms_per_frame_max`; else both are the one above.
+void rg_record_published_range(const struct rg_record *record, double *low, double *high);
+// What its row is called: "glass with bunny", "texture_px 128", "local_height_m 5, camera 1", "all,
+// merge on". A name comes first, and without the name of its column.
 void rg_record_row_name(const struct rg_record *record, char *text, size_t size);
 
 #endif

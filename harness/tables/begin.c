@@ -100,15 +100,21 @@ static void name_row(struct rg_record *record, const struct rg_table *table, int
 {
     if (table->names)
         rg_named_set_text(&record->row[record->row_count++], table->names, table->rows[row].name);
-    for (int c = 0; c < table->key_count; c++)
-        rg_named_set_number(&record->row[record->row_count++], table->columns[c],
-                            table->rows[row].values[c]);
+    for (int c = 0; c < table->key_count; c++) {
+        struct rg_named *key = &record->row[record->row_count++];
+        char text[RG_FACT_SIZE];
+        rg_table_value_text(table, row, c, text, sizeof(text));
+        if (rg_table_is_choice(table, c))
+            rg_named_set_text(key, table->columns[c], text);
+        else
+            rg_named_set_number(key, table->columns[c], table->rows[row].values[c]);
+    }
 }
 
 static void name_published(struct rg_record *record, const struct rg_table *table,
                            struct rg_place at)
 {
-    if (rg_table_is_published(table) && !table->is_of_textures)
+    if (table->variants[at.variant].fps)
         rg_named_set_number(&record->published[record->published_count++], "fps",
                             rg_table_published_fps(table, at.row, at.variant));
     for (int c = 0; table->columns[c]; c++)

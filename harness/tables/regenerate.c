@@ -54,6 +54,20 @@ static int run_task(struct task *task, struct rg_kept *kept,
     return exit;
 }
 
+// The rows that are asked for, as far as the table has them; of rows that nobody names quick mode
+// may have the first alone.
+static struct rg_table_part part_of(const struct rg_table *table,
+                                    const struct rg_regenerate_options *o)
+{
+    const bool is_short = !o->full && !o->last_row && table->quick_rows;
+    const int rows = is_short ? table->quick_rows : table->row_count;
+    return (struct rg_table_part){.first_row = o->first_row ? o->first_row - 1 : 0,
+                                  .last_row =
+                                      (o->last_row && o->last_row < rows ? o->last_row : rows) - 1,
+                                  .full = o->full,
+                                  .work = o->work};
+}
+
 // Begins the tables that have some of the rows that are asked for. All journals are read before one
 // is written, since a table may be named twice.
 static int make_tasks(const struct rg_regenerate_options *o, const struct rg_devices *devices,
@@ -61,12 +75,7 @@ static int make_tasks(const struct rg_regenerate_options *o, const struct rg_dev
 {
     int made = 0;
     for (int i = 0; i < count; i++) {
-        const int rows = tables[i]->row_count;
-        const struct rg_table_part part = {
-            .first_row = o->first_row ? o->first_row - 1 : 0,
-            .last_row = (o->last_row && o->last_row < rows ? o->last_row : rows) - 1,
-            .full = o->full,
-            .work = o->work};
+        const struct rg_table_part part = part_of(tables[i], o);
         if (part.first_row > part.last_row)
             continue;
         tasks[made].table = tables[i];

@@ -1,5 +1,6 @@
 #include "harness/tables/sheet.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -10,6 +11,7 @@ struct columns {
     int row[RG_MAX_VALUES];       // what tells rows apart
     int published[RG_MAX_VALUES]; // what was printed
     int told[RG_MAX_VALUES];      // measured beside what was printed, of the same index
+    int counted[RG_MAX_COUNTED];
     int work, variant, device, fps, ms, ms_range, ratio, times, first, api, error, passes;
 };
 
@@ -23,6 +25,15 @@ static const struct rg_record *first_of(const struct rg_result *result)
 {
     struct rg_place at = rg_result_start(result);
     return rg_result_next(result, &at) ? rg_result_at(result, at) : NULL;
+}
+
+// The first record of a cell whose counters were looked at; NULL where there is none.
+static const struct rg_record *first_counted(const struct rg_result *result)
+{
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);)
+        if (rg_result_at(result, at)->counted_count)
+            return rg_result_at(result, at);
+    return NULL;
 }
 
 // The record of cpu:reference in this row, or NULL.
@@ -82,6 +93,9 @@ static void add_columns(const struct rg_result *result, const struct rg_record *
     at->fps = rg_sheet_column(sheet, is_timed ? "fps" : "status");
     if (is_timed)
         add_times(sheet, at, *result->hardware);
+    const struct rg_record *counted = first_counted(result);
+    for (int i = 0; counted && i < counted->counted_count; i++)
+        at->counted[i] = rg_sheet_column(sheet, "%s a frame", counted->counted[i].name);
     for (int i = 0; first && i < first->published_count; i++) {
         const char *name = first->published[i].name;
         if (!rg_is_frame_rate(&first->published[i]) && is_told(result, name))
@@ -205,6 +219,18 @@ static void fill_told(const struct rg_record *first, const struct columns *at,
     }
 }
 
+// By what was printed: one number, or a range.
+static void fill_ratio(const struct rg_record *record, char text[RG_SHEET_CELL])
+{
+    double low, high;
+    rg_record_published_range(record, &low, &high);
+    const double fps = rg_record_fps(record);
+    if (low < high)
+        snprintf(text, RG_SHEET_CELL, "%.2f to %.2f", fps / high, fps / low);
+    else
+        snprintf(text, RG_SHEET_CELL, "%.2f", fps / low);
+}
+
 static void add_row(const struct rg_result *result, const struct rg_record *first,
                     const struct columns *at, struct rg_sheet *sheet, struct rg_place place)
 {
@@ -219,10 +245,11 @@ static void add_row(const struct rg_result *result, const struct rg_record *firs
     if (result->is_of_textures)
         return;
     fill_times(at, cells, record, reference_of(result, place));
+    for (int i = 0; i < record->counted_count && at->counted[i] >= 0; i++)
+        snprintf(cells[at->counted[i]], RG_SHEET_CELL, "%" PRId64, record->counted[i].value);
     // Only the work that was printed is compared with print; "ours" has no number there.
     if (at->ratio >= 0 && !*result->works[place.work].saves)
-        snprintf(cells[at->ratio], RG_SHEET_CELL, "%.2f",
-                 rg_record_fps(record) / rg_record_published_fps(record));
+        fill_ratio(record, cells[at->ratio]);
 }
 
 void rg_result_sheet(const struct rg_result *result, struct rg_sheet *sheet)

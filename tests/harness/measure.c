@@ -115,16 +115,19 @@ static bool open_talker(struct rg_instance *instance)
     return ok;
 }
 
-// 40 passes more, each named twice a frame. The last takes a millisecond each time.
+// 72 passes more, each named twice a frame. The last takes a millisecond each time.
+enum { OWN_PASSES = RG_MAX_PASS_TIMES + 8 };
+
 static bool step_talker(struct rg_instance *instance)
 {
-    static char names[40][16];
-    for (int i = 0; i < 80; i++) {
-        snprintf(names[i % 40], sizeof(names[0]), "pass %d", i % 40);
-        if (i % 40 == 39)
+    static char names[OWN_PASSES][16];
+    for (int i = 0; i < 2 * OWN_PASSES; i++) {
+        const int own = i % OWN_PASSES;
+        snprintf(names[own], sizeof(names[0]), "pass %d", own);
+        if (own == OWN_PASSES - 1)
             nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
         if (instance->after_stage)
-            instance->after_stage(&(struct rg_opened_stage){.row.kernel = names[i % 40]},
+            instance->after_stage(&(struct rg_opened_stage){.row.kernel = names[own]},
                                   instance->user);
     }
     for (struct rg_fact *f = instance->facts; f < instance->facts + instance->fact_count; f++)
@@ -213,9 +216,34 @@ static void test_samples(void **state)
     free(settings);
 }
 
+// --- what counters grow by in a frame ---
+
+static void test_counted(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"pixels_lit", "of no technique", NULL};
+    void *settings = settings_of(CHEAP);
+    struct rg_device *device = rg_device_open("cpu");
+    struct rg_record record = {0};
+    struct rg_job job = {.subject = {rg_technique_find("flow"), settings, 32, 16},
+                         .device = device,
+                         .check_frames = 3,
+                         .counted = names,
+                         .record = &record};
+    assert_true(rg_job_open(&job) && rg_job_count(&job));
+    assert_int_equal(record.counted_count, 2);
+    assert_string_equal(record.counted[0].name, "pixels_lit");
+    assert_int_equal(record.counted[0].value, 32 * 16);
+    assert_int_equal(record.counted[1].value, 0);
+    rg_job_close(&job);
+    assert_true(rg_device_close(device));
+    free(settings);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_counted),
         cmocka_unit_test(test_tiers_by_the_mask),
         cmocka_unit_test(test_what_a_record_keeps),
         cmocka_unit_test(test_samples),

@@ -109,6 +109,9 @@ static bool read_record(struct rg_reader *r, const json_t *cell, const struct rg
         !rg_field_counts(r, cell, "counters", record->counters, RG_MAX_COUNTERS,
                          &record->counter_count) ||
         !read_tally(r, cell, record) ||
+        (json_object_get(cell, "counted") &&
+         !rg_field_counts(r, cell, "counted", record->counted, RG_MAX_COUNTED,
+                          &record->counted_count)) ||
         !rg_field_named(r, cell, "facts", record->facts, RG_MAX_FACTS, &record->fact_count) ||
         !read_outcome(r, cell, &record->outcome, record->detail) ||
         (*result->truth && !read_truth_error(r, cell, &record->truth_error)))

@@ -82,6 +82,9 @@ static json_t *cell_json(const struct rg_result *result, struct rg_place at)
                         rg_named_json(record->published, record->published_count));
     json_object_set_new(json, "counters", rg_counts_json(record->counters, record->counter_count));
     json_object_set_new(json, "tally", tally_json(record));
+    if (record->counted_count)
+        json_object_set_new(json, "counted",
+                            rg_counts_json(record->counted, record->counted_count));
     json_object_set_new(json, "facts", rg_named_json(record->facts, record->fact_count));
     if (*result->truth)
         json_object_set_new(json, "error", error_json(&record->truth_error));

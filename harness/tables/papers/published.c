@@ -1,7 +1,10 @@
 #include "harness/tables/papers/published.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+
+#include "core/techniques/technique.h"
 
 bool rg_table_is_published(const struct rg_table *table)
 {
@@ -14,6 +17,34 @@ double rg_table_value(const struct rg_table *table, int row, const char *column)
         if (!strcmp(table->columns[c], column))
             return table->rows[row].values[c];
     return NAN;
+}
+
+// The parameter whose choices a column has; NULL where it has numbers.
+static const struct rg_param *choice_of(const struct rg_table *table, int column)
+{
+    const struct rg_technique *technique = rg_technique_find(table->technique);
+    const struct rg_param *param =
+        technique ? rg_params_find(technique->params, table->columns[column]) : NULL;
+    return table->has_choices && param && param->kind == RG_PARAM_CHOICE ? param : NULL;
+}
+
+bool rg_table_is_choice(const struct rg_table *table, int column)
+{
+    return choice_of(table, column) != NULL;
+}
+
+void rg_table_value_text(const struct rg_table *table, int row, int column, char *text, size_t size)
+{
+    const struct rg_param *param = choice_of(table, column);
+    const double value = table->rows[row].values[column];
+    if (!param) {
+        snprintf(text, size, "%.10g", value);
+        return;
+    }
+    const int index = (int)value;
+    struct rg_param alone = *param;
+    alone.offset = 0;
+    rg_params_text(&alone, &index, text, size);
 }
 
 double rg_table_published_fps(const struct rg_table *table, int row, int variant)

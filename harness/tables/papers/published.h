@@ -5,7 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { RG_TABLE_ROWS = 64, RG_TABLE_VALUES = 8, RG_TABLE_VARIANTS = 8, RG_TABLE_WORKS = 2 };
+enum { RG_TABLE_ROWS = 64, RG_TABLE_VALUES = 10, RG_TABLE_VARIANTS = 8, RG_TABLE_WORKS = 2 };
+enum { RG_TABLE_COUNTED = 4 };
 
 // One row: settings of the technique and what the paper printed. Assignments are "key=value
 // key=value", as --set takes each; "" for none.
@@ -19,8 +20,9 @@ struct rg_table_row {
 struct rg_table_variant {
     const char *name; // "no_geometry"
     const char *set;  // over the row's
-    const char *fps;  // the column that its frame rate is compared with: "fps_no_geometry"; NULL
-                      // where nothing is published
+    // The column that its frame rate is compared with: "fps_no_geometry"; NULL where nothing is
+    // published, or where times are, from ms_per_frame_min to ms_per_frame_max.
+    const char *fps;
 };
 
 // How much work a row's cells do: "paper", what was printed of, and "ours", the same picture for
@@ -42,6 +44,9 @@ struct rg_table {
     // So many columns, the first, are settings and tell rows apart. The first of them is the axis
     // along which frame rates fall. 0: there is none, and only the order of rows can be reproduced.
     int key_count;
+    // Of columns that are parameters with choices, rows have the choice's index, and readers its
+    // name: "on". False: what is printed there is a number.
+    bool has_choices;
     struct rg_table_variant variants[RG_TABLE_VARIANTS + 1]; // the last has no name
     struct rg_table_work works[RG_TABLE_WORKS + 1];          // likewise
     const char *truth; // over a row's: an image without its approximations, which gives the error
@@ -51,6 +56,10 @@ struct rg_table {
     bool is_of_textures;
     // What quick mode sets over rows and variants, for less work: "atlas=small"; NULL: nothing.
     const char *quick;
+    int quick_rows; // so many rows, the first, has quick mode, unless others are named; 0: all
+    // Counters of the technique that have a column: what they grow by in a frame, NULL after the
+    // last.
+    const char *counted[RG_TABLE_COUNTED + 1];
     // So many rows have their cells open, and are visited in turn, at the same time; 0: all rows.
     // One where instances are large, or a row takes long: an interrupted table goes on with the
     // first row that is not measured.
@@ -65,6 +74,11 @@ struct rg_table {
 bool rg_table_is_published(const struct rg_table *table);
 // The number in a row's column; NAN where the table has no such column.
 double rg_table_value(const struct rg_table *table, int row, const char *column);
+// The same as a reader has it: "1000", or the name of a choice, "on".
+void rg_table_value_text(const struct rg_table *table, int row, int column, char *text,
+                         size_t size);
+// Whether a column has such names.
+bool rg_table_is_choice(const struct rg_table *table, int column);
 // Frames a second of a row and variant in print; NAN where nothing is.
 double rg_table_published_fps(const struct rg_table *table, int row, int variant);
 // Whether a column is neither a key nor a frame rate: "vertices".

@@ -40,6 +40,9 @@ static void tell_measured(struct rg_record *record, struct rg_place at)
     rg_text_copy(record->counters[0].name, RG_NAME_SIZE, "drops");
     record->counters[0].value = INT64_MAX;
     record->counter_count = 1;
+    rg_text_copy(record->counted[0].name, RG_NAME_SIZE, "drops");
+    record->counted[0].value = 700 + at.row;
+    record->counted_count = 1;
     rg_named_set_number(&record->facts[record->fact_count++], "particles", 4e9 + at.device);
     rg_named_set_text(&record->facts[record->fact_count++], "model", "bunny, no UTF-8: \xff");
     rg_named_set_number(&record->facts[record->fact_count++], "share", 2.0 / 3);

@@ -22,6 +22,8 @@ static void assert_same_records(const struct rg_result *a, const struct rg_resul
         assert_memory_equal(x->published, y->published, sizeof(x->published));
         assert_memory_equal(x->facts, y->facts, sizeof(x->facts));
         assert_memory_equal(x->counters, y->counters, sizeof(x->counters));
+        assert_int_equal(x->counted_count, y->counted_count);
+        assert_memory_equal(x->counted, y->counted, sizeof(x->counted));
         assert_int_equal(x->has_tally, y->has_tally);
         assert_true(!x->has_tally || !memcmp(&x->tally, &y->tally, sizeof(x->tally)));
         assert_memory_equal(x->passes, y->passes, sizeof(x->passes));

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/tables/table.h"
+#include "harness/tables/regenerate.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"
@@ -117,6 +117,63 @@ static void test_table(void **state)
     finish(&rig);
 }
 
+// --- the rows of a table that are measured ---
+
+static const struct rg_table_row many[] = {
+    {"", {0}, "environment"}, {"", {1}, "environment"}, {"", {2}, "environment"}};
+static const struct rg_table long_table = {
+    .id = "long",
+    .technique = "flow",
+    .about = "a test",
+    .names = "texture",
+    .columns = {"level"},
+    .key_count = 1,
+    .variants = {{"full", CHEAP, NULL}},
+    .is_of_textures = true, // which takes no time
+    .quick_rows = 2,
+    .width = 16,
+    .height = 16,
+    .row_count = 3,
+    .rows = many,
+    .note = "a note",
+};
+
+static int keep_range(const struct rg_result *result, const void *user)
+{
+    int *range = *(int *const *)user;
+    range[0] = result->first_row + 1;
+    range[1] = result->last_row + 1;
+    return 0;
+}
+
+// Asks for these rows, 0: for none, and expects others.
+static void expect_rows(int first, int last, bool full, int first_found, int last_found)
+{
+    const struct rg_table *const tables[] = {&long_table};
+    struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu")}};
+    int range[2] = {0}, *found = range;
+    const struct rg_regenerate_options options = {.first_row = first,
+                                                  .last_row = last,
+                                                  .full = full,
+                                                  .fresh = true,
+                                                  .folder = ".",
+                                                  .print = keep_range,
+                                                  .user = &found};
+    assert_int_equal(rg_tables_regenerate(tables, 1, &devices, &options), 0);
+    assert_int_equal(range[0], first_found);
+    assert_int_equal(range[1], last_found);
+    assert_true(rg_device_close(devices.devices[0]));
+}
+
+// Quick mode takes the first rows alone, unless rows are named.
+static void test_quick_rows(void **state)
+{
+    (void)state;
+    expect_rows(0, 0, false, 1, 2);
+    expect_rows(3, 3, false, 3, 3);
+    expect_rows(0, 0, true, 1, 3);
+}
+
 // --- tables of textures, and what a device cannot hold ---
 
 static const struct rg_table_row levels[] = {
@@ -214,9 +271,8 @@ static void test_kept(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_table),
-        cmocka_unit_test(test_textures),
-        cmocka_unit_test(test_unsupported),
+        cmocka_unit_test(test_table),    cmocka_unit_test(test_quick_rows),
+        cmocka_unit_test(test_textures), cmocka_unit_test(test_unsupported),
         cmocka_unit_test(test_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -462,6 +462,50 @@ static void test_growth_of_few_rows(void **state)
     assert_int_equal(trend_of(&growth_table, 0, (double[]){9, 0, 3, 1}).verdict, RG_TREND_UNKNOWN);
 }
 
+// --- printed times, switches and counters ---
+
+static const struct rg_table range_table = {
+    .id = "range",
+    .technique = "drops",
+    .hardware = "paper",
+    .columns = {"columns", "merge", "ms_per_frame_min", "ms_per_frame_max"},
+    .key_count = 2,
+    .has_choices = true,
+    .variants = {{"full", "", NULL}},
+    .works = {{"paper", "sleep=off", ""}, {"ours", "sleep=on", "less"}},
+    .counted = {"drops_stepped"},
+    .row_count = 1,
+    .rows = (const struct rg_table_row[]){{"", {1000, 1, 10, 25}, NULL}},
+    .note = "a note",
+};
+
+static void test_range(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_sheet sheet;
+    measure(&rig, &range_table, (double[]){200, 400});
+    struct rg_record *paper = record_at(&rig, 0, 0);
+    paper->counted_count = 1;
+    paper->counted[0] = (struct rg_count){"drops_stepped", 645};
+    rg_result_sheet(&rig.result, &sheet);
+    expect_text(&sheet, 0, "columns", "1000");
+    expect_text(&sheet, 0, "merge", "on");
+    expect_text(&sheet, 0, "published ms_per_frame_min", "10");
+    expect_text(&sheet, 0, "published ms_per_frame_max", "25");
+    assert_null(text_at(&sheet, 0, "published fps"));
+    expect_text(&sheet, 0, "fps / published", "2.00 to 5.00"); // of 100 to 40 frames a second
+    expect_text(&sheet, 1, "fps / published", "");
+    expect_text(&sheet, 0, "drops_stepped a frame", "645");
+    expect_text(&sheet, 1, "drops_stepped a frame", "");
+    assert_false(has_note(&sheet, "Shape on cpu"));
+    rg_sheet_free(&sheet);
+    char name[256];
+    rg_record_row_name(paper, name, sizeof(name));
+    assert_string_equal(name, "columns 1000, merge on");
+    rg_result_free(&rig.result);
+}
+
 // --- works ---
 
 static const struct rg_table works_table = {
@@ -553,6 +597,7 @@ int main(void)
         cmocka_unit_test(test_keeping),
         cmocka_unit_test(test_growth),
         cmocka_unit_test(test_growth_of_few_rows),
+        cmocka_unit_test(test_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
