@@ -58,6 +58,21 @@ def check_tallies(runner):
     return problems
 
 
+def check_growth(runner):
+    """a table of no paper tells what counters grow by in a frame, and the exponent of its time along the rows"""
+    report, status, problems = run_json(runner, "table chin-drops --rows 1-2 --device cpu")
+    cells, shape = report["cells"], report["shapes"][0]
+    if status or len(report["shapes"]) != 1 or shape["verdict"] != "growth" or shape["published_slope"] is not None:
+        problems.append("exit status %d, shapes: %s" % (status, report["shapes"]))
+    if shape["slope"] >= 0 or shape["slope_low"] is not None:  # two rows have no interval
+        problems.append("shape: %s" % shape)
+    for cell in cells:  # it rains until the pane is full, and goes on
+        drops, most = cell["counted"]["drops_stepped"], cell["row"]["max_drops"]
+        if list(cell["counted"]) != ["drops_stepped", "cells_stepped", "merging_steps"] or not 0.9 * most <= drops <= most:
+            problems.append("%d drops: %s" % (most, cell["counted"]))
+    return problems
+
+
 def check_forms(runner):
     """what list prints, and a table of textures, are as the schema has them, whose fields are all documented"""
     problems = ["docs/records.md does not tell of %s" % name for name in forms.undocumented()]
@@ -352,7 +367,7 @@ def check_atlas_not_kept(runner):
     return problems if images[0] == images[1] and images[0] else problems + ["printed:\n%s, kept:\n%s" % tuple(images)]
 
 
-LONG = [check_tallies, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept]
+LONG = [check_tallies, check_growth, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept]
 
 
 # --- a driver that draws wrongly: its kernel is another ---
