@@ -263,6 +263,21 @@ RG_FN float rg_pow(float x, float y)
     return t < -126.0f || (x < RG_SMALLEST_NORMAL && y > 0.0f) ? 0.0f : v;
 }
 
+// A step of Newton's towards the cube root of x.
+RG_FN float rg_cbrt_step(float x, float y)
+{
+    return y + (x / (y * y) - y) * 0.33333334f;
+}
+
+// The cube root of x >= 0; that of an x below the smallest normal is 0. At most 1 ulp. A third of a
+// number's bits is its root to within a twentieth, and each step squares the error.
+RG_FN float rg_cbrt(float x)
+{
+    float y = rg_bits_float(rg_float_bits(x) / 3u + 0x2a5137a0u);
+    y = rg_cbrt_step(x, rg_cbrt_step(x, rg_cbrt_step(x, y)));
+    return x < RG_SMALLEST_NORMAL ? 0.0f : y;
+}
+
 // x to a whole power from 0 to 15, by squaring. Roundings that squaring doubles add up to a relative
 // error of 14 * 2^-24 at most, for the power 15: below 14 ulp, 9.7 ulp seen.
 RG_FN float rg_pow_whole(float x, int power)

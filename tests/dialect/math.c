@@ -207,6 +207,20 @@ static void whole_power_holds(void **state)
     assert_true(rg_pow_whole(0.0f, 0) == 1.0f && rg_pow_whole(3.0f, 5) == 243.0f);
 }
 
+static void cube_root_holds(void **state)
+{
+    (void)state;
+    struct worst worst = {0};
+    uint64_t seed = 7;
+    for (int i = 0; i < PAIRS; i++) {
+        const float x = rg_bits_float(0x00800000u + random_bits(&seed) % 0x7f000000u);
+        keep_worst(&worst, ulps(rg_cbrt(x), cbrt((double)x)), x, 0.0f);
+    }
+    print_message("rg_cbrt: %.3f ulp at %a\n", worst.error, (double)worst.x);
+    assert_true(worst.error > 0.0 && worst.error <= 1.0);
+    assert_true(rg_cbrt(0.0f) == 0.0f && rg_cbrt(27.0f) == 3.0f && rg_cbrt(1e-40f) == 0.0f);
+}
+
 static void hypot_holds(void **state)
 {
     (void)state;
@@ -289,6 +303,7 @@ int main(void)
         cmocka_unit_test(angles_hold),
         cmocka_unit_test(power_holds),
         cmocka_unit_test(whole_power_holds),
+        cmocka_unit_test(cube_root_holds),
         cmocka_unit_test(hypot_holds),
         cmocka_unit_test(exact_where_the_answer_is),
         cmocka_unit_test(edges_are_as_documented),
