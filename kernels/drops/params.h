@@ -5,12 +5,11 @@
 
 #include "kernels/dialect/lang.h"
 
-#define DROPS_MARGIN 2 // cells around the pane, always dry
+#define DROPS_MARGIN 10 // cells around the pane, always dry
 
 // Maps are worked on in tiles of cells, each of which sleeps while nothing in it changes.
 #define DROPS_TILE_COLUMNS 32
 #define DROPS_TILE_ROWS    8
-#define DROPS_REACH        2 // cells, by which a change acts in a pass
 
 #define DROPS_ROWS_A_DROP                                                                          \
     8 // items of a stage over the cells of drops: each takes every so many rows
@@ -122,11 +121,13 @@ RG_STRUCT(drops_params)
     int lines; // 1: swept along the way, 0: hemispheres so far apart
     float spacing_mm;
     // Height and ID maps, in passes, of which a step has one or more.
-    float side_share; // of a cell's height, from each of two neighbours in a row
-    float dry_mm;     // above 0; lower water is none
-    float owned_mm;   // above 0; lower water is nobody's
-    int down_cell;    // from a cell to the one below it, in cells of a map, as drops run
+    int apart; // cells, from one to the next that it flattens and thins with; by the paper's rules
+               // 1
+    float dry_mm;   // above 0; lower water is none
+    float owned_mm; // above 0; lower water is nobody's
+    int down_cell;  // from a cell to the one below it, in cells of a map, as drops run
     int right_cell;
+    int is_upright;   // 1: it runs down the grid's columns, 0: along its rows
     int does_smooth;
     int does_spread;
     int does_erode;
@@ -135,7 +136,7 @@ RG_STRUCT(drops_params)
     int has_joined; // 1: some have merged in this step
     int is_removal; // 1: all drops go in this step
 };
-RG_STRUCT_SIZE(drops_params, 46)
+RG_STRUCT_SIZE(drops_params, 47)
 
 // The cell of a map at a column and row of the pane.
 RG_FN int drops_cell(drops_params p, int column, int row)
@@ -159,6 +160,12 @@ RG_FN bool drops_holds(drops_params p, float x, float y)
 {
     return x >= 0.0f && x < rg_to_float(p.columns) * p.cell_mm && y >= 0.0f &&
            y < rg_to_float(p.rows) * p.cell_mm;
+}
+
+// Cells, by which a change acts in a pass.
+RG_FN int drops_reach(drops_params p)
+{
+    return 2 * p.apart;
 }
 
 RG_FN float drops_mg(uint mass)

@@ -8,7 +8,7 @@
 // Eq. 7: a hemisphere of water, 1 mg the cubic mm.
 RG_FN float drops_radius_mm(uint mass)
 {
-    return rg_pow(drops_mg(mass) * 0.47746483f, 0.33333334f); // 3 / (2 pi)
+    return rg_cbrt(drops_mg(mass) * 0.47746483f); // 3 / (2 pi)
 }
 
 // The squared distance of a cell's middle from a place.

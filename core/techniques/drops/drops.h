@@ -5,6 +5,7 @@
 
 #include "core/techniques/params.h"
 
+enum drops_rules { DROPS_PAPER, DROPS_PHYSICAL };
 enum drops_trail { DROPS_HEMISPHERES, DROPS_LINES };
 enum drops_view {
     DROPS_VIEW_PANE,
@@ -32,12 +33,13 @@ struct drops_settings {
     int substeps;
     double remove_s; // when all drops are removed; below 0: never
     // Maps.
+    int rules; // enum drops_rules
     int trail; // enum drops_trail
     double erode_mm, owned_mm;
     int erode, merge, residual, smooth; // 1: on
     int sleep;
     // The picture.
-    int view; // enum drops_view
+    int view;                        // enum drops_view
     double distance_mm, aperture_mm; // of the camera
     double refractive_index, contact_mm;
     int rays_px; // along a side of a pixel

@@ -40,6 +40,10 @@ enum drops_stage {
     DROPS_STAGES
 };
 
+// The paper's cells and steps.
+#define DROPS_PAPER_CELL_MM 0.5
+#define DROPS_PAPER_STEP_S  (1.0 / 60)
+
 enum drops_counter { DROPS_STEPPED, DROPS_CELLS, DROPS_MERGING, DROPS_COUNTERS };
 
 struct drops {
@@ -50,7 +54,7 @@ struct drops {
     drops_view_params show;
     drops_pane_params pane;
     struct rg_asset *drops, *packed, *flags, *before, *tally, *tiles;
-    struct rg_asset *background; // of the lit pane
+    struct rg_asset *background;                            // of the lit pane
     struct rg_asset *height, *next_height, *ids, *next_ids; // which take turns
     uint32_t tiles_before;                                  // DROPS_TILES at the step's beginning
 };

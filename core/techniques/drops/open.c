@@ -75,13 +75,25 @@ static float exact(double value)
     return (float)(fabs(value) < 1e-9 ? 0 : value);
 }
 
+// What a cell of the paper's is wide, by which its rules go.
+static double ruling_cell_mm(const struct drops_settings *s)
+{
+    return s->rules == DROPS_PHYSICAL ? DROPS_PAPER_CELL_MM : s->cell_mm;
+}
+
+// Whether water flattens once in each step: else tiles do not sleep.
+static bool has_one_pass(const struct drops_settings *s)
+{
+    return s->rules == DROPS_PAPER || fabs(s->step_s / DROPS_PAPER_STEP_S - 1) < 1e-6;
+}
+
 drops_params drops_params_of(const struct drops_settings *s)
 {
     const double gravity_mm_s2 = 9800, turn = s->turn_deg * M_PI / 180;
     const double along = sin(s->tilt_deg * M_PI / 180); // of gravity
     const int tile_columns = parts(s->columns, DROPS_TILE_COLUMNS);
     const int stride = tile_columns * DROPS_TILE_COLUMNS + 2 * DROPS_MARGIN;
-    const double l = s->cell_mm;
+    const double l = s->cell_mm, ruling = ruling_cell_mm(s);
     drops_params p = {
         .columns = s->columns,
         .rows = s->rows,
@@ -94,7 +106,7 @@ drops_params drops_params_of(const struct drops_settings *s)
         .substep_s = (float)(s->step_s / s->substeps),
         .substeps = s->substeps,
         .most = s->max_drops,
-        .least_mg = (float)(2 * l * l * l),
+        .least_mg = (float)(2 * ruling * ruling * ruling),
         .most_mg = (float)s->max_mass_mg,
         .down_x = exact(-sin(turn)),
         .down_y = exact(cos(turn)),
@@ -109,19 +121,20 @@ drops_params drops_params_of(const struct drops_settings *s)
         .residual_max_s = (float)s->residual_max_s,
         .residual_low = (float)s->residual_low,
         .residual_high = (float)s->residual_high,
-        .ahead_mm = (float)(3 * l),
-        .beside_mm = (float)(2 * l),
-        .patch_mm = (float)l,
-        .reach_cells = 1,
+        .ahead_mm = (float)(3 * ruling),
+        .beside_mm = (float)(2 * ruling),
+        .patch_mm = (float)ruling,
+        .reach_cells = (int)lround((3 * ruling / l - 1) / 2),
         .lines = s->trail == DROPS_LINES,
         .spacing_mm = (float)(1.5 * l),
-        .side_share = 1.0f / 3,
-        .does_sleep = s->sleep,
+        .apart = (int)lround(ruling / l),
+        .does_sleep = s->sleep && has_one_pass(s),
     };
     const bool is_upright = fabs(cos(turn)) >= fabs(sin(turn)) - 1e-9;
     const int sign = (is_upright ? cos(turn) : -sin(turn)) < 0 ? -1 : 1;
-    p.down_cell = sign * (is_upright ? stride : 1);
-    p.right_cell = is_upright ? sign : -sign * stride;
+    p.is_upright = is_upright;
+    p.down_cell = sign * (is_upright ? stride : 1) * p.apart;
+    p.right_cell = (is_upright ? sign : -sign * stride) * p.apart;
     return p;
 }
 

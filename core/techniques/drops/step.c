@@ -82,6 +82,14 @@ static bool put_at_rest(struct drops *d)
            run(d, DROPS_RUN_OWN, slots, DROPS_ROWS_A_DROP);
 }
 
+// How often water flattens and thins in a step: once by the paper's rules, and as often a second as
+// with the paper's steps by physical ones.
+static int passes_in(const struct drops_settings *s, int64_t step)
+{
+    const double rate = s->rules == DROPS_PHYSICAL ? s->step_s / DROPS_PAPER_STEP_S : 1;
+    return (int)(floor((double)(step + 1) * rate + 1e-6) - floor((double)step * rate + 1e-6));
+}
+
 // kernels/drops/water/flatten.h. Heights are rounded where they are smoothed, so that less than
 // half a step is none.
 static bool flatten(struct drops *d)
@@ -92,9 +100,12 @@ static bool flatten(struct drops *d)
     p->does_erode = s->erode;
     p->dry_mm = s->smooth ? fmaxf((float)s->erode_mm, 0.5f / DROPS_HEIGHTS_A_MM) : FLT_MIN;
     p->owned_mm = p->does_spread ? fmaxf((float)s->owned_mm, FLT_MIN) : FLT_MIN;
-    const bool ok = run_rows(d, DROPS_RUN_FLATTEN);
-    rg_swap(d->height, d->next_height);
-    rg_swap(d->ids, d->next_ids);
+    bool ok = true;
+    for (int i = passes_in(s, d->base.frame - 1); ok && i > 0; i--) {
+        ok = run_rows(d, DROPS_RUN_FLATTEN);
+        rg_swap(d->height, d->next_height);
+        rg_swap(d->ids, d->next_ids);
+    }
     return ok;
 }
 

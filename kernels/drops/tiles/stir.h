@@ -26,10 +26,10 @@ RG_PROC void mark_tile(rg_ctx rg, int tile, uint bits)
 // Marks the tiles that a change in a block of cells may reach in a step.
 RG_PROC void mark(rg_ctx rg, drops_params p, drops_block b, uint bits)
 {
-    int left = rg_imax(b.left - DROPS_REACH, 0) / DROPS_TILE_COLUMNS;
-    int top = rg_imax(b.top - DROPS_REACH, 0) / DROPS_TILE_ROWS;
-    int right = rg_imin((b.right + DROPS_REACH) / DROPS_TILE_COLUMNS, p.tile_columns - 1);
-    int bottom = rg_imin((b.bottom + DROPS_REACH) / DROPS_TILE_ROWS, p.tile_rows - 1);
+    int left = rg_imax(b.left - drops_reach(p), 0) / DROPS_TILE_COLUMNS;
+    int top = rg_imax(b.top - drops_reach(p), 0) / DROPS_TILE_ROWS;
+    int right = rg_imin((b.right + drops_reach(p)) / DROPS_TILE_COLUMNS, p.tile_columns - 1);
+    int bottom = rg_imin((b.bottom + drops_reach(p)) / DROPS_TILE_ROWS, p.tile_rows - 1);
     for (int row = top; row <= bottom; row++)
         for (int column = left; column <= right; column++)
             mark_tile(rg, row * p.tile_columns + column, bits);

@@ -70,18 +70,18 @@ RG_FN uint owner_at(rg_ctx rg, int cell)
 }
 
 // Blurred along the way, the pane's edges as high as their last cells.
-RG_FN float along_at(rg_ctx rg, drops_params p, ends at, int along, int cell)
+RG_FN float along_at(rg_ctx rg, ends at, int along, int cell)
 {
     float h = wet_at(rg, cell);
     float above = either(at.is_top, h, wet_at(rg, cell - along));
     float below = either(at.is_bottom, h, wet_at(rg, cell + along));
-    return h + (above + below - 2.0f * h) * p.side_share;
+    return h + (above + below - 2.0f * h) * 0.33333334f;
 }
 
 // Blurred across it as well, from three columns; `was` where water does not flatten.
 RG_FN float flattened(drops_params p, float left, float middle, float right, float was)
 {
-    float h = middle + (left + right - 2.0f * middle) * p.side_share;
+    float h = middle + (left + right - 2.0f * middle) * 0.33333334f;
     return either(rg_to_uint(-p.does_smooth), h, was);
 }
 
@@ -95,11 +95,11 @@ RG_FN float rounded(drops_params p, float h)
 
 RG_FN float thinned(rg_ctx rg, drops_params p, ends at, ways w, int cell)
 {
-    float far_left = along_at(rg, p, at, w.along, cell - 2 * w.across);
-    float left = along_at(rg, p, at, w.along, cell - w.across);
-    float middle = along_at(rg, p, at, w.along, cell);
-    float right = along_at(rg, p, at, w.along, cell + w.across);
-    float far_right = along_at(rg, p, at, w.along, cell + 2 * w.across);
+    float far_left = along_at(rg, at, w.along, cell - 2 * w.across);
+    float left = along_at(rg, at, w.along, cell - w.across);
+    float middle = along_at(rg, at, w.along, cell);
+    float right = along_at(rg, at, w.along, cell + w.across);
+    float far_right = along_at(rg, at, w.along, cell + 2 * w.across);
     float was_left = wet_at(rg, cell - w.across);
     float was = wet_at(rg, cell);
     float was_right = wet_at(rg, cell + w.across);
@@ -137,16 +137,11 @@ RG_FN uint owner_around(rg_ctx rg, drops_params p, int cell)
     return or_else(here, or_else(above, own, above_right), or_else(left, left_below, own));
 }
 
-RG_FN bool is_upright(drops_params p)
-{
-    return p.right_cell == 1 || p.right_cell == -1;
-}
-
 RG_FN ways ways_of(drops_params p)
 {
     ways w;
-    w.across = is_upright(p) ? 1 : p.stride;
-    w.along = is_upright(p) ? p.stride : 1;
+    w.across = (p.is_upright != 0 ? 1 : p.stride) * p.apart;
+    w.along = (p.is_upright != 0 ? p.stride : 1) * p.apart;
     return w;
 }
 
@@ -158,17 +153,17 @@ RG_FN uint below(int a, int b)
 
 RG_FN ends ends_of(drops_params p, int column, int row)
 {
-    int across = is_upright(p) ? column : row;
-    int last = (is_upright(p) ? p.columns : p.rows) - 1;
-    int down = is_upright(p) ? row : column;
-    int lowest = (is_upright(p) ? p.rows : p.columns) - 1;
+    int across = p.is_upright != 0 ? column : row;
+    int last = (p.is_upright != 0 ? p.columns : p.rows) - 1;
+    int down = p.is_upright != 0 ? row : column;
+    int lowest = (p.is_upright != 0 ? p.rows : p.columns) - 1;
     ends e;
-    e.is_first = below(across, 1);
-    e.is_second = below(across, 2);
-    e.is_second_last = below(last - 2, across);
-    e.is_last = below(last - 1, across);
-    e.is_top = below(down, 1);
-    e.is_bottom = below(lowest - 1, down);
+    e.is_first = below(across, p.apart);
+    e.is_second = below(across, drops_reach(p));
+    e.is_second_last = below(last - drops_reach(p), across);
+    e.is_last = below(last - p.apart, across);
+    e.is_top = below(down, p.apart);
+    e.is_bottom = below(lowest - p.apart, down);
     e.is_beyond = below(p.columns - 1, column) | below(p.rows - 1, row);
     return e;
 }
@@ -207,12 +202,12 @@ RG_FN changes no_changes(uint none)
     return c;
 }
 
-RG_FN changes changed(changes was, int i, uint change)
+RG_FN changes changed(drops_params p, changes was, int i, uint change)
 {
     changes c = was;
     c.any = was.any | change;
-    c.at_left = was.at_left | (i < DROPS_REACH ? change : 0u);
-    c.at_right = was.at_right | (i >= DROPS_TILE_COLUMNS - DROPS_REACH ? change : 0u);
+    c.at_left = was.at_left | (i < drops_reach(p) ? change : 0u);
+    c.at_right = was.at_right | (i >= DROPS_TILE_COLUMNS - drops_reach(p) ? change : 0u);
     return c;
 }
 
@@ -228,7 +223,7 @@ RG_FN changes renewed(rg_ctx rg, drops_params p, changes was, ends at, ways w, i
     changes c = was;
     c.unowned = c.unowned | (h >= p.owned_mm ? mask_of(own == 0u) : 0u);
     uint height_change = rg_float_bits(h) ^ rg_float_bits(height_at(rg, cell));
-    return changed(c, i, height_change | (id ^ ids_at(rg, cell)));
+    return changed(p, c, i, height_change | (id ^ ids_at(rg, cell)));
 }
 
 // The same for a row of any tile, and for one that has the pane all around, where there is less to
@@ -266,14 +261,16 @@ RG_FN changes spread(rg_ctx rg, drops_params p, changes was, int first)
         uint had = next_ids_at(rg, cell);
         uint id = next_height_at(rg, cell) >= p.owned_mm ? around : 0u;
         next_ids_put(rg, cell, id);
-        c = changed(c, i, id ^ had);
+        c = changed(p, c, i, id ^ had);
     }
     return c;
 }
 
 RG_FN bool is_inside(drops_params p, int left, int row)
 {
-    return row > 1 && row < p.rows - 2 && left > 1 && left + DROPS_TILE_COLUMNS < p.columns - 1;
+    int reach = drops_reach(p);
+    return row >= reach && row < p.rows - reach && left >= reach &&
+           left + DROPS_TILE_COLUMNS <= p.columns - reach;
 }
 
 RG_GRID_KERNEL(drops_flatten)
@@ -289,6 +286,6 @@ RG_GRID_KERNEL(drops_flatten)
     if (c.any == 0u)
         return;
     int last = left + DROPS_TILE_COLUMNS - 1;
-    mark_row(rg, p, row, c.at_left != 0u ? left : left + DROPS_REACH,
-             c.at_right != 0u ? last : last - DROPS_REACH, DROPS_STIRRED);
+    mark_row(rg, p, row, c.at_left != 0u ? left : left + drops_reach(p),
+             c.at_right != 0u ? last : last - drops_reach(p), DROPS_STIRRED);
 }
