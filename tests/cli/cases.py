@@ -29,7 +29,7 @@ RENDER = ("render flow --set environment=sky --set environment_px=16 --set resol
 
 FRAMES = RENDER.replace("--frame 1", "--frames 1-2")
 
-PANE = "render drops --set environment=sky --set environment_px=16 --set columns=32 --set rows=32 --size 32x32 --frame 1 "
+PANE = "render drops --set environment=sky --set environment_px=16 --set columns=32 --set rows=32 --set max_drops=700 --size 32x32 --frame 1 "
 
 RAIN = ("render streaks --size 32x18 --frame 1 --set atlas=small --set city=small --set depth_map_px=64 "
         "--set shadow_map_px=16 ")
@@ -179,6 +179,12 @@ RENDERS = [
     Case(PANE + "--set background={data}/short.exr -o {tmp}/a.png", 2, r"short\.exr: "),
     Case(PANE + "--set aperture_mm=101 -o {tmp}/a.png", 2, r"parameter 'aperture_mm': 101 is out of range; 0 to 100 mm"),
     Case(PANE + "--set aperture_mm=100 --set distance_mm=100 -o {tmp}/a.png", 0, None, made=("a.png",)),
+    Case(PANE + "--set rows=0 -o {tmp}/a.png", 2, r"parameter 'rows': 0 is out of range; 16 to 8192"),
+    Case(PANE + "--set columns=100000 -o {tmp}/a.png", 2, r"parameter 'columns': 100000 is out of range"),
+    Case(PANE + "--set max_drops=2000 -o {tmp}/a.png", 2, r"2000 drops are more than the pane's 32 x 32 cells"),
+    Case(PANE + "--set max_mass_mg=0.2 -o {tmp}/a.png", 2, r"0\.2 mg is below the least mass on cells of 0\.5 mm, .*raise it"),
+    Case(PANE + "--set residual_low=0.4 -o {tmp}/a.png", 2, r"a share of 0\.4 is above residual_high=0\.3"),
+    Case(PANE + "--set rules=physical --set cell_mm=0.3 -o {tmp}/a.png", 2, r"0\.3 mm is no whole part of 0\.5 mm"),
     Case(RAIN + "--set drops_m2_s=0 -o {tmp}/a.png", 2, r"0 drops a square metre and second; give a number above 0"),
     Case(RAIN + "--set drops_m2_s=1e9 -o {tmp}/a.png", 2, r"1\.02666e\+14 particles .*lower drops_m2_s"),
     Case(RAIN + "--set packet_size=1 --set packets=kd --set rain_width_m=60 --set rain_depth_m=60 --set memory_mb=500 "

@@ -188,10 +188,35 @@ static void add_drops(struct drops *d)
     rg_add_state(i, d->tally, "tally", false, 0, 0);
 }
 
+// Whether settings go together; else one logged line says which do not.
+static bool are_sound(const struct drops_settings *s)
+{
+    const double ruling = ruling_cell_mm(s), least_mg = 2 * ruling * ruling * ruling;
+    const double ratio = DROPS_PAPER_CELL_MM / s->cell_mm;
+    if (s->max_drops > s->columns * s->rows)
+        return rg_error("max_drops: %d drops are more than the pane's %d x %d cells; lower it",
+                        s->max_drops, s->columns, s->rows);
+    if (s->max_mass_mg < least_mg)
+        return rg_error(
+            "max_mass_mg: %g mg is below the least mass on cells of %g mm, 2 l^3 = %g mg; "
+            "raise it, or lower cell_mm",
+            s->max_mass_mg, ruling, least_mg);
+    if (s->residual_low > s->residual_high)
+        return rg_error("residual_low: a share of %g is above residual_high=%g", s->residual_low,
+                        s->residual_high);
+    if (s->rules == DROPS_PHYSICAL && fabs(ratio - round(ratio)) > 1e-6 * ratio)
+        return rg_error("cell_mm: %g mm is no whole part of %g mm, which rules=physical needs; "
+                        "take 0.5, 0.25, 0.125 or 0.1",
+                        s->cell_mm, DROPS_PAPER_CELL_MM);
+    return true;
+}
+
 bool drops_open(struct rg_instance *instance)
 {
     struct drops *d = (struct drops *)instance;
     const struct drops_settings *s = &d->settings;
+    if (!are_sound(s))
+        return false;
     d->params = drops_params_of(s);
     const int tiles = d->params.tile_columns * d->params.tile_rows;
     rg_add_counters(instance, counter_names, DROPS_COUNTERS);

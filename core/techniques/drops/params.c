@@ -5,8 +5,8 @@
 // clang-format off
 static const struct rg_param rows[] = {
     {"seed", RG_PARAM_INT, AT(seed), 1, 0, 2147483647, "1", "of all chance", NULL},
-    {"columns", RG_PARAM_INT, AT(columns), 1000, 16, 16384, "1", "cells of the pane across", NULL},
-    {"rows", RG_PARAM_INT, AT(rows), 600, 16, 16384, "1", "cells of the pane from top to bottom", NULL},
+    {"columns", RG_PARAM_INT, AT(columns), 1000, 16, 8192, "1", "cells of the pane across", NULL},
+    {"rows", RG_PARAM_INT, AT(rows), 600, 16, 8192, "1", "cells of the pane from top to bottom", NULL},
     {"cell_mm", RG_PARAM_FLOAT, AT(cell_mm), 0.5, 0.1, 10, "mm", "side of a cell (l)", NULL},
     {"tilt_deg", RG_PARAM_FLOAT, AT(tilt_deg), 90, 0, 180, "deg", "of the pane from lying flat; 90: upright, as in the paper", NULL},
     {"turn_deg", RG_PARAM_FLOAT, AT(turn_deg), 0, -180, 180, "deg", "of the pane in its plane; 180: upside down", NULL},

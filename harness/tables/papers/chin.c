@@ -6,7 +6,7 @@
 enum { OFF, ON };
 
 // What the paper's program draws.
-#define VIEW "view=height"
+#define VIEW "view=particles"
 // Rows let it rain so hard that the drops that there may be are there after so many steps, and that
 // waters meet in every step: by the paper's rules drops at rest stay, and a pane that is full of
 // them does nothing more.
@@ -34,8 +34,9 @@ const struct rg_table rg_table_chin_timing = {
     .row_count = 1,
     .rows = timing,
     .note =
-        "A frame is one step and its picture: the height map, a pixel a cell, as the paper "
-        "draws it. The paper does not say how many drops there were at 14.8 ms, and how many at "
+        "A frame is one step and its picture: the height map, a pixel a cell, with the drops over "
+        "it, as in the paper's figure 2. The paper does not say how many drops there were at 14.8 "
+        "ms, and how many at "
         "31.8. In the full rain, 1500 drops a second, the pane has 600 to 700 from the 40th "
         "step on, and waters meet in each; light_rain has lasted for 40 steps with 120 a "
         "second, and leaves most of the pane dry. The paper calls its program real-time, 30 frames "

@@ -141,13 +141,13 @@ static void water_is_as_much_as_the_drop(void **state)
 static void rain_obeys_its_laws(void **state)
 {
     (void)state;
-    static const char *const settings[] = {RAINY,
-                                           RAINY "seed=2 turn_deg=180 trail=lines",
-                                           RAINY "seed=3 erode=off",
-                                           RAINY "seed=4 merge=off",
+    static const char *const settings[] = {RAINY, RAINY "seed=2 turn_deg=180 trail=lines",
+                                           RAINY "seed=3 erode=off", RAINY "seed=4 merge=off",
                                            RAINY "seed=5 residual=off tilt_deg=60",
-                                           RAINY "seed=6 smooth=off remove_s=2"};
-    for (int c = 0; c < 6; c++) {
+                                           RAINY "seed=6 smooth=off remove_s=2",
+                                           // A step takes a drop farther than the pane is long.
+                                           RAINY "seed=7 rows=16 columns=400 step_s=0.1"};
+    for (int c = 0; c < 7; c++) {
         struct drops *d = rig_open(device, settings[c]);
         for (int round = 0; round < 4; round++) {
             rig_step(d, 50);
