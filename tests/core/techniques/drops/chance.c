@@ -1,0 +1,184 @@
+// What drops draw by chance is spread as the paper has it: each mean, and each share, of thousands
+// within four of its standard deviations.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "tests/core/techniques/drops/rig.h"
+
+#define PANE "columns=128 rows=96 cell_mm=0.5 "
+
+enum { MANY = 3000 };
+
+static const double WIDE_MM = 64, HIGH_MM = 48;
+
+static struct rg_device *device;
+
+static void expect_mean(const char *what, double sum, double due, double deviation)
+{
+    if (!(fabs(sum / MANY - due) <= 4 * deviation / sqrt(MANY)))
+        fail_msg("%s: %.6g, not %.6g", what, sum / MANY, due);
+}
+
+// A share of an even spread of `wide`: its deviation is wide / sqrt(12).
+static void expect_even(const char *what, double sum, double squares, double due, double wide)
+{
+    expect_mean(what, sum, due, wide / sqrt(12));
+    // Of squared distances from the mean, whose mean is wide^2 / 12 and variance wide^4 / 180.
+    expect_mean(what, squares, wide * wide / 12, wide * wide / sqrt(180));
+}
+
+// Drops land anywhere alike, at rest, and most are small (section 4.1).
+static void drops_land_anywhere(void **state)
+{
+    (void)state;
+    struct drops *d = rig_open(device, PANE "drops_s=300000 step_s=0.01 max_drops=3000 merge=off");
+    rig_step(d, 1);
+    int count;
+    drops_drop *all = rig_drops(d, &count);
+    assert_int_equal(count, MANY);
+    double x = 0, y = 0, xx = 0, yy = 0, mg = 0, spread = 0;
+    for (int i = 0; i < MANY; i++) {
+        const double mass = all[i].mass / (double)DROPS_QUANTA_MG, middle = 0.25 + 99.75 / 5;
+        assert_true(all[i].x >= 0 && (double)all[i].x <= WIDE_MM && all[i].y >= 0 &&
+                    (double)all[i].y <= HIGH_MM && all[i].vx == 0 && all[i].vy == 0);
+        x += (double)all[i].x;
+        y += (double)all[i].y;
+        xx += pow((double)all[i].x - WIDE_MM / 2, 2);
+        yy += pow((double)all[i].y - HIGH_MM / 2, 2);
+        mg += mass;
+        spread += pow(mass - middle, 2);
+    }
+    expect_even("x", x, xx, WIDE_MM / 2, WIDE_MM);
+    expect_even("y", y, yy, HIGH_MM / 2, HIGH_MM);
+    expect_mean("mass", mg, 0.25 + 99.75 / 5, 1.5);
+    expect_mean("variance of mass", spread, 2.25, 2.25 * sqrt(2));
+    free(all);
+    rig_close(d);
+}
+
+// Affinity is N(0.5, 1.5), clamped to 0 to 1 (table 1).
+static void affinity_is_normal(void **state)
+{
+    (void)state;
+    struct drops *d = rig_open(device, PANE "drops_s=0");
+    float *affinity = rig_words(d, "affinity");
+    double none = 0, most = 0, half = 0;
+    for (int i = 0; i < MANY; i++) {
+        const float f = affinity[drops_cell(d->params, i % 128, i / 128)];
+        none += f == 0;
+        most += f == 1;
+        half += f < 0.5F;
+        assert_true(f >= 0 && f <= 1);
+    }
+    const double beyond = 0.36944; // of a normal number, a third of its deviation from its mean
+    expect_mean("no affinity", none, beyond, sqrt(beyond * (1 - beyond)));
+    expect_mean("most affinity", most, beyond, sqrt(beyond * (1 - beyond)));
+    expect_mean("less than half", half, 0.5, 0.5);
+    free(affinity);
+    rig_close(d);
+}
+
+// Many drops of one kind, at rest on a dry pane that draws them nowhere.
+static struct drops *open_many(const char *settings, double mg, double since_s)
+{
+    static drops_drop all[MANY];
+    for (int i = 0; i < MANY; i++)
+        all[i] = (drops_drop){.mass = (uint32_t)(mg * DROPS_QUANTA_MG),
+                              .x = 10.1F + (float)(i % 44),
+                              .y = 5.1F + 0.5F * (float)(i / 44),
+                              .since_s = (float)since_s};
+    struct drops *d = rig_open(device, settings);
+    struct rg_buf *affinity = rg_asset_find(&d->base, "affinity")->buf;
+    void *even = calloc(1, affinity->size);
+    assert_non_null(even);
+    assert_true(rg_buf_write(affinity, 0, even, (int64_t)affinity->size));
+    free(even);
+    rig_put(d, all, MANY);
+    return d;
+}
+
+#define RUNS PANE "drops_s=0 merge=off substeps=1 max_drops=6000 trail=lines "
+
+// A drop that runs straight turns by an even angle, of theta at most, and is no slower for it.
+static void drops_meander(void **state)
+{
+    (void)state;
+    struct drops *d = open_many(RUNS "meander_rad=0.4 residual=off", 30, 0);
+    rig_step(d, 1);
+    int count;
+    drops_drop *all = rig_drops(d, &count);
+    assert_int_equal(count, MANY);
+    double sum = 0, squares = 0;
+    for (int i = 0; i < MANY; i++) {
+        const double angle = atan2((double)all[i].vx, (double)all[i].vy);
+        const double speed = hypot((double)all[i].vx, (double)all[i].vy);
+        assert_true(fabs(angle) <= 0.4001 && fabs(speed / (9800.0 / 3 / 60) - 1) < 1e-4);
+        sum += angle;
+        squares += angle * angle;
+    }
+    expect_even("angle", sum, squares, 0, 0.8);
+    free(all);
+    rig_close(d);
+}
+
+// Eq. 6: of drops that have run for a part of tau_max without, so many leave another behind, which
+// weighs an even share of theirs, lies where they were, and is theirs.
+static void drops_shed(void **state)
+{
+    (void)state;
+    static const struct {
+        double since_s, chance, mg;
+    } cases[] = {{0.05, 0.25, 50}, {0.1, 0.5, 50}, {7, 0.5, 150}};
+    for (int c = 0; c < 3; c++) {
+        struct drops *d = open_many(RUNS "meander_rad=0 step_s=0.005 residual_beta=10 "
+                                         "residual_low=0.2 residual_high=0.3",
+                                    cases[c].mg, cases[c].since_s);
+        rig_step(d, 1);
+        int count;
+        drops_drop *all = rig_drops(d, &count);
+        const int children = count - MANY;
+        expect_mean("children", children, cases[c].chance,
+                    sqrt(cases[c].chance * (1 - cases[c].chance)));
+        assert_int_equal(rig_tally(d, DROPS_BORN), children);
+        double shares = 0, squares = 0;
+        for (int i = MANY; i < count; i++) {
+            const drops_drop *child = &all[i], *parent = &all[child->parent - 1];
+            const double share = child->mass / (cases[c].mg * (double)DROPS_QUANTA_MG);
+            assert_int_equal(parent->id, child->parent);
+            assert_int_equal(parent->mass + child->mass, (uint32_t)(cases[c].mg * DROPS_QUANTA_MG));
+            assert_true(parent->since_s == 0 && child->since_s == 0 && child->vy == 0);
+            assert_true(child->x == parent->x && child->y < parent->y);
+            assert_true(share <= 0.3 && child->mass <= d->params.critical);
+            shares += share;
+            squares += pow(share - 0.25, 2);
+        }
+        if (cases[c].mg < 100) // lighter than the critical mass
+            expect_even("share", shares * MANY / children, squares * MANY / children, 0.25, 0.1);
+        int kept = 0;
+        for (int i = 0; i < MANY; i++)
+            kept += fabs((double)all[i].since_s - cases[c].since_s - 0.005) < 1e-6;
+        assert_int_equal(kept, MANY - children);
+        free(all);
+        rig_close(d);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(drops_land_anywhere),
+        cmocka_unit_test(affinity_is_normal),
+        cmocka_unit_test(drops_meander),
+        cmocka_unit_test(drops_shed),
+    };
+    device = rg_device_open(argc > 1 ? argv[1] : "cpu");
+    assert_non_null(device);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    return rg_device_close(device) ? failed : 1;
+}
