@@ -169,6 +169,26 @@ static void drops_shed(void **state)
     }
 }
 
+// Drops that came first shed while there is room for a child of each.
+static void drops_shed_while_there_is_room(void **state)
+{
+    (void)state;
+    enum { ROOM = 500 };
+    struct drops *d = open_many(PANE "drops_s=0 merge=off substeps=1 max_drops=3500 meander_rad=0 "
+                                     "residual_max_s=0.001 residual_beta=10",
+                                50, 7);
+    rig_step(d, 1);
+    int count;
+    drops_drop *all = rig_drops(d, &count);
+    assert_int_equal(count, MANY + ROOM);
+    for (int i = 0; i < MANY; i++)
+        assert_true(all[i].since_s == 0); // whether a child came about or not
+    for (int i = 0; i < ROOM; i++)
+        assert_int_equal(all[MANY + i].parent, i + 1);
+    free(all);
+    rig_close(d);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -176,6 +196,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(affinity_is_normal),
         cmocka_unit_test(drops_meander),
         cmocka_unit_test(drops_shed),
+        cmocka_unit_test(drops_shed_while_there_is_room),
     };
     device = rg_device_open(argc > 1 ? argv[1] : "cpu");
     assert_non_null(device);

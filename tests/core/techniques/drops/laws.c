@@ -248,6 +248,23 @@ static void waters_that_meet_merge(void **state)
     rig_close(d);
 }
 
+// Of two drops whose waters are as high the older one owns them: cells halfway between.
+static void the_oldest_owns_what_is_as_high(void **state)
+{
+    (void)state;
+    const drops_drop both[] = {drop(18, 52.25, 30.25), drop(18, 50.25, 30.25)};
+    struct drops *d = open_with(PANE "merge=off smooth=off erode=off", both, 2);
+    rig_step(d, 1);
+    uint32_t *ids = rig_words(d, "ids");
+    for (int row = 58; row <= 62; row++) {
+        assert_int_equal(ids[drops_cell(d->params, 101, row)], 2);
+        assert_int_equal(ids[drops_cell(d->params, 102, row)], 1);
+        assert_int_equal(ids[drops_cell(d->params, 103, row)], 1);
+    }
+    free(ids);
+    rig_close(d);
+}
+
 // One that runs into one at rest: momentum is kept.
 static void momentum_is_kept(void **state)
 {
@@ -281,6 +298,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(sleep_changes_no_bit),
         cmocka_unit_test(water_comes_to_rest_and_vanishes),
         cmocka_unit_test(waters_that_meet_merge),
+        cmocka_unit_test(the_oldest_owns_what_is_as_high),
         cmocka_unit_test(momentum_is_kept),
     };
     device = rg_device_open(argc > 1 ? argv[1] : "cpu");
