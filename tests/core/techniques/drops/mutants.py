@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""Changes one place of the text of drops' kernels at a time, and runs the tests that ought to notice.
+
+mutants.py SOURCE BUILD COMPILER... -- [NAME HEADER SHELL]...
+
+The device opencl reads the changed text at run time (RG_KERNEL_DIR); each test compares what it
+finds with a law, a case worked out by hand, or a model of its own, never with another device. A
+mutant that no test notices has lived, which fails, as does a test of the text as it is. The rows
+are in mutant_rows.py beside this.
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+import mutant_rows
+
+TESTS = "tests/core/techniques/drops"
+
+
+def texts_of(root, source, build, compiler, kernels, folder):
+    """Flattens the kernels under `root` into `folder`."""
+    subprocess.run(
+        [sys.executable, source / "kernels/build/flatten.py", source / "shaders", folder / "needs.d"]
+        + compiler
+        + ["-I", root, "-I", build, "--", folder]
+        + [word for name, header, shell in kernels for word in (shell, header, name + ".cl")],
+        check=True,
+    )
+
+
+def first_to_notice(build, folder, tests):
+    """The first test that fails on the texts of `folder`, or None."""
+    environment = dict(os.environ, RG_KERNEL_DIR=str(folder))
+    for test in tests:
+        done = subprocess.run(
+            [build / TESTS / test, "opencl"], env=environment, stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE, text=True, timeout=600, check=False,
+        )
+        if "clBuildProgram" in done.stderr:
+            sys.exit(f"mutants.py: a changed kernel cannot be built\n{done.stderr}")
+        if done.returncode:
+            return test, done.stderr
+    return None
+
+
+def mutated(source, root, row):
+    """Changes a row's place in the copy `root`."""
+    text = (source / "kernels/drops" / row.file).read_text(encoding="utf-8")
+    if text.count(row.old) != 1:
+        sys.exit(f"mutants.py: {row.about}: {row.file} has {text.count(row.old)} times: {row.old}")
+    (root / "kernels/drops" / row.file).write_text(text.replace(row.old, row.new), encoding="utf-8")
+
+
+def run(source, build, compiler, kernels, folder):
+    root, texts = folder / "root", folder / "texts"
+    shutil.copytree(source / "kernels", root / "kernels")
+    texts.mkdir()
+    for text in (build / "kernels").glob("*.cl"):
+        shutil.copy(text, texts)
+    every = sorted({test for row in mutant_rows.ROWS for test in row.tests})
+    failed = first_to_notice(build, texts, every)
+    if failed:
+        sys.exit(f"mutants.py: {failed[0]} fails on the text as it is\n{failed[1]}")
+    lived = 0
+    for row in mutant_rows.ROWS:
+        start = time.monotonic()
+        mutated(source, root, row)
+        texts_of(root, source, build, compiler, kernels, texts)
+        found = first_to_notice(build, texts, row.tests)
+        shutil.copy(source / "kernels/drops" / row.file, root / "kernels/drops" / row.file)
+        lived += not found
+        print(f"{'killed by ' + found[0] if found else 'LIVED':24} {row.file:20} {row.about}"
+              f" ({time.monotonic() - start:.1f} s)", flush=True)
+    print(f"{len(mutant_rows.ROWS)} mutants, {lived} lived")
+    return lived
+
+
+def main():
+    split = sys.argv.index("--")
+    source, build, *compiler = sys.argv[1:split]
+    words = sys.argv[split + 1 :]
+    with tempfile.TemporaryDirectory() as folder:
+        lived = run(pathlib.Path(source), pathlib.Path(build), compiler,
+                    list(zip(words[::3], words[1::3], words[2::3])), pathlib.Path(folder))
+    sys.exit(1 if lived else 0)
+
+
+if __name__ == "__main__":
+    main()
