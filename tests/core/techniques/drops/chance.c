@@ -42,7 +42,7 @@ static void drops_land_anywhere(void **state)
     int count;
     drops_drop *all = rig_drops(d, &count);
     assert_int_equal(count, MANY);
-    double x = 0, y = 0, xx = 0, yy = 0, mg = 0, spread = 0;
+    double x = 0, y = 0, xx = 0, yy = 0, xy = 0, mg = 0, spread = 0;
     for (int i = 0; i < MANY; i++) {
         const double mass = all[i].mass / (double)DROPS_QUANTA_MG, middle = 0.25 + 99.75 / 5;
         assert_true(all[i].x >= 0 && (double)all[i].x <= WIDE_MM && all[i].y >= 0 &&
@@ -51,11 +51,13 @@ static void drops_land_anywhere(void **state)
         y += (double)all[i].y;
         xx += pow((double)all[i].x - WIDE_MM / 2, 2);
         yy += pow((double)all[i].y - HIGH_MM / 2, 2);
+        xy += ((double)all[i].x - WIDE_MM / 2) * ((double)all[i].y - HIGH_MM / 2);
         mg += mass;
         spread += pow(mass - middle, 2);
     }
     expect_even("x", x, xx, WIDE_MM / 2, WIDE_MM);
     expect_even("y", y, yy, HIGH_MM / 2, HIGH_MM);
+    expect_mean("x with y", xy, 0, WIDE_MM * HIGH_MM / 12);
     expect_mean("mass", mg, 0.25 + 99.75 / 5, 1.5);
     expect_mean("variance of mass", spread, 2.25, 2.25 * sqrt(2));
     free(all);

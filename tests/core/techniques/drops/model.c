@@ -44,6 +44,8 @@ static void compare_drops(const struct scene *s, int step, struct drops *d,
         fail_msg("%s, step %d: what left or was removed is not as heavy", s->about, step);
     for (int i = 0; i < count; i++) {
         const drops_drop *a = &all[i];
+        if (a->id <= (i ? all[i - 1].id : 0) || a->id >= rig_tally(d, DROPS_NEXT_ID))
+            fail_msg("%s, step %d: drop %u is out of order", s->about, step, a->id);
         // By place: the IDs of those that merge in one step rise in another order. Momentum
         // is whole steps of 1/4 mg mm/s.
         const struct oracle_drop *b = NULL;
