@@ -5,7 +5,7 @@ Row = collections.namedtuple("Row", "about file old new tests")
 
 MODEL = ("model",)
 CHANCE = ("chance",)
-PANE = ("view/pane",)
+PANE = ("view/pane", "view/oracle")
 MAPS = ("view/maps",)
 
 ROWS = [Row(*row) for row in (
