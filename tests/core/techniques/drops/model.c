@@ -108,6 +108,28 @@ static void a_few_drops_are_as_the_model_has_them(void **state)
     }
 }
 
+// A child merges with a stranger: the drop that they become is no kin of the child's parent, and
+// merges with it in a later step.
+static void what_merges_is_nobodys_child(void **state)
+{
+    (void)state;
+    const struct scene kin = {
+        "a child and a stranger",
+        "critical_mass_mg=100",
+        0,
+        {{0, 12, 10.2, 10.3, 0, 0}, {1, 12, 13.4, 10.9, 0, 0}, {0, 12, 16, 10.3, 0, 0}},
+        {{0}}};
+    struct drops *d = scene_open(device, &kin, "");
+    rig_step(d, 4);
+    int count;
+    drops_drop *all = rig_drops(d, &count);
+    assert_int_equal(count, 1);
+    assert_int_equal(all[0].mass, 36 * (int)DROPS_QUANTA_MG);
+    assert_int_equal(rig_tally(d, DROPS_MERGINGS), 2);
+    free(all);
+    rig_close(d);
+}
+
 // Tiles that are left out, since nothing changes in them, are as they would be.
 static void sleep_changes_no_bit(void **state)
 {
@@ -135,6 +157,7 @@ static void sleep_changes_no_bit(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_few_drops_are_as_the_model_has_them),
+                                       cmocka_unit_test(what_merges_is_nobodys_child),
                                        cmocka_unit_test(sleep_changes_no_bit)};
     device = rg_device_open(argc > 1 ? argv[1] : "cpu");
     assert_non_null(device);

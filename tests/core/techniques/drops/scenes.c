@@ -139,6 +139,16 @@ const struct scene scenes[] = {
      4,
      {{0, 18, 4.1, 8, 0, 0}, {0, 12, 10.1, 12.3, 0, 0}, {0, 12, 12.3, 12.3, 0, 0}},
      {{0}}},
+    {"a running drop and one beside its way",
+     "",
+     3,
+     {{0, 40, 16.2, 4.3, 60, 200}, {0, 15, 19.5, 14.5, 0, 0}},
+     {{0}}},
+    {"a drop that runs aside into one at rest",
+     "substeps=1 smooth=off erode=off",
+     4,
+     {{0, 40, 12.2, 4.3, 60, 200}, {0, 15, 21.2, 10.5, 0, 0}},
+     {{0, 27, 4, 30, 40, 0.3}, {2, 34, 14, 10, 8, 0.6}}},
     {"a steep pane",
      "tilt_deg=50",
      6,
@@ -216,6 +226,7 @@ void scene_open_model(struct oracle_drops *o, const struct scene *s)
     settings.smooth = !is_off(s, "smooth");
     settings.erode = !is_off(s, "erode");
     settings.critical_mass_mg = scene_setting(s, "critical_mass_mg", 20);
+    settings.substeps = (int)scene_setting(s, "substeps", 4);
     settings.tilt_deg = scene_setting(s, "tilt_deg", 90);
     oracle_drops_open(o, &settings);
     for (int row = 0; row < ROWS; row++)
