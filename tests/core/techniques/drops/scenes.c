@@ -154,6 +154,12 @@ const struct scene scenes[] = {
      6,
      {{0, 60, 16.1, 2.3, 0, 0}, {0, 22, 30.1, 2.3, 40, 40}},
      {{0}}},
+    // It loses two cells a step: first columns 29 and 30, then 31 and 32, and 32 is another tile's.
+    {"a film as low as stays wet, which ends before a tile's last cell",
+     "",
+     6,
+     {{0, 3, 35.1, 20.2, 0, 0}},
+     {{9, 29, 0, 43, 44, 41.0 / 4096}}},
     {0},
 };
 
