@@ -47,6 +47,7 @@ struct rg_limits {
     struct rg_slot_limits slot_end;   // and below what their numbers must be
     char no_draws[120];               // why DRAW programs cannot run: "has no queue that draws"
     bool has_clock;                   // `time` tells it
+    bool has_queries;                 // the API's own occlusion queries
 };
 
 struct rg_device_info {
@@ -92,6 +93,8 @@ struct rg_binding {
     struct rg_image *image;
 };
 
+enum { RG_MAX_QUERIES = 32768 }; // of a run; a longer draw takes several
+
 enum rg_blend {
     RG_BLEND_OFF,
     RG_BLEND_OVER, // premultiplied: source + target (1 - alpha of the source)
@@ -115,13 +118,26 @@ struct rg_draw {
     enum rg_cull cull;
     int x0, y0, x1, y1; // scissor: x0 <= x < x1, y0 <= y < y1; all 0: the whole target
     struct rg_buf *samples; // uints, by item: grow by its visible samples. NULL: not counted
+    // 0: fragments count. Else the API's own occlusion queries do, each of so many items from a
+    // multiple of that on, itself a multiple of 32; `samples` is then by query, and is set.
+    int items_a_query;
 };
+
+// Whether fragments count, each of which then tests the depth itself.
+static inline bool rg_draw_counts(const struct rg_draw *draw)
+{
+    return draw->samples && !draw->items_a_query;
+}
 
 // A DRAW pass's primitives, packed by core/device/packing.c, for backends with `packed` true.
 struct rg_packed {
     struct rg_buf *prims; // rg_prim of kernels/dialect/draw/draw.h, drawn in this order
     struct rg_buf *args;  // 5 uints: vertices, 1, 0, 0 (an indirect draw), then the number of prims
     int capacity;         // the most that `prims` holds
+    // Of a draw with queries: an indirect draw of 4 uints for each, that is, of `queries` ones, the
+    // first of which counts into `first_query`.
+    struct rg_buf *query_args;
+    int queries, first_query;
 };
 
 // What a run comes to, for those who count it; core/device/work.h says of what. -1: not counted,

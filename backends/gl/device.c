@@ -32,6 +32,7 @@ static struct rg_limits read_limits(void)
                      .images = integer(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS),
                      .out_images = integer(GL_MAX_IMAGE_UNITS)},
         .has_clock = true,
+        .has_queries = true,
     };
     // OpenGL 4.5 has all formats for all uses.
     for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++)

@@ -19,6 +19,7 @@ bool gl_draw_begin(struct gl_device *device)
 void gl_draw_end(struct gl_device *device)
 {
     gl_framebuffers_forget(device, 0);
+    gl_queries_end(device);
     glDeleteVertexArrays(1, &device->no_vertices);
 }
 
@@ -89,16 +90,21 @@ bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const str
     const struct gl_draw_state state = state_of(draw, framebuffer);
     set_state(&bound->draw, &state);
     gl_bind_framebuffer(bound, framebuffer->id);
-    gl_bind_arguments(bound, ((const struct gl_buf *)run->packed->args)->id);
+    const struct rg_buf *arguments =
+        draw->items_a_query ? run->packed->query_args : run->packed->args;
+    gl_bind_arguments(bound, ((const struct gl_buf *)arguments)->id);
     // Vertex shaders read corners from the storage block, fragment shaders read records as a
     // texture of words.
     gl_slot_buffer(bound, RG_SLOT_PRIMS, run->packed->prims);
     if (!gl_slot_words(bound, RG_SLOT_PRIMS, run->packed->prims))
         return false;
     gl_bind_texture(bound, RG_SLOT_BEHIND, framebuffer->behind);
-    if (draw->samples)
+    if (rg_draw_counts(draw))
         gl_slot_buffer(bound, RG_SLOT_SAMPLES, draw->samples);
-    glDrawArraysIndirect(GL_TRIANGLES, NULL);
+    if (draw->items_a_query && !gl_draw_queries(device, kernel, run))
+        return false;
+    if (!draw->items_a_query)
+        glDrawArraysIndirect(GL_TRIANGLES, NULL);
     // The next run may write what this one reads, and read what it counts.
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     return gl_check_reported(device, "glDrawArraysIndirect", "kernel", kernel->name);

@@ -90,6 +90,12 @@ struct gl_bound {
     struct gl_draw_state draw;
 };
 
+// Occlusion queries, as many as a draw has had.
+struct gl_queries {
+    GLuint *ids;
+    int count;
+};
+
 struct gl_device {
     struct rg_device pub;
     struct gl_egl egl;
@@ -98,7 +104,8 @@ struct gl_device {
     struct gl_framebuffers framebuffers;
     GLuint no_vertices; // vertex array
     GLuint timestamp;   // query
-    char fault[256];    // the driver's first message since the last gl_check, "" for none
+    struct gl_queries queries;
+    char fault[256]; // the driver's first message since the last gl_check, "" for none
 };
 
 struct gl_buf {
@@ -217,6 +224,14 @@ bool gl_draw_begin(struct gl_device *device);
 void gl_draw_end(struct gl_device *device);
 // Draws packed primitives; the pass's program, parameters and slots are bound.
 bool gl_draw(struct gl_device *device, const struct rg_kernel *kernel, const struct rg_run *run);
+
+// api/query.c
+
+// Draws packed primitives query by query, and has their answers written to the draw's samples;
+// what the draw needs is bound. False, and one logged line, on failure.
+bool gl_draw_queries(struct gl_device *device, const struct rg_kernel *kernel,
+                     const struct rg_run *run);
+void gl_queries_end(struct gl_device *device);
 
 // pass.c
 struct rg_pass *gl_pass_create(struct rg_device *device, const struct rg_kernel *kernel);

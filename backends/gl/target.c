@@ -18,8 +18,8 @@ static struct gl_framebuffer_key key_of(const struct rg_draw *draw)
     const GLuint depth = draw->depth_mode == RG_DEPTH_OFF ? 0 : id_of(draw->depth);
     return (struct gl_framebuffer_key){
         .colour = id_of(draw->colour),
-        .depth = draw->samples ? 0 : depth,
-        .behind = draw->samples ? depth : 0,
+        .depth = rg_draw_counts(draw) ? 0 : depth,
+        .behind = rg_draw_counts(draw) ? depth : 0,
         .layer = draw->layer,
         .level = draw->level,
         .width = rg_level_size(image->desc.width, draw->level),

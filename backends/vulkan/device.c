@@ -63,8 +63,10 @@ static bool create_logical(struct vk_device *device)
     };
     VkPhysicalDeviceFeatures able;
     vkGetPhysicalDeviceFeatures(device->physical, &able);
-    const VkPhysicalDeviceFeatures wanted = {.fragmentStoresAndAtomics =
-                                                 able.fragmentStoresAndAtomics};
+    const VkPhysicalDeviceFeatures wanted = {
+        .fragmentStoresAndAtomics = able.fragmentStoresAndAtomics,
+        .occlusionQueryPrecise = able.occlusionQueryPrecise,
+    };
     const VkDeviceCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
         .queueCreateInfoCount = 1,
@@ -102,7 +104,7 @@ static bool create_shared_objects(struct vk_device *device)
     return vk_try("device", name, vkCreateSampler, device->handle, &sampler, NULL,
                   &device->sampler) &&
            (!device->ticks_mask || vk_try("device", name, vkCreateQueryPool, device->handle,
-                                          &queries, NULL, &device->queries)) &&
+                                          &queries, NULL, &device->timestamp)) &&
            vk_batches_create(device);
 }
 
@@ -113,7 +115,7 @@ static void vk_destroy(struct rg_device *device)
         vkDeviceWaitIdle(vk->handle);
         vk_draw_close(vk);
         vk_batches_destroy(vk);
-        vkDestroyQueryPool(vk->handle, vk->queries, NULL);
+        vkDestroyQueryPool(vk->handle, vk->timestamp, NULL);
         vkDestroySampler(vk->handle, vk->sampler, NULL);
         vkDestroyDevice(vk->handle, NULL);
     }

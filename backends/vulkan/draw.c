@@ -31,12 +31,12 @@ bool vk_draw_fill(struct vk_device *device, const struct rg_run *run,
                   union vk_descriptor descriptors[RG_MAX_SLOTS])
 {
     const struct rg_draw *draw = run->draw;
-    const bool behind = draw->samples && draw->depth_mode != RG_DEPTH_OFF;
+    const bool behind = rg_draw_counts(draw) && draw->depth_mode != RG_DEPTH_OFF;
     VkImageView depth = behind ? vk_place(device, draw->depth, draw->layer, draw->level)
                                : ((struct vk_image *)device->no_depth)->sampled;
     vk_slot_buffer(&descriptors[RG_SLOT_PRIMS], run->packed->prims);
     vk_slot_buffer(&descriptors[RG_SLOT_SAMPLES],
-                   draw->samples ? draw->samples : device->no_samples);
+                   rg_draw_counts(draw) ? draw->samples : device->no_samples);
     vk_slot_image(&descriptors[RG_SLOT_BEHIND], device, depth);
     return depth != VK_NULL_HANDLE;
 }
@@ -47,6 +47,7 @@ void vk_draw_close(struct vk_device *device)
         vk_buf_destroy(device->no_samples);
     if (device->no_depth)
         vk_image_destroy(device->no_depth);
+    vk_queries_close(device);
     vk_targets_close(device);
 }
 
@@ -87,7 +88,8 @@ bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_p
         .framebuffer = pipeline ? vk_framebuffer(device, draw) : VK_NULL_HANDLE,
         .renderArea = {{0, 0}, {(uint32_t)width, (uint32_t)height}},
     };
-    if (!pipeline || !begin.framebuffer)
+    const int queries = draw->items_a_query ? run->packed->queries : 0;
+    if (!pipeline || !begin.framebuffer || !vk_queries_prepare(device, batch, queries))
         return false;
     VkCommandBuffer commands = batch->commands;
     vk_barrier_before_draw(batch);
@@ -96,8 +98,13 @@ bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_p
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pass->layout, 0, 1,
                             &pass->set, 1, &params_offset);
     set_area(batch, draw, width, height);
-    vkCmdDrawIndirect(commands, ((struct vk_buf *)run->packed->args)->block.buffer, 0, 1, 0);
+    if (queries)
+        vk_draw_queries(device, batch, run->packed);
+    else
+        vkCmdDrawIndirect(commands, ((struct vk_buf *)run->packed->args)->block.buffer, 0, 1, 0);
     vkCmdEndRenderPass(commands);
+    if (queries)
+        vk_answer_queries(device, batch, run);
     vk_barrier_after_draw(batch);
     return true;
 }

@@ -21,7 +21,7 @@ struct vk_target vk_target_of(const struct rg_draw *draw)
         .colour = draw->colour ? draw->colour->desc.format : RG_FORMAT_NONE,
         // Where samples are counted, the fragment shader tests the depth, so that it is no
         // attachment.
-        .depth = draw->depth_mode != RG_DEPTH_OFF && !draw->samples,
+        .depth = draw->depth_mode != RG_DEPTH_OFF && !rg_draw_counts(draw),
     };
 }
 

@@ -75,8 +75,9 @@ struct vk_device {
     VkQueue queue;
     struct vk_family family;
     VkSampler sampler;
-    VkQueryPool queries; // one timestamp
-    uint64_t ticks_mask; // the valid bits of a timestamp; 0: there are none
+    VkQueryPool timestamp;
+    VkQueryPool occlusion; // RG_MAX_QUERIES; made by the first draw that has some
+    uint64_t ticks_mask;   // the valid bits of a timestamp; 0: there are none
     uint64_t ticks_last, ticks_total;
     struct vk_batch batches[VK_BATCHES];
     int current;
@@ -271,6 +272,16 @@ bool vk_draw_fill(struct vk_device *device, const struct rg_run *run,
 bool vk_draw(struct vk_device *device, const struct vk_batch *batch, struct vk_pass *pass,
              const struct rg_run *run, uint32_t params_offset);
 void vk_draw_close(struct vk_device *device); // what all passes share, before the device closes
+
+// api/query.c
+// Makes so many occlusion queries ready; 0: none. False: the driver failed.
+bool vk_queries_prepare(struct vk_device *device, const struct vk_batch *batch, int count);
+// Records the draws of a render pass, each in its query, and behind it their answers.
+void vk_draw_queries(const struct vk_device *device, const struct vk_batch *batch,
+                     const struct rg_packed *packed);
+void vk_answer_queries(const struct vk_device *device, const struct vk_batch *batch,
+                       const struct rg_run *run);
+void vk_queries_close(struct vk_device *device);
 
 // pass.c
 struct rg_pass *vk_pass_create(struct rg_device *device, const struct rg_kernel *kernel);

@@ -34,7 +34,7 @@ static void fill_state(const struct rg_draw *draw, rg_draw_state *state)
         .blend = draw->blend,
         .depth_mode = draw->depth_mode,
         .colour_format = draw->colour ? (int)draw->colour->desc.format : 0,
-        .counted = draw->samples != NULL,
+        .counted = rg_draw_counts(draw),
     };
     rg_target_size(draw, &state->width, &state->height);
     if (rg_target_is_whole(draw)) {
@@ -70,7 +70,8 @@ bool rg_draw_run(struct rg_pass *pass, const struct rg_run *run)
     part.params = call;
     const struct rg_work asked = *pass->device->work;
     const int items = run->extent.width;
-    const int batch = packed ? rg_packing_prepare(pass, items, &state.capacity) : items;
+    const int whole = run->draw->items_a_query;
+    const int batch = packed ? rg_packing_prepare(pass, items, whole, &state.capacity) : items;
     for (int64_t done = 0; batch && done < items; done += batch) {
         state.item_begin = run->origin.width + (int)done;
         state.item_end = state.item_begin + (items - done < batch ? (int)(items - done) : batch);

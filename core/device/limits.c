@@ -109,6 +109,9 @@ static bool allow_target(const struct rg_device_info *info, const struct rg_kern
 bool rg_limits_allow_draw(const struct rg_device_info *info, const struct rg_kernel *kernel,
                           const struct rg_draw *draw)
 {
+    if (draw->items_a_query && !info->limits.has_queries)
+        return rg_unsupported("kernel '%s': %s has no occlusion queries of its own", kernel->name,
+                              info->name);
     const unsigned colour_uses = RG_USE_DRAW | (draw->blend == RG_BLEND_OFF ? 0 : RG_USE_BLEND);
     return (!draw->colour || allow_target(info, kernel, draw->colour->desc.format, colour_uses)) &&
            (!draw->depth || draw->depth_mode == RG_DEPTH_OFF ||

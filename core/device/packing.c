@@ -1,20 +1,25 @@
 #include "core/device/packing.h"
 
 #include "core/base/alloc.h"
+#include "core/base/log.h"
 #include "core/device/grid.h"
 #include "core/device/objects.h"
 #include "core/device/scan.h"
 #include "kernels/dialect/draw/clip.h"
+#include "kernels/packing/params.h"
 
 // Primitives of a batch take no more than this, whatever a device would allow.
 #define MAX_PACKED_BYTES ((int64_t)128 << 20)
 
-enum { MAX_BATCH_CHUNKS = 32768, ARGS = 5 };
+enum { MAX_BATCH_CHUNKS = RG_MAX_QUERIES, ARGS = 5 };
 
 // Scratch of a device's packing.
 struct rg_packing {
     struct rg_buf *prims, *counts, *fates, *before, *args;
     struct rg_scan *scan;
+    // Of draws with queries; NULL before the first.
+    struct rg_pass *ranges;
+    struct rg_buf *query_args;
 };
 
 // --- the packing passes and their buffers ---
@@ -51,6 +56,8 @@ void rg_packing_destroy(struct rg_device *device)
     rg_buf_destroy(packing->fates);
     rg_buf_destroy(packing->before);
     rg_buf_destroy(packing->args);
+    rg_grid_destroy(packing->ranges);
+    rg_buf_destroy(packing->query_args);
     free(packing);
     device->packing = NULL;
 }
@@ -77,17 +84,30 @@ static int64_t smaller(int64_t a, int64_t b)
     return a < b ? a : b;
 }
 
-int rg_packing_prepare(struct rg_pass *pass, int items, int *capacity)
+static bool prepare_queries(struct rg_device *device, struct rg_packing *packing)
+{
+    const int64_t bytes = MAX_BATCH_CHUNKS * 4 * sizeof(uint32_t);
+    return (packing->ranges || (packing->ranges = rg_grid_create(device, "packing_ranges"))) &&
+           (packing->query_args ||
+            (packing->query_args = rg_buf_create(device, bytes, "query arguments")));
+}
+
+int rg_packing_prepare(struct rg_pass *pass, int items, int whole, int *capacity)
 {
     struct rg_device *device = pass->device;
     struct rg_packing *packing = packing_of(device);
-    if (!packing)
+    if (!packing || (whole && !prepare_queries(device, packing)))
         return 0;
     const struct rg_draw_info *draw = pass->kernel->draw;
     const int64_t an_item = (int64_t)RG_MOST_PRIMS(draw->corners) * draw->prim_size;
     const int64_t most = smaller(MAX_PACKED_BYTES, device->info.limits.max_buffer_bytes);
-    const int64_t batch = smaller(smaller(items, most / an_item), MAX_BATCH_CHUNKS * RG_DRAW_CHUNK);
+    int64_t batch = smaller(smaller(items, most / an_item), MAX_BATCH_CHUNKS * RG_DRAW_CHUNK);
+    if (whole && batch < items)
+        batch = batch / whole * whole;
     const int64_t wanted = batch * an_item;
+    if (!batch)
+        return rg_unsupported("kernel '%s': %d items a query are more than are drawn at once",
+                              pass->kernel->name, whole);
     if (!packing->prims || (int64_t)packing->prims->size < wanted) {
         rg_buf_destroy(packing->prims);
         packing->prims = rg_buf_create(device, wanted, "packed primitives");
@@ -99,6 +119,41 @@ int rg_packing_prepare(struct rg_pass *pass, int items, int *capacity)
 }
 
 // --- running ---
+
+// Where each query's primitives begin, as arguments of its draw.
+static bool find_ranges(const struct rg_packing *packing, int chunks, int corners,
+                        int chunks_a_query, int queries)
+{
+    const packing_params params = {chunks, chunks_a_query, corners == 3 ? 3 : 6};
+    return rg_dispatch(packing->ranges,
+                       &(struct rg_run){
+                           .params = &params,
+                           .slots = {[1].buf = packing->before, [2].buf = packing->query_args},
+                           .extent = {queries, 1, 1},
+                       });
+}
+
+// Draws what has been packed.
+static bool draw_packed(struct rg_pass *pass, const struct rg_run *run, const rg_draw_state *state,
+                        int chunks)
+{
+    const struct rg_packing *packing = pass->device->packing;
+    struct rg_packed args = {packing->prims, packing->args, state->capacity, NULL, 0, 0};
+    const int whole = run->draw->items_a_query;
+    if (whole) {
+        args.query_args = packing->query_args;
+        args.queries = (state->item_end - state->item_begin + whole - 1) / whole;
+        args.first_query = state->item_begin / whole;
+        if (!find_ranges(packing, chunks, pass->kernel->draw->corners, whole / RG_DRAW_CHUNK,
+                         args.queries))
+            return false;
+    }
+    struct rg_run packed = *run;
+    packed.packed = &args;
+    packed.origin.width = state->item_begin;
+    packed.extent.width = state->item_end - state->item_begin;
+    return rg_dispatch(pass, &packed);
+}
 
 // It goes past the checks, which have been done. They would also refuse the buffer of primitives:
 // programs whose primitives differ in size share it, so that its size is no multiple of each. A
@@ -121,11 +176,5 @@ bool rg_packing_run(struct rg_pass *pass, const struct rg_run *run, const rg_dra
     pack.slots[RG_SLOT_COUNTS].buf = packing->before;
     pack.slots[RG_SLOT_PRIMS].buf = packing->prims;
     pack.slots[RG_SLOT_ARGS].buf = packing->args;
-    if (!rg_dispatch(pass->packer->emit, &pack))
-        return false;
-    struct rg_run packed = *run;
-    packed.packed = &(struct rg_packed){packing->prims, packing->args, state->capacity};
-    packed.origin.width = state->item_begin;
-    packed.extent.width = batch;
-    return rg_dispatch(pass, &packed);
+    return rg_dispatch(pass->packer->emit, &pack) && draw_packed(pass, run, state, chunks);
 }

@@ -17,9 +17,10 @@ bool rg_packer_create(struct rg_pass *pass);
 void rg_packer_destroy(struct rg_pass *pass);
 
 // Makes room for the primitives of a batch: of `items` items, or of as many as keep it below what
-// the device allows a buffer. Returns how many items; 0, and one logged line, without memory.
-// `capacity` gets how many primitives there is room for.
-int rg_packing_prepare(struct rg_pass *pass, int items, int *capacity);
+// the device allows a buffer, and, where that is fewer, of a multiple of `whole` (0: of any
+// number). Returns how many items; 0, and one logged line, without memory. `capacity` gets how many
+// primitives there is room for.
+int rg_packing_prepare(struct rg_pass *pass, int items, int whole, int *capacity);
 // Packs the batch of items that `state` names, and draws it. False, and one logged line, on
 // failure.
 bool rg_packing_run(struct rg_pass *pass, const struct rg_run *run, const rg_draw_state *state);

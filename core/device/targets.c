@@ -57,17 +57,42 @@ static bool check_targets(const struct rg_pass *pass, const struct rg_draw *draw
     return true;
 }
 
+// Packing has a place for each chunk of items, where queries can begin.
+static bool check_queries(const struct rg_pass *pass, const struct rg_run *run)
+{
+    const int items = run->draw->items_a_query;
+    const char *kernel = pass->kernel->name;
+    require(run->draw->samples, "kernel '%s': queries of %d items, and no buffer for their answers",
+            kernel, items);
+    require(
+        items > 0 && items % RG_DRAW_CHUNK == 0 && run->origin.width % items == 0,
+        "kernel '%s': queries of %d items from item %d on; a multiple of %d, from a multiple of "
+        "that on",
+        kernel, items, run->origin.width, RG_DRAW_CHUNK);
+    return true;
+}
+
+static int64_t counters_of(const struct rg_run *run)
+{
+    const int64_t items = (int64_t)run->origin.width + run->extent.width;
+    const int a_query = run->draw->items_a_query;
+    return a_query ? (items + a_query - 1) / a_query : items;
+}
+
 static bool check_samples(const struct rg_pass *pass, const struct rg_run *run)
 {
     const struct rg_buf *samples = run->draw->samples;
     const char *kernel = pass->kernel->name;
+    if (run->draw->items_a_query && !check_queries(pass, run))
+        return false;
     if (!samples)
         return true;
     require(samples->device == pass->device, "kernel '%s': buffer '%s' belongs to another device",
             kernel, samples->name);
-    require((int64_t)(samples->size / 4) >= (int64_t)run->origin.width + run->extent.width,
-            "kernel '%s': buffer '%s' has %zu counters for %lld items", kernel, samples->name,
-            samples->size / 4, (long long)run->origin.width + run->extent.width);
+    require((int64_t)(samples->size / 4) >= counters_of(run),
+            "kernel '%s': buffer '%s' has %zu counters for %lld %s", kernel, samples->name,
+            samples->size / 4, (long long)counters_of(run),
+            run->draw->items_a_query ? "queries" : "items");
     // A count against a depth that changes meanwhile would depend on the order of the pixels.
     require(run->draw->depth_mode != RG_DEPTH_WRITE,
             "kernel '%s': visible samples are counted against depth that is not written; use "

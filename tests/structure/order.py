@@ -30,7 +30,7 @@ FLOORS = [
     "backends",
     "core/base",
     "shaders",
-    "kernels/T kernels/probe kernels/scan",
+    "kernels/T kernels/packing kernels/probe kernels/scan",
     "kernels/scenery",
     "kernels/dialect",
 ]

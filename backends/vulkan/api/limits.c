@@ -74,6 +74,13 @@ static void say_no_draws(VkPhysicalDevice device, const VkPhysicalDeviceLimits *
                  px[0], px[1], l->subPixelPrecisionBits, RG_VIEWPORT_PX);
 }
 
+static bool counts_exactly(VkPhysicalDevice device)
+{
+    VkPhysicalDeviceFeatures able;
+    vkGetPhysicalDeviceFeatures(device, &able);
+    return able.occlusionQueryPrecise;
+}
+
 struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *family,
                            const VkPhysicalDeviceLimits *l, uint64_t max_allocation_bytes)
 {
@@ -98,6 +105,7 @@ struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *fami
         limits.max_groups[i] = at_most_int(l->maxComputeWorkGroupCount[i]);
     for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++)
         limits.formats[f] = format_limits(device, (enum rg_format)f, family->draws);
+    limits.has_queries = family->draws && counts_exactly(device);
     say_no_draws(device, l, family->draws, limits.no_draws, sizeof(limits.no_draws));
     return limits;
 }

@@ -35,7 +35,7 @@ static const struct part {
      {&buffer_tests, &kernel_tests, &refusal_tests, &lifetime_tests, &scan_tests, &probe_tests,
       &lack_tests}},
     {"images", {&image_tests, &texel_tests, &filter_tests, &large_tests}},
-    {"draws", {&draw_tests, &tally_tests}},
+    {"draws", {&draw_tests, &tally_tests, &query_tests}},
     {"targets", {&target_tests, &light_tests}},
 };
 

@@ -1,0 +1,45 @@
+// Draws whose visible samples the API's own occlusion queries count.
+#include "backends/vulkan/vulkan.h"
+
+bool vk_queries_prepare(struct vk_device *device, const struct vk_batch *batch, int count)
+{
+    const VkQueryPoolCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+        .queryType = VK_QUERY_TYPE_OCCLUSION,
+        .queryCount = RG_MAX_QUERIES,
+    };
+    if (!count)
+        return true;
+    if (!device->occlusion && !vk_try("device", device->pub.info.name, vkCreateQueryPool,
+                                      device->handle, &info, NULL, &device->occlusion))
+        return false;
+    vkCmdResetQueryPool(batch->commands, device->occlusion, 0, (uint32_t)count);
+    return true;
+}
+
+void vk_draw_queries(const struct vk_device *device, const struct vk_batch *batch,
+                     const struct rg_packed *packed)
+{
+    const VkBuffer args = ((const struct vk_buf *)packed->query_args)->block.buffer;
+    for (uint32_t i = 0; i < (uint32_t)packed->queries; i++) {
+        vkCmdBeginQuery(batch->commands, device->occlusion, i, VK_QUERY_CONTROL_PRECISE_BIT);
+        vkCmdDrawIndirect(batch->commands, args, sizeof(VkDrawIndirectCommand) * i, 1, 0);
+        vkCmdEndQuery(batch->commands, device->occlusion, i);
+    }
+}
+
+void vk_answer_queries(const struct vk_device *device, const struct vk_batch *batch,
+                       const struct rg_run *run)
+{
+    const VkDeviceSize word = sizeof(uint32_t);
+    vk_barrier(batch); // the answers are a transfer
+    vkCmdCopyQueryPoolResults(batch->commands, device->occlusion, 0, (uint32_t)run->packed->queries,
+                              ((const struct vk_buf *)run->draw->samples)->block.buffer,
+                              word * (VkDeviceSize)run->packed->first_query, word,
+                              VK_QUERY_RESULT_WAIT_BIT);
+}
+
+void vk_queries_close(struct vk_device *device)
+{
+    vkDestroyQueryPool(device->handle, device->occlusion, NULL);
+}
