@@ -29,6 +29,13 @@ int scenery_lamps(const struct scenery *scene, const struct city_lamp **lamps);
 // The surfaces' words (kernels/scenery/surface.h), for kernels.
 struct rg_buf *scenery_surfaces(const struct scenery *scene);
 
+// The scene's lights for a camera, their shadow maps drawn: settings without the lamps, the place
+// that these are chosen near and the bounds, which are the scene's. NULL, and one logged line, on
+// failure; scenery_lights_close later.
+struct scenery_lights *scenery_lit(struct scenery *scene, struct rg_device *device,
+                                   const struct scenery_lights_settings *settings,
+                                   const struct rg_camera *camera);
+
 // How it looks at a time.
 struct scenery_look {
     scenery_sky sky;

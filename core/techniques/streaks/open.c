@@ -1,11 +1,9 @@
 // Opens streaks on a device: its scene, textures, lights and images.
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "core/base/log.h"
-#include "core/scene/matrix.h"
 #include "core/techniques/streaks/fit.h"
 #include "core/techniques/streaks/instance.h"
 
@@ -73,43 +71,17 @@ static void choose_camera(struct streaks *s)
     }
 }
 
-// Draws the depth of what casts shadows: scenery_lights_shade calls it for each map.
-static bool draw_shadow(void *user, const float to_clip[16], const struct rg_draw *onto)
-{
-    struct streaks *s = user;
-    return scenery_depth(s->scene, rg_m4_of(to_clip), onto);
-}
-
-// The place that lamps are chosen near: so far ahead of the camera, on level ground, since these
-// light what it sees.
-static void look_ahead(const struct rg_camera *camera, float place_m[3])
-{
-    const double ahead_m = 20, x = (double)camera->target[0] - (double)camera->position[0];
-    const double z = (double)camera->target[2] - (double)camera->position[2];
-    const double level = fmax(hypot(x, z), 1e-9);
-    memcpy(place_m, camera->position, 3 * sizeof(*place_m));
-    place_m[0] += (float)(x / level * ahead_m);
-    place_m[2] += (float)(z / level * ahead_m);
-}
-
 static bool create_lights(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
-    const struct city_faces *faces = &scenery_city(s->scene)->faces;
     struct scenery_lights_settings settings = {.file = set->lights_file,
                                                .count = set->lights,
                                                .time = (enum scenery_time)set->time,
                                                .shadows = set->shadows,
                                                .shadow_map_px = set->shadow_map_px};
-    const struct city_lamp *lamps;
-    settings.lamp_count = scenery_lamps(s->scene, &lamps);
-    settings.lamps = lamps;
-    look_ahead(&s->camera, settings.about_m);
-    memcpy(settings.low_m, faces->low, sizeof(settings.low_m));
-    memcpy(settings.high_m, faces->high, sizeof(settings.high_m));
     rg_rain_matrices(&s->space, settings.world_to_frame, NULL);
-    s->lights = scenery_lights_open(s->base.device, &settings);
-    return s->lights && scenery_lights_shade(s->lights, draw_shadow, s);
+    s->lights = scenery_lit(s->scene, s->base.device, &settings, &s->camera);
+    return s->lights;
 }
 
 // --- assets and stages ---
