@@ -1,0 +1,77 @@
+// shower: drops as small quads with a texture, which face the eye: what the paper's segments stand
+// in for. None is narrower than a pixel.
+#include "kernels/dialect/math.h"
+#include "kernels/shower/view/params.h"
+#include "kernels/shower/particle.h"
+
+#define RG_PARAMS  shower_view_params
+#define RG_SLOTS   IN(1, float, particles) IMAGE(2, R16F, drop)
+#define RG_CORNERS 4
+
+// u goes across the quad, v from its upper end to its lower one: planes over the screen.
+RG_STRUCT(shower_quad)
+{
+    float u_x, u_y, u_at;
+    float v_x, v_y, v_at;
+    float depth;
+    float alpha;
+};
+#define RG_RECORD shower_quad
+#include "kernels/dialect/draw/draw.h"
+
+#include "kernels/shower/view/look.h"
+
+// Along the drop and across it, in pixels.
+RG_STRUCT(shower_sides)
+{
+    float x, y; // unit vector upwards along it
+    float high; // length
+    float wide;
+};
+
+RG_FN shower_sides shower_sides_of(shower_drop d)
+{
+    float x = d.high_x - d.low_x;
+    float y = d.high_y - d.low_y;
+    shower_sides s;
+    s.high = rg_max(rg_hypot(x, y), 1e-3f);
+    s.x = x / s.high;
+    s.y = y / s.high;
+    s.wide = rg_max(d.width_px, 1.0f);
+    return s;
+}
+
+RG_DRAW_ITEM(shower_quads)
+{
+    shower_drop d = shower_drop_at(rg, p, i);
+    shower_sides s = shower_sides_of(d);
+    return shower_item(p, d, -0.5f * s.wide * s.y, 0.5f * s.wide * s.x);
+}
+
+RG_DRAW_RECORD(shower_quads)
+{
+    shower_drop d = shower_drop_at(rg, p, i);
+    shower_sides s = shower_sides_of(d);
+    float x = d.low_x + p.half_width;
+    float y = d.low_y + p.half_height;
+    shower_quad r;
+    r.u_x = -s.y / s.wide;
+    r.u_y = s.x / s.wide;
+    r.u_at = 0.5f - x * r.u_x - y * r.u_y;
+    r.v_x = -s.x / s.high;
+    r.v_y = -s.y / s.high;
+    r.v_at = 1.0f - x * r.v_x - y * r.v_y;
+    r.depth = d.depth;
+    r.alpha = shower_opacity(p, d);
+    return r;
+}
+
+RG_DRAW_FRAGMENT(shower_quads)
+{
+    float x = rg_to_float(px) + 0.5f;
+    float y = rg_to_float(py) + 0.5f;
+    float u = r.u_x * x + r.u_y * y + r.u_at;
+    float v = r.v_x * x + r.v_y * y + r.v_at;
+    float alpha = r.alpha * drop_linear(rg, u, v, 0, 0).r;
+    return rg_fragment_make(rg_rgba(p.r * alpha, p.g * alpha, p.b * alpha, alpha), r.depth);
+}
