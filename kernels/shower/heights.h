@@ -17,18 +17,20 @@ RG_FN shower_map_place shower_map_place_at(shower_params p, float x, float z, in
     float u = (x - p.map_x) * p.map_per_x * rg_to_float(width);
     float v = (z - p.map_z) * p.map_per_z * rg_to_float(height);
     shower_map_place m;
-    m.x = rg_to_int(rg_clamp(u, 0.0f, rg_to_float(width - 1)));
-    m.z = rg_to_int(rg_clamp(v, 0.0f, rg_to_float(height - 1)));
+    m.x = rg_to_int(rg_floor(rg_clamp(u, 0.0f, rg_to_float(width - 1))));
+    m.z = rg_to_int(rg_floor(rg_clamp(v, 0.0f, rg_to_float(height - 1))));
     m.outside = (u < 0.0f ? 1 : 0) | (v < 0.0f ? 1 : 0) | (u >= rg_to_float(width) ? 1 : 0) |
                 (v >= rg_to_float(height) ? 1 : 0);
     return m;
 }
 
-// How high what stands there is, by the depth seen from above.
+// How high what stands there is, by the depth seen from above. A sum of products with 0 and 1 makes
+// the choice, because gcc moves what only one branch of a choice reads into that branch.
 RG_FN float shower_height(shower_params p, float depth, int outside)
 {
-    float seen = p.map_top_m - depth * p.map_height_m;
-    return outside != 0 ? p.ground_m : rg_max(seen, p.ground_m);
+    float seen = rg_max(p.map_top_m - depth * p.map_height_m, p.ground_m);
+    float beyond = rg_to_float(outside);
+    return (1.0f - beyond) * seen + beyond * p.ground_m;
 }
 
 #endif

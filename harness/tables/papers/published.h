@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { RG_TABLE_ROWS = 64, RG_TABLE_VALUES = 10, RG_TABLE_VARIANTS = 8, RG_TABLE_WORKS = 2 };
+enum { RG_TABLE_ROWS = 64, RG_TABLE_VALUES = 10, RG_TABLE_VARIANTS = 10, RG_TABLE_WORKS = 2 };
 enum { RG_TABLE_COUNTED = 4 };
 
 // One row: settings of the technique and what the paper printed. Assignments are "key=value
