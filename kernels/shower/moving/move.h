@@ -80,13 +80,17 @@ RG_GRID_KERNEL(shower_move)
     int afresh = raised | (crossed & back.is_deep);
     float fresh = p.fall_m_s * shower_share(p, shower_ahead(p, m.at.x, m.at.z));
     float promoted = shower_promoted(p, m.at, ground);
-    float there = rg_to_float(stays | raised); // nothing is left in a free slot
-    m.at = v3_make(there * m.at.x, there * (raised != 0 ? promoted : m.at.y), there * m.at.z);
-    m.fall_m_s = there * (afresh != 0 ? fresh : m.fall_m_s);
-    m.vx = there * m.vx;
-    m.vz = there * m.vz;
+    int there = stays | raised; // nothing is left in a free slot
+    m.at = v3_make(there != 0 ? m.at.x : 0.0f,
+                   there == 0    ? 0.0f
+                   : raised != 0 ? promoted
+                                 : m.at.y,
+                   there != 0 ? m.at.z : 0.0f);
+    m.fall_m_s = there == 0 ? 0.0f : afresh != 0 ? fresh : m.fall_m_s;
+    m.vx = there != 0 ? m.vx : 0.0f;
+    m.vz = there != 0 ? m.vz : 0.0f;
     m.age = stays != 0 ? m.age : 0.0f;
     shower_kept(rg, p, x, m);
     uint mark = raised != 0 ? SHOWER_PROMOTED : crossed != 0 ? SHOWER_CROSSED : SHOWER_STAYS;
-    marks_put(rg, x, (stays | raised) != 0 ? mark : SHOWER_FREE);
+    marks_put(rg, x, there != 0 ? mark : SHOWER_FREE);
 }
