@@ -33,6 +33,7 @@ PANE = "render drops --set environment=sky --set environment_px=16 --set columns
 
 RAIN = ("render streaks --size 32x18 --frame 1 --set atlas=small --set city=small --set depth_map_px=64 "
         "--set shadow_map_px=16 ")
+SHOWER = "render shower --set geometry=off --size 64x36 --frame 1 --set drop_height_m=0.5 "
 FIT = RAIN + ("--set fit=on --set rain_width_m=60 --set rain_depth_m=60 --set rain_height_m=40 --set camera=free "
               "--set drops_m2_s=60 --set streak_gain=20 ")
 
@@ -192,6 +193,13 @@ RENDERS = [
     Case(RAIN + "--set camera=free --set eye_y_m=-3 -o {tmp}/a.png", 2, r"its eye is 3 m below the ground; raise eye_y_m"),
     Case(RAIN + "--set culling_radius_m=5000 -o {tmp}/a.png", 2, r"5000 m is wider than the rain space .*limits=off"),
     Case(RAIN + "--set local_height_m=500 -o {tmp}/a.png", 2, r"500 m is higher than the rain space"),
+    Case(SHOWER + "--set particles=0 -o {tmp}/a.png", 0, None, made=("a.png",)),
+    Case(SHOWER + "--set particles=1000000000 -o {tmp}/a.png", 2, r"parameter 'particles': 1000000000 is out of range; 0 to 100000000"),
+    Case(SHOWER + "--set particles=60000 --set memory_mb=1 -o {tmp}/a.png", 77, r"60000 of them take 1 MB, more than memory_mb=1; lower particles"),
+    Case(SHOWER + "--set wind_m_s=343 -o {tmp}/a.png", 2, r"parameter 'wind_m_s': 343 is out of range; 0 to 340 m/s"),
+    Case(SHOWER + "--set eye_y_m=-2 -o {tmp}/a.png", 2, r"eye_y_m: the viewer is 2 m below the ground; raise it"),
+    Case(SHOWER + "--set near_m=20 -o {tmp}/a.png", 2, r"at 15\.5885 m and more a drop is less than a pixel high .* lower near_m"),
+    Case(SHOWER + "--set geometry=on --set scene=/nonexistent.obj -o {tmp}/a.png", 2, r"/nonexistent\.obj: .*check the name"),
     Case(FIT + "--set limits=off -o {tmp}/a.png", 2, r"fit=on: without limits there is no radius .*take limits=on"),
     Case(FIT + "--set fit_error=0 -o {tmp}/a.png", 2, r"parameter 'fit_error': 0 is out of range; 0\.001 to 1"),
     Case(FIT + "--set fit_error=0.9 -o {tmp}/a.png", 2, r"without any rain the first frame has an error of 0\.\d+; allow less"),

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "tests/core/techniques/shower/rig.h"
 
@@ -66,15 +65,17 @@ static void births_fill_up(void **state)
     s = pour_open("system=traditional particles=500 variation=1 fall_m_s=0.1 gravity_m_s2=0 "
                   "wind_m_s=0 eye_y_m=20 drop_height_m=0.5 birth=whole",
                   64, 36);
-    int before = 0;
+    int before = 0, resting = 0;
     for (int i = 0; i < 60; i++) {
         const int64_t died = s->base.counters[SHOWER_COUNT_DIED].value;
         pour_step(s, 1);
         const int now = count_of(s), lost = (int)(s->base.counters[SHOWER_COUNT_DIED].value - died);
-        assert_true(now >= before - lost && now <= 1000);
+        assert_true(now >= before - lost && now < 1000); // the most that there may be
+        resting += now == before - lost;
         before = now;
     }
-    assert_true(before > 800); // the largest of sixty numbers
+    assert_true(before > 800); // about the largest of sixty numbers
+    assert_true(resting > 30); // most of which are less than there are
     pour_close(s);
 }
 
@@ -100,8 +101,10 @@ static void slots_are_given_back(void **state)
             births += is_born;
             last_born = is_born ? i : last_born;
             given_back += is_born && before[i].fall_m_s > 0;
-            if (after[i].fall_m_s == 0 && i < first_free)
-                first_free = i;
+            if (after[i].fall_m_s > 0)
+                continue;
+            assert_true(after[i].x == 0 && after[i].y == 0 && after[i].z == 0);
+            first_free = i < first_free ? i : first_free;
         }
         assert_int_equal(births, s->base.counters[SHOWER_COUNT_BORN].value - born);
         assert_true(last_born < first_free);
@@ -156,7 +159,8 @@ static void expect_region(const struct birth_case *c)
     const double phi_high = phi_low + c->phi_high * r.beta,
                  theta_low = r.heading - pi - r.alpha / 2;
     struct oracle_drop *drops = pour_read(s);
-    struct spread by_r = {0}, by_phi = {0}, by_theta = {0}, by_both = {0}, by_all = {0};
+    struct spread by_r = {0}, by_phi = {0}, by_theta = {0}, by_sum = {0}, by_difference = {0},
+                  by_all = {0};
     for (int i = 0; i < BORN; i++) {
         const struct oracle_sphere at = oracle_sphere_of(&r, &drops[i]);
         const double u = c->is_even
@@ -169,14 +173,16 @@ static void expect_region(const struct birth_case *c)
         add(&by_r, u);
         add(&by_phi, v);
         add(&by_theta, w);
-        // The sum of two even numbers, modulo 1, is even if they are independent.
-        add(&by_both, fmod(u + v + 2, 1));
-        add(&by_all, fmod(u + v + w + 2, 1));
+        // Sums and differences of even numbers, modulo 1, are even if these are independent.
+        add(&by_sum, fmod(u + v + 2, 1));
+        add(&by_difference, fmod(u - v + 2, 1));
+        add(&by_all, fmod(u - v + 2 * w + 2, 1));
     }
     expect_even("distance", &by_r);
     expect_even("angle from upright", &by_phi);
     expect_even("angle about the upright", &by_theta);
-    expect_even("distance and angle", &by_both);
+    expect_even("distance and angle", &by_sum);
+    expect_even("distance less angle", &by_difference);
     expect_even("distance and both angles", &by_all);
     free(drops);
     pour_close(s);
@@ -222,50 +228,6 @@ static void births_go_by_the_seed(void **state)
     for (int i = 0; i < 3; i++) {
         free(words[i]);
         pour_close(s[i]);
-    }
-}
-
-// --- the host's own allocation ---
-
-static void expect_same(struct shower *a, struct shower *b, const char *name)
-{
-    void *first = pour_words(a, name), *second = pour_words(b, name);
-    assert_memory_equal(first, second, rg_asset_find(&a->base, name)->buf->size);
-    free(first);
-    free(second);
-}
-
-static void allocated_particles_are_the_same(void **state)
-{
-    (void)state;
-    static const char *const settings[] = {
-        "particles=2000 variation=0.3 system=traditional wind_m_s=6 gust=0.5 drop_height_m=0.5",
-        "particles=2000 variation=0.3 wind_m_s=3 walk_m_s=4 drop_height_m=0.5",
-    };
-    for (int i = 0; i < 2; i++) {
-        char all[256];
-        struct shower *both[2];
-        for (int k = 0; k < 2; k++) {
-            snprintf(all, sizeof(all), "%s renewal=%s", settings[i], k ? "heap" : "birth");
-            both[k] = pour_open(all, 64, 36);
-            pour_step(both[k], 40);
-        }
-        expect_same(both[0], both[1], "particles");
-        expect_same(both[0], both[1], "tally");
-        if (both[0]->params.is_full)
-            for (int plane = 0; plane < SHOWER_ATTRIBUTES; plane++) {
-                float *a = pour_attributes(both[0], plane), *b = pour_attributes(both[1], plane);
-                struct oracle_drop *drops = pour_read(both[0]);
-                for (int slot = 0; slot < both[0]->params.slots; slot++)
-                    assert_true(drops[slot].fall_m_s == 0 || a[slot] == b[slot]);
-                free(drops);
-                free(a);
-                free(b);
-            }
-        for (int c = 0; c < SHOWER_COUNTERS; c++)
-            assert_int_equal(both[0]->base.counters[c].value, both[1]->base.counters[c].value);
-        pour_close(both[0]);
-        pour_close(both[1]);
     }
 }
 
@@ -341,7 +303,6 @@ int main(int argc, char **argv)
         cmocka_unit_test(slots_are_given_back),
         cmocka_unit_test(particles_are_born_in_the_region),
         cmocka_unit_test(births_go_by_the_seed),
-        cmocka_unit_test(allocated_particles_are_the_same),
         cmocka_unit_test(promoted_particles_stay_as_many),
         cmocka_unit_test(wind_keeps_the_rain_even),
     };

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Changes one place of the text of drops' kernels at a time, and runs the tests that ought to notice.
+"""Changes one place of the text of a technique's kernels at a time, and runs the tests that ought to notice.
 
-mutants.py SOURCE BUILD COMPILER... -- [NAME HEADER SHELL]...
+mutants.py TECHNIQUE SOURCE BUILD COMPILER... -- [NAME HEADER SHELL]...
 
 The device opencl reads the changed text at run time (RG_KERNEL_DIR); each test compares what it
 finds with a law, a case worked out by hand, or a model of its own, never with another device. A
 mutant that no test notices has lived, which fails, as does a test of the text as it is. The rows
-are in mutant_rows.py beside this.
+are in mutant_rows.py in the folder of the technique's tests.
 """
+import importlib.util
 import os
 import pathlib
 import shutil
@@ -16,9 +17,14 @@ import sys
 import tempfile
 import time
 
-import mutant_rows
 
-TESTS = "tests/core/techniques/drops"
+def rows_of(tests):
+    """The rows of mutant_rows.py in the folder `tests`."""
+    spec = importlib.util.spec_from_file_location("mutant_rows", tests / "mutant_rows.py")
+    module = importlib.util.module_from_spec(spec)
+    sys.dont_write_bytecode = True
+    spec.loader.exec_module(module)
+    return module.ROWS
 
 
 def texts_of(root, source, build, compiler, kernels, folder):
@@ -32,12 +38,12 @@ def texts_of(root, source, build, compiler, kernels, folder):
     )
 
 
-def first_to_notice(build, folder, tests):
-    """The first test that fails on the texts of `folder`, or None."""
+def first_to_notice(programs, folder, tests):
+    """The first of `tests`, in the folder `programs`, that fails on the texts of `folder`, or None."""
     environment = dict(os.environ, RG_KERNEL_DIR=str(folder))
     for test in tests:
         done = subprocess.run(
-            [build / TESTS / test, "opencl"], env=environment, stdout=subprocess.DEVNULL,
+            [programs / test, "opencl"], env=environment, stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE, text=True, timeout=600, check=False,
         )
         if "clBuildProgram" in done.stderr:
@@ -47,44 +53,45 @@ def first_to_notice(build, folder, tests):
     return None
 
 
-def mutated(source, root, row):
-    """Changes a row's place in the copy `root`."""
-    text = (source / "kernels/drops" / row.file).read_text(encoding="utf-8")
+def mutated(source, root, kernels, row):
+    """Changes a row's place in the copy `root` of the folder `kernels`."""
+    text = (source / kernels / row.file).read_text(encoding="utf-8")
     if text.count(row.old) != 1:
         sys.exit(f"mutants.py: {row.about}: {row.file} has {text.count(row.old)} times: {row.old}")
-    (root / "kernels/drops" / row.file).write_text(text.replace(row.old, row.new), encoding="utf-8")
+    (root / kernels / row.file).write_text(text.replace(row.old, row.new), encoding="utf-8")
 
 
-def run(source, build, compiler, kernels, folder):
+def run(technique, source, build, compiler, forms, folder):
+    tests, kernels = pathlib.Path("tests/core/techniques") / technique, pathlib.Path("kernels") / technique
+    rows, programs = rows_of(source / tests), build / tests
     root, texts = folder / "root", folder / "texts"
     shutil.copytree(source / "kernels", root / "kernels")
     texts.mkdir()
     for text in (build / "kernels").glob("*.cl"):
         shutil.copy(text, texts)
-    every = sorted({test for row in mutant_rows.ROWS for test in row.tests})
-    failed = first_to_notice(build, texts, every)
+    failed = first_to_notice(programs, texts, sorted({test for row in rows for test in row.tests}))
     if failed:
         sys.exit(f"mutants.py: {failed[0]} fails on the text as it is\n{failed[1]}")
     lived = 0
-    for row in mutant_rows.ROWS:
+    for row in rows:
         start = time.monotonic()
-        mutated(source, root, row)
-        texts_of(root, source, build, compiler, kernels, texts)
-        found = first_to_notice(build, texts, row.tests)
-        shutil.copy(source / "kernels/drops" / row.file, root / "kernels/drops" / row.file)
+        mutated(source, root, kernels, row)
+        texts_of(root, source, build, compiler, forms, texts)
+        found = first_to_notice(programs, texts, row.tests)
+        shutil.copy(source / kernels / row.file, root / kernels / row.file)
         lived += not found
         print(f"{'killed by ' + found[0] if found else 'LIVED':24} {row.file:20} {row.about}"
               f" ({time.monotonic() - start:.1f} s)", flush=True)
-    print(f"{len(mutant_rows.ROWS)} mutants, {lived} lived")
+    print(f"{len(rows)} mutants, {lived} lived")
     return lived
 
 
 def main():
     split = sys.argv.index("--")
-    source, build, *compiler = sys.argv[1:split]
+    technique, source, build, *compiler = sys.argv[1:split]
     words = sys.argv[split + 1 :]
     with tempfile.TemporaryDirectory() as folder:
-        lived = run(pathlib.Path(source), pathlib.Path(build), compiler,
+        lived = run(technique, pathlib.Path(source), pathlib.Path(build), compiler,
                     list(zip(words[::3], words[1::3], words[2::3])), pathlib.Path(folder))
     sys.exit(1 if lived else 0)
 
