@@ -10,4 +10,8 @@ struct scenery_settings {
     char model[RG_PATH_SIZE]; // a user's mesh instead, as rg_mesh_load takes it; "": the city
 };
 
+// The settings that users name: "city", of this size and seed, or a mesh. `scene` is RG_PATH_SIZE
+// characters long.
+struct scenery_settings scenery_named(const char *scene, enum city_size size, int seed);
+
 #endif

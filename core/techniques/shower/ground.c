@@ -1,6 +1,4 @@
 // The scene seen from straight above: what particles land on.
-#include <string.h>
-
 #include "core/scene/matrix.h"
 #include "core/techniques/shower/instance.h"
 
@@ -19,24 +17,14 @@ static void set_extent(shower_params *p, const struct city_faces *faces)
 // From the world to the clip space of the map: its rows run along z, its depth down.
 static m4 matrix_of(const shower_params *p)
 {
-    const float rows[16] = {
-        2 * p->map_per_x,
-        0,
-        0,
-        -2 * p->map_per_x * p->map_x - 1,
-        0,
-        0,
-        2 * p->map_per_z,
-        -2 * p->map_per_z * p->map_z - 1,
-        0,
-        -1 / p->map_height_m,
-        0,
-        p->map_top_m / p->map_height_m,
-        0,
-        0,
-        0,
-        1,
-    };
+    float rows[16] = {0};
+    rows[0] = 2 * p->map_per_x;
+    rows[3] = -2 * p->map_per_x * p->map_x - 1;
+    rows[6] = 2 * p->map_per_z;
+    rows[7] = -2 * p->map_per_z * p->map_z - 1;
+    rows[9] = -1 / p->map_height_m;
+    rows[11] = p->map_top_m / p->map_height_m;
+    rows[15] = 1;
     return rg_m4_of(rows);
 }
 

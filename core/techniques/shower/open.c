@@ -1,11 +1,8 @@
 // Opens shower on a device: its scene, particles and stages.
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "core/base/log.h"
-#include "core/scene/matrix.h"
 #include "core/techniques/shower/instance.h"
 #include "kernels/dialect/image/format.h"
 
@@ -29,10 +26,8 @@ static bool create_scene(struct shower *s)
     const struct shower_settings *set = &s->settings;
     if (!set->geometry)
         return true;
-    struct scenery_settings settings = {
-        .city = {.seed = set->city_seed, .size = (enum city_size)set->city}};
-    if (strcmp(set->scene, "city") != 0)
-        memcpy(settings.model, set->scene, sizeof(settings.model));
+    const struct scenery_settings settings =
+        scenery_named(set->scene, (enum city_size)set->city, set->city_seed);
     s->scene = scenery_open(&s->base, &settings);
     if (!s->scene)
         return false;

@@ -1,7 +1,5 @@
 // Opens streaks on a device: its scene, textures, lights and images.
 #include <inttypes.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "core/base/log.h"
 #include "core/techniques/streaks/fit.h"
@@ -48,10 +46,8 @@ static bool create_space(struct streaks *s)
 static bool create_scene(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
-    struct scenery_settings settings = {
-        .city = {.seed = set->city_seed, .size = (enum city_size)set->city}};
-    if (strcmp(set->scene, "city") != 0)
-        memcpy(settings.model, set->scene, sizeof(settings.model));
+    const struct scenery_settings settings =
+        scenery_named(set->scene, (enum city_size)set->city, set->city_seed);
     s->scene = scenery_open(&s->base, &settings);
     return s->scene;
 }
