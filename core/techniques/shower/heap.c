@@ -31,22 +31,23 @@ void shower_heap_close(struct shower_heap *h)
     free(h);
 }
 
-struct shower_heap *shower_heap_open(const struct shower *s)
+static bool make(struct shower_heap *h, const struct shower *s, struct rg_image *heights)
 {
-    struct rg_instance *instance = (struct rg_instance *)&((struct shower *)(uintptr_t)s)->base;
-    const struct rg_asset *heights = rg_asset_find(instance, "heights");
-    struct shower_heap *h = rg_alloc(1, sizeof(*h), "particles");
-    if (!h || !heights)
-        return free(h), NULL;
     h->slots = s->params.slots;
     h->planes = SHOWER_WORDS + (s->params.is_full ? SHOWER_ATTRIBUTES : 0);
-    h->map_px = heights->image->desc.width;
+    h->map_px = heights->desc.width;
     const size_t texels = (size_t)h->map_px * (size_t)h->map_px;
-    if ((h->at = rg_alloc((size_t)h->slots, sizeof(*h->at), "particles")) &&
-        (h->words =
-             rg_alloc((size_t)h->slots * (size_t)h->planes, sizeof(*h->words), "particles")) &&
-        (h->depths = rg_alloc(texels, sizeof(*h->depths), "scene seen from above")) &&
-        rg_image_read(heights->image, 0, 0, h->depths))
+    return (h->at = rg_alloc((size_t)h->slots, sizeof(*h->at), "particles")) &&
+           (h->words =
+                rg_alloc((size_t)h->slots * (size_t)h->planes, sizeof(*h->words), "particles")) &&
+           (h->depths = rg_alloc(texels, sizeof(*h->depths), "scene seen from above")) &&
+           rg_image_read(heights, 0, 0, h->depths);
+}
+
+struct shower_heap *shower_heap_open(const struct shower *s, struct rg_image *heights)
+{
+    struct shower_heap *h = rg_alloc(1, sizeof(*h), "particles");
+    if (h && make(h, s, heights))
         return h;
     shower_heap_close(h);
     return NULL;

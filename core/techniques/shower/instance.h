@@ -62,8 +62,8 @@ bool shower_add_heights(struct shower *shower);
 
 // --- the host's own particles: each is allocated when it is born and freed when it dies ---
 
-// NULL, and one logged line, on failure.
-struct shower_heap *shower_heap_open(const struct shower *shower);
+// None yet; `heights` is the scene from above. NULL, and one logged line, on failure.
+struct shower_heap *shower_heap_open(const struct shower *shower, struct rg_image *heights);
 void shower_heap_close(struct shower_heap *heap);
 // A step, after which the particles are on the device. False, and one logged line, on failure.
 bool shower_heap_step(struct shower *shower);

@@ -109,8 +109,10 @@ static bool add_particles(struct shower *s)
         rg_add_state(i, s->attributes, "attributes", true, s->params.slots, 0);
     rg_add_state(i, s->counts, "tally", false, 0, 0);
     rg_add_counters(i, counter_names, SHOWER_COUNTERS);
+    if (i->has_failed)
+        return false;
     if (s->settings.renewal == SHOWER_HEAP)
-        return (s->heap = shower_heap_open(s));
+        return (s->heap = shower_heap_open(s, rg_asset_find(i, "heights")->image));
     return !has_free_list(s) || (s->scan = rg_scan_create(i->device, s->params.slots));
 }
 

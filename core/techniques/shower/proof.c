@@ -23,8 +23,10 @@ static bool population_is_sound(const struct rg_instance *instance, char *detail
     for (int i = 0; ok && i < p->slots; i++)
         alive += falls[i] > 0;
     free(falls);
-    if (!ok)
-        return snprintf(detail, size, "%s", rg_last_error()), false;
+    if (!ok) {
+        snprintf(detail, size, "%s", rg_last_error());
+        return false;
+    }
     const uint32_t *t = s->tally;
     const uint32_t due = p->is_promoted ? alive : t[SHOWER_BORN] - t[SHOWER_DIED];
     const bool holds = alive == t[SHOWER_ALIVE] && alive == due && (int)alive <= p->slots;
@@ -34,22 +36,29 @@ static bool population_is_sound(const struct rg_instance *instance, char *detail
     return holds;
 }
 
-// A particle is no farther than it is born or moved to before the test, falls, and is above the
-// ground.
+// By how much a drop's upper end may lie beside its lower one, in the layer that falls slowest.
+static double lean_m(const shower_params *p)
+{
+    const double wind_m_s = hypot((double)p->wind_x, (double)p->wind_z);
+    return (double)p->height_m * (1 + 3 * wind_m_s / (double)p->fall_m_s);
+}
+
+// A particle falls, and lies within the body that is seen, but for the drop's other end; where all
+// are promoted, also above the ground.
 static const char *fault_of(const shower_params *p, const float at[3], float fall)
 {
     const double x = (double)at[0] - (double)p->eye_x, y = (double)at[1] - (double)p->eye_y;
-    const double z = (double)at[2] - (double)p->eye_z, slack_m = 1e-3;
+    const double z = (double)at[2] - (double)p->eye_z, slack_m = lean_m(p) + 1e-3;
     const double ahead = x * (double)p->ahead_x + z * (double)p->ahead_z;
+    const double across = (double)p->across, above = (double)p->above;
+    const double corner_m = (double)p->far_m * sqrt(1 + across * across + above * above);
     if (fall == 0)
         return at[0] == 0 && at[1] == 0 && at[2] == 0 ? NULL : "has ended and has a place";
     if (!(fall > 0))
         return "rises";
-    if (!(ahead > -(double)p->height_m * 40 && ahead <= (double)p->far_m * 1.2))
+    if (!(ahead >= -slack_m && sqrt(x * x + y * y + z * z) <= corner_m + slack_m))
         return "is behind the viewer or too far to be seen";
-    return fabs(y) <= (double)p->far_m * sin(fmin(1.6, atan((double)p->above))) * 1.5 + slack_m
-               ? NULL
-               : "is above or below what is seen";
+    return !p->is_promoted || at[1] >= p->ground_m ? NULL : "is below the ground";
 }
 
 static bool particles_are_sound(const struct rg_instance *instance, char *detail, size_t size)
