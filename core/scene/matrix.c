@@ -105,6 +105,25 @@ bool rg_matrix_undo(const float to_clip[16], const float clip[3], float at[3])
     return isfinite(at[0]) && isfinite(at[1]) && isfinite(at[2]);
 }
 
+bool rg_matrix_from_pixel(const m4 *to_clip, int width, int height, m4 *from_pixel)
+{
+    float rows[16];
+    rg_m4_rows(to_clip, rows);
+    const struct rg_matrix clip = rg_matrix_of(rows);
+    struct rg_matrix from;
+    if (!rg_matrix_inverse(&clip, &from))
+        return false;
+    for (int i = 0; i < 4; i++) {
+        double *row = from.rows[i];
+        row[3] = row[3] - row[0] - row[1];
+        row[0] = row[0] * 2 / width;
+        row[1] = row[1] * 2 / height;
+    }
+    rg_matrix_round(&from, rows);
+    *from_pixel = rg_m4_of(rows);
+    return true;
+}
+
 void rg_turn_multiply(const double left[3][3], const double right[3][3], double product[3][3])
 {
     for (int i = 0; i < 3; i++)

@@ -28,6 +28,10 @@ void rg_matrix_multiply(const float left[16], const float right[16], float produ
 // The point that a matrix takes to a point of clip space, each operation in floats. False, with no
 // message, if there is none.
 bool rg_matrix_undo(const float to_clip[16], const float clip[3], float at[3]);
+// From pixels and depth to the world, over w: the matrix's inverse, behind the viewport's. In
+// double precision, since far away all depends on the last digits. False, with no message, if there
+// is none.
+bool rg_matrix_from_pixel(const m4 *to_clip, int width, int height, m4 *from_pixel);
 // The product of turns alone, in double precision. `product` is neither of the two.
 void rg_turn_multiply(const double left[3][3], const double right[3][3], double product[3][3]);
 

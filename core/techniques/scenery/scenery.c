@@ -169,27 +169,6 @@ bool scenery_numbers(struct scenery *scene, m4 to_clip, const struct rg_draw *on
     return draw_faces(scene, to_clip, onto, RG_CULL_NONE, false);
 }
 
-// From pixels and depth to the world: the matrix's inverse, behind the viewport's. In double
-// precision, since far away all depends on the last digits.
-static bool invert(const m4 *to_clip, int width, int height, m4 *from_pixel)
-{
-    float rows[16];
-    rg_m4_rows(to_clip, rows);
-    const struct rg_matrix clip = rg_matrix_of(rows);
-    struct rg_matrix from;
-    if (!rg_matrix_inverse(&clip, &from))
-        return rg_error("scene: its matrix maps space to less; move the camera");
-    for (int i = 0; i < 4; i++) {
-        double *row = from.rows[i];
-        row[3] = row[3] - row[0] - row[1];
-        row[0] = row[0] * 2 / width;
-        row[1] = row[1] * 2 / height;
-    }
-    rg_matrix_round(&from, rows);
-    *from_pixel = rg_m4_of(rows);
-    return true;
-}
-
 static bool shade(struct scenery *s, const struct scenery_view *view,
                   const struct scenery_look *look, const struct scenery_lights *lights)
 {
@@ -208,8 +187,8 @@ static bool shade(struct scenery *s, const struct scenery_view *view,
         .texture_px = s->made->city->texture_px,
         .last_level = s->made->levels - 1,
     };
-    if (!invert(&view->to_clip, d->width, d->height, &p->from_pixel))
-        return false;
+    if (!rg_matrix_from_pixel(&view->to_clip, d->width, d->height, &p->from_pixel))
+        return rg_error("scene: its matrix maps space to less; move the camera");
     p->pixel_m = sqrtf(p->from_pixel.xx * p->from_pixel.xx + p->from_pixel.yx * p->from_pixel.yx +
                        p->from_pixel.zx * p->from_pixel.zx);
     s->depths->image = view->depth;
