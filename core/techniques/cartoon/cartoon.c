@@ -1,0 +1,29 @@
+#include "core/techniques/cartoon/cartoon.h"
+
+#include "core/techniques/cartoon/instance.h"
+#include "core/techniques/proof.h"
+
+bool cartoon_step(struct rg_instance *instance)
+{
+    instance->frame++;
+    return cartoon_look((struct cartoon *)instance, instance->frame);
+}
+
+bool cartoon_draw(struct rg_instance *instance)
+{
+    return cartoon_scene_draw((struct cartoon *)instance);
+}
+
+const struct rg_technique rg_technique_cartoon = {
+    .name = "cartoon",
+    .paper = "feng",
+    .about = "rain in cartoon style on scenes drawn as cartoons",
+    .params = &cartoon_param_table,
+    .proof = &cartoon_proof,
+    .size = sizeof(struct cartoon),
+    .settings = offsetof(struct cartoon, settings),
+    .open = cartoon_open,
+    .close = cartoon_close,
+    .step = cartoon_step,
+    .draw = cartoon_draw,
+};

@@ -1,0 +1,24 @@
+// cartoon: rain in cartoon style that falls on a scene in one of the styles of drawings, after Z.
+// Feng et al., "Real-time Rain Simulation in Cartoon Style". docs/cartoon.md explains.
+#ifndef RG_CORE_TECHNIQUES_CARTOON_CARTOON_H
+#define RG_CORE_TECHNIQUES_CARTOON_CARTOON_H
+
+#include "core/techniques/params.h"
+
+enum cartoon_style { CARTOON_GOOCH, CARTOON_STYLES };
+
+struct cartoon_settings {
+    int seed;
+    // The scene.
+    char mesh[RG_PATH_SIZE];
+    int style; // enum cartoon_style
+    // The camera, against that of the scene, and the light.
+    double turn_deg, rise_deg, zoom, spin_deg;
+    double light_turn_deg, light_rise_deg;
+    // The style of Gooch.
+    double gooch_blue, gooch_yellow, gooch_alpha, gooch_beta;
+};
+
+extern const struct rg_param_table cartoon_param_table;
+
+#endif

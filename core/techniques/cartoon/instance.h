@@ -1,0 +1,52 @@
+// What the files of cartoon share.
+#ifndef RG_CORE_TECHNIQUES_CARTOON_INSTANCE_H
+#define RG_CORE_TECHNIQUES_CARTOON_INSTANCE_H
+
+#include "core/scene/camera.h"
+#include "core/scene/diorama/diorama.h"
+#include "core/techniques/cartoon/cartoon.h"
+#include "core/techniques/technique.h"
+#include "kernels/cartoon/scene/faces_params.h"
+#include "kernels/cartoon/scene/shade_params.h"
+
+enum cartoon_stage { CARTOON_RUN_FACES, CARTOON_RUN_SHADE, CARTOON_STAGES };
+
+// How the scene is looked at in the present frame.
+struct cartoon_view {
+    struct rg_camera camera;
+    m4 to_clip, from_pixel; // from the world; from pixels and depth to the world, over w
+    float to_eye[16];       // from the world to the camera's own space (core/scene/camera.h)
+    float to_light[3];      // of unit length
+};
+
+struct cartoon {
+    struct rg_instance base;
+    struct cartoon_settings settings;
+    struct diorama *diorama; // its mesh has the triangles and bounds
+    struct cartoon_view view;
+    struct rg_asset *normal_map, *depth_map;
+    cartoon_faces_params faces;
+    cartoon_shade_params shade;
+};
+
+extern const struct rg_proof cartoon_proof;
+
+bool cartoon_open(struct rg_instance *instance);
+void cartoon_close(struct rg_instance *instance);
+bool cartoon_step(struct rg_instance *instance);
+bool cartoon_draw(struct rg_instance *instance);
+
+// The scene, in scene/.
+
+// Loads the diorama and adds its assets: the mesh as `positions`, `normals`, `indices` and
+// `materials`, the `palette`, and two images of the target's size that each drawing of the scene
+// leaves: `normal_map`, RGBA16F, the normal in the world on the side that is seen, and one more
+// than the number of the material, all 0 in the sky; and `depth_map`, D32F, 1 in the sky. Fills in
+// the view of frame 0.
+bool cartoon_scene_open(struct cartoon *c);
+// Finds how the scene is looked at in a frame. False, and one logged line, where it cannot be.
+bool cartoon_look(struct cartoon *c, int64_t frame);
+// Draws the scene into the normal map and the depth, and in its style onto the target.
+bool cartoon_scene_draw(struct cartoon *c);
+
+#endif

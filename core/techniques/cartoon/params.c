@@ -1,0 +1,28 @@
+#include "core/techniques/cartoon/cartoon.h"
+
+#define AT(field) offsetof(struct cartoon_settings, field)
+
+// clang-format off
+static const struct rg_param rows[] = {
+    {"seed", RG_PARAM_INT, AT(seed), 1, 0, 2147483647, "1", "of all chance", NULL},
+    {"mesh", RG_PARAM_FILE, AT(mesh), 0, 0, 0, "file", "the mesh: a name such as bunny, armadillo or torus, or a file", "torus"},
+    {"style", RG_PARAM_CHOICE, AT(style), CARTOON_GOOCH, 0, CARTOON_STYLES - 1, "1", "how the scene is drawn", "gooch"},
+    {"turn_deg", RG_PARAM_FLOAT, AT(turn_deg), 0, -360, 360, "deg", "how far the camera is turned about the scene, counter-clockwise seen from above", NULL},
+    {"rise_deg", RG_PARAM_FLOAT, AT(rise_deg), 0, -90, 90, "deg", "how much higher above the horizon the camera is than the scene's own", NULL},
+    {"zoom", RG_PARAM_FLOAT, AT(zoom), 1, 0.05, 20, "1", "the camera comes so many times nearer", NULL},
+    {"spin_deg", RG_PARAM_FLOAT, AT(spin_deg), 0, -180, 180, "deg/frame", "how fast the camera goes round the scene", NULL},
+    {"light_turn_deg", RG_PARAM_FLOAT, AT(light_turn_deg), -50, -360, 360, "deg", "where the light comes from: about the upright axis, from where the camera stands at first", NULL},
+    {"light_rise_deg", RG_PARAM_FLOAT, AT(light_rise_deg), 45, -90, 90, "deg", "how high above the horizon the light is", NULL},
+    {"gooch_blue", RG_PARAM_FLOAT, AT(gooch_blue), 0.4, 0, 1, "1", "blue of cool light, as display value", NULL},
+    {"gooch_yellow", RG_PARAM_FLOAT, AT(gooch_yellow), 0.4, 0, 1, "1", "red and green of warm light, as display value", NULL},
+    {"gooch_alpha", RG_PARAM_FLOAT, AT(gooch_alpha), 0.2, 0, 1, "1", "share of the material's colour in cool light", NULL},
+    {"gooch_beta", RG_PARAM_FLOAT, AT(gooch_beta), 0.6, 0, 1, "1", "share of the material's colour in warm light", NULL},
+};
+// clang-format on
+
+const struct rg_param_table cartoon_param_table = {
+    .technique = "cartoon",
+    .rows = rows,
+    .count = sizeof(rows) / sizeof(rows[0]),
+    .settings_size = sizeof(struct cartoon_settings),
+};

@@ -1,0 +1,41 @@
+// What the scene is drawn from and into.
+#include <stdlib.h>
+
+#include "core/techniques/cartoon/instance.h"
+
+static void add_mesh(struct cartoon *c)
+{
+    struct rg_instance *i = &c->base;
+    const struct diorama *d = c->diorama;
+    const struct rg_mesh *mesh = d->mesh;
+    uint32_t *normals = rg_mesh_pack_normals(mesh);
+    i->has_failed |= !normals;
+    rg_add_buf(i, "positions", 3 * (int64_t)mesh->vertex_count, mesh->positions);
+    rg_add_buf(i, "normals", mesh->vertex_count, normals);
+    rg_add_buf(i, "indices", 3 * (int64_t)mesh->face_count, mesh->indices);
+    rg_add_buf(i, "materials", mesh->face_count, d->materials);
+    rg_add_buf(i, "palette", (int64_t)d->material_count * CARTOON_MATERIAL_WORDS, d->palette);
+    free(normals);
+}
+
+static void tell(struct cartoon *c)
+{
+    const struct rg_mesh *mesh = c->diorama->mesh;
+    rg_tell_text(&c->base, "model", "%.*s", RG_FACT_SIZE - 1, mesh->name);
+    rg_tell_text(&c->base, "model_hash", "%016llx", (unsigned long long)mesh->hash);
+    rg_tell(&c->base, "vertices", mesh->vertex_count);
+    rg_tell(&c->base, "faces", mesh->face_count);
+}
+
+bool cartoon_scene_open(struct cartoon *c)
+{
+    const struct rg_image_desc *target = &c->base.target->desc;
+    c->diorama = diorama_of_mesh(c->settings.mesh);
+    if (!c->diorama)
+        return false;
+    add_mesh(c);
+    c->normal_map = rg_add_image(&c->base, "normal_map", RG_RGBA16F, target->width, target->height);
+    c->depth_map = rg_add_image(&c->base, "depth_map", RG_D32F, target->width, target->height);
+    tell(c);
+    return cartoon_look(c, 0);
+}

@@ -1,0 +1,88 @@
+// How the scene is looked at: camera, light, and what the programs are told of them.
+#include <math.h>
+
+#include "core/base/log.h"
+#include "core/scene/matrix.h"
+#include "core/techniques/cartoon/instance.h"
+
+// A direction: turned about the upright axis from z, and so far above the horizon.
+static void direction_of(double turn_deg, double rise_deg, double direction[3])
+{
+    const double turn = turn_deg * M_PI / 180, rise = rise_deg * M_PI / 180;
+    direction[0] = cos(rise) * sin(turn);
+    direction[1] = sin(rise);
+    direction[2] = cos(rise) * cos(turn);
+}
+
+static struct rg_camera camera_of(const struct cartoon *c, int64_t frame)
+{
+    const struct diorama_view *v = &c->diorama->view;
+    const struct cartoon_settings *s = &c->settings;
+    const double spun_deg = fmod((double)frame * s->spin_deg, 360);
+    const double distance_m = v->distance_m / s->zoom;
+    double towards[3];
+    direction_of(v->turn_deg + s->turn_deg + spun_deg, v->rise_deg + s->rise_deg, towards);
+    struct rg_camera camera = {
+        .up = {0, 1, 0},
+        .angle_deg = (float)v->angle_deg,
+        .near_plane = (float)(distance_m / 50),
+        .far_plane = (float)(distance_m * 20),
+    };
+    for (int i = 0; i < 3; i++) {
+        camera.target[i] = (float)v->look_at_m[i];
+        camera.position[i] = (float)(v->look_at_m[i] + towards[i] * distance_m);
+    }
+    return camera;
+}
+
+static cartoon_shade_params shade_of(const struct cartoon *c)
+{
+    const struct cartoon_settings *s = &c->settings;
+    const struct cartoon_view *v = &c->view;
+    const float *sky = c->diorama->sky, *low = c->diorama->low_sky;
+    return (cartoon_shade_params){
+        .from_pixel = v->from_pixel,
+        .eye_x = v->camera.position[0],
+        .eye_y = v->camera.position[1],
+        .eye_z = v->camera.position[2],
+        .light_x = v->to_light[0],
+        .light_y = v->to_light[1],
+        .light_z = v->to_light[2],
+        .height_px = (float)c->base.target->desc.height,
+        .sky_r = sky[0],
+        .sky_g = sky[1],
+        .sky_b = sky[2],
+        .low_r = low[0],
+        .low_g = low[1],
+        .low_b = low[2],
+        .blue = (float)s->gooch_blue,
+        .yellow = (float)s->gooch_yellow,
+        .alpha = (float)s->gooch_alpha,
+        .beta = (float)s->gooch_beta,
+    };
+}
+
+bool cartoon_look(struct cartoon *c, int64_t frame)
+{
+    const struct rg_image_desc *target = &c->base.target->desc;
+    const struct cartoon_settings *s = &c->settings;
+    struct cartoon_view *v = &c->view;
+    float to_clip[16];
+    double to_light[3];
+    v->camera = camera_of(c, frame);
+    if (!(v->camera.position[1] > 0))
+        return rg_error("camera: its eye is %.3g m below the ground; raise rise_deg",
+                        -(double)v->camera.position[1]);
+    if (!rg_camera_matrix(&v->camera, (float)target->width / (float)target->height, to_clip) ||
+        !rg_camera_view(&v->camera, v->to_eye))
+        return false;
+    v->to_clip = rg_m4_of(to_clip);
+    if (!rg_matrix_from_pixel(&v->to_clip, target->width, target->height, &v->from_pixel))
+        return rg_error("camera: its matrix maps space to less; change zoom");
+    direction_of(c->diorama->view.turn_deg + s->light_turn_deg, s->light_rise_deg, to_light);
+    for (int i = 0; i < 3; i++)
+        v->to_light[i] = (float)to_light[i];
+    c->faces = (cartoon_faces_params){v->to_clip};
+    c->shade = shade_of(c);
+    return true;
+}
