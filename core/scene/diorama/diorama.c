@@ -1,12 +1,60 @@
 #include "core/scene/diorama/diorama.h"
 
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/base/alloc.h"
-#include "kernels/dialect/math.h"
+#include "core/scene/diorama/build.h"
+
+const struct diorama_size diorama_sizes[DIORAMAS] = {
+    [DIORAMA_CAR] = {"car", 6387, 9907},       [DIORAMA_HOUSE1] = {"house1", 8726, 14240},
+    [DIORAMA_HOUSE2] = {"house2", 952, 1187},  [DIORAMA_TABLE] = {"table", 19016, 37372},
+    [DIORAMA_PARK1] = {"park1", 5744, 10308},  [DIORAMA_PARK2] = {"park2", 25817, 48154},
+    [DIORAMA_GROUND] = {"ground", 4601, 8180},
+};
+
+// How a scene is built, what fills it up, how it is looked at, and its sky.
+static const struct scene {
+    void (*build)(struct builder *b);
+    struct leftover leftover;
+    struct diorama_view view;
+    float sky[3], low_sky[3];
+} scenes[DIORAMAS] = {
+    [DIORAMA_CAR] = {build_car,
+                     {{0, 0, 0}, 2.7, 4.3, 0.07, 0.3, PAINT_STONE, PAINT_MEADOW},
+                     {{0, 0.75, 0}, 8.4, 38, 17, 36},
+                     {0.56f, 0.74f, 0.86f},
+                     {0.90f, 0.93f, 0.90f}},
+    [DIORAMA_HOUSE1] = {build_house1,
+                        {{0, 0, 0.4}, 4.6, 6.2, 0.12, 0.4, PAINT_PALE_STONE, PAINT_MEADOW},
+                        {{0, 2.45, 0}, 17, 33, 14, 32},
+                        {0.54f, 0.70f, 0.86f},
+                        {0.95f, 0.90f, 0.82f}},
+    [DIORAMA_HOUSE2] = {build_house2,
+                        {{0, 0, 0.4}, 3.2, 4.6, 0.14, 0.4, PAINT_STONE, PAINT_MEADOW},
+                        {{0, 1.8, 0}, 13, 30, 14, 32},
+                        {0.60f, 0.78f, 0.84f},
+                        {0.94f, 0.93f, 0.84f}},
+    [DIORAMA_TABLE] = {build_table,
+                       {{0, 0, 0}, 1.6, 2.2, 0.03, 0.1, PAINT_PALE_STONE, PAINT_MEADOW},
+                       {{0, 0.52, 0}, 4.3, 22, 25, 34},
+                       {0.80f, 0.74f, 0.82f},
+                       {0.97f, 0.92f, 0.85f}},
+    [DIORAMA_PARK1] = {build_park1,
+                       {{0, 0, 0}, 3.0, 5.2, 0.09, 0.4, PAINT_PALE_STONE, PAINT_MEADOW},
+                       {{0, 1.25, 0}, 13.2, 20, 19, 34},
+                       {0.55f, 0.75f, 0.86f},
+                       {0.94f, 0.94f, 0.86f}},
+    [DIORAMA_PARK2] = {build_park2,
+                       {{0, 0, 0}, 4.6, 8.3, 0.1, 0.4, PAINT_PALE_STONE, PAINT_MEADOW},
+                       {{0, 1.3, 0.4}, 17.5, 3, 21, 36},
+                       {0.55f, 0.72f, 0.88f},
+                       {0.95f, 0.92f, 0.84f}},
+    [DIORAMA_GROUND] = {build_ground,
+                        {{0, 0, -0.3}, 0.9, 2.1, 0.05, 0.3, PAINT_STONE, PAINT_MEADOW},
+                        {{0, 0.1, 0.1}, 4.9, 14, 31, 34},
+                        {0.66f, 0.80f, 0.80f},
+                        {0.95f, 0.95f, 0.86f}},
+};
 
 void diorama_destroy(struct diorama *diorama)
 {
@@ -17,104 +65,36 @@ void diorama_destroy(struct diorama *diorama)
     free(diorama);
 }
 
-// --- a mesh of the user's ---
-
-enum { GROUND_SIDES = 64 };
-#define MESH_SIZE_M   4.0
-#define GROUND_SIZE_M 4.5
-
-// Room for a mesh's arrays and those of its ground.
-struct arrays {
-    int vertices, faces;
-    float *positions, *normals;
-    uint32_t *indices;
-};
-
-static bool make_room(struct arrays *a, const struct rg_mesh *mesh)
+// Takes what has been built over; the builder keeps nothing of it.
+static struct diorama *take(struct builder *b, const struct scene *scene)
 {
-    a->vertices = mesh->vertex_count + GROUND_SIDES + 1;
-    a->faces = mesh->face_count + GROUND_SIDES;
-    a->positions = rg_alloc((size_t)a->vertices, 3 * sizeof(float), mesh->name);
-    a->normals = rg_alloc((size_t)a->vertices, 3 * sizeof(float), mesh->name);
-    a->indices = rg_alloc((size_t)a->faces, 3 * sizeof(uint32_t), mesh->name);
-    return a->positions && a->normals && a->indices;
-}
-
-static void free_arrays(struct arrays *a)
-{
-    free(a->positions);
-    free(a->normals);
-    free(a->indices);
-}
-
-static void put_mesh(struct arrays *a, const struct rg_mesh *mesh)
-{
-    double longest = 0;
-    for (int c = 0; c < 3; c++)
-        longest = fmax(longest, (double)mesh->high[c] - (double)mesh->low[c]);
-    for (int i = 0; i < 3 * mesh->vertex_count; i++) {
-        const int c = i % 3;
-        const double low = (double)mesh->low[c], high = (double)mesh->high[c];
-        const double from = c == 1 ? low : (low + high) / 2;
-        a->positions[i] = (float)(((double)mesh->positions[i] - from) * MESH_SIZE_M / longest);
+    struct diorama *d = rg_alloc(1, sizeof(*d), b->name);
+    if (!d)
+        return NULL;
+    diorama_paint(d);
+    d->view = scene->view;
+    for (int i = 0; i < 3; i++) {
+        d->sky[i] = scene->sky[i];
+        d->low_sky[i] = scene->low_sky[i];
     }
-    memcpy(a->normals, mesh->normals, (size_t)mesh->vertex_count * 3 * sizeof(float));
-    memcpy(a->indices, mesh->indices, (size_t)mesh->face_count * 3 * sizeof(uint32_t));
-}
-
-// Behind the mesh's own, which begin the arrays: the middle, then the rim.
-static void put_ground(struct arrays *a, const struct rg_mesh *mesh)
-{
-    const uint32_t middle = (uint32_t)mesh->vertex_count;
-    for (int i = 0; i <= GROUND_SIDES; i++) {
-        float *p = a->positions + 3 * ((size_t)middle + (size_t)i);
-        const float angle = (float)(2 * M_PI * i / GROUND_SIDES);
-        p[0] = i ? rg_sin(angle) * (float)GROUND_SIZE_M : 0;
-        p[2] = i ? rg_cos(angle) * (float)GROUND_SIZE_M : 0;
-        a->normals[3 * ((size_t)middle + (size_t)i) + 1] = 1;
-    }
-    for (int i = 0; i < GROUND_SIDES; i++) {
-        uint32_t *face = a->indices + 3 * ((size_t)mesh->face_count + (size_t)i);
-        face[0] = middle;
-        face[1] = middle + 1 + (uint32_t)i;
-        face[2] = middle + 1 + (uint32_t)(i + 1) % GROUND_SIDES;
-    }
-}
-
-static const struct diorama mesh_look = {
-    .material_count = 2,
-    .palette = {{0.86f, 0.52f, 0.36f, 0.5f}, {0.72f, 0.78f, 0.66f, 0}},
-    .view = {{0, 1.2, 0}, 9.5, 25, 20, 35},
-    .sky = {0.70f, 0.80f, 0.88f},
-    .low_sky = {0.93f, 0.94f, 0.90f},
-};
-
-static struct diorama *on_ground(const struct rg_mesh *mesh)
-{
-    struct arrays a = {0};
-    struct diorama *d = rg_alloc(1, sizeof(*d), mesh->name);
-    const bool has_room = d && make_room(&a, mesh);
-    if (has_room) {
-        *d = mesh_look;
-        put_mesh(&a, mesh);
-        put_ground(&a, mesh);
-        d->mesh =
-            rg_mesh_create(mesh->name, a.vertices, a.faces, a.positions, a.normals, a.indices);
-        d->materials = rg_alloc((size_t)a.faces, sizeof(*d->materials), mesh->name);
-        for (int i = mesh->face_count; d->materials && i < a.faces; i++)
-            d->materials[i] = 1;
-    }
-    free_arrays(&a);
-    if (has_room && d->mesh && d->materials)
+    d->mesh = builder_mesh(b);
+    d->materials = b->materials;
+    b->materials = NULL;
+    if (d->mesh)
         return d;
     diorama_destroy(d);
     return NULL;
 }
 
-struct diorama *diorama_of_mesh(const char *name)
+struct diorama *diorama_create(enum diorama_scene which)
 {
-    struct rg_mesh *mesh = rg_mesh_load(name);
-    struct diorama *d = mesh ? on_ground(mesh) : NULL;
-    rg_mesh_destroy(mesh);
+    const struct scene *scene = &scenes[which];
+    const struct diorama_size *size = &diorama_sizes[which];
+    struct builder b;
+    builder_begin(&b, size->name);
+    scene->build(&b);
+    struct diorama *d =
+        fill(&b, &scene->leftover, size->vertices, size->faces) ? take(&b, scene) : NULL;
+    builder_free(&b);
     return d;
 }

@@ -9,7 +9,7 @@
 
 #include "core/scene/mesh/mesh.h"
 
-enum { DIORAMA_MATERIALS = 48 };
+enum { DIORAMA_MATERIALS = 48 }; // at most
 
 // Display values, 0 to 1, whose squares are light; and how much it shines, 0 to 1.
 struct diorama_material {
@@ -30,6 +30,28 @@ struct diorama {
     struct diorama_view view;
     float sky[3], low_sky[3]; // display values, at the picture's top and bottom
 };
+
+enum diorama_scene {
+    DIORAMA_CAR,
+    DIORAMA_HOUSE1,
+    DIORAMA_HOUSE2,
+    DIORAMA_TABLE,
+    DIORAMA_PARK1,
+    DIORAMA_PARK2,
+    DIORAMA_GROUND,
+    DIORAMAS
+};
+
+// How many vertices and faces Feng et al. print of their scene, and what it is called.
+struct diorama_size {
+    const char *name;
+    int vertices, faces;
+};
+extern const struct diorama_size diorama_sizes[DIORAMAS];
+
+// A scene of exactly its published size, the same on every machine. NULL, and one logged line,
+// without memory. The caller destroys it.
+struct diorama *diorama_create(enum diorama_scene scene);
 
 // A user's mesh, 4 m at its longest, standing in the middle of a round ground. `name` is what
 // rg_mesh_load takes. NULL, and one logged line, on failure. The caller destroys it.

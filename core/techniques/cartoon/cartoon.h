@@ -5,11 +5,13 @@
 
 #include "core/techniques/params.h"
 
+enum { CARTOON_MESH = 7 }; // of scenes: a user's mesh; those before it are enum diorama_scene
 enum cartoon_style { CARTOON_GOOCH, CARTOON_STYLES };
 
 struct cartoon_settings {
     int seed;
     // The scene.
+    int scene;
     char mesh[RG_PATH_SIZE];
     int style; // enum cartoon_style
     // The camera, against that of the scene, and the light.

@@ -5,7 +5,8 @@
 // clang-format off
 static const struct rg_param rows[] = {
     {"seed", RG_PARAM_INT, AT(seed), 1, 0, 2147483647, "1", "of all chance", NULL},
-    {"mesh", RG_PARAM_FILE, AT(mesh), 0, 0, 0, "file", "the mesh: a name such as bunny, armadillo or torus, or a file", "torus"},
+    {"scene", RG_PARAM_CHOICE, AT(scene), 0, 0, CARTOON_MESH, "1", "what it rains on; mesh: what the parameter mesh names", "car house1 house2 table park1 park2 ground mesh"},
+    {"mesh", RG_PARAM_FILE, AT(mesh), 0, 0, 0, "file", "the mesh of scene=mesh: a name such as bunny, armadillo or torus, or a file", "torus"},
     {"style", RG_PARAM_CHOICE, AT(style), CARTOON_GOOCH, 0, CARTOON_STYLES - 1, "1", "how the scene is drawn", "gooch"},
     {"turn_deg", RG_PARAM_FLOAT, AT(turn_deg), 0, -360, 360, "deg", "how far the camera is turned about the scene, counter-clockwise seen from above", NULL},
     {"rise_deg", RG_PARAM_FLOAT, AT(rise_deg), 0, -90, 90, "deg", "how much higher above the horizon the camera is than the scene's own", NULL},

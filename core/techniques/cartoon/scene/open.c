@@ -30,7 +30,9 @@ static void tell(struct cartoon *c)
 bool cartoon_scene_open(struct cartoon *c)
 {
     const struct rg_image_desc *target = &c->base.target->desc;
-    c->diorama = diorama_of_mesh(c->settings.mesh);
+    const struct cartoon_settings *s = &c->settings;
+    c->diorama = s->scene == CARTOON_MESH ? diorama_of_mesh(s->mesh)
+                                          : diorama_create((enum diorama_scene)s->scene);
     if (!c->diorama)
         return false;
     add_mesh(c);
