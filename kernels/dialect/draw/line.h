@@ -1,0 +1,91 @@
+// A line between two corners of an item, as the viewer sees it: in pixels, cut to what can be
+// drawn. It has ends in clip space, and no width; programs give it one.
+#ifndef RG_KERNELS_DIALECT_DRAW_LINE_H
+#define RG_KERNELS_DIALECT_DRAW_LINE_H
+
+#include "kernels/dialect/draw/clip.h"
+
+RG_STRUCT(rg_line)
+{
+    float x; // where it begins, in pixels from the target's corner
+    float y;
+    float along_x; // its direction, of unit length
+    float along_y;
+    float length_px;
+    float depth;       // where it begins
+    float depth_there; // where it ends
+    int alive;         // 0: nothing of it is seen
+};
+RG_STRUCT_SIZE(rg_line, 8)
+
+// The part of a line that planes have left, from 0 to 1.
+RG_STRUCT(rg_line_part)
+{
+    float from;
+    float to;
+};
+
+// Cuts off what lies outside of a plane: `a` and `b` tell how far inside the ends are.
+RG_FN rg_line_part rg_part_inside(rg_line_part part, float a, float b)
+{
+    float fall = a - b;
+    float at = a / (rg_abs(fall) > 1e-30f ? fall : 1.0f);
+    rg_line_part inside;
+    inside.from = rg_max(part.from, a < 0.0f ? (b < 0.0f ? 2.0f : at) : 0.0f);
+    inside.to = rg_min(part.to, b < 0.0f ? at : 1.0f);
+    return inside;
+}
+
+// What is seen of the line from a to b: cut at the near plane and `beyond_px` outside of the
+// target's sides, so that the rest is near enough for a float to place it.
+RG_FN rg_line rg_line_seen(rg_draw_state draw, rg_corner a, rg_corner b, float beyond_px)
+{
+    float across = (draw.half_width + beyond_px) / draw.half_width;
+    float down = (draw.half_height + beyond_px) / draw.half_height;
+    rg_line_part part;
+    part.from = 0.0f;
+    part.to = 1.0f;
+    part = rg_part_inside(part, a.z, b.z);
+    part = rg_part_inside(part, a.w * across + a.x, b.w * across + b.x);
+    part = rg_part_inside(part, a.w * across - a.x, b.w * across - b.x);
+    part = rg_part_inside(part, a.w * down + a.y, b.w * down + b.y);
+    part = rg_part_inside(part, a.w * down - a.y, b.w * down - b.y);
+    float from_w = 1.0f / rg_max(a.w + (b.w - a.w) * part.from, RG_LEAST_W);
+    float to_w = 1.0f / rg_max(a.w + (b.w - a.w) * part.to, RG_LEAST_W);
+    rg_line s;
+    s.x = ((a.x + (b.x - a.x) * part.from) * from_w + 1.0f) * draw.half_width;
+    s.y = ((a.y + (b.y - a.y) * part.from) * from_w + 1.0f) * draw.half_height;
+    float x = ((a.x + (b.x - a.x) * part.to) * to_w + 1.0f) * draw.half_width - s.x;
+    float y = ((a.y + (b.y - a.y) * part.to) * to_w + 1.0f) * draw.half_height - s.y;
+    s.length_px = rg_sqrt(x * x + y * y);
+    float over_length = 1.0f / rg_max(s.length_px, 1e-6f);
+    s.along_x = s.length_px > 1e-6f ? x * over_length : 1.0f;
+    s.along_y = s.length_px > 1e-6f ? y * over_length : 0.0f;
+    s.depth = (a.z + (b.z - a.z) * part.from) * from_w;
+    s.depth_there = (a.z + (b.z - a.z) * part.to) * to_w;
+    s.alive = part.from <= part.to ? 1 : 0;
+    return s;
+}
+
+// A corner of a rectangle about it, so far along it and beside it from its beginning.
+RG_FN rg_corner rg_line_corner(rg_draw_state draw, rg_line s, float along, float beside)
+{
+    float x = s.x + s.along_x * along - s.along_y * beside;
+    float y = s.y + s.along_y * along + s.along_x * beside;
+    return rg_corner_make(x / draw.half_width - 1.0f, y / draw.half_height - 1.0f, 0.5f, 1.0f);
+}
+
+// The rectangle that reaches so far beside it and beyond its ends.
+RG_FN rg_item rg_line_item(rg_draw_state draw, rg_line s, float reach)
+{
+    float end = s.length_px + reach;
+    rg_item t;
+    t.alive = s.alive;
+    t.a = rg_line_corner(draw, s, -reach, -reach);
+    t.b = rg_line_corner(draw, s, -reach, reach);
+    t.c = rg_line_corner(draw, s, end, reach);
+    t.d = rg_line_corner(draw, s, end, -reach);
+    return t;
+}
+
+#endif
