@@ -20,6 +20,7 @@ struct diorama_material {
 // side of z, and so far above the horizon.
 struct diorama_view {
     double look_at_m[3], distance_m, turn_deg, rise_deg, angle_deg;
+    double pen; // how thick its lines are, of their usual width
 };
 
 struct diorama {

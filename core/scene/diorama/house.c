@@ -114,7 +114,7 @@ static void flower_box(struct builder *b, point at, double turn_deg, uint32_t id
     const struct frame was = builder_enter(b, at, turn_deg, 1);
     soft_box(b, (point){-0.62, -0.26, 0.1}, (point){0.62, -0.04, 0.36}, 0.03, 1, PAINT_WOOD);
     for (uint32_t i = 0; i < 3; i++)
-        flower(b, (point){-0.38 + 0.38 * i, -0.05, 0.22}, 0.3 + 0.08 * chance(id, i),
+        flower(b, (point){-0.38 + 0.38 * i, -0.05, 0.22}, 0.42 + 0.08 * chance(id, i),
                petals[(i + id) % 4], id + i);
     builder_leave(b, was);
 }

@@ -72,7 +72,7 @@ static void put_ground(struct arrays *a, const struct rg_mesh *mesh)
 }
 
 static const struct diorama mesh_look = {
-    .view = {{0, 1.2, 0}, 9.5, 25, 20, 35},
+    .view = {{0, 1.2, 0}, 9.5, 25, 20, 35, 1},
     .sky = {0.70f, 0.80f, 0.88f},
     .low_sky = {0.93f, 0.94f, 0.90f},
 };

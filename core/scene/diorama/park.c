@@ -120,15 +120,15 @@ static void fountain(struct builder *b)
     lathe(b, (point){0, 0, 0}, bowl, 16, 40, 180, PAINT_PALE_STONE);
     ball(b, (point){0, 0.42, 0}, (point){1.53, 0.02, 1.53}, 6, 56, 0, 1, PAINT_WATER);
     ball(b, (point){0, 1.25, 0}, (point){0.74, 0.02, 0.74}, 4, 40, 0, 1, PAINT_WATER);
-    for (int i = 0; i < 10; i++) {
+    for (int i = 0; i < 7; i++) {
         point jet[9];
         for (int k = 0; k < 9; k++) {
-            const double t = k / 8.0, out = i < 6 ? 0.12 + 1.0 * t : 0.05 + 0.45 * t;
-            const double up = i < 6 ? 1.56 + 1.3 * t - 2.35 * t * t : 1.56 + 2.2 * t - 2.4 * t * t;
-            const double turn = i < 6 ? 60.0 * i : 90.0 * i + 30;
+            const double t = k / 8.0, out = i < 6 ? 0.12 + 1.0 * t : 0;
+            const double up = i < 6 ? 1.56 + 1.3 * t - 2.35 * t * t : 1.5 + 0.75 * t;
+            const double turn = 60.0 * i + 15;
             jet[k] = (point){out * sine(turn), up, out * cosine(turn)};
         }
-        bar(b, jet, 9, 0.025, 0.045, 8, PAINT_WATER);
+        bar(b, jet, 9, 0.06, 0.085, 10, PAINT_WATER);
     }
 }
 

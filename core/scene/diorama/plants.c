@@ -16,14 +16,14 @@ void tree(struct builder *b, point at, double height_m, double detail, enum pain
     lathe(b, at, trunk, 6, finer(detail, 12), 180, PAINT_BARK);
     const int rings = finer(detail, 9), around = finer(detail, 16);
     ball(b, (point){at.x, at.y + h - crown, at.z}, (point){crown, crown * 0.95, crown}, rings,
-         around, 0.06, id, paint);
+         around, 0.03, id, paint);
     for (uint32_t i = 0; i < 4; i++) {
         const double turn = 90.0 * i + 60 * chance(id, 900 + i), off = 0.72 * crown;
         const double size = crown * (0.62 + 0.2 * chance(id, 910 + i));
         const point middle = {at.x + off * sine(turn),
                               at.y + h - crown * (1.25 + 0.35 * chance(id, 920 + i)),
                               at.z + off * cosine(turn)};
-        ball(b, middle, (point){size, size * 0.85, size}, finer(detail, 7), finer(detail, 13), 0.06,
+        ball(b, middle, (point){size, size * 0.85, size}, finer(detail, 7), finer(detail, 13), 0.03,
              id + 31 * (i + 1), paint);
     }
 }
@@ -52,7 +52,7 @@ void fir(struct builder *b, point at, double height_m, int skirts, int around, u
 void bush(struct builder *b, point at, double radius_m, int rings, uint32_t id)
 {
     const double r = radius_m;
-    ball(b, (point){at.x, at.y + 0.6 * r, at.z}, (point){r, 0.75 * r, r}, rings, 2 * rings, 0.07,
+    ball(b, (point){at.x, at.y + 0.6 * r, at.z}, (point){r, 0.75 * r, r}, rings, 2 * rings, 0.035,
          id, id % 2 ? PAINT_LEAF : PAINT_DARK_LEAF);
 }
 

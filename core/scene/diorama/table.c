@@ -27,14 +27,17 @@ static void cloth(struct builder *b)
             const double fold = fall * (0.045 * cosine(12 * turn) + 0.02 * cosine(5 * turn + 40));
             const double radius =
                 i < HANGING ? 0.935 + 0.03 * fall + fold : 0.93 * (RINGS - i) / (RINGS - HANGING);
-            const double y = i < HANGING ? top_m + 0.004 - 0.30 * fall * fall : top_m + 0.006;
+            const double y = i < HANGING ? top_m + 0.004 - 0.30 * fall : top_m + 0.006;
             points[i * AROUND + j] = (point){radius * sine(turn), y, radius * cosine(turn)};
         }
     }
     skin(b, points, RINGS, AROUND, NULL, &(point){0, top_m + 0.006, 0}, PAINT_CREAM);
     builder_end(b, 180);
-    ring(b, (point){0, top_m + 0.006, 0}, 0.78, 0.006, 6, 64, PAINT_BLUE);
-    ring(b, (point){0, top_m + 0.006, 0}, 0.74, 0.004, 6, 64, PAINT_BLUE);
+    struct profile band[13];
+    for (int i = 0; i <= 12; i++)
+        band[i] =
+            (struct profile){0.78 + 0.035 * cosine(30.0 * (i % 12)), 0.004 * sine(30.0 * (i % 12))};
+    lathe(b, (point){0, top_m + 0.006, 0}, band, 13, 64, 180, PAINT_BLUE);
 }
 
 static void cup(struct builder *b, point at, double turn_deg, enum paint paint)

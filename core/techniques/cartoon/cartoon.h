@@ -6,7 +6,15 @@
 #include "core/techniques/params.h"
 
 enum { CARTOON_MESH = 7 }; // of scenes: a user's mesh; those before it are enum diorama_scene
-enum cartoon_style { CARTOON_GOOCH, CARTOON_STYLES };
+enum cartoon_style {
+    CARTOON_GOOCH,
+    CARTOON_GOOCH_OUTLINES,
+    CARTOON_TONED,
+    CARTOON_TONED_OUTLINES,
+    CARTOON_OUTLINES,
+    CARTOON_HATCHING,
+    CARTOON_STYLES
+};
 
 struct cartoon_settings {
     int seed;
@@ -17,8 +25,14 @@ struct cartoon_settings {
     // The camera, against that of the scene, and the light.
     double turn_deg, rise_deg, zoom, spin_deg;
     double light_turn_deg, light_rise_deg;
+    // Outlines.
+    double outline_px, inner_px, crease_deg;
     // The style of Gooch.
     double gooch_blue, gooch_yellow, gooch_alpha, gooch_beta;
+    // Cartoon tones.
+    double shadow_tone, middle_tone, middle_from, lit_from, tone_softness;
+    // Hatching.
+    double hatch_px, hatch_ambient, hatch_wash;
 };
 
 extern const struct rg_param_table cartoon_param_table;

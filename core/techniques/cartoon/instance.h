@@ -4,12 +4,26 @@
 
 #include "core/scene/camera.h"
 #include "core/scene/diorama/diorama.h"
+#include "core/scene/mesh/edges.h"
 #include "core/techniques/cartoon/cartoon.h"
 #include "core/techniques/technique.h"
 #include "kernels/cartoon/scene/faces_params.h"
+#include "kernels/cartoon/scene/ink_params.h"
 #include "kernels/cartoon/scene/shade_params.h"
 
-enum cartoon_stage { CARTOON_RUN_FACES, CARTOON_RUN_SHADE, CARTOON_STAGES };
+enum cartoon_stage {
+    CARTOON_RUN_FACES,
+    CARTOON_RUN_INK,
+    // One of these draws the picture.
+    CARTOON_RUN_GOOCH,
+    CARTOON_RUN_TONES,
+    CARTOON_RUN_PAPER,
+    CARTOON_RUN_HATCHING,
+    CARTOON_STAGES
+};
+
+// The strokes of hatching: a tile's side, and its levels.
+enum { CARTOON_TILE_PX = 256, CARTOON_LEVELS = 4 };
 
 // How the scene is looked at in the present frame.
 struct cartoon_view {
@@ -24,8 +38,10 @@ struct cartoon {
     struct cartoon_settings settings;
     struct diorama *diorama; // its mesh has the triangles and bounds
     struct cartoon_view view;
-    struct rg_asset *normal_map, *depth_map;
+    struct rg_asset *normal_map, *depth_map, *ink;
+    int edge_count;
     cartoon_faces_params faces;
+    cartoon_ink_params outlines;
     cartoon_shade_params shade;
 };
 
@@ -41,12 +57,16 @@ bool cartoon_draw(struct rg_instance *instance);
 // Loads the diorama and adds its assets: the mesh as `positions`, `normals`, `indices` and
 // `materials`, the `palette`, and two images of the target's size that each drawing of the scene
 // leaves: `normal_map`, RGBA16F, the normal in the world on the side that is seen, and one more
-// than the number of the material, all 0 in the sky; and `depth_map`, D32F, 1 in the sky. Fills in
-// the view of frame 0.
+// than the number of the material, all 0 in the sky; and `depth_map`, D32F, 1 in the sky. With
+// outlines the `edges` and their `ink`; with hatching its `strokes`. Fills in the view of frame 0.
 bool cartoon_scene_open(struct cartoon *c);
 // Finds how the scene is looked at in a frame. False, and one logged line, where it cannot be.
 bool cartoon_look(struct cartoon *c, int64_t frame);
 // Draws the scene into the normal map and the depth, and in its style onto the target.
 bool cartoon_scene_draw(struct cartoon *c);
+
+// Adds the image `strokes`: RGBA8, CARTOON_LEVELS levels, tones 0 to 3 in the channels of its first
+// layer, 3 to 6 in those of its second.
+void cartoon_add_strokes(struct cartoon *c);
 
 #endif

@@ -3,10 +3,47 @@
 
 #define AT(field) offsetof(struct cartoon, field)
 
+static int style_of(const struct rg_instance *instance)
+{
+    return ((const struct cartoon *)instance)->settings.style;
+}
+
+static bool has_outlines(const struct rg_instance *i)
+{
+    return style_of(i) != CARTOON_GOOCH && style_of(i) != CARTOON_TONED;
+}
+
+static bool is_gooch(const struct rg_instance *i)
+{
+    return style_of(i) == CARTOON_GOOCH || style_of(i) == CARTOON_GOOCH_OUTLINES;
+}
+
+static bool is_toned(const struct rg_instance *i)
+{
+    return style_of(i) == CARTOON_TONED || style_of(i) == CARTOON_TONED_OUTLINES;
+}
+
+static bool is_paper(const struct rg_instance *i)
+{
+    return style_of(i) == CARTOON_OUTLINES;
+}
+
+static bool is_hatched(const struct rg_instance *i)
+{
+    return style_of(i) == CARTOON_HATCHING;
+}
+
+#define PICTURE .params = AT(shade), .colour = "target"
+
 static const struct rg_stage stages[CARTOON_STAGES] = {
     [CARTOON_RUN_FACES] = {"cartoon_faces", .params = AT(faces), .colour = "normal_map",
                            .depth = "depth_map", .depth_mode = RG_DEPTH_WRITE},
-    [CARTOON_RUN_SHADE] = {"cartoon_gooch", .params = AT(shade), .colour = "target"},
+    [CARTOON_RUN_INK] = {"cartoon_ink", has_outlines, .params = AT(outlines), .depth = "ink",
+                         .depth_mode = RG_DEPTH_WRITE},
+    [CARTOON_RUN_GOOCH] = {"cartoon_gooch", is_gooch, PICTURE},
+    [CARTOON_RUN_TONES] = {"cartoon_tones", is_toned, PICTURE},
+    [CARTOON_RUN_PAPER] = {"cartoon_paper", is_paper, PICTURE},
+    [CARTOON_RUN_HATCHING] = {"cartoon_hatching", is_hatched, PICTURE},
 };
 
 bool cartoon_open(struct rg_instance *instance)

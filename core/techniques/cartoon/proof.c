@@ -4,7 +4,10 @@
 
 static const struct rg_pose poses[] = {
     {.set = ""},
-    {.set = "spin_deg=7 rise_deg=30"},
+    {.set = "scene=park2 style=gooch_outlines spin_deg=7 rise_deg=30"},
+    {.set = "scene=house1 style=hatching spin_deg=5"},
+    {.set = "scene=table style=outlines spin_deg=5 zoom=3"},
+    {.set = "scene=mesh style=cartoon zoom=2"},
     {.set = NULL},
 };
 
@@ -16,13 +19,27 @@ static const struct rg_mutant mutants[] = {
     {"the camera 1 % nearer", "zoom", 1.01, 0},
     {"the camera 1 degree higher", "rise_deg", 1, 1},
     {"the light 1 degree aside", "light_turn_deg", 1, 1},
-    {"less blue", "gooch_blue", 0.95, 0},
+    {"lines 2 % thicker", "outline_px", 1.02, 0},
+    {"creases 2 % thicker", "inner_px", 1.02, 0},
+    {"creases from 50 degrees on", "crease_deg", 1, 10},
+    {"shadows 1 % lighter", "shadow_tone", 1.01, 0},
+    {"full light 1 % later", "lit_from", 1.01, 0},
     {NULL, NULL, 0, 0},
+};
+
+static const struct rg_contrast contrasts[] = {
+    {"less blue", "style=gooch", "gooch_blue=0.38"},
+    {"less yellow", "style=gooch", "gooch_yellow=0.39"},
+    {"strokes 2 % larger", "style=hatching", "hatch_px=204"},
+    {"less wash", "style=hatching", "hatch_wash=0.33"},
+    {"no outlines", "style=gooch_outlines", "style=gooch"},
+    {NULL, NULL, NULL},
 };
 
 const struct rg_proof cartoon_proof = {
     .poses = poses,
-    .dry = "gooch_blue=0",
+    .dry = "zoom=0.2",
     .laws = laws,
     .mutants = mutants,
+    .contrasts = contrasts,
 };

@@ -3,7 +3,9 @@
 #include "kernels/cartoon/scene/shade_params.h"
 
 #define RG_PARAMS cartoon_shade_params
-#define RG_SLOTS  IMAGE(1, D32F, depth_map) IMAGE(2, RGBA16F, normal_map) IN(3, float, palette)
+#define RG_SLOTS                                                                                   \
+    IMAGE(1, D32F, depth_map)                                                                      \
+    IMAGE(2, RGBA16F, normal_map) IN(3, float, palette) IMAGE(4, D32F, ink)
 #include "kernels/dialect/draw/view_quad.h"
 
 #include "kernels/cartoon/scene/seen.h"
@@ -18,21 +20,19 @@ RG_DRAW_RECORD(cartoon_gooch)
     return view_quad_record();
 }
 
-RG_FN v3 cartoon_cool_to_warm(cartoon_shade_params p, cartoon_seen s)
+RG_FN v3 cartoon_cool_to_warm(cartoon_shade_params p, cartoon_seen s, float shine)
 {
     float t = 0.5f + 0.5f * s.facing;
-    float mine = p.alpha + (p.beta - p.alpha) * t; // the material's share
-    float yellow = p.yellow * t + cartoon_shine(s);
+    float mine = cartoon_mix(p.alpha, p.beta, t); // the material's share
+    float yellow = p.yellow * t + shine;
     return v3_make(yellow + mine * s.colour.x, yellow + mine * s.colour.y,
-                   p.blue * (1.0f - t) + cartoon_shine(s) + mine * s.colour.z);
+                   p.blue * (1.0f - t) + shine + mine * s.colour.z);
 }
 
 RG_DRAW_FRAGMENT(cartoon_gooch)
 {
     cartoon_seen s = cartoon_seen_at(rg, p, px, py);
-    v3 sky = cartoon_sky(p, py);
-    v3 c = cartoon_cool_to_warm(p, s);
-    bool nothing = s.nothing != 0;
-    return cartoon_shown(
-        v3_make(nothing ? sky.x : c.x, nothing ? sky.y : c.y, nothing ? sky.z : c.z));
+    float shine = cartoon_shine(p, s, depth_map_texel(rg, px, py, 0, 0).r, px, py);
+    v3 c = cartoon_or(s.nothing, cartoon_sky(p, py), cartoon_cool_to_warm(p, s, shine));
+    return cartoon_inked(rg, p, c, px, py);
 }

@@ -1,4 +1,4 @@
-// What is seen at a pixel, from the slots depth_map, normal_map and palette of the style that
+// What is seen at a pixel, from the slots depth_map, normal_map, palette and ink of the style that
 // includes this, and the sky where there is nothing.
 #ifndef RG_KERNELS_CARTOON_SCENE_SEEN_H
 #define RG_KERNELS_CARTOON_SCENE_SEEN_H
@@ -10,8 +10,21 @@ RG_STRUCT(cartoon_seen)
     v3 colour;   // display values
     float shine;
     float facing; // cosine between normal and light
-    float mirror; // cosine between the view and the light's mirrored direction, 0 at least
 };
+
+// The texel of a pixel's normal map, and what it says.
+RG_FN cartoon_seen cartoon_seen_at(rg_ctx rg, cartoon_shade_params p, int px, int py)
+{
+    rgba texel = normal_map_texel(rg, px, py, 0, 0);
+    cartoon_seen s;
+    s.nothing = texel.a > 0.0f ? 0 : 1;
+    s.normal = v3_make(texel.r, texel.g, texel.b);
+    int word = rg_imax(rg_to_int(texel.a) - 1, 0) * CARTOON_MATERIAL_WORDS;
+    s.colour = v3_make(palette_at(rg, word), palette_at(rg, word + 1), palette_at(rg, word + 2));
+    s.shine = palette_at(rg, word + 3);
+    s.facing = v3_dot(s.normal, v3_make(p.light_x, p.light_y, p.light_z));
+    return s;
+}
 
 RG_FN v3 cartoon_place(cartoon_shade_params p, float depth, int px, int py)
 {
@@ -21,29 +34,16 @@ RG_FN v3 cartoon_place(cartoon_shade_params p, float depth, int px, int py)
     return v3_make(c.x * over_w, c.y * over_w, c.z * over_w);
 }
 
-RG_FN cartoon_seen cartoon_seen_at(rg_ctx rg, cartoon_shade_params p, int px, int py)
+// A highlight: the cosine between the view and the light's mirrored direction to the 32nd power,
+// and none where no light falls.
+RG_FN float cartoon_shine(cartoon_shade_params p, cartoon_seen s, float depth, int px, int py)
 {
-    float depth = depth_map_texel(rg, px, py, 0, 0).r;
-    rgba texel = normal_map_texel(rg, px, py, 0, 0);
     v3 at = cartoon_place(p, depth, px, py);
-    v3 light = v3_make(p.light_x, p.light_y, p.light_z);
-    cartoon_seen s;
-    s.nothing = texel.a > 0.0f ? 0 : 1;
-    s.normal = v3_make(texel.r, texel.g, texel.b);
-    int word = rg_imax(rg_to_int(texel.a) - 1, 0) * CARTOON_MATERIAL_WORDS;
-    s.colour = v3_make(palette_at(rg, word), palette_at(rg, word + 1), palette_at(rg, word + 2));
-    s.shine = palette_at(rg, word + 3);
-    s.facing = v3_dot(s.normal, light);
     v3 view = v3_make(p.eye_x - at.x, p.eye_y - at.y, p.eye_z - at.z);
-    v3 mirrored = v3_add(v3_scale(s.normal, 2.0f * s.facing), v3_scale(light, -1.0f));
-    s.mirror = rg_max(v3_dot(view, mirrored), 0.0f) / rg_sqrt(rg_max(v3_dot(view, view), 1e-12f));
-    return s;
-}
-
-// A highlight: the mirror's cosine to the 32nd power.
-RG_FN float cartoon_shine(cartoon_seen s)
-{
-    float c2 = s.mirror * s.mirror;
+    v3 mirrored =
+        v3_add(v3_scale(s.normal, 2.0f * s.facing), v3_make(-p.light_x, -p.light_y, -p.light_z));
+    float along = s.facing > 0.0f ? rg_max(v3_dot(view, mirrored), 0.0f) : 0.0f;
+    float c2 = along * along / rg_max(v3_dot(view, view), 1e-12f);
     float c4 = c2 * c2;
     float c8 = c4 * c4;
     float c16 = c8 * c8;
@@ -58,12 +58,23 @@ RG_FN v3 cartoon_sky(cartoon_shade_params p, int py)
                    p.sky_b + (p.low_b - p.sky_b) * t);
 }
 
-// What the target takes of a colour in display values.
-RG_FN rg_fragment cartoon_shown(v3 c)
+RG_FN v3 cartoon_or(int first, v3 a, v3 b)
 {
-    float r = rg_clamp(c.x, 0.0f, 1.0f);
-    float g = rg_clamp(c.y, 0.0f, 1.0f);
-    float b = rg_clamp(c.z, 0.0f, 1.0f);
+    return v3_make(first != 0 ? a.x : b.x, first != 0 ? a.y : b.y, first != 0 ? a.z : b.z);
+}
+
+RG_FN float cartoon_mix(float a, float b, float t)
+{
+    return a + (b - a) * t;
+}
+
+// A colour in display values under the ink, as the target takes it.
+RG_FN rg_fragment cartoon_inked(rg_ctx rg, cartoon_shade_params p, v3 c, int px, int py)
+{
+    float ink = p.inked != 0 ? 1.0f - ink_texel(rg, px, py, 0, 0).r : 0.0f;
+    float r = cartoon_mix(rg_clamp(c.x, 0.0f, 1.0f), p.ink_r, ink);
+    float g = cartoon_mix(rg_clamp(c.y, 0.0f, 1.0f), p.ink_g, ink);
+    float b = cartoon_mix(rg_clamp(c.z, 0.0f, 1.0f), p.ink_b, ink);
     return rg_fragment_make(rg_rgba(r * r, g * g, b * b, 1.0f), 1.0f);
 }
 

@@ -7,6 +7,10 @@
 // Floats of a material: its colour, and how much it shines, 0 to 1.
 #define CARTOON_MATERIAL_WORDS 4
 
+// Tones of hatching, the last of which is blank paper. Two layers of the strokes hold them in their
+// channels: tones 0 to 3 and 3 to 6.
+#define CARTOON_TONES 6
+
 RG_STRUCT(cartoon_shade_params)
 {
     m4 from_pixel; // pixels and depth to the world, over w
@@ -23,11 +27,30 @@ RG_STRUCT(cartoon_shade_params)
     float low_r; // below
     float low_g;
     float low_b;
+    int inked;   // 1: there is ink
+    float ink_r; // its colour
+    float ink_g;
+    float ink_b;
+    float paper_r;
+    float paper_g;
+    float paper_b;
+    // Gooch.
     float blue; // of cool light, and yellow of warm light
     float yellow;
     float alpha; // the material's share of cool light
     float beta;  // and of warm light
+    // Cartoon.
+    float shadow_tone; // what the material's colour is multiplied by
+    float middle_tone;
+    float middle_from; // from which cosine on
+    float lit_from;
+    float per_softness; // 1 over the width of the step between tones, as cosine
+    // Hatching.
+    float ambient;  // tone of what faces away from the light
+    float wash;     // the material's share
+    float per_tile; // tiles of strokes a metre
+    float lod;      // level of the strokes at a distance of 1 m: log2 of their texels a pixel
 };
-RG_STRUCT_SIZE(cartoon_shade_params, 33)
+RG_STRUCT_SIZE(cartoon_shade_params, 49)
 
 #endif

@@ -18,6 +18,26 @@ static void add_mesh(struct cartoon *c)
     free(normals);
 }
 
+// Without outlines the styles are given one texel without ink, and no strokes.
+static void add_drawing(struct cartoon *c)
+{
+    struct rg_instance *i = &c->base;
+    const struct rg_image_desc *target = &i->target->desc;
+    const int style = c->settings.style;
+    const bool outlined = style != CARTOON_GOOCH && style != CARTOON_TONED;
+    struct rg_edges edges = {0};
+    c->ink = rg_add_image(i, "ink", RG_D32F, outlined ? target->width : 1,
+                          outlined ? target->height : 1);
+    if (outlined) {
+        i->has_failed |= !rg_mesh_edges(c->diorama->mesh, &edges);
+        c->edge_count = edges.count;
+        rg_add_buf(i, "edges", (int64_t)edges.count * RG_EDGE_WORDS, edges.words);
+        rg_edges_free(&edges);
+    }
+    if (style == CARTOON_HATCHING)
+        cartoon_add_strokes(c);
+}
+
 static void tell(struct cartoon *c)
 {
     const struct rg_mesh *mesh = c->diorama->mesh;
@@ -38,6 +58,7 @@ bool cartoon_scene_open(struct cartoon *c)
     add_mesh(c);
     c->normal_map = rg_add_image(&c->base, "normal_map", RG_RGBA16F, target->width, target->height);
     c->depth_map = rg_add_image(&c->base, "depth_map", RG_D32F, target->width, target->height);
+    add_drawing(c);
     tell(c);
     return cartoon_look(c, 0);
 }

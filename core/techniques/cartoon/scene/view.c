@@ -35,10 +35,19 @@ static struct rg_camera camera_of(const struct cartoon *c, int64_t frame)
     return camera;
 }
 
+// Pixels that something as wide as it is distant takes.
+static double focal_px_of(const struct cartoon *c)
+{
+    const double half = (double)c->view.camera.angle_deg / 360 * M_PI;
+    return c->base.target->desc.height / (2 * tan(half));
+}
+
 static cartoon_shade_params shade_of(const struct cartoon *c)
 {
     const struct cartoon_settings *s = &c->settings;
     const struct cartoon_view *v = &c->view;
+    const double focal_px = focal_px_of(c);
+    const double tile_m = s->hatch_px * c->diorama->view.distance_m / focal_px;
     const float *sky = c->diorama->sky, *low = c->diorama->low_sky;
     return (cartoon_shade_params){
         .from_pixel = v->from_pixel,
@@ -55,10 +64,53 @@ static cartoon_shade_params shade_of(const struct cartoon *c)
         .low_r = low[0],
         .low_g = low[1],
         .low_b = low[2],
+        .inked = c->edge_count > 0,
+        .ink_r = 0.17f,
+        .ink_g = 0.15f,
+        .ink_b = 0.22f,
+        .paper_r = 0.98f,
+        .paper_g = 0.965f,
+        .paper_b = 0.925f,
         .blue = (float)s->gooch_blue,
         .yellow = (float)s->gooch_yellow,
         .alpha = (float)s->gooch_alpha,
         .beta = (float)s->gooch_beta,
+        .shadow_tone = (float)s->shadow_tone,
+        .middle_tone = (float)s->middle_tone,
+        .middle_from = (float)s->middle_from,
+        .lit_from = (float)s->lit_from,
+        .per_softness = (float)(1 / s->tone_softness),
+        .ambient = (float)s->hatch_ambient,
+        .wash = (float)s->hatch_wash,
+        .per_tile = (float)(1 / tile_m),
+        .lod = (float)log2(CARTOON_TILE_PX / (tile_m * focal_px)),
+    };
+}
+
+static cartoon_ink_params outlines_of(const struct cartoon *c)
+{
+    const struct cartoon_settings *s = &c->settings;
+    const struct rg_camera *camera = &c->view.camera;
+    const struct rg_camera_axes axes = rg_camera_axes(camera);
+    const double px = 1 / focal_px_of(c);
+    const double near_plane = (double)camera->near_plane, far_plane = (double)camera->far_plane;
+    return (cartoon_ink_params){
+        .to_clip = c->view.to_clip,
+        .eye_x = camera->position[0],
+        .eye_y = camera->position[1],
+        .eye_z = camera->position[2],
+        .right_x = (float)(axes.right[0] * px),
+        .right_y = (float)(axes.right[1] * px),
+        .right_z = (float)(axes.right[2] * px),
+        .down_x = (float)(-axes.up[0] * px),
+        .down_y = (float)(-axes.up[1] * px),
+        .down_z = (float)(-axes.up[2] * px),
+        .depth_fall = (float)(far_plane * near_plane / (far_plane - near_plane)),
+        .cos_crease = (float)cos(s->crease_deg * M_PI / 180),
+        .contour_px = (float)(s->outline_px * c->diorama->view.pen),
+        .crease_px = (float)(s->inner_px * c->diorama->view.pen),
+        .full_m = (float)(c->diorama->view.distance_m),
+        .count = c->edge_count,
     };
 }
 
@@ -83,6 +135,7 @@ bool cartoon_look(struct cartoon *c, int64_t frame)
     for (int i = 0; i < 3; i++)
         v->to_light[i] = (float)to_light[i];
     c->faces = (cartoon_faces_params){v->to_clip};
+    c->outlines = outlines_of(c);
     c->shade = shade_of(c);
     return true;
 }
