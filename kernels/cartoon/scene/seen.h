@@ -12,16 +12,22 @@ RG_STRUCT(cartoon_seen)
     float facing; // cosine between normal and light
 };
 
-// The texel of a pixel's normal map, and what it says.
+RG_FN float cartoon_byte(uint bits)
+{
+    return rg_to_float(rg_to_int(bits & 255u)) * (1.0f / 255.0f);
+}
+
+// The texel of a pixel's normal map, and what it says. The palette's first word is the sky's.
 RG_FN cartoon_seen cartoon_seen_at(rg_ctx rg, cartoon_shade_params p, int px, int py)
 {
     rgba texel = normal_map_texel(rg, px, py, 0, 0);
     cartoon_seen s;
     s.nothing = texel.a > 0.0f ? 0 : 1;
     s.normal = v3_make(texel.r, texel.g, texel.b);
-    int word = rg_imax(rg_to_int(texel.a) - 1, 0) * CARTOON_MATERIAL_WORDS;
-    s.colour = v3_make(palette_at(rg, word), palette_at(rg, word + 1), palette_at(rg, word + 2));
-    s.shine = palette_at(rg, word + 3);
+    uint material = palette_at(rg, rg_to_int(texel.a));
+    s.colour =
+        v3_make(cartoon_byte(material), cartoon_byte(material >> 8), cartoon_byte(material >> 16));
+    s.shine = cartoon_byte(material >> 24);
     s.facing = v3_dot(s.normal, v3_make(p.light_x, p.light_y, p.light_z));
     return s;
 }
@@ -68,10 +74,11 @@ RG_FN float cartoon_mix(float a, float b, float t)
     return a + (b - a) * t;
 }
 
-// A colour in display values under the ink, as the target takes it.
+// A colour in display values under the ink, as the target takes it. Without outlines the ink is one
+// texel that has none.
 RG_FN rg_fragment cartoon_inked(rg_ctx rg, cartoon_shade_params p, v3 c, int px, int py)
 {
-    float ink = p.inked != 0 ? 1.0f - ink_texel(rg, px, py, 0, 0).r : 0.0f;
+    float ink = 1.0f - ink_texel(rg, px * p.inked, py * p.inked, 0, 0).r;
     float r = cartoon_mix(rg_clamp(c.x, 0.0f, 1.0f), p.ink_r, ink);
     float g = cartoon_mix(rg_clamp(c.y, 0.0f, 1.0f), p.ink_g, ink);
     float b = cartoon_mix(rg_clamp(c.z, 0.0f, 1.0f), p.ink_b, ink);

@@ -4,9 +4,6 @@
 
 #include "kernels/dialect/matrix.h"
 
-// Floats of a material: its colour, and how much it shines, 0 to 1.
-#define CARTOON_MATERIAL_WORDS 4
-
 // Tones of hatching, the last of which is blank paper. Two layers of the strokes hold them in their
 // channels: tones 0 to 3 and 3 to 6.
 #define CARTOON_TONES 6
@@ -27,7 +24,7 @@ RG_STRUCT(cartoon_shade_params)
     float low_r; // below
     float low_g;
     float low_b;
-    int inked;   // 1: there is ink
+    int inked;   // 1: there is ink, 0: its one texel has none
     float ink_r; // its colour
     float ink_g;
     float ink_b;

@@ -5,7 +5,7 @@
 #define RG_PARAMS cartoon_shade_params
 #define RG_SLOTS                                                                                   \
     IMAGE(1, D32F, depth_map)                                                                      \
-    IMAGE(2, RGBA16F, normal_map) IN(3, float, palette) IMAGE(4, D32F, ink)
+    IMAGE(2, RGBA16F, normal_map) IN(3, uint, palette) IMAGE(4, D32F, ink)
 #include "kernels/dialect/draw/view_quad.h"
 
 #include "kernels/cartoon/scene/seen.h"

@@ -3,18 +3,30 @@
 
 #include "core/techniques/cartoon/instance.h"
 
+// A material in a word: red, green, blue and how much it shines, from the lowest byte on.
+static uint32_t packed(const struct diorama_material *m)
+{
+    const float parts[4] = {m->r, m->g, m->b, m->shine};
+    uint32_t word = 0;
+    for (int i = 0; i < 4; i++)
+        word |= (uint32_t)(parts[i] * 255 + 0.5f) << 8 * i;
+    return word;
+}
+
 static void add_mesh(struct cartoon *c)
 {
     struct rg_instance *i = &c->base;
     const struct diorama *d = c->diorama;
     const struct rg_mesh *mesh = d->mesh;
-    uint32_t *normals = rg_mesh_pack_normals(mesh);
+    uint32_t *normals = rg_mesh_pack_normals(mesh), palette[1 + DIORAMA_MATERIALS] = {0};
+    for (int k = 0; k < d->material_count; k++)
+        palette[1 + k] = packed(&d->palette[k]);
     i->has_failed |= !normals;
     rg_add_buf(i, "positions", 3 * (int64_t)mesh->vertex_count, mesh->positions);
     rg_add_buf(i, "normals", mesh->vertex_count, normals);
     rg_add_buf(i, "indices", 3 * (int64_t)mesh->face_count, mesh->indices);
     rg_add_buf(i, "materials", mesh->face_count, d->materials);
-    rg_add_buf(i, "palette", (int64_t)d->material_count * CARTOON_MATERIAL_WORDS, d->palette);
+    rg_add_buf(i, "palette", d->material_count + 1, palette);
     free(normals);
 }
 
@@ -28,6 +40,8 @@ static void add_drawing(struct cartoon *c)
     struct rg_edges edges = {0};
     c->ink = rg_add_image(i, "ink", RG_D32F, outlined ? target->width : 1,
                           outlined ? target->height : 1);
+    const float none = 1;
+    i->has_failed |= !c->ink || !rg_image_clear(c->ink->image, &none);
     if (outlined) {
         i->has_failed |= !rg_mesh_edges(c->diorama->mesh, &edges);
         c->edge_count = edges.count;
