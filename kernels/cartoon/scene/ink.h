@@ -55,7 +55,7 @@ RG_FN cartoon_line cartoon_line_of(rg_ctx rg, rg_draw_state draw, cartoon_ink_pa
     float width_px = rg_min(cartoon_width_px(rg, p, i), CARTOON_WIDEST_PX) * (p.full_m / far);
     cartoon_line s;
     s.line = rg_line_seen(draw, a, b, CARTOON_WIDEST_PX);
-    s.line.alive = width_px > 0.0f ? s.line.alive : 0;
+    s.line.to = width_px > 0.0f ? s.line.to : -1.0f;
     s.reach = 0.5f * width_px + 0.5f;
     s.slack = 0.0f;
     return s;

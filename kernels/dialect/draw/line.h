@@ -14,9 +14,10 @@ RG_STRUCT(rg_line)
     float length_px;
     float depth;       // where it begins
     float depth_there; // where it ends
-    int alive;         // 0: nothing of it is seen
+    float from;        // which part of it is seen, 0 to 1: none where this is more than `to`
+    float to;
 };
-RG_STRUCT_SIZE(rg_line, 8)
+RG_STRUCT_SIZE(rg_line, 9)
 
 // The part of a line that planes have left, from 0 to 1.
 RG_STRUCT(rg_line_part)
@@ -63,7 +64,8 @@ RG_FN rg_line rg_line_seen(rg_draw_state draw, rg_corner a, rg_corner b, float b
     s.along_y = s.length_px > 1e-6f ? y * over_length : 0.0f;
     s.depth = (a.z + (b.z - a.z) * part.from) * from_w;
     s.depth_there = (a.z + (b.z - a.z) * part.to) * to_w;
-    s.alive = part.from <= part.to ? 1 : 0;
+    s.from = part.from;
+    s.to = part.to;
     return s;
 }
 
@@ -80,7 +82,7 @@ RG_FN rg_item rg_line_item(rg_draw_state draw, rg_line s, float reach)
 {
     float end = s.length_px + reach;
     rg_item t;
-    t.alive = s.alive;
+    t.alive = s.from <= s.to ? 1 : 0;
     t.a = rg_line_corner(draw, s, -reach, -reach);
     t.b = rg_line_corner(draw, s, -reach, reach);
     t.c = rg_line_corner(draw, s, end, reach);

@@ -9,7 +9,7 @@ static uint32_t packed(const struct diorama_material *m)
     const float parts[4] = {m->r, m->g, m->b, m->shine};
     uint32_t word = 0;
     for (int i = 0; i < 4; i++)
-        word |= (uint32_t)(parts[i] * 255 + 0.5f) << 8 * i;
+        word |= (uint32_t)((double)parts[i] * 255 + 0.5) << 8 * i;
     return word;
 }
 
