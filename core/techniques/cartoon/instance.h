@@ -62,6 +62,8 @@ bool cartoon_draw(struct rg_instance *instance);
 bool cartoon_scene_open(struct cartoon *c);
 // Finds how the scene is looked at in a frame. False, and one logged line, where it cannot be.
 bool cartoon_look(struct cartoon *c, int64_t frame);
+// Whether a place is inside of a solid of the mesh.
+bool cartoon_is_inside(const struct rg_mesh *mesh, const float eye[3]);
 // Draws the scene into the normal map and the depth, and in its style onto the target.
 bool cartoon_scene_draw(struct cartoon *c);
 

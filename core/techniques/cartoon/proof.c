@@ -3,12 +3,12 @@
 #include "core/techniques/proof.h"
 
 static const struct rg_pose poses[] = {
-    {.set = ""},
-    {.set = "scene=park2 style=gooch_outlines spin_deg=7 rise_deg=30"},
-    {.set = "scene=house1 style=hatching spin_deg=5"},
-    {.set = "scene=table style=outlines spin_deg=5 zoom=3"},
-    {.set = "scene=mesh style=cartoon zoom=2"},
-    {.set = NULL},
+    {"", 100, 10},
+    {"scene=park2 style=gooch_outlines spin_deg=7 rise_deg=30", 100, 10},
+    {"scene=house1 style=hatching spin_deg=5", 100, 10},
+    {"scene=table style=outlines spin_deg=5 zoom=2", 100, 10},
+    {"scene=mesh style=cartoon zoom=1.5", 10, 5},
+    {NULL, 0, 0},
 };
 
 static const struct rg_law laws[] = {

@@ -1,6 +1,7 @@
 // What the scene is drawn from and into.
 #include <stdlib.h>
 
+#include "core/base/log.h"
 #include "core/techniques/cartoon/instance.h"
 
 // A material in a word: red, green, blue and how much it shines, from the lowest byte on.
@@ -74,5 +75,9 @@ bool cartoon_scene_open(struct cartoon *c)
     c->depth_map = rg_add_image(&c->base, "depth_map", RG_D32F, target->width, target->height);
     add_drawing(c);
     tell(c);
-    return cartoon_look(c, 0);
+    if (!cartoon_look(c, 0))
+        return false;
+    return !cartoon_is_inside(c->diorama->mesh, c->view.camera.position) ||
+           rg_error("camera: its eye is inside of something in the scene; lower zoom, or change "
+                    "turn_deg");
 }
