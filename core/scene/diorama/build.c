@@ -80,6 +80,7 @@ void builder_free(struct builder *b)
     free(b->corners);
     free(b->normals);
     free(b->materials);
+    free(b->thin);
     *b = (struct builder){0};
 }
 
@@ -90,7 +91,8 @@ static bool grow(struct builder *b)
         b->has_failed ||
         !rg_array_fit(&b->corners, &b->face_room, faces, 9 * sizeof(float), b->name) ||
         !rg_array_fit(&b->normals, &b->normal_room, faces, 9 * sizeof(float), b->name) ||
-        !rg_array_fit(&b->materials, &b->material_room, faces, sizeof(uint32_t), b->name);
+        !rg_array_fit(&b->materials, &b->material_room, faces, sizeof(uint32_t), b->name) ||
+        !rg_array_fit(&b->thin, &b->thin_room, faces, sizeof(bool), b->name);
     return !b->has_failed;
 }
 
@@ -104,6 +106,7 @@ void builder_face(struct builder *b, point p0, point p1, point p2, enum paint pa
         const float xyz[3] = {(float)p.x, (float)p.y, (float)p.z};
         memcpy(b->corners + 9 * (size_t)b->face_count + 3 * (size_t)k, xyz, sizeof(xyz));
     }
+    b->thin[b->face_count] = b->is_thin;
     b->materials[b->face_count++] = (uint32_t)paint;
 }
 
@@ -185,6 +188,31 @@ void builder_end(struct builder *b, double crease_deg)
             smooth(b, corners + i, end - i, k - i, cos_crease);
     }
     free(corners);
+}
+
+// Copies the faces that are thin, or those that are not, behind those of `to`.
+static void copy_faces(const struct builder *from, bool thin, struct builder *to)
+{
+    for (int i = 0; i < from->face_count; i++) {
+        const size_t face = 9 * (size_t)i, place = 9 * (size_t)to->face_count;
+        if (from->thin[i] != thin || !grow(to))
+            continue;
+        memcpy(to->corners + place, from->corners + face, 9 * sizeof(float));
+        memcpy(to->normals + place, from->normals + face, 9 * sizeof(float));
+        to->thin[to->face_count] = thin;
+        to->materials[to->face_count++] = from->materials[i];
+    }
+}
+
+int builder_sort(struct builder *b)
+{
+    struct builder sorted = {.name = b->name, .has_failed = b->has_failed};
+    copy_faces(b, false, &sorted);
+    const int solid = sorted.face_count;
+    copy_faces(b, true, &sorted);
+    builder_free(b);
+    *b = sorted;
+    return solid;
 }
 
 struct rg_mesh *builder_mesh(const struct builder *b)

@@ -62,15 +62,19 @@ struct frame {
 struct builder {
     const char *name;
     struct frame frame;
+    bool is_thin;          // what is added can be seen from both sides
     int face_count, first; // of the part that is being made
-    int64_t face_room, normal_room, material_room;
+    int64_t face_room, normal_room, material_room, thin_room;
     float *corners, *normals; // nine numbers a face
     uint32_t *materials;      // of a face
+    bool *thin;               // a face's: `is_thin` when it was added
     bool has_failed;          // no memory: one line is logged, and what follows is left out
 };
 
 void builder_begin(struct builder *b, const char *name);
 void builder_free(struct builder *b);
+// Puts the faces that are seen from one side alone first, and returns how many they are.
+int builder_sort(struct builder *b);
 // What has been built as a mesh: its vertices are joined. NULL, and one logged line, on failure.
 struct rg_mesh *builder_mesh(const struct builder *b);
 

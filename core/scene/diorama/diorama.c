@@ -77,6 +77,7 @@ static struct diorama *take(struct builder *b, const struct scene *scene)
         d->sky[i] = scene->sky[i];
         d->low_sky[i] = scene->low_sky[i];
     }
+    d->solid_faces = builder_sort(b);
     d->mesh = builder_mesh(b);
     d->materials = b->materials;
     b->materials = NULL;

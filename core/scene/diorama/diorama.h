@@ -26,6 +26,7 @@ struct diorama_view {
 struct diorama {
     struct rg_mesh *mesh;
     uint32_t *materials; // of each face
+    int solid_faces;     // so many faces from the first on are seen from their outer side alone
     int material_count;
     struct diorama_material palette[DIORAMA_MATERIALS];
     struct diorama_view view;

@@ -86,10 +86,12 @@ void blade(struct builder *b, point at, double height_m, double turn_deg, int fa
         points[i] =
             (point){at.x + out * s + aside * c, at.y + height_m * up, at.z + out * c - aside * s};
     }
+    b->is_thin = true;
     for (int i = 0; i < faces; i++) {
         const int odd = i % 2;
         builder_face(b, points[i + odd], points[i + 1 - odd], points[i + 2], paint);
     }
+    b->is_thin = false;
     builder_end(b, 180);
 }
 

@@ -31,7 +31,9 @@ static void cloth(struct builder *b)
             points[i * AROUND + j] = (point){radius * sine(turn), y, radius * cosine(turn)};
         }
     }
+    b->is_thin = true;
     skin(b, points, RINGS, AROUND, NULL, &(point){0, top_m + 0.006, 0}, PAINT_CREAM);
+    b->is_thin = false;
     builder_end(b, 180);
     struct profile band[13];
     for (int i = 0; i <= 12; i++)
@@ -103,7 +105,9 @@ static void lamp(struct builder *b, point at)
     const struct profile shade[] = {{0.165, 0.27}, {0.17, 0.275}, {0.16, 0.30}, {0.12, 0.38},
                                     {0.08, 0.46},  {0.06, 0.475}, {0.05, 0.48}, {0, 0.482}};
     lathe(b, at, foot, 10, 36, 180, PAINT_TEAL);
+    b->is_thin = true;
     lathe(b, at, shade, 8, 48, 180, PAINT_LIGHT);
+    b->is_thin = false;
     ball(b, (point){at.x, at.y + 0.33, at.z}, (point){0.045, 0.06, 0.045}, 8, 14, 0, 1,
          PAINT_YELLOW);
     ball(b, (point){at.x, at.y + 0.495, at.z}, (point){0.014, 0.02, 0.014}, 6, 10, 0, 1,

@@ -12,7 +12,8 @@
 #include "kernels/cartoon/scene/shade_params.h"
 
 enum cartoon_stage {
-    CARTOON_RUN_FACES,
+    CARTOON_RUN_SOLIDS,
+    CARTOON_RUN_THIN,
     CARTOON_RUN_INK,
     // One of these draws the picture.
     CARTOON_RUN_GOOCH,
@@ -40,7 +41,7 @@ struct cartoon {
     struct cartoon_view view;
     struct rg_asset *normal_map, *depth_map, *ink;
     int edge_count;
-    cartoon_faces_params faces;
+    cartoon_faces_params solids, thin; // solids are seen from outside alone
     cartoon_ink_params outlines;
     cartoon_shade_params shade;
 };

@@ -22,15 +22,15 @@ RG_STRUCT(cartoon_face)
 
 RG_DRAW_ITEM(cartoon_faces)
 {
-    return mesh_item(rg, p.to_clip, i);
+    return mesh_item(rg, p.to_clip, p.first + i);
 }
 
 RG_DRAW_RECORD(cartoon_faces)
 {
     cartoon_face r;
-    r.mesh = mesh_record_of(rg, draw, p.to_clip, i);
-    r.side = rg_turn(mesh_item(rg, p.to_clip, i)) > 0.0f ? -1.0f : 1.0f;
-    r.material = rg_to_float(rg_to_int(materials_at(rg, i)) + 1);
+    r.mesh = mesh_record_of(rg, draw, p.to_clip, p.first + i);
+    r.side = rg_turn(mesh_item(rg, p.to_clip, p.first + i)) > 0.0f ? -1.0f : 1.0f;
+    r.material = rg_to_float(rg_to_int(materials_at(rg, p.first + i)) + 1);
     return r;
 }
 

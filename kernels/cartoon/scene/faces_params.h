@@ -7,7 +7,8 @@
 RG_STRUCT(cartoon_faces_params)
 {
     m4 to_clip; // from the world
+    int first;  // the face that is item 0
 };
-RG_STRUCT_SIZE(cartoon_faces_params, 16)
+RG_STRUCT_SIZE(cartoon_faces_params, 17)
 
 #endif

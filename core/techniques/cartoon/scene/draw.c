@@ -1,14 +1,21 @@
 // The scene of a frame: its normal map and depth, then its picture.
 #include "core/techniques/cartoon/instance.h"
 
+// None of a stage's faces may be asked for.
+static bool draw_some(struct cartoon *c, enum cartoon_stage stage, int faces)
+{
+    const struct rg_draw draw = rg_stage_draw(&c->base, stage);
+    return !faces || rg_stage_onto(&c->base, stage, faces, &draw);
+}
+
 static bool draw_faces(struct cartoon *c)
 {
     static const uint16_t nothing[4] = {0};
     const float farthest = 1;
-    const struct rg_draw draw = rg_stage_draw(&c->base, CARTOON_RUN_FACES);
+    const int solid = c->diorama->solid_faces, all = c->diorama->mesh->face_count;
     return rg_image_clear(c->normal_map->image, nothing) &&
            rg_image_clear(c->depth_map->image, &farthest) &&
-           rg_stage_onto(&c->base, CARTOON_RUN_FACES, c->diorama->mesh->face_count, &draw);
+           draw_some(c, CARTOON_RUN_SOLIDS, solid) && draw_some(c, CARTOON_RUN_THIN, all - solid);
 }
 
 static bool draw_outlines(struct cartoon *c)

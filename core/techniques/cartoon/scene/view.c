@@ -134,7 +134,8 @@ bool cartoon_look(struct cartoon *c, int64_t frame)
     direction_of(c->diorama->view.turn_deg + s->light_turn_deg, s->light_rise_deg, to_light);
     for (int i = 0; i < 3; i++)
         v->to_light[i] = (float)to_light[i];
-    c->faces = (cartoon_faces_params){v->to_clip};
+    c->solids = (cartoon_faces_params){v->to_clip, 0};
+    c->thin = (cartoon_faces_params){v->to_clip, c->diorama->solid_faces};
     c->outlines = outlines_of(c);
     c->shade = shade_of(c);
     return true;

@@ -10,8 +10,11 @@ ROWS = [Row(*row) for row in (
     # maps
     ("sheets have one side", "faces.h", "> 0.0f ? -1.0f : 1.0f", "> 0.0f ? 1.0f : 1.0f", STYLES),
     ("normals of any length", "faces.h", "r.side / rg_sqrt(rg_max(v3_dot(n, n), 1e-12f))", "r.side", STYLES),
-    ("the next material", "faces.h", "rg_to_int(materials_at(rg, i)) + 1", "rg_to_int(materials_at(rg, i)) + 2", STYLES),
-    ("every face's first material", "faces.h", "materials_at(rg, i)", "materials_at(rg, 0)", STYLES),
+    ("the next material", "faces.h", "rg_to_int(materials_at(rg, p.first + i)) + 1",
+     "rg_to_int(materials_at(rg, p.first + i)) + 2", STYLES),
+    ("every face's first material", "faces.h", "materials_at(rg, p.first + i)", "materials_at(rg, 0)", STYLES),
+    ("thin faces are the first ones", "faces.h", "return mesh_item(rg, p.to_clip, p.first + i);",
+     "return mesh_item(rg, p.to_clip, i);", STYLES),
     # what styles see
     ("red and green swapped", "seen.h", "v3_make(cartoon_byte(material), cartoon_byte(material >> 8),",
      "v3_make(cartoon_byte(material >> 8), cartoon_byte(material),", STYLES),

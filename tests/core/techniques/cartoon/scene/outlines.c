@@ -100,7 +100,7 @@ static void draw_depth(struct rg_device *device, const struct rg_mesh *mesh, m4 
                               buffer_of(device, materials, mesh->face_count)};
     struct rg_image *colour = image_of(device, RG_RGBA16F);
     struct rg_pass *pass = rg_pass_create(device, "cartoon_faces");
-    const cartoon_faces_params params = {to_clip};
+    const cartoon_faces_params params = {to_clip, 0};
     const struct rg_draw draw = {.colour = colour, .depth = depth, .depth_mode = RG_DEPTH_WRITE};
     struct rg_run run = {.params = &params, .extent = {mesh->face_count, 1, 1}, .draw = &draw};
     for (int i = 0; i < 4; i++)
