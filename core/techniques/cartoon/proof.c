@@ -22,8 +22,8 @@ static const struct rg_mutant mutants[] = {
     {"lines 2 % thicker", "outline_px", 1.02, 0},
     {"creases 2 % thicker", "inner_px", 1.02, 0},
     {"creases from 50 degrees on", "crease_deg", 1, 10},
-    {"shadows 1 % lighter", "shadow_tone", 1.01, 0},
-    {"full light 1 % later", "lit_from", 1.01, 0},
+    {"shadows 5 % lighter", "shadow_tone", 1.05, 0},
+    {"full light 5 % later", "lit_from", 1.05, 0},
     {NULL, NULL, 0, 0},
 };
 
