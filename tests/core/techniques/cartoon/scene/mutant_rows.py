@@ -68,7 +68,7 @@ ROWS = [Row(*row) for row in (
     ("a line's own pixel hides it", "ink.h",
      "return rg_max(here, rg_max(rg_max(left_of, right_of), rg_max(above, below)));", "return here;", OUTLINES),
     ("ten times the slack", "ink.h", "#define CARTOON_MOST_SLACK  0.005f", "#define CARTOON_MOST_SLACK  0.5f", OUTLINES),
-    ("slack everywhere", "ink.h", "#define CARTOON_LEAST_SLACK 0.0005f", "#define CARTOON_LEAST_SLACK 0.2f", OUTLINES),
+    ("as much slack on what faces the viewer", "ink.h", "#define CARTOON_LEAST_SLACK 0.0005f", "#define CARTOON_LEAST_SLACK 0.2f", OUTLINES),
     ("the depth where a line begins", "ink.h", "(s.depth_there - s.depth) * along", "(s.depth_there - s.depth) * 0.0f", OUTLINES),
     ("lines without ends", "ink.h", "rg_clamp(x * s.along_x + y * s.along_y, 0.0f, s.length_px)",
      "(x * s.along_x + y * s.along_y)", OUTLINES),

@@ -342,6 +342,19 @@ static void a_wall_hides_what_is_behind(void **state)
     free(s);
 }
 
+// A wall that faces the viewer hides what is a quarter of a hundredth of its distance behind it.
+static void a_wall_hides_what_is_close_behind(void **state)
+{
+    const double eye[3] = {0, 0, 5};
+    struct shape *s = shape_new();
+    add_sheet(s, -0.5, 0.5, -0.5, 0.5, -0.012);
+    add_sheet(s, -1, 1, -1, 1, 0);
+    struct drawing d = outline(*state, s, eye, origin, both);
+    assert_int_equal(count_drawn(&d, 1), 4);
+    drawing_free(&d);
+    free(s);
+}
+
 // A line ends where it goes behind a wall, within a pixel.
 static void a_line_ends_behind_a_wall(void **state)
 {
@@ -398,6 +411,20 @@ static void a_thin_board_hides_its_back(void **state)
     free(s);
 }
 
+// Beyond a corner there is a quarter of a disc as wide as the line.
+static void ends_are_round(void **state)
+{
+    const double eye[3] = {0, 0, 4}, focal = SIZE / 2.0 / tan(ANGLE_DEG / 360 * M_PI);
+    const double side = 60 * 4 / focal; // in the picture 60 pixels
+    struct shape *s = shape_new();
+    add_sheet(s, -side, side, -side, side, 0);
+    struct drawing d = outline(*state, s, eye, origin, (struct pen){8, 0, 40, 1000});
+    const double due = M_PI / 4 * (4 * 4 + 1 / 12.0);
+    assert_true(fabs(ink_of_rect(&d, 180, 180, SIZE, SIZE) - due) < 0.5);
+    drawing_free(&d);
+    free(s);
+}
+
 // Lines that cross are as dark as one: no pixel has more ink than its darkest line.
 static void crossings_are_no_darker(void **state)
 {
@@ -425,9 +452,11 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_ball_has_a_round_contour),
         cmocka_unit_test(a_sheet_has_a_boundary),
         cmocka_unit_test(a_wall_hides_what_is_behind),
+        cmocka_unit_test(a_wall_hides_what_is_close_behind),
         cmocka_unit_test(a_line_ends_behind_a_wall),
         cmocka_unit_test(a_crease_in_a_corner_is_whole),
         cmocka_unit_test(a_thin_board_hides_its_back),
+        cmocka_unit_test(ends_are_round),
         cmocka_unit_test(crossings_are_no_darker),
     };
     return rig_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
