@@ -5,13 +5,15 @@
 
 bool cartoon_step(struct rg_instance *instance)
 {
+    struct cartoon *c = (struct cartoon *)instance;
     instance->frame++;
-    return cartoon_look((struct cartoon *)instance, instance->frame);
+    return cartoon_look(c, instance->frame) && cartoon_scene_find(c) && cartoon_rain_step(&c->rain);
 }
 
 bool cartoon_draw(struct rg_instance *instance)
 {
-    return cartoon_scene_draw((struct cartoon *)instance);
+    struct cartoon *c = (struct cartoon *)instance;
+    return cartoon_scene_draw(c) && cartoon_rain_draw(&c->rain);
 }
 
 const struct rg_technique rg_technique_cartoon = {

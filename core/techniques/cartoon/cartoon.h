@@ -3,7 +3,7 @@
 #ifndef RG_CORE_TECHNIQUES_CARTOON_CARTOON_H
 #define RG_CORE_TECHNIQUES_CARTOON_CARTOON_H
 
-#include "core/techniques/params.h"
+#include "core/techniques/cartoon/rain/settings.h"
 
 enum { CARTOON_MESH = 7 }; // of scenes: a user's mesh; those before it are enum diorama_scene
 enum cartoon_style {
@@ -15,6 +15,9 @@ enum cartoon_style {
     CARTOON_HATCHING,
     CARTOON_STYLES
 };
+
+// When the scene is drawn anew.
+enum cartoon_redraw { CARTOON_ALWAYS, CARTOON_MOVED };
 
 struct cartoon_settings {
     int seed;
@@ -33,6 +36,8 @@ struct cartoon_settings {
     double shadow_tone, middle_tone, middle_from, lit_from, tone_softness;
     // Hatching.
     double hatch_px, hatch_ambient, hatch_wash;
+    int redraw; // enum cartoon_redraw
+    struct cartoon_rain_settings rain;
 };
 
 extern const struct rg_param_table cartoon_param_table;

@@ -6,6 +6,7 @@
 #include "core/scene/diorama/diorama.h"
 #include "core/scene/mesh/edges.h"
 #include "core/techniques/cartoon/cartoon.h"
+#include "core/techniques/cartoon/rain/rain.h"
 #include "core/techniques/technique.h"
 #include "kernels/cartoon/scene/faces_params.h"
 #include "kernels/cartoon/scene/ink_params.h"
@@ -44,6 +45,9 @@ struct cartoon {
     cartoon_faces_params solids, thin; // solids are seen from outside alone
     cartoon_ink_params outlines;
     cartoon_shade_params shade;
+    m4 found_by; // the view whose normal map, depth and ink are there
+    int64_t found_in; // one more than the frame that drew them; 0: none did
+    struct cartoon_rain rain;
 };
 
 extern const struct rg_proof cartoon_proof;
@@ -66,6 +70,9 @@ bool cartoon_look(struct cartoon *c, int64_t frame);
 // Whether a place is inside of a solid of the mesh.
 bool cartoon_is_inside(const struct rg_mesh *mesh, const float eye[3]);
 // Draws the scene into the normal map and the depth, and in its style onto the target.
+// Draws the scene into the normal map, the depth and the ink, unless what the camera sees is there.
+bool cartoon_scene_find(struct cartoon *c);
+// The same, and draws it in its style onto the target.
 bool cartoon_scene_draw(struct cartoon *c);
 
 // Adds the image `strokes`: RGBA8, CARTOON_LEVELS levels, tones 0 to 3 in the channels of its first

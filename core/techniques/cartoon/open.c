@@ -50,10 +50,16 @@ static const struct rg_stage stages[CARTOON_STAGES] = {
 bool cartoon_open(struct rg_instance *instance)
 {
     struct cartoon *c = (struct cartoon *)instance;
-    return cartoon_scene_open(c) && rg_open_stages(instance, stages, CARTOON_STAGES, c, NULL) >= 0;
+    return cartoon_scene_open(c) &&
+           rg_open_stages(instance, stages, CARTOON_STAGES, c, NULL) >= 0 &&
+           cartoon_rain_open(
+               &c->rain, instance, &c->settings.rain, c->settings.seed,
+               &(struct cartoon_rain_scene){c->diorama, &c->view.camera, &c->view.to_clip});
 }
 
 void cartoon_close(struct rg_instance *instance)
 {
-    diorama_destroy(((struct cartoon *)instance)->diorama);
+    struct cartoon *c = (struct cartoon *)instance;
+    cartoon_rain_close(&c->rain);
+    diorama_destroy(c->diorama);
 }

@@ -38,7 +38,7 @@ static const struct rg_contrast contrasts[] = {
 
 const struct rg_proof cartoon_proof = {
     .poses = poses,
-    .dry = "zoom=0.2",
+    .dry = "drops_s=0",
     .laws = laws,
     .mutants = mutants,
     .contrasts = contrasts,

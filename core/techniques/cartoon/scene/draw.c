@@ -1,4 +1,6 @@
 // The scene of a frame: its normal map and depth, then its picture.
+#include <string.h>
+
 #include "core/techniques/cartoon/instance.h"
 
 // None of a stage's faces may be asked for.
@@ -27,9 +29,26 @@ static bool draw_outlines(struct cartoon *c)
             rg_stage_onto(&c->base, CARTOON_RUN_INK, c->edge_count, &draw));
 }
 
+// Whether what the camera sees is there: it was drawn in this frame, or in one that saw the same.
+static bool is_found(const struct cartoon *c)
+{
+    const bool is_same = !memcmp(&c->found_by, &c->view.to_clip, sizeof(c->found_by));
+    return c->found_in && is_same &&
+           (c->settings.redraw == CARTOON_MOVED || c->found_in == c->base.frame + 1);
+}
+
+bool cartoon_scene_find(struct cartoon *c)
+{
+    if (is_found(c))
+        return true;
+    c->found_in = c->base.frame + 1;
+    c->found_by = c->view.to_clip;
+    return draw_faces(c) && draw_outlines(c);
+}
+
 bool cartoon_scene_draw(struct cartoon *c)
 {
-    bool ok = draw_faces(c) && draw_outlines(c);
+    bool ok = cartoon_scene_find(c);
     for (int style = CARTOON_RUN_GOOCH; ok && style <= CARTOON_RUN_HATCHING; style++)
         ok = rg_stage(&c->base, style);
     return ok;

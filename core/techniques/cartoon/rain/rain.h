@@ -1,0 +1,74 @@
+// Cartoon's rain: both subsystems of particles, their collisions and their pictures.
+#ifndef RG_CORE_TECHNIQUES_CARTOON_RAIN_RAIN_H
+#define RG_CORE_TECHNIQUES_CARTOON_RAIN_RAIN_H
+
+#include "core/device/scan.h"
+#include "core/scene/camera.h"
+#include "core/scene/diorama/diorama.h"
+#include "core/techniques/cartoon/rain/settings.h"
+#include "core/techniques/cartoon/rain/wind.h"
+#include "core/techniques/technique.h"
+#include "kernels/cartoon/rain/params.h"
+
+enum cartoon_rain_stage {
+    CARTOON_RAIN_FREE,
+    CARTOON_RAIN_LIST,
+    CARTOON_RAIN_RELEASE,
+    CARTOON_RAIN_MOVE,
+    CARTOON_RAIN_AGE,
+    CARTOON_RAIN_COUNT,
+    CARTOON_RAIN_SPHERES,
+    CARTOON_RAIN_SUM,
+    CARTOON_RAIN_COLLIDE,
+    CARTOON_RAIN_SPLASH,
+    // pictures
+    CARTOON_RAIN_DROPS,
+    CARTOON_RAIN_SPLASHES,
+    CARTOON_RAIN_STAGES
+};
+
+enum cartoon_rain_counter { CARTOON_DROPS_ASKED, CARTOON_RAIN_COUNTERS };
+
+// What it rains on, and who looks: the technique keeps it, as it is in the present frame.
+struct cartoon_rain_scene {
+    const struct diorama *diorama;
+    const struct rg_camera *camera;
+    const m4 *to_clip; // from the world
+};
+
+struct cartoon_rain {
+    struct rg_instance *instance;
+    const struct cartoon_rain_settings *settings;
+    struct cartoon_rain_scene scene;
+    cartoon_rain_params params;
+    struct cartoon_wind_script script;
+    double fall_m; // from where drops start to the ground
+    int first_stage;
+    struct rg_scan *scan;
+    struct rg_asset *raindrops, *sprays, *tally, *flags, *before, *hits, *hits_before;
+};
+
+// Adds the rain's assets and stages to an instance that has the assets normal_map and depth_map.
+// Settings and scene stay where they are for its life. False, with one logged line, on failure.
+bool cartoon_rain_open(struct cartoon_rain *r, struct rg_instance *instance,
+                       const struct cartoon_rain_settings *settings, int seed,
+                       const struct cartoon_rain_scene *scene);
+void cartoon_rain_close(struct cartoon_rain *r);
+// A step of the rain, in the scene's depth and normal map as the camera of the frame sees them.
+bool cartoon_rain_step(struct cartoon_rain *r);
+// Draws splashes and drops over the target.
+bool cartoon_rain_draw(struct cartoon_rain *r);
+
+// For the files of this folder.
+
+// The parameters that never change. False, with one logged line, where settings do not go together.
+bool cartoon_rain_fill(struct cartoon_rain *r, int seed);
+// Those of the present frame: release, wind, view.
+void cartoon_rain_refill(struct cartoon_rain *r);
+// Drops released in the steps before this one: a whole number of them each, with no remainder lost.
+int64_t cartoon_released_before(const struct cartoon_rain_settings *settings, int64_t step);
+// Adds the image `rain_textures` and the buffer `boxes` (kernels/cartoon/rain/draw/sprite.h).
+// Returns its levels.
+int cartoon_add_textures(struct rg_instance *instance);
+
+#endif

@@ -1,0 +1,94 @@
+// The rain's textures: an image of a layer each, with levels, and what of them is not transparent.
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/base/alloc.h"
+#include "core/techniques/cartoon/rain/rain.h"
+#include "core/techniques/cartoon/rain/strokes.h"
+#include "kernels/dialect/image/format.h"
+
+enum {
+    SIDE_PX = 64,
+    LEVELS = 7,
+    LAYERS = CARTOON_DROP_TEXTURES + CARTOON_PATTERNS * CARTOON_FRAMES
+};
+
+struct box {
+    float left, top, right, bottom;
+};
+
+static void paint(int layer, rgba *texels)
+{
+    struct strokes s;
+    const int splash = layer - CARTOON_DROP_TEXTURES;
+    if (splash < 0)
+        strokes_of_drop(&s, layer);
+    else
+        strokes_of_splash(&s, splash / CARTOON_FRAMES, splash % CARTOON_FRAMES);
+    strokes_paint(&s, SIDE_PX, texels);
+}
+
+// Half as large, each texel the mean of four.
+static void shrink(rgba *texels, int px)
+{
+    for (int i = 0; i < px * px; i++) {
+        const rgba *a = texels + i / px * 2 * 2 * px + i % px * 2, *b = a + 2 * px;
+        texels[i] = rg_rgba(
+            (a[0].r + a[1].r + b[0].r + b[1].r) / 4, (a[0].g + a[1].g + b[0].g + b[1].g) / 4,
+            (a[0].b + a[1].b + b[0].b + b[1].b) / 4, (a[0].a + a[1].a + b[0].a + b[1].a) / 4);
+    }
+}
+
+// Texels reach as far as the middles of their neighbours, where they are filtered.
+static struct box box_of(const uint32_t *words, int px)
+{
+    int left = px, right = -1, top = px, bottom = -1;
+    for (int i = 0; i < px * px; i++) {
+        if (!(words[i] >> 24))
+            continue;
+        left = i % px < left ? i % px : left;
+        right = i % px > right ? i % px : right;
+        top = i / px < top ? i / px : top;
+        bottom = i / px;
+    }
+    if (right < 0)
+        return (struct box){0};
+    const double over = 1.0 / px;
+    return (struct box){(float)fmax((left - 0.5) * over, 0), (float)fmax((top - 0.5) * over, 0),
+                        (float)fmin((right + 1.5) * over, 1),
+                        (float)fmin((bottom + 1.5) * over, 1)};
+}
+
+static bool write_layer(struct rg_image *image, int layer, struct box *boxes)
+{
+    rgba texels[SIDE_PX * SIDE_PX];
+    uint32_t words[SIDE_PX * SIDE_PX];
+    bool ok = true;
+    paint(layer, texels);
+    for (int level = 0; ok && level < LEVELS; level++) {
+        const int px = SIDE_PX >> level;
+        if (level)
+            shrink(texels, px);
+        for (int i = 0; i < px * px; i++)
+            words[i] = rg_unorm8(texels[i].r) | rg_unorm8(texels[i].g) << 8 |
+                       rg_unorm8(texels[i].b) << 16 | rg_unorm8(texels[i].a) << 24;
+        boxes[layer * LEVELS + level] = box_of(words, px);
+        ok = rg_image_write(image, layer, level, words);
+    }
+    return ok;
+}
+
+int cartoon_add_textures(struct rg_instance *instance)
+{
+    struct box boxes[LAYERS * LEVELS];
+    const struct rg_image_desc desc = {RG_RGBA8, SIDE_PX, SIDE_PX, LAYERS, LEVELS};
+    const struct rg_asset *asset = rg_add_image_of(instance, "rain_textures", &desc);
+    bool ok = asset;
+    for (int layer = 0; ok && layer < LAYERS; layer++)
+        ok = write_layer(asset->image, layer, boxes);
+    instance->has_failed |= !ok;
+    rg_add_buf(instance, "boxes", LAYERS * LEVELS * 4, boxes);
+    if (ok)
+        rg_tell_texture(instance, "rain", asset->image, 0);
+    return LEVELS;
+}

@@ -1,0 +1,127 @@
+// Whether a drop has hit, where on its way in this step, and what.
+//
+// Faithful to the paper, a drop has hit where fewer samples of its sphere are seen than a threshold
+// (`any`, its older extension: where none is). That is also so behind things. Correct is that its
+// middle passes the surface that is seen, and is not far behind it.
+#include "kernels/cartoon/rain/params.h"
+#include "kernels/dialect/math.h"
+
+#define RG_PARAMS cartoon_rain_params
+#define RG_SLOTS                                                                                   \
+    IN(1, uint, before)                                                                            \
+    IN(2, uint, living)                                                                            \
+    INOUT(3, cartoon_raindrop, raindrops)                                                          \
+    IMAGE(4, D32F, depth_map)                                                                      \
+    IMAGE(5, RGBA16F, normal_map)                                                                  \
+    IN(6, uint, counts)                                                                            \
+    OUT(7, uint, hits) OUT(8, cartoon_surface, surfaces) ATOMIC(9, uint, tally)
+#include "kernels/dialect/slots/slots.h"
+
+#include "kernels/cartoon/rain/hit/samples.h"
+#include "kernels/cartoon/rain/hit/surface.h"
+#include "kernels/cartoon/rain/life/lists.h"
+
+#define CARTOON_HALVINGS 24 // at most
+
+RG_FN int cartoon_least(cartoon_rain_params p)
+{
+    return p.collide == CARTOON_COLLIDE_ANY ? 1 : p.least_samples;
+}
+
+// The test at a place of the drop's way.
+RG_FN bool cartoon_collides(rg_ctx rg, cartoon_rain_params p, v3 at)
+{
+    cartoon_spot s = cartoon_spot_of(p, at);
+    if (s.inside == 0)
+        return false;
+    if (p.collide == CARTOON_COLLIDE_CORRECT)
+        return cartoon_behind_m(rg, p, s) > 0.0f;
+    return cartoon_samples(rg, p, s) < cartoon_least(p);
+}
+
+// The same where the drop is now, from the queries' answers where it is theirs to say.
+RG_FN bool cartoon_may_hit(rg_ctx rg, cartoon_rain_params p, int nth, v3 old, v3 now)
+{
+    if (cartoon_spot_of(p, now).inside == 0)
+        return false;
+    if (p.collide != CARTOON_COLLIDE_CORRECT)
+        return rg_to_int(counts_at(rg, nth)) < cartoon_least(p);
+    return cartoon_collides(rg, p, now) && cartoon_spot_of(p, old).inside != 0 &&
+           !cartoon_collides(rg, p, old);
+}
+
+RG_FN v3 cartoon_middle(v3 a, v3 b)
+{
+    return v3_scale(v3_add(a, b), 0.5f);
+}
+
+// Bisection between where the drop was and where it is, until the two ends are as near as the
+// precision asks: the paper's step (c) forgets where it began, so this takes the half in which the
+// test changes.
+RG_FN v3 cartoon_hit_between(rg_ctx rg, cartoon_rain_params p, v3 old, v3 now)
+{
+    v3 before_it = old;
+    v3 behind_it = now;
+    v3 way = v3_add(now, v3_scale(old, -1.0f));
+    float apart_m = rg_sqrt(v3_dot(way, way));
+    for (int i = 0; i < CARTOON_HALVINGS; i++) {
+        if (apart_m <= p.precision_m)
+            break;
+        v3 middle = cartoon_middle(before_it, behind_it);
+        if (cartoon_collides(rg, p, middle))
+            behind_it = middle;
+        else
+            before_it = middle;
+        apart_m = apart_m * 0.5f;
+    }
+    return behind_it;
+}
+
+// What passes behind the rim of something nearer has not hit it.
+RG_FN bool cartoon_is_near(rg_ctx rg, cartoon_rain_params p, v3 at)
+{
+    return p.collide != CARTOON_COLLIDE_CORRECT ||
+           cartoon_behind_m(rg, p, cartoon_spot_of(p, at)) <= p.thickness_m;
+}
+
+// The normal from the normal map (section 4), and its angle with the way that the drop came.
+RG_FN cartoon_surface cartoon_surface_at(rg_ctx rg, cartoon_rain_params p, v3 at, v3 velocity)
+{
+    cartoon_spot s = cartoon_spot_of(p, at);
+    int px = rg_iclamp(rg_to_int(rg_floor(s.x_px)), 0, p.width - 1);
+    int py = rg_iclamp(rg_to_int(rg_floor(s.y_px)), 0, p.height - 1);
+    rgba texel = normal_map_texel(rg, px, py, 0, 0);
+    bool is_sky = texel.a == 0.0f;
+    cartoon_surface f;
+    f.nx = is_sky ? 0.0f : texel.r;
+    f.ny = is_sky ? 1.0f : texel.g;
+    f.nz = is_sky ? 0.0f : texel.b;
+    v3 n = v3_make(f.nx, f.ny, f.nz);
+    float lengths = rg_sqrt(rg_max(v3_dot(velocity, velocity) * v3_dot(n, n), 1e-12f));
+    f.angle = rg_acos(rg_clamp(-v3_dot(velocity, n) / lengths, -1.0f, 1.0f));
+    return f;
+}
+
+RG_GRID_KERNEL(cartoon_collide)
+{
+    hits_put(rg, x, 0u);
+    if (x >= cartoon_active_drops(rg, p))
+        return;
+    int slot = rg_to_int(living_at(rg, x));
+    cartoon_raindrop d = raindrops_at(rg, slot);
+    v3 now = v3_make(d.x, d.y, d.z);
+    v3 old = v3_make(d.from_x, d.from_y, d.from_z);
+    if (d.state != CARTOON_DROP || !cartoon_may_hit(rg, p, x, old, now))
+        return;
+    v3 at = cartoon_hit_between(rg, p, old, now);
+    if (!cartoon_is_near(rg, p, at))
+        return;
+    d.x = at.x;
+    d.y = at.y;
+    d.z = at.z;
+    d.state = CARTOON_COLLISION;
+    raindrops_put(rg, slot, d);
+    surfaces_put(rg, x, cartoon_surface_at(rg, p, at, v3_make(d.vx, d.vy, d.vz)));
+    hits_put(rg, x, 1u);
+    tally_add(rg, CARTOON_HITS, 1u);
+}

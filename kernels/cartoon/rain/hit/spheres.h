@@ -1,0 +1,79 @@
+// A query a drop, as the paper asks it: the drop's bounding sphere is rasterised, tessellated, and
+// its visible samples are counted. The paper gives no tessellation; ours has CARTOON_SLICES by
+// CARTOON_STACKS quads, and leaves out those that are turned away, so that no pixel counts twice.
+#include "kernels/cartoon/rain/params.h"
+#include "kernels/dialect/draw/triangle.h"
+
+#define RG_PARAMS cartoon_rain_params
+#define RG_SLOTS                                                                                   \
+    IN(1, uint, before) IN(2, uint, living) IN(3, cartoon_raindrop, raindrops) IN(4, float, sphere)
+#define RG_CORNERS 4
+
+RG_STRUCT(cartoon_facet)
+{
+    rg_planes planes;
+};
+#define RG_RECORD cartoon_facet
+#include "kernels/dialect/draw/draw.h"
+
+#include "kernels/cartoon/rain/life/lists.h"
+#include "kernels/cartoon/rain/view.h"
+
+#define CARTOON_SLICES 8
+
+// Corner k of the sphere's mesh, rings of CARTOON_SLICES from the lower pole to the upper one.
+RG_FN rg_corner cartoon_on_sphere(rg_ctx rg, cartoon_rain_params p, v3 middle, float radius, int k)
+{
+    return m4_project(p.to_clip, v3_make(middle.x + radius * sphere_at(rg, 3 * k),
+                                         middle.y + radius * sphere_at(rg, 3 * k + 1),
+                                         middle.z + radius * sphere_at(rg, 3 * k + 2)));
+}
+
+RG_FN rg_item cartoon_facet_of(rg_ctx rg, cartoon_rain_params p, int i)
+{
+    int nth = i / p.facets;
+    int facet = i - nth * p.facets;
+    int ring = facet / CARTOON_SLICES;
+    int slice = facet - ring * CARTOON_SLICES;
+    int next = slice == CARTOON_SLICES - 1 ? 0 : slice + 1;
+    cartoon_raindrop d = raindrops_at(rg, rg_to_int(living_at(rg, nth)));
+    v3 middle = v3_make(d.x, d.y, d.z);
+    cartoon_spot s = cartoon_spot_of(p, middle);
+    float radius = cartoon_bound_m(p, s.distance_m);
+    int lower = ring * CARTOON_SLICES;
+    bool is_asked = d.state == CARTOON_DROP && s.inside != 0;
+    rg_item t;
+    t.alive = nth < cartoon_active_drops(rg, p) && is_asked ? 1 : 0;
+    t.a = cartoon_on_sphere(rg, p, middle, radius, lower + slice);
+    t.b = cartoon_on_sphere(rg, p, middle, radius, lower + next);
+    t.c = cartoon_on_sphere(rg, p, middle, radius, lower + CARTOON_SLICES + next);
+    t.d = cartoon_on_sphere(rg, p, middle, radius, lower + CARTOON_SLICES + slice);
+    return t;
+}
+
+RG_DRAW_ITEM(cartoon_spheres)
+{
+    return cartoon_facet_of(rg, p, i);
+}
+
+// A facet's plane is that of its first triangle; at the lower pole, where that has no area, of its
+// second.
+RG_DRAW_RECORD(cartoon_spheres)
+{
+    rg_item t = cartoon_facet_of(rg, p, i);
+    bool is_lowest = i - i / p.facets * p.facets < CARTOON_SLICES;
+    rg_item plane;
+    plane.alive = 1;
+    plane.a = t.a;
+    plane.b = is_lowest ? t.c : t.b;
+    plane.c = is_lowest ? t.d : t.c;
+    plane.d = plane.c;
+    cartoon_facet r;
+    r.planes = rg_planes_of(draw, plane);
+    return r;
+}
+
+RG_DRAW_FRAGMENT(cartoon_spheres)
+{
+    return rg_fragment_make(rg_rgba(0.0f, 0.0f, 0.0f, 0.0f), rg_planes_depth(r.planes, px, py));
+}

@@ -1,0 +1,21 @@
+// A step of the splashes: six textures, each for the same time, that fade until they have ended.
+#include "kernels/cartoon/rain/params.h"
+
+#define RG_PARAMS cartoon_rain_params
+#define RG_SLOTS  INOUT(1, cartoon_spray, sprays) ATOMIC(2, uint, tally)
+#include "kernels/dialect/slots/slots.h"
+
+RG_GRID_KERNEL(cartoon_age)
+{
+    cartoon_spray s = sprays_at(rg, x);
+    if (s.state == CARTOON_DEATH)
+        return;
+    s.age = s.age + 1;
+    s.texture = rg_imin(s.age * CARTOON_FRAMES / p.spray_steps, CARTOON_FRAMES - 1);
+    s.alpha = 1.0f - rg_to_float(s.age) / rg_to_float(p.spray_steps);
+    if (s.age >= p.spray_steps) {
+        s.state = CARTOON_DEATH;
+        tally_add(rg, CARTOON_SPRAY_ENDED, 1u);
+    }
+    sprays_put(rg, x, s);
+}

@@ -1,0 +1,54 @@
+// Drops that have hit in this step send what they met to the splashes: the first of them takes the
+// first free slot, and so on.
+#include "kernels/cartoon/rain/params.h"
+
+#define RG_PARAMS cartoon_rain_params
+#define RG_SLOTS                                                                                   \
+    IN(1, uint, before)                                                                            \
+    IN(2, uint, unused)                                                                            \
+    IN(3, uint, living)                                                                            \
+    IN(4, uint, hits)                                                                              \
+    IN(5, uint, hits_before)                                                                       \
+    IN(6, cartoon_raindrop, raindrops)                                                             \
+    IN(7, cartoon_surface, surfaces) OUT(8, cartoon_spray, sprays) ATOMIC(9, uint, tally)
+#include "kernels/dialect/slots/slots.h"
+
+#include "kernels/cartoon/rain/life/lists.h"
+
+// By the angle of impact: the paper has three patterns; their bounds, 30 and 60 degrees, are ours.
+#define CARTOON_STEEP_RAD 0.523598776f
+#define CARTOON_FLAT_RAD  1.04719755f
+
+RG_FN cartoon_spray cartoon_spray_of(cartoon_raindrop d, cartoon_surface at)
+{
+    cartoon_spray s;
+    s.x = d.x;
+    s.y = d.y;
+    s.z = d.z;
+    s.nx = at.nx;
+    s.ny = at.ny;
+    s.nz = at.nz;
+    s.weight = d.size;
+    s.alpha = 1.0f;
+    s.angle = at.angle;
+    s.pattern = at.angle < CARTOON_STEEP_RAD ? 0 : at.angle < CARTOON_FLAT_RAD ? 1 : 2;
+    s.texture = 0;
+    s.age = 0;
+    s.state = CARTOON_DROP;
+    return s;
+}
+
+RG_GRID_KERNEL(cartoon_splash)
+{
+    if (hits_at(rg, x) == 0u)
+        return;
+    int nth = rg_to_int(hits_before_at(rg, x));
+    if (nth >= cartoon_free_sprays(rg, p)) {
+        tally_add(rg, CARTOON_SPRAY_REFUSED, 1u);
+        return;
+    }
+    int slot = rg_to_int(unused_at(rg, p.drop_slots + nth));
+    cartoon_raindrop d = raindrops_at(rg, rg_to_int(living_at(rg, x)));
+    sprays_put(rg, slot, cartoon_spray_of(d, surfaces_at(rg, x)));
+    tally_add(rg, CARTOON_SPLASHED, 1u);
+}

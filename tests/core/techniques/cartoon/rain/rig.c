@@ -1,0 +1,124 @@
+#include "tests/core/techniques/cartoon/rain/rig.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "backends/formats.h"
+
+struct cartoon *rig_open(struct rg_device *device, const char *assignments, int width, int height)
+{
+    const struct rg_technique *technique = rg_technique_find("cartoon");
+    void *defaults = rg_settings_create(technique);
+    void *settings = rg_settings_copy(technique, defaults, assignments);
+    assert_non_null(settings);
+    struct rg_instance *instance = rg_instance_open(technique, device, settings, width, height);
+    assert_non_null(instance);
+    free(settings);
+    free(defaults);
+    return (struct cartoon *)instance;
+}
+
+void rig_close(struct cartoon *c)
+{
+    rg_instance_close(&c->base);
+}
+
+void rig_step(struct cartoon *c, int steps)
+{
+    for (int i = 0; i < steps; i++)
+        assert_true(c->base.technique->step(&c->base));
+}
+
+void *rig_words(struct cartoon *c, const char *name)
+{
+    const struct rg_asset *asset = rg_asset_find(&c->base, name);
+    assert_non_null(asset);
+    void *words = malloc(asset->buf->size);
+    assert_non_null(words);
+    assert_true(rg_buf_read(asset->buf, 0, words, (int64_t)asset->buf->size));
+    return words;
+}
+
+void *rig_texels(struct cartoon *c, const char *name, int layer, int level)
+{
+    const struct rg_asset *asset = rg_asset_find(&c->base, name);
+    assert_non_null(asset);
+    const struct rg_image_desc *desc = &asset->image->desc;
+    const size_t count = (size_t)(desc->width >> level) * (size_t)(desc->height >> level);
+    void *texels = malloc(count * (size_t)rg_format_size(desc->format));
+    assert_non_null(texels);
+    assert_true(rg_image_read(asset->image, layer, level, texels));
+    return texels;
+}
+
+uint32_t rig_tally(struct cartoon *c, int word)
+{
+    uint32_t value;
+    assert_true(rg_buf_read(c->rain.tally->buf, word * 4, &value, sizeof(value)));
+    return value;
+}
+
+struct rig_rain rig_look(struct cartoon *c)
+{
+    return (struct rig_rain){rig_words(c, "raindrops"), rig_words(c, "sprays"),
+                             rig_words(c, "living"),    rig_words(c, "counts"),
+                             c->rain.params.drop_slots, c->rain.params.spray_slots};
+}
+
+void rig_free(struct rig_rain *rain)
+{
+    free(rain->drops);
+    free(rain->sprays);
+    free(rain->living);
+    free(rain->counts);
+}
+
+int rig_living(struct cartoon *c)
+{
+    const int slots = c->rain.params.drop_slots, released = c->rain.params.released;
+    uint32_t unused;
+    assert_true(rg_buf_read(c->rain.before->buf, slots * 4, &unused, sizeof(unused)));
+    return slots - (int)unused + (released < (int)unused ? released : (int)unused);
+}
+
+struct rainfall_vector rig_place(const cartoon_raindrop *d)
+{
+    return (struct rainfall_vector){(double)d->x, (double)d->y, (double)d->z};
+}
+
+struct rainfall_vector rig_velocity(const cartoon_raindrop *d)
+{
+    return (struct rainfall_vector){(double)d->vx, (double)d->vy, (double)d->vz};
+}
+
+struct rainfall_vector rig_next_place(const struct cartoon *c, const cartoon_raindrop *d)
+{
+    return rainfall_sum(rig_place(d), rig_velocity(d), 1.0 / c->settings.rain.steps_s);
+}
+
+struct rainfall_eye rig_eye(struct cartoon *c)
+{
+    const struct rg_camera *camera = &c->view.camera;
+    double position[3], target[3];
+    for (int i = 0; i < 3; i++) {
+        position[i] = (double)camera->position[i];
+        target[i] = (double)camera->target[i];
+    }
+    struct rainfall_eye eye = rainfall_eye_of(
+        position, target, (double)camera->angle_deg, (double)camera->near_plane,
+        (double)camera->far_plane, c->base.target->desc.width, c->base.target->desc.height);
+    eye.depth = rig_texels(c, "depth_map", 0, 0);
+    return eye;
+}
+
+void rig_expect(const char *what, double found, double due, double within)
+{
+    if (!(fabs(found - due) <= within))
+        fail_msg("%s: %.9g is not %.9g within %.3g", what, found, due, within);
+}

@@ -1,0 +1,42 @@
+// What the tests of cartoon's rain share: an instance with settings as text, what is in its
+// buffers, and the camera as the oracle has it.
+#ifndef RG_TESTS_CORE_TECHNIQUES_CARTOON_RAIN_RIG_H
+#define RG_TESTS_CORE_TECHNIQUES_CARTOON_RAIN_RIG_H
+
+#include "core/techniques/cartoon/instance.h"
+#include "tests/oracle/rainfall.h"
+
+// Opens cartoon with these "key=value key=value" over its defaults; fails the test otherwise.
+struct cartoon *rig_open(struct rg_device *device, const char *assignments, int width, int height);
+void rig_close(struct cartoon *c);
+void rig_step(struct cartoon *c, int steps);
+
+// All words of a buffer, or texels of level 0 of a layer of an image, for the caller to free.
+void *rig_words(struct cartoon *c, const char *name);
+void *rig_texels(struct cartoon *c, const char *name, int layer, int level);
+uint32_t rig_tally(struct cartoon *c, int word);
+
+// A snapshot of the rain, for the caller to free its arrays.
+struct rig_rain {
+    cartoon_raindrop *drops;
+    cartoon_spray *sprays;
+    uint32_t *living;
+    uint32_t *counts;
+    int drop_slots, spray_slots;
+};
+struct rig_rain rig_look(struct cartoon *c);
+void rig_free(struct rig_rain *rain);
+// Drops of the active list in the last step.
+int rig_living(struct cartoon *c);
+
+struct rainfall_vector rig_place(const cartoon_raindrop *d);
+struct rainfall_vector rig_velocity(const cartoon_raindrop *d);
+// Where a drop that falls is after a step.
+struct rainfall_vector rig_next_place(const struct cartoon *c, const cartoon_raindrop *d);
+// The camera of the present frame; its depths are the depth map's, for the caller to free.
+struct rainfall_eye rig_eye(struct cartoon *c);
+
+// Fails the test unless a number is within so much of what is due.
+void rig_expect(const char *what, double found, double due, double within);
+
+#endif
