@@ -45,7 +45,7 @@ struct cartoon {
     cartoon_faces_params solids, thin; // solids are seen from outside alone
     cartoon_ink_params outlines;
     cartoon_shade_params shade;
-    m4 found_by; // the view whose normal map, depth and ink are there
+    m4 found_by;      // the view whose normal map, depth and ink are there
     int64_t found_in; // one more than the frame that drew them; 0: none did
     struct cartoon_rain rain;
 };

@@ -29,6 +29,8 @@ RG_FN rg_corner cartoon_on_sphere(rg_ctx rg, cartoon_rain_params p, v3 middle, f
                                          middle.z + radius * sphere_at(rg, 3 * k + 2)));
 }
 
+// The lowest ring begins with its upper corners: a facet turns as its first three corners do, which
+// must not be in one place.
 RG_FN rg_item cartoon_facet_of(rg_ctx rg, cartoon_rain_params p, int i)
 {
     int nth = i / p.facets;
@@ -41,13 +43,15 @@ RG_FN rg_item cartoon_facet_of(rg_ctx rg, cartoon_rain_params p, int i)
     cartoon_spot s = cartoon_spot_of(p, middle);
     float radius = cartoon_bound_m(p, s.distance_m);
     int lower = ring * CARTOON_SLICES;
+    int upper = lower + CARTOON_SLICES;
+    bool is_lowest = ring == 0;
     bool is_asked = d.state == CARTOON_DROP && s.inside != 0;
     rg_item t;
     t.alive = nth < cartoon_active_drops(rg, p) && is_asked ? 1 : 0;
-    t.a = cartoon_on_sphere(rg, p, middle, radius, lower + slice);
-    t.b = cartoon_on_sphere(rg, p, middle, radius, lower + next);
-    t.c = cartoon_on_sphere(rg, p, middle, radius, lower + CARTOON_SLICES + next);
-    t.d = cartoon_on_sphere(rg, p, middle, radius, lower + CARTOON_SLICES + slice);
+    t.a = cartoon_on_sphere(rg, p, middle, radius, is_lowest ? upper + next : lower + slice);
+    t.b = cartoon_on_sphere(rg, p, middle, radius, is_lowest ? upper + slice : lower + next);
+    t.c = cartoon_on_sphere(rg, p, middle, radius, is_lowest ? lower + slice : upper + next);
+    t.d = cartoon_on_sphere(rg, p, middle, radius, is_lowest ? lower + next : upper + slice);
     return t;
 }
 
@@ -56,20 +60,10 @@ RG_DRAW_ITEM(cartoon_spheres)
     return cartoon_facet_of(rg, p, i);
 }
 
-// A facet's plane is that of its first triangle; at the lower pole, where that has no area, of its
-// second.
 RG_DRAW_RECORD(cartoon_spheres)
 {
-    rg_item t = cartoon_facet_of(rg, p, i);
-    bool is_lowest = i - i / p.facets * p.facets < CARTOON_SLICES;
-    rg_item plane;
-    plane.alive = 1;
-    plane.a = t.a;
-    plane.b = is_lowest ? t.c : t.b;
-    plane.c = is_lowest ? t.d : t.c;
-    plane.d = plane.c;
     cartoon_facet r;
-    r.planes = rg_planes_of(draw, plane);
+    r.planes = rg_planes_of(draw, cartoon_facet_of(rg, p, i));
     return r;
 }
 

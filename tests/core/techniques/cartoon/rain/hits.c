@@ -365,26 +365,38 @@ static double off_mesh_m(const struct cartoon *c, struct rainfall_vector from,
     return nearest;
 }
 
-// How far on the screen a place is from a line.
-static double off_line_px(struct rainfall_spot s, struct rainfall_spot a, struct rainfall_spot b)
+// The face that is seen through a place on the screen; -1: none.
+static int face_at(const struct step *s, double x_px, double y_px)
 {
-    const double dx = b.x_px - a.x_px, dy = b.y_px - a.y_px;
-    const double along =
-        ((s.x_px - a.x_px) * dx + (s.y_px - a.y_px) * dy) / fmax(dx * dx + dy * dy, 1e-12);
-    const double t = fmin(fmax(along, 0), 1);
-    return hypot(s.x_px - a.x_px - t * dx, s.y_px - a.y_px - t * dy);
+    const struct rainfall_eye *eye = &s->eye;
+    const struct rg_mesh *mesh = s->c->diorama->mesh;
+    struct rainfall_vector to = rainfall_sum(eye->at, eye->ahead, eye->far_m);
+    to = rainfall_sum(to, eye->right, (x_px - eye->width / 2.0) / eye->focal_px * eye->far_m);
+    to = rainfall_sum(to, eye->up, (eye->height / 2.0 - y_px) / eye->focal_px * eye->far_m);
+    double nearest = 2;
+    int face = -1;
+    for (int f = 0; f < mesh->face_count; f++) {
+        const struct rainfall_vector corners[] = {corner(mesh, f, 0), corner(mesh, f, 1),
+                                                  corner(mesh, f, 2)};
+        const double along = rainfall_meets(eye->at, to, corners);
+        if (along >= 0 && along < nearest) {
+            nearest = along;
+            face = f;
+        }
+    }
+    return face;
 }
 
-// Whether an edge of a face is among the texels that a place's depth is found from.
+// Whether the texels that depths about a place are found from see more than one face: its own and
+// the next one, with their neighbours.
 static bool is_at_edge(const struct step *s, struct rainfall_vector place)
 {
-    const struct rg_mesh *mesh = s->c->diorama->mesh;
     const struct rainfall_spot at = rainfall_spot_of(&s->eye, place);
-    for (int f = 0; f < mesh->face_count; f++)
-        for (int k = 0; k < 3; k++)
-            if (off_line_px(at, rainfall_spot_of(&s->eye, corner(mesh, f, k)),
-                            rainfall_spot_of(&s->eye, corner(mesh, f, k + 1))) < 1.5)
-                return true;
+    const double x = floor(at.x_px) + 0.5, y = floor(at.y_px) + 0.5;
+    const int here = face_at(s, at.x_px, at.y_px);
+    for (int i = 0; i < 25; i++)
+        if (face_at(s, x + i % 5 - 2, y + i / 5 - 2) != here)
+            return true;
     return false;
 }
 
