@@ -56,7 +56,7 @@ static const struct rg_param rows[] = {
     {"drop_m", RG_PARAM_FLOAT, AT(rain.drop_m), 0, 0, 10, "m", "side of the heaviest drops' squares; 0: as suits the scene", NULL},
     {"splash_m", RG_PARAM_FLOAT, AT(rain.splash_m), 0, 0, 10, "m", "the same of their splashes", NULL},
     {"fade_s", RG_PARAM_FLOAT, AT(rain.fade_s), 0.1, 0, 10, "s", "in which a drop that has hit fades", NULL},
-    {"splash_s", RG_PARAM_FLOAT, AT(rain.splash_s), 0.3, 0, 10, "s", "that a splash lasts", NULL},
+    {"splash_s", RG_PARAM_FLOAT, AT(rain.splash_s), 0.2, 0, 10, "s", "that a splash lasts", NULL},
     {"cut", RG_PARAM_CHOICE, AT(rain.cut), 1, 0, 1, "1", "whether sprites are cut to what is not transparent; the picture is the same", "off on"},
 };
 // clang-format on

@@ -102,8 +102,11 @@ RG_STRUCT(cartoon_rain_params)
     int drop_slots;
     int spray_slots;
     uint seed;
+    // the lists of this step, before anything was created
+    int free_drops;
+    int free_sprays;
     // the release
-    int released; // in this step
+    int released;
     uint released_before;
     float low_x;
     float low_y;
@@ -152,6 +155,6 @@ RG_STRUCT(cartoon_rain_params)
     int cut;        // 1: sprites are cut to what is not transparent
     int facets;     // of a drop's tessellated sphere
 };
-RG_STRUCT_SIZE(cartoon_rain_params, 16 + 47)
+RG_STRUCT_SIZE(cartoon_rain_params, 16 + 49)
 
 #endif

@@ -7,7 +7,7 @@
 #define PARAMS .params = offsetof(struct cartoon_rain, params)
 
 // Of the tessellated sphere of a query (kernels/cartoon/rain/hit/spheres.h).
-enum { SLICES = 8, STACKS = 6, FACETS = SLICES * STACKS };
+enum { SLICES = 6, STACKS = 4, FACETS = SLICES * STACKS };
 
 #define OVER_SCENE                                                                                 \
     .colour = "target", .depth = "depth_map", .depth_mode = RG_DEPTH_TEST, .blend = RG_BLEND_OVER

@@ -42,7 +42,9 @@ struct cartoon_rain {
     struct cartoon_rain_scene scene;
     cartoon_rain_params params;
     struct cartoon_wind_script script;
-    double fall_m; // from where drops start to the ground
+    int drops;         // of the living list in the last step
+    int sprays_before; // of the living list before the last step's hits
+    double fall_m;     // from where drops start to the ground
     int first_stage;
     struct rg_scan *scan;
     struct rg_asset *raindrops, *sprays, *tally, *flags, *before, *hits, *hits_before;

@@ -15,8 +15,8 @@
 
 // Shares of the distance from which the scene is looked at: for settings that are left to the
 // scene.
-#define DROP_SHARE   0.025
-#define SPLASH_SHARE 0.034
+#define DROP_SHARE   0.022
+#define SPLASH_SHARE 0.030
 #define BOUND_PX     2.5
 
 int64_t cartoon_released_before(const struct cartoon_rain_settings *settings, int64_t step)

@@ -9,38 +9,48 @@ static bool run(struct cartoon_rain *r, enum cartoon_rain_stage stage, int items
                          (struct rg_extent){items, 1, 1});
 }
 
-// Slots of the dead go to the free lists, and what is created takes them from there.
+// Slots of the dead go to the free lists, and what is created takes them from there. The host reads
+// how long the lists are, so that stages go over the living alone.
 static bool make_lists(struct cartoon_rain *r)
 {
-    const int slots = r->params.drop_slots + r->params.spray_slots;
-    return run(r, CARTOON_RAIN_FREE, slots) &&
-           rg_scan_sum(r->scan, r->flags->buf, r->before->buf, slots) &&
-           run(r, CARTOON_RAIN_LIST, slots) && run(r, CARTOON_RAIN_RELEASE, r->params.released);
+    cartoon_rain_params *p = &r->params;
+    const int drops = p->drop_slots, slots = drops + p->spray_slots;
+    uint32_t free_drops, all_free;
+    if (!run(r, CARTOON_RAIN_FREE, slots) ||
+        !rg_scan_sum(r->scan, r->flags->buf, r->before->buf, slots) ||
+        !rg_buf_read(r->before->buf, drops * 4, &free_drops, 4) ||
+        !rg_buf_read(r->before->buf, slots * 4, &all_free, 4))
+        return false;
+    p->free_drops = (int)free_drops;
+    p->free_sprays = (int)(all_free - free_drops);
+    const int created = p->released < p->free_drops ? p->released : p->free_drops;
+    r->drops = drops - p->free_drops + created;
+    r->sprays_before = p->spray_slots - p->free_sprays;
+    return run(r, CARTOON_RAIN_LIST, slots) && run(r, CARTOON_RAIN_RELEASE, p->released);
 }
 
 // Counts of visible samples, by whichever stages are open.
 static bool query(struct cartoon_rain *r)
 {
-    const int drops = r->params.drop_slots, spheres = r->first_stage + CARTOON_RAIN_SPHERES;
+    const int spheres = r->first_stage + CARTOON_RAIN_SPHERES;
     const struct rg_draw how = rg_stage_draw(r->instance, spheres);
-    return run(r, CARTOON_RAIN_COUNT, drops) &&
-           (!rg_stage_runs(r->instance, spheres) ||
-            rg_stage_onto(r->instance, spheres, drops * r->params.facets, &how)) &&
-           run(r, CARTOON_RAIN_SUM, drops);
+    r->instance->counters[CARTOON_DROPS_ASKED].value += r->drops;
+    return run(r, CARTOON_RAIN_COUNT, r->drops) &&
+           (!rg_stage_runs(r->instance, spheres) || !r->drops ||
+            rg_stage_onto(r->instance, spheres, r->drops * r->params.facets, &how)) &&
+           run(r, CARTOON_RAIN_SUM, r->drops);
 }
 
 static bool collide(struct cartoon_rain *r)
 {
-    const int drops = r->params.drop_slots;
-    return query(r) && run(r, CARTOON_RAIN_COLLIDE, drops) &&
-           rg_scan_sum(r->scan, r->hits->buf, r->hits_before->buf, drops) &&
-           run(r, CARTOON_RAIN_SPLASH, drops);
+    return query(r) && run(r, CARTOON_RAIN_COLLIDE, r->drops) &&
+           rg_scan_sum(r->scan, r->hits->buf, r->hits_before->buf, r->drops) &&
+           run(r, CARTOON_RAIN_SPLASH, r->drops);
 }
 
 bool cartoon_rain_step(struct cartoon_rain *r)
 {
     cartoon_rain_refill(r);
-    r->instance->counters[CARTOON_DROPS_ASKED].value += r->params.drop_slots;
-    return make_lists(r) && run(r, CARTOON_RAIN_MOVE, r->params.drop_slots) &&
-           run(r, CARTOON_RAIN_AGE, r->params.spray_slots) && collide(r);
+    return make_lists(r) && run(r, CARTOON_RAIN_MOVE, r->drops) &&
+           run(r, CARTOON_RAIN_AGE, r->sprays_before) && collide(r);
 }

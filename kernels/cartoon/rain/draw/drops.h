@@ -4,15 +4,13 @@
 
 #define RG_PARAMS cartoon_rain_params
 #define RG_SLOTS                                                                                   \
-    IN(1, uint, before)                                                                            \
-    IN(2, uint, living)                                                                            \
-    IN(3, cartoon_raindrop, raindrops) IMAGE(4, RGBA8, rain_textures) IN(5, float, boxes)
+    IN(1, uint, living)                                                                            \
+    IN(2, cartoon_raindrop, raindrops) IMAGE(3, RGBA8, rain_textures) IN(4, float, boxes)
 #define RG_CORNERS 4
 #define RG_RECORD  cartoon_sprite
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/cartoon/rain/draw/sprite.h"
-#include "kernels/cartoon/rain/life/lists.h"
 
 RG_FN cartoon_sprite cartoon_sprite_of_drop(rg_ctx rg, cartoon_rain_params p, int i)
 {
@@ -22,8 +20,7 @@ RG_FN cartoon_sprite cartoon_sprite_of_drop(rg_ctx rg, cartoon_rain_params p, in
     cartoon_sprite s = cartoon_sprite_at(p, v3_make(d.x, d.y, d.z), side_m,
                                          v3_dot(v, v3_make(p.right_x, p.right_y, p.right_z)),
                                          v3_dot(v, v3_make(p.up_x, p.up_y, p.up_z)));
-    bool is_there = i < cartoon_active_drops(rg, p) && d.state != CARTOON_DEATH;
-    s.seen = is_there ? s.seen : 0;
+    s.seen = d.state != CARTOON_DEATH ? s.seen : 0;
     s.alpha = d.alpha;
     s.layer =
         rg_imin(rg_to_int(d.size * rg_to_float(CARTOON_DROP_TEXTURES)), CARTOON_DROP_TEXTURES - 1);

@@ -3,8 +3,10 @@
 #include "kernels/cartoon/rain/draw/record.h"
 #include "kernels/cartoon/rain/params.h"
 
-#define RG_PARAMS  cartoon_rain_params
-#define RG_SLOTS   IN(1, cartoon_spray, sprays) IMAGE(2, RGBA8, rain_textures) IN(3, float, boxes)
+#define RG_PARAMS cartoon_rain_params
+#define RG_SLOTS                                                                                   \
+    IN(1, uint, living)                                                                            \
+    IN(2, cartoon_spray, sprays) IMAGE(3, RGBA8, rain_textures) IN(4, float, boxes)
 #define RG_CORNERS 4
 #define RG_RECORD  cartoon_sprite
 #include "kernels/dialect/draw/draw.h"
@@ -15,7 +17,7 @@
 // place half its side nearer to the eye, so that the surface does not cut it.
 RG_FN cartoon_sprite cartoon_sprite_of_splash(rg_ctx rg, cartoon_rain_params p, int i)
 {
-    cartoon_spray d = sprays_at(rg, i);
+    cartoon_spray d = sprays_at(rg, rg_to_int(living_at(rg, p.drop_slots + i)));
     v3 at = v3_make(d.x, d.y, d.z);
     v3 n = v3_make(d.nx, d.ny, d.nz);
     float side_m = p.splash_m * (p.least + (1.0f - p.least) * d.weight);

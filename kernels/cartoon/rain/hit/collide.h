@@ -8,18 +8,14 @@
 
 #define RG_PARAMS cartoon_rain_params
 #define RG_SLOTS                                                                                   \
-    IN(1, uint, before)                                                                            \
-    IN(2, uint, living)                                                                            \
-    INOUT(3, cartoon_raindrop, raindrops)                                                          \
-    IMAGE(4, D32F, depth_map)                                                                      \
-    IMAGE(5, RGBA16F, normal_map)                                                                  \
-    IN(6, uint, counts)                                                                            \
-    OUT(7, uint, hits) OUT(8, cartoon_surface, surfaces) ATOMIC(9, uint, tally)
+    IN(1, uint, living)                                                                            \
+    INOUT(2, cartoon_raindrop, raindrops) IMAGE(3, D32F, depth_map) IMAGE(4, RGBA16F, normal_map)  \
+        IN(5, uint, counts) OUT(6, uint, hits) OUT(7, cartoon_surface, surfaces)                   \
+            ATOMIC(8, uint, tally)
 #include "kernels/dialect/slots/slots.h"
 
 #include "kernels/cartoon/rain/hit/samples.h"
 #include "kernels/cartoon/rain/hit/surface.h"
-#include "kernels/cartoon/rain/life/lists.h"
 
 #define CARTOON_HALVINGS 24 // at most
 
@@ -105,8 +101,6 @@ RG_FN cartoon_surface cartoon_surface_at(rg_ctx rg, cartoon_rain_params p, v3 at
 RG_GRID_KERNEL(cartoon_collide)
 {
     hits_put(rg, x, 0u);
-    if (x >= cartoon_active_drops(rg, p))
-        return;
     int slot = rg_to_int(living_at(rg, x));
     cartoon_raindrop d = raindrops_at(rg, slot);
     v3 now = v3_make(d.x, d.y, d.z);

@@ -1,21 +1,17 @@
-// The visible samples of each active drop: one query a drop, if it has not hit and is in the
+// The visible samples of each living drop: one query a drop, if it has not hit and is in the
 // viewing frustum. Others have none, and are not asked.
 #include "kernels/cartoon/rain/params.h"
 
 #define RG_PARAMS cartoon_rain_params
 #define RG_SLOTS                                                                                   \
-    IN(1, uint, before)                                                                            \
-    IN(2, uint, living)                                                                            \
-    IN(3, cartoon_raindrop, raindrops) IMAGE(4, D32F, depth_map) OUT(5, uint, counts)
+    IN(1, uint, living)                                                                            \
+    IN(2, cartoon_raindrop, raindrops) IMAGE(3, D32F, depth_map) OUT(4, uint, counts)
 #include "kernels/dialect/slots/slots.h"
 
 #include "kernels/cartoon/rain/hit/samples.h"
-#include "kernels/cartoon/rain/life/lists.h"
 
 RG_GRID_KERNEL(cartoon_count)
 {
-    if (x >= cartoon_active_drops(rg, p))
-        return;
     cartoon_raindrop d = raindrops_at(rg, rg_to_int(living_at(rg, x)));
     cartoon_spot s = cartoon_spot_of(p, v3_make(d.x, d.y, d.z));
     bool is_asked = d.state == CARTOON_DROP && s.inside != 0;

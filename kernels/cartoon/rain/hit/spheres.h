@@ -4,9 +4,8 @@
 #include "kernels/cartoon/rain/params.h"
 #include "kernels/dialect/draw/triangle.h"
 
-#define RG_PARAMS cartoon_rain_params
-#define RG_SLOTS                                                                                   \
-    IN(1, uint, before) IN(2, uint, living) IN(3, cartoon_raindrop, raindrops) IN(4, float, sphere)
+#define RG_PARAMS  cartoon_rain_params
+#define RG_SLOTS   IN(1, uint, living) IN(2, cartoon_raindrop, raindrops) IN(3, float, sphere)
 #define RG_CORNERS 4
 
 RG_STRUCT(cartoon_facet)
@@ -16,10 +15,9 @@ RG_STRUCT(cartoon_facet)
 #define RG_RECORD cartoon_facet
 #include "kernels/dialect/draw/draw.h"
 
-#include "kernels/cartoon/rain/life/lists.h"
 #include "kernels/cartoon/rain/view.h"
 
-#define CARTOON_SLICES 8
+#define CARTOON_SLICES 6
 
 // Corner k of the sphere's mesh, rings of CARTOON_SLICES from the lower pole to the upper one.
 RG_FN rg_corner cartoon_on_sphere(rg_ctx rg, cartoon_rain_params p, v3 middle, float radius, int k)
@@ -47,7 +45,7 @@ RG_FN rg_item cartoon_facet_of(rg_ctx rg, cartoon_rain_params p, int i)
     bool is_lowest = ring == 0;
     bool is_asked = d.state == CARTOON_DROP && s.inside != 0;
     rg_item t;
-    t.alive = nth < cartoon_active_drops(rg, p) && is_asked ? 1 : 0;
+    t.alive = is_asked ? 1 : 0;
     t.a = cartoon_on_sphere(rg, p, middle, radius, is_lowest ? upper + next : lower + slice);
     t.b = cartoon_on_sphere(rg, p, middle, radius, is_lowest ? upper + slice : lower + next);
     t.c = cartoon_on_sphere(rg, p, middle, radius, is_lowest ? lower + slice : upper + next);

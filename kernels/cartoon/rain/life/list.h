@@ -5,8 +5,6 @@
 #define RG_SLOTS  IN(1, uint, flags) IN(2, uint, before) OUT(3, uint, unused) OUT(4, uint, living)
 #include "kernels/dialect/slots/slots.h"
 
-#include "kernels/cartoon/rain/life/lists.h"
-
 RG_GRID_KERNEL(cartoon_list)
 {
     bool is_drop = x < p.drop_slots;

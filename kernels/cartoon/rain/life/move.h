@@ -2,12 +2,8 @@
 #include "kernels/cartoon/rain/params.h"
 
 #define RG_PARAMS cartoon_rain_params
-#define RG_SLOTS                                                                                   \
-    IN(1, uint, before)                                                                            \
-    IN(2, uint, living) INOUT(3, cartoon_raindrop, raindrops) ATOMIC(4, uint, tally)
+#define RG_SLOTS  IN(1, uint, living) INOUT(2, cartoon_raindrop, raindrops) ATOMIC(3, uint, tally)
 #include "kernels/dialect/slots/slots.h"
-
-#include "kernels/cartoon/rain/life/lists.h"
 
 // Figure 1. The paper's air resists with a constant force along the vertical and not at all along
 // the horizontal, on which the wind pushes with a force of its own; or it resists by equation 2, f
@@ -55,8 +51,6 @@ RG_FN cartoon_raindrop cartoon_faded(cartoon_rain_params p, cartoon_raindrop was
 
 RG_GRID_KERNEL(cartoon_move)
 {
-    if (x >= cartoon_active_drops(rg, p))
-        return;
     int slot = rg_to_int(living_at(rg, x));
     cartoon_raindrop d = raindrops_at(rg, slot);
     bool falls = d.state == CARTOON_DROP;

@@ -6,9 +6,8 @@
 
 #define RG_PARAMS cartoon_rain_params
 #define RG_SLOTS                                                                                   \
-    IN(1, uint, before)                                                                            \
-    IN(2, uint, unused)                                                                            \
-    OUT(3, uint, living) OUT(4, cartoon_raindrop, raindrops) ATOMIC(5, uint, tally)
+    IN(1, uint, unused)                                                                            \
+    OUT(2, uint, living) OUT(3, cartoon_raindrop, raindrops) ATOMIC(4, uint, tally)
 #include "kernels/dialect/slots/slots.h"
 
 #include "kernels/cartoon/rain/life/lists.h"
@@ -52,13 +51,12 @@ RG_FN cartoon_raindrop cartoon_released(cartoon_rain_params p, uint number)
 
 RG_GRID_KERNEL(cartoon_release)
 {
-    int room = cartoon_free_drops(rg, p);
-    if (x >= room) {
+    if (x >= p.free_drops) {
         tally_add(rg, CARTOON_REFUSED, 1u);
         return;
     }
     uint slot = unused_at(rg, x);
-    living_put(rg, p.drop_slots - room + x, slot);
+    living_put(rg, cartoon_new_drops(p) + x, slot);
     raindrops_put(rg, rg_to_int(slot), cartoon_released(p, p.released_before + rg_to_uint(x)));
     tally_add(rg, CARTOON_RELEASED, 1u);
 }

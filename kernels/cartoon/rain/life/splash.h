@@ -4,13 +4,10 @@
 
 #define RG_PARAMS cartoon_rain_params
 #define RG_SLOTS                                                                                   \
-    IN(1, uint, before)                                                                            \
-    IN(2, uint, unused)                                                                            \
-    IN(3, uint, living)                                                                            \
-    IN(4, uint, hits)                                                                              \
-    IN(5, uint, hits_before)                                                                       \
-    IN(6, cartoon_raindrop, raindrops)                                                             \
-    IN(7, cartoon_surface, surfaces) OUT(8, cartoon_spray, sprays) ATOMIC(9, uint, tally)
+    IN(1, uint, unused)                                                                            \
+    INOUT(2, uint, living) IN(3, uint, hits) IN(4, uint, hits_before)                              \
+        IN(5, cartoon_raindrop, raindrops) IN(6, cartoon_surface, surfaces)                        \
+            OUT(7, cartoon_spray, sprays) ATOMIC(8, uint, tally)
 #include "kernels/dialect/slots/slots.h"
 
 #include "kernels/cartoon/rain/life/lists.h"
@@ -43,12 +40,13 @@ RG_GRID_KERNEL(cartoon_splash)
     if (hits_at(rg, x) == 0u)
         return;
     int nth = rg_to_int(hits_before_at(rg, x));
-    if (nth >= cartoon_free_sprays(rg, p)) {
+    if (nth >= p.free_sprays) {
         tally_add(rg, CARTOON_SPRAY_REFUSED, 1u);
         return;
     }
     int slot = rg_to_int(unused_at(rg, p.drop_slots + nth));
     cartoon_raindrop d = raindrops_at(rg, rg_to_int(living_at(rg, x)));
+    living_put(rg, cartoon_new_sprays(p) + nth, rg_to_uint(slot));
     sprays_put(rg, slot, cartoon_spray_of(d, surfaces_at(rg, x)));
     tally_add(rg, CARTOON_SPLASHED, 1u);
 }

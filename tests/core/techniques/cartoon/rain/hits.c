@@ -65,15 +65,14 @@ struct counted {
 static void look_at_samples(const struct step *s, void *user)
 {
     struct counted *n = user;
-    const int living = s->is.drop_slots;
-    for (int i = 0; i < living; i++) {
+    for (int i = 0; i < s->c->rain.drops; i++) {
         const int slot = (int)s->is.living[i];
         if (!fell(s, slot))
             continue;
         const struct rainfall_vector at = rig_next_place(s->c, &s->was.drops[slot]);
         const struct rainfall_spot spot = rainfall_spot_of(&s->eye, at);
         const int found = (int)s->is.counts[i];
-        if (spot.is_at_border || i >= rig_living(s->c))
+        if (spot.is_at_border)
             continue;
         struct rainfall_samples due = {0, 0};
         if (spot.is_inside)
@@ -242,11 +241,11 @@ static void a_drop_hits_what_its_middle_passes(void **state)
 
 // --- rasterised spheres ---
 
-// A sphere of 8 by 6 quads, upright.
+// A sphere of 6 by 4 quads, upright.
 static struct rainfall_vector corner_of(struct rainfall_vector middle, double radius, int ring,
                                         int slice)
 {
-    const double pi = acos(-1), rise = pi * ring / 6 - pi / 2, turn = 2 * pi * slice / 8;
+    const double pi = acos(-1), rise = pi * ring / 4 - pi / 2, turn = 2 * pi * slice / 6;
     return (struct rainfall_vector){middle.x + radius * cos(rise) * sin(turn),
                                     middle.y + radius * sin(rise),
                                     middle.z + radius * cos(rise) * cos(turn)};
@@ -257,8 +256,8 @@ static double near_side(struct rainfall_vector from, struct rainfall_vector to,
                         struct rainfall_vector middle, double radius)
 {
     double nearest = INFINITY;
-    for (int f = 0; f < 48; f++) {
-        const int ring = f / 8, slice = f % 8;
+    for (int f = 0; f < 24; f++) {
+        const int ring = f / 6, slice = f % 6;
         const struct rainfall_vector a = corner_of(middle, radius, ring, slice),
                                      b = corner_of(middle, radius, ring, slice + 1),
                                      d = corner_of(middle, radius, ring + 1, slice + 1),
@@ -299,7 +298,7 @@ struct spheres {
 static void look_at_spheres(const struct step *s, void *user)
 {
     struct spheres *n = user;
-    for (int i = 0; i < rig_living(s->c); i++) {
+    for (int i = 0; i < s->c->rain.drops; i++) {
         const int slot = (int)s->is.living[i];
         const struct rainfall_vector at = rig_next_place(s->c, &s->was.drops[slot]);
         const struct rainfall_spot spot = rainfall_spot_of(&s->eye, at);

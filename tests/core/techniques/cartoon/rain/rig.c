@@ -79,14 +79,6 @@ void rig_free(struct rig_rain *rain)
     free(rain->counts);
 }
 
-int rig_living(struct cartoon *c)
-{
-    const int slots = c->rain.params.drop_slots, released = c->rain.params.released;
-    uint32_t unused;
-    assert_true(rg_buf_read(c->rain.before->buf, slots * 4, &unused, sizeof(unused)));
-    return slots - (int)unused + (released < (int)unused ? released : (int)unused);
-}
-
 struct rainfall_vector rig_place(const cartoon_raindrop *d)
 {
     return (struct rainfall_vector){(double)d->x, (double)d->y, (double)d->z};

@@ -26,8 +26,6 @@ struct rig_rain {
 };
 struct rig_rain rig_look(struct cartoon *c);
 void rig_free(struct rig_rain *rain);
-// Drops of the active list in the last step.
-int rig_living(struct cartoon *c);
 
 struct rainfall_vector rig_place(const cartoon_raindrop *d);
 struct rainfall_vector rig_velocity(const cartoon_raindrop *d);
