@@ -79,6 +79,14 @@ void rig_free(struct rig_rain *rain)
     free(rain->counts);
 }
 
+int rig_living(struct cartoon *c)
+{
+    const int slots = c->rain.params.drop_slots, released = c->rain.params.released;
+    uint32_t unused;
+    assert_true(rg_buf_read(c->rain.before->buf, slots * 4, &unused, sizeof(unused)));
+    return slots - (int)unused + (released < (int)unused ? released : (int)unused);
+}
+
 struct rainfall_vector rig_place(const cartoon_raindrop *d)
 {
     return (struct rainfall_vector){(double)d->x, (double)d->y, (double)d->z};
@@ -107,6 +115,21 @@ struct rainfall_eye rig_eye(struct cartoon *c)
         (double)camera->far_plane, c->base.target->desc.width, c->base.target->desc.height);
     eye.depth = rig_texels(c, "depth_map", 0, 0);
     return eye;
+}
+
+int rig_hits(struct cartoon *c)
+{
+    uint32_t hits = 0;
+    if (c->rain.drops)
+        assert_true(rg_buf_read(c->rain.hits_before->buf, c->rain.drops * 4, &hits, sizeof(hits)));
+    return (int)hits;
+}
+
+double rig_half(uint16_t half)
+{
+    const int exponent = half >> 10 & 31, fraction = half & 1023;
+    const double size = exponent ? ldexp(1024 + fraction, exponent - 25) : ldexp(fraction, -24);
+    return half & 0x8000 ? -size : size;
 }
 
 void rig_expect(const char *what, double found, double due, double within)

@@ -26,6 +26,8 @@ struct rig_rain {
 };
 struct rig_rain rig_look(struct cartoon *c);
 void rig_free(struct rig_rain *rain);
+// Drops of the active list in the last step.
+int rig_living(struct cartoon *c);
 
 struct rainfall_vector rig_place(const cartoon_raindrop *d);
 struct rainfall_vector rig_velocity(const cartoon_raindrop *d);
@@ -33,6 +35,11 @@ struct rainfall_vector rig_velocity(const cartoon_raindrop *d);
 struct rainfall_vector rig_next_place(const struct cartoon *c, const cartoon_raindrop *d);
 // The camera of the present frame; its depths are the depth map's, for the caller to free.
 struct rainfall_eye rig_eye(struct cartoon *c);
+
+// Hits of the last step.
+int rig_hits(struct cartoon *c);
+// The value of a half.
+double rig_half(uint16_t half);
 
 // Fails the test unless a number is within so much of what is due.
 void rig_expect(const char *what, double found, double due, double within);

@@ -1,0 +1,372 @@
+// How drops are released, move, stick and fade, how splashes come of them and end, and who gets
+// which slot: each step against what the step before leaves, in double precision.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/core/techniques/cartoon/rain/rig.h"
+
+#define SIZE_PX 96
+
+static struct rg_device *device;
+
+// A step, from one look to the next.
+struct step {
+    struct cartoon *c;
+    struct rig_rain was, is;
+    double now_s; // at its end
+};
+
+static void each_step(const char *settings, int from, int to, void (*look)(const struct step *s))
+{
+    struct cartoon *c = rig_open(device, settings, SIZE_PX, SIZE_PX);
+    rig_step(c, from);
+    for (int i = from; i < to; i++) {
+        struct step s = {.c = c, .was = rig_look(c)};
+        rig_step(c, 1);
+        s.is = rig_look(c);
+        s.now_s = (double)(i + 1) / c->settings.rain.steps_s;
+        look(&s);
+        rig_free(&s.was);
+        rig_free(&s.is);
+    }
+    rig_close(c);
+}
+
+// --- motion ---
+
+static struct rainfall_air air_at(const struct step *s)
+{
+    const struct cartoon_rain_settings *rules = &s->c->settings.rain;
+    const bool is_constant = !rules->drag;
+    double wind[2];
+    cartoon_wind_at(rules, &s->c->rain.script, (uint32_t)s->c->settings.seed, s->now_s, wind);
+    const double over = is_constant ? rules->wind_s : 1;
+    return (struct rainfall_air){is_constant,     rules->gravity_m_s2, rules->drag_m_s2,
+                                 rules->drag_1_m, wind[0] / over,      wind[1] / over};
+}
+
+static void expect_vector(const char *what, float x, float y, float z, struct rainfall_vector due,
+                          double within)
+{
+    const struct rainfall_vector found = {(double)x, (double)y, (double)z};
+    rig_expect(what, rainfall_length(rainfall_sum(found, due, -1)), 0, within);
+}
+
+static void expect_fallen(const struct step *s, const cartoon_raindrop *was,
+                          const cartoon_raindrop *is)
+{
+    const struct rainfall_air air = air_at(s);
+    const double dt = 1.0 / s->c->settings.rain.steps_s;
+    const struct rainfall_vector a = rainfall_acceleration(&air, rig_velocity(was));
+    expect_vector("where it was", is->from_x, is->from_y, is->from_z, rig_place(was), 0);
+    expect_vector("acceleration", is->ax, is->ay, is->az, a, 1e-4);
+    expect_vector("velocity", is->vx, is->vy, is->vz, rainfall_sum(rig_velocity(was), a, dt), 1e-5);
+    assert_int_equal(is->age, was->age + 1);
+    if (is->state == CARTOON_COLLISION)
+        return;
+    expect_vector("place", is->x, is->y, is->z, rainfall_sum(rig_place(was), rig_velocity(was), dt),
+                  1e-5);
+    const bool is_low = (double)is->y < -0.5;
+    if (is->state !=
+        (is_low || is->age >= s->c->rain.params.life_steps ? CARTOON_DEATH : CARTOON_DROP))
+        fail_msg("at %.4f m, %d steps old: state %u", (double)is->y, is->age, is->state);
+}
+
+static void expect_faded(const struct step *s, const cartoon_raindrop *was,
+                         const cartoon_raindrop *is)
+{
+    const struct cartoon_rain_settings *rules = &s->c->settings.rain;
+    const int steps = (int)fmax(lround(rules->fade_s * rules->steps_s), 1);
+    expect_vector("a drop that sticks", is->x, is->y, is->z, rig_place(was), 0);
+    assert_int_equal(is->stuck, was->stuck + 1);
+    rig_expect("alpha", (double)is->alpha, 1 - (double)is->stuck / steps, 1e-6);
+    assert_int_equal(is->state, is->stuck < steps ? CARTOON_STICKED : CARTOON_DEATH);
+}
+
+static void look_at_motion(const struct step *s)
+{
+    for (int i = 0; i < s->is.drop_slots; i++) {
+        const cartoon_raindrop *was = &s->was.drops[i], *is = &s->is.drops[i];
+        if (was->state == CARTOON_DROP)
+            expect_fallen(s, was, is);
+        else if (was->state != CARTOON_DEATH)
+            expect_faded(s, was, is);
+    }
+}
+
+static void drops_fall_as_newton_has_it(void **state)
+{
+    (void)state;
+    each_step("scene=house2 drops_s=1500", 0, 100, look_at_motion);
+    each_step("scene=house2 drops_s=700 wind_m_s=7 wind_turn_deg=70 spread_deg=20 steps_s=45 "
+              "fade_s=0.4",
+              30, 80, look_at_motion);
+    each_step("scene=house2 drops_s=700 drag=quadratic wind=random wind_m_s=5 gust=1", 30, 90,
+              look_at_motion);
+}
+
+// In still air a drop comes to where its weight is all that k v^2 bears.
+static void quadratic_drag_has_a_terminal_speed(void **state)
+{
+    (void)state;
+    struct cartoon *c = rig_open(device,
+                                 "drops_s=200 drag=quadratic top_m=150 speed_m_s=2 "
+                                 "drag_1_m=0.3 spread_deg=0",
+                                 32, 32);
+    rig_step(c, 240);
+    struct rig_rain rain = rig_look(c);
+    int old = 0;
+    for (int i = 0; i < rain.drop_slots; i++)
+        if (rain.drops[i].state == CARTOON_DROP && rain.drops[i].age > 150) {
+            rig_expect("terminal speed", -(double)rain.drops[i].vy, sqrt(9.81 / 0.3), 0.01);
+            old++;
+        }
+    assert_true(old > 100);
+    rig_free(&rain);
+    rig_close(c);
+}
+
+// --- release ---
+
+// As many as rate times time, with no fraction lost.
+static void drops_are_released_to_the_fraction(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *settings;
+        int64_t rate, steps_s, steps;
+    } cases[] = {{"drops_s=7", 7, 60, 200},
+                 {"drops_s=6001", 6001, 60, 50},
+                 {"drops_s=1000 steps_s=37", 1000, 37, 80},
+                 {"drops_s=0", 0, 60, 5},
+                 {"drops_s=59", 59, 60, 130}};
+    for (int i = 0; i < 5; i++) {
+        struct cartoon *c = rig_open(device, cases[i].settings, 32, 32);
+        for (int64_t n = 1; n <= cases[i].steps; n++) {
+            rig_step(c, 1);
+            assert_int_equal(rig_tally(c, CARTOON_RELEASED), n * cases[i].rate / cases[i].steps_s);
+        }
+        assert_int_equal(rig_tally(c, CARTOON_REFUSED) + rig_tally(c, CARTOON_SPRAY_REFUSED), 0);
+        rig_close(c);
+    }
+}
+
+static void expect_mean(const char *what, double sum, int count, double mean, double deviation)
+{
+    rig_expect(what, sum / count, mean, 4.5 * deviation / sqrt(count));
+}
+
+// Places are even in their space, directions in their cone, and sizes the squares of even numbers.
+static void drops_start_by_chance(void **state)
+{
+    (void)state;
+    enum { X, Y, Z, X2, SIZE, SIZE2, DOWN, EAST, NORTH, EAST2, CROSS, SUMS };
+    struct cartoon *c = rig_open(device, "drops_s=600000 spread_deg=30 scene=house2", 32, 32);
+    double sums[SUMS] = {0}, least = 1, most = 0, lowest = 1;
+    rig_step(c, 1);
+    struct rig_rain rain = rig_look(c);
+    const float *low = c->diorama->mesh->low, *high = c->diorama->mesh->high;
+    int count = 0;
+    for (int i = 0; i < rain.drop_slots; i++) {
+        const cartoon_raindrop *d = &rain.drops[i];
+        if (d->state == CARTOON_DEATH)
+            continue;
+        const double x = ((double)d->from_x - (double)low[0]) / (double)(high[0] - low[0]);
+        const double y = (double)d->from_y - c->rain.fall_m;
+        const double z = ((double)d->from_z - (double)low[2]) / (double)(high[2] - low[2]);
+        const double speed = 8 * (0.8 + 0.2 * (double)d->size), dt = 1.0 / 60;
+        const double vx = ((double)d->x - (double)d->from_x) / dt / speed;
+        const double vy = ((double)d->y - (double)d->from_y) / dt / speed;
+        const double vz = ((double)d->z - (double)d->from_z) / dt / speed;
+        rig_expect("speed at first", sqrt(vx * vx + vy * vy + vz * vz), 1, 3e-4);
+        const double due[SUMS] = {
+            x,  y,  z,       x * x, (double)d->size, (double)d->size * (double)d->size, -vy,
+            vx, vz, vx * vx, x * y};
+        for (int k = 0; k < SUMS; k++)
+            sums[k] += due[k];
+        least = fmin(least, fmin(x, fmin(y, z)));
+        most = fmax(most, fmax(x, fmax(y, z)));
+        lowest = fmin(lowest, -vy);
+        count++;
+    }
+    assert_int_equal(count, 10000);
+    const double edge = cos(acos(-1) / 6), across2 = (1 - (1 + edge + edge * edge) / 3) / 2;
+    expect_mean("x", sums[X], count, 0.5, 0.289);
+    expect_mean("y", sums[Y], count, 0.5, 0.289);
+    expect_mean("z", sums[Z], count, 0.5, 0.289);
+    expect_mean("x squared", sums[X2], count, 1.0 / 3, 0.3);
+    expect_mean("x times y", sums[CROSS], count, 0.25, 0.22);
+    expect_mean("size", sums[SIZE], count, 1.0 / 3, 0.3);
+    expect_mean("size squared", sums[SIZE2], count, 0.2, 0.27);
+    expect_mean("down", sums[DOWN], count, (1 + edge) / 2, 0.039);
+    expect_mean("east", sums[EAST], count, 0, sqrt(across2));
+    expect_mean("north", sums[NORTH], count, 0, sqrt(across2));
+    expect_mean("east squared", sums[EAST2], count, across2, 0.07);
+    rig_expect("the cone's edge", lowest, edge, 1e-3);
+    assert_true(least > -1e-4 && least < 0.002 && most < 1 + 1e-4 && most > 0.998);
+    rig_free(&rain);
+    rig_close(c);
+}
+
+// --- slots ---
+
+// The living in the order of their slots, then those that were released, who took the first slots
+// that were free.
+static void look_at_lists(const struct step *s)
+{
+    const cartoon_rain_params *p = &s->c->rain.params;
+    const uint32_t first =
+        (uint32_t)cartoon_released_before(&s->c->settings.rain, s->c->base.frame - 1);
+    int living = 0, released = 0;
+    for (int i = 0; i < s->was.drop_slots; i++)
+        if (s->was.drops[i].state != CARTOON_DEATH)
+            assert_int_equal(s->is.living[living++], i);
+    for (int i = 0; i < s->was.drop_slots && released < p->released; i++) {
+        if (s->was.drops[i].state != CARTOON_DEATH)
+            continue;
+        assert_int_equal(s->is.living[living++], i);
+        assert_int_equal(s->is.drops[i].number, first + (uint32_t)released++);
+        assert_int_equal(s->is.drops[i].age, 1);
+    }
+    assert_int_equal(living, s->c->rain.drops);
+    int sprays = 0, splashed = 0;
+    for (int i = 0; i < s->was.spray_slots; i++)
+        if (s->was.sprays[i].state != CARTOON_DEATH)
+            assert_int_equal(s->is.living[p->drop_slots + sprays++], i);
+    for (int k = 0, slot = 0; k < living; k++) {
+        const cartoon_raindrop *d = &s->is.drops[s->is.living[k]];
+        if (d->state != CARTOON_COLLISION)
+            continue;
+        while (s->was.sprays[slot].state != CARTOON_DEATH)
+            slot++;
+        assert_int_equal(s->is.living[p->drop_slots + sprays++], slot);
+        const cartoon_spray *spray = &s->is.sprays[slot++];
+        assert_true(spray->x == d->x && spray->y == d->y && spray->z == d->z);
+        assert_true(spray->weight == d->size);
+        splashed++;
+    }
+    for (int i = 0; i < s->is.spray_slots; i++)
+        splashed -= s->is.sprays[i].state != CARTOON_DEATH && !s->is.sprays[i].age;
+    assert_int_equal(splashed, 0);
+}
+
+static void slots_are_given_in_order(void **state)
+{
+    (void)state;
+    each_step("scene=house2 drops_s=2000 collide=faithful", 0, 130, look_at_lists);
+}
+
+static void look_at_balance(const struct step *s)
+{
+    int falling = 0, stuck = 0, sprays = 0;
+    for (int i = 0; i < s->is.drop_slots; i++) {
+        falling += s->is.drops[i].state == CARTOON_DROP;
+        stuck += s->is.drops[i].state > CARTOON_DROP;
+    }
+    for (int i = 0; i < s->is.spray_slots; i++)
+        sprays += s->is.sprays[i].state != CARTOON_DEATH;
+    uint32_t tally[CARTOON_TALLY];
+    for (int i = 0; i < CARTOON_TALLY; i++)
+        tally[i] = rig_tally(s->c, i);
+    assert_int_equal(falling, tally[CARTOON_RELEASED] - tally[CARTOON_HITS] - tally[CARTOON_LEFT]);
+    assert_int_equal(stuck, tally[CARTOON_HITS] - tally[CARTOON_FADED]);
+    assert_int_equal(sprays, tally[CARTOON_SPLASHED] - tally[CARTOON_SPRAY_ENDED]);
+    assert_int_equal(tally[CARTOON_SPLASHED], tally[CARTOON_HITS]);
+}
+
+static void every_drop_is_accounted_for(void **state)
+{
+    (void)state;
+    each_step("scene=house2 drops_s=3000", 60, 130, look_at_balance);
+    each_step("scene=car drops_s=3000 collide=faithful spin_deg=20", 60, 130, look_at_balance);
+}
+
+// --- splashes ---
+
+static void expect_new(const struct step *s, const cartoon_spray *spray, const uint16_t *normals,
+                       const struct rainfall_eye *eye)
+{
+    const struct rainfall_vector at = {(double)spray->x, (double)spray->y, (double)spray->z};
+    const struct rainfall_spot spot = rainfall_spot_of(eye, at);
+    const struct rainfall_vector n = {(double)spray->nx, (double)spray->ny, (double)spray->nz};
+    const double pi = acos(-1), edge = fmin(fabs(spot.x_px - round(spot.x_px)),
+                                            fabs(spot.y_px - round(spot.y_px)));
+    assert_int_equal(spray->texture, 0);
+    rig_expect("alpha of a new splash", (double)spray->alpha, 1, 0);
+    if (edge > 0.01) {
+        const uint16_t *texel = normals + 4 * ((int)spot.y_px * SIZE_PX + (int)spot.x_px);
+        const bool is_sky = !texel[3];
+        expect_vector("normal", spray->nx, spray->ny, spray->nz,
+                      is_sky ? (struct rainfall_vector){0, 1, 0}
+                             : (struct rainfall_vector){rig_half(texel[0]), rig_half(texel[1]),
+                                                        rig_half(texel[2])},
+                      1e-6);
+    }
+    const cartoon_raindrop *d = NULL;
+    for (int i = 0; i < s->is.drop_slots; i++)
+        if (s->is.drops[i].state == CARTOON_COLLISION && s->is.drops[i].x == spray->x &&
+            s->is.drops[i].z == spray->z)
+            d = &s->is.drops[i];
+    assert_non_null(d);
+    const struct rainfall_vector v = rig_velocity(d);
+    const double cosine = -rainfall_dot(v, n) / rainfall_length(v) / rainfall_length(n);
+    const double angle = acos(fmin(fmax(cosine, -1), 1));
+    rig_expect("angle", (double)spray->angle, angle, 2e-3);
+    if (fabs(angle - pi / 6) > 0.003 && fabs(angle - pi / 3) > 0.003)
+        assert_int_equal(spray->pattern, angle < pi / 6 ? 0 : angle < pi / 3 ? 1 : 2);
+}
+
+static void look_at_splashes(const struct step *s)
+{
+    const struct cartoon_rain_settings *rules = &s->c->settings.rain;
+    const int life = (int)fmax(lround(rules->splash_s * rules->steps_s), 1);
+    const struct rainfall_eye eye = rig_eye(s->c);
+    uint16_t *normals = rig_texels(s->c, "normal_map", 0, 0);
+    for (int i = 0; i < s->is.spray_slots; i++) {
+        const cartoon_spray *was = &s->was.sprays[i], *is = &s->is.sprays[i];
+        if (was->state == CARTOON_DEATH) {
+            if (is->state != CARTOON_DEATH)
+                expect_new(s, is, normals, &eye);
+            continue;
+        }
+        assert_int_equal(is->age, was->age + 1);
+        assert_int_equal(is->state == CARTOON_DEATH, is->age >= life);
+        rig_expect("alpha of a splash", (double)is->alpha, 1 - (double)is->age / life, 1e-6);
+        if (is->age < life)
+            assert_int_equal(is->texture, (int)floor(6.0 * is->age / life + 1e-9));
+    }
+    free(normals);
+    free((void *)eye.depth);
+}
+
+static void splashes_live_and_fade(void **state)
+{
+    (void)state;
+    each_step("scene=house2 drops_s=1000", 70, 110, look_at_splashes);
+    each_step("scene=house2 drops_s=1000 collide=faithful splash_s=0.35 wind_m_s=9", 70, 110,
+              look_at_splashes);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(drops_fall_as_newton_has_it),
+        cmocka_unit_test(quadratic_drag_has_a_terminal_speed),
+        cmocka_unit_test(drops_are_released_to_the_fraction),
+        cmocka_unit_test(drops_start_by_chance),
+        cmocka_unit_test(slots_are_given_in_order),
+        cmocka_unit_test(every_drop_is_accounted_for),
+        cmocka_unit_test(splashes_live_and_fade),
+    };
+    device = rg_device_open(argc > 1 ? argv[1] : "cpu");
+    assert_non_null(device);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    return rg_device_close(device) ? failed : 1;
+}
