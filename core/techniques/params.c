@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/alloc.h"
 #include "core/base/log.h"
 
 static int *int_at(const struct rg_param *param, const void *settings)
@@ -127,6 +128,14 @@ static bool set_path(const struct rg_param *param, void *settings, const char *t
     return true;
 }
 
+// A preset stands for other assignments.
+static bool follow_preset(const struct rg_param_table *table, const struct rg_param *param,
+                          void *settings)
+{
+    return !table->presets || strcmp(param->name, "preset") ||
+           rg_params_set_all(table, settings, table->presets[*int_at(param, settings)]);
+}
+
 bool rg_params_set(const struct rg_param_table *table, void *settings, const char *assignment)
 {
     const char *equals = strchr(assignment, '=');
@@ -139,12 +148,26 @@ bool rg_params_set(const struct rg_param_table *table, void *settings, const cha
         return unknown_name(table, name);
     switch (param->kind) {
     case RG_PARAM_CHOICE:
-        return set_choice(param, settings, equals + 1);
+        return set_choice(param, settings, equals + 1) && follow_preset(table, param, settings);
     case RG_PARAM_FILE:
         return set_path(param, settings, equals + 1);
     default:
         return set_number(param, settings, equals + 1);
     }
+}
+
+bool rg_params_set_all(const struct rg_param_table *table, void *settings, const char *assignments)
+{
+    const size_t length = strlen(assignments) + 1;
+    char *words = rg_alloc(1, length, table->technique), *rest = NULL;
+    bool ok = words;
+    if (ok)
+        memcpy(words, assignments, length);
+    for (char *one = ok ? strtok_r(words, " ", &rest) : NULL; one && ok;
+         one = strtok_r(NULL, " ", &rest))
+        ok = rg_params_set(table, settings, one);
+    free(words);
+    return ok;
 }
 
 void rg_params_text(const struct rg_param *param, const void *settings, char *text, size_t size)

@@ -33,6 +33,9 @@ struct rg_param_table {
     const struct rg_param *rows;
     int count;
     size_t settings_size;
+    // What each choice of the parameter `preset` assigns, "key=value key=value"; NULL: there is no
+    // such parameter. What is assigned after it stands over it.
+    const char *const *presets;
 };
 
 // Sets every parameter to its default.
@@ -41,6 +44,9 @@ void rg_params_reset(const struct rg_param_table *table, void *settings);
 // Takes "key=value". False, with one line that names the mend: an unknown key, a value that is no
 // number, out of range or no choice, a path too long.
 bool rg_params_set(const struct rg_param_table *table, void *settings, const char *assignment);
+
+// Takes several, separated by spaces.
+bool rg_params_set_all(const struct rg_param_table *table, void *settings, const char *assignments);
 
 // Writes a value as rg_params_set would take it.
 void rg_params_text(const struct rg_param *param, const void *settings, char *text, size_t size);

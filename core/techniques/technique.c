@@ -44,18 +44,10 @@ void *rg_settings_create(const struct rg_technique *technique)
 void *rg_settings_copy(const struct rg_technique *technique, const void *settings,
                        const char *assignments)
 {
-    const size_t length = strlen(assignments) + 1;
     char *copy = rg_alloc(1, technique->params->settings_size, technique->name);
-    char *words = copy ? rg_alloc(1, length, technique->name) : NULL, *rest = NULL;
-    bool ok = words != NULL;
-    if (ok) {
+    if (copy)
         memcpy(copy, settings, technique->params->settings_size);
-        memcpy(words, assignments, length);
-    }
-    for (char *one = ok ? strtok_r(words, " ", &rest) : NULL; one && ok;
-         one = strtok_r(NULL, " ", &rest))
-        ok = rg_params_set(technique->params, copy, one);
-    free(words);
+    const bool ok = copy && rg_params_set_all(technique->params, copy, assignments);
     if (ok)
         return copy;
     free(copy);

@@ -20,7 +20,7 @@ enum cartoon_style {
 enum cartoon_redraw { CARTOON_ALWAYS, CARTOON_MOVED };
 
 struct cartoon_settings {
-    int seed;
+    int seed, preset;
     // The scene.
     int scene;
     char mesh[RG_PATH_SIZE];

@@ -6,6 +6,7 @@
 // clang-format off
 static const struct rg_param rows[] = {
     {"seed", RG_PARAM_INT, AT(seed), 1, 0, 2147483647, "1", "of all chance", NULL},
+    {"preset", RG_PARAM_CHOICE, AT(preset), 0, 0, 4, "1", "settings together, which others may follow: those of the paper's figure 6, or a storm", "none car table park2 storm"},
     {"scene", RG_PARAM_CHOICE, AT(scene), 0, 0, CARTOON_MESH, "1", "what it rains on; mesh: what the parameter mesh names", "car house1 house2 table park1 park2 ground mesh"},
     {"mesh", RG_PARAM_FILE, AT(mesh), 0, 0, 0, "file", "the mesh of scene=mesh: a name such as bunny, armadillo or torus, or a file", "torus"},
     {"style", RG_PARAM_CHOICE, AT(style), CARTOON_TONED_OUTLINES, 0, CARTOON_STYLES - 1, "1", "how the scene is drawn", "gooch gooch_outlines cartoon cartoon_outlines outlines hatching"},
@@ -61,9 +62,19 @@ static const struct rg_param rows[] = {
 };
 // clang-format on
 
+// The settings of the paper's figure 6, and a storm of ours, in the order of the choices.
+static const char *const presets[] = {
+    "",
+    "scene=car style=cartoon_outlines drops_s=15000",
+    "scene=table style=cartoon drops_s=20000 wind_m_s=5 wind_turn_deg=20",
+    "scene=park2 style=cartoon drops_s=18000 wind_m_s=6 wind_turn_deg=-160",
+    "scene=house1 style=cartoon_outlines drops_s=20000 wind=random wind_m_s=14 wind_turn_deg=10",
+};
+
 const struct rg_param_table cartoon_param_table = {
     .technique = "cartoon",
     .rows = rows,
     .count = sizeof(rows) / sizeof(rows[0]),
     .settings_size = sizeof(struct cartoon_settings),
+    .presets = presets,
 };

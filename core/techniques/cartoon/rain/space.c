@@ -147,17 +147,17 @@ static void blow(struct cartoon_rain *r, double time_s)
     p->push_z = (float)(wind[1] / over);
 }
 
-// Drops start as far upwind as brings half of their way aside over the scene.
+// Drops start over the scene, and as far upwind of it as they are blown on their way.
 static void place(struct cartoon_rain *r)
 {
     cartoon_rain_params *p = &r->params;
     const struct rg_mesh *mesh = r->scene.diorama->mesh;
     const struct way w = way_down(p, r->fall_m, 0);
-    p->low_x = (float)((double)mesh->low[0] - w.aside[0] / 2);
+    p->low_x = (float)((double)mesh->low[0] - fmax(w.aside[0], 0));
     p->low_y = (float)r->fall_m;
-    p->low_z = (float)((double)mesh->low[2] - w.aside[1] / 2);
-    p->wide_x = mesh->high[0] - mesh->low[0];
-    p->wide_z = mesh->high[2] - mesh->low[2];
+    p->low_z = (float)((double)mesh->low[2] - fmax(w.aside[1], 0));
+    p->wide_x = (float)((double)mesh->high[0] - (double)mesh->low[0] + fabs(w.aside[0]));
+    p->wide_z = (float)((double)mesh->high[2] - (double)mesh->low[2] + fabs(w.aside[1]));
 }
 
 static void look(struct cartoon_rain *r)

@@ -7,8 +7,10 @@
 
 #include <cmocka.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "tests/core/techniques/cartoon/rain/rig.h"
 
@@ -354,6 +356,88 @@ static void splashes_live_and_fade(void **state)
               look_at_splashes);
 }
 
+// A preset's settings stand where nothing follows them.
+static void presets_stand_for_settings(void **state)
+{
+    (void)state;
+    static const char *const settings[] = {"preset=car", "preset=table drops_s=500",
+                                           "wind_m_s=3 preset=park2"};
+    static const struct {
+        int drops_s;
+        double wind_m_s;
+    } due[] = {{15000, 0}, {500, 5}, {18000, 6}};
+    for (int i = 0; i < 3; i++) {
+        struct cartoon *c = rig_open(device, settings[i], 32, 32);
+        assert_int_equal(c->settings.preset, i + 1);
+        assert_int_equal(c->settings.rain.drops_s, due[i].drops_s);
+        rig_expect("wind", c->settings.rain.wind_m_s, due[i].wind_m_s, 0);
+        rig_close(c);
+    }
+}
+
+// --- wind ---
+
+static void put_script(const char *path, const char *text)
+{
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    assert_true(fputs(text, out) >= 0 && !fclose(out));
+}
+
+static void wind_goes_by_its_script(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/raingauge-wind-XXXXXX", settings[128];
+    const int file = mkstemp(path);
+    assert_true(file >= 0 && !close(file));
+    put_script(path, "# two gusts\n0 4 0\n1 8 90 # it turns\n\n3 0 90\n");
+    snprintf(settings, sizeof(settings), "drops_s=0 wind=script wind_script=%s", path);
+    struct cartoon *c = rig_open(device, settings, 32, 32);
+    static const double due[][3] = {{-1, 4, 0}, {0.5, 6, 45}, {2, 4, 90}, {9, 0, 90}};
+    for (int i = 0; i < 4; i++) {
+        double wind[2];
+        cartoon_wind_at(&c->settings.rain, &c->rain.script, 1, due[i][0], wind);
+        const double turn = due[i][2] * acos(-1) / 180;
+        rig_expect("wind along x", wind[0], due[i][1] * cos(turn), 1e-9);
+        rig_expect("wind along z", wind[1], -due[i][1] * sin(turn), 1e-9);
+    }
+    rig_close(c);
+    static const char *const bad[] = {"", "1 2\n", "1 400 0\n", "1 2 3\n1 2 3\n", "1 2 3 4\n"};
+    struct cartoon_wind_script script;
+    for (int i = 0; i < 5; i++) {
+        put_script(path, bad[i]);
+        assert_false(cartoon_wind_read(path, &script));
+    }
+    unlink(path);
+}
+
+// Gusts stay within their share, change smoothly, and are the same for a seed and a time.
+static void wind_blows_by_chance(void **state)
+{
+    (void)state;
+    struct cartoon_rain_settings s = {
+        .wind = CARTOON_WIND_RANDOM, .wind_m_s = 10, .gust = 0.5, .gust_s = 2};
+    double before[2], sum = 0, most_turn = 0;
+    cartoon_wind_at(&s, NULL, 7, 0, before);
+    for (int i = 1; i <= 20000; i++) {
+        double wind[2], again[2], other[2];
+        cartoon_wind_at(&s, NULL, 7, i * 0.01, wind);
+        cartoon_wind_at(&s, NULL, 7, i * 0.01, again);
+        cartoon_wind_at(&s, NULL, 8, i * 0.01, other);
+        const double speed = hypot(wind[0], wind[1]);
+        assert_true(speed >= 5 - 1e-9 && speed <= 15 + 1e-9);
+        assert_true(hypot(wind[0] - before[0], wind[1] - before[1]) < 0.5);
+        assert_true(wind[0] == again[0] && wind[1] == again[1]);
+        assert_true(i % 200 == 0 || wind[0] != other[0]);
+        sum += speed;
+        most_turn = fmax(most_turn, fabs(atan2(-wind[1], wind[0])));
+        memcpy(before, wind, sizeof(wind));
+    }
+    rig_expect("mean speed", sum / 20000, 10, 1.2);
+    const double widest = 20 * acos(-1) / 180;
+    assert_true(most_turn < widest + 1e-9 && most_turn > 0.7 * widest);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -364,6 +448,9 @@ int main(int argc, char **argv)
         cmocka_unit_test(slots_are_given_in_order),
         cmocka_unit_test(every_drop_is_accounted_for),
         cmocka_unit_test(splashes_live_and_fade),
+        cmocka_unit_test(presets_stand_for_settings),
+        cmocka_unit_test(wind_goes_by_its_script),
+        cmocka_unit_test(wind_blows_by_chance),
     };
     device = rg_device_open(argc > 1 ? argv[1] : "cpu");
     assert_non_null(device);
