@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Changes one place of the text of a technique's kernels at a time, and runs the tests that ought to notice.
+"""Changes one place of the text of a room of kernels at a time, and runs the tests that ought to notice.
 
-mutants.py TECHNIQUE SOURCE BUILD COMPILER... -- [NAME HEADER SHELL]...
+mutants.py ROOM SOURCE BUILD COMPILER... -- [NAME HEADER SHELL]...
 
 The device opencl reads the changed text at run time (RG_KERNEL_DIR); each test compares what it
 finds with a law, a case worked out by hand, or a model of its own, never with another device. A
 mutant that no test notices has lived, which fails, as does a test of the text as it is. The rows
-are in mutant_rows.py in the folder of the technique's tests.
+are in mutant_rows.py in the folder of the room's tests. A room is a technique, or a folder of one.
 """
 import importlib.util
 import os
@@ -61,8 +61,8 @@ def mutated(source, root, kernels, row):
     (root / kernels / row.file).write_text(text.replace(row.old, row.new), encoding="utf-8")
 
 
-def run(technique, source, build, compiler, forms, folder):
-    tests, kernels = pathlib.Path("tests/core/techniques") / technique, pathlib.Path("kernels") / technique
+def run(room, source, build, compiler, forms, folder):
+    tests, kernels = pathlib.Path("tests/core/techniques") / room, pathlib.Path("kernels") / room
     rows, programs = rows_of(source / tests), build / tests
     root, texts = folder / "root", folder / "texts"
     shutil.copytree(source / "kernels", root / "kernels")
@@ -88,10 +88,10 @@ def run(technique, source, build, compiler, forms, folder):
 
 def main():
     split = sys.argv.index("--")
-    technique, source, build, *compiler = sys.argv[1:split]
+    room, source, build, *compiler = sys.argv[1:split]
     words = sys.argv[split + 1 :]
     with tempfile.TemporaryDirectory() as folder:
-        lived = run(technique, pathlib.Path(source), pathlib.Path(build), compiler,
+        lived = run(room, pathlib.Path(source), pathlib.Path(build), compiler,
                     list(zip(words[::3], words[1::3], words[2::3])), pathlib.Path(folder))
     sys.exit(1 if lived else 0)
 
