@@ -7,11 +7,21 @@ static const struct rg_pose poses[] = {
     {"scene=park2 style=gooch_outlines spin_deg=7 rise_deg=30", 100, 10},
     {"scene=house1 style=hatching spin_deg=5", 100, 10},
     {"scene=table style=outlines spin_deg=5 zoom=2", 100, 10},
-    {"scene=mesh style=cartoon zoom=1.5", 10, 5},
+    {"scene=mesh style=cartoon zoom=1.5", 60, 45},
+    // The rain: each way to count, to fall and to blow; 600 steps of a storm at length.
+    {"preset=storm drops_s=2000 collide=faithful query=spheres", 600, 30},
+    {"preset=table drops_s=3000 collide=any drag=quadratic", 600, 40},
+    {"scene=house2 drops_s=3000 spin_deg=3 steps_s=30", 600, 60},
     {NULL, 0, 0},
 };
 
+static bool cartoon_rain_balances(const struct rg_instance *instance, char *detail, size_t size)
+{
+    return cartoon_rain_holds(&((const struct cartoon *)instance)->rain, detail, size);
+}
+
 static const struct rg_law laws[] = {
+    {"every drop is somewhere", cartoon_rain_balances},
     {NULL, NULL},
 };
 
@@ -24,6 +34,10 @@ static const struct rg_mutant mutants[] = {
     {"creases from 50 degrees on", "crease_deg", 1, 10},
     {"shadows 5 % lighter", "shadow_tone", 1.05, 0},
     {"full light 5 % later", "lit_from", 1.05, 0},
+    {"1 % more drops", "drops_s", 1.01, 0},
+    {"drops 1 % faster", "speed_m_s", 1.01, 0},
+    {"drops 1 % larger", "drop_m", 0, 0.32},
+    {"another seed", "seed", 1, 1},
     {NULL, NULL, 0, 0},
 };
 
@@ -33,6 +47,9 @@ static const struct rg_contrast contrasts[] = {
     {"strokes 2 % larger", "style=hatching", "hatch_px=204"},
     {"less wash", "style=hatching", "hatch_wash=0.33"},
     {"no outlines", "style=gooch_outlines", "style=gooch"},
+    {"a light wind", "wind_m_s=0", "wind_m_s=0.1"},
+    {"hidden drops hit", "scene=house2", "scene=house2 collide=faithful"},
+    {"splashes 5 % longer", "splash_s=0.3", "splash_s=0.32"},
     {NULL, NULL, NULL},
 };
 

@@ -61,6 +61,10 @@ bool cartoon_rain_step(struct cartoon_rain *r);
 // Draws splashes and drops over the target.
 bool cartoon_rain_draw(struct cartoon_rain *r);
 
+// Whether each drop that was released falls, sticks, or is counted among those that are gone, and
+// likewise each splash; else `detail` says in one line what is wrong.
+bool cartoon_rain_holds(const struct cartoon_rain *r, char *detail, size_t size);
+
 // For the files of this folder.
 
 // The parameters that never change. False, with one logged line, where settings do not go together.
