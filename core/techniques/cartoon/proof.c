@@ -3,9 +3,9 @@
 #include "core/techniques/proof.h"
 
 static const struct rg_pose poses[] = {
-    {"", 100, 10},
-    {"scene=park2 style=gooch_outlines spin_deg=7 rise_deg=30", 100, 10},
-    {"scene=house1 style=hatching spin_deg=5", 100, 10},
+    {"", 100, 50},
+    {"scene=park2 style=gooch_outlines spin_deg=7 rise_deg=30", 100, 50},
+    {"scene=house1 style=hatching spin_deg=5", 100, 50},
     {"scene=table style=outlines spin_deg=5 zoom=2", 100, 45},
     {"scene=mesh style=cartoon zoom=1.5", 60, 45},
     // The rain: each way to count, to fall and to blow; 600 steps of a storm at length.

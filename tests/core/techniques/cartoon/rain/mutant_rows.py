@@ -121,8 +121,6 @@ ROWS = [Row(*row) for row in (
      "rg_to_int(rg_floor(s.x_px)), 0", "rg_to_int(rg_floor(s.x_px)) + 1, 0", MOTION),
     ("the angle with the way on", "hit/collide.h",
      "rg_clamp(-v3_dot(velocity, n)", "rg_clamp(v3_dot(velocity, n)", MOTION),
-    ("the sky has no normal", "hit/collide.h",
-     "f.ny = is_sky ? 1.0f : texel.g;", "f.ny = is_sky ? 0.5f : texel.g;", MOTION),
     # pictures
     ("sprites are turned about a corner", "draw/sprite.h",
      "x * s.along_y - y * s.along_x + 0.5f", "x * s.along_y - y * s.along_x", PICTURES),
