@@ -9,8 +9,8 @@ static const struct rg_pose poses[] = {
     {"scene=table style=outlines spin_deg=5 zoom=2", 100, 45},
     {"scene=mesh style=cartoon zoom=1.5", 60, 45},
     // The rain: each way to count, to fall and to blow; 600 steps of a storm at length.
-    {"preset=storm drops_s=2000 collide=faithful query=spheres", 600, 30},
-    {"preset=table drops_s=3000 collide=any drag=quadratic", 600, 40},
+    {"preset=storm drops_s=2000 collide=faithful query=spheres", 600, 60},
+    {"preset=table drops_s=3000 collide=any drag=quadratic", 600, 90},
     {"scene=house2 drops_s=3000 spin_deg=3 steps_s=30", 600, 60},
     {NULL, 0, 0},
 };
