@@ -6,6 +6,7 @@
 #define RG_CORE_TECHNIQUES_TECHNIQUE_H
 
 #include "core/techniques/stages/assets.h"
+#include "core/techniques/stages/frame.h"
 #include "core/techniques/stages/instance.h"
 #include "core/techniques/params.h"
 #include "core/techniques/stages/stages.h"

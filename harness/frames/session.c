@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
-#include "core/techniques/frame.h"
+#include "core/techniques/stages/frame.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/frames/inside.h"

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "core/techniques/frame.h"
+#include "core/techniques/stages/frame.h"
 #include "harness/compare/verify/verify.h"
 #include "harness/console/exit.h"
 

@@ -4,7 +4,6 @@
 
 #include "core/base/log.h"
 #include "core/image/compare/compare.h"
-#include "core/techniques/frame.h"
 
 // Sizes are tried in steps of 5 %. A rain space 100 km wide has 242 of them.
 static const double step_factor = 1.05, least_radius_m = 1;

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "core/image/compare/compare.h"
-#include "core/techniques/frame.h"
+#include "core/techniques/stages/frame.h"
 #include "core/techniques/streaks/instance.h"
 
 enum { WIDTH = 128, HEIGHT = 72 };

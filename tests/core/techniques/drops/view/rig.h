@@ -3,7 +3,7 @@
 #ifndef RG_TESTS_CORE_TECHNIQUES_DROPS_VIEW_RIG_H
 #define RG_TESTS_CORE_TECHNIQUES_DROPS_VIEW_RIG_H
 
-#include "core/techniques/frame.h"
+#include "core/techniques/stages/frame.h"
 #include "tests/core/techniques/drops/rig.h"
 #include "tests/oracle/drops/pane/pane.h"
 

@@ -1,4 +1,4 @@
-#include "core/techniques/frame.h"
+#include "core/techniques/stages/frame.h"
 
 #include <stdlib.h>
 

@@ -1,9 +1,9 @@
 // What a technique has drawn, brought to the host.
-#ifndef RG_CORE_TECHNIQUES_FRAME_H
-#define RG_CORE_TECHNIQUES_FRAME_H
+#ifndef RG_CORE_TECHNIQUES_STAGES_FRAME_H
+#define RG_CORE_TECHNIQUES_STAGES_FRAME_H
 
 #include "core/image/picture.h"
-#include "core/techniques/technique.h"
+#include "core/techniques/stages/instance.h"
 
 // The target's texels as the device holds them: *size bytes, which the caller frees. NULL, and one
 // logged line, on failure.
