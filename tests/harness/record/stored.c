@@ -105,7 +105,7 @@ static void test_refusals(void **state)
     expect_refusal("table", json_string("../x"), "f: table is no name");
     expect_refusal("rows", json_pack("[ii]", 4, 2), "f: rows is no range");
     expect_refusal("rows", json_pack("[iii]", 1, 2, 3), "f: rows is no pair");
-    expect_refusal("variants", json_array(), "f: variants has not 1 to 8 elements");
+    expect_refusal("variants", json_array(), "f: variants has not 1 to 10 elements");
     expect_refusal("passport.devices.1.name", json_integer(1),
                    "f: passport.devices[1].name is no text");
     expect_refusal("passport.devices.0.software", json_null(),
