@@ -18,6 +18,17 @@ double rg_job_time(struct rg_job *job, int frames)
     return (rg_now_ms() - start) / frames;
 }
 
+bool rg_job_stay_in_window(struct rg_job *job, int frames)
+{
+    struct rg_account told;
+    rg_session_tell(job->session, &told);
+    if (!job->window_frames || told.frame + frames <= job->check_frames + job->window_frames)
+        return true;
+    rg_session_close(job->session);
+    job->session = rg_session_run(job->device, &job->subject, job->check_frames);
+    return job->session || rg_record_end_by_error(job->record);
+}
+
 // --- preparing: open, check, warm up ---
 
 static bool open_session(struct rg_job *job)
@@ -138,6 +149,8 @@ bool rg_job_warm_up(struct rg_job *job, const struct rg_measure_options *options
 {
     const double start = rg_now_ms();
     for (int i = 1; i <= MAX_WARM_UP_FRAMES && job->record->outcome == RG_OK; i++) {
+        if (!rg_job_stay_in_window(job, 1))
+            return false;
         const double before = job->warm_frame_ms, now = rg_job_time(job, 1);
         job->warm_frame_ms = now;
         const bool settled = i >= MIN_WARM_UP_FRAMES && fabs(now - before) <= 0.1 * before;

@@ -12,6 +12,10 @@ struct rg_job {
     struct rg_subject subject;
     struct rg_device *device;
     int check_frames;           // simulated and drawn before the image is compared, at least 1
+    // Timed are so many frames behind the check frames, over and over from a session opened anew; 0:
+    // whatever follows. A technique whose frames differ from what they were when it began, as water
+    // gathers, is timed at one age.
+    int window_frames;
     const char *const *counted; // counters whose growth in a frame is kept; NULL: none
     struct rg_record *record;   // not owned; its outcome says whether the job goes on
     // Found:
@@ -41,6 +45,9 @@ bool rg_job_check(struct rg_job *job, const struct rg_expected *expected);
 bool rg_job_count(struct rg_job *job);
 bool rg_job_warm_up(struct rg_job *job, const struct rg_measure_options *options);
 
+// Opens a job's session anew, up to its check frames, where so many more frames would leave its
+// window. Ends the record on failure.
+bool rg_job_stay_in_window(struct rg_job *job, int frames);
 // The time that each of some frames takes by wall clock, between full syncs. Ends the record on
 // failure.
 double rg_job_time(struct rg_job *job, int frames);

@@ -17,13 +17,20 @@ static bool needs_run_up(double frame_ms)
     return frame_ms < LONG_FRAME_MS;
 }
 
+// The window holds a sample and the frame before it.
+static int most_frames(const struct rg_job *job)
+{
+    return job->window_frames ? job->window_frames - 1 : 100000;
+}
+
 // Frames a sample, so that it lasts long enough to be timed well, and the number of samples.
 static void calibrate(struct rg_job *job, const struct rg_measure_options *options)
 {
     double ms = job->warm_frame_ms;
-    if (ms < options->sample_ms)
+    if (ms < options->sample_ms && rg_job_stay_in_window(job, 4))
         ms = fmin(rg_job_time(job, 2), rg_job_time(job, 2));
-    job->record->frames_a_sample = (int)fmin(fmax(ceil(options->sample_ms / ms), 1), 100000);
+    job->record->frames_a_sample =
+        (int)fmin(fmax(ceil(options->sample_ms / ms), 1), most_frames(job));
     const double sample_ms = ms * (job->record->frames_a_sample + (needs_run_up(ms) ? 1 : 0));
     job->wanted_samples =
         (int)fmin(fmax(floor(options->job_ms / sample_ms), options->least_samples),
@@ -48,6 +55,8 @@ static void take_sample(struct rg_job *job)
     struct rg_record *record = job->record;
     const bool is_last = record->sample_count + 1 == job->wanted_samples;
     int64_t begin, end;
+    if (!rg_job_stay_in_window(job, record->frames_a_sample + 1))
+        return;
     if (needs_run_up(job->warm_frame_ms))
         rg_job_time(job, 1);
     const bool has_begun = is_last && rg_session_time(job->session, &begin);

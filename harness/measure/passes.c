@@ -37,7 +37,7 @@ bool rg_job_time_passes(struct rg_job *job)
     bool ok = true;
     while (ok && record->pass_frames < MOST_FRAMES &&
            (record->pass_frames < LEAST_FRAMES || rg_now_ms() - start < PASSES_MS)) {
-        ok = rg_session_stages(job->session, add_stage, record);
+        ok = rg_job_stay_in_window(job, 1) && rg_session_stages(job->session, add_stage, record);
         record->pass_frames++;
     }
     for (int i = 0; i < record->pass_count; i++)

@@ -38,6 +38,7 @@ static struct preparation begin(struct rg_batch *batch, struct rg_place at)
         p.jobs[at.device] = (struct rg_job){.subject = p.subject,
                                             .device = batch->kept->devices->devices[at.device],
                                             .check_frames = p.check_frames,
+                                            .window_frames = table->window_frames,
                                             .counted = table->counted,
                                             .record = rg_result_at(batch->result, at)};
     return p;

@@ -216,6 +216,47 @@ static void test_samples(void **state)
     free(settings);
 }
 
+// --- frames of one age ---
+
+enum { WINDOW_CHECK_FRAMES = 5, WINDOW_FRAMES = 4 };
+static int frames_of_age[WINDOW_CHECK_FRAMES + WINDOW_FRAMES + 1]; // the last: of any above
+
+static bool step_with_age(struct rg_instance *instance)
+{
+    const int64_t most = WINDOW_CHECK_FRAMES + WINDOW_FRAMES;
+    frames_of_age[instance->frame < most ? instance->frame : most]++;
+    return rg_technique_find("flow")->step(instance);
+}
+
+static void test_window(void **state)
+{
+    (void)state;
+    struct rg_technique aging = *rg_technique_find("flow");
+    aging.step = step_with_age;
+    const struct rg_measure_options options = {
+        .most_samples = 9, .least_samples = 9, .sample_ms = 1000, .warm_up_ms = 1000};
+    void *settings = settings_of(CHEAP);
+    struct rg_device *device = rg_device_open("cpu");
+    struct rg_record record = {0};
+    struct rg_job job = {.subject = {&aging, settings, 16, 16},
+                         .device = device,
+                         .check_frames = WINDOW_CHECK_FRAMES,
+                         .window_frames = WINDOW_FRAMES,
+                         .record = &record};
+    assert_true(rg_job_open(&job) && rg_job_count(&job) && rg_job_warm_up(&job, &options));
+    rg_jobs_measure(&job, 1, &options);
+    assert_int_equal(record.outcome, RG_OK);
+    assert_int_equal(record.sample_count, 9);
+    assert_int_equal(record.frames_a_sample, WINDOW_FRAMES - 1); // and the one before it
+    assert_int_equal(frames_of_age[WINDOW_CHECK_FRAMES + WINDOW_FRAMES], 0);
+    // Each sample lies behind check frames of its own, where a frame of it was.
+    assert_true(frames_of_age[0] >= 9);
+    assert_true(frames_of_age[WINDOW_CHECK_FRAMES + WINDOW_FRAMES - 1] >= 9);
+    rg_job_close(&job);
+    assert_true(rg_device_close(device));
+    free(settings);
+}
+
 // --- what counters grow by in a frame ---
 
 static void test_counted(void **state)
@@ -247,6 +288,7 @@ int main(void)
         cmocka_unit_test(test_tiers_by_the_mask),
         cmocka_unit_test(test_what_a_record_keeps),
         cmocka_unit_test(test_samples),
+        cmocka_unit_test(test_window),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,10 +9,11 @@ enum { OFF, ON };
 #define VIEW "view=particles"
 // Rows let it rain so hard that the drops that there may be are there after so many steps, and that
 // waters meet in every step: by the paper's rules drops at rest stay, and a pane that is full of
-// them does nothing more.
+// them does nothing more. Water gathers, so that they are timed in the 20 steps behind these.
 #define PANE(picture_width, picture_height, steps)                                                 \
     .technique = "drops", .width = (picture_width), .height = (picture_height),                    \
-    .check_frames = (steps), .counted = {"drops_stepped", "cells_stepped", "merging_steps"}
+    .check_frames = (steps), .window_frames = 20,                                                  \
+    .counted = {"drops_stepped", "cells_stepped", "merging_steps"}
 
 // Section 5: what a frame takes with the parameters of table 3.
 static const struct rg_table_row timing[] = {
@@ -35,11 +36,11 @@ const struct rg_table rg_table_chin_timing = {
     .rows = timing,
     .note =
         "A frame is one step and its picture: the height map, a pixel a cell, with the drops over "
-        "it, as in the paper's figure 2. The paper does not say how many drops there were at 14.8 "
-        "ms, and how many at "
-        "31.8. In the full rain, 1500 drops a second, the pane has 600 to 700 from the 40th "
-        "step on, and waters meet in each; light_rain has lasted for 40 steps with 120 a "
-        "second, and leaves most of the pane dry. The paper calls its program real-time, 30 frames "
+        "it, as in the paper's figure 2; timed are the 41st to the 60th, over and over, for water "
+        "gathers. The paper does not say how many drops there were at 14.8 ms, and how many at "
+        "31.8. In the full rain, 1500 drops a second, the pane has 600 to 700 in these steps, and "
+        "waters meet in each; light_rain, 120 a second, leaves most of the pane dry. The paper "
+        "calls its program real-time, 30 frames "
         "a second on one thread; OMP_NUM_THREADS=1 measures cpu so.",
 };
 

@@ -65,6 +65,7 @@ struct rg_table {
     // first row that is not measured.
     int rows_at_once;
     int check_frames;  // simulated and drawn before images are compared; 0: RG_CHECK_FRAMES
+    int window_frames; // timed behind them, over and over (struct rg_job); 0: whatever follows
     int width, height; // of the image, in pixels
     int row_count;     // at most RG_TABLE_ROWS
     const struct rg_table_row *rows;
