@@ -2,6 +2,7 @@
 """Changes one place of the text of a room of kernels at a time, and runs the tests that ought to notice.
 
 mutants.py ROOM SOURCE BUILD COMPILER... -- [NAME HEADER SHELL]...
+mutants.py --places SOURCE ROOM...    whether the rows' places are in the texts, and nothing is run
 
 The device opencl reads the changed text at run time (RG_KERNEL_DIR); each test compares what it
 finds with a law, a case worked out by hand, or a model of its own, never with another device. A
@@ -53,17 +54,27 @@ def first_to_notice(programs, folder, tests):
     return None
 
 
+def check_places(rows, kernels):
+    """Ends where a row's place is not there once in a text of the folder `kernels`."""
+    wrong = []
+    for row in rows:
+        count = (kernels / row.file).read_text(encoding="utf-8").count(row.old)
+        if count != 1:
+            wrong.append(f"mutants.py: {row.about}: {row.file} has {count} times: {row.old}")
+    if wrong:
+        sys.exit("\n".join(wrong))
+
+
 def mutated(source, root, kernels, row):
     """Changes a row's place in the copy `root` of the folder `kernels`."""
     text = (source / kernels / row.file).read_text(encoding="utf-8")
-    if text.count(row.old) != 1:
-        sys.exit(f"mutants.py: {row.about}: {row.file} has {text.count(row.old)} times: {row.old}")
     (root / kernels / row.file).write_text(text.replace(row.old, row.new), encoding="utf-8")
 
 
 def run(room, source, build, compiler, forms, folder):
     tests, kernels = pathlib.Path("tests/core/techniques") / room, pathlib.Path("kernels") / room
     rows, programs = rows_of(source / tests), build / tests
+    check_places(rows, source / kernels)
     root, texts = folder / "root", folder / "texts"
     shutil.copytree(source / "kernels", root / "kernels")
     texts.mkdir()
@@ -86,7 +97,17 @@ def run(room, source, build, compiler, forms, folder):
     return lived
 
 
+def places(source, rooms):
+    for room in rooms:
+        rows = rows_of(source / "tests/core/techniques" / room)
+        check_places(rows, source / "kernels" / room)
+        print(f"{room}: {len(rows)} mutants")
+
+
 def main():
+    if sys.argv[1] == "--places":
+        places(pathlib.Path(sys.argv[2]), sys.argv[3:])
+        return
     split = sys.argv.index("--")
     room, source, build, *compiler = sys.argv[1:split]
     words = sys.argv[split + 1 :]
