@@ -28,8 +28,9 @@ void strokes_of_drop(struct strokes *s, int weight)
 // --- the splashes ---
 
 // How far spray flies in a life, and falls back.
-#define REACH 0.62
-#define FALL  0.50
+#define REACH  0.62
+#define FALL   0.50
+#define GROUND 0.06 // below the middle, where the near side of the ring lies: what comes down ends
 
 struct prong {
     double lean_rad; // from upright
@@ -42,12 +43,14 @@ static void at_time(const struct prong *p, double t, double at[2])
     at[1] = 0.5 - REACH * p->force * cos(p->lean_rad) * t + FALL * t * t * p->force;
 }
 
-// A tongue of water in the first half of its life; then a drop that flies on.
+// A tongue of water in the first half of its life; then a drop that flies on, until it is down.
 static void add_prong(struct strokes *s, const struct prong *p, double t)
 {
     double tip[2], tail[2];
     const double thick = 0.044 * (1 - 0.45 * t);
     at_time(p, t, tip);
+    if (tip[1] > 0.5 + GROUND)
+        return;
     at_time(p, fmax(t - (t < 0.5 ? 0.34 : 0.10), 0), tail);
     strokes_add(s, tail[0], tail[1], thick * (t < 0.5 ? 0.95 : 0.45), tip[0], tip[1], thick);
 }
