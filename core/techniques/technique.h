@@ -13,6 +13,19 @@
 
 struct rg_proof;
 
+// A level of a texture as a technique makes it: the very texels that its kernels sample. They last
+// for the call.
+struct rg_made_texture {
+    const char *name; // "splash-steep-1"
+    int row, column;  // its place on a sheet of all
+    int level, side_px;
+    bool is_paint;         // premultiplied linear light; else grey of display values
+    const uint32_t *words; // RGBA8, row 0 on top
+};
+
+// Takes a texture. False, with one logged line, where it cannot; no other follows then.
+typedef bool rg_take_texture(void *user, const struct rg_made_texture *texture);
+
 struct rg_technique {
     const char *name;  // "flow"
     const char *paper; // key of the paper: "stuppacher"; "" for none
@@ -33,6 +46,10 @@ struct rg_technique {
     bool (*step)(struct rg_instance *instance);
     // Draws the present state into instance->target.
     bool (*draw)(struct rg_instance *instance);
+    // Hands over each level of each texture that it generates, the levels of one after the other
+    // from the finest on; `raingauge atlas` writes them as files. NULL: there is none. False, with
+    // one logged line, on failure.
+    bool (*make_textures)(rg_take_texture *take, void *user);
 };
 
 // The technique of this name, or NULL. All of them, NULL-terminated, made by the build from the

@@ -1,5 +1,5 @@
-// raingauge atlas: makes the streak atlas, or packs the original database; describes and exports
-// it.
+// raingauge atlas: makes the streak atlas, or packs the original database; or makes the textures of
+// a technique. Describes and exports them.
 #include <jansson.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -9,8 +9,10 @@
 #include "core/scene/atlas/cave.h"
 #include "core/scene/atlas/levels.h"
 #include "harness/atlas/export.h"
+#include "harness/atlas/textures.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
+#include "harness/cli/subject.h"
 #include "harness/console/clock.h"
 #include "harness/console/progress.h"
 #include "harness/record/named.h"
@@ -25,13 +27,16 @@ struct atlas_options {
 
 static const struct rg_option options[] = {
     RG_GROUP("What to make"),
+    {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
+     .about = "the textures that it generates, such as cartoon's; without one, the streak atlas",
+     .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     {RG_OPTION_TEXT, "from", .argument = "DIR",
      .about = "packs the original database in this folder instead", .offset = AT(from),
      .names = RG_NAMES_FOLDER},
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "DIR",
-     .about = "writes the atlas into this folder, as EXR and PNG files", .offset = AT(output),
+     .about = "writes it into this folder, as EXR and PNG files", .offset = AT(output),
      .letter = 'o', .names = RG_NAMES_FOLDER},
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
@@ -169,10 +174,56 @@ static void print_json(const struct found *found)
     json_decref(json);
 }
 
+// --- textures of a technique ---
+
+static void print_rows_text(const struct rg_texture_rows *rows)
+{
+    printf("%-24s%8s%8s\n", "texture", "side px", "levels");
+    for (int i = 0; i < rows->count; i++)
+        printf("%-24s%8d%8d\n", rows->items[i].name, rows->items[i].side_px, rows->items[i].levels);
+}
+
+// docs/records.md
+static void print_rows_json(const struct rg_technique *technique,
+                            const struct rg_texture_rows *rows)
+{
+    json_t *textures = json_array();
+    for (int i = 0; i < rows->count; i++)
+        json_array_append_new(textures,
+                              json_pack("{sssisi}", "name", rows->items[i].name, "side_px",
+                                        rows->items[i].side_px, "levels", rows->items[i].levels));
+    json_t *json =
+        json_pack("{sissso}", "format", 1, "technique", technique->name, "textures", textures);
+    json_dumpf(json, stdout, JSON_INDENT(1));
+    printf("\n");
+    json_decref(json);
+}
+
+static int make_textures(const struct atlas_options *o, const char *name)
+{
+    struct rg_texture_rows rows;
+    const struct rg_technique *technique = rg_subject_technique(name);
+    if (!technique)
+        return RG_EXIT_USAGE;
+    if (o->from || o->length.quick || o->length.full) {
+        rg_error("atlas %s: --from, --quick and --full are about the streak atlas; leave them out",
+                 name);
+        return RG_EXIT_USAGE;
+    }
+    if (!rg_textures_make(technique, o->output, &rows))
+        return RG_EXIT_USAGE;
+    if (o->json)
+        print_rows_json(technique, &rows);
+    else
+        print_rows_text(&rows);
+    return RG_EXIT_PASS;
+}
+
 static int atlas_command(const void *values, const struct rg_words *arguments)
 {
-    (void)arguments;
     const struct atlas_options *o = values;
+    if (arguments->count)
+        return make_textures(o, arguments->items[0]);
     struct found found;
     if (!find(o, &found))
         return RG_EXIT_USAGE;
@@ -187,8 +238,8 @@ static int atlas_command(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_atlas = {
     .name = "atlas",
-    .usage = "[--quick|--full] [--from DIR] [-o DIR] [--json]",
-    .about = "makes the streak atlas or packs the original database; describes and exports it",
+    .usage = "[TECHNIQUE] [--quick|--full] [--from DIR] [-o DIR] [--json]",
+    .about = "makes the streak atlas or a technique's textures; describes and exports them",
     .options = options,
     .options_size = sizeof(struct atlas_options),
     .run = atlas_command,

@@ -96,7 +96,12 @@ COMMANDS = [
     Case("diff flow --set drops=-1 --device cpu,cpu:reference", 2, r"parameter 'drops': -1 is out of range"),
 
     # atlas
-    Case("atlas nonsense", 2, r"atlas: 'nonsense' is one argument too many"),
+    Case("atlas nonsense", 2, r"technique 'nonsense': unknown; `raingauge list techniques`"),
+    Case("atlas cartoon flow", 2, r"atlas: 'flow' is one argument too many"),
+    Case("atlas flow", 2, r"technique 'flow': it generates no textures; `raingauge atlas --help`"),
+    Case("atlas cartoon --quick", 2, r"atlas cartoon: --from, --quick and --full are about the streak atlas; leave them out"),
+    Case("atlas cartoon --from {tmp}", 2, r"atlas cartoon: --from, --quick and --full are about the streak atlas"),
+    Case("atlas cartoon -o {tmp}/none/out", 2, r"none/out: cannot be made: .*; name a folder"),
     Case("atlas --quick --full", 2, r"--quick and --full: choose one"),
     Case("atlas --device cpu", 2, r"--device: unknown option; `raingauge atlas --help`"),
     Case("atlas --from", 2, r"--from: .*`raingauge atlas --help`"),

@@ -120,7 +120,7 @@ def check_completed_words(runner):
         "render flow ": [],
         "render flow --s": ["--set", "--size"],
         "atlas --": re.findall(r"^ +(?:-\w, )?(--\w+)", runner.run(["atlas", "--help"]).stdout, re.M),
-        "atlas ": [],
+        "atlas ": techniques,
         "render flow --set ": [name + "=" for name in flow],
         "render flow --set view=": ["box", "pane"],
         "render flow --set=view=p": ["pane"],

@@ -12,11 +12,11 @@ from cases import DIFF, FORMATS, NO_CACHE, RENDER, SMALL, STAGES, TABLE
 from runner import NO_DRIVERS
 
 
-def run_json(runner, args, env={}):
+def run_json(runner, args, env={}, form=None):
     """What the command prints as JSON, its exit status, and its messages as a list of problems."""
     result = runner.run((args + " --json").split(), env)
     document = json.loads(result.stdout)
-    problems = forms.problems(args.split()[0], document)
+    problems = forms.problems(form or args.split()[0], document)
     return document, result.returncode, problems + ["stderr: " + line for line in result.stderr.splitlines()]
 
 
@@ -323,7 +323,29 @@ def check_atlas(runner):
     return problems
 
 
-CHECKS = [check_forms, check_table_json, check_table_files, check_render_json, check_diff_json, check_full_stdout]
+def check_textures(runner):
+    """atlas cartoon lists what it generates, and with -o writes each level of it, looks of it, and a sheet"""
+    with tempfile.TemporaryDirectory() as out:
+        told, status, problems = run_json(runner, "atlas cartoon -o " + out, form="textures")
+        wanted = ["drop-" + weight for weight in ("light", "middle", "heavy")]
+        wanted += ["splash-%s-%d" % (pattern, age) for pattern in ("steep", "aslant", "grazing") for age in range(1, 7)]
+        shapes = [(name, 64, 7) for name in wanted] + [("strokes-tone-%d" % tone, 256, 4) for tone in range(1, 7)]
+        if (told["format"], told["technique"], status) != (1, "cartoon", 0):
+            problems.append("exit status %d: %s" % (status, told))
+        if [tuple(t[k] for k in ("name", "side_px", "levels")) for t in told["textures"]] != shapes:
+            problems.append("textures: %s" % told["textures"])
+        files = {"textures.csv", "sheet.png"} | {name + ".png" for name, _, _ in shapes}
+        files |= {"%s-level-%d.exr" % (name, level) for name, _, levels in shapes for level in range(levels)}
+        if set(os.listdir(out)) != files:
+            problems.append("written: %s" % sorted(set(os.listdir(out)) ^ files))
+        with open(os.path.join(out, "textures.csv")) as file:
+            rows = [(row["name"], int(row["side_px"]), int(row["levels"])) for row in csv.DictReader(file)]
+        if rows != shapes:
+            problems.append("textures.csv: %s" % rows)
+    return problems
+
+
+CHECKS = [check_textures, check_forms, check_table_json, check_table_files, check_render_json, check_diff_json, check_full_stdout]
 STORED = [check_interrupted, check_stored]
 
 

@@ -16,6 +16,11 @@ bool cartoon_draw(struct rg_instance *instance)
     return cartoon_scene_draw(c) && cartoon_rain_draw(&c->rain);
 }
 
+static bool cartoon_make_textures(rg_take_texture *take, void *user)
+{
+    return cartoon_make_rain_textures(take, user) && cartoon_make_strokes(take, user);
+}
+
 const struct rg_technique rg_technique_cartoon = {
     .name = "cartoon",
     .paper = "feng",
@@ -28,4 +33,5 @@ const struct rg_technique rg_technique_cartoon = {
     .close = cartoon_close,
     .step = cartoon_step,
     .draw = cartoon_draw,
+    .make_textures = cartoon_make_textures,
 };

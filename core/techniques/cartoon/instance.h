@@ -78,5 +78,7 @@ bool cartoon_scene_draw(struct cartoon *c);
 // Adds the image `strokes`: RGBA8, CARTOON_LEVELS levels, tones 0 to 3 in the channels of its first
 // layer, 3 to 6 in those of its second.
 void cartoon_add_strokes(struct cartoon *c);
+// Hands over each tone of them as a texture of its own (core/techniques/technique.h).
+bool cartoon_make_strokes(rg_take_texture *take, void *user);
 
 #endif

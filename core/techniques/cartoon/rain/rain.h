@@ -76,5 +76,8 @@ int64_t cartoon_released_before(const struct cartoon_rain_settings *settings, in
 // Adds the image `rain_textures` and the buffer `boxes` (kernels/cartoon/rain/draw/sprite.h).
 // Returns its levels.
 int cartoon_add_textures(struct rg_instance *instance);
+// Hands over its layers as textures: drops in a row, and each pattern of splashes
+// (core/techniques/technique.h).
+bool cartoon_make_rain_textures(rg_take_texture *take, void *user);
 
 #endif

@@ -1,8 +1,7 @@
 // The rain's textures: an image of a layer each, with levels, and what of them is not transparent.
 #include <math.h>
-#include <stdlib.h>
+#include <stdio.h>
 
-#include "core/base/alloc.h"
 #include "core/techniques/cartoon/rain/rain.h"
 #include "core/techniques/cartoon/rain/strokes.h"
 #include "kernels/dialect/image/format.h"
@@ -59,12 +58,33 @@ static struct box box_of(const uint32_t *words, int px)
                         (float)fmin((bottom + 1.5) * over, 1)};
 }
 
-static bool write_layer(struct rg_image *image, int layer, struct box *boxes)
+// Drops by their weight; splashes by how they strike, and their age.
+static void name_of(int layer, char *name, size_t size)
+{
+    static const char *const weights[] = {"light", "middle", "heavy"};
+    static const char *const patterns[] = {"steep", "aslant", "grazing"};
+    const int splash = layer - CARTOON_DROP_TEXTURES;
+    if (splash < 0)
+        snprintf(name, size, "drop-%s", weights[layer]);
+    else
+        snprintf(name, size, "splash-%s-%d", patterns[splash / CARTOON_FRAMES],
+                 splash % CARTOON_FRAMES + 1);
+}
+
+static bool make_layer(int layer, rg_take_texture *take, void *user)
 {
     rgba texels[SIDE_PX * SIDE_PX];
     uint32_t words[SIDE_PX * SIDE_PX];
+    char name[32];
+    const int splash = layer - CARTOON_DROP_TEXTURES;
+    struct rg_made_texture texture = {.name = name,
+                                      .row = splash < 0 ? 0 : 1 + splash / CARTOON_FRAMES,
+                                      .column = splash < 0 ? layer : splash % CARTOON_FRAMES,
+                                      .is_paint = true,
+                                      .words = words};
     bool ok = true;
     paint(layer, texels);
+    name_of(layer, name, sizeof(name));
     for (int level = 0; ok && level < LEVELS; level++) {
         const int px = SIDE_PX >> level;
         if (level)
@@ -72,22 +92,44 @@ static bool write_layer(struct rg_image *image, int layer, struct box *boxes)
         for (int i = 0; i < px * px; i++)
             words[i] = rg_unorm8(texels[i].r) | rg_unorm8(texels[i].g) << 8 |
                        rg_unorm8(texels[i].b) << 16 | rg_unorm8(texels[i].a) << 24;
-        boxes[layer * LEVELS + level] = box_of(words, px);
-        ok = rg_image_write(image, layer, level, words);
+        texture.level = level;
+        texture.side_px = px;
+        ok = take(user, &texture);
     }
     return ok;
 }
 
+bool cartoon_make_rain_textures(rg_take_texture *take, void *user)
+{
+    bool ok = true;
+    for (int layer = 0; ok && layer < LAYERS; layer++)
+        ok = make_layer(layer, take, user);
+    return ok;
+}
+
+// Where textures go: a layer each of an image.
+struct upload {
+    struct rg_image *image;
+    int taken;
+    struct box boxes[LAYERS * LEVELS];
+};
+
+static bool upload(void *user, const struct rg_made_texture *t)
+{
+    struct upload *u = user;
+    const int layer = u->taken / LEVELS;
+    u->boxes[u->taken++] = box_of(t->words, t->side_px);
+    return rg_image_write(u->image, layer, t->level, t->words);
+}
+
 int cartoon_add_textures(struct rg_instance *instance)
 {
-    struct box boxes[LAYERS * LEVELS];
     const struct rg_image_desc desc = {RG_RGBA8, SIDE_PX, SIDE_PX, LAYERS, LEVELS};
     const struct rg_asset *asset = rg_add_image_of(instance, "rain_textures", &desc);
-    bool ok = asset;
-    for (int layer = 0; ok && layer < LAYERS; layer++)
-        ok = write_layer(asset->image, layer, boxes);
+    struct upload to = {.image = asset ? asset->image : NULL};
+    const bool ok = asset && cartoon_make_rain_textures(upload, &to);
     instance->has_failed |= !ok;
-    rg_add_buf(instance, "boxes", LAYERS * LEVELS * 4, boxes);
+    rg_add_buf(instance, "boxes", LAYERS * LEVELS * 4, to.boxes);
     if (ok)
         rg_tell_texture(instance, "rain", asset->image, 0);
     return LEVELS;

@@ -2,6 +2,7 @@
 // tone lies in all darker ones too, and one of a level in all finer ones, where it is as wide in
 // texels. Tiles repeat, so strokes go on over their rims.
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
@@ -122,14 +123,18 @@ static void darken(const struct tones *t, int level, int tone)
     }
 }
 
+static uint32_t paper_of(const struct tones *t, int level, int tone, int texel)
+{
+    return (uint32_t)((1 - (double)t->ink[level][tone][texel]) * 255 + 0.5);
+}
+
 // A texel's four tones, from `first` on, as bytes of paper; what is beyond the last tone is blank.
 static uint32_t pack(const struct tones *t, int level, int first, int texel)
 {
     uint32_t word = 0;
     for (int k = 0; k < 4; k++) {
         const int tone = first + k;
-        const double paper = tone < TONES ? 1 - (double)t->ink[level][tone][texel] : 1;
-        word |= (uint32_t)(paper * 255 + 0.5) << 8 * k;
+        word |= (tone < TONES ? paper_of(t, level, tone, texel) : 255) << 8 * k;
     }
     return word;
 }
@@ -163,6 +168,12 @@ static bool make_tones(struct tones *t)
     return ok;
 }
 
+static void free_tones(struct tones *t)
+{
+    for (int i = 0; i < LEVELS * TONES; i++)
+        free(t->ink[i / TONES][i % TONES]);
+}
+
 void cartoon_add_strokes(struct cartoon *c)
 {
     struct tones t = {0};
@@ -172,6 +183,32 @@ void cartoon_add_strokes(struct cartoon *c)
     for (int level = 0; ok && level < LEVELS; level++)
         ok = write_level(&t, level, strokes->image);
     c->base.has_failed |= !ok;
-    for (int i = 0; i < LEVELS * TONES; i++)
-        free(t.ink[i / TONES][i % TONES]);
+    free_tones(&t);
+}
+
+// The strokes stand under the three patterns of splashes on a sheet.
+static bool hand_over(const struct tones *t, int tone, int level, rg_take_texture *take, void *user)
+{
+    uint32_t words[SIZE_PX * SIZE_PX];
+    char name[32];
+    const int px = SIZE_PX >> level;
+    snprintf(name, sizeof(name), "strokes-tone-%d", tone + 1);
+    for (int i = 0; i < px * px; i++)
+        words[i] = 0xff000000u | 0x010101u * paper_of(t, level, tone, i);
+    return take(user, &(struct rg_made_texture){.name = name,
+                                                .row = 1 + CARTOON_PATTERNS,
+                                                .column = tone,
+                                                .level = level,
+                                                .side_px = px,
+                                                .words = words});
+}
+
+bool cartoon_make_strokes(rg_take_texture *take, void *user)
+{
+    struct tones t = {0};
+    bool ok = make_tones(&t);
+    for (int i = 0; ok && i < LEVELS * TONES; i++)
+        ok = hand_over(&t, i / LEVELS, i % LEVELS, take, user);
+    free_tones(&t);
+    return ok;
 }
