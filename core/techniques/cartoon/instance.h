@@ -15,6 +15,8 @@
 enum cartoon_stage {
     CARTOON_RUN_SOLIDS,
     CARTOON_RUN_THIN,
+    CARTOON_RUN_SOLID_NUMBERS,
+    CARTOON_RUN_THIN_NUMBERS,
     CARTOON_RUN_INK,
     // One of these draws the picture.
     CARTOON_RUN_GOOCH,
@@ -40,7 +42,7 @@ struct cartoon {
     struct cartoon_settings settings;
     struct diorama *diorama; // its mesh has the triangles and bounds
     struct cartoon_view view;
-    struct rg_asset *normal_map, *depth_map, *ink;
+    struct rg_asset *normal_map, *depth_map, *face_map, *number_depth, *ink;
     int edge_count;
     cartoon_faces_params solids, thin; // solids are seen from outside alone
     cartoon_ink_params outlines;
@@ -62,7 +64,8 @@ bool cartoon_draw(struct rg_instance *instance);
 // Loads the diorama and adds its assets: the mesh as `positions`, `normals`, `indices` and
 // `materials`, the `palette`, and two images of the target's size that each drawing of the scene
 // leaves: `normal_map`, RGBA16F, the normal in the world on the side that is seen, and one more
-// than the number of the material, all 0 in the sky; and `depth_map`, D32F, 1 in the sky. With
+// than the number of the material, all 0 in the sky; and `depth_map`, D32F, 1 in the sky. Where
+// collisions ask for faces, `face_map`, RGBA8: which face is nearest, as numbers.h packs it. With
 // outlines the `edges` and their `ink`; with hatching its `strokes`. Fills in the view of frame 0.
 bool cartoon_scene_open(struct cartoon *c);
 // Finds how the scene is looked at in a frame. False, and one logged line, where it cannot be.

@@ -33,12 +33,21 @@ static bool is_hatched(const struct rg_instance *i)
     return style_of(i) == CARTOON_HATCHING;
 }
 
-#define ONTO_MAPS .colour = "normal_map", .depth = "depth_map", .depth_mode = RG_DEPTH_WRITE
-#define PICTURE   .params = AT(shade), .colour = "target"
+static bool asks_faces(const struct rg_instance *i)
+{
+    return ((const struct cartoon *)i)->settings.rain.collide == CARTOON_COLLIDE_CORRECT;
+}
+
+#define ONTO_NUMBERS .colour = "face_map", .depth = "number_depth", .depth_mode = RG_DEPTH_WRITE
+#define ONTO_MAPS    .colour = "normal_map", .depth = "depth_map", .depth_mode = RG_DEPTH_WRITE
+#define PICTURE      .params = AT(shade), .colour = "target"
 
 static const struct rg_stage stages[CARTOON_STAGES] = {
     [CARTOON_RUN_SOLIDS] = {"cartoon_faces", .params = AT(solids), ONTO_MAPS, .cull = RG_CULL_BACK},
     [CARTOON_RUN_THIN] = {"cartoon_faces", .params = AT(thin), ONTO_MAPS},
+    [CARTOON_RUN_SOLID_NUMBERS] = {"cartoon_numbers", asks_faces, .params = AT(solids),
+                                   ONTO_NUMBERS, .cull = RG_CULL_BACK},
+    [CARTOON_RUN_THIN_NUMBERS] = {"cartoon_numbers", asks_faces, .params = AT(thin), ONTO_NUMBERS},
     [CARTOON_RUN_INK] = {"cartoon_ink", has_outlines, .params = AT(outlines), .depth = "ink",
                          .depth_mode = RG_DEPTH_WRITE},
     [CARTOON_RUN_GOOCH] = {"cartoon_gooch", is_gooch, PICTURE},

@@ -53,7 +53,6 @@ static const struct rg_param rows[] = {
     {"least_samples", RG_PARAM_INT, AT(rain.least_samples), 3, 1, 1000, "1", "a drop of which fewer are seen has hit (the paper's DEFINE_COUNT)", NULL},
     {"bound_m", RG_PARAM_FLOAT, AT(rain.bound_m), 0, 0, 10, "m", "radius of the sphere about a drop; 0: 2.5 px where the scene is looked at", NULL},
     {"precision_m", RG_PARAM_FLOAT, AT(rain.precision_m), 0.001, 0.000001, 10, "m", "within which bisection finds a hit on a drop's way", NULL},
-    {"thickness_m", RG_PARAM_FLOAT, AT(rain.thickness_m), 0.05, 0.0001, 100, "m", "a drop so far behind what is seen has passed behind it", NULL},
     {"drop_m", RG_PARAM_FLOAT, AT(rain.drop_m), 0, 0, 10, "m", "side of the heaviest drops' squares; 0: as suits the scene", NULL},
     {"splash_m", RG_PARAM_FLOAT, AT(rain.splash_m), 0, 0, 10, "m", "the same of their splashes", NULL},
     {"fade_s", RG_PARAM_FLOAT, AT(rain.fade_s), 0.1, 0, 10, "s", "in which a drop that has hit fades", NULL},

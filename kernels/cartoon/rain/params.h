@@ -134,13 +134,15 @@ RG_STRUCT(cartoon_rain_params)
     int least_samples;
     float bound_m; // radius of a drop's bounding sphere
     float precision_m;
-    float thickness_m;
     // the view
     int width;
     int height;
     float focal_px; // what a metre spans at a distance of a metre
     float depth_at; // depth = depth_at + depth_by / distance
     float depth_by;
+    float eye_x;
+    float eye_y;
+    float eye_z;
     float right_x; // of the eye space
     float right_y;
     float right_z;
@@ -155,6 +157,6 @@ RG_STRUCT(cartoon_rain_params)
     int cut;        // 1: sprites are cut to what is not transparent
     int facets;     // of a drop's tessellated sphere
 };
-RG_STRUCT_SIZE(cartoon_rain_params, 16 + 49)
+RG_STRUCT_SIZE(cartoon_rain_params, 16 + 51)
 
 #endif

@@ -19,7 +19,7 @@ struct cartoon_rain_settings {
     char wind_script[RG_PATH_SIZE];
     // Collisions.
     int collide, query, least_samples; // CARTOON_COLLIDE_*, enum cartoon_query
-    double bound_m, precision_m, thickness_m;
+    double bound_m, precision_m;
     // Pictures.
     double drop_m, splash_m, fade_s, splash_s;
     int cut;

@@ -82,7 +82,6 @@ static cartoon_rain_params fixed_params(const struct cartoon_rain *r, int seed)
         .least_samples = s->least_samples,
         .bound_m = (float)bound_m,
         .precision_m = (float)s->precision_m,
-        .thickness_m = (float)s->thickness_m,
         .drop_m = (float)(s->drop_m > 0 ? s->drop_m : DROP_SHARE * distance_m),
         .splash_m = (float)(s->splash_m > 0 ? s->splash_m : SPLASH_SHARE * distance_m),
         .least = (float)LEAST,
@@ -172,6 +171,9 @@ static void look(struct cartoon_rain *r)
     p->focal_px = (float)focal_px(r);
     p->depth_at = (float)(far_m / (far_m - near_m));
     p->depth_by = (float)(-far_m * near_m / (far_m - near_m));
+    p->eye_x = camera->position[0];
+    p->eye_y = camera->position[1];
+    p->eye_z = camera->position[2];
     p->right_x = (float)axes.right[0];
     p->right_y = (float)axes.right[1];
     p->right_z = (float)axes.right[2];

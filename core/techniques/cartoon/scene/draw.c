@@ -20,6 +20,19 @@ static bool draw_faces(struct cartoon *c)
            draw_some(c, CARTOON_RUN_SOLIDS, solid) && draw_some(c, CARTOON_RUN_THIN, all - solid);
 }
 
+// Drawn as the maps are, so that the same face is nearest.
+static bool draw_numbers(struct cartoon *c)
+{
+    static const uint32_t nothing = 0;
+    const float farthest = 1;
+    const int solid = c->diorama->solid_faces, all = c->diorama->mesh->face_count;
+    return !rg_stage_runs(&c->base, CARTOON_RUN_SOLID_NUMBERS) ||
+           (rg_image_clear(c->face_map->image, &nothing) &&
+            rg_image_clear(c->number_depth->image, &farthest) &&
+            draw_some(c, CARTOON_RUN_SOLID_NUMBERS, solid) &&
+            draw_some(c, CARTOON_RUN_THIN_NUMBERS, all - solid));
+}
+
 static bool draw_outlines(struct cartoon *c)
 {
     const float none = 1;
@@ -43,7 +56,7 @@ bool cartoon_scene_find(struct cartoon *c)
         return true;
     c->found_in = c->base.frame + 1;
     c->found_by = c->view.to_clip;
-    return draw_faces(c) && draw_outlines(c);
+    return draw_faces(c) && draw_numbers(c) && draw_outlines(c);
 }
 
 bool cartoon_scene_draw(struct cartoon *c)

@@ -53,6 +53,19 @@ static void add_drawing(struct cartoon *c)
         cartoon_add_strokes(c);
 }
 
+// Collisions that ask for no faces are given one texel without one.
+static void add_maps(struct cartoon *c)
+{
+    struct rg_instance *i = &c->base;
+    const struct rg_image_desc *target = &i->target->desc;
+    const int width = target->width, height = target->height;
+    const bool asks = c->settings.rain.collide == CARTOON_COLLIDE_CORRECT;
+    c->normal_map = rg_add_image(i, "normal_map", RG_RGBA16F, width, height);
+    c->depth_map = rg_add_image(i, "depth_map", RG_D32F, width, height);
+    c->face_map = rg_add_image(i, "face_map", RG_RGBA8, asks ? width : 1, asks ? height : 1);
+    c->number_depth = rg_add_image(i, "number_depth", RG_D32F, asks ? width : 1, asks ? height : 1);
+}
+
 static void tell(struct cartoon *c)
 {
     const struct rg_mesh *mesh = c->diorama->mesh;
@@ -64,15 +77,13 @@ static void tell(struct cartoon *c)
 
 bool cartoon_scene_open(struct cartoon *c)
 {
-    const struct rg_image_desc *target = &c->base.target->desc;
     const struct cartoon_settings *s = &c->settings;
     c->diorama = s->scene == CARTOON_MESH ? diorama_of_mesh(s->mesh)
                                           : diorama_create((enum diorama_scene)s->scene);
     if (!c->diorama)
         return false;
     add_mesh(c);
-    c->normal_map = rg_add_image(&c->base, "normal_map", RG_RGBA16F, target->width, target->height);
-    c->depth_map = rg_add_image(&c->base, "depth_map", RG_D32F, target->width, target->height);
+    add_maps(c);
     add_drawing(c);
     tell(c);
     if (!cartoon_look(c, 0))

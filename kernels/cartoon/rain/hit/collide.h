@@ -2,16 +2,19 @@
 //
 // Faithful to the paper, a drop has hit where fewer samples of its sphere are seen than a threshold
 // (`any`, its older extension: where none is). That is also so behind things. Correct is that its
-// middle passes the surface that is seen, and is not far behind it.
+// middle passes from before what is seen to behind it, through a face: not past the rim of one.
 #include "kernels/cartoon/rain/params.h"
 #include "kernels/dialect/math.h"
 
 #define RG_PARAMS cartoon_rain_params
 #define RG_SLOTS                                                                                   \
     IN(1, uint, living)                                                                            \
-    INOUT(2, cartoon_raindrop, raindrops) IMAGE(3, D32F, depth_map) IMAGE(4, RGBA16F, normal_map)  \
-        IN(5, uint, counts) OUT(6, uint, hits) OUT(7, cartoon_surface, surfaces)                   \
-            ATOMIC(8, uint, tally)
+    INOUT(2, cartoon_raindrop, raindrops)                                                          \
+    IMAGE(3, D32F, depth_map)                                                                      \
+    IMAGE(4, RGBA16F, normal_map)                                                                  \
+    IN(5, uint, counts) OUT(6, uint, hits) OUT(7, cartoon_surface, surfaces)                       \
+        ATOMIC(8, uint, tally) IMAGE(9, RGBA8, face_map) IN(10, float, positions)                  \
+            IN(11, uint, indices)
 #include "kernels/dialect/slots/slots.h"
 
 #include "kernels/cartoon/rain/hit/samples.h"
@@ -31,7 +34,7 @@ RG_FN bool cartoon_collides(rg_ctx rg, cartoon_rain_params p, v3 at)
     if (s.inside == 0)
         return false;
     if (p.collide == CARTOON_COLLIDE_CORRECT)
-        return cartoon_behind_m(rg, p, s) > 0.0f;
+        return cartoon_is_behind(rg, p, s, at);
     return cartoon_samples(rg, p, s) < cartoon_least(p);
 }
 
@@ -51,33 +54,52 @@ RG_FN v3 cartoon_middle(v3 a, v3 b)
     return v3_scale(v3_add(a, b), 0.5f);
 }
 
+RG_STRUCT(cartoon_hit)
+{
+    v3 at;
+    float share; // of the way, there
+    float step;  // by which the share before, where it had not hit, is less
+};
+
 // Bisection between where the drop was and where it is, until the two ends are as near as the
 // precision asks: the paper's step (c) forgets where it began, so this takes the half in which the
 // test changes.
-RG_FN v3 cartoon_hit_between(rg_ctx rg, cartoon_rain_params p, v3 old, v3 now)
+RG_FN cartoon_hit cartoon_hit_between(rg_ctx rg, cartoon_rain_params p, v3 old, v3 now)
 {
     v3 before_it = old;
-    v3 behind_it = now;
-    v3 way = v3_add(now, v3_scale(old, -1.0f));
+    v3 way = cartoon_less(now, old);
     float apart_m = rg_sqrt(v3_dot(way, way));
+    cartoon_hit hit;
+    hit.at = now;
+    hit.share = 1.0f;
+    hit.step = 1.0f;
     for (int i = 0; i < CARTOON_HALVINGS; i++) {
         if (apart_m <= p.precision_m)
             break;
-        v3 middle = cartoon_middle(before_it, behind_it);
-        if (cartoon_collides(rg, p, middle))
-            behind_it = middle;
-        else
+        v3 middle = cartoon_middle(before_it, hit.at);
+        hit.step = hit.step * 0.5f;
+        if (cartoon_collides(rg, p, middle)) {
+            hit.at = middle;
+            hit.share = hit.share - hit.step;
+        } else {
             before_it = middle;
+        }
         apart_m = apart_m * 0.5f;
     }
-    return behind_it;
+    return hit;
 }
 
-// What passes behind the rim of something nearer has not hit it.
-RG_FN bool cartoon_is_near(rg_ctx rg, cartoon_rain_params p, v3 at)
+// What passes behind the rim of something nearer has not hit it: the way meets no face there.
+#define CARTOON_ROUNDED_M 2e-5f // of places and of where rays meet faces
+
+RG_FN bool cartoon_has_met(rg_ctx rg, cartoon_rain_params p, cartoon_hit hit, v3 old, v3 now)
 {
-    return p.collide != CARTOON_COLLIDE_CORRECT ||
-           cartoon_behind_m(rg, p, cartoon_spot_of(p, at)) <= p.thickness_m;
+    if (p.collide != CARTOON_COLLIDE_CORRECT)
+        return true;
+    v3 way = cartoon_less(now, old);
+    float slack = CARTOON_ROUNDED_M / rg_max(rg_sqrt(v3_dot(way, way)), 1e-6f);
+    return cartoon_is_met(rg, p, cartoon_spot_of(p, hit.at), old, way, hit.share - hit.step - slack,
+                          hit.share + slack);
 }
 
 // The normal from the normal map (section 4), and its angle with the way that the drop came.
@@ -107,15 +129,15 @@ RG_GRID_KERNEL(cartoon_collide)
     v3 old = v3_make(d.from_x, d.from_y, d.from_z);
     if (d.state != CARTOON_DROP || !cartoon_may_hit(rg, p, x, old, now))
         return;
-    v3 at = cartoon_hit_between(rg, p, old, now);
-    if (!cartoon_is_near(rg, p, at))
+    cartoon_hit hit = cartoon_hit_between(rg, p, old, now);
+    if (!cartoon_has_met(rg, p, hit, old, now))
         return;
-    d.x = at.x;
-    d.y = at.y;
-    d.z = at.z;
+    d.x = hit.at.x;
+    d.y = hit.at.y;
+    d.z = hit.at.z;
     d.state = CARTOON_COLLISION;
     raindrops_put(rg, slot, d);
-    surfaces_put(rg, x, cartoon_surface_at(rg, p, at, v3_make(d.vx, d.vy, d.vz)));
+    surfaces_put(rg, x, cartoon_surface_at(rg, p, hit.at, v3_make(d.vx, d.vy, d.vz)));
     hits_put(rg, x, 1u);
     tally_add(rg, CARTOON_HITS, 1u);
 }

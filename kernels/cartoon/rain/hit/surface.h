@@ -1,36 +1,87 @@
-// The surface that the camera sees, between the texels of the depth map: within a face depth is a
-// plane over the screen, so it goes on from a texel's middle as it does towards the neighbour that
-// differs least, which keeps it on this side of an edge.
+// The surface that the camera sees, between the texels of its images: the faces that are seen in
+// the texel of a place and in those about it, from the slots face_map, positions and indices. Where
+// the nearest face ends within a texel, no image says; the faces do.
 #ifndef RG_KERNELS_CARTOON_RAIN_HIT_SURFACE_H
 #define RG_KERNELS_CARTOON_RAIN_HIT_SURFACE_H
 
 #include "kernels/cartoon/rain/view.h"
 
-RG_FN float cartoon_slope(float before, float here, float after)
+#define CARTOON_ABOUT 9 // texels: a place's own and its neighbours
+
+// The number of the face that is seen in the nth of the texels about a place; -1: none.
+RG_FN int cartoon_face_about(rg_ctx rg, cartoon_rain_params p, cartoon_spot s, int nth)
 {
-    float back = here - before;
-    float on = after - here;
-    return rg_abs(back) < rg_abs(on) ? back : on;
+    int x = rg_to_int(rg_floor(s.x_px)) + nth % 3 - 1;
+    int y = rg_to_int(rg_floor(s.y_px)) + nth / 3 - 1;
+    rgba t = face_map_texel(rg, rg_iclamp(x, 0, p.width - 1), rg_iclamp(y, 0, p.height - 1), 0, 0);
+    uint low = rg_to_uint(rg_to_int(t.r * 255.0f + 0.5f)) |
+               rg_to_uint(rg_to_int(t.g * 255.0f + 0.5f)) << 8;
+    uint high = rg_to_uint(rg_to_int(t.b * 255.0f + 0.5f)) |
+                rg_to_uint(rg_to_int(t.a * 255.0f + 0.5f)) << 8;
+    return rg_to_int(low | high << 16) - 1;
 }
 
-RG_FN float cartoon_depth_of(rg_ctx rg, cartoon_rain_params p, float x_px, float y_px)
+RG_FN v3 cartoon_corner_of(rg_ctx rg, int face, int k)
 {
-    int x = rg_iclamp(rg_to_int(rg_floor(x_px)), 0, p.width - 1);
-    int y = rg_iclamp(rg_to_int(rg_floor(y_px)), 0, p.height - 1);
-    float here = depth_map_texel(rg, x, y, 0, 0).r;
-    float across = cartoon_slope(depth_map_texel(rg, rg_imax(x - 1, 0), y, 0, 0).r, here,
-                                 depth_map_texel(rg, rg_imin(x + 1, p.width - 1), y, 0, 0).r);
-    float down = cartoon_slope(depth_map_texel(rg, x, rg_imax(y - 1, 0), 0, 0).r, here,
-                               depth_map_texel(rg, x, rg_imin(y + 1, p.height - 1), 0, 0).r);
-    return here + (x_px - rg_to_float(x) - 0.5f) * across + (y_px - rg_to_float(y) - 0.5f) * down;
+    int v = 3 * rg_to_int(indices_at(rg, 3 * face + k));
+    return v3_make(positions_at(rg, v), positions_at(rg, v + 1), positions_at(rg, v + 2));
 }
 
-// How far a point lies behind the surface, along the view; below 0 before it.
-RG_FN float cartoon_behind_m(rg_ctx rg, cartoon_rain_params p, cartoon_spot s)
+RG_FN v3 cartoon_less(v3 a, v3 b)
 {
-    float depth = cartoon_depth_of(rg, p, s.x_px, s.y_px);
-    float surface_m = p.depth_by / rg_min(depth - p.depth_at, -1e-6f);
-    return s.distance_m - surface_m;
+    return v3_make(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+// The share of a way after which it meets a face (Moeller and Trumbore, 1997); -1: it does not. The
+// face is larger by a share of itself.
+RG_FN float cartoon_meets(rg_ctx rg, int face, v3 from, v3 way, float wider)
+{
+    v3 a = cartoon_corner_of(rg, face, 0);
+    v3 along = cartoon_less(cartoon_corner_of(rg, face, 1), a);
+    v3 aside = cartoon_less(cartoon_corner_of(rg, face, 2), a);
+    v3 across = v3_cross(way, aside);
+    v3 off = cartoon_less(from, a);
+    v3 turned = v3_cross(off, along);
+    float volume = v3_dot(along, across);
+    float inverse = 1.0f / (rg_abs(volume) < 1e-20f ? 1e-20f : volume);
+    float u = v3_dot(off, across) * inverse;
+    float v = v3_dot(way, turned) * inverse;
+    bool is_within = u >= -wider && v >= -wider && u + v <= 1.0f + wider;
+    return is_within ? v3_dot(aside, turned) * inverse : -1.0f;
+}
+
+// Whether a face that is seen about a place lies between it and the eye. Faces are larger by what
+// rounding may come to, so that no ray goes between two of them.
+#define CARTOON_WIDER 1e-6f
+
+RG_FN bool cartoon_is_behind(rg_ctx rg, cartoon_rain_params p, cartoon_spot s, v3 at)
+{
+    v3 eye = v3_make(p.eye_x, p.eye_y, p.eye_z);
+    v3 ray = cartoon_less(at, eye);
+    int last = -1;
+    bool is_behind = false;
+    for (int i = 0; i < CARTOON_ABOUT; i++) {
+        int face = cartoon_face_about(rg, p, s, i);
+        if (face == last || face < 0)
+            continue;
+        last = face;
+        float share = cartoon_meets(rg, face, eye, ray, CARTOON_WIDER);
+        is_behind = is_behind || (share > 0.0f && share < 1.0f);
+    }
+    return is_behind;
+}
+
+// Whether a way meets such a face between two shares of it.
+RG_FN bool cartoon_is_met(rg_ctx rg, cartoon_rain_params p, cartoon_spot s, v3 from, v3 way,
+                          float least, float most)
+{
+    bool is_met = false;
+    for (int i = 0; i < CARTOON_ABOUT; i++) {
+        int face = cartoon_face_about(rg, p, s, i);
+        float share = face < 0 ? -1.0f : cartoon_meets(rg, face, from, way, 0.0f);
+        is_met = is_met || (share >= 0.0f && share >= least && share <= most);
+    }
+    return is_met;
 }
 
 #endif

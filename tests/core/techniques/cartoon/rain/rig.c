@@ -117,6 +117,44 @@ struct rainfall_eye rig_eye(struct cartoon *c)
     return eye;
 }
 
+void rig_each_step(struct rg_device *device, const char *settings, int size_px, int from, int to,
+                   void (*look)(const struct rig_moment *m, void *user), void *user)
+{
+    struct cartoon *c = rig_open(device, settings, size_px, size_px);
+    rig_step(c, from);
+    for (int i = from; i < to; i++) {
+        struct rig_moment m = {.c = c, .was = rig_look(c)};
+        rig_step(c, 1);
+        m.is = rig_look(c);
+        m.eye = rig_eye(c);
+        look(&m, user);
+        rig_free(&m.was);
+        rig_free(&m.is);
+        free((void *)m.eye.depth);
+    }
+    rig_close(c);
+}
+
+bool rig_fell(const struct rig_moment *m, int slot)
+{
+    const cartoon_raindrop *was = &m->was.drops[slot], *is = &m->is.drops[slot];
+    return was->state == CARTOON_DROP && is->number == was->number &&
+           (is->state == CARTOON_DROP || is->state == CARTOON_COLLISION);
+}
+
+void rig_expect_on_way(const struct rig_moment *m, int slot)
+{
+    const struct rainfall_vector old = rig_place(&m->was.drops[slot]);
+    const struct rainfall_vector now = rig_next_place(m->c, &m->was.drops[slot]);
+    const struct rainfall_vector way = rainfall_sum(now, old, -1);
+    const struct rainfall_vector to = rainfall_sum(rig_place(&m->is.drops[slot]), old, -1);
+    const double along = rainfall_dot(to, way) / rainfall_dot(way, way);
+    rig_expect("distance of a hit from its way", rainfall_length(rainfall_sum(to, way, -along)), 0,
+               1e-5);
+    if (!(along > 0 && along < 1 + 1e-5))
+        fail_msg("a hit at %.6g of its way", along);
+}
+
 int rig_hits(struct cartoon *c)
 {
     uint32_t hits = 0;

@@ -36,6 +36,20 @@ struct rainfall_vector rig_next_place(const struct cartoon *c, const cartoon_rai
 // The camera of the present frame; its depths are the depth map's, for the caller to free.
 struct rainfall_eye rig_eye(struct cartoon *c);
 
+// A step: the rain before it and after it, and the camera of its frame.
+struct rig_moment {
+    struct cartoon *c;
+    struct rig_rain was, is;
+    struct rainfall_eye eye;
+};
+// Opens cartoon with a square picture, runs steps, and shows each from the `from`th on to `look`.
+void rig_each_step(struct rg_device *device, const char *settings, int size_px, int from, int to,
+                   void (*look)(const struct rig_moment *m, void *user), void *user);
+// Whether a drop fell through the whole of a step, and may have hit in it.
+bool rig_fell(const struct rig_moment *m, int slot);
+// Fails the test unless a drop that has hit is on its way in the step.
+void rig_expect_on_way(const struct rig_moment *m, int slot);
+
 // Hits of the last step.
 int rig_hits(struct cartoon *c);
 // The value of a half.
