@@ -28,14 +28,15 @@ struct cartoon_settings {
     // The camera, against that of the scene, and the light.
     double turn_deg, rise_deg, zoom, spin_deg;
     double light_turn_deg, light_rise_deg;
+    double ink[3], paper[3]; // red, green, blue, as display values
     // Outlines.
     double outline_px, inner_px, crease_deg;
     // The style of Gooch.
     double gooch_blue, gooch_yellow, gooch_alpha, gooch_beta;
     // Cartoon tones.
-    double shadow_tone, middle_tone, middle_from, lit_from, tone_softness;
+    double shadow_tone, middle_tone, middle_from, lit_from, tone_softness, glint_from, shadow_blue;
     // Hatching.
-    double hatch_px, hatch_ambient, hatch_wash;
+    double hatch_px, hatch_ambient, hatch_lit, hatch_wash;
     int redraw; // enum cartoon_redraw
     struct cartoon_rain_settings rain;
 };

@@ -94,7 +94,7 @@ RG_DRAW_FRAGMENT(cartoon_hatching)
     float slant = rg_max(rg_abs(v3_dot(view, s.normal)) / rg_sqrt(far2), 0.05f);
     float lod = p.lod + 0.5f * rg_log2(far2 / slant);
     float grey = 0.3f * s.colour.x + 0.6f * s.colour.y + 0.1f * s.colour.z;
-    float light = cartoon_mix(p.ambient, 1.15f, rg_max(s.facing, 0.0f)) * (0.5f + 0.5f * grey);
+    float light = cartoon_mix(p.ambient, p.lit, rg_max(s.facing, 0.0f)) * (0.5f + 0.5f * grey);
     float hatch = cartoon_hatch(rg, cartoon_uv_of(p, s.normal, at), light, lod);
     v3 paper = v3_make(p.paper_r, p.paper_g, p.paper_b);
     v3 washed =

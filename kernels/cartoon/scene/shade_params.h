@@ -42,12 +42,15 @@ RG_STRUCT(cartoon_shade_params)
     float middle_from; // from which cosine on
     float lit_from;
     float per_softness; // 1 over the width of the step between tones, as cosine
+    float glint_from;   // where a highlight ends, of its brightest place
+    float shadow_blue;  // that the darkest shadow gets
     // Hatching.
     float ambient;  // tone of what faces away from the light
+    float lit;      // and of what faces it
     float wash;     // the material's share
     float per_tile; // tiles of strokes a metre
     float lod;      // level of the strokes at a distance of 1 m: log2 of their texels a pixel
 };
-RG_STRUCT_SIZE(cartoon_shade_params, 49)
+RG_STRUCT_SIZE(cartoon_shade_params, 52)
 
 #endif

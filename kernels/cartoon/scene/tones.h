@@ -10,9 +10,6 @@
 
 #include "kernels/cartoon/scene/seen.h"
 
-// Where a highlight ends, of its brightest place.
-#define CARTOON_GLINT 0.4f
-
 RG_DRAW_ITEM(cartoon_tones)
 {
     return view_quad();
@@ -34,9 +31,9 @@ RG_FN v3 cartoon_toned(cartoon_shade_params p, cartoon_seen s, float shine)
     float u = rg_max(s.facing, 0.0f);
     float lower = cartoon_mix(p.shadow_tone, p.middle_tone, cartoon_step(p, u, p.middle_from));
     float tone = cartoon_mix(lower, 1.0f, cartoon_step(p, u, p.lit_from));
-    float glint = s.shine * cartoon_step(p, shine, CARTOON_GLINT);
+    float glint = s.shine * cartoon_step(p, shine, p.glint_from);
     // Shadows are a little blue.
-    float cool = 0.12f * (1.0f - tone);
+    float cool = p.shadow_blue * (1.0f - tone);
     return v3_make(cartoon_mix(s.colour.x * tone, 1.0f, glint),
                    cartoon_mix(s.colour.y * tone, 1.0f, glint),
                    cartoon_mix(s.colour.z * tone + cool, 1.0f, glint));

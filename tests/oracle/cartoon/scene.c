@@ -152,10 +152,11 @@ struct vec tones_colour(const struct surface *s, const struct look *l, const str
     const double middle = step(u, t->middle_from, t->softness);
     const double lit = step(u, t->lit_from, t->softness);
     const double tone = mix(mix(t->shadow, t->middle, middle), 1, lit);
-    const double glint = s->shine * step(s->shine * surface_highlight(s, l), 0.4, t->softness);
+    const double glint =
+        s->shine * step(s->shine * surface_highlight(s, l), t->glint_from, t->softness);
     return (struct vec){clamped(mix(s->colour.x * tone, 1, glint)),
                         clamped(mix(s->colour.y * tone, 1, glint)),
-                        clamped(mix(s->colour.z * tone + 0.12 * (1 - tone), 1, glint))};
+                        clamped(mix(s->colour.z * tone + t->shadow_blue * (1 - tone), 1, glint))};
 }
 
 // A byte of a level at whole texels, which repeat.
@@ -199,7 +200,7 @@ struct vec hatching_colour(const struct surface *s, const struct look *l, const 
     const int level = fine >= h->levels - 1 ? h->levels - 2 : (int)fine;
     const double grey = 0.3 * s->colour.x + 0.6 * s->colour.y + 0.1 * s->colour.z;
     const double light =
-        mix(h->ambient, 1.15, fmax(dot(s->normal, l->to_light), 0)) * (0.5 + grey / 2);
+        mix(h->ambient, h->lit, fmax(dot(s->normal, l->to_light), 0)) * (0.5 + grey / 2);
     const double tones = 6 * clamped(light);
     const double bare =
         mix(level_at(h, level, u, v, tones), level_at(h, level + 1, u, v, tones), fine - level);

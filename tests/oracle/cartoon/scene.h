@@ -52,7 +52,7 @@ struct gooch {
 struct vec gooch_colour(const struct surface *s, const struct look *l, const struct gooch *g);
 
 struct tones {
-    double shadow, middle, middle_from, lit_from, softness;
+    double shadow, middle, middle_from, lit_from, softness, glint_from, shadow_blue;
 };
 struct vec tones_colour(const struct surface *s, const struct look *l, const struct tones *t);
 
@@ -62,7 +62,7 @@ struct hatching {
     int size_px, levels;
     const uint8_t *bytes[8];
     struct vec paper, ink;
-    double ambient, wash, tile_m;
+    double ambient, lit, wash, tile_m;
     double focal_px; // pixels that something as wide as it is distant takes
 };
 struct vec hatching_colour(const struct surface *s, const struct look *l, const struct hatching *h);

@@ -49,6 +49,27 @@ static void cameras_are_refused(void **state)
     expect_refused(*state, "scene=park1 rise_deg=71", "not along its up");
 }
 
+// Colours and shades are 0 to 1, as the rows of parameters have it; the message names the row.
+static void colours_are_refused(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"ink_r",   "ink_g",   "ink_b",      "paper_r",
+                                        "paper_g", "paper_b", "glint_from", "shadow_blue"};
+    const struct rg_technique *technique = rg_technique_find("cartoon");
+    void *settings = rg_settings_create(technique);
+    char text[64];
+    for (int i = 0; i < 8; i++) {
+        snprintf(text, sizeof(text), "%s=1.01", names[i]);
+        assert_false(rg_params_set(technique->params, settings, text));
+        assert_non_null(strstr(rg_last_error(), names[i]));
+        assert_non_null(strstr(rg_last_error(), "out of range"));
+        snprintf(text, sizeof(text), "%s=-0.01", names[i]);
+        assert_false(rg_params_set(technique->params, settings, text));
+    }
+    assert_false(rg_params_set(technique->params, settings, "hatch_lit=2.1"));
+    free(settings);
+}
+
 static void write_text(const char *path, const char *text)
 {
     FILE *file = fopen(path, "w");
@@ -93,6 +114,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cameras_are_refused),
+        cmocka_unit_test(colours_are_refused),
         cmocka_unit_test(meshes_are_refused),
         cmocka_unit_test(an_open_mesh_is_drawn),
     };

@@ -140,8 +140,9 @@ static struct styled styled_draw(struct rg_device *device, const char *settings,
     s.colours = rig_texels(s.c->base.target);
     s.hatching = (struct hatching){.size_px = CARTOON_TILE_PX,
                                    .levels = CARTOON_LEVELS,
-                                   .paper = {0.98, 0.965, 0.925},
-                                   .ink = {0.17, 0.15, 0.22},
+                                   .paper = {set->paper[0], set->paper[1], set->paper[2]},
+                                   .ink = {set->ink[0], set->ink[1], set->ink[2]},
+                                   .lit = set->hatch_lit,
                                    .ambient = set->hatch_ambient,
                                    .wash = set->hatch_wash};
     s.hatching.focal_px = size / 2.0 / tan(radians(view->angle_deg) / 2);
@@ -193,8 +194,9 @@ static struct vec due_at(const struct styled *s, int i)
     const bool nothing = s->normals[4 * (size_t)i + 3] == 0;
     const struct gooch gooch = {set->gooch_blue, set->gooch_yellow, set->gooch_alpha,
                                 set->gooch_beta};
-    const struct tones tones = {set->shadow_tone, set->middle_tone, set->middle_from, set->lit_from,
-                                set->tone_softness};
+    const struct tones tones = {set->shadow_tone, set->middle_tone,   set->middle_from,
+                                set->lit_from,    set->tone_softness, set->glint_from,
+                                set->shadow_blue};
     if (set->style == CARTOON_OUTLINES || (set->style == CARTOON_HATCHING && nothing))
         return s->hatching.paper;
     if (nothing)
@@ -251,7 +253,7 @@ static void cartoon_has_three_tones(void **state)
     compare_style(*state, "scene=car style=cartoon tone_softness=0.2", COLOUR_OFF);
     compare_style(*state,
                   "scene=table style=cartoon shadow_tone=0.5 middle_tone=0.7 middle_from=0.1 "
-                  "lit_from=0.7 tone_softness=0.1 zoom=2",
+                  "lit_from=0.7 tone_softness=0.1 zoom=2 glint_from=0.7 shadow_blue=0.3",
                   COLOUR_OFF);
     compare_style(*state, "scene=ground style=cartoon_outlines tone_softness=0.3", COLOUR_OFF);
 }
@@ -259,6 +261,10 @@ static void cartoon_has_three_tones(void **state)
 static void outlines_are_ink_on_paper(void **state)
 {
     compare_style(*state, "scene=house1 style=outlines outline_px=2 inner_px=1.5", COLOUR_OFF);
+    compare_style(*state,
+                  "scene=house1 style=outlines ink_r=0.6 ink_g=0.2 ink_b=0.1 paper_r=0.9 "
+                  "paper_g=0.8 paper_b=0.5",
+                  COLOUR_OFF);
 }
 
 // A pixel of strokes goes by texels of 8 bits that differ by as much as they can.
@@ -266,7 +272,8 @@ static void hatching_mixes_tones_and_levels(void **state)
 {
     compare_style(*state, "scene=house1 style=hatching hatch_px=100", 0.004);
     compare_style(*state,
-                  "scene=table style=hatching hatch_px=60 hatch_ambient=0.1 hatch_wash=0.6 zoom=2",
+                  "scene=table style=hatching hatch_px=60 hatch_ambient=0.1 hatch_lit=0.9 "
+                  "hatch_wash=0.6 zoom=2 ink_r=0.4 ink_b=0.5 paper_g=0.8",
                   0.004);
     compare_style(*state, "scene=park2 style=hatching hatch_px=30 light_rise_deg=15", 0.004);
 }
