@@ -1,5 +1,7 @@
 #include "core/techniques/cartoon/cartoon.h"
 
+#include <string.h>
+
 #include "core/techniques/cartoon/instance.h"
 #include "core/techniques/proof.h"
 
@@ -7,13 +9,18 @@ bool cartoon_step(struct rg_instance *instance)
 {
     struct cartoon *c = (struct cartoon *)instance;
     instance->frame++;
-    return cartoon_look(c, instance->frame) && cartoon_scene_find(c) && cartoon_rain_step(&c->rain);
+    return cartoon_look(c, instance->frame) && cartoon_scene_find(c) &&
+           cartoon_rain_step(&c->rain) && cartoon_water_step(&c->water);
 }
 
 bool cartoon_draw(struct rg_instance *instance)
 {
     struct cartoon *c = (struct cartoon *)instance;
-    return cartoon_scene_draw(c) && cartoon_rain_draw(&c->rain);
+    struct cartoon_water_view view = {.from_pixel = c->view.from_pixel};
+    memcpy(view.to_light, c->view.to_light, sizeof(view.to_light));
+    memcpy(view.ink, c->settings.ink, sizeof(view.ink));
+    return cartoon_scene_draw(c) && cartoon_water_draw(&c->water, &view) &&
+           cartoon_rain_draw(&c->rain);
 }
 
 static bool cartoon_make_textures(rg_take_texture *take, void *user)

@@ -39,6 +39,7 @@ struct cartoon_settings {
     double hatch_px, hatch_ambient, hatch_lit, hatch_wash;
     int redraw; // enum cartoon_redraw
     struct cartoon_rain_settings rain;
+    struct cartoon_water_settings water;
 };
 
 extern const struct rg_param_table cartoon_param_table;

@@ -7,6 +7,7 @@
 #include "core/scene/mesh/edges.h"
 #include "core/techniques/cartoon/cartoon.h"
 #include "core/techniques/cartoon/rain/rain.h"
+#include "core/techniques/cartoon/water/water.h"
 #include "core/techniques/technique.h"
 #include "kernels/cartoon/scene/faces_params.h"
 #include "kernels/cartoon/scene/ink_params.h"
@@ -50,6 +51,7 @@ struct cartoon {
     m4 found_by;      // the view whose normal map, depth and ink are there
     int64_t found_in; // one more than the frame that drew them; 0: none did
     struct cartoon_rain rain;
+    struct cartoon_water water;
 };
 
 extern const struct rg_proof cartoon_proof;

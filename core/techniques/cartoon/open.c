@@ -63,7 +63,8 @@ bool cartoon_open(struct rg_instance *instance)
            rg_open_stages(instance, stages, CARTOON_STAGES, c, NULL) >= 0 &&
            cartoon_rain_open(
                &c->rain, instance, &c->settings.rain, c->settings.seed,
-               &(struct cartoon_rain_scene){c->diorama, &c->view.camera, &c->view.to_clip});
+               &(struct cartoon_rain_scene){c->diorama, &c->view.camera, &c->view.to_clip}) &&
+           cartoon_water_open(&c->water, &c->rain, &c->settings.water);
 }
 
 void cartoon_close(struct rg_instance *instance)

@@ -67,6 +67,11 @@ static const struct rg_param rows[] = {
     {"fade_s", RG_PARAM_FLOAT, AT(rain.fade_s), 0.1, 0, 10, "s", "in which a drop that has hit fades", NULL},
     {"splash_s", RG_PARAM_FLOAT, AT(rain.splash_s), 0.2, 0, 10, "s", "that a splash lasts", NULL},
     {"cut", RG_PARAM_CHOICE, AT(rain.cut), 1, 0, 1, "1", "whether sprites are cut to what is not transparent; the picture is the same", "off on"},
+    {"water", RG_PARAM_CHOICE, AT(water.on), 0, 0, 1, "1", "whether water gathers where drops have hit what faces upwards", "off on"},
+    {"water_m3", RG_PARAM_FLOAT, AT(water.drop_m3), 0, 0, 0.0001, "m3", "water that the heaviest drop leaves, for many that are not drawn; 0: as suits the scene", NULL},
+    {"water_dry_s", RG_PARAM_FLOAT, AT(water.dry_s), 4, 0.1, 1000, "s", "in which water that lies gets e times less", NULL},
+    {"water_spread_m2_s", RG_PARAM_FLOAT, AT(water.spread_m2_s), 0.01, 0, 10, "m2/s", "how fast it spreads, as diffusion", NULL},
+    {"water_from_m", RG_PARAM_FLOAT, AT(water.from_m), 0.0001, 1e-6, 1, "m", "depth from which it is seen", NULL},
 };
 // clang-format on
 

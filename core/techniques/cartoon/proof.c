@@ -12,6 +12,7 @@ static const struct rg_pose poses[] = {
     {"preset=storm drops_s=2000 collide=faithful query=spheres", 600, 60},
     {"preset=table drops_s=3000 collide=any drag=quadratic", 600, 90},
     {"scene=house2 drops_s=3000 spin_deg=3 steps_s=30", 600, 60},
+    {"scene=ground drops_s=6000 water=on spin_deg=1", 600, 90},
     {NULL, 0, 0},
 };
 
@@ -20,8 +21,14 @@ static bool cartoon_rain_balances(const struct rg_instance *instance, char *deta
     return cartoon_rain_holds(&((const struct cartoon *)instance)->rain, detail, size);
 }
 
+static bool cartoon_water_balances(const struct rg_instance *instance, char *detail, size_t size)
+{
+    return cartoon_water_holds(&((const struct cartoon *)instance)->water, detail, size);
+}
+
 static const struct rg_law laws[] = {
     {"every drop is somewhere", cartoon_rain_balances},
+    {"no water is lost", cartoon_water_balances},
     {NULL, NULL},
 };
 
@@ -49,6 +56,7 @@ static const struct rg_contrast contrasts[] = {
     {"no outlines", "style=gooch_outlines", "style=gooch"},
     {"a light wind", "wind_m_s=0", "wind_m_s=0.1"},
     {"hidden drops hit", "scene=house2", "scene=house2 collide=faithful"},
+    {"puddles 5 % later", "water=on", "water=on water_from_m=0.000105"},
     {"splashes 5 % longer", "splash_s=0.3", "splash_s=0.32"},
     {NULL, NULL, NULL},
 };

@@ -7,6 +7,12 @@
 enum cartoon_wind_kind { CARTOON_WIND_CONSTANT, CARTOON_WIND_RANDOM, CARTOON_WIND_SCRIPT };
 enum cartoon_query { CARTOON_QUERY_DISCS, CARTOON_QUERY_SPHERES };
 
+// Water that gathers: volumes of the heaviest drop, in m3, and how it goes.
+struct cartoon_water_settings {
+    int on;
+    double drop_m3, dry_s, spread_m2_s, from_m;
+};
+
 struct cartoon_rain_settings {
     int drops_s, steps_s;
     // Where drops start, and how they fall.

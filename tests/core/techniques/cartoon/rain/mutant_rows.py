@@ -7,6 +7,7 @@ MOTION = ("motion",)
 HITS = ("hits",)
 PICTURES = ("pictures",)
 RAYS = ("rays",)
+WATER = ("water",)
 
 ROWS = [Row(*row) for row in (
     # release
@@ -157,4 +158,16 @@ ROWS = [Row(*row) for row in (
      "distance_m - 0.5f * side_m", "distance_m", PICTURES),
     ("one pattern", "draw/splashes.h",
      "CARTOON_SPLASH_LAYER(d.pattern, d.texture)", "CARTOON_SPLASH_LAYER(0, d.texture)", PICTURES),
+    # water
+    ("drops leave water by their side", "../water/gather.h", "p.units * side * side * side", "p.units * side", WATER),
+    ("steep faces hold water", "../water/gather.h", "surfaces_at(rg, x).ny >= CARTOON_UPWARD", "surfaces_at(rg, x).ny >= 0.0f", WATER),
+    ("rows are columns", "../water/gather.h", "row * CARTOON_COLUMNS + column, units", "column * CARTOON_COLUMNS + row, units", WATER),
+    ("what runs off is not told", "../water/gather.h", "account_add(rg, CARTOON_WATER_RUN, units);", "account_add(rg, CARTOON_WATER_RUN, 0u);", WATER),
+    ("three neighbours are given to", "../water/spread.h", "here - 4u * given", "here - 3u * given", WATER),
+    ("one neighbour gives nothing", "../water/spread.h", "cartoon_given(rg, p, column, row + 1);", "0u;", WATER),
+    ("water does not dry", "../water/spread.h", "rg_mul_hi(left - 1u, p.dried) + 1u", "1u", WATER),
+    ("what dries is not told", "../water/spread.h", "account_add(rg, CARTOON_WATER_DRIED, dried);", "account_add(rg, CARTOON_WATER_DRIED, dried - 1u);", WATER),
+    ("the film is opaque", "../water/puddles.h", "#define CARTOON_FILM_COVER 0.6f", "#define CARTOON_FILM_COVER 0.7f", WATER),
+    ("walls are wet", "../water/puddles.h", "n.g >= CARTOON_UPWARD", "n.g >= -1.0f", WATER),
+    ("no rims", "../water/puddles.h", "float rim = rg_clamp(CARTOON_RIM_PX + 0.5f - inside_px, 0.0f, 1.0f);", "float rim = 0.0f;", WATER),
 )]
