@@ -39,6 +39,7 @@ struct rg_stage {
     enum rg_blend blend;
     enum rg_depth_mode depth_mode;
     enum rg_cull cull;
+    int items_a_query;
     // A slot is bound to the asset of its own name, but for these.
     struct {
         const char *slot, *asset;

@@ -179,7 +179,8 @@ struct rg_draw rg_stage_draw(const struct rg_instance *instance, int stage)
                             .samples = s->samples ? s->samples->buf : NULL,
                             .blend = s->row.blend,
                             .depth_mode = s->row.depth_mode,
-                            .cull = s->row.cull};
+                            .cull = s->row.cull,
+                            .items_a_query = s->row.items_a_query};
 }
 
 bool rg_stage_over(struct rg_instance *instance, int stage, struct rg_extent origin,
