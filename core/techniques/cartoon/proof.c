@@ -10,7 +10,7 @@ static const struct rg_pose poses[] = {
     {"scene=mesh style=cartoon zoom=1.5", 60, 45},
     // The rain: each way to count, to fall and to blow; 600 steps of a storm at length.
     {"preset=storm drops_s=2000 collide=faithful query=spheres", 600, 60},
-    {"preset=table drops_s=3000 collide=any drag=quadratic", 600, 90},
+    {"preset=table drops_s=3000 collide=any answers=late drag=quadratic", 600, 90},
     {"scene=house2 drops_s=3000 spin_deg=3 steps_s=30", 600, 60},
     {"scene=ground drops_s=6000 water=on spin_deg=1", 600, 90},
     {NULL, 0, 0},

@@ -155,8 +155,9 @@ RG_STRUCT(cartoon_rain_params)
     float least;    // share of both that the lightest have
     int textures;   // levels of an image of textures
     int cut;        // 1: sprites are cut to what is not transparent
-    int facets;     // of a drop's tessellated sphere
+    int facets;     // items that a drop's tessellated sphere takes
+    int late;       // 1: the answers are those to the queries of the step before
 };
-RG_STRUCT_SIZE(cartoon_rain_params, 16 + 51)
+RG_STRUCT_SIZE(cartoon_rain_params, 16 + 52)
 
 #endif

@@ -2,12 +2,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/base/log.h"
 #include "core/techniques/cartoon/rain/rain.h"
 
 #define PARAMS .params = offsetof(struct cartoon_rain, params)
 
 // Of the tessellated sphere of a query (kernels/cartoon/rain/hit/spheres.h).
 enum { SLICES = 6, STACKS = 4, FACETS = SLICES * STACKS };
+enum { ITEMS_A_QUERY = 32 }; // at least FACETS, and of what struct rg_draw allows
 
 #define OVER_SCENE                                                                                 \
     .colour = "target", .depth = "depth_map", .depth_mode = RG_DEPTH_TEST, .blend = RG_BLEND_OVER
@@ -23,6 +25,7 @@ static const struct rg_stage stages[CARTOON_RAIN_STAGES] = {
                               .depth_mode = RG_DEPTH_TEST, .cull = RG_CULL_BACK,
                               .samples = "facet_samples"},
     [CARTOON_RAIN_SUM] = {"cartoon_sum", PARAMS},
+    [CARTOON_RAIN_KEEP] = {"cartoon_keep", PARAMS},
     [CARTOON_RAIN_COLLIDE] = {"cartoon_collide", PARAMS},
     [CARTOON_RAIN_SPLASH] = {"cartoon_splash", PARAMS},
     [CARTOON_RAIN_DROPS] = {"cartoon_drops", PARAMS, OVER_SCENE},
@@ -41,9 +44,7 @@ static void add_sphere(struct cartoon_rain *r)
         corners[i][1] = (float)sin(rise);
         corners[i][2] = (float)(cos(rise) * cos(turn));
     }
-    r->params.facets = FACETS;
     rg_add_buf(r->instance, "sphere", 3 * (STACKS + 1) * SLICES, corners);
-    rg_add_buf(r->instance, "facet_samples", (int64_t)r->params.drop_slots * FACETS, NULL);
 }
 
 static void add_particles(struct cartoon_rain *r)
@@ -58,7 +59,7 @@ static void add_particles(struct cartoon_rain *r)
     r->before = rg_add_buf(i, "before", drops + sprays + 1, NULL);
     rg_add_buf(i, "unused", drops + sprays, NULL);
     rg_add_buf(i, "living", drops + sprays, NULL);
-    rg_add_buf(i, "counts", drops, NULL);
+    r->counts = rg_add_buf(i, "counts", drops, NULL);
     r->hits = rg_add_buf(i, "hits", drops, NULL);
     r->hits_before = rg_add_buf(i, "hits_before", drops + 1, NULL);
     rg_add_buf(i, "surfaces", drops * (int64_t)(sizeof(cartoon_surface) / 4), NULL);
@@ -67,19 +68,59 @@ static void add_particles(struct cartoon_rain *r)
     rg_add_state(i, r->tally, "tally", false, 0, 0);
 }
 
+static bool allow_queries(const struct rg_device *device)
+{
+    return device->info.limits.has_queries ||
+           rg_unsupported("query=api: %s has no occlusion queries of its own; set query=spheres, "
+                          "which counts the same samples, or take gl or vulkan",
+                          device->info.name);
+}
+
+// A query a drop counts the samples of its sphere, by fragments or by the API.
+static void ask_with_spheres(struct cartoon_rain *r, struct rg_stage *rows)
+{
+    rows[CARTOON_RAIN_COUNT].kernel = NULL;
+    add_sphere(r);
+    r->params.facets = FACETS;
+    if (r->settings->query == CARTOON_QUERY_SPHERES) {
+        rg_add_buf(r->instance, "facet_samples", (int64_t)r->params.drop_slots * FACETS, NULL);
+        return;
+    }
+    r->params.facets = ITEMS_A_QUERY;
+    rows[CARTOON_RAIN_SPHERES].samples = "counts";
+    rows[CARTOON_RAIN_SPHERES].items_a_query = ITEMS_A_QUERY;
+    rows[CARTOON_RAIN_SUM].kernel = NULL;
+}
+
+// Late answers outlive a step: they are part of the state.
+static void keep_answers(struct cartoon_rain *r, struct rg_stage *rows)
+{
+    if (!r->params.late) {
+        rows[CARTOON_RAIN_KEEP].kernel = NULL;
+        rg_lend_buf(r->instance, "answers", r->counts->buf);
+        return;
+    }
+    struct rg_asset *answers = rg_add_buf(r->instance, "answers", r->params.drop_slots, NULL);
+    rg_add_state(r->instance, answers, "answers", false, 0, 0);
+}
+
 // Counts come from discs, from spheres, or are not asked for.
 static bool open_stages(struct cartoon_rain *r)
 {
     struct rg_stage rows[CARTOON_RAIN_STAGES];
-    const bool asks = r->settings->collide != CARTOON_COLLIDE_CORRECT;
-    const bool spheres = asks && r->settings->query == CARTOON_QUERY_SPHERES;
+    const struct cartoon_rain_settings *s = r->settings;
+    const bool asks = s->collide != CARTOON_COLLIDE_CORRECT;
     memcpy(rows, stages, sizeof(rows));
-    if (!asks || spheres)
-        rows[CARTOON_RAIN_COUNT].kernel = NULL;
-    if (spheres)
-        add_sphere(r);
+    if (asks && s->query == CARTOON_QUERY_API && !allow_queries(r->instance->device))
+        return false;
+    if (asks && s->query != CARTOON_QUERY_DISCS)
+        ask_with_spheres(r, rows);
     else
         rows[CARTOON_RAIN_SPHERES].kernel = rows[CARTOON_RAIN_SUM].kernel = NULL;
+    if (!asks)
+        rows[CARTOON_RAIN_COUNT].kernel = NULL;
+    r->params.late = asks && s->answers == CARTOON_ANSWERS_LATE;
+    keep_answers(r, rows);
     r->first_stage = rg_open_stages(r->instance, rows, CARTOON_RAIN_STAGES, r, NULL);
     return r->first_stage >= 0;
 }

@@ -19,6 +19,7 @@ enum cartoon_rain_stage {
     CARTOON_RAIN_COUNT,
     CARTOON_RAIN_SPHERES,
     CARTOON_RAIN_SUM,
+    CARTOON_RAIN_KEEP,
     CARTOON_RAIN_COLLIDE,
     CARTOON_RAIN_SPLASH,
     // pictures
@@ -47,7 +48,7 @@ struct cartoon_rain {
     double fall_m;     // from where drops start to the ground
     int first_stage;
     struct rg_scan *scan;
-    struct rg_asset *raindrops, *sprays, *tally, *flags, *before, *hits, *hits_before;
+    struct rg_asset *raindrops, *sprays, *tally, *flags, *before, *counts, *hits, *hits_before;
 };
 
 // Adds the rain's assets and stages to an instance that has the assets normal_map and depth_map.

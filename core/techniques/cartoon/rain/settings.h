@@ -5,7 +5,8 @@
 #include "core/techniques/params.h"
 
 enum cartoon_wind_kind { CARTOON_WIND_CONSTANT, CARTOON_WIND_RANDOM, CARTOON_WIND_SCRIPT };
-enum cartoon_query { CARTOON_QUERY_DISCS, CARTOON_QUERY_SPHERES };
+enum cartoon_query { CARTOON_QUERY_DISCS, CARTOON_QUERY_SPHERES, CARTOON_QUERY_API };
+enum cartoon_answers { CARTOON_ANSWERS_NOW, CARTOON_ANSWERS_LATE };
 
 // Water that gathers: volumes of the heaviest drop, in m3, and how it goes.
 struct cartoon_water_settings {
@@ -24,7 +25,8 @@ struct cartoon_rain_settings {
     double wind_m_s, wind_turn_deg, wind_s, gust, gust_s;
     char wind_script[RG_PATH_SIZE];
     // Collisions.
-    int collide, query, least_samples; // CARTOON_COLLIDE_*, enum cartoon_query
+    int collide, query, answers; // CARTOON_COLLIDE_*, enum cartoon_query, enum cartoon_answers
+    int least_samples;
     double bound_m, precision_m;
     // Pictures.
     double drop_m, splash_m, fade_s, splash_s;

@@ -1,4 +1,7 @@
 // A step of the rain: drops are released, fall, hit and splash; splashes age.
+//
+// Late answers are those to the queries that ended the step before. So hits come first then, on the
+// ways that drops have come in that step; a drop that has hit sticks in this one.
 #include "core/techniques/cartoon/rain/rain.h"
 
 static bool run(struct cartoon_rain *r, enum cartoon_rain_stage stage, int items)
@@ -43,14 +46,18 @@ static bool query(struct cartoon_rain *r)
 
 static bool collide(struct cartoon_rain *r)
 {
-    return query(r) && run(r, CARTOON_RAIN_COLLIDE, r->drops) &&
+    return run(r, CARTOON_RAIN_COLLIDE, r->drops) &&
            rg_scan_sum(r->scan, r->hits->buf, r->hits_before->buf, r->drops) &&
            run(r, CARTOON_RAIN_SPLASH, r->drops);
 }
 
 bool cartoon_rain_step(struct cartoon_rain *r)
 {
+    // Answers are kept while the list is still that of the queries, and the view too.
+    if (!run(r, CARTOON_RAIN_KEEP, r->drops))
+        return false;
     cartoon_rain_refill(r);
-    return make_lists(r) && run(r, CARTOON_RAIN_MOVE, r->drops) &&
-           run(r, CARTOON_RAIN_AGE, r->sprays_before) && collide(r);
+    return make_lists(r) && (!r->params.late || collide(r)) &&
+           run(r, CARTOON_RAIN_MOVE, r->drops) && run(r, CARTOON_RAIN_AGE, r->sprays_before) &&
+           query(r) && (r->params.late || collide(r));
 }

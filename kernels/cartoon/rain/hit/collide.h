@@ -12,7 +12,7 @@
     INOUT(2, cartoon_raindrop, raindrops)                                                          \
     IMAGE(3, D32F, depth_map)                                                                      \
     IMAGE(4, RGBA16F, normal_map)                                                                  \
-    IN(5, uint, counts) OUT(6, uint, hits) OUT(7, cartoon_surface, surfaces)                       \
+    IN(5, uint, answers) OUT(6, uint, hits) OUT(7, cartoon_surface, surfaces)                       \
         ATOMIC(8, uint, tally) IMAGE(9, RGBA8, face_map) IN(10, float, positions)                  \
             IN(11, uint, indices)
 #include "kernels/dialect/slots/slots.h"
@@ -38,13 +38,16 @@ RG_FN bool cartoon_collides(rg_ctx rg, cartoon_rain_params p, v3 at)
     return cartoon_samples(rg, p, s) < cartoon_least(p);
 }
 
-// The same where the drop is now, from the queries' answers where it is theirs to say.
-RG_FN bool cartoon_may_hit(rg_ctx rg, cartoon_rain_params p, int nth, v3 old, v3 now)
+// The same where the drop is now, from the queries' answers where it is theirs to say: by nth
+// living drop, and late ones by slot. Who has just been released has not been asked about late.
+RG_FN bool cartoon_may_hit(rg_ctx rg, cartoon_rain_params p, int nth, int slot, int age, v3 old,
+                           v3 now)
 {
-    if (cartoon_spot_of(p, now).inside == 0)
+    bool is_late = p.late != 0;
+    if (cartoon_spot_of(p, now).inside == 0 || (is_late && age == 0))
         return false;
     if (p.collide != CARTOON_COLLIDE_CORRECT)
-        return rg_to_int(counts_at(rg, nth)) < cartoon_least(p);
+        return answers_at(rg, is_late ? slot : nth) < rg_to_uint(cartoon_least(p));
     return cartoon_collides(rg, p, now) && cartoon_spot_of(p, old).inside != 0 &&
            !cartoon_collides(rg, p, old);
 }
@@ -127,7 +130,7 @@ RG_GRID_KERNEL(cartoon_collide)
     cartoon_raindrop d = raindrops_at(rg, slot);
     v3 now = v3_make(d.x, d.y, d.z);
     v3 old = v3_make(d.from_x, d.from_y, d.from_z);
-    if (d.state != CARTOON_DROP || !cartoon_may_hit(rg, p, x, old, now))
+    if (d.state != CARTOON_DROP || !cartoon_may_hit(rg, p, x, slot, d.age, old, now))
         return;
     cartoon_hit hit = cartoon_hit_between(rg, p, old, now);
     if (!cartoon_has_met(rg, p, hit, old, now))

@@ -1,6 +1,8 @@
 // A query a drop, as the paper asks it: the drop's bounding sphere is rasterised, tessellated, and
 // its visible samples are counted. The paper gives no tessellation; ours has CARTOON_SLICES by
 // CARTOON_STACKS quads, and leaves out those that are turned away, so that no pixel counts twice.
+// A drop may take more items than that, because the API's queries begin at multiples of 32; the
+// others draw nothing.
 #include "kernels/cartoon/rain/params.h"
 #include "kernels/dialect/draw/triangle.h"
 
@@ -18,6 +20,7 @@ RG_STRUCT(cartoon_facet)
 #include "kernels/cartoon/rain/view.h"
 
 #define CARTOON_SLICES 6
+#define CARTOON_STACKS 4
 
 // Corner k of the sphere's mesh, rings of CARTOON_SLICES from the lower pole to the upper one.
 RG_FN rg_corner cartoon_on_sphere(rg_ctx rg, cartoon_rain_params p, v3 middle, float radius, int k)
@@ -33,8 +36,8 @@ RG_FN rg_item cartoon_facet_of(rg_ctx rg, cartoon_rain_params p, int i)
 {
     int nth = i / p.facets;
     int facet = i - nth * p.facets;
-    int ring = facet / CARTOON_SLICES;
-    int slice = facet - ring * CARTOON_SLICES;
+    int ring = rg_imin(facet / CARTOON_SLICES, CARTOON_STACKS - 1);
+    int slice = facet % CARTOON_SLICES;
     int next = slice == CARTOON_SLICES - 1 ? 0 : slice + 1;
     cartoon_raindrop d = raindrops_at(rg, rg_to_int(living_at(rg, nth)));
     v3 middle = v3_make(d.x, d.y, d.z);
@@ -43,7 +46,8 @@ RG_FN rg_item cartoon_facet_of(rg_ctx rg, cartoon_rain_params p, int i)
     int lower = ring * CARTOON_SLICES;
     int upper = lower + CARTOON_SLICES;
     bool is_lowest = ring == 0;
-    bool is_asked = d.state == CARTOON_DROP && s.inside != 0;
+    bool is_facet = facet < CARTOON_SLICES * CARTOON_STACKS;
+    bool is_asked = is_facet && d.state == CARTOON_DROP && s.inside != 0;
     rg_item t;
     t.alive = is_asked ? 1 : 0;
     t.a = cartoon_on_sphere(rg, p, middle, radius, is_lowest ? upper + next : lower + slice);

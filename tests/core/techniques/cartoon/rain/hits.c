@@ -13,19 +13,13 @@
 
 static struct rg_device *device;
 
-static double bound_m(const struct cartoon *c, double distance_m)
-{
-    const double focal_px = (double)c->rain.params.focal_px;
-    return fmin((double)c->rain.params.bound_m, 16 / focal_px * distance_m);
-}
-
 // --- samples ---
 
 struct counted {
     int asked, sure, partly;
 };
 
-static void look_at_samples(const struct rig_moment *s, void *user)
+static void look_at_samples(const struct rig_change *s, void *user)
 {
     struct counted *n = user;
     for (int i = 0; i < s->c->rain.drops; i++) {
@@ -39,7 +33,7 @@ static void look_at_samples(const struct rig_moment *s, void *user)
             continue;
         struct rainfall_samples due = {0, 0};
         if (spot.is_inside)
-            due = rainfall_count(&s->eye, at, bound_m(s->c, spot.distance_m));
+            due = rainfall_count(&s->eye, at, rig_bound_m(s->c, spot.distance_m));
         if (found < due.least || found > due.most)
             fail_msg("drop %u at (%.3f, %.3f): %d samples, not %d to %d", s->was.drops[slot].number,
                      spot.x_px, spot.y_px, found, due.least, due.most);
@@ -68,7 +62,7 @@ struct decided {
 };
 
 // The lesser end of the last interval of the bisection.
-static struct rainfall_vector before_hit(const struct rig_moment *s, int slot)
+static struct rainfall_vector before_hit(const struct rig_change *s, int slot)
 {
     const cartoon_raindrop *was = &s->was.drops[slot];
     const struct rainfall_vector old = rig_place(was), now = rig_next_place(s->c, was);
@@ -79,7 +73,7 @@ static struct rainfall_vector before_hit(const struct rig_moment *s, int slot)
     return rainfall_sum(rig_place(&s->is.drops[slot]), way, -share);
 }
 
-static void look_at_decisions(const struct rig_moment *s, void *user)
+static void look_at_decisions(const struct rig_change *s, void *user)
 {
     struct decided *n = user;
     const struct cartoon_rain_settings *rules = &s->c->settings.rain;
@@ -93,7 +87,7 @@ static void look_at_decisions(const struct rig_moment *s, void *user)
         if (spot.is_at_border)
             continue;
         const struct rainfall_samples seen =
-            rainfall_count(&s->eye, now, bound_m(s->c, spot.distance_m));
+            rainfall_count(&s->eye, now, rig_bound_m(s->c, spot.distance_m));
         if (has_hit && (!spot.is_inside || seen.least >= least))
             fail_msg("a drop of which %d to %d samples are seen has hit", seen.least, seen.most);
         if (!has_hit && spot.is_inside && seen.most < least)
@@ -109,7 +103,7 @@ static void look_at_decisions(const struct rig_moment *s, void *user)
                                    at_before = rainfall_spot_of(&s->eye, before);
         n->hidden += rainfall_behind(&s->eye, end).behind_m > 0.5;
         if (!at_end.is_at_border &&
-            rainfall_count(&s->eye, end, bound_m(s->c, at_end.distance_m)).least >= least)
+            rainfall_count(&s->eye, end, rig_bound_m(s->c, at_end.distance_m)).least >= least)
             fail_msg("bisection ended where the drop has not hit");
         // Where the way began, the test may have fired already.
         const struct rainfall_vector begin = rig_place(&s->was.drops[i]);
@@ -117,7 +111,7 @@ static void look_at_decisions(const struct rig_moment *s, void *user)
             rainfall_length(rainfall_sum(before, begin, -1)) < 1e-4)
             continue;
         n->ends++;
-        if (rainfall_count(&s->eye, before, bound_m(s->c, at_before.distance_m)).most < least)
+        if (rainfall_count(&s->eye, before, rig_bound_m(s->c, at_before.distance_m)).most < least)
             fail_msg("bisection ended %.3g m behind the hit",
                      rainfall_length(rainfall_sum(end, before, -1)));
     }
@@ -137,99 +131,11 @@ static void a_drop_hits_where_few_samples_are_seen(void **state)
         fail_msg("%d hits, %d misses, %d hidden, %d ends", n.hits, n.misses, n.hidden, n.ends);
 }
 
-// --- rasterised spheres ---
-
-// A sphere of 6 by 4 quads, upright.
-static struct rainfall_vector corner_of(struct rainfall_vector middle, double radius, int ring,
-                                        int slice)
-{
-    const double pi = acos(-1), rise = pi * ring / 4 - pi / 2, turn = 2 * pi * slice / 6;
-    return (struct rainfall_vector){middle.x + radius * cos(rise) * sin(turn),
-                                    middle.y + radius * sin(rise),
-                                    middle.z + radius * cos(rise) * cos(turn)};
-}
-
-// How far along a ray through the sphere's mesh its near side is; 0: beside it.
-static double near_side(struct rainfall_vector from, struct rainfall_vector to,
-                        struct rainfall_vector middle, double radius)
-{
-    double nearest = INFINITY;
-    for (int f = 0; f < 24; f++) {
-        const int ring = f / 6, slice = f % 6;
-        const struct rainfall_vector a = corner_of(middle, radius, ring, slice),
-                                     b = corner_of(middle, radius, ring, slice + 1),
-                                     d = corner_of(middle, radius, ring + 1, slice + 1),
-                                     e = corner_of(middle, radius, ring + 1, slice);
-        const double one = rainfall_meets(from, to, (struct rainfall_vector[]){a, b, d});
-        const double two = rainfall_meets(from, to, (struct rainfall_vector[]){a, d, e});
-        nearest = one >= 0 ? fmin(nearest, one) : nearest;
-        nearest = two >= 0 ? fmin(nearest, two) : nearest;
-    }
-    return isinf(nearest) ? 0 : nearest;
-}
-
-static int facet_samples(const struct rainfall_eye *eye, struct rainfall_vector at, double radius)
-{
-    const struct rainfall_spot s = rainfall_spot_of(eye, at);
-    const int reach = (int)(radius * eye->focal_px / s.distance_m) + 2;
-    const double far_m = 2 * s.distance_m;
-    int count = 0;
-    for (int y = (int)s.y_px - reach; y <= (int)s.y_px + reach; y++)
-        for (int x = (int)s.x_px - reach; x <= (int)s.x_px + reach; x++) {
-            if (x < 0 || y < 0 || x >= eye->width || y >= eye->height)
-                continue;
-            struct rainfall_vector to = rainfall_sum(eye->at, eye->ahead, far_m);
-            to = rainfall_sum(to, eye->right, (x + 0.5 - eye->width / 2.0) / eye->focal_px * far_m);
-            to = rainfall_sum(to, eye->up, (eye->height / 2.0 - y - 0.5) / eye->focal_px * far_m);
-            const double along = near_side(eye->at, to, at, radius);
-            count += along > 0 &&
-                     rainfall_depth_of(eye, along * far_m) < (double)eye->depth[y * eye->width + x];
-        }
-    return count;
-}
-
-struct spheres {
-    int asked;
-    double off;
-};
-
-static void look_at_spheres(const struct rig_moment *s, void *user)
-{
-    struct spheres *n = user;
-    for (int i = 0; i < s->c->rain.drops; i++) {
-        const int slot = (int)s->is.living[i];
-        const struct rainfall_vector at = rig_next_place(s->c, &s->was.drops[slot]);
-        const struct rainfall_spot spot = rainfall_spot_of(&s->eye, at);
-        if (!rig_fell(s, slot) || spot.is_at_border || i % 3)
-            continue;
-        const int due =
-            spot.is_inside ? facet_samples(&s->eye, at, bound_m(s->c, spot.distance_m)) : 0;
-        const double off = fabs((double)s->is.counts[i] - due);
-        // A quad is drawn as if it were even, and corners are snapped to 1/256 pixel.
-        if (off > 3)
-            fail_msg("a sphere at (%.3f, %.3f): %u samples, not %d", spot.x_px, spot.y_px,
-                     s->is.counts[i], due);
-        n->asked += spot.is_inside;
-        n->off += off;
-    }
-}
-
-static void rasterised_spheres_have_their_facets_samples(void **state)
-{
-    (void)state;
-    struct spheres n = {0};
-    rig_each_step(device, "scene=house2 drops_s=2000 collide=faithful query=spheres bound_m=0.08",
-                  128, 70, 74, look_at_spheres, &n);
-    if (n.asked < 50 || n.off > 0.15 * n.asked)
-        fail_msg("%d spheres, %.3g samples off in the mean", n.asked, n.off / n.asked);
-}
-
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(samples_are_those_of_a_sphere),
         cmocka_unit_test(a_drop_hits_where_few_samples_are_seen),
-        cmocka_unit_test(rasterised_spheres_have_their_facets_samples),
     };
     device = rg_device_open(argc > 1 ? argv[1] : "cpu");
     assert_non_null(device);

@@ -6,6 +6,7 @@ Row = collections.namedtuple("Row", "about file old new tests")
 MOTION = ("motion",)
 HITS = ("hits",)
 PICTURES = ("pictures",)
+QUERIES = ("queries",)
 RAYS = ("rays",)
 WATER = ("water",)
 
@@ -87,15 +88,30 @@ ROWS = [Row(*row) for row in (
     ("hidden samples count", "hit/samples.h",
      "depth < depth_map_texel(rg, x, y, 0, 0).r", "depth > depth_map_texel(rg, x, y, 0, 0).r", HITS),
     ("facets are summed one short", "hit/sum.h",
-     "i < (x + 1) * p.facets", "i < (x + 1) * p.facets - 1", HITS),
+     "i < (x + 1) * p.facets", "i < (x + 1) * p.facets - 1", QUERIES),
     ("counts are kept", "hit/sum.h",
-     "facet_samples_put(rg, i, 0u);", "facet_samples_put(rg, i, facet_samples_at(rg, i));", HITS),
+     "facet_samples_put(rg, i, 0u);", "facet_samples_put(rg, i, facet_samples_at(rg, i));", QUERIES),
     ("spheres twice as large", "hit/spheres.h",
      "float radius = cartoon_bound_m(p, s.distance_m);",
-     "float radius = 2.0f * cartoon_bound_m(p, s.distance_m);", HITS),
+     "float radius = 2.0f * cartoon_bound_m(p, s.distance_m);", QUERIES),
+    ("spheres of three slices", "hit/spheres.h",
+     "int next = slice == CARTOON_SLICES - 1 ? 0 : slice + 1;", "int next = slice;", QUERIES),
+    ("spheres without their upper cap", "hit/spheres.h",
+     "facet < CARTOON_SLICES * CARTOON_STACKS;", "facet < CARTOON_SLICES * (CARTOON_STACKS - 1);", QUERIES),
+    ("spheres of what has hit", "hit/spheres.h",
+     "is_facet && d.state == CARTOON_DROP && s.inside != 0", "is_facet && s.inside != 0", QUERIES),
+    # late answers
+    ("late answers of what was not asked about", "hit/keep.h",
+     "is_asked ? counts_at(rg, x) : CARTOON_UNASKED", "counts_at(rg, x)", QUERIES),
+    ("late answers by the place in the list", "hit/keep.h",
+     "answers_put(rg, slot, is_asked", "answers_put(rg, x, is_asked", QUERIES),
+    ("late answers read by the place in the list", "hit/collide.h",
+     "answers_at(rg, is_late ? slot : nth)", "answers_at(rg, nth)", QUERIES),
+    ("who is new has been asked about", "hit/collide.h",
+     " || (is_late && age == 0)", "", QUERIES),
     # the decision
     ("equal counts hit", "hit/collide.h",
-     "rg_to_int(counts_at(rg, nth)) < cartoon_least(p)", "rg_to_int(counts_at(rg, nth)) <= cartoon_least(p)", HITS),
+     "is_late ? slot : nth) < rg_to_uint(", "is_late ? slot : nth) <= rg_to_uint(", HITS),
     ("any is as the paper", "hit/collide.h",
      "p.collide == CARTOON_COLLIDE_ANY ? 1 : p.least_samples", "p.least_samples", HITS),
     ("drops beside the picture are asked", "hit/collide.h",

@@ -132,7 +132,7 @@ struct against_rays {
 
 // A hit is never before the mesh, so it is held against the last place that its way has met, where
 // another may be met right behind it.
-static void look_at_hit(const struct rig_moment *m, int slot, struct against_rays *n)
+static void look_at_hit(const struct rig_change *m, int slot, struct against_rays *n)
 {
     const struct rainfall_vector from = rig_place(&m->was.drops[slot]);
     const struct rainfall_vector to = rig_next_place(m->c, &m->was.drops[slot]);
@@ -153,7 +153,7 @@ static void look_at_hit(const struct rig_moment *m, int slot, struct against_ray
     n->hidden += !is_seen(&n->faces, &m->eye, place);
 }
 
-static void look_at_hits(const struct rig_moment *m, void *user)
+static void look_at_hits(const struct rig_change *m, void *user)
 {
     struct against_rays *n = user;
     if (!n->faces.count)
@@ -225,7 +225,7 @@ static void the_face_map_names_what_is_seen(void **state)
 
 // --- what is seen to hit ---
 
-static void look_at_crossings(const struct rig_moment *m, void *user)
+static void look_at_crossings(const struct rig_change *m, void *user)
 {
     struct against_rays *n = user;
     if (!n->faces.count)

@@ -66,9 +66,13 @@ uint32_t rig_tally(struct cartoon *c, int word)
 
 struct rig_rain rig_look(struct cartoon *c)
 {
-    return (struct rig_rain){rig_words(c, "raindrops"), rig_words(c, "sprays"),
-                             rig_words(c, "living"),    rig_words(c, "counts"),
-                             c->rain.params.drop_slots, c->rain.params.spray_slots};
+    return (struct rig_rain){rig_words(c, "raindrops"),
+                             rig_words(c, "sprays"),
+                             rig_words(c, "living"),
+                             rig_words(c, "counts"),
+                             c->rain.params.drop_slots,
+                             c->rain.params.spray_slots,
+                             c->rain.drops};
 }
 
 void rig_free(struct rig_rain *rain)
@@ -117,37 +121,44 @@ struct rainfall_eye rig_eye(struct cartoon *c)
     return eye;
 }
 
+double rig_bound_m(const struct cartoon *c, double distance_m)
+{
+    const double focal_px = (double)c->rain.params.focal_px;
+    return fmin((double)c->rain.params.bound_m, 16 / focal_px * distance_m);
+}
+
 void rig_each_step(struct rg_device *device, const char *settings, int size_px, int from, int to,
-                   void (*look)(const struct rig_moment *m, void *user), void *user)
+                   void (*look)(const struct rig_change *s, void *user), void *user)
 {
     struct cartoon *c = rig_open(device, settings, size_px, size_px);
     rig_step(c, from);
     for (int i = from; i < to; i++) {
-        struct rig_moment m = {.c = c, .was = rig_look(c)};
+        struct rig_change s = {.c = c, .was = rig_look(c), .eye_was = rig_eye(c)};
         rig_step(c, 1);
-        m.is = rig_look(c);
-        m.eye = rig_eye(c);
-        look(&m, user);
-        rig_free(&m.was);
-        rig_free(&m.is);
-        free((void *)m.eye.depth);
+        s.is = rig_look(c);
+        s.eye = rig_eye(c);
+        look(&s, user);
+        rig_free(&s.was);
+        rig_free(&s.is);
+        free((void *)s.eye_was.depth);
+        free((void *)s.eye.depth);
     }
     rig_close(c);
 }
 
-bool rig_fell(const struct rig_moment *m, int slot)
+bool rig_fell(const struct rig_change *s, int slot)
 {
-    const cartoon_raindrop *was = &m->was.drops[slot], *is = &m->is.drops[slot];
+    const cartoon_raindrop *was = &s->was.drops[slot], *is = &s->is.drops[slot];
     return was->state == CARTOON_DROP && is->number == was->number &&
            (is->state == CARTOON_DROP || is->state == CARTOON_COLLISION);
 }
 
-void rig_expect_on_way(const struct rig_moment *m, int slot)
+void rig_expect_on_way(const struct rig_change *s, int slot)
 {
-    const struct rainfall_vector old = rig_place(&m->was.drops[slot]);
-    const struct rainfall_vector now = rig_next_place(m->c, &m->was.drops[slot]);
+    const struct rainfall_vector old = rig_place(&s->was.drops[slot]);
+    const struct rainfall_vector now = rig_next_place(s->c, &s->was.drops[slot]);
     const struct rainfall_vector way = rainfall_sum(now, old, -1);
-    const struct rainfall_vector to = rainfall_sum(rig_place(&m->is.drops[slot]), old, -1);
+    const struct rainfall_vector to = rainfall_sum(rig_place(&s->is.drops[slot]), old, -1);
     const double along = rainfall_dot(to, way) / rainfall_dot(way, way);
     rig_expect("distance of a hit from its way", rainfall_length(rainfall_sum(to, way, -along)), 0,
                1e-5);

@@ -23,6 +23,7 @@ struct rig_rain {
     uint32_t *living;
     uint32_t *counts;
     int drop_slots, spray_slots;
+    int listed; // drops of the living list
 };
 struct rig_rain rig_look(struct cartoon *c);
 void rig_free(struct rig_rain *rain);
@@ -36,19 +37,22 @@ struct rainfall_vector rig_next_place(const struct cartoon *c, const cartoon_rai
 // The camera of the present frame; its depths are the depth map's, for the caller to free.
 struct rainfall_eye rig_eye(struct cartoon *c);
 
-// A step: the rain before it and after it, and the camera of its frame.
-struct rig_moment {
+// A step: the rain and the camera before and after it.
+struct rig_change {
     struct cartoon *c;
     struct rig_rain was, is;
-    struct rainfall_eye eye;
+    struct rainfall_eye eye_was, eye;
 };
-// Opens cartoon with a square picture, runs steps, and shows each from the `from`th on to `look`.
+// Opens cartoon on a square picture, and shows the steps behind the first `from`, up to `to`, to
+// `look`.
 void rig_each_step(struct rg_device *device, const char *settings, int size_px, int from, int to,
-                   void (*look)(const struct rig_moment *m, void *user), void *user);
+                   void (*look)(const struct rig_change *s, void *user), void *user);
 // Whether a drop fell through the whole of a step, and may have hit in it.
-bool rig_fell(const struct rig_moment *m, int slot);
+bool rig_fell(const struct rig_change *s, int slot);
+// The radius of a drop's bounding sphere.
+double rig_bound_m(const struct cartoon *c, double distance_m);
 // Fails the test unless a drop that has hit is on its way in the step.
-void rig_expect_on_way(const struct rig_moment *m, int slot);
+void rig_expect_on_way(const struct rig_change *s, int slot);
 
 // Hits of the last step.
 int rig_hits(struct cartoon *c);
