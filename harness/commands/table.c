@@ -25,7 +25,7 @@ struct table_options {
 
 #define AT(field) offsetof(struct table_options, field)
 
-static const char *const works[] = {"paper", "ours", NULL};
+static const char *const works[] = {"paper", "ours", "queries", NULL};
 
 static const struct rg_option options[] = {
     RG_GROUP("What to measure"),
@@ -35,7 +35,9 @@ static const struct rg_option options[] = {
     {RG_OPTION_RANGE, "rows", .argument = "A-B", .about = "only these rows, counted from 1",
      .offset = AT(rows), .least = 1, .most = INT_MAX},
     {RG_OPTION_CHOICE, "work",
-     .about = "the work that was printed, or ours, where a table tells them apart; both without",
+     .about = "the work that was printed, ours, or the API's occlusion queries, where a table "
+              "tells them "
+              "apart; all without",
      .offset = AT(work), .choices = works},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     {RG_OPTION_FLAG, "fresh", .about = "takes nothing from a run that was interrupted",
@@ -95,8 +97,18 @@ static int print(const struct rg_result *result, const void *user)
 
 // --- tables that are measured ---
 
-// The tables that are named, or all. False, and one logged line, where one is unknown.
-static bool choose(const struct rg_words *ids, const struct rg_table *chosen[], int *count)
+static bool has_work(const struct rg_table *table, const char *wanted)
+{
+    bool has = !wanted || !table->works[0].name;
+    for (const struct rg_table_work *work = table->works; work->name; work++)
+        has = has || !strcmp(work->name, wanted);
+    return has;
+}
+
+// The tables that are named, or all that have the work. False, and one logged line, where one is
+// unknown, or has it not.
+static bool choose(const struct rg_words *ids, const char *work, const struct rg_table *chosen[],
+                   int *count)
 {
     *count = 0;
     for (int i = 0; i < ids->count; i++) {
@@ -104,9 +116,13 @@ static bool choose(const struct rg_words *ids, const struct rg_table *chosen[], 
         if (!chosen[i])
             return rg_error("table '%s': unknown; `raingauge list tables` prints them",
                             ids->items[i]);
+        if (!has_work(chosen[i], work))
+            return rg_error("--work %s: table '%s' has no such work; choose paper or ours", work,
+                            ids->items[i]);
     }
     for (int i = 0; rg_tables[i] && !ids->count && i < RG_MAX_WORDS; i++)
-        chosen[(*count)++] = rg_tables[i];
+        if (has_work(rg_tables[i], work))
+            chosen[(*count)++] = rg_tables[i];
     return true;
 }
 
@@ -126,7 +142,7 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
 {
     const struct rg_table *chosen[RG_MAX_WORDS];
     int count;
-    if (!choose(arguments, chosen, &count) || !have_rows(o->rows, chosen, count))
+    if (!choose(arguments, chosen_work(o), chosen, &count) || !have_rows(o->rows, chosen, count))
         return RG_EXIT_USAGE;
     const struct rg_regenerate_options wanted = {.first_row = o->rows.first,
                                                  .last_row = o->rows.last,
@@ -197,8 +213,9 @@ static int table(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_table = {
     .name = "table",
-    .usage = "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--work paper|ours] "
-             "[--format F|--json] [-o DIR] [--fresh] [--from FILE|DIR]",
+    .usage =
+        "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--work paper|ours|queries] "
+        "[--format F|--json] [-o DIR] [--fresh] [--from FILE|DIR]",
     .about = "regenerates the papers' tables: published beside measured, on every device",
     .options = options,
     .options_size = sizeof(struct table_options),

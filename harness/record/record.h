@@ -36,9 +36,10 @@ struct rg_truth_error {
 struct rg_record {
     // What it is of
     char technique[RG_NAME_SIZE];
-    char variant[RG_NAME_SIZE];   // what is timed: "full"
-    char work[RG_NAME_SIZE];      // "paper" or "ours"; "" in tables that do not tell them apart
-    char set[RG_SET_SIZE];        // the parameters that are set, as --set takes each
+    char variant[RG_NAME_SIZE]; // what is timed: "full"
+    char work[RG_NAME_SIZE];    // "paper", "ours" or "queries"; "" in tables that do not tell them
+                                // apart
+    char set[RG_SET_SIZE];      // the parameters that are set, as --set takes each
     struct rg_device_info device; // a copy; read back, it has no limits
     int row_count;
     struct rg_named row[RG_MAX_VALUES]; // what tells its row from others: names, then numbers

@@ -10,7 +10,7 @@
 
 enum {
     RG_RESULT_ROWS = 256,
-    RG_RESULT_WORKS = 2,
+    RG_RESULT_WORKS = 3,
     RG_RESULT_VARIANTS = 10,
     RG_RESULT_MISSING = RG_MAX_BACKENDS + RG_MAX_DEVICES,
     RG_NOTE_SIZE = 1024,
@@ -19,7 +19,7 @@ enum {
 
 // What tells apart how much work a row's cells do.
 struct rg_result_work {
-    char name[RG_NAME_SIZE];   // "paper": what was printed; "ours"
+    char name[RG_NAME_SIZE];   // "paper": what was printed; "ours"; "queries"
     char saves[RG_TITLE_SIZE]; // what saves work, one line; "": nothing
 };
 

@@ -21,10 +21,20 @@ static void name_devices(struct rg_result *result, const struct rg_devices *devi
                      devices->absent[i].why);
 }
 
-static void name_works(struct rg_result *result, const struct rg_table *table, const char *wanted)
+static bool any_has_queries(const struct rg_devices *devices)
+{
+    bool any = false;
+    for (int d = 0; d < devices->count; d++)
+        any = any || devices->devices[d]->info.limits.has_queries;
+    return any;
+}
+
+// The work that is wanted, or all that a device of the result can do.
+static void name_works(struct rg_result *result, const struct rg_table *table, const char *wanted,
+                       const struct rg_devices *devices)
 {
     for (const struct rg_table_work *work = table->works; work->name; work++) {
-        if (wanted && strcmp(work->name, wanted) != 0)
+        if (wanted ? strcmp(work->name, wanted) != 0 : work->elsewhere && !any_has_queries(devices))
             continue;
         struct rg_result_work *named = &result->works[result->work_count++];
         rg_text_copy(named->name, sizeof(named->name), work->name);
@@ -57,14 +67,14 @@ void rg_table_begin(struct rg_result *result, const struct rg_table *table,
         const char *name = table->variants[result->variant_count].name;
         rg_text_copy(result->variants[result->variant_count++], RG_NAME_SIZE, name);
     }
-    name_works(result, table, part->work);
+    name_works(result, table, part->work, devices);
     name_devices(result, devices);
 }
 
 // --- a row ---
 
-static const struct rg_table_work *work_at(const struct rg_result *result,
-                                           const struct rg_table *table, struct rg_place at)
+const struct rg_table_work *rg_table_work_at(const struct rg_result *result,
+                                             const struct rg_table *table, struct rg_place at)
 {
     const struct rg_table_work *work = table->works;
     while (work->name && strcmp(work->name, result->works[at.work].name) != 0)
@@ -75,7 +85,7 @@ static const struct rg_table_work *work_at(const struct rg_result *result,
 char *rg_table_assignments(const struct rg_result *result, const struct rg_table *table,
                            struct rg_place at)
 {
-    const struct rg_table_work *work = work_at(result, table, at);
+    const struct rg_table_work *work = rg_table_work_at(result, table, at);
     const char *const parts[] = {table->rows[at.row].set, table->variants[at.variant].set,
                                  work->name ? work->set : "",
                                  result->full || !table->quick ? "" : table->quick};

@@ -16,6 +16,7 @@ struct preparation {
     struct rg_kept *kept;
     const struct rg_table *table;
     struct rg_subject subject;
+    struct rg_subject drawn; // by cpu:reference: the same image
     int check_frames;
     int count;           // of devices
     struct rg_job *jobs; // one a device
@@ -33,6 +34,7 @@ static struct preparation begin(struct rg_batch *batch, struct rg_place at)
                             .check_frames = batch->result->check_frames,
                             .count = batch->kept->devices->count,
                             .jobs = batch->jobs + batch->job_count};
+    p.drawn = p.subject;
     batch->job_count += p.count;
     for (at.device = 0; at.device < p.count; at.device++)
         p.jobs[at.device] = (struct rg_job){.subject = p.subject,
@@ -46,6 +48,18 @@ static struct preparation begin(struct rg_batch *batch, struct rg_place at)
 
 // --- the image ---
 
+// What cpu:reference draws of a work that it cannot do; the caller frees *elsewhere.
+static bool find_drawn(struct preparation *p, const struct rg_batch *batch, struct rg_place at,
+                       void **elsewhere)
+{
+    const struct rg_table_work *work = rg_table_work_at(batch->result, batch->table, at);
+    if (!work->elsewhere)
+        return true;
+    *elsewhere = rg_settings_copy(p->subject.technique, p->subject.settings, work->elsewhere);
+    p->drawn.settings = *elsewhere;
+    return *elsewhere != NULL;
+}
+
 // The background is what a mask of rain is made from: for the distance from the truth, and for
 // devices that owe another tier than T0.
 static bool needs_dry(const struct preparation *p)
@@ -56,16 +70,16 @@ static bool needs_dry(const struct preparation *p)
     return needed;
 }
 
-// Gets the image of cpu:reference: from its job where the table measures it, else from a session
-// opened for that.
+// Gets the image of cpu:reference: from its job where the table measures it with these settings,
+// else from a session opened for that.
 static bool draw_expected(struct preparation *p)
 {
     struct rg_device *device = rg_kept_device(p->kept, "cpu:reference");
-    for (int d = 0; device && d < p->count; d++)
+    const bool is_job = p->drawn.settings == p->subject.settings;
+    for (int d = 0; device && is_job && d < p->count; d++)
         if (p->jobs[d].device == device)
             return rg_job_open(&p->jobs[d]) && rg_expected_read(&p->expected, p->jobs[d].session);
-    struct rg_session *session =
-        device ? rg_session_run(device, &p->subject, p->check_frames) : NULL;
+    struct rg_session *session = device ? rg_session_run(device, &p->drawn, p->check_frames) : NULL;
     if (!session)
         return false;
     const bool ok = rg_expected_read(&p->expected, session);
@@ -75,7 +89,7 @@ static bool draw_expected(struct preparation *p)
 
 static bool draw_dry(struct preparation *p)
 {
-    return !needs_dry(p) || rg_frame_draw_dry(rg_kept_device(p->kept, "cpu:reference"), &p->subject,
+    return !needs_dry(p) || rg_frame_draw_dry(rg_kept_device(p->kept, "cpu:reference"), &p->drawn,
                                               p->check_frames, &p->expected.dry);
 }
 
@@ -140,12 +154,15 @@ void rg_batch_prepare(struct rg_batch *batch, struct rg_place at,
                       const struct rg_measure_options *options)
 {
     struct preparation p = begin(batch, at);
-    if (p.subject.settings && draw_expected(&p) && draw_dry(&p)) {
+    void *elsewhere = NULL;
+    if (p.subject.settings && find_drawn(&p, batch, at, &elsewhere) && draw_expected(&p) &&
+        draw_dry(&p)) {
         measure_error(&p);
         prepare_jobs(&p, options);
     } else {
         give_up(&p);
     }
+    free(elsewhere);
     for (int d = 0; d < p.count; d++)
         p.jobs[d].record->truth_error = p.truth_error;
     rg_expected_free(&p.expected);

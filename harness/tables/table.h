@@ -11,7 +11,7 @@
 struct rg_table_part {
     int first_row, last_row; // from 0
     bool full;
-    const char *work; // "paper" or "ours"; NULL: both, where a table tells them apart
+    const char *work; // "paper", "ours" or "queries"; NULL: all, where a table tells them apart
 };
 
 // Fills a zeroed result with what the table, the part of it and the devices say, and no row.
@@ -20,6 +20,9 @@ void rg_table_begin(struct rg_result *result, const struct rg_table *table,
 // Adds a row whose records say what they are of, and nothing else. False, with one logged line,
 // without memory for it.
 bool rg_table_add_row(struct rg_result *result, const struct rg_table *table, int row);
+// The work of a cell; one without a name where the table does not tell works apart.
+const struct rg_table_work *rg_table_work_at(const struct rg_result *result,
+                                             const struct rg_table *table, struct rg_place at);
 // The assignments of a cell, over the technique's defaults. Owned by the caller; NULL, and one
 // logged line, without memory.
 char *rg_table_assignments(const struct rg_result *result, const struct rg_table *table,

@@ -13,7 +13,8 @@
         {"ours", "redraw=moved query=discs cut=on",                                                \
          "the scene is drawn anew where the camera has moved alone, sprites are cut to what "      \
          "is not transparent, and samples are those of a disc instead of a rasterised "            \
-         "sphere, which may decide a few hits otherwise"}}
+         "sphere, which may decide a few hits otherwise"},                                         \
+        {"queries", "redraw=always query=api answers=late cut=off", "", "query=spheres"}}
 #define PAPER "collide=faithful "
 
 #define STYLES(scene) PAPER "scene=" scene " drops_s=10000"

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { RG_TABLE_ROWS = 64, RG_TABLE_VALUES = 10, RG_TABLE_VARIANTS = 10, RG_TABLE_WORKS = 2 };
+enum { RG_TABLE_ROWS = 64, RG_TABLE_VALUES = 10, RG_TABLE_VARIANTS = 10, RG_TABLE_WORKS = 3 };
 enum { RG_TABLE_COUNTED = 4 };
 
 // One row: settings of the technique and what the paper printed. Assignments are "key=value
@@ -25,12 +25,16 @@ struct rg_table_variant {
     const char *fps;
 };
 
-// How much work a row's cells do: "paper", what was printed of, and "ours", the same picture for
-// less. A table without either has cells of one kind, which it does not name.
+// How much work a row's cells do: "paper", what was printed of, "ours", the same picture for less,
+// and perhaps "queries", what was printed of by the API's own occlusion queries. A table without
+// any has cells of one kind, which it does not name.
 struct rg_table_work {
     const char *name;
     const char *set;   // over the row's and the variant's
     const char *saves; // what saves work, one line; "" of what was printed
+    // Of "queries": what draws the same image on devices that have none, over all these. A table is
+    // measured without the work where no device has any. NULL: every device does it.
+    const char *elsewhere;
 };
 
 struct rg_table {

@@ -169,7 +169,8 @@ static void test_settings(void **state)
     }
 }
 
-// Works are those that --work chooses among: what was printed, and what saves work and says so.
+// Works are those that --work chooses among: what was printed, what saves work and says so, and
+// what was printed by the API's queries, which some devices cannot do.
 static void test_works(void **state)
 {
     (void)state;
@@ -184,6 +185,12 @@ static void test_works(void **state)
         assert_string_equal(works[1].name, "ours");
         assert_in_range(strlen(works[1].saves), 1, RG_TITLE_SIZE - 1);
         assert_string_not_equal(works[0].set, works[1].set);
+        assert_true(!works[0].elsewhere && !works[1].elsewhere);
+        if (!works[2].name)
+            continue;
+        assert_string_equal(works[2].name, "queries");
+        assert_string_equal(works[2].saves, "");
+        assert_non_null(works[2].elsewhere);
     }
     assert_true(found > 0);
 }
