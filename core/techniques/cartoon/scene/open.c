@@ -71,8 +71,8 @@ static void tell(struct cartoon *c)
     const struct rg_mesh *mesh = c->diorama->mesh;
     rg_tell_text(&c->base, "model", "%.*s", RG_FACT_SIZE - 1, mesh->name);
     rg_tell_text(&c->base, "model_hash", "%016llx", (unsigned long long)mesh->hash);
-    rg_tell(&c->base, "vertices", mesh->vertex_count);
-    rg_tell(&c->base, "faces", mesh->face_count);
+    rg_tell(&c->base, "points", mesh->vertex_count);
+    rg_tell(&c->base, "triangles", mesh->face_count);
 }
 
 bool cartoon_scene_open(struct cartoon *c)
