@@ -97,6 +97,34 @@ static void note_trend(const struct rg_result *result, struct rg_sheet *sheet, s
         s.pairs_in_order == s.pairs ? "keeps" : "does not keep", s.pairs_in_order, s.pairs, slopes);
 }
 
+// "12.8 to 30.4, by 58 %": the share of the most by which the least is below it.
+static void name_spread(const struct rg_result *result, const struct rg_spread *s, const char *what,
+                        int decimals, char *text, size_t size)
+{
+    const int used = snprintf(text, size, "%s%.*f to %.*f, by %.0f %%", what, decimals,
+                              s->least_fps, decimals, s->most_fps, 100 * s->share);
+    if (result->variant_count > 1)
+        snprintf(text + used, size - (size_t)used, ", over the rows of a variant by up to %.0f %%",
+                 100 * s->of_a_variant);
+}
+
+// What is claimed of rows that have names, such as that frame rates vary with the scene. A work
+// that saves something is not held against print.
+static void note_spread(const struct rg_result *result, struct rg_sheet *sheet, struct rg_place of)
+{
+    struct rg_spread found, due;
+    char name[RG_NAME_SIZE + 4] = "", measured[128], printed[128] = "";
+    if (of.variant || !rg_spread_of(result, of.work, of.device, &found, &due))
+        return;
+    if (result->work_count)
+        snprintf(name, sizeof(name), ", %s", result->works[of.work].name);
+    name_spread(result, &found, "", 1, measured, sizeof(measured));
+    if (!*result->works[of.work].saves)
+        name_spread(result, &due, "; published ", 2, printed, sizeof(printed));
+    rg_sheet_note(sheet, "Spread of fps on %s%s: %s%s.", result->devices[of.device].name, name,
+                  measured, printed);
+}
+
 // --- the inputs ---
 
 // Whether all measured cells tell the same; `text` gets it. Of rows that are missing nobody knows
@@ -211,6 +239,9 @@ void rg_result_notes(const struct rg_result *result, const char *const *shown,
     for (struct rg_place of = rg_result_start_row(result->first_row);
          rg_result_next_in_row(result, &of);)
         note_trend(result, sheet, of);
+    for (struct rg_place of = rg_result_start_row(result->first_row);
+         rg_result_next_in_row(result, &of);)
+        note_spread(result, sheet, of);
     note_facts(result, shown, sheet);
     note_works(result, sheet);
     note_method(result, sheet);

@@ -141,3 +141,52 @@ json_t *rg_trends_json(const struct rg_result *result)
         json_array_append_new(trends, trend_json(result, of));
     return trends;
 }
+
+// --- the spread ---
+
+static double share_of(double least, double most)
+{
+    return 1 - least / most;
+}
+
+// Adds the rows of a variant. False where a number is missing.
+static bool add_variant(const struct rg_result *result, struct rg_place at,
+                        double (*fps_of)(const struct rg_record *), struct rg_spread *spread)
+{
+    double least = INFINITY, most = 0;
+    for (at.row = result->first_row; at.row <= result->last_row; at.row++) {
+        if (!rg_result_has(result, at.row))
+            return false;
+        const struct rg_record *record = rg_result_at(result, at);
+        const double fps = fps_of(record);
+        if (record->outcome != RG_OK || !*record->row[0].text || !(fps > 0))
+            return false;
+        least = fmin(least, fps);
+        most = fmax(most, fps);
+    }
+    spread->least_fps = fmin(spread->least_fps, least);
+    spread->most_fps = fmax(spread->most_fps, most);
+    spread->of_a_variant = fmax(spread->of_a_variant, share_of(least, most));
+    return true;
+}
+
+static bool find_spread(const struct rg_result *result, int work, int device,
+                        double (*fps_of)(const struct rg_record *), struct rg_spread *spread)
+{
+    *spread = (struct rg_spread){.least_fps = INFINITY};
+    for (int v = 0; v < result->variant_count; v++) {
+        const struct rg_place at = {.work = work, .variant = v, .device = device};
+        if (!add_variant(result, at, fps_of, spread))
+            return false;
+    }
+    spread->share = share_of(spread->least_fps, spread->most_fps);
+    return true;
+}
+
+bool rg_spread_of(const struct rg_result *result, int work, int device, struct rg_spread *measured,
+                  struct rg_spread *published)
+{
+    return !result->is_of_textures && result->last_row > result->first_row &&
+           find_spread(result, work, device, rg_record_fps, measured) &&
+           find_spread(result, work, device, rg_record_published_fps, published);
+}

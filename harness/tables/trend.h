@@ -1,5 +1,5 @@
 // Whether a device's numbers fall along a table's rows as the published ones do, or, of a table of
-// no paper, how they fall.
+// no paper, how they fall; and how far numbers of rows that have names lie apart.
 #ifndef RG_HARNESS_TABLES_TREND_H
 #define RG_HARNESS_TABLES_TREND_H
 
@@ -35,5 +35,16 @@ const struct rg_named *rg_trend_axis(const struct rg_record *record);
 // The trends of all works, variants and devices as in docs/records.md (`shapes`); the caller owns
 // it.
 json_t *rg_trends_json(const struct rg_result *result);
+
+struct rg_spread {
+    double least_fps, most_fps; // of all rows and variants
+    double share;               // by which the least is below the most
+    double of_a_variant;        // the greatest of these shares over the rows of one variant
+};
+
+// Of the rows of a work on a device. False where there are fewer than two, rows have no names, or a
+// cell has no number.
+bool rg_spread_of(const struct rg_result *result, int work, int device, struct rg_spread *measured,
+                  struct rg_spread *published);
 
 #endif

@@ -34,6 +34,18 @@ static const struct rg_table names_table = {
     .rows = scenes,
     .note = "a note",
 };
+static const struct rg_table styles_table = {
+    .id = "styles",
+    .technique = "flow",
+    .hardware = "paper",
+    .names = "scene",
+    .columns = {"fps", "fps_no_geometry"},
+    .variants = {{"full", "", "fps"}, {"no_geometry", "geometry=off", "fps_no_geometry"}},
+    .works = {{"paper", "blocks=all", ""}, {"ours", "", "less is drawn"}},
+    .row_count = 2,
+    .rows = (const struct rg_table_row[]){{"", {100, 200}, "mirror"}, {"", {80, 190}, "dragon"}},
+    .note = "a note",
+};
 static const struct rg_table_row radii[] = {
     {"", {5, 1, 70303, 400, 800}, NULL},
     {"", {10, 1, 198818, 200, 400}, NULL},
@@ -204,6 +216,8 @@ static void test_sheet_of_names(void **state)
     for (int row = 0; row < 4; row++)
         tell(record_at(&rig, row, 0), "seed", 7);
     rg_result_sheet(&rig.result, &sheet);
+    assert_true(has_note(&sheet, "Spread of fps on cpu: 10.0 to 50.0, by 80 %; published 120.00 to "
+                                 "160.00, by 25 %."));
     expect_text(&sheet, 1, "scene", "dragon");
     expect_text(&sheet, 1, "published faces", "100000");
     assert_null(text_at(&sheet, 0, "variant"));
@@ -506,6 +520,30 @@ static void test_range(void **state)
     rg_result_free(&rig.result);
 }
 
+// Over rows and variants, and the most over the rows of one. What saves work is not held against
+// print.
+static void test_spread(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_sheet sheet;
+    measure(&rig, &styles_table, (double[]){50, 100, 60, 110, 45, 50, 60, 110});
+    rg_result_sheet(&rig.result, &sheet);
+    assert_true(has_note(&sheet, "Spread of fps on cpu, paper: 45.0 to 100.0, by 55 %, over the "
+                                 "rows of a variant by up to 50 %; published 80.00 to 200.00, by "
+                                 "60 %, over the rows of a variant by up to 20 %."));
+    assert_true(has_note(&sheet,
+                         "Spread of fps on cpu, ours: 60.0 to 110.0, by 45 %, over the rows "
+                         "of a variant by up to 0 %."));
+    rg_sheet_free(&sheet);
+    rg_result_free(&rig.result);
+    measure(&rig, &styles_table, (double[]){50, 100, 60, 110, 0, 50, 60, 110});
+    rg_result_sheet(&rig.result, &sheet);
+    assert_false(has_note(&sheet, "Spread of fps on cpu, paper"));
+    rg_sheet_free(&sheet);
+    rg_result_free(&rig.result);
+}
+
 // --- works ---
 
 static const struct rg_table works_table = {
@@ -537,6 +575,7 @@ static void test_works(void **state)
     expect_text(&sheet, 1, "work", "ours");
     expect_text(&sheet, 1, "fps", "80.0");
     expect_text(&sheet, 1, "fps / published", "");
+    assert_false(has_note(&sheet, "Spread of fps")); // its rows have no names
     assert_true(has_note(&sheet, "Shape on cpu, paper: reproduced."));
     assert_false(has_note(&sheet, "Shape on cpu, ours"));
     assert_true(has_note(&sheet, "less is drawn"));
@@ -598,6 +637,7 @@ int main(void)
         cmocka_unit_test(test_growth),
         cmocka_unit_test(test_growth_of_few_rows),
         cmocka_unit_test(test_range),
+        cmocka_unit_test(test_spread),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
