@@ -11,7 +11,7 @@ struct rg_drop_shape {
 };
 
 // No surface reaches further from its centre, in radii.
-#define RG_DROP_REACH 1.27f
+#define RG_DROP_REACH 1.31f
 
 // The index of refraction of water in visible light, and the radius of the drop.
 #define RG_DROP_INDEX    1.333f

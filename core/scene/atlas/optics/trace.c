@@ -8,8 +8,9 @@
 #define INLINE static inline __attribute__((always_inline))
 
 // How often Newton's method improves a point on the surface: from outside, and through the drop,
-// where the sphere's chord is a good guess. Both end within 1e-6 radii.
-enum { STEPS_IN = 7, STEPS_THROUGH = 5 };
+// where the sphere's chord is a good guess. With a step less through the drop, light of the most
+// bent one goes astray.
+enum { STEPS_IN = 7, STEPS_THROUGH = 6 };
 
 struct vector {
     float x, y, z;
