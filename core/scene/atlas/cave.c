@@ -1,14 +1,13 @@
 #include "core/scene/atlas/cave.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include "core/base/alloc.h"
-#include "core/image/files/format.h"
 #include "core/scene/atlas/cave_factors.h"
+#include "core/scene/atlas/cave_picture.h"
 #include "core/scene/atlas/optics/drop.h"
 #include "core/scene/atlas/levels.h"
 
@@ -19,39 +18,8 @@ struct packing {
     const char *folder;
     struct rg_atlas *atlas;
     struct rg_cave_factors factors[RG_ATLAS_VIEWS];
+    bool is_mirrored; // the light stands on the left of the pictures
 };
-
-static bool check_size(const char *path, const struct rg_picture *picture, int width, int height,
-                       struct rg_cave_why *why)
-{
-    if (picture->width == width && abs(picture->height - height) <= 2 + height / 50)
-        return true;
-    return rg_cave_refuse(why, "%s: %d x %d pixels, where the database has %d x %d; copy it again",
-                          path, picture->width, picture->height, width, height);
-}
-
-// Reads a picture, whose values are codes over the largest code, and brings it to width x height.
-static bool read_picture(const char *path, int width, int height, float *texels,
-                         struct rg_cave_why *why)
-{
-    struct stat st;
-    struct rg_why reason;
-    struct rg_picture picture = {0};
-    if (stat(path, &st))
-        return rg_cave_refuse(why, "%s: %s; name the folder that holds the whole database", path,
-                              strerror(errno));
-    if (!rg_png_read_codes(path, st.st_size, &picture, &reason))
-        return rg_cave_refuse(why, "%s: %s", path, reason.text);
-    const bool good = check_size(path, &picture, width, height, why);
-    // the first channel alone: the pictures are grey, or nearly
-    const size_t pixels = (size_t)picture.width * (size_t)picture.height;
-    for (size_t i = 0; good && i < pixels; i++)
-        picture.texels[i] = picture.texels[i * (size_t)picture.channels];
-    if (good)
-        rg_shrink(picture.texels, width, picture.height, texels, width, height);
-    rg_picture_destroy(&picture);
-    return good;
-}
 
 static bool is_file(const char *path)
 {
@@ -74,8 +42,8 @@ static bool pack_cell(const struct packing *p, enum rg_atlas_part part, int osci
     float *texels = malloc((size_t)(RG_ATLAS_CELL_PX * rg_atlas_row_height(0, 0)) * sizeof(float));
     bool good = texels || rg_cave_refuse(why, "%s: no memory to read it", paths[0]);
     for (int level = p->atlas->first_level; good && level < WIDTHS; level++) {
-        good = read_picture(paths[level], RG_ATLAS_CELL_PX >> level,
-                            rg_atlas_row_height(view, level), texels, why);
+        good = rg_cave_read_picture(paths[level], RG_ATLAS_CELL_PX >> level,
+                                    rg_atlas_row_height(view, level), p->is_mirrored, texels, why);
         if (good && level < WIDTHS - 1)
             rg_atlas_put_cell(p->atlas, part, oscillation, view, column, level, texels);
         else if (good)
@@ -154,6 +122,23 @@ static bool read_factors(struct packing *p, struct rg_cave_why *why)
     return true;
 }
 
+// Copies of the database differ in the side of the light. A drop that does not swing is brightest
+// on the side that the light is on where that stands at right angles to the view.
+static bool find_side(struct packing *p, struct rg_cave_why *why)
+{
+    enum { OSCILLATION = 0, VIEW = 0, LIGHT = 5, PHI = 4 };
+    const int level = p->atlas->first_level;
+    const int width = RG_ATLAS_CELL_PX >> level, height = rg_atlas_row_height(VIEW, level);
+    float *texels = malloc((size_t)(width * height) * sizeof(float));
+    char path[PATH_SIZE];
+    point_path(p, OSCILLATION, VIEW, LIGHT, PHI, level, path);
+    const bool good = texels ? rg_cave_read_picture(path, width, height, false, texels, why)
+                             : rg_cave_refuse(why, "%s: no memory to read it", path);
+    p->is_mirrored = good && rg_cave_leaning(texels, width, height) > 0;
+    free(texels);
+    return good;
+}
+
 static bool pack_all(const struct packing *p, const struct rg_atlas_progress *progress,
                      struct rg_cave_why *why)
 {
@@ -187,8 +172,8 @@ struct rg_atlas *rg_cave_pack(const char *folder, enum rg_atlas_size size,
         return NULL;
     p->folder = folder;
     p->atlas = rg_atlas_allocate(size);
-    const bool good = p->atlas && read_factors(p, &why) && pack_all(p, progress, &why) &&
-                      rg_atlas_finish(p->atlas);
+    const bool good = p->atlas && read_factors(p, &why) && find_side(p, &why) &&
+                      pack_all(p, progress, &why) && rg_atlas_finish(p->atlas);
     struct rg_atlas *atlas = p->atlas;
     free(p);
     if (good)

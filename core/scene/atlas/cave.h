@@ -7,7 +7,7 @@
 // A factor of the database times this is a radiance for an irradiance of 1: the factor that brings
 // the 18 streaks of rows theta_light 10 and 50, seen from the front, nearest to those that are
 // traced (least squares of the logarithms).
-#define RG_CAVE_POINT_SCALE 0.2724f
+#define RG_CAVE_POINT_SCALE 0.2726f
 
 // Packs the database under a folder that holds point_light_database and env_light_database:
 //

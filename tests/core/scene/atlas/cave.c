@@ -55,7 +55,10 @@ static int code_of(int view, bool env, int row, int height)
     return 4000 * view + (env ? 30000 : 0) + 6000 * (row * 3 / height) + 100;
 }
 
-static void write_png(const char *path, int width, int height, int view, bool env)
+// What the brighter half of a picture has more.
+enum { BRIGHTER = 300 };
+
+static void write_png(const char *path, int width, int height, int view, bool env, bool is_left)
 {
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
@@ -67,8 +70,9 @@ static void write_png(const char *path, int width, int height, int view, bool en
     png_write_info(png, info);
     for (int r = 0; r < height; r++) {
         unsigned char row[64];
-        const int code = code_of(view, env, r, height);
         for (int c = 0; c < width; c++) {
+            const int code =
+                code_of(view, env, r, height) + ((c < width / 2) == is_left ? BRIGHTER : 0);
             row[2 * c] = (unsigned char)(code >> 8);
             row[2 * c + 1] = (unsigned char)code;
         }
@@ -122,7 +126,7 @@ static void link_view(int view, int size)
     const int height = (heights[view] * size + 8) / 16;
     make_folder("point_light_database/size%d/dcam%02d", size, 20 * view);
     in_root(picture, "picture%d-%d.png", size, view);
-    write_png(picture, size, height, view, false);
+    write_png(picture, size, height, view, false, false);
     for (int light = 0; light < 10; light++)
         for (int phi = light % 9 ? 0 : 8; phi < 9; phi++)
             for (int k = 0; k < 10; k++) {
@@ -131,7 +135,7 @@ static void link_view(int view, int size)
                 assert_int_equal(link(picture, path), 0);
             }
     in_root(picture, "env%d-%d.png", size, view);
-    write_png(picture, size, height, view, true);
+    write_png(picture, size, height, view, true, false);
     for (int k = 0; k < 10; k++) {
         in_root(path, "env_light_database/size%d/cv%d_osc%d.png", size, 20 * view, k);
         assert_int_equal(link(picture, path), 0);
@@ -183,7 +187,7 @@ static int teardown(void **state)
 }
 
 static void expect_cell(const struct rg_atlas *atlas, enum rg_atlas_part part, int layer, int view,
-                        int column, int level)
+                        int column, int level, bool is_left)
 {
     const int width = 8 >> level, rows = rg_atlas_row_height(view, level + 2);
     const int pitch = atlas->images[part].width >> level;
@@ -192,8 +196,9 @@ static void expect_cell(const struct rg_atlas *atlas, enum rg_atlas_part part, i
     for (int third = 0; third < 3; third++) {
         // in the middle of each third of the height, whatever the height was resampled to
         const int r = (2 * third + 1) * rows / 6;
-        const double wanted = code_of(view, part == RG_ATLAS_ENV, 2 * third + 1, 6) / 65535.0;
+        const int dark = code_of(view, part == RG_ATLAS_ENV, 2 * third + 1, 6);
         for (int c = 0; c < width; c++) {
+            const double wanted = (dark + ((c < width / 2) == is_left ? BRIGHTER : 0)) / 65535.0;
             const double texel = (double)rg_half_value(texels[r * pitch + c]);
             if (fabs(texel - wanted) > wanted * 6e-4)
                 fail_msg("part %d, view %d, column %d, level %d, third %d: %g, expected %g", part,
@@ -211,9 +216,9 @@ static void test_packed(void **state)
         for (int k = 0; k < 10; k++) {
             for (int cell = 0; cell < 90; cell += 7)
                 for (int level = 0; level < 2; level++)
-                    expect_cell(atlas, RG_ATLAS_POINT, k, view, cell, level);
+                    expect_cell(atlas, RG_ATLAS_POINT, k, view, cell, level, false);
             for (int level = 0; level < 2; level++)
-                expect_cell(atlas, RG_ATLAS_ENV, k, view, 0, level);
+                expect_cell(atlas, RG_ATLAS_ENV, k, view, 0, level, false);
             for (int cell = 0; cell < 90; cell++) {
                 // where there is one azimuth, it serves all nine
                 const int light = cell / 9, phi = light % 9 ? cell % 9 : 8;
@@ -224,6 +229,26 @@ static void test_packed(void **state)
             const double wanted = (0.5 + view + 0.01 * k) / 0.5 / 42.5;
             assert_true(fabs((double)atlas->env_factor[k][view] / wanted - 1) < 1e-5);
         }
+    rg_atlas_destroy(atlas);
+}
+
+// In a copy whose light stands on the left all pictures are taken as in a mirror. One picture
+// tells.
+static void test_mirrored(void **state)
+{
+    (void)state;
+    char path[PATH_SIZE], kept[PATH_SIZE];
+    in_root(path, "point_light_database/size8/dcam00/cv0_v10_h90_osc0.png");
+    in_root(kept, "kept");
+    assert_int_equal(rename(path, kept), 0);
+    write_png(path, 8, (heights[0] * 8 + 8) / 16, 0, false, true);
+    struct rg_atlas *atlas = rg_cave_pack(root, RG_ATLAS_CAVE_SMALL, NULL);
+    assert_int_equal(unlink(path) | rename(kept, path), 0);
+    assert_non_null(atlas);
+    for (int level = 0; level < 2; level++) {
+        expect_cell(atlas, RG_ATLAS_POINT, 3, 2, 40, level, true);
+        expect_cell(atlas, RG_ATLAS_ENV, 3, 2, 0, level, true);
+    }
     rg_atlas_destroy(atlas);
 }
 
@@ -344,6 +369,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_packed),
+        cmocka_unit_test(test_mirrored),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_drawn_with),
     };
