@@ -24,6 +24,15 @@ int rg_lobe_of_cell(int light, int phi)
     return 1 + (light - 1) * RG_ATLAS_PHIS + phi;
 }
 
+double rg_lobe_share_sr(int lobe)
+{
+    const double half = 10 * M_PI / 180;
+    if (lobe == 0 || lobe == RG_LOBE_COUNT - 1)
+        return 2 * M_PI * (1 - cos(half));
+    const double elevation = (20 * (1 + (lobe - 1) / RG_ATLAS_PHIS) - 90) * M_PI / 180;
+    return 4 * half * (sin(elevation + half) - sin(elevation - half));
+}
+
 void rg_lobes_of_atlas(struct rg_lobes *lobes)
 {
     float directions[RG_LOBE_COUNT][3];

@@ -31,6 +31,10 @@ void rg_lobe_direction(double elevation_deg, double azimuth_deg, float direction
 // The lobe of a cell: light 0 to 9, phi 0 to 8.
 int rg_lobe_of_cell(int light, int phi);
 
+// The part of the sphere, in sr, that is nearer to a lobe of the atlas than to the other ones by
+// elevation and azimuth, with its mirror image on the viewer's left: all 74 make the sphere.
+double rg_lobe_share_sr(int lobe);
+
 // Lobes about the directions of the 74, or about any `count` others, up to RG_LOBE_COUNT.
 void rg_lobes_of_atlas(struct rg_lobes *lobes);
 void rg_lobes_fill(struct rg_lobes *lobes, int count, float (*directions)[3]);

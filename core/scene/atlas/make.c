@@ -22,9 +22,10 @@ static float normalise(float *texels, int count)
 static bool put_streaks(struct rg_atlas *atlas, int oscillation, int view, struct rg_streaks *s)
 {
     const int pixels = s->width * s->height, level = atlas->first_level;
+    const float balance = rg_streaks_balance(s);
     for (int lobe = 0; lobe < RG_LOBE_COUNT; lobe++) {
         float *texels = s->point + (size_t)lobe * (size_t)pixels;
-        const float factor = normalise(texels, pixels);
+        const float factor = normalise(texels, pixels) * balance;
         for (int cell = 0; cell < RG_ATLAS_CELLS; cell++) {
             const int light = cell / RG_ATLAS_PHIS, phi = cell % RG_ATLAS_PHIS;
             if (rg_lobe_of_cell(light, phi) != lobe)

@@ -20,6 +20,8 @@ static bool add_streaks(XXH3_state_t *state, enum rg_atlas_size size)
     const bool made = lobes && rg_streaks_trace(OSCILLATION, VIEW, LEVEL, &coarse, lobes, &streaks);
     if (made) {
         const size_t pixels = (size_t)streaks.width * (size_t)streaks.height;
+        const float balance = rg_streaks_balance(&streaks);
+        XXH3_64bits_update(state, &balance, sizeof(balance));
         XXH3_64bits_update(state, &detail, sizeof(detail));
         XXH3_64bits_update(state, streaks.point, pixels * RG_LOBE_COUNT * sizeof(float));
         XXH3_64bits_update(state, streaks.env, pixels * sizeof(float));

@@ -195,6 +195,24 @@ bool rg_streaks_trace(int oscillation, int view, int level, const struct rg_stre
     return ready;
 }
 
+static double sum_of(const float *texels, int count)
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++)
+        sum += (double)texels[i];
+    return sum;
+}
+
+float rg_streaks_balance(const struct rg_streaks *streaks)
+{
+    const int pixels = streaks->width * streaks->height;
+    double lights = 0;
+    for (int lobe = 0; lobe < RG_LOBE_COUNT; lobe++)
+        lights +=
+            rg_lobe_share_sr(lobe) * sum_of(streaks->point + (size_t)lobe * (size_t)pixels, pixels);
+    return (float)(sum_of(streaks->env, pixels) / lights);
+}
+
 void rg_streaks_free(struct rg_streaks *streaks)
 {
     free(streaks->point);

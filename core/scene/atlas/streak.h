@@ -28,6 +28,10 @@ struct rg_streaks {
 // size in a level of the full atlas. NULL arrays and one logged line when memory is short.
 bool rg_streaks_trace(int oscillation, int view, int level, const struct rg_streak_detail *detail,
                       const struct rg_lobes *lobes, struct rg_streaks *streaks);
+// What all lights of the atlas, each as strong as an even sky is in its part of the sphere, lack or
+// have too much against that sky: their light times this is the sky's. Lights are 20 degrees apart,
+// so that they miss what a drop does in between, and what stays inside it for long.
+float rg_streaks_balance(const struct rg_streaks *streaks);
 void rg_streaks_free(struct rg_streaks *streaks);
 
 #endif

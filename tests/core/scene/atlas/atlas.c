@@ -234,6 +234,30 @@ static double splash_mean(int material, int frame)
     return sum / (48 * 32);
 }
 
+// A furnace: lights from all directions, each as strong as its part of an even sky of radiance 1,
+// make of a streak what that sky does. Their parts are cut out anew here, ring by ring.
+static void test_furnace(void **state)
+{
+    (void)state;
+    const double pi = 3.14159265358979323846, degree = pi / 180;
+    for (int k = 0; k < RG_ATLAS_OSCILLATIONS; k++)
+        for (int view = 0; view < RG_ATLAS_VIEWS; view++) {
+            double lights = 0;
+            for (int cell = 0; cell < RG_ATLAS_CELLS; cell++) {
+                const int light = cell / RG_ATLAS_PHIS, phi = cell % RG_ATLAS_PHIS;
+                const double low = fmax(20 * light - 100, -90), high = fmin(20 * light - 80, 90);
+                const double ring_sr = 2 * pi * (sin(high * degree) - sin(low * degree));
+                lights += ring_sr / RG_ATLAS_PHIS * mean_of(RG_ATLAS_POINT, k, view, cell, 0) *
+                          (double)small->point_factor[k][view][light][phi];
+            }
+            const double sky =
+                mean_of(RG_ATLAS_ENV, k, view, 0, 0) * (double)small->env_factor[k][view];
+            if (fabs(lights / sky - 1) > 2e-3)
+                fail_msg("oscillation %d, view %d: lights all around make %g of the sky's light", k,
+                         view, lights / sky);
+        }
+}
+
 static void test_splashes(void **state)
 {
     (void)state;
@@ -307,6 +331,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_poles),
         cmocka_unit_test(test_levels_keep_light),
         cmocka_unit_test(test_factors),
+        cmocka_unit_test(test_furnace),
         cmocka_unit_test(test_splashes),
         cmocka_unit_test(test_crown),
         cmocka_unit_test(test_damaged_cache),
