@@ -16,12 +16,16 @@
 // Nearer than 0.1 m a light gets no stronger.
 #define SCENERY_NEAREST_SQUARED_M2 0.01f
 
+// A light's colour is the radiance of a white matt surface that faces it. Times this, pi, it is the
+// irradiance that the light brings there.
+#define SCENERY_IRRADIANCE 3.14159274f
+
 RG_STRUCT(scenery_light)
 {
     int kind;
     float x, y, z;    // metres; of points and spots
     float dx, dy, dz; // the way light travels, of unit length; of spots and suns
-    // Linear. Of points and spots at 1 m; of suns anywhere.
+    // Radiance, linear (SCENERY_IRRADIANCE). Of points and spots at 1 m; of suns anywhere.
     float r, g, b;
     // Cosines of the angles from a spot's axis up to which it is as bright as on the axis, and from
     // which it is dark. The first is larger, in lights of all kinds.

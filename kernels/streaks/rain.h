@@ -352,7 +352,8 @@ RG_FN float streaks_point(rg_ctx rg, streaks_params p, streaks_strip s, float el
 #endif
 }
 
-// What a light of brightness 1 from a direction of length 1 makes of a streak's pixel (figure 4.6).
+// A streak's radiance at a pixel, for light that brings an irradiance of 1 from a direction of
+// length 1 (figure 4.6).
 RG_FN float streaks_streak(rg_ctx rg, streaks_params p, streaks_billboard r, streaks_spot spot,
                            v3 to_light)
 {
@@ -376,7 +377,7 @@ RG_FN rgba streaks_lit_by(rg_ctx rg, streaks_params p, streaks_billboard r, int 
     scenery_reach reach = scenery_light_reach(l, spot.at);
     float matt = rg_max(
         reach.to_light.x * p.up_x + reach.to_light.y * p.up_y + reach.to_light.z * p.up_s, 0.0f);
-    float streak = streaks_streak(rg, p, r, spot, reach.to_light);
+    float streak = SCENERY_IRRADIANCE * streaks_streak(rg, p, r, spot, reach.to_light);
     float splash = rg_to_float(streaks_is(r, STREAKS_LOOK_SPLASH));
     float share =
         reach.share * scenery_unshadowed(rg, l, spot.at) * streaks_between(streak, matt, splash);
@@ -390,8 +391,8 @@ RG_FN float streaks_sky_texture(rg_ctx rg, streaks_params p, streaks_strip s, in
     return skies_between(rg, x, y, s.oscillation, s.level - p.first_level).r * factor;
 }
 
-// A streak's pixel under a sky of brightness 1 all around, which is also what it hides of what lies
-// behind it.
+// A streak's radiance at a pixel under a sky of radiance 1 all around, which is also what it hides
+// of what lies behind it.
 RG_FN float scenery_sky(rg_ctx rg, streaks_params p, streaks_billboard r, streaks_spot spot)
 {
     streaks_strip s = streaks_strip_of(p, r, spot.v);
