@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-enum { ORACLE_WAYS = 6 };
+enum { ORACLE_WAYS = 5 };
 
 // r = 1 + a (3 c^2 - 1) / 2 + b 3/2 s (5 c^2 - 1) cos(phi - phi_drop), angles in radians: phi is
 // counted from +z to +x.
@@ -14,7 +14,7 @@ struct oracle_drop {
 };
 
 // Where the light on a ray from `start` in direction `ray`, against the light's way, came from: for
-// each way (reflected; refracted; with one to four reflections inside) a unit vector towards its
+// each way (reflected; refracted; with one to three reflections inside) a unit vector towards its
 // source and its share. False when the ray misses the drop.
 bool oracle_drop_light(const struct oracle_drop *drop, const double start[3], const double ray[3],
                        double direction[ORACLE_WAYS][3], double share[ORACLE_WAYS]);
