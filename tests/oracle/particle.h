@@ -1,5 +1,5 @@
-// Particles of streaks in double precision, from the words of C. Creus, "Real-time rendering of
-// rain", 2010, sections 4.2 and 4.4, without kernels/.
+// Particles of streaks in double precision, from the words of C. Creus, "Real-time realistic
+// rain rendering", 2010, sections 4.2 and 4.4, without kernels/.
 #ifndef RG_TESTS_ORACLE_PARTICLE_H
 #define RG_TESTS_ORACLE_PARTICLE_H
 

@@ -1,5 +1,5 @@
 // streaks: rain as particles that fall through a scene, lit by a database of streaks (C. Creus,
-// "Real-time rendering of rain", 2010). The order of the passes stands here; open.c makes
+// "Real-time realistic rain rendering", 2010). The order of the passes stands here; open.c makes
 // what they run on, kernels/streaks/ is what they compute, and docs/streaks.md explains.
 #include "core/techniques/streaks/streaks.h"
 

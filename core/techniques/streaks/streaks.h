@@ -1,5 +1,5 @@
-// streaks: the settings and parameters of rain as particles (C. Creus, "Real-time rendering of
-// rain", 2010). docs/streaks.md explains them.
+// streaks: the settings and parameters of rain as particles (C. Creus, "Real-time realistic
+// rain rendering", 2010). docs/streaks.md explains them.
 #ifndef RG_CORE_TECHNIQUES_STREAKS_STREAKS_H
 #define RG_CORE_TECHNIQUES_STREAKS_STREAKS_H
 

@@ -1,4 +1,4 @@
-// Creus, "Real-time rendering of rain" (2010), chapter 5. The numbers are those of
+// Creus, "Real-time realistic rain rendering" (2010), chapter 5. The numbers are those of
 // results/published/creus-*.csv, which a test compares.
 #include "harness/tables/papers/published.h"
 
