@@ -17,7 +17,7 @@
 
 #include "core/base/log.h"
 #include "core/scene/atlas/cache.h"
-#include "core/scene/atlas/cave.h"
+#include "core/scene/atlas/cave/cave.h"
 #include "core/scene/atlas/levels.h"
 #include "core/techniques/streaks/instance.h"
 

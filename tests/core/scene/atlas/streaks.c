@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/scene/atlas/cave.h"
+#include "core/scene/atlas/cave/cave.h"
 #include "core/scene/atlas/streak.h"
 
 #define PI 3.14159265358979323846

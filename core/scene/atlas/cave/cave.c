@@ -1,4 +1,4 @@
-#include "core/scene/atlas/cave.h"
+#include "core/scene/atlas/cave/cave.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,8 +6,8 @@
 #include <sys/stat.h>
 
 #include "core/base/alloc.h"
-#include "core/scene/atlas/cave_factors.h"
-#include "core/scene/atlas/cave_picture.h"
+#include "core/scene/atlas/cave/factors.h"
+#include "core/scene/atlas/cave/picture.h"
 #include "core/scene/atlas/optics/drop.h"
 #include "core/scene/atlas/levels.h"
 

@@ -1,4 +1,4 @@
-#include "core/scene/atlas/cave_picture.h"
+#include "core/scene/atlas/cave/picture.h"
 
 #include <errno.h>
 #include <stdlib.h>

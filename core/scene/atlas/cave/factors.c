@@ -1,4 +1,4 @@
-#include "core/scene/atlas/cave_factors.h"
+#include "core/scene/atlas/cave/factors.h"
 
 #include <ctype.h>
 #include <errno.h>

@@ -2,7 +2,7 @@
 #ifndef RG_CORE_SCENE_ATLAS_CAVE_PICTURE_H
 #define RG_CORE_SCENE_ATLAS_CAVE_PICTURE_H
 
-#include "core/scene/atlas/cave_factors.h"
+#include "core/scene/atlas/cave/factors.h"
 
 // Reads a picture, whose values are codes over the largest code, and brings it to width x height
 // texels; `is_mirrored`: left and right change places. False, and a sentence in `why`, when it is

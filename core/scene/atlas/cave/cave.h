@@ -1,6 +1,6 @@
 // The original database of Garg and Nayar (CAVE, Columbia University), packed as an atlas.
-#ifndef RG_CORE_SCENE_ATLAS_CAVE_H
-#define RG_CORE_SCENE_ATLAS_CAVE_H
+#ifndef RG_CORE_SCENE_ATLAS_CAVE_CAVE_H
+#define RG_CORE_SCENE_ATLAS_CAVE_CAVE_H
 
 #include "core/scene/atlas/atlas.h"
 
