@@ -24,6 +24,7 @@ enum cartoon_stage {
     CARTOON_RUN_TONES,
     CARTOON_RUN_PAPER,
     CARTOON_RUN_HATCHING,
+    CARTOON_RUN_KEPT,
     CARTOON_STAGES
 };
 
@@ -44,12 +45,14 @@ struct cartoon {
     struct diorama *diorama; // its mesh has the triangles and bounds
     struct cartoon_view view;
     struct rg_asset *normal_map, *depth_map, *face_map, *number_depth, *ink;
+    struct rg_asset *picture; // in its style; of one texel where it is drawn onto the target
     int edge_count;
     cartoon_faces_params solids, thin; // solids are seen from outside alone
     cartoon_ink_params outlines;
     cartoon_shade_params shade;
     m4 found_by;      // the view whose normal map, depth and ink are there
     int64_t found_in; // one more than the frame that drew them; 0: none did
+    bool has_picture; // of that view
     struct cartoon_rain rain;
     struct cartoon_water water;
 };

@@ -40,7 +40,7 @@ static const struct rg_param rows[] = {
     {"hatch_ambient", RG_PARAM_FLOAT, AT(hatch_ambient), 0.3, 0, 1, "1", "tone of what faces away from the light, 0 darkest to 1", NULL},
     {"hatch_lit", RG_PARAM_FLOAT, AT(hatch_lit), 1.15, 0, 2, "1", "tone of what faces the light; above 1 blank paper begins before", NULL},
     {"hatch_wash", RG_PARAM_FLOAT, AT(hatch_wash), 0.35, 0, 1, "1", "share of the material's colour on the paper of hatching; 0: white paper", NULL},
-    {"redraw", RG_PARAM_CHOICE, AT(redraw), CARTOON_MOVED, 0, 1, "1", "when the scene's normal map, depth and outlines are drawn: in each frame, or where the camera has moved; the picture is the same", "always moved"},
+    {"redraw", RG_PARAM_CHOICE, AT(redraw), CARTOON_MOVED, 0, 1, "1", "when the scene is drawn, with its normal map, depth and outlines: in each frame, or where the camera has moved; the picture is the same", "always moved"},
     {"drops_s", RG_PARAM_INT, AT(rain.drops_s), 6000, 0, 1000000000, "1/s", "drops that are released", NULL},
     {"steps_s", RG_PARAM_INT, AT(rain.steps_s), 60, 1, 1000, "1/s", "steps, and so frames, of a second", NULL},
     {"top_m", RG_PARAM_FLOAT, AT(rain.top_m), 0, 0, 1000, "m", "above the ground where drops start; 0: above the scene, and as high as a drop falls in a second", NULL},

@@ -56,13 +56,22 @@ bool cartoon_scene_find(struct cartoon *c)
         return true;
     c->found_in = c->base.frame + 1;
     c->found_by = c->view.to_clip;
+    c->has_picture = false;
     return draw_faces(c) && draw_numbers(c) && draw_outlines(c);
+}
+
+static bool draw_in_style(struct cartoon *c)
+{
+    bool ok = true;
+    for (int style = CARTOON_RUN_GOOCH; ok && style <= CARTOON_RUN_HATCHING; style++)
+        ok = rg_stage(&c->base, style);
+    return ok;
 }
 
 bool cartoon_scene_draw(struct cartoon *c)
 {
-    bool ok = cartoon_scene_find(c);
-    for (int style = CARTOON_RUN_GOOCH; ok && style <= CARTOON_RUN_HATCHING; style++)
-        ok = rg_stage(&c->base, style);
-    return ok;
+    if (!cartoon_scene_find(c) || !(c->has_picture || draw_in_style(c)))
+        return false;
+    c->has_picture = c->settings.redraw == CARTOON_MOVED;
+    return rg_stage(&c->base, CARTOON_RUN_KEPT);
 }

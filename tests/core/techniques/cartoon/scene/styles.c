@@ -278,6 +278,39 @@ static void hatching_mixes_tones_and_levels(void **state)
     compare_style(*state, "scene=park2 style=hatching hatch_px=30 light_rise_deg=15", 0.004);
 }
 
+// --- what is kept while the camera stands ---
+
+enum { KEPT_PX = 72, KEPT_FRAMES = 4 };
+
+// The last of some frames; the caller frees it.
+static float *last_frame(struct rg_device *device, const char *settings)
+{
+    struct cartoon *c = rig_draw(device, settings, KEPT_PX, KEPT_PX);
+    for (int i = 1; i < KEPT_FRAMES; i++)
+        assert_true(c->base.technique->step(&c->base) && c->base.technique->draw(&c->base));
+    float *texels = rig_texels(c->base.target);
+    rig_close(c);
+    return texels;
+}
+
+static void a_kept_picture_is_the_one_drawn_anew(void **state)
+{
+    static const char *const styles[] = {"style=gooch", "style=cartoon_outlines",
+                                         "style=hatching spin_deg=40", "style=gooch spin_deg=40"};
+    for (size_t i = 0; i < sizeof(styles) / sizeof(styles[0]); i++) {
+        char settings[128];
+        snprintf(settings, sizeof(settings), "scene=house2 redraw=moved %s", styles[i]);
+        float *kept = last_frame(*state, settings);
+        snprintf(settings, sizeof(settings), "scene=house2 redraw=always %s", styles[i]);
+        float *drawn = last_frame(*state, settings);
+        assert_memory_equal(kept, drawn, KEPT_PX * KEPT_PX * 4 * sizeof(*kept));
+        // There is something in it, which the spin turns.
+        assert_true(kept[4 * (KEPT_PX * KEPT_PX / 2 + KEPT_PX / 2)] > 0);
+        free(kept);
+        free(drawn);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -287,6 +320,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(cartoon_has_three_tones),
         cmocka_unit_test(outlines_are_ink_on_paper),
         cmocka_unit_test(hatching_mixes_tones_and_levels),
+        cmocka_unit_test(a_kept_picture_is_the_one_drawn_anew),
     };
     return rig_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
 }
