@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/tables/costs.h"
 #include "harness/tables/sheet.h"
 #include "harness/tables/trend.h"
 
@@ -242,6 +243,9 @@ void rg_result_notes(const struct rg_result *result, const char *const *shown,
     for (struct rg_place of = rg_result_start_row(result->first_row);
          rg_result_next_in_row(result, &of);)
         note_spread(result, sheet, of);
+    for (struct rg_place of = rg_result_start_row(result->first_row);
+         rg_result_next_in_row(result, &of);)
+        rg_note_costs(result, sheet, of);
     note_facts(result, shown, sheet);
     note_works(result, sheet);
     note_method(result, sheet);

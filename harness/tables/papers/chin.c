@@ -123,9 +123,10 @@ const struct rg_table rg_table_chin_operations = {
     .variants = {{"full", VIEW, NULL}},
     .row_count = 6,
     .rows = operations,
-    .note = "The paper times no operation by itself; figure 7 shows pictures. By its text, erosion "
-            "and smoothing make heights converge, merging lets regions of water move down that "
-            "would stay where they are (7d and 7e), and several operations are done over the "
-            "entire grid. What an operation costs is the difference to the first row, and its "
-            "passes' share there; what it does to the picture is the error.",
+    .note =
+        "The paper times no operation by itself; figure 7 shows pictures. By its text, erosion "
+        "and smoothing make heights converge, merging lets regions of water move down that "
+        "would stay where they are (7d and 7e), and several operations are done over the "
+        "entire grid. What an operation costs is what a frame takes without it; what it does to "
+        "the picture is the error.",
 };

@@ -34,6 +34,22 @@ static const struct rg_table names_table = {
     .rows = scenes,
     .note = "a note",
 };
+// Named rows of no paper: the first has all on.
+static const struct rg_table parts_table = {
+    .id = "parts",
+    .technique = "drops",
+    .names = "parts",
+    .columns = {"merge"},
+    .key_count = 1,
+    .has_choices = true,
+    .truth = "merge=on",
+    .variants = {{"full", "", NULL}},
+    .row_count = 3,
+    .rows = (const struct rg_table_row[]){{"", {1}, "all"},
+                                          {"merge=off", {0}, "no merging"},
+                                          {"merge=off erode=off", {0}, "none"}},
+    .note = "a note",
+};
 static const struct rg_table styles_table = {
     .id = "styles",
     .technique = "flow",
@@ -202,6 +218,26 @@ static void test_sheet(void **state)
     assert_true(has_note(&sheet, "Shape on cpu, no_geometry: "));
     assert_false(has_note(&sheet, "Shape on cpu, full"));
     expect_text(&sheet, 0, "error, FLIP", "0.0000");
+    rg_sheet_free(&sheet);
+    rg_result_free(&rig.result);
+}
+
+// What a part costs is what a frame takes without it.
+static void test_costs(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_sheet sheet;
+    measure(&rig, &parts_table, (double[]){50, 100, 40});
+    record_at(&rig, 1, 0)->truth_error.flip_mask_mean = 0.25;
+    rg_result_sheet(&rig.result, &sheet);
+    assert_true(has_note(&sheet,
+                         "Cost on cpu: of the time of a frame of `all`, one of these takes: "
+                         "no merging 0.50 (FLIP 0.250), none 1.25 (FLIP 0.000)."));
+    rg_sheet_free(&sheet);
+    record_at(&rig, 2, 0)->outcome = RG_FAIL;
+    rg_result_sheet(&rig.result, &sheet);
+    assert_false(has_note(&sheet, "Cost on cpu"));
     rg_sheet_free(&sheet);
     rg_result_free(&rig.result);
 }
@@ -623,21 +659,14 @@ static void test_keeping(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_order_of_names),
-        cmocka_unit_test(test_slope_along_axis),
-        cmocka_unit_test(test_sheet),
-        cmocka_unit_test(test_sheet_of_names),
-        cmocka_unit_test(test_passes),
-        cmocka_unit_test(test_json),
-        cmocka_unit_test(test_missing_rows),
-        cmocka_unit_test(test_unsupported),
-        cmocka_unit_test(test_textures),
-        cmocka_unit_test(test_works),
-        cmocka_unit_test(test_keeping),
-        cmocka_unit_test(test_growth),
-        cmocka_unit_test(test_growth_of_few_rows),
-        cmocka_unit_test(test_range),
-        cmocka_unit_test(test_spread),
+        cmocka_unit_test(test_order_of_names), cmocka_unit_test(test_slope_along_axis),
+        cmocka_unit_test(test_sheet),          cmocka_unit_test(test_costs),
+        cmocka_unit_test(test_sheet_of_names), cmocka_unit_test(test_passes),
+        cmocka_unit_test(test_json),           cmocka_unit_test(test_missing_rows),
+        cmocka_unit_test(test_unsupported),    cmocka_unit_test(test_textures),
+        cmocka_unit_test(test_works),          cmocka_unit_test(test_keeping),
+        cmocka_unit_test(test_growth),         cmocka_unit_test(test_growth_of_few_rows),
+        cmocka_unit_test(test_range),          cmocka_unit_test(test_spread),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
