@@ -5,8 +5,8 @@
 #include "core/base/log.h"
 #include "harness/record/output.h"
 #include "harness/record/schema/schema.h"
-#include "harness/tables/sheet.h"
-#include "harness/tables/trend.h"
+#include "harness/tables/sheet/sheet.h"
+#include "harness/tables/sheet/trend.h"
 
 enum { MD, CSV, JSON = RG_RESULT_JSON, TEX };
 const char *const rg_result_formats[] = {

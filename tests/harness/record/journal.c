@@ -17,7 +17,7 @@
 #include "harness/console/interrupt.h"
 #include "harness/record/disk/journal.h"
 #include "harness/record/schema/schema.h"
-#include "harness/tables/sheet.h"
+#include "harness/tables/sheet/sheet.h"
 #include "harness/tables/table.h"
 
 #define CHEAP                                                                                      \

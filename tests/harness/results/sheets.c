@@ -11,9 +11,9 @@
 
 #include "core/techniques/technique.h"
 #include "harness/record/schema/schema.h"
-#include "harness/tables/sheet.h"
+#include "harness/tables/sheet/sheet.h"
 #include "harness/tables/table.h"
-#include "harness/tables/trend.h"
+#include "harness/tables/sheet/trend.h"
 
 // --- what is said of measured numbers ---
 

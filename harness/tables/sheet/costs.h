@@ -1,6 +1,6 @@
 // What rows that switch something off cost, of a table of no paper whose first row has all on.
-#ifndef RG_HARNESS_TABLES_COSTS_H
-#define RG_HARNESS_TABLES_COSTS_H
+#ifndef RG_HARNESS_TABLES_SHEET_COSTS_H
+#define RG_HARNESS_TABLES_SHEET_COSTS_H
 
 #include "harness/console/sheet.h"
 #include "harness/record/result.h"

@@ -1,4 +1,4 @@
-#include "harness/tables/costs.h"
+#include "harness/tables/sheet/costs.h"
 
 #include <math.h>
 #include <stdio.h>

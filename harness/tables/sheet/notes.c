@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/tables/costs.h"
-#include "harness/tables/sheet.h"
-#include "harness/tables/trend.h"
+#include "harness/tables/sheet/costs.h"
+#include "harness/tables/sheet/sheet.h"
+#include "harness/tables/sheet/trend.h"
 
 // ", no_geometry", ", ours, full": what tells a row's cells on one device apart, where there are
 // several.

@@ -1,4 +1,4 @@
-#include "harness/tables/sheet.h"
+#include "harness/tables/sheet/sheet.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 // A result as a table of text, for people.
-#ifndef RG_HARNESS_TABLES_SHEET_H
-#define RG_HARNESS_TABLES_SHEET_H
+#ifndef RG_HARNESS_TABLES_SHEET_SHEET_H
+#define RG_HARNESS_TABLES_SHEET_SHEET_H
 
 #include "harness/console/sheet.h"
 #include "harness/record/result.h"

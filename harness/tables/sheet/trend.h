@@ -1,7 +1,7 @@
 // Whether a device's numbers fall along a table's rows as the published ones do, or, of a table of
 // no paper, how they fall; and how far numbers of rows that have names lie apart.
-#ifndef RG_HARNESS_TABLES_TREND_H
-#define RG_HARNESS_TABLES_TREND_H
+#ifndef RG_HARNESS_TABLES_SHEET_TREND_H
+#define RG_HARNESS_TABLES_SHEET_TREND_H
 
 #include "harness/record/result.h"
 

@@ -1,4 +1,4 @@
-#include "harness/tables/trend.h"
+#include "harness/tables/sheet/trend.h"
 
 #include <math.h>
 #include <string.h>
