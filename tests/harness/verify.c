@@ -197,15 +197,13 @@ static bool count_step(struct rg_instance *instance)
     return rg_technique_find("flow")->step(instance);
 }
 
-static const struct rg_pose long_poses[] = {{"drops=40", 3, 2},
-                                            {"drops=50", 5, RG_POSE_LEFT_OUT},
-                                            {"drops=60", 2, RG_POSE_LEFT_OUT},
-                                            {NULL, 0, 0}};
+static const struct rg_pose long_poses[] = {
+    {"drops=40", 3, 2}, {"drops=50", 5, RG_POSE_LEFT_OUT}, {"drops=60", 2, 1}, {NULL, 0, 0}};
 static const struct rg_proof long_proof = {
     .poses = long_poses, .dry = "drops=0 rain_drops_s=0", .laws = laws};
 
-// Verifies these poses: so many steps are taken with each seed, and the line says how many.
-static void expect_steps(bool quick, int asked, int a_seed, const char *says)
+// Verifies these poses: so many steps are taken with all seeds, and the line says how many.
+static void expect_steps(bool quick, int asked, int with_all, const char *says)
 {
     struct rg_checks checks;
     flow.proof = &long_proof;
@@ -216,17 +214,17 @@ static void expect_steps(bool quick, int asked, int a_seed, const char *says)
     verify(CHEAP, RG_T0, 16, 16, &checks);
     assert_int_equal(outcome_of(&checks, "state", "cpu"), RG_OK);
     assert_string_equal(checks.rows[1].detail, says);
-    assert_int_equal(taken, a_seed * RG_VERIFY_SEEDS);
+    assert_int_equal(taken, with_all);
     rg_checks_free(&checks);
 }
 
 static void poses_say_how_long(void **state)
 {
     (void)state;
-    expect_steps(false, -1, 10, "9 runs of 2 to 5 steps, identical to cpu:reference");
-    expect_steps(true, -1, 2, "3 runs of 2 steps, identical to cpu:reference");
-    expect_steps(false, 4, 12, "9 runs of 4 steps, identical to cpu:reference");
-    expect_steps(true, 4, 4, "3 runs of 4 steps, identical to cpu:reference");
+    expect_steps(false, -1, 3 * 10, "9 runs of 2 to 5 steps, identical to cpu:reference");
+    expect_steps(true, -1, 3 * 2 + 1, "4 runs of 1 to 2 steps, identical to cpu:reference");
+    expect_steps(false, 4, 3 * 12, "9 runs of 4 steps, identical to cpu:reference");
+    expect_steps(true, 4, 3 * 4 + 4, "4 runs of 4 steps, identical to cpu:reference");
 }
 
 // Poses that say nothing take what verify takes of its own; the bar knows them all.
@@ -243,9 +241,22 @@ static void poses_need_not_say(void **state)
     assert_int_equal(rg_verify_steps(&v, &poses[0]), 0);
     flow.proof = &long_proof;
     v.steps = -1;
-    assert_int_equal(rg_verify_device_work(&v), 2 * RG_VERIFY_SEEDS);
-    assert_int_equal(rg_verify_poses(&v), 1);
-    assert_int_equal(rg_verify_stage_work(&v), 1);
+    assert_int_equal(rg_verify_device_work(&v), 2 * RG_VERIFY_SEEDS + 1);
+    assert_int_equal(rg_verify_poses(&v), 2);
+    assert_int_equal(rg_verify_stage_work(&v), 2);
+}
+
+// Of quick runs the first pose has every seed, and the others take turns.
+static void poses_take_turns_with_seeds(void **state)
+{
+    (void)state;
+    struct rg_verify v = {.technique = &flow, .quick = true, .steps = -1};
+    flow.proof = &long_proof;
+    for (int seed = 0; seed < RG_VERIFY_SEEDS; seed++) {
+        assert_true(rg_verify_has_seed(&v, &long_poses[0], seed));
+        assert_int_equal(rg_verify_has_seed(&v, &long_poses[1], seed), seed == 1);
+        assert_int_equal(rg_verify_has_seed(&v, &long_poses[2], seed), seed == 2);
+    }
 }
 
 // Draws mutants of flow in this scene, and says what came of them.
@@ -303,6 +314,7 @@ int main(void)
         cmocka_unit_test_setup(devices_are_held_to_what_they_owe, setup),
         cmocka_unit_test_setup(poses_say_how_long, setup),
         cmocka_unit_test_setup(poses_need_not_say, setup),
+        cmocka_unit_test_setup(poses_take_turns_with_seeds, setup),
         cmocka_unit_test_setup(a_mutant_that_lives_fails, setup),
         cmocka_unit_test_setup(a_mutant_is_judged_where_it_rains, setup),
     };

@@ -95,8 +95,9 @@ int64_t rg_verify_device_work(const struct rg_verify *v)
         devices += v->devices->devices[i] != v->reference;
     for (const struct rg_pose *pose = v->technique->proof->poses; pose->set; pose++)
         if (rg_verify_steps(v, pose) != RG_POSE_LEFT_OUT)
-            steps += rg_verify_steps(v, pose);
-    return steps * RG_VERIFY_SEEDS * devices;
+            for (int seed = 0; seed < RG_VERIFY_SEEDS; seed++)
+                steps += rg_verify_has_seed(v, pose, seed) ? rg_verify_steps(v, pose) : 0;
+    return steps * devices;
 }
 
 static struct rg_subject subject_of(const struct rg_verify *v, const void *settings)
@@ -298,9 +299,9 @@ static void run_one(struct rg_verify *v, struct row *rows, int count, struct one
 
 // Tiers T1 and T2 are judged over the rain mask, and so always need `dry`. T0 needs it once a pose,
 // to see that there is rain at all.
-static bool wants_dry(const struct row *rows, int count, int seed)
+static bool wants_dry(const struct row *rows, int count, bool is_first)
 {
-    bool wanted = seed == 0;
+    bool wanted = is_first;
     for (int i = 1; i < count; i++)
         wanted = wanted || rows[i].tier != RG_T0;
     return wanted;
@@ -396,8 +397,12 @@ static int list_rows(const struct rg_verify *v, struct row *rows)
 
 static void run_pose(struct rg_verify *v, struct row *rows, int count, const struct rg_pose *pose)
 {
+    bool is_first = true;
     for (int seed = 0; seed < RG_VERIFY_SEEDS; seed++) {
-        struct one_case c = {.with_dry = wants_dry(rows, count, seed)};
+        if (!rg_verify_has_seed(v, pose, seed))
+            continue;
+        struct one_case c = {.with_dry = wants_dry(rows, count, is_first)};
+        is_first = false;
         if (set_case(v, seed, pose, &c))
             run_one(v, rows, count, &c);
         else

@@ -12,6 +12,12 @@ int rg_verify_steps(const struct rg_verify *v, const struct rg_pose *pose)
     return v->steps;
 }
 
+bool rg_verify_has_seed(const struct rg_verify *v, const struct rg_pose *pose, int seed)
+{
+    const int place = (int)(pose - v->technique->proof->poses);
+    return !v->quick || place == 0 || place % RG_VERIFY_SEEDS == seed;
+}
+
 int rg_verify_poses(const struct rg_verify *v)
 {
     int count = 0;

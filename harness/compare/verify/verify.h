@@ -24,6 +24,10 @@ struct rg_verify {
 
 // Steps of a pose before it is drawn; RG_POSE_LEFT_OUT where it is not run.
 int rg_verify_steps(const struct rg_verify *verify, const struct rg_pose *pose);
+// Whether a pose runs with a seed of RG_VERIFY_SEEDS. With --quick the first pose runs with all of
+// them, and each other one with one, in turn: a device that errs does so in some pose, and three
+// seeds of each cost three times as much.
+bool rg_verify_has_seed(const struct rg_verify *verify, const struct rg_pose *pose, int seed);
 // How many poses are run.
 int rg_verify_poses(const struct rg_verify *verify);
 
