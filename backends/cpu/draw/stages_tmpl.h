@@ -50,16 +50,26 @@ static void make_records(const struct cpu_call *call, const int *items, int coun
         made[i] = rg_program_record(rg, p.draw, p.program, items[i]);
 }
 
+// Its depth has yet to be settled.
 static inline __attribute__((always_inline)) void put_fragment(struct cpu_fragments *to, int i,
-                                                               rg_fragment fragment)
+                                                               rg_fragment f)
 {
-    const rg_fragment f = rg_settled(fragment);
     to->r[i] = f.colour.r;
     to->g[i] = f.colour.g;
     to->b[i] = f.colour.b;
     to->a[i] = f.colour.a;
     to->depth[i] = f.depth;
     to->kept[i] = f.kept;
+}
+
+// In a loop of its own, because gcc 12 does not vectorise choices that are the same all along a
+// row, as those of a billboard's one depth are.
+static inline __attribute__((always_inline)) void settle_depths(struct cpu_fragments *fragments,
+                                                                int padded)
+{
+#pragma omp simd
+    for (int i = 0; i < padded; i++)
+        fragments->depth[i] = rg_settled_depth(fragments->depth[i]);
 }
 
 #if defined(RG_LIGHTS)
@@ -127,6 +137,7 @@ shade_lit_list(rg_ctx rg, RG_PARAMS p, const void *records, const struct cpu_lis
         put_fragment(fragments, i,
                      rg_program_fragment(rg, p, *r, x, y, only_light(rg, p, *r, x, y)));
     }
+    settle_depths(fragments, padded);
 }
 
 #endif
@@ -162,6 +173,7 @@ static void shade_list(const struct cpu_call *call, const void *records,
                      rg_program_fragment(rg, p, *record_of(records, list, i), at & 0xffff,
                                          at >> 16 RG_LIT(&lit, i)));
     }
+    settle_depths(fragments, padded);
 }
 
 static void shade_row(const struct cpu_call *call, const void *record, int x, int y, int count,
@@ -185,14 +197,14 @@ static void shade_row(const struct cpu_call *call, const void *record, int x, in
     for (int i = 0; i < padded; i++)
         put_fragment(fragments, i,
                      rg_program_fragment(rg, p, r, x + rg_imin(i, last), y RG_LIT(&lit, i)));
+    settle_depths(fragments, padded);
 }
 
 #if defined(RG_LIGHTS)
 
 static inline __attribute__((always_inline)) void put_depth(struct cpu_fragments *to, int i,
-                                                            rg_fragment fragment)
+                                                            rg_fragment f)
 {
-    const rg_fragment f = rg_settled(fragment);
     to->depth[i] = f.depth;
     to->kept[i] = f.kept;
 }
@@ -216,6 +228,7 @@ static void list_depth(const struct cpu_call *call, const void *records,
             fragments, i,
             rg_program_fragment(rg, p, *record_of(records, list, i), at & 0xffff, at >> 16, dark));
     }
+    settle_depths(fragments, padded);
 }
 
 static void row_depth(const struct cpu_call *call, const void *record, int x, int y, int count,
@@ -229,6 +242,7 @@ static void row_depth(const struct cpu_call *call, const void *record, int x, in
 #pragma omp simd
     for (int i = 0; i < padded; i++)
         put_depth(fragments, i, rg_program_fragment(rg, p, r, x + rg_imin(i, last), y, dark));
+    settle_depths(fragments, padded);
 }
 
 #endif

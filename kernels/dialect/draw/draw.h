@@ -96,12 +96,17 @@ RG_FN rg_fragment rg_fragment_make(rgba colour, float depth)
                                           RG_RECORD r RG_UNUSED, int px RG_UNUSED,                 \
                                           int py RG_UNUSED RG_FRAGMENT_LIT)
 
-// A fragment as every device takes it: depth within 0 to 1, and never subnormal.
+// Depth as every device takes it: within 0 to 1, and never subnormal.
+RG_FN float rg_settled_depth(float depth)
+{
+    float settled = rg_clamp(depth, 0.0f, 1.0f);
+    return settled < 1e-30f ? 0.0f : settled;
+}
+
 RG_FN rg_fragment rg_settled(rg_fragment f)
 {
     rg_fragment settled = f;
-    float depth = rg_clamp(f.depth, 0.0f, 1.0f);
-    settled.depth = depth < 1e-30f ? 0.0f : depth;
+    settled.depth = rg_settled_depth(f.depth);
     return settled;
 }
 
