@@ -15,13 +15,13 @@ RG_FN cartoon_spot cartoon_spot_of(cartoon_rain_params p, v3 at)
 {
     rg_corner c = m4_project(p.to_clip, at);
     float over_w = 1.0f / rg_max(c.w, 1e-6f);
-    bool across = rg_abs(c.x) < c.w && rg_abs(c.y) < c.w;
     cartoon_spot s;
     s.x_px = (c.x * over_w * 0.5f + 0.5f) * rg_to_float(p.width);
     s.y_px = (c.y * over_w * 0.5f + 0.5f) * rg_to_float(p.height);
     s.depth = c.z * over_w;
     s.distance_m = c.w;
-    s.inside = across && c.z > 0.0f && c.z < c.w ? 1 : 0;
+    s.inside = (rg_abs(c.x) < c.w ? 1 : 0) & (rg_abs(c.y) < c.w ? 1 : 0) & (c.z > 0.0f ? 1 : 0) &
+               (c.z < c.w ? 1 : 0);
     return s;
 }
 

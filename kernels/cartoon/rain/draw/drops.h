@@ -20,7 +20,7 @@ RG_FN cartoon_sprite cartoon_sprite_of_drop(rg_ctx rg, cartoon_rain_params p, in
     cartoon_sprite s = cartoon_sprite_at(p, v3_make(d.x, d.y, d.z), side_m,
                                          v3_dot(v, v3_make(p.right_x, p.right_y, p.right_z)),
                                          v3_dot(v, v3_make(p.up_x, p.up_y, p.up_z)));
-    s.seen = d.state != CARTOON_DEATH ? s.seen : 0;
+    s.seen = s.seen & (d.state != CARTOON_DEATH ? 1 : 0);
     s.alpha = d.alpha;
     s.layer =
         rg_imin(rg_to_int(d.size * rg_to_float(CARTOON_DROP_TEXTURES)), CARTOON_DROP_TEXTURES - 1);

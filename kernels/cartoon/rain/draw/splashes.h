@@ -27,7 +27,7 @@ RG_FN cartoon_sprite cartoon_sprite_of_splash(rg_ctx rg, cartoon_rain_params p, 
     float distance_m = cartoon_spot_of(p, at).distance_m;
     float near_m = rg_max(distance_m - 0.5f * side_m, 0.5f * distance_m);
     s.depth = p.depth_at + p.depth_by / rg_max(near_m, 1e-6f);
-    s.seen = d.state != CARTOON_DEATH ? s.seen : 0;
+    s.seen = s.seen & (d.state != CARTOON_DEATH ? 1 : 0);
     s.alpha = d.alpha;
     s.layer = CARTOON_SPLASH_LAYER(d.pattern, d.texture);
     return s;

@@ -38,7 +38,7 @@ RG_FN cartoon_sprite cartoon_sprite_at(cartoon_rain_params p, v3 at, float side_
     r.alpha = 1.0f;
     r.layer = 0;
     r.level = cartoon_level(p, r.side_px);
-    r.seen = s.distance_m > 0.0f && s.depth > 0.0f ? 1 : 0;
+    r.seen = (s.distance_m > 0.0f ? 1 : 0) & (s.depth > 0.0f ? 1 : 0);
     return r;
 }
 
@@ -80,8 +80,8 @@ RG_FN rg_fragment cartoon_sprite_fragment(rg_ctx rg, cartoon_sprite s, int px, i
     rgba c = rain_textures_linear(rg, u, v, s.layer, s.level);
     rg_fragment f = rg_fragment_make(
         rg_rgba(c.r * s.alpha, c.g * s.alpha, c.b * s.alpha, c.a * s.alpha), s.depth);
-    bool is_within = u >= 0.0f && u <= 1.0f && v >= 0.0f && v <= 1.0f;
-    f.kept = is_within && c.a > 0.0f ? 1 : 0;
+    f.kept = (u >= 0.0f ? 1 : 0) & (u <= 1.0f ? 1 : 0) & (v >= 0.0f ? 1 : 0) & (v <= 1.0f ? 1 : 0) &
+             (c.a > 0.0f ? 1 : 0);
     return f;
 }
 

@@ -30,11 +30,20 @@ RG_FN rg_corner cartoon_on_sphere(rg_ctx rg, cartoon_rain_params p, v3 middle, f
                                          middle.z + radius * sphere_at(rg, 3 * k + 2)));
 }
 
+// Which drop facet i is of: i / p.facets. Compilers vectorise no division of integers by a variable,
+// so floats divide first i, and then what that leaves, which is small enough to be exact.
+RG_FN int cartoon_facet_drop(cartoon_rain_params p, int i)
+{
+    float facets = rg_to_float(p.facets);
+    int nth = rg_to_int(rg_to_float(i) / facets);
+    return nth + rg_to_int(rg_floor(rg_to_float(i - nth * p.facets) / facets));
+}
+
 // The lowest ring begins with its upper corners: a facet turns as its first three corners do, which
 // must not be in one place.
 RG_FN rg_item cartoon_facet_of(rg_ctx rg, cartoon_rain_params p, int i)
 {
-    int nth = i / p.facets;
+    int nth = cartoon_facet_drop(p, i);
     int facet = i - nth * p.facets;
     int ring = rg_imin(facet / CARTOON_SLICES, CARTOON_STACKS - 1);
     int slice = facet % CARTOON_SLICES;
@@ -46,10 +55,10 @@ RG_FN rg_item cartoon_facet_of(rg_ctx rg, cartoon_rain_params p, int i)
     int lower = ring * CARTOON_SLICES;
     int upper = lower + CARTOON_SLICES;
     bool is_lowest = ring == 0;
-    bool is_facet = facet < CARTOON_SLICES * CARTOON_STACKS;
-    bool is_asked = is_facet && d.state == CARTOON_DROP && s.inside != 0;
+    int is_facet = facet < CARTOON_SLICES * CARTOON_STACKS ? 1 : 0;
+    int is_drop = d.state == CARTOON_DROP ? 1 : 0;
     rg_item t;
-    t.alive = is_asked ? 1 : 0;
+    t.alive = is_facet & is_drop & s.inside;
     t.a = cartoon_on_sphere(rg, p, middle, radius, is_lowest ? upper + next : lower + slice);
     t.b = cartoon_on_sphere(rg, p, middle, radius, is_lowest ? upper + slice : lower + next);
     t.c = cartoon_on_sphere(rg, p, middle, radius, is_lowest ? lower + slice : upper + next);

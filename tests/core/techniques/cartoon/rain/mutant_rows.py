@@ -97,9 +97,9 @@ ROWS = [Row(*row) for row in (
     ("spheres of three slices", "hit/spheres.h",
      "int next = slice == CARTOON_SLICES - 1 ? 0 : slice + 1;", "int next = slice;", QUERIES),
     ("spheres without their upper cap", "hit/spheres.h",
-     "facet < CARTOON_SLICES * CARTOON_STACKS;", "facet < CARTOON_SLICES * (CARTOON_STACKS - 1);", QUERIES),
+     "facet < CARTOON_SLICES * CARTOON_STACKS ?", "facet < CARTOON_SLICES * (CARTOON_STACKS - 1) ?", QUERIES),
     ("spheres of what has hit", "hit/spheres.h",
-     "is_facet && d.state == CARTOON_DROP && s.inside != 0", "is_facet && s.inside != 0", QUERIES),
+     "is_facet & is_drop & s.inside", "is_facet & s.inside", QUERIES),
     # late answers
     ("late answers of what was not asked about", "hit/keep.h",
      "is_asked ? counts_at(rg, x) : CARTOON_UNASKED", "counts_at(rg, x)", QUERIES),
@@ -185,4 +185,5 @@ ROWS = [Row(*row) for row in (
     ("the film is opaque", "../water/puddles.h", "#define CARTOON_FILM_COVER 0.6f", "#define CARTOON_FILM_COVER 0.7f", WATER),
     ("walls are wet", "../water/puddles.h", "n.g >= CARTOON_UPWARD", "n.g >= -1.0f", WATER),
     ("no rims", "../water/puddles.h", "float rim = rg_clamp(CARTOON_RIM_PX + 0.5f - inside_px, 0.0f, 1.0f);", "float rim = 0.0f;", WATER),
+    ("no highlights", "../water/puddles.h", "shine = w.slope_x * p.light_x", "shine = 1e9f + w.slope_x * p.light_x", WATER),
 )]
