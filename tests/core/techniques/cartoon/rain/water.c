@@ -137,7 +137,21 @@ static void water_spreads_and_dries_to_the_unit(void **state)
         60, 100);
 }
 
-// What is dry, and what is no level ground, is drawn as without water; where it is deep, as a film.
+// Whether `wet` lies between `dry` and a colour, at least a quarter of the way, and no other way.
+static bool is_towards(const double wet[3], const double dry[3], const double colour[3])
+{
+    double along = 0, whole = 0, off = 0;
+    for (int k = 0; k < 3; k++) {
+        along += (wet[k] - dry[k]) * (colour[k] - dry[k]);
+        whole += (colour[k] - dry[k]) * (colour[k] - dry[k]);
+    }
+    for (int k = 0; k < 3; k++)
+        off = fmax(off, fabs(wet[k] - dry[k] - along / whole * (colour[k] - dry[k])));
+    return along > 0.25 * whole && off < 0.004;
+}
+
+// What is dry, and what is no level ground, is drawn as without water; where it is deep, as a film,
+// with ink at its edge and a highlight within.
 static void puddles_lie_on_level_ground(void **state)
 {
     (void)state;
@@ -156,32 +170,34 @@ static void puddles_lie_on_level_ground(void **state)
             rig_close(c);
     }
     uint16_t *normals = rig_texels(c, "normal_map", 0, 0);
-    int level = 0, filmed = 0, other = 0;
+    int level = 0, filmed = 0, other = 0, inked = 0, lit = 0;
     for (int i = 0; i < SIZE_PX * SIZE_PX; i++) {
         const bool is_level =
             rig_half(normals[4 * i + 3]) > 0 && rig_half(normals[4 * i + 1]) >= 0.94;
         static const double film[3] = {0.52, 0.72, 0.92};
-        double off = 0, changed = 0;
+        static const double ink[3] = {0.17 * 0.17, 0.15 * 0.15, 0.22 * 0.22};
+        double dry[3], wet[3], off = 0, changed = 0;
         for (int k = 0; k < 3; k++) {
-            const double dry = rig_half(pictures[0][4 * i + k]),
-                         wet = rig_half(pictures[1][4 * i + k]);
-            off = fmax(off, fabs(wet - (film[k] * film[k] * 0.6 + dry * 0.4)));
-            changed = fmax(changed, fabs(wet - dry));
+            dry[k] = rig_half(pictures[0][4 * i + k]);
+            wet[k] = rig_half(pictures[1][4 * i + k]);
+            off = fmax(off, fabs(wet[k] - (film[k] * film[k] * 0.6 + dry[k] * 0.4)));
+            changed = fmax(changed, fabs(wet[k] - dry[k]));
         }
         if (!is_level)
             assert_true(changed <= 0);
         level += is_level;
         filmed += is_level && off < 0.004;
         other += is_level && off >= 0.004 && changed > 0;
+        inked += is_level && changed > 0 && is_towards(wet, dry, ink);
+        lit += is_level && changed > 0 && fmin(wet[0], fmin(wet[1], wet[2])) > 0.99;
     }
     free(pictures[0]);
     free(pictures[1]);
     free(normals);
     rig_close(c);
-    // Rims and highlights are a part of it.
-    if (level < 2000 || filmed < level / 4 || other < 50 || other > level / 3)
-        fail_msg("of %d level pixels %d have a film, %d a rim or a highlight", level, filmed,
-                 other);
+    if (level < 2000 || filmed < level / 4 || other > level / 3 || inked < 100 || lit < 30)
+        fail_msg("of %d level pixels %d have a film, %d something else, %d ink, %d a highlight",
+                 level, filmed, other, inked, lit);
 }
 
 int main(int argc, char **argv)
