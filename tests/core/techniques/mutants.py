@@ -77,6 +77,7 @@ def run(room, source, build, compiler, forms, folder):
     check_places(rows, source / kernels)
     root, texts = folder / "root", folder / "texts"
     shutil.copytree(source / "kernels", root / "kernels")
+    (root / "tests").symlink_to(source / "tests")
     texts.mkdir()
     for text in (build / "kernels").glob("*.cl"):
         shutil.copy(text, texts)
