@@ -28,6 +28,21 @@ RG_FN int streaks_row(int view)
            214 * rg_iclamp(view - 4, 0, 1);
 }
 
+// What the pictures of the atlas hold: a drop's diameter, and of the row that a view has the part
+// above the drop's way and below it, in texels of level 0, which differs by less than a texel
+// between views.
+#define STREAKS_DROP_PX 23.744f
+#define STREAKS_RIM_PX  19.6f
+
+// A drop's way in the atlas, in texels of level 0: 42.5 diameters, foreshortened.
+RG_FN float streaks_way_px(int view)
+{
+    return 1009.12f - 60.8574f * rg_to_float(rg_iclamp(view, 0, 1)) -
+           175.2318f * rg_to_float(rg_iclamp(view - 1, 0, 1)) -
+           268.4708f * rg_to_float(rg_iclamp(view - 2, 0, 1)) -
+           329.3281f * rg_to_float(rg_iclamp(view - 3, 0, 1));
+}
+
 // A place across `size` texels from `first` on. It stays half a texel inside: nothing from beside
 // them bleeds in.
 RG_FN float streaks_within(float first, float size, float share)

@@ -26,8 +26,13 @@ RG_STRUCT(streaks_params)
     float map_per_x, map_per_y; // maps a metre
     float map_top, map_height;  // s of depth 0, and from there to depth 1
     float ground;               // s of the ground plane, which stands where the map does not reach
-    float ahead, behind;        // a streak's ends from its drop, along the fall
+    float fall;                 // way of a drop in the exposure, upwards from its particle
+    float behind;               // upwards from a particle to its streak's upper end
+    float drop_radius;          // of a drop at rest
+    float cycles;               // of a drop's slower swing, in the exposure
+    float cycles_per_m;         // of its fall
     float half_width;           // of a streak, margins included
+    float thinnest_px;          // no streak is drawn thinner or shorter than this
     float fall_speed;           // m/s
     float splash_s;             // how long a splash lasts
     float splash_width, splash_height;
@@ -44,6 +49,6 @@ RG_STRUCT(streaks_params)
     float splash_gain, splash_opacity;
     int first_place; // of states
 };
-RG_STRUCT_SIZE(streaks_params, 75)
+RG_STRUCT_SIZE(streaks_params, 79)
 
 #endif

@@ -33,8 +33,13 @@ RG_STRUCT(streaks_billboard)
     float v_x, v_y, v_at;
     float hit;   // s of the surface that cuts it off; far below a splash
     float shown; // of a drop the camera's elevation, in steps of the atlas; of a splash its frame
-    uint look;   // STREAKS_LOOK_*
-    uint rows;   // of a drop's two views: their first rows in the atlas, 12 bits each
+    // Of a drop. Lengths are in its radii, as the eye sees them.
+    float share;   // how much longer it covers a place on its way than the atlas' does
+    float way;     // how far it falls in the exposure
+    float lacking; // at either end for a pixel's length
+    float turn;    // its swing at the lower end, in cycles
+    uint look;     // STREAKS_LOOK_*
+    uint rows;     // of a drop's two views: their first rows in the atlas, 12 bits each
 };
 #define RG_RECORD streaks_billboard
 #include "kernels/dialect/draw/draw.h"
@@ -49,7 +54,15 @@ RG_STRUCT(streaks_shape)
 {
     v3 base;
     v3 axis;
-    float half_width;
+    v3 middle;
+    float pixel;      // at the middle, in metres
+    float half_width; // of what the atlas shows
+    float covering;   // half of the billboard's width: no less than that of the thinnest
+    float rim;        // beyond either end of the axis, as the eye sees it
+    // Of drops, in radii, as the eye sees them.
+    v3 to_eye;     // from the middle, of length 1: no radii
+    float way;     // in the exposure
+    float lacking; // at either end for a pixel's length
 };
 
 // Splashes differ in size, by 15 % at most.
@@ -64,19 +77,47 @@ RG_FN streaks_shape streaks_shape_of(streaks_params p, streaks_particle t)
     float size = streaks_size(streaks_hash(t.number));
     float tall = p.splash_height * size;
     streaks_shape shape;
-    shape.base = v3_make(t.x, t.y, splash != 0 ? t.hit : t.s + p.ahead);
+    shape.base = v3_make(t.x, t.y, splash != 0 ? t.hit : t.s);
     shape.axis = v3_make(splash != 0 ? p.up_x * tall : 0.0f, splash != 0 ? p.up_y * tall : 0.0f,
-                         splash != 0 ? p.up_s * tall : -(p.ahead + p.behind));
+                         splash != 0 ? p.up_s * tall : -p.fall);
+    shape.middle = v3_add(shape.base, v3_scale(shape.axis, 0.5f));
+    shape.pixel = rg_max(m4_project(p.to_clip, shape.middle).w, 1e-3f) / p.focal_px;
     shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : p.half_width;
+    float thinnest = p.thinnest_px * shape.pixel;
+    float covering = rg_max(p.half_width, 0.5f * thinnest);
+    v3 to_eye = v3_unit(
+        v3_make(p.eye_x - shape.middle.x, p.eye_y - shape.middle.y, p.eye_s - shape.middle.z));
+    float way = p.fall * rg_hypot(to_eye.x, to_eye.y);
+    float lacking = rg_max(0.5f * (thinnest - way), 0.0f);
+    shape.to_eye = to_eye;
+    shape.way = rg_max(way / p.drop_radius, 1e-3f);
+    shape.lacking = lacking / p.drop_radius;
+    shape.covering = splash != 0 ? shape.half_width : covering;
+    shape.rim = splash != 0 ? 0.0f : rg_max(p.drop_radius, lacking);
     return shape;
 }
 
-// From the axis to the rim on its left, as the eye sees it.
-RG_FN v3 streaks_side(streaks_params p, streaks_shape shape)
+// As long as 1, or shorter where it is nothing.
+RG_FN v3 streaks_unit(v3 d)
+{
+    return v3_scale(d, 1.0f / rg_sqrt(rg_max(v3_dot(d, d), 1e-12f)));
+}
+
+// What the eye sees a billboard along: to the left of its axis, and along it. The axis is
+// foreshortened, a drop's width is not.
+RG_STRUCT(streaks_frame)
+{
+    v3 left;
+    v3 along;
+};
+
+RG_FN streaks_frame streaks_frame_of(streaks_params p, streaks_shape shape)
 {
     v3 from_eye = v3_make(shape.base.x - p.eye_x, shape.base.y - p.eye_y, shape.base.z - p.eye_s);
-    v3 beside = v3_cross(shape.axis, from_eye);
-    return v3_scale(beside, shape.half_width / rg_sqrt(rg_max(v3_dot(beside, beside), 1e-12f)));
+    streaks_frame frame;
+    frame.left = streaks_unit(v3_cross(shape.axis, from_eye));
+    frame.along = streaks_unit(v3_cross(from_eye, frame.left));
+    return frame;
 }
 
 RG_FN rg_corner streaks_turned(m4 m, v3 d)
@@ -94,9 +135,12 @@ RG_FN rg_corner streaks_sum(rg_corner a, rg_corner b, float times)
 
 RG_FN rg_item streaks_item_of(streaks_params p, streaks_shape shape)
 {
-    rg_corner base = m4_project(p.to_clip, shape.base);
-    rg_corner end = streaks_sum(base, streaks_turned(p.to_clip, shape.axis), 1.0f);
-    rg_corner side = streaks_turned(p.to_clip, streaks_side(p, shape));
+    streaks_frame frame = streaks_frame_of(p, shape);
+    v3 rim = v3_scale(frame.along, shape.rim);
+    v3 length = v3_add(shape.axis, v3_scale(rim, 2.0f));
+    rg_corner base = m4_project(p.to_clip, v3_add(shape.base, v3_scale(rim, -1.0f)));
+    rg_corner end = streaks_sum(base, streaks_turned(p.to_clip, length), 1.0f);
+    rg_corner side = streaks_turned(p.to_clip, v3_scale(frame.left, shape.covering));
     rg_item t;
     t.alive = 1;
     t.a = streaks_sum(base, side, 1.0f);
@@ -163,25 +207,56 @@ RG_FN int streaks_view(float elevation)
 }
 
 // The level of a billboard's images: a drop's as the full atlas counts them, or a splash's.
-RG_FN int streaks_level_for(streaks_params p, streaks_shape shape, v3 middle, int splash)
+RG_FN int streaks_level_for(streaks_params p, streaks_shape shape, int splash)
 {
-    float distance = rg_max(m4_project(p.to_clip, middle).w, 1e-3f);
-    float pixels = 2.0f * shape.half_width * p.focal_px / distance;
+    float pixels = 2.0f * shape.half_width / shape.pixel;
     int texels = splash != 0 ? STREAKS_SPLASH_PX : STREAKS_CELL_PX;
     int first = splash != 0 ? 0 : p.first_level;
     int last = splash != 0 ? STREAKS_SPLASH_LAST : p.last_level;
     return rg_imax(streaks_level(rg_to_float(texels), pixels, last), first);
 }
 
+// How long a drop covers the middle of its way in a view's pictures, as a share of the exposure.
+RG_FN float streaks_steadiness(int view)
+{
+    return STREAKS_DROP_PX / streaks_way_px(view);
+}
+
+// A drop covers a place on its way for as long as its diameter takes to pass: the longer its
+// streak, the fainter. A streak that is thinner than a pixel is drawn a pixel wide, and fainter.
+RG_FN float streaks_share(streaks_shape shape, float shown)
+{
+    int view = streaks_view(shown);
+    float first = streaks_steadiness(view);
+    float blended = first + (streaks_steadiness(view + 1) - first) * (shown - rg_to_float(view));
+    return 2.0f / (shape.way * blended) * (shape.half_width / shape.covering);
+}
+
+// The part behind the last whole number.
+RG_FN float streaks_part(float cycles)
+{
+    return cycles - rg_floor(cycles);
+}
+
+// Drops swing as they fall, each with a beginning of its own.
+RG_FN float streaks_turn(streaks_params p, streaks_particle t)
+{
+    float begin = rg_to_float(rg_to_int(streaks_hash(t.number) & 1023u)) / 1024.0f;
+    return streaks_part(t.s * p.cycles_per_m + begin);
+}
+
 RG_FN streaks_billboard streaks_drop(streaks_params p, streaks_billboard of, streaks_particle t,
-                                     v3 middle, int level)
+                                     streaks_shape shape, int level)
 {
     streaks_billboard r = of;
-    v3 to_eye = v3_unit(v3_make(p.eye_x - middle.x, p.eye_y - middle.y, p.eye_s - middle.z));
-    float elevation = streaks_elevation(to_eye);
+    float elevation = streaks_elevation(shape.to_eye);
     uint below = rg_to_uint(streaks_below(elevation, 0.0f) * (1 - p.paper_angles));
     r.hit = t.hit;
     r.shown = rg_min(rg_abs(elevation), rg_to_float(STREAKS_VIEWS - 1));
+    r.way = shape.way;
+    r.lacking = shape.lacking;
+    r.share = streaks_share(shape, r.shown);
+    r.turn = streaks_turn(p, t);
     int view = streaks_view(r.shown);
     uint end = rg_to_uint(streaks_row(view + 2) >> level);
     r.look = streaks_look(below * STREAKS_LOOK_BELOW + end * 4096u, level, t.oscillation);
@@ -220,6 +295,10 @@ RG_FN streaks_billboard streaks_placed(rg_planes planes)
     r.v_at = planes.c.at;
     r.hit = 0.0f;
     r.shown = 0.0f;
+    r.share = 1.0f;
+    r.way = 1.0f;
+    r.lacking = 0.0f;
+    r.turn = 0.0f;
     r.look = 0u;
     r.rows = 0u;
     return r;
@@ -232,14 +311,17 @@ RG_FN streaks_billboard streaks_billboard_of(rg_ctx rg, rg_draw_state draw, stre
     rg_item corner = streaks_item_of(p, shape);
     corner.c = corner.d;
     streaks_billboard placed = streaks_placed(rg_planes_of(draw, corner));
-    v3 middle = v3_add(shape.base, v3_scale(shape.axis, 0.5f));
     int is_splash = t.state == STREAKS_SPLASH ? 1 : 0;
-    int level = streaks_level_for(p, shape, middle, is_splash);
-    streaks_billboard drop = streaks_drop(p, placed, t, middle, level);
+    int level = streaks_level_for(p, shape, is_splash);
+    streaks_billboard drop = streaks_drop(p, placed, t, shape, level);
     streaks_billboard splash = streaks_splash(rg, p, placed, t, level);
     streaks_billboard r = placed;
     r.hit = is_splash != 0 ? splash.hit : drop.hit;
     r.shown = is_splash != 0 ? splash.shown : drop.shown;
+    r.share = is_splash != 0 ? splash.share : drop.share;
+    r.way = is_splash != 0 ? splash.way : drop.way;
+    r.lacking = is_splash != 0 ? splash.lacking : drop.lacking;
+    r.turn = is_splash != 0 ? splash.turn : drop.turn;
     r.look = is_splash != 0 ? splash.look : drop.look;
     r.rows = is_splash != 0 ? splash.rows : drop.rows;
     return r;
@@ -276,6 +358,32 @@ RG_FN streaks_spot streaks_spot_at(streaks_params p, streaks_billboard r, int px
     return spot;
 }
 
+// A place on a streak.
+RG_STRUCT(streaks_place)
+{
+    float passed; // which share of the exposure is still to come when the drop is there, 0 to 1
+    float window; // less than 1 at the ends, where only a part of the drop passes
+};
+
+// Across a drop's picture, in its radii.
+#define STREAKS_CELL_RADII 1.34771f
+
+// What a drop covers of a place is as long as the chord that passes it, or longer, so
+// that no streak is shorter than a pixel; where the exposure begins or ends meanwhile, less of it
+// passes.
+RG_FN streaks_place streaks_place_of(streaks_billboard r, float u, float v)
+{
+    float rim = rg_max(1.0f, r.lacking);
+    float at = v * (r.way + 2.0f * rim) - rim;
+    float x = (2.0f * u - 1.0f) * STREAKS_CELL_RADII;
+    float half_chord = rg_max(rg_sqrt(rg_max(1.0f - x * x, 0.0f)), rg_max(r.lacking, 0.25f));
+    float passes = rg_min(at + half_chord, r.way) - rg_max(at - half_chord, 0.0f);
+    streaks_place t;
+    t.passed = rg_clamp(at / r.way, 0.0f, 1.0f);
+    t.window = rg_max(passes, 0.0f) / (2.0f * half_chord);
+    return t;
+}
+
 // Where a drop's textures lie; of a splash, anywhere.
 RG_STRUCT(streaks_strip)
 {
@@ -286,7 +394,14 @@ RG_STRUCT(streaks_strip)
     float y0, y1; // of the lower view, and of the other, in texels
 };
 
-RG_FN streaks_strip streaks_strip_of(streaks_params p, streaks_billboard r, float v)
+// A place in a view's row of the atlas, which shows one swing from top to bottom.
+RG_FN float streaks_along(float first, float size, int level, float turn)
+{
+    float rim = STREAKS_RIM_PX / rg_to_float(1 << level);
+    return first + rim + (size - 2.0f * rim) * turn;
+}
+
+RG_FN streaks_strip streaks_strip_of(streaks_params p, streaks_billboard r, float u, float v)
 {
     int drop = 1 - streaks_is(r, STREAKS_LOOK_SPLASH);
     float first = rg_to_float(rg_to_int(r.rows & 4095u));
@@ -297,8 +412,9 @@ RG_FN streaks_strip streaks_strip_of(streaks_params p, streaks_billboard r, floa
     s.level = p.first_level + (streaks_level_of(r) - p.first_level) * drop;
     s.view = streaks_view(r.shown);
     s.between = r.shown - rg_to_float(s.view);
-    s.y0 = streaks_within(first, second - first, 1.0f - v);
-    s.y1 = streaks_within(second, end - second, 1.0f - v);
+    float turn = streaks_part(r.turn - p.cycles * streaks_place_of(r, u, v).passed);
+    s.y0 = streaks_along(first, second - first, s.level, turn);
+    s.y1 = streaks_along(second, end - second, s.level, turn);
     return s;
 }
 
@@ -363,7 +479,7 @@ RG_FN float streaks_streak(rg_ctx rg, streaks_params p, streaks_billboard r, str
     float azimuth = streaks_steps(rg_atan2(rg_abs(sine), cosine)) - 0.5f;
     float elevation = streaks_elevation(to_light) * below + 4.5f;
     float mirrored = sine > 0.0f ? 1.0f - spot.u : spot.u;
-    return streaks_point(rg, p, streaks_strip_of(p, r, spot.v),
+    return streaks_point(rg, p, streaks_strip_of(p, r, spot.u, spot.v),
                          rg_clamp(elevation, 0.0f, rg_to_float(STREAKS_HEIGHTS - 1)),
                          rg_clamp(azimuth, 0.0f, rg_to_float(STREAKS_AZIMUTHS - 1)), mirrored);
 }
@@ -395,7 +511,7 @@ RG_FN float streaks_sky_texture(rg_ctx rg, streaks_params p, streaks_strip s, in
 // of what lies behind it.
 RG_FN float scenery_sky(rg_ctx rg, streaks_params p, streaks_billboard r, streaks_spot spot)
 {
-    streaks_strip s = streaks_strip_of(p, r, spot.v);
+    streaks_strip s = streaks_strip_of(p, r, spot.u, spot.v);
     float x = streaks_across(0, spot.u, s.level);
     return streaks_between(streaks_sky_texture(rg, p, s, s.view, x, s.y0),
                            streaks_sky_texture(rg, p, s, s.view + 1, x, s.y1), s.between);
@@ -425,10 +541,11 @@ RG_FN rg_fragment streaks_fragment_of(rg_ctx rg, streaks_params p, streaks_billb
 {
     streaks_spot spot = streaks_spot_at(p, r, px, py);
     float splash = rg_to_float(streaks_is(r, STREAKS_LOOK_SPLASH));
-    float sky = scenery_sky(rg, p, r, spot);
+    float share = r.share * streaks_place_of(r, spot.u, spot.v).window;
+    float sky = share * scenery_sky(rg, p, r, spot);
     float crown = streaks_crown(rg, r, spot);
     float from_sky = streaks_between(sky * p.gain, crown * p.splash_gain, splash);
-    float from_lights = streaks_between(p.gain, crown * p.splash_gain, splash);
+    float from_lights = streaks_between(share * p.gain, crown * p.splash_gain, splash);
     float opacity = streaks_between(sky * p.opacity, crown * p.splash_opacity, splash);
     rgba c =
         rg_rgba(from_sky * p.sky_r + from_lights * lit.r, from_sky * p.sky_g + from_lights * lit.g,

@@ -55,6 +55,7 @@ static const struct rg_param rows[] = {
     {"taps", RG_PARAM_CHOICE, AT(taps), 0, 0, 2, "1", "streak textures read for each light", "2 4 8"},
     {"view_below", RG_PARAM_CHOICE, AT(absolute_views), 0, 0, 1, "1", "a streak seen from below: mirrored with its light, or as the thesis has it, as if from above", "mirrored absolute"},
     {"last_mip", RG_PARAM_INT, AT(last_mip), 5, 0, 5, "1", "the coarsest level of the streak atlas that is read", NULL},
+    {"thin_streaks", RG_PARAM_CHOICE, AT(points), 0, 0, 1, "1", "thinner than a pixel: drawn a pixel wide and fainter, or only where they cover a pixel's middle, as the thesis does it", "area points"},
     {"drops", RG_PARAM_CHOICE, AT(drops), 1, 0, 1, "1", "whether drops are seen", "off on"},
     {"splashes", RG_PARAM_CHOICE, AT(splashes), 1, 0, 1, "1", "whether splashes are seen", "off on"},
     {"splash_materials", RG_PARAM_CHOICE, AT(splash_materials), 0, 0, 1, "1", "whether splashes go by what is hit, water, rough or smooth, or all are of one kind", "off on"},

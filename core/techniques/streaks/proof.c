@@ -94,7 +94,7 @@ static const struct rg_contrast contrasts[] = {
 const struct rg_proof streaks_proof = {
     .poses = poses,
     .dry = "fit=off drops=off splashes=off",
-    .mutant_scene = NEAR "streak_gain=10 splash_gain=1",
+    .mutant_scene = NEAR "streak_gain=20 splash_gain=1",
     .laws = laws,
     .mutants = mutants,
     .contrasts = contrasts,

@@ -34,7 +34,7 @@ struct streaks_settings {
     int lights, environment_light, shadows, shadow_map_px;
     char lights_file[RG_PATH_SIZE];
     // how particles look
-    int atlas, taps, absolute_views, last_mip;
+    int atlas, taps, absolute_views, last_mip, points;
     int drops, splashes, splash_materials;
     double drop_radius_mm, exposure_s, splash_s, splash_width_mm;
     double streak_gain, streak_opacity, splash_gain, splash_opacity;

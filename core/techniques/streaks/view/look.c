@@ -46,14 +46,24 @@ static bool select_packets(struct streaks *s, const double eye[3], double top_m)
 
 // --- the kernels' parameters ---
 
+// Rayleigh's frequency of a drop of water; the second swing of the atlas is twice as fast.
+static double swings_a_second(double radius_m)
+{
+    const double tension_n_m = 0.0728, density_kg_m3 = 1000;
+    return sqrt(8 * tension_n_m / (density_kg_m3 * pow(radius_m, 3))) / (2 * M_PI);
+}
+
 static void set_looks(streaks_params *p, const struct streaks_settings *set,
                       const struct streaks_textures *textures)
 {
-    // The atlas' pictures are 32 / 23.744 drops wide, and as much longer than the way of a drop.
-    const double wide = 2 * margin(set) * RG_ATLAS_CELL_PX / (double)RG_ATLAS_DROP_PX;
-    p->half_width = (float)(wide / 2);
-    p->ahead = (float)(wide / 2);
-    p->behind = (float)(streak_length(set) + wide / 2);
+    const double radius_m = set->drop_radius_mm / 1000;
+    p->half_width = (float)(radius_m * RG_ATLAS_CELL_PX / (double)RG_ATLAS_DROP_PX);
+    p->drop_radius = (float)radius_m;
+    p->thinnest_px = set->points ? 0 : 1;
+    p->fall = (float)streak_length(set);
+    p->behind = (float)(streak_length(set) + radius_m);
+    p->cycles = (float)(swings_a_second(radius_m) * set->exposure_s);
+    p->cycles_per_m = (float)(swings_a_second(radius_m) / set->fall_speed_m_s);
     p->fall_speed = (float)set->fall_speed_m_s;
     p->splash_s = (float)set->splash_s;
     p->splash_width = (float)(set->splash_width_mm / 1000);

@@ -1,0 +1,247 @@
+// What streaks cover, by a law that needs no atlas: cover DEVICE. At each moment of the exposure a
+// drop covers its cross-section, which swings. So the light that drops under an even sky add to a
+// picture is the sum of their mean cross-sections there, whatever the exposure, the speed, the
+// resolution and the view.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "tests/core/techniques/streaks/rig.h"
+
+static const double pi = 3.14159265358979323846;
+
+// So much light that halves, which cut it off, lose nothing that matters.
+enum { MOMENTS = 32, GAIN = 1000, SKY = 16 };
+
+// --- cross-sections ---
+
+// How far a drop's surface is from its middle, in radii: docs/atlas.md. `n` has a length of 1; y
+// is up.
+static double surface_at(double a, double b, double phi, const double n[3])
+{
+    const double c = n[1], s = sqrt(fmax(1 - c * c, 0));
+    const double towards = s > 1e-9 ? (n[0] * sin(phi) + n[2] * cos(phi)) / s : 0;
+    return 1 + a * (3 * c * c - 1) / 2 + b * 1.5 * s * (5 * c * c - 1) * towards;
+}
+
+// How far the outline of a drop is from its middle, seen from an elevation, in a direction about
+// the view: as far as the surface reaches beside the view.
+static double outline_at(double a, double b, double phi, double elevation, double about)
+{
+    double farthest = 0;
+    for (int k = -10; k <= 10; k++) {
+        const double ahead = sin(k * 0.06), beside = cos(k * 0.06), up = beside * cos(about);
+        const double n[3] = {beside * sin(about), up * cos(elevation) + ahead * sin(elevation),
+                             ahead * cos(elevation) - up * sin(elevation)};
+        farthest = fmax(farthest, surface_at(a, b, phi, n) * beside);
+    }
+    return farthest;
+}
+
+// The mean cross-section of an oscillation over a whole swing, in those of the drop at rest.
+static double section_of(int oscillation, double elevation)
+{
+    enum { TIMES = 16, WAYS = 24 };
+    static const double a20[] = {0, 0.2, 0.1, 0.1, 0.1, 0.1, 0.2, 0.2, 0.2, 0.2};
+    const double a31 = oscillation < 2 ? 0 : 0.1, phi = ((oscillation - 3) & 3) * pi / 2;
+    double sum = 0;
+    for (int time = 0; time < TIMES; time++)
+        for (int way = 0; way < WAYS; way++) {
+            const double turn = 2 * pi * (time + 0.5) / TIMES;
+            sum += pow(outline_at(a20[oscillation] * sin(turn), a31 * sin(2 * turn), phi, elevation,
+                                  2 * pi * (way + 0.5) / WAYS),
+                       2);
+        }
+    return sum / (TIMES * WAYS);
+}
+
+enum { STEPS = 18 };
+
+// Of all oscillations, which are equally frequent, at every 5 degrees.
+static double sections[STEPS + 1];
+
+static void find_sections(void)
+{
+    for (int step = 0; step <= STEPS; step++)
+        for (int oscillation = 0; oscillation < 10; oscillation++)
+            sections[step] += section_of(oscillation, step * pi / 2 / STEPS) / 10;
+}
+
+// --- the law ---
+
+// The pixels that a sphere covers, seen in perspective, where its middle is in the picture: those
+// of its solid angle.
+static double pixels_of(const struct streaks *s, double x, double y, double z, double radius_m)
+{
+    const streaks_params *p = &s->params;
+    const rg_corner c = m4_project(p->to_clip, v3_make((float)x, (float)y, (float)z));
+    if (c.w <= 0 || fabsf(c.x) > c.w || fabsf(c.y) > c.w)
+        return 0;
+    const double across = hypot(x - (double)p->eye_x, y - (double)p->eye_y);
+    const double down = z - (double)p->eye_s, away = hypot(across, down);
+    const double cosine = (double)c.w / away, focal = (double)p->focal_px;
+    const double section = sections[lround(atan2(fabs(down), across) / (pi / 2) * STEPS)];
+    return section * pi * pow(radius_m / away * focal, 2) / pow(cosine, 3);
+}
+
+// The pixels that all drops cover in the mean over the exposure, and how many are seen.
+static double pixels_due(const struct streaks *s, int *seen)
+{
+    const double radius_m = s->settings.drop_radius_mm / 1000,
+                 fall_m = s->settings.fall_speed_m_s * s->settings.exposure_s;
+    const struct rain_places places = rain_read_places(s);
+    double sum = 0;
+    *seen = 0;
+    for (int64_t i = 0; i < places.count; i++) {
+        const float *place = places.words + i * STREAKS_STATE_WORDS;
+        if ((int)place[5] != STREAKS_DROP)
+            continue;
+        double pixels = 0;
+        for (int k = 0; k < MOMENTS; k++) {
+            const double at = (double)place[2] - fall_m * (k + 0.5) / MOMENTS;
+            if (at < (double)place[3])
+                pixels += pixels_of(s, (double)place[0], (double)place[1], at, radius_m) / MOMENTS;
+        }
+        *seen += pixels > 0;
+        sum += pixels;
+    }
+    free(places.words);
+    return sum;
+}
+
+// Of a picture, which is freed.
+static double light_of(struct rain_texels *picture)
+{
+    double sum = 0;
+    for (int y = 0; y < RAIN_HEIGHT; y++)
+        for (int x = 0; x < RAIN_WIDTH; x++)
+            sum += rain_texel(picture, x, y, 1);
+    free(picture);
+    return sum;
+}
+
+// Black drops add nothing.
+static double light_under(struct streaks *s, float sky)
+{
+    s->params.sky_g = sky;
+    return light_of(rain_read(s));
+}
+
+static struct streaks *open_drops(const char *settings)
+{
+    char all[640];
+    snprintf(all, sizeof(all),
+             "state=on geometry=off splashes=off lights=0 time=night streak_opacity=0 "
+             "streak_gain=%d rain_width_m=30 rain_depth_m=30 rain_height_m=150 local_height_m=50 "
+             "culling_radius_m=42 drops_m2_s=60 %s",
+             GAIN, settings);
+    struct streaks *s = rain_open(all);
+    rain_step(s, 2);
+    return s;
+}
+
+static void expect_cross_sections(const char *about, const char *settings)
+{
+    struct streaks *s = open_drops(settings);
+    const double lit = light_under(s, SKY), dry = light_under(s, 0);
+    int seen;
+    const double due = pixels_due(s, &seen), covered = (lit - dry) / (GAIN * (double)SKY);
+    assert_true(seen > 2000);
+    if (!(fabs(covered / due - 1) < 0.015))
+        fail_msg("%s: %d drops cover %.1f pixels, %.3f of their cross-sections", about, seen,
+                 covered, covered / due);
+    rain_close(s);
+}
+
+// From so far away that no drop counts much more than another.
+#define BESIDE "eye_z_m=-26 target_y_m=3 target_z_m=0 "
+
+static void test_views(void **state)
+{
+    (void)state;
+    expect_cross_sections("from the side", BESIDE "view_angle_deg=30");
+    expect_cross_sections("from 75 degrees below",
+                          "eye_z_m=-18 target_y_m=63 target_z_m=-2 view_angle_deg=12 "
+                          "local_height_m=130");
+    expect_cross_sections("from 60 degrees above",
+                          "eye_y_m=60 eye_z_m=-26 target_y_m=17 target_z_m=-1 view_angle_deg=15 "
+                          "local_height_m=110");
+}
+
+static void test_exposures(void **state)
+{
+    (void)state;
+    expect_cross_sections("1/1000 s", BESIDE "view_angle_deg=30 exposure_s=0.001");
+    expect_cross_sections("1/4 s, from 40 degrees below",
+                          "eye_z_m=-26 target_y_m=25 target_z_m=0 view_angle_deg=20 "
+                          "exposure_s=0.25 local_height_m=100");
+}
+
+static void test_drops(void **state)
+{
+    (void)state;
+    expect_cross_sections("small", BESIDE "view_angle_deg=30 drop_radius_mm=0.8");
+    expect_cross_sections("slow", BESIDE "view_angle_deg=30 fall_speed_m_s=4");
+    // From so near that drops are six pixels wide.
+    expect_cross_sections("wide", BESIDE "view_angle_deg=3 drop_radius_mm=6 drops_m2_s=3000");
+}
+
+// The most light of the pixels around one.
+static double most_around(const struct rain_texels *picture, int column, int row)
+{
+    double most = 0;
+    for (int y = row - 1; y <= row + 1; y++)
+        for (int x = column - 1; x <= column + 1; x++)
+            most = fmax(most, rain_texel(picture, x, y, 1));
+    return most;
+}
+
+// Each drop is seen, however thin its streak is: here a fortieth of a pixel, and for the shorter
+// exposure a fiftieth long.
+static void expect_all_seen(const char *settings)
+{
+    struct streaks *s = open_drops(settings);
+    s->params.sky_g = 0;
+    struct rain_texels *dry = rain_read(s);
+    s->params.sky_g = SKY;
+    struct rain_texels *lit = rain_read(s);
+    const struct rain_places places = rain_read_places(s);
+    int drops = 0, missed = 0;
+    for (int64_t i = 0; i < places.count; i++) {
+        const float *place = places.words + i * STREAKS_STATE_WORDS;
+        const rg_corner c = m4_project(
+            s->params.to_clip, v3_make(place[0], place[1], place[2] - 0.5f * s->params.fall));
+        const double x = (double)(c.x / c.w + 1) / 2 * RAIN_WIDTH,
+                     y = (double)(c.y / c.w + 1) / 2 * RAIN_HEIGHT;
+        if ((int)place[5] != STREAKS_DROP || c.w <= 0 || place[2] > place[3] ||
+            !(x >= 1 && x < RAIN_WIDTH - 1 && y >= 1 && y < RAIN_HEIGHT - 1))
+            continue;
+        drops++;
+        missed += !(most_around(lit, (int)x, (int)y) > most_around(dry, (int)x, (int)y));
+    }
+    assert_true(drops > 50);
+    assert_int_equal(missed, 0);
+    free(places.words);
+    free(lit);
+    free(dry);
+    rain_close(s);
+}
+
+static void test_thin_streaks(void **state)
+{
+    (void)state;
+    expect_all_seen(BESIDE "view_angle_deg=30 drops_m2_s=1");
+    expect_all_seen(BESIDE "view_angle_deg=30 drops_m2_s=1 exposure_s=0.0004");
+}
+
+int main(int argc, char **argv)
+{
+    find_sections();
+    struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_views),
+        cmocka_unit_test(test_exposures),
+        cmocka_unit_test(test_drops),
+        cmocka_unit_test(test_thin_streaks),
+    };
+    return rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
