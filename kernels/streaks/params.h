@@ -8,6 +8,8 @@
 #define STREAKS_BLOCK       32 // particles a block
 #define STREAKS_BLOCK_WORDS 5  // first particle, mask, shift x, shift y, turn
 
+#define STREAKS_STATE_WORDS 8
+
 #define STREAKS_NOTHING 0
 #define STREAKS_DROP    1
 #define STREAKS_SPLASH  2

@@ -109,4 +109,17 @@ RG_FN uint streaks_hash(uint particle)
     return h ^ (h >> 13);
 }
 
+// The part behind the last whole number.
+RG_FN float streaks_part(float cycles)
+{
+    return cycles - rg_floor(cycles);
+}
+
+// Drops swing as they fall, each with a beginning of its own.
+RG_FN float streaks_turn(streaks_params p, streaks_particle t)
+{
+    float begin = rg_to_float(rg_to_int(streaks_hash(t.number) & 1023u)) / 1024.0f;
+    return streaks_part(t.s * p.cycles_per_m + begin);
+}
+
 #endif

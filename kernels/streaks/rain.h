@@ -232,19 +232,6 @@ RG_FN float streaks_share(streaks_shape shape, float shown)
     return 2.0f / (shape.way * blended) * (shape.half_width / shape.covering);
 }
 
-// The part behind the last whole number.
-RG_FN float streaks_part(float cycles)
-{
-    return cycles - rg_floor(cycles);
-}
-
-// Drops swing as they fall, each with a beginning of its own.
-RG_FN float streaks_turn(streaks_params p, streaks_particle t)
-{
-    float begin = rg_to_float(rg_to_int(streaks_hash(t.number) & 1023u)) / 1024.0f;
-    return streaks_part(t.s * p.cycles_per_m + begin);
-}
-
 RG_FN streaks_billboard streaks_drop(streaks_params p, streaks_billboard of, streaks_particle t,
                                      streaks_shape shape, int level)
 {

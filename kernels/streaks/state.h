@@ -1,5 +1,5 @@
 // streaks: particles as the frame sees them, for those who compare states: x, y, s, hit height,
-// age, what they are, and the material of what they hit, 7 words each.
+// age, what they are, the material of what they hit, and oscillation + turn, 8 words each.
 #include "kernels/streaks/params.h"
 
 #define RG_PARAMS streaks_params
@@ -16,7 +16,7 @@ RG_GRID_KERNEL(streaks_state)
 {
     streaks_particle t = streaks_particle_at(rg, p, x);
     int material = streaks_material(rg, p, t);
-    int word = 7 * (p.first_place + x);
+    int word = STREAKS_STATE_WORDS * (p.first_place + x);
     bool seen = t.state != STREAKS_NOTHING;
     places_put(rg, word, seen ? t.x : 0.0f);
     places_put(rg, word + 1, seen ? t.y : 0.0f);
@@ -25,4 +25,5 @@ RG_GRID_KERNEL(streaks_state)
     places_put(rg, word + 4, t.state == STREAKS_SPLASH ? t.age : 0.0f);
     places_put(rg, word + 5, rg_to_float(t.state));
     places_put(rg, word + 6, seen ? rg_to_float(material) : 0.0f);
+    places_put(rg, word + 7, seen ? rg_to_float(t.oscillation) + streaks_turn(p, t) : 0.0f);
 }

@@ -22,7 +22,7 @@ enum streaks_counter {
 
 enum streaks_pass { STREAKS_RAIN, STREAKS_STATES, STREAKS_FAR, STREAKS_PASS_COUNT };
 
-enum { STREAKS_MAX_BUFFERS = 64, STREAKS_STATE_WORDS = 7 };
+enum { STREAKS_MAX_BUFFERS = 64 };
 
 // The scene seen along the fall.
 struct streaks_map {

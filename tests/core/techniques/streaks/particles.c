@@ -15,7 +15,7 @@
 #include "kernels/streaks/params.h"
 #include "tests/oracle/particle.h"
 
-enum { BLOCKS = 256, PARTICLES = BLOCKS * STREAKS_BLOCK, MAP_X = 7, MAP_Y = 5, WORDS = 7 };
+enum { BLOCKS = 256, PARTICLES = BLOCKS * STREAKS_BLOCK, MAP_X = 7, MAP_Y = 5, WORDS = 8 };
 enum { SURFACES = 20, SURFACE_WORDS = 4, NO_SURFACE = -1 };
 
 static const char *device_name;
@@ -93,6 +93,7 @@ static const streaks_params base = {
     .ground = 70,
     .behind = 0.14f,
     .fall_speed = 8,
+    .cycles_per_m = 7.5f,
     .splash_s = 0.25f,
     .drops = 1,
     .splashes = 1,
@@ -174,6 +175,14 @@ static struct hit hit_at(const struct scene *scene, double x, double y)
     return hit;
 }
 
+// Where a particle begins in its swing: by a hash of its number, in steps of 1/1024.
+static double begin_of(uint32_t particle)
+{
+    uint32_t h = particle * 0x9e3779b9u;
+    h = (h ^ (h >> 16)) * 0x85ebca6bu;
+    return (double)((h ^ (h >> 13)) % 1024) / 1024;
+}
+
 // Returns how many particles are in each state.
 static void compare(const struct scene *scene, const streaks_params *p, const float *places,
                     int counts[3])
@@ -213,6 +222,9 @@ static void compare(const struct scene *scene, const streaks_params *p, const fl
         assert_true(fabs((double)place[2] - seen.s) < 1e-4);
         assert_true(fabs((double)place[3] - hit.s) < 1e-4);
         assert_int_equal(place[6], hit.material);
+        const double turn = 7.5 * seen.s + begin_of(block[0] + i % STREAKS_BLOCK);
+        assert_int_equal(place[7], floor((double)particle[2]));
+        assert_true(fabs(remainder((double)place[7] - turn, 1)) < 1e-3);
         assert_true(fabs((double)place[4] - (seen.state == PARTICLE_SPLASH ? seen.age_s : 0)) <
                     1e-4);
     }

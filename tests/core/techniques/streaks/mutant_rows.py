@@ -1,0 +1,74 @@
+"""Places of streaks' kernels that are changed, and the tests that ought to notice, by file."""
+import collections
+
+Row = collections.namedtuple("Row", "about file old new tests")
+
+COVER = ("cover",)
+LOOKS = ("looks",)
+PARTICLES = ("particles",)
+FAR = ("far",)
+
+ROWS = [Row(*row) for row in (
+    # particles
+    ("drops rise", "particle.h", "t.s = p.top + p.local_height * (fallen - rg_floor(fallen))",
+     "t.s = p.top + p.local_height * (1.0f - (fallen - rg_floor(fallen)))", PARTICLES),
+    ("drops end a streak too late", "particle.h", "(t.s - p.behind) - t.hit", "t.s - t.hit", PARTICLES),
+    ("the map's rows run across", "particle.h", "(y - p.map_y) * p.map_per_y * height",
+     "(x - p.map_y) * p.map_per_y * height", PARTICLES),
+    ("splashes last half as long", "particle.h", "rg_min(p.splash_s * p.fall_speed, p.local_height)",
+     "rg_min(0.5f * p.splash_s * p.fall_speed, p.local_height)", PARTICLES),
+    ("all drops begin their swing together", "particle.h", "(streaks_hash(t.number) & 1023u)",
+     "(streaks_hash(0u) & 1023u)", PARTICLES),
+    ("drops do not swing as they fall", "particle.h", "t.s * p.cycles_per_m + begin", "begin", PARTICLES),
+    # what streaks cover
+    ("streaks twice as wide", "rain.h", "shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : p.half_width",
+     "shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : 2.0f * p.half_width", COVER),
+    ("streaks twice as long", "rain.h", "splash != 0 ? p.up_s * tall : -p.fall",
+     "splash != 0 ? p.up_s * tall : -2.0f * p.fall", COVER),
+    ("thin streaks as bright as wide ones", "rain.h", "(shape.half_width / shape.covering)", "1.0f", COVER),
+    ("thin streaks missed", "rain.h", "rg_max(p.half_width, 0.5f * thinnest)", "p.half_width", COVER),
+    ("short streaks missed", "rain.h", "rg_max(0.5f * (thinnest - way), 0.0f)", "0.0f", COVER),
+    ("no foreshortening of the way", "rain.h", "float way = p.fall * rg_hypot(to_eye.x, to_eye.y)",
+     "float way = p.fall", COVER),
+    ("the atlas' share of the exposure", "rain.h", "2.0f / (shape.way * blended)", "1.0f", COVER),
+    ("the share of the lower view", "rain.h",
+     "first + (streaks_steadiness(view + 1) - first) * (shown - rg_to_float(view))", "first", COVER),
+    ("streaks without ends", "rain.h", "t.window = rg_max(passes, 0.0f) / (2.0f * half_chord)",
+     "t.window = 1.0f", COVER),
+    ("no rim in the atlas", "rain.h", "return first + rim + (size - 2.0f * rim) * turn",
+     "return first + size * turn", LOOKS),
+    ("the way of another view", "cells.h", "return 1009.12f", "return 1100.0f", COVER),
+    # which streak is seen
+    ("streaks upside down", "rain.h", "streaks_part(r.turn - p.cycles * streaks_place_of(r, u, v).passed)",
+     "1.0f - streaks_part(r.turn - p.cycles * streaks_place_of(r, u, v).passed)", LOOKS),
+    ("swings run backwards", "rain.h", "r.turn - p.cycles *", "r.turn + p.cycles *", LOOKS),
+    ("swings twice as fast", "rain.h", "r.turn - p.cycles *", "r.turn - 2.0f * p.cycles *", LOOKS),
+    ("always the same oscillation", "rain.h", "s.oscillation = streaks_layer_of(r) * drop",
+     "s.oscillation = 3 * drop", LOOKS),
+    # light
+    ("mirrored to the wrong side", "rain.h", "sine > 0.0f ? 1.0f - spot.u : spot.u",
+     "sine > 0.0f ? spot.u : 1.0f - spot.u", LOOKS),
+    ("never mirrored", "rain.h", "sine > 0.0f ? 1.0f - spot.u : spot.u", "spot.u", LOOKS),
+    ("light from behind as from before", "rain.h", "rg_atan2(rg_abs(sine), cosine)",
+     "rg_atan2(rg_abs(sine), -cosine)", LOOKS),
+    ("light from above as from below", "rain.h", "streaks_elevation(to_light) * below + 4.5f",
+     "-streaks_elevation(to_light) * below + 4.5f", LOOKS),
+    ("no brightness factors", "rain.h", "s.level - p.first_level).r * factor;\n}\n\nRG_FN float streaks_between",
+     "s.level - p.first_level).r;\n}\n\nRG_FN float streaks_between", LOOKS),
+    ("no brightness factors of the sky", "rain.h", "return skies_between(rg, x, y, s.oscillation, s.level - p.first_level).r * factor",
+     "return skies_between(rg, x, y, s.oscillation, s.level - p.first_level).r", COVER),
+    ("no shadows", "rain.h", "reach.share * scenery_unshadowed(rg, l, spot.at) * streaks_between",
+     "reach.share * streaks_between", LOOKS),
+    ("irradiance without pi", "rain.h", "float streak = SCENERY_IRRADIANCE * streaks_streak",
+     "float streak = streaks_streak", ("furnace",)),
+    # splashes
+    ("splashes played backwards", "rain.h", "r.shown = rg_clamp(t.age / p.splash_s, 0.0f, 0.999f)",
+     "r.shown = (0.999f - rg_clamp(t.age / p.splash_s, 0.0f, 0.999f))", LOOKS),
+    ("splashes stand still", "rain.h", "rg_clamp(t.age / p.splash_s, 0.0f, 0.999f) * rg_to_float(STREAKS_FRAMES)",
+     "0.9f * rg_to_float(STREAKS_FRAMES)", LOOKS),
+    # far rain
+    ("layers rise", "far.h", "at.z - p.fallen", "at.z + p.fallen", FAR),
+    ("layers too near", "far.h", "(rg_to_float(r.layer) + 0.5f) * p.thickness",
+     "rg_to_float(r.layer) * p.thickness", FAR),
+    ("layers hide half", "far.h", "rg_clamp(p.opacity * (1.0f + p.contrast", "rg_clamp(0.5f * p.opacity * (1.0f + p.contrast", FAR),
+)]
