@@ -279,14 +279,15 @@ struct lit {
     double light, middle;
 };
 
-static struct lit lit_by(double elevation, double azimuth, double *radius_px)
+static struct lit lit_by(double elevation, double azimuth, const char *view, double *radius_px)
 {
-    char settings[256];
+    char settings[320];
     write_sun(elevation, azimuth, false);
-    snprintf(settings, sizeof(settings),
-             "environment_light=off splashes=off view_angle_deg=1 drop_radius_mm=10 "
-             "drops_m2_s=1000 rain_width_m=4 local_height_m=8 culling_radius_m=30 lights_file=%s",
-             path);
+    snprintf(
+        settings, sizeof(settings),
+        "environment_light=off splashes=off view_angle_deg=1 drop_radius_mm=10 "
+        "drops_m2_s=1000 rain_width_m=4 local_height_m=8 culling_radius_m=30 %s lights_file=%s",
+        view, path);
     struct streaks *s = open_beside(settings);
     *radius_px = 0.010 * (double)s->params.focal_px / 26;
     struct kept kept = keep(s->textures->points, 1);
@@ -315,8 +316,8 @@ static void test_light_has_a_side(void **state)
     struct glow of_first;
     for (size_t i = 0; i < sizeof(suns) / sizeof(suns[0]); i++) {
         double radius_px;
-        const struct lit right = lit_by(suns[i][0], suns[i][1], &radius_px),
-                         left = lit_by(suns[i][0], -suns[i][1], &radius_px);
+        const struct lit right = lit_by(suns[i][0], suns[i][1], "", &radius_px),
+                         left = lit_by(suns[i][0], -suns[i][1], "", &radius_px);
         const struct glow due = glow_of(suns[i][0], suns[i][1]);
         if (i == 0) {
             first = right;
@@ -329,6 +330,22 @@ static void test_light_has_a_side(void **state)
             fail_msg("sun at %g, %g: the left is %.2f of the right, %.2f as bright as due, at %.2f "
                      "radii for %.2f",
                      suns[i][0], suns[i][1], left.light / right.light, brighter, aside, due.aside);
+    }
+}
+
+// Light goes on ahead through drops: who looks up at them sees one that stands behind them, above,
+// and who looks down one below.
+static void test_light_goes_by_the_view(void **state)
+{
+    (void)state;
+    static const char *const views[] = {"target_y_m=25 local_height_m=60 drops_m2_s=200",
+                                        "eye_y_m=28 target_y_m=6 local_height_m=60 drops_m2_s=200"};
+    double radius_px;
+    for (int i = 0; i < 2; i++) {
+        const double above = lit_by(40, 170, views[i], &radius_px).light,
+                     below = lit_by(-40, 170, views[i], &radius_px).light;
+        assert_true(above > 0 && below > 0);
+        assert_true(i ? below > 10 * above : above > 10 * below);
     }
 }
 
@@ -409,6 +426,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_drops_swing_as_they_fall),
         cmocka_unit_test(test_light_has_a_side),
         cmocka_unit_test(test_shadows_fall_on_rain),
+        cmocka_unit_test(test_light_goes_by_the_view),
         cmocka_unit_test(test_splashes_go_forwards),
     };
     const int status = rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

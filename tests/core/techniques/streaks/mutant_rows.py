@@ -35,8 +35,7 @@ ROWS = [Row(*row) for row in (
      "first + (streaks_steadiness(view + 1) - first) * (shown - rg_to_float(view))", "first", COVER),
     ("streaks without ends", "rain.h", "t.window = rg_max(passes, 0.0f) / (2.0f * half_chord)",
      "t.window = 1.0f", COVER),
-    ("no rim in the atlas", "rain.h", "return first + rim + (size - 2.0f * rim) * turn",
-     "return first + size * turn", LOOKS),
+    ("half of a swing", "rain.h", "(size - 2.0f * rim) * turn", "0.5f * (size - 2.0f * rim) * turn", LOOKS),
     ("the way of another view", "cells.h", "return 1009.12f", "return 1100.0f", COVER),
     # which streak is seen
     ("streaks upside down", "rain.h", "streaks_part(r.turn - p.cycles * streaks_place_of(r, u, v).passed)",
