@@ -58,7 +58,7 @@ bool flow_draw(struct rg_instance *instance)
     if (!flow_view_params_at(&flow->settings, instance->frame, target->width, target->height,
                              &flow->view) ||
         !flow_turn_panes(flow) || !rg_stage(instance, FLOW_BLUR) ||
-        !rg_stage(instance, FLOW_NORMALS))
+        !rg_stage(instance, FLOW_NORMALS) || !flow_survey(flow))
         return false;
     return flow->settings.stage == FLOW_STAGE_FINAL ? draw_final(flow) : draw_stage(flow);
 }

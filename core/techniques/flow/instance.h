@@ -2,7 +2,8 @@
 #ifndef RG_CORE_TECHNIQUES_FLOW_INSTANCE_H
 #define RG_CORE_TECHNIQUES_FLOW_INSTANCE_H
 
-#include "core/techniques/flow/flow.h"
+#include "core/techniques/flow/inputs/flow.h"
+#include "core/techniques/flow/inputs/sliding.h"
 #include "core/techniques/technique.h"
 #include "kernels/flow/glow/params.h"
 
@@ -14,6 +15,18 @@ enum flow_pass {
     FLOW_MOVE,
     FLOW_REACH,
     FLOW_ARRIVE,
+    // movement of sliding drops
+    FLOW_LEVEL,
+    FLOW_SMOOTH_ONCE,
+    FLOW_SMOOTH_TWICE,
+    FLOW_SMOOTH_THRICE,
+    FLOW_SMOOTH_WIDE,
+    FLOW_PACE,
+    FLOW_PULL,
+    FLOW_RELAX,
+    FLOW_CLING,
+    FLOW_SLIDE_OFF,
+    FLOW_SLIDE,
     // the water's surface
     FLOW_BLUR,
     FLOW_NORMALS,
@@ -36,21 +49,33 @@ enum flow_pass {
 
 enum flow_counter { FLOW_DROPS, FLOW_TEXELS, FLOW_PIXELS, FLOW_TRIANGLES, FLOW_COUNTER_COUNT };
 
+enum { FLOW_DROP_SIZES = 5 };
+
+// Facts of `survey`; NULL without it.
+struct flow_told {
+    struct rg_fact *wet, *centre, *drops[FLOW_DROP_SIZES];
+};
+
 struct flow {
     struct rg_instance base;
     struct flow_settings settings; // resolution_px is what flow_texels made of it
     int pane_count, noise_size;
     struct rg_asset *water, *moved; // of this frame, and scratch for the next
     struct rg_asset *panes;         // how they stand
-    int model_faces;                // 0: no model
+    struct rg_asset *ways;          // how far water slides, of flow_ways_at; NULL: nothing slides
+    struct flow_told told;
+    int model_faces; // 0: no model
     float model_low[3], model_high[3];
     // Of the present frame, for its stages.
     flow_splat_params drop;
     flow_params movement;
+    flow_slide_params sliding;
     flow_normals_params surface;
     flow_view_params view, model_view;
     flow_glow_params glow, glow_across, glow_down;
 };
+
+extern const struct rg_proof flow_proof;
 
 bool flow_open(struct rg_instance *instance);
 bool flow_step(struct rg_instance *instance);
@@ -58,6 +83,9 @@ bool flow_draw(struct rg_instance *instance);
 
 // Lands `count` drops on each pane: the seeded ones (`frame` is -1), or those of a frame.
 bool flow_land(struct flow *flow, int64_t frame, int count);
+// Tells what is on the panes: the facts, all 0, and what they are at the present frame.
+void flow_add_survey(struct flow *flow);
+bool flow_survey(struct flow *flow);
 // Writes how the panes stand at the present frame.
 bool flow_turn_panes(struct flow *flow);
 

@@ -57,9 +57,19 @@ static bool has_glow(const struct rg_instance *i)
     return is_final(i) && settings_of(i)->glow > 0;
 }
 
+static bool is_paper(const struct rg_instance *i)
+{
+    return settings_of(i)->move == FLOW_MOVE_PAPER;
+}
+
+static bool is_sliding(const struct rg_instance *i)
+{
+    return !is_paper(i);
+}
+
 static bool reaches_far(const struct rg_instance *i)
 {
-    return settings_of(i)->reach_texels > 2;
+    return is_paper(i) && settings_of(i)->reach_texels > 2;
 }
 
 static bool runs_on(const struct rg_instance *i)
@@ -71,12 +81,27 @@ static bool runs_on(const struct rg_instance *i)
 
 static const struct rg_stage stages[FLOW_PASS_COUNT] = {
     [FLOW_SPLAT] = {"flow_splat", .params = AT(drop)},
-    [FLOW_GIVEN] = {"flow_given", .params = AT(movement), .over = "given"},
-    [FLOW_DRAIN] = {"flow_drain", .params = AT(movement), .over = "arriving"},
-    [FLOW_MOVE] = {"flow_move", .params = AT(movement), .over = "given"},
+    [FLOW_GIVEN] = {"flow_given", is_paper, .params = AT(movement), .over = "given"},
+    [FLOW_DRAIN] = {"flow_drain", is_paper, .params = AT(movement), .over = "arriving"},
+    [FLOW_MOVE] = {"flow_move", is_paper, .params = AT(movement), .over = "given"},
     [FLOW_REACH] = {"flow_reach", reaches_far, .params = AT(movement), .over = "given"},
     [FLOW_ARRIVE] = {"flow_arrive", runs_on, .params = AT(movement), .over = "arriving",
                      .named = {{"water", "moved"}}},
+    [FLOW_LEVEL] = {"flow_level", is_sliding, .params = AT(sliding), .over = "level"},
+    [FLOW_SMOOTH_ONCE] = {"flow_smooth", is_sliding, .params = AT(sliding), .over = "level",
+                          .named = {{"rough", "level"}, {"even", "wide"}}},
+    [FLOW_SMOOTH_TWICE] = {"flow_smooth", is_sliding, .params = AT(sliding), .over = "level",
+                           .named = {{"rough", "wide"}, {"even", "close"}}},
+    [FLOW_SMOOTH_THRICE] = {"flow_smooth", is_sliding, .params = AT(sliding), .over = "level",
+                            .named = {{"rough", "close"}, {"even", "level"}}},
+    [FLOW_SMOOTH_WIDE] = {"flow_smooth", is_sliding, .params = AT(sliding), .over = "level",
+                          .named = {{"rough", "level"}, {"even", "wide"}}},
+    [FLOW_PACE] = {"flow_pace", is_sliding, .params = AT(sliding), .over = "level"},
+    [FLOW_PULL] = {"flow_pull", is_sliding, .params = AT(sliding), .over = "given"},
+    [FLOW_RELAX] = {"flow_relax", is_sliding, .params = AT(sliding), .over = "given"},
+    [FLOW_CLING] = {"flow_cling", is_sliding, .params = AT(sliding), .over = "given"},
+    [FLOW_SLIDE_OFF] = {"flow_slide_off", is_sliding, .params = AT(sliding), .over = "arriving"},
+    [FLOW_SLIDE] = {"flow_slide", is_sliding, .params = AT(sliding), .over = "given"},
     [FLOW_BLUR] = {"flow_blur", .params = AT(movement), .over = "given"},
     [FLOW_NORMALS] = {"flow_normals", .params = AT(surface), .over = "given"},
     [FLOW_SKY_BEHIND] = {"flow_sky", is_glass, .params = AT(view), .colour = "behind"},
@@ -140,6 +165,24 @@ static void add_map(struct flow *flow, const char *name, float *values, int64_t 
     flow->base.has_failed |= !values;
     rg_add_buf(&flow->base, name, count, values);
     free(values);
+}
+
+// Maps of the lattice over all panes, and what the texels have beside water.
+static void add_sliding(struct flow *flow)
+{
+    struct rg_instance *i = &flow->base;
+    const int n = flow->settings.resolution_px, cells = flow_lattice_cells(&flow->settings);
+    const int64_t texels = (int64_t)flow->pane_count * flow_map_length(n);
+    const int64_t all = (int64_t)flow->pane_count * flow_map_length(cells);
+    rg_set_items(rg_add_buf(i, "level", all, NULL), cells, cells, flow->pane_count);
+    rg_add_buf(i, "close", all, NULL);
+    rg_add_buf(i, "wide", all, NULL);
+    rg_add_buf(i, "pace", all, NULL);
+    rg_add_buf(i, "ridge", all, NULL);
+    rg_add_buf(i, "pull", texels, NULL);
+    rg_add_buf(i, "paced", texels, NULL);
+    add_map(flow, "beads", flow_bead_map(&flow->settings), (int64_t)n * n);
+    flow->ways = rg_add_buf(i, "ways", 2 * FLOW_PACES * FLOW_MAX_PANES, NULL);
 }
 
 static void add_maps(struct flow *flow)
@@ -254,8 +297,12 @@ bool flow_open(struct rg_instance *instance)
                     has_model(instance) ? FLOW_COUNTER_COUNT : FLOW_TRIANGLES);
     add_water(flow);
     add_maps(flow);
+    if (is_sliding(instance))
+        add_sliding(flow);
     add_images(flow);
     add_model(flow);
+    if (s->survey)
+        flow_add_survey(flow);
     if (rg_open_stages(instance, stages, FLOW_PASS_COUNT, flow, NULL) < 0)
         return false;
     if (s->model_sides == FLOW_BOTH_SIDES)

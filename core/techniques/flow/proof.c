@@ -5,7 +5,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "core/techniques/flow/flow.h"
+#include "core/techniques/flow/instance.h"
 #include "core/techniques/proof.h"
 #include "core/techniques/technique.h"
 
@@ -77,8 +77,10 @@ static bool water_is_conserved(const struct rg_instance *instance, char *detail,
 // asks.
 static const struct rg_pose poses[] = {
     {.set = "resolution_px=96"},
+    {.set = "resolution_px=96 move=paper"},
     {.set = "resolution_px=96 pane_pitch_deg=40 pane_roll_deg=30 direction=split run_on=on "
-            "reach_texels=4"},
+            "reach_texels=4 move=paper"},
+    {.set = "resolution_px=96 pane_pitch_deg=40 pane_roll_deg=30 run_on=on rain_drops_s=400"},
     {.set = "resolution_px=96 panes=mirror pane_pitch_deg=-20 pane_roll_deg=180 spin_yaw_deg_s=90 "
             "glow=0.5 glow_threshold=0.3"},
     {.set = "view=pane panes=mirror"},
@@ -114,7 +116,7 @@ static const struct rg_mutant mutants[] = {
 const struct rg_proof flow_proof = {
     .poses = poses,
     .dry = "drops=0 rain_drops_s=0",
-    .mutant_scene = "resolution_px=160 environment_px=256",
+    .mutant_scene = "move=paper resolution_px=160 environment_px=256",
     .laws = laws,
     .mutants = mutants,
 };

@@ -5,7 +5,7 @@
 
 #include "kernels/dialect/matrix.h"
 
-// enum flow_stage of core/techniques/flow/flow.h.
+// enum flow_stage of core/techniques/flow/inputs/flow.h.
 #define FLOW_SHOWS_HEIGHT  0
 #define FLOW_SHOWS_BLURRED 1
 

@@ -12,7 +12,8 @@
 #include "core/techniques/flow/instance.h"
 #include "kernels/dialect/image/format.h"
 
-static const char *const cheap = "environment=sky environment_px=16 view=pane panes=mirror";
+static const char *const cheap =
+    "environment=sky environment_px=16 view=pane panes=mirror move=paper";
 
 static void set(struct flow_settings *settings, const char *assignments)
 {

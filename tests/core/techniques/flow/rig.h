@@ -2,7 +2,7 @@
 #ifndef RG_TESTS_CORE_TECHNIQUES_FLOW_RIG_H
 #define RG_TESTS_CORE_TECHNIQUES_FLOW_RIG_H
 
-#include "core/techniques/flow/flow.h"
+#include "core/techniques/flow/inputs/flow.h"
 #include "core/techniques/technique.h"
 
 struct rig {

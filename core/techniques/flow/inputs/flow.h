@@ -1,6 +1,6 @@
 // flow: the settings, parameters and host-side inputs of Stuppacher & Supan's water on panes.
-#ifndef RG_CORE_TECHNIQUES_FLOW_FLOW_H
-#define RG_CORE_TECHNIQUES_FLOW_FLOW_H
+#ifndef RG_CORE_TECHNIQUES_FLOW_INPUTS_FLOW_H
+#define RG_CORE_TECHNIQUES_FLOW_INPUTS_FLOW_H
 
 #include <stdint.h>
 
@@ -12,6 +12,7 @@
 
 enum flow_direction { FLOW_NEAREST, FLOW_SPLIT };
 enum flow_scene { FLOW_BOX, FLOW_ONE_PANE };
+enum flow_move { FLOW_MOVE_SLIDING, FLOW_MOVE_PAPER };
 enum flow_sides { FLOW_FRONT_SIDES, FLOW_BOTH_SIDES };
 enum flow_material { FLOW_GLASS, FLOW_MIRROR };
 enum flow_stage { FLOW_STAGE_HEIGHT, FLOW_STAGE_BLURRED, FLOW_STAGE_NORMALS, FLOW_STAGE_FINAL };
@@ -27,10 +28,15 @@ struct flow_settings {
     double spin_pitch_deg_s, spin_yaw_deg_s, spin_roll_deg_s;
     double pane_mm, frame_mm;
     // movement
+    int move;
     int resolution_px, seed;
     double texels_a_pixel;
     double move_threshold, fast_threshold, far_share, capacity;
     int reach_texels, direction, run_on;
+    // sliding drops
+    double slide_above_mm3, slide_gain_mm_s, slide_most_mm_s;
+    double levelling_mm_s, cohesion, contact_slope;
+    double bead_mm, bead_spacing_mm, drying_mm2_s;
     // maps
     char remainder_map[RG_PATH_SIZE], noise_map[RG_PATH_SIZE];
     double remainder_low, remainder_low_height, remainder_max_height;
@@ -38,6 +44,7 @@ struct flow_settings {
     // sources
     int drops;
     double rain_drops_s, step_s, drop_radius_min_mm, drop_radius_max_mm, height_per_mm;
+    int survey;
     // lighting
     double relief, wet_height;
     double fresnel_bias, fresnel_scale, refraction_strength, reflectivity;
@@ -48,7 +55,6 @@ struct flow_settings {
 };
 
 extern const struct rg_param_table flow_param_table;
-extern const struct rg_proof flow_proof;
 
 // What an instance's state holds, in this order.
 enum flow_state { FLOW_STATE_WATER, FLOW_STATE_LEDGER, FLOW_STATE_COUNT };
@@ -97,5 +103,8 @@ int flow_drops_at(const struct flow_settings *settings, int64_t frame);
 // failure.
 float *flow_remainder_map(const struct flow_settings *settings);
 float *flow_noise_map(const struct flow_settings *settings, int *size);
+// How much water clings to each texel of a pane where drops slide, in units of height, likewise:
+// size x size floats that tile from right to left.
+float *flow_bead_map(const struct flow_settings *settings);
 
 #endif

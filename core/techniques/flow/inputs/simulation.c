@@ -1,5 +1,5 @@
 // What flow's simulation needs of the host: orientation, drops, and the kernels' parameters.
-#include "core/techniques/flow/flow.h"
+#include "core/techniques/flow/inputs/flow.h"
 
 #include <math.h>
 
@@ -164,13 +164,24 @@ flow_normals_params flow_normals_params_of(const struct flow_settings *s)
     };
 }
 
-// Random streams of flow; the item is a drop's number and the step its frame.
+// Random streams of flow; the item is a drop's number and the step its frame, or, where drops
+// slide, drops are counted through all frames: the same ones fall whatever step_s is.
 enum { STREAM_SEEDED = 1, STREAM_RAIN = 2, STREAMS_A_PANE = 16 };
+
+// Drops that have fallen on a pane before a frame. A little is added, so that a number that is
+// whole but for its last bits counts as whole, whatever step_s is.
+static int64_t fallen_before(const struct flow_settings *s, int64_t frame)
+{
+    const double spare = s->move == FLOW_MOVE_SLIDING ? 1e-6 : 0;
+    return (int64_t)floor((double)frame * (s->rain_drops_s * s->step_s) + spare);
+}
 
 flow_splat_params flow_drop(const struct flow_settings *s, int pane, int64_t frame, int number)
 {
     const uint stream = frame < 0 ? STREAM_SEEDED : STREAM_RAIN;
-    rg_uint4 w = rg_random((uint)s->seed, (uint)number, frame < 0 ? 0u : (uint)frame,
+    const bool is_counted = frame < 0 || s->move == FLOW_MOVE_SLIDING;
+    const int64_t item = frame < 0 || !is_counted ? number : fallen_before(s, frame) + number;
+    rg_uint4 w = rg_random((uint)s->seed, (uint)item, is_counted ? 0u : (uint)frame,
                            stream + STREAMS_A_PANE * (uint)pane);
     const double px_per_mm = s->resolution_px / s->pane_mm;
     // Small drops are many and large ones few: the radius falls off with the square.
@@ -190,6 +201,5 @@ flow_splat_params flow_drop(const struct flow_settings *s, int pane, int64_t fra
 
 int flow_drops_at(const struct flow_settings *s, int64_t frame)
 {
-    const double a_frame = s->rain_drops_s * s->step_s;
-    return (int)(floor((double)(frame + 1) * a_frame) - floor((double)frame * a_frame));
+    return (int)(fallen_before(s, frame + 1) - fallen_before(s, frame));
 }

@@ -1,5 +1,5 @@
 // What flow's drawing needs of the host: the camera, and the drawing passes' parameters.
-#include "core/techniques/flow/flow.h"
+#include "core/techniques/flow/inputs/flow.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 // flow's remainder and noise maps: generated, or any image of the user's own (section 4.2.3).
-#include "core/techniques/flow/flow.h"
+#include "core/techniques/flow/inputs/flow.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -117,6 +117,24 @@ static bool add_octave(float *map, int octave, double weight, int seed)
                 (float)(weight * lattice_at(values, cells, x * step, y * step));
     free(values);
     return true;
+}
+
+float *flow_bead_map(const struct flow_settings *s)
+{
+    // Of the places between, the upper half hold water, and the highest tenth all of a bead.
+    const double from = 0.5, rise = 0.4;
+    const int n = s->resolution_px;
+    const int cells = (int)fmin(fmax(floor(s->pane_mm / s->bead_spacing_mm + 0.5), 1), n);
+    float *values = make_lattice(cells, NOISE_OCTAVES, s->seed);
+    float *map = values ? rg_alloc((size_t)n * (size_t)n, sizeof(float), "bead map") : NULL;
+    for (int y = 0; map && y < n; y++)
+        for (int x = 0; x < n; x++) {
+            const double u = (x + 0.5) * cells / n, v = (y + 0.5) * cells / n;
+            const double share = fmin(fmax((lattice_at(values, cells, u, v) - from) / rise, 0), 1);
+            map[(size_t)y * (size_t)n + (size_t)x] = (float)(share * s->bead_mm / s->relief);
+        }
+    free(values);
+    return map;
 }
 
 float *flow_noise_map(const struct flow_settings *s, int *size)

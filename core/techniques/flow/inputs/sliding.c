@@ -1,0 +1,125 @@
+// What sliding drops need of the host: runs of a frame, the kernels' parameters, and the ways that
+// water slides.
+#include "core/techniques/flow/inputs/sliding.h"
+
+#include <math.h>
+
+// A lattice's cell is at least so wide, or a texel.
+#define CELL_MM 1.1
+// By so much a run of flow_smooth widens a Gaussian, along a side; the pull is smoothed twice, the
+// water that counts as around a place four times.
+#define SMOOTHED_MM2 0.69
+#define AROUND_RUNS  4
+#define REACH_MM     3.7  // that a drop's middle carries along
+#define ASIDE_MM     2.0  // from the axis of a drop to its flanks
+#define LONGEST_MM   1.4  // that water slides in a run, so that drops do not leave their pace
+#define LEVELLED     0.22 // the most that levels in a run: a quarter is where it swings
+#define BENT_MM      0.8
+#define LEAST_MM     0.4
+#define MOST_MM      1.0
+#define HOLDS_MM     40.0
+#define GOLDEN       0.6180339887498949
+
+static double texel_mm(const struct flow_settings *s)
+{
+    return s->pane_mm / s->resolution_px;
+}
+
+static int texels_a_cell(const struct flow_settings *s)
+{
+    return (int)fmax(ceil(CELL_MM / texel_mm(s) - 1e-9), 1);
+}
+
+int flow_lattice_cells(const struct flow_settings *s)
+{
+    const int k = texels_a_cell(s);
+    return (s->resolution_px + k - 1) / k;
+}
+
+int flow_slide_runs(const struct flow_settings *s)
+{
+    const double way_mm = s->slide_most_mm_s * s->step_s;
+    const double longest_mm = fmin(LONGEST_MM, FLOW_MARGIN * texel_mm(s));
+    // A texel is the least that water can slide.
+    return (int)fmax(ceil(way_mm / fmax(longest_mm, texel_mm(s)) - 1e-9), 1);
+}
+
+static double run_s(const struct flow_settings *s)
+{
+    return s->step_s / flow_slide_runs(s);
+}
+
+// The share of a difference of height that levels between two texels in a run of the whole time.
+static double levelled(const struct flow_settings *s)
+{
+    return s->levelling_mm_s * run_s(s) * MOST_MM / (texel_mm(s) * texel_mm(s));
+}
+
+int flow_relax_runs(const struct flow_settings *s)
+{
+    return (int)ceil(levelled(s) / LEVELLED);
+}
+
+static double fraction(double x)
+{
+    return x - floor(x);
+}
+
+// Evenly spread over 0 to 1, for whatever goes by whole parts: runs then add up to the whole.
+static double phase_of(int64_t run)
+{
+    return fraction((double)run * GOLDEN);
+}
+
+flow_slide_params flow_slide_params_at(const struct flow_settings *s, int64_t run)
+{
+    const int k = texels_a_cell(s);
+    const double cell_mm = k * texel_mm(s), cell_mm2 = cell_mm * cell_mm;
+    // The area that a Gaussian of so many runs stands for; at least a cell.
+    const double around_mm2 = fmax(2 * M_PI * AROUND_RUNS * SMOOTHED_MM2, cell_mm2);
+    const double to_height = 1 / s->relief;
+    return (flow_slide_params){
+        .size = s->resolution_px,
+        .cells = flow_lattice_cells(s),
+        .texels_a_cell = k,
+        .side_weight = (float)(SMOOTHED_MM2 / (2 * cell_mm2)),
+        .slides_above = (float)(s->slide_above_mm3 / around_mm2 * to_height),
+        .gain_mm_s = (float)s->slide_gain_mm_s,
+        .slowest_mm_s = (float)(s->slide_most_mm_s * pow(FLOW_PACE_RATIO, 2 - FLOW_PACES)),
+        .reach2 = (float)(REACH_MM * REACH_MM / cell_mm2),
+        .aside = (float)fmin(ASIDE_MM / cell_mm, FLOW_MARGIN - 2),
+        .levelling = (float)(levelled(s) / MOST_MM * s->relief / fmax(flow_relax_runs(s), 1)),
+        .bent = (float)(BENT_MM * to_height),
+        .least_layer = (float)(LEAST_MM * to_height),
+        .most_layer = (float)(MOST_MM * to_height),
+        .advance = (float)(s->contact_slope * texel_mm(s) * to_height),
+        .cohesion = (float)s->cohesion,
+        .dried2 = (float)(2 * s->drying_mm2_s * run_s(s) * to_height * to_height),
+        .part = (float)phase_of(run),
+        .holds = (float)(HOLDS_MM * to_height),
+    };
+}
+
+// Whole texels, so that the ways of all runs add up to the way in millimetres.
+static int32_t whole(double texels, int64_t run)
+{
+    return fabs(texels) < 1e-9 ? 0 : (int32_t)floor(texels + phase_of(run));
+}
+
+void flow_ways_at(const struct flow_settings *s, int64_t frame, int64_t run, int32_t *ways)
+{
+    for (int pane = 0; pane < flow_pane_count(s); pane++) {
+        double axes[3][3];
+        flow_pane_frame(s, pane, frame, axes);
+        const double gx = -axes[0][1], gy = -axes[1][1]; // of (0, -1, 0) in the world
+        const double along = fmax(sqrt(gx * gx + gy * gy), 1e-6);
+        for (int pace = 0; pace < FLOW_PACES; pace++) {
+            const double speed_mm_s =
+                pace ? s->slide_most_mm_s * pow(FLOW_PACE_RATIO, pace + 1 - FLOW_PACES) : 0;
+            const double texels = speed_mm_s * run_s(s) / texel_mm(s);
+            int32_t *way = &ways[2 * (pane * FLOW_PACES + pace)];
+            way[0] = whole(texels * gx / along, run);
+            way[1] = whole(texels * gy / along, run);
+        }
+    }
+}

@@ -1,0 +1,57 @@
+// flow: how fast the water of each cell slides, and where on a drop it is. A drop is at rest until
+// gravity on it overcomes the contact line that holds it: water around above a volume that falls
+// with the slope as Furmidge's condition says, volume^(2/3) sin(slope) = constant. Above it speed
+// grows with the water. The middle of a drop carries along what is around it, so that it slides as
+// a whole and sweeps up small drops.
+#include "kernels/flow/sliding/params.h"
+
+#define RG_PARAMS flow_slide_params
+#define RG_SLOTS  IN(1, float, wide) IN(2, flow_pane, panes) OUT(3, uint, pace) OUT(4, float, ridge)
+#include "kernels/dialect/slots/slots.h"
+
+RG_FN float wide_between(rg_ctx rg, flow_slide_params p, int z, float u, float v)
+{
+    flow_between b = flow_between_at(p, z, u, v);
+    int below = b.i + flow_lattice_stride(p);
+    return flow_mix(b, wide_at(rg, b.i), wide_at(rg, b.i + 1), wide_at(rg, below),
+                    wide_at(rg, below + 1));
+}
+
+// 1 on the axis along which a drop slides and 0 on its flanks: how much more water is here than
+// beside it, as a share.
+RG_FN float ridge_of(rg_ctx rg, flow_slide_params p, flow_pane q, int z, int x, int y)
+{
+    float across_x = q.speed > 0.0f ? -q.b.y / q.speed * p.aside : p.aside;
+    float across_y = q.speed > 0.0f ? q.t.y / q.speed * p.aside : 0.0f;
+    float u = rg_to_float(x) + 0.5f;
+    float v = rg_to_float(y) + 0.5f;
+    float here = wide_at(rg, flow_pane_index(p.cells, z, x, y));
+    float flanks = wide_between(rg, p, z, u + across_x, v + across_y) +
+                   wide_between(rg, p, z, u - across_x, v - across_y);
+    float more = (2.0f * here - flanks) / rg_max(here, FLOW_DROPLET);
+    return rg_clamp(2.0f * more - 0.3f, 0.0f, 1.0f);
+}
+
+RG_GRID_KERNEL(flow_pace)
+{
+    int i = flow_pane_index(p.cells, z, x, y);
+    int stride = flow_lattice_stride(p);
+    flow_pane q = panes_at(rg, z);
+    float most = 0.0f;
+    for (int dy = -FLOW_CARRIED; dy <= FLOW_CARRIED; dy++) {
+        for (int dx = -FLOW_CARRIED; dx <= FLOW_CARRIED; dx++) {
+            float near = rg_to_float(dx * dx + dy * dy) <= p.reach2 ? 1.0f : 0.0f;
+            most = rg_max(most, near * wide_at(rg, i + dy * stride + dx));
+        }
+    }
+    float slope = q.speed * rg_sqrt(q.speed);
+    float speed = (most * slope / p.slides_above - 1.0f) * p.gain_mm_s;
+    uint pace = 0u;
+    float next = p.slowest_mm_s;
+    for (int c = 1; c < FLOW_PACES; c++) {
+        pace = speed > next ? pace + 1u : pace;
+        next = next * FLOW_PACE_RATIO;
+    }
+    pace_put(rg, i, pace);
+    ridge_put(rg, i, ridge_of(rg, p, q, z, x, y));
+}
