@@ -24,10 +24,8 @@ ROWS = [Row(*row, TESTS) for row in (
     ("corners behind the near plane stay", CLIP, "float inside = c.z;", "float inside = c.w;"),
     ("edges are cut in their middle", CLIP,
      "float t = inner_by / (inner_by - outer_by);", "float t = 0.5f;"),
-    ("cuts have no depth", CLIP, "inner.z + (outer.z - inner.z) * t,", "inner.z,"),
     ("nothing is cut on the left", CLIP, "inside = across + c.x * draw.half_width;", "inside = across;"),
     ("nothing is cut below", CLIP, "inside = down - c.y * draw.half_height;", "inside = down;"),
-    ("cut polygons lose a triangle", CLIP, "corners == 3 ? g.count - 2", "corners == 3 ? g.count - 3"),
     # coverage
     ("top edges do not count", COVER, "e.dx < 0 || (e.dx == 0 && e.dy > 0)", "e.dx < 0"),
     ("left edges do not count", COVER, "e.dx < 0 || (e.dx == 0 && e.dy > 0)", "e.dx == 0 && e.dy > 0"),
@@ -36,7 +34,6 @@ ROWS = [Row(*row, TESTS) for row in (
     ("pixels' centres lie at their top", COVER, "(rg_long)e.dy * (y - 128)", "(rg_long)e.dy * y"),
     ("faces that turn the other way are not turned", COVER, "bool turned = area < 0;", "bool turned = false;"),
     ("the third edge is not tested", COVER, "t.c = rg_edge_make(cx, cy, x0, y0);", "t.c = t.b;"),
-    ("far edges change sides", COVER, "at < -far ? -far", "at < -far ? far"),
     # depth and weights
     ("depth is the nearest corner's", PLANES,
      "return rg_clamp(rg_plane_at(s.depth, dx, dy), s.nearest, s.farthest);", "return s.nearest;"),
