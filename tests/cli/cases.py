@@ -35,7 +35,7 @@ RAIN = ("render streaks --size 32x18 --frame 1 --set atlas=small --set city=smal
         "--set shadow_map_px=16 ")
 SHOWER = "render shower --set geometry=off --size 64x36 --frame 1 --set drop_height_m=0.5 "
 FIT = RAIN + ("--set fit=on --set rain_width_m=60 --set rain_depth_m=60 --set rain_height_m=40 --set camera=free "
-              "--set drops_m2_s=60 --set streak_gain=20 ")
+              "--set drops_m2_s=60 --set streak_gain=60 ")
 
 COMMANDS = [
     # every command
