@@ -87,6 +87,8 @@ struct city_island city_island_at(int column, int row);
 
 void city_build_streets(struct city_builder *b);   // street.c
 void city_build_furniture(struct city_builder *b); // furniture.c
+// tree.c: a tree that stands at `foot`; `id` is a number of its own, for chances.
+void city_build_tree(struct city_builder *b, point foot, uint32_t id);
 // buildings/building.c: all buildings, so that the city has as many triangles as wanted. To be
 // called last.
 void city_build_buildings(struct city_builder *b, int triangles);

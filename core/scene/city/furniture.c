@@ -1,4 +1,5 @@
-// What stands in the streets: lamps, traffic lights, trees, bollards, benches and parked cars.
+// What stands in the streets: lamps, traffic lights, bollards, benches and parked cars; where trees
+// stand.
 #include <math.h>
 
 #include "core/scene/city/build.h"
@@ -8,7 +9,6 @@ enum { CHANCE_TREE = 100, CHANCE_CAR, CHANCE_COLOUR };
 
 static const struct look dark_metal = {PAINT_METAL + 1, SCENERY_KIND_METAL, 1, 0, 0};
 static const struct look grey_metal = {PAINT_METAL, SCENERY_KIND_METAL, 1, 0, 0};
-static const struct look bark = {PAINT_BARK, SCENERY_KIND_WALL, 1, 0, 0};
 
 static bool is_full(const struct city_builder *b)
 {
@@ -121,65 +121,10 @@ static void build_signals(struct city_builder *b, const struct city_island *o)
 
 // --- trees ---
 
-// Leaves are lit as if they were round, not in the facets that stand for them.
-static void leaf_triangle(struct city_builder *b, const struct look *look, point centre, point p0,
-                          point p1, point p2)
-{
-    const point p[3] = {p0, p1, p2};
-    point n = {(p0.x + p1.x + p2.x) / 3 - centre.x, (p0.y + p1.y + p2.y) / 3 - centre.y,
-               (p0.z + p1.z + p2.z) / 3 - centre.z};
-    const double length = sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
-    n = (point){n.x / length, n.y / length, n.z / length};
-    city_triangle_on(b, p, city_surface(b, look, n, NULL));
-}
-
-// A lump of leaves: a sphere of `rings` rings that chance dents.
-static void build_crown(struct city_builder *b, point centre, double radius, int rings, uint32_t id)
-{
-    const struct look leaves = {PAINT_LEAVES + (int)(id & 1), SCENERY_KIND_LEAVES, 1.6, 0, 0};
-    const int sides = 2 * rings;
-    point at[9][18];
-    for (int i = 0; i <= rings; i++) {
-        for (int j = 0; j <= sides; j++) {
-            const uint32_t k = (uint32_t)(i * sides + j % sides) * (i > 0 && i < rings);
-            const double r = radius * (0.86 + 0.28 * city_chance(b, CHANCE_TREE, id, k));
-            const double down = M_PI * i / rings, around = 2 * M_PI * (j % sides) / sides;
-            at[i][j] = (point){centre.x + r * sin(down) * cos(around), centre.y + r * cos(down),
-                               centre.z - r * sin(down) * sin(around)};
-        }
-    }
-    // Quads of a dented sphere are not flat: triangles.
-    for (int i = 0; i < rings; i++) {
-        for (int j = 0; j < sides; j++) {
-            if (i < rings - 1)
-                leaf_triangle(b, &leaves, centre, at[i][j], at[i + 1][j], at[i + 1][j + 1]);
-            if (i > 0)
-                leaf_triangle(b, &leaves, centre, at[i][j], at[i + 1][j + 1], at[i][j + 1]);
-        }
-    }
-}
-
 static void build_tree(struct city_builder *b, double x, double z, double y)
 {
-    if (is_before_camera(x, z))
-        return;
-    const uint32_t id = place_of(x, z);
-    const double height = 2.6 + 1.2 * city_chance(b, CHANCE_TREE, id, 1000);
-    const double radius = 1.5 + 0.5 * city_chance(b, CHANCE_TREE, id, 1001);
-    if (!is_full(b)) {
-        build_crown(b, (point){x, y + height + radius, z}, radius * 1.2, 3, id);
-        return;
-    }
-    city_post(b, x, z, y, y + height + 0.8, 0.2, 0.12, 8, &bark);
-    build_crown(b, (point){x, y + height + radius, z}, radius, 8, id);
-    for (int i = 0; i < 5; i++) {
-        const double turn = 1.2566 * (i + city_chance(b, CHANCE_TREE, id, 1002)),
-                     off = radius * 0.7;
-        build_crown(b,
-                    (point){x + off * cos(turn), y + height + 0.5 * radius * (1 + (i & 1)),
-                            z + off * sin(turn)},
-                    radius * 0.7, 6, id + 7919u * (uint32_t)(i + 1));
-    }
+    if (!is_before_camera(x, z))
+        city_build_tree(b, (point){x, y, z}, place_of(x, z));
 }
 
 // --- benches, bollards ---

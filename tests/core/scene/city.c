@@ -39,6 +39,11 @@ static double normal(const struct city_faces *f, int face, int c)
     return ((double)(surface(f, face)[SCENERY_NORMAL] >> 10 * c & 1023) - 512) / 511;
 }
 
+static bool is_leaf(const struct city_faces *f, int face)
+{
+    return scenery_kind(surface(f, face)[SCENERY_LOOK]) == SCENERY_KIND_LEAVES;
+}
+
 static int count_triangles(const struct city_faces *f)
 {
     int triangles = 0;
@@ -106,8 +111,7 @@ static void check_face(const struct city_faces *f, int i)
     }
     area = sqrt(area);
     // Leaves are lit as the round crown that they stand for.
-    const double least =
-        scenery_kind(surface(f, i)[SCENERY_LOOK]) == SCENERY_KIND_LEAVES ? 0.4 : 0.98;
+    const double least = is_leaf(f, i) ? 0.4 : 0.98;
     if (!(area > 0) || !(along > least * area) || !(fabs(off) <= 2e-3 * area))
         fail_msg("face %d: area %g, along its normal %g, out of its plane %g m", i, area / 2,
                  along / area, off / area);
@@ -205,7 +209,8 @@ static bool comes_near(const struct city_chunk *chunk, const double from[3], con
     return in <= out;
 }
 
-// The nearest face along a ray: 1 its front, -1 its back, 0 none.
+// The nearest face along a ray: 1 its front, -1 its back, 0 none. Leaves stand loosely: their backs
+// are not drawn, and what lies behind is seen.
 static int first_met(const struct city_faces *f, const double from[3], const double way[3])
 {
     double nearest = INFINITY, distance;
@@ -217,7 +222,8 @@ static int first_met(const struct city_faces *f, const double from[3], const dou
             const int i = chunk->first + k / 2;
             const int met = meet(from, way, corner(f, i, 0), corner(f, i, 1 + k % 2),
                                  corner(f, i, 2 + k % 2), &distance);
-            if (met && distance < nearest) {
+            const bool drawn = met > 0 || (met < 0 && !is_leaf(f, i));
+            if (drawn && distance < nearest) {
                 nearest = distance;
                 side = met;
             }
