@@ -66,6 +66,10 @@ static const struct rg_mutant mutants[] = {
     {"streaks 1 % wider", "streak_radius_mm", 1.01, 0},
     {"streaks 1 % longer", "streak_length_mm", 1.01, 0},
     {"1 % slower fall", "fall_m_s", 0.99, 0},
+    {"1 % more wind", "wind_m_s", 1.01, 0},
+    {"steps 1 % longer", "step_s", 1.01, 0},
+    {"streaks 1 % fainter", "opacity", 0.99, 0},
+    {"the view 0.1 % wider", "view_angle_deg", 1.001, 0},
     {NULL, NULL, 0, 0},
 };
 
