@@ -132,7 +132,7 @@ static bool set_path(const struct rg_param *param, void *settings, const char *t
 static bool follow_preset(const struct rg_param_table *table, const struct rg_param *param,
                           void *settings)
 {
-    return !table->presets || strcmp(param->name, "preset") ||
+    return !table->preset || strcmp(param->name, table->preset) ||
            rg_params_set_all(table, settings, table->presets[*int_at(param, settings)]);
 }
 

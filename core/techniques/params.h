@@ -33,8 +33,9 @@ struct rg_param_table {
     const struct rg_param *rows;
     int count;
     size_t settings_size;
-    // What each choice of the parameter `preset` assigns, "key=value key=value"; NULL: there is no
-    // such parameter. What is assigned after it stands over it.
+    // A parameter whose choices stand for other assignments, and what each assigns, "key=value
+    // key=value". What is assigned after it stands over that. NULL: there is none.
+    const char *preset;
     const char *const *presets;
 };
 

@@ -90,5 +90,6 @@ const struct rg_param_table cartoon_param_table = {
     .rows = rows,
     .count = sizeof(rows) / sizeof(rows[0]),
     .settings_size = sizeof(struct cartoon_settings),
+    .preset = "preset",
     .presets = presets,
 };

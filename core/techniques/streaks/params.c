@@ -56,6 +56,7 @@ static const struct rg_param rows[] = {
     {"view_below", RG_PARAM_CHOICE, AT(absolute_views), 0, 0, 1, "1", "a streak seen from below: mirrored with its light, or as the thesis has it, as if from above", "mirrored absolute"},
     {"last_mip", RG_PARAM_INT, AT(last_mip), 5, 0, 5, "1", "the coarsest level of the streak atlas that is read", NULL},
     {"thin_streaks", RG_PARAM_CHOICE, AT(points), 0, 0, 1, "1", "thinner than a pixel: drawn a pixel wide and fainter, or only where they cover a pixel's middle, as the thesis does it", "area points"},
+    {"look", RG_PARAM_CHOICE, AT(look), 0, 0, 1, "1", "settings together, which others may follow: rain as bright as a photograph has it, or as the thesis's figures show it, with gains above 1 and without far rain", "photograph thesis"},
     {"drops", RG_PARAM_CHOICE, AT(drops), 1, 0, 1, "1", "whether drops are seen", "off on"},
     {"splashes", RG_PARAM_CHOICE, AT(splashes), 1, 0, 1, "1", "whether splashes are seen", "off on"},
     {"splash_materials", RG_PARAM_CHOICE, AT(splash_materials), 0, 0, 1, "1", "whether splashes go by what is hit, water, rough or smooth, or all are of one kind", "off on"},
@@ -73,11 +74,21 @@ static const struct rg_param rows[] = {
 };
 // clang-format on
 
+// In the order of the choices; the first is the defaults.
+static const char *const looks[] = {
+    "thin_streaks=area splash_materials=off streak_gain=1 streak_opacity=1 splash_gain=0.35 "
+    "splash_opacity=0.35 far_layers=0",
+    "thin_streaks=points splash_materials=off streak_gain=4 streak_opacity=3 splash_gain=0.35 "
+    "splash_opacity=0.35 far_layers=0",
+};
+
 const struct rg_param_table streaks_param_table = {
     .technique = "streaks",
     .rows = rows,
     .count = sizeof(rows) / sizeof(rows[0]),
     .settings_size = sizeof(struct streaks_settings),
+    .preset = "look",
+    .presets = looks,
 };
 
 double streaks_widest_m(const struct streaks_settings *set)

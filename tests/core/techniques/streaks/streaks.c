@@ -243,12 +243,32 @@ static void test_lights_add_up(void **state)
     remove(path);
 }
 
+// Looks stand for settings, and the first for the defaults.
+static void test_looks(void **state)
+{
+    (void)state;
+    const struct rg_param_table *table = &streaks_param_table;
+    struct streaks_settings initial, set;
+    memset(&initial, 0, sizeof(initial));
+    memset(&set, 0, sizeof(set));
+    rg_params_reset(table, &initial);
+    rg_params_reset(table, &set);
+    assert_true(rg_params_set_all(table, &set, "look=thesis streak_opacity=2"));
+    assert_true(set.points && set.streak_gain > 1 && set.streak_opacity == 2);
+    assert_true(rg_params_set_all(table, &set, "look=photograph"));
+    assert_memory_equal(&set, &initial, sizeof(set));
+}
+
 int main(int argc, char **argv)
 {
     struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_packets_do_not_show), cmocka_unit_test(test_grid_is_like_the_trees),
-        cmocka_unit_test(test_drops_stay_put),      cmocka_unit_test(test_one_splash_a_hit),
-        cmocka_unit_test(test_the_sky_is_even),     cmocka_unit_test(test_lights_add_up),
+        cmocka_unit_test(test_packets_do_not_show),
+        cmocka_unit_test(test_grid_is_like_the_trees),
+        cmocka_unit_test(test_drops_stay_put),
+        cmocka_unit_test(test_one_splash_a_hit),
+        cmocka_unit_test(test_the_sky_is_even),
+        cmocka_unit_test(test_lights_add_up),
+        cmocka_unit_test(test_looks),
     };
     return rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
 }
