@@ -9,6 +9,7 @@
 #include "harness/cli/shared.h"
 #include "harness/console/exit.h"
 #include "harness/record/disk/stored.h"
+#include "harness/tables/claims/sheet.h"
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/print.h"
 #include "harness/tables/regenerate.h"
@@ -20,7 +21,8 @@ struct table_options {
     char *from;             // a file or folder; NULL: the tables are measured
     int format;             // of rg_result_formats
     int work;               // of `works`
-    bool fresh, json;
+    bool fresh, claims, json;
+    struct rg_claim_outcomes *outcomes; // what --claims prints in the end
 };
 
 #define AT(field) offsetof(struct table_options, field)
@@ -49,6 +51,9 @@ static const struct rg_option options[] = {
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices), "all"),
     RG_GROUP("Output"),
+    {RG_OPTION_FLAG, "claims",
+     .about = "prints what the papers claim about the tables, and whether it holds, not the tables",
+     .offset = AT(claims), .excludes = "json"},
     {RG_OPTION_CHOICE, "format", .about = "what to print", .offset = AT(format),
      .choices = rg_result_formats, .initial = "md"},
     {RG_OPTION_TEXT, "output", .argument = "DIR",
@@ -85,7 +90,9 @@ static int print(const struct rg_result *result, const void *user)
     const struct table_options *o = user;
     struct rg_place at = rg_result_start(result);
     int exit = judge(result);
-    if (rg_result_next(result, &at) &&
+    if (o->claims && !rg_claims_add(o->outcomes, result))
+        exit = RG_EXIT_FAIL;
+    if (!o->claims && rg_result_next(result, &at) &&
         !rg_result_print(result, o->json ? RG_RESULT_JSON : o->format, stdout))
         exit = RG_EXIT_FAIL;
     fflush(stdout);
@@ -187,7 +194,7 @@ static int print_stored(struct rg_stored *stored, const struct table_options *o,
         struct rg_result *result = &stored->results[i];
         if (!is_named(ids, result->table) || !keep(result, o))
             continue;
-        if (printed++)
+        if (printed++ && !o->claims)
             printf("\n");
         exit = rg_exit_worse(exit, print(result, o));
     }
@@ -199,9 +206,8 @@ static int print_stored(struct rg_stored *stored, const struct table_options *o,
     return RG_EXIT_USAGE;
 }
 
-static int table(const void *values, const struct rg_words *arguments)
+static int print_tables(const struct table_options *o, const struct rg_words *arguments)
 {
-    const struct table_options *o = values;
     struct rg_stored stored = {0};
     if (!o->from)
         return measure(o, arguments);
@@ -211,11 +217,42 @@ static int table(const void *values, const struct rg_words *arguments)
     return exit;
 }
 
+// The verdicts, in the format that is asked for. False, and one logged line, without memory.
+static bool print_claims(const struct rg_claim_outcomes *outcomes, int format)
+{
+    struct rg_sheet sheet = {0};
+    rg_claims_sheet(outcomes, &sheet);
+    if (format == RG_RESULT_CSV)
+        rg_sheet_print_csv(&sheet, stdout);
+    else if (format == RG_RESULT_TEX)
+        rg_sheet_print_tex(&sheet, stdout);
+    else
+        rg_sheet_print_md(&sheet, stdout);
+    rg_sheet_free(&sheet);
+    return !sheet.incomplete;
+}
+
+static int table(const void *values, const struct rg_words *arguments)
+{
+    struct table_options o = *(const struct table_options *)values;
+    struct rg_claim_outcomes outcomes = {0};
+    if (o.claims && o.format == RG_RESULT_JSON) {
+        rg_error("--claims --format json: choose md, csv or tex");
+        return RG_EXIT_USAGE;
+    }
+    o.outcomes = &outcomes;
+    int exit = print_tables(&o, arguments);
+    if (outcomes.count && !print_claims(&outcomes, o.format))
+        exit = RG_EXIT_FAIL;
+    rg_claims_free(&outcomes);
+    return exit;
+}
+
 const struct rg_command rg_command_table = {
     .name = "table",
     .usage =
         "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--work paper|ours|queries] "
-        "[--format F|--json] [-o DIR] [--fresh] [--from FILE|DIR]",
+        "[--claims] [--format F|--json] [-o DIR] [--fresh] [--from FILE|DIR]",
     .about = "regenerates the papers' tables: published beside measured, on every device",
     .options = options,
     .options_size = sizeof(struct table_options),

@@ -8,7 +8,7 @@
 #include "harness/tables/sheet/sheet.h"
 #include "harness/tables/sheet/trend.h"
 
-enum { MD, CSV, JSON = RG_RESULT_JSON, TEX };
+enum { MD, CSV = RG_RESULT_CSV, JSON = RG_RESULT_JSON, TEX = RG_RESULT_TEX };
 const char *const rg_result_formats[] = {
     [MD] = "md", [CSV] = "csv", [JSON] = "json", [TEX] = "tex", NULL};
 

@@ -6,9 +6,9 @@
 
 #include "harness/record/result.h"
 
-// "md", "csv", "json", "tex", NULL; the place of JSON among them.
+// "md", "csv", "json", "tex", NULL, and the places of some among them.
 extern const char *const rg_result_formats[];
-enum { RG_RESULT_JSON = 2 };
+enum { RG_RESULT_CSV = 1, RG_RESULT_JSON = 2, RG_RESULT_TEX = 3 };
 
 // Prints a result in a format, by its place among them. False, and one logged line, without memory.
 bool rg_result_print(const struct rg_result *result, int format, FILE *out);

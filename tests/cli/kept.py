@@ -1,4 +1,6 @@
 """The tables that the repository keeps: what is printed from each record is what lies beside it."""
+import csv
+import io
 import json
 import os
 import shutil
@@ -54,6 +56,24 @@ def check_compact(runner):
         lines = text.split('"cells": [\n')[1].splitlines()[:-2]
         if [json.loads(line.rstrip(",")) for line in lines] != json.loads(text)["cells"]:
             problems.append(name + ": not a line a cell")
+    return problems
+
+
+def check_claims(runner):
+    """table --claims judges what papers claim of the tables that are kept, each on its devices, and one alone"""
+    printed = runner.run(["table", "--claims", "--from", KEPT, "--format", "csv"])
+    rows = list(csv.DictReader(io.StringIO(printed.stdout)))
+    verdicts = {verdict for row in rows for verdict in list(row.values())[3:] if verdict}
+    problems = [] if not printed.stderr and not printed.returncode else ["claims: " + printed.stderr]
+    if not verdicts <= {"reproduced", "not reproduced", "undecided", "other work"} or len(verdicts) < 3:
+        problems.append("verdicts: %s" % verdicts)
+    alone = runner.run(["table", "stuppacher-2", "--claims", "--from", KEPT, "--format", "csv"])
+    about = [row["table"] for row in csv.DictReader(io.StringIO(alone.stdout))]
+    if set(about) != {"stuppacher-2"} or len(about) != [row["table"] for row in rows].count("stuppacher-2"):
+        problems.append("of one table: %s" % about)
+    refused = runner.run(["table", "--claims", "--from", KEPT, "--format", "json"])
+    if refused.returncode != 2 or "choose md, csv or tex" not in refused.stderr:
+        problems.append("as JSON: %s" % refused.stderr)
     return problems
 
 
@@ -124,4 +144,4 @@ def check_dirty_tree(runner):
     return problems
 
 
-CHECKS = [check_printed, check_compact, check_translated, check_dirty_tree]
+CHECKS = [check_printed, check_compact, check_claims, check_translated, check_dirty_tree]

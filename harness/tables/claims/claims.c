@@ -1,0 +1,78 @@
+// The claims of all papers, in the order of their tables.
+#include "harness/tables/claims/claim.h"
+
+#define SAID(table, variant, where, words)    table, variant, NULL, RG_CLAIM_SAID, where, words
+#define PRINTED(table, variant, where, words) table, variant, NULL, RG_CLAIM_PRINTED, where, words
+
+// clang-format off
+const struct rg_claim rg_claims[] = {
+    // Chin, "Animating Raindrops on a Surface" (2016)
+    {SAID("chin-timing", "full", "5", "The simulation runs well at 30fps"),
+     .test = RG_CLAIM_RATE, .first = 1, .last = 1, .least = 30},
+
+    // Creus, "Real-time realistic rain rendering" (2010)
+    {SAID("creus-5.3", "full", "5.2.1", "performance decreases as local space is widened"),
+     .test = RG_CLAIM_FALLS, .first = 1, .last = 9},
+    {SAID("creus-5.3", "full", "5.2.1", "performance decreases ... (the second camera)"),
+     .test = RG_CLAIM_FALLS, .first = 10, .last = 18},
+    {SAID("creus-5.3", "full", "5.2.1", "20 meters are a good compromise"),
+     .test = RG_CLAIM_FLATTENS, .first = 1, .knee = 4, .last = 8, .least = 3},
+    {SAID("creus-5.3", "full", "5.2.1", "20 meters ... (the second camera)"),
+     .test = RG_CLAIM_FLATTENS, .first = 10, .knee = 13, .last = 17, .least = 3},
+    {SAID("creus-5.4", "full", "5.2.2", "Small values achieve faster framerates"),
+     .test = RG_CLAIM_FALLS, .first = 1, .last = 8},
+    {SAID("creus-5.4", "full", "5.2.2", "20 meters come as a good trade-off"),
+     .test = RG_CLAIM_FLATTENS, .first = 1, .knee = 4, .last = 8, .least = 3},
+    {SAID("creus-5.5", "full", "5.2.3", "the first row ... has worse performance"),
+     .test = RG_CLAIM_RATIO, .first = 2, .last = 1, .least = 1},
+    {SAID("creus-5.5", "full", "5.2.3", "framerates decrease notably ... beyond the 200000"),
+     .test = RG_CLAIM_RATIO, .first = 8, .last = 9, .least = 1.2},
+    {SAID("creus-5.5", "full", "5.2.3", "Packet size has a subtle effect on performance"),
+     .test = RG_CLAIM_ALIKE, .first = 2, .last = 8, .most = 1.3},
+    {SAID("creus-5.6", "full", "5.2.4", "lights rapidly decrease performance"),
+     .test = RG_CLAIM_FALLS, .first = 1, .last = 6},
+    {PRINTED("creus-5.6", "full", "5.2.4", "six lights cost 14 times as much as one"),
+     .test = RG_CLAIM_RATIO, .first = 1, .last = 6, .least = 14},
+    {"creus-5.6", "full", "no_geometry", RG_CLAIM_PRINTED, "5.2.4",
+     "from four lights on, frames with geometry are faster",
+     .test = RG_CLAIM_FASTER, .first = 4, .last = 6, .least = 1},
+
+    // Feng et al., "Real-time Rain Simulation in Cartoon Style" (2005)
+    {SAID("feng-1", "gooch", "6", "varies with the quantity of geometries"),
+     .test = RG_CLAIM_APART, .first = 1, .last = 7, .least = 1.1},
+    {PRINTED("feng-1", "gooch", "6", "scenes differ by less than 5 %"),
+     .test = RG_CLAIM_ALIKE, .first = 1, .last = 7, .most = 1.05},
+    {SAID("feng-1", "gooch", "6", "typically runs between 10 and 45 frames per second"),
+     .test = RG_CLAIM_RATE, .first = 1, .last = 7, .least = 10},
+    {SAID("feng-2", "full", "6", "also varies with the particle system complexity"),
+     .test = RG_CLAIM_FALLS, .first = 1, .last = 5},
+    {PRINTED("feng-2", "full", "6", "20,000 drops a second cost 4 times as much as 6,000"),
+     .test = RG_CLAIM_RATIO, .first = 1, .last = 5, .least = 4},
+
+    // Stuppacher & Supan, "Rendering of Water Drops in Real-Time" (2007)
+    {SAID("stuppacher-1", "full", "4", "models ... influence the frame rate"),
+     .test = RG_CLAIM_ORDER, .first = 1, .last = 5},
+    {SAID("stuppacher-1", "full", "4", "the most complex models ... 25% slower: at least that"),
+     .test = RG_CLAIM_RATIO, .first = 1, .last = 2, .least = 1.25},
+    {SAID("stuppacher-1", "full", "4", "the most complex models ... 25% slower: at most that"),
+     .test = RG_CLAIM_RATIO, .first = 2, .last = 1, .least = 0.75},
+    {SAID("stuppacher-2", "full", "4", "influenced by the size of the height map"),
+     .test = RG_CLAIM_FALLS, .first = 1, .last = 3},
+    {SAID("stuppacher-2", "full", "4", "The smaller texture doubles the frame rate"),
+     .test = RG_CLAIM_RATIO, .first = 1, .last = 2, .least = 2},
+    {SAID("stuppacher-2", "full", "4", "only a third with the larger texture"),
+     .test = RG_CLAIM_RATIO, .first = 2, .last = 3, .least = 2},
+
+    // Ye, "Raining Simulation based on Improved Particle Systems algorithms"
+    {"ye-1", "improved", "traditional", RG_CLAIM_SAID, "IV", "generated much faster",
+     .test = RG_CLAIM_FASTER, .first = 1, .last = 5, .least = 1},
+    {"ye-1", "state", "traditional", RG_CLAIM_SAID, "III.A", "simplified properties are faster",
+     .test = RG_CLAIM_FASTER, .first = 1, .last = 5, .least = 1},
+    {"ye-1", "segments", "traditional", RG_CLAIM_SAID, "III.A", "line segments are faster",
+     .test = RG_CLAIM_FASTER, .first = 1, .last = 5, .least = 1},
+    {"ye-1", "promotion", "traditional", RG_CLAIM_SAID, "III.D",
+     "greatly improved the performance", .test = RG_CLAIM_FASTER, .first = 1, .last = 5,
+     .least = 1},
+    {.table = NULL},
+};
+// clang-format on

@@ -1,0 +1,135 @@
+#include "harness/tables/claims/hearing.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+// A row whose number of particles is farther from print than this is other work.
+#define SAME_COUNT 1.2
+
+struct rg_judgement rg_hearing_end(struct hearing *h, enum rg_claim_verdict verdict,
+                                   const char *why, ...)
+{
+    va_list arguments;
+    va_start(arguments, why);
+    vsnprintf(h->judgement.why, sizeof(h->judgement.why), why, arguments);
+    va_end(arguments);
+    h->judgement.verdict = verdict;
+    return h->judgement;
+}
+
+const struct rg_record *rg_hearing_row_of(const struct hearing *h, int row, int variant)
+{
+    struct rg_place at = h->at;
+    at.row = row - 1;
+    at.variant = variant;
+    return rg_result_at(h->result, at);
+}
+
+const struct rg_record *rg_hearing_row(const struct hearing *h, int row)
+{
+    return rg_hearing_row_of(h, row, h->at.variant);
+}
+
+// --- what must be there ---
+
+static int variant_of(const struct rg_result *result, const char *name)
+{
+    for (int i = 0; name && i < result->variant_count; i++)
+        if (!strcmp(result->variants[i], name))
+            return i;
+    return -1;
+}
+
+// The work that was printed; -1 where the result has it not.
+static int printed_work(const struct rg_result *result)
+{
+    for (int i = 0; i < result->work_count; i++)
+        if (!*result->works[i].saves && strcmp(result->works[i].name, "queries") != 0)
+            return i;
+    return result->work_count ? -1 : 0;
+}
+
+// By how much a row's number of particles differs from print, as a ratio of at least 1.
+static double count_apart(const struct rg_record *record)
+{
+    const double *due = rg_named_number(record->published, record->published_count, "particles");
+    const double *found = rg_named_number(record->facts, record->fact_count, "particles");
+    if (!due || !found || !(*due > 0) || !(*found > 0))
+        return 1;
+    return fmax(*due / *found, *found / *due);
+}
+
+static bool is_of_errors(const struct hearing *h)
+{
+    return h->claim->test == RG_CLAIM_FLATTENS;
+}
+
+static bool has_number(const struct hearing *h, int row, int variant)
+{
+    if (row - 1 < h->result->first_row || row - 1 > h->result->last_row ||
+        !rg_result_has(h->result, row - 1))
+        return false;
+    const struct rg_record *r = rg_hearing_row_of(h, row, variant);
+    return is_of_errors(h) ? r->truth_error.outcome == RG_OK && *h->result->truth
+                           : r->outcome == RG_OK && r->sample_count > 0;
+}
+
+// Whether each row stands for itself, so that those that are measured suffice.
+static bool is_of_each_row(const struct rg_claim *c)
+{
+    return c->test == RG_CLAIM_FASTER || c->test == RG_CLAIM_RATE;
+}
+
+// Whether a claim can do without a row: those between the first and the last, but for a knee.
+static bool can_miss(const struct rg_claim *c, int row)
+{
+    return is_of_each_row(c) || (row != c->first && row != c->last && row != c->knee);
+}
+
+// Takes the claim's rows. Ends the hearing where some that it needs are missing, or are other work;
+// true if it goes on.
+static bool hear_rows(struct hearing *h)
+{
+    const struct rg_claim *c = h->claim;
+    const int step = c->test == RG_CLAIM_RATIO ? c->last - c->first : 1;
+    for (int row = c->first; step > 0 ? row <= c->last : row >= c->last; row += step) {
+        if (!has_number(h, row, h->at.variant) ||
+            (h->other >= 0 && !has_number(h, row, h->other))) {
+            if (can_miss(c, row))
+                continue;
+            rg_hearing_end(h, RG_CLAIM_UNDECIDED, "row %d is not measured", row);
+            return false;
+        }
+        h->rows[h->count++] = row;
+        const double apart = count_apart(rg_hearing_row(h, row));
+        if (apart > SAME_COUNT) {
+            rg_hearing_end(h, RG_CLAIM_OTHER_WORK,
+                           "row %d draws %.2f times as many or as few particles", row, apart);
+            return false;
+        }
+    }
+    if (!h->count)
+        rg_hearing_end(h, RG_CLAIM_UNDECIDED, "no row is measured");
+    return h->count > 0;
+}
+
+bool rg_hearing_begin(struct hearing *h)
+{
+    const struct rg_claim *claim = h->claim;
+    h->at.work = printed_work(h->result);
+    h->at.variant = variant_of(h->result, claim->variant);
+    h->other = variant_of(h->result, claim->other);
+    h->judgement.against = h->judgement.in_favour = NAN;
+    if (h->at.work < 0) {
+        rg_hearing_end(h, RG_CLAIM_OTHER_WORK, "the work that was printed is not measured");
+        return false;
+    }
+    if (h->at.variant < 0 || (claim->other && h->other < 0)) {
+        rg_hearing_end(h, RG_CLAIM_UNDECIDED, "variant %s is not measured",
+                       h->at.variant < 0 ? claim->variant : claim->other);
+        return false;
+    }
+    return hear_rows(h);
+}

@@ -1,0 +1,221 @@
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/tables/claims/hearing.h"
+#include "harness/tables/claims/order.h"
+
+// Half of the 5 % is for either side.
+#define ERROR_SHARE 0.025
+const char *rg_claim_verdict_text(enum rg_claim_verdict verdict)
+{
+    static const char *const texts[RG_CLAIM_VERDICTS] = {"reproduced", "not reproduced",
+                                                         "undecided", "other work"};
+    return texts[verdict];
+}
+
+// --- pairs of cells ---
+
+// Probabilities gathered over what a claim needs: that all of it holds is as sure as the least sure
+// part; that some part fails is corrected for the number of parts.
+struct parts {
+    int count;
+    double against, in_favour;
+    char least_sure[160], most_wrong[160]; // what they are about
+};
+
+static const struct parts no_parts = {.in_favour = 1};
+
+// `faster` is to be at least `factor` times as fast as `slower`.
+static void add_part(struct parts *parts, const struct rg_record *faster,
+                     const struct rg_record *slower, double factor)
+{
+    char name[2][40], about[160];
+    rg_record_row_name(faster, name[0], sizeof(name[0]));
+    rg_record_row_name(slower, name[1], sizeof(name[1]));
+    if (!strcmp(name[0], name[1])) // of two variants
+        snprintf(about, sizeof(about), "%s, %.30s against %.30s: %.4g to %.4g fps", name[0],
+                 faster->variant, slower->variant, rg_record_fps(faster), rg_record_fps(slower));
+    else
+        snprintf(about, sizeof(about), "%s against %s: %.4g to %.4g fps", name[0], name[1],
+                 rg_record_fps(faster), rg_record_fps(slower));
+    const double against = rg_order_probability(faster->samples_ms, faster->sample_count, factor,
+                                                slower->samples_ms, slower->sample_count);
+    const double in_favour =
+        rg_order_probability(slower->samples_ms, slower->sample_count, 1 / factor,
+                             faster->samples_ms, faster->sample_count);
+    if (!parts->count || against > parts->against) {
+        parts->against = against;
+        memcpy(parts->least_sure, about, sizeof(about));
+    }
+    if (!parts->count || in_favour < parts->in_favour) {
+        parts->in_favour = in_favour;
+        memcpy(parts->most_wrong, about, sizeof(about));
+    }
+    parts->count++;
+}
+
+static struct rg_judgement judge_parts(struct hearing *h, const struct parts *parts)
+{
+    h->judgement.against = parts->against;
+    h->judgement.in_favour = fmin(1, parts->in_favour * parts->count);
+    if (parts->count && h->judgement.against <= ERROR_SHARE)
+        return rg_hearing_end(h, RG_CLAIM_REPRODUCED, "least sure: %s", parts->least_sure);
+    if (parts->count && h->judgement.in_favour <= ERROR_SHARE)
+        return rg_hearing_end(h, RG_CLAIM_NOT_REPRODUCED, "%s", parts->most_wrong);
+    return rg_hearing_end(h, RG_CLAIM_UNDECIDED, "the samples do not settle %s",
+                          parts->count ? parts->least_sure : "anything");
+}
+
+// --- the tests ---
+
+static struct rg_judgement judge_falls(struct hearing *h)
+{
+    struct parts parts = no_parts;
+    for (int i = 0; i + 1 < h->count; i++)
+        add_part(&parts, rg_hearing_row(h, h->rows[i]), rg_hearing_row(h, h->rows[i + 1]), 1);
+    return judge_parts(h, &parts);
+}
+
+static struct rg_judgement judge_order(struct hearing *h)
+{
+    struct parts parts = no_parts;
+    for (int a = 0; a < h->count; a++) {
+        for (int b = 0; b < h->count; b++) {
+            const struct rg_record *fast = rg_hearing_row(h, h->rows[a]),
+                                   *slow = rg_hearing_row(h, h->rows[b]);
+            if (rg_record_published_fps(fast) > rg_record_published_fps(slow))
+                add_part(&parts, fast, slow, 1);
+        }
+    }
+    return judge_parts(h, &parts);
+}
+
+static struct rg_judgement judge_ratio(struct hearing *h)
+{
+    struct parts parts = no_parts;
+    add_part(&parts, rg_hearing_row(h, h->claim->first), rg_hearing_row(h, h->claim->last),
+             h->claim->least);
+    return judge_parts(h, &parts);
+}
+
+static struct rg_judgement judge_alike(struct hearing *h, double apart)
+{
+    struct parts parts = no_parts;
+    for (int a = 0; a < h->count; a++)
+        for (int b = 0; b < h->count; b++)
+            if (a != b)
+                add_part(&parts, rg_hearing_row(h, h->rows[a]), rg_hearing_row(h, h->rows[b]),
+                         1 / apart);
+    return judge_parts(h, &parts);
+}
+
+// The opposite of alike.
+static struct rg_judgement judge_apart(struct hearing *h)
+{
+    struct rg_judgement j = judge_alike(h, h->claim->least);
+    const double against = j.against;
+    j.against = j.in_favour;
+    j.in_favour = against;
+    if (j.verdict < RG_CLAIM_UNDECIDED)
+        j.verdict =
+            j.verdict == RG_CLAIM_REPRODUCED ? RG_CLAIM_NOT_REPRODUCED : RG_CLAIM_REPRODUCED;
+    return j;
+}
+
+static struct rg_judgement judge_faster(struct hearing *h)
+{
+    struct parts parts = no_parts;
+    for (int i = 0; i < h->count; i++)
+        add_part(&parts, rg_hearing_row(h, h->rows[i]), rg_hearing_row_of(h, h->rows[i], h->other),
+                 h->claim->least);
+    return judge_parts(h, &parts);
+}
+
+// Of frame rates themselves, the samples' own interval decides.
+static struct rg_judgement judge_rate(struct hearing *h)
+{
+    double low = INFINITY, high = INFINITY;
+    for (int i = 0; i < h->count; i++) {
+        low = fmin(low, 1000 / rg_hearing_row(h, h->rows[i])->frame_ms.high);
+        high = fmin(high, 1000 / rg_hearing_row(h, h->rows[i])->frame_ms.low);
+    }
+    const enum rg_claim_verdict verdict = low >= h->claim->least   ? RG_CLAIM_REPRODUCED
+                                          : high < h->claim->least ? RG_CLAIM_NOT_REPRODUCED
+                                                                   : RG_CLAIM_UNDECIDED;
+    return rg_hearing_end(h, verdict, "the slowest row makes %.3g to %.3g fps, due are %.3g", low,
+                          high, h->claim->least);
+}
+
+static double axis_at(const struct hearing *h, int row)
+{
+    const struct rg_record *r = rg_hearing_row(h, row);
+    for (int i = 0; i < r->row_count; i++)
+        if (!*r->row[i].text)
+            return r->row[i].number;
+    return NAN;
+}
+
+static struct rg_judgement judge_exponent(struct hearing *h)
+{
+    double axis[RG_RESULT_ROWS], fps[RG_RESULT_ROWS];
+    for (int i = 0; i < h->count; i++) {
+        axis[i] = log(axis_at(h, h->rows[i]));
+        fps[i] = log(rg_record_fps(rg_hearing_row(h, h->rows[i])));
+    }
+    const struct rg_interval s = rg_slope_interval(axis, fps, h->count);
+    if (!isfinite(s.low))
+        return rg_hearing_end(h, RG_CLAIM_UNDECIDED, "too few rows for a power");
+    const double least = h->claim->least, most = h->claim->most;
+    const enum rg_claim_verdict verdict = s.low >= least && s.high <= most ? RG_CLAIM_REPRODUCED
+                                          : s.high < least || s.low > most ? RG_CLAIM_NOT_REPRODUCED
+                                                                           : RG_CLAIM_UNDECIDED;
+    return rg_hearing_end(h, verdict, "the power is %.2f, 95 %%: %.2f to %.2f", s.median, s.low,
+                          s.high);
+}
+
+// Errors of images are the same at each run.
+static struct rg_judgement judge_flattens(struct hearing *h)
+{
+    const double first = rg_hearing_row(h, h->claim->first)->truth_error.flip_mask_mean;
+    const double knee = rg_hearing_row(h, h->claim->knee)->truth_error.flip_mask_mean;
+    const double last = rg_hearing_row(h, h->claim->last)->truth_error.flip_mask_mean;
+    const bool holds = first - knee >= h->claim->least * (knee - last) && first > knee;
+    return rg_hearing_end(h, holds ? RG_CLAIM_REPRODUCED : RG_CLAIM_NOT_REPRODUCED,
+                          "the error falls from %.3f to %.3f, and then to %.3f", first, knee, last);
+}
+
+static struct rg_judgement judge(struct hearing *h)
+{
+    switch (h->claim->test) {
+    case RG_CLAIM_FALLS:
+        return judge_falls(h);
+    case RG_CLAIM_ORDER:
+        return judge_order(h);
+    case RG_CLAIM_RATIO:
+        return judge_ratio(h);
+    case RG_CLAIM_ALIKE:
+        return judge_alike(h, h->claim->most);
+    case RG_CLAIM_APART:
+        return judge_apart(h);
+    case RG_CLAIM_EXPONENT:
+        return judge_exponent(h);
+    case RG_CLAIM_FASTER:
+        return judge_faster(h);
+    case RG_CLAIM_RATE:
+        return judge_rate(h);
+    case RG_CLAIM_FLATTENS:
+        return judge_flattens(h);
+    }
+    return h->judgement;
+}
+
+struct rg_judgement rg_claim_judge(const struct rg_claim *claim, const struct rg_result *result,
+                                   int device)
+{
+    struct hearing h = {.claim = claim, .result = result, .at = {.device = device}};
+    if (!rg_hearing_begin(&h))
+        return h.judgement;
+    h.judgement.print_contradicts = rg_hearing_print_contradicts(&h);
+    return judge(&h);
+}

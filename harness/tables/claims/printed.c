@@ -1,0 +1,59 @@
+// Whether a paper's own table bears out what it claims.
+#include <math.h>
+
+#include "harness/tables/claims/hearing.h"
+
+static double printed_fps(const struct hearing *h, int row, int variant)
+{
+    return rg_record_published_fps(rg_hearing_row_of(h, row, variant));
+}
+
+static bool print_falls(const struct hearing *h)
+{
+    bool falls = true;
+    for (int i = 0; i + 1 < h->count; i++)
+        falls &= printed_fps(h, h->rows[i], h->at.variant) >
+                 printed_fps(h, h->rows[i + 1], h->at.variant);
+    return falls;
+}
+
+static double print_apart(const struct hearing *h)
+{
+    double least = INFINITY, most = 0;
+    for (int i = 0; i < h->count; i++) {
+        least = fmin(least, printed_fps(h, h->rows[i], h->at.variant));
+        most = fmax(most, printed_fps(h, h->rows[i], h->at.variant));
+    }
+    return most / least;
+}
+
+static bool print_is_faster(const struct hearing *h)
+{
+    bool faster = true;
+    for (int i = 0; i < h->count; i++)
+        faster &= printed_fps(h, h->rows[i], h->at.variant) >=
+                  h->claim->least * printed_fps(h, h->rows[i], h->other);
+    return faster;
+}
+
+bool rg_hearing_print_contradicts(const struct hearing *h)
+{
+    const struct rg_claim *c = h->claim;
+    const double first = printed_fps(h, c->first, h->at.variant);
+    if (!isfinite(first))
+        return false;
+    switch (c->test) {
+    case RG_CLAIM_FALLS:
+        return !print_falls(h);
+    case RG_CLAIM_RATIO:
+        return first < c->least * printed_fps(h, c->last, h->at.variant);
+    case RG_CLAIM_ALIKE:
+        return print_apart(h) > c->most;
+    case RG_CLAIM_APART:
+        return print_apart(h) < c->least;
+    case RG_CLAIM_FASTER:
+        return !print_is_faster(h);
+    default:
+        return false;
+    }
+}

@@ -1,0 +1,130 @@
+#include "harness/tables/claims/sheet.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/array.h"
+
+// Before the devices' columns.
+enum { TABLE, SECTION, CLAIM, BEFORE };
+
+bool rg_claims_add(struct rg_claim_outcomes *o, const struct rg_result *result)
+{
+    for (const struct rg_claim *claim = rg_claims; claim->table; claim++) {
+        for (int i = 0; i < result->device_count && !strcmp(claim->table, result->table); i++) {
+            if (!rg_array_fit(&o->outcomes, &o->room, o->count + 1, sizeof(*o->outcomes), "claims"))
+                return false;
+            struct rg_claim_outcome *outcome = &o->outcomes[o->count++];
+            outcome->claim = claim;
+            memcpy(outcome->device, result->devices[i].name, RG_NAME_SIZE);
+            outcome->judgement = rg_claim_judge(claim, result, i);
+        }
+    }
+    return true;
+}
+
+void rg_claims_free(struct rg_claim_outcomes *outcomes)
+{
+    free(outcomes->outcomes);
+    *outcomes = (struct rg_claim_outcomes){0};
+}
+
+// The column of a device, which is added where there is none.
+static int column_of(struct rg_sheet *sheet, const char *device)
+{
+    for (int i = BEFORE; i < sheet->column_count; i++)
+        if (!strcmp(sheet->columns[i], device))
+            return i;
+    return rg_sheet_column(sheet, "%s", device);
+}
+
+static void add_columns(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
+{
+    rg_sheet_column(sheet, "table");
+    rg_sheet_column(sheet, "section");
+    rg_sheet_column(sheet, "claim");
+    for (int i = 0; i < o->count; i++)
+        column_of(sheet, o->outcomes[i].device);
+}
+
+static void add_rows(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
+{
+    char(*cells)[RG_SHEET_CELL] = NULL;
+    for (int i = 0; i < o->count; i++) {
+        const struct rg_claim_outcome *outcome = &o->outcomes[i];
+        const struct rg_claim *claim = outcome->claim;
+        if (!i || claim != o->outcomes[i - 1].claim) {
+            if (!(cells = rg_sheet_row(sheet)))
+                return;
+            snprintf(cells[TABLE], RG_SHEET_CELL, "%s", claim->table);
+            snprintf(cells[SECTION], RG_SHEET_CELL, "%s", claim->where);
+            snprintf(cells[CLAIM], RG_SHEET_CELL, claim->source == RG_CLAIM_SAID ? "\"%s\"" : "%s",
+                     claim->words);
+        }
+        snprintf(cells[column_of(sheet, outcome->device)], RG_SHEET_CELL, "%s",
+                 rg_claim_verdict_text(outcome->judgement.verdict));
+    }
+}
+
+// ", p 0.004": the probability behind a verdict; "" where none is.
+static void print_probability(const struct rg_judgement *j, char *text, size_t size)
+{
+    const double p = j->verdict == RG_CLAIM_NOT_REPRODUCED ? j->in_favour : j->against;
+    *text = 0;
+    if (isfinite(p) && p < 0.001)
+        snprintf(text, size, ", p < 0.001");
+    else if (isfinite(p))
+        snprintf(text, size, ", p %.2g", p);
+}
+
+static bool end_alike(const struct rg_claim_outcome *a, const struct rg_claim_outcome *b)
+{
+    return a->claim == b->claim && a->judgement.verdict == b->judgement.verdict &&
+           !strcmp(a->judgement.why, b->judgement.why);
+}
+
+// The devices of which the same is to be said, from one on: "gl, vulkan"; "" when it was said
+// before.
+static void name_alike(const struct rg_claim_outcomes *o, int from, char *text, size_t size)
+{
+    size_t used = 0;
+    *text = 0;
+    for (int i = 0; i < o->count; i++) {
+        if (!end_alike(&o->outcomes[i], &o->outcomes[from]))
+            continue;
+        if (i < from)
+            return;
+        if (used < size)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
+                                     o->outcomes[i].device);
+    }
+}
+
+static void add_notes(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
+{
+    for (int i = 0; i < o->count; i++) {
+        const struct rg_claim_outcome *outcome = &o->outcomes[i];
+        const struct rg_claim *claim = outcome->claim;
+        const struct rg_judgement *j = &outcome->judgement;
+        char p[32], devices[256];
+        print_probability(j, p, sizeof(p));
+        name_alike(o, i, devices, sizeof(devices));
+        if (j->verdict != RG_CLAIM_REPRODUCED && *devices)
+            rg_sheet_note(sheet, "%s, \"%s\", %s on %s%s: %s.", claim->table, claim->words,
+                          rg_claim_verdict_text(j->verdict), devices, p, j->why);
+        const bool is_first = !i || o->outcomes[i - 1].claim != claim;
+        if (is_first && j->print_contradicts)
+            rg_sheet_note(sheet, "%s, \"%s\": the paper's own table contradicts it.", claim->table,
+                          claim->words);
+    }
+}
+
+void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, struct rg_sheet *sheet)
+{
+    sheet->title = "claims";
+    add_columns(outcomes, sheet);
+    add_rows(outcomes, sheet);
+    add_notes(outcomes, sheet);
+}

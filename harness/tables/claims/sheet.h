@@ -1,0 +1,30 @@
+// Verdicts on the claims of all papers, on one screen.
+#ifndef RG_HARNESS_TABLES_CLAIMS_SHEET_H
+#define RG_HARNESS_TABLES_CLAIMS_SHEET_H
+
+#include "harness/console/sheet.h"
+#include "harness/tables/claims/claim.h"
+
+// A claim's verdict on one device.
+struct rg_claim_outcome {
+    const struct rg_claim *claim;
+    char device[RG_NAME_SIZE];
+    struct rg_judgement judgement;
+};
+
+struct rg_claim_outcomes {
+    int count;
+    int64_t room;                      // for rg_array_fit
+    struct rg_claim_outcome *outcomes; // owned; all of a claim follow each other
+};
+
+// Adds the outcomes of the claims about a result's table. The outcomes are zeroed before the first.
+// False, with one logged line, without memory.
+bool rg_claims_add(struct rg_claim_outcomes *outcomes, const struct rg_result *result);
+void rg_claims_free(struct rg_claim_outcomes *outcomes);
+
+// A row each claim, a column each device, and below the reasons of what is not borne out. The sheet
+// is zeroed before, and the caller frees it.
+void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, struct rg_sheet *sheet);
+
+#endif

@@ -1,0 +1,306 @@
+// Claims about tables: samples whose order is known are judged so, noise is left undecided, and
+// probabilities are those of an enumeration of all orders.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/tables/claims/claim.h"
+#include "harness/tables/claims/order.h"
+#include "harness/tables/papers/papers.h"
+
+enum { ROWS = 5, SAMPLES = 10, TRIALS = 200 };
+
+static double chance(uint32_t *x)
+{
+    *x = *x * 1664525u + 1013904223u;
+    return ((double)(*x >> 8) + 0.5) * 0x1p-24;
+}
+
+// --- the order of two sets ---
+
+// Of all ways to choose which of m + n ranks are the first set's: the share in which at least
+// `pairs` pairs have the first below.
+static double enumerated(int m, int n, int pairs)
+{
+    int ways = 0, as_far = 0;
+    for (unsigned set = 0; set < 1u << (m + n); set++) {
+        int size = 0, below = 0;
+        for (int i = 0; i < m + n; i++) {
+            size += set >> i & 1;
+            below += set >> i & 1 ? 0 : size; // this one of the other set has these below it
+        }
+        ways += size == m;
+        as_far += size == m && below >= pairs;
+    }
+    return (double)as_far / ways;
+}
+
+static void test_order_by_enumeration(void **state)
+{
+    (void)state;
+    for (int m = 1; m <= 6; m++) {
+        for (int n = 1; n <= 6; n++) {
+            double low[6], high[6];
+            uint32_t x = (uint32_t)(10 * m + n);
+            int pairs = 0;
+            for (int i = 0; i < m; i++)
+                low[i] = chance(&x);
+            for (int j = 0; j < n; j++)
+                high[j] = chance(&x) + 0.2;
+            for (int i = 0; i < m * n; i++)
+                pairs += low[i % m] < high[i / m];
+            assert_true(fabs(rg_order_probability(low, m, 1, high, n) - enumerated(m, n, pairs)) <
+                        1e-12);
+        }
+    }
+}
+
+// Beyond 20 samples the normal distribution stands in: of samples that are alike, as many are as far
+// apart by chance as it says.
+static void test_many_samples(void **state)
+{
+    (void)state;
+    uint32_t x = 3;
+    int rare = 0, often = 0;
+    for (int trial = 0; trial < 4000; trial++) {
+        double low[25], high[25];
+        for (int i = 0; i < 25; i++) {
+            low[i] = chance(&x);
+            high[i] = chance(&x);
+        }
+        const double p = rg_order_probability(low, 25, 1, high, 25);
+        rare += p <= 0.025;
+        often += p <= 0.5;
+    }
+    assert_in_range(rare, 70, 130);
+    assert_in_range(often, 1900, 2100);
+}
+
+static void test_a_factor(void **state)
+{
+    (void)state;
+    const double low[5] = {1, 1.1, 1.2, 1.3, 1.4}, high[5] = {2.5, 2.6, 2.7, 2.8, 2.9};
+    assert_true(rg_order_probability(low, 5, 1.7, high, 5) < 0.01);
+    assert_true(rg_order_probability(low, 5, 3, high, 5) > 0.99);
+}
+
+// --- claims ---
+
+// A result of one device, whose row i has samples about ms[i], off by up to `noise` of it.
+static void make_result(struct rg_result *result, const double ms[ROWS],
+                        const double other_ms[ROWS], double noise, uint32_t *x)
+{
+    memset(result, 0, sizeof(*result));
+    snprintf(result->table, sizeof(result->table), "made-up");
+    snprintf(result->hardware, sizeof(result->hardware), "a machine");
+    snprintf(result->truth, sizeof(result->truth), "limits=off");
+    snprintf(result->variants[0], RG_NAME_SIZE, "full");
+    snprintf(result->variants[1], RG_NAME_SIZE, "other");
+    result->variant_count = 2;
+    result->device_count = 1;
+    result->last_row = ROWS - 1;
+    for (int row = 0; row < ROWS; row++) {
+        assert_true(rg_result_add_row(result, row));
+        for (int v = 0; v < 2; v++) {
+            struct rg_record *r = rg_result_at(result, (struct rg_place){.row = row, .variant = v});
+            r->outcome = RG_OK;
+            r->row_count = r->published_count = 1;
+            snprintf(r->row[0].name, sizeof(r->row[0].name), "size");
+            r->row[0].number = row + 1;
+            snprintf(r->published[0].name, sizeof(r->published[0].name), "fps");
+            r->published[0].number = 100 - row;
+            r->sample_count = SAMPLES;
+            for (int i = 0; i < SAMPLES; i++)
+                r->samples_ms[i] = (v ? other_ms : ms)[row] * (1 + noise * (2 * chance(x) - 1));
+            rg_record_settle(r);
+        }
+    }
+}
+
+static struct rg_claim claim_of(enum rg_claim_test test)
+{
+    return (struct rg_claim){.table = "made-up",
+                             .variant = "full",
+                             .other = "other",
+                             .test = test,
+                             .first = 1,
+                             .last = ROWS};
+}
+
+// How often each verdict is given where rows truly take these times.
+static void count_verdicts(const struct rg_claim *claim, const double ms[ROWS], double noise,
+                           int counts[RG_CLAIM_VERDICTS])
+{
+    static const double other[ROWS] = {10, 10, 10, 10, 10};
+    uint32_t x = 11;
+    memset(counts, 0, RG_CLAIM_VERDICTS * sizeof(*counts));
+    for (int trial = 0; trial < TRIALS; trial++) {
+        struct rg_result result;
+        make_result(&result, ms, other, noise, &x);
+        counts[rg_claim_judge(claim, &result, 0).verdict]++;
+        rg_result_free(&result);
+    }
+}
+
+#define EXPECT(claim, ms, noise, verdict, share)                                                   \
+    do {                                                                                           \
+        int counts[RG_CLAIM_VERDICTS];                                                             \
+        count_verdicts(&(claim), ms, noise, counts);                                               \
+        assert_in_range(counts[verdict], (int)((share)*TRIALS), TRIALS);                           \
+    } while (0)
+
+static const double rising[ROWS] = {10, 11, 12.1, 13.3, 14.6}, level[ROWS] = {10, 10, 10, 10, 10};
+static const double turned[ROWS] = {10, 11, 10, 13.3, 14.6};
+
+static void test_rows_that_fall(void **state)
+{
+    (void)state;
+    const struct rg_claim falls = claim_of(RG_CLAIM_FALLS), order = claim_of(RG_CLAIM_ORDER);
+    EXPECT(falls, rising, 0.05, RG_CLAIM_REPRODUCED, 0.99);
+    EXPECT(falls, turned, 0.05, RG_CLAIM_NOT_REPRODUCED, 0.99);
+    EXPECT(falls, level, 0.05, RG_CLAIM_UNDECIDED, 0.95);
+    EXPECT(order, rising, 0.05, RG_CLAIM_REPRODUCED, 0.99);
+    EXPECT(order, turned, 0.05, RG_CLAIM_NOT_REPRODUCED, 0.99);
+    EXPECT(order, level, 0.05, RG_CLAIM_UNDECIDED, 0.95);
+    // Noise hides the order: whatever is decided, is decided rightly.
+    int counts[RG_CLAIM_VERDICTS];
+    count_verdicts(&falls, rising, 0.6, counts);
+    assert_true(counts[RG_CLAIM_NOT_REPRODUCED] <= TRIALS / 20);
+    assert_true(counts[RG_CLAIM_UNDECIDED] > TRIALS / 2);
+    count_verdicts(&falls, turned, 0.6, counts);
+    assert_true(counts[RG_CLAIM_REPRODUCED] <= TRIALS / 20);
+}
+
+static void test_ratios(void **state)
+{
+    (void)state;
+    struct rg_claim ratio = claim_of(RG_CLAIM_RATIO), alike = claim_of(RG_CLAIM_ALIKE);
+    ratio.least = 1.3;
+    EXPECT(ratio, rising, 0.05, RG_CLAIM_REPRODUCED, 0.99);
+    ratio.least = 1.46; // as it is
+    EXPECT(ratio, rising, 0.05, RG_CLAIM_UNDECIDED, 0.93);
+    ratio.least = 1.6;
+    EXPECT(ratio, rising, 0.05, RG_CLAIM_NOT_REPRODUCED, 0.99);
+    alike.most = 1.1;
+    EXPECT(alike, level, 0.05, RG_CLAIM_REPRODUCED, 0.99);
+    EXPECT(alike, rising, 0.05, RG_CLAIM_NOT_REPRODUCED, 0.99);
+    struct rg_claim apart = claim_of(RG_CLAIM_APART);
+    apart.least = 1.1;
+    EXPECT(apart, level, 0.05, RG_CLAIM_NOT_REPRODUCED, 0.99);
+    EXPECT(apart, rising, 0.05, RG_CLAIM_REPRODUCED, 0.99);
+}
+
+static void test_variants_rates_and_powers(void **state)
+{
+    (void)state;
+    struct rg_claim faster = claim_of(RG_CLAIM_FASTER), rate = claim_of(RG_CLAIM_RATE);
+    static const double quick[ROWS] = {9, 9, 9, 9, 9};
+    faster.least = 1;
+    EXPECT(faster, quick, 0.05, RG_CLAIM_REPRODUCED, 0.99);
+    EXPECT(faster, rising, 0.05, RG_CLAIM_NOT_REPRODUCED, 0.99);
+    EXPECT(faster, level, 0.05, RG_CLAIM_UNDECIDED, 0.95);
+    rate.least = 60;
+    EXPECT(rate, rising, 0.05, RG_CLAIM_REPRODUCED, 0.99);
+    rate.least = 75;
+    EXPECT(rate, rising, 0.05, RG_CLAIM_NOT_REPRODUCED, 0.99);
+    struct rg_claim power = claim_of(RG_CLAIM_EXPONENT);
+    static const double square[ROWS] = {10, 40, 90, 160, 250};
+    power.least = -2.2;
+    power.most = -1.8;
+    EXPECT(power, square, 0.05, RG_CLAIM_REPRODUCED, 0.99);
+    EXPECT(power, rising, 0.05, RG_CLAIM_NOT_REPRODUCED, 0.99);
+}
+
+// --- what is not judged ---
+
+static void test_rows_that_are_missing_or_other_work(void **state)
+{
+    (void)state;
+    struct rg_result result;
+    uint32_t x = 5;
+    const struct rg_claim falls = claim_of(RG_CLAIM_FALLS);
+    make_result(&result, rising, level, 0.01, &x);
+    rg_result_drop_row(&result, 2);
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_REPRODUCED);
+    struct rg_record *r = rg_result_at(&result, (struct rg_place){.row = 3});
+    r->published_count = 2;
+    snprintf(r->published[1].name, sizeof(r->published[1].name), "particles");
+    r->published[1].number = 1000;
+    r->fact_count = 1;
+    snprintf(r->facts[0].name, sizeof(r->facts[0].name), "particles");
+    r->facts[0].number = 1190;
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_REPRODUCED);
+    r->facts[0].number = 1210;
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_OTHER_WORK);
+    rg_result_drop_row(&result, 0);
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_UNDECIDED);
+    result.work_count = 1;
+    snprintf(result.works[0].saves, RG_TITLE_SIZE, "half of it is left out");
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_OTHER_WORK);
+    rg_result_free(&result);
+}
+
+static void test_a_knee_and_print(void **state)
+{
+    (void)state;
+    struct rg_result result;
+    uint32_t x = 5;
+    struct rg_claim knee = claim_of(RG_CLAIM_FLATTENS), apart = claim_of(RG_CLAIM_APART);
+    const double errors[ROWS] = {0.5, 0.3, 0.11, 0.1, 0.09};
+    make_result(&result, rising, level, 0.01, &x);
+    for (int row = 0; row < ROWS; row++)
+        rg_result_at(&result, (struct rg_place){.row = row})->truth_error =
+            (struct rg_truth_error){.outcome = RG_OK, .flip_mask_mean = errors[row]};
+    knee.least = 3;
+    knee.knee = 3;
+    assert_int_equal(rg_claim_judge(&knee, &result, 0).verdict, RG_CLAIM_REPRODUCED);
+    knee.knee = 2;
+    assert_int_equal(rg_claim_judge(&knee, &result, 0).verdict, RG_CLAIM_NOT_REPRODUCED);
+    rg_result_drop_row(&result, 1);
+    assert_int_equal(rg_claim_judge(&knee, &result, 0).verdict, RG_CLAIM_UNDECIDED);
+    apart.least = 1.2; // print says 1.04
+    assert_true(rg_claim_judge(&apart, &result, 0).print_contradicts);
+    apart.least = 1.02;
+    assert_false(rg_claim_judge(&apart, &result, 0).print_contradicts);
+    rg_result_free(&result);
+}
+
+// Each claim is about a table that there is, its rows and its variants.
+static void test_claims_are_about_tables(void **state)
+{
+    (void)state;
+    for (const struct rg_claim *claim = rg_claims; claim->table; claim++) {
+        const struct rg_table *table = rg_table_find(claim->table);
+        bool has = false, has_other = !claim->other;
+        assert_non_null(table);
+        assert_in_range(claim->first, 1, table->row_count);
+        assert_in_range(claim->last, 1, table->row_count);
+        for (int i = 0; table->variants[i].name; i++) {
+            has |= !strcmp(table->variants[i].name, claim->variant);
+            has_other |= claim->other && !strcmp(table->variants[i].name, claim->other);
+        }
+        assert_true(has && has_other && *claim->words && *claim->where);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_order_by_enumeration),
+        cmocka_unit_test(test_many_samples),
+        cmocka_unit_test(test_a_factor),
+        cmocka_unit_test(test_rows_that_fall),
+        cmocka_unit_test(test_ratios),
+        cmocka_unit_test(test_variants_rates_and_powers),
+        cmocka_unit_test(test_rows_that_are_missing_or_other_work),
+        cmocka_unit_test(test_a_knee_and_print),
+        cmocka_unit_test(test_claims_are_about_tables),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
