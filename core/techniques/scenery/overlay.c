@@ -8,7 +8,7 @@
 #include "core/scene/matrix.h"
 #include "kernels/scenery/overlay/lines_params.h"
 
-enum overlay_pass { SHEETS, LINES, INSET, PASS_COUNT };
+enum overlay_pass { SHEETS, LINES, INSET, PLATE, PASS_COUNT };
 
 // Items of one stage, on the host and on the device.
 struct items {
@@ -25,9 +25,10 @@ struct scenery_overlay {
     struct rg_instance *instance;
     int first_stage;
     struct items sheets, lines;
-    struct rg_asset *map; // of the inset
+    struct rg_asset *map; // of the inset or the plate
     scenery_lines_params view;
     scenery_inset_params inset;
+    scenery_plate_params plate;
 };
 
 #define AT(field) offsetof(struct scenery_overlay, field)
@@ -38,6 +39,7 @@ struct scenery_overlay *scenery_overlay_open(struct rg_instance *instance)
         [SHEETS] = {"streaks_sheets", .params = AT(view)},
         [LINES] = {"streaks_lines", .params = AT(view)},
         [INSET] = {"streaks_inset", .params = AT(inset)},
+        [PLATE] = {"streaks_plate", .params = AT(plate)},
     };
     struct scenery_overlay *overlay = rg_alloc(1, sizeof(*overlay), "overlay");
     if (!overlay)
@@ -167,4 +169,14 @@ bool scenery_overlay_inset(struct scenery_overlay *overlay, const scenery_inset_
         overlay->instance, overlay->first_stage + INSET, 1,
         &(struct rg_draw){
             .colour = colour, .x0 = inset->x0, .y0 = inset->y0, .x1 = inset->x1, .y1 = inset->y1});
+}
+
+bool scenery_overlay_plate(struct scenery_overlay *overlay, const scenery_plate_params *plate,
+                           struct rg_image *map, struct rg_image *colour, struct rg_image *depth)
+{
+    overlay->plate = *plate;
+    overlay->map->image = map;
+    return rg_stage_onto(
+        overlay->instance, overlay->first_stage + PLATE, 1,
+        &(struct rg_draw){.colour = colour, .depth = depth, .depth_mode = RG_DEPTH_TEST});
 }

@@ -8,6 +8,7 @@
 #include "core/techniques/technique.h"
 #include "kernels/scenery/light.h"
 #include "kernels/scenery/overlay/inset_params.h"
+#include "kernels/scenery/overlay/plate_params.h"
 
 struct scenery_overlay;
 
@@ -51,5 +52,9 @@ bool scenery_overlay_draw(struct scenery_overlay *overlay, const float to_clip[1
 // Draws a map into the pixels that `inset` names, which lie within the target.
 bool scenery_overlay_inset(struct scenery_overlay *overlay, const scenery_inset_params *inset,
                            struct rg_image *map, struct rg_image *colour);
+
+// Draws a map in greys as a plate in the world, hidden by `depth`.
+bool scenery_overlay_plate(struct scenery_overlay *overlay, const scenery_plate_params *plate,
+                           struct rg_image *map, struct rg_image *colour, struct rg_image *depth);
 
 #endif

@@ -20,7 +20,7 @@ enum streaks_counter {
     STREAKS_COUNTERS
 };
 
-enum streaks_pass { STREAKS_RAIN, STREAKS_STATES, STREAKS_FAR, STREAKS_PASS_COUNT };
+enum streaks_pass { STREAKS_RAIN, STREAKS_MARKS, STREAKS_STATES, STREAKS_FAR, STREAKS_PASS_COUNT };
 
 enum { STREAKS_MAX_BUFFERS = 64 };
 
@@ -39,6 +39,7 @@ struct streaks {
     struct streaks_textures *textures;
     struct scenery_lights *lights;
     struct scenery_overlay *overlay; // NULL: none
+    struct rg_image *density;        // the density map, D32F; NULL: nobody asks
     struct rg_camera camera;         // at frame 0
     struct streaks_map *map;         // the scene seen along the fall
     double drops_m3;                 // where the camera stands at frame 0
@@ -52,6 +53,7 @@ struct streaks {
     struct rg_fact *particles_told; // NULL: not yet
     // of the present frame
     struct streaks_observer observer;
+    struct streaks_observer outside; // the second camera, with outside=space or volume
     struct streaks_selection selection;
     streaks_params params;
     int64_t map_due; // the frame in which a dynamic depth map is drawn anew
@@ -67,6 +69,9 @@ void streaks_close(struct rg_instance *instance);
 // logged line, on failure.
 bool streaks_make_particles(struct streaks *streaks);
 void streaks_free_particles(struct streaks *streaks);
+// The density map of the settings, which the caller destroys. NULL, and one logged line, on
+// failure.
+struct rg_density *streaks_density(const struct streaks *streaks);
 
 // Moves the observer to the present frame, and makes what it draws: the selection, its blocks, the
 // parameters, the depth map where it is due. False, and one logged line, on failure.
@@ -86,5 +91,21 @@ bool streaks_map_renew(struct streaks *streaks);
 bool streaks_draw_far(struct streaks *streaks);
 // Draws the overlay of the present frame.
 bool streaks_show(struct streaks *streaks);
+
+// --- the view from outside ---
+
+// Who sees the picture: the observer, or the second camera.
+const struct streaks_observer *streaks_viewer(const struct streaks *streaks);
+// Makes what the view from outside shows of its own. False, and one logged line, on failure.
+// streaks_outside_close accepts what was never opened.
+bool streaks_outside_open(struct streaks *streaks);
+void streaks_outside_close(struct streaks *streaks);
+// Points the second camera at what it looks at, in the present frame. False, and one logged line,
+// on failure.
+bool streaks_outside_look(struct streaks *streaks);
+// What the rain's parameters are for its marks.
+void streaks_outside_marks(const struct streaks *streaks, streaks_params *params);
+// Draws the map that lies over the rain.
+bool streaks_outside_map(struct streaks *streaks);
 
 #endif

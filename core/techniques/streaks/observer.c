@@ -36,21 +36,29 @@ static void find_rays(const struct rg_camera_axes *axes, double half_width, doub
     }
 }
 
+bool streaks_observer_of(const struct rg_camera *camera, int width, int height,
+                         struct streaks_observer *observer)
+{
+    if (!rg_camera_matrix(camera, (float)width / (float)height, observer->world_to_clip))
+        return false;
+    const struct rg_camera_axes axes = rg_camera_axes(camera);
+    const double half_height = tan((double)camera->angle_deg / 360 * M_PI);
+    const double half_width = half_height * width / height;
+    observer->focal_px = (float)(height / (2 * half_height));
+    find_rays(&axes, half_width, half_height, width, height, observer->rays);
+    observer->camera = *camera;
+    return true;
+}
+
 bool streaks_observer_at(const struct streaks_settings *settings, const struct rg_camera *camera,
                          int width, int height, int64_t frame, struct streaks_observer *observer)
 {
     struct rg_camera moved = *camera;
     walk(&moved, settings->walk_m_s * settings->step_s * (double)frame);
-    if (!rg_camera_matrix(&moved, (float)width / (float)height, observer->world_to_clip))
+    if (!streaks_observer_of(&moved, width, height, observer))
         return false;
     if (moved.position[1] < 0)
         return rg_error("camera: its eye is %.3g m below the ground; raise eye_y_m",
                         -(double)moved.position[1]);
-    const struct rg_camera_axes axes = rg_camera_axes(&moved);
-    const double half_height = tan((double)moved.angle_deg / 360 * M_PI);
-    const double half_width = half_height * width / height;
-    observer->focal_px = (float)(height / (2 * half_height));
-    find_rays(&axes, half_width, half_height, width, height, observer->rays);
-    observer->camera = moved;
     return true;
 }

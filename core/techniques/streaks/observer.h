@@ -19,4 +19,8 @@ struct streaks_observer {
 bool streaks_observer_at(const struct streaks_settings *settings, const struct rg_camera *camera,
                          int width, int height, int64_t frame, struct streaks_observer *observer);
 
+// The same of a camera that stands still, wherever that is.
+bool streaks_observer_of(const struct rg_camera *camera, int width, int height,
+                         struct streaks_observer *observer);
+
 #endif

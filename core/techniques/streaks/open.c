@@ -13,6 +13,7 @@ void streaks_close(struct rg_instance *instance)
     struct streaks *s = (struct streaks *)instance;
     streaks_free_particles(s);
     streaks_map_close(s);
+    streaks_outside_close(s);
     scenery_overlay_close(s->overlay);
     scenery_lights_close(s->lights);
     scenery_close(s->scene);
@@ -113,6 +114,9 @@ static bool open_stages(struct streaks *s)
         [STREAKS_RAIN] = {programs[set->taps], .params = AT(of_rain), .colour = "target",
                           .depth = "depth", .blend = RG_BLEND_OVER, .depth_mode = RG_DEPTH_TEST,
                           .named = {{"surfaces", "scene.surfaces"}}},
+        [STREAKS_MARKS] = {set->outside ? "streaks_marks" : NULL, .params = AT(of_rain),
+                           .colour = "target", .depth = "depth", .blend = RG_BLEND_OVER,
+                           .depth_mode = RG_DEPTH_TEST},
         [STREAKS_STATES] = {set->keeps_state ? "streaks_state" : NULL, .params = AT(of_rain),
                             .named = {{"surfaces", "scene.surfaces"}}},
         [STREAKS_FAR] = {set->far_layers ? "streaks_far" : NULL, .params = AT(of_far),
@@ -120,7 +124,8 @@ static bool open_stages(struct streaks *s)
                          .depth_mode = RG_DEPTH_TEST},
     };
     s->first_stage = rg_open_stages(&s->base, stages, STREAKS_PASS_COUNT, s, NULL);
-    return s->first_stage >= 0 && (!set->overlay || (s->overlay = scenery_overlay_open(&s->base)));
+    return s->first_stage >= 0 &&
+           ((!set->overlay && !set->outside) || (s->overlay = scenery_overlay_open(&s->base)));
 }
 
 // --- facts and textures that are told ---
@@ -168,7 +173,7 @@ bool streaks_open(struct rg_instance *instance)
     const bool fit = s->settings.fit;
     if ((fit && !streaks_fit_begin(&s->settings)) || !create_space(s) ||
         (!fit && !streaks_make_particles(s)) || !create_scene(s) || !create_lights(s) ||
-        !streaks_map_open(s) || !create_textures(s))
+        !streaks_map_open(s) || !streaks_outside_open(s) || !create_textures(s))
         return false;
     add_assets(s);
     if (!open_stages(s) || (fit && !streaks_fit(s)))

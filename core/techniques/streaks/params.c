@@ -69,7 +69,11 @@ static const struct rg_param rows[] = {
     {"splash_gain", RG_PARAM_FLOAT, AT(splash_gain), 0.35, 0, 1000, "1", "light of splashes", NULL},
     {"splash_opacity", RG_PARAM_FLOAT, AT(splash_opacity), 0.35, 0, 1, "1", "what splashes hide at their thickest", NULL},
     {"far_layers", RG_PARAM_INT, AT(far_layers), 0, 0, 64, "1", "rain beyond the culling radius, as so many layers that scroll, each as thick as the radius", NULL},
-    {"overlay", RG_PARAM_CHOICE, AT(overlay), 0, 0, 1, "1", "draws the rain space, the local space, the culling radius, packets and lights as lines", "off on"},
+    {"overlay", RG_PARAM_CHOICE, AT(overlay), 0, 0, 2, "1", "draws the rain space, the local space, the culling radius, packets and lights as lines; or lights alone", "off on lights"},
+    {"outside", RG_PARAM_CHOICE, AT(outside), 0, 0, 2, "1", "a second camera looks at the whole rain space, or at the volume in which it rains around the observer; drops are marks in the colour of their height", "off space volume"},
+    {"outside_turn_deg", RG_PARAM_FLOAT, AT(outside_turn_deg), 30, -360, 360, "deg", "where the second camera stands around what it looks at: 0 along x, 90 along z", NULL},
+    {"outside_rise_deg", RG_PARAM_FLOAT, AT(outside_rise_deg), 25, 1, 89, "deg", "how high, above the horizon", NULL},
+    {"outside_map", RG_PARAM_CHOICE, AT(outside_map), 0, 0, 2, "1", "for outside: the map that lies over the rain, white the densest, or the highest", "none density depth"},
     {"state", RG_PARAM_CHOICE, AT(keeps_state), 0, 0, 1, "1", "keeps each frame's particles for those who compare states", "off on"},
 };
 // clang-format on

@@ -24,6 +24,12 @@ static double drops_at_camera(const struct streaks *s, const struct rg_density *
            s->settings.fall_speed_m_s;
 }
 
+struct rg_density *streaks_density(const struct streaks *s)
+{
+    const char *map = s->settings.density_map;
+    return map[0] ? rg_density_read(map) : rg_density_gradient();
+}
+
 static bool create_packets(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
@@ -37,8 +43,7 @@ static bool create_packets(struct streaks *s)
         .by_id = set->by_id,
         .memory_bytes = (int64_t)set->memory_mb * 1000000,
     };
-    struct rg_density *density =
-        set->density_map[0] ? rg_density_read(set->density_map) : rg_density_gradient();
+    struct rg_density *density = streaks_density(s);
     s->packets = density ? streaks_packets_create(&s->space, density, &settings) : NULL;
     s->drops_m3 = density ? drops_at_camera(s, density) : 0;
     rg_density_destroy(density);

@@ -24,12 +24,15 @@ static bool run_over(struct streaks *s, enum streaks_pass pass, const struct str
 // All that is selected, in a local space of this top.
 static bool draw_rain_at(struct streaks *s, float top)
 {
+    const bool outside = s->settings.outside && !s->rain_alone;
     s->of_rain = s->params;
     s->of_rain.top = top;
+    if (outside)
+        streaks_outside_marks(s, &s->of_rain);
     for (int i = 0; i < s->selection.draw_count; i++) {
         const struct streaks_draw *draw = &s->selection.draws[i];
         s->base.counters[STREAKS_ITEMS].value += (int64_t)draw->block_count * STREAKS_BLOCK;
-        if (!run_over(s, STREAKS_RAIN, draw))
+        if (!run_over(s, outside ? STREAKS_MARKS : STREAKS_RAIN, draw))
             return false;
     }
     return true;
@@ -78,26 +81,29 @@ static bool streaks_step(struct rg_instance *instance)
     return streaks_look(s) && (!s->settings.keeps_state || keep_state(s));
 }
 
-// Far rain is drawn behind the rain, and the overlay over it.
+// Far rain is drawn behind the rain, and the overlay over it. From outside there is none.
 static bool draw_far(struct streaks *s)
 {
-    return s->rain_alone || streaks_draw_far(s);
+    return s->rain_alone || s->settings.outside || streaks_draw_far(s);
 }
 
 static bool draw_overlay(struct streaks *s)
 {
-    return s->rain_alone || !s->overlay || streaks_show(s);
+    return s->rain_alone || ((!s->settings.outside || streaks_outside_map(s)) &&
+                             (!s->settings.overlay || streaks_show(s)));
 }
 
 static bool streaks_draw(struct rg_instance *instance)
 {
     struct streaks *s = (struct streaks *)instance;
-    const struct scenery_look look =
-        s->settings.time == SCENERY_NIGHT ? scenery_night() : scenery_day();
+    struct scenery_look look = s->settings.time == SCENERY_NIGHT ? scenery_night() : scenery_day();
+    const struct streaks_observer *viewer = streaks_viewer(s);
     struct scenery_view view = {.colour = instance->target,
                                 .depth = rg_asset_find(instance, "depth")->image,
-                                .to_clip = rg_m4_of(s->observer.world_to_clip)};
-    memcpy(view.eye, s->observer.camera.position, sizeof(view.eye));
+                                .to_clip = rg_m4_of(viewer->world_to_clip)};
+    memcpy(view.eye, viewer->camera.position, sizeof(view.eye));
+    if (s->settings.outside)
+        look.sky.haze_per_m = 0; // it stands too far away to see through haze
     instance->counters[STREAKS_PARTICLES].value += s->selection.particles;
     instance->counters[STREAKS_PACKETS].value += s->selection.packets;
     return scenery_draw(s->scene, &view, &look, s->lights, s->settings.geometry) && draw_far(s) &&

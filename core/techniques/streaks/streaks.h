@@ -8,6 +8,7 @@
 #include "core/techniques/params.h"
 
 enum streaks_camera { STREAKS_FIRST, STREAKS_SECOND, STREAKS_FREE };
+enum streaks_overlay { STREAKS_OVERLAY_OFF, STREAKS_OVERLAY_ALL, STREAKS_OVERLAY_LIGHTS };
 
 struct streaks_settings {
     int seed;
@@ -39,6 +40,9 @@ struct streaks_settings {
     double drop_radius_mm, exposure_s, splash_s, splash_width_mm;
     double streak_gain, streak_opacity, splash_gain, splash_opacity;
     int far_layers, overlay, keeps_state;
+    // the view from outside
+    int outside, outside_map;
+    double outside_turn_deg, outside_rise_deg;
 };
 
 // The largest culling radius that may be set.

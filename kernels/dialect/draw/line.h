@@ -90,4 +90,29 @@ RG_FN rg_item rg_line_item(rg_draw_state draw, rg_line s, float reach)
     return t;
 }
 
+// Where a pixel's centre lies along the line, in pixels from where it begins.
+RG_FN float rg_line_along(rg_line s, int px, int py)
+{
+    return (rg_to_float(px) + 0.5f - s.x) * s.along_x + (rg_to_float(py) + 0.5f - s.y) * s.along_y;
+}
+
+// Which share of a pixel a line covers that is drawn with smooth sides and square ends, `reach`
+// from its axis and beyond its ends to where it has ended.
+RG_FN float rg_line_covered(rg_line s, int px, int py, float reach)
+{
+    float x = rg_to_float(px) + 0.5f - s.x;
+    float y = rg_to_float(py) + 0.5f - s.y;
+    float along = rg_line_along(s, px, py);
+    float beside = rg_abs(y * s.along_x - x * s.along_y);
+    float beyond = rg_max(-along, along - s.length_px);
+    return rg_clamp(reach - beside, 0.0f, 1.0f) * rg_clamp(reach - beyond, 0.0f, 1.0f);
+}
+
+// Its depth at a pixel.
+RG_FN float rg_line_depth(rg_line s, int px, int py)
+{
+    float part = rg_clamp(rg_line_along(s, px, py) / rg_max(s.length_px, 1e-6f), 0.0f, 1.0f);
+    return s.depth + (s.depth_there - s.depth) * part;
+}
+
 #endif

@@ -53,15 +53,8 @@ RG_DRAW_RECORD(streaks_lines)
 
 RG_DRAW_FRAGMENT(streaks_lines)
 {
-    rg_line s = r.line;
-    float x = rg_to_float(px) + 0.5f - s.x;
-    float y = rg_to_float(py) + 0.5f - s.y;
-    float along = x * s.along_x + y * s.along_y;
-    float beside = rg_abs(y * s.along_x - x * s.along_y);
-    float beyond = rg_max(-along, along - s.length_px);
-    float covered = rg_clamp(r.reach - beside, 0.0f, 1.0f) * rg_clamp(r.reach - beyond, 0.0f, 1.0f);
-    float part = rg_clamp(along / rg_max(s.length_px, 1e-6f), 0.0f, 1.0f);
+    float covered = rg_line_covered(r.line, px, py, r.reach);
     return rg_fragment_make(rg_rgba(r.colour.r * covered, r.colour.g * covered,
                                     r.colour.b * covered, r.colour.a * covered),
-                            s.depth + (s.depth_there - s.depth) * part);
+                            rg_line_depth(r.line, px, py));
 }

@@ -152,7 +152,7 @@ bool streaks_look(struct streaks *s)
     rg_rain_eye(&s->space, &s->observer.camera, eye);
     const double top_m = rg_rain_local_top(eye[2], set->local_height_m);
     set_params(s, eye, top_m);
-    if (!streaks_map_renew(s) || !streaks_select_blocks(s, eye, top_m))
+    if (!streaks_map_renew(s) || !streaks_select_blocks(s, eye, top_m) || !streaks_outside_look(s))
         return false;
     if (s->particles_told)
         s->particles_told->number = (double)s->selection.particles;

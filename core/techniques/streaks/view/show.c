@@ -11,7 +11,8 @@ static const struct scenery_ink green = {0.05f, 0.75f, 0.10f, 1, 1.5f};
 static const struct scenery_ink red = {0.95f, 0.05f, 0.03f, 1, 2};
 static const struct scenery_ink blue = {0.05f, 0.15f, 1, 1, 2};
 static const struct scenery_ink purple = {0.55f, 0.08f, 0.80f, 1, 1.5f};
-static const struct scenery_ink white = {1, 1, 1, 0.9f, 1.5f};
+static const struct scenery_ink bold_purple = {0.55f, 0.08f, 0.80f, 1, 4};
+static const struct scenery_ink black = {0, 0, 0, 1, 2};
 
 // A box of the rain frame.
 struct box {
@@ -38,14 +39,14 @@ static void show_box(const struct streaks *s, const struct box *box, const struc
 
 // A rectangle across the fall.
 static void show_sheet(const struct streaks *s, const double low[2], const double high[2],
-                       double along, const struct scenery_ink *ink, float fill)
+                       double along, const struct scenery_ink *ink)
 {
     float corners[4][3];
     to_world(s, low[0], low[1], along, corners[0]);
     to_world(s, high[0], low[1], along, corners[1]);
     to_world(s, high[0], high[1], along, corners[2]);
     to_world(s, low[0], high[1], along, corners[3]);
-    scenery_overlay_sheet(s->overlay, corners, ink, fill);
+    scenery_overlay_sheet(s->overlay, corners, ink, 0);
 }
 
 static struct box meet(const struct box *a, const struct box *b)
@@ -71,15 +72,15 @@ static void show_spaces(const struct streaks *s)
                               {space.high[0], space.high[1], ground}};
     const struct box volume = meet(&prism, &local);
     show_box(s, &space, &grey);
-    show_sheet(s, local.low, local.high, top, &green, 0.1f);
-    show_sheet(s, local.low, local.high, ground, &green, 0.1f);
     if (!s->settings.limits)
-        return;
+        return; // the local space is repeated then
+    show_sheet(s, local.low, local.high, top, &green);
+    show_sheet(s, local.low, local.high, ground, &green);
     show_box(s, &prism, &red);
     show_box(s, &volume, &blue);
 }
 
-// All packets as outlines on the top plane, the selected ones filled.
+// All packets as outlines on the top plane, the selected ones bolder.
 static void show_packets(const struct streaks *s)
 {
     const struct streaks_packets_info *info = streaks_packets_info(s->packets);
@@ -92,35 +93,111 @@ static void show_packets(const struct streaks *s)
         if (!streaks_packets_count(s->packets, place))
             continue;
         streaks_packets_rectangle(s->packets, place, r);
-        show_sheet(s, (double[]){r[0], r[1]}, (double[]){r[2], r[3]}, 0, &purple,
-                   selected ? 0.5f : 0);
+        show_sheet(s, (double[]){r[0], r[1]}, (double[]){r[2], r[3]}, 0,
+                   selected ? &bold_purple : &purple);
     }
 }
 
-static bool show_map(struct streaks *s)
+// --- what the observer sees, from outside ---
+
+// A light's frustum has its colour.
+static void show_light(const struct streaks *s, const scenery_light *light)
+{
+    const float most = fmaxf(fmaxf(light->r, light->g), fmaxf(light->b, 1e-6f));
+    const struct scenery_ink ink = {light->r / most, light->g / most, light->b / most, 0.9f, 1.5f};
+    scenery_overlay_light(s->overlay, light, &ink);
+}
+
+// The part of the way from a to b that lies over the top plane, on it.
+static void show_on_top(const struct streaks *s, const double a[3], const double b[3])
+{
+    const double half[2] = {s->space.half_x_m, s->space.half_y_m};
+    double from = 0, to = 1;
+    for (int axis = 0; axis < 2; axis++)
+        for (int side = -1; side <= 1; side += 2) {
+            const double in_a = half[axis] - side * a[axis], in_b = half[axis] - side * b[axis];
+            if (in_a < 0 && in_b < 0)
+                return;
+            if (in_a < 0)
+                from = fmax(from, in_a / (in_a - in_b));
+            if (in_b < 0)
+                to = fmin(to, in_a / (in_a - in_b));
+        }
+    float ends[2][3];
+    if (from >= to)
+        return;
+    to_world(s, a[0] + from * (b[0] - a[0]), a[1] + from * (b[1] - a[1]), 0, ends[0]);
+    to_world(s, a[0] + to * (b[0] - a[0]), a[1] + to * (b[1] - a[1]), 0, ends[1]);
+    scenery_overlay_line(s->overlay, ends[0], ends[1], &black);
+}
+
+// The observer's frustum as the top plane has it: its edges along the view and at its end, and the
+// rectangle that bounds it, by which packets are selected (figure 4.14).
+static bool show_frustum(const struct streaks *s)
+{
+    const struct rg_image_desc *desc = &s->base.target->desc;
+    double corners[8][3], low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    if (!rg_rain_view_corners(&s->space, &s->observer.camera, (double)desc->width / desc->height,
+                              corners))
+        return false;
+    for (int k = 0; k < 4; k++)
+        show_on_top(s, corners[k], corners[k + 4]);
+    for (int bit = 1; bit < 4; bit *= 2)
+        for (int k = 0; k < 4; k++)
+            if (!(k & bit))
+                show_on_top(s, corners[k + 4], corners[(k | bit) + 4]);
+    for (int k = 0; k < 8; k++)
+        for (int axis = 0; axis < 2; axis++) {
+            const double half = axis ? s->space.half_y_m : s->space.half_x_m;
+            const double at = fmax(-half, fmin(half, corners[k][axis]));
+            low[axis] = fmin(low[axis], at);
+            high[axis] = fmax(high[axis], at);
+        }
+    show_sheet(s, low, high, 0, &black);
+    return true;
+}
+
+// --- maps in the picture's corner ---
+
+// The n-th from above.
+static bool show_map(struct streaks *s, struct rg_image *map, int n, float white_at)
 {
     const struct rg_image_desc *desc = &s->base.target->desc;
     const int size = (desc->width < desc->height ? desc->width : desc->height) / 4, gap = size / 16;
     if (size < 16)
         return true;
+    const int top = gap + n * (size + gap);
     const scenery_inset_params inset = {.x0 = desc->width - size - gap,
-                                        .y0 = gap,
+                                        .y0 = top,
                                         .x1 = desc->width - gap,
-                                        .y1 = gap + size,
+                                        .y1 = top + size,
                                         .u1 = 1,
                                         .v1 = 1,
-                                        .far_depth = 1};
-    return scenery_overlay_inset(s->overlay, &inset, s->map->depths, s->base.target);
+                                        .near_depth = white_at,
+                                        .far_depth = 1 - white_at};
+    return scenery_overlay_inset(s->overlay, &inset, map, s->base.target);
+}
+
+static bool show_maps(struct streaks *s)
+{
+    int shown = 0;
+    if (s->density && !show_map(s, s->density, shown++, 1))
+        return false;
+    return show_map(s, s->map->depths, shown, 0);
 }
 
 bool streaks_show(struct streaks *s)
 {
+    const bool all = s->settings.overlay == STREAKS_OVERLAY_ALL;
     scenery_overlay_begin(s->overlay);
-    show_spaces(s);
-    show_packets(s);
+    if (all) {
+        show_spaces(s);
+        show_packets(s);
+    }
     for (int i = 0; i < s->lights->count; i++)
-        scenery_overlay_light(s->overlay, &s->lights->world[i], &white);
-    return scenery_overlay_draw(s->overlay, s->observer.world_to_clip, s->base.target,
+        show_light(s, &s->lights->world[i]);
+    return (!all || !s->settings.outside || show_frustum(s)) &&
+           scenery_overlay_draw(s->overlay, streaks_viewer(s)->world_to_clip, s->base.target,
                                 rg_asset_find(&s->base, "depth")->image) &&
-           show_map(s);
+           (!all || show_maps(s));
 }

@@ -7,6 +7,7 @@ COVER = ("cover",)
 LOOKS = ("looks",)
 PARTICLES = ("particles",)
 FAR = ("far",)
+OUTSIDE = ("outside",)
 
 ROWS = [Row(*row) for row in (
     # particles
@@ -70,4 +71,11 @@ ROWS = [Row(*row) for row in (
     ("layers too near", "far.h", "(rg_to_float(r.layer) + 0.5f) * p.thickness",
      "rg_to_float(r.layer) * p.thickness", FAR),
     ("layers hide half", "far.h", "rg_clamp(p.opacity * (1.0f + p.contrast", "rg_clamp(0.5f * p.opacity * (1.0f + p.contrast", FAR),
+    # the view from outside
+    ("marks coloured upside down", "outside/marks.h", "rg_clamp((s - p.map_top) / p.map_height, 0.0f, 1.0f)",
+     "1.0f - rg_clamp((s - p.map_top) / p.map_height, 0.0f, 1.0f)", OUTSIDE),
+    ("marks hang from their drops", "outside/marks.h", "v3_make(t.x, t.y, s - up)", "v3_make(t.x, t.y, s + up)", OUTSIDE),
+    ("splashes as long as drops", "outside/marks.h", "splash != 0 ? 0.5f * p.fall : p.fall", "p.fall", OUTSIDE),
+    ("splashes marked where their drops would be", "outside/marks.h", "splash != 0 ? t.hit : t.s", "t.s", OUTSIDE),
+    ("particles that are nothing are marked", "outside/marks.h", "(t.state == STREAKS_NOTHING ? 0 : 1) *", "1 *", OUTSIDE),
 )]

@@ -1,76 +1,15 @@
 // The overlay of streaks: lines DEVICE. Lines against the distance of each pixel from
 // them in double precision, sheets against the sides of a polygon; everything against
 // cpu:reference.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/scene/camera.h"
 #include "core/techniques/scenery/lights/lights.h"
-#include "core/techniques/scenery/overlay.h"
-#include "kernels/dialect/rng.h"
-#include "tests/core/techniques/rigs/scene.h"
+#include "tests/core/techniques/scenery/overlay/rig.h"
 
-enum { WIDTH = 160, HEIGHT = 90 };
 // An end of a line on the grid of 1/256 pixel, and floats of 1e-6 of a few hundred pixels.
 static const double allowed = 0.006;
-
-static float between(uint32_t item, uint32_t step, double low, double high)
-{
-    return (float)(low + (high - low) * (double)rg_uniform(rg_random(8, item, step, 4).x));
-}
-
-// --- pictures ---
-
-struct picture {
-    int width, height;
-    struct rg_image *colour, *depth;
-};
-
-static struct picture picture_make(struct rg_device *device, enum rg_format format, float depth)
-{
-    static const uint32_t nothing[4] = {0};
-    const struct rg_image_desc coloured = {format, WIDTH, HEIGHT, 1, 1};
-    const struct rg_image_desc deep = {RG_D32F, WIDTH, HEIGHT, 1, 1};
-    struct picture p = {WIDTH, HEIGHT, rg_image_create_with(device, &coloured, nothing, "c"),
-                        rg_image_create_with(device, &deep, &depth, "d")};
-    assert_true(p.colour && p.depth);
-    return p;
-}
-
-static void picture_free(struct picture *p)
-{
-    rg_image_destroy(p->colour);
-    rg_image_destroy(p->depth);
-}
-
-// Four floats a pixel; the caller frees them.
-static float *picture_read(const struct picture *p)
-{
-    float *texels = malloc(WIDTH * HEIGHT * 4 * sizeof(float));
-    assert_true(rg_image_read(p->colour, 0, 0, texels));
-    return texels;
-}
-
-static struct scenery_overlay *open_overlay(struct rg_device *device, struct rg_instance *instance)
-{
-    *instance = (struct rg_instance){.device = device};
-    struct scenery_overlay *overlay = scenery_overlay_open(instance);
-    assert_non_null(overlay);
-    return overlay;
-}
-
-static void close_overlay(struct scenery_overlay *overlay, struct rg_instance *instance)
-{
-    scenery_overlay_close(overlay);
-    rg_stages_free(instance);
-    rg_assets_free(instance);
-}
 
 // What an overlay shows with a matrix, over a depth: its texels, which the caller frees.
 static float *show(struct scenery_overlay *overlay, struct rg_device *device,
@@ -81,21 +20,6 @@ static float *show(struct scenery_overlay *overlay, struct rg_device *device,
     float *texels = picture_read(&p);
     picture_free(&p);
     return texels;
-}
-
-static void look_from(float near_plane, float to_clip[16])
-{
-    const struct rg_camera camera = {.position = {0, 2, 6},
-                                     .up = {0, 1, 0},
-                                     .angle_deg = 60,
-                                     .near_plane = near_plane,
-                                     .far_plane = 50};
-    assert_true(rg_camera_matrix(&camera, (float)WIDTH / HEIGHT, to_clip));
-}
-
-static void look(float to_clip[16])
-{
-    look_from(0.5f, to_clip);
 }
 
 // --- lines ---
@@ -200,7 +124,7 @@ static void lines_cover_what_is_near_them(void **state)
     struct scenery_overlay *overlay = open_overlay(*state, &instance);
     struct counts counts = {0};
     float to_clip[16];
-    look(to_clip);
+    overlay_look(to_clip);
     for (uint32_t i = 0; i < 120; i++) {
         const double spread = i % 3 ? 4 : 12; // every third may pass the eye
         float a[3], b[3];
@@ -229,7 +153,7 @@ static void long_lines_stay_in_place(void **state)
     struct scenery_overlay *overlay = open_overlay(*state, &instance);
     struct counts counts = {0};
     float to_clip[16];
-    look_from(0.005f, to_clip);
+    overlay_look_from(0.005f, to_clip);
     for (uint32_t i = 0; i < 40; i++) {
         const float side = i % 2 ? 1 : -1,
                     a[3] = {300 * side, 2 + between(i, 0, -0.1, 0.1), 6 - between(i, 1, 0.01, 0.1)},
@@ -302,7 +226,7 @@ static void sheets_fill_their_polygons(void **state)
     const struct scenery_ink ink = {0, 1, 0, 0.5f, 1};
     const float half_way = 0.945f; // among the depths beyond the first three corners
     float to_clip[16];
-    look(to_clip);
+    overlay_look(to_clip);
     struct corner px[4];
     for (int k = 0; k < 4; k++) {
         const struct corner c = project(to_clip, corners[k]);
@@ -365,7 +289,7 @@ static void check_frustum(struct rg_device *device, const scenery_light *light, 
     struct scenery_overlay *overlay = open_overlay(device, &instance);
     const struct scenery_ink ink = {1, 1, 1, 1, 2};
     float to_clip[16];
-    look(to_clip);
+    overlay_look(to_clip);
     scenery_overlay_begin(overlay);
     scenery_overlay_light(overlay, light, &ink);
     float *shown = show(overlay, device, to_clip, NULL);
@@ -434,50 +358,6 @@ static void boxes_have_twelve_edges(void **state)
     close_overlay(overlay, &instance);
 }
 
-// --- insets ---
-
-static void insets_show_the_part_of_a_map(void **state)
-{
-    enum { MAP = 16 };
-    const scenery_inset_params inset = {.x0 = 100,
-                                        .y0 = 10,
-                                        .x1 = 132,
-                                        .y1 = 26,
-                                        .u0 = 0.5f,
-                                        .u1 = 1,
-                                        .v1 = 0.5f,
-                                        .layer = 1,
-                                        .near_depth = 0.25f,
-                                        .far_depth = 0.75f};
-    float depths[MAP * MAP];
-    struct rg_device *device = *state;
-    const struct rg_image_desc desc = {RG_D32F, MAP, MAP, 2, 1};
-    const float nothing = 0;
-    struct rg_image *map = rg_image_create_with(device, &desc, &nothing, "map");
-    for (int i = 0; i < MAP * MAP; i++)
-        depths[i] = between((uint32_t)i, 0, 0, 1);
-    assert_true(map && rg_image_write(map, 1, 0, depths));
-    struct rg_instance instance;
-    struct scenery_overlay *overlay = open_overlay(device, &instance);
-    struct picture p = picture_make(device, RG_RGBA32F, 1);
-    assert_true(scenery_overlay_inset(overlay, &inset, map, p.colour));
-    float *texels = picture_read(&p);
-    for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        const int x = i % WIDTH - inset.x0, y = i / WIDTH - inset.y0;
-        float due = 0;
-        if (x >= 0 && x < 32 && y >= 0 && y < 16) { // 4 and 2 pixels a texel
-            const float depth = depths[y / 2 * MAP + 8 + x / 4];
-            due = x == 0 || x == 31 || y == 0 || y == 15 ? 1
-                                                         : fminf(fmaxf((0.75f - depth) * 2, 0), 1);
-        }
-        assert_float_equal(texels[4 * i], due, 1e-6f);
-    }
-    free(texels);
-    picture_free(&p);
-    close_overlay(overlay, &instance);
-    rg_image_destroy(map);
-}
-
 // --- devices ---
 
 static void fill(struct scenery_overlay *overlay)
@@ -505,7 +385,7 @@ static void all_bytes_are_those_of_the_reference(void **state)
     struct rg_device *devices[2] = {*state, rg_device_open("cpu:reference")};
     assert_non_null(devices[1]);
     float to_clip[16];
-    look(to_clip);
+    overlay_look(to_clip);
     for (int f = 0; f < 3; f++) {
         const size_t bytes = (size_t)(WIDTH * HEIGHT * rg_format_size(formats[f]));
         void *texels[2];
@@ -536,7 +416,6 @@ int main(int argc, char **argv)
         cmocka_unit_test(sheets_fill_their_polygons),
         cmocka_unit_test(frusta_are_where_lights_shine),
         cmocka_unit_test(boxes_have_twelve_edges),
-        cmocka_unit_test(insets_show_the_part_of_a_map),
         cmocka_unit_test(all_bytes_are_those_of_the_reference),
     };
     return raster_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
