@@ -39,6 +39,7 @@ enum rg_names {
     RG_NAMES_NOTHING,
     RG_NAMES_TECHNIQUE,
     RG_NAMES_TABLE,
+    RG_NAMES_FIGURE,
     RG_NAMES_DEVICE,
     RG_NAMES_DEVICES,   // with commas between them, or "all"
     RG_NAMES_PARAMETER, // KEY=VALUE of the techniques that the arguments name

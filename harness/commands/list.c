@@ -1,5 +1,5 @@
-// raingauge list: techniques, tables, devices and parameters, by the names that the command line
-// takes.
+// raingauge list: techniques, tables, figures, devices and parameters, by the names that the
+// command line takes.
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +11,7 @@
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
 #include "harness/devices/devices.h"
+#include "harness/frames/figures/figures.h"
 #include "harness/tables/papers/papers.h"
 
 struct list_options {
@@ -19,13 +20,13 @@ struct list_options {
 
 #define AT(field) offsetof(struct list_options, field)
 
-static const char *const lists[] = {"techniques", "tables", "devices", "params", NULL};
+static const char *const lists[] = {"techniques", "tables", "figures", "devices", "params", NULL};
 
 static const struct rg_option options[] = {
     RG_GROUP("What to list"),
     {RG_OPTION_OPERAND,
-     .about = "techniques, papers' tables, this machine's devices, or parameters", .choices = lists,
-     .first = 1, .last = 1},
+     .about = "techniques, papers' tables and figures, this machine's devices, or parameters",
+     .choices = lists, .first = 1, .last = 1},
     {RG_OPTION_OPERAND, .argument = "TECHNIQUE", .about = "whose parameters",
      .names = RG_NAMES_TECHNIQUE, .first = 2, .last = 2},
     RG_GROUP("Output"),
@@ -71,6 +72,16 @@ static json_t *list_tables(void)
         json_array_append_new(rows,
                               json_pack("{ssssss}", "name", rg_tables[i]->id, "technique",
                                         rg_tables[i]->technique, "about", rg_tables[i]->about));
+    return rows;
+}
+
+static json_t *list_figures(void)
+{
+    json_t *rows = json_array();
+    const struct rg_figure *figure;
+    for (int i = 0; (figure = rg_figure_at(i)); i++)
+        json_array_append_new(rows, json_pack("{ssssss}", "name", figure->id, "technique",
+                                              figure->technique, "about", figure->caption));
     return rows;
 }
 
@@ -155,19 +166,21 @@ static int list(const void *values, const struct rg_words *arguments)
         return print(list_techniques(), what, about_fields, o->json);
     if (!strcmp(what, "tables"))
         return print(list_tables(), what, about_fields, o->json);
+    if (!strcmp(what, "figures"))
+        return print(list_figures(), what, about_fields, o->json);
     if (!strcmp(what, "devices")) {
         int exit;
         print(list_devices(&exit), what, device_fields, o->json);
         return exit;
     }
-    rg_error("list '%s': list techniques, tables, devices, or params TECHNIQUE", what);
+    rg_error("list '%s': list techniques, tables, figures, devices, or params TECHNIQUE", what);
     return RG_EXIT_USAGE;
 }
 
 const struct rg_command rg_command_list = {
     .name = "list",
-    .usage = "techniques|tables|devices|params TECHNIQUE [--json]",
-    .about = "prints what there is to name: techniques, tables, devices, parameters",
+    .usage = "techniques|tables|figures|devices|params TECHNIQUE [--json]",
+    .about = "prints what there is to name: techniques, tables, figures, devices, parameters",
     .options = options,
     .options_size = sizeof(struct list_options),
     .run = list,

@@ -32,13 +32,27 @@ static bool open_up(int fd)
     return fchmod(fd, 0666 & ~mask) == 0;
 }
 
+// Makes a folder unless it is there; `made` says whether it was made.
+static bool make_folder(const char *folder, bool *made)
+{
+    *made = mkdir(folder, 0777) == 0;
+    return *made || errno == EEXIST ||
+           rg_error("%s: cannot be made: %s; name a folder that can be written", folder,
+                    strerror(errno));
+}
+
+bool rg_output_folder(const char *folder)
+{
+    bool made;
+    return make_folder(folder, &made);
+}
+
 bool rg_output_write(const char *folder, const char *name, const char *text)
 {
     char path[2048], temporary[2112];
-    const bool made = mkdir(folder, 0777) == 0;
-    if (!made && errno != EEXIST)
-        return rg_error("%s: cannot be made: %s; name a folder that can be written", folder,
-                        strerror(errno));
+    bool made;
+    if (!make_folder(folder, &made))
+        return false;
     if (snprintf(path, sizeof(path), "%s/%s", folder, name) >= (int)sizeof(path))
         return rg_error("%.80s...: its name is too long; name a folder of at most %zu bytes",
                         folder, sizeof(path) - strlen(name) - 2);

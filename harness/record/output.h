@@ -8,4 +8,8 @@
 // last part is missing. False, with one logged line and nothing left behind, on failure.
 bool rg_output_write(const char *folder, const char *name, const char *text);
 
+// Makes a folder for what is written next, if only its last part is missing. False, with one logged
+// line, where that fails.
+bool rg_output_folder(const char *folder);
+
 #endif

@@ -51,7 +51,8 @@ COMMANDS = [
     Case("list techniques", 0, None),
     Case("list tables", 0, None),
     Case("list params flow", 0, None),
-    Case("list", 2, r"list '': list techniques, tables, devices, or params TECHNIQUE"),
+    Case("list figures", 0, None),
+    Case("list", 2, r"list '': list techniques, tables, figures, devices, or params TECHNIQUE"),
     Case("list nonsense", 2, r"list 'nonsense': list techniques"),
     Case("list params", 2, r"name a technique; `raingauge list techniques`"),
     Case("list params nonsense", 2, r"technique 'nonsense': unknown"),
@@ -95,6 +96,11 @@ COMMANDS = [
     Case("diff flow --device cpu,nonsense", 2, UNKNOWN_DEVICE),
     Case("diff flow --set drops=-1 --device cpu,cpu:reference", 2, r"parameter 'drops': -1 is out of range"),
 
+    # figures
+    Case("figures nonsense", 2, r"figure 'nonsense': unknown; `raingauge list figures` prints them"),
+    Case("figures creus-4.4 -o {tmp}/none/out", 2, r"none/out: cannot be made: .*; name a folder"),
+    Case("figures creus-4.4 --device nonsense", 2, UNKNOWN_DEVICE),
+
     # atlas
     Case("atlas nonsense", 2, r"technique 'nonsense': unknown; `raingauge list techniques`"),
     Case("atlas cartoon flow", 2, r"atlas: 'flow' is one argument too many"),
@@ -120,6 +126,9 @@ COMMANDS = [
 ]
 
 RENDERS = [
+    # figures
+    Case("figures creus-4.11a --size 64x36 -o {tmp}", 0, None, made=("creus-4.11a.exr", "creus-4.11a.png", "figures.md")),
+
     # what it is asked
     Case("render", 2, r"no technique named; `raingauge list techniques`"),
     Case("render nonsense", 2, r"technique 'nonsense': unknown; `raingauge list techniques`"),

@@ -8,7 +8,7 @@ import subprocess
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-COMMANDS = ("doctor", "list", "render", "table", "diff", "verify", "atlas")
+COMMANDS = ("doctor", "list", "render", "table", "diff", "verify", "figures", "atlas")
 PARTS = r"\.(TH|SH|SS|TP|PP)\b"  # the macros that the page uses
 ESCAPES = r"\\(f[BIR]|[-&e])"
 
@@ -108,7 +108,7 @@ def check_completed_words(runner):
     expected = {
         "": [*COMMANDS, "--help", "--version"],
         "re": ["render"],
-        "list ": ["techniques", "tables", "devices", "params"],
+        "list ": ["techniques", "tables", "figures", "devices", "params"],
         "list params ": techniques,
         "list params flow ": [],
         "render ": techniques,
@@ -137,6 +137,7 @@ def check_completed_words(runner):
         "verify flow r": ["raster"],
         "table ": tables,
         "table creus-5.1 stu": ["stuppacher-1", "stuppacher-2"],
+        "figures creus-4.1": [name for name in listed(runner, "figures") if name.startswith("creus-4.1")],
         "table --format ": ["md", "csv", "json", "tex"],
         "table -o ": [],
         "table -o ../c": ["../core", "../cli"],

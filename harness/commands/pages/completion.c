@@ -1,6 +1,6 @@
 // The words are one associative array of bash. Its keys are
 //
-//     commands, @techniques, @tables
+//     commands, @techniques, @tables, @figures
 //     render options      the options of a command
 //     render --set        what an option's value can be; an option that takes none has no key
 //     list 1, verify +    what an argument of a command can be at its place, or at any without a
@@ -14,6 +14,7 @@
 #include "core/techniques/technique.h"
 #include "harness/commands/commands.h"
 #include "harness/commands/pages/pages.h"
+#include "harness/frames/figures/figures.h"
 #include "harness/tables/papers/papers.h"
 
 // The name of the list that holds what a value can name.
@@ -21,7 +22,7 @@ static const char *const lists[] = {
     [RG_NAMES_TECHNIQUE] = "@techniques", [RG_NAMES_TABLE] = "@tables",
     [RG_NAMES_DEVICE] = "@device",        [RG_NAMES_DEVICES] = "@devices",
     [RG_NAMES_PARAMETER] = "@parameters", [RG_NAMES_FILE] = "@files",
-    [RG_NAMES_FOLDER] = "@folders",
+    [RG_NAMES_FOLDER] = "@folders",       [RG_NAMES_FIGURE] = "@figures",
 };
 
 // --- entries ---
@@ -141,6 +142,10 @@ void rg_print_completion(void)
     begin_entry(lists[RG_NAMES_TABLE], "");
     for (int i = 0; rg_tables[i]; i++)
         print_word(rg_tables[i]->id);
+    end_entry();
+    begin_entry(lists[RG_NAMES_FIGURE], "");
+    for (int i = 0; rg_figure_at(i); i++)
+        print_word(rg_figure_at(i)->id);
     end_entry();
     for (int i = 0; rg_commands[i]; i++)
         print_command(rg_commands[i]);

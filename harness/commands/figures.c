@@ -1,0 +1,88 @@
+// raingauge figures: draws figures of the papers anew, into a folder.
+#include <stdio.h>
+
+#include "core/base/log.h"
+#include "harness/cli/command.h"
+#include "harness/cli/shared.h"
+#include "harness/console/interrupt.h"
+#include "harness/devices/devices.h"
+#include "harness/frames/figures/figures.h"
+
+struct figures_options {
+    struct rg_size size;
+    char *device, *output;
+};
+
+#define AT(field) offsetof(struct figures_options, field)
+
+static const struct rg_option options[] = {
+    RG_GROUP("What to draw"),
+    {RG_OPTION_OPERAND, .argument = "ID...",
+     .about = "figures by the names that `raingauge list figures` prints; without one, all",
+     .names = RG_NAMES_FIGURE, .first = 1},
+    RG_INCLUDE(rg_size_option, AT(size), NULL),
+    RG_GROUP("Devices"),
+    {RG_OPTION_TEXT, "device", .argument = "D",
+     .about = "the device to use; `raingauge list devices` prints the names", .offset = AT(device),
+     .initial = "cpu", .names = RG_NAMES_DEVICE},
+    RG_GROUP("Output"),
+    {RG_OPTION_TEXT, "output", .argument = "DIR",
+     .about = "the folder of the pictures, and of figures.md, which shows them with captions",
+     .offset = AT(output), .letter = 'o', .initial = "figures", .names = RG_NAMES_FOLDER},
+    {RG_OPTION_END},
+};
+
+enum { MOST_FIGURES = 128 };
+
+// The figures that are named, or all; how many, 0 with one logged line.
+static int choose(const struct rg_words *names, const struct rg_figure *figures[MOST_FIGURES])
+{
+    const struct rg_figure *figure;
+    int count = 0;
+    for (int i = 0; i < names->count; i++) {
+        if (!(figures[i] = rg_figure_find(names->items[i]))) {
+            rg_error("figure '%s': unknown; `raingauge list figures` prints them", names->items[i]);
+            return 0;
+        }
+    }
+    if (names->count)
+        return names->count;
+    while (count < MOST_FIGURES && (figure = rg_figure_at(count)))
+        figures[count++] = figure;
+    return count;
+}
+
+static int figures_command(const void *values, const struct rg_words *arguments)
+{
+    const struct figures_options *o = values;
+    const struct rg_figure *figures[MOST_FIGURES];
+    const int count = choose(arguments, figures);
+    struct rg_devices devices;
+    if (!count)
+        return RG_EXIT_USAGE;
+    int exit = rg_devices_open(o->device, &devices);
+    if (exit == RG_EXIT_PASS) {
+        const struct rg_figure_run run = {.device = devices.devices[0],
+                                          .width = o->size.width,
+                                          .height = o->size.height,
+                                          .folder = o->output,
+                                          .figures = figures,
+                                          .count = count};
+        if (rg_figures_draw(&run))
+            printf("%s/figures.md: %d figures\n", o->output, count);
+        else
+            exit =
+                rg_interrupted() ? RG_EXIT_SIGNALLED + rg_interrupt_signal() : rg_exit_of_error();
+    }
+    rg_devices_close(&devices);
+    return exit;
+}
+
+const struct rg_command rg_command_figures = {
+    .name = "figures",
+    .usage = "[ID...] [--device D] [--size WxH] [-o DIR]",
+    .about = "draws figures of the papers anew, with captions",
+    .options = options,
+    .options_size = sizeof(struct figures_options),
+    .run = figures_command,
+};
