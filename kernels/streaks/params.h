@@ -8,7 +8,7 @@
 #define STREAKS_BLOCK       32 // particles a block
 #define STREAKS_BLOCK_WORDS 5  // first particle, mask, shift x, shift y, turn
 
-#define STREAKS_STATE_WORDS 8
+#define STREAKS_STATE_WORDS 10
 
 #define STREAKS_NOTHING 0
 #define STREAKS_DROP    1
@@ -28,7 +28,7 @@ RG_STRUCT(streaks_params)
     float map_per_x, map_per_y; // maps a metre
     float map_top, map_height;  // s of depth 0, and from there to depth 1
     float ground;               // s of the ground plane, which stands where the map does not reach
-    float fall;                 // way of a drop in the exposure, upwards from its particle
+    float fall;                 // way of a drop in the exposure, upwards; of the settings' drop
     float behind;               // upwards from a particle to its streak's upper end
     float drop_radius;          // of a drop at rest
     float cycles;               // of a drop's slower swing, in the exposure
@@ -50,7 +50,8 @@ RG_STRUCT(streaks_params)
     float gain, opacity;       // of streaks
     float splash_gain, splash_opacity;
     int first_place; // of states
+    int sizes;       // classes of drops, a power of 2
 };
-RG_STRUCT_SIZE(streaks_params, 79)
+RG_STRUCT_SIZE(streaks_params, 80)
 
 #endif

@@ -1,10 +1,12 @@
 // Where a particle is and what it has become: a drop, a splash, or nothing (Creus, sections 4.2 and
 // 4.4). Programs and kernels that include it behind their slots have
 //   IN(1, float, particles)  x and y in the rain space's clip coordinates, and oscillation + start
-//   IN(2, uint, blocks)      STREAKS_BLOCK_WORDS each
+//   IN(2, uint, blocks)      the classes of sizes, then blocks of STREAKS_BLOCK_WORDS each
 //   IMAGE(3, D32F, depths)   the scene seen along the fall
 #ifndef RG_KERNELS_STREAKS_PARTICLE_H
 #define RG_KERNELS_STREAKS_PARTICLE_H
+
+#include "kernels/streaks/size.h"
 
 RG_STRUCT(streaks_particle)
 {
@@ -16,6 +18,11 @@ RG_STRUCT(streaks_particle)
     int oscillation;
     int state;
     uint number; // in its buffer
+    // Of its class, in those of the settings' drop.
+    float radius;
+    float speed;
+    float swing;  // frequency
+    float weight; // drops that it stands for
 };
 
 // Truth values are numbers here, which gcc can turn into masks.
@@ -59,19 +66,27 @@ RG_FN float streaks_hit(rg_ctx rg, streaks_params p, float x, float y)
     return inside * (p.map_top + depth * p.map_height) + (1.0f - inside) * p.ground;
 }
 
+// How far above a drop the upper end of its streak is. It is p.behind to the bit for the settings'
+// drop.
+RG_FN float streaks_behind(streaks_params p, streaks_particle t)
+{
+    return p.behind + p.fall * (t.speed - 1.0f) + p.drop_radius * (t.radius - 1.0f);
+}
+
 // What a particle is, by how far its streak's upper end is `past` the surface it hits. It comes
 // in again at the local top when it leaves the local ground; if its splash is not over by then, it
 // stays a splash. So each drop that hits makes one splash, and all splashes last equally long.
 RG_FN streaks_particle streaks_state(streaks_params p, streaks_particle particle)
 {
     streaks_particle t = particle;
-    float past = (t.s - p.behind) - t.hit;
+    float fall_speed = p.fall_speed * t.speed;
+    float past = (t.s - streaks_behind(p, t)) - t.hit;
     int falling = streaks_below(past, 0.0f);
     float since = past + rg_to_float(falling) * p.local_height;
-    float lasts = rg_min(p.splash_s * p.fall_speed, p.local_height);
+    float lasts = rg_min(p.splash_s * fall_speed, p.local_height);
     int splash = (1 - streaks_below(since, 0.0f)) & streaks_below(since, lasts) &
                  streaks_below(t.hit, p.top + p.local_height);
-    t.age = since / p.fall_speed;
+    t.age = since / fall_speed;
     t.state =
         splash * p.splashes * STREAKS_SPLASH + (1 - splash) * falling * p.drops * STREAKS_DROP;
     return t;
@@ -79,19 +94,25 @@ RG_FN streaks_particle streaks_state(streaks_params p, streaks_particle particle
 
 RG_FN streaks_particle streaks_particle_at(rg_ctx rg, streaks_params p, int i)
 {
-    int block = (i >> 5) * STREAKS_BLOCK_WORDS;
+    int block = p.sizes * STREAKS_SIZE_WORDS + (i >> 5) * STREAKS_BLOCK_WORDS;
     int in_block = i & 31;
     uint number = blocks_at(rg, block) + rg_to_uint(in_block);
+    int size = streaks_size_class(number, p.sizes) * STREAKS_SIZE_WORDS;
     int at = 3 * rg_to_int(number);
     float both = particles_at(rg, at + 2);
     float oscillation = rg_floor(both);
-    float fallen = (both - oscillation) + rg_bits_float(blocks_at(rg, block + 4));
+    float fallen = (both - oscillation) + rg_bits_float(blocks_at(rg, block + 4)) +
+                   rg_bits_float(blocks_at(rg, size + 4));
     streaks_particle t;
     t.x = (particles_at(rg, at) + rg_bits_float(blocks_at(rg, block + 2))) * p.half_x;
     t.y = (particles_at(rg, at + 1) + rg_bits_float(blocks_at(rg, block + 3))) * p.half_y;
     t.s = p.top + p.local_height * (fallen - rg_floor(fallen));
     t.oscillation = rg_to_int(oscillation);
     t.number = number;
+    t.radius = rg_bits_float(blocks_at(rg, size));
+    t.speed = rg_bits_float(blocks_at(rg, size + 1));
+    t.swing = rg_bits_float(blocks_at(rg, size + 2));
+    t.weight = rg_bits_float(blocks_at(rg, size + 3));
     t.hit = streaks_hit(rg, p, t.x, t.y);
     t.age = 0.0f;
     t = streaks_state(p, t);
@@ -99,14 +120,6 @@ RG_FN streaks_particle streaks_particle_at(rg_ctx rg, streaks_params p, int i)
     float away = rg_max(rg_abs(t.x - p.eye_x), rg_abs(t.y - p.eye_y));
     t.state = t.state * counted * (1 - p.exact * streaks_below(p.radius, away));
     return t;
-}
-
-// A number that looks random, of a particle: for what need not be random.
-RG_FN uint streaks_hash(uint particle)
-{
-    uint h = particle * 0x9e3779b9u;
-    h = (h ^ (h >> 16)) * 0x85ebca6bu;
-    return h ^ (h >> 13);
 }
 
 // The part behind the last whole number.
@@ -119,7 +132,7 @@ RG_FN float streaks_part(float cycles)
 RG_FN float streaks_turn(streaks_params p, streaks_particle t)
 {
     float begin = rg_to_float(rg_to_int(streaks_hash(t.number) & 1023u)) / 1024.0f;
-    return streaks_part(t.s * p.cycles_per_m + begin);
+    return streaks_part(t.s * (p.cycles_per_m * (t.swing / t.speed)) + begin);
 }
 
 #endif

@@ -33,11 +33,14 @@ RG_STRUCT(streaks_billboard)
     float v_x, v_y, v_at;
     float hit;   // s of the surface that cuts it off; far below a splash
     float shown; // of a drop the camera's elevation, in steps of the atlas; of a splash its frame
+    // How much longer a drop covers a place on its way than the atlas' does, and of drops and
+    // splashes how many they stand for.
+    float share;
     // Of a drop. Lengths are in its radii, as the eye sees them.
-    float share;   // how much longer it covers a place on its way than the atlas' does
     float way;     // how far it falls in the exposure
     float lacking; // at either end for a pixel's length
     float turn;    // its swing at the lower end, in cycles
+    float cycles;  // of its slower swing, in the exposure
     uint look;     // STREAKS_LOOK_*
     uint rows;     // of a drop's two views: their first rows in the atlas, 12 bits each
 };
@@ -57,6 +60,7 @@ RG_STRUCT(streaks_shape)
     v3 middle;
     float pixel;      // at the middle, in metres
     float half_width; // of what the atlas shows
+    float weight;     // drops that it stands for
     float covering;   // half of the billboard's width: no less than that of the thinnest
     float rim;        // beyond either end of the axis, as the eye sees it
     // Of drops, in radii, as the eye sees them.
@@ -65,7 +69,7 @@ RG_STRUCT(streaks_shape)
     float lacking; // at either end for a pixel's length
 };
 
-// Splashes differ in size, by 15 % at most.
+// Splashes of drops of one size differ, by 15 % at most.
 RG_FN float streaks_size(uint random)
 {
     return 0.85f + 0.3f * rg_to_float(rg_to_int(random & 1023u)) / 1023.0f;
@@ -74,26 +78,30 @@ RG_FN float streaks_size(uint random)
 RG_FN streaks_shape streaks_shape_of(streaks_params p, streaks_particle t)
 {
     int splash = t.state == STREAKS_SPLASH ? 1 : 0;
-    float size = streaks_size(streaks_hash(t.number));
+    float size = streaks_size(streaks_hash(t.number)) * t.radius;
     float tall = p.splash_height * size;
+    float fall = p.fall * t.speed;
+    float drop_radius = p.drop_radius * t.radius;
+    float half_width = p.half_width * t.radius;
     streaks_shape shape;
+    shape.weight = t.weight;
     shape.base = v3_make(t.x, t.y, splash != 0 ? t.hit : t.s);
     shape.axis = v3_make(splash != 0 ? p.up_x * tall : 0.0f, splash != 0 ? p.up_y * tall : 0.0f,
-                         splash != 0 ? p.up_s * tall : -p.fall);
+                         splash != 0 ? p.up_s * tall : -fall);
     shape.middle = v3_add(shape.base, v3_scale(shape.axis, 0.5f));
     shape.pixel = rg_max(m4_project(p.to_clip, shape.middle).w, 1e-3f) / p.focal_px;
-    shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : p.half_width;
+    shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : half_width;
     float thinnest = p.thinnest_px * shape.pixel;
-    float covering = rg_max(p.half_width, 0.5f * thinnest);
+    float covering = rg_max(half_width, 0.5f * thinnest);
     v3 to_eye = v3_unit(
         v3_make(p.eye_x - shape.middle.x, p.eye_y - shape.middle.y, p.eye_s - shape.middle.z));
-    float way = p.fall * rg_hypot(to_eye.x, to_eye.y);
+    float way = fall * rg_hypot(to_eye.x, to_eye.y);
     float lacking = rg_max(0.5f * (thinnest - way), 0.0f);
     shape.to_eye = to_eye;
-    shape.way = rg_max(way / p.drop_radius, 1e-3f);
-    shape.lacking = lacking / p.drop_radius;
+    shape.way = rg_max(way / drop_radius, 1e-3f);
+    shape.lacking = lacking / drop_radius;
     shape.covering = splash != 0 ? shape.half_width : covering;
-    shape.rim = splash != 0 ? 0.0f : rg_max(p.drop_radius, lacking);
+    shape.rim = splash != 0 ? 0.0f : rg_max(drop_radius, lacking);
     return shape;
 }
 
@@ -229,7 +237,7 @@ RG_FN float streaks_share(streaks_shape shape, float shown)
     int view = streaks_view(shown);
     float first = streaks_steadiness(view);
     float blended = first + (streaks_steadiness(view + 1) - first) * (shown - rg_to_float(view));
-    return 2.0f / (shape.way * blended) * (shape.half_width / shape.covering);
+    return 2.0f / (shape.way * blended) * (shape.half_width / shape.covering) * shape.weight;
 }
 
 RG_FN streaks_billboard streaks_drop(streaks_params p, streaks_billboard of, streaks_particle t,
@@ -244,6 +252,7 @@ RG_FN streaks_billboard streaks_drop(streaks_params p, streaks_billboard of, str
     r.lacking = shape.lacking;
     r.share = streaks_share(shape, r.shown);
     r.turn = streaks_turn(p, t);
+    r.cycles = p.cycles * t.swing;
     int view = streaks_view(r.shown);
     uint end = rg_to_uint(streaks_row(view + 2) >> level);
     r.look = streaks_look(below * STREAKS_LOOK_BELOW + end * 4096u, level, t.oscillation);
@@ -259,6 +268,7 @@ RG_FN streaks_billboard streaks_splash(rg_ctx rg, streaks_params p, streaks_bill
     uint random = streaks_hash(t.number);
     int material = streaks_material(rg, p, t);
     r.hit = RG_LARGEST;
+    r.share = t.weight;
     r.shown = rg_clamp(t.age / p.splash_s, 0.0f, 0.999f) * rg_to_float(STREAKS_FRAMES);
     r.look = streaks_look(STREAKS_LOOK_SPLASH + ((random >> 10) & 1u) * STREAKS_LOOK_MIRRORED,
                           level, material * STREAKS_FRAMES);
@@ -286,6 +296,7 @@ RG_FN streaks_billboard streaks_placed(rg_planes planes)
     r.way = 1.0f;
     r.lacking = 0.0f;
     r.turn = 0.0f;
+    r.cycles = 0.0f;
     r.look = 0u;
     r.rows = 0u;
     return r;
@@ -309,6 +320,7 @@ RG_FN streaks_billboard streaks_billboard_of(rg_ctx rg, rg_draw_state draw, stre
     r.way = is_splash != 0 ? splash.way : drop.way;
     r.lacking = is_splash != 0 ? splash.lacking : drop.lacking;
     r.turn = is_splash != 0 ? splash.turn : drop.turn;
+    r.cycles = is_splash != 0 ? splash.cycles : drop.cycles;
     r.look = is_splash != 0 ? splash.look : drop.look;
     r.rows = is_splash != 0 ? splash.rows : drop.rows;
     return r;
@@ -399,7 +411,7 @@ RG_FN streaks_strip streaks_strip_of(streaks_params p, streaks_billboard r, floa
     s.level = p.first_level + (streaks_level_of(r) - p.first_level) * drop;
     s.view = streaks_view(r.shown);
     s.between = r.shown - rg_to_float(s.view);
-    float turn = streaks_part(r.turn - p.cycles * streaks_place_of(r, u, v).passed);
+    float turn = streaks_part(r.turn - r.cycles * streaks_place_of(r, u, v).passed);
     s.y0 = streaks_along(first, second - first, s.level, turn);
     s.y1 = streaks_along(second, end - second, s.level, turn);
     return s;
@@ -530,7 +542,7 @@ RG_FN rg_fragment streaks_fragment_of(rg_ctx rg, streaks_params p, streaks_billb
     float splash = rg_to_float(streaks_is(r, STREAKS_LOOK_SPLASH));
     float share = r.share * streaks_place_of(r, spot.u, spot.v).window;
     float sky = share * scenery_sky(rg, p, r, spot);
-    float crown = streaks_crown(rg, r, spot);
+    float crown = r.share * streaks_crown(rg, r, spot);
     float from_sky = streaks_between(sky * p.gain, crown * p.splash_gain, splash);
     float from_lights = streaks_between(share * p.gain, crown * p.splash_gain, splash);
     float opacity = streaks_between(sky * p.opacity, crown * p.splash_opacity, splash);

@@ -1,5 +1,6 @@
 // streaks: particles as the frame sees them, for those who compare states: x, y, s, hit height,
-// age, what they are, the material of what they hit, and oscillation + turn, 8 words each.
+// age, what they are, the material of what they hit, oscillation + turn, radius in metres, and how
+// many drops they stand for, STREAKS_STATE_WORDS each.
 #include "kernels/streaks/params.h"
 
 #define RG_PARAMS streaks_params
@@ -26,4 +27,6 @@ RG_GRID_KERNEL(streaks_state)
     places_put(rg, word + 5, rg_to_float(t.state));
     places_put(rg, word + 6, seen ? rg_to_float(material) : 0.0f);
     places_put(rg, word + 7, seen ? rg_to_float(t.oscillation) + streaks_turn(p, t) : 0.0f);
+    places_put(rg, word + 8, seen ? p.drop_radius * t.radius : 0.0f);
+    places_put(rg, word + 9, seen ? t.weight : 0.0f);
 }

@@ -12,6 +12,7 @@
 #include "core/techniques/technique.h"
 #include "kernels/streaks/far_params.h"
 #include "kernels/streaks/params.h"
+#include "kernels/streaks/size.h"
 
 enum streaks_counter {
     STREAKS_PARTICLES, // that selected packets held
@@ -30,6 +31,17 @@ struct streaks_map {
     struct rg_image *numbers; // RGBA8: of surfaces, of the same size; one texel if nobody asks
 };
 
+enum { STREAKS_SIZES = 512 };
+
+// The sizes of drops: one class, or STREAKS_SIZES that are equally frequent.
+struct streaks_sizes {
+    int count;
+    double drops_m3; // that are kept, where the density map is white
+    double speeds_m_s[STREAKS_SIZES];
+    double largest_m, fastest_m_s;                   // radius and speed of those that are most so
+    float words[STREAKS_SIZES * STREAKS_SIZE_WORDS]; // kernels/streaks/size.h
+};
+
 struct streaks {
     struct rg_instance base;
     struct streaks_settings settings;
@@ -42,10 +54,12 @@ struct streaks {
     struct rg_image *density;        // the density map, D32F; NULL: nobody asks
     struct rg_camera camera;         // at frame 0
     struct streaks_map *map;         // the scene seen along the fall
-    double drops_m3;                 // where the camera stands at frame 0
-    double fit_error;                // that fit=on found
-    int first_stage;                 // of enum streaks_pass, behind those of the scene
-    bool rain_alone;                 // nothing but rain is drawn, for the search of fit=on
+    struct streaks_sizes sizes;
+    double mean_density; // of the density map
+    double drops_m3;     // where the camera stands at frame 0
+    double fit_error;    // that fit=on found
+    int first_stage;     // of enum streaks_pass, behind those of the scene
+    bool rain_alone;     // nothing but rain is drawn, for the search of fit=on
     int buffer_count;
     struct rg_buf *particles[STREAKS_MAX_BUFFERS];
     // Assets whose buffers change: another buffer of particles for each draw, and lists that grow.
@@ -72,6 +86,17 @@ void streaks_free_particles(struct streaks *streaks);
 // The density map of the settings, which the caller destroys. NULL, and one logged line, on
 // failure.
 struct rg_density *streaks_density(const struct streaks *streaks);
+
+// Makes the classes of the settings' drops. False, and one logged line, on failure.
+bool streaks_sizes_make(struct streaks *streaks);
+// Whether the drops of a spectrum can be told apart; else one line with the numbers is logged.
+bool streaks_sizes_fit(const struct streaks *streaks, const struct rg_density *density);
+bool streaks_sizes_differ(const struct streaks *streaks);
+// Moves the classes to the present frame, in a local space with this top.
+void streaks_sizes_turn(struct streaks *streaks, double top_m);
+// Tells the rain that a spectrum's particles make, and what is left out.
+void streaks_sizes_tell(struct streaks *streaks);
+double streaks_swings_a_second(double radius_m); // of a drop
 
 // Moves the observer to the present frame, and makes what it draws: the selection, its blocks, the
 // parameters, the depth map where it is due. False, and one logged line, on failure.

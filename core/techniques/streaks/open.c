@@ -140,6 +140,7 @@ static void tell_facts(struct streaks *s)
     rg_tell_text(i, "packets", "%s", streaks_scheme_name(info->scheme));
     rg_tell(i, "packet_count", (double)info->packets);
     rg_tell(i, "particle_bytes", (double)info->particle_bytes);
+    streaks_sizes_tell(s);
     rg_tell_text(i, "atlas_hash", "%016" PRIx64, s->textures->hash);
     rg_tell_text(i, "scene_hash", "%016" PRIx64, scenery_city(s->scene)->hash);
     if (!set->fit)

@@ -20,8 +20,7 @@ static double drops_at_camera(const struct streaks *s, const struct rg_density *
     const double row = (rain[1] / s->space.half_y_m + 1) / 2 * density->height;
     if (!(column >= 0 && column < density->width && row >= 0 && row < density->height))
         return 0;
-    return rg_density_at(density, (int)column, (int)row) * s->settings.drops_m2_s /
-           s->settings.fall_speed_m_s;
+    return rg_density_at(density, (int)column, (int)row) * s->sizes.drops_m3;
 }
 
 struct rg_density *streaks_density(const struct streaks *s)
@@ -35,7 +34,8 @@ static bool create_packets(struct streaks *s)
     const struct streaks_settings *set = &s->settings;
     const struct streaks_packets_settings settings = {
         .seed = (uint32_t)set->seed,
-        .drops_m2_s = set->drops_m2_s,
+        .drops_m2_s =
+            streaks_sizes_differ(s) ? s->sizes.drops_m3 * set->fall_speed_m_s : set->drops_m2_s,
         .fall_speed_m_s = set->fall_speed_m_s,
         .local_height_m = set->local_height_m,
         .packet_size = set->packet_size,
@@ -44,7 +44,10 @@ static bool create_packets(struct streaks *s)
         .memory_bytes = (int64_t)set->memory_mb * 1000000,
     };
     struct rg_density *density = streaks_density(s);
-    s->packets = density ? streaks_packets_create(&s->space, density, &settings) : NULL;
+    s->mean_density = density ? rg_density_mean(density) : 0;
+    s->packets = density && streaks_sizes_fit(s, density)
+                     ? streaks_packets_create(&s->space, density, &settings)
+                     : NULL;
     s->drops_m3 = density ? drops_at_camera(s, density) : 0;
     rg_density_destroy(density);
     return s->packets;
@@ -72,5 +75,5 @@ static bool upload_particles(struct streaks *s)
 bool streaks_make_particles(struct streaks *s)
 {
     streaks_free_particles(s);
-    return create_packets(s) && upload_particles(s);
+    return streaks_sizes_make(s) && create_packets(s) && upload_particles(s);
 }

@@ -20,7 +20,8 @@ static const char *fault_of(const struct streaks *s, const float *place)
 {
     const streaks_params *p = &s->params;
     const int state = (int)place[5];
-    const float most = 1e-3f, end = place[2] - p->behind;
+    const double longest_m = s->sizes.fastest_m_s * s->settings.exposure_s + s->sizes.largest_m;
+    const float most = 1e-3f, end = place[2] - (float)longest_m;
     if (state == STREAKS_NOTHING)
         return NULL;
     if (state != STREAKS_DROP && state != STREAKS_SPLASH)
@@ -60,7 +61,8 @@ static bool particles_are_sound(const struct rg_instance *instance, char *detail
 static const struct rg_pose poses[] = {
     {.set = NEAR},
     {.set = NEAR "rain_width_m=150 walk_m_s=3 time=night lights=6 packets=quad packet_size=3000 "
-                 "select=hull splash_materials=on"},
+                 "select=hull splash_materials=on spectrum=marshall-palmer kept=section "
+                 "kept_share=0.03"},
     {.set = SMALL "geometry=off walk_m_s=8 slant_deg=25 slant_azimuth_deg=20 packets=kd "
                   "packet_size=700 drops_m2_s=20 cull=exact order=id depth_map=dynamic "
                   "depth_map_period=3 depth_map_px=512 taps=8 far_layers=3 splash_materials=on"},
@@ -101,6 +103,8 @@ static const struct rg_contrast contrasts[] = {
     {"streaks hide 3 % more", NEAR "streak_gain=0 streak_opacity=30", "streak_opacity=30.9"},
     {"splashes hide 3 % less", NEAR "splash_gain=0 splash_opacity=1 splash_width_mm=200",
      "splash_opacity=0.97"},
+    {"drops of other sizes", NEAR "spectrum=best kept_share=0.1", "rain_mm_h=21"},
+    {"slower drops of a spectrum", NEAR "spectrum=best kept_share=0.1", "terminal_speed=atlas"},
     {"views from below as from above", NEAR "streak_gain=10", "view_below=absolute"},
     {NULL, NULL, NULL},
 };

@@ -16,6 +16,9 @@ struct streaks_settings {
     double rain_width_m, rain_depth_m, rain_height_m, slant_deg, slant_azimuth_deg;
     char density_map[RG_PATH_SIZE];
     double drops_m2_s, fall_speed_m_s;
+    // drops of different sizes
+    int spectrum, terminal_speed, kept_by_section;
+    double rain_mm_h, least_diameter_mm, kept_share;
     // what of it is simulated
     double local_height_m, culling_radius_m;
     int limits; // 0: rain everywhere

@@ -184,3 +184,29 @@ void streaks_packets_forget(struct streaks_packets *packets)
     free(packets->particles);
     packets->particles = NULL;
 }
+
+// --- visiting them ---
+
+static void visit_slots(int64_t first, int64_t count, int64_t times,
+                        void (*visit)(void *user, uint32_t number, int64_t times), void *user)
+{
+    for (int64_t slot = first; slot < first + count; slot++)
+        visit(user, (uint32_t)(slot % STREAKS_BUFFER_PARTICLES), times);
+}
+
+void streaks_packets_each(const struct streaks_packets *p,
+                          void (*visit)(void *user, uint32_t number, int64_t times), void *user)
+{
+    if (p->info.scheme == STREAKS_GRID) {
+        for (int level = 1; level < STREAKS_LEVELS; level++)
+            visit_slots(p->grid.buckets[level].first, p->grid.buckets[level].count,
+                        p->grid.cells_of[level], visit, user);
+        return;
+    }
+    if (streaks_by_id(p)) {
+        visit_slots(0, p->info.total_particles, 1, visit, user);
+        return;
+    }
+    for (int64_t i = 0; i < p->info.packets; i++)
+        visit_slots(p->packets[i].first, p->packets[i].count, 1, visit, user);
+}

@@ -95,6 +95,11 @@ const float *streaks_packets_buffer(const struct streaks_packets *packets, int i
                                     int64_t *bytes);
 void streaks_packets_forget(struct streaks_packets *packets);
 
+// Calls `visit` for each particle's number in its buffer, with how often it stands in the local
+// space: the grid's stand in several cells.
+void streaks_packets_each(const struct streaks_packets *packets,
+                          void (*visit)(void *user, uint32_t number, int64_t times), void *user);
+
 // How many particles a local space holds: the numbers alone, without making them; 0 for settings
 // that are refused, which is not logged.
 int64_t streaks_packets_total(const struct rg_rain_space *space, const struct rg_density *density,

@@ -4,38 +4,45 @@
 #include "core/scene/matrix.h"
 #include "core/techniques/streaks/instance.h"
 
-// How far streaks and splashes reach from their particle, in metres.
-static double splash_reach(const struct streaks_settings *set)
+// How far streaks and splashes reach from their particle, in metres: those of the largest and the
+// fastest drops.
+static double splash_reach(const struct streaks *s)
 {
     const double largest = 1.15; // of a splash, by the size that is set
-    return set->splash_width_mm / 1000 * largest;
+    const struct streaks_settings *set = &s->settings;
+    return set->splash_width_mm / set->drop_radius_mm * s->sizes.largest_m * largest;
 }
 
-static double streak_length(const struct streaks_settings *set)
+static double streak_length(const struct streaks *s)
 {
-    return set->fall_speed_m_s * set->exposure_s;
+    return s->sizes.fastest_m_s * s->settings.exposure_s;
 }
 
-// The margin around the drop in the atlas' pictures.
-static double margin(const struct streaks_settings *set)
+// Above the local top. Where drops fall at different speeds, nobody knows which part of the local
+// space those of a block are in: it is taken for all of it.
+static double reach_above(const struct streaks *s)
 {
-    return set->drop_radius_mm / 1000;
+    const double splash = splash_reach(s), streak = streak_length(s) + 2 * s->sizes.largest_m;
+    return streak + s->settings.splash_s * s->sizes.fastest_m_s + splash +
+           (streaks_sizes_differ(s) ? s->settings.local_height_m : 0);
 }
 
 static bool select_packets(struct streaks *s, const double eye[3], double top_m)
 {
     const struct streaks_settings *set = &s->settings;
     const struct rg_image_desc *desc = &s->base.target->desc;
-    const double splash = splash_reach(set), streak = streak_length(set) + 2 * margin(set);
+    const double across_m = fmax(splash_reach(s), 2 * s->sizes.largest_m);
     struct streaks_view view = {
         .eye = {eye[0], eye[1], eye[2]},
         .radius_m = set->limits ? set->culling_radius_m : (double)INFINITY,
         .top_m = top_m,
-        .run = rg_rain_run(set->fall_speed_m_s, set->step_s * (double)s->base.frame, top_m,
-                           set->local_height_m),
-        .across_m = fmax(splash, 2 * margin(set)),
-        .above_m = streak + set->splash_s * set->fall_speed_m_s + splash,
-        .below_m = fmax(2 * margin(set), splash),
+        .run = streaks_sizes_differ(s)
+                   ? 0
+                   : rg_rain_run(set->fall_speed_m_s, set->step_s * (double)s->base.frame, top_m,
+                                 set->local_height_m),
+        .across_m = across_m,
+        .above_m = reach_above(s),
+        .below_m = across_m,
         .hull = set->select,
         .whole = set->all_blocks || set->keeps_state,
     };
@@ -46,13 +53,6 @@ static bool select_packets(struct streaks *s, const double eye[3], double top_m)
 
 // --- the kernels' parameters ---
 
-// Rayleigh's frequency of a drop of water; the second swing of the atlas is twice as fast.
-static double swings_a_second(double radius_m)
-{
-    const double tension_n_m = 0.0728, density_kg_m3 = 1000;
-    return sqrt(8 * tension_n_m / (density_kg_m3 * pow(radius_m, 3))) / (2 * M_PI);
-}
-
 static void set_looks(streaks_params *p, const struct streaks_settings *set,
                       const struct streaks_textures *textures)
 {
@@ -60,10 +60,11 @@ static void set_looks(streaks_params *p, const struct streaks_settings *set,
     p->half_width = (float)(radius_m * RG_ATLAS_CELL_PX / (double)RG_ATLAS_DROP_PX);
     p->drop_radius = (float)radius_m;
     p->thinnest_px = set->points ? 0 : 1;
-    p->fall = (float)streak_length(set);
-    p->behind = (float)(streak_length(set) + radius_m);
-    p->cycles = (float)(swings_a_second(radius_m) * set->exposure_s);
-    p->cycles_per_m = (float)(swings_a_second(radius_m) / set->fall_speed_m_s);
+    const double fall_m = set->fall_speed_m_s * set->exposure_s;
+    p->fall = (float)fall_m;
+    p->behind = (float)(fall_m + radius_m);
+    p->cycles = (float)(streaks_swings_a_second(radius_m) * set->exposure_s);
+    p->cycles_per_m = (float)(streaks_swings_a_second(radius_m) / set->fall_speed_m_s);
     p->fall_speed = (float)set->fall_speed_m_s;
     p->splash_s = (float)set->splash_s;
     p->splash_width = (float)(set->splash_width_mm / 1000);
@@ -119,24 +120,29 @@ static void set_params(struct streaks *s, const double eye[3], double top_m)
     p->sky_r = set->environment_light ? s->lights->sky[0] : 0;
     p->sky_g = set->environment_light ? s->lights->sky[1] : 0;
     p->sky_b = set->environment_light ? s->lights->sky[2] : 0;
+    p->sizes = s->sizes.count;
     set_looks(p, set, s->textures);
 }
 
 // --- which blocks are drawn ---
 
+// The classes of sizes lie before them.
 bool streaks_write_blocks(struct streaks *s, const struct streaks_draw *draw)
 {
+    const int64_t before = (int64_t)s->sizes.count * STREAKS_SIZE_WORDS;
     const int64_t words = (int64_t)draw->block_count * STREAKS_BLOCK_WORDS;
-    const int64_t most = (int64_t)STREAKS_DRAW_BLOCKS * STREAKS_BLOCK_WORDS;
-    const int64_t room = words + words / 2 < most ? words + words / 2 : most;
-    const bool fits = s->blocks->buf && (int64_t)s->blocks->buf->size >= words * 4;
+    const int64_t most = before + (int64_t)STREAKS_DRAW_BLOCKS * STREAKS_BLOCK_WORDS;
+    const int64_t room = before + words + words / 2 < most ? before + words + words / 2 : most;
+    const bool fits = s->blocks->buf && (int64_t)s->blocks->buf->size >= (before + words) * 4;
     return (fits || rg_make_room(&s->base, s->blocks, room)) &&
-           rg_buf_write(s->blocks->buf, 0,
+           rg_buf_write(s->blocks->buf, 0, s->sizes.words, before * 4) &&
+           rg_buf_write(s->blocks->buf, before * 4,
                         s->selection.blocks + draw->first_block * STREAKS_BLOCK_WORDS, words * 4);
 }
 
 bool streaks_select_blocks(struct streaks *s, const double eye[3], double top_m)
 {
+    streaks_sizes_turn(s, top_m);
     return select_packets(s, eye, top_m) &&
            (s->selection.draw_count != 1 || streaks_write_blocks(s, &s->selection.draws[0]));
 }

@@ -3,34 +3,35 @@ import collections
 
 Row = collections.namedtuple("Row", "about file old new tests")
 
-COVER = ("cover",)
-LOOKS = ("looks",)
+COVER = ("picture/cover",)
+LOOKS = ("picture/looks",)
 PARTICLES = ("particles",)
 FAR = ("far",)
-OUTSIDE = ("outside",)
+OUTSIDE = ("picture/outside",)
+SIZES = ("sizes",)
 
 ROWS = [Row(*row) for row in (
     # particles
     ("drops rise", "particle.h", "t.s = p.top + p.local_height * (fallen - rg_floor(fallen))",
      "t.s = p.top + p.local_height * (1.0f - (fallen - rg_floor(fallen)))", PARTICLES),
-    ("drops end a streak too late", "particle.h", "(t.s - p.behind) - t.hit", "t.s - t.hit", PARTICLES),
+    ("drops end a streak too late", "particle.h", "(t.s - streaks_behind(p, t)) - t.hit", "t.s - t.hit", PARTICLES),
     ("the map's rows run across", "particle.h", "(y - p.map_y) * p.map_per_y * height",
      "(x - p.map_y) * p.map_per_y * height", PARTICLES),
-    ("splashes last half as long", "particle.h", "rg_min(p.splash_s * p.fall_speed, p.local_height)",
-     "rg_min(0.5f * p.splash_s * p.fall_speed, p.local_height)", PARTICLES),
+    ("splashes last half as long", "particle.h", "rg_min(p.splash_s * fall_speed, p.local_height)",
+     "rg_min(0.5f * p.splash_s * fall_speed, p.local_height)", PARTICLES),
     ("all drops begin their swing together", "particle.h", "(streaks_hash(t.number) & 1023u)",
      "(streaks_hash(0u) & 1023u)", PARTICLES),
-    ("drops do not swing as they fall", "particle.h", "t.s * p.cycles_per_m + begin", "begin", PARTICLES),
+    ("drops do not swing as they fall", "particle.h", "t.s * (p.cycles_per_m * (t.swing / t.speed)) + begin", "begin", PARTICLES),
     # what streaks cover
-    ("streaks twice as wide", "rain.h", "shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : p.half_width",
-     "shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : 2.0f * p.half_width", COVER),
-    ("streaks twice as long", "rain.h", "splash != 0 ? p.up_s * tall : -p.fall",
-     "splash != 0 ? p.up_s * tall : -2.0f * p.fall", COVER),
+    ("streaks twice as wide", "rain.h", "shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : half_width",
+     "shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : 2.0f * half_width", COVER),
+    ("streaks twice as long", "rain.h", "splash != 0 ? p.up_s * tall : -fall",
+     "splash != 0 ? p.up_s * tall : -2.0f * fall", COVER),
     ("thin streaks as bright as wide ones", "rain.h", "(shape.half_width / shape.covering)", "1.0f", COVER),
-    ("thin streaks missed", "rain.h", "rg_max(p.half_width, 0.5f * thinnest)", "p.half_width", COVER),
+    ("thin streaks missed", "rain.h", "rg_max(half_width, 0.5f * thinnest)", "half_width", COVER),
     ("short streaks missed", "rain.h", "rg_max(0.5f * (thinnest - way), 0.0f)", "0.0f", COVER),
-    ("no foreshortening of the way", "rain.h", "float way = p.fall * rg_hypot(to_eye.x, to_eye.y)",
-     "float way = p.fall", COVER),
+    ("no foreshortening of the way", "rain.h", "float way = fall * rg_hypot(to_eye.x, to_eye.y)",
+     "float way = fall", COVER),
     ("the atlas' share of the exposure", "rain.h", "2.0f / (shape.way * blended)", "1.0f", COVER),
     ("the share of the lower view", "rain.h",
      "first + (streaks_steadiness(view + 1) - first) * (shown - rg_to_float(view))", "first", COVER),
@@ -39,10 +40,10 @@ ROWS = [Row(*row) for row in (
     ("half of a swing", "rain.h", "(size - 2.0f * rim) * turn", "0.5f * (size - 2.0f * rim) * turn", LOOKS),
     ("the way of another view", "cells.h", "return 1009.12f", "return 1100.0f", COVER),
     # which streak is seen
-    ("streaks upside down", "rain.h", "streaks_part(r.turn - p.cycles * streaks_place_of(r, u, v).passed)",
-     "1.0f - streaks_part(r.turn - p.cycles * streaks_place_of(r, u, v).passed)", LOOKS),
-    ("swings run backwards", "rain.h", "r.turn - p.cycles *", "r.turn + p.cycles *", LOOKS),
-    ("swings twice as fast", "rain.h", "r.turn - p.cycles *", "r.turn - 2.0f * p.cycles *", LOOKS),
+    ("streaks upside down", "rain.h", "streaks_part(r.turn - r.cycles * streaks_place_of(r, u, v).passed)",
+     "1.0f - streaks_part(r.turn - r.cycles * streaks_place_of(r, u, v).passed)", LOOKS),
+    ("swings run backwards", "rain.h", "r.turn - r.cycles *", "r.turn + r.cycles *", LOOKS),
+    ("swings twice as fast", "rain.h", "r.turn - r.cycles *", "r.turn - 2.0f * r.cycles *", LOOKS),
     ("always the same oscillation", "rain.h", "s.oscillation = streaks_layer_of(r) * drop",
      "s.oscillation = 3 * drop", LOOKS),
     # light
@@ -60,7 +61,7 @@ ROWS = [Row(*row) for row in (
     ("no shadows", "rain.h", "reach.share * scenery_unshadowed(rg, l, spot.at) * streaks_between",
      "reach.share * streaks_between", LOOKS),
     ("irradiance without pi", "rain.h", "float streak = SCENERY_IRRADIANCE * streaks_streak",
-     "float streak = streaks_streak", ("furnace",)),
+     "float streak = streaks_streak", ("picture/furnace",)),
     # splashes
     ("splashes played backwards", "rain.h", "r.shown = rg_clamp(t.age / p.splash_s, 0.0f, 0.999f)",
      "r.shown = (0.999f - rg_clamp(t.age / p.splash_s, 0.0f, 0.999f))", LOOKS),
@@ -78,4 +79,16 @@ ROWS = [Row(*row) for row in (
     ("splashes as long as drops", "outside/marks.h", "splash != 0 ? 0.5f * p.fall : p.fall", "p.fall", OUTSIDE),
     ("splashes marked where their drops would be", "outside/marks.h", "splash != 0 ? t.hit : t.s", "t.s", OUTSIDE),
     ("particles that are nothing are marked", "outside/marks.h", "(t.state == STREAKS_NOTHING ? 0 : 1) *", "1 *", OUTSIDE),
+    # sizes
+    ("drops of one radius", "particle.h", "t.radius = rg_bits_float(blocks_at(rg, size))", "t.radius = 1.0f", SIZES),
+    ("the first class alone", "size.h", "(streaks_hash(particle) >> 14)", "(streaks_hash(0u * particle) >> 14)", SIZES),
+    ("half of the classes", "size.h", "rg_to_uint(sizes - 1)", "rg_to_uint(sizes / 2 - 1)", SIZES),
+    ("drops do not move apart", "particle.h", "rg_bits_float(blocks_at(rg, size + 4))",
+     "rg_bits_float(blocks_at(rg, 4))", SIZES),
+    ("each drop for one", "rain.h", "* shape.weight;", ";", COVER),
+    ("streaks of one length", "rain.h", "float fall = p.fall * t.speed;", "float fall = p.fall;", COVER),
+    ("streaks of one width", "rain.h", "float half_width = p.half_width * t.radius;", "float half_width = p.half_width;", COVER),
+    ("small drops end where large ones do", "particle.h", "p.drop_radius * (t.radius - 1.0f)", "0.0f", PARTICLES),
+    ("small drops as slow splashes", "particle.h", "t.age = since / fall_speed", "t.age = since / p.fall_speed", PARTICLES),
+    ("drops of all sizes swing alike", "rain.h", "r.cycles = p.cycles * t.swing", "r.cycles = p.cycles", LOOKS),
 )]

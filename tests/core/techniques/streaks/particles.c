@@ -15,14 +15,15 @@
 #include "kernels/streaks/params.h"
 #include "tests/oracle/particle.h"
 
-enum { BLOCKS = 256, PARTICLES = BLOCKS * STREAKS_BLOCK, MAP_X = 7, MAP_Y = 5, WORDS = 8 };
+enum { BLOCKS = 256, PARTICLES = BLOCKS * STREAKS_BLOCK, MAP_X = 7, MAP_Y = 5, WORDS = 10 };
+enum { SIZES = 4, SIZE_WORDS = 5, FIRST_BLOCK = SIZES * SIZE_WORDS };
 enum { SURFACES = 20, SURFACE_WORDS = 4, NO_SURFACE = -1 };
 
 static const char *device_name;
 
 struct scene {
     float particles[3 * PARTICLES];
-    uint32_t blocks[BLOCKS * STREAKS_BLOCK_WORDS];
+    uint32_t blocks[FIRST_BLOCK + BLOCKS * STREAKS_BLOCK_WORDS]; // behind the classes of sizes
     float depths[MAP_X * MAP_Y];
     int32_t numbers[MAP_X * MAP_Y]; // of surfaces
     uint32_t surfaces[SURFACES * SURFACE_WORDS];
@@ -48,6 +49,13 @@ static float number(uint32_t u)
     return f;
 }
 
+// Classes of drops: radius, speed and frequency in those of the settings' drop, how many they stand
+// for, and how far around they have come.
+static const double classes[SIZES][SIZE_WORDS] = {{1, 1, 1, 1, 0},
+                                                  {0.5, 0.75, 2.8, 3, 0.4},
+                                                  {1.5, 1.125, 0.54, 0.25, 0.95},
+                                                  {0.25, 0.5, 8, 40, 0.1}};
+
 // Blocks refer to particles in another order than they lie.
 static void fill(struct scene *scene)
 {
@@ -56,8 +64,10 @@ static void fill(struct scene *scene)
         scene->particles[3 * i + 1] = (float)(2 * uniform(i, 1) - 1);
         scene->particles[3 * i + 2] = (float)(floor(10 * uniform(i, 2)) + uniform(i, 3));
     }
+    for (int i = 0; i < FIRST_BLOCK; i++)
+        scene->blocks[i] = bits(classes[i / SIZE_WORDS][i % SIZE_WORDS]);
     for (uint32_t b = 0; b < BLOCKS; b++) {
-        uint32_t *block = scene->blocks + b * STREAKS_BLOCK_WORDS;
+        uint32_t *block = scene->blocks + FIRST_BLOCK + b * STREAKS_BLOCK_WORDS;
         block[0] = (b * 37 % BLOCKS) * STREAKS_BLOCK;
         block[1] = rg_random(3, b, 0, 4).x | rg_random(3, b, 0, 5).x;
         block[2] = bits(0.3 * uniform(b, 6));
@@ -91,7 +101,10 @@ static const streaks_params base = {
     .map_per_y = 1.0f / 40,
     .map_height = 70,
     .ground = 70,
+    .fall = 0.135f,
+    .drop_radius = 0.005f,
     .behind = 0.14f,
+    .sizes = SIZES,
     .fall_speed = 8,
     .cycles_per_m = 7.5f,
     .splash_s = 0.25f,
@@ -175,38 +188,52 @@ static struct hit hit_at(const struct scene *scene, double x, double y)
     return hit;
 }
 
-// Where a particle begins in its swing: by a hash of its number, in steps of 1/1024.
-static double begin_of(uint32_t particle)
+// By a hash of its number, a particle's class, and where it begins in its swing, in steps of
+// 1/1024.
+static uint32_t hash_of(uint32_t particle)
 {
     uint32_t h = particle * 0x9e3779b9u;
     h = (h ^ (h >> 16)) * 0x85ebca6bu;
-    return (double)((h ^ (h >> 13)) % 1024) / 1024;
+    return h ^ (h >> 13);
+}
+
+static double begin_of(uint32_t particle)
+{
+    return (double)(hash_of(particle) % 1024) / 1024;
+}
+
+static const double *class_of(uint32_t particle)
+{
+    return classes[hash_of(particle) / 16384 % SIZES];
 }
 
 // Returns how many particles are in each state.
 static void compare(const struct scene *scene, const streaks_params *p, const float *places,
                     int counts[3])
 {
-    const struct particle_space space = {.half_x = 30,
-                                         .half_y = 20,
-                                         .top = 20,
-                                         .height = 30,
-                                         .streak = 0.14,
-                                         .speed = 8,
-                                         .splash_s = 0.25,
-                                         .eye_x = 3,
-                                         .eye_y = -2,
-                                         .radius = 8,
-                                         .exact = p->exact};
+    struct particle_space space = {.half_x = 30,
+                                   .half_y = 20,
+                                   .top = 20,
+                                   .height = 30,
+                                   .splash_s = 0.25,
+                                   .eye_x = 3,
+                                   .eye_y = -2,
+                                   .radius = 8,
+                                   .exact = p->exact};
+    int of_class[SIZES] = {0};
     memset(counts, 0, 3 * sizeof(*counts));
     for (uint32_t i = 0; i < PARTICLES; i++) {
-        const uint32_t *block = scene->blocks + i / STREAKS_BLOCK * STREAKS_BLOCK_WORDS;
+        const uint32_t *block =
+            scene->blocks + FIRST_BLOCK + i / STREAKS_BLOCK * STREAKS_BLOCK_WORDS;
         const float *particle = scene->particles + 3 * (size_t)(block[0] + i % STREAKS_BLOCK);
+        const double *class = class_of(block[0] + i % STREAKS_BLOCK);
+        space.speed = 8 * class[1];
+        space.streak = 0.135 * class[1] + 0.005 * class[0];
         const double x = (double)particle[0] + (double)number(block[2]);
         const double y = (double)particle[1] + (double)number(block[3]);
         const struct hit hit = hit_at(scene, x * 30, y * 20);
         struct particle_seen seen = particle_oracle(&space, x, y, fmod((double)particle[2], 1),
-                                                    (double)number(block[4]), hit.s);
+                                                    (double)number(block[4]) + class[4], hit.s);
         if (seen.margin_m < 1e-3 || hit.margin < 1e-4)
             continue;
         if (!(block[1] >> i % STREAKS_BLOCK & 1) || (seen.state == PARTICLE_DROP && !p->drops) ||
@@ -222,12 +249,20 @@ static void compare(const struct scene *scene, const streaks_params *p, const fl
         assert_true(fabs((double)place[2] - seen.s) < 1e-4);
         assert_true(fabs((double)place[3] - hit.s) < 1e-4);
         assert_int_equal(place[6], hit.material);
-        const double turn = 7.5 * seen.s + begin_of(block[0] + i % STREAKS_BLOCK);
+        const double turn =
+            7.5 * class[2] / class[1] * seen.s + begin_of(block[0] + i % STREAKS_BLOCK);
         assert_int_equal(place[7], floor((double)particle[2]));
         assert_true(fabs(remainder((double)place[7] - turn, 1)) < 1e-3);
+        assert_true(fabs((double)place[8] - 0.005 * class[0]) < 1e-8);
+        assert_true(fabs((double)place[9] - class[3]) < 1e-5);
+        of_class[(class - classes[0]) / SIZE_WORDS]++;
         assert_true(fabs((double)place[4] - (seen.state == PARTICLE_SPLASH ? seen.age_s : 0)) <
                     1e-4);
     }
+    // Classes are equally frequent.
+    const int all = counts[PARTICLE_DROP] + counts[PARTICLE_SPLASH];
+    for (int k = 0; k < SIZES; k++)
+        assert_true(of_class[k] * SIZES > all / 2 && of_class[k] * SIZES < 2 * all);
 }
 
 static void check(const streaks_params *p, int least_drops, int least_splashes)

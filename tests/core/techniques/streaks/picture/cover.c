@@ -84,11 +84,16 @@ static double pixels_of(const struct streaks *s, double x, double y, double z, d
     return section * pi * pow(radius_m / away * focal, 2) / pow(cosine, 3);
 }
 
+// By the settings, or of a spectrum's drops by Atlas' fit.
+static double speed_of(const struct streaks *s, double radius_m)
+{
+    return s->settings.spectrum ? 9.65 - 10.3 * exp(-0.6 * 2000 * radius_m)
+                                : s->settings.fall_speed_m_s;
+}
+
 // The pixels that all drops cover in the mean over the exposure, and how many are seen.
 static double pixels_due(const struct streaks *s, int *seen)
 {
-    const double radius_m = s->settings.drop_radius_mm / 1000,
-                 fall_m = s->settings.fall_speed_m_s * s->settings.exposure_s;
     const struct rain_places places = rain_read_places(s);
     double sum = 0;
     *seen = 0;
@@ -97,13 +102,15 @@ static double pixels_due(const struct streaks *s, int *seen)
         if ((int)place[5] != STREAKS_DROP)
             continue;
         double pixels = 0;
+        const double radius_m = (double)place[8],
+                     fall_m = speed_of(s, radius_m) * s->settings.exposure_s;
         for (int k = 0; k < MOMENTS; k++) {
             const double at = (double)place[2] - fall_m * (k + 0.5) / MOMENTS;
             if (at < (double)place[3])
                 pixels += pixels_of(s, (double)place[0], (double)place[1], at, radius_m) / MOMENTS;
         }
         *seen += pixels > 0;
-        sum += pixels;
+        sum += pixels * (double)place[9];
     }
     free(places.words);
     return sum;
@@ -186,6 +193,17 @@ static void test_drops(void **state)
     expect_cross_sections("wide", BESIDE "view_angle_deg=3 drop_radius_mm=6 drops_m2_s=3000");
 }
 
+// Small drops stand for many, and are as bright.
+static void test_sizes(void **state)
+{
+    (void)state;
+    expect_cross_sections("a spectrum", BESIDE "view_angle_deg=30 spectrum=marshall-palmer "
+                                               "terminal_speed=atlas rain_mm_h=30 kept_share=0.02");
+    expect_cross_sections("a spectrum kept by cross-sections",
+                          BESIDE "view_angle_deg=30 spectrum=best terminal_speed=atlas "
+                                 "rain_mm_h=10 least_diameter_mm=0.6 kept=section kept_share=0.02");
+}
+
 // The most light of the pixels around one.
 static double most_around(const struct rain_texels *picture, int column, int row)
 {
@@ -238,9 +256,8 @@ int main(int argc, char **argv)
 {
     find_sections();
     struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_views),
-        cmocka_unit_test(test_exposures),
-        cmocka_unit_test(test_drops),
+        cmocka_unit_test(test_views),        cmocka_unit_test(test_exposures),
+        cmocka_unit_test(test_drops),        cmocka_unit_test(test_sizes),
         cmocka_unit_test(test_thin_streaks),
     };
     return rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

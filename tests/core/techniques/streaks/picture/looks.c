@@ -168,12 +168,15 @@ static void test_oscillations_differ(void **state)
 // One whole swing lies in a row of the atlas, from top to bottom. Where its first half is blank,
 // drops are seen in the second half of their swings, which they are in at known heights: each is
 // somewhere in its swing at the end of the exposure, and was cycles before that at its beginning.
-static void expect_swings(const char *settings, double cycles)
+// `faster`: how much faster than the settings' drops theirs swing, as those of another size do.
+static void expect_swings(const char *settings, double cycles, float faster)
 {
     char all[256];
     snprintf(all, sizeof(all),
              "lights=0 splashes=off view_angle_deg=4 drops_m2_s=2 fall_speed_m_s=8 %s", settings);
     struct streaks *s = open_beside(all);
+    s->sizes.words[2] = faster;
+    rain_step(s, 1);
     s->params.sky_g = SKY;
     struct added *whole = added_by_rain(s);
     struct kept kept = keep(s->textures->skies, 1);
@@ -218,8 +221,9 @@ static double frequency(double radius_m)
 static void test_drops_swing_as_they_fall(void **state)
 {
     (void)state;
-    expect_swings("drop_radius_mm=4 exposure_s=0.1", frequency(0.004) * 0.1);
-    expect_swings("drop_radius_mm=2.5 exposure_s=0.05", frequency(0.0025) * 0.05);
+    expect_swings("drop_radius_mm=4 exposure_s=0.1", frequency(0.004) * 0.1, 1);
+    expect_swings("drop_radius_mm=2.5 exposure_s=0.05", frequency(0.0025) * 0.05, 1);
+    expect_swings("drop_radius_mm=4 exposure_s=0.1", frequency(0.004) * 0.1 * 1.5, 1.5f);
 }
 
 // --- lights ---
