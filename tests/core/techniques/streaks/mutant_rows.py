@@ -86,7 +86,7 @@ ROWS = [Row(*row) for row in (
     ("drops do not move apart", "particle.h", "rg_bits_float(blocks_at(rg, size + 4))",
      "rg_bits_float(blocks_at(rg, 4))", SIZES),
     ("each drop for one", "rain.h", "* shape.weight;", ";", COVER),
-    ("streaks of one length", "rain.h", "float fall = p.fall * t.speed;", "float fall = p.fall;", COVER),
+    ("streaks of one length", "rain.h", "float fall = p.fall * t.speed;", "float fall = p.fall;", LOOKS),
     ("streaks of one width", "rain.h", "float half_width = p.half_width * t.radius;", "float half_width = p.half_width;", COVER),
     ("small drops end where large ones do", "particle.h", "p.drop_radius * (t.radius - 1.0f)", "0.0f", PARTICLES),
     ("small drops as slow splashes", "particle.h", "t.age = since / fall_speed", "t.age = since / p.fall_speed", PARTICLES),

@@ -226,6 +226,42 @@ static void test_drops_swing_as_they_fall(void **state)
     expect_swings("drop_radius_mm=4 exposure_s=0.1", frequency(0.004) * 0.1 * 1.5, 1.5f);
 }
 
+// Drops that fall half as fast as the settings' make streaks half as long.
+static void test_streaks_are_as_long_as_drops_fall(void **state)
+{
+    (void)state;
+    struct streaks *s = open_beside("lights=0 splashes=off view_angle_deg=4 drops_m2_s=4 "
+                                    "exposure_s=0.05");
+    s->sizes.words[1] = 0.5f;
+    rain_step(s, 1);
+    s->params.sky_g = SKY;
+    struct added *added = added_by_rain(s);
+    const struct rain_places places = rain_read_places(s);
+    int within = 0, lit = 0, beyond = 0, stray = 0;
+    for (int64_t i = 0; i < places.count; i++) {
+        const float *place = places.words + i * STREAKS_STATE_WORDS;
+        for (int k = 5; k < 95 && (int)place[5] == STREAKS_DROP; k += 5) {
+            const double at = (double)place[2] - k / 100.0 * (double)s->params.fall;
+            struct seen_at seen;
+            if (at > (double)place[3] || (k > 40 && k < 60) ||
+                !see(s, (double)place[0], (double)place[1], at, &seen))
+                continue;
+            const bool is_lit = added->at[(int)seen.y][(int)seen.x] > 0;
+            within += k < 50;
+            lit += k < 50 && is_lit;
+            beyond += k > 50;
+            stray += k > 50 && is_lit;
+        }
+    }
+    // Some are behind the ends of others, or too faint for a half.
+    print_message("%d of %d within, %d of %d beyond\n", lit, within, stray, beyond);
+    assert_true(within > 100 && beyond > 100);
+    assert_true(lit > 0.8 * within && stray < 0.1 * beyond);
+    free(added);
+    free(places.words);
+    rain_close(s);
+}
+
 // --- lights ---
 
 static char path[64];
@@ -428,6 +464,7 @@ int main(int argc, char **argv)
     struct CMUnitTest tests[] = {
         cmocka_unit_test(test_oscillations_differ),
         cmocka_unit_test(test_drops_swing_as_they_fall),
+        cmocka_unit_test(test_streaks_are_as_long_as_drops_fall),
         cmocka_unit_test(test_light_has_a_side),
         cmocka_unit_test(test_shadows_fall_on_rain),
         cmocka_unit_test(test_light_goes_by_the_view),
