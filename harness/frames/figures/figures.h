@@ -32,11 +32,11 @@ struct rg_figure_run {
     int count;
 };
 
-// Draws each figure into FOLDER/ID.png, with the file that it needs, and then writes
-// FOLDER/figures.md, which shows them with their captions and the commands that draw them. The
-// folder is made if only its last part is missing. A bar shows progress. False, and one logged
-// line, on failure, or when the user interrupts (harness/console/interrupt.h), which it watches
-// for; what is written stays, each file of it whole.
+// Draws each figure into FOLDER/ID.png, with the file that it needs, and then writes a page in
+// Markdown beside them, with their captions and the commands that draw them. The folder is made if
+// only its last part is missing. A bar shows progress. False, and one logged line, on failure, or
+// when the user interrupts (harness/console/interrupt.h), which it watches for; what is written
+// stays, each file of it whole.
 bool rg_figures_draw(const struct rg_figure_run *run);
 
 #endif
