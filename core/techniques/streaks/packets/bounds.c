@@ -129,6 +129,7 @@ void streaks_sight_of(const struct streaks_packets *p, const struct streaks_view
     sight->below = (float)view->below_m;
     sight->top = (float)view->top_m;
     sight->height = (float)p->settings.local_height_m;
+    sight->apart = view->apart;
 }
 
 // How far the best corner of a box is inside of a plane.
@@ -138,14 +139,15 @@ static inline float inside(const float plane[4], const float middle[3], const fl
            fabsf(plane[0]) * half[0] + fabsf(plane[1]) * half[1] + fabsf(plane[2]) * half[2];
 }
 
-// A block is as high as the local space where its particles are coming in again at the local top,
-// or have just come in: those may still be splashes at the local ground.
+// A block is as high as the local space where its particles fall apart, are coming in again at the
+// local top, or have just come in: those may still be splashes at the local ground.
 static inline bool is_seen(const struct streaks_sight *s, const float low[3], const float high[3],
                            float turn)
 {
     const float turned = low[2] + turn, from = turned - floorf(turned);
     const float to = from + (high[2] - low[2]);
-    const bool whole = from < slack_turns || to > 1 - slack_turns || from * s->height < s->above;
+    const bool whole =
+        s->apart || from < slack_turns || to > 1 - slack_turns || from * s->height < s->above;
     const float first = s->top + (whole ? 0 : from * s->height) - s->above;
     const float last = s->top + (whole ? s->height : to * s->height) + s->below;
     const float middle[3] = {(low[0] + high[0]) / 2 * s->half_x, (low[1] + high[1]) / 2 * s->half_y,

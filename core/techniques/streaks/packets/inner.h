@@ -151,6 +151,7 @@ bool streaks_bounds_make(struct streaks_packets *packets);
 struct streaks_sight {
     float planes[4][4]; // the frustum's sides: a, b, c, d with ax + by + cs + d > 0 inside
     float half_x, half_y, across, above, below, top, height;
+    bool apart;
 };
 
 void streaks_sight_of(const struct streaks_packets *packets, const struct streaks_view *view,

@@ -123,6 +123,7 @@ struct streaks_view {
     // Exact: the convex hull of what is seen of the local space within the prism. Else as Creus has
     // it: the bounding rectangles of prism and frustum on the top plane.
     bool hull;
+    bool apart; // particles of a block fall at different speeds, and are anywhere along the fall
     bool whole; // all blocks of the packets are listed, whether the frustum can see them or not
 };
 

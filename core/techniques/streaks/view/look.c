@@ -18,13 +18,10 @@ static double streak_length(const struct streaks *s)
     return s->sizes.fastest_m_s * s->settings.exposure_s;
 }
 
-// Above the local top. Where drops fall at different speeds, nobody knows which part of the local
-// space those of a block are in: it is taken for all of it.
 static double reach_above(const struct streaks *s)
 {
     const double splash = splash_reach(s), streak = streak_length(s) + 2 * s->sizes.largest_m;
-    return streak + s->settings.splash_s * s->sizes.fastest_m_s + splash +
-           (streaks_sizes_differ(s) ? s->settings.local_height_m : 0);
+    return streak + s->settings.splash_s * s->sizes.fastest_m_s + splash;
 }
 
 static bool select_packets(struct streaks *s, const double eye[3], double top_m)
@@ -44,6 +41,7 @@ static bool select_packets(struct streaks *s, const double eye[3], double top_m)
         .above_m = reach_above(s),
         .below_m = across_m,
         .hull = set->select,
+        .apart = streaks_sizes_differ(s),
         .whole = set->all_blocks || set->keeps_state,
     };
     return rg_rain_view_corners(&s->space, &s->observer.camera, (double)desc->width / desc->height,
