@@ -150,14 +150,18 @@ static bool is_possible(struct fit *f)
                     f->radius_m, f->height_m, f->error, f->error / share_of_radius + 1e-4);
 }
 
+// The fastest drop has the time to be seen as a whole streak, and then as a splash.
+static double least_height_m(const struct streaks *s)
+{
+    return s->sizes.fastest_m_s * (s->settings.exposure_s + s->settings.splash_s);
+}
+
 static bool search(struct fit *f)
 {
     const struct streaks_settings *set = &f->s->settings;
-    // A drop has the time to be seen as a whole streak, and then as a splash.
-    const double least_height_m = set->fall_speed_m_s * (set->exposure_s + set->splash_s);
     return is_possible(f) &&
            shrink(f, &f->radius_m, least_radius_m, set->fit_error * share_of_radius) &&
-           shrink(f, &f->height_m, least_height_m, set->fit_error);
+           shrink(f, &f->height_m, least_height_m(f->s), set->fit_error);
 }
 
 // The instance as if it had been opened with the sizes that were found.
