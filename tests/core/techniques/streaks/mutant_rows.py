@@ -9,6 +9,7 @@ PARTICLES = ("particles",)
 FAR = ("far",)
 OUTSIDE = ("picture/outside",)
 SIZES = ("sizes",)
+LANDING = ("landing",)
 
 ROWS = [Row(*row) for row in (
     # particles
@@ -80,6 +81,10 @@ ROWS = [Row(*row) for row in (
     ("splashes marked where their drops would be", "outside/marks.h", "splash != 0 ? t.hit : t.s", "t.s", OUTSIDE),
     ("particles that are nothing are marked", "outside/marks.h", "(t.state == STREAKS_NOTHING ? 0 : 1) *", "1 *", OUTSIDE),
     # sizes
+    ("splashes of slow drops last longer", "particle.h", "rg_min(p.splash_s * fall_speed",
+     "rg_min(p.splash_s * p.fall_speed", LANDING),
+    ("small drops are fewer", "particle.h", "int size = streaks_size_class(number, p.sizes) * STREAKS_SIZE_WORDS",
+     "int size = rg_imax(streaks_size_class(number, p.sizes), p.sizes / 8) * STREAKS_SIZE_WORDS", LANDING),
     ("drops of one radius", "particle.h", "t.radius = rg_bits_float(blocks_at(rg, size))", "t.radius = 1.0f", SIZES),
     ("the first class alone", "size.h", "(streaks_hash(particle) >> 14)", "(streaks_hash(0u * particle) >> 14)", SIZES),
     ("half of the classes", "size.h", "rg_to_uint(sizes - 1)", "rg_to_uint(sizes / 2 - 1)", SIZES),

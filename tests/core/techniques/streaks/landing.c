@@ -1,0 +1,194 @@
+// Drops of a spectrum where they land, and where they are seen: landing DEVICE. Fast drops land
+// more often than as many slow ones, so that splashes have another spectrum than the air: that of
+// the flux, which is reckoned here from the formulas. And blocks and packets, which are chosen by
+// the largest and the fastest of drops, do not show.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/core/techniques/streaks/rig.h"
+
+static const double pi = 3.14159265358979323846, least_mm = 0.8, largest_mm = 6, splash_s = 1;
+
+// --- the formulas ---
+
+enum { PARTS = 2000 };
+
+struct rain {
+    bool is_best;
+    double rain_mm_h;
+};
+
+// Drops a cubic metre and millimetre.
+static double density(const struct rain *r, double d)
+{
+    if (!r->is_best)
+        return 8000 * exp(-4.1 * pow(r->rain_mm_h, -0.21) * d);
+    const double a = 1.30 * pow(r->rain_mm_h, 0.232), part = pow(d / a, 2.25);
+    return 67 * pow(r->rain_mm_h, 0.846) * 2.25 / d * part * exp(-part) / (pi / 6 * d * d * d);
+}
+
+// Atlas' fit.
+static double speed(double d)
+{
+    return 9.65 - 10.3 * exp(-0.6 * d);
+}
+
+static double water_mm(double drops_m2, double d)
+{
+    return drops_m2 * pi / 6 * d * d * d * 1e-6;
+}
+
+static double diameter_at(double part)
+{
+    return least_mm + (largest_mm - least_mm) * part / PARTS;
+}
+
+// What lands on a square metre in a second, of drops up to each diameter: their number, and their
+// water in all, in millimetres. By the rule of middles.
+struct landing {
+    double drops[PARTS + 1], water;
+};
+
+static void reckon(const struct rain *r, struct landing *due)
+{
+    const double width = (largest_mm - least_mm) / PARTS;
+    *due = (struct landing){0};
+    for (int i = 0; i < PARTS; i++) {
+        const double d = diameter_at(i + 0.5), drops = density(r, d) * speed(d) * width;
+        due->drops[i + 1] = due->drops[i] + drops;
+        due->water += water_mm(drops, d);
+    }
+}
+
+static double drops_m3(const struct rain *r)
+{
+    double sum = 0;
+    for (int i = 0; i < PARTS; i++)
+        sum += density(r, diameter_at(i + 0.5)) * (largest_mm - least_mm) / PARTS;
+    return sum;
+}
+
+// --- splashes ---
+
+static struct streaks *open_splashes(const struct rain *r, const char *more)
+{
+    char settings[700];
+    // The local space is the whole rain space's, so that each drop's way ends in it.
+    snprintf(settings, sizeof(settings),
+             "state=on geometry=off drops=off terminal_speed=atlas packets=world blocks=all "
+             "rain_height_m=40 local_height_m=40 eye_y_m=19.9 target_y_m=19.9 target_z_m=40 "
+             "culling_radius_m=30 splash_s=%g spectrum=%s rain_mm_h=%g least_diameter_mm=%g "
+             "kept_share=%g %s",
+             splash_s, r->is_best ? "best" : "marshall-palmer", r->rain_mm_h, least_mm,
+             1e6 / (144000 * drops_m3(r)), more);
+    struct streaks *s = rain_open(settings);
+    rain_step(s, 7);
+    return s;
+}
+
+// Of splashes, by the diameters of their drops; each lasts for splash_s.
+static struct landing count_landing(const struct streaks *s, int64_t *count)
+{
+    const struct rain_places places = rain_read_places(s);
+    const double share = 1 / (60 * 60 * s->mean_density * splash_s);
+    struct landing sum = {0};
+    *count = 0;
+    for (int64_t i = 0; i < places.count; i++) {
+        const float *place = places.words + i * STREAKS_STATE_WORDS;
+        if ((int)place[5] != STREAKS_SPLASH)
+            continue;
+        const double d = 2000 * (double)place[8], drops = share * (double)place[9];
+        const int part = (int)ceil((d - least_mm) / (largest_mm - least_mm) * PARTS);
+        assert_in_range(part, 0, PARTS);
+        sum.drops[part] += drops;
+        sum.water += water_mm(drops, d);
+        *count += 1;
+    }
+    free(places.words);
+    for (int i = 0; i < PARTS; i++)
+        sum.drops[i + 1] += sum.drops[i];
+    return sum;
+}
+
+static void expect_flux(const struct rain *r, const char *more)
+{
+    struct streaks *s = open_splashes(r, more);
+    struct landing due;
+    int64_t count;
+    const struct landing is = count_landing(s, &count);
+    reckon(r, &due);
+    const double drops = is.drops[PARTS] / due.drops[PARTS], water = is.water / due.water;
+    double most = 0;
+    for (int i = 0; i <= PARTS; i++)
+        most = fmax(most, fabs(is.drops[i] / is.drops[PARTS] - due.drops[i] / due.drops[PARTS]));
+    print_message("%s, %g mm/h: %lld splashes, %.4f of the drops, %.4f of the water, off by %.4f\n",
+                  r->is_best ? "best" : "marshall-palmer", r->rain_mm_h, (long long)count, drops,
+                  water, most);
+    assert_true(count > 20000);
+    assert_true(fabs(drops - 1) < 0.02 && fabs(water - 1) < 0.02);
+    // Kolmogorov and Smirnov, at 1 %, and half a class of 512; weights make it wider.
+    assert_true(most < 1.63 / sqrt((double)count) * (s->settings.kept_by_section ? 2 : 1) + 0.001);
+    rain_close(s);
+}
+
+static void test_drops_land_by_flux(void **state)
+{
+    (void)state;
+    static const double rates[] = {1, 5, 20, 50, 100};
+    for (int best = 0; best < 2; best++)
+        for (int k = 0; k < 5; k++)
+            expect_flux(&(struct rain){best, rates[k]}, "");
+    expect_flux(&(struct rain){true, 20}, "kept=section");
+}
+
+// --- what is seen ---
+
+// A picture of each way to choose blocks, all of which are the same, and not that without rain.
+static void expect_no_blocks(const char *view, const char *drops)
+{
+    static const char *const ways[] = {"blocks=all", "blocks=seen select=rect",
+                                       "blocks=seen select=hull"};
+    struct rain_texels *pictures[3];
+    char settings[600];
+    snprintf(settings, sizeof(settings), "%s drops=off splashes=off", view);
+    struct rain_texels *dry = rain_draw_at(settings, 30);
+    for (int way = 0; way < 3; way++) {
+        snprintf(settings, sizeof(settings),
+                 "%s spectrum=best kept_share=0.2 cull=exact packets=quad packet_size=2000 %s %s",
+                 view, drops, ways[way]);
+        pictures[way] = rain_draw_at(settings, 30);
+        if (memcmp(pictures[way], pictures[0], sizeof(*dry)))
+            fail_msg("%s, %s, %s: not as with all blocks", view, drops, ways[way]);
+    }
+    assert_true(memcmp(pictures[0], dry, sizeof(*dry)));
+    for (int way = 0; way < 3; way++)
+        free(pictures[way]);
+    free(dry);
+}
+
+// Blocks and packets are left out that the view cannot see, and nothing else. In views that look up
+// over a low local space, streaks and splashes reach into the picture from below it.
+static void test_blocks_do_not_show(void **state)
+{
+    (void)state;
+    static const char *const views[] = {
+        "view_angle_deg=30 eye_y_m=3 target_y_m=3 target_z_m=40",
+        "view_angle_deg=30 local_height_m=6 eye_y_m=6 target_y_m=36 target_z_m=40",
+        "view_angle_deg=30 eye_y_m=20 target_y_m=0 target_z_m=12",
+    };
+    for (size_t i = 0; i < sizeof(views) / sizeof(views[0]); i++) {
+        expect_no_blocks(views[i], "splash_width_mm=2000");
+        expect_no_blocks(views[i], "splashes=off splash_s=0.001 exposure_s=0.25");
+    }
+}
+
+int main(int argc, char **argv)
+{
+    struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_drops_land_by_flux),
+        cmocka_unit_test(test_blocks_do_not_show),
+    };
+    return rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
