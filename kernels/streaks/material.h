@@ -1,5 +1,5 @@
-// Which of the atlas' crowns a splash makes: that of the surface it hits. Programs and kernels
-// that include it behind their slots have those of particle.h and
+// The surface that a drop hits: which of the atlas' crowns its splash makes, and what is up for it.
+// Programs and kernels that include it behind their slots have those of particle.h and
 //   IMAGE(10, RGBA8, numbers)  the numbers of the surfaces seen along the fall, r lowest, with the
 //                              extent of the depth map; or one texel: all splashes are of one kind
 //   IN(11, uint, surfaces)     SCENERY_SURFACE_WORDS each
@@ -23,16 +23,38 @@
      (STREAKS_ROUGH << (2 * SCENERY_KIND_EARTH)) | (STREAKS_SMOOTH << (2 * SCENERY_KIND_LEAVES)) | \
      (STREAKS_PUDDLE << (2 * SCENERY_KIND_WATER)) | (STREAKS_SMOOTH << (2 * SCENERY_KIND_LIGHT)))
 
-// 0 to 3. The ground plane, where nothing else is hit, has a film as streets have.
-RG_FN int streaks_material(rg_ctx rg, streaks_params p, streaks_particle t)
+// Where the words of the surface under a particle begin; below 0 where none is known, as on the
+// ground plane.
+RG_FN int streaks_surface(rg_ctx rg, streaks_params p, streaks_particle t)
 {
     streaks_map_place at =
         streaks_map_place_at(p, t.x, t.y, numbers_width(rg, 0), numbers_height(rg, 0));
     uint number = numbers_bytes(rg, at.x, at.y, 0, 0);
     int known = (1 - at.outside) * (number != SCENERY_NO_SURFACE ? 1 : 0);
-    uint look = surfaces_at(rg, rg_to_int(number * rg_to_uint(known)) * SCENERY_SURFACE_WORDS +
-                                    SCENERY_LOOK);
+    return rg_to_int(number * rg_to_uint(known)) * SCENERY_SURFACE_WORDS + known - 1;
+}
+
+// 0 to 3. The ground plane, where nothing else is hit, has a film as streets have.
+RG_FN int streaks_material(rg_ctx rg, streaks_params p, streaks_particle t)
+{
+    int at = streaks_surface(rg, p, t);
+    int known = p.materials * (1 - (at < 0 ? 1 : 0));
+    uint look = surfaces_at(rg, rg_imax(at, 0) + SCENERY_LOOK);
     return known * rg_to_int((STREAKS_MATERIALS >> (2u * scenery_kind(look))) & 3u);
+}
+
+// What is up for a splash, of length 1: the surface's normal on the side that rain falls on.
+RG_FN v3 streaks_up(rg_ctx rg, streaks_params p, streaks_particle t)
+{
+    int at = streaks_surface(rg, p, t);
+    v3 n = mesh_normal_unpack(surfaces_at(rg, rg_imax(at, 0) + SCENERY_NORMAL));
+    v3 turned = v3_make(p.from_world.xx * n.x + p.from_world.xy * n.y + p.from_world.xz * n.z,
+                        p.from_world.yx * n.x + p.from_world.yy * n.y + p.from_world.yz * n.z,
+                        p.from_world.zx * n.x + p.from_world.zy * n.y + p.from_world.zz * n.z);
+    float side = turned.z > 0.0f ? -1.0f : 1.0f;
+    int follows = p.follows * (1 - (at < 0 ? 1 : 0));
+    return v3_make(follows != 0 ? turned.x * side : p.up_x, follows != 0 ? turned.y * side : p.up_y,
+                   follows != 0 ? turned.z * side : p.up_s);
 }
 
 #endif

@@ -16,8 +16,9 @@
 
 RG_STRUCT(streaks_params)
 {
-    m4 to_clip; // from the rain frame
-    m4 rays;    // (px, py, 1) to the ray through a pixel, as long as 1 along the view
+    m4 to_clip;    // from the rain frame
+    m4 rays;       // (px, py, 1) to the ray through a pixel, as long as 1 along the view
+    m4 from_world; // to the rain frame
     float depth_far, depth_per_w; // depth is depth_far + depth_per_w / w
     float half_x, half_y;         // of the rain space
     float top;                    // s of the local space's top
@@ -37,8 +38,12 @@ RG_STRUCT(streaks_params)
     float thinnest_px;          // no streak is drawn thinner or shorter than this
     float fall_speed;           // m/s
     float splash_s;             // how long a splash lasts
-    float splash_width, splash_height;
-    float up_x, up_y, up_s; // what is up for splashes
+    // Of a splash of the settings' drop: its picture, and how high up in it the impact is.
+    float splash_width, splash_height, splash_foot;
+    float up_x, up_y, up_s; // what is up for splashes that do not follow the surface
+    int follows;            // whether splashes stand on the surface's normal
+    int materials;          // whether they go by the surface's kind
+    int around;             // whether the map goes around the observer: beside it there is no rain
     int drops, splashes;    // whether they are seen
     int exact;              // whether particles are culled one by one
     int lights;
@@ -52,6 +57,6 @@ RG_STRUCT(streaks_params)
     int first_place; // of states
     int sizes;       // classes of drops, a power of 2
 };
-RG_STRUCT_SIZE(streaks_params, 80)
+RG_STRUCT_SIZE(streaks_params, 100)
 
 #endif

@@ -58,9 +58,8 @@ RG_FN streaks_map_place streaks_map_place_at(streaks_params p, float x, float y,
 // s of the first surface at a place, and of the ground where the map does not reach. A sum of
 // products with 0 and 1 makes the choice, because gcc moves what only one branch of a choice reads
 // into that branch.
-RG_FN float streaks_hit(rg_ctx rg, streaks_params p, float x, float y)
+RG_FN float streaks_hit(rg_ctx rg, streaks_params p, streaks_map_place at)
 {
-    streaks_map_place at = streaks_map_place_at(p, x, y, depths_width(rg, 0), depths_height(rg, 0));
     float depth = depths_texel(rg, at.x, at.y, 0, 0).r;
     float inside = rg_to_float(1 - at.outside);
     return inside * (p.map_top + depth * p.map_height) + (1.0f - inside) * p.ground;
@@ -113,12 +112,15 @@ RG_FN streaks_particle streaks_particle_at(rg_ctx rg, streaks_params p, int i)
     t.speed = rg_bits_float(blocks_at(rg, size + 1));
     t.swing = rg_bits_float(blocks_at(rg, size + 2));
     t.weight = rg_bits_float(blocks_at(rg, size + 3));
-    t.hit = streaks_hit(rg, p, t.x, t.y);
+    streaks_map_place under =
+        streaks_map_place_at(p, t.x, t.y, depths_width(rg, 0), depths_height(rg, 0));
+    t.hit = streaks_hit(rg, p, under);
     t.age = 0.0f;
     t = streaks_state(p, t);
     int counted = rg_to_int((blocks_at(rg, block + 1) >> rg_to_uint(in_block)) & 1u);
     float away = rg_max(rg_abs(t.x - p.eye_x), rg_abs(t.y - p.eye_y));
-    t.state = t.state * counted * (1 - p.exact * streaks_below(p.radius, away));
+    t.state = t.state * counted * (1 - p.exact * streaks_below(p.radius, away)) *
+              (1 - p.around * under.outside);
     return t;
 }
 

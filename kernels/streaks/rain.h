@@ -31,8 +31,10 @@ RG_STRUCT(streaks_billboard)
     float inverse_w_x, inverse_w_y, inverse_w_at;
     float u_x, u_y, u_at;
     float v_x, v_y, v_at;
-    float hit;   // s of the surface that cuts it off; far below a splash
-    float shown; // of a drop the camera's elevation, in steps of the atlas; of a splash its frame
+    float hit;    // s of the surface that cuts it off; far below a splash
+    float nearer; // that it is drawn before where it lies, in metres along the view
+    uint up;      // of a splash: mesh_normal_pack of what is up for it
+    float shown;  // of a drop the camera's elevation, in steps of the atlas; of a splash its frame
     // How much longer a drop covers a place on its way than the atlas' does, and of drops and
     // splashes how many they stand for.
     float share;
@@ -63,31 +65,46 @@ RG_STRUCT(streaks_shape)
     float weight;     // drops that it stands for
     float covering;   // half of the billboard's width: no less than that of the thinnest
     float rim;        // beyond either end of the axis, as the eye sees it
+    v3 up;            // of a splash
+    float nearer;     // how far before its place it is drawn
     // Of drops, in radii, as the eye sees them.
     v3 to_eye;     // from the middle, of length 1: no radii
     float way;     // in the exposure
     float lacking; // at either end for a pixel's length
 };
 
-// Splashes of drops of one size differ, by 15 % at most.
+// Splashes of drops of one size differ, by 15 % at most, in width and in height.
 RG_FN float streaks_size(uint random)
 {
     return 0.85f + 0.3f * rg_to_float(rg_to_int(random & 1023u)) / 1023.0f;
 }
 
-RG_FN streaks_shape streaks_shape_of(streaks_params p, streaks_particle t)
+// The part of a splash's picture below the impact stands for what lies before it: it would be
+// under the ground. So the splash is drawn so much nearer that its lower edge is above it.
+RG_FN float streaks_nearer(streaks_shape shape, float below)
+{
+    float sine = v3_dot(shape.to_eye, shape.up);
+    return below / rg_max(sine, 0.05f) + 0.002f;
+}
+
+RG_FN streaks_shape streaks_shape_of(rg_ctx rg, streaks_params p, streaks_particle t)
 {
     int splash = t.state == STREAKS_SPLASH ? 1 : 0;
-    float size = streaks_size(streaks_hash(t.number)) * t.radius;
-    float tall = p.splash_height * size;
+    uint random = streaks_hash(t.number);
+    float size = streaks_size(random) * t.radius;
+    float tall = p.splash_height * streaks_size(random >> 22) * t.radius;
     float fall = p.fall * t.speed;
     float drop_radius = p.drop_radius * t.radius;
     float half_width = p.half_width * t.radius;
     streaks_shape shape;
     shape.weight = t.weight;
-    shape.base = v3_make(t.x, t.y, splash != 0 ? t.hit : t.s);
-    shape.axis = v3_make(splash != 0 ? p.up_x * tall : 0.0f, splash != 0 ? p.up_y * tall : 0.0f,
-                         splash != 0 ? p.up_s * tall : -fall);
+    shape.up = streaks_up(rg, p, t);
+    float under = splash != 0 ? tall * p.splash_foot : 0.0f;
+    shape.base = v3_make(t.x - shape.up.x * under, t.y - shape.up.y * under,
+                         splash != 0 ? t.hit - shape.up.z * under : t.s);
+    shape.axis =
+        v3_make(splash != 0 ? shape.up.x * tall : 0.0f, splash != 0 ? shape.up.y * tall : 0.0f,
+                splash != 0 ? shape.up.z * tall : -fall);
     shape.middle = v3_add(shape.base, v3_scale(shape.axis, 0.5f));
     shape.pixel = rg_max(m4_project(p.to_clip, shape.middle).w, 1e-3f) / p.focal_px;
     shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : half_width;
@@ -98,6 +115,7 @@ RG_FN streaks_shape streaks_shape_of(streaks_params p, streaks_particle t)
     float way = fall * rg_hypot(to_eye.x, to_eye.y);
     float lacking = rg_max(0.5f * (thinnest - way), 0.0f);
     shape.to_eye = to_eye;
+    shape.nearer = splash != 0 ? streaks_nearer(shape, under) : 0.0f;
     shape.way = rg_max(way / drop_radius, 1e-3f);
     shape.lacking = lacking / drop_radius;
     shape.covering = splash != 0 ? shape.half_width : covering;
@@ -261,16 +279,21 @@ RG_FN streaks_billboard streaks_drop(streaks_params p, streaks_billboard of, str
     return r;
 }
 
+// A frame shows the middle of its time; the last one goes out, so that no splash ends at once.
 RG_FN streaks_billboard streaks_splash(rg_ctx rg, streaks_params p, streaks_billboard of,
-                                       streaks_particle t, int level)
+                                       streaks_particle t, streaks_shape shape, int level)
 {
     streaks_billboard r = of;
-    uint random = streaks_hash(t.number);
     int material = streaks_material(rg, p, t);
+    float frames = rg_to_float(STREAKS_FRAMES);
+    float passed = rg_clamp(t.age / p.splash_s, 0.0f, 1.0f) * frames;
     r.hit = RG_LARGEST;
-    r.share = t.weight;
-    r.shown = rg_clamp(t.age / p.splash_s, 0.0f, 0.999f) * rg_to_float(STREAKS_FRAMES);
-    r.look = streaks_look(STREAKS_LOOK_SPLASH + ((random >> 10) & 1u) * STREAKS_LOOK_MIRRORED,
+    r.nearer = shape.nearer;
+    r.up = mesh_normal_pack(shape.up);
+    r.share = t.weight * rg_min(frames - passed, 1.0f);
+    r.shown = rg_clamp(passed - 0.5f, 0.0f, frames - 1.001f);
+    r.look = streaks_look(STREAKS_LOOK_SPLASH +
+                              ((streaks_hash(t.number) >> 10) & 1u) * STREAKS_LOOK_MIRRORED,
                           level, material * STREAKS_FRAMES);
     r.rows = 0u;
     return r;
@@ -291,6 +314,8 @@ RG_FN streaks_billboard streaks_placed(rg_planes planes)
     r.v_y = planes.c.y;
     r.v_at = planes.c.at;
     r.hit = 0.0f;
+    r.nearer = 0.0f;
+    r.up = 0u;
     r.shown = 0.0f;
     r.share = 1.0f;
     r.way = 1.0f;
@@ -305,16 +330,18 @@ RG_FN streaks_billboard streaks_placed(rg_planes planes)
 RG_FN streaks_billboard streaks_billboard_of(rg_ctx rg, rg_draw_state draw, streaks_params p, int i)
 {
     streaks_particle t = streaks_particle_at(rg, p, i);
-    streaks_shape shape = streaks_shape_of(p, t);
+    streaks_shape shape = streaks_shape_of(rg, p, t);
     rg_item corner = streaks_item_of(p, shape);
     corner.c = corner.d;
     streaks_billboard placed = streaks_placed(rg_planes_of(draw, corner));
     int is_splash = t.state == STREAKS_SPLASH ? 1 : 0;
     int level = streaks_level_for(p, shape, is_splash);
     streaks_billboard drop = streaks_drop(p, placed, t, shape, level);
-    streaks_billboard splash = streaks_splash(rg, p, placed, t, level);
+    streaks_billboard splash = streaks_splash(rg, p, placed, t, shape, level);
     streaks_billboard r = placed;
     r.hit = is_splash != 0 ? splash.hit : drop.hit;
+    r.nearer = is_splash != 0 ? splash.nearer : drop.nearer;
+    r.up = splash.up;
     r.shown = is_splash != 0 ? splash.shown : drop.shown;
     r.share = is_splash != 0 ? splash.share : drop.share;
     r.way = is_splash != 0 ? splash.way : drop.way;
@@ -353,7 +380,8 @@ RG_FN streaks_spot streaks_spot_at(streaks_params p, streaks_billboard r, int px
                        p.rays.yx * x + p.rays.yy * y + p.rays.yz,
                        p.rays.zx * x + p.rays.zy * y + p.rays.zz);
     spot.at = v3_make(p.eye_x + spot.ray.x * w, p.eye_y + spot.ray.y * w, p.eye_s + spot.ray.z * w);
-    spot.depth = p.depth_far + p.depth_per_w * inverse_w;
+    float before = inverse_w / rg_max(1.0f - r.nearer * inverse_w, 0.1f);
+    spot.depth = p.depth_far + p.depth_per_w * before;
     return spot;
 }
 
@@ -483,15 +511,14 @@ RG_FN float streaks_streak(rg_ctx rg, streaks_params p, streaks_billboard r, str
                          rg_clamp(azimuth, 0.0f, rg_to_float(STREAKS_AZIMUTHS - 1)), mirrored);
 }
 
-// Splashes are matt and face upwards.
+// Splashes are matt and face up from what they stand on.
 RG_FN rgba streaks_lit_by(rg_ctx rg, streaks_params p, streaks_billboard r, int px, int py,
                           int light)
 {
     scenery_light l = lights_at(rg, light);
     streaks_spot spot = streaks_spot_at(p, r, px, py);
     scenery_reach reach = scenery_light_reach(l, spot.at);
-    float matt = rg_max(
-        reach.to_light.x * p.up_x + reach.to_light.y * p.up_y + reach.to_light.z * p.up_s, 0.0f);
+    float matt = rg_max(v3_dot(reach.to_light, mesh_normal_unpack(r.up)), 0.0f);
     float streak = SCENERY_IRRADIANCE * streaks_streak(rg, p, r, spot, reach.to_light);
     float splash = rg_to_float(streaks_is(r, STREAKS_LOOK_SPLASH));
     float share =

@@ -5,7 +5,7 @@
 RG_DRAW_ITEM(streaks_rain_8)
 {
     streaks_particle t = streaks_particle_at(rg, p, i);
-    rg_item item = streaks_item_of(p, streaks_shape_of(p, t));
+    rg_item item = streaks_item_of(p, streaks_shape_of(rg, p, t));
     item.alive = t.state != STREAKS_NOTHING ? 1 : 0;
     return item;
 }

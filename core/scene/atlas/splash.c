@@ -10,8 +10,8 @@
 
 #define GRAVITY_M_S2  9.81
 #define FRAME_S       0.006
-#define PICTURE_M     0.06  // across
-#define FOOT_M        0.008 // of the impact above the lower edge
+#define PICTURE_M     0.06 // across
+#define FOOT_M        (RG_SPLASH_FOOT_SHARE * PICTURE_M * RG_SPLASH_HEIGHT_PX / RG_SPLASH_WIDTH_PX)
 #define TILT_RAD      (15 * M_PI / 180)
 #define DIAMETER_M    (2 * RG_DROP_RADIUS_M)
 #define SPEED_M_S     (RG_DROP_FALL * DIAMETER_M / RG_EXPOSURE_S)

@@ -8,6 +8,9 @@
 
 #include "core/scene/atlas/atlas.h"
 
+// How high up in the picture the impact is.
+#define RG_SPLASH_FOOT_SHARE (8.0 / 40)
+
 enum { RG_SPLASH_WIDTH_PX = 48, RG_SPLASH_HEIGHT_PX = 32, RG_SPLASH_LEVELS = 6 };
 
 // What a splash has at one moment, in metres. Heights are of the sheet's upper edge; radii of the

@@ -65,15 +65,16 @@ static const struct rg_param rows[] = {
     {"look", RG_PARAM_CHOICE, AT(look), 0, 0, 1, "1", "settings together, which others may follow: rain as bright as a photograph has it, or as the thesis's figures show it, with gains above 1 and without far rain", "photograph thesis"},
     {"drops", RG_PARAM_CHOICE, AT(drops), 1, 0, 1, "1", "whether drops are seen", "off on"},
     {"splashes", RG_PARAM_CHOICE, AT(splashes), 1, 0, 1, "1", "whether splashes are seen", "off on"},
-    {"splash_materials", RG_PARAM_CHOICE, AT(splash_materials), 0, 0, 1, "1", "whether splashes go by what is hit, water, rough or smooth, or all are of one kind", "off on"},
+    {"splash_materials", RG_PARAM_CHOICE, AT(splash_materials), 1, 0, 1, "1", "whether splashes go by what is hit, water, rough or smooth, or all are of one kind", "off on"},
+    {"splash_up", RG_PARAM_CHOICE, AT(splashes_upright), 0, 0, 1, "1", "splashes stand on the normal of what is hit, or upright, as the thesis has them", "normal vertical"},
     {"drop_radius_mm", RG_PARAM_FLOAT, AT(drop_radius_mm), 1.6, 0.05, 10, "mm", "of all drops", NULL},
     {"exposure_s", RG_PARAM_FLOAT, AT(exposure_s), 1.0 / 60, 1e-4, 1, "s", "for which the camera's shutter is open: how long streaks are", NULL},
-    {"splash_s", RG_PARAM_FLOAT, AT(splash_s), 0.15, 0.001, 10, "s", "how long a splash lasts", NULL},
-    {"splash_width_mm", RG_PARAM_FLOAT, AT(splash_width_mm), 40, 0.1, 10000, "mm", "of a splash's picture, which is two thirds as high", NULL},
+    {"splash_s", RG_PARAM_FLOAT, AT(splash_s), 0.126, 0.001, 10, "s", "how long a splash lasts", NULL},
+    {"splash_width_mm", RG_PARAM_FLOAT, AT(splash_width_mm), 60, 0.1, 10000, "mm", "of the picture of the splash of a drop of drop_radius_mm; it is two thirds as high", NULL},
     {"streak_gain", RG_PARAM_FLOAT, AT(streak_gain), 1, 0, 1000, "1", "light of streaks", NULL},
     {"streak_opacity", RG_PARAM_FLOAT, AT(streak_opacity), 1, 0, 40, "1", "what streaks hide of what lies behind, by the share of the exposure for which drops cover it", NULL},
-    {"splash_gain", RG_PARAM_FLOAT, AT(splash_gain), 0.35, 0, 1000, "1", "light of splashes", NULL},
-    {"splash_opacity", RG_PARAM_FLOAT, AT(splash_opacity), 0.35, 0, 1, "1", "what splashes hide at their thickest", NULL},
+    {"splash_gain", RG_PARAM_FLOAT, AT(splash_gain), 1, 0, 1000, "1", "light of splashes", NULL},
+    {"splash_opacity", RG_PARAM_FLOAT, AT(splash_opacity), 1, 0, 1, "1", "what splashes hide at their thickest", NULL},
     {"far_layers", RG_PARAM_INT, AT(far_layers), 0, 0, 64, "1", "rain beyond the culling radius, as so many layers that scroll, each as thick as the radius", NULL},
     {"overlay", RG_PARAM_CHOICE, AT(overlay), 0, 0, 2, "1", "draws the rain space, the local space, the culling radius, packets and lights as lines; or lights alone", "off on lights"},
     {"outside", RG_PARAM_CHOICE, AT(outside), 0, 0, 2, "1", "a second camera looks at the whole rain space, or at the volume in which it rains around the observer; drops are marks in the colour of their height", "off space volume"},
@@ -86,10 +87,10 @@ static const struct rg_param rows[] = {
 
 // In the order of the choices; the first is the defaults.
 static const char *const looks[] = {
-    "thin_streaks=area splash_materials=off streak_gain=1 streak_opacity=1 splash_gain=0.35 "
-    "splash_opacity=0.35 far_layers=0",
-    "thin_streaks=points splash_materials=off streak_gain=4 streak_opacity=3 splash_gain=0.35 "
-    "splash_opacity=0.35 far_layers=0",
+    "thin_streaks=area streak_gain=1 streak_opacity=1 far_layers=0 splash_materials=on "
+    "splash_up=normal splash_s=0.126 splash_width_mm=60 splash_gain=1 splash_opacity=1",
+    "thin_streaks=points streak_gain=4 streak_opacity=3 far_layers=0 splash_materials=off "
+    "splash_up=vertical splash_s=0.15 splash_width_mm=40 splash_gain=0.35 splash_opacity=0.35",
 };
 
 const struct rg_param_table streaks_param_table = {

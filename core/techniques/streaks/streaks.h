@@ -39,7 +39,7 @@ struct streaks_settings {
     char lights_file[RG_PATH_SIZE];
     // how particles look
     int atlas, taps, absolute_views, last_mip, points;
-    int look, drops, splashes, splash_materials;
+    int look, drops, splashes, splash_materials, splashes_upright;
     double drop_radius_mm, exposure_s, splash_s, splash_width_mm;
     double streak_gain, streak_opacity, splash_gain, splash_opacity;
     int far_layers, overlay, keeps_state;

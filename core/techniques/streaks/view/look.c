@@ -1,6 +1,7 @@
 // What the observer sees at the present frame: the packets, and what kernels are told of the view.
 #include <math.h>
 
+#include "core/scene/atlas/splash.h"
 #include "core/scene/matrix.h"
 #include "core/techniques/streaks/instance.h"
 
@@ -66,7 +67,10 @@ static void set_looks(streaks_params *p, const struct streaks_settings *set,
     p->fall_speed = (float)set->fall_speed_m_s;
     p->splash_s = (float)set->splash_s;
     p->splash_width = (float)(set->splash_width_mm / 1000);
-    p->splash_height = p->splash_width * 2 / 3;
+    p->splash_height = p->splash_width * RG_SPLASH_HEIGHT_PX / RG_SPLASH_WIDTH_PX;
+    p->splash_foot = (float)RG_SPLASH_FOOT_SHARE;
+    p->follows = !set->splashes_upright;
+    p->materials = set->splash_materials;
     p->drops = set->drops;
     p->splashes = set->splashes;
     p->paper_angles = set->absolute_views;
@@ -84,11 +88,13 @@ static void set_view(streaks_params *p, const struct rg_rain_space *space,
 {
     const double near_m = (double)observer->camera.near_plane;
     const double far_m = (double)observer->camera.far_plane;
-    float to_clip[16], rays[16];
+    float to_clip[16], rays[16], from_world[16];
     rg_rain_to_clip(space, observer->world_to_clip, to_clip);
     p->to_clip = rg_m4_of(to_clip);
     rg_rain_rays(space, observer->rays, rays);
     p->rays = rg_m4_of(rays);
+    rg_rain_matrices(space, from_world, NULL);
+    p->from_world = rg_m4_of(from_world);
     p->depth_far = (float)(far_m / (far_m - near_m));
     p->depth_per_w = (float)(-near_m * far_m / (far_m - near_m));
     p->focal_px = observer->focal_px;

@@ -21,6 +21,7 @@ static void set_extent(struct streaks *s)
     streaks_params *p = &s->params;
     const double radius_m = s->settings.culling_radius_m;
     const bool around = is_around(s);
+    p->around = around;
     p->map_x = (float)(around ? (double)p->eye_x - radius_m : -s->space.half_x_m);
     p->map_y = (float)(around ? (double)p->eye_y - radius_m : -s->space.half_y_m);
     p->map_per_x = (float)(0.5 / (around ? radius_m : s->space.half_x_m));
@@ -49,7 +50,7 @@ static m4 matrix_of(const struct streaks *s)
 
 static bool is_numbered(const struct streaks *s)
 {
-    return s->settings.splash_materials;
+    return s->settings.splash_materials || !s->settings.splashes_upright;
 }
 
 static const uint32_t no_surface = SCENERY_NO_SURFACE;

@@ -9,6 +9,7 @@ PARTICLES = ("particles",)
 FAR = ("far",)
 OUTSIDE = ("picture/outside",)
 SIZES = ("sizes",)
+SPLASH = ("picture/splash",)
 LANDING = ("landing",)
 
 ROWS = [Row(*row) for row in (
@@ -26,8 +27,8 @@ ROWS = [Row(*row) for row in (
     # what streaks cover
     ("streaks twice as wide", "rain.h", "shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : half_width",
      "shape.half_width = splash != 0 ? 0.5f * p.splash_width * size : 2.0f * half_width", COVER),
-    ("streaks twice as long", "rain.h", "splash != 0 ? p.up_s * tall : -fall",
-     "splash != 0 ? p.up_s * tall : -2.0f * fall", COVER),
+    ("streaks twice as long", "rain.h", "splash != 0 ? shape.up.z * tall : -fall);",
+     "splash != 0 ? shape.up.z * tall : -2.0f * fall);", COVER),
     ("thin streaks as bright as wide ones", "rain.h", "(shape.half_width / shape.covering)", "1.0f", COVER),
     ("thin streaks missed", "rain.h", "rg_max(half_width, 0.5f * thinnest)", "half_width", COVER),
     ("short streaks missed", "rain.h", "rg_max(0.5f * (thinnest - way), 0.0f)", "0.0f", COVER),
@@ -64,10 +65,24 @@ ROWS = [Row(*row) for row in (
     ("irradiance without pi", "rain.h", "float streak = SCENERY_IRRADIANCE * streaks_streak",
      "float streak = streaks_streak", ("picture/furnace",)),
     # splashes
-    ("splashes played backwards", "rain.h", "r.shown = rg_clamp(t.age / p.splash_s, 0.0f, 0.999f)",
-     "r.shown = (0.999f - rg_clamp(t.age / p.splash_s, 0.0f, 0.999f))", LOOKS),
-    ("splashes stand still", "rain.h", "rg_clamp(t.age / p.splash_s, 0.0f, 0.999f) * rg_to_float(STREAKS_FRAMES)",
-     "0.9f * rg_to_float(STREAKS_FRAMES)", LOOKS),
+    ("splashes played backwards", "rain.h", "float passed = rg_clamp(t.age / p.splash_s, 0.0f, 1.0f) * frames;",
+     "float passed = (1.0f - rg_clamp(t.age / p.splash_s, 0.0f, 1.0f)) * frames;", LOOKS),
+    ("splashes stand still", "rain.h", "r.shown = rg_clamp(passed - 0.5f, 0.0f, frames - 1.001f)",
+     "r.shown = 0.9f * frames", LOOKS),
+    ("frames half a frame late", "rain.h", "rg_clamp(passed - 0.5f, 0.0f", "rg_clamp(passed, 0.0f", SPLASH),
+    ("splashes end at once", "rain.h", "rg_min(frames - passed, 1.0f)", "1.0f", SPLASH),
+    ("splashes float", "rain.h", "float under = splash != 0 ? tall * p.splash_foot : 0.0f;", "float under = 0.0f;", SPLASH),
+    ("the ground hides a splash's foot", "rain.h", "return below / rg_max(sine, 0.05f) + 0.002f;",
+     "return 0.0f * below * sine;", SPLASH),
+    ("splashes of one width", "rain.h", "float size = streaks_size(random) * t.radius;", "float size = t.radius;", SPLASH),
+    ("splashes too high", "rain.h", "streaks_size(random >> 22) * t.radius", "1.4f * t.radius", SPLASH),
+    ("splashes lean aside", "material.h", "follows != 0 ? turned.x * side : p.up_x", "follows != 0 ? 0.2f : p.up_x", SPLASH),
+    ("normals turned the wrong way", "material.h",
+     "p.from_world.zx * n.x + p.from_world.zy * n.y + p.from_world.zz * n.z",
+     "p.from_world.xz * n.x + p.from_world.yz * n.y + p.from_world.zz * n.z", SPLASH),
+    ("splashes lit as if upright", "rain.h", "v3_dot(reach.to_light, mesh_normal_unpack(r.up))",
+     "(reach.to_light.x * p.up_x + reach.to_light.y * p.up_y + reach.to_light.z * p.up_s)", SPLASH),
+    ("drops fall beside a dynamic map", "particle.h", "(1 - p.around * under.outside)", "1", PARTICLES),
     # far rain
     ("layers rise", "far.h", "at.z - p.fallen", "at.z + p.fallen", FAR),
     ("layers too near", "far.h", "(rg_to_float(r.layer) + 0.5f) * p.thickness",

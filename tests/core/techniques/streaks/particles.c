@@ -105,6 +105,7 @@ static const streaks_params base = {
     .drop_radius = 0.005f,
     .behind = 0.14f,
     .sizes = SIZES,
+    .materials = 1,
     .fall_speed = 8,
     .cycles_per_m = 7.5f,
     .splash_s = 0.25f,
@@ -164,6 +165,7 @@ static void compute(const struct scene *scene, const streaks_params *p, float *p
 struct hit {
     double s, margin;
     int material;
+    bool is_beside; // the map
 };
 
 // By the table of docs/streaks.md.
@@ -179,10 +181,11 @@ static int material_of(const struct scene *scene, int32_t number)
 static struct hit hit_at(const struct scene *scene, double x, double y)
 {
     const double u = (x + 30) / 60 * MAP_X, v = (y + 20) / 40 * MAP_Y;
-    struct hit hit = {70, fmin(fabs(u - round(u)), fabs(v - round(v))), 0};
+    struct hit hit = {70, fmin(fabs(u - round(u)), fabs(v - round(v))), 0, true};
     if (u < 0 || v < 0 || u >= MAP_X || v >= MAP_Y)
         return hit;
     const int texel = (int)v * MAP_X + (int)u;
+    hit.is_beside = false;
     hit.s = 70 * (double)scene->depths[texel];
     hit.material = material_of(scene, scene->numbers[texel]);
     return hit;
@@ -236,7 +239,8 @@ static void compare(const struct scene *scene, const streaks_params *p, const fl
                                                     (double)number(block[4]) + class[4], hit.s);
         if (seen.margin_m < 1e-3 || hit.margin < 1e-4)
             continue;
-        if (!(block[1] >> i % STREAKS_BLOCK & 1) || (seen.state == PARTICLE_DROP && !p->drops) ||
+        if ((p->around && hit.is_beside) || !(block[1] >> i % STREAKS_BLOCK & 1) ||
+            (seen.state == PARTICLE_DROP && !p->drops) ||
             (seen.state == PARTICLE_SPLASH && !p->splashes))
             seen.state = PARTICLE_NOTHING;
         const float *place = places + WORDS * (size_t)i;
@@ -292,6 +296,16 @@ static void test_culled_one_by_one(void **state)
     check(&p, 100, 10);
 }
 
+// A map around the observer says nothing of what lies beside it: nothing is drawn there, rather
+// than through roofs.
+static void test_nothing_beside_the_map(void **state)
+{
+    (void)state;
+    streaks_params p = base;
+    p.around = 1;
+    check(&p, 1000, 50);
+}
+
 static void test_drops_alone(void **state)
 {
     (void)state;
@@ -314,6 +328,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_states),
         cmocka_unit_test(test_culled_one_by_one),
+        cmocka_unit_test(test_nothing_beside_the_map),
         cmocka_unit_test(test_drops_alone),
         cmocka_unit_test(test_splashes_alone),
     };

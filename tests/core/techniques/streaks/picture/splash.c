@@ -1,0 +1,426 @@
+// How splashes stand: splash DEVICE. Their textures are replaced by a row or a frame of white, and
+// what is lit is held against where it must be: on the surface that is hit, along its normal, as
+// large and for as long as the animation was synthesised, one unlike another, lit by Lambert's law.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "tests/core/techniques/streaks/rig.h"
+
+// Of an image of crowns: 21 frames of 6 ms, 48 x 32 texels that show 60 x 40 mm, the impact 8 mm
+// above the lower edge.
+enum { FRAMES = 21, TEXELS_X = 48, TEXELS_Y = 32, FOOT_ROW = 25, WHITE = 0x3c00 };
+static const double frame_s = 0.006, width_mm = 60, foot = 8.0 / 40, size_differs = 0.15;
+
+// Splashes here are forty times as large, so that rows of their texels are pixels.
+#define WIDE_M 2.4
+
+// --- textures ---
+
+// White in rows first to last of frames first to last, of all materials; black elsewhere, and at
+// all levels but the first unless all rows are white. The textures are this test's own device's.
+static void paint(struct streaks *s, int first_row, int last_row, int first_frame, int last_frame)
+{
+    static uint16_t texels[TEXELS_Y][TEXELS_X], other[TEXELS_Y][TEXELS_X];
+    const bool whole = first_row == 0 && last_row == TEXELS_Y - 1;
+    struct rg_image *crowns = s->textures->crowns;
+    for (int layer = 0; layer < crowns->desc.layers; layer++) {
+        const int frame = layer % FRAMES;
+        const bool shown = frame >= first_frame && frame <= last_frame;
+        for (int y = 0; y < TEXELS_Y; y++)
+            for (int x = 0; x < TEXELS_X; x++)
+                texels[y][x] = shown && y >= first_row && y <= last_row ? WHITE : 0;
+        assert_true(rg_image_write(crowns, layer, 0, texels));
+        for (int i = 0; i < TEXELS_X * TEXELS_Y; i++)
+            (&other[0][0])[i] = shown && whole ? WHITE : 0;
+        for (int level = 1; level < crowns->desc.levels; level++)
+            assert_true(rg_image_write(crowns, layer, level, other));
+    }
+}
+
+// --- places ---
+
+struct spot {
+    double x, y, pixels_a_metre;
+    bool is_seen;
+};
+
+// A place in the world, `up` metres along a normal from another.
+static struct spot spot_of(const struct streaks *s, const double at[3], const double normal[3],
+                           double up)
+{
+    const float *m = s->observer.world_to_clip;
+    double clip[4];
+    for (int i = 0; i < 4; i++) {
+        clip[i] = (double)m[4 * i + 3];
+        for (int c = 0; c < 3; c++)
+            clip[i] += (double)m[4 * i + c] * (at[c] + normal[c] * up);
+    }
+    const struct spot spot = {(clip[0] / clip[3] + 1) / 2 * RAIN_WIDTH,
+                              (clip[1] / clip[3] + 1) / 2 * RAIN_HEIGHT,
+                              (double)s->observer.focal_px / clip[3], clip[3] > 0};
+    return spot;
+}
+
+static void hit_of(const struct streaks *s, const float *place, double world[3])
+{
+    const double rain[3] = {(double)place[0], (double)place[1], (double)place[3]};
+    rg_rain_world_point(&s->space, rain, world);
+}
+
+static bool is_splash(const float *place)
+{
+    return (int)place[5] == STREAKS_SPLASH;
+}
+
+// Whether a splash of this reach is in the picture, all but what is below it.
+static bool is_inside(struct spot at, double reach_px)
+{
+    return at.is_seen && at.x > reach_px && at.x < RAIN_WIDTH - reach_px && at.y > reach_px &&
+           at.y < RAIN_HEIGHT - reach_px / 2;
+}
+
+// --- what is lit ---
+
+struct lit {
+    double sum, x, y, left, right; // left and right: where the light's halves end
+    double most;
+};
+
+// What particle i of the state, alone, adds to the picture without rain.
+static double *added_by(struct streaks *s, int64_t i, const struct rain_texels *dry)
+{
+    for (int64_t block = 0; block < s->selection.block_count; block++)
+        s->selection.blocks[block * STREAKS_BLOCK_WORDS + 1] =
+            block == i / STREAKS_BLOCK ? 1u << i % STREAKS_BLOCK : 0;
+    assert_int_equal(s->selection.draw_count, 1);
+    assert_true(streaks_write_blocks(s, &s->selection.draws[0]));
+    struct rain_texels *lit = rain_read(s);
+    double *added = malloc(RAIN_TEXELS * sizeof(*added));
+    assert_non_null(added);
+    for (int k = 0; k < RAIN_TEXELS; k++)
+        added[k] = rain_texel(lit, k % RAIN_WIDTH, k / RAIN_WIDTH, 1) -
+                   rain_texel(dry, k % RAIN_WIDTH, k / RAIN_WIDTH, 1);
+    free(lit);
+    return added;
+}
+
+static struct rain_texels *dry_picture(struct streaks *s)
+{
+    const streaks_params params = s->params;
+    s->params.splashes = s->params.drops = 0;
+    struct rain_texels *dry = rain_read(s);
+    s->params = params;
+    return dry;
+}
+
+// Calls `see` for splashes that are in the picture, each alone, at some moments.
+typedef void see_fn(struct streaks *s, const float *place, const double *added, void *user);
+static void each_splash(struct streaks *s, int moments, see_fn *see, void *user)
+{
+    for (int moment = 0; moment < moments; moment++) {
+        struct rain_texels *dry = dry_picture(s);
+        const struct rain_places places = rain_read_places(s);
+        for (int64_t i = 0; i < places.count; i++) {
+            const float *place = places.words + i * STREAKS_STATE_WORDS;
+            double world[3];
+            if (!is_splash(place))
+                continue;
+            hit_of(s, place, world);
+            const struct spot at = spot_of(s, world, (double[]){0, 1, 0}, 0);
+            if (!is_inside(at, 0.7 * WIDE_M * at.pixels_a_metre))
+                continue;
+            double *added = added_by(s, i, dry);
+            see(s, place, added, user);
+            free(added);
+        }
+        free(places.words);
+        free(dry);
+        rain_step(s, 5);
+        s->params.sky_g = 1;
+    }
+}
+
+static struct lit lit_around(const double *added, struct spot at, double reach_px)
+{
+    struct lit lit = {.left = 1e9, .right = -1e9};
+    for (int y = (int)fmax(at.y - reach_px, 0); y < RAIN_HEIGHT && y <= at.y + reach_px; y++)
+        for (int x = (int)fmax(at.x - reach_px, 0); x < RAIN_WIDTH && x <= at.x + reach_px; x++) {
+            const double v = added[y * RAIN_WIDTH + x];
+            if (v < 0.01)
+                continue;
+            lit.sum += v;
+            lit.x += v * (x + 0.5);
+            lit.y += v * (y + 0.5);
+            lit.left = fmin(lit.left, x);
+            lit.right = fmax(lit.right, x + 1);
+            lit.most = fmax(lit.most, v);
+        }
+    lit.x /= lit.sum;
+    lit.y /= lit.sum;
+    return lit;
+}
+
+// --- scenes ---
+
+#define LARGE                                                                                      \
+    "state=on drops=off lights=0 splash_opacity=0 splash_width_mm=2400 drops_m2_s=4 "              \
+    "view_angle_deg=20 last_mip=0 packets=world blocks=all "
+
+static struct streaks *open_large(const char *settings)
+{
+    char all[960];
+    snprintf(all, sizeof(all), LARGE "%s", settings);
+    struct streaks *s = rain_open(all);
+    rain_step(s, 30);
+    s->params.sky_g = 1;
+    return s;
+}
+
+static char path[64];
+
+// A plane that rises towards -z, as wide as the scene's space, which it is scaled to.
+static void write_slope(double degrees)
+{
+    const double rise = 2 * tan(degrees / 180 * acos(-1));
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "OFF\n4 2 0\n-1 0 1\n1 0 1\n1 %.9f -1\n-1 %.9f -1\n3 0 1 2\n3 0 2 3\n", rise,
+            rise);
+    fclose(file);
+}
+
+// --- where they stand ---
+
+// Splashes whose texture is one row of white, and what was seen of them.
+struct row {
+    const double *normal;
+    double above;             // that the row is above the impact, of the picture's height
+    double least_height_m;    // of what is hit
+    int seen, missed, hidden; // in part, by what stands before
+    double least, most;       // times as wide as the settings say
+};
+
+static void see_row(struct streaks *s, const float *place, const double *added, void *user)
+{
+    struct row *row = user;
+    const double tall_m = WIDE_M * 2 / 3;
+    double world[3];
+    hit_of(s, place, world);
+    const struct spot at = spot_of(s, world, row->normal, 0);
+    if (world[1] < row->least_height_m || at.pixels_a_metre * WIDE_M < 42 ||
+        (double)place[4] > 0.9 * s->settings.splash_s)
+        return;
+    const struct lit lit = lit_around(added, at, RAIN_WIDTH);
+    row->seen++;
+    row->missed += !(lit.sum > 0);
+    if (!(lit.sum > 0))
+        return;
+    const double wide = (lit.right - lit.left) / at.pixels_a_metre / WIDE_M;
+    row->hidden += wide < 0.78;
+    if (wide < 0.78)
+        return;
+    // As high as its size says, which differs.
+    const struct spot low =
+        spot_of(s, world, row->normal, row->above * tall_m * (1 - size_differs));
+    const struct spot high =
+        spot_of(s, world, row->normal, row->above * tall_m * (1 + size_differs));
+    const double from_x = fmin(low.x, high.x), to_x = fmax(low.x, high.x);
+    const double from_y = fmin(low.y, high.y), to_y = fmax(low.y, high.y);
+    // Splashes face the eye, so that off the middle of the picture their nearer half is larger.
+    if (!(lit.x > from_x - 1.5 && lit.x < to_x + 1.5 && lit.y > from_y - 1 && lit.y < to_y + 1))
+        fail_msg("%.2f above: lit at %.2f, %.2f, not %.2f..%.2f, %.2f..%.2f", row->above, lit.x,
+                 lit.y, from_x, to_x, from_y, to_y);
+    row->least = fmin(row->least, wide);
+    row->most = fmax(row->most, wide);
+}
+
+static void expect_row(const char *settings, const double normal[3], int number,
+                       double least_height_m)
+{
+    struct streaks *s = open_large(settings);
+    struct row row = {.normal = normal,
+                      .above = 1 - (number + 0.5) / TEXELS_Y - foot,
+                      .least_height_m = least_height_m,
+                      .least = 1e9};
+    paint(s, number, number, 0, FRAMES - 1);
+    each_splash(s, 8, see_row, &row);
+    print_message(
+        "%s, row %d: %d splashes, %d missed, %d hidden in part, %.2f to %.2f times as wide\n",
+        settings, number, row.seen, row.missed, row.hidden, row.least, row.most);
+    assert_true(row.seen >= 20 && row.missed == 0 && row.hidden <= row.seen / 12);
+    assert_true(row.least < 0.95 && row.most > 1.05 && row.most < 1.25);
+    rain_close(s);
+}
+
+#define STREET "eye_x_m=0 eye_y_m=3 eye_z_m=-15 target_x_m=0 target_y_m=0.3 target_z_m=-4 "
+// So little of a slope that it lies above the ground plane and is as level.
+#define LEVEL                                                                                      \
+    "scene=%s rain_height_m=80 eye_x_m=0 eye_y_m=3.2 eye_z_m=-11 target_x_m=0 target_y_m=0.5 "     \
+    "target_z_m=0 "
+static const double upright[3] = {0, 1, 0};
+
+static void test_on_the_ground(void **state)
+{
+    (void)state;
+    char settings[400];
+    write_slope(0.05);
+    snprintf(settings, sizeof(settings), LEVEL, path);
+    expect_row(settings, upright, FOOT_ROW, 0.1);
+    expect_row(settings, upright, 1, 0.1);
+    snprintf(settings, sizeof(settings), LEVEL "splash_up=vertical", path);
+    expect_row(settings, upright, FOOT_ROW, 0.1);
+    // From near the ground, where what lies below the impact would be hidden.
+    snprintf(settings, sizeof(settings), LEVEL "eye_y_m=1.8 target_y_m=0.7", path);
+    expect_row(settings, upright, FOOT_ROW, 0.1);
+    remove(path);
+}
+
+#define SLOPE                                                                                      \
+    "scene=%s eye_x_m=8 eye_y_m=119 eye_z_m=8 target_x_m=0 target_y_m=115.5 target_z_m=0 "         \
+    "rain_height_m=400 local_height_m=40 depth_map_px=2048 "
+
+static void test_on_a_slope(void **state)
+{
+    (void)state;
+    char settings[400];
+    const double normal[3] = {0, sqrt(3) / 2, 0.5};
+    write_slope(30);
+    snprintf(settings, sizeof(settings), SLOPE, path);
+    expect_row(settings, normal, 1, 1);
+    snprintf(settings, sizeof(settings), SLOPE "splash_up=vertical", path);
+    expect_row(settings, upright, 1, 1);
+    remove(path);
+}
+
+// --- how large, and how long ---
+
+static void test_as_large_as_synthesised(void **state)
+{
+    (void)state;
+    struct streaks *s = rain_open("");
+    assert_true(fabs(s->settings.splash_width_mm - width_mm) < 1e-9);
+    assert_true(s->settings.splash_gain == 1 && s->settings.splash_opacity == 1);
+    rain_close(s);
+}
+
+static double brightest(const double *added)
+{
+    double most = 0;
+    for (int i = 0; i < RAIN_TEXELS; i++)
+        most = fmax(most, added[i]);
+    return most;
+}
+
+// The frame in white is the seventh: splashes shine as much as their age is near its middle.
+enum { SHOWN = 6 };
+
+static void see_frame(struct streaks *s, const float *place, const double *added, void *user)
+{
+    (void)s;
+    int *counts = user;
+    const double age_s = (double)place[4], is = brightest(added);
+    const double due = fmax(1 - fabs(age_s / frame_s - (SHOWN + 0.5)), 0);
+    counts[due > 0]++;
+    if (fabs(is - due) > 0.03)
+        fail_msg("at an age of %.4f s: %.3f, not %.3f", age_s, is, due);
+}
+
+static void test_frames_have_their_times(void **state)
+{
+    (void)state;
+    int counts[2] = {0};
+    struct streaks *s = open_large(STREET "geometry=off");
+    paint(s, 0, TEXELS_Y - 1, SHOWN, SHOWN);
+    assert_true(fabs(s->settings.splash_s - FRAMES * frame_s) < 1e-9);
+    each_splash(s, 12, see_frame, counts);
+    print_message("%d splashes in the frame, %d in others\n", counts[1], counts[0]);
+    assert_true(counts[1] >= 5 && counts[0] >= 20);
+    rain_close(s);
+}
+
+// All frames are white: a splash is whole until its last frame, in which it goes out.
+static void see_end(struct streaks *s, const float *place, const double *added, void *user)
+{
+    (void)s;
+    int *counts = user;
+    const double left = FRAMES - (double)place[4] / frame_s, due = fmin(left, 1);
+    const double is = brightest(added);
+    counts[due < 1]++;
+    if (fabs(is - due) > 0.03)
+        fail_msg("%.2f frames before its end: %.3f, not %.3f", left, is, due);
+}
+
+static void test_splashes_go_out(void **state)
+{
+    (void)state;
+    int counts[2] = {0};
+    struct streaks *s = open_large(STREET "geometry=off");
+    paint(s, 0, TEXELS_Y - 1, 0, FRAMES - 1);
+    each_splash(s, 12, see_end, counts);
+    print_message("%d whole splashes, %d that go out\n", counts[0], counts[1]);
+    assert_true(counts[0] > 20 && counts[1] >= 3);
+    rain_close(s);
+}
+
+// --- light ---
+
+static void see_sun(struct streaks *s, const float *place, const double *added, void *user)
+{
+    const double *due = user;
+    const double is = brightest(added);
+    (void)place;
+    if ((double)place[4] < 0.9 * s->settings.splash_s && fabs(is - *due) > 0.01)
+        fail_msg("lit by %.3f, not %.3f", is, *due);
+}
+
+// A sun shines on splashes by the cosine to the normal on which they stand.
+static void test_lamberts_law(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *up;
+        double normal[3];
+    } ways[] = {{"normal", {0, 0.8660254, 0.5}}, {"vertical", {0, 1, 0}}};
+    const double towards[3] = {-0.36, 0.8, 0.48};
+    char settings[600], lights[64];
+    snprintf(lights, sizeof(lights), "test_splash_lights_%ld.json", (long)getpid());
+    FILE *file = fopen(lights, "w");
+    assert_non_null(file);
+    fprintf(file, "{\"lights\": [{\"type\": \"sun\", \"direction\": [0.36, -0.8, -0.48], "
+                  "\"colour\": [1, 0.5, 1], \"shadows\": false}]}");
+    fclose(file);
+    write_slope(30);
+    for (int k = 0; k < 2; k++) {
+        double due = 0;
+        for (int c = 0; c < 3; c++)
+            due += 0.5 * towards[c] * ways[k].normal[c];
+        snprintf(settings, sizeof(settings),
+                 SLOPE "splash_up=%s environment_light=off lights_file=%s", path, ways[k].up,
+                 lights);
+        struct streaks *s = open_large(settings);
+        s->settings.environment_light = 0;
+        paint(s, 0, TEXELS_Y - 1, 0, FRAMES - 1);
+        s->params.sky_g = 0;
+        each_splash(s, 1, see_sun, &due);
+        rain_close(s);
+    }
+    remove(lights);
+    remove(path);
+}
+
+int main(int argc, char **argv)
+{
+    snprintf(path, sizeof(path), "test_splash_%ld.off", (long)getpid());
+    struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_on_the_ground),
+        cmocka_unit_test(test_on_a_slope),
+        cmocka_unit_test(test_frames_have_their_times),
+        cmocka_unit_test(test_splashes_go_out),
+        cmocka_unit_test(test_lamberts_law),
+        cmocka_unit_test(test_as_large_as_synthesised),
+    };
+    return rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
