@@ -4,7 +4,8 @@
 #ifndef RG_KERNELS_STREAKS_CELLS_H
 #define RG_KERNELS_STREAKS_CELLS_H
 
-#include "kernels/dialect/lang.h"
+#include "kernels/dialect/math.h"
+#include "kernels/dialect/vec.h"
 
 #define STREAKS_VIEWS    5  // elevations of the camera, 20 degrees apart from 0 on
 #define STREAKS_HEIGHTS  10 // of the light, 20 degrees apart from -90 on
@@ -55,6 +56,54 @@ RG_FN float streaks_across(int column, float u, int level)
 {
     int wide = STREAKS_CELL_PX >> level;
     return streaks_within(rg_to_float(column * wide), rg_to_float(wide), u);
+}
+
+// --- angles, in steps of the atlas ---
+
+// 180 / pi / 20, written out: compilers round what they reckon beforehand in ways of their own.
+#define STREAKS_STEPS_A_RADIAN 2.86478898f
+
+RG_FN float streaks_steps(float radians)
+{
+    return radians * STREAKS_STEPS_A_RADIAN;
+}
+
+// Elevation above the plane across the fall, of a direction of length 1, in steps of 20 degrees.
+RG_FN float streaks_elevation(v3 d)
+{
+    return streaks_steps(rg_atan2(-d.z, rg_sqrt(rg_max(1.0f - d.z * d.z, 0.0f))));
+}
+
+// How far a light is to the left of a ray, across the fall.
+RG_FN float streaks_to_left(v3 to_light, v3 ray)
+{
+    return to_light.x * ray.y - to_light.y * ray.x;
+}
+
+// Azimuth of a light from the viewer, to either side, from the atlas' first on.
+RG_FN float streaks_azimuth(v3 to_light, v3 ray)
+{
+    float cosine = -(to_light.x * ray.x + to_light.y * ray.y);
+    return streaks_steps(rg_atan2(rg_abs(streaks_to_left(to_light, ray)), cosine)) - 0.5f;
+}
+
+// The lower of the two views that an elevation lies between.
+RG_FN int streaks_view(float elevation)
+{
+    return rg_imin(rg_to_int(elevation), STREAKS_VIEWS - 2);
+}
+
+// How long a drop covers the middle of its way in a view's pictures, as a share of the exposure.
+RG_FN float streaks_steadiness(int view)
+{
+    return STREAKS_DROP_PX / streaks_way_px(view);
+}
+
+RG_FN float streaks_steadiness_at(float shown)
+{
+    int view = streaks_view(shown);
+    float first = streaks_steadiness(view);
+    return first + (streaks_steadiness(view + 1) - first) * (shown - rg_to_float(view));
 }
 
 #endif

@@ -6,6 +6,7 @@
 #ifndef RG_KERNELS_STREAKS_PARTICLE_H
 #define RG_KERNELS_STREAKS_PARTICLE_H
 
+#include "kernels/streaks/hit.h"
 #include "kernels/streaks/size.h"
 
 RG_STRUCT(streaks_particle)
@@ -24,46 +25,6 @@ RG_STRUCT(streaks_particle)
     float swing;  // frequency
     float weight; // drops that it stands for
 };
-
-// Truth values are numbers here, which gcc can turn into masks.
-RG_FN int streaks_below(float a, float b)
-{
-    return a < b ? 1 : 0;
-}
-
-// A texel of a map of the scene seen along the fall, and whether the place lies beyond the map.
-RG_STRUCT(streaks_map_place)
-{
-    int x;
-    int y;
-    int outside;
-};
-
-// The texel of a place in a map of this size. All maps have one extent.
-RG_FN streaks_map_place streaks_map_place_at(streaks_params p, float x, float y, int texels_x,
-                                             int texels_y)
-{
-    float width = rg_to_float(texels_x);
-    float height = rg_to_float(texels_y);
-    float u = (x - p.map_x) * p.map_per_x * width;
-    float v = (y - p.map_y) * p.map_per_y * height;
-    streaks_map_place t;
-    t.x = rg_to_int(rg_clamp(u, 0.0f, width - 1.0f));
-    t.y = rg_to_int(rg_clamp(v, 0.0f, height - 1.0f));
-    t.outside = streaks_below(u, 0.0f) | streaks_below(v, 0.0f) | streaks_below(width, u) |
-                streaks_below(height, v);
-    return t;
-}
-
-// s of the first surface at a place, and of the ground where the map does not reach. A sum of
-// products with 0 and 1 makes the choice, because gcc moves what only one branch of a choice reads
-// into that branch.
-RG_FN float streaks_hit(rg_ctx rg, streaks_params p, streaks_map_place at)
-{
-    float depth = depths_texel(rg, at.x, at.y, 0, 0).r;
-    float inside = rg_to_float(1 - at.outside);
-    return inside * (p.map_top + depth * p.map_height) + (1.0f - inside) * p.ground;
-}
 
 // How far above a drop the upper end of its streak is. It is p.behind to the bit for the settings'
 // drop.

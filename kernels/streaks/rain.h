@@ -185,20 +185,6 @@ RG_FN int streaks_level(float texels, float pixels, int last)
     return rg_imin(rg_to_int(rg_log2(ratio) + 0.5f), last);
 }
 
-// 180 / pi / 20, written out: compilers round what they reckon beforehand in ways of their own.
-#define STREAKS_STEPS_A_RADIAN 2.86478898f
-
-RG_FN float streaks_steps(float radians)
-{
-    return radians * STREAKS_STEPS_A_RADIAN;
-}
-
-// Elevation above the plane across the fall, of a direction of length 1, in steps of 20 degrees.
-RG_FN float streaks_elevation(v3 d)
-{
-    return streaks_steps(rg_atan2(-d.z, rg_sqrt(rg_max(1.0f - d.z * d.z, 0.0f))));
-}
-
 // The word `look` from the lowest bit: three bits with names; three of the level, counted as in the
 // full atlas or in a splash's images; six of the layer, which is a drop's oscillation or the first
 // of a splash's; twelve of the row behind a drop's second view.
@@ -226,12 +212,6 @@ RG_FN int streaks_layer_of(streaks_billboard r)
     return rg_to_int((r.look >> 6) & 63u);
 }
 
-// The lower of the two views that an elevation lies between.
-RG_FN int streaks_view(float elevation)
-{
-    return rg_imin(rg_to_int(elevation), STREAKS_VIEWS - 2);
-}
-
 // The level of a billboard's images: a drop's as the full atlas counts them, or a splash's.
 RG_FN int streaks_level_for(streaks_params p, streaks_shape shape, int splash)
 {
@@ -242,20 +222,13 @@ RG_FN int streaks_level_for(streaks_params p, streaks_shape shape, int splash)
     return rg_imax(streaks_level(rg_to_float(texels), pixels, last), first);
 }
 
-// How long a drop covers the middle of its way in a view's pictures, as a share of the exposure.
-RG_FN float streaks_steadiness(int view)
-{
-    return STREAKS_DROP_PX / streaks_way_px(view);
-}
-
 // A drop covers a place on its way for as long as its diameter takes to pass: the longer its
 // streak, the fainter. A streak that is thinner than a pixel is drawn a pixel wide, and fainter.
 RG_FN float streaks_share(streaks_shape shape, float shown)
 {
-    int view = streaks_view(shown);
-    float first = streaks_steadiness(view);
-    float blended = first + (streaks_steadiness(view + 1) - first) * (shown - rg_to_float(view));
-    return 2.0f / (shape.way * blended) * (shape.half_width / shape.covering) * shape.weight;
+    float one =
+        2.0f / (shape.way * streaks_steadiness_at(shown)) * (shape.half_width / shape.covering);
+    return one * shape.weight;
 }
 
 RG_FN streaks_billboard streaks_drop(streaks_params p, streaks_billboard of, streaks_particle t,
@@ -501,11 +474,9 @@ RG_FN float streaks_streak(rg_ctx rg, streaks_params p, streaks_billboard r, str
                            v3 to_light)
 {
     float below = 1.0f - rg_to_float(2 * streaks_is(r, STREAKS_LOOK_BELOW));
-    float cosine = -(to_light.x * spot.ray.x + to_light.y * spot.ray.y);
-    float sine = to_light.x * spot.ray.y - to_light.y * spot.ray.x;
-    float azimuth = streaks_steps(rg_atan2(rg_abs(sine), cosine)) - 0.5f;
+    float azimuth = streaks_azimuth(to_light, spot.ray);
     float elevation = streaks_elevation(to_light) * below + 4.5f;
-    float mirrored = sine > 0.0f ? 1.0f - spot.u : spot.u;
+    float mirrored = streaks_to_left(to_light, spot.ray) > 0.0f ? 1.0f - spot.u : spot.u;
     return streaks_point(rg, p, streaks_strip_of(p, r, spot.u, spot.v),
                          rg_clamp(elevation, 0.0f, rg_to_float(STREAKS_HEIGHTS - 1)),
                          rg_clamp(azimuth, 0.0f, rg_to_float(STREAKS_AZIMUTHS - 1)), mirrored);

@@ -10,7 +10,7 @@
 #include "core/techniques/streaks/streaks.h"
 #include "core/techniques/streaks/textures.h"
 #include "core/techniques/technique.h"
-#include "kernels/streaks/far_params.h"
+#include "kernels/streaks/far/params.h"
 #include "kernels/streaks/params.h"
 #include "kernels/streaks/size.h"
 
@@ -114,6 +114,9 @@ void streaks_map_close(struct streaks *streaks);
 bool streaks_map_renew(struct streaks *streaks);
 // Draws the layers of rain far away, farthest first.
 bool streaks_draw_far(struct streaks *streaks);
+// The density map as a texture, for far rain and for the view from outside. False, and one logged
+// line, on failure.
+bool streaks_density_open(struct streaks *streaks);
 // Draws the overlay of the present frame.
 bool streaks_show(struct streaks *streaks);
 

@@ -97,6 +97,9 @@ static void add_assets(struct streaks *s)
     rg_lend_image(i, "skies", s->textures->skies);
     rg_lend_image(i, "crowns", s->textures->crowns);
     rg_lend_buf(i, "factors", s->textures->factors);
+    rg_lend_buf(i, "means", s->textures->means);
+    if (s->density)
+        rg_lend_image(i, "density", s->density);
     rg_lend_buf(i, "lights", s->lights->in_frame);
     rg_lend_image(i, "shadows", s->lights->shadows);
     rg_add_state(i, s->places, "places", true, STREAKS_STATE_WORDS, 0);

@@ -8,6 +8,7 @@
 struct streaks_textures {
     struct rg_image *points, *skies, *crowns; // R16F: layers are oscillations, and splash frames
     struct rg_buf *factors;                   // floats; kernels/streaks/cells.h says in what order
+    struct rg_buf *means;                     // floats; kernels/streaks/far/params.h
     int first_level;                          // the first of the full atlas' levels that is there
     uint64_t hash;
 };

@@ -13,43 +13,16 @@
 enum { OUTSIDE_OFF, OUTSIDE_SPACE, OUTSIDE_VOLUME };
 enum { MAP_NONE, MAP_DENSITY, MAP_DEPTH };
 
-// Texels of the density map's picture, a side; a larger map is averaged.
-enum { DENSITY_PX = 512 };
-
 const struct streaks_observer *streaks_viewer(const struct streaks *s)
 {
     return s->settings.outside ? &s->outside : &s->observer;
 }
 
-// --- the density map ---
-
-static bool write_density(const struct streaks *s, const struct rg_density *density)
-{
-    float *texels = rg_alloc(DENSITY_PX * DENSITY_PX, sizeof(*texels), "density map");
-    if (!texels)
-        return false;
-    const double wide = (double)density->width / DENSITY_PX;
-    const double high = (double)density->height / DENSITY_PX;
-    for (int y = 0; y < DENSITY_PX; y++)
-        for (int x = 0; x < DENSITY_PX; x++)
-            texels[y * DENSITY_PX + x] = (float)(rg_density_mass(density, x * wide, y * high,
-                                                                 (x + 1) * wide, (y + 1) * high) /
-                                                 (wide * high));
-    const bool written = rg_image_write(s->density, 0, 0, texels);
-    free(texels);
-    return written;
-}
-
 bool streaks_outside_open(struct streaks *s)
 {
-    if (!s->settings.outside || s->settings.outside_map != MAP_DENSITY)
+    if (!s->settings.far_layers && (!s->settings.outside || s->settings.outside_map != MAP_DENSITY))
         return true;
-    const struct rg_image_desc desc = {RG_D32F, DENSITY_PX, DENSITY_PX, 1, 1};
-    struct rg_density *density = streaks_density(s);
-    s->density = density ? rg_image_create(s->base.device, &desc, "density map") : NULL;
-    const bool good = s->density && write_density(s, density);
-    rg_density_destroy(density);
-    return good;
+    return streaks_density_open(s);
 }
 
 void streaks_outside_close(struct streaks *s)

@@ -6,7 +6,8 @@ Row = collections.namedtuple("Row", "about file old new tests")
 COVER = ("picture/cover",)
 LOOKS = ("picture/looks",)
 PARTICLES = ("particles",)
-FAR = ("far",)
+FAR = ("far_rain/far",)
+MEET = ("far_rain/meet",)
 OUTSIDE = ("picture/outside",)
 SIZES = ("sizes",)
 SPLASH = ("picture/splash",)
@@ -17,7 +18,7 @@ ROWS = [Row(*row) for row in (
     ("drops rise", "particle.h", "t.s = p.top + p.local_height * (fallen - rg_floor(fallen))",
      "t.s = p.top + p.local_height * (1.0f - (fallen - rg_floor(fallen)))", PARTICLES),
     ("drops end a streak too late", "particle.h", "(t.s - streaks_behind(p, t)) - t.hit", "t.s - t.hit", PARTICLES),
-    ("the map's rows run across", "particle.h", "(y - p.map_y) * p.map_per_y * height",
+    ("the map's rows run across", "hit.h", "(y - p.map_y) * p.map_per_y * height",
      "(x - p.map_y) * p.map_per_y * height", PARTICLES),
     ("splashes last half as long", "particle.h", "rg_min(p.splash_s * fall_speed, p.local_height)",
      "rg_min(0.5f * p.splash_s * fall_speed, p.local_height)", PARTICLES),
@@ -34,8 +35,8 @@ ROWS = [Row(*row) for row in (
     ("short streaks missed", "rain.h", "rg_max(0.5f * (thinnest - way), 0.0f)", "0.0f", COVER),
     ("no foreshortening of the way", "rain.h", "float way = fall * rg_hypot(to_eye.x, to_eye.y)",
      "float way = fall", COVER),
-    ("the atlas' share of the exposure", "rain.h", "2.0f / (shape.way * blended)", "1.0f", COVER),
-    ("the share of the lower view", "rain.h",
+    ("the atlas' share of the exposure", "rain.h", "2.0f / (shape.way * streaks_steadiness_at(shown))", "1.0f", COVER),
+    ("the share of the lower view", "cells.h",
      "first + (streaks_steadiness(view + 1) - first) * (shown - rg_to_float(view))", "first", COVER),
     ("streaks without ends", "rain.h", "t.window = rg_max(passes, 0.0f) / (2.0f * half_chord)",
      "t.window = 1.0f", COVER),
@@ -49,11 +50,11 @@ ROWS = [Row(*row) for row in (
     ("always the same oscillation", "rain.h", "s.oscillation = streaks_layer_of(r) * drop",
      "s.oscillation = 3 * drop", LOOKS),
     # light
-    ("mirrored to the wrong side", "rain.h", "sine > 0.0f ? 1.0f - spot.u : spot.u",
-     "sine > 0.0f ? spot.u : 1.0f - spot.u", LOOKS),
-    ("never mirrored", "rain.h", "sine > 0.0f ? 1.0f - spot.u : spot.u", "spot.u", LOOKS),
-    ("light from behind as from before", "rain.h", "rg_atan2(rg_abs(sine), cosine)",
-     "rg_atan2(rg_abs(sine), -cosine)", LOOKS),
+    ("mirrored to the wrong side", "rain.h", "streaks_to_left(to_light, spot.ray) > 0.0f ? 1.0f - spot.u : spot.u",
+     "streaks_to_left(to_light, spot.ray) > 0.0f ? spot.u : 1.0f - spot.u", LOOKS),
+    ("never mirrored", "rain.h", "streaks_to_left(to_light, spot.ray) > 0.0f ? 1.0f - spot.u : spot.u", "spot.u", LOOKS),
+    ("light from behind as from before", "cells.h", "rg_atan2(rg_abs(streaks_to_left(to_light, ray)), cosine)",
+     "rg_atan2(rg_abs(streaks_to_left(to_light, ray)), -cosine)", LOOKS),
     ("light from above as from below", "rain.h", "streaks_elevation(to_light) * below + 4.5f",
      "-streaks_elevation(to_light) * below + 4.5f", LOOKS),
     ("no brightness factors", "rain.h", "s.level - p.first_level).r * factor;\n}\n\nRG_FN float streaks_between",
@@ -84,10 +85,20 @@ ROWS = [Row(*row) for row in (
      "(reach.to_light.x * p.up_x + reach.to_light.y * p.up_y + reach.to_light.z * p.up_s)", SPLASH),
     ("drops fall beside a dynamic map", "particle.h", "(1 - p.around * under.outside)", "1", PARTICLES),
     # far rain
-    ("layers rise", "far.h", "at.z - p.fallen", "at.z + p.fallen", FAR),
-    ("layers too near", "far.h", "(rg_to_float(r.layer) + 0.5f) * p.thickness",
-     "rg_to_float(r.layer) * p.thickness", FAR),
-    ("layers hide half", "far.h", "rg_clamp(p.opacity * (1.0f + p.contrast", "rg_clamp(0.5f * p.opacity * (1.0f + p.contrast", FAR),
+    ("slabs hide half", "far/far.h", "p.rain.opacity * section * sky", "0.5f * p.rain.opacity * section * sky", FAR),
+    ("slabs begin too near", "far/far.h", "rg_max(low, p.nearest)", "rg_max(low, 0.5f * p.nearest)", FAR),
+    ("slabs end too far", "far/far.h", "rg_min(low + p.thickness, p.farthest)", "low + 2.0f * p.thickness", FAR),
+    ("slanting rays cross slabs straight", "far/far.h", "way.last = last / steep * length", "way.last = first / steep * length + (last - first)", MEET),
+    ("no sky", "far/far.h", "light_g = p.rain.sky_g * sky + lit.g", "light_g = lit.g", MEET),
+    ("lamps as strong everywhere", "far/far.h", "fall.mean = sun != 0 ? 1.0f : angle / (beside * length)", "fall.mean = 1.0f", MEET),
+    ("lights without pi", "far/far.h", "float reaches = SCENERY_IRRADIANCE * cone", "float reaches = cone", MEET),
+    ("the density of the whole map", "far/far.h", "return p.drops_m3 * there *", "return p.drops_m3 *", MEET),
+    ("the map turned over", "far/far.h", "float v = (at.y / p.rain.half_y + 1.0f) * 0.5f", "float v = (1.0f - at.y / p.rain.half_y) * 0.5f", MEET),
+    ("streaks as short as drops", "far/far.h", "float longer = rg_max(fallen, chord)", "float longer = rg_max(chord, chord)", MEET),
+    ("streaks twice as wide", "far/far.h", "return covering * longer * longer", "return 2.0f * covering * longer * longer", MEET),
+    ("a pattern without variance", "far/far.h", "streaks_far_spread(grain, spread)", "1.0f", MEET),
+    ("few grains too weak", "far/far.h", "2.0f * random / (some * some)", "2.0f * random / some", MEET),
+    ("the views' sections", "far/far.h", "streaks_steadiness_at(shown)", "streaks_steadiness(0) * 1.1f", FAR),
     # the view from outside
     ("marks coloured upside down", "outside/marks.h", "rg_clamp((s - p.map_top) / p.map_height, 0.0f, 1.0f)",
      "1.0f - rg_clamp((s - p.map_top) / p.map_height, 0.0f, 1.0f)", OUTSIDE),

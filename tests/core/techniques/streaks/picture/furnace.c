@@ -181,6 +181,12 @@ static void test_suns_light_splashes_as_a_sky(void **state)
     expect_as_sky("drops=off", views[1]);
 }
 
+static void test_suns_light_far_rain_as_a_sky(void **state)
+{
+    (void)state;
+    expect_as_sky("drops=off splashes=off far_layers=1 drops_m2_s=2000 drop_radius_mm=3", views[0]);
+}
+
 int main(int argc, char **argv)
 {
     snprintf(path, sizeof(path), "test_furnace_%ld.json", (long)getpid());
@@ -188,6 +194,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_white_rain_before_white),
         cmocka_unit_test(test_suns_light_streaks_as_a_sky),
         cmocka_unit_test(test_suns_light_splashes_as_a_sky),
+        cmocka_unit_test(test_suns_light_far_rain_as_a_sky),
     };
     const int status = rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
     remove(path);

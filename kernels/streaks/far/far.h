@@ -1,0 +1,349 @@
+// streaks: rain beyond the culling radius, as slabs of the rain space (Creus, section 5.5, after
+// section 3.2.1). A slab adds and hides, in the mean and in the variance of a pixel, what the drops
+// between its planes would: drops a cubic metre, times their light, times the way that a pixel's
+// ray has in the slab. Slabs stand still in the rain space: x = i * thickness where a ray runs
+// along x more than along y, and y = i * thickness elsewhere.
+#include "kernels/dialect/math.h"
+#include "kernels/dialect/rng.h"
+#include "kernels/scenery/light.h"
+#include "kernels/streaks/cells.h"
+#include "kernels/streaks/far/params.h"
+
+#define RG_PARAMS streaks_far_params
+#define RG_SLOTS                                                                                   \
+    IN(1, float, means)                                                                            \
+    IMAGE(2, D32F, density)                                                                        \
+    IMAGE(3, D32F, depths)                                                                         \
+    IN(4, scenery_light, lights) IMAGE(5, D32F, shadows)
+#define RG_LIGHTS
+
+RG_STRUCT(streaks_far_slab)
+{
+    int number; // counted from the one in which far rain begins
+};
+#define RG_RECORD streaks_far_slab
+#include "kernels/dialect/draw/view_quad.h"
+
+#include "kernels/scenery/shadow.h"
+#include "kernels/streaks/hit.h"
+
+RG_DRAW_ITEM(streaks_far)
+{
+    return view_quad();
+}
+
+// Item 0 is the farthest slab.
+RG_DRAW_RECORD(streaks_far)
+{
+    streaks_far_slab r;
+    r.number = draw.item_end - 1 - i;
+    return r;
+}
+
+// --- what a pixel's ray has of a slab ---
+
+RG_STRUCT(streaks_far_way)
+{
+    v3 ray;      // of length 1, from the eye
+    float first; // metres along it
+    float last;
+    float ahead; // along the view, to the middle
+    float plane; // metres along the ray, to the slab's middle plane
+    float away;  // of that plane, straight from the eye
+    int side;    // 0 to 3: what the slab faces
+    int index;   // of the slab in the rain space
+    v3 middle;
+};
+
+RG_FN streaks_far_way streaks_far_way_of(streaks_far_params p, streaks_far_slab r, int px, int py)
+{
+    m4 m = p.rain.rays;
+    float x = rg_to_float(px) + 0.5f;
+    float y = rg_to_float(py) + 0.5f;
+    v3 ray =
+        v3_make(m.xx * x + m.xy * y + m.xz, m.yx * x + m.yy * y + m.yz, m.zx * x + m.zy * y + m.zz);
+    int along_x = rg_abs(ray.x) >= rg_abs(ray.y) ? 1 : 0;
+    float towards = along_x != 0 ? ray.x : ray.y;
+    float eye = along_x != 0 ? p.rain.eye_x : p.rain.eye_y;
+    float turned = towards < 0.0f ? -eye : eye;
+    float steep = rg_max(rg_abs(towards), 1e-6f);
+    float length = rg_sqrt(rg_max(v3_dot(ray, ray), 1e-12f));
+    float begin = rg_floor((turned + p.nearest) / p.thickness) + rg_to_float(r.number);
+    float low = begin * p.thickness - turned;
+    float first = rg_max(low, p.nearest);
+    float last = rg_max(rg_min(low + p.thickness, p.farthest), first);
+    streaks_far_way way;
+    way.away = low + 0.5f * p.thickness;
+    way.ahead = 0.5f * (first + last) / steep;
+    way.first = first / steep * length;
+    way.last = last / steep * length;
+    way.plane = way.away / steep * length;
+    way.ray = v3_scale(ray, 1.0f / length);
+    way.side = 2 * along_x + (towards < 0.0f ? 1 : 0);
+    way.index = rg_to_int(begin);
+    way.middle =
+        v3_add(v3_make(p.rain.eye_x, p.rain.eye_y, p.rain.eye_s), v3_scale(ray, way.ahead));
+    return way;
+}
+
+// Drops a cubic metre at a place: none outside of the rain space, and none under what they hit.
+RG_FN float streaks_far_drops(rg_ctx rg, streaks_far_params p, v3 at)
+{
+    float width = rg_to_float(density_width(rg, 0));
+    float height = rg_to_float(density_height(rg, 0));
+    float u = (at.x / p.rain.half_x + 1.0f) * 0.5f;
+    float v = (at.y / p.rain.half_y + 1.0f) * 0.5f;
+    float there = density_texel(rg, rg_to_int(rg_clamp(u * width, 0.0f, width - 1.0f)),
+                                rg_to_int(rg_clamp(v * height, 0.0f, height - 1.0f)), 0, 0)
+                      .r;
+    int outside = streaks_below(u, 0.0f) | streaks_below(v, 0.0f) | streaks_below(1.0f, u) |
+                  streaks_below(1.0f, v) | streaks_below(at.z, 0.0f);
+    streaks_map_place under =
+        streaks_map_place_at(p.rain, at.x, at.y, depths_width(rg, 0), depths_height(rg, 0));
+    int falls = streaks_below(at.z, streaks_hit(rg, p.rain, under)) & (1 - outside);
+    return p.drops_m3 * there * rg_to_float(falls);
+}
+
+// --- what a drop adds ---
+
+RG_FN float streaks_far_shown(streaks_far_way way)
+{
+    return streaks_elevation(v3_scale(way.ray, -1.0f));
+}
+
+// One of the figures of a direction, between the two nearest views.
+RG_FN float streaks_far_mean(rg_ctx rg, float shown, int cell, int figure)
+{
+    int view = streaks_view(shown);
+    int at = STREAKS_FAR_FIGURES * (view * STREAKS_FAR_MEANS + cell) + figure;
+    float first = means_at(rg, at);
+    float second = means_at(rg, at + STREAKS_FAR_FIGURES * STREAKS_FAR_MEANS);
+    return first + (second - first) * (shown - rg_to_float(view));
+}
+
+// How much of a variance is left between two pictures that have nothing in common.
+RG_FN float streaks_far_blend(float between)
+{
+    return 1.0f - 2.0f * between * (1.0f - between);
+}
+
+RG_FN float streaks_far_view(float elevation)
+{
+    return rg_min(rg_abs(elevation), rg_to_float(STREAKS_VIEWS - 1));
+}
+
+// What a streak adds of light from an elevation and an azimuth in steps of the atlas, and its
+// variance.
+RG_STRUCT(streaks_far_lit)
+{
+    float mean;
+    float variance;
+};
+
+RG_FN float streaks_far_between(float from, float to, float t)
+{
+    return from + (to - from) * t;
+}
+
+// Of the four cells about a direction.
+RG_FN float streaks_far_square(rg_ctx rg, float shown, int cell, int figure, float on, float up)
+{
+    float below = streaks_far_between(streaks_far_mean(rg, shown, cell, figure),
+                                      streaks_far_mean(rg, shown, cell + 1, figure), on);
+    int above = cell + STREAKS_AZIMUTHS;
+    return streaks_far_between(below,
+                               streaks_far_between(streaks_far_mean(rg, shown, above, figure),
+                                                   streaks_far_mean(rg, shown, above + 1, figure),
+                                                   on),
+                               up);
+}
+
+// As many of the atlas' textures count as are read near the observer.
+RG_FN streaks_far_lit streaks_far_streak(rg_ctx rg, streaks_far_params p, float shown,
+                                         float elevation, float azimuth)
+{
+    float e = p.taps == 8 ? elevation : rg_floor(elevation + 0.5f);
+    float a = p.taps >= 4 ? azimuth : rg_floor(azimuth + 0.5f);
+    int low = rg_imin(rg_to_int(e), STREAKS_HEIGHTS - 2);
+    int left = rg_imin(rg_to_int(a), STREAKS_AZIMUTHS - 2);
+    int cell = 1 + low * STREAKS_AZIMUTHS + left;
+    float up = e - rg_to_float(low);
+    float on = a - rg_to_float(left);
+    streaks_far_lit lit;
+    lit.mean = streaks_far_square(rg, shown, cell, 0, on, up);
+    float azimuths = streaks_far_blend(on);
+    float elevations = streaks_far_blend(up);
+    float views = streaks_far_blend(shown - rg_to_float(streaks_view(shown)));
+    // Pictures are partly alike: as much as those along the axes between which this one lies.
+    float apart = 3.0f - azimuths - elevations - views;
+    float alike = ((1.0f - azimuths) * streaks_far_mean(rg, shown, cell, 2) +
+                   (1.0f - elevations) * streaks_far_mean(rg, shown, cell, 3) +
+                   (1.0f - views) * streaks_far_mean(rg, shown, cell, 4)) /
+                  rg_max(apart, 1e-6f);
+    lit.variance = streaks_far_square(rg, shown, cell, 1, on, up) *
+                   (alike + (1.0f - alike) * azimuths * elevations * views);
+    return lit;
+}
+
+// How strong a light is between two places of a ray, which fall off with the squared distance: the
+// mean, and the mean square.
+RG_STRUCT(streaks_far_fall)
+{
+    float mean;
+    float square;
+    float at0, at1; // metres along the ray: what stands for either half of the light
+};
+
+RG_FN float streaks_far_strength(float beside2, float x)
+{
+    return 1.0f / (beside2 + x * x);
+}
+
+RG_FN streaks_far_fall streaks_far_fall_of(v3 eye, streaks_far_way way, scenery_light l)
+{
+    v3 to = v3_make(l.x - eye.x, l.y - eye.y, l.z - eye.z);
+    float foot = v3_dot(to, way.ray);
+    float beside2 = rg_max(v3_dot(to, to) - foot * foot, SCENERY_NEAREST_SQUARED_M2);
+    float beside = rg_sqrt(beside2);
+    float x0 = way.first - foot;
+    float x1 = way.last - foot;
+    float length = rg_max(x1 - x0, 1e-6f);
+    float angle = rg_atan2(beside * length, beside2 + x0 * x1);
+    float r0 = rg_sqrt(beside2 + x0 * x0);
+    float r1 = rg_sqrt(beside2 + x1 * x1);
+    // Where the angle from the light is halved, and its halves.
+    float x = x0 + length * r0 / (r0 + r1);
+    float r = rg_sqrt(beside2 + x * x);
+    float f0 = streaks_far_strength(beside2, x0);
+    float f1 = streaks_far_strength(beside2, x1);
+    float fm = streaks_far_strength(beside2, 0.5f * (x0 + x1));
+    float near = (x1 * f1 - x0 * f0 + angle / beside) / (2.0f * beside2 * length);
+    float far = (f0 * f0 + 4.0f * fm * fm + f1 * f1) / 6.0f;
+    int sun = l.kind == SCENERY_SUN ? 1 : 0;
+    streaks_far_fall fall;
+    fall.mean = sun != 0 ? 1.0f : angle / (beside * length);
+    // Far away the exact form is a difference of large numbers, and Simpson's rule is as good.
+    fall.square = sun != 0 ? 1.0f : rg_min(r0, r1) > 3.0f * length ? far : near;
+    fall.at0 = foot + (sun != 0 ? x0 + 0.25f * length : x0 + (x - x0) * r0 / (r0 + r));
+    fall.at1 = foot + (sun != 0 ? x0 + 0.75f * length : x + (x1 - x) * r / (r + r1));
+    return fall;
+}
+
+// What a drop adds of a light at a place, were the light as strong as at 1 m.
+RG_FN streaks_far_lit streaks_far_lit_at(rg_ctx rg, streaks_far_params p, scenery_light l,
+                                         streaks_far_way way, v3 at)
+{
+    scenery_reach reach = scenery_light_reach(l, at);
+    float cosine = -(reach.to_light.x * l.dx + reach.to_light.y * l.dy + reach.to_light.z * l.dz);
+    float cone = l.kind == SCENERY_SPOT ? scenery_cone(l, cosine) : 1.0f;
+    float reaches = SCENERY_IRRADIANCE * cone * scenery_unshadowed(rg, l, at);
+    float up = streaks_far_shown(way);
+    float below = up < 0.0f && p.rain.paper_angles == 0 ? -1.0f : 1.0f;
+    float elevation = rg_clamp(streaks_elevation(reach.to_light) * below + 4.5f, 0.0f,
+                               rg_to_float(STREAKS_HEIGHTS - 1));
+    float azimuth =
+        rg_clamp(streaks_azimuth(reach.to_light, way.ray), 0.0f, rg_to_float(STREAKS_AZIMUTHS - 1));
+    streaks_far_lit lit = streaks_far_streak(rg, p, streaks_far_view(up), elevation, azimuth);
+    lit.mean = lit.mean * reaches;
+    lit.variance = lit.variance * reaches * reaches;
+    return lit;
+}
+
+// What one drop adds, of all drops in the slab: the mean, and in `a` the variance that is due to
+// the light alone, of the mean of the colours.
+RG_DRAW_LIGHT(streaks_far)
+{
+    scenery_light l = lights_at(rg, light);
+    streaks_far_way way = streaks_far_way_of(p, r, px, py);
+    v3 eye = v3_make(p.rain.eye_x, p.rain.eye_y, p.rain.eye_s);
+    streaks_far_fall fall = streaks_far_fall_of(eye, way, l);
+    streaks_far_lit a = streaks_far_lit_at(rg, p, l, way, v3_add(eye, v3_scale(way.ray, fall.at0)));
+    streaks_far_lit b = streaks_far_lit_at(rg, p, l, way, v3_add(eye, v3_scale(way.ray, fall.at1)));
+    float mean = 0.5f * (a.mean + b.mean);
+    float share = fall.mean * mean;
+    float squares =
+        0.5f * fall.square * (a.mean * a.mean + a.variance + b.mean * b.mean + b.variance);
+    float grey = (l.r + l.g + l.b) * 0.333333343f;
+    return rg_rgba(l.r * share, l.g * share, l.b * share,
+                   grey * grey * rg_max(squares - share * share, 0.0f));
+}
+
+// --- the pattern ---
+
+// Metres squared that a streak covers, if it were equally strong all over it: what it adds is to be
+// shared out over it as the streaks near the observer are (kernels/streaks/rain.h).
+RG_FN float streaks_far_footprint(streaks_far_params p, streaks_far_way way)
+{
+    float thinnest = p.rain.thinnest_px * way.ahead / p.rain.focal_px;
+    float covering = rg_max(2.0f * p.rain.half_width, thinnest);
+    float fallen = p.rain.fall * rg_hypot(way.ray.x, way.ray.y);
+    float chord = rg_max(1.57079637f * p.rain.drop_radius, thinnest - fallen);
+    float longer = rg_max(fallen, chord);
+    return covering * longer * longer / (longer - rg_min(fallen, chord) / 3.0f);
+}
+
+RG_FN float streaks_far_random(uint a, uint b, uint c)
+{
+    uint h = a * 0x9e3779b9u + b * 0x85ebca6bu + c * 0xc2b2ae35u;
+    h = (h ^ (h >> 16)) * 0x7feb352du;
+    h = (h ^ (h >> 15)) * 0x846ca68bu;
+    return rg_uniform(h ^ (h >> 16));
+}
+
+// 0 to 1, of the grain that a pixel sees: grains hang in columns of the slab's middle plane, a
+// streak long, and fall. Columns are one to two pixels wide, by powers of 2, so that they stay as
+// they are while the observer moves.
+RG_FN float streaks_far_grain(streaks_far_params p, streaks_far_way way)
+{
+    float thinnest = rg_max(p.rain.thinnest_px * way.away / p.rain.focal_px, p.rain.half_width);
+    float wide = rg_exp2(-rg_floor(-rg_log2(thinnest)));
+    float across =
+        way.side >= 2 ? p.rain.eye_y + way.ray.y * way.plane : p.rain.eye_x + way.ray.x * way.plane;
+    float s = p.rain.eye_s + way.ray.z * way.plane;
+    uint slab = rg_to_uint(4 * way.index + way.side) + 7919u * rg_to_uint(p.seed);
+    uint column = rg_to_uint(rg_to_int(rg_floor(across / wide)));
+    float begin = 64.0f * streaks_far_random(slab, column, 0x10001u);
+    float row = rg_floor((s - p.fallen) / (p.rain.fall + wide) + begin);
+    return streaks_far_random(slab, column, rg_to_uint(rg_to_int(row)) & 0xffffu);
+}
+
+// Turns equally frequent numbers into such with a mean of 1 and this variance: up to a third
+// equally frequent ones, and beyond it more and more that are nothing.
+RG_FN float streaks_far_spread(float random, float variance)
+{
+    float some = rg_min(4.0f / (3.0f * (1.0f + variance)), 1.0f);
+    float few = random < some ? 2.0f * random / (some * some) : 0.0f;
+    float many = 1.0f + rg_sqrt(3.0f * variance) * (2.0f * random - 1.0f);
+    return variance > 0.333333343f ? few : many;
+}
+
+RG_DRAW_FRAGMENT(streaks_far)
+{
+    streaks_far_way way = streaks_far_way_of(p, r, px, py);
+    float shown = streaks_far_view(streaks_far_shown(way));
+    v3 step = v3_scale(way.ray, (way.last - way.first) / 3.0f);
+    float drops_m3 = streaks_far_drops(rg, p, way.middle) +
+                     streaks_far_drops(rg, p, v3_add(way.middle, step)) +
+                     streaks_far_drops(rg, p, v3_add(way.middle, v3_scale(step, -1.0f)));
+    float drops_m2 = drops_m3 / 3.0f * (way.last - way.first);
+    float sky = streaks_far_mean(rg, shown, 0, 0);
+    float sky_spread = streaks_far_mean(rg, shown, 0, 1);
+    float section =
+        drops_m2 * 4.0f * p.rain.drop_radius * p.rain.half_width / streaks_steadiness_at(shown);
+    float light_r = p.rain.sky_r * sky + lit.r;
+    float light_g = p.rain.sky_g * sky + lit.g;
+    float light_b = p.rain.sky_b * sky + lit.b;
+    float grey = rg_max((light_r + light_g + light_b) * 0.333333343f, 1e-12f);
+    float grey_sky = (p.rain.sky_r + p.rain.sky_g + p.rain.sky_b) * 0.333333343f;
+    float crowded = 1.0f / rg_max(drops_m2 * streaks_far_footprint(p, way), 1e-6f);
+    float hidden = crowded * (1.0f + sky_spread / rg_max(sky * sky, 1e-12f));
+    float spread = crowded * (1.0f + (grey_sky * grey_sky * sky_spread + lit.a) / (grey * grey));
+    float grain = streaks_far_grain(p, way);
+    float light = p.rain.gain * section * streaks_far_spread(grain, spread);
+    float alpha = p.rain.opacity * section * sky * streaks_far_spread(grain, hidden);
+    rg_fragment f = rg_fragment_make(
+        rg_rgba(light_r * light, light_g * light, light_b * light, rg_min(alpha, 1.0f)),
+        p.rain.depth_far + p.rain.depth_per_w / way.ahead);
+    f.kept = drops_m2 > 0.0f ? 1 : 0;
+    return f;
+}

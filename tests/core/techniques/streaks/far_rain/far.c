@@ -1,0 +1,151 @@
+// Rain beyond the culling radius: far DEVICE. What layers hide is held against the
+// cross-sections of the drops that they stand for.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kernels/dialect/image/format.h"
+#include "tests/core/techniques/streaks/rig.h"
+
+static const double pi = 3.14159265358979323846;
+
+// Rain thick enough for halves, and black, so that a picture over its sky is what comes through. No
+// texel of the map is far from 1 where it is seen.
+#define FAR                                                                                        \
+    "geometry=off drops=off splashes=off environment_light=off lights=0 drop_radius_mm=10 "        \
+    "rain_width_m=4000 rain_depth_m=4000 rain_height_m=60 packets=grid local_height_m=2 "          \
+    "eye_y_m=30 target_y_m=30 target_z_m=40 view_angle_deg=20 culling_radius_m=12 drops_m2_s=20 "
+
+static struct streaks *open_far(const char *settings)
+{
+    char all[800];
+    snprintf(all, sizeof(all), FAR "%s", settings);
+    return rain_open(all);
+}
+
+// --- what comes through ---
+
+struct seen {
+    double share[RAIN_HEIGHT][RAIN_WIDTH]; // of the sky's light, after all layers
+};
+
+// The picture of so many layers of the present frame, which must be no more than were opened. The
+// caller frees it.
+static struct seen *look(struct streaks *s, int layers)
+{
+    const double sky = (double)rg_unpack_half(rg_pack_half(scenery_day().sky.horizon_g));
+    struct seen *seen = malloc(sizeof(*seen));
+    assert_non_null(seen);
+    s->settings.far_layers = layers;
+    struct rain_texels *picture = rain_read(s);
+    for (int y = 0; y < RAIN_HEIGHT; y++)
+        for (int x = 0; x < RAIN_WIDTH; x++)
+            seen->share[y][x] = rain_texel(picture, x, y, 1) / sky;
+    free(picture);
+    return seen;
+}
+
+struct average {
+    double mean, deviation;
+};
+
+static struct average average_of(const struct seen *seen)
+{
+    double sum = 0, squares = 0;
+    for (int y = 0; y < RAIN_HEIGHT; y++)
+        for (int x = 0; x < RAIN_WIDTH; x++) {
+            sum += seen->share[y][x];
+            squares += seen->share[y][x] * seen->share[y][x];
+        }
+    const double mean = sum / RAIN_TEXELS;
+    return (struct average){mean, sqrt(squares / RAIN_TEXELS - mean * mean)};
+}
+
+static void test_layers_hide_what_their_drops_would(void **state)
+{
+    (void)state;
+    static const struct {
+        int layers;
+        double drop_radius_mm, fall_m_s, opacity;
+    } cases[] = {{1, 10, 8.16, 20}, {3, 10, 8.16, 10}, {2, 7, 6, 20}};
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        char settings[256];
+        snprintf(settings, sizeof(settings),
+                 "far_layers=%d drop_radius_mm=%g fall_speed_m_s=%g streak_opacity=%g",
+                 cases[i].layers, cases[i].drop_radius_mm, cases[i].fall_m_s, cases[i].opacity);
+        struct streaks *s = open_far(settings);
+        rain_step(s, 1);
+        double hidden = 0;
+        enum { FRAMES = 6 };
+        for (int frame = 0; frame < FRAMES; frame++) {
+            rain_step(s, 20);
+            struct seen *seen = look(s, cases[i].layers);
+            hidden += -log(average_of(seen).mean) / FRAMES;
+            free(seen);
+        }
+        // Rays are a little longer than the radius, as the camera sees 17 degrees to the sides.
+        const double due = 20 / cases[i].fall_m_s * pi * pow(cases[i].drop_radius_mm / 1000, 2) *
+                           12 * cases[i].layers * cases[i].opacity;
+        if (!(hidden > 0.96 * due && hidden < 1.07 * due))
+            fail_msg("%d layers hide %.3f of what their drops would", cases[i].layers,
+                     hidden / due);
+        rain_close(s);
+    }
+}
+
+// --- with a scene ---
+
+// How far a pixel's surface is from the observer, as the culling prism counts distances, through a
+// level camera that looks along z.
+static double across_at(const struct streaks *s, const float *depths, int x, int y)
+{
+    const double near_m = (double)s->observer.camera.near_plane,
+                 far_m = (double)s->observer.camera.far_plane,
+                 depth = (double)depths[y * RAIN_WIDTH + x],
+                 ahead = far_m * near_m / (far_m - depth * (far_m - near_m)),
+                 metres_per_px = 2 * tan(35 * pi / 180) / RAIN_HEIGHT;
+    return ahead * fmax(1, fabs(x + 0.5 - RAIN_WIDTH / 2) * metres_per_px);
+}
+
+// What is nearer than the first layer is as it was, to the last bit; what is farther is dimmed.
+static void test_layers_stand_in_the_scene(void **state)
+{
+    (void)state;
+    static float depths[RAIN_TEXELS];
+    struct streaks *s = open_far(
+        "geometry=on far_layers=1 drops_m2_s=200 view_angle_deg=70 eye_y_m=3 target_y_m=3");
+    rain_step(s, 1);
+    struct rain_texels *wet = rain_read(s);
+    assert_true(rg_image_read(rg_asset_find(&s->base, "depth")->image, 0, 0, depths));
+    s->settings.far_layers = 0;
+    struct rain_texels *dry = rain_read(s);
+    int nearer = 0, farther = 0, dimmed = 0;
+    for (int y = 0; y < RAIN_HEIGHT; y++)
+        for (int x = 0; x < RAIN_WIDTH; x++) {
+            const double across = across_at(s, depths, x, y);
+            if (across < 0.999 * 12) {
+                assert_memory_equal(wet->halves + 4 * (y * RAIN_WIDTH + x),
+                                    dry->halves + 4 * (y * RAIN_WIDTH + x), 8);
+                nearer++;
+            } else if (across > 24 && rain_texel(dry, x, y, 1) > 0.001) {
+                assert_true(rain_texel(wet, x, y, 1) <= rain_texel(dry, x, y, 1));
+                dimmed += rain_texel(wet, x, y, 1) < rain_texel(dry, x, y, 1);
+                farther++;
+            }
+        }
+    assert_true(nearer > RAIN_TEXELS / 20 && farther > RAIN_TEXELS / 20);
+    assert_true(dimmed > farther / 2);
+    free(wet);
+    free(dry);
+    rain_close(s);
+}
+
+int main(int argc, char **argv)
+{
+    struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_layers_hide_what_their_drops_would),
+        cmocka_unit_test(test_layers_stand_in_the_scene),
+    };
+    return rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
