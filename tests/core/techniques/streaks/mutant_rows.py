@@ -85,6 +85,7 @@ ROWS = [Row(*row) for row in (
      "(reach.to_light.x * p.up_x + reach.to_light.y * p.up_y + reach.to_light.z * p.up_s)", SPLASH),
     ("drops fall beside a dynamic map", "particle.h", "(1 - p.around * under.outside)", "1", PARTICLES),
     # far rain
+    ("far rain rises", "far/far.h", "rg_floor((s - p.fallen) /", "rg_floor((s + p.fallen) /", FAR),
     ("slabs hide half", "far/far.h", "p.rain.opacity * section * sky", "0.5f * p.rain.opacity * section * sky", FAR),
     ("slabs begin too near", "far/far.h", "rg_max(low, p.nearest)", "rg_max(low, 0.5f * p.nearest)", FAR),
     ("slabs end too far", "far/far.h", "rg_min(low + p.thickness, p.farthest)", "low + 2.0f * p.thickness", FAR),
