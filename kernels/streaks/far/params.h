@@ -16,7 +16,7 @@
 RG_STRUCT(streaks_far_params)
 {
     streaks_params rain;
-    int lights;    // as draw.h asks for them
+    int lights;    // as kernels/dialect/draw/draw.h asks for them
     float nearest; // where it begins, as the culling prism counts distances, and where it ends
     float farthest;
     float thickness; // of a slab
