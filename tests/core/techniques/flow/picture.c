@@ -1,4 +1,4 @@
-// flow's pictures on cpu:reference against a ray caster in double precision.
+// flow's pictures against a ray caster in double precision, which never asks another device.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,12 +10,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/image/files/io.h"
 #include "core/scene/environment/cube.h"
 #include "kernels/dialect/image/memory.h"
+#include "tests/core/folder.h"
 #include "tests/core/techniques/flow/rig.h"
 #include "tests/oracle/picture.h"
 
-enum { WIDTH = 132, HEIGHT = 100 };
+enum { WIDTH = 132, HEIGHT = 100, PIXELS = WIDTH * HEIGHT };
+
+static const char *device = "cpu:reference";
 
 static const char *const common =
     "resolution_px=48 environment=sky environment_px=64 reflection_px=16 drops=12 "
@@ -95,7 +99,7 @@ static void pair_open(struct pair *pair, const char *assignments)
 {
     char text[1024];
     snprintf(text, sizeof(text), "%s%s", common, assignments);
-    rig_open_sized(&pair->rig, "cpu:reference", text, WIDTH, HEIGHT);
+    rig_open_sized(&pair->rig, device, text, WIDTH, HEIGHT);
     rig_step(&pair->rig, 12);
     pair->water = rig_water(&pair->rig);
     set_oracle(pair);
@@ -109,24 +113,92 @@ static void pair_close(struct pair *pair)
         free(pair->cubes[i]);
 }
 
-// The share of the pixels that have a channel which is off by more than `tolerance`, relatively.
-static double share_off(struct pair *pair, double tolerance)
+static bool channels_off(const float *light, const double *due, double tolerance)
 {
-    double *due = malloc(WIDTH * HEIGHT * 3 * sizeof(*due));
-    float *light = rig_draw(&pair->rig);
-    picture_oracle_draw(&pair->oracle, WIDTH, HEIGHT, due);
-    int off = 0;
-    for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        bool bad = false;
-        for (int c = 0; c < 3; c++) {
-            const double a = (double)light[4 * i + c], b = due[3 * i + c];
-            bad = bad || !(fabs(a - b) <= tolerance * fmax(a, b));
-        }
-        off += bad;
+    for (int c = 0; c < 3; c++) {
+        const double a = (double)light[c], b = due[c];
+        if (!(fabs(a - b) <= tolerance * fmax(a, b)))
+            return true;
     }
+    return false;
+}
+
+static bool far_from(const float *light, const double *due, double most)
+{
+    for (int c = 0; c < 3; c++)
+        if (!(fabs((double)light[c] - due[c]) <= most))
+            return true;
+    return false;
+}
+
+// How pictures differ from what is due.
+struct difference {
+    double off;     // share of all pixels with a channel that is off by more than the tolerance
+    int lit;        // pixels that water changes: the mask
+    double lit_off; // share of the mask with a channel that is off by more than LIT_TOLERANCE
+    double far_off; // the same, where that is a share of the mask's brightest light
+    double bias;    // of the mask's light, in the worst channel, as a share of it
+};
+
+static const double LIT_TOLERANCE = 0.01, LIT_SHARE = 0.001, LIT_BIAS = 0.002;
+enum { LEAST_LIT = PIXELS / 50 };
+
+// The mask is the oracle's own: where its picture is another with all panes dry.
+static void compare_lit(struct picture_oracle dry, const float *light, const double *due,
+                        struct difference *d)
+{
+    static const int64_t none[64 * 64];
+    for (int pane = 0; pane < BOX_PANES; pane++) {
+        assert_true(dry.panes[pane].size <= 64);
+        dry.panes[pane].water = none;
+    }
+    double *bare = malloc(PIXELS * 3 * sizeof(*bare)), sum[3] = {0}, due_sum[3] = {0};
+    double peak = 0;
+    int off = 0, far_off = 0;
+    picture_oracle_draw(&dry, WIDTH, HEIGHT, bare);
+    for (int i = 0; i < 3 * PIXELS; i++)
+        peak = fmax(peak, bare[i] == due[i] ? 0 : due[i]);
+    for (int i = 0; i < PIXELS; i++) {
+        if (!memcmp(bare + 3 * i, due + 3 * i, 3 * sizeof(*bare)))
+            continue;
+        d->lit++;
+        off += channels_off(light + 4 * i, due + 3 * i, LIT_TOLERANCE);
+        far_off += far_from(light + 4 * i, due + 3 * i, LIT_TOLERANCE * peak);
+        for (int c = 0; c < 3; c++) {
+            sum[c] += (double)light[4 * i + c];
+            due_sum[c] += due[3 * i + c];
+        }
+    }
+    free(bare);
+    d->lit_off = d->lit ? (double)off / d->lit : 1;
+    d->far_off = d->lit ? (double)far_off / d->lit : 1;
+    for (int c = 0; c < 3; c++)
+        d->bias = fmax(d->bias, due_sum[c] > 0 ? fabs(sum[c] / due_sum[c] - 1) : 1);
+}
+
+static struct difference difference_of(struct pair *pair, double tolerance)
+{
+    double *due = malloc(PIXELS * 3 * sizeof(*due));
+    float *light = rig_draw(&pair->rig);
+    struct difference d = {0};
+    picture_oracle_draw(&pair->oracle, WIDTH, HEIGHT, due);
+    for (int i = 0; i < PIXELS; i++)
+        d.off += channels_off(light + 4 * i, due + 3 * i, tolerance) / (double)PIXELS;
+    compare_lit(pair->oracle, light, due, &d);
     free(due);
     free(light);
-    return (double)off / (WIDTH * HEIGHT);
+    return d;
+}
+
+static double share_off(struct pair *pair, double tolerance)
+{
+    return difference_of(pair, tolerance).off;
+}
+
+// An empty mask proves nothing, and does not pass.
+static bool lit_right(const struct difference *d)
+{
+    return d->lit >= LEAST_LIT && d->far_off <= LIT_SHARE && d->bias <= LIT_BIAS;
 }
 
 // Half floats are cut off, not rounded, one part in 2^10 each time: in the picture behind, in its
@@ -137,17 +209,34 @@ static double share_off(struct pair *pair, double tolerance)
 static const double TOLERANCE = 4.0 / 1024, SHARE = 0.0005;
 static const double MODEL_TOLERANCE = 0.02, MODEL_SHARE = 0.0015;
 
-static double worst_share, worst_model_share;
+static double worst_share, worst_model_share, worst_far_share, worst_bias;
+static int least_lit = PIXELS;
+
+static void expect_lit_right(const char *assignments, const struct difference *d)
+{
+    worst_far_share = fmax(worst_far_share, d->far_off);
+    worst_bias = fmax(worst_bias, d->bias);
+    least_lit = d->lit < least_lit ? d->lit : least_lit;
+    if (!lit_right(d))
+        fail_msg("%s: of %d pixels that water changes %g %% are off by more than %g of the "
+                 "brightest; bias %g %%",
+                 assignments, d->lit, 100 * d->far_off, LIT_TOLERANCE, 100 * d->bias);
+}
 
 static void compare(const char *assignments)
 {
     struct pair pair;
     pair_open(&pair, assignments);
-    const double off = share_off(&pair, TOLERANCE);
-    worst_share = fmax(worst_share, off);
-    if (off > SHARE)
-        fail_msg("%s: %g %% of the pixels are off by more than %g", assignments, 100 * off,
+    const struct difference d = difference_of(&pair, TOLERANCE);
+    worst_share = fmax(worst_share, d.off);
+    if (d.off > SHARE)
+        fail_msg("%s: %g %% of the pixels are off by more than %g", assignments, 100 * d.off,
                  TOLERANCE);
+    expect_lit_right(assignments, &d);
+    // Without a model's edges even by the pixels' own light.
+    if (d.lit_off > LIT_SHARE)
+        fail_msg("%s: of %d pixels that water changes %g %% are off by more than %g", assignments,
+                 d.lit, 100 * d.lit_off, LIT_TOLERANCE);
     pair_close(&pair);
 }
 
@@ -156,38 +245,65 @@ static const char *const turns[] = {
     "pane_pitch_deg=35 pane_roll_deg=20 camera_azimuth_deg=-130 camera_elevation_deg=-25",
     "pane_yaw_deg=70 pane_pitch_deg=-100 camera_elevation_deg=60",
     "pane_roll_deg=170 camera_azimuth_deg=200 view_angle_deg=70 distance_mm=230",
+    // From below, cut by the view, under lamps.
+    "pane_pitch_deg=-20 camera_elevation_deg=-50 view_angle_deg=22",
 };
 enum { TURNS = sizeof(turns) / sizeof(turns[0]) };
+
+// A night with lamps: dark but for a few squares, which are a hundred times as bright or more.
+static float lamp_light(int x, int y, int channel)
+{
+    const bool lamp = (x + 3) % 16 < 4 && (y + 5) % 12 < 3;
+    return lamp ? 6 - (float)channel : 0.02F + 0.01F * (float)channel;
+}
+
+static float white_light(int x, int y, int channel)
+{
+    (void)x, (void)y, (void)channel;
+    return 1;
+}
+
+static void write_light(const char *path, float (*light)(int x, int y, int channel))
+{
+    struct rg_picture picture;
+    assert_true(rg_picture_create(&picture, 64, 32, 3, "test"));
+    for (int i = 0; i < 64 * 32 * 3; i++)
+        picture.texels[i] = light(i / 3 % 64, i / 3 / 64, i % 3);
+    assert_true(rg_picture_write(path, &picture, &(struct rg_write_options){.full_float = true}));
+    rg_picture_destroy(&picture);
+}
+
+// Each view under the sky, the last one under lamps.
+static void compare_views(const char *form)
+{
+    char text[512], path[256];
+    snprintf(path, sizeof(path), "%s", in_folder("lamps.exr"));
+    write_light(path, lamp_light);
+    for (int i = 0; i < TURNS; i++) {
+        snprintf(text, sizeof(text), "%s seed=%d %s environment=%s", form, i + 1, turns[i],
+                 i == TURNS - 1 ? path : "sky");
+        compare(text);
+    }
+    assert_int_equal(remove(path), 0);
+}
 
 static void test_box_of_glass(void **state)
 {
     (void)state;
-    char text[512];
-    for (int i = 0; i < TURNS; i++) {
-        snprintf(text, sizeof(text), "view=box panes=glass model=none seed=%d %s", i + 1, turns[i]);
-        compare(text);
-    }
+    compare_views("view=box panes=glass model=none");
 }
 
 static void test_box_of_mirror(void **state)
 {
     (void)state;
-    char text[512];
-    for (int i = 0; i < TURNS; i++) {
-        snprintf(text, sizeof(text), "view=box panes=mirror seed=%d %s", i + 1, turns[i]);
-        compare(text);
-    }
+    compare_views("view=box panes=mirror");
 }
 
 static void test_one_pane(void **state)
 {
     (void)state;
-    char text[512];
-    for (int i = 0; i < 2 * TURNS; i++) {
-        snprintf(text, sizeof(text), "view=pane panes=%s seed=%d %s", i % 2 ? "mirror" : "glass",
-                 i + 1, turns[i / 2]);
-        compare(text);
-    }
+    compare_views("view=pane panes=glass");
+    compare_views("view=pane panes=mirror");
 }
 
 static const char *const sphere = "view=box panes=glass model=sphere drop_shadow=0.7 light=0.9 ";
@@ -200,15 +316,58 @@ static void test_model(void **state)
         snprintf(text, sizeof(text), "%s light_azimuth_deg=%d %s", sphere, 70 * i - 60, turns[i]);
         struct pair pair;
         pair_open(&pair, text);
-        const double off = share_off(&pair, MODEL_TOLERANCE);
-        worst_model_share = fmax(worst_model_share, off);
-        if (off > MODEL_SHARE)
-            fail_msg("%s: %g %% of the pixels are off by more than %g", text, 100 * off,
+        const struct difference d = difference_of(&pair, MODEL_TOLERANCE);
+        worst_model_share = fmax(worst_model_share, d.off);
+        if (d.off > MODEL_SHARE)
+            fail_msg("%s: %g %% of the pixels are off by more than %g", text, 100 * d.off,
                      MODEL_TOLERANCE);
+        expect_lit_right(text, &d);
         pair_close(&pair);
     }
     print_message("off: %.3f %% of the pixels at most, %.3f %% with a model\n", 100 * worst_share,
                   100 * worst_model_share);
+    print_message(
+        "of %d pixels and more that water changes %.3f %% are off at most, bias %.4f %%\n",
+        least_lit, 100 * worst_far_share, 100 * worst_bias);
+}
+
+static void test_an_empty_mask_fails(void **state)
+{
+    (void)state;
+    struct pair pair;
+    pair_open(&pair, "view=box panes=glass model=none drops=0 rain_drops_s=0");
+    const struct difference d = difference_of(&pair, TOLERANCE);
+    assert_int_equal(d.lit, 0);
+    assert_true(d.off <= SHARE);
+    assert_false(lit_right(&d));
+    pair_close(&pair);
+}
+
+// A furnace: before a white environment glass, mirror and water make and take no light, whatever
+// shape the water has.
+static void test_white_stays_white(void **state)
+{
+    (void)state;
+    char text[512], path[256];
+    snprintf(path, sizeof(path), "%s", in_folder("white.exr"));
+    write_light(path, white_light);
+    for (int i = 0; i < 3 * TURNS - 3; i++) {
+        static const char *const forms[] = {"view=box panes=glass model=none",
+                                            "view=box panes=mirror reflectivity=1",
+                                            "view=pane panes=glass"};
+        struct rig rig;
+        snprintf(text, sizeof(text), "%s%s seed=%d %s frame_mm=0 environment=%s", common,
+                 forms[i % 3], i + 1, turns[i / 3], path);
+        rig_open_sized(&rig, device, text, WIDTH, HEIGHT);
+        rig_step(&rig, 12);
+        float *light = rig_draw(&rig);
+        for (int k = 0; k < 4 * PIXELS; k++)
+            if (k % 4 < 3 && !(fabsf(light[k] - 1) <= 1 / 255.0f))
+                fail_msg("%s: pixel %d is %g", text, k / 4, (double)light[k]);
+        free(light);
+        rig_close(&rig);
+    }
+    assert_int_equal(remove(path), 0);
 }
 
 // --- the bounds are worth something: pictures that are a little off are beyond them ---
@@ -282,15 +441,24 @@ static void test_mutants_of_mirror_and_model_are_rejected(void **state)
     pair_close(&pair);
 }
 
-int main(void)
+static int close_all(void **state)
 {
+    const int left = remove_folder(state);
+    return rig_close_devices(state) || left;
+}
+
+int main(int argc, char **argv)
+{
+    device = argc > 1 ? argv[1] : device;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_box_of_glass),
         cmocka_unit_test(test_box_of_mirror),
         cmocka_unit_test(test_one_pane),
         cmocka_unit_test(test_model),
+        cmocka_unit_test(test_an_empty_mask_fails),
+        cmocka_unit_test(test_white_stays_white),
         cmocka_unit_test(test_mutants_of_glass_are_rejected),
         cmocka_unit_test(test_mutants_of_mirror_and_model_are_rejected),
     };
-    return cmocka_run_group_tests(tests, NULL, rig_close_devices);
+    return cmocka_run_group_tests(tests, make_folder, close_all);
 }
