@@ -11,6 +11,7 @@ MEET = ("far_rain/meet",)
 OUTSIDE = ("picture/outside",)
 SIZES = ("sizes",)
 SPLASH = ("picture/splash",)
+SPLASHES = ("splash/pictures",)
 LANDING = ("landing",)
 
 ROWS = [Row(*row) for row in (
@@ -100,6 +101,27 @@ ROWS = [Row(*row) for row in (
     ("a pattern without variance", "far/far.h", "streaks_far_spread(grain, spread)", "1.0f", MEET),
     ("few grains too weak", "far/far.h", "2.0f * random / (some * some)", "2.0f * random / some", MEET),
     ("the views' sections", "far/far.h", "streaks_steadiness_at(shown)", "streaks_steadiness(0) * 1.1f", FAR),
+    # splashes, pixel by pixel
+    ("splashes are never mirrored", "rain.h", "float u = spot.u + mirrored * (1.0f - 2.0f * spot.u);",
+     "float u = spot.u + 0.0f * mirrored;", SPLASHES),
+    ("splashes upside down", "rain.h", "frame + 1, u, 1.0f - spot.v)", "frame + 1, u, spot.v)", SPLASHES),
+    ("one frame for a splash's two", "rain.h", "streaks_crown_texture(rg, r, frame + 1, u", "streaks_crown_texture(rg, r, frame, u", SPLASHES),
+    ("splashes a level too coarse", "rain.h", "streaks_level(rg_to_float(texels), pixels, last)",
+     "rg_imin(streaks_level(rg_to_float(texels), pixels, last) + splash, last)", SPLASHES),
+    ("splashes as high as they are wide", "rain.h", "streaks_size(random >> 22)", "streaks_size(random)", SPLASHES),
+    ("lights do not heed the splashes' gain", "rain.h", "streaks_between(share * p.gain, crown * p.splash_gain, splash)",
+     "streaks_between(share * p.gain, crown, splash)", SPLASHES),
+    ("the sky does not heed the splashes' gain", "rain.h", "streaks_between(sky * p.gain, crown * p.splash_gain, splash)",
+     "streaks_between(sky * p.gain, crown, splash)", SPLASHES),
+    ("splashes hide as much as streaks", "rain.h", "crown * p.splash_opacity", "crown * p.opacity", SPLASHES),
+    ("splashes hide half", "rain.h", "crown * p.splash_opacity", "crown * 0.5f * p.splash_opacity", SPLASHES),
+    ("lamps shine on splashes as evenly as suns", "rain.h", "reach.share * scenery_unshadowed", "scenery_unshadowed", SPLASHES),
+    ("splashes lit from below too", "rain.h", "rg_max(v3_dot(reach.to_light, mesh_normal_unpack(r.up)), 0.0f)",
+     "rg_abs(v3_dot(reach.to_light, mesh_normal_unpack(r.up)))", SPLASHES),
+    ("splashes have the irradiance of streaks", "rain.h", "float matt = rg_max(", "float matt = SCENERY_IRRADIANCE * rg_max(", SPLASHES),
+    ("splashes before all that hides them", "rain.h", "float before = inverse_w /", "float before = (r.nearer > 0.0f ? 9.0f : 1.0f) * inverse_w /", SPLASHES),
+    ("one material's crown for all", "rain.h", "level, material * STREAKS_FRAMES)", "level, 0 * material)", SPLASHES),
+    ("crowns of the next material", "rain.h", "level, material * STREAKS_FRAMES)", "level, ((material + 1) & 3) * STREAKS_FRAMES)", SPLASHES),
     # the view from outside
     ("marks coloured upside down", "outside/marks.h", "rg_clamp((s - p.map_top) / p.map_height, 0.0f, 1.0f)",
      "1.0f - rg_clamp((s - p.map_top) / p.map_height, 0.0f, 1.0f)", OUTSIDE),

@@ -40,9 +40,10 @@ struct lamp {
 
 static const double colour[3] = {1, 0.6, 0.25};
 
+// The lamp hangs so low that splashes reach above it, where it does not light them.
 static const struct lamp lamps[] = {
     {.type = "sky"},
-    {"point", {3, 118, 1}, {0, -1, 0}, 0, 0},
+    {"point", {3, 114.9, 1}, {0, -1, 0}, 0, 0},
     {"spot", {-2, 121, 2}, {0.4243, -0.8485, -0.3162}, 12, 32},
     {"sun", {0, 0, 0}, {0.36, -0.8, -0.48}, 0, 0},
 };
@@ -215,41 +216,48 @@ static struct crown_splash splash_of(const struct streaks *s, const struct view 
     return splash;
 }
 
-// What of a splash a pixel sees, and what it hides there.
-static double seen_at(struct due *due, const struct crown_eye *eye,
-                      const struct crown_splash *splash, const struct asked *asked, int i)
+// A splash's light at a pixel, and what it hides there. Where it is cut off, it would have shone.
+struct glow {
+    double full;
+    bool is_there, is_cut;
+};
+
+static struct glow glow_at(struct due *due, const struct crown_eye *eye,
+                           const struct crown_splash *splash, const struct asked *asked, int i)
 {
     struct crown_pixel pixel;
     if (!crown_seen(eye, splash, i % RAIN_WIDTH, i / RAIN_WIDTH, &pixel) || !(pixel.cover > 0))
-        return 0;
-    if (asked->view->cut && is_cut(eye, &pixel)) {
-        due->cut++;
-        return 0;
-    }
+        return (struct glow){0, false, false};
+    const struct glow glow = {pixel.cover * light_at(asked->lamp, pixel.at, splash->up), true,
+                              asked->view->cut && is_cut(eye, &pixel)};
+    due->cut += glow.is_cut;
+    if (glow.is_cut)
+        return glow;
     due->left[i] *= 1 - fmin(asked->opacity * pixel.cover, 1);
     due->most_hidden = fmax(due->most_hidden, asked->opacity * pixel.cover);
-    return pixel.cover * light_at(asked->lamp, pixel.at, splash->up);
+    return glow;
 }
 
 static void add(struct due *due, const struct crown_eye *eye, const struct crown_splash *splash,
                 const struct asked *asked)
 {
-    static double light[RAIN_TEXELS];
+    static struct glow glows[RAIN_TEXELS];
     double peak = 0;
     int box[4];
     crown_reach(eye, splash, box);
     for (int y = box[1]; y < box[3]; y++)
         for (int x = box[0]; x < box[2]; x++) {
             const int i = y * RAIN_WIDTH + x;
-            light[i] = seen_at(due, eye, splash, asked, i);
-            peak = fmax(peak, light[i]);
+            glows[i] = glow_at(due, eye, splash, asked, i);
+            peak = fmax(peak, glows[i].full);
         }
     for (int y = box[1]; y < box[3]; y++)
         for (int x = box[0]; x < box[2]; x++) {
             const int i = y * RAIN_WIDTH + x;
-            due->layers[i] += light[i] > 0;
-            due->light[i] += light[i];
-            due->peak[i] = fmax(due->peak[i], light[i] > 0 ? peak : 0);
+            const double light = glows[i].is_cut ? 0 : glows[i].full;
+            due->layers[i] += glows[i].is_there && !glows[i].is_cut;
+            due->light[i] += light;
+            due->peak[i] = fmax(due->peak[i], glows[i].is_there ? peak : 0);
         }
     due->splashes += peak > 0;
 }
