@@ -541,9 +541,11 @@ RG_FN rg_fragment streaks_fragment_of(rg_ctx rg, streaks_params p, streaks_billb
     float share = r.share * streaks_place_of(r, spot.u, spot.v).window;
     float sky = share * scenery_sky(rg, p, r, spot);
     float crown = r.share * streaks_crown(rg, r, spot);
-    float from_sky = streaks_between(sky * p.gain, crown * p.splash_gain, splash);
-    float from_lights = streaks_between(share * p.gain, crown * p.splash_gain, splash);
-    float opacity = streaks_between(sky * p.opacity, crown * p.splash_opacity, splash);
+    // What stands for many covers no pixel more than once, and shines no more than that.
+    float once = 1.0f / rg_max(streaks_between(sky, crown, splash), 1.0f);
+    float from_sky = once * streaks_between(sky * p.gain, crown * p.splash_gain, splash);
+    float from_lights = once * streaks_between(share * p.gain, crown * p.splash_gain, splash);
+    float opacity = once * streaks_between(sky * p.opacity, crown * p.splash_opacity, splash);
     rgba c =
         rg_rgba(from_sky * p.sky_r + from_lights * lit.r, from_sky * p.sky_g + from_lights * lit.g,
                 from_sky * p.sky_b + from_lights * lit.b, rg_min(opacity, 1.0f));

@@ -4,6 +4,7 @@ import collections
 Row = collections.namedtuple("Row", "about file old new tests")
 
 COVER = ("picture/cover",)
+FURNACE = ("picture/furnace",)
 LOOKS = ("picture/looks",)
 PARTICLES = ("particles",)
 FAR = ("far_rain/far",)
@@ -122,6 +123,8 @@ ROWS = [Row(*row) for row in (
     ("splashes before all that hides them", "rain.h", "float before = inverse_w /", "float before = (r.nearer > 0.0f ? 9.0f : 1.0f) * inverse_w /", SPLASHES),
     ("one material's crown for all", "rain.h", "level, material * STREAKS_FRAMES)", "level, 0 * material)", SPLASHES),
     ("crowns of the next material", "rain.h", "level, material * STREAKS_FRAMES)", "level, ((material + 1) & 3) * STREAKS_FRAMES)", SPLASHES),
+    ("what stands for many shines more than all there is", "rain.h",
+     "1.0f / rg_max(streaks_between(sky, crown, splash), 1.0f)", "1.0f", FURNACE),
     # the view from outside
     ("marks coloured upside down", "outside/marks.h", "rg_clamp((s - p.map_top) / p.map_height, 0.0f, 1.0f)",
      "1.0f - rg_clamp((s - p.map_top) / p.map_height, 0.0f, 1.0f)", OUTSIDE),

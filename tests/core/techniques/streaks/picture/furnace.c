@@ -103,6 +103,13 @@ static void test_white_rain_before_white(void **state)
     const float horizon[3] = {day.horizon_r, day.horizon_g, day.horizon_b};
     for (int v = 0; v < VIEWS; v++)
         expect_unseen("splash_gain=1 splash_opacity=1", views[v], horizon);
+    // Drops that stand for a hundred each.
+    expect_unseen("drops=off drop_radius_mm=1.6 spectrum=marshall-palmer rain_mm_h=100 "
+                  "kept_share=0.01 splash_width_mm=240 culling_radius_m=20",
+                  views[1], horizon);
+    expect_unseen("splashes=off drop_radius_mm=1.6 spectrum=marshall-palmer rain_mm_h=100 "
+                  "kept_share=0.001 culling_radius_m=20",
+                  views[0], horizon);
     expect_unseen("drops=off splashes=off far_layers=3", views[0], horizon);
 }
 
