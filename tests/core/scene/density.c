@@ -16,7 +16,7 @@
 #include "core/scene/density.h"
 #include "tests/core/folder.h"
 #include "tests/core/techniques/rigs/packets.h"
-#include "tests/oracle/packets.h"
+#include "tests/oracle/streaks/packets.h"
 
 // A PNG of these bytes, of 8 or 16 bits (the more significant byte first) a channel.
 static const char *write_png(int width, int height, int bits, int colour, const uint8_t *bytes)

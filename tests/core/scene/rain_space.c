@@ -11,7 +11,7 @@
 
 #include "core/scene/rain_space.h"
 #include "tests/core/techniques/rigs/packets.h"
-#include "tests/oracle/packets.h"
+#include "tests/oracle/streaks/packets.h"
 
 static void expect_near(const double *actual, const double *expected, int count, double within)
 {

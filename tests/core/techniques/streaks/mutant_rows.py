@@ -14,6 +14,7 @@ SIZES = ("sizes",)
 SPLASH = ("picture/splash",)
 SPLASHES = ("splash/pictures",)
 LANDING = ("landing",)
+ORACLE = ("picture/oracle",)
 
 ROWS = [Row(*row) for row in (
     # particles
@@ -67,6 +68,12 @@ ROWS = [Row(*row) for row in (
      "reach.share * streaks_between", LOOKS),
     ("irradiance without pi", "rain.h", "float streak = SCENERY_IRRADIANCE * streaks_streak",
      "float streak = streaks_streak", ("picture/furnace",)),
+    ("the swing begins at a row's edge", "rain.h", "return first + rim + (size - 2.0f * rim) * turn", "return first + size * turn", ORACLE),
+    ("light's azimuth half a step off", "cells.h", "to_light, ray)), cosine)) - 0.5f", "to_light, ray)), cosine))", ORACLE),
+    ("the lower view alone", "rain.h", "s.between = r.shown - rg_to_float(s.view)", "s.between = 0.0f", ORACLE),
+    ("views from below as from above", "rain.h", "(1 - p.paper_angles)", "0", ORACLE),
+    ("no falling off with distance", "rain.h", "reach.share * scenery_unshadowed", "rg_min(reach.share, 0.0f) + scenery_unshadowed", ORACLE),
+    ("streaks not cut off", "rain.h", "f.kept = 1 - streaks_below(r.hit, spot.at.z)", "f.kept = 1", ORACLE),
     # splashes
     ("splashes played backwards", "rain.h", "float passed = rg_clamp(t.age / p.splash_s, 0.0f, 1.0f) * frames;",
      "float passed = (1.0f - rg_clamp(t.age / p.splash_s, 0.0f, 1.0f)) * frames;", LOOKS),

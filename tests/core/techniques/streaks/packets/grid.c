@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/rigs/packets.h"
-#include "tests/oracle/packets.h"
+#include "tests/oracle/streaks/packets.h"
 
 // Particles in the squares of a board, under two schemes that only chance tells apart. A grid
 // scatters no more than single particles do, so that its chi-square may be small, but not large.

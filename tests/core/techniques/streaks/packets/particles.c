@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/rigs/packets.h"
-#include "tests/oracle/packets.h"
+#include "tests/oracle/streaks/packets.h"
 
 // --- where particles are ---
 

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/rigs/packets.h"
-#include "tests/oracle/packets.h"
+#include "tests/oracle/streaks/packets.h"
 
 enum { MAP_SIDE = 6, PARTICLES = 10000, VIEWS = 12, TRIES = 24 };
 

@@ -1,7 +1,7 @@
 // What rain in packets must obey, in double precision and without core/: a rain frame of its own,
 // brute-force visibility, and the tests of statistics.
-#ifndef RG_TESTS_ORACLE_PACKETS_H
-#define RG_TESTS_ORACLE_PACKETS_H
+#ifndef RG_TESTS_ORACLE_STREAKS_PACKETS_H
+#define RG_TESTS_ORACLE_STREAKS_PACKETS_H
 
 #include <stdbool.h>
 #include <stdint.h>

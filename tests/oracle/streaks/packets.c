@@ -1,4 +1,4 @@
-#include "tests/oracle/packets.h"
+#include "tests/oracle/streaks/packets.h"
 
 #include <math.h>
 #include <stdlib.h>
