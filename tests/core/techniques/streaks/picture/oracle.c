@@ -1,6 +1,6 @@
 // Pictures of streaks against an oracle that draws them pixel by pixel in double precision: oracle
-// DEVICE. Where drops are is read back (particles.c holds that); all else, from the camera to the
-// light that reaches the eye, is the oracle's.
+// DEVICE. Where drops are is read back (tests/core/techniques/streaks/particles.c holds that); all
+// else, from the camera to the light that reaches the eye, is the oracle's.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
