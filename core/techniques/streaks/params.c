@@ -70,7 +70,7 @@ static const struct rg_param rows[] = {
     {"drop_radius_mm", RG_PARAM_FLOAT, AT(drop_radius_mm), 1.6, 0.05, 10, "mm", "of all drops", NULL},
     {"exposure_s", RG_PARAM_FLOAT, AT(exposure_s), 1.0 / 60, 1e-4, 1, "s", "for which the camera's shutter is open: how long streaks are", NULL},
     {"splash_s", RG_PARAM_FLOAT, AT(splash_s), 0.126, 0.001, 10, "s", "how long a splash lasts", NULL},
-    {"splash_width_mm", RG_PARAM_FLOAT, AT(splash_width_mm), 60, 0.1, 10000, "mm", "of the picture of the splash of a drop of drop_radius_mm; it is two thirds as high", NULL},
+    {"splash_width_mm", RG_PARAM_FLOAT, AT(splash_width_mm), 60, 0.1, 10000, "mm", "of the picture of the splash of a drop of 1.6 mm, which is two thirds as high; other drops' are as much larger as the drop", NULL},
     {"streak_gain", RG_PARAM_FLOAT, AT(streak_gain), 1, 0, 1000, "1", "light of streaks", NULL},
     {"streak_opacity", RG_PARAM_FLOAT, AT(streak_opacity), 1, 0, 40, "1", "what streaks hide of what lies behind, by the share of the exposure for which drops cover it", NULL},
     {"splash_gain", RG_PARAM_FLOAT, AT(splash_gain), 1, 0, 1000, "1", "light of splashes", NULL},

@@ -1,6 +1,7 @@
 // What the observer sees at the present frame: the packets, and what kernels are told of the view.
 #include <math.h>
 
+#include "core/scene/atlas/optics/drop.h"
 #include "core/scene/atlas/splash.h"
 #include "core/scene/matrix.h"
 #include "core/techniques/streaks/instance.h"
@@ -11,7 +12,7 @@ static double splash_reach(const struct streaks *s)
 {
     const double largest = 1.15; // of a splash, by the size that is set
     const struct streaks_settings *set = &s->settings;
-    return set->splash_width_mm / set->drop_radius_mm * s->sizes.largest_m * largest;
+    return set->splash_width_mm / 1000 * s->sizes.largest_m / RG_DROP_RADIUS_M * largest;
 }
 
 static double streak_length(const struct streaks *s)
@@ -66,7 +67,7 @@ static void set_looks(streaks_params *p, const struct streaks_settings *set,
     p->cycles_per_m = (float)(streaks_swings_a_second(radius_m) / set->fall_speed_m_s);
     p->fall_speed = (float)set->fall_speed_m_s;
     p->splash_s = (float)set->splash_s;
-    p->splash_width = (float)(set->splash_width_mm / 1000);
+    p->splash_width = (float)(set->splash_width_mm / 1000 * radius_m / RG_DROP_RADIUS_M);
     p->splash_height = p->splash_width * RG_SPLASH_HEIGHT_PX / RG_SPLASH_WIDTH_PX;
     p->splash_foot = (float)RG_SPLASH_FOOT_SHARE;
     p->follows = !set->splashes_upright;

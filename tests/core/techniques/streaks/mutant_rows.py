@@ -96,7 +96,7 @@ ROWS = [Row(*row) for row in (
     # far rain
     ("far rain rises", "far/far.h", "rg_floor((s - p.fallen) /", "rg_floor((s + p.fallen) /", FAR),
     ("slabs hide half", "far/far.h", "p.rain.opacity * section * sky", "0.5f * p.rain.opacity * section * sky", FAR),
-    ("slabs begin too near", "far/far.h", "rg_max(low, p.nearest)", "rg_max(low, 0.5f * p.nearest)", FAR),
+    ("slabs begin too near", "far/far.h", "rg_max(low, p.nearest)", "rg_max(low, 0.5f * p.nearest)", MEET),
     ("slabs end too far", "far/far.h", "rg_min(low + p.thickness, p.farthest)", "low + 2.0f * p.thickness", FAR),
     ("slanting rays cross slabs straight", "far/far.h", "way.last = last / steep * length", "way.last = first / steep * length + (last - first)", MEET),
     ("no sky", "far/far.h", "light_g = p.rain.sky_g * sky + lit.g", "light_g = lit.g", MEET),

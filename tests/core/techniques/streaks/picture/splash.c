@@ -303,6 +303,12 @@ static void test_as_large_as_synthesised(void **state)
     struct streaks *s = rain_open("");
     assert_true(fabs(s->settings.splash_width_mm - width_mm) < 1e-9);
     assert_true(s->settings.splash_gain == 1 && s->settings.splash_opacity == 1);
+    assert_true(fabs((double)s->params.splash_width - width_mm / 1000) < 1e-7);
+    rain_close(s);
+    // A drop of half the size.
+    s = rain_open("drop_radius_mm=0.8");
+    assert_true(fabs((double)s->params.splash_width - width_mm / 2000) < 1e-7);
+    assert_true(fabs((double)s->params.splash_height - width_mm / 3000) < 1e-7);
     rain_close(s);
 }
 
