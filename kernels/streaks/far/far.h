@@ -111,92 +111,115 @@ RG_FN float streaks_far_shown(streaks_far_way way)
     return streaks_elevation(v3_scale(way.ray, -1.0f));
 }
 
-// One of the figures of a direction, between the two nearest views.
-RG_FN float streaks_far_mean(rg_ctx rg, float shown, int cell, int figure)
-{
-    int view = streaks_view(shown);
-    int at = STREAKS_FAR_FIGURES * (view * STREAKS_FAR_MEANS + cell) + figure;
-    float first = means_at(rg, at);
-    float second = means_at(rg, at + STREAKS_FAR_FIGURES * STREAKS_FAR_MEANS);
-    return first + (second - first) * (shown - rg_to_float(view));
-}
-
-// How much of a variance is left between two pictures that have nothing in common.
-RG_FN float streaks_far_blend(float between)
-{
-    return 1.0f - 2.0f * between * (1.0f - between);
-}
-
 RG_FN float streaks_far_view(float elevation)
 {
     return rg_min(rg_abs(elevation), rg_to_float(STREAKS_VIEWS - 1));
 }
 
-// What a streak adds of light from an elevation and an azimuth in steps of the atlas, and its
-// variance.
+// What a streak adds: its mean over all oscillations and places on the swing, and its mean square.
 RG_STRUCT(streaks_far_lit)
 {
     float mean;
-    float variance;
+    float square;
 };
 
-RG_FN float streaks_far_between(float from, float to, float t)
+// How much a pair of neighbours has of a blend.
+RG_FN v3 streaks_far_weights(float t)
 {
-    return from + (to - from) * t;
+    return v3_make(1.0f - t, t, 0.0f);
 }
 
-// Of the four cells about a direction.
-RG_FN float streaks_far_square(rg_ctx rg, float shown, int cell, int figure, float on, float up)
+// How much of a blend's square is the first one's, the product of both, and the second one's.
+RG_FN v3 streaks_far_squares(float t)
 {
-    float below = streaks_far_between(streaks_far_mean(rg, shown, cell, figure),
-                                      streaks_far_mean(rg, shown, cell + 1, figure), on);
-    int above = cell + STREAKS_AZIMUTHS;
-    return streaks_far_between(below,
-                               streaks_far_between(streaks_far_mean(rg, shown, above, figure),
-                                                   streaks_far_mean(rg, shown, above + 1, figure),
-                                                   on),
-                               up);
+    return v3_make((1.0f - t) * (1.0f - t), 2.0f * t * (1.0f - t), t * t);
 }
 
-// As many of the atlas' textures count as are read near the observer.
+RG_FN float streaks_far_pair(rg_ctx rg, int at, v3 weights)
+{
+    return means_at(rg, at) * weights.x + means_at(rg, at + 1) * weights.y;
+}
+
+RG_FN float streaks_far_triple(rg_ctx rg, int at, v3 weights)
+{
+    return means_at(rg, at) * weights.x + means_at(rg, at + 1) * weights.y +
+           means_at(rg, at + 2) * weights.z;
+}
+
+// Of the sky and of two views.
+RG_FN streaks_far_lit streaks_far_sky(rg_ctx rg, float shown)
+{
+    int view = streaks_view(shown);
+    float between = shown - rg_to_float(view);
+    int at = STREAKS_FAR_BLOCKS * STREAKS_FAR_BLOCK + view * STREAKS_FAR_SKY;
+    streaks_far_lit lit;
+    lit.mean = streaks_far_pair(rg, at, streaks_far_weights(between));
+    lit.square = streaks_far_triple(rg, at + 2, streaks_far_squares(between));
+    return lit;
+}
+
+// 4 means, in rows of azimuths.
+RG_FN float streaks_far_flat(rg_ctx rg, int at, v3 on, v3 up)
+{
+    return streaks_far_pair(rg, at, on) * up.x + streaks_far_pair(rg, at + 2, on) * up.y;
+}
+
+// 9 products, in rows of azimuths.
+RG_FN float streaks_far_square(rg_ctx rg, int at, v3 on, v3 up)
+{
+    return streaks_far_triple(rg, at, on) * up.x + streaks_far_triple(rg, at + 3, on) * up.y +
+           streaks_far_triple(rg, at + 6, on) * up.z;
+}
+
+// Of light from an elevation and an azimuth in steps of the atlas. As many of the atlas' textures
+// count as are read near the observer.
 RG_FN streaks_far_lit streaks_far_streak(rg_ctx rg, streaks_far_params p, float shown,
                                          float elevation, float azimuth)
 {
     float e = p.taps == 8 ? elevation : rg_floor(elevation + 0.5f);
     float a = p.taps >= 4 ? azimuth : rg_floor(azimuth + 0.5f);
-    int low = rg_imin(rg_to_int(e), STREAKS_HEIGHTS - 2);
-    int left = rg_imin(rg_to_int(a), STREAKS_AZIMUTHS - 2);
-    int cell = 1 + low * STREAKS_AZIMUTHS + left;
-    float up = e - rg_to_float(low);
-    float on = a - rg_to_float(left);
+    int low = rg_imin(rg_to_int(e), STREAKS_FAR_HIGH - 1);
+    int left = rg_imin(rg_to_int(a), STREAKS_FAR_WIDE - 1);
+    int view = streaks_view(shown);
+    int at = ((view * STREAKS_FAR_HIGH + low) * STREAKS_FAR_WIDE + left) * STREAKS_FAR_BLOCK;
+    v3 on = streaks_far_weights(a - rg_to_float(left));
+    v3 up = streaks_far_weights(e - rg_to_float(low));
+    v3 between = streaks_far_weights(shown - rg_to_float(view));
+    v3 on2 = streaks_far_squares(on.y);
+    v3 up2 = streaks_far_squares(up.y);
+    v3 between2 = streaks_far_squares(between.y);
+    int squares = at + STREAKS_FAR_SQUARES;
     streaks_far_lit lit;
-    lit.mean = streaks_far_square(rg, shown, cell, 0, on, up);
-    float azimuths = streaks_far_blend(on);
-    float elevations = streaks_far_blend(up);
-    float views = streaks_far_blend(shown - rg_to_float(streaks_view(shown)));
-    // Pictures are partly alike: as much as those along the axes between which this one lies.
-    float apart = 3.0f - azimuths - elevations - views;
-    float alike = ((1.0f - azimuths) * streaks_far_mean(rg, shown, cell, 2) +
-                   (1.0f - elevations) * streaks_far_mean(rg, shown, cell, 3) +
-                   (1.0f - views) * streaks_far_mean(rg, shown, cell, 4)) /
-                  rg_max(apart, 1e-6f);
-    lit.variance = streaks_far_square(rg, shown, cell, 1, on, up) *
-                   (alike + (1.0f - alike) * azimuths * elevations * views);
+    lit.mean = streaks_far_flat(rg, at, on, up) * between.x +
+               streaks_far_flat(rg, at + 4, on, up) * between.y;
+    lit.square = streaks_far_square(rg, squares, on2, up2) * between2.x +
+                 streaks_far_square(rg, squares + 9, on2, up2) * between2.y +
+                 streaks_far_square(rg, squares + 18, on2, up2) * between2.z;
     return lit;
 }
 
-// How strong a light is between two places of a ray, which fall off with the squared distance: the
-// mean, and the mean square.
+// How strong a light is between two places of a ray, which falls off with the squared distance: the
+// mean, and the mean square. What a drop makes of it is taken at two places, by Gauss' rule in the
+// angle at which the light sees them.
 RG_STRUCT(streaks_far_fall)
 {
     float mean;
     float square;
-    float at0, at1; // metres along the ray: what stands for either half of the light
+    float at0, at1; // metres along the ray
+    float nearer;   // how much of the mean square the first place stands for
 };
 
 RG_FN float streaks_far_strength(float beside2, float x)
 {
     return 1.0f / (beside2 + x * x);
+}
+
+// From the middle to a place of Gauss' rule of two, which is at 1 / sqrt(3) of the half.
+#define STREAKS_FAR_NODE 0.288675135f
+
+RG_FN float streaks_far_tangent(float angle)
+{
+    return rg_sin(angle) / rg_max(rg_cos(angle), 1e-5f);
 }
 
 RG_FN streaks_far_fall streaks_far_fall_of(v3 eye, streaks_far_way way, scenery_light l)
@@ -209,23 +232,26 @@ RG_FN streaks_far_fall streaks_far_fall_of(v3 eye, streaks_far_way way, scenery_
     float x1 = way.last - foot;
     float length = rg_max(x1 - x0, 1e-6f);
     float angle = rg_atan2(beside * length, beside2 + x0 * x1);
-    float r0 = rg_sqrt(beside2 + x0 * x0);
-    float r1 = rg_sqrt(beside2 + x1 * x1);
-    // Where the angle from the light is halved, and its halves.
-    float x = x0 + length * r0 / (r0 + r1);
-    float r = rg_sqrt(beside2 + x * x);
+    float middle = rg_atan2(x0, beside) + 0.5f * angle;
+    float node = STREAKS_FAR_NODE * angle;
+    int sun = l.kind == SCENERY_SUN ? 1 : 0;
+    float at0 = sun != 0 ? x0 + 0.25f * length : beside * streaks_far_tangent(middle - node);
+    float at1 = sun != 0 ? x0 + 0.75f * length : beside * streaks_far_tangent(middle + node);
+    float s0 = sun != 0 ? 1.0f : streaks_far_strength(beside2, at0);
+    float s1 = sun != 0 ? 1.0f : streaks_far_strength(beside2, at1);
     float f0 = streaks_far_strength(beside2, x0);
     float f1 = streaks_far_strength(beside2, x1);
     float fm = streaks_far_strength(beside2, 0.5f * (x0 + x1));
     float near = (x1 * f1 - x0 * f0 + angle / beside) / (2.0f * beside2 * length);
     float far = (f0 * f0 + 4.0f * fm * fm + f1 * f1) / 6.0f;
-    int sun = l.kind == SCENERY_SUN ? 1 : 0;
+    float nearest = rg_min(x0 * x0, x1 * x1) + beside2;
     streaks_far_fall fall;
     fall.mean = sun != 0 ? 1.0f : angle / (beside * length);
     // Far away the exact form is a difference of large numbers, and Simpson's rule is as good.
-    fall.square = sun != 0 ? 1.0f : rg_min(r0, r1) > 3.0f * length ? far : near;
-    fall.at0 = foot + (sun != 0 ? x0 + 0.25f * length : x0 + (x - x0) * r0 / (r0 + r));
-    fall.at1 = foot + (sun != 0 ? x0 + 0.75f * length : x + (x1 - x) * r / (r + r1));
+    fall.square = sun != 0 ? 1.0f : nearest > 9.0f * length * length ? far : near;
+    fall.at0 = foot + at0;
+    fall.at1 = foot + at1;
+    fall.nearer = s0 / (s0 + s1);
     return fall;
 }
 
@@ -245,12 +271,18 @@ RG_FN streaks_far_lit streaks_far_lit_at(rg_ctx rg, streaks_far_params p, scener
         rg_clamp(streaks_azimuth(reach.to_light, way.ray), 0.0f, rg_to_float(STREAKS_AZIMUTHS - 1));
     streaks_far_lit lit = streaks_far_streak(rg, p, streaks_far_view(up), elevation, azimuth);
     lit.mean = lit.mean * reaches;
-    lit.variance = lit.variance * reaches * reaches;
+    lit.square = lit.square * reaches * reaches;
     return lit;
 }
 
-// What one drop adds, of all drops in the slab: the mean, and in `a` the variance that is due to
-// the light alone, of the mean of the colours.
+RG_FN float streaks_far_grey(float r, float g, float b)
+{
+    return (r + g + b) * 0.333333343f;
+}
+
+// What one drop adds, of all drops in the slab: the mean, and in `a` the variance of the mean of
+// the colours. Variances of several lights are added up: what one light shows of a drop is hardly
+// alike to what another does.
 RG_DRAW_LIGHT(streaks_far)
 {
     scenery_light l = lights_at(rg, light);
@@ -259,13 +291,10 @@ RG_DRAW_LIGHT(streaks_far)
     streaks_far_fall fall = streaks_far_fall_of(eye, way, l);
     streaks_far_lit a = streaks_far_lit_at(rg, p, l, way, v3_add(eye, v3_scale(way.ray, fall.at0)));
     streaks_far_lit b = streaks_far_lit_at(rg, p, l, way, v3_add(eye, v3_scale(way.ray, fall.at1)));
-    float mean = 0.5f * (a.mean + b.mean);
-    float share = fall.mean * mean;
-    float squares =
-        0.5f * fall.square * (a.mean * a.mean + a.variance + b.mean * b.mean + b.variance);
-    float grey = (l.r + l.g + l.b) * 0.333333343f;
-    return rg_rgba(l.r * share, l.g * share, l.b * share,
-                   grey * grey * rg_max(squares - share * share, 0.0f));
+    float share = fall.mean * 0.5f * (a.mean + b.mean);
+    float square = fall.square * (b.square + (a.square - b.square) * fall.nearer);
+    float grey = streaks_far_grey(l.r, l.g, l.b);
+    return rg_rgba(l.r * share, l.g * share, l.b * share, grey * grey * (square - share * share));
 }
 
 // --- the pattern ---
@@ -326,21 +355,22 @@ RG_DRAW_FRAGMENT(streaks_far)
                      streaks_far_drops(rg, p, v3_add(way.middle, step)) +
                      streaks_far_drops(rg, p, v3_add(way.middle, v3_scale(step, -1.0f)));
     float drops_m2 = drops_m3 / 3.0f * (way.last - way.first);
-    float sky = streaks_far_mean(rg, shown, 0, 0);
-    float sky_spread = streaks_far_mean(rg, shown, 0, 1);
+    streaks_far_lit sky = streaks_far_sky(rg, shown);
     float section =
         drops_m2 * 4.0f * p.rain.drop_radius * p.rain.half_width / streaks_steadiness_at(shown);
-    float light_r = p.rain.sky_r * sky + lit.r;
-    float light_g = p.rain.sky_g * sky + lit.g;
-    float light_b = p.rain.sky_b * sky + lit.b;
-    float grey = rg_max((light_r + light_g + light_b) * 0.333333343f, 1e-12f);
-    float grey_sky = (p.rain.sky_r + p.rain.sky_g + p.rain.sky_b) * 0.333333343f;
+    float light_r = p.rain.sky_r * sky.mean + lit.r;
+    float light_g = p.rain.sky_g * sky.mean + lit.g;
+    float light_b = p.rain.sky_b * sky.mean + lit.b;
+    float grey = rg_max(streaks_far_grey(light_r, light_g, light_b), 1e-12f);
+    float grey_sky = streaks_far_grey(p.rain.sky_r, p.rain.sky_g, p.rain.sky_b);
+    float of_sky = sky.square - sky.mean * sky.mean;
     float crowded = 1.0f / rg_max(drops_m2 * streaks_far_footprint(p, way), 1e-6f);
-    float hidden = crowded * (1.0f + sky_spread / rg_max(sky * sky, 1e-12f));
-    float spread = crowded * (1.0f + (grey_sky * grey_sky * sky_spread + lit.a) / (grey * grey));
+    float hidden = crowded * (1.0f + of_sky / rg_max(sky.mean * sky.mean, 1e-12f));
+    float varied = rg_max(grey_sky * grey_sky * of_sky + lit.a, 0.0f);
+    float spread = crowded * (1.0f + varied / (grey * grey));
     float grain = streaks_far_grain(p, way);
     float light = p.rain.gain * section * streaks_far_spread(grain, spread);
-    float alpha = p.rain.opacity * section * sky * streaks_far_spread(grain, hidden);
+    float alpha = p.rain.opacity * section * sky.mean * streaks_far_spread(grain, hidden);
     rg_fragment f = rg_fragment_make(
         rg_rgba(light_r * light, light_g * light, light_b * light, rg_min(alpha, 1.0f)),
         p.rain.depth_far + p.rain.depth_per_w / way.ahead);

@@ -7,11 +7,18 @@
 // Slabs a layer.
 #define STREAKS_FAR_PARTS 4
 
-// What an atlas' streaks add, of the sky and of each direction of light, for each view: so many
-// figures each, which are the mean, the variance, and how alike the picture is to that of the next
-// azimuth, elevation and view: their covariance, as a share of the mean of their variances.
-#define STREAKS_FAR_MEANS   91 // 1 + STREAKS_COLUMNS
-#define STREAKS_FAR_FIGURES 5
+// What an atlas' streaks add, for each block of neighbours: two views, two elevations of the light
+// and two of its azimuths, between which pictures are blended
+// (core/techniques/streaks/far/means.c). A blend's mean follows from the means of the 8 corners.
+// Its mean square follows from the means of their products, of which 27 differ in how often the
+// upper neighbour along each axis is in them. Behind all blocks stand those of the sky, for each
+// two views: 2 means and 3 products.
+#define STREAKS_FAR_BLOCK   35  // floats
+#define STREAKS_FAR_SQUARES 8   // where the products begin
+#define STREAKS_FAR_WIDE    8   // blocks along the azimuth: STREAKS_AZIMUTHS - 1
+#define STREAKS_FAR_HIGH    9   // STREAKS_HEIGHTS - 1
+#define STREAKS_FAR_BLOCKS  288 // STREAKS_VIEWS - 1 times these
+#define STREAKS_FAR_SKY     5   // floats
 
 RG_STRUCT(streaks_far_params)
 {

@@ -14,11 +14,14 @@
 
 enum { LEVEL = RG_ATLAS_CELL_LEVELS - 1, TURNS = 64 };
 
-enum { SAMPLES = TURNS * RG_ATLAS_OSCILLATIONS, CELLS = RG_ATLAS_VIEWS * STREAKS_FAR_MEANS };
+enum { SAMPLES = TURNS * RG_ATLAS_OSCILLATIONS };
 
-// What a streak adds of each direction, at any time of the swing of each oscillation.
+// Of a view: the sky, and behind it the columns.
+enum { PICTURES = 1 + STREAKS_COLUMNS };
+
+// What a streak adds of each picture, at any time of the swing of each oscillation.
 struct samples {
-    float of[CELLS][SAMPLES];
+    float of[RG_ATLAS_VIEWS][PICTURES][SAMPLES];
 };
 
 static void sample_column(const uint16_t *rows, int pitch, int view, double factor, float *to)
@@ -42,7 +45,7 @@ static bool sample_oscillation(const struct rg_atlas *atlas, int layer, struct s
     uint16_t *points = streaks_joined(atlas, RG_ATLAS_POINT, layer, own);
     uint16_t *skies = streaks_joined(atlas, RG_ATLAS_ENV, layer, own);
     for (int view = 0; points && skies && view < RG_ATLAS_VIEWS; view++) {
-        float(*to)[SAMPLES] = samples->of + (ptrdiff_t)view * STREAKS_FAR_MEANS;
+        float(*to)[SAMPLES] = samples->of[view];
         const float *factors = &atlas->point_factor[layer][view][0][0];
         sample_column(skies, sky_pitch, view, (double)atlas->env_factor[layer][view],
                       to[0] + layer * TURNS);
@@ -64,38 +67,70 @@ static double mean_of(const float *a)
     return sum;
 }
 
-static double covariance_of(const float *a, const float *b)
+static double product_of(const float *a, const float *b)
 {
-    const double mean_a = mean_of(a), mean_b = mean_of(b);
     double sum = 0;
     for (int i = 0; i < SAMPLES; i++)
-        sum += ((double)a[i] - mean_a) * ((double)b[i] - mean_b) / SAMPLES;
+        sum += (double)a[i] * (double)b[i] / SAMPLES;
     return sum;
 }
 
-// How alike a cell's picture is to that of a cell further on; of the last ones it does not matter.
-static float alike(const struct samples *samples, int cell, int further)
+// Corner 0 to 7 of a block: azimuth, elevation and view, a bit each.
+static const float *corner_of(const struct samples *samples, int view, int low, int left,
+                              int corner)
 {
-    const float *a = samples->of[cell], *b = samples->of[(cell + further) % CELLS];
-    const double variances = covariance_of(a, a) + covariance_of(b, b);
-    return variances > 0 ? (float)(2 * covariance_of(a, b) / variances) : 1;
+    const int column = (low + (corner >> 1 & 1)) * STREAKS_AZIMUTHS + left + (corner & 1);
+    return samples->of[view + (corner >> 2)][1 + column];
+}
+
+// A blend's square is a sum over pairs of corners. Pairs with as many upper corners along each axis
+// have the same weights: their products are averaged.
+static int square_of(int a, int b)
+{
+    return (a & 1) + (b & 1) + 3 * ((a >> 1 & 1) + (b >> 1 & 1)) + 9 * ((a >> 2) + (b >> 2));
+}
+
+static void find_block(const struct samples *samples, int view, int low, int left, float *to)
+{
+    double squares[27] = {0};
+    int alike[27] = {0};
+    for (int a = 0; a < 8; a++) {
+        const float *first = corner_of(samples, view, low, left, a);
+        to[a] = (float)mean_of(first);
+        for (int b = 0; b < 8; b++) {
+            squares[square_of(a, b)] += product_of(first, corner_of(samples, view, low, left, b));
+            alike[square_of(a, b)]++;
+        }
+    }
+    for (int i = 0; i < 27; i++)
+        to[STREAKS_FAR_SQUARES + i] = (float)(squares[i] / alike[i]);
+}
+
+static void find_sky(const struct samples *samples, int view, float *to)
+{
+    const float *first = samples->of[view][0], *second = samples->of[view + 1][0];
+    to[0] = (float)mean_of(first);
+    to[1] = (float)mean_of(second);
+    to[2] = (float)product_of(first, first);
+    to[3] = (float)product_of(first, second);
+    to[4] = (float)product_of(second, second);
 }
 
 static void find_figures(const struct samples *samples, float *figures)
 {
-    for (int cell = 0; cell < CELLS; cell++) {
-        float *to = figures + (ptrdiff_t)cell * STREAKS_FAR_FIGURES;
-        to[0] = (float)mean_of(samples->of[cell]);
-        to[1] = (float)covariance_of(samples->of[cell], samples->of[cell]);
-        to[2] = alike(samples, cell, 1);
-        to[3] = alike(samples, cell, STREAKS_AZIMUTHS);
-        to[4] = alike(samples, cell, STREAKS_FAR_MEANS);
-    }
+    float *to = figures;
+    for (int view = 0; view < RG_ATLAS_VIEWS - 1; view++)
+        for (int low = 0; low < STREAKS_FAR_HIGH; low++)
+            for (int left = 0; left < STREAKS_FAR_WIDE; left++, to += STREAKS_FAR_BLOCK)
+                find_block(samples, view, low, left, to);
+    for (int view = 0; view < RG_ATLAS_VIEWS - 1; view++, to += STREAKS_FAR_SKY)
+        find_sky(samples, view, to);
 }
 
 struct rg_buf *streaks_far_means(struct rg_device *device, const struct rg_atlas *atlas)
 {
-    const size_t count = (size_t)CELLS * STREAKS_FAR_FIGURES;
+    const size_t count = (size_t)STREAKS_FAR_BLOCKS * STREAKS_FAR_BLOCK +
+                         (size_t)(RG_ATLAS_VIEWS - 1) * STREAKS_FAR_SKY;
     struct samples *samples = rg_alloc(1, sizeof(*samples), "streaks' pictures");
     float *figures = rg_alloc(count, sizeof(*figures), "mean streaks");
     bool ok = samples && figures;
