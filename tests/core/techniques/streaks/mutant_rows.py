@@ -9,6 +9,7 @@ LOOKS = ("picture/looks",)
 PARTICLES = ("particles",)
 FAR = ("far_rain/far",)
 MEET = ("far_rain/meet",)
+SEAMS = ("far_rain/seams",)
 OUTSIDE = ("picture/outside",)
 SIZES = ("sizes",)
 SPLASH = ("picture/splash",)
@@ -112,6 +113,12 @@ ROWS = [Row(*row) for row in (
     ("pictures that have nothing in common", "far/far.h", "2.0f * t * (1.0f - t)", "0.0f", MEET),
     ("pictures of other elevations", "far/far.h", "streaks_far_triple(rg, at + 3, on) * up.y", "streaks_far_triple(rg, at, on) * up.y", MEET),
     ("a lamp's glints as strong before it as beside", "far/far.h", "fall.nearer = s0 / (s0 + s1)", "fall.nearer = 0.5f", MEET),
+    ("it rains under roofs", "far/far.h", "streaks_below(at.z, streaks_hit(rg, p.rain, under)) & (1 - outside)", "1 - outside", MEET),
+    ("no shadows on far rain", "far/far.h", "cone * scenery_unshadowed(rg, l, at)", "cone", MEET),
+    ("a pattern that goes along", "far/far.h", "way.index = rg_to_int(begin)", "way.index = r.number", SEAMS),
+    ("slabs begin at the observer", "far/far.h", "rg_floor((turned + p.nearest) / p.thickness)", "((turned + p.nearest) / p.thickness)", SEAMS),
+    ("slabs along one side alone", "far/far.h", "rg_abs(ray.x) >= rg_abs(ray.y) ? 1 : 0", "ray.x >= ray.y ? 1 : 0", SEAMS),
+    ("slabs as thick for all rays", "far/far.h", "way.first = first / steep * length", "way.first = first", SEAMS),
     ("a lamp seen from the slab's ends", "far/far.h", "#define STREAKS_FAR_NODE 0.288675135f", "#define STREAKS_FAR_NODE 0.5f", MEET),
     # splashes, pixel by pixel
     ("splashes are never mirrored", "rain.h", "float u = spot.u + mirrored * (1.0f - 2.0f * spot.u);",

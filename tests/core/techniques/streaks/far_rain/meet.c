@@ -7,10 +7,11 @@
 #include <unistd.h>
 
 #include "core/image/files/io.h"
+#include "core/scene/city/city.h"
 #include "tests/core/techniques/streaks/rig.h"
 
 // Tests of several devices run side by side.
-static char lights_path[64], map_path[64];
+static char lights_path[64], map_path[64], mesh_path[64];
 
 // Nothing but the drops' light, so much of it that halves, which cut it off, lose nothing that
 // matters.
@@ -112,6 +113,7 @@ static void write_lights(const char *lights, double sky)
 #define SUN                                                                                        \
     "{\"type\": \"sun\", \"direction\": [0.5, -1, 0.4], \"colour\": [9, 9, 9], \"shadows\": "      \
     "false}"
+#define LOW_SUN "{\"type\": \"sun\", \"direction\": [-1, -0.2, 0], \"colour\": [9, 9, 9]}"
 #define DARK                                                                                       \
     "{\"type\": \"sun\", \"direction\": [0, -1, 0], \"colour\": [0, 0, 0], \"shadows\": false}"
 #define LAMP(x, y, z)                                                                              \
@@ -202,18 +204,63 @@ static void test_map_with_holes(void **state)
     meet("holes, turned", views[1], more);
 }
 
+// A rectangle as the scene, from its first corner to its last. Meshes are made as wide as the city,
+// with their middle over the origin and their lowest corner on the ground: specks in the city's
+// corners keep the rectangle where it is.
+static void write_plate(const double corners[4][3])
+{
+    const double far = (double)CITY_SIDE_M / 2;
+    const double specks[6][2] = {{-far, -far}, {-far, 1 - far}, {1 - far, -far},
+                                 {far, far},   {far, far - 1},  {far - 1, far}};
+    FILE *file = fopen(mesh_path, "w");
+    assert_non_null(file);
+    fputs("OFF\n10 3 0\n", file);
+    for (int i = 0; i < 4; i++)
+        fprintf(file, "%g %g %g\n", corners[i][0], corners[i][1], corners[i][2]);
+    for (int i = 0; i < 6; i++)
+        fprintf(file, "%g 0 %g\n", specks[i][0], specks[i][1]);
+    fputs("4 0 1 2 3\n3 4 5 6\n3 7 8 9\n", file);
+    assert_int_equal(fclose(file), 0);
+}
+
+#define PLATE "geometry=on depth_map_px=1024 shadow_map_px=1024 "
+
+// It is dry under a roof that reaches over the nearer half of the layers. A slab asks at three
+// places whether it is dry there: the roof ends between two.
+static void test_roofs(void **state)
+{
+    (void)state;
+    char more[160];
+    snprintf(more, sizeof(more), PLATE "scene=%s", mesh_path);
+    write_plate((const double[4][3]){{-24, 9, 0}, {24, 9, 0}, {24, 9, 14.6667}, {-24, 9, 14.6667}});
+    write_lights(DARK, 1);
+    meet("a roof", views[0], more);
+}
+
+// A wall beside the view keeps a low sun from the nearer half of the layers.
+static void test_shadows(void **state)
+{
+    (void)state;
+    char more[160];
+    snprintf(more, sizeof(more), PLATE "scene=%s", mesh_path);
+    write_plate((const double[4][3]){{6, 0, 0}, {6, 0, 15}, {6, 20, 15}, {6, 20, 0}});
+    write_lights(LOW_SUN, 0);
+    meet("shadows", views[0], more);
+}
+
 int main(int argc, char **argv)
 {
     snprintf(lights_path, sizeof(lights_path), "test_meet_%ld.json", (long)getpid());
     snprintf(map_path, sizeof(map_path), "test_meet_%ld.exr", (long)getpid());
+    snprintf(mesh_path, sizeof(mesh_path), "test_meet_%ld.off", (long)getpid());
     struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_by_day),
-        cmocka_unit_test(test_under_lamps),
-        cmocka_unit_test(test_lamps_in_view),
-        cmocka_unit_test(test_map_with_holes),
+        cmocka_unit_test(test_by_day),        cmocka_unit_test(test_under_lamps),
+        cmocka_unit_test(test_lamps_in_view), cmocka_unit_test(test_map_with_holes),
+        cmocka_unit_test(test_roofs),         cmocka_unit_test(test_shadows),
     };
     const int status = rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
     remove(lights_path);
     remove(map_path);
+    remove(mesh_path);
     return status;
 }
