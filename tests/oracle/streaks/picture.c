@@ -3,35 +3,11 @@
 #include <math.h>
 
 #include "tests/oracle/raster.h"
+#include "tests/oracle/streaks/light.h"
+#include "tests/oracle/streaks/vectors.h"
 
 static const double pi = 3.14159265358979323846;
 static const double cell_radii = 32 / 23.744; // half of a cell's width
-
-// --- vectors ---
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double c[3])
-{
-    for (int i = 0; i < 3; i++)
-        c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
-static void add(const double a[3], const double b[3], double times, double sum[3])
-{
-    for (int i = 0; i < 3; i++)
-        sum[i] = a[i] + times * b[i];
-}
-
-static void make_unit(double a[3])
-{
-    const double length = sqrt(dot(a, a));
-    for (int i = 0; i < 3; i++)
-        a[i] /= length;
-}
 
 // --- the billboard ---
 
@@ -128,11 +104,6 @@ static void ray_through(const struct streak_view *view, int x, int y, double ray
     add(ray, view->above, -(y + 0.5 - view->height / 2.0) / view->focal_px, ray);
 }
 
-static double clamped(double value, double least, double most)
-{
-    return fmin(fmax(value, least), most);
-}
-
 // Where a ray from the eye meets the billboard's plane.
 static void meet(const struct streak_view *view, const struct board *board, struct place *place)
 {
@@ -178,63 +149,19 @@ static double texture(const struct streak_atlas *atlas, const struct board *boar
     return a * (lower + 1 - view) + b * (view - lower);
 }
 
-// The two samples that a value lies between and the share of the second; one if it is not blended.
-static void between(double value, int count, bool blended, int at[2], double *share)
-{
-    at[0] = (int)(blended ? fmin(floor(value), count - 2) : floor(value + 0.5));
-    at[1] = blended ? at[0] + 1 : at[0];
-    *share = blended ? value - at[0] : 0;
-}
-
 // The radiance for an irradiance of 1 from a direction of length 1 (figure 4.6).
 static double streak_radiance(const struct streak_view *view, const struct streak_atlas *atlas,
                               const struct board *board, const struct streak_drop *drop,
                               const struct place *place, const double to_light[3])
 {
-    double right[3], turned[3];
-    cross(place->ray, view->up, right);
-    cross(view->up, right, turned); // ahead, across the fall
-    const double aside = dot(to_light, right),
-                 azimuth = atan2(fabs(aside), -dot(to_light, turned)) * 9 / pi - 0.5;
-    const bool turned_over = board->elevation < 0 && !view->absolute;
-    const double height =
-        asin(clamped(dot(to_light, view->up), -1, 1)) * 9 / pi * (turned_over ? -1 : 1) + 4.5;
-    int azimuths[2], heights[2];
-    double share, higher, sum = 0;
-    between(clamped(azimuth, 0, STREAK_AZIMUTHS - 1), STREAK_AZIMUTHS, view->taps >= 4, azimuths,
-            &share);
-    between(clamped(height, 0, STREAK_HEIGHTS - 1), STREAK_HEIGHTS, view->taps >= 8, heights,
-            &higher);
-    for (int i = 0; i < 4; i++) {
-        const double part = (i & 1 ? share : 1 - share) * (i & 2 ? higher : 1 - higher);
-        const int column = heights[i >> 1] * STREAK_AZIMUTHS + azimuths[i & 1];
-        if (part > 0)
-            sum += part *
-                   texture(atlas, board, drop, place, column, aside < 0 ? 1 - place->u : place->u);
-    }
+    const struct streak_cells cells =
+        streak_cells_of(view, board->elevation < 0, place->ray, to_light);
+    double sum = 0;
+    for (int i = 0; i < 4; i++)
+        if (cells.parts[i] > 0)
+            sum += cells.parts[i] * texture(atlas, board, drop, place, cells.columns[i],
+                                            cells.mirrored ? 1 - place->u : place->u);
     return sum;
-}
-
-// The share of a light's colour that reaches a place, and from where.
-static double reach(const struct streak_light *light, const double at[3], double to_light[3])
-{
-    if (light->kind == STREAK_SUN) {
-        for (int i = 0; i < 3; i++)
-            to_light[i] = -light->direction[i];
-        return 1;
-    }
-    add(light->at, at, -1, to_light);
-    const double squared = dot(to_light, to_light);
-    make_unit(to_light);
-    double cone = 1;
-    if (light->kind == STREAK_SPOT) {
-        const double inner = cos(light->inner_deg * pi / 180),
-                     outer = cos(light->outer_deg * pi / 180);
-        const double t =
-            clamped((-dot(to_light, light->direction) - outer) / (inner - outer), 0, 1);
-        cone = t * t * (3 - 2 * t);
-    }
-    return cone / fmax(squared, 0.01);
 }
 
 // A pixel's light and opacity; false where the streak is cut off.
@@ -257,7 +184,7 @@ static bool shade(const struct streak_view *view, const struct streak_atlas *atl
         light[c] = sky * view->gain * view->sky[c];
     for (int i = 0; i < view->light_count; i++) {
         double to_light[3];
-        const double reached = reach(&view->lights[i], place.at, to_light);
+        const double reached = streak_reach(&view->lights[i], place.at, to_light);
         const double lit = share * view->gain * reached * pi *
                            streak_radiance(view, atlas, board, drop, &place, to_light);
         for (int c = 0; c < 3; c++)

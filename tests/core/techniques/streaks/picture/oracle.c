@@ -7,56 +7,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "tests/core/techniques/streaks/rig.h"
-#include "tests/oracle/streaks/picture.h"
+#include "tests/core/techniques/streaks/picture/given.h"
 
 static const double pi = 3.14159265358979323846;
 
 static char path[64];
-static struct streak_atlas atlas;
-static int first_level;
-
-// --- the atlas ---
-
-static uint16_t *texels[2][STREAK_OSCILLATIONS][STREAK_LEVELS];
-
-static const uint16_t *read_level(struct rg_image *image, int which, int layer, int level)
-{
-    const int own = level - first_level;
-    const size_t count = (size_t)(image->desc.width >> own) * (size_t)(image->desc.height >> own);
-    uint16_t *to = texels[which][layer][level] = malloc(2 * count);
-    assert_non_null(to);
-    assert_true(rg_image_read(image, layer, own, to));
-    return to;
-}
-
-// The pictures as they are on the device, the ends of each joined, and the factors.
-static void take_atlas(void)
-{
-    struct streaks *s = rain_open("");
-    const struct streaks_textures *t = s->textures;
-    float factors[STREAK_OSCILLATIONS * STREAK_VIEWS * (STREAK_HEIGHTS * STREAK_AZIMUTHS + 1)];
-    assert_true(rg_buf_read(t->factors, 0, factors, sizeof(factors)));
-    const float *next = factors;
-    first_level = t->first_level;
-    for (int i = 0; i < STREAK_OSCILLATIONS; i++) {
-        for (int level = first_level; level < STREAK_LEVELS; level++) {
-            atlas.points[i][level] = read_level(t->points, 0, i, level);
-            atlas.skies[i][level] = read_level(t->skies, 1, i, level);
-        }
-        for (int k = 0; k < STREAK_VIEWS * STREAK_HEIGHTS * STREAK_AZIMUTHS; k++)
-            (&atlas.point_factors[i][0][0][0])[k] = (double)*next++;
-    }
-    for (int k = 0; k < STREAK_OSCILLATIONS * STREAK_VIEWS; k++)
-        (&atlas.sky_factors[0][0])[k] = (double)*next++;
-    rain_close(s);
-}
-
-static void free_atlas(void)
-{
-    for (int i = 0; i < 2 * STREAK_OSCILLATIONS * STREAK_LEVELS; i++)
-        free((&texels[0][0][0])[i]);
-}
 
 // --- lights ---
 
@@ -70,66 +25,7 @@ static const struct streak_light lights[] = {
     {STREAK_SUN, {0, 0, 0}, {0.48, -0.6, -0.64}, {1, 2, 1.5}, 0, 0},
 };
 
-static int write_lights(int kinds, struct streak_light *written)
-{
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fprintf(file, "{\"lights\": [");
-    int count = 0;
-    for (int i = 0; i < 3; i++) {
-        const struct streak_light *l = &lights[i];
-        if (!(kinds & 1 << i))
-            continue;
-        static const char *const types[] = {"point", "spot", "sun"};
-        fprintf(file, "%s{\"type\": \"%s\"", count ? ", " : "", types[i]);
-        if (i != 2)
-            fprintf(file, ", \"position_m\": [%g, %g, %g]", l->at[0], l->at[1], l->at[2]);
-        if (i)
-            fprintf(file, ", \"direction\": [%.12g, %.12g, %.12g]", l->direction[0],
-                    l->direction[1], l->direction[2]);
-        if (i == 1)
-            fprintf(file, ", \"inner_deg\": %g, \"outer_deg\": %g", l->inner_deg, l->outer_deg);
-        fprintf(file, ", \"colour\": [%g, %g, %g], \"shadows\": false}", l->colour[0], l->colour[1],
-                l->colour[2]);
-        written[count++] = *l;
-    }
-    fprintf(file, "]}\n");
-    assert_int_equal(fclose(file), 0);
-    return count;
-}
-
-// --- the view and the drops ---
-
-static void cross(const double a[3], const double b[3], double c[3])
-{
-    for (int i = 0; i < 3; i++)
-        c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
-static void make_unit(double a[3])
-{
-    const double length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-    for (int i = 0; i < 3; i++)
-        a[i] /= length;
-}
-
-// Upright in the picture is the world's y; who looks along z has x on the left.
-static void look(struct streak_view *view, const struct streaks_settings *set)
-{
-    const double eye[3] = {set->eye_x_m, set->eye_y_m, set->eye_z_m};
-    const double target[3] = {set->target_x_m, set->target_y_m, set->target_z_m};
-    for (int i = 0; i < 3; i++) {
-        view->eye[i] = eye[i];
-        view->ahead[i] = target[i] - eye[i];
-    }
-    make_unit(view->ahead);
-    cross(view->ahead, (double[]){0, 1, 0}, view->right);
-    make_unit(view->right);
-    cross(view->right, view->ahead, view->above);
-    view->width = RAIN_WIDTH;
-    view->height = RAIN_HEIGHT;
-    view->focal_px = RAIN_HEIGHT / 2.0 / tan(set->view_angle_deg / 2 * pi / 180);
-}
+// --- the drops ---
 
 static struct streak_drop *drops_of(const struct streaks *s, int *count)
 {
@@ -200,7 +96,7 @@ static void draw_both(int kinds, int taps, const char *settings, struct tally *t
 {
     char all[800];
     struct streak_light shine[3];
-    const int count = write_lights(kinds, shine);
+    const int count = given_lights(path, lights, 3, kinds, shine);
     snprintf(all, sizeof(all),
              "state=on geometry=off time=night splashes=off streak_gain=500 "
              "taps=%d lights=%d %s%s rain_width_m=6 rain_depth_m=30 rain_height_m=60 "
@@ -213,24 +109,16 @@ static void draw_both(int kinds, int taps, const char *settings, struct tally *t
     struct rain_texels *lit = rain_read(s);
     s->params.drops = 0;
     struct rain_texels *dry = rain_read(s);
-    struct streak_view view = {.taps = taps,
-                               .first_level = first_level,
-                               .last_level = s->settings.last_mip,
-                               .absolute = s->settings.absolute_views,
-                               .gain = s->settings.streak_gain,
-                               .opacity = s->settings.streak_opacity,
-                               .lights = shine,
-                               .light_count = count};
-    for (int c = 0; c < 3; c++) {
+    struct streak_view view = given_view(s);
+    view.lights = shine;
+    view.light_count = count;
+    for (int c = 0; c < 3; c++)
         view.sky[c] = kinds & SKY ? c + 1 : 0;
-        view.up[c] = -s->space.s[c];
-    }
-    look(&view, &s->settings);
     s->params.drops = 1;
     int drop_count;
     struct streak_drop *drops = drops_of(s, &drop_count);
     struct streak_pixel *due = pixels_of(dry);
-    streak_picture_draw(&view, &atlas, drops, drop_count, due);
+    streak_picture_draw(&view, given_atlas(), drops, drop_count, due);
     compare(due, dry, lit, tally);
     free(due);
     free(drops);
@@ -256,8 +144,6 @@ static const char *const views[] = {
 
 static void expect_equal(const char *about, int kinds, int taps)
 {
-    if (!first_level)
-        take_atlas();
     struct tally sum = {0};
     for (size_t i = 0; i < sizeof(views) / sizeof(views[0]); i++) {
         struct tally one = {0};
@@ -318,7 +204,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_sun), cmocka_unit_test(test_all),
     };
     const int status = rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
-    free_atlas();
+    given_atlas_free();
     remove(path);
     return status;
 }
