@@ -123,16 +123,34 @@ RG_STRUCT(streaks_far_lit)
     float square;
 };
 
-// How much a pair of neighbours has of a blend.
-RG_FN v3 streaks_far_weights(float t)
+// Of two neighbours along an axis of the atlas: how much each has of what is seen, and of its
+// square the first one's, the product of both, and the second one's.
+RG_STRUCT(streaks_far_blend)
 {
-    return v3_make(1.0f - t, t, 0.0f);
+    int low; // the first neighbour
+    v3 parts;
+    v3 squares;
+};
+
+RG_FN streaks_far_blend streaks_far_blended(float place, int last)
+{
+    streaks_far_blend blend;
+    blend.low = rg_imin(rg_to_int(place), last);
+    float t = place - rg_to_float(blend.low);
+    blend.parts = v3_make(1.0f - t, t, 0.0f);
+    blend.squares = v3_make((1.0f - t) * (1.0f - t), 2.0f * t * (1.0f - t), t * t);
+    return blend;
 }
 
-// How much of a blend's square is the first one's, the product of both, and the second one's.
-RG_FN v3 streaks_far_squares(float t)
+// Of drops that show the nearer neighbour alone, and are spread evenly over so much of the axis.
+RG_FN streaks_far_blend streaks_far_nearest(float place, float extent, int last)
 {
-    return v3_make((1.0f - t) * (1.0f - t), 2.0f * t * (1.0f - t), t * t);
+    streaks_far_blend blend = streaks_far_blended(place, last);
+    float beyond = blend.parts.y - 0.5f;
+    float t = rg_clamp(beyond / rg_clamp(extent, 1e-4f, 1.0f) + 0.5f, 0.0f, 1.0f);
+    blend.parts = v3_make(1.0f - t, t, 0.0f);
+    blend.squares = v3_make(1.0f - t, 0.0f, t);
+    return blend;
 }
 
 RG_FN float streaks_far_pair(rg_ctx rg, int at, v3 weights)
@@ -149,12 +167,11 @@ RG_FN float streaks_far_triple(rg_ctx rg, int at, v3 weights)
 // Of the sky and of two views.
 RG_FN streaks_far_lit streaks_far_sky(rg_ctx rg, float shown)
 {
-    int view = streaks_view(shown);
-    float between = shown - rg_to_float(view);
-    int at = STREAKS_FAR_BLOCKS * STREAKS_FAR_BLOCK + view * STREAKS_FAR_SKY;
+    streaks_far_blend views = streaks_far_blended(shown, STREAKS_VIEWS - 2);
+    int at = STREAKS_FAR_BLOCKS * STREAKS_FAR_BLOCK + views.low * STREAKS_FAR_SKY;
     streaks_far_lit lit;
-    lit.mean = streaks_far_pair(rg, at, streaks_far_weights(between));
-    lit.square = streaks_far_triple(rg, at + 2, streaks_far_squares(between));
+    lit.mean = streaks_far_pair(rg, at, views.parts);
+    lit.square = streaks_far_triple(rg, at + 2, views.squares);
     return lit;
 }
 
@@ -171,30 +188,66 @@ RG_FN float streaks_far_square(rg_ctx rg, int at, v3 on, v3 up)
            streaks_far_triple(rg, at + 6, on) * up.z;
 }
 
-// Of light from an elevation and an azimuth in steps of the atlas. As many of the atlas' textures
-// count as are read near the observer.
-RG_FN streaks_far_lit streaks_far_streak(rg_ctx rg, streaks_far_params p, float shown,
-                                         float elevation, float azimuth)
+// What a pixel of a slab sees of a light: one half of the slab from about here in the atlas, over
+// so much of each axis.
+RG_STRUCT(streaks_far_seen)
 {
-    float e = p.taps == 8 ? elevation : rg_floor(elevation + 0.5f);
-    float a = p.taps >= 4 ? azimuth : rg_floor(azimuth + 0.5f);
-    int low = rg_imin(rg_to_int(e), STREAKS_FAR_HIGH - 1);
-    int left = rg_imin(rg_to_int(a), STREAKS_FAR_WIDE - 1);
-    int view = streaks_view(shown);
-    int at = ((view * STREAKS_FAR_HIGH + low) * STREAKS_FAR_WIDE + left) * STREAKS_FAR_BLOCK;
-    v3 on = streaks_far_weights(a - rg_to_float(left));
-    v3 up = streaks_far_weights(e - rg_to_float(low));
-    v3 between = streaks_far_weights(shown - rg_to_float(view));
-    v3 on2 = streaks_far_squares(on.y);
-    v3 up2 = streaks_far_squares(up.y);
-    v3 between2 = streaks_far_squares(between.y);
+    float elevation;
+    float azimuth;
+    float reaches; // of the light, were it as strong as at 1 m
+};
+
+// Blends of elevations, azimuths and views.
+RG_FN streaks_far_lit streaks_far_cell(rg_ctx rg, streaks_far_blend up, streaks_far_blend on,
+                                       float shown)
+{
+    streaks_far_blend views = streaks_far_blended(shown, STREAKS_VIEWS - 2);
+    int at =
+        ((views.low * STREAKS_FAR_HIGH + up.low) * STREAKS_FAR_WIDE + on.low) * STREAKS_FAR_BLOCK;
     int squares = at + STREAKS_FAR_SQUARES;
     streaks_far_lit lit;
-    lit.mean = streaks_far_flat(rg, at, on, up) * between.x +
-               streaks_far_flat(rg, at + 4, on, up) * between.y;
-    lit.square = streaks_far_square(rg, squares, on2, up2) * between2.x +
-                 streaks_far_square(rg, squares + 9, on2, up2) * between2.y +
-                 streaks_far_square(rg, squares + 18, on2, up2) * between2.z;
+    lit.mean = streaks_far_flat(rg, at, on.parts, up.parts) * views.parts.x +
+               streaks_far_flat(rg, at + 4, on.parts, up.parts) * views.parts.y;
+    lit.square = streaks_far_square(rg, squares, on.squares, up.squares) * views.squares.x +
+                 streaks_far_square(rg, squares + 9, on.squares, up.squares) * views.squares.y +
+                 streaks_far_square(rg, squares + 18, on.squares, up.squares) * views.squares.z;
+    return lit;
+}
+
+// From one place of Gauss' rule of two towards the other, to the middle of its half, as a share;
+// and the half's length as such a share.
+#define STREAKS_FAR_INWARDS 0.0669872981f
+#define STREAKS_FAR_HALF    0.866025404f
+
+RG_FN streaks_far_blend streaks_far_axis(float here, float other, int last, int blended)
+{
+    float inwards = here + (other - here) * STREAKS_FAR_INWARDS;
+    streaks_far_blend all = streaks_far_blended(here, last);
+    streaks_far_blend one =
+        streaks_far_nearest(inwards, rg_abs(other - here) * STREAKS_FAR_HALF, last);
+    streaks_far_blend blend;
+    blend.low = blended != 0 ? all.low : one.low;
+    blend.parts.x = blended != 0 ? all.parts.x : one.parts.x;
+    blend.parts.y = blended != 0 ? all.parts.y : one.parts.y;
+    blend.parts.z = 0.0f;
+    blend.squares.x = blended != 0 ? all.squares.x : one.squares.x;
+    blend.squares.y = blended != 0 ? all.squares.y : one.squares.y;
+    blend.squares.z = blended != 0 ? all.squares.z : one.squares.z;
+    return blend;
+}
+
+// Of the half of a slab about one of Gauss' places. As many of the atlas' textures count as are
+// read near the observer.
+RG_FN streaks_far_lit streaks_far_streak(rg_ctx rg, streaks_far_params p, float shown,
+                                         streaks_far_seen here, streaks_far_seen other)
+{
+    streaks_far_blend up = streaks_far_axis(here.elevation, other.elevation, STREAKS_FAR_HIGH - 1,
+                                            p.taps == 8 ? 1 : 0);
+    streaks_far_blend on =
+        streaks_far_axis(here.azimuth, other.azimuth, STREAKS_FAR_WIDE - 1, p.taps >= 4 ? 1 : 0);
+    streaks_far_lit lit = streaks_far_cell(rg, up, on, shown);
+    lit.mean = lit.mean * here.reaches;
+    lit.square = lit.square * here.reaches * here.reaches;
     return lit;
 }
 
@@ -255,24 +308,20 @@ RG_FN streaks_far_fall streaks_far_fall_of(v3 eye, streaks_far_way way, scenery_
     return fall;
 }
 
-// What a drop adds of a light at a place, were the light as strong as at 1 m.
-RG_FN streaks_far_lit streaks_far_lit_at(rg_ctx rg, streaks_far_params p, scenery_light l,
-                                         streaks_far_way way, v3 at)
+RG_FN streaks_far_seen streaks_far_seen_at(rg_ctx rg, streaks_far_params p, scenery_light l,
+                                           streaks_far_way way, v3 at)
 {
     scenery_reach reach = scenery_light_reach(l, at);
     float cosine = -(reach.to_light.x * l.dx + reach.to_light.y * l.dy + reach.to_light.z * l.dz);
     float cone = l.kind == SCENERY_SPOT ? scenery_cone(l, cosine) : 1.0f;
-    float reaches = SCENERY_IRRADIANCE * cone * scenery_unshadowed(rg, l, at);
-    float up = streaks_far_shown(way);
-    float below = up < 0.0f && p.rain.paper_angles == 0 ? -1.0f : 1.0f;
-    float elevation = rg_clamp(streaks_elevation(reach.to_light) * below + 4.5f, 0.0f,
-                               rg_to_float(STREAKS_HEIGHTS - 1));
-    float azimuth =
+    float below = streaks_far_shown(way) < 0.0f && p.rain.paper_angles == 0 ? -1.0f : 1.0f;
+    streaks_far_seen seen;
+    seen.reaches = SCENERY_IRRADIANCE * cone * scenery_unshadowed(rg, l, at);
+    seen.elevation = rg_clamp(streaks_elevation(reach.to_light) * below + 4.5f, 0.0f,
+                              rg_to_float(STREAKS_HEIGHTS - 1));
+    seen.azimuth =
         rg_clamp(streaks_azimuth(reach.to_light, way.ray), 0.0f, rg_to_float(STREAKS_AZIMUTHS - 1));
-    streaks_far_lit lit = streaks_far_streak(rg, p, streaks_far_view(up), elevation, azimuth);
-    lit.mean = lit.mean * reaches;
-    lit.square = lit.square * reaches * reaches;
-    return lit;
+    return seen;
 }
 
 RG_FN float streaks_far_grey(float r, float g, float b)
@@ -289,8 +338,13 @@ RG_DRAW_LIGHT(streaks_far)
     streaks_far_way way = streaks_far_way_of(p, r, px, py);
     v3 eye = v3_make(p.rain.eye_x, p.rain.eye_y, p.rain.eye_s);
     streaks_far_fall fall = streaks_far_fall_of(eye, way, l);
-    streaks_far_lit a = streaks_far_lit_at(rg, p, l, way, v3_add(eye, v3_scale(way.ray, fall.at0)));
-    streaks_far_lit b = streaks_far_lit_at(rg, p, l, way, v3_add(eye, v3_scale(way.ray, fall.at1)));
+    streaks_far_seen first =
+        streaks_far_seen_at(rg, p, l, way, v3_add(eye, v3_scale(way.ray, fall.at0)));
+    streaks_far_seen second =
+        streaks_far_seen_at(rg, p, l, way, v3_add(eye, v3_scale(way.ray, fall.at1)));
+    float shown = streaks_far_view(streaks_far_shown(way));
+    streaks_far_lit a = streaks_far_streak(rg, p, shown, first, second);
+    streaks_far_lit b = streaks_far_streak(rg, p, shown, second, first);
     float share = fall.mean * 0.5f * (a.mean + b.mean);
     float square = fall.square * (b.square + (a.square - b.square) * fall.nearer);
     float grey = streaks_far_grey(l.r, l.g, l.b);

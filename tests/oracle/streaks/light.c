@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "tests/oracle/streaks/atlas.h"
 #include "tests/oracle/streaks/vectors.h"
 
 static const double pi = 3.14159265358979323846;

@@ -2,7 +2,9 @@
 #ifndef RG_TESTS_ORACLE_STREAKS_LIGHT_H
 #define RG_TESTS_ORACLE_STREAKS_LIGHT_H
 
-#include "tests/oracle/streaks/picture.h"
+#include <stdbool.h>
+
+#include "tests/oracle/streaks/view.h"
 
 // The share of a light's colour that reaches a place, and from where.
 double streak_reach(const struct streak_light *light, const double at[3], double to_light[3]);

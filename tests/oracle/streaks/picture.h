@@ -5,18 +5,8 @@
 #ifndef RG_TESTS_ORACLE_STREAKS_PICTURE_H
 #define RG_TESTS_ORACLE_STREAKS_PICTURE_H
 
-#include <stdbool.h>
-
 #include "tests/oracle/streaks/atlas.h"
-
-enum streak_light_kind { STREAK_LAMP, STREAK_SPOT, STREAK_SUN };
-
-struct streak_light {
-    enum streak_light_kind kind;
-    double at[3], direction[3]; // the direction has a length of 1, and is the way light travels
-    double colour[3];           // of a white matt surface that faces it, 1 m away
-    double inner_deg, outer_deg;
-};
+#include "tests/oracle/streaks/view.h"
 
 struct streak_drop {
     double end[3]; // where it is when the exposure ends
@@ -26,18 +16,6 @@ struct streak_drop {
     int oscillation;
     double turn;   // of its swing when the exposure ends
     double cycles; // in the exposure
-};
-
-struct streak_view {
-    double eye[3], right[3], above[3], ahead[3]; // of length 1
-    double focal_px;
-    int width, height;
-    double up[3]; // against the fall
-    int taps, first_level, last_level;
-    bool absolute; // views from below count as from above
-    double gain, opacity, sky[3];
-    const struct streak_light *lights;
-    int light_count;
 };
 
 // What a pixel holds: its light, and the most that a streak that covers it adds to any of its

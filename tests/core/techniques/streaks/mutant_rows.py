@@ -10,6 +10,7 @@ PARTICLES = ("particles",)
 FAR = ("far_rain/far",)
 MEET = ("far_rain/meet",)
 SEAMS = ("far_rain/seams",)
+FAR_ORACLE = ("far_rain/oracle",)
 OUTSIDE = ("picture/outside",)
 SIZES = ("sizes",)
 SPLASH = ("picture/splash",)
@@ -102,7 +103,7 @@ ROWS = [Row(*row) for row in (
     ("slanting rays cross slabs straight", "far/far.h", "way.last = last / steep * length", "way.last = first / steep * length + (last - first)", MEET),
     ("no sky", "far/far.h", "light_g = p.rain.sky_g * sky.mean + lit.g", "light_g = lit.g", MEET),
     ("lamps as strong everywhere", "far/far.h", "fall.mean = sun != 0 ? 1.0f : angle / (beside * length)", "fall.mean = 1.0f", MEET),
-    ("lights without pi", "far/far.h", "float reaches = SCENERY_IRRADIANCE * cone", "float reaches = cone", MEET),
+    ("lights without pi", "far/far.h", "seen.reaches = SCENERY_IRRADIANCE * cone", "seen.reaches = cone", FAR_ORACLE),
     ("the density of the whole map", "far/far.h", "return p.drops_m3 * there *", "return p.drops_m3 *", MEET),
     ("the map turned over", "far/far.h", "float v = (at.y / p.rain.half_y + 1.0f) * 0.5f", "float v = (1.0f - at.y / p.rain.half_y) * 0.5f", MEET),
     ("streaks as short as drops", "far/far.h", "float longer = rg_max(fallen, chord)", "float longer = rg_max(chord, chord)", MEET),
@@ -119,6 +120,12 @@ ROWS = [Row(*row) for row in (
     ("slabs begin at the observer", "far/far.h", "rg_floor((turned + p.nearest) / p.thickness)", "((turned + p.nearest) / p.thickness)", SEAMS),
     ("slabs along one side alone", "far/far.h", "rg_abs(ray.x) >= rg_abs(ray.y) ? 1 : 0", "ray.x >= ray.y ? 1 : 0", SEAMS),
     ("slabs as thick for all rays", "far/far.h", "way.first = first / steep * length", "way.first = first", SEAMS),
+    ("textures of a slab one too far on", "far/far.h", "float beyond = blend.parts.y - 0.5f", "float beyond = blend.parts.y - 0.3f", FAR_ORACLE),
+    ("a slab's half seen as one place", "far/far.h", "rg_clamp(extent, 1e-4f, 1.0f)", "1e-4f", FAR_ORACLE),
+    ("far rain from below not turned over", "far/far.h", "p.rain.paper_angles == 0 ? -1.0f : 1.0f", "p.rain.paper_angles == 0 ? 1.0f : 1.0f", FAR_ORACLE),
+    ("far light by azimuths alone", "far/far.h", "p.taps == 8 ? 1 : 0", "0", FAR_ORACLE),
+    ("a spot's cone left out", "far/far.h", "l.kind == SCENERY_SPOT ? scenery_cone(l, cosine) : 1.0f", "1.0f", FAR_ORACLE),
+    ("slabs do not hide", "far/far.h", "rg_min(alpha, 1.0f)", "0.0f * alpha", FAR_ORACLE),
     ("a lamp seen from the slab's ends", "far/far.h", "#define STREAKS_FAR_NODE 0.288675135f", "#define STREAKS_FAR_NODE 0.5f", MEET),
     # splashes, pixel by pixel
     ("splashes are never mirrored", "rain.h", "float u = spot.u + mirrored * (1.0f - 2.0f * spot.u);",
