@@ -132,25 +132,22 @@ RG_STRUCT(streaks_far_blend)
     v3 squares;
 };
 
-RG_FN streaks_far_blend streaks_far_blended(float place, int last)
+// The second neighbour has a part t of what each drop shows (both: 1), or shows in a part t of the
+// drops (0).
+RG_FN streaks_far_blend streaks_far_blend_of(int low, float t, float both)
 {
+    float product = both * t * (1.0f - t);
     streaks_far_blend blend;
-    blend.low = rg_imin(rg_to_int(place), last);
-    float t = place - rg_to_float(blend.low);
+    blend.low = low;
     blend.parts = v3_make(1.0f - t, t, 0.0f);
-    blend.squares = v3_make((1.0f - t) * (1.0f - t), 2.0f * t * (1.0f - t), t * t);
+    blend.squares = v3_make(1.0f - t - product, 2.0f * product, t - product);
     return blend;
 }
 
-// Of drops that show the nearer neighbour alone, and are spread evenly over so much of the axis.
-RG_FN streaks_far_blend streaks_far_nearest(float place, float extent, int last)
+RG_FN streaks_far_blend streaks_far_views(float shown)
 {
-    streaks_far_blend blend = streaks_far_blended(place, last);
-    float beyond = blend.parts.y - 0.5f;
-    float t = rg_clamp(beyond / rg_clamp(extent, 1e-4f, 1.0f) + 0.5f, 0.0f, 1.0f);
-    blend.parts = v3_make(1.0f - t, t, 0.0f);
-    blend.squares = v3_make(1.0f - t, 0.0f, t);
-    return blend;
+    int view = streaks_view(shown);
+    return streaks_far_blend_of(view, shown - rg_to_float(view), 1.0f);
 }
 
 RG_FN float streaks_far_pair(rg_ctx rg, int at, v3 weights)
@@ -167,7 +164,7 @@ RG_FN float streaks_far_triple(rg_ctx rg, int at, v3 weights)
 // Of the sky and of two views.
 RG_FN streaks_far_lit streaks_far_sky(rg_ctx rg, float shown)
 {
-    streaks_far_blend views = streaks_far_blended(shown, STREAKS_VIEWS - 2);
+    streaks_far_blend views = streaks_far_views(shown);
     int at = STREAKS_FAR_BLOCKS * STREAKS_FAR_BLOCK + views.low * STREAKS_FAR_SKY;
     streaks_far_lit lit;
     lit.mean = streaks_far_pair(rg, at, views.parts);
@@ -201,7 +198,7 @@ RG_STRUCT(streaks_far_seen)
 RG_FN streaks_far_lit streaks_far_cell(rg_ctx rg, streaks_far_blend up, streaks_far_blend on,
                                        float shown)
 {
-    streaks_far_blend views = streaks_far_blended(shown, STREAKS_VIEWS - 2);
+    streaks_far_blend views = streaks_far_views(shown);
     int at =
         ((views.low * STREAKS_FAR_HIGH + up.low) * STREAKS_FAR_WIDE + on.low) * STREAKS_FAR_BLOCK;
     int squares = at + STREAKS_FAR_SQUARES;
@@ -219,21 +216,16 @@ RG_FN streaks_far_lit streaks_far_cell(rg_ctx rg, streaks_far_blend up, streaks_
 #define STREAKS_FAR_INWARDS 0.0669872981f
 #define STREAKS_FAR_HALF    0.866025404f
 
-RG_FN streaks_far_blend streaks_far_axis(float here, float other, int last, int blended)
+// Drops show both neighbours, or (0) the nearer one: then those of the half about a place are
+// spread evenly over what it sees of the axis.
+RG_FN streaks_far_blend streaks_far_axis(float here, float other, int last, float both)
 {
-    float inwards = here + (other - here) * STREAKS_FAR_INWARDS;
-    streaks_far_blend all = streaks_far_blended(here, last);
-    streaks_far_blend one =
-        streaks_far_nearest(inwards, rg_abs(other - here) * STREAKS_FAR_HALF, last);
-    streaks_far_blend blend;
-    blend.low = blended != 0 ? all.low : one.low;
-    blend.parts.x = blended != 0 ? all.parts.x : one.parts.x;
-    blend.parts.y = blended != 0 ? all.parts.y : one.parts.y;
-    blend.parts.z = 0.0f;
-    blend.squares.x = blended != 0 ? all.squares.x : one.squares.x;
-    blend.squares.y = blended != 0 ? all.squares.y : one.squares.y;
-    blend.squares.z = blended != 0 ? all.squares.z : one.squares.z;
-    return blend;
+    float place = here + (other - here) * (STREAKS_FAR_INWARDS * (1.0f - both));
+    float extent = rg_clamp(rg_abs(other - here) * STREAKS_FAR_HALF, 1e-4f, 1.0f);
+    int low = rg_imin(rg_to_int(place), last);
+    float on = place - rg_to_float(low);
+    float beyond = rg_clamp((on - 0.5f) / extent + 0.5f, 0.0f, 1.0f);
+    return streaks_far_blend_of(low, beyond + (on - beyond) * both, both);
 }
 
 // Of the half of a slab about one of Gauss' places. As many of the atlas' textures count as are
@@ -242,9 +234,9 @@ RG_FN streaks_far_lit streaks_far_streak(rg_ctx rg, streaks_far_params p, float 
                                          streaks_far_seen here, streaks_far_seen other)
 {
     streaks_far_blend up = streaks_far_axis(here.elevation, other.elevation, STREAKS_FAR_HIGH - 1,
-                                            p.taps == 8 ? 1 : 0);
-    streaks_far_blend on =
-        streaks_far_axis(here.azimuth, other.azimuth, STREAKS_FAR_WIDE - 1, p.taps >= 4 ? 1 : 0);
+                                            p.taps == 8 ? 1.0f : 0.0f);
+    streaks_far_blend on = streaks_far_axis(here.azimuth, other.azimuth, STREAKS_FAR_WIDE - 1,
+                                            p.taps >= 4 ? 1.0f : 0.0f);
     streaks_far_lit lit = streaks_far_cell(rg, up, on, shown);
     lit.mean = lit.mean * here.reaches;
     lit.square = lit.square * here.reaches * here.reaches;
@@ -301,7 +293,10 @@ RG_FN streaks_far_fall streaks_far_fall_of(v3 eye, streaks_far_way way, scenery_
     streaks_far_fall fall;
     fall.mean = sun != 0 ? 1.0f : angle / (beside * length);
     // Far away the exact form is a difference of large numbers, and Simpson's rule is as good.
-    fall.square = sun != 0 ? 1.0f : nearest > 9.0f * length * length ? far : near;
+    // A sum, because gcc makes no vectors of a choice that is alike for all pixels within one that
+    // is not.
+    float lamp = rg_to_float(1 - sun);
+    fall.square = 1.0f - lamp + lamp * (nearest > 9.0f * length * length ? far : near);
     fall.at0 = foot + at0;
     fall.at1 = foot + at1;
     fall.nearer = s0 / (s0 + s1);
@@ -314,7 +309,8 @@ RG_FN streaks_far_seen streaks_far_seen_at(rg_ctx rg, streaks_far_params p, scen
     scenery_reach reach = scenery_light_reach(l, at);
     float cosine = -(reach.to_light.x * l.dx + reach.to_light.y * l.dy + reach.to_light.z * l.dz);
     float cone = l.kind == SCENERY_SPOT ? scenery_cone(l, cosine) : 1.0f;
-    float below = streaks_far_shown(way) < 0.0f && p.rain.paper_angles == 0 ? -1.0f : 1.0f;
+    float below = 1.0f - rg_to_float(2 * streaks_below(streaks_far_shown(way), 0.0f) *
+                                     (1 - p.rain.paper_angles));
     streaks_far_seen seen;
     seen.reaches = SCENERY_IRRADIANCE * cone * scenery_unshadowed(rg, l, at);
     seen.elevation = rg_clamp(streaks_elevation(reach.to_light) * below + 4.5f, 0.0f,
