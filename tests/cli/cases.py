@@ -207,7 +207,6 @@ RENDERS = [
     Case(RAIN + "--set camera=free --set eye_y_m=-3 -o {tmp}/a.png", 2, r"its eye is 3 m below the ground; raise eye_y_m"),
     Case(RAIN + "--set culling_radius_m=5000 -o {tmp}/a.png", 2, r"5000 m is wider than the rain space .*limits=off"),
     Case(RAIN + "--set local_height_m=500 -o {tmp}/a.png", 2, r"500 m is higher than the rain space"),
-    Case(RAIN + "--set spectrum=best --set far_layers=2 -o {tmp}/a.png", 2, r"layers stand for drops of one size; take far_layers=0"),
     Case(RAIN + "--set spectrum=best --set least_diameter_mm=0.1 -o {tmp}/a.png", 77,
          r"spectrum: 2788 drops a cubic metre are 2\.336e\+09 in the local space, at most 2147483647 .*raise least_diameter_mm"),
     Case(RAIN + "--set spectrum=best --set rain_mm_h=0 -o {tmp}/a.png", 2, r"parameter 'rain_mm_h': 0 is out of range; 0\.1 to 500 mm/h"),

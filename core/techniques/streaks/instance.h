@@ -92,6 +92,11 @@ bool streaks_sizes_make(struct streaks *streaks);
 // Whether the drops of a spectrum can be told apart; else one line with the numbers is logged.
 bool streaks_sizes_fit(const struct streaks *streaks, const struct rg_density *density);
 bool streaks_sizes_differ(const struct streaks *streaks);
+// Drops of one size that cover as much of a view as those of all classes, and vary as much.
+struct streaks_alike {
+    double radius_m, speed_m_s, drops_m3;
+};
+struct streaks_alike streaks_sizes_alike(const struct streaks *streaks);
 // Moves the classes to the present frame, in a local space with this top.
 void streaks_sizes_turn(struct streaks *streaks, double top_m);
 // Tells the rain that a spectrum's particles make, and what is left out.

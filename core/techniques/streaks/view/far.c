@@ -42,15 +42,20 @@ bool streaks_density_open(struct streaks *s)
 static streaks_far_params params_of(const struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
+    const struct streaks_alike drops = streaks_sizes_alike(s);
     const double seconds = set->step_s * (double)s->base.frame;
+    streaks_params rain = s->params;
+    rain.half_width *= (float)(drops.radius_m / (set->drop_radius_mm / 1000));
+    rain.drop_radius = (float)drops.radius_m;
+    rain.fall = (float)(drops.speed_m_s * set->exposure_s);
     return (streaks_far_params){
-        .rain = s->params,
+        .rain = rain,
         .lights = s->params.lights,
         .nearest = (float)set->culling_radius_m,
         .farthest = (float)(set->culling_radius_m * (1 + set->far_layers)),
         .thickness = (float)(set->culling_radius_m / STREAKS_FAR_PARTS),
-        .fallen = (float)fmod(set->fall_speed_m_s * seconds, longest_fall_m),
-        .drops_m3 = (float)(set->drops_m2_s / set->fall_speed_m_s),
+        .fallen = (float)fmod(drops.speed_m_s * seconds, longest_fall_m),
+        .drops_m3 = (float)drops.drops_m3,
         .seed = set->seed,
         .taps = 2 << set->taps,
     };
@@ -59,7 +64,8 @@ static streaks_far_params params_of(const struct streaks *s)
 // The observer stands within a slab, so that one more has its first part and its last.
 bool streaks_draw_far(struct streaks *s)
 {
-    if (!s->settings.far_layers || !rg_stage_runs(&s->base, s->first_stage + STREAKS_FAR))
+    if (!s->settings.far_layers || !s->settings.limits ||
+        !rg_stage_runs(&s->base, s->first_stage + STREAKS_FAR))
         return true;
     const struct rg_extent first = {0, 0, 0},
                            slabs = {s->settings.far_layers * STREAKS_FAR_PARTS + 1, 1, 1};

@@ -51,22 +51,12 @@ static bool make_one(struct streaks *s)
     return true;
 }
 
-static bool check(const struct streaks_settings *set)
-{
-    if (set->far_layers)
-        return rg_error("far_layers: layers stand for drops of one size; take far_layers=0, or "
-                        "spectrum=off");
-    return true;
-}
-
 static bool make_classes(struct streaks *s)
 {
     const struct streaks_settings *set = &s->settings;
     const struct rg_spectrum spectrum = spectrum_of(set);
     struct rg_drop_class classes[STREAKS_SIZES];
     struct streaks_sizes *sizes = &s->sizes;
-    if (!check(set))
-        return false;
     sizes->count = STREAKS_SIZES;
     sizes->drops_m3 = rg_spectrum_rainfall(&spectrum).drops_m3 * set->kept_share;
     rg_spectrum_classes(&spectrum, set->kept_by_section, STREAKS_SIZES, classes);
@@ -102,6 +92,24 @@ bool streaks_sizes_fit(const struct streaks *s, const struct rg_density *density
 bool streaks_sizes_differ(const struct streaks *s)
 {
     return s->sizes.count > 1;
+}
+
+// A streak adds as its drops' cross-sections do, over what is as long as they fall in the exposure:
+// what pixels vary by is its square, over that length.
+struct streaks_alike streaks_sizes_alike(const struct streaks *s)
+{
+    double section = 0, passing = 0, varied = 0;
+    for (int i = 0; i < s->sizes.count; i++) {
+        const float *words = s->sizes.words + (size_t)i * STREAKS_SIZE_WORDS;
+        const double radius_m = (double)words[0] * s->settings.drop_radius_mm / 1000;
+        const double one = (double)words[3] * radius_m * radius_m / s->sizes.count;
+        section += one;
+        passing += one * s->sizes.speeds_m_s[i];
+        varied += one * one * s->sizes.count / s->sizes.speeds_m_s[i];
+    }
+    const double speed_m_s = passing / section, radius2_m2 = varied * speed_m_s / section;
+    return (struct streaks_alike){sqrt(radius2_m2), speed_m_s,
+                                  s->sizes.drops_m3 * section / radius2_m2};
 }
 
 void streaks_sizes_turn(struct streaks *s, double top_m)

@@ -146,6 +146,16 @@ static void test_by_day(void **state)
     meet("the sun alone", views[0], "taps=4");
 }
 
+// Most drops are small; a few large ones vary the most.
+static void test_sizes(void **state)
+{
+    (void)state;
+    write_lights(SUN, 0.5);
+    meet("drops of a spectrum", views[0], "spectrum=marshall-palmer rain_mm_h=50");
+    meet("drops that stand for many", views[0],
+         "spectrum=best rain_mm_h=50 kept_share=0.2 kept=section");
+}
+
 static void test_under_lamps(void **state)
 {
     (void)state;
@@ -254,9 +264,10 @@ int main(int argc, char **argv)
     snprintf(map_path, sizeof(map_path), "test_meet_%ld.exr", (long)getpid());
     snprintf(mesh_path, sizeof(mesh_path), "test_meet_%ld.off", (long)getpid());
     struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_by_day),        cmocka_unit_test(test_under_lamps),
-        cmocka_unit_test(test_lamps_in_view), cmocka_unit_test(test_map_with_holes),
-        cmocka_unit_test(test_roofs),         cmocka_unit_test(test_shadows),
+        cmocka_unit_test(test_by_day),         cmocka_unit_test(test_under_lamps),
+        cmocka_unit_test(test_sizes),          cmocka_unit_test(test_lamps_in_view),
+        cmocka_unit_test(test_map_with_holes), cmocka_unit_test(test_roofs),
+        cmocka_unit_test(test_shadows),
     };
     const int status = rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
     remove(lights_path);

@@ -73,7 +73,7 @@ static void draw_both(int kinds, const char *settings, struct tally *tally)
              count ? "lights_file=" : "", count ? lights_path : "", settings);
     struct streaks *s = rain_open(all);
     rain_step(s, 3);
-    s->settings.drops_m2_s = drops_m3 * s->settings.fall_speed_m_s;
+    s->sizes.drops_m3 = drops_m3;
     for (int c = 0; c < 3; c++)
         (&s->params.sky_r)[c] = kinds & SKY ? (float)(c + 1) : 0.0f;
     struct rain_texels *wet = rain_read(s);
