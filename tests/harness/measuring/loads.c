@@ -1,0 +1,101 @@
+// What the timer audit and the ceilings say of a device whose every cost is known.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "harness/measure/ceilings.h"
+#include "harness/measure/timer_audit.h"
+#include "kernels/probe/arithmetic_params.h"
+#include "tests/harness/measuring/fake.h"
+
+static void audit(double clock_rate, double word_ms, struct rg_timer_audit *result)
+{
+    struct fake_device *fake = fake_open();
+    fake->clock_rate = clock_rate;
+    fake->sync_ms = 0.01;
+    fake->run_ms = 0.002;
+    fake->word_ms = word_ms;
+    fake->slow_runs = 1;
+    assert_true(rg_timer_audit(&fake->pub, result));
+    assert_true(rg_device_close(&fake->pub));
+}
+
+static void test_costs(void **state)
+{
+    (void)state;
+    struct rg_timer_audit result;
+    audit(1, 1e-6, &result); // a pass of the load: 1.05 ms
+    assert_in_range(result.passes, 48, 60);
+    assert_float_equal(result.wall_ms, result.passes * (0.002 + 1.048576) + 0.01, 1e-3);
+    assert_float_equal(result.sync_us, 10, 1e-3);
+    assert_float_equal(result.round_trip_us, 12.001, 1e-3);
+    assert_float_equal(result.dispatch_us, 2.001 + 0.1, 1e-3);
+}
+
+// A load lasts 50 ms, of however long a pass.
+static void test_load(void **state)
+{
+    (void)state;
+    struct rg_timer_audit result;
+    audit(1, 1e-4, &result);
+    assert_int_equal(result.passes, 1);
+    audit(1, 1e-9, &result); // 0.003 ms: 8 times as many passes at a time, up to 50 ms
+    assert_in_range((int)result.wall_ms, 50, 70);
+    struct fake_device *fake = fake_open(); // takes no time at all
+    assert_true(rg_timer_audit(&fake->pub, &result));
+    assert_int_equal(result.passes, 20000);
+    assert_true(rg_device_close(&fake->pub));
+}
+
+// Each side of the bounds within which a timer is trusted.
+static void test_trust(void **state)
+{
+    (void)state;
+    static const struct {
+        double rate;
+        bool trusted;
+    } cases[] = {{1, true}, {0.81, true}, {0.79, false}, {1.04, true}, {1.06, false}, {0, false}};
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        struct rg_timer_audit result;
+        audit(cases[i].rate, 1e-6, &result);
+        assert_true(result.has_timer);
+        assert_float_equal(result.ratio, cases[i].rate, 1e-3);
+        assert_float_equal(result.api_ms, cases[i].rate * result.wall_ms, 0.1);
+        assert_int_equal(result.trusted, cases[i].trusted);
+        assert_int_equal(rg_timer_is_trusted(cases[i].rate), cases[i].trusted);
+    }
+}
+
+// A copy of 64 MiB reads and writes 134 MB; runs that compile first do not count.
+static void test_ceilings(void **state)
+{
+    (void)state;
+    struct fake_device *fake = fake_open();
+    struct rg_ceilings ceilings;
+    fake->word_ms = 1e-6; // 8 bytes a nanosecond
+    fake->item_ms = 2e-6;
+    fake->slow_runs = 3;
+    assert_true(rg_ceilings_measure(&fake->pub, &ceilings));
+    assert_float_equal(ceilings.memory_gb_s, 8, 1e-6);
+    assert_float_equal(ceilings.cache_gb_s, 8, 1e-6);
+    assert_float_equal(ceilings.arithmetic_gop_s, PROBE_ARITHMETIC_OPS / 2.0, 1e-6);
+    fake->sync_ms = 16; // a wait counts once for a batch: of one large copy, of 16 small ones
+    assert_true(rg_ceilings_measure(&fake->pub, &ceilings));
+    assert_float_equal(ceilings.memory_gb_s, 134.217728 / (16.777216 + 16), 1e-6);
+    assert_float_equal(ceilings.cache_gb_s, 2.097152 / (0.262144 + 1), 1e-6);
+    assert_true(rg_device_close(&fake->pub));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_costs),
+        cmocka_unit_test(test_load),
+        cmocka_unit_test(test_trust),
+        cmocka_unit_test(test_ceilings),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
