@@ -1,16 +1,17 @@
 # raingauge: `make tables` regenerates the papers' tables, `make test` runs every test. Both install
 # what Debian packages are missing, build, say what they do, and can be run again at no cost.
 # `make results` replaces the tables that the repository keeps; `make thorough` runs the tests that
-# take too long for every change.
+# take too long for every change; `make mutants` tries the tests themselves, with faults.
 .POSIX:
-.PHONY: all setup build tables committed results test thorough clean format
+.PHONY: all setup build tables committed results test thorough mutants clean format
 
 BUILD = build
 ASAN = build-asan
 TABLES = $(BUILD)/tables
 RESULTS = results/tables
-# What `make results` measures: names of tables, all unless it has any, and --quick or --full.
-WHAT = --quick
+# What `make results` measures: names of tables, all unless it has any, and --quick (unless it is set)
+# or --full. What `make mutants` tries: areas, as images, all unless it has any.
+WHAT =
 MODELS = /usr/share/doc/libcgal-dev/data.tar.gz
 
 all: build
@@ -72,12 +73,16 @@ test: build $(ASAN)/build.ninja
 	@meson test -C $(BUILD) --no-rebuild --print-errorlogs || true
 	@echo "== testing under sanitizers, the CPU devices and the harness"
 	@meson test -C $(ASAN) --no-rebuild --print-errorlogs --suite sanitized || true
-	@python3 tests/summary.py $(BUILD)/meson-logs/testlog.json $(ASAN)/meson-logs/testlog.json
+	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog.json $(ASAN)/meson-logs/testlog.json
 
 thorough: build
 	@echo "== testing at length, all devices"
 	@meson test -C $(BUILD) --no-rebuild --print-errorlogs --setup thorough --suite thorough || true
-	@python3 tests/summary.py $(BUILD)/meson-logs/testlog-thorough.json
+	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog-thorough.json
+
+mutants: build
+	@echo "== trying the tests with faults in host code and kernels, one at a time"
+	@python3 tests/mutants/mutants.py $(BUILD) $(WHAT)
 
 format:
 	@git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i

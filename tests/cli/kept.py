@@ -13,7 +13,7 @@ import forms
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 KEPT = os.path.join(ROOT, "results", "tables")
 KEEP = os.path.join(ROOT, "results", "keep.py")
-TRANSLATE = os.path.join(ROOT, "tests", "translate_records.py")
+TRANSLATE = os.path.join(ROOT, "tests", "tools", "translate_records.py")
 FORMS = ("csv", "json", "md")
 SMALL = "stuppacher-2"
 

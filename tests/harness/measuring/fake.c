@@ -132,8 +132,11 @@ static bool fake_pass_run(struct rg_pass *pass, const struct rg_run *run)
     const bool copies = !strcmp(pass->kernel->name, "probe_copy");
     const double items = (double)run->extent.width * run->extent.height * run->extent.depth;
     const double ms = fake->run_ms + items * (copies ? fake->word_ms : fake->item_ms);
-    fake->pending_ms += fake->slow_runs > 0 ? 10 * ms : ms;
+    const bool is_slow =
+        fake->slow_runs > 0 || (fake->slow_every && (fake->runs + 1) % fake->slow_every == 0);
+    fake->pending_ms += is_slow ? 10 * ms : ms;
     fake->slow_runs -= fake->slow_runs > 0;
+    fake->runs++;
     return true;
 }
 

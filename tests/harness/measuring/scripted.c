@@ -13,7 +13,7 @@
 #include "harness/measure/measure.h"
 #include "tests/harness/measuring/fake.h"
 
-#define assert_ms(value, ms) assert_float_equal(value, ms, 1e-6)
+#define assert_ms(value, ms) assert_near(value, ms, 1e-6)
 
 enum { MOST_JOBS = 4 };
 
@@ -121,12 +121,14 @@ static void test_warm_up(void **state)
 {
     (void)state;
     static const double even[] = {9, 9}, settling[] = {90, 60, 40, 30, 20, 18.1, 5},
-                        rising[] = {9, 9, 9, 9, 12, 12.5, 20}, late[] = {90, 60, 40};
+                        rising[] = {9, 9, 9, 9, 12, 12.5, 20}, late[] = {90, 60, 40},
+                        slowly[] = {90, 60, 40, 30, 24, 23};
     double swinging[40];
     for (int i = 0; i < 40; i++)
         swinging[i] = i % 2 ? 10 : 20;
     assert_int_equal(warm_up_frames(even, 2, 1e9), 4);
     assert_int_equal(warm_up_frames(settling, 7, 1e9), 5);
+    assert_int_equal(warm_up_frames(slowly, 6, 1e9), 5);
     assert_int_equal(warm_up_frames(rising, 7, 1e9), 5);
     assert_int_equal(warm_up_frames(swinging, 40, 1e9), 20);
     assert_int_equal(warm_up_frames(late, 3, 99), 2);
@@ -259,6 +261,10 @@ static void test_order(void **state)
     for (int round = 0; round < ROUNDS; round++)
         for (char letter = 'A'; letter <= 'D'; letter++)
             assert_non_null(memchr(order + (size_t)4 * (size_t)round, letter, 4));
+    int stays = 0; // as often as a place is had by chance: one of four
+    for (int i = 4; i < 4 * ROUNDS; i++)
+        stays += order[i] == order[i - 4];
+    assert_in_range(stays, ROUNDS / 2, ROUNDS * 3 / 2);
     measure_four(again, 4 * ROUNDS);
     assert_memory_equal(order, again, sizeof(order));
 }
@@ -304,6 +310,8 @@ static double api_over_wall(double rate, bool has_clock, int64_t *reads)
     measure(&bench, &plain);
     const double ratio = bench.records[0].api_over_wall;
     *reads = bench.fake->clock_reads;
+    const char *last = strrchr(fake_events(), 't'); // the passes follow: it was the last sample
+    assert_true(!last || !strncmp(last + 1, "A|.||", 5));
     assert_int_equal(bench.records[0].outcome, RG_OK);
     end(&bench);
     return ratio;
@@ -313,9 +321,9 @@ static void test_api_clock(void **state)
 {
     (void)state;
     int64_t reads;
-    assert_float_equal(api_over_wall(1, true, &reads), 1, 1e-4);
+    assert_near(api_over_wall(1, true, &reads), 1, 1e-4);
     assert_int_equal(reads, 2);
-    assert_float_equal(api_over_wall(0.85, true, &reads), 0.85, 1e-4);
+    assert_near(api_over_wall(0.85, true, &reads), 0.85, 1e-4);
     assert_true(api_over_wall(1, false, &reads) == 0);
     assert_int_equal(reads, 0);
 }
@@ -351,6 +359,12 @@ static void test_passes(void **state)
 
 // --- what ends early ---
 
+static void note_progress(int done, int total, void *user)
+{
+    double *share = user;
+    *share = (double)done / total;
+}
+
 // An interrupted run leaves records that are not whole, and runs no passes for them.
 static void test_interrupted(void **state)
 {
@@ -361,8 +375,13 @@ static void test_interrupted(void **state)
     begin(&bench);
     add(&bench, &quiet, 1);
     add(&bench, &noisy, 1);
-    measure(&bench, &plain);
+    double share = 0;
+    struct rg_measure_options options = plain;
+    options.progress = note_progress;
+    options.user = &share;
+    measure(&bench, &options);
     assert_true(rg_interrupted());
+    assert_true(share > 0 && share < 1);
     for (int i = 0; i < 2; i++) {
         assert_true(bench.records[i].sample_count < bench.jobs[i].wanted_samples);
         assert_int_equal(bench.records[i].pass_frames, 0);
@@ -390,6 +409,8 @@ static void test_lost(void **state)
         rg_jobs_measure(bench.jobs, 2, &plain);
         assert_int_equal(job->record->outcome, RG_ERROR);
         assert_non_null(strstr(job->record->detail, "lost"));
+        // It is asked for no more than the sample in which it was lost.
+        assert_true(bench.fake->waits <= waits + 3);
         assert_true(job->record->sample_count <= job->wanted_samples);
         assert_int_equal(well->record->outcome, RG_OK);
         assert_int_equal(well->record->sample_count, well->wanted_samples);

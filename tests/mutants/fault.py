@@ -1,0 +1,40 @@
+"""A fault that somebody might make in host code: a place of the source, and what stands there instead."""
+import dataclasses
+import re
+
+OPERATOR = re.compile(r"(\+=|-=|<<|[-+*/%&|])\s")  # that a place may begin with, its left side before it
+
+@dataclasses.dataclass(frozen=True)
+class Fault:
+    file: str
+    # The text around the place, which stands once in the file; the place itself is between « and », or all of it.
+    # An expression, or statements, which end with a semicolon or a brace.
+    at: str
+    new: str
+    about: str
+    lives: str = ""  # why no test can notice it
+    tests: tuple = ()  # that are tried before those of its area
+
+    @property
+    def old(self):
+        return self.at.split("«")[1].split("»")[0] if "«" in self.at else self.at
+
+    @property
+    def around(self):
+        return self.at.replace("«", "").replace("»", "")
+
+    def start_in(self, text):
+        """Where the place begins in the text of its file."""
+        return text.index(self.around) + self.at.find("«") * ("«" in self.at)
+
+    def with_switch(self, number, otherwise):
+        """What stands in the copy: the fault, what stands there `otherwise`, and the switch that picks one."""
+        if self.old.rstrip().endswith((";", "}")):
+            return f"{{ if (rg_mutant({number})) {{ {self.new} }} else {{ {otherwise} }} }}"
+        operator, new = OPERATOR.match(otherwise), self.new
+        if not operator:
+            return f"(rg_mutant({number}) ? ({new}) : ({otherwise}))"
+        sign = operator[1]
+        if new.startswith(sign + " "):
+            return f"{sign} (rg_mutant({number}) ? ({new[len(sign):]}) : ({otherwise[len(sign):]}))"
+        return f"+ (rg_mutant({number}) ? (0 {new}) : (0 {otherwise}))"  # of + and -

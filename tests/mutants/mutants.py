@@ -1,0 +1,257 @@
+#!/usr/bin/env python3
+"""Tries the tests: builds a copy of the source that holds every fault of rows/*.py behind a switch, and runs the tests that
+ought to notice each.
+
+mutants.py BUILD [AREA]...    BUILD is a build of the source; an area is a file of rows/, or a room of kernels
+mutants.py --places           whether the rows' places are in the source, and nothing is run
+
+Without areas all are tried. The faults of kernels are those of tests/core/techniques/mutants.py, which runs them. Prints a
+line a fault: the test that noticed it and its seconds, or that it lived, with the reason where its row has one. Ends with
+counts. The exit status is 1 where fewer than 95 % were noticed, where one lived without a reason, or where a test fails on
+the source as it is. What noticed a fault is tried first the next time.
+"""
+import importlib.util
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+SOURCE = HERE.parents[1]
+LEAST_SHARE = 0.95
+LONGEST_S = 240  # that a test may take; one that takes longer has noticed
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(HERE))
+
+
+def areas():
+    """The modules of rows, by name, in order."""
+    found = {}
+    for path in sorted((HERE / "rows").glob("*.py")):
+        spec = importlib.util.spec_from_file_location(path.stem, path)
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        found[path.stem] = module
+    return found
+
+
+def numbered(modules):
+    """Every fault with its area, numbered from 1: the same numbers whatever areas are tried."""
+    rows = [(area, row) for area, module in modules.items() for row in module.ROWS]
+    return [(number, area, row) for number, (area, row) in enumerate(rows, 1)]
+
+
+# --- the copy ---
+
+
+def check_places(faults):
+    wrong = []
+    for _, area, row in faults:
+        path = SOURCE / row.file
+        count = path.read_text(encoding="utf-8").count(row.around) if path.exists() else 0
+        if count != 1:
+            wrong.append(f"mutants.py: {area}: {row.about}: {row.file} has {count} times: {row.around}")
+    if wrong:
+        sys.exit("\n".join(wrong))
+
+
+def changed(path, faults):
+    """The text of a file with the switches of its faults."""
+    text = (SOURCE / path).read_text(encoding="utf-8")
+    places = {}
+    for number, row in faults:
+        start = row.start_in(text)
+        places.setdefault((start, start + len(row.old)), []).append((number, row))
+    ordered = sorted(places)
+    for (_, end), after in zip(ordered, ordered[1:]):
+        if end > after[0]:
+            sys.exit(f"mutants.py: {path}: places overlap: {places[after][0][1].about}")
+    for start, end in reversed(ordered):
+        made = text[start:end]
+        for number, row in places[start, end]:
+            made = row.with_switch(number, made)
+        text = text[:start] + made + text[end:]
+    return f'#include "tests/mutants/switch.h"\n#line 1 "{path}"\n' + text
+
+
+def write_changed(path, text):
+    """Writes a file unless it is the same, so that it is not built again."""
+    data = text if isinstance(text, bytes) else text.encode("utf-8")
+    if path.exists() and path.read_bytes() == data:
+        return
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(data)
+
+
+def copy_source(copy, faults):
+    of_file = {}
+    for number, _, row in faults:
+        of_file.setdefault(row.file, []).append((number, row))
+    listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=SOURCE,
+                            check=True, stdout=subprocess.PIPE, text=True).stdout
+    names = [name for name in listed.split("\0") if name and (SOURCE / name).is_file()]
+    for name in names:
+        text = changed(name, of_file[name]) if name in of_file else (SOURCE / name).read_bytes()
+        write_changed(copy / name, text)
+        (copy / name).chmod((SOURCE / name).stat().st_mode)
+
+
+def tests_of(build):
+    """The tests of a build, by name."""
+    told = subprocess.run(["meson", "introspect", "--tests", build], check=True, stdout=subprocess.PIPE, text=True)
+    return {test["name"]: dict(test, workdir=test["workdir"] or build) for test in json.loads(told.stdout)}
+
+
+def build_copy(copy, modules, wanted):
+    build = copy / "build"
+    if not (build / "build.ninja").exists():
+        subprocess.run(["meson", "setup", build, copy], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["ninja", "-C", build, "build.ninja"], check=True, stdout=subprocess.DEVNULL)
+    known = tests_of(build)
+    names = {name for area in wanted for name in modules[area].TESTS}
+    names |= {name for area in wanted for row in modules[area].ROWS for name in row.tests}
+    absent = sorted(names - set(known))
+    if absent:
+        sys.exit(f"mutants.py: no such tests: {', '.join(absent)}")
+    subprocess.run(["ninja", "-C", build], check=True, stdout=subprocess.DEVNULL)
+    return {name: known[name] for name in names}
+
+
+# --- trying ---
+
+
+def notices(test, number, cache):
+    """Whether a test fails with a fault. What it leaves running ends with it."""
+    env = dict(os.environ, **test["env"], GOMP_SPINCOUNT="0", XDG_CACHE_HOME=str(cache), RG_MUTANT=str(number))
+    with tempfile.TemporaryFile() as told:
+        run = subprocess.Popen(test["cmd"], cwd=test["workdir"], env=env, stdin=subprocess.DEVNULL, stdout=told,
+                               stderr=subprocess.STDOUT, start_new_session=True)
+        try:
+            code = run.wait(timeout=LONGEST_S)
+        except subprocess.TimeoutExpired:
+            code = -1
+        try:
+            os.killpg(run.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        run.wait()
+        told.seek(0)
+        return code != 0 or b"\nnot ok" in told.read()
+
+
+def try_unchanged(tests, cache):
+    for name, test in tests.items():
+        if notices(test, 0, cache):
+            sys.exit(f"mutants.py: {name} fails on the source as it is")
+
+
+class Found:
+    """Which test noticed a fault the last time."""
+
+    def __init__(self, path):
+        self.path = path
+        self.rows = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+
+    def first(self, row):
+        return [self.rows[row.about]] if row.about in self.rows else []
+
+    def put(self, row, name):
+        self.rows[row.about] = name
+        self.path.write_text(json.dumps(self.rows, indent=1), encoding="utf-8")
+
+
+def try_fault(number, row, module, tests, found, scratch):
+    """The test that notices a fault, or None."""
+    order = found.first(row) + list(row.tests) + list(module.TESTS)
+    with tempfile.TemporaryDirectory(dir=scratch) as own:
+        cache = own if getattr(module, "OWN_CACHE", False) else scratch / "cache"
+        for name in dict.fromkeys(name for name in order if name in tests):
+            if notices(tests[name], number, cache):
+                found.put(row, name)
+                return name
+    return None
+
+
+def try_host(modules, wanted, scratch):
+    """Tries the faults of areas. Counts of each, and how many lived without a reason."""
+    faults = numbered(modules)
+    check_places(faults)
+    copy_source(scratch / "source", faults)
+    (scratch / "cache").mkdir(exist_ok=True)
+    tests = build_copy(scratch / "source", modules, wanted)
+    try_unchanged(tests, scratch / "cache")
+    found, counts, unexplained = Found(scratch / "found.json"), {}, 0
+    for number, area, row in faults:
+        if area not in wanted:
+            continue
+        start = time.monotonic()
+        name = try_fault(number, row, modules[area], tests, found, scratch)
+        seconds = time.monotonic() - start
+        lived = f"LIVED: {row.lives or 'no reason is known'}"
+        print(f"{area:10} {row.about}  [{row.file}]  {'noticed by ' + name if name else lived}  ({seconds:.1f} s)",
+              flush=True)
+        total, killed = counts.get(area, (0, 0))
+        counts[area] = (total + 1, killed + bool(name))
+        unexplained += not name and not row.lives
+    return counts, unexplained
+
+
+def try_kernels(build, room, test):
+    """Has a room's own tool try the texts of its kernels."""
+    run = subprocess.Popen(test["cmd"], cwd=test["workdir"], env=dict(os.environ, **test["env"]), text=True,
+                           stdout=subprocess.PIPE)
+    total = lived = 0
+    for line in run.stdout:
+        total += line.startswith(("killed by ", "LIVED"))
+        lived += line.startswith("LIVED")
+        print(f"{room:10} {line}", end="", flush=True)
+    if run.wait() and not lived:
+        sys.exit(f"mutants.py: the faults of {room} could not be tried")
+    return total, total - lived
+
+
+def report(counts, unexplained):
+    print()
+    for area, (total, killed) in sorted(counts.items()):
+        print(f"{area:16} {killed:4} of {total:4}")
+    total, killed = (sum(column) for column in zip(*counts.values()))
+    share = killed / total
+    print(f"{'all':16} {killed:4} of {total:4} noticed, {100 * share:.1f} %; {unexplained} lived without a reason")
+    return share >= LEAST_SHARE and not unexplained
+
+
+def main():
+    modules = areas()
+    if sys.argv[1] == "--places":
+        faults = numbered(modules)
+        check_places(faults)
+        for path in sorted({row.file for _, _, row in faults}):
+            changed(path, [(number, row) for number, _, row in faults if row.file == path])
+        print(f"{len(faults)} faults of host code in {len(modules)} areas")
+        return
+    build, wanted = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2:]
+    end = ", mutants"
+    rooms = {name[: -len(end)].replace(" ", "/"): test for name, test in tests_of(build).items() if name.endswith(end)}
+    unknown = [name for name in wanted if name not in modules and name not in rooms]
+    if unknown:
+        sys.exit(f"mutants.py: no area {', '.join(unknown)}; there are {', '.join([*modules, *rooms])}")
+    wanted = wanted or [*modules, *rooms]
+    scratch = build / "mutants"
+    scratch.mkdir(exist_ok=True)
+    counts, unexplained = {}, 0
+    host = [name for name in wanted if name in modules]
+    if host:
+        counts, unexplained = try_host(modules, host, scratch)
+    for room in [name for name in wanted if name in rooms]:
+        total, killed = counts[room] = try_kernels(build, room, rooms[room])
+        unexplained += total - killed
+    sys.exit(0 if report(counts, unexplained) else 1)
+
+
+if __name__ == "__main__":
+    main()

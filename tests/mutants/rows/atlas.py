@@ -1,0 +1,20 @@
+"""The atlas of streaks and splashes: its cells, levels, lobes and hash."""
+from fault import Fault
+
+TESTS = ("atlas, rays", "atlas, cache", "atlas, database", "atlas, streaks", "streaks, materials, cpu")
+
+LOBES, LEVELS = "core/scene/atlas/lights.c", "core/scene/atlas/levels.c"
+
+ROWS = [
+    Fault(LOBES, "direction[0] = (float)(cos(elevation) * «sin(azimuth)»);", "-sin(azimuth)", "lights of the atlas are mirrored"),
+    Fault(LOBES, "return 1 + (light - 1) * «RG_ATLAS_PHIS» + phi;", "(RG_ATLAS_PHIS - 1)", "cells of the atlas share lobes"),
+    Fault(LOBES, "return «4» * half * (sin(elevation + half)", "2", "a lobe's share of the sphere is half"),
+    Fault(LOBES, "lobes->peak = (float)(kappa / («2 * M_PI» * (1 - exp(-2 * kappa))));", "4 * M_PI", "lobes have half their light"),
+    Fault(LOBES, "const double reach = cos(edge «+ SQUARE_REACH_RAD»);", "- SQUARE_REACH_RAD", "lobes end at the grid's lines"),
+    Fault(LOBES, "return ((2 * axis + «(d[axis] < 0)») * RG_LOBE_GRID", "(d[axis] > 0)", "rays look up the opposite lobes"),
+    Fault(LEVELS, "return (rows[view + 1] >> level) «- (rows[view] >> level)»;", "- 0", "rows of the atlas overlap"),
+    Fault(LEVELS, "rg_float_bits(value) + «0x1000u»", "0u", "the atlas' halves are cut off, not rounded"),
+    Fault(LEVELS, "return sum «/ area»;", "/ 1", "a smaller level of the atlas is brighter"),
+    Fault(LEVELS, "return to > from ? «to - from» : 0;", "1", "a pixel that is shared counts wholly"),
+    Fault(LEVELS, "return layer_texels * (size_t)layer + «rg_atlas_image_texels(&above)»;", "0", "levels of the atlas lie upon each other"),
+]

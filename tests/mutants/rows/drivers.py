@@ -1,0 +1,29 @@
+"""The backends of drivers: OpenGL, Vulkan and OpenCL."""
+from fault import Fault
+
+TESTS = ("device suite, draws, gl", "device suite, targets, gl", "device suite, images, gl", "device suite, kernels, gl",
+         "device suite, draws, vulkan", "device suite, targets, vulkan", "device suite, images, vulkan",
+         "device suite, kernels, vulkan", "device suite, kernels, opencl", "device suite, images, opencl",
+         "device suite, draws, opencl", "gl", "vulkan", "opencl")
+
+GL, TARGET, VK, VK_TIME, VK_IMAGE = ("backends/gl/draw.c", "backends/gl/target.c", "backends/vulkan/draw.c",
+                                     "backends/vulkan/time.c", "backends/vulkan/image.c")
+CL_BUF, CL_PASS, CL_TIME = "backends/opencl/buf.c", "backends/opencl/pass.c", "backends/opencl/time.c"
+OF_GL = ("device suite, draws, gl", "device suite, targets, gl")
+OF_VK = ("device suite, draws, vulkan", "device suite, targets, vulkan", "device suite, kernels, vulkan")
+OF_CL = ("device suite, kernels, opencl", "device suite, images, opencl", "opencl")
+
+ROWS = [
+    Fault(GL, "glDepthFunc(«GL_LESS»);", "GL_LEQUAL", "gl: of equal depths the last stays", tests=OF_GL),
+    Fault(GL, "blend == RG_BLEND_ADD ? GL_ONE : «GL_ONE_MINUS_SRC_ALPHA»", "GL_ONE_MINUS_SRC_COLOR", "gl: what is over is blended by its colour", tests=OF_GL),
+    Fault(GL, "glDepthMask(«depth == RG_DEPTH_WRITE»);", "GL_TRUE", "gl: a depth that is tested is written", tests=OF_GL),
+    Fault(GL, "if (memcmp(now->scissor, wanted->scissor, sizeof(now->scissor)) != 0)\n        «glScissor(wanted->scissor[0], wanted->scissor[1], wanted->scissor[2], wanted->scissor[3]);»", "glScissor(0, 0, wanted->width, wanted->height);", "gl: scissors are ignored", tests=OF_GL),
+    Fault(TARGET, ".behind = rg_draw_counts(draw) ? depth : 0,\n        .layer = «draw->layer»,", "0", "gl: every layer is the first", tests=OF_GL),
+    Fault(VK, "const bool whole = «!draw->x1»;", "true", "vulkan: scissors are ignored", tests=OF_VK),
+    Fault(VK, ".y = (float)-((RG_VIEWPORT_PX - «height») / 2),", "width", "vulkan: pictures that are not square are shifted", tests=OF_VK),
+    Fault(VK_TIME, "*time_ns = (int64_t)((long double)vk->ticks_total * «vk->limits.timestampPeriod»);", "0.1f", "vulkan: ticks are tenths of nanoseconds", tests=("vulkan", "device suite, kernels, vulkan")),
+    Fault(VK_IMAGE, ".mipLevels = «(uint32_t)desc->levels»,", "1u", "vulkan: images have one level", tests=("device suite, images, vulkan",)),
+    Fault(CL_BUF, "staged ? CL_FALSE : CL_TRUE,\n                                       «offset», size, staged", "0", "opencl: writes begin at 0", tests=OF_CL),
+    Fault(CL_PASS, "return (width + group «- 1») / group * group;", "- group", "opencl: the last work group is left out", tests=OF_CL),
+    Fault(CL_TIME, "*time_ns = (int64_t)end_ns;", "*time_ns = (int64_t)end_ns / 1000;", "opencl: time is in microseconds", tests=OF_CL),
+]

@@ -1,0 +1,36 @@
+"""Parameters of techniques, options of commands and what they may be."""
+from fault import Fault
+
+TESTS = ("command line, parsing", "options of all commands", "command line, cases", "command line, wrong",
+         "command line, renders", "command line, pages", "streaks, sizes")
+
+PARAMS, VALUE, PARSE, OPTION = ("core/techniques/params.c", "harness/cli/value.c", "harness/cli/parse.c", "harness/cli/option.c")
+
+ROWS = [
+    Fault(PARAMS, "*double_at(param, settings) = param->initial;", "*double_at(param, settings) = (int)param->initial;", "defaults are whole numbers"),
+    Fault(PARAMS, "param->kind == RG_PARAM_FLOAT || «value == floor(value)»;", "true", "a whole number may have a fraction"),
+    Fault(PARAMS, "if (end == text || «*end» || !isfinite(value) || !whole)", "false", "what follows a number is ignored"),
+    Fault(PARAMS, "*end || «!isfinite(value)» || !whole)", "false", "a parameter may be no number", lives="every parameter has a range, which what is no number leaves: infinity is above it, and NaN falls to `value == floor(value)` or is refused as below"),
+    Fault(PARAMS, "if (value < param->min || «value > param->max»)", "false", "a parameter may be above its range"),
+    Fault(PARAMS, "if («value < param->min» || value > param->max)", "false", "a parameter may be below its range"),
+    Fault(PARAMS, "if («strlen(text) == length» && !memcmp(choice, text, length)) {", "true", "the beginning of a choice is taken for it"),
+    Fault(PARAMS, "if («strlen(text) >= RG_PATH_SIZE»)", "strlen(text) > RG_PATH_SIZE + 8", "a path of 1024 bytes is taken"),
+    Fault(PARAMS, "return «!table->preset» || strcmp(param->name, table->preset) ||", "true", "a preset assigns nothing"),
+    Fault(PARAMS, "if («edit_distance(name, table->rows[i].name) < edit_distance(name, nearest)»)", "false", "the nearest name is the first one"),
+    Fault(PARAMS, "snprintf(text, size, «\"%.10g\"», *double_at", "\"%.3g\"", "parameters print three digits"),
+    Fault(VALUE, "if (value < row->least || «value > row->most»)", "false", "an option's number may be above its range"),
+    Fault(VALUE, "if (!(«*number > 0» && *number <= row->most))", "*number >= 0", "a factor may be 0"),
+    Fault(VALUE, "return take_int(&text, first) && *text++ == sign && take_int(&text, second) && «!*text»;", "true", "what follows a size is ignored"),
+    Fault(VALUE, "if (size->width < 1 || size->height < 1 || size->width > MAX_SIZE_PX ||\n        «size->height > MAX_SIZE_PX»)", "false", "a picture may be of any height"),
+    Fault(VALUE, "range->last = «range->first»;", "range->first + 1", "a range of one number has two"),
+    Fault(VALUE, "if (range->first < row->least || «range->last < range->first»)", "false", "a range may run backwards"),
+    Fault(VALUE, "if («errno || value < INT_MIN || value > INT_MAX»)", "false", "a number that does not fit is cut"),
+    Fault(VALUE, "*(int *)at(row, values) = «(int)row->least - 1»;", "(int)row->least", "an option that is not given has its least value"),
+    Fault(PARSE, "ok = !row->initial || «rg_option_set(row, line->values, row->initial, line->command->name)»;", "true", "options have no defaults"),
+    Fault(PARSE, "if («line->arguments.count == places»)", "false", "arguments that are too many are ignored"),
+    Fault(PARSE, "if («line->given[j]» && rg_has_word", "false", "options that exclude each other are taken"),
+    Fault(PARSE, "if («value < -1» && !refuse(line, value))", "false", "an unknown option is ignored"),
+    Fault(PARSE, "return parsed == HELP ? «RG_EXIT_PASS» : RG_EXIT_USAGE;", "RG_EXIT_USAGE", "asking for help fails"),
+    Fault(OPTION, "rows[count].offset «+= offset»;", "+= 0", "options that commands share lie at the beginning"),
+    Fault(OPTION, "rows[count].initial = «initial ? initial : table->initial»;", "table->initial", "a command has no default of its own"),
+]

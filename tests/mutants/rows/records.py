@@ -1,0 +1,41 @@
+"""Records: journals, stored results, numbers and names, what is written to disk."""
+from fault import Fault
+
+TESTS = ("journal", "stored", "damaged", "sheets", "measure", "machine", "command line, tables", "command line, stored")
+
+JOURNAL, STORED, NAMED = "harness/record/disk/journal.c", "harness/record/disk/stored.c", "harness/record/named.c"
+OUTPUT, RESULT, RECORD = "harness/record/output.c", "harness/record/result.c", "harness/record/record.c"
+
+ROWS = [
+    Fault(JOURNAL, "journal->has_file = «has_same_head(&found, &journal->held)»;", "true", "a journal of another machine is taken over"),
+    Fault(JOURNAL, "return «!strcmp(a->set, b->set)» && a->row_count", "true", "a row of other parameters is taken over"),
+    Fault(JOURNAL, "if (!fresh && *j->folder)\n        read_file(j);", "if (*j->folder) read_file(j);", "a fresh run takes over the old one"),
+    Fault(JOURNAL, "if («has_error(result, row)» || !rg_result_add_row", "false", "a row that a driver broke is kept"),
+    Fault(JOURNAL, "rg_outcome_is_broken(record->outcome) ||\n                «rg_outcome_is_broken(record->truth_error.outcome)»;", "false", "a truth that could not be drawn is kept"),
+    Fault(JOURNAL, "for (int row = first; j && row <= «last»; row++)", "first", "the first of several rows alone is kept"),
+    Fault(JOURNAL, "(last == result->last_row && «!j->is_followed»))", "true", "the last row of a table is not written though others follow"),
+    Fault(JOURNAL, "record->device = device;", "", "a row that is taken over has a device without limits"),
+    Fault(JOURNAL, "if (state && «*state == '/'»)", "true", "a relative state folder is followed"),
+    Fault(JOURNAL, "if (length >= (int)size)\n        *folder = 0;", ";", "a state folder that is too long is cut"),
+    Fault(STORED, "*at += strspn(text + *at, \" \\t\\r\\n\");", "", "line ends behind a document are taken for another"),
+    Fault(STORED, "return ends_in(entry->d_name, \".json\") || «ends_in(entry->d_name, \".journal\")»;", "false", "journals of a folder are not read"),
+    Fault(STORED, "for (const char *c = text; c < text + «*at»; c++)", "0", "a damaged document's line is counted from its own beginning"),
+    Fault(STORED, "} while («at < size»);", "false", "the first document of a file alone is read"),
+    Fault(NAMED, "return number == floor(number) && «fabs(number) < 9007199254740992.0»;", "true", "numbers that lost digits are written as whole"),
+    Fault(NAMED, "if (!isfinite(number))\n        «return json_null();»", "return json_real(0);", "no number is written as 0"),
+    Fault(NAMED, "while (from[length] && length > 0 && «(from[length] & 0xc0) == 0x80»)", "false", "a name is cut within a character"),
+    Fault(NAMED, "if (!is_utf8(to))\n        mark_foreign_bytes(to);", ";", "a name that is no UTF-8 is kept"),
+    Fault(NAMED, "if («!*named[i].text» && !strcmp(named[i].name, name))", "true", "a text is taken for a number"),
+    Fault(OUTPUT, "ok = ok && «rename(temporary, path) == 0»;", "true", "what is written is not put in place"),
+    Fault(OUTPUT, "return fchmod(fd, 0666 «& ~mask») == 0;", "& 0600", "files are the owner's alone"),
+    Fault(OUTPUT, "return *made || «errno == EEXIST» ||", "false", "a folder that is there is an error"),
+    Fault(RESULT, "const int before = first > result->first_row ? «first - result->first_row» : 0;", "first", "rows that are kept move too far"),
+    Fault(RESULT, "result->last_row = «last < result->last_row ? last : result->last_row»;", "last", "rows that are kept go on behind the last"),
+    Fault(RESULT, "const int variant = place.work * «result->variant_count» + place.variant;", "1", "works share their cells"),
+    Fault(RESULT, "while (row <= result->last_row && «rg_result_has(result, row)»)", "true", "a missing row is not found"),
+    Fault(RESULT, "*most = «samples > *most ? samples : *most»;", "samples", "the most samples are those of the last cell"),
+    Fault(RESULT, "if («record->outcome != RG_OK» || !samples)", "false", "samples of cells that failed count"),
+    Fault(RECORD, "return «1000» / record->frame_ms.median;", "1", "frame rates are in frames a millisecond"),
+    Fault(RECORD, "*low = most ? 1000 / *most : rg_record_published_fps(record);", "*low = rg_record_published_fps(record);", "a printed range has no low end"),
+    Fault(RECORD, "for (int i = 0; i < record->sample_count; i++)\n        «settle(&record->samples_ms[i]);»", ";", "samples print otherwise once they are read back"),
+]

@@ -1,0 +1,35 @@
+"""verify and diff: states, images and laws compared, mutants judged, outcomes counted."""
+from fault import Fault
+
+TESTS = ("verify", "image diff", "exit", "command line, wrong", "command line, cases")
+
+DEVICES, MUTANTS = "harness/compare/verify/devices.c", "harness/compare/verify/mutants.c"
+SNAPSHOT, CHECKS, STAGES = ("harness/compare/verify/snapshot.c", "harness/compare/verify/checks.c", "harness/compare/verify/stages.c")
+
+ROWS = [
+    Fault(SNAPSHOT, "for (int i = 0; equal && i < «a->state_count»; i++)", "0", "states are never compared"),
+    Fault(SNAPSHOT, "return a_bytes == b_bytes && «!memcmp(a, b, a_bytes)»;", "true", "states of one size are the same"),
+    Fault(SNAPSHOT, "return «same(a->texels, a->texels_bytes, b->texels, b->texels_bytes)»;", "true", "images are never compared"),
+    Fault(SNAPSHOT, "(int)(i % (size_t)layout->row) «- layout->margin»,", "+ 0", "an element's place is told with the margin"),
+    Fault(SNAPSHOT, "if (!memcmp(p + 4 * i, q + 4 * i, 4))\n                continue;", "if (i + 4 < a->state_bytes[s] / 4) continue;", "the last element is told as the first that differs"),
+    Fault(DEVICES, "if («rg_snapshot_same_state(now, &c->expected)»)", "true", "a state that differs passes"),
+    Fault(DEVICES, "if («row->tier != RG_T0») {\n        tally->unlike++;", "true", "a state that differs is left to the image on every tier"),
+    Fault(DEVICES, "if («rg_snapshot_same_image(now, &c->expected)»)", "true", "an image that differs passes"),
+    Fault(DEVICES, "else if («row->tier == RG_T0»)\n        check_t0", "false", "an image that owes T0 is judged by the tier's rule"),
+    Fault(DEVICES, "const struct rg_verdict *verdict = &comparison.tiers.of[«tier»];", "RG_T2", "every image is judged by T2"),
+    Fault(DEVICES, "if («!verdict->holds»)", "false", "a tier that does not hold passes"),
+    Fault(DEVICES, "if («!rg_session_obeys(session, &v->technique->proof->laws[i], detail, sizeof(detail))»)", "false", "laws are not asked"),
+    Fault(DEVICES, "while (count < MAX_LAWS && v->technique->proof->laws[count].name)\n        count++;", ";", "a technique's laws are not counted"),
+    Fault(DEVICES, "if (session && «rg_session_draw(session)» && rg_snapshot_take", "true", "the image is that before the last draw"),
+    Fault(DEVICES, "if (!c->with_dry || «memcmp(c->dry.texels, c->expected_picture.texels, bytes)»)", "true", "an image without rain proves something"),
+    Fault(DEVICES, "const double value = first + seed <= param->max ? «first + seed» : first - seed;", "first", "each seed is the first one"),
+    Fault(DEVICES, "if (t->is_bad_input)\n        return RG_EXIT_USAGE;", ";", "bad input ends as a device's error"),
+    Fault(DEVICES, "return is_reference && t->errors ? «rg_exit_of(t->ended)» : RG_EXIT_PASS;", "RG_EXIT_PASS", "a reference that failed proves something"),
+    Fault(DEVICES, "if («t->failed»)\n        rg_checks_add", "t->failed > 1", "one failure passes"),
+    Fault(DEVICES, "for (int seed = 0; seed < «RG_VERIFY_SEEDS»; seed++) {", "1", "one seed is verified"),
+    Fault(CHECKS, "counts[checks->rows[i].status]++;", "counts[RG_OK]++;", "every check counts as ok"),
+    Fault(CHECKS, "return rg_exit_worse(«checks->exit», rg_exit_of_all(counts));", "RG_EXIT_PASS", "an error that no check tells is forgotten"),
+    Fault(CHECKS, "if («rg_last_error_kind() == RG_ERROR_INPUT»)", "false", "the user's error is a device's"),
+    Fault(STAGES, "if («p->hash != q->hash» || p->stages_run", "false", "a stage's contents are not compared"),
+    Fault(STAGES, "return a->count == b->count ? -1 : «count»;", "-1", "a run of fewer stages is the same"),
+]

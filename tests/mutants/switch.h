@@ -1,0 +1,31 @@
+// Picks a fault, in a copy of the source that has them all (mutants.py puts this line into each
+// file that it changes): the one whose number the environment's RG_MUTANT is; none without it.
+#ifndef RG_TESTS_MUTANTS_SWITCH_H
+#define RG_TESTS_MUTANTS_SWITCH_H
+
+// A fault may leave something unused, or compare what it should not.
+#pragma GCC diagnostic ignored "-Wextra"
+#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
+#pragma GCC diagnostic ignored "-Wunused-variable"
+#pragma GCC diagnostic ignored "-Wsign-compare"
+#pragma GCC diagnostic ignored "-Wint-in-bool-context"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wdiv-by-zero"
+#pragma GCC diagnostic ignored "-Wformat-truncation"
+#pragma GCC diagnostic ignored "-Wstringop-overflow"
+
+// Declared here, since a file may define what system headers look at after this line.
+extern char *getenv(const char *);
+extern int atoi(const char *);
+
+static inline int rg_mutant(int number)
+{
+    static int picked = -1;
+    if (picked < 0) {
+        const char *text = getenv("RG_MUTANT");
+        picked = text ? atoi(text) : 0;
+    }
+    return picked == number;
+}
+
+#endif
