@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "core/image/files/format.h"
 #include "core/image/files/io.h"
 #include "core/image/srgb.h"
 #include "tests/core/image/rain_picture.h"
@@ -165,6 +166,13 @@ static void png_of_16_bits_is_decoded(void **state)
     assert_true(rg_picture_read(path_of("deep.png"), &back));
     for (int i = 0; i < 4; i++)
         assert_true(back.texels[i] == (float)rg_srgb_decode(codes[i] / 65535.0));
+    assert_true(back.decoded);
+    rg_picture_destroy(&back);
+    struct rg_why why;
+    assert_true(rg_png_read_codes(path_of("deep.png"), 1000, &back, &why));
+    for (int i = 0; i < 4; i++)
+        assert_true(back.texels[i] == (float)codes[i] / 65535.0f);
+    assert_false(back.decoded);
     rg_picture_destroy(&back);
     unlink(path_of("deep.png"));
 }

@@ -60,6 +60,14 @@ static void closed_form(void **state)
         assert_int_equal(m.values_above[t], 1);
         assert_int_equal(m.pixels_above[t], 1);
     }
+    b.texels[(4 * 4 + 1) * 3] = 0.75f; // as large, in the row below: the first is told
+    b.texels[(3 * 4 + 3) * 3] = 0.75f; // and in its own
+    assert_true(rg_metrics_compute(&a, &b, &m));
+    assert_true(m.max == 0.5 && m.max_x == 2 && m.max_y == 3 && m.max_channel == 1);
+    b.texels[(3 * 4 + 3) * 3 + 2] += 1e-5f; // less, behind the pixel's worst
+    assert_true(rg_metrics_compute(&a, &b, &m));
+    assert_int_equal(m.values_above[RG_ABOVE_COUNT - 1], 3);
+    assert_int_equal(m.pixels_above[RG_ABOVE_COUNT - 1], 3);
     rg_picture_destroy(&a);
     rg_picture_destroy(&b);
 }

@@ -147,12 +147,23 @@ static void arguments_stand_anywhere_and_the_last_value_counts(void **state)
                "512x512 0-0 -1--1 2 1 1 -1 0 1 y b 00");
 }
 
+// Whatever else there is on the line before it.
+static void asking_for_help_is_no_error(void **state)
+{
+    (void)state;
+    assert_int_equal(run("--quick --help one"), RG_EXIT_PASS);
+    assert_int_equal(run("-h"), RG_EXIT_PASS);
+    assert_string_equal(seen, "");
+    assert_int_equal(log_count, 0);
+}
+
 static void what_is_wrong_is_refused_in_one_line(void **state)
 {
     (void)state;
     expect_refusal("--size 0x4", "--size 0x4: each side must be 1 to 16384 pixels");
     expect_refusal("--size 4x16385", "--size 4x16385: each side must be 1 to 16384 pixels");
     expect_refusal("--size 4", "--size 4: write it as WIDTHxHEIGHT, as in 1280x720");
+    expect_refusal("--size 4x3x2", "--size 4x3x2: write it as WIDTHxHEIGHT, as in 1280x720");
     expect_refusal("--rows 2-1", "--rows 2-1: rows count from 1, the first not after the last");
     expect_refusal("--rows 2-", "--rows 2-: write it as FIRST-LAST, as in 2-4");
     expect_refusal("--rows 0", "--rows 0: rows count from 1, the first not after the last");
@@ -199,6 +210,7 @@ int main(void)
         cmocka_unit_test(what_is_not_given_has_its_default_or_none),
         cmocka_unit_test(values_are_of_their_kinds),
         cmocka_unit_test(arguments_stand_anywhere_and_the_last_value_counts),
+        cmocka_unit_test(asking_for_help_is_no_error),
         cmocka_unit_test(what_is_wrong_is_refused_in_one_line),
         cmocka_unit_test(there_is_room_for_so_many_words),
     };

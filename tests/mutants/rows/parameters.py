@@ -1,7 +1,7 @@
 """Parameters of techniques, options of commands and what they may be."""
 from fault import Fault
 
-TESTS = ("command line, parsing", "options of all commands", "command line, cases", "command line, wrong",
+TESTS = ("parameters", "command line, parsing", "options of all commands", "command line, cases", "command line, wrong",
          "command line, renders", "command line, pages", "streaks, sizes")
 
 PARAMS, VALUE, PARSE, OPTION = ("core/techniques/params.c", "harness/cli/value.c", "harness/cli/parse.c", "harness/cli/option.c")
@@ -10,7 +10,7 @@ ROWS = [
     Fault(PARAMS, "*double_at(param, settings) = param->initial;", "*double_at(param, settings) = (int)param->initial;", "defaults are whole numbers"),
     Fault(PARAMS, "param->kind == RG_PARAM_FLOAT || «value == floor(value)»;", "true", "a whole number may have a fraction"),
     Fault(PARAMS, "if (end == text || «*end» || !isfinite(value) || !whole)", "false", "what follows a number is ignored"),
-    Fault(PARAMS, "*end || «!isfinite(value)» || !whole)", "false", "a parameter may be no number", lives="every parameter has a range, which what is no number leaves: infinity is above it, and NaN falls to `value == floor(value)` or is refused as below"),
+    Fault(PARAMS, "*end || «!isfinite(value)» || !whole)", "false", "a parameter may be no number"),
     Fault(PARAMS, "if (value < param->min || «value > param->max»)", "false", "a parameter may be above its range"),
     Fault(PARAMS, "if («value < param->min» || value > param->max)", "false", "a parameter may be below its range"),
     Fault(PARAMS, "if («strlen(text) == length» && !memcmp(choice, text, length)) {", "true", "the beginning of a choice is taken for it"),
