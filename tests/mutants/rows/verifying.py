@@ -1,7 +1,7 @@
 """verify and diff: states, images and laws compared, mutants judged, outcomes counted."""
 from fault import Fault
 
-TESTS = ("verify", "image diff", "exit", "command line, wrong", "command line, cases")
+TESTS = ("verify", "differing", "image diff", "exit", "command line, wrong", "command line, cases")
 
 DEVICES, MUTANTS = "harness/compare/verify/devices.c", "harness/compare/verify/mutants.c"
 SNAPSHOT, CHECKS, STAGES = ("harness/compare/verify/snapshot.c", "harness/compare/verify/checks.c", "harness/compare/verify/stages.c")
@@ -27,6 +27,11 @@ ROWS = [
     Fault(DEVICES, "return is_reference && t->errors ? «rg_exit_of(t->ended)» : RG_EXIT_PASS;", "RG_EXIT_PASS", "a reference that failed proves something"),
     Fault(DEVICES, "if («t->failed»)\n        rg_checks_add", "t->failed > 1", "one failure passes"),
     Fault(DEVICES, "for (int seed = 0; seed < «RG_VERIFY_SEEDS»; seed++) {", "1", "one seed is verified"),
+    Fault(MUTANTS, "bool rejected = «!comparison.tiers.of[RG_T1].holds» &&", "true", "every mutant counts as killed"),
+    Fault(MUTANTS, "bool rejected = «!comparison.tiers.of[RG_T1].holds» &&", "!comparison.tiers.of[RG_T0].holds", "a rounding counts as a mutant's death"),
+    Fault(MUTANTS, "const double own = strtod(value, NULL), mutated = own * mutant->factor «+ mutant->offset»;", "+ 0", "mutants have no offset"),
+    Fault(MUTANTS, "return «mutated != own» && mutated >= param->min", "true", "the model itself is tried as a mutant"),
+    Fault(MUTANTS, "else if («verdicts->killed == verdicts->run && verdicts->run»)", "verdicts->run", "a mutant that lives passes"),
     Fault(CHECKS, "counts[checks->rows[i].status]++;", "counts[RG_OK]++;", "every check counts as ok"),
     Fault(CHECKS, "return rg_exit_worse(«checks->exit», rg_exit_of_all(counts));", "RG_EXIT_PASS", "an error that no check tells is forgotten"),
     Fault(CHECKS, "if («rg_last_error_kind() == RG_ERROR_INPUT»)", "false", "the user's error is a device's"),

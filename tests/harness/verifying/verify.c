@@ -12,20 +12,7 @@
 #include "core/techniques/stages/frame.h"
 #include "harness/compare/verify/verify.h"
 #include "harness/console/exit.h"
-
-#define CHEAP                                                                                      \
-    "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"
-
-// flow in one pose, without laws and mutants.
-static const struct rg_pose poses[] = {{.set = ""}, {.set = NULL}};
-static const struct rg_law laws[] = {{NULL, NULL}};
-static const struct rg_proof proof = {
-    .poses = poses, .dry = "drops=0 rain_drops_s=0", .laws = laws};
-static struct rg_technique flow;
-
-// How long poses are run.
-static bool is_quick;
-static int steps;
+#include "tests/harness/verifying/rig.h"
 
 // A driver that fails on one device.
 static bool fail_on_cpu(struct rg_instance *instance)
@@ -54,74 +41,13 @@ static bool draw(struct rg_instance *instance)
     return true;
 }
 
-static void ignore(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)line;
-    (void)user;
-}
-
-// Verifies `cpu`, which is held to a tier, at this size and with these settings, beside a check
-// that is ok.
-static void verify(const char *assignments, enum rg_tier tier, int width, int height,
-                   struct rg_checks *checks)
-{
-    void *defaults = rg_settings_create(&flow);
-    void *settings = rg_settings_copy(&flow, defaults, assignments);
-    struct rg_devices devices = {.count = 1, .devices = {rg_device_open("cpu")}};
-    struct rg_device *reference = rg_device_open("cpu:reference");
-    devices.devices[0]->info.tier = tier;
-    struct rg_progress progress;
-    struct rg_verify v = {.technique = &flow,
-                          .settings = settings,
-                          .width = width,
-                          .height = height,
-                          .quick = is_quick,
-                          .steps = steps,
-                          .reference = reference,
-                          .devices = &devices,
-                          .checks = checks,
-                          .progress = &progress};
-    *checks = (struct rg_checks){0};
-    rg_checks_add(checks, "another", "state", "cpu", RG_OK, "well");
-    rg_log_listen(ignore, NULL);
-    rg_progress_start(&progress, rg_verify_device_work(&v));
-    rg_verify_devices(&v);
-    rg_progress_end(&progress);
-    rg_log_listen(NULL, NULL);
-    assert_true(rg_device_close(reference));
-    assert_true(rg_device_close(devices.devices[0]));
-    free(settings);
-    free(defaults);
-}
-
-static enum rg_outcome outcome_of(const struct rg_checks *checks, const char *check,
-                                  const char *device)
-{
-    for (int i = 1; i < checks->count; i++)
-        if (!strcmp(checks->rows[i].check, check) && !strcmp(checks->rows[i].device, device))
-            return checks->rows[i].status;
-    fail_msg("no check %s on %s", check, device);
-    return RG_OK;
-}
-
-static int setup(void **state)
-{
-    (void)state;
-    flow = *rg_technique_find("flow");
-    flow.proof = &proof;
-    is_quick = false;
-    steps = 2;
-    return 0;
-}
-
 static void what_agrees_passes(void **state)
 {
     (void)state;
     struct rg_checks checks;
-    verify(CHEAP " drops=40", RG_T0, 16, 16, &checks);
-    assert_int_equal(outcome_of(&checks, "state", "cpu"), RG_OK);
-    assert_int_equal(outcome_of(&checks, "image", "cpu"), RG_OK);
+    rig_verify(RIG_CHEAP " drops=40", RG_T0, 16, 16, &checks);
+    assert_int_equal(rig_outcome(&checks, "state", "cpu"), RG_OK);
+    assert_int_equal(rig_outcome(&checks, "image", "cpu"), RG_OK);
     assert_int_equal(rg_checks_exit(&checks), RG_EXIT_PASS);
     rg_checks_free(&checks);
 }
@@ -130,9 +56,9 @@ static void bad_input_is_bad_usage(void **state)
 {
     (void)state;
     struct rg_checks checks;
-    verify(CHEAP " environment=/nonexistent.exr", RG_T0, 16, 16, &checks);
-    assert_int_equal(outcome_of(&checks, "state", "cpu:reference"), RG_ERROR);
-    assert_int_equal(outcome_of(&checks, "image", "cpu"), RG_ERROR);
+    rig_verify(RIG_CHEAP " environment=/nonexistent.exr", RG_T0, 16, 16, &checks);
+    assert_int_equal(rig_outcome(&checks, "state", "cpu:reference"), RG_ERROR);
+    assert_int_equal(rig_outcome(&checks, "image", "cpu"), RG_ERROR);
     assert_int_equal(rg_checks_exit(&checks), RG_EXIT_USAGE);
     rg_checks_free(&checks);
 }
@@ -141,9 +67,9 @@ static void what_no_device_can_do_is_unsupported(void **state)
 {
     (void)state;
     struct rg_checks checks;
-    verify(CHEAP, RG_T0, 1 << 20, 16, &checks);
-    assert_int_equal(outcome_of(&checks, "state", "cpu:reference"), RG_UNSUPPORTED);
-    assert_int_equal(outcome_of(&checks, "image", "cpu"), RG_UNSUPPORTED);
+    rig_verify(RIG_CHEAP, RG_T0, 1 << 20, 16, &checks);
+    assert_int_equal(rig_outcome(&checks, "state", "cpu:reference"), RG_UNSUPPORTED);
+    assert_int_equal(rig_outcome(&checks, "image", "cpu"), RG_UNSUPPORTED);
     assert_int_equal(rg_checks_exit(&checks), RG_EXIT_UNSUPPORTED); // though another check is ok
     rg_checks_free(&checks);
 }
@@ -152,10 +78,10 @@ static void a_drivers_failure_fails(void **state)
 {
     (void)state;
     struct rg_checks checks;
-    flow.step = fail_on_cpu;
-    verify(CHEAP, RG_T0, 16, 16, &checks);
-    assert_int_equal(outcome_of(&checks, "state", "cpu"), RG_ERROR);
-    assert_int_equal(outcome_of(&checks, "image", "cpu"), RG_ERROR);
+    rig_flow.step = fail_on_cpu;
+    rig_verify(RIG_CHEAP, RG_T0, 16, 16, &checks);
+    assert_int_equal(rig_outcome(&checks, "state", "cpu"), RG_ERROR);
+    assert_int_equal(rig_outcome(&checks, "image", "cpu"), RG_ERROR);
     assert_int_equal(rg_checks_exit(&checks), RG_EXIT_FAIL);
     rg_checks_free(&checks);
 }
@@ -165,9 +91,9 @@ static enum rg_outcome judge(enum rg_tier tier, const char *says)
 {
     enum { SIDE_PX = 64 };
     struct rg_checks checks;
-    flow.draw = draw;
-    verify(CHEAP " drops=90", tier, SIDE_PX, SIDE_PX, &checks);
-    const enum rg_outcome outcome = outcome_of(&checks, "image", "cpu");
+    rig_flow.draw = draw;
+    rig_verify(RIG_CHEAP " drops=90", tier, SIDE_PX, SIDE_PX, &checks);
+    const enum rg_outcome outcome = rig_outcome(&checks, "image", "cpu");
     const char *detail = checks.rows[checks.count - 1].detail;
     if (!strstr(detail, says))
         fail_msg("'%s' does not say '%s'", detail, says);
@@ -200,19 +126,19 @@ static bool count_step(struct rg_instance *instance)
 static const struct rg_pose long_poses[] = {
     {"drops=40", 3, 2}, {"drops=50", 5, RG_POSE_LEFT_OUT}, {"drops=60", 2, 1}, {NULL, 0, 0}};
 static const struct rg_proof long_proof = {
-    .poses = long_poses, .dry = "drops=0 rain_drops_s=0", .laws = laws};
+    .poses = long_poses, .dry = "drops=0 rain_drops_s=0", .laws = rig_no_laws};
 
 // Verifies these poses: so many steps are taken with all seeds, and the line says how many.
 static void expect_steps(bool quick, int asked, int with_all, const char *says)
 {
     struct rg_checks checks;
-    flow.proof = &long_proof;
-    flow.step = count_step;
-    is_quick = quick;
-    steps = asked;
+    rig_flow.proof = &long_proof;
+    rig_flow.step = count_step;
+    rig_is_quick = quick;
+    rig_steps = asked;
     taken = 0;
-    verify(CHEAP, RG_T0, 16, 16, &checks);
-    assert_int_equal(outcome_of(&checks, "state", "cpu"), RG_OK);
+    rig_verify(RIG_CHEAP, RG_T0, 16, 16, &checks);
+    assert_int_equal(rig_outcome(&checks, "state", "cpu"), RG_OK);
     assert_string_equal(checks.rows[1].detail, says);
     assert_int_equal(taken, with_all);
     rg_checks_free(&checks);
@@ -232,14 +158,14 @@ static void poses_need_not_say(void **state)
 {
     (void)state;
     const struct rg_devices none = {0};
-    struct rg_verify v = {.technique = &flow, .devices = &none, .steps = -1};
-    assert_int_equal(rg_verify_steps(&v, &poses[0]), 1000);
+    struct rg_verify v = {.technique = &rig_flow, .devices = &none, .steps = -1};
+    assert_int_equal(rg_verify_steps(&v, &rig_poses[0]), 1000);
     assert_int_equal(rg_verify_device_work(&v), 1000 * RG_VERIFY_SEEDS);
     v.quick = true;
-    assert_int_equal(rg_verify_steps(&v, &poses[0]), 100);
+    assert_int_equal(rg_verify_steps(&v, &rig_poses[0]), 100);
     v.steps = 0;
-    assert_int_equal(rg_verify_steps(&v, &poses[0]), 0);
-    flow.proof = &long_proof;
+    assert_int_equal(rg_verify_steps(&v, &rig_poses[0]), 0);
+    rig_flow.proof = &long_proof;
     v.steps = -1;
     assert_int_equal(rg_verify_device_work(&v), 2 * RG_VERIFY_SEEDS + 1);
     assert_int_equal(rg_verify_poses(&v), 2);
@@ -250,8 +176,8 @@ static void poses_need_not_say(void **state)
 static void poses_take_turns_with_seeds(void **state)
 {
     (void)state;
-    struct rg_verify v = {.technique = &flow, .quick = true, .steps = -1};
-    flow.proof = &long_proof;
+    struct rg_verify v = {.technique = &rig_flow, .quick = true, .steps = -1};
+    rig_flow.proof = &long_proof;
     for (int seed = 0; seed < RG_VERIFY_SEEDS; seed++) {
         assert_true(rg_verify_has_seed(&v, &long_poses[0], seed));
         assert_int_equal(rg_verify_has_seed(&v, &long_poses[1], seed), seed == 1);
@@ -266,11 +192,11 @@ static void verify_mutants(const char *scene, const struct rg_mutant *mutants, c
         .dry = "drops=0 rain_drops_s=0", .mutant_scene = scene, .mutants = mutants};
     struct rg_checks checks = {0};
     struct rg_progress progress;
-    struct rg_verify v = {.technique = &flow,
+    struct rg_verify v = {.technique = &rig_flow,
                           .mutant_device = rg_device_open("cpu"),
                           .checks = &checks,
                           .progress = &progress};
-    flow.proof = &seen;
+    rig_flow.proof = &seen;
     rg_progress_start(&progress, rg_verify_mutant_work(&v));
     rg_verify_mutants(&v);
     rg_progress_end(&progress);
@@ -290,7 +216,7 @@ static void a_mutant_that_lives_fails(void **state)
     const struct rg_mutant mutants[] = {{"another seed", "seed", 1, 1},
                                         {"a model behind", "model_size", 1.01, 0},
                                         {NULL, NULL, 0, 0}};
-    verify_mutants(CHEAP " rain_drops_s=0 drops=400", mutants,
+    verify_mutants(RIG_CHEAP " rain_drops_s=0 drops=400", mutants,
                    "killed 1/2; T1 accepts: a model behind");
 }
 
@@ -301,22 +227,22 @@ static void a_mutant_is_judged_where_it_rains(void **state)
     (void)state;
     const struct rg_mutant mutants[] = {{"Fresnel bias a quarter higher", "fresnel_bias", 1.25, 0},
                                         {NULL, NULL, 0, 0}};
-    verify_mutants(CHEAP " rain_drops_s=0 drops=60", mutants, "killed 1/1");
+    verify_mutants(RIG_CHEAP " rain_drops_s=0 drops=60", mutants, "killed 1/1");
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(what_agrees_passes, setup),
-        cmocka_unit_test_setup(bad_input_is_bad_usage, setup),
-        cmocka_unit_test_setup(what_no_device_can_do_is_unsupported, setup),
-        cmocka_unit_test_setup(a_drivers_failure_fails, setup),
-        cmocka_unit_test_setup(devices_are_held_to_what_they_owe, setup),
-        cmocka_unit_test_setup(poses_say_how_long, setup),
-        cmocka_unit_test_setup(poses_need_not_say, setup),
-        cmocka_unit_test_setup(poses_take_turns_with_seeds, setup),
-        cmocka_unit_test_setup(a_mutant_that_lives_fails, setup),
-        cmocka_unit_test_setup(a_mutant_is_judged_where_it_rains, setup),
+        cmocka_unit_test_setup(what_agrees_passes, rig_setup),
+        cmocka_unit_test_setup(bad_input_is_bad_usage, rig_setup),
+        cmocka_unit_test_setup(what_no_device_can_do_is_unsupported, rig_setup),
+        cmocka_unit_test_setup(a_drivers_failure_fails, rig_setup),
+        cmocka_unit_test_setup(devices_are_held_to_what_they_owe, rig_setup),
+        cmocka_unit_test_setup(poses_say_how_long, rig_setup),
+        cmocka_unit_test_setup(poses_need_not_say, rig_setup),
+        cmocka_unit_test_setup(poses_take_turns_with_seeds, rig_setup),
+        cmocka_unit_test_setup(a_mutant_that_lives_fails, rig_setup),
+        cmocka_unit_test_setup(a_mutant_is_judged_where_it_rains, rig_setup),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,199 @@
+// What a journal holds of results that no device made, and where it lies.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+#include "harness/record/disk/journal.h"
+#include "harness/record/disk/stored.h"
+#include "tests/harness/record/made.h"
+
+static char folder[64];
+static int lines;
+
+static void count_line(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)line;
+    (void)user;
+    lines++;
+}
+
+static int setup(void **state)
+{
+    (void)state;
+    snprintf(folder, sizeof(folder), "/tmp/raingauge-held-XXXXXX");
+    rg_log_listen(count_line, NULL);
+    lines = 0;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int teardown(void **state)
+{
+    (void)state;
+    char command[128];
+    rg_log_listen(NULL, NULL);
+    snprintf(command, sizeof(command), "rm -r %s", folder);
+    return system(command);
+}
+
+// Rows 1 to 3, counted from 0, of devices with limits, and all well.
+static struct rg_result make_rows(void)
+{
+    struct rg_result result = make_result();
+    assert_true(rg_result_add_row(&result, 2));
+    for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at);) {
+        struct rg_record *record = rg_result_at(&result, at);
+        const struct rg_place well = {at.row == 2 ? 1 : at.row, at.work, at.variant, 0};
+        *record = *rg_result_at(&result, well);
+        record->device = result.devices[at.device];
+        record->device.limits.max_objects = 7;
+    }
+    return result;
+}
+
+// Which of the rows a journal has: bit by bit.
+static int rows_of(const struct rg_journal *journal)
+{
+    int rows = 0;
+    for (int row = 1; row <= 3; row++)
+        rows |= rg_journal_has(journal, row) << row;
+    return rows;
+}
+
+static void test_rows(void **state)
+{
+    (void)state;
+    struct rg_result result = make_rows();
+    struct rg_journal *journal = rg_journal_open(&result, folder, false, true);
+    rg_journal_add(journal, &result, 1, 2);
+    assert_int_equal(rows_of(journal), 2 | 4);
+    rg_journal_add(journal, &result, 3, 3);
+    assert_int_equal(rows_of(journal), 2 | 4 | 8);
+    rg_journal_close(journal);
+    struct rg_result again = make_rows();
+    journal = rg_journal_open(&again, folder, false, true);
+    assert_int_equal(rows_of(journal), 2 | 4 | 8);
+    assert_true(rg_journal_take(journal, &again, 1));
+    const struct rg_place first = {.row = 1};
+    assert_int_equal(rg_result_at(&again, first)->device.limits.max_objects, 7);
+    rg_journal_close(journal);
+    rg_result_free(&result);
+    rg_result_free(&again);
+}
+
+// A driver's error in one cell, or in the truth's, and the row is measured again.
+static void test_errors(void **state)
+{
+    (void)state;
+    static const enum rg_outcome broken[] = {RG_ERROR, RG_CRASH, RG_TIMEOUT};
+    for (int i = 0; i < 6; i++) {
+        struct rg_result result = make_rows();
+        const struct rg_place at = {.row = 2, .variant = 1, .device = 1};
+        struct rg_record *record = rg_result_at(&result, at);
+        *(i % 2 ? &record->truth_error.outcome : &record->outcome) = broken[i / 2];
+        struct rg_journal *journal = rg_journal_open(&result, folder, true, true);
+        rg_journal_add(journal, &result, 1, 3);
+        assert_int_equal(rows_of(journal), 2 | 8);
+        rg_journal_close(journal);
+        rg_result_free(&result);
+    }
+}
+
+// --- where it lies ---
+
+// Where a journal without a folder lies, behind the test's folder; "" where there is none.
+static const char *place_with(const char *state_home, const char *home)
+{
+    static char path[2048];
+    struct rg_result result = make_rows();
+    state_home ? setenv("XDG_STATE_HOME", state_home, 1) : unsetenv("XDG_STATE_HOME");
+    setenv("HOME", home, 1);
+    struct rg_journal *journal = rg_journal_open(&result, NULL, true, true);
+    rg_journal_add(journal, &result, 1, 1);
+    const char *found = rg_journal_path(journal);
+    snprintf(path, sizeof(path), "%s", found ? found : "");
+    rg_journal_close(journal);
+    rg_result_free(&result);
+    return path + (strncmp(path, folder, strlen(folder)) ? 0 : strlen(folder));
+}
+
+static void test_places(void **state)
+{
+    (void)state;
+    char home[128], long_home[4096];
+    snprintf(home, sizeof(home), "%s/home", folder);
+    assert_int_equal(strncmp(place_with(NULL, home), "/home/.local/state/raingauge/", 29), 0);
+    assert_int_equal(strncmp(place_with(folder, home), "/raingauge/", 11), 0);
+    assert_int_equal(strncmp(place_with("relative", home), "/home/.local/state/", 19), 0);
+    assert_int_equal(lines, 0);
+    assert_string_equal(place_with(NULL, "relative"), "");
+    assert_int_equal(lines, 1);
+    // A place that is too long is none, and not a part of it.
+    snprintf(long_home, sizeof(long_home), "%s/", folder);
+    for (size_t used = strlen(long_home); used < 1530; used += 2)
+        strcpy(long_home + used, "a/");
+    assert_string_equal(place_with(NULL, long_home), "");
+    assert_int_equal(lines, 2);
+}
+
+// --- folders of results ---
+
+static void write_result(const char *name, const char *text)
+{
+    char path[128];
+    snprintf(path, sizeof(path), "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+// Of a folder, what ends in .json and .journal; of a file, each document.
+static void test_folder(void **state)
+{
+    (void)state;
+    struct rg_result made = make_result();
+    json_t *document = rg_result_json(&made);
+    char *text = json_dumps(document, 0), twice[1 << 20], path[128];
+    assert_true(strlen(text) < sizeof(twice) / 2 - 8);
+    snprintf(twice, sizeof(twice), "\n%s\n\n%s\n \n", text, text);
+    write_result("a.json", twice);
+    write_result("b.journal", text);
+    write_result("c.txt", "no result");
+    struct rg_stored stored = {0};
+    assert_true(rg_stored_read(&stored, folder));
+    assert_int_equal(stored.count, 3);
+    rg_stored_free(&stored);
+    assert_int_equal(lines, 0);
+    // The line of what is no JSON is the file's.
+    char why[RG_WHY_SIZE];
+    struct rg_result found = {0};
+    write_result("a.json", "\n\n{\"format\":\n 1,\n x}");
+    snprintf(path, sizeof(path), "%s/a.json", folder);
+    assert_false(rg_stored_read_one(path, &found, why));
+    assert_non_null(strstr(why, "line 5 is no JSON"));
+    snprintf(twice, sizeof(twice), "%s\n\n{\"format\":\n 1,\n x}", text);
+    write_result("a.json", twice);
+    assert_false(rg_stored_read(&stored, path));
+    assert_non_null(strstr(rg_last_error(), "line 5 is no JSON"));
+    rg_stored_free(&stored);
+    free(text);
+    json_decref(document);
+    rg_result_free(&made);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(test_rows),
+        TEST(test_errors),
+        TEST(test_places),
+        TEST(test_folder),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,92 @@
+// Names, texts and numbers as documents keep them.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <jansson.h>
+#include <math.h>
+#include <string.h>
+
+#include "harness/record/named.h"
+
+// A character that does not fit whole is left out; what is no UTF-8 is marked.
+static void test_texts(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *kept;
+    } cases[] = {{"abcdefg", "abcdefg"},
+                 {"abcdefgh", "abcdefg"},
+                 {"abcde\xe2\x82\xac", "abcde"},
+                 {"abcdef\xc3\xa9", "abcdef"},
+                 {"abcd\xe2\x82\xac", "abcd\xe2\x82\xac"},
+                 {"ab\xffz", "ab?z"},
+                 {"", ""},
+                 {"abcdef\xc3\xa9\xc3\xa9", "abcdef"}};
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        char kept[8];
+        rg_text_copy(kept, sizeof(kept), cases[i].text);
+        assert_string_equal(kept, cases[i].kept);
+    }
+    json_t *json = rg_json_text("a\xff");
+    assert_string_equal(json_string_value(json), "a?");
+    json_decref(json);
+}
+
+// What is no number is null; whole ones are integers as long as they lose nothing.
+static void test_numbers(void **state)
+{
+    (void)state;
+    static const struct {
+        double number;
+        json_type type;
+    } cases[] = {{NAN, JSON_NULL},       {INFINITY, JSON_NULL},
+                 {-INFINITY, JSON_NULL}, {3, JSON_INTEGER},
+                 {0.5, JSON_REAL},       {-7, JSON_INTEGER},
+                 {1e300, JSON_REAL},     {9007199254740992.0, JSON_REAL},
+                 {0, JSON_INTEGER}};
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        json_t *json = rg_number_json(cases[i].number);
+        assert_int_equal(json_typeof(json), cases[i].type);
+        if (cases[i].type != JSON_NULL)
+            assert_true(json_number_value(json) == cases[i].number);
+        json_decref(json);
+    }
+    assert_true(isnan(rg_number_kept(INFINITY)));
+    assert_true(rg_number_kept(123456789) == 123456789);
+    assert_true(rg_number_kept(rg_number_kept(M_PI)) == rg_number_kept(M_PI));
+    assert_true(rg_number_kept(M_PI) != M_PI && fabs(rg_number_kept(M_PI) - M_PI) < 1e-6);
+}
+
+static void test_named(void **state)
+{
+    (void)state;
+    struct rg_named named[3];
+    char text[64];
+    rg_named_set_text(&named[0], "fps", "many");
+    rg_named_set_number(&named[1], "fps", 25.5);
+    rg_named_set_number(&named[2], "ms", NAN);
+    assert_true(isnan(named[0].number));
+    assert_true(*rg_named_number(named, 3, "fps") == 25.5); // a text is no number
+    assert_null(rg_named_number(named, 1, "fps"));
+    assert_null(rg_named_number(named, 3, "fp"));
+    static const char *const except[] = {"ms", NULL};
+    rg_named_text(named, 3, except, text, sizeof(text));
+    assert_string_equal(text, "fps many, fps 25.5");
+    json_t *json = rg_named_json(named + 1, 2);
+    assert_true(json_real_value(json_object_get(json, "fps")) == 25.5);
+    assert_true(json_is_null(json_object_get(json, "ms")));
+    json_decref(json);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_texts),
+        cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_named),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

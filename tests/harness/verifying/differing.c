@@ -1,0 +1,175 @@
+// What differs is told: a state, a law, an image without rain, cpu:reference itself; and in every
+// run of it.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/console/exit.h"
+#include "tests/harness/verifying/rig.h"
+
+static bool is_on(const struct rg_instance *instance, const char *device)
+{
+    return !strcmp(instance->device->info.name, device);
+}
+
+// The last word of the last buffer of the state.
+static bool change_last_word(struct rg_instance *instance)
+{
+    struct rg_buf *buf = instance->state[instance->state_count - 1].asset->buf;
+    uint32_t word;
+    return rg_buf_read(buf, (int64_t)buf->size - 4, &word, 4) &&
+           (word++, rg_buf_write(buf, (int64_t)buf->size - 4, &word, 4));
+}
+
+static bool step_off_on_cpu(struct rg_instance *instance)
+{
+    return rg_technique_find("flow")->step(instance) &&
+           (!is_on(instance, "cpu") || instance->frame < 2 || change_last_word(instance));
+}
+
+static void assert_says(const struct rg_checks *checks, const char *check, const char *device,
+                        const char *says)
+{
+    const char *detail = rig_check(checks, check, device)->detail;
+    if (!strstr(detail, says))
+        fail_msg("'%s' does not say '%s'", detail, says);
+}
+
+// One word of the state is enough, on a device that owes T0; the others' images are judged alone.
+static void a_state_that_differs_fails(void **state)
+{
+    (void)state;
+    struct rg_checks checks;
+    rig_flow.step = step_off_on_cpu;
+    rig_verify(RIG_CHEAP " drops=40", RG_T0, 16, 16, &checks);
+    assert_int_equal(rig_outcome(&checks, "state", "cpu"), RG_FAIL);
+    assert_says(&checks, "state", "cpu", "3 of 3 runs; seed 1: ");
+    assert_says(&checks, "state", "cpu", "after step 2");
+    assert_int_equal(rg_checks_exit(&checks), RG_EXIT_FAIL);
+    rg_checks_free(&checks);
+    rig_verify(RIG_CHEAP " drops=40", RG_T1, 16, 16, &checks);
+    assert_int_equal(rig_outcome(&checks, "state", "cpu"), RG_OK);
+    assert_says(&checks, "state", "cpu", "3 of 3 runs");
+    assert_says(&checks, "state", "cpu", "leaves to the image");
+    rg_checks_free(&checks);
+}
+
+// --- laws ---
+
+static bool always_holds(const struct rg_instance *instance, char *detail, size_t size)
+{
+    (void)instance;
+    (void)detail;
+    (void)size;
+    return true;
+}
+
+// Of the second seed on cpu alone.
+static int asked_on_cpu;
+
+static bool fails_once(const struct rg_instance *instance, char *detail, size_t size)
+{
+    snprintf(detail, size, "it leaks");
+    return !is_on(instance, "cpu") || ++asked_on_cpu != 2;
+}
+
+static void a_law_that_fails_once_fails(void **state)
+{
+    (void)state;
+    static const struct rg_law laws[] = {
+        {"order", always_holds}, {"water", fails_once}, {NULL, NULL}};
+    static const struct rg_proof proof = {
+        .poses = rig_poses, .dry = "drops=0 rain_drops_s=0", .laws = laws};
+    struct rg_checks checks;
+    rig_flow.proof = &proof;
+    asked_on_cpu = 0;
+    rig_verify(RIG_CHEAP " drops=40", RG_T0, 16, 16, &checks);
+    assert_int_equal(rig_outcome(&checks, "order", "cpu"), RG_OK);
+    assert_int_equal(rig_outcome(&checks, "water", "cpu"), RG_FAIL);
+    assert_says(&checks, "water", "cpu", "1 of 3 runs; seed 2: it leaks");
+    assert_int_equal(rig_outcome(&checks, "water", "cpu:reference"), RG_OK);
+    assert_says(&checks, "water", "cpu:reference", "holds after 3 runs of 2 steps");
+    assert_int_equal(rg_checks_exit(&checks), RG_EXIT_FAIL);
+    rg_checks_free(&checks);
+}
+
+// --- images ---
+
+static void an_image_without_rain_fails(void **state)
+{
+    (void)state;
+    struct rg_checks checks;
+    rig_verify(RIG_CHEAP " drops=0 rain_drops_s=0", RG_T0, 16, 16, &checks);
+    assert_int_equal(rig_outcome(&checks, "state", "cpu"), RG_OK);
+    assert_int_equal(rig_outcome(&checks, "image", "cpu"), RG_FAIL);
+    assert_says(&checks, "image", "cpu", "proves nothing");
+    rg_checks_free(&checks);
+}
+
+// --- seeds ---
+
+// The seeds of instances that have stepped on cpu, in order.
+static char seeds[64];
+
+static bool note_seed(struct rg_instance *instance)
+{
+    const struct rg_param *seed = rg_params_find(rig_flow.params, "seed");
+    char text[16], *end = seeds + strlen(seeds);
+    rg_params_text(seed, (const char *)instance + rig_flow.settings, text, sizeof(text));
+    if (is_on(instance, "cpu") && instance->frame == 0)
+        snprintf(end, (size_t)(seeds + sizeof(seeds) - end), "%s ", text);
+    return rg_technique_find("flow")->step(instance);
+}
+
+static void each_seed_is_another(void **state)
+{
+    (void)state;
+    struct rg_checks checks;
+    rig_flow.step = note_seed;
+    seeds[0] = 0;
+    rig_verify(RIG_CHEAP " drops=40 seed=5", RG_T0, 16, 16, &checks);
+    assert_string_equal(seeds, "5 6 7 ");
+    rg_checks_free(&checks);
+}
+
+// --- the reference ---
+
+static bool fail_on_reference(struct rg_instance *instance)
+{
+    if (is_on(instance, "cpu"))
+        return rg_technique_find("flow")->step(instance);
+    return rg_unsupported("device 'cpu:reference': is too small");
+}
+
+// Where it fails, nothing is proven, though another check is ok.
+static void a_reference_that_fails_proves_nothing(void **state)
+{
+    (void)state;
+    struct rg_checks checks;
+    rig_flow.step = fail_on_reference;
+    rig_verify(RIG_CHEAP " drops=40", RG_T0, 16, 16, &checks);
+    assert_int_equal(rig_outcome(&checks, "state", "cpu:reference"), RG_UNSUPPORTED);
+    assert_int_equal(rig_outcome(&checks, "state", "cpu"), RG_UNSUPPORTED);
+    assert_says(&checks, "state", "cpu", "not run");
+    assert_int_equal(rg_checks_exit(&checks), RG_EXIT_UNSUPPORTED);
+    rg_checks_free(&checks);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(a_state_that_differs_fails, rig_setup),
+        cmocka_unit_test_setup(a_law_that_fails_once_fails, rig_setup),
+        cmocka_unit_test_setup(an_image_without_rain_fails, rig_setup),
+        cmocka_unit_test_setup(each_seed_is_another, rig_setup),
+        cmocka_unit_test_setup(a_reference_that_fails_proves_nothing, rig_setup),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
