@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "harness/compare/verify/snapshot.h"
 #include "harness/console/exit.h"
 #include "tests/harness/verifying/rig.h"
 
@@ -58,6 +59,60 @@ static void a_state_that_differs_fails(void **state)
     assert_int_equal(rig_outcome(&checks, "state", "cpu"), RG_OK);
     assert_says(&checks, "state", "cpu", "3 of 3 runs");
     assert_says(&checks, "state", "cpu", "leaves to the image");
+    rg_checks_free(&checks);
+}
+
+// The first element that differs is named as its buffer's layout has it: without the margin.
+static void an_element_is_named(void **state)
+{
+    (void)state;
+    uint32_t found[16] = {0}, due[16] = {0};
+    struct rg_snapshot a = {.state_count = 1, .state = {found}, .state_bytes = {sizeof(found)}};
+    struct rg_snapshot b = {.state_count = 1, .state = {due}, .state_bytes = {sizeof(due)}};
+    char text[128];
+    found[6] = 7;
+    found[15] = 8;
+    a.layout[0] = (struct rg_state){.name = "water", .row = 4, .margin = 1};
+    rg_snapshot_describe(&a, &b, text, sizeof(text));
+    assert_string_equal(text, "water (1, 0) is 7, not 0");
+    a.layout[0] = (struct rg_state){.name = "water"};
+    rg_snapshot_describe(&a, &b, text, sizeof(text));
+    assert_string_equal(text, "water[6] is 7, not 0");
+    assert_false(rg_snapshot_same_state(&a, &b));
+    found[6] = found[15] = 0;
+    assert_true(rg_snapshot_same_state(&a, &b));
+    rg_snapshot_describe(&a, &b, text, sizeof(text));
+    assert_string_equal(text, "");
+}
+
+// --- stages ---
+
+static bool draw_less_on_cpu(struct rg_instance *instance)
+{
+    return is_on(instance, "cpu") || rg_technique_find("flow")->draw(instance);
+}
+
+// The first stage behind which something differs is named, and so is one that did not run.
+static void a_stage_that_differs_is_named(void **state)
+{
+    (void)state;
+    struct rg_checks checks;
+    rig_part = rg_verify_stages;
+    rig_verify(RIG_CHEAP " drops=40", RG_T0, 16, 16, &checks);
+    assert_int_equal(rig_outcome(&checks, "stages", "cpu"), RG_OK);
+    assert_says(&checks, "stages", "cpu", "2 frames, ");
+    assert_says(&checks, "stages", "cpu", "as on cpu:reference");
+    rg_checks_free(&checks);
+    rig_flow.step = step_off_on_cpu;
+    rig_verify(RIG_CHEAP " drops=40", RG_T0, 16, 16, &checks);
+    assert_int_equal(rig_outcome(&checks, "stages", "cpu"), RG_FAIL);
+    assert_says(&checks, "stages", "cpu", "frame 2, stage ");
+    rg_checks_free(&checks);
+    rig_flow.step = rg_technique_find("flow")->step;
+    rig_flow.draw = draw_less_on_cpu;
+    rig_verify(RIG_CHEAP " drops=40", RG_T0, 16, 16, &checks);
+    assert_int_equal(rig_outcome(&checks, "stages", "cpu"), RG_FAIL);
+    assert_int_equal(rg_checks_exit(&checks), RG_EXIT_FAIL);
     rg_checks_free(&checks);
 }
 
@@ -166,6 +221,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(a_state_that_differs_fails, rig_setup),
+        cmocka_unit_test(an_element_is_named),
+        cmocka_unit_test_setup(a_stage_that_differs_is_named, rig_setup),
         cmocka_unit_test_setup(a_law_that_fails_once_fails, rig_setup),
         cmocka_unit_test_setup(an_image_without_rain_fails, rig_setup),
         cmocka_unit_test_setup(each_seed_is_another, rig_setup),

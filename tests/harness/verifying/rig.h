@@ -15,6 +15,8 @@ extern struct rg_technique rig_flow;
 // How long poses are run.
 extern bool rig_is_quick;
 extern int rig_steps;
+// The part of `verify` that is run: rg_verify_devices, or another.
+extern void (*rig_part)(struct rg_verify *verify);
 
 // Before each test: all as it was.
 int rig_setup(void **state);

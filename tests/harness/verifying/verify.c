@@ -215,9 +215,10 @@ static void a_mutant_that_lives_fails(void **state)
     (void)state;
     const struct rg_mutant mutants[] = {{"another seed", "seed", 1, 1},
                                         {"a model behind", "model_size", 1.01, 0},
+                                        {"a rounding", "fresnel_bias", 1.002, 0},
                                         {NULL, NULL, 0, 0}};
     verify_mutants(RIG_CHEAP " rain_drops_s=0 drops=400", mutants,
-                   "killed 1/2; T1 accepts: a model behind");
+                   "killed 1/3; T1 accepts: a model behind, a rounding");
 }
 
 // What is a little wrong is wrong among the few pixels where it rains, not among all: the dry
