@@ -61,8 +61,8 @@ static void test_order_by_enumeration(void **state)
     }
 }
 
-// Beyond 20 samples the normal distribution stands in: of samples that are alike, as many are as far
-// apart by chance as it says.
+// Beyond 20 samples the normal distribution stands in: of samples that are alike, as many are as
+// far apart by chance as it says.
 static void test_many_samples(void **state)
 {
     (void)state;
@@ -194,6 +194,15 @@ static void test_ratios(void **state)
     apart.least = 1.1;
     EXPECT(apart, level, 0.05, RG_CLAIM_NOT_REPRODUCED, 0.99);
     EXPECT(apart, rising, 0.05, RG_CLAIM_REPRODUCED, 0.99);
+    // What speaks against rows that are apart speaks for rows that are alike.
+    uint32_t x = 3;
+    struct rg_result result;
+    make_result(&result, rising, level, 0.05, &x);
+    alike.most = apart.least;
+    const struct rg_judgement a = rg_claim_judge(&alike, &result, 0);
+    const struct rg_judgement b = rg_claim_judge(&apart, &result, 0);
+    assert_true(a.against == b.in_favour && a.in_favour == b.against && a.against > a.in_favour);
+    rg_result_free(&result);
 }
 
 static void test_variants_rates_and_powers(void **state)
@@ -207,6 +216,8 @@ static void test_variants_rates_and_powers(void **state)
     EXPECT(faster, level, 0.05, RG_CLAIM_UNDECIDED, 0.95);
     rate.least = 60;
     EXPECT(rate, rising, 0.05, RG_CLAIM_REPRODUCED, 0.99);
+    rate.least = 1000 / 14.6; // as it is
+    EXPECT(rate, rising, 0.05, RG_CLAIM_UNDECIDED, 0.93);
     rate.least = 75;
     EXPECT(rate, rising, 0.05, RG_CLAIM_NOT_REPRODUCED, 0.99);
     struct rg_claim power = claim_of(RG_CLAIM_EXPONENT);

@@ -14,6 +14,13 @@
 #include "harness/console/exit.h"
 #include "tests/harness/verifying/rig.h"
 
+static void ignore(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)line;
+    (void)user;
+}
+
 // A driver that fails on one device.
 static bool fail_on_cpu(struct rg_instance *instance)
 {
@@ -216,6 +223,7 @@ static void a_mutant_that_lives_fails(void **state)
     const struct rg_mutant mutants[] = {{"another seed", "seed", 1, 1},
                                         {"a model behind", "model_size", 1.01, 0},
                                         {"a rounding", "fresnel_bias", 1.002, 0},
+                                        {"the model, which is none", "fresnel_bias", 1, 0},
                                         {NULL, NULL, 0, 0}};
     verify_mutants(RIG_CHEAP " rain_drops_s=0 drops=400", mutants,
                    "killed 1/3; T1 accepts: a model behind, a rounding");
@@ -231,6 +239,23 @@ static void a_mutant_is_judged_where_it_rains(void **state)
     verify_mutants(RIG_CHEAP " rain_drops_s=0 drops=60", mutants, "killed 1/1");
 }
 
+// Whose error it was decides how all ends.
+static void errors_are_somebodys(void **state)
+{
+    (void)state;
+    for (int is_input = 0; is_input < 2; is_input++) {
+        struct rg_checks checks = {0};
+        rg_log_listen(ignore, NULL);
+        is_input ? rg_error("no such file") : rg_driver_error("the driver is tired");
+        rg_log_listen(NULL, NULL);
+        rg_checks_add_error(&checks, "flow", "state", "cpu");
+        assert_int_equal(rg_checks_exit(&checks), is_input ? RG_EXIT_USAGE : RG_EXIT_FAIL);
+        assert_int_equal(checks.rows[0].status, RG_ERROR);
+        assert_string_equal(checks.rows[0].detail, rg_last_error());
+        rg_checks_free(&checks);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -242,6 +267,7 @@ int main(void)
         cmocka_unit_test_setup(poses_say_how_long, rig_setup),
         cmocka_unit_test_setup(poses_need_not_say, rig_setup),
         cmocka_unit_test_setup(poses_take_turns_with_seeds, rig_setup),
+        cmocka_unit_test(errors_are_somebodys),
         cmocka_unit_test_setup(a_mutant_that_lives_fails, rig_setup),
         cmocka_unit_test_setup(a_mutant_is_judged_where_it_rains, rig_setup),
     };
