@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "harness/measure/expected.h"
 #include "harness/tables/regenerate.h"
 
 #define CHEAP                                                                                      \
@@ -64,6 +65,18 @@ struct rig {
     struct rg_result result;
 };
 
+// The device's own functions; and what reads images in place of its own, NULL: nothing.
+static const struct rg_backend *honest;
+static struct rg_backend changed;
+static bool (*image_read)(struct rg_image *image, int layer, int level, void *texels);
+
+static bool read_another_image(struct rg_image *image, int layer, int level, void *texels)
+{
+    const bool ok = honest->image_read(image, layer, level, texels);
+    *(unsigned char *)texels ^= 1;
+    return ok;
+}
+
 // Returns how many messages there were.
 static int measure(struct rig *rig, const struct rg_table *of, int count)
 {
@@ -71,6 +84,10 @@ static int measure(struct rig *rig, const struct rg_table *of, int count)
     const struct rg_table_part part = {.last_row = count - 1};
     *rig = (struct rig){.devices = {.count = 1, .devices = {rg_device_open("cpu")}}};
     rig->kept.devices = &rig->devices;
+    honest = rig->devices.devices[0]->backend;
+    changed = *honest;
+    changed.image_read = image_read ? image_read : honest->image_read;
+    rig->devices.devices[0]->backend = &changed;
     rg_table_begin(&rig->result, of, &part, &rig->devices);
     rg_log_listen(keep_quiet, &messages);
     assert_true(rg_table_measure(&rig->result, of, &rig->kept, NULL));
@@ -80,6 +97,7 @@ static int measure(struct rig *rig, const struct rg_table *of, int count)
 
 static void finish(struct rig *rig)
 {
+    rig->devices.devices[0]->backend = honest;
     rg_result_free(&rig->result);
     assert_true(rg_kept_free(&rig->kept));
     assert_true(rg_device_close(rig->devices.devices[0]));
@@ -88,6 +106,38 @@ static void finish(struct rig *rig)
 static const struct rg_record *record_at(const struct rig *rig, int row, int variant)
 {
     return rg_result_at(&rig->result, (struct rg_place){.row = row, .variant = variant});
+}
+
+// A cell that shows another image than cpu:reference is not timed.
+static void test_another_image(void **state)
+{
+    (void)state;
+    struct rig rig;
+    image_read = read_another_image;
+    measure(&rig, &table, 1);
+    image_read = NULL;
+    for (int variant = 0; variant < 2; variant++) {
+        assert_int_equal(record_at(&rig, 0, variant)->outcome, RG_FAIL);
+        assert_non_null(strstr(record_at(&rig, 0, variant)->detail, "(T0)"));
+        assert_int_equal(record_at(&rig, 0, variant)->sample_count, 0);
+    }
+    finish(&rig);
+}
+
+// How many frames come before the image is compared, where the table says so, and where not.
+static void test_check_frames(void **state)
+{
+    (void)state;
+    for (int frames = 0; frames <= 3; frames += 3) {
+        const struct rg_table_part part = {.last_row = 0};
+        struct rg_table aged = table;
+        struct rg_devices none = {0};
+        struct rg_result result = {0};
+        aged.check_frames = frames;
+        rg_table_begin(&result, &aged, &part, &none);
+        assert_int_equal(result.check_frames, frames ? frames : RG_CHECK_FRAMES);
+        rg_result_free(&result);
+    }
 }
 
 // A row whose file is missing takes no other row with it.
@@ -271,8 +321,9 @@ static void test_kept(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_table),    cmocka_unit_test(test_quick_rows),
-        cmocka_unit_test(test_textures), cmocka_unit_test(test_unsupported),
+        cmocka_unit_test(test_another_image), cmocka_unit_test(test_check_frames),
+        cmocka_unit_test(test_table),         cmocka_unit_test(test_quick_rows),
+        cmocka_unit_test(test_textures),      cmocka_unit_test(test_unsupported),
         cmocka_unit_test(test_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -161,6 +161,8 @@ static void test_slope_along_axis(void **state)
     assert_float_equal(s.published_slope, -1, 1e-9);
     s = trend_of(&axis_table, 0, (double[]){40, 1, 39, 1, 38, 1});
     assert_int_equal(s.verdict, RG_TREND_ONLY);
+    s = trend_of(&axis_table, 0, (double[]){90, 1, 30, 1, 10, 1}); // too fast
+    assert_int_equal(s.verdict, RG_TREND_ONLY);
     assert_int_equal(trend_of(&axis_table, 0, (double[]){40, 1, 41, 1, 38, 1}).verdict,
                      RG_TREND_NOT);
     // The other variant is held against its own column, in which two rows are equal.
