@@ -1,5 +1,6 @@
 // Objects and devices come and go without a trace, and live side by side.
 #include <stdio.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "core/device/shared.h"
@@ -304,6 +305,29 @@ static void time_goes_on(void **state)
     assert_true(second_ns >= first_ns);
 }
 
+static double wall_ns(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec * 1e9 + (double)now.tv_nsec;
+}
+
+// In nanoseconds: as long as the wall's clock says, by a factor of 2. Whether it is closer is for
+// `raingauge doctor` to tell.
+static void time_is_in_nanoseconds(void **state)
+{
+    int64_t first_ns, second_ns;
+    const double before_ns = wall_ns();
+    assert_true(rg_device_time(*state, &first_ns));
+    const double from_ns = wall_ns();
+    nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
+    const double to_ns = wall_ns();
+    assert_true(rg_device_time(*state, &second_ns));
+    const double found_ns = (double)(second_ns - first_ns);
+    assert_true(found_ns > (to_ns - from_ns) / 2);
+    assert_true(found_ns < (wall_ns() - before_ns) * 2);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(buffers_leave_nothing_behind),
     cmocka_unit_test(images_leave_nothing_behind),
@@ -316,5 +340,6 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(shared_things_hold_shared_things),
     cmocka_unit_test(closing_reports_what_is_still_shared),
     cmocka_unit_test(time_goes_on),
+    cmocka_unit_test(time_is_in_nanoseconds),
 };
 const struct suite_tests lifetime_tests = {tests, COUNT_OF(tests)};

@@ -17,6 +17,7 @@
 #include "core/scene/environment/blur.h"
 #include "core/scene/environment/cube.h"
 #include "kernels/dialect/image/cube.h"
+#include "kernels/dialect/image/memory.h"
 #include "tests/core/folder.h"
 
 static void write_file(const char *path, const void *data, size_t bytes)
@@ -381,6 +382,105 @@ static void test_a_disc_around_each_direction(void **state)
     }
 }
 
+// --- lat-long pictures ---
+
+// What a face shows in its middle.
+static void middle_of(const struct rg_environment *environment, int face, float light[3])
+{
+    const int half = environment->size / 2;
+    memcpy(light, rg_environment_texel(environment, face, half, half), 3 * sizeof(float));
+}
+
+// The middle of the picture looks along -z, its right half lies towards +x, its top towards +y.
+static void test_a_lat_long_lies_as_it_should(void **state)
+{
+    (void)state;
+    enum { WIDE = 64, HIGH = 32 };
+    static const float due[6][3] = {{1, -1, -1}, {0, -1, -1}, {-1, 1, -1},
+                                    {-1, 0, -1}, {-1, -1, 0}, {-1, -1, 1}}; // -1: either
+    struct rg_picture picture;
+    const char *path = in_folder("around.exr");
+    assert_true(rg_picture_create(&picture, WIDE, HIGH, 3, "around"));
+    for (int y = 0; y < HIGH; y++)
+        for (int x = 0; x < WIDE; x++) {
+            float *texel = picture.texels + ((size_t)y * WIDE + (size_t)x) * 3;
+            texel[0] = x >= WIDE / 2;
+            texel[1] = y < HIGH / 2;
+            texel[2] = x >= WIDE / 4 && x < WIDE * 3 / 4;
+        }
+    assert_true(rg_picture_write(path, &picture, &(struct rg_write_options){0}));
+    rg_picture_destroy(&picture);
+    struct rg_environment *environment = rg_environment_load(path);
+    assert_non_null(environment);
+    for (int face = 0; face < 6; face++) {
+        float light[3];
+        middle_of(environment, face, light);
+        for (int c = 0; c < 3; c++)
+            assert_true(due[face][c] < 0 || light[c] == due[face][c]);
+    }
+    rg_environment_destroy(environment);
+    assert_int_equal(unlink(path), 0);
+}
+
+// The picture goes on behind its edges, and its rows lie evenly about the horizon.
+static void test_a_lat_long_is_read_between_texels(void **state)
+{
+    (void)state;
+    enum { WIDE = 32, HIGH = 16 };
+    struct rg_picture picture;
+    const char *path = in_folder("even.exr");
+    assert_true(rg_picture_create(&picture, WIDE, HIGH, 3, "even"));
+    for (int i = 0; i < WIDE * HIGH; i++) {
+        picture.texels[3 * i] = ((float)(i % WIDE) + 0.5f) / WIDE;
+        picture.texels[3 * i + 1] = ((float)(i / WIDE) + 0.5f) / HIGH;
+        picture.texels[3 * i + 2] = 0;
+    }
+    assert_true(rg_picture_write(path, &picture, &(struct rg_write_options){.full_float = true}));
+    rg_picture_destroy(&picture);
+    struct rg_environment *environment = rg_environment_load(path);
+    assert_non_null(environment);
+    const int half = environment->size / 2;
+    // Towards +z lies the edge: a texel beside it is of both columns.
+    for (int x = half - 1; x <= half; x++) {
+        const float red = rg_environment_texel(environment, 4, x, half)[0];
+        assert_true(red > 0.05f && red < 0.95f);
+    }
+    for (int face = 4; face < 6; face++) {
+        const float above = rg_environment_texel(environment, face, half, half - 1)[1];
+        const float below = rg_environment_texel(environment, face, half, half)[1];
+        assert_true(above < below && fabsf(above + below - 1) < 1e-3f);
+    }
+    rg_environment_destroy(environment);
+    assert_int_equal(unlink(path), 0);
+}
+
+// --- packing ---
+
+// Light between two codes is one or the other so often that the mean is right: half a code is
+// 0.004 here.
+static void test_packing_is_right_on_average(void **state)
+{
+    (void)state;
+    enum { PX = 64 };
+    static uint32_t words[6 * PX * PX];
+    const double light = 0.5 + 0.5 / 128;
+    struct rg_environment *environment = rg_environment_create(16);
+    assert_non_null(environment);
+    for (int i = 0; i < 6 * 18 * 18 * 3; i++)
+        environment->light[i] = (float)light;
+    assert_true(rg_environment_pack(environment, PX, words));
+    double sums[3] = {0};
+    for (int i = 0; i < 6 * PX * PX; i++) {
+        const rgba c = rg_load_RG11B10F(words, i);
+        sums[0] += (double)c.r;
+        sums[1] += (double)c.g;
+        sums[2] += (double)c.b;
+    }
+    for (int c = 0; c < 3; c++)
+        assert_true(fabs(sums[c] / (6 * PX * PX) - light) < 5e-4);
+    rg_environment_destroy(environment);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -395,6 +495,9 @@ int main(void)
         cmocka_unit_test(test_packed_faces_end_on_the_edges),
         cmocka_unit_test(test_light_is_smooth_across_edges),
         cmocka_unit_test(test_a_disc_around_each_direction),
+        cmocka_unit_test(test_a_lat_long_lies_as_it_should),
+        cmocka_unit_test(test_a_lat_long_is_read_between_texels),
+        cmocka_unit_test(test_packing_is_right_on_average),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

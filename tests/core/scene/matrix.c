@@ -171,16 +171,40 @@ static void test_what_kernels_read(void **state)
     assert_memory_equal(again, rows, sizeof(rows));
 }
 
+// Of pixels, counted from the left and from the top, where clip space is -1, to places, through a
+// matrix that scales, moves and divides.
+static void test_from_pixel(void **state)
+{
+    (void)state;
+    enum { WIDTH = 40, HEIGHT = 10 };
+    const float to_clip[16] = {2, 0, 0, 3, 0, 4, 0, 1, 0, 0, 1, 0, 0, 0, 0.5f, 1};
+    const m4 matrix = rg_m4_of(to_clip);
+    const double places[][3] = {{0, 0, 0}, {1, 2, 3}, {-4, 0.5, 1}};
+    m4 from_pixel;
+    float rows[16];
+    assert_true(rg_matrix_from_pixel(&matrix, WIDTH, HEIGHT, &from_pixel));
+    rg_m4_rows(&from_pixel, rows);
+    for (int i = 0; i < 3; i++) {
+        const double *p = places[i];
+        const double w = 0.5 * p[2] + 1;
+        const double pixel[4] = {((2 * p[0] + 3) / w + 1) / 2 * WIDTH,
+                                 ((4 * p[1] + 1) / w + 1) / 2 * HEIGHT, p[2] / w, 1};
+        double found[4] = {0};
+        for (int r = 0; r < 4; r++)
+            for (int c = 0; c < 4; c++)
+                found[r] += (double)rows[4 * r + c] * pixel[c];
+        for (int c = 0; c < 3; c++)
+            assert_true(fabs(found[c] / found[3] - p[c]) < 1e-5);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_products),
-        cmocka_unit_test(test_turns),
-        cmocka_unit_test(test_inverses),
-        cmocka_unit_test(test_motions),
-        cmocka_unit_test(test_what_has_no_inverse),
-        cmocka_unit_test(test_points_undone),
-        cmocka_unit_test(test_what_kernels_read),
+        cmocka_unit_test(test_from_pixel),    cmocka_unit_test(test_products),
+        cmocka_unit_test(test_turns),         cmocka_unit_test(test_inverses),
+        cmocka_unit_test(test_motions),       cmocka_unit_test(test_what_has_no_inverse),
+        cmocka_unit_test(test_points_undone), cmocka_unit_test(test_what_kernels_read),
     };
     return cmocka_run_group_tests_name("matrices", tests, NULL, NULL);
 }
