@@ -1,7 +1,7 @@
 """Scenes: cameras, matrices, lights, environments, density maps, the space of rain, spectra and meshes."""
 from fault import Fault
 
-TESTS = ("camera", "matrices", "light file", "environment", "density maps", "rain space", "mesh models", "mesh files",
+TESTS = ("camera", "matrices", "light file", "environment", "density maps", "rain space", "mesh edges", "mesh models", "mesh files",
          "openness", "streaks, sizes", "streaks lights, cpu")
 
 CAMERA, MATRIX, LIGHTS = "core/scene/camera.c", "core/scene/matrix.c", "core/scene/light_file.c"
