@@ -1,7 +1,7 @@
 """The checked device and the CPU's backend: refusals, folding, counting, packing, scans, drawing."""
 from fault import Fault
 
-TESTS = ("device suite, kernels, cpu", "device suite, kernels, cpu_reference", "device suite, images, cpu",
+TESTS = ("device counting", "device suite, kernels, cpu", "device suite, kernels, cpu_reference", "device suite, images, cpu",
          "device suite, draws, cpu", "device suite, targets, cpu", "drawing, cpu", "stages",
          "device suite, kernels, vulkan", "device suite, draws, vulkan", "device suite, targets, vulkan",
          "command line, renders")

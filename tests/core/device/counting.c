@@ -1,0 +1,102 @@
+// What core/device makes of a run that a device takes in parts, and what it counts, on a device
+// that notes what it is asked for.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "core/device/device.h"
+#include "kernels/probe/copy_params.h"
+
+enum { WIDTH = 21, HEIGHT = 5, DEPTH = 3 };
+
+static const struct rg_backend *honest;
+static int seen[DEPTH][HEIGHT][WIDTH], runs;
+
+static bool note_run(struct rg_pass *pass, const struct rg_run *run)
+{
+    (void)pass;
+    runs++;
+    for (int z = 0; z < run->extent.depth; z++)
+        for (int y = 0; y < run->extent.height; y++)
+            for (int x = 0; x < run->extent.width; x++) {
+                const struct rg_extent at = {run->origin.width + x, run->origin.height + y,
+                                             run->origin.depth + z};
+                assert_in_range(at.width, 100, 100 + WIDTH - 1);
+                assert_in_range(at.height, 200, 200 + HEIGHT - 1);
+                assert_in_range(at.depth, 300, 300 + DEPTH - 1);
+                seen[at.depth - 300][at.height - 200][at.width - 100]++;
+            }
+    return true;
+}
+
+// Every item is run once, in parts of 8 x 2 x 2 at most.
+static void test_parts(void **state)
+{
+    (void)state;
+    struct rg_device *device = rg_device_open("cpu");
+    assert_non_null(device);
+    struct rg_backend noting = *device->backend;
+    const struct probe_copy_params params = {1, 1, 0};
+    struct rg_buf *a = rg_buf_create(device, 4, "a"), *b = rg_buf_create(device, 4, "b");
+    struct rg_pass *pass = rg_pass_create(device, "probe_copy");
+    assert_true(a && b && pass);
+    honest = device->backend;
+    noting.pass_run = note_run;
+    device->backend = &noting;
+    device->info.limits.max_groups[0] = device->info.limits.max_groups[1] =
+        device->info.limits.max_groups[2] = 2;
+    device->info.limits.group_items = 4;
+    assert_true(rg_pass_run(pass, &(struct rg_run){.params = &params,
+                                                   .slots = {[1].buf = a, [2].buf = b},
+                                                   .origin = {100, 200, 300},
+                                                   .extent = {WIDTH, HEIGHT, DEPTH}}));
+    for (int i = 0; i < WIDTH * HEIGHT * DEPTH; i++)
+        assert_int_equal((&seen[0][0][0])[i], 1);
+    assert_int_equal(runs, 3 * 3 * 2);
+    assert_int_equal(rg_device_work(device)->dispatches, 3 * 3 * 2);
+    assert_int_equal(rg_device_work(device)->runs, 1);
+    assert_int_equal(rg_device_work(device)->items, WIDTH * HEIGHT * DEPTH);
+    device->backend = honest;
+    rg_pass_destroy(pass);
+    rg_buf_destroy(b);
+    rg_buf_destroy(a);
+    assert_true(rg_device_close(device));
+}
+
+// Bytes of what lives, and of what travels, level by level.
+static void test_bytes(void **state)
+{
+    (void)state;
+    uint32_t texels[8 * 4] = {0};
+    struct rg_device *device = rg_device_open("cpu");
+    assert_non_null(device);
+    const struct rg_work *work = rg_device_work(device);
+    struct rg_image *image =
+        rg_image_create(device, &(struct rg_image_desc){RG_RGBA8, 8, 4, 1, 3}, "image");
+    assert_non_null(image);
+    const int64_t bytes[] = {8 * 4 * 4, 4 * 2 * 4, 2 * 1 * 4};
+    assert_int_equal(work->live_bytes, bytes[0] + bytes[1] + bytes[2]);
+    for (int level = 0; level < 3; level++) {
+        const int64_t read = work->bytes_read, written = work->bytes_written;
+        assert_true(rg_image_write(image, 0, level, texels));
+        assert_true(rg_image_read(image, 0, level, texels));
+        assert_int_equal(work->bytes_written - written, bytes[level]);
+        assert_int_equal(work->bytes_read - read, bytes[level]);
+    }
+    rg_image_destroy(image);
+    assert_int_equal(work->live_bytes, 0);
+    assert_int_equal(work->live_images, 0);
+    assert_true(rg_device_close(device));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_parts),
+        cmocka_unit_test(test_bytes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
