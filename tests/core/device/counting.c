@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "core/base/log.h"
 #include "core/device/device.h"
 #include "kernels/probe/copy_params.h"
 
@@ -92,11 +93,36 @@ static void test_bytes(void **state)
     assert_true(rg_device_close(device));
 }
 
+static void ignore(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)line;
+    (void)user;
+}
+
+// By index from 0 on, and nothing behind the last of a backend's devices.
+static void test_names(void **state)
+{
+    (void)state;
+    static const char *const absent[] = {"cpu:2", "cpu:-1", "cpu:nonsense",
+                                         "cpu:",  "cp",     "nonsense"};
+    struct rg_device *device = rg_device_open("cpu:1");
+    assert_non_null(device);
+    assert_string_equal(device->info.name, "cpu:reference");
+    assert_true(rg_device_close(device));
+    rg_log_listen(ignore, NULL);
+    for (size_t i = 0; i < sizeof(absent) / sizeof(absent[0]); i++)
+        if (rg_device_open(absent[i]))
+            fail_msg("%s is opened", absent[i]);
+    rg_log_listen(NULL, NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_parts),
         cmocka_unit_test(test_bytes),
+        cmocka_unit_test(test_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
