@@ -23,7 +23,8 @@
 // boundary; RG_STRUCT_SIZE(name, words) states its size where it is declared. RG_FN starts every
 // function that returns a value, RG_PROC every one that returns nothing, RG_SELDOM a long one that
 // few items need. RG_APART before a loop says that no turn of it reads what another one writes, so
-// that compilers for processors do several at once.
+// that compilers for processors do several at once; RG_KEPT before one keeps it a loop, for the
+// same end, where its turns are few.
 #if RG_GLSL
 
 #define RG_STRUCT(name) struct name
@@ -32,6 +33,7 @@
 #define RG_PROC
 #define RG_SELDOM
 #define RG_APART
+#define RG_KEPT
 
 #define rg_to_float(i)   float(i)
 #define rg_to_int(f)     int(f)
@@ -64,6 +66,7 @@ RG_FN uint rg_mul_hi(uint a, uint b)
 // Called: PoCL compiles the kernels around it in two thirds of the time.
 #define RG_SELDOM static __attribute__((noinline))
 #define RG_APART
+#define RG_KEPT
 
 #define rg_to_float(i)   convert_float(i)
 #define rg_to_int(f)     convert_int(f)
@@ -98,8 +101,10 @@ typedef unsigned int uint;
 #define RG_SELDOM RG_FN
 #if defined(__GNUC__) && !defined(__clang__)
 #define RG_APART _Pragma("GCC ivdep")
+#define RG_KEPT  _Pragma("GCC unroll 1")
 #else
 #define RG_APART
+#define RG_KEPT
 #endif
 
 #define rg_to_float(i) ((float)(i))

@@ -97,6 +97,10 @@ static const struct rg_stage stages[FLOW_PASS_COUNT] = {
     [FLOW_SMOOTH_WIDE] = {"flow_smooth", is_sliding, .params = AT(sliding), .over = "level",
                           .named = {{"rough", "level"}, {"even", "wide"}}},
     [FLOW_PACE] = {"flow_pace", is_sliding, .params = AT(sliding), .over = "level"},
+    [FLOW_CLOSE_ACROSS] = {"flow_across", is_sliding, .params = AT(sliding), .over = "close_rows",
+                           .named = {{"cells", "close"}, {"rows", "close_rows"}}},
+    [FLOW_RIDGE_ACROSS] = {"flow_across", is_sliding, .params = AT(sliding), .over = "close_rows",
+                           .named = {{"cells", "ridge"}, {"rows", "ridge_rows"}}},
     [FLOW_PULL] = {"flow_pull", is_sliding, .params = AT(sliding), .over = "given"},
     [FLOW_RELAX] = {"flow_relax", is_sliding, .params = AT(sliding), .over = "given"},
     [FLOW_CLING] = {"flow_cling", is_sliding, .params = AT(sliding), .over = "given"},
@@ -167,6 +171,19 @@ static void add_map(struct flow *flow, const char *name, float *values, int64_t 
     free(values);
 }
 
+// The map of beads twice beside itself, so that a pane whose beads are shifted reads on to the
+// right.
+static void add_beads(struct flow *flow)
+{
+    const size_t n = (size_t)flow->settings.resolution_px;
+    float *map = flow_bead_map(&flow->settings);
+    float *twice = map ? rg_alloc(2 * n * n, sizeof(*twice), "bead map") : NULL;
+    for (size_t row = 0; twice && row < 2 * n; row++)
+        memcpy(twice + row * n, map + row / 2 * n, n * sizeof(*map));
+    free(map);
+    add_map(flow, "beads", twice, (int64_t)(2 * n * n));
+}
+
 // Maps of the lattice over all panes, and what the texels have beside water.
 static void add_sliding(struct flow *flow)
 {
@@ -179,9 +196,12 @@ static void add_sliding(struct flow *flow)
     rg_add_buf(i, "wide", all, NULL);
     rg_add_buf(i, "pace", all, NULL);
     rg_add_buf(i, "ridge", all, NULL);
+    const int64_t rows = (int64_t)flow->pane_count * (cells + 2) * (n + 2 * FLOW_MARGIN);
+    rg_set_items(rg_add_buf(i, "close_rows", rows, NULL), n, cells, flow->pane_count);
+    rg_add_buf(i, "ridge_rows", rows, NULL);
     rg_add_buf(i, "pull", texels, NULL);
     rg_add_buf(i, "paced", texels, NULL);
-    add_map(flow, "beads", flow_bead_map(&flow->settings), (int64_t)n * n);
+    add_beads(flow);
     flow->ways = rg_add_buf(i, "ways", 2 * FLOW_PACES * FLOW_MAX_PANES, NULL);
 }
 

@@ -41,31 +41,75 @@ bool flow_turn_panes(struct flow *flow)
     return rg_buf_write(flow->panes->buf, 0, panes, flow->pane_count * (int64_t)sizeof(flow_pane));
 }
 
+static void swap(struct flow *flow)
+{
+    rg_swap(flow->water, flow->moved);
+}
+
 // Each texel gives, then takes; what crosses a pane's edge arrives last.
 static bool move(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;
     const bool ok = rg_stage(i, FLOW_GIVEN) && rg_stage(i, FLOW_DRAIN) && rg_stage(i, FLOW_MOVE) &&
                     rg_stage(i, FLOW_REACH) && rg_stage(i, FLOW_ARRIVE);
-    rg_swap(flow->water, flow->moved);
+    swap(flow);
     return ok;
+}
+
+// Panes that go through a run together, one after the other or all at once.
+struct group {
+    struct flow *flow;
+    int first, count;
+};
+
+static bool run(const struct group *g, enum flow_pass pass)
+{
+    struct rg_instance *i = &g->flow->base;
+    const struct rg_extent all = i->stages[pass].over->items;
+    return rg_stage_over(i, pass, (struct rg_extent){0, 0, g->first},
+                         (struct rg_extent){all.width, all.height, g->count});
 }
 
 // Smooths the lattice of heights: two runs for the pull of the water around, two more for how much
 // there is.
-static bool look_around(struct rg_instance *i)
+static bool look_around(const struct group *g)
 {
-    return rg_stage(i, FLOW_LEVEL) && rg_stage(i, FLOW_SMOOTH_ONCE) &&
-           rg_stage(i, FLOW_SMOOTH_TWICE) && rg_stage(i, FLOW_SMOOTH_THRICE) &&
-           rg_stage(i, FLOW_SMOOTH_WIDE) && rg_stage(i, FLOW_PACE) && rg_stage(i, FLOW_PULL);
+    return run(g, FLOW_LEVEL) && run(g, FLOW_SMOOTH_ONCE) && run(g, FLOW_SMOOTH_TWICE) &&
+           run(g, FLOW_CLOSE_ACROSS) && run(g, FLOW_PULL) && run(g, FLOW_SMOOTH_THRICE) &&
+           run(g, FLOW_SMOOTH_WIDE) && run(g, FLOW_PACE) && run(g, FLOW_RIDGE_ACROSS);
 }
 
-static bool relax(struct flow *flow)
+static bool relax(const struct group *g)
 {
     bool ok = true;
-    for (int run = 0; ok && run < flow_relax_runs(&flow->settings); run++) {
-        ok = rg_stage(&flow->base, FLOW_RELAX);
-        rg_swap(flow->water, flow->moved);
+    for (int i = flow_relax_runs(&g->flow->settings); ok && i > 0; i--) {
+        ok = run(g, FLOW_RELAX);
+        swap(g->flow);
+    }
+    return ok;
+}
+
+// Water of a group dries, levels, and slides to `moved`.
+static bool slide_group(const struct group *g)
+{
+    return look_around(g) && relax(g) && run(g, FLOW_CLING) && run(g, FLOW_SLIDE_OFF) &&
+           run(g, FLOW_SLIDE);
+}
+
+// So many texels of all panes go through a run at once: what a run reads and writes of them stays
+// in a processor's cache. Larger panes go one by one.
+#define TEXELS_AT_ONCE (1 << 21)
+
+static bool slide_panes(struct flow *flow)
+{
+    const int n = flow->settings.resolution_px, panes = flow->pane_count;
+    const int at_once = panes * n * n <= TEXELS_AT_ONCE ? panes : 1;
+    const bool is_odd = flow_relax_runs(&flow->settings) % 2;
+    bool ok = true;
+    for (int first = 0; ok && first < panes; first += at_once) {
+        if (first > 0 && is_odd)
+            swap(flow); // back to how the first group found them
+        ok = slide_group(&(struct group){flow, first, at_once});
     }
     return ok;
 }
@@ -81,10 +125,9 @@ static bool slide(struct flow *flow)
         int32_t ways[2 * FLOW_PACES * FLOW_MAX_PANES] = {0};
         flow->sliding = flow_slide_params_at(&flow->settings, run);
         flow_ways_at(&flow->settings, i->frame, run, ways);
-        ok = rg_buf_write(flow->ways->buf, 0, ways, sizeof(ways)) && look_around(i) &&
-             relax(flow) && rg_stage(i, FLOW_CLING) && rg_stage(i, FLOW_SLIDE_OFF) &&
-             rg_stage(i, FLOW_SLIDE) && rg_stage(i, FLOW_ARRIVE);
-        rg_swap(flow->water, flow->moved);
+        ok = rg_buf_write(flow->ways->buf, 0, ways, sizeof(ways)) && slide_panes(flow) &&
+             rg_stage(i, FLOW_ARRIVE);
+        swap(flow);
     }
     return ok;
 }

@@ -4,7 +4,7 @@
 #include "kernels/flow/sliding/params.h"
 
 #define RG_PARAMS flow_slide_params
-#define RG_SLOTS  INOUT(1, float, water) OUT(2, float, level) ATOMIC(3, uint, ledger)
+#define RG_SLOTS  INOUT(1, float, water) INOUT(2, float, level) ATOMIC(3, uint, ledger)
 #include "kernels/dialect/slots/slots.h"
 
 RG_FN float left_of(flow_slide_params p, float water)
@@ -13,6 +13,23 @@ RG_FN float left_of(flow_slide_params p, float water)
     float droplets = rg_floor(rg_sqrt(square) * FLOW_DROPLETS_PER_UNIT + p.part);
     float dried = rg_min(square > 0.0f ? droplets * FLOW_DROPLET : 0.0f, water);
     return rg_min(p.dried2 > 0.0f ? dried : water, p.holds);
+}
+
+// Dry cells stay dry.
+#define RG_IDLE_ITEMS 4
+RG_GRID_IDLE(flow_level)
+{
+    int k = p.texels_a_cell;
+    int wide = rg_imin(x * k + count * k, p.size) - x * k;
+    int bottom = rg_imin((y + 1) * k, p.size);
+    uint wet = 0u;
+    for (int row = y * k; row < bottom; row++)
+        for (int column = 0; column < wide; column++)
+            wet =
+                wet | rg_float_bits(water_at(rg, flow_pane_index(p.size, z, x * k + column, row)));
+    for (int c = 0; c < count; c++)
+        wet = wet | rg_float_bits(level_at(rg, flow_pane_index(p.cells, z, x + c, y)));
+    return wet == 0u;
 }
 
 RG_GRID_KERNEL(flow_level)

@@ -11,7 +11,6 @@
 #define FLOW_PACES      8          // 0: at rest
 #define FLOW_PACE_RATIO 1.4142135f // between one pace and the next
 #define FLOW_MOST_GIVEN 0.2f       // of a texel's water, to one neighbour, while it levels
-#define FLOW_CARRIED      3          // cells that a sliding drop's middle carries along, at most
 
 RG_STRUCT(flow_slide_params)
 {
@@ -61,16 +60,46 @@ RG_FN flow_between flow_between_at(flow_slide_params p, int z, float u, float v)
     return b;
 }
 
-RG_FN flow_between flow_between_of(flow_slide_params p, int z, int x, int y)
+// A map's rows of cells, mixed across, lie over the texels of a pane: as many columns as a pane's
+// map has, and a row for each of the lattice with a margin of one.
+RG_FN int flow_rows_index(flow_slide_params p, int pane, int x, int row)
 {
-    float k = rg_to_float(p.texels_a_cell);
-    return flow_between_at(p, z, (rg_to_float(x) + 0.5f) / k, (rg_to_float(y) + 0.5f) / k);
+    return (pane * (p.cells + 2) + row + 1) * (p.size + 2 * FLOW_MARGIN) + x;
+}
+
+// The two rows between which a texel's middle lies, and the weight of the lower one.
+RG_STRUCT(flow_rows)
+{
+    int above;
+    int below;
+    float fy;
+};
+
+RG_FN flow_rows flow_rows_of(flow_slide_params p, int z, int x, int y)
+{
+    float v = (rg_to_float(y) + 0.5f) / rg_to_float(p.texels_a_cell);
+    float top = rg_floor(v - 0.5f);
+    flow_rows r;
+    r.above = flow_rows_index(p, z, x, rg_to_int(top));
+    r.below = r.above + p.size + 2 * FLOW_MARGIN;
+    r.fy = v - 0.5f - top;
+    return r;
+}
+
+RG_FN float flow_mix_down(flow_rows r, float above, float below)
+{
+    return above * (1.0f - r.fy) + below * r.fy;
+}
+
+RG_FN float flow_mix_across(flow_between b, float a, float right)
+{
+    return a * (1.0f - b.fx) + right * b.fx;
 }
 
 RG_FN float flow_mix(flow_between b, float a, float right, float below, float across)
 {
-    float top = a * (1.0f - b.fx) + right * b.fx;
-    float bottom = below * (1.0f - b.fx) + across * b.fx;
+    float top = flow_mix_across(b, a, right);
+    float bottom = flow_mix_across(b, below, across);
     return top * (1.0f - b.fy) + bottom * b.fy;
 }
 

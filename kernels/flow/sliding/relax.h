@@ -4,7 +4,7 @@
 #include "kernels/flow/sliding/params.h"
 
 #define RG_PARAMS flow_slide_params
-#define RG_SLOTS  IN(1, float, water) IN(2, float, pull) OUT(3, float, moved)
+#define RG_SLOTS  IN(1, float, water) IN(2, float, pull) INOUT(3, float, moved)
 #include "kernels/dialect/slots/slots.h"
 
 RG_FN float pressure_of(flow_slide_params p, float water)
@@ -29,6 +29,21 @@ RG_FN float taken_from(rg_ctx rg, flow_slide_params p, int z, float water, float
     whole = taker == 0.0f && giver < p.advance ? 0.0f : whole;
     whole = flow_on_pane(p.size, x, y) ? whole : 0.0f;
     return above > 0.0f ? whole : -whole;
+}
+
+// Dry texels among dry ones stay dry.
+#define RG_IDLE_ITEMS 16
+RG_GRID_IDLE(flow_relax)
+{
+    int i = flow_pane_index(p.size, z, x, y);
+    int stride = p.size + 2 * FLOW_MARGIN;
+    uint wet = rg_float_bits(water_at(rg, i - 1)) | rg_float_bits(water_at(rg, i + count));
+    RG_KEPT
+    for (int k = 0; k < count; k++)
+        wet = wet | rg_float_bits(water_at(rg, i + k)) |
+              rg_float_bits(water_at(rg, i + k - stride)) |
+              rg_float_bits(water_at(rg, i + k + stride)) | rg_float_bits(moved_at(rg, i + k));
+    return wet == 0u;
 }
 
 RG_GRID_KERNEL(flow_relax)

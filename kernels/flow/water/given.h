@@ -5,7 +5,7 @@
 #define RG_PARAMS flow_params
 #define RG_SLOTS                                                                                   \
     IN(1, float, water)                                                                            \
-    IN(2, float, remainder) IN(3, float, noise) OUT(4, float, given) IN(5, flow_pane, panes)
+    IN(2, float, remainder) IN(3, float, noise) INOUT(4, float, given) IN(5, flow_pane, panes)
 #include "kernels/dialect/slots/slots.h"
 
 // The remainder map is read at the water amount: its nearest entry.
@@ -13,6 +13,19 @@ RG_FN float remainder_of(rg_ctx rg, flow_params p, float water)
 {
     float entry = water * p.remainder_scale + 0.5f;
     return remainder_at(rg, rg_to_int(rg_min(entry, rg_to_float(FLOW_REMAINDER_ENTRIES - 1))));
+}
+
+// Texels with too little water to move, which gave nothing before either.
+#define RG_IDLE_ITEMS 16
+RG_GRID_IDLE(flow_given)
+{
+    int i = flow_pane_index(p.size, z, x, y);
+    uint busy = 0u;
+    RG_KEPT
+    for (int k = 0; k < count; k++)
+        busy = busy | rg_float_bits(given_at(rg, i + k)) |
+               (water_at(rg, i + k) > p.move_threshold ? 1u : 0u);
+    return busy == 0u;
 }
 
 RG_GRID_KERNEL(flow_given)

@@ -33,6 +33,10 @@ ROWS = [Row(*row) for row in (
      "a * (1.0f - b.fx) + right * b.fx", "a * b.fx + right * (1.0f - b.fx)", SLIDING),
     ("upper and lower swapped between cells", "sliding/params.h",
      "top * (1.0f - b.fy) + bottom * b.fy", "top * b.fy + bottom * (1.0f - b.fy)", SLIDING),
+    ("texels have the water around half a cell beside", "sliding/across.h",
+     "(rg_to_float(x) + 0.5f)", "rg_to_float(x)", SLIDING),
+    ("texels have the water around of the row above alone", "sliding/params.h",
+     "above * (1.0f - r.fy) + below * r.fy", "above", SLIDING),
     # pace
     ("slope counts singly", "sliding/pace.h",
      "q.speed * rg_sqrt(q.speed)", "q.speed", SLIDING),
@@ -66,6 +70,8 @@ ROWS = [Row(*row) for row in (
      "flow_on_pane(p.size, x, y) ? whole : 0.0f", "flow_on_pane(p.size, x, 1) ? whole : 0.0f",
      SLIDING),
     # sliding
+    ("paces are those of half a cell to the left", "sliding/cling.h",
+     "(rg_to_float(x) + 0.5f)", "(rg_to_float(x) - 0.5f)", SLIDING),
     ("no beads", "sliding/cling.h", "rg_max(water - held, 0.0f)", "water", SLIDING),
     ("beads beside the axis too", "sliding/cling.h",
      "bead_of(rg, p, z, x, y) * ridge", "bead_of(rg, p, z, x, y)", SLIDING),
