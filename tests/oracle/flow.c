@@ -36,6 +36,7 @@ struct descent {
     int count, dx[2], dy[2];
     double share; // of the second
     double speed; // cos(alpha)
+    double down[2];
 };
 
 static struct descent descent_of(const struct oracle_settings *s)
@@ -51,6 +52,7 @@ static struct descent descent_of(const struct oracle_settings *s)
     struct descent d = {.count = 1, .speed = hypot(tangent[0], tangent[1])};
     if (d.speed < 1e-6)
         d.speed = 0;
+    memcpy(d.down, tangent, sizeof(d.down));
     double degrees = atan2(tangent[1], tangent[0]) * 180 / PI_;
     double first = s->split ? 45 * floor((degrees + 1e-7) / 45) : 45 * floor(degrees / 45 + 0.5);
     for (int i = 0; i < 2; i++) {
@@ -69,13 +71,19 @@ static struct descent descent_of(const struct oracle_settings *s)
 void oracle_open(struct oracle *o, const struct oracle_settings *settings)
 {
     *o = (struct oracle){.settings = *settings};
-    o->water = calloc((size_t)settings->size * (size_t)settings->size, sizeof(*o->water));
+    const int texels = settings->size * settings->size;
+    o->water = calloc((size_t)texels, sizeof(*o->water));
+    o->kept = malloc((size_t)texels * sizeof(*o->kept));
+    for (int i = 0; i < texels; i++)
+        o->kept[i] = -1;
 }
 
 void oracle_close(struct oracle *o)
 {
     free(o->water);
+    free(o->kept);
     o->water = NULL;
+    o->kept = NULL;
 }
 
 void oracle_land(struct oracle *o, double x, double y, double radius, double height)
@@ -131,19 +139,27 @@ static void put(struct oracle *o, int64_t *moved, int x, int y, int64_t droplets
         o->drained += droplets;
 }
 
-// One texel's part of equation 3, as figure 13 extends it.
-static void flow_from(struct oracle *o, const struct descent *d, int64_t *moved, int x, int y)
+// What a texel gives by equation 3.
+static int64_t given_by(const struct oracle *o, double speed, int x, int y)
 {
     const struct oracle_settings *s = &o->settings;
     const int64_t droplets = o->water[y * s->size + x];
     const double water = (double)droplets / ORACLE_DROPLETS;
-    double leaves = 1 - remainder_at(s, water) * noise_at(o, x, y);
-    int64_t given = (int64_t)floor((double)droplets * leaves * d->speed);
-    int64_t spilled = droplets - (int64_t)(s->capacity * ORACLE_DROPLETS);
-    if (given < spilled)
-        given = spilled;
+    const double leaves = 1 - remainder_at(s, water) * noise_at(o, x, y);
+    const int64_t given = (int64_t)floor((double)droplets * leaves * speed);
+    const int64_t spilled = droplets - (int64_t)(s->capacity * ORACLE_DROPLETS);
     if (!(water > s->threshold))
-        given = 0;
+        return 0;
+    return given < spilled ? spilled : given;
+}
+
+// What it gives goes to the next texel and the one after, as figure 13 has it, of each direction.
+static void push(struct oracle *o, const struct descent *d, int64_t *moved, int x, int y,
+                 int64_t given)
+{
+    const struct oracle_settings *s = &o->settings;
+    const int64_t droplets = o->water[y * s->size + x];
+    const double water = (double)droplets / ORACLE_DROPLETS;
     put(o, moved, x, y, droplets - given);
     int64_t second = d->count == 2 ? (int64_t)floor((double)given * d->share) : 0;
     int64_t parts[2] = {given - second, second};
@@ -154,14 +170,97 @@ static void flow_from(struct oracle *o, const struct descent *d, int64_t *moved,
     }
 }
 
+// --- directions of texels ---
+
+static const int around[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
+                                 {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+
+// A way in 2048ths of a turn leads between two of the eight neighbours.
+static struct descent descent_along(int way)
+{
+    struct descent d = {.count = 2, .share = way % 256 / 256.0};
+    for (int i = 0; i < 2; i++) {
+        d.dx[i] = around[(way / 256 + i) % 8][0];
+        d.dy[i] = around[(way / 256 + i) % 8][1];
+    }
+    return d;
+}
+
+// The sum of the unit vectors of a texel and its neighbours that moved by themselves, and how many.
+static int sum_movers(const struct oracle *o, int x, int y, double sum[2])
+{
+    const int n = o->settings.size;
+    int count = 0;
+    sum[0] = sum[1] = 0;
+    for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < n; v++) {
+        for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < n; u++) {
+            if (o->kept[v * n + u] < 0)
+                continue;
+            const struct descent d = descent_along(o->kept[v * n + u]);
+            const double dx = d.dx[0] * (1 - d.share) + d.dx[1] * d.share;
+            const double dy = d.dy[0] * (1 - d.share) + d.dy[1] * d.share;
+            sum[0] += dx / hypot(dx, dy);
+            sum[1] += dy / hypot(dx, dy);
+            count++;
+        }
+    }
+    return count;
+}
+
+static int way_of(const struct oracle_settings *s, const struct descent *d, const double sum[2],
+                  int count)
+{
+    double way[2], down[2];
+    for (int i = 0; i < 2; i++) {
+        down[i] = d->down[i] / d->speed;
+        way[i] = count ? (1 - s->sweep) * down[i] + s->sweep * sum[i] / count : down[i];
+    }
+    const double *to = hypot(way[0], way[1]) < 0.01 ? down : way;
+    const int parts = (int)floor(atan2(to[1], to[0]) / PI_ * 1024 + 0.5);
+    return (parts + 2048) % 2048;
+}
+
+// A texel turns to where it and its neighbours went, and is swept along by those that moved.
+static void sweep_from(struct oracle *o, const struct descent *d, int64_t *moved, int *next, int x,
+                       int y)
+{
+    const struct oracle_settings *s = &o->settings;
+    const int i = y * s->size + x;
+    double sum[2];
+    const int movers = sum_movers(o, x, y, sum);
+    const int64_t own = given_by(o, d->speed, x, y);
+    const int64_t swept = movers ? (int64_t)floor((double)o->water[i] * s->sweep * d->speed) : 0;
+    const int way = way_of(s, d, sum, movers);
+    const struct descent along = descent_along(way);
+    push(o, &along, moved, x, y, own > swept ? own : swept);
+    next[i] = own > 0 ? way : -1;
+}
+
+static void step_keeping(struct oracle *o, const struct descent *d, int64_t *moved)
+{
+    const int n = o->settings.size;
+    int *next = malloc((size_t)(n * n) * sizeof(*next));
+    for (int y = 0; y < n; y++)
+        for (int x = 0; x < n; x++)
+            sweep_from(o, d, moved, next, x, y);
+    free(o->kept);
+    o->kept = next;
+}
+
+static void step_together(struct oracle *o, const struct descent *d, int64_t *moved)
+{
+    const int n = o->settings.size;
+    for (int y = 0; y < n; y++)
+        for (int x = 0; x < n; x++)
+            push(o, d, moved, x, y, given_by(o, d->speed, x, y));
+}
+
 void oracle_step(struct oracle *o)
 {
     const int n = o->settings.size;
     const struct descent d = descent_of(&o->settings);
     int64_t *moved = calloc((size_t)n * (size_t)n, sizeof(*moved));
-    for (int y = 0; y < n; y++)
-        for (int x = 0; x < n; x++)
-            flow_from(o, &d, moved, x, y);
+    (o->settings.keeps ? step_keeping : step_together)(o, &d, moved);
     free(o->water);
     o->water = moved;
     o->frame++;

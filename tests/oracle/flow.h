@@ -19,7 +19,9 @@ struct oracle_settings {
     double fast;      // M
     double far_share; // r
     double capacity;
-    bool split; // between two directions, or all into the nearest
+    bool split;   // between two directions, or all into the nearest
+    bool keeps;   // texels keep directions of their own, split likewise
+    double sweep; // the neighbours' share in them
     double pitch_deg, yaw_deg, roll_deg;
     const float *remainder; // borrowed: evenly spaced over 0 to remainder_max_height
     int remainder_entries;
@@ -31,7 +33,8 @@ struct oracle_settings {
 
 struct oracle {
     struct oracle_settings settings;
-    int64_t *water;           // size x size, droplets
+    int64_t *water; // size x size, droplets
+    int *kept;      // by texel: the way it moved by itself, 2048ths of a turn; -1: it did not
     int64_t sourced, drained; // droplets since the start
     int64_t frame;
 };

@@ -14,6 +14,9 @@ enum flow_pass {
     FLOW_DRAIN,
     FLOW_MOVE,
     FLOW_REACH,
+    FLOW_SWEPT_GIVEN,
+    FLOW_SWEPT_DRAIN,
+    FLOW_SWEPT_MOVE,
     FLOW_ARRIVE,
     // movement of sliding drops
     FLOW_LEVEL,
@@ -62,9 +65,10 @@ struct flow {
     struct rg_instance base;
     struct flow_settings settings; // resolution_px is what flow_texels made of it
     int pane_count, noise_size;
-    struct rg_asset *water, *moved; // of this frame, and scratch for the next
-    struct rg_asset *panes;         // how they stand
-    struct rg_asset *ways;          // how far water slides, of flow_ways_at; NULL: nothing slides
+    struct rg_asset *water, *moved;  // of this frame, and scratch for the next
+    struct rg_asset *kept, *heading; // directions of texels, likewise; NULL: they keep none
+    struct rg_asset *panes;          // how they stand
+    struct rg_asset *ways;           // how far water slides, of flow_ways_at; NULL: nothing slides
     struct flow_told told;
     int model_faces; // 0: no model
     float model_low[3], model_high[3];

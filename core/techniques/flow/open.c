@@ -62,6 +62,16 @@ static bool is_paper(const struct rg_instance *i)
     return settings_of(i)->move == FLOW_MOVE_PAPER;
 }
 
+static bool keeps_directions(const struct rg_instance *i)
+{
+    return is_paper(i) && settings_of(i)->direction == FLOW_EACH_TEXEL;
+}
+
+static bool has_one_direction(const struct rg_instance *i)
+{
+    return is_paper(i) && !keeps_directions(i);
+}
+
 static bool is_sliding(const struct rg_instance *i)
 {
     return !is_paper(i);
@@ -69,7 +79,7 @@ static bool is_sliding(const struct rg_instance *i)
 
 static bool reaches_far(const struct rg_instance *i)
 {
-    return is_paper(i) && settings_of(i)->reach_texels > 2;
+    return has_one_direction(i) && settings_of(i)->reach_texels > 2;
 }
 
 static bool runs_on(const struct rg_instance *i)
@@ -81,10 +91,16 @@ static bool runs_on(const struct rg_instance *i)
 
 static const struct rg_stage stages[FLOW_PASS_COUNT] = {
     [FLOW_SPLAT] = {"flow_splat", .params = AT(drop)},
-    [FLOW_GIVEN] = {"flow_given", is_paper, .params = AT(movement), .over = "given"},
-    [FLOW_DRAIN] = {"flow_drain", is_paper, .params = AT(movement), .over = "arriving"},
-    [FLOW_MOVE] = {"flow_move", is_paper, .params = AT(movement), .over = "given"},
+    [FLOW_GIVEN] = {"flow_given", has_one_direction, .params = AT(movement), .over = "given"},
+    [FLOW_DRAIN] = {"flow_drain", has_one_direction, .params = AT(movement), .over = "arriving"},
+    [FLOW_MOVE] = {"flow_move", has_one_direction, .params = AT(movement), .over = "given"},
     [FLOW_REACH] = {"flow_reach", reaches_far, .params = AT(movement), .over = "given"},
+    [FLOW_SWEPT_GIVEN] = {"flow_swept_given", keeps_directions, .params = AT(movement),
+                          .over = "given"},
+    [FLOW_SWEPT_DRAIN] = {"flow_swept_drain", keeps_directions, .params = AT(movement),
+                          .over = "arriving"},
+    [FLOW_SWEPT_MOVE] = {"flow_swept_move", keeps_directions, .params = AT(movement),
+                         .over = "given"},
     [FLOW_ARRIVE] = {"flow_arrive", runs_on, .params = AT(movement), .over = "arriving",
                      .named = {{"water", "moved"}}},
     [FLOW_LEVEL] = {"flow_level", is_sliding, .params = AT(sliding), .over = "level"},
@@ -162,6 +178,11 @@ static void add_water(struct flow *flow)
     rg_set_items(flow->panes, flow->pane_count, 1, 1);
     rg_add_state(i, flow->water, "water", true, row, FLOW_MARGIN);
     rg_add_state(i, rg_add_buf(i, "ledger", FLOW_LEDGER_WORDS, NULL), "ledger", false, 0, 0);
+    if (!keeps_directions(i))
+        return;
+    flow->kept = rg_add_buf(i, "kept", texels, NULL);
+    flow->heading = rg_add_buf(i, "heading", texels, NULL);
+    rg_add_state(i, flow->kept, "directions", false, row, FLOW_MARGIN);
 }
 
 static void add_map(struct flow *flow, const char *name, float *values, int64_t count)

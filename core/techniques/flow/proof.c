@@ -79,6 +79,8 @@ static const struct rg_pose poses[] = {
     {.set = "resolution_px=96 move=paper"},
     {.set = "resolution_px=96 pane_pitch_deg=40 pane_roll_deg=30 direction=split run_on=on "
             "reach_texels=4 move=paper"},
+    {.set = "resolution_px=96 pane_pitch_deg=40 pane_roll_deg=30 direction=texel run_on=on "
+            "move=paper"},
     {.set = "resolution_px=96 pane_pitch_deg=40 pane_roll_deg=30 run_on=on rain_drops_s=400"},
     {.set = "resolution_px=96 panes=mirror pane_pitch_deg=-20 pane_roll_deg=180 spin_yaw_deg_s=90 "
             "move=paper glow=0.5 glow_threshold=0.3"},

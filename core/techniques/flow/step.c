@@ -46,13 +46,18 @@ static void swap(struct flow *flow)
     rg_swap(flow->water, flow->moved);
 }
 
-// Each texel gives, then takes; what crosses a pane's edge arrives last.
+// Each texel gives, then takes, in one direction or in its own; what crosses a pane's edge arrives
+// last.
 static bool move(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;
     const bool ok = rg_stage(i, FLOW_GIVEN) && rg_stage(i, FLOW_DRAIN) && rg_stage(i, FLOW_MOVE) &&
-                    rg_stage(i, FLOW_REACH) && rg_stage(i, FLOW_ARRIVE);
+                    rg_stage(i, FLOW_REACH) && rg_stage(i, FLOW_SWEPT_GIVEN) &&
+                    rg_stage(i, FLOW_SWEPT_DRAIN) && rg_stage(i, FLOW_SWEPT_MOVE) &&
+                    rg_stage(i, FLOW_ARRIVE);
     swap(flow);
+    if (flow->kept)
+        rg_swap(flow->kept, flow->heading);
     return ok;
 }
 

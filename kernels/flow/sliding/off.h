@@ -1,6 +1,6 @@
 // flow: what slides over the edges of each pane: on to the pane beyond, or off.
 #include "kernels/flow/sliding/params.h"
-#include "kernels/flow/water/strip.h"
+#include "kernels/flow/edges/strip.h"
 
 #define RG_PARAMS flow_slide_params
 #define RG_SLOTS                                                                                   \
@@ -9,7 +9,7 @@
     IN(3, int, ways) ATOMIC(4, uint, ledger) IN(5, flow_pane, panes) ATOMIC(6, uint, arriving)
 #include "kernels/dialect/slots/slots.h"
 
-#include "kernels/flow/water/leave.h"
+#include "kernels/flow/edges/leave.h"
 
 RG_GRID_KERNEL(flow_slide_off)
 {

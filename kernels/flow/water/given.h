@@ -8,12 +8,7 @@
     IN(2, float, remainder) IN(3, float, noise) INOUT(4, float, given) IN(5, flow_pane, panes)
 #include "kernels/dialect/slots/slots.h"
 
-// The remainder map is read at the water amount: its nearest entry.
-RG_FN float remainder_of(rg_ctx rg, flow_params p, float water)
-{
-    float entry = water * p.remainder_scale + 0.5f;
-    return remainder_at(rg, rg_to_int(rg_min(entry, rg_to_float(FLOW_REMAINDER_ENTRIES - 1))));
-}
+#include "kernels/flow/water/maps.h"
 
 // Texels with too little water to move, which gave nothing before either.
 #define RG_IDLE_ITEMS 16
@@ -32,9 +27,7 @@ RG_GRID_KERNEL(flow_given)
 {
     int i = flow_pane_index(p.size, z, x, y);
     flow_pane pane = panes_at(rg, z);
-    int nx = flow_noise_index(p.noise_x + pane.noise_shift, p.noise_step, x, p.noise_size);
-    int ny = flow_noise_index(p.noise_y, p.noise_step, y, p.noise_size);
     float water = water_at(rg, i);
-    float noise = noise_at(rg, ny * p.noise_size + nx);
+    float noise = noise_of(rg, p, pane.noise_shift, x, y);
     given_put(rg, i, flow_given(p, pane.speed, water, remainder_of(rg, p, water), noise));
 }

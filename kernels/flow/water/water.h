@@ -40,8 +40,9 @@ RG_STRUCT(flow_params)
     int noise_size;         // texels along a side of the noise map
     float noise_step;       // noise texels a pane texel
     float noise_x, noise_y; // where the window begins, in noise texels
+    float sweep;            // of texels that keep directions: the neighbours' share in a texel's own
 };
-RG_STRUCT_SIZE(flow_params, 12)
+RG_STRUCT_SIZE(flow_params, 13)
 
 // Where water that leaves a pane over an edge goes.
 RG_STRUCT(flow_neighbour)

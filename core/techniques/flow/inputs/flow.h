@@ -10,7 +10,7 @@
 #include "kernels/flow/water/splat_params.h"
 #include "kernels/flow/water/water.h"
 
-enum flow_direction { FLOW_NEAREST, FLOW_SPLIT };
+enum flow_direction { FLOW_NEAREST, FLOW_SPLIT, FLOW_EACH_TEXEL };
 enum flow_scene { FLOW_BOX, FLOW_ONE_PANE };
 enum flow_move { FLOW_MOVE_SLIDING, FLOW_MOVE_PAPER };
 enum flow_sides { FLOW_FRONT_SIDES, FLOW_BOTH_SIDES };
@@ -32,6 +32,7 @@ struct flow_settings {
     int resolution_px, seed;
     double texels_a_pixel;
     double move_threshold, fast_threshold, far_share, capacity;
+    double sweep;
     int reach_texels, direction, run_on;
     // sliding drops
     double slide_above_mm3, slide_gain_mm_s, slide_most_mm_s;
@@ -57,7 +58,7 @@ struct flow_settings {
 extern const struct rg_param_table flow_param_table;
 
 // What an instance's state holds, in this order.
-enum flow_state { FLOW_STATE_WATER, FLOW_STATE_LEDGER, FLOW_STATE_COUNT };
+enum flow_state { FLOW_STATE_WATER, FLOW_STATE_LEDGER };
 
 // How many panes the settings' scene has: 6, or 1. Front, back, right, left, top and bottom.
 int flow_pane_count(const struct flow_settings *settings);

@@ -55,7 +55,7 @@ static void set_gravity(const struct flow_settings *s, double axes[3][3], flow_p
     double along = sqrt(gx * gx + gy * gy);
     pane->speed = along > 1e-6 ? (float)fmin(along, 1) : 0;
     double eighths = atan2(gy, gx) / (M_PI / 4);
-    if (s->direction == FLOW_NEAREST) {
+    if (s->direction != FLOW_SPLIT) {
         direction_of((int)floor(eighths + 0.5), &pane->ax, &pane->ay);
         return;
     }
@@ -133,7 +133,8 @@ static double fraction(double x)
 static float threshold_of(const struct flow_settings *s, int texels)
 {
     const double never = 1e30, step = fmax(s->fast_threshold - s->move_threshold, 0);
-    return (float)(texels <= s->reach_texels ? s->fast_threshold + (texels - 2) * step : never);
+    const int reach = s->direction == FLOW_EACH_TEXEL ? 2 : s->reach_texels;
+    return (float)(texels <= reach ? s->fast_threshold + (texels - 2) * step : never);
 }
 
 flow_params flow_params_at(const struct flow_settings *s, int noise_size, int64_t frame)
@@ -151,6 +152,7 @@ flow_params flow_params_at(const struct flow_settings *s, int noise_size, int64_
         .noise_step = (float)(noise_size * s->noise_window / s->resolution_px),
         .noise_x = (float)(noise_size * fraction((double)frame * s->noise_scroll_x)),
         .noise_y = (float)(noise_size * fraction((double)frame * s->noise_scroll_y)),
+        .sweep = (float)s->sweep,
     };
 }
 

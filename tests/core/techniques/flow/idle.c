@@ -163,6 +163,9 @@ static void test_rain_falls_on_dry_panes(void **state)
     compare("move=paper resolution_px=100 drops=0 rain_drops_s=200 direction=split "
             "pane_roll_deg=30",
             30);
+    compare("move=paper resolution_px=100 drops=0 rain_drops_s=200 direction=texel "
+            "pane_roll_deg=-160",
+            30);
     compare("move=sliding resolution_px=64 drops=0 rain_drops_s=200", 30);
     compare("move=sliding resolution_px=100 drops=0 rain_drops_s=200 pane_roll_deg=30", 30);
 }
@@ -173,6 +176,9 @@ static void test_water_runs_over_the_edges(void **state)
     (void)state;
     compare("move=paper view=box run_on=on resolution_px=40 drops=60 rain_drops_s=300 "
             "pane_pitch_deg=40 pane_roll_deg=30 reach_texels=4 spin_roll_deg_s=200",
+            40);
+    compare("move=paper view=box run_on=on resolution_px=40 drops=60 rain_drops_s=300 "
+            "pane_pitch_deg=40 pane_roll_deg=30 direction=texel spin_roll_deg_s=200",
             40);
     compare("move=sliding view=box run_on=on resolution_px=90 drops=60 rain_drops_s=300 "
             "pane_pitch_deg=40 pane_roll_deg=30 spin_roll_deg_s=200 slide_above_mm3=2",

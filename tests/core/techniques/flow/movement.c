@@ -273,6 +273,83 @@ static void test_split_divides_by_angle(void **state)
     rig_close(&rig);
 }
 
+// --- directions of texels ---
+
+// What stays below L moves on its own no more, but texels that moved sweep it along, and what is
+// beside them: half of the water goes, and half of that in the step after.
+static void test_texels_sweep_along_their_neighbours(void **state)
+{
+    (void)state;
+    struct rig rig;
+    open_plain(&rig, "direction=texel sweep=0.5");
+    int64_t *water = calloc(SIZE * SIZE, sizeof(*water));
+    water[MIDDLE * SIZE + MIDDLE] = UNIT / 2;
+    water[MIDDLE * SIZE + MIDDLE + 1] = UNIT / 8;
+    water[MIDDLE * SIZE + MIDDLE + 2] = UNIT / 8; // too far
+    rig_put(&rig, water);
+    free(water);
+    rig_step(&rig, 1); // nothing has moved before
+    rig_expect(&rig, MIDDLE, MIDDLE, UNIT / 8);
+    rig_expect(&rig, MIDDLE, MIDDLE + 1, 3 * UNIT / 8);
+    rig_expect(&rig, MIDDLE + 1, MIDDLE, UNIT / 8);
+    rig_step(&rig, 1);
+    rig_expect(&rig, MIDDLE, MIDDLE, UNIT / 16);
+    rig_expect(&rig, MIDDLE, MIDDLE + 1, 3 * UNIT / 32 + UNIT / 16);
+    rig_expect(&rig, MIDDLE + 1, MIDDLE, UNIT / 16);
+    rig_expect(&rig, MIDDLE + 1, MIDDLE + 1, UNIT / 16);
+    rig_expect(&rig, MIDDLE + 2, MIDDLE, UNIT / 8);
+    rig_step(&rig, 1); // the texel below has moved
+    rig_expect(&rig, MIDDLE + 1, MIDDLE, UNIT / 32);
+    rig_close(&rig);
+}
+
+// The pane turns by 90 degrees after a step: what moved goes between its old way and the new.
+static void test_texels_keep_their_direction(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *sweep;
+        int dx, dy;
+    } cases[] = {{"0.25", 1, 0}, {"0.5", 1, 1}, {"0.75", 0, 1}, {"1", 0, 1}};
+    char text[64];
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        struct rig rig;
+        snprintf(text, sizeof(text), "direction=texel sweep=%s", cases[i].sweep);
+        open_plain(&rig, text);
+        rig_put_one(&rig, MIDDLE, MIDDLE, UNIT / 2);
+        rig_step(&rig, 1);
+        rig_put_one(&rig, MIDDLE, MIDDLE, UNIT / 8);
+        rig_set(&rig, "pane_roll_deg=90");
+        rig_step(&rig, 1);
+        int64_t *water = rig_water(&rig);
+        const int64_t swept = UNIT / 8 - water[MIDDLE * SIZE + MIDDLE];
+        const int64_t there = water[(MIDDLE + cases[i].dy) * SIZE + MIDDLE + cases[i].dx];
+        free(water);
+        // tan(18.4 degrees) is 1/3: of the two nearest, more goes to the nearer one.
+        if (swept <= 0 || there <= swept / 2)
+            fail_msg("%s: of %lld droplets %lld went to (%d, %d)", text, (long long)swept,
+                     (long long)there, cases[i].dx, cases[i].dy);
+        rig_close(&rig);
+    }
+}
+
+// Without a share of the neighbours a texel's direction is the pane's.
+static void test_texels_that_sweep_nothing_go_down(void **state)
+{
+    (void)state;
+    struct rig rig;
+    open_plain(&rig, "direction=texel sweep=0");
+    for (int eighth = 0; eighth < 8; eighth++) {
+        static const int steps[8][2] = {{0, 1},  {1, 1},   {1, 0},  {1, -1},
+                                        {0, -1}, {-1, -1}, {-1, 0}, {-1, 1}};
+        char text[32];
+        snprintf(text, sizeof(text), "pane_roll_deg=%d",
+                 eighth < 5 ? 45 * eighth : 45 * eighth - 360);
+        expect_direction(&rig, text, steps[eighth][0], steps[eighth][1]);
+    }
+    rig_close(&rig);
+}
+
 // --- laws ---
 
 static uint32_t noise(uint32_t i)
@@ -287,6 +364,8 @@ static const char *const poses[] = {
     "pane_roll_deg=30 pane_pitch_deg=40 direction=split",
     "pane_roll_deg=-160 far_share=0.37 direction=split",
     "pane_roll_deg=135",
+    "pane_roll_deg=30 pane_pitch_deg=40 direction=texel",
+    "pane_roll_deg=-160 far_share=0.37 direction=texel sweep=0.8",
 };
 enum { POSES = sizeof(poses) / sizeof(poses[0]) };
 
@@ -444,6 +523,9 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_pitched_panes),
         cmocka_unit_test(test_inclination_scales_what_moves),
         cmocka_unit_test(test_split_divides_by_angle),
+        cmocka_unit_test(test_texels_sweep_along_their_neighbours),
+        cmocka_unit_test(test_texels_keep_their_direction),
+        cmocka_unit_test(test_texels_that_sweep_nothing_go_down),
         cmocka_unit_test(test_water_is_conserved),
         cmocka_unit_test(test_the_ledger_balances),
         cmocka_unit_test(test_drops_do_not_depend_on_resolution),

@@ -5,6 +5,7 @@ Row = collections.namedtuple("Row", "about file old new tests")
 
 SLIDING = ("sliding",)
 MOVEMENT = ("movement",)
+ORACLE = ("oracle",)
 PICTURE = ("picture",)
 
 ROWS = [Row(*row) for row in (
@@ -95,10 +96,33 @@ ROWS = [Row(*row) for row in (
     ("the third gets what the fourth should", "water/water.h",
      "last_a * fourth_share", "last_a * third_share", MOVEMENT),
     ("a split is even", "water/water.h", "given * pane.b_share", "given * 0.5f", MOVEMENT),
-    ("corners drain twice", "water/strip.h",
+    ("corners drain twice", "edges/strip.h",
      "t.x = -1;", "t.x = across;", MOVEMENT),
     ("caps are cones", "water/splat.h",
      "p.height * rg_sqrt(rg_max(inside, 0.0f))", "p.height * rg_max(inside, 0.0f)", MOVEMENT),
+    # directions of texels
+    ("texels forget who moved", "swept/given.h", "own > 0.0f ? FLOW_HEADING_MOVES : 0u", "0u", MOVEMENT),
+    ("what is swept along sweeps too", "swept/given.h",
+     "own > 0.0f ? FLOW_HEADING_MOVES : 0u", "given > 0.0f ? FLOW_HEADING_MOVES : 0u", ORACLE),
+    ("nothing is swept along", "swept/given.h", "water * p.sweep * q.speed", "0.0f", MOVEMENT),
+    ("the slope does not count for what is swept", "swept/given.h",
+     "water * p.sweep * q.speed", "water * p.sweep", ORACLE),
+    ("a texel turns wholly to its neighbours", "swept/given.h",
+     "down_y * (1.0f - sweep)", "down_y * 0.0f", MOVEMENT),
+    ("directions add up across alone", "swept/given.h",
+     "m.y = others.y + way.y * moves;", "m.y = others.y;", MOVEMENT),
+    ("the row above does not count", "swept/given.h",
+     "and_row(rg, none, i - stride)", "and_row(rg, none, i + stride)", ORACLE),
+    ("diagonal ways are longer", "swept/heading.h",
+     "1.0f / rg_sqrt(x * x + y * y)", "1.0f", ORACLE),
+    ("directions are rounded down", "swept/heading.h", "rg_floor(parts + 0.5f)", "rg_floor(parts)", ORACLE),
+    ("the second direction is the one before", "swept/heading.h",
+     "q.bx = flow_step_x(e + 1);", "q.bx = flow_step_x(e + 7);", MOVEMENT),
+    ("water does not arrive by the second direction", "swept/move.h",
+     "((from + 1) & 7) == eighth ? b : 0.0f", "0.0f", MOVEMENT),
+    ("far water arrives near", "swept/move.h", "i - 2 * step, e, true", "i - step, e, true", MOVEMENT),
+    ("edges drain the first direction alone", "swept/drain.h",
+     "at.y + q.by, parts.near_b", "at.y + q.by, 0.0f", MOVEMENT),
     # glass
     ("drops show things upright", "panes/glass.h",
      "+ 0.5f - v3_dot(bend, right) *", "+ 0.5f + v3_dot(bend, right) *", PICTURE),

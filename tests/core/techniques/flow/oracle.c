@@ -1,4 +1,4 @@
-// The water of flow on cpu:reference against the independent oracle.
+// The water of flow against the independent oracle. oracle DEVICE runs on it.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,6 +12,8 @@
 
 #include "tests/core/techniques/flow/rig.h"
 #include "tests/oracle/flow.h"
+
+static const char *device = "cpu:reference";
 
 enum { STEPS = 100 };
 
@@ -33,7 +35,7 @@ static void land(struct pair *pair, int64_t frame, int count)
 
 static void pair_open(struct pair *pair, const char *assignments)
 {
-    rig_open(&pair->rig, "cpu:reference", assignments);
+    rig_open(&pair->rig, device, assignments);
     const struct flow_settings *s = &pair->rig.settings;
     int noise_size;
     pair->remainder = flow_remainder_map(s);
@@ -45,6 +47,8 @@ static void pair_open(struct pair *pair, const char *assignments)
                                    .far_share = s->far_share,
                                    .capacity = s->capacity,
                                    .split = s->direction == FLOW_SPLIT,
+                                   .keeps = s->direction == FLOW_EACH_TEXEL,
+                                   .sweep = s->sweep,
                                    .pitch_deg = s->pitch_deg,
                                    .yaw_deg = s->yaw_deg,
                                    .roll_deg = s->roll_deg,
@@ -192,11 +196,23 @@ static void test_state_of_many_poses(void **state)
     print_worst();
 }
 
+static void test_state_of_texels_that_keep_directions(void **state)
+{
+    (void)state;
+    char text[256];
+    for (int seed = 1; seed <= 8; seed++) {
+        snprintf(text, sizeof(text), "resolution_px=64 seed=%d direction=texel sweep=%g %s", seed,
+                 seed % 4 / 4.0, poses[seed % POSES]);
+        compare(text);
+    }
+    print_worst();
+}
+
 // The bounds are worth something: a model that is a little off is beyond them.
-static void expect_rejected(const char *what, size_t field, double factor)
+static void expect_rejected(const char *assignments, const char *what, size_t field, double factor)
 {
     struct pair pair;
-    pair_open(&pair, "resolution_px=64 pane_roll_deg=30 pane_pitch_deg=40 direction=split");
+    pair_open(&pair, assignments);
     *(double *)((char *)&pair.oracle.settings + field) *= factor;
     pair_step(&pair, STEPS);
     const struct difference d = difference_of(&pair);
@@ -209,8 +225,10 @@ static void expect_rejected(const char *what, size_t field, double factor)
 static void test_mutants_are_rejected(void **state)
 {
     (void)state;
+    const char *split = "resolution_px=64 pane_roll_deg=30 pane_pitch_deg=40 direction=split";
+    const char *texel = "resolution_px=64 pane_roll_deg=30 pane_pitch_deg=40 direction=texel";
 #define REJECT(field, factor)                                                                      \
-    expect_rejected(#field, offsetof(struct oracle_settings, field), factor)
+    expect_rejected(split, #field, offsetof(struct oracle_settings, field), factor)
     REJECT(threshold, 1.01);
     REJECT(fast, 1.01);
     REJECT(far_share, 0.99);
@@ -220,13 +238,17 @@ static void test_mutants_are_rejected(void **state)
     REJECT(noise_window, 1.05);
     REJECT(noise_scroll_x, 0.9);
 #undef REJECT
+    expect_rejected(texel, "sweep", offsetof(struct oracle_settings, sweep), 1.01);
+    expect_rejected(texel, "roll_deg", offsetof(struct oracle_settings, roll_deg), 1.01);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    device = argc > 1 ? argv[1] : device;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_state_at_128),
         cmocka_unit_test(test_state_of_many_poses),
+        cmocka_unit_test(test_state_of_texels_that_keep_directions),
         cmocka_unit_test(test_mutants_are_rejected),
     };
     return cmocka_run_group_tests(tests, NULL, rig_close_devices);

@@ -1,8 +1,8 @@
 // How water leaves a pane over its edges, droplet by droplet, by the slots ledger and arriving of
 // the including kernel: on to the pane beyond the edge, or, where there is none, off, which the
 // ledger counts.
-#ifndef RG_KERNELS_FLOW_WATER_LEAVE_H
-#define RG_KERNELS_FLOW_WATER_LEAVE_H
+#ifndef RG_KERNELS_FLOW_EDGES_LEAVE_H
+#define RG_KERNELS_FLOW_EDGES_LEAVE_H
 
 // A part that goes to (x, y) of pane z, if that lies off the pane. What leaves over a corner leaves
 // over the row's edge.

@@ -1,7 +1,7 @@
 // flow: takes in the water that came over the edges from neighbouring panes, after the movement.
 // Where two panes lead water to the edge between them it gathers; what is too much for the edge
 // drips off, so that amounts stay small enough for a float to count every droplet.
-#include "kernels/flow/water/strip.h"
+#include "kernels/flow/edges/strip.h"
 
 #define RG_PARAMS flow_params
 #define RG_SLOTS  INOUT(1, float, water) INOUT(2, uint, arriving) ATOMIC(3, uint, ledger)

@@ -1,7 +1,7 @@
 // The strips along a pane's edges that water crosses in a step: FLOW_MARGIN rows and columns a
 // side.
-#ifndef RG_KERNELS_FLOW_WATER_STRIP_H
-#define RG_KERNELS_FLOW_WATER_STRIP_H
+#ifndef RG_KERNELS_FLOW_EDGES_STRIP_H
+#define RG_KERNELS_FLOW_EDGES_STRIP_H
 
 #include "kernels/flow/water/water.h"
 
