@@ -1,5 +1,6 @@
-// What cpu alone can get wrong when it draws: targets of odd sizes, batches, rounds and threads.
-// Whatever their number, it leaves what cpu:reference leaves, to the last bit.
+// What cpu alone can get wrong: targets of odd sizes, batches, rounds and threads when it draws,
+// whatever their number it leaves what cpu:reference leaves, to the last bit; and which items it
+// leaves out.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,6 +14,7 @@
 #include "core/base/log.h"
 #include "core/device/device.h"
 #include "tests/core/device/draws/quads.h"
+#include "tests/kernels/idle_params.h"
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof((array)[0])))
 
@@ -205,6 +207,64 @@ static void kernels_that_pack_are_refused(void **state)
     }
 }
 
+// --- items with nothing to do ---
+
+// Rows of two and a half blocks beside what a run begins with.
+enum { IDLE_WIDTH = 5 * TEST_IDLE_ITEMS / 2 + 3, IDLE_ROWS = 7, IDLE_BEGIN = 3 };
+
+// How often each item ran on a device, of a run that leaves the first columns out.
+static void count_runs(const char *name, const uint32_t *marks, uint32_t *runs)
+{
+    struct rg_device *device = rg_device_open(name);
+    assert_non_null(device);
+    const int64_t size = IDLE_WIDTH * IDLE_ROWS * (int64_t)sizeof(*runs);
+    struct rg_buf *marked = rg_buf_create_with(device, marks, size, "marks");
+    struct rg_buf *counted = rg_buf_create_with(device, runs, size, "runs");
+    struct rg_pass *pass = rg_pass_create(device, "test_idle");
+    assert_non_null(pass);
+    assert_true(
+        rg_pass_run(pass, &(struct rg_run){.params = &(test_idle_params){IDLE_WIDTH},
+                                           .slots = {[1].buf = marked, [2].buf = counted},
+                                           .extent = {IDLE_WIDTH - IDLE_BEGIN, IDLE_ROWS, 1},
+                                           .origin = {IDLE_BEGIN, 0, 0}}));
+    assert_true(rg_buf_read(counted, 0, runs, size));
+    rg_pass_destroy(pass);
+    rg_buf_destroy(marked);
+    rg_buf_destroy(counted);
+    assert_true(rg_device_close(device));
+}
+
+// Whether an item, or, where it is of a whole block of a run, one of that block, is marked.
+static bool runs_on_cpu(const uint32_t *row, int x)
+{
+    const int block = IDLE_BEGIN + (x - IDLE_BEGIN) / TEST_IDLE_ITEMS * TEST_IDLE_ITEMS;
+    bool marked = block + TEST_IDLE_ITEMS > IDLE_WIDTH;
+    for (int i = block; i < block + TEST_IDLE_ITEMS && i < IDLE_WIDTH; i++)
+        marked = marked || row[i];
+    return marked;
+}
+
+// cpu leaves out whole blocks of items that have nothing to do, and no others; the reference runs
+// all, and each item runs once.
+static void idle_items_are_left_out(void **state)
+{
+    (void)state;
+    uint32_t marks[IDLE_WIDTH * IDLE_ROWS] = {0}, runs[2][IDLE_WIDTH * IDLE_ROWS] = {{0}};
+    for (int row = 0; row < IDLE_ROWS; row++)
+        marks[row * IDLE_WIDTH + row * (IDLE_WIDTH - 1) / (IDLE_ROWS - 1)] = 1;
+    count_runs("cpu", marks, runs[0]);
+    count_runs("cpu:reference", marks, runs[1]);
+    int left_out = 0;
+    for (int i = 0; i < IDLE_WIDTH * IDLE_ROWS; i++) {
+        const int x = i % IDLE_WIDTH;
+        const bool is_run = x >= IDLE_BEGIN;
+        assert_int_equal(runs[1][i], is_run);
+        assert_int_equal(runs[0][i], is_run && runs_on_cpu(&marks[i - x], x));
+        left_out += runs[0][i] != runs[1][i];
+    }
+    assert_true(left_out > TEST_IDLE_ITEMS * IDLE_ROWS / 2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -216,6 +276,7 @@ int main(void)
         cmocka_unit_test(some_items_of_a_buffer_are_drawn),
         cmocka_unit_test(many_items_are_drawn),
         cmocka_unit_test(many_clipped_items_are_drawn),
+        cmocka_unit_test(idle_items_are_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -54,7 +54,8 @@
 // x + count - 1 would write nothing but what is there. It defines RG_IDLE_ITEMS, how many to ask
 // for at a time. `cpu` asks, and leaves them out; others run all.
 #define RG_GRID_IDLE(name)                                                                         \
-    RG_FN bool rg_is_idle(rg_ctx rg, RG_RUN_PARAMS p, int x, int y, int z, int count)
+    RG_FN bool rg_is_idle(rg_ctx rg RG_UNUSED, RG_RUN_PARAMS p RG_UNUSED, int x RG_UNUSED,         \
+                          int y RG_UNUSED, int z RG_UNUSED, int count RG_UNUSED)
 
 #if RG_GLSL
 #include "kernels/dialect/slots/glsl.h"
