@@ -48,8 +48,11 @@ struct city_island city_island_at(int column, int row)
     };
 }
 
+// The thesis does not say where it stands. From here the packets that its tables draw hold as many
+// particles as it printed, to 18 % (test `counts of particles`): of the first camera that holds
+// along 2 cm of the avenue's width.
 const struct rg_camera city_first_camera = {
-    .position = {-4.9f, 1.7f, 93.0f},
+    .position = {-6.94f, 1.7f, 107.1f},
     .target = {0.5f, 11.0f, 32.8f},
     .up = {0, 1, 0},
     .angle_deg = 60,
@@ -57,7 +60,7 @@ const struct rg_camera city_first_camera = {
     .far_plane = 1000,
 };
 const struct rg_camera city_second_camera = {
-    .position = {-5.4f, 6.0f, 64.2f},
+    .position = {-5.88f, 6.0f, 66.9f},
     .target = {-8.0f, 20.0f, -107.7f},
     .up = {0, 1, 0},
     .angle_deg = 60,
