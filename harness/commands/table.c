@@ -7,6 +7,7 @@
 #include "core/base/log.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
+#include "harness/cli/subject.h"
 #include "harness/console/exit.h"
 #include "harness/record/disk/stored.h"
 #include "harness/tables/claims/sheet.h"
@@ -21,13 +22,16 @@ struct table_options {
     char *from;             // a file or folder; NULL: the tables are measured
     int format;             // of rg_result_formats
     int work;               // of `works`
+    char *variant;          // NULL: all
+    struct rg_words sets;   // of --set
+    char *set;              // the same as one text; NULL: none
     bool fresh, claims, json;
     struct rg_claim_outcomes *outcomes; // what --claims prints in the end
 };
 
 #define AT(field) offsetof(struct table_options, field)
 
-static const char *const works[] = {"paper", "ours", "queries", NULL};
+static const char *const works[] = {"paper", "reading", "ours", "queries", NULL};
 
 static const struct rg_option options[] = {
     RG_GROUP("What to measure"),
@@ -37,17 +41,22 @@ static const struct rg_option options[] = {
     {RG_OPTION_RANGE, "rows", .argument = "A-B", .about = "only these rows, counted from 1",
      .offset = AT(rows), .least = 1, .most = INT_MAX},
     {RG_OPTION_CHOICE, "work",
-     .about = "the work that was printed, ours, or the API's occlusion queries, where a table "
-              "tells them "
-              "apart; all without",
+     .about = "the work that was printed, another reading of the paper, ours, or the API's "
+              "occlusion queries, where a table tells them apart; all without",
      .offset = AT(work), .choices = works},
+    {RG_OPTION_TEXT, "variant", .argument = "NAME",
+     .about = "only this of what is timed of each row: full, no_geometry", .offset = AT(variant)},
+    {RG_OPTION_TEXTS, "set", .argument = "KEY=VALUE",
+     .about = "sets a parameter in all cells, over what their rows set; what is measured then is "
+              "not held against print",
+     .offset = AT(sets)},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     {RG_OPTION_FLAG, "fresh", .about = "takes nothing from a run that was interrupted",
      .offset = AT(fresh)},
     {RG_OPTION_TEXT, "from", .argument = "FILE|DIR",
      .about = "prints results that -o, --json or an interrupted run wrote there, and measures "
               "nothing",
-     .offset = AT(from), .names = RG_NAMES_FILE, .excludes = "device quick full fresh"},
+     .offset = AT(from), .names = RG_NAMES_FILE, .excludes = "device quick full fresh set"},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices), "all"),
     RG_GROUP("Output"),
@@ -104,6 +113,14 @@ static int print(const struct rg_result *result, const void *user)
 
 // --- tables that are measured ---
 
+static bool has_variant(const struct rg_table *table, const char *wanted)
+{
+    bool has = !wanted;
+    for (const struct rg_table_variant *v = table->variants; v->name; v++)
+        has = has || !strcmp(v->name, wanted);
+    return has;
+}
+
 static bool has_work(const struct rg_table *table, const char *wanted)
 {
     bool has = !wanted || !table->works[0].name;
@@ -112,11 +129,43 @@ static bool has_work(const struct rg_table *table, const char *wanted)
     return has;
 }
 
-// The tables that are named, or all that have the work. False, and one logged line, where one is
-// unknown, or has it not.
-static bool choose(const struct rg_words *ids, const char *work, const struct rg_table *chosen[],
-                   int *count)
+// The words of --set as one text, which the caller frees. NULL, and one logged line, without
+// memory.
+static char *join(const struct rg_words *words)
 {
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    for (int i = 0; out && i < words->count; i++)
+        fprintf(out, "%s%s", i ? " " : "", words->items[i]);
+    if (out && fclose(out) == 0)
+        return text;
+    free(text);
+    return rg_error_null("--set: no memory");
+}
+
+// Whether the technique of each table takes what is set. False, and one logged line, where one does
+// not.
+static bool take_sets(const struct rg_words *sets, const struct rg_table *const chosen[], int count)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < sets->count; i++)
+        if (strchr(sets->items[i], ' '))
+            ok = rg_error("--set '%s': a table takes no value with a space", sets->items[i]);
+    for (int i = 0; ok && sets->count && i < count; i++) {
+        void *settings = rg_subject_settings(rg_technique_find(chosen[i]->technique), sets);
+        ok = settings != NULL;
+        free(settings);
+    }
+    return ok;
+}
+
+// The tables that are named, or all that have the work and the variant. False, and one logged line,
+// where one is unknown, or has them not.
+static bool choose(const struct rg_words *ids, const struct table_options *o,
+                   const struct rg_table *chosen[], int *count)
+{
+    const char *work = chosen_work(o);
     *count = 0;
     for (int i = 0; i < ids->count; i++) {
         chosen[(*count)++] = rg_table_find(ids->items[i]);
@@ -126,11 +175,14 @@ static bool choose(const struct rg_words *ids, const char *work, const struct rg
         if (!has_work(chosen[i], work))
             return rg_error("--work %s: table '%s' has no such work; choose paper or ours", work,
                             ids->items[i]);
+        if (!has_variant(chosen[i], o->variant))
+            return rg_error("--variant %s: table '%s' times no such thing; its first is %s",
+                            o->variant, ids->items[i], chosen[i]->variants[0].name);
     }
     for (int i = 0; rg_tables[i] && !ids->count && i < RG_MAX_WORDS; i++)
-        if (has_work(rg_tables[i], work))
+        if (has_work(rg_tables[i], work) && has_variant(rg_tables[i], o->variant))
             chosen[(*count)++] = rg_tables[i];
-    return true;
+    return *count || rg_error("--variant %s: no table times such a thing", o->variant);
 }
 
 // Whether a table has all the rows that are asked for; the others then give those that they have.
@@ -149,13 +201,16 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
 {
     const struct rg_table *chosen[RG_MAX_WORDS];
     int count;
-    if (!choose(arguments, chosen_work(o), chosen, &count) || !have_rows(o->rows, chosen, count))
+    if (!choose(arguments, o, chosen, &count) || !have_rows(o->rows, chosen, count) ||
+        !take_sets(&o->sets, chosen, count))
         return RG_EXIT_USAGE;
     const struct rg_regenerate_options wanted = {.first_row = o->rows.first,
                                                  .last_row = o->rows.last,
                                                  .full = o->length.full,
                                                  .fresh = o->fresh,
                                                  .work = chosen_work(o),
+                                                 .variant = o->variant,
+                                                 .set = o->set,
                                                  .folder = o->output,
                                                  .print = print,
                                                  .user = o};
@@ -183,7 +238,8 @@ static bool is_named(const struct rg_words *ids, const char *table)
 static bool keep(struct rg_result *result, const struct table_options *o)
 {
     return (!o->rows.first || rg_result_keep_rows(result, o->rows.first - 1, o->rows.last - 1)) &&
-           (!chosen_work(o) || rg_result_keep_work(result, chosen_work(o)));
+           (!chosen_work(o) || rg_result_keep_work(result, chosen_work(o))) &&
+           (!o->variant || rg_result_keep_variant(result, o->variant));
 }
 
 static int print_stored(struct rg_stored *stored, const struct table_options *o,
@@ -241,7 +297,10 @@ static int table(const void *values, const struct rg_words *arguments)
         return RG_EXIT_USAGE;
     }
     o.outcomes = &outcomes;
+    if (o.sets.count && !(o.set = join(&o.sets)))
+        return RG_EXIT_FAIL;
     int exit = print_tables(&o, arguments);
+    free(o.set);
     if (outcomes.count && !print_claims(&outcomes, o.format))
         exit = RG_EXIT_FAIL;
     rg_claims_free(&outcomes);
@@ -250,9 +309,10 @@ static int table(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_table = {
     .name = "table",
-    .usage =
-        "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--work paper|ours|queries] "
-        "[--claims] [--format F|--json] [-o DIR] [--fresh] [--from FILE|DIR]",
+    .usage = "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--work "
+             "paper|reading|ours|queries] "
+             "[--variant NAME] [--set KEY=VALUE]... [--claims] [--format F|--json] [-o DIR] "
+             "[--fresh] [--from FILE|DIR]",
     .about = "regenerates the papers' tables: published beside measured, on every device",
     .options = options,
     .options_size = sizeof(struct table_options),

@@ -83,6 +83,21 @@ void rg_record_published_range(const struct rg_record *record, double *low, doub
     *high = least ? 1000 / *least : rg_record_published_fps(record);
 }
 
+// The farthest that a number of particles may be from print, as a ratio.
+#define SAME_COUNT 1.2
+
+bool rg_record_is_other_work(const struct rg_record *record, double *apart)
+{
+    const double *due = rg_named_number(record->published, record->published_count, "particles");
+    const double *found = rg_named_number(record->facts, record->fact_count, "particles");
+    double ratio = 1;
+    if (due && found && *due > 0 && *found > 0)
+        ratio = fmax(*due / *found, *found / *due);
+    if (apart)
+        *apart = ratio;
+    return ratio > SAME_COUNT;
+}
+
 void rg_record_row_name(const struct rg_record *record, char *text, size_t size)
 {
     size_t used = 0;

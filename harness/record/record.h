@@ -98,6 +98,9 @@ double rg_record_published_fps(const struct rg_record *record);
 // The lowest and the highest frame rate in print, where that printed times from `ms_per_frame_min`
 // to `ms_per_frame_max`; else both are the one above.
 void rg_record_published_range(const struct rg_record *record, double *low, double *high);
+// Whether it drew so many more or fewer particles than the paper printed, 1.2 times, that it is no
+// measure of what was printed; `*apart` (NULL: not wanted) gets the ratio, at least 1.
+bool rg_record_is_other_work(const struct rg_record *record, double *apart);
 // What its row is called: "glass with bunny", "texture_px 128", "local_height_m 5, camera 1", "all,
 // merge on". A name comes first, and without the name of its column.
 void rg_record_row_name(const struct rg_record *record, char *text, size_t size);

@@ -78,6 +78,30 @@ bool rg_result_keep_work(struct rg_result *result, const char *work)
     return true;
 }
 
+bool rg_result_keep_variant(struct rg_result *result, const char *variant)
+{
+    int kept = 0;
+    while (kept < result->variant_count && strcmp(result->variants[kept], variant) != 0)
+        kept++;
+    if (kept == result->variant_count)
+        return false;
+    const size_t devices = (size_t)result->device_count;
+    for (int i = 0; i < RG_RESULT_ROWS; i++)
+        for (int work = 0; result->rows[i] && work < works(result); work++) {
+            const size_t from = (size_t)(work * result->variant_count + kept) * devices;
+            memmove(result->rows[i] + (size_t)work * devices, result->rows[i] + from,
+                    devices * sizeof(struct rg_record));
+        }
+    memmove(result->variants[0], result->variants[kept], sizeof(result->variants[0]));
+    result->variant_count = 1;
+    return true;
+}
+
+bool rg_result_is_of_print(const struct rg_result *result, int work)
+{
+    return *result->hardware && !*result->works[work].saves && !*result->changed;
+}
+
 // --- cells ---
 
 struct rg_record *rg_result_at(const struct rg_result *result, struct rg_place place)

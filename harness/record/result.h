@@ -10,7 +10,7 @@
 
 enum {
     RG_RESULT_ROWS = 256,
-    RG_RESULT_WORKS = 3,
+    RG_RESULT_WORKS = 4,
     RG_RESULT_VARIANTS = 10,
     RG_RESULT_MISSING = RG_MAX_BACKENDS + RG_MAX_DEVICES,
     RG_NOTE_SIZE = 1024,
@@ -19,8 +19,9 @@ enum {
 
 // What tells apart how much work a row's cells do.
 struct rg_result_work {
-    char name[RG_NAME_SIZE];   // "paper": what was printed; "ours"; "queries"
-    char saves[RG_TITLE_SIZE]; // what saves work, one line; "": nothing
+    char name[RG_NAME_SIZE];     // "paper": what was printed; "reading"; "ours"; "queries"
+    char saves[RG_TITLE_SIZE];   // what saves work, one line; "": nothing
+    char reading[RG_TITLE_SIZE]; // how the paper is read, one line; "": there is one way
 };
 
 struct rg_result {
@@ -31,14 +32,16 @@ struct rg_result {
     // have no error.
     char truth[RG_TITLE_SIZE];
     char quick[RG_TITLE_SIZE]; // what quick mode sets; "": nothing
-    char note[RG_NOTE_SIZE];   // what a reader of the table must know
-    bool full;                 // else quick
-    bool is_of_textures;       // nothing is timed
-    int width, height;         // of the image, in pixels
-    int check_frames;          // simulated and drawn before images are compared
-    int first_row, last_row;   // of the table, from 0
-    int resumed_rows;          // not measured now but by an earlier run that was interrupted
-    int work_count;            // 0: the table does not tell works apart
+    // What the user sets over all that; "": nothing. Then no cell does what was printed.
+    char changed[RG_SET_SIZE];
+    char note[RG_NOTE_SIZE]; // what a reader of the table must know
+    bool full;               // else quick
+    bool is_of_textures;     // nothing is timed
+    int width, height;       // of the image, in pixels
+    int check_frames;        // simulated and drawn before images are compared
+    int first_row, last_row; // of the table, from 0
+    int resumed_rows;        // not measured now but by an earlier run that was interrupted
+    int work_count;          // 0: the table does not tell works apart
     struct rg_result_work works[RG_RESULT_WORKS];
     int variant_count;
     char variants[RG_RESULT_VARIANTS][RG_NAME_SIZE];
@@ -76,10 +79,13 @@ int rg_result_first_missing(const struct rg_result *result);
 // Zeroed records for a row. False, with one logged line, without memory for them.
 bool rg_result_add_row(struct rg_result *result, int row);
 void rg_result_drop_row(struct rg_result *result, int row);
-// Leaves out the rows before `first` and behind `last`, or the cells of other works. A table that
-// does not tell works apart stays as it is. False where nothing is left.
+// Leaves out the rows before `first` and behind `last`, or the cells of other works, or of other
+// variants. A table that does not tell works apart stays as it is. False where nothing is left.
 bool rg_result_keep_rows(struct rg_result *result, int first, int last);
 bool rg_result_keep_work(struct rg_result *result, const char *work);
+bool rg_result_keep_variant(struct rg_result *result, const char *variant);
+// Whether the cells of a work do what was printed, and may be held against it.
+bool rg_result_is_of_print(const struct rg_result *result, int work);
 
 // How many samples its measured cells took, at least and at most; 0 where none was measured.
 void rg_result_samples(const struct rg_result *result, int *least, int *most);

@@ -29,6 +29,11 @@ static bool any_has_queries(const struct rg_devices *devices)
     return any;
 }
 
+static void copy_or_none(char *to, size_t size, const char *from)
+{
+    rg_text_copy(to, size, from ? from : "");
+}
+
 // The work that is wanted, or all that a device of the result can do.
 static void name_works(struct rg_result *result, const struct rg_table *table, const char *wanted,
                        const struct rg_devices *devices)
@@ -39,12 +44,8 @@ static void name_works(struct rg_result *result, const struct rg_table *table, c
         struct rg_result_work *named = &result->works[result->work_count++];
         rg_text_copy(named->name, sizeof(named->name), work->name);
         rg_text_copy(named->saves, sizeof(named->saves), work->saves);
+        copy_or_none(named->reading, sizeof(named->reading), work->reading);
     }
-}
-
-static void copy_or_none(char *to, size_t size, const char *from)
-{
-    rg_text_copy(to, size, from ? from : "");
 }
 
 void rg_table_begin(struct rg_result *result, const struct rg_table *table,
@@ -63,10 +64,10 @@ void rg_table_begin(struct rg_result *result, const struct rg_table *table,
     result->check_frames = table->check_frames ? table->check_frames : RG_CHECK_FRAMES;
     result->first_row = part->first_row;
     result->last_row = part->last_row;
-    while (table->variants[result->variant_count].name) {
-        const char *name = table->variants[result->variant_count].name;
-        rg_text_copy(result->variants[result->variant_count++], RG_NAME_SIZE, name);
-    }
+    copy_or_none(result->changed, sizeof(result->changed), part->set);
+    for (const struct rg_table_variant *v = table->variants; v->name; v++)
+        if (!part->variant || !strcmp(v->name, part->variant))
+            rg_text_copy(result->variants[result->variant_count++], RG_NAME_SIZE, v->name);
     name_works(result, table, part->work, devices);
     name_devices(result, devices);
 }
@@ -82,18 +83,30 @@ const struct rg_table_work *rg_table_work_at(const struct rg_result *result,
     return work;
 }
 
+// The index of a cell's variant in the table: a result may have some of them alone.
+static int variant_at(const struct rg_result *result, const struct rg_table *table,
+                      struct rg_place at)
+{
+    int i = 0;
+    while (table->variants[i].name &&
+           strcmp(table->variants[i].name, result->variants[at.variant]) != 0)
+        i++;
+    return i;
+}
+
 char *rg_table_assignments(const struct rg_result *result, const struct rg_table *table,
                            struct rg_place at)
 {
     const struct rg_table_work *work = rg_table_work_at(result, table, at);
-    const char *const parts[] = {table->rows[at.row].set, table->variants[at.variant].set,
-                                 work->name ? work->set : "",
-                                 result->full || !table->quick ? "" : table->quick};
+    const char *const parts[] = {
+        table->rows[at.row].set, table->variants[variant_at(result, table, at)].set,
+        work->name ? work->set : "", result->full || !table->quick ? "" : table->quick,
+        result->changed};
     char *text = NULL;
     size_t size;
     FILE *out = open_memstream(&text, &size);
     bool any = false;
-    for (int i = 0; out && i < 4; i++) {
+    for (int i = 0; out && i < 5; i++) {
         if (!*parts[i])
             continue;
         fprintf(out, "%s%s", any ? " " : "", parts[i]);
@@ -121,16 +134,16 @@ static void name_row(struct rg_record *record, const struct rg_table *table, int
     }
 }
 
-static void name_published(struct rg_record *record, const struct rg_table *table,
-                           struct rg_place at)
+static void name_published(struct rg_record *record, const struct rg_table *table, int row,
+                           int variant)
 {
-    if (table->variants[at.variant].fps)
+    if (table->variants[variant].fps)
         rg_named_set_number(&record->published[record->published_count++], "fps",
-                            rg_table_published_fps(table, at.row, at.variant));
+                            rg_table_published_fps(table, row, variant));
     for (int c = 0; table->columns[c]; c++)
         if (rg_table_is_extra(table, c))
             rg_named_set_number(&record->published[record->published_count++], table->columns[c],
-                                table->rows[at.row].values[c]);
+                                table->rows[row].values[c]);
 }
 
 static bool name_cell(const struct rg_result *result, const struct rg_table *table,
@@ -147,7 +160,7 @@ static bool name_cell(const struct rg_result *result, const struct rg_table *tab
     memcpy(record->work, result->works[at.work].name, sizeof(record->work));
     record->device = result->devices[at.device];
     name_row(record, table, at.row);
-    name_published(record, table, at);
+    name_published(record, table, at.row, variant_at(result, table, at));
     return true;
 }
 

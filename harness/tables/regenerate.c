@@ -65,7 +65,9 @@ static struct rg_table_part part_of(const struct rg_table *table,
                                   .last_row =
                                       (o->last_row && o->last_row < rows ? o->last_row : rows) - 1,
                                   .full = o->full,
-                                  .work = o->work};
+                                  .work = o->work,
+                                  .variant = o->variant,
+                                  .set = o->set};
 }
 
 // Begins the tables that have some of the rows that are asked for. All journals are read before one

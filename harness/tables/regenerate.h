@@ -7,8 +7,9 @@
 struct rg_regenerate_options {
     int first_row, last_row; // from 1; 0: all. A table without some of them gives what it has
     bool full, fresh;
-    const char *work;   // NULL: both
-    const char *folder; // of the results, which journals lie beside; NULL: the user's state
+    const char *work, *variant; // NULL: all
+    const char *set;            // over the settings of all cells, as struct rg_table_part has it
+    const char *folder;         // of the results, which journals lie beside; NULL: the user's state
     // Prints what there is of a table, which may be interrupted, and returns how that ended
     // (harness/console/exit.h).
     int (*print)(const struct rg_result *result, const void *user);

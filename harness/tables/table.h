@@ -11,7 +11,9 @@
 struct rg_table_part {
     int first_row, last_row; // from 0
     bool full;
-    const char *work; // "paper", "ours" or "queries"; NULL: all, where a table tells them apart
+    const char *work;    // "paper", "ours" and so on; NULL: all, where a table tells them apart
+    const char *variant; // NULL: all
+    const char *set;     // over the settings of all cells, "key=value key=value"; NULL: nothing
 };
 
 // Fills a zeroed result with what the table, the part of it and the devices say, and no row.

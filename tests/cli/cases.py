@@ -19,7 +19,7 @@ OLD_GL = {"MESA_GL_VERSION_OVERRIDE": "3.3"}
 ABSENT = tuple(r"warning: unsupported here: %s: .*package %s" % pair for pair in (
     ("gl", "libegl-mesa0"), ("vulkan", "mesa-vulkan-drivers"), ("opencl", "pocl-opencl-icd")))
 SMALL = "--set environment_px=64 --set resolution_px=96 --size 96x96 "
-TABLE = "table stuppacher-2 --rows 1-1 --device cpu "
+TABLE = "table stuppacher-2 --rows 1-1 --work paper --device cpu "
 FORMATS = ("csv", "json", "md", "tex")
 TABLE_FILES = tuple("stuppacher-2." + format for format in FORMATS)
 DIFF = "diff flow --frame 5 --device cpu,cpu:reference " + SMALL
@@ -287,7 +287,12 @@ TABLES = [
     Case("table --rows 1-", 2, r"--rows 1-: write it as FIRST-LAST, as in 2-4"),
     Case("table --quick --full", 2, r"--quick and --full: choose one"),
     Case("table --format nonsense", 2, r"--format nonsense: choose md, csv, json or tex"),
-    Case("table --set drops=1", 2, r"--set: unknown option; `raingauge table --help`"),
+    Case("table stuppacher-2 --set nonsense=1 --device cpu", 2, r"parameter 'nonsense': flow has none of that name"),
+    Case("table --set drops=1 --device cpu", 2, r"parameter 'drops': \w+ has none of that name"),
+    Case("table stuppacher-2 --variant nonsense --device cpu", 2, r"--variant nonsense: table 'stuppacher-2' times no such thing; its first is full"),
+    Case("table --variant nonsense --device cpu", 2, r"--variant nonsense: no table times such a thing"),
+    Case("table stuppacher-1 --work reading --device cpu", 2, r"--work reading: table 'stuppacher-1' has no such work"),
+    Case("table --set drops=1 --from {data}", 2, r"--from and --set: choose one"),
     Case("table --device nonsense", 2, UNKNOWN_DEVICE),
     Case("table --device ,", 2, r"--device ',': names no device"),
 

@@ -73,6 +73,28 @@ def check_growth(runner):
     return problems
 
 
+def check_changed(runner):
+    """table --set, --variant, --work and --rows hold together, the record tells of them, and nothing changed is held against print"""
+    with tempfile.TemporaryDirectory() as tmp:
+        args = "table stuppacher-2 --rows 1-2 --work reading --variant full --device cpu --set drops=0 --set rain_drops_s=0"
+        report, status, problems = run_json(runner, args + " -o " + tmp, form="table")
+        texts = {form: open("%s/stuppacher-2.%s" % (tmp, form), encoding="utf-8").read() for form in FORMATS}
+        again = runner.run(["table", "--from", tmp, "--json"]).stdout
+        none = runner.run(["table", "--from", tmp, "--variant", "no_geometry"])
+    if json.loads(again) != report or none.returncode != 2:
+        problems.append("from the record: %s\n%s" % (again[:200], none.stderr))
+    if status or report.get("changed") != "drops=0 rain_drops_s=0" or [work["name"] for work in report["works"]] != ["reading"]:
+        problems.append("exit status %d, changed: %s, works: %s" % (status, report.get("changed"), report["works"]))
+    for cell in report["cells"]:
+        if not cell["set"].endswith("view=pane drops=0 rain_drops_s=0") or cell["counters"]["drops_landed"]:
+            problems.append("cell: %s, %s" % (cell["set"], cell["counters"]))
+    if [shape["verdict"] for shape in report["shapes"]] != ["other work"]:
+        problems.append("shapes: %s" % report["shapes"])
+    if "drops=0 rain_drops_s=0" not in texts["md"] or any(row["fps / published"] for row in csv.DictReader(io.StringIO(texts["csv"]))):
+        problems.append(texts["md"] + texts["csv"])
+    return problems
+
+
 def check_forms(runner):
     """what list prints, and a table of textures, are as the schema has them, whose fields are all documented"""
     problems = ["docs/records.md does not tell of %s" % name for name in forms.undocumented()]
@@ -389,7 +411,7 @@ def check_atlas_not_kept(runner):
     return problems if images[0] == images[1] and images[0] else problems + ["printed:\n%s, kept:\n%s" % tuple(images)]
 
 
-LONG = [check_tallies, check_growth, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept]
+LONG = [check_tallies, check_growth, check_changed, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept]
 
 
 # --- a driver that draws wrongly: its kernel is another ---

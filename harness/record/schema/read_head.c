@@ -111,7 +111,9 @@ static bool read_works(struct rg_reader *r, const json_t *document, struct rg_re
         const json_t *json = json_array_get(array, (size_t)i);
         rg_reader_enter(r, "works[%d]", i);
         if (!rg_field_text(r, json, "name", work->name, sizeof(work->name)) ||
-            !rg_field_text(r, json, "saves", work->saves, sizeof(work->saves)))
+            !rg_field_text(r, json, "saves", work->saves, sizeof(work->saves)) ||
+            (json_object_get(json, "reading") &&
+             !rg_field_text(r, json, "reading", work->reading, sizeof(work->reading))))
             return false;
     }
     rg_reader_enter(r, "%s", "");
@@ -157,10 +159,16 @@ static bool read_missing(struct rg_reader *r, const json_t *document, struct rg_
     return array != NULL;
 }
 
+static bool read_changed(struct rg_reader *r, const json_t *document, struct rg_result *result)
+{
+    return !json_object_get(document, "changed") ||
+           rg_field_text(r, document, "changed", result->changed, sizeof(result->changed));
+}
+
 bool rg_read_head(struct rg_reader *r, const json_t *document, struct rg_result *result)
 {
     return read_format(r, document) && read_names(r, document, result) &&
-           read_numbers(r, document, result) && read_variants(r, document, result) &&
-           read_works(r, document, result) && read_devices(r, document, result) &&
-           read_missing(r, document, result);
+           read_changed(r, document, result) && read_numbers(r, document, result) &&
+           read_variants(r, document, result) && read_works(r, document, result) &&
+           read_devices(r, document, result) && read_missing(r, document, result);
 }

@@ -122,9 +122,13 @@ static json_t *variants_json(const struct rg_result *result)
 static json_t *works_json(const struct rg_result *result)
 {
     json_t *works = json_array();
-    for (int i = 0; i < result->work_count; i++)
-        json_array_append_new(works, json_pack("{ssso}", "name", result->works[i].name, "saves",
-                                               rg_json_text(result->works[i].saves)));
+    for (int i = 0; i < result->work_count; i++) {
+        const struct rg_result_work *work = &result->works[i];
+        json_t *json = json_pack("{ssso}", "name", work->name, "saves", rg_json_text(work->saves));
+        if (*work->reading)
+            json_object_set_new(json, "reading", rg_json_text(work->reading));
+        json_array_append_new(works, json);
+    }
     return works;
 }
 
@@ -153,6 +157,8 @@ json_t *rg_result_json(const struct rg_result *result)
     json_t *json = head_json(result);
     if (result->work_count)
         json_object_set_new(json, "works", works_json(result));
+    if (*result->changed)
+        json_object_set_new(json, "changed", rg_json_text(result->changed));
     json_object_set(json, "passport", result->passport);
     json_object_set_new(json, "missing", missing_json(result));
     json_object_set_new(json, "cells", cells_json(result));

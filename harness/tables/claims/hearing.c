@@ -5,9 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-// A row whose number of particles is farther from print than this is other work.
-#define SAME_COUNT 1.2
-
 struct rg_judgement rg_hearing_end(struct hearing *h, enum rg_claim_verdict verdict,
                                    const char *why, ...)
 {
@@ -51,16 +48,6 @@ static int printed_work(const struct rg_result *result)
     return result->work_count ? -1 : 0;
 }
 
-// By how much a row's number of particles differs from print, as a ratio of at least 1.
-static double count_apart(const struct rg_record *record)
-{
-    const double *due = rg_named_number(record->published, record->published_count, "particles");
-    const double *found = rg_named_number(record->facts, record->fact_count, "particles");
-    if (!due || !found || !(*due > 0) || !(*found > 0))
-        return 1;
-    return fmax(*due / *found, *found / *due);
-}
-
 static bool is_of_errors(const struct hearing *h)
 {
     return h->claim->test == RG_CLAIM_FLATTENS;
@@ -88,8 +75,8 @@ static bool can_miss(const struct rg_claim *c, int row)
     return is_of_each_row(c) || (row != c->first && row != c->last && row != c->knee);
 }
 
-// Takes the claim's rows. Ends the hearing where some that it needs are missing, or are other work;
-// true if it goes on.
+// Takes the claim's rows. Those that are other work take no part. Ends the hearing where some that
+// it needs are missing, or are other work; true if it goes on.
 static bool hear_rows(struct hearing *h)
 {
     const struct rg_claim *c = h->claim;
@@ -102,13 +89,15 @@ static bool hear_rows(struct hearing *h)
             rg_hearing_end(h, RG_CLAIM_UNDECIDED, "row %d is not measured", row);
             return false;
         }
-        h->rows[h->count++] = row;
-        const double apart = count_apart(rg_hearing_row(h, row));
-        if (apart > SAME_COUNT) {
+        double apart;
+        if (rg_record_is_other_work(rg_hearing_row(h, row), &apart)) {
+            if (can_miss(c, row))
+                continue;
             rg_hearing_end(h, RG_CLAIM_OTHER_WORK,
                            "row %d draws %.2f times as many or as few particles", row, apart);
             return false;
         }
+        h->rows[h->count++] = row;
     }
     if (!h->count)
         rg_hearing_end(h, RG_CLAIM_UNDECIDED, "no row is measured");
@@ -122,6 +111,10 @@ bool rg_hearing_begin(struct hearing *h)
     h->at.variant = variant_of(h->result, claim->variant);
     h->other = variant_of(h->result, claim->other);
     h->judgement.against = h->judgement.in_favour = NAN;
+    if (*h->result->changed) {
+        rg_hearing_end(h, RG_CLAIM_OTHER_WORK, "settings were changed: %.100s", h->result->changed);
+        return false;
+    }
     if (h->at.work < 0) {
         rg_hearing_end(h, RG_CLAIM_OTHER_WORK, "the work that was printed is not measured");
         return false;

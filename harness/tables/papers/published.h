@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { RG_TABLE_ROWS = 64, RG_TABLE_VALUES = 10, RG_TABLE_VARIANTS = 10, RG_TABLE_WORKS = 3 };
+enum { RG_TABLE_ROWS = 64, RG_TABLE_VALUES = 10, RG_TABLE_VARIANTS = 10, RG_TABLE_WORKS = 4 };
 enum { RG_TABLE_COUNTED = 4 };
 
 // One row: settings of the technique and what the paper printed. Assignments are "key=value
@@ -25,9 +25,10 @@ struct rg_table_variant {
     const char *fps;
 };
 
-// How much work a row's cells do: "paper", what was printed of, "ours", the same picture for less,
-// and perhaps "queries", what was printed of by the API's own occlusion queries. A table without
-// any has cells of one kind, which it does not name.
+// How much work a row's cells do: "paper", what was printed of, "reading", the same as the paper
+// can be read otherwise, "ours", the same picture for less, and perhaps "queries", what was printed
+// of by the API's own occlusion queries. A table without any has cells of one kind, which it does
+// not name.
 struct rg_table_work {
     const char *name;
     const char *set;   // over the row's and the variant's
@@ -35,6 +36,9 @@ struct rg_table_work {
     // Of "queries": what draws the same image on devices that have none, over all these. A table is
     // measured without the work where no device has any. NULL: every device does it.
     const char *elsewhere;
+    // How the paper is read, where it can be read in several ways, one line: "two textures a light
+    // (section 4.4.2)". NULL: there is one way.
+    const char *reading;
 };
 
 struct rg_table {

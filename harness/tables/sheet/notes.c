@@ -120,7 +120,7 @@ static void note_spread(const struct rg_result *result, struct rg_sheet *sheet, 
     if (result->work_count)
         snprintf(name, sizeof(name), ", %s", result->works[of.work].name);
     name_spread(result, &found, "", 1, measured, sizeof(measured));
-    if (!*result->works[of.work].saves)
+    if (rg_result_is_of_print(result, of.work))
         name_spread(result, &due, "; published ", 2, printed, sizeof(printed));
     rg_sheet_note(sheet, "Spread of fps on %s%s: %s%s.", result->devices[of.device].name, name,
                   measured, printed);
@@ -226,10 +226,20 @@ static void note_interruption(const struct rg_result *result, struct rg_sheet *s
 
 static void note_works(const struct rg_result *result, struct rg_sheet *sheet)
 {
-    for (int i = 0; i < result->work_count; i++)
-        if (*result->works[i].saves)
-            rg_sheet_note(sheet, "Cells of work %s do less than what was printed: %s.",
-                          result->works[i].name, result->works[i].saves);
+    for (int i = 0; i < result->work_count; i++) {
+        const struct rg_result_work *work = &result->works[i];
+        if (*work->saves)
+            rg_sheet_note(sheet, "Cells of work %s do less than what was printed: %s.", work->name,
+                          work->saves);
+        if (*work->reading)
+            rg_sheet_note(sheet, "Cells of work %s read the paper so: %s.", work->name,
+                          work->reading);
+    }
+    if (*result->changed)
+        rg_sheet_note(sheet,
+                      "All cells have %s over their rows' own settings, so that none does "
+                      "what was printed.",
+                      result->changed);
 }
 
 void rg_result_notes(const struct rg_result *result, const char *const *shown,

@@ -1,10 +1,20 @@
 #include "harness/tables/sheet/sheet.h"
 
 #include <inttypes.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "harness/measure/timer_audit.h"
+
+// Of a frame's work: what runs went over, what of it was packed to be drawn, and what was shaded.
+enum { TALLIED = 3 };
+static const struct {
+    const char *name;
+    size_t offset;
+} tallied[TALLIED] = {{"items", offsetof(struct rg_tally, items)},
+                      {"records", offsetof(struct rg_tally, records)},
+                      {"fragments", offsetof(struct rg_tally, fragments)}};
 
 // The column of each thing; -1: it is not in this table.
 struct columns {
@@ -12,6 +22,7 @@ struct columns {
     int published[RG_MAX_VALUES]; // what was printed
     int told[RG_MAX_VALUES];      // measured beside what was printed, of the same index
     int counted[RG_MAX_COUNTED];
+    int tallied[TALLIED];
     int work, variant, device, fps, ms, ms_range, ratio, times, first, api, error, passes;
 };
 
@@ -34,6 +45,14 @@ static const struct rg_record *first_counted(const struct rg_result *result)
         if (rg_result_at(result, at)->counted_count)
             return rg_result_at(result, at);
     return NULL;
+}
+
+static bool any_tallied(const struct rg_result *result)
+{
+    bool any = false;
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);)
+        any = any || rg_result_at(result, at)->has_tally;
+    return any;
 }
 
 // The record of cpu:reference in this row, or NULL.
@@ -96,6 +115,8 @@ static void add_columns(const struct rg_result *result, const struct rg_record *
     const struct rg_record *counted = first_counted(result);
     for (int i = 0; counted && i < counted->counted_count; i++)
         at->counted[i] = rg_sheet_column(sheet, "%s a frame", counted->counted[i].name);
+    for (int i = 0; is_timed && any_tallied(result) && i < TALLIED; i++)
+        at->tallied[i] = rg_sheet_column(sheet, "%s a frame", tallied[i].name);
     for (int i = 0; first && i < first->published_count; i++) {
         const char *name = first->published[i].name;
         if (!rg_is_frame_rate(&first->published[i]) && is_told(result, name))
@@ -247,8 +268,11 @@ static void add_row(const struct rg_result *result, const struct rg_record *firs
     fill_times(at, cells, record, reference_of(result, place));
     for (int i = 0; i < record->counted_count && at->counted[i] >= 0; i++)
         snprintf(cells[at->counted[i]], RG_SHEET_CELL, "%" PRId64, record->counted[i].value);
+    for (int i = 0; i < TALLIED && at->tallied[i] >= 0 && record->has_tally; i++)
+        snprintf(cells[at->tallied[i]], RG_SHEET_CELL, "%" PRId64,
+                 *(const int64_t *)((const char *)&record->tally + tallied[i].offset));
     // Only the work that was printed is compared with print; "ours" has no number there.
-    if (at->ratio >= 0 && !*result->works[place.work].saves)
+    if (at->ratio >= 0 && rg_result_is_of_print(result, place.work))
         fill_ratio(record, cells[at->ratio]);
 }
 

@@ -56,15 +56,17 @@ static struct rg_trend judge(struct rg_trend trend)
     return trend;
 }
 
-// False where a row has no time.
+// Rows that are other work take no part. False where a row has no time.
 static bool collect(const struct rg_result *result, struct rg_place of, struct points *points)
 {
     for (of.row = result->first_row; of.row <= result->last_row; of.row++) {
         const struct rg_record *record = rg_result_at(result, of);
         const struct rg_named *along = rg_trend_axis(record);
-        const int row = points->count++;
         if (record->outcome != RG_OK)
             return false;
+        if (rg_record_is_other_work(record, NULL))
+            continue;
+        const int row = points->count++;
         points->axis[row] = along ? log(along->number) : NAN;
         points->published[row] = log(rg_record_published_fps(record));
         points->measured[row] = log(rg_record_fps(record));
@@ -92,7 +94,7 @@ struct rg_trend rg_trend_of(const struct rg_result *result, struct rg_place of)
     struct points points = {0};
     if (!is_whole(result))
         return trend;
-    if (*result->hardware && *result->works[of.work].saves)
+    if (*result->hardware && !rg_result_is_of_print(result, of.work))
         return (struct rg_trend){.verdict = RG_TREND_OTHER_WORK};
     if (!collect(result, of, &points))
         return trend;

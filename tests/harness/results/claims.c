@@ -239,6 +239,14 @@ static void test_variants_rates_and_powers(void **state)
 
 // --- what is not judged ---
 
+static void draw_particles(struct rg_record *r, double printed, double drawn)
+{
+    r->published_count = 2;
+    r->fact_count = 1;
+    rg_named_set_number(&r->published[1], "particles", printed);
+    rg_named_set_number(&r->facts[0], "particles", drawn);
+}
+
 static void test_rows_that_are_missing_or_other_work(void **state)
 {
     (void)state;
@@ -248,16 +256,24 @@ static void test_rows_that_are_missing_or_other_work(void **state)
     make_result(&result, rising, level, 0.01, &x);
     rg_result_drop_row(&result, 2);
     assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_REPRODUCED);
-    struct rg_record *r = rg_result_at(&result, (struct rg_place){.row = 3});
-    r->published_count = 2;
-    snprintf(r->published[1].name, sizeof(r->published[1].name), "particles");
-    r->published[1].number = 1000;
-    r->fact_count = 1;
-    snprintf(r->facts[0].name, sizeof(r->facts[0].name), "particles");
-    r->facts[0].number = 1190;
+    // A row between is left out, however slow it is; one that the claim needs is not.
+    struct rg_record *between = rg_result_at(&result, (struct rg_place){.row = 3});
+    for (int i = 0; i < between->sample_count; i++)
+        between->samples_ms[i] *= 100;
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_NOT_REPRODUCED);
+    draw_particles(between, 1000, 1210);
     assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_REPRODUCED);
-    r->facts[0].number = 1210;
+    struct rg_record *needed = rg_result_at(&result, (struct rg_place){.row = 0});
+    draw_particles(needed, 1000, 1190);
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_REPRODUCED);
+    draw_particles(needed, 1000, 1210);
     assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_OTHER_WORK);
+    draw_particles(needed, 1210, 1000);
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_OTHER_WORK);
+    draw_particles(needed, 1000, 1000);
+    snprintf(result.changed, sizeof(result.changed), "seed=2");
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_OTHER_WORK);
+    *result.changed = 0;
     rg_result_drop_row(&result, 0);
     assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_UNDECIDED);
     result.work_count = 1;

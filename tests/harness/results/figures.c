@@ -10,8 +10,8 @@
 #include "harness/frames/figures/figures.h"
 
 // Those that are to be drawn anew.
-static const char *const creus[] = {"4.1",  "4.4", "4.11", "4.13", "4.14", "4.15", "4.16", "5.2",
-                                    "5.3",  "5.4", "5.5",  "5.6",  "5.7",  "5.8",  NULL};
+static const char *const creus[] = {"4.1", "4.4", "4.11", "4.13", "4.14", "4.15", "4.16", "5.2",
+                                    "5.3", "5.4", "5.5",  "5.6",  "5.7",  "5.8",  NULL};
 
 static void test_settings_are_taken(void **state)
 {

@@ -169,30 +169,66 @@ static void test_settings(void **state)
     }
 }
 
-// Works are those that --work chooses among: what was printed, what saves work and says so, and
-// what was printed by the API's queries, which some devices cannot do.
+// Works are those that --work chooses among: what was printed, another reading of that, what saves
+// work and says so, and what was printed by the API's queries, which some devices cannot do.
+static void check_work(const struct rg_table_work *work)
+{
+    const bool is_ours = !strcmp(work->name, "ours"), is_first = !strcmp(work->name, "paper");
+    const bool is_reading = !strcmp(work->name, "reading"), has_queries = work->elsewhere;
+    assert_true(is_ours || is_first || is_reading || has_queries);
+    assert_int_equal(is_ours, strlen(work->saves) > 0);
+    assert_in_range(strlen(work->saves), 0, RG_TITLE_SIZE - 1);
+    assert_int_equal(has_queries, !strcmp(work->name, "queries"));
+    assert_true(!is_reading || work->reading);
+    assert_true(!is_ours || !work->reading);
+}
+
 static void test_works(void **state)
 {
     (void)state;
     int found = 0;
     for (int i = 0; rg_tables[i]; i++) {
         const struct rg_table_work *works = rg_tables[i]->works;
-        if (!works[0].name)
-            continue;
-        found++;
-        assert_string_equal(works[0].name, "paper");
-        assert_string_equal(works[0].saves, "");
-        assert_string_equal(works[1].name, "ours");
-        assert_in_range(strlen(works[1].saves), 1, RG_TITLE_SIZE - 1);
-        assert_string_not_equal(works[0].set, works[1].set);
-        assert_true(!works[0].elsewhere && !works[1].elsewhere);
-        if (!works[2].name)
-            continue;
-        assert_string_equal(works[2].name, "queries");
-        assert_string_equal(works[2].saves, "");
-        assert_non_null(works[2].elsewhere);
+        for (int w = 0; works[w].name; w++) {
+            check_work(&works[w]);
+            found++;
+            assert_int_equal(w == 0, !strcmp(works[w].name, "paper"));
+            for (int k = 0; k < w; k++)
+                assert_string_not_equal(works[w].set, works[k].set);
+            if (!strcmp(works[w].name, "reading")) // of several, each says which it is
+                assert_true(works[0].reading && strcmp(works[0].reading, works[w].reading) != 0);
+        }
     }
     assert_true(found > 0);
+}
+
+// Work `paper` of each published table of which something can be saved is whole: no row of it has a
+// setting that saves work.
+static void test_work_of_print(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *table, *set;
+    } whole[] = {{"creus-5.3", "blocks=all"},    {"creus-5.4", "blocks=all"},
+                 {"creus-5.5", "blocks=all"},    {"creus-5.6", "blocks=all"},
+                 {"stuppacher-1", "move=paper"}, {"stuppacher-2", "move=paper"}};
+    for (size_t i = 0; i < sizeof(whole) / sizeof(whole[0]); i++) {
+        const struct rg_table *table = rg_table_find(whole[i].table);
+        struct rg_device device = {.info = {.name = "cpu"}};
+        const struct rg_devices devices = {.count = 1, .devices = {&device}};
+        const struct rg_table_part part = {
+            .last_row = table->row_count - 1, .full = true, .work = "paper"};
+        struct rg_result result = {0};
+        rg_table_begin(&result, table, &part, &devices);
+        for (int row = 0; row < table->row_count; row++)
+            assert_true(rg_table_add_row(&result, table, row));
+        for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at);) {
+            const char *set = rg_result_at(&result, at)->set;
+            assert_non_null(strstr(set, whole[i].set));
+            assert_null(strstr(set, "texels_a_pixel"));
+        }
+        rg_result_free(&result);
+    }
 }
 
 int main(int argc, char **argv)
@@ -202,6 +238,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_published),
         cmocka_unit_test(test_settings),
         cmocka_unit_test(test_works),
+        cmocka_unit_test(test_work_of_print),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
