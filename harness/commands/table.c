@@ -25,7 +25,7 @@ struct table_options {
     char *variant;          // NULL: all
     struct rg_words sets;   // of --set
     char *set;              // the same as one text; NULL: none
-    bool fresh, claims, json;
+    bool fresh, claims, wide, json;
     struct rg_claim_outcomes *outcomes; // what --claims prints in the end
 };
 
@@ -65,6 +65,9 @@ static const struct rg_option options[] = {
      .offset = AT(claims), .excludes = "json"},
     {RG_OPTION_CHOICE, "format", .about = "what to print", .offset = AT(format),
      .choices = rg_result_formats, .initial = "md"},
+    {RG_OPTION_FLAG, "wide",
+     .about = "prints all columns and notes, as the other formats have them, one line a cell",
+     .offset = AT(wide), .excludes = "format json claims"},
     {RG_OPTION_TEXT, "output", .argument = "DIR",
      .about = "writes each table into this folder too, in every format", .offset = AT(output),
      .letter = 'o', .names = RG_NAMES_FOLDER},
@@ -93,6 +96,11 @@ static int judge(const struct rg_result *result)
     return rg_exit_of_all(counts);
 }
 
+static int form_of(const struct table_options *o)
+{
+    return o->json ? RG_RESULT_JSON : o->wide ? RG_RESULT_WIDE : o->format;
+}
+
 // Prints what there is of a table, and writes it where it is whole.
 static int print(const struct rg_result *result, const void *user)
 {
@@ -101,8 +109,7 @@ static int print(const struct rg_result *result, const void *user)
     int exit = judge(result);
     if (o->claims && !rg_claims_add(o->outcomes, result))
         exit = RG_EXIT_FAIL;
-    if (!o->claims && rg_result_next(result, &at) &&
-        !rg_result_print(result, o->json ? RG_RESULT_JSON : o->format, stdout))
+    if (!o->claims && rg_result_next(result, &at) && !rg_result_print(result, form_of(o), stdout))
         exit = RG_EXIT_FAIL;
     fflush(stdout);
     const bool is_whole = rg_result_first_missing(result) > result->last_row;
@@ -309,10 +316,11 @@ static int table(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_table = {
     .name = "table",
-    .usage = "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--work "
-             "paper|reading|ours|queries] "
-             "[--variant NAME] [--set KEY=VALUE]... [--claims] [--format F|--json] [-o DIR] "
-             "[--fresh] [--from FILE|DIR]",
+    .usage =
+        "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--work "
+        "paper|reading|ours|queries] "
+        "[--variant NAME] [--set KEY=VALUE]... [--claims] [--wide] [--format F|--json] [-o DIR] "
+        "[--fresh] [--from FILE|DIR]",
     .about = "regenerates the papers' tables: published beside measured, on every device",
     .options = options,
     .options_size = sizeof(struct table_options),

@@ -76,14 +76,34 @@ static int width_of(const struct rg_sheet *sheet, int column)
         const size_t width = strlen(sheet->cells[r][column]);
         widest = width > widest ? width : widest;
     }
-    return (int)(widest + WIDTH_STEP - 1) / WIDTH_STEP * WIDTH_STEP;
+    const int step = sheet->width_step ? sheet->width_step : WIDTH_STEP;
+    return ((int)widest + step - 1) / step * step;
+}
+
+int rg_sheet_width(const struct rg_sheet *sheet)
+{
+    int width = 1;
+    for (int c = 0; c < sheet->column_count; c++)
+        width += width_of(sheet, c) + 3;
+    return width;
+}
+
+// The cell, in the terminal's colours where it is painted; its spaces are not.
+static void print_md_cell(FILE *out, const struct rg_sheet *sheet, int width, const char *text)
+{
+    const char *code = sheet->paint ? sheet->paint(text) : NULL;
+    const int length = (int)strlen(text);
+    if (code)
+        fprintf(out, "%*s%s%s\033[0m |", width - length + 1, "", code, text);
+    else
+        fprintf(out, " %*s |", width, text);
 }
 
 static void print_md_row(FILE *out, const struct rg_sheet *sheet, const int *widths, int row)
 {
+    fprintf(out, "|");
     for (int c = 0; c < sheet->column_count; c++)
-        fprintf(out, c ? " %*s |" : "| %*s |", widths[c],
-                row < 0 ? sheet->columns[c] : sheet->cells[row][c]);
+        print_md_cell(out, sheet, widths[c], row < 0 ? sheet->columns[c] : sheet->cells[row][c]);
     fprintf(out, "\n");
 }
 
@@ -92,7 +112,7 @@ void rg_sheet_print_md(const struct rg_sheet *sheet, FILE *out)
     int widths[RG_SHEET_COLUMNS];
     for (int c = 0; c < sheet->column_count; c++)
         widths[c] = width_of(sheet, c);
-    fprintf(out, "## %s\n\n", sheet->title);
+    fprintf(out, "%.*s %s\n\n", sheet->level ? sheet->level : 2, "######", sheet->title);
     print_md_row(out, sheet, widths, -1);
     for (int c = 0; c < sheet->column_count; c++) {
         fprintf(out, c ? "" : "|");
@@ -103,7 +123,7 @@ void rg_sheet_print_md(const struct rg_sheet *sheet, FILE *out)
     fprintf(out, "\n");
     for (int r = 0; r < sheet->row_count; r++)
         print_md_row(out, sheet, widths, r);
-    fprintf(out, "\n");
+    fprintf(out, sheet->note_count || !sheet->level ? "\n" : "");
     for (int n = 0; n < sheet->note_count; n++)
         fprintf(out, "- %s\n", sheet->notes[n]);
 }

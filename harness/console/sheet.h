@@ -19,6 +19,10 @@ struct rg_sheet {
     int64_t note_room;
     char **notes;    // owned; printed below, in Markdown and LaTeX
     bool incomplete; // a row, column or note was lost, for which there is one logged line
+    int level;       // of its heading in Markdown; 0: 2
+    int width_step;  // a column's width steps by so many characters; 0: 8
+    // The terminal's code that a cell's text is painted with, or NULL: none. NULL: nothing is.
+    const char *(*paint)(const char *cell);
 };
 
 // Adds a column, before any row, and returns its index.
@@ -30,6 +34,8 @@ void rg_sheet_note(struct rg_sheet *sheet, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 void rg_sheet_free(struct rg_sheet *sheet);
 
+// How wide its lines are in Markdown.
+int rg_sheet_width(const struct rg_sheet *sheet);
 void rg_sheet_print_md(const struct rg_sheet *sheet, FILE *out);
 void rg_sheet_print_csv(const struct rg_sheet *sheet, FILE *out);
 void rg_sheet_print_tex(const struct rg_sheet *sheet, FILE *out);

@@ -102,6 +102,14 @@ bool rg_result_is_of_print(const struct rg_result *result, int work)
     return *result->hardware && !*result->works[work].saves && !*result->changed;
 }
 
+int rg_result_printed_work(const struct rg_result *result)
+{
+    for (int i = 0; i < result->work_count; i++)
+        if (!*result->works[i].saves && strcmp(result->works[i].name, "queries") != 0)
+            return i;
+    return result->work_count ? -1 : 0;
+}
+
 // --- cells ---
 
 struct rg_record *rg_result_at(const struct rg_result *result, struct rg_place place)

@@ -86,6 +86,8 @@ bool rg_result_keep_work(struct rg_result *result, const char *work);
 bool rg_result_keep_variant(struct rg_result *result, const char *variant);
 // Whether the cells of a work do what was printed, and may be held against it.
 bool rg_result_is_of_print(const struct rg_result *result, int work);
+// The work that was printed, in the first of its readings; -1 where the result has it not.
+int rg_result_printed_work(const struct rg_result *result);
 
 // How many samples its measured cells took, at least and at most; 0 where none was measured.
 void rg_result_samples(const struct rg_result *result, int *least, int *most);

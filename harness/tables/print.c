@@ -5,12 +5,15 @@
 #include "core/base/log.h"
 #include "harness/record/output.h"
 #include "harness/record/schema/schema.h"
+#include "harness/tables/sheet/brief.h"
 #include "harness/tables/sheet/sheet.h"
 #include "harness/tables/sheet/trend.h"
 
-enum { MD, CSV = RG_RESULT_CSV, JSON = RG_RESULT_JSON, TEX = RG_RESULT_TEX };
-const char *const rg_result_formats[] = {
-    [MD] = "md", [CSV] = "csv", [JSON] = "json", [TEX] = "tex", NULL};
+const char *const rg_result_formats[] = {[RG_RESULT_MD] = "md",
+                                         [RG_RESULT_CSV] = "csv",
+                                         [RG_RESULT_JSON] = "json",
+                                         [RG_RESULT_TEX] = "tex",
+                                         NULL};
 
 // The document of a result, with the trends beside, which are reckoned from it and not read back.
 static void print_json(const struct rg_result *result, FILE *out)
@@ -24,15 +27,17 @@ static void print_json(const struct rg_result *result, FILE *out)
 
 bool rg_result_print(const struct rg_result *result, int format, FILE *out)
 {
-    if (format == JSON) {
+    if (format == RG_RESULT_JSON) {
         print_json(result, out);
         return true;
     }
+    if (format == RG_RESULT_MD)
+        return rg_brief_print(result, out);
     struct rg_sheet sheet;
     rg_result_sheet(result, &sheet);
-    if (format == CSV)
+    if (format == RG_RESULT_CSV)
         rg_sheet_print_csv(&sheet, out);
-    else if (format == TEX)
+    else if (format == RG_RESULT_TEX)
         rg_sheet_print_tex(&sheet, out);
     else
         rg_sheet_print_md(&sheet, out);

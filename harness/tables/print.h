@@ -8,9 +8,12 @@
 
 // "md", "csv", "json", "tex", NULL, and the places of some among them.
 extern const char *const rg_result_formats[];
-enum { RG_RESULT_CSV = 1, RG_RESULT_JSON = 2, RG_RESULT_TEX = 3 };
+enum { RG_RESULT_MD, RG_RESULT_CSV, RG_RESULT_JSON, RG_RESULT_TEX };
+// Markdown with all columns and notes, which the other forms have anyway.
+enum { RG_RESULT_WIDE = -1 };
 
-// Prints a result in a format, by its place among them. False, and one logged line, without memory.
+// Prints a result in a format, by its place among them, or wide. False, and one logged line,
+// without memory.
 bool rg_result_print(const struct rg_result *result, int format, FILE *out);
 
 // Writes it into a folder in every format, as TABLE.FORMAT. False, and one logged line, on failure.

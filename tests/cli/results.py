@@ -3,6 +3,7 @@ import csv
 import io
 import json
 import os
+import pty
 import re
 import signal
 import tempfile
@@ -95,6 +96,41 @@ def check_changed(runner):
     return problems
 
 
+def check_brief(runner):
+    """table prints one line a row, in colours on a terminal alone, and --wide one line a cell with all columns"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        runner.run((TABLE.replace("--work paper ", "") + "-o " + tmp).split())
+        stored = ["table", "--from", tmp]
+        brief, wide = runner.run(stored).stdout, runner.run(stored + ["--wide"]).stdout
+        refused = [runner.run(stored + ["--wide", other]).returncode for other in ("--json", "--claims")]
+        shown = on_terminal(runner, stored, {"TERM": "xterm", "NO_COLOR": None})
+        plain = [on_terminal(runner, stored, env) for env in ({"TERM": "xterm", "NO_COLOR": "1"}, {"TERM": "dumb", "NO_COLOR": None})]
+    lines = [line for line in brief.split("\n") if re.match(r"\| +128 \|", line)]
+    if len(lines) != 3 or not re.fullmatch(r"\| +128 \| +480 \| .* \d\.\d\dx \|", lines[0]):
+        problems.append("brief:\n" + brief)
+    if "API / wall clock" not in wide or "API / wall clock" in brief or len(re.findall(r"\n\| +128 \|", wide)) != 3:
+        problems.append("wide:\n" + wide)
+    if "\033" in brief or "\033[3" not in shown or re.sub(r"\033\[\d+m", "", shown) != brief or plain != [brief, brief]:
+        problems.append("on a terminal: %r\n%r" % (shown, plain))
+    return problems + ["--wide is taken with another form: %s" % refused] * (refused != [2, 2])
+
+
+def on_terminal(runner, args, env):
+    """What a command prints where its stdout is a terminal."""
+    ours, its = pty.openpty()
+    with os.fdopen(ours, "rb") as reader:
+        process = runner.run(args, env, stdout=its)
+        os.close(its)
+        text = b""
+        try:
+            while part := os.read(reader.fileno(), 65536):
+                text += part
+        except OSError:  # the terminal's end
+            pass
+    return text.decode("utf-8").replace("\r\n", "\n") + process.stderr
+
+
 def check_forms(runner):
     """what list prints, and a table of textures, are as the schema has them, whose fields are all documented"""
     problems = ["docs/records.md does not tell of %s" % name for name in forms.undocumented()]
@@ -158,7 +194,7 @@ def check_table_files(runner):
 def check_csv(text):
     lines = list(csv.reader(io.StringIO(text), strict=True))
     equal = len(lines) == 2 and len({len(line) for line in lines}) == 1 and len(lines[0]) > 5
-    return [] if equal and lines[1][:3] == ["128", "480", "cpu"] else ["csv:\n" + text]
+    return [] if equal and lines[1][:4] == ["128", "480", "paper", "cpu"] else ["csv:\n" + text]
 
 
 def check_tex(text):
@@ -411,7 +447,7 @@ def check_atlas_not_kept(runner):
     return problems if images[0] == images[1] and images[0] else problems + ["printed:\n%s, kept:\n%s" % tuple(images)]
 
 
-LONG = [check_tallies, check_growth, check_changed, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept]
+LONG = [check_tallies, check_growth, check_changed, check_brief, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept]
 
 
 # --- a driver that draws wrongly: its kernel is another ---

@@ -39,15 +39,6 @@ static int variant_of(const struct rg_result *result, const char *name)
     return -1;
 }
 
-// The work that was printed; -1 where the result has it not.
-static int printed_work(const struct rg_result *result)
-{
-    for (int i = 0; i < result->work_count; i++)
-        if (!*result->works[i].saves && strcmp(result->works[i].name, "queries") != 0)
-            return i;
-    return result->work_count ? -1 : 0;
-}
-
 static bool is_of_errors(const struct hearing *h)
 {
     return h->claim->test == RG_CLAIM_FLATTENS;
@@ -107,7 +98,7 @@ static bool hear_rows(struct hearing *h)
 bool rg_hearing_begin(struct hearing *h)
 {
     const struct rg_claim *claim = h->claim;
-    h->at.work = printed_work(h->result);
+    h->at.work = rg_result_printed_work(h->result);
     h->at.variant = variant_of(h->result, claim->variant);
     h->other = variant_of(h->result, claim->other);
     h->judgement.against = h->judgement.in_favour = NAN;

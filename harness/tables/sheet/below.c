@@ -1,0 +1,205 @@
+#include "harness/tables/sheet/below.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/console/colour.h"
+#include "harness/tables/claims/claim.h"
+#include "harness/tables/sheet/digits.h"
+#include "harness/tables/sheet/trend.h"
+
+// Of the notes.
+enum { LINES = 5 };
+
+// --- claims ---
+
+static const char *const colours[RG_CLAIM_VERDICTS] = {RG_GREEN, RG_RED, RG_YELLOW, RG_YELLOW};
+
+// "reproduced on cpu, gl; undecided on opencl"; "reproduced on all devices".
+static void print_verdicts(const struct rg_claim *claim, const struct rg_result *result,
+                           bool painted, FILE *out)
+{
+    int told = 0;
+    for (int verdict = 0; verdict < RG_CLAIM_VERDICTS; verdict++) {
+        char names[512] = "";
+        size_t used = 0;
+        int found = 0;
+        for (int d = 0; d < result->device_count; d++)
+            if ((int)rg_claim_judge(claim, result, d).verdict == verdict && used < sizeof(names))
+                used += (size_t)snprintf(names + used, sizeof(names) - used, "%s%s",
+                                         found++ ? ", " : "", result->devices[d].name);
+        if (found)
+            fprintf(out, "%s%s%s%s on %s", told++ ? "; " : "", painted ? colours[verdict] : "",
+                    rg_claim_verdict_text((enum rg_claim_verdict)verdict), painted ? RG_PLAIN : "",
+                    found > 1 && found == result->device_count ? "all devices" : names);
+    }
+}
+
+// How long the verdicts are, unpainted.
+static int verdicts_length(const struct rg_claim *claim, const struct rg_result *result)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return 0;
+    print_verdicts(claim, result, false, out);
+    fclose(out);
+    free(text);
+    return (int)size;
+}
+
+static void print_claims(const struct rg_result *result, FILE *out)
+{
+    bool any = false;
+    for (const struct rg_claim *claim = rg_claims; claim->table; claim++) {
+        if (strcmp(claim->table, result->table) != 0)
+            continue;
+        const int length = fprintf(
+            out, claim->source == RG_CLAIM_SAID ? "- \"%s\" (%s): " : "- %s (%s): ", claim->words,
+            claim->where);
+        if (length + verdicts_length(claim, result) > RG_BRIEF_WIDTH)
+            fprintf(out, "\n  ");
+        print_verdicts(claim, result, rg_has_colours(out), out);
+        fprintf(out, "\n");
+        any = true;
+    }
+    if (any)
+        fprintf(out, "\n");
+}
+
+// --- notes ---
+
+// Text that is broken into lines, of which no more than some are printed.
+struct notes {
+    FILE *out;
+    int lines;
+    bool more; // something was left out
+};
+
+static void print_line(struct notes *notes, const char *text, int length, bool is_first)
+{
+    if (notes->lines >= LINES - 1) {
+        notes->more = true;
+        return;
+    }
+    fprintf(notes->out, "%s%.*s\n", is_first ? "- " : "  ", length, text);
+    notes->lines++;
+}
+
+static void add(struct notes *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void add(struct notes *notes, const char *format, ...)
+{
+    enum { ROOM = RG_BRIEF_WIDTH - 2 };
+    char text[2 * RG_NOTE_SIZE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof(text), format, arguments);
+    va_end(arguments);
+    const char *rest = text;
+    for (bool is_first = true; *rest; is_first = false) {
+        int length = (int)strlen(rest);
+        if (length > ROOM) {
+            length = ROOM;
+            while (length > 1 && rest[length] != ' ')
+                length--;
+        }
+        print_line(notes, rest, length, is_first);
+        rest += length;
+        rest += strspn(rest, " ");
+    }
+}
+
+static void add_outcomes(struct notes *notes, const struct rg_result *result)
+{
+    const struct rg_record *first = NULL;
+    int count = 0;
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);) {
+        const struct rg_record *record = rg_result_at(result, at);
+        if (record->outcome == RG_OK)
+            continue;
+        first = count++ ? first : record;
+    }
+    if (count)
+        add(notes, "%d cells have no number; the first, on %s: %s", count, first->device.name,
+            first->detail);
+}
+
+static void add_other_work(struct notes *notes, const struct rg_result *result)
+{
+    char rows[256] = "";
+    size_t used = 0;
+    const int work = rg_result_printed_work(result);
+    for (int row = result->first_row; work >= 0 && row <= result->last_row; row++) {
+        const struct rg_place at = {.row = row, .work = work};
+        if (rg_result_has(result, row) && used < sizeof(rows) &&
+            rg_record_is_other_work(rg_result_at(result, at), NULL))
+            used += (size_t)snprintf(rows + used, sizeof(rows) - used, "%s%d", used ? ", " : "",
+                                     row + 1);
+    }
+    if (*rows)
+        add(notes,
+            "Other work: rows %s draw 1.2 times the particles in print or more, or as few; "
+            "no verdict is about them.",
+            rows);
+    if (*result->changed)
+        add(notes, "All cells have %s: not what was printed.", result->changed);
+}
+
+static void add_method(struct notes *notes, const struct rg_result *result)
+{
+    int least, most;
+    rg_result_samples(result, &least, &most);
+    if (rg_result_first_missing(result) <= result->last_row)
+        add(notes, "Rows are missing from %d on: the run was interrupted.",
+            rg_result_first_missing(result) + 1);
+    if (result->is_of_textures)
+        return;
+    add(notes, "%s%s%sMedians of %d to %d samples by wall clock, %s%s%s.",
+        *result->hardware ? "In print on " : "", result->hardware, *result->hardware ? ". " : "",
+        least, most, result->full ? "full" : "quick", !result->full && *result->quick ? ": " : "",
+        result->full ? "" : result->quick);
+}
+
+// "Time grows with the drops to the power: cpu 0.98 (0.95 to 1.01), gl 1.02", of tables of no
+// paper.
+static void add_growth(struct notes *notes, const struct rg_result *result)
+{
+    char text[512] = "", power[32], low[32], high[32];
+    size_t used = 0;
+    const struct rg_named *axis = NULL;
+    for (struct rg_place of = rg_result_start_row(result->first_row);
+         rg_result_next_in_row(result, &of);) {
+        const struct rg_trend trend = rg_trend_of(result, of);
+        if (trend.verdict != RG_TREND_GROWTH || used >= sizeof(text))
+            continue;
+        axis = rg_trend_axis(rg_result_at(result, of));
+        snprintf(power, sizeof(power), "%.2f", -trend.slope);
+        snprintf(low, sizeof(low), "%.2f", -trend.slope_high);
+        snprintf(high, sizeof(high), "%.2f", -trend.slope_low);
+        const bool interval = isfinite(trend.slope_low);
+        used += (size_t)snprintf(
+            text + used, sizeof(text) - used, "%s%s%s%s %s%s%s%s%s%s", used ? ", " : "",
+            result->variant_count > 1 ? result->variants[of.variant] : "",
+            result->variant_count > 1 ? " on " : "", result->devices[of.device].name, power,
+            interval ? " (" : "", interval ? low : "", interval ? " to " : "", interval ? high : "",
+            interval ? ")" : "");
+    }
+    if (axis)
+        add(notes, "The time of a frame goes with %s to the power: %s.", axis->name, text);
+}
+
+void rg_brief_below(const struct rg_result *result, FILE *out)
+{
+    struct notes notes = {.out = out};
+    print_claims(result, out);
+    add_outcomes(&notes, result);
+    add_other_work(&notes, result);
+    add_method(&notes, result);
+    add_growth(&notes, result);
+    add(&notes, "%s", result->note);
+    if (notes.more)
+        fprintf(out, "  ... (`raingauge table --wide`, csv and json have all of it)\n");
+}

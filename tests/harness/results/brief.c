@@ -1,0 +1,212 @@
+// Brief tables: what stands in their cells, how wide they are, and what stands below.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/record/schema/schema.h"
+#include "harness/tables/sheet/below.h"
+#include "harness/tables/sheet/brief.h"
+#include "harness/tables/sheet/digits.h"
+
+enum { ROWS = 4 };
+
+// A table of Creus, which has claims, with two works and five devices whose frame rates are those
+// of print times the device's own factor; work `ours` takes half the time.
+static const double factors[] = {2, 0.5, 0.123, 1, 0.04};
+
+static void fill(struct rg_result *result, struct rg_place at)
+{
+    struct rg_record *record = rg_result_at(result, at);
+    const double published = 80.0 / (1 << at.row);
+    const double fps = published * factors[at.device] * (at.work ? 2 : 1);
+    record->device = result->devices[at.device];
+    rg_named_set_number(&record->row[record->row_count++], "culling_radius_m", 5 << at.row);
+    rg_named_set_number(&record->published[record->published_count++], "fps", published);
+    rg_named_set_number(&record->published[record->published_count++], "particles", 1000);
+    rg_named_set_number(&record->facts[record->fact_count++], "particles",
+                        at.row == 2 ? 1300 : 990);
+    for (int i = 0; i < 6; i++)
+        record->samples_ms[record->sample_count++] = 1000 / fps * (1 + 1e-4 * i);
+    record->has_tally = true;
+    record->tally.records = 20000 + at.row;
+    record->tally.fragments = 3456789;
+    if (at.row == 3 && at.device == 4)
+        rg_record_end(record, RG_FAIL, "its image differs");
+    rg_record_settle(record);
+}
+
+static void make(struct rg_result *result)
+{
+    static const char *const names[] = {"cpu", "cpu:reference", "gl", "vulkan", "opencl"};
+    *result = (struct rg_result){.width = 1280, .height = 720, .last_row = ROWS - 1};
+    snprintf(result->table, sizeof(result->table), "creus-5.4");
+    snprintf(result->hardware, sizeof(result->hardware), "an old machine");
+    snprintf(result->variants[result->variant_count++], RG_NAME_SIZE, "full");
+    snprintf(result->works[0].name, RG_NAME_SIZE, "paper");
+    snprintf(result->works[0].reading, RG_TITLE_SIZE, "two textures a light");
+    snprintf(result->works[1].name, RG_NAME_SIZE, "ours");
+    snprintf(result->works[1].saves, RG_TITLE_SIZE, "less is drawn");
+    result->work_count = 2;
+    for (; result->device_count < 5; result->device_count++)
+        snprintf(result->devices[result->device_count].name,
+                 sizeof(result->devices[result->device_count].name), "%s",
+                 names[result->device_count]);
+    memset(result->note, 'a', RG_NOTE_SIZE - 1);
+    for (int i = 9; i < RG_NOTE_SIZE - 1; i += 10)
+        result->note[i] = ' ';
+    for (int row = 0; row < ROWS; row++)
+        assert_true(rg_result_add_row(result, row));
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);)
+        fill(result, at);
+}
+
+// What is printed, until the next is.
+static const char *print(const struct rg_result *result)
+{
+    static char text[1 << 16];
+    FILE *out = fmemopen(text, sizeof(text), "w");
+    assert_non_null(out);
+    assert_true(rg_brief_print(result, out));
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+static void expect(const char *text, const char *part)
+{
+    if (!strstr(text, part))
+        fail_msg("'%s' is not in\n%s", part, text);
+}
+
+static void cells_are_beside_print(void **state)
+{
+    (void)state;
+    struct rg_result result;
+    make(&result);
+    const char *text = print(&result);
+    expect(text, "### paper: two textures a light\n");
+    expect(text, "| culling radius, m | print | drawn |        cpu |  reference |");
+    expect(text, "|                 5 |  80.0 |  0.99 |  160  2.0x | 40.0 0.50x | 9.84 0.12x |");
+    // A row that draws too many, and a cell that shows another image.
+    expect(text, "|                20 |  20.0 |  1.30 | 40.0 other | 10.0 other |");
+    expect(text, "|       fail |");
+    // What saves work is beside the printed work.
+    expect(text, "### ours, times paper\n");
+    expect(text, "|  320  2.0x | 80.0  2.0x | 19.7  2.0x |  160  2.0x | 6.40  2.0x |");
+    assert_null(strstr(text, "\033"));
+    rg_result_free(&result);
+}
+
+static void curves_are_those_of_print(void **state)
+{
+    (void)state;
+    struct rg_result result;
+    make(&result);
+    const char *text = print(&result);
+    expect(text, "Curves: print \u2588\u2586\u2583\u2581, cpu \u2588\u2586\u2583\u2581, ");
+    expect(text, "opencl \u2588\u2585\u2581.\n");
+    rg_result_free(&result);
+}
+
+// Of each line its characters; of UTF-8 those bytes that begin one.
+static void lines_are_short(void **state)
+{
+    (void)state;
+    struct rg_result result;
+    make(&result);
+    const char *text = print(&result);
+    int width = 0, widest = 0;
+    for (const char *c = text; *c; c++) {
+        width = *c == '\n' ? 0 : width + ((*c & 0xc0) != 0x80);
+        widest = width > widest ? width : widest;
+    }
+    assert_in_range(widest, 90, RG_BRIEF_WIDTH);
+    rg_result_free(&result);
+}
+
+static void claims_and_five_lines_stand_below(void **state)
+{
+    (void)state;
+    struct rg_result result;
+    make(&result);
+    const char *text = print(&result);
+    const char *claim = strstr(text, "- \"Small values achieve faster framerates\" (5.2.2): ");
+    assert_non_null(claim);
+    const char *notes = strstr(claim, "\n\n");
+    assert_non_null(notes);
+    int lines = 0;
+    for (const char *c = notes + 2; *c; c++)
+        lines += *c == '\n';
+    assert_int_equal(lines, 5);
+    expect(notes, "- 2 cells have no number; the first, on opencl: its image differs\n");
+    expect(notes, "- Other work: rows 3 draw");
+    expect(notes, "\n  ... (`raingauge table --wide`, csv and json have all of it)\n");
+    rg_result_free(&result);
+}
+
+static void changed_settings_have_no_ratio(void **state)
+{
+    (void)state;
+    struct rg_result result;
+    make(&result);
+    snprintf(result.changed, sizeof(result.changed), "seed=2");
+    const char *text = print(&result);
+    expect(text, "|  160 |      40.0 | 9.84 |   80.0 |   3.20 |");
+    expect(text, "All cells have seed=2: not what was printed.");
+    expect(text, "\"Small values achieve faster framerates\" (5.2.2): other work on all devices\n");
+    rg_result_free(&result);
+}
+
+static void numbers_have_two_or_three_digits(void **state)
+{
+    (void)state;
+    static const struct {
+        double number;
+        const char *rate, *ratio;
+    } cases[] = {{0.0123, "0.012", "0.01"},  {0.0994, "0.099", "0.10"}, {0.4567, "0.46", "0.46"},
+                 {0.996, "1.00", "1.0"},     {1.27, "1.27", "1.3"},     {9.994, "9.99", "10"},
+                 {9.996, "10.0", "10"},      {27.44, "27.4", "27"},     {99.96, "100", "100"},
+                 {12345.6, "12346", "12346"}};
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        char text[32];
+        rg_digits_rate(cases[i].number, text, sizeof(text));
+        assert_string_equal(text, cases[i].rate);
+        rg_digits_ratio(cases[i].number, text, sizeof(text));
+        assert_string_equal(text, cases[i].ratio);
+    }
+}
+
+static void headings_have_units(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {{"culling_radius_m", "culling radius, m"},
+                                           {"cell_mm", "cell, mm"},
+                                           {"texture_px", "texture, px"},
+                                           {"particles_per_s", "particles, 1/s"},
+                                           {"lights", "lights"},
+                                           {"s", "s"}};
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        char text[64];
+        rg_digits_heading(cases[i][0], text, sizeof(text));
+        assert_string_equal(text, cases[i][1]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cells_are_beside_print),
+        cmocka_unit_test(curves_are_those_of_print),
+        cmocka_unit_test(lines_are_short),
+        cmocka_unit_test(claims_and_five_lines_stand_below),
+        cmocka_unit_test(changed_settings_have_no_ratio),
+        cmocka_unit_test(numbers_have_two_or_three_digits),
+        cmocka_unit_test(headings_have_units),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
