@@ -9,6 +9,11 @@ static const struct rg_measure_options quick = {
 static const struct rg_measure_options full = {
     .most_samples = 61, .least_samples = 6, .sample_ms = 60, .job_ms = 2000, .warm_up_ms = 500};
 
+const struct rg_measure_options *rg_table_options(bool is_full)
+{
+    return is_full ? &full : &quick;
+}
+
 // How far a cell is: so much when it is prepared, and as much again when it is measured.
 enum { CELL_UNITS = 1000 };
 

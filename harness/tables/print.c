@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "core/base/log.h"
+#include "harness/console/exit.h"
 #include "harness/record/output.h"
 #include "harness/record/schema/schema.h"
 #include "harness/tables/sheet/brief.h"
@@ -67,4 +68,29 @@ bool rg_result_write(const struct rg_result *result, const char *folder)
     for (int i = 0; ok && rg_result_formats[i]; i++)
         ok = write_as(result, i, folder);
     return ok;
+}
+
+int rg_result_exit(const struct rg_result *result)
+{
+    int counts[RG_OUTCOME_COUNT] = {0};
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);) {
+        const struct rg_record *record = rg_result_at(result, at);
+        counts[record->outcome]++;
+        if (rg_exit_of(record->truth_error.outcome) == RG_EXIT_FAIL)
+            counts[RG_FAIL]++;
+    }
+    return rg_exit_of_all(counts);
+}
+
+int rg_result_finish(const struct rg_result *result, int format, const char *folder)
+{
+    struct rg_place at = rg_result_start(result);
+    int exit = rg_result_exit(result);
+    if (rg_result_next(result, &at) && !rg_result_print(result, format, stdout))
+        exit = RG_EXIT_FAIL;
+    fflush(stdout);
+    const bool is_whole = rg_result_first_missing(result) > result->last_row;
+    if (is_whole && folder && !rg_result_write(result, folder))
+        exit = rg_exit_worse(exit, RG_EXIT_USAGE);
+    return exit;
 }

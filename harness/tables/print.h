@@ -16,6 +16,13 @@ enum { RG_RESULT_WIDE = -1 };
 // without memory.
 bool rg_result_print(const struct rg_result *result, int format, FILE *out);
 
+// Prints what there is of it to stdout, and writes it into a folder (NULL: none) where it is whole.
+// Returns the exit status that its cells come to; an error against the truth that could not be
+// found counts as a failure.
+int rg_result_finish(const struct rg_result *result, int format, const char *folder);
+// What its cells come to alone.
+int rg_result_exit(const struct rg_result *result);
+
 // Writes it into a folder in every format, as TABLE.FORMAT. False, and one logged line, on failure.
 bool rg_result_write(const struct rg_result *result, const char *folder);
 

@@ -7,6 +7,7 @@ import pty
 import re
 import signal
 import tempfile
+import time
 
 import forms
 from cases import DIFF, FORMATS, NO_CACHE, RENDER, SMALL, STAGES, TABLE
@@ -114,6 +115,46 @@ def check_brief(runner):
     if "\033" in brief or "\033[3" not in shown or re.sub(r"\033\[\d+m", "", shown) != brief or plain != [brief, brief]:
         problems.append("on a terminal: %r\n%r" % (shown, plain))
     return problems + ["--wide is taken with another form: %s" % refused] * (refused != [2, 2])
+
+
+SWEEP = ("sweep flow --axis resolution_px=32,64..96 --axis panes=mirror,glass --axis device=cpu,cpu:reference "
+         "--set move=paper --set model=none --set environment=sky --set environment_px=16 --size 64x64 --frame 3 ")
+
+
+def check_sweep(runner):
+    """sweep plans, then measures each combination on each device, as a table that is printed, written and read like others"""
+    problems = []
+    plan = r"plan: 6 rows on cpu, cpu:reference, 12 cells; about [\d.]+ s \(cpu [\d.]+ s, cpu:reference [\d.]+ s\), about \d+ MB with .*\n"
+    dry = runner.run((SWEEP + "--dry-run").split())
+    if dry.returncode or dry.stderr or not re.fullmatch(plan, dry.stdout):
+        problems.append("dry run: %d, %s%s" % (dry.returncode, dry.stdout, dry.stderr))
+    with tempfile.TemporaryDirectory() as tmp:
+        start = time.monotonic()
+        run = runner.run((SWEEP + "--json -o " + tmp).split())
+        took = time.monotonic() - start
+        again = runner.run(["table", "--from", tmp, "--json"]).stdout
+        made = sorted(os.listdir(tmp))
+        brief = open(tmp + "/sweep-flow.md", encoding="utf-8").read()
+    report = json.loads(run.stdout)
+    problems += forms.problems("table", report)
+    if run.returncode or again != run.stdout or made != ["sweep-flow." + form for form in FORMATS] or not re.fullmatch(plan, run.stderr):
+        problems.append("exit status %d, made %s, %s" % (run.returncode, made, run.stderr))
+    rows = [(px, panes) for px in (32, 64, 96) for panes in ("mirror", "glass")]
+    wanted = [({"resolution_px": px, "panes": panes}, device) for px, panes in rows for device in ("cpu", "cpu:reference")]
+    if [(cell["row"], cell["device"]) for cell in report["cells"]] != wanted:
+        problems.append("cells: %s" % [(cell["row"], cell["device"]) for cell in report["cells"]])
+    for cell in report["cells"]:
+        own = "resolution_px=%d panes=%s " % (cell["row"]["resolution_px"], cell["row"]["panes"])
+        if cell["status"] != "ok" or cell["set"] != own + report["changed"] or "move=paper" not in report["changed"]:
+            problems.append("cell: %s, %s" % (cell["status"], cell["set"]))
+    if (report["hardware"], report["size_px"], report["check_frames"]) != (None, [64, 64], 3):
+        problems.append("%s" % [report[name] for name in ("hardware", "size_px", "check_frames")])
+    if "| resolution, px |  panes |" not in brief or max(map(len, brief.split("\n"))) > 110:
+        problems.append(brief)
+    told = float(re.search(r"about ([\d.]+) s", run.stderr).group(1))
+    if not told / 4 < took < 4 * told + 5:  # a busy machine's speed varies as much
+        problems.append("%s s were planned, and %.1f s taken" % (told, took))
+    return problems
 
 
 def on_terminal(runner, args, env):
@@ -447,7 +488,7 @@ def check_atlas_not_kept(runner):
     return problems if images[0] == images[1] and images[0] else problems + ["printed:\n%s, kept:\n%s" % tuple(images)]
 
 
-LONG = [check_tallies, check_growth, check_changed, check_brief, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept]
+LONG = [check_tallies, check_growth, check_changed, check_brief, check_sweep, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept]
 
 
 # --- a driver that draws wrongly: its kernel is another ---

@@ -145,7 +145,8 @@ static void add_other_work(struct notes *notes, const struct rg_result *result)
             "no verdict is about them.",
             rows);
     if (*result->changed)
-        add(notes, "All cells have %s: not what was printed.", result->changed);
+        add(notes, "All cells have %s%s.", result->changed,
+            *result->hardware ? ": not what was printed" : "");
 }
 
 static void add_method(struct notes *notes, const struct rg_result *result)
@@ -157,9 +158,12 @@ static void add_method(struct notes *notes, const struct rg_result *result)
             rg_result_first_missing(result) + 1);
     if (result->is_of_textures)
         return;
-    add(notes, "%s%s%sMedians of %d to %d samples by wall clock, %s%s%s.",
+    char samples[32] = "";
+    if (least < most)
+        snprintf(samples, sizeof(samples), "%d to ", least);
+    add(notes, "%s%s%sMedians of %s%d samples by wall clock, %s%s%s.",
         *result->hardware ? "In print on " : "", result->hardware, *result->hardware ? ". " : "",
-        least, most, result->full ? "full" : "quick", !result->full && *result->quick ? ": " : "",
+        samples, most, result->full ? "full" : "quick", !result->full && *result->quick ? ": " : "",
         result->full ? "" : result->quick);
 }
 

@@ -236,10 +236,8 @@ static void note_works(const struct rg_result *result, struct rg_sheet *sheet)
                           work->reading);
     }
     if (*result->changed)
-        rg_sheet_note(sheet,
-                      "All cells have %s over their rows' own settings, so that none does "
-                      "what was printed.",
-                      result->changed);
+        rg_sheet_note(sheet, "All cells have %s over their rows' own settings%s.", result->changed,
+                      *result->hardware ? ", so that none does what was printed" : "");
 }
 
 void rg_result_notes(const struct rg_result *result, const char *const *shown,

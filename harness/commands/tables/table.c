@@ -8,6 +8,7 @@
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
+#include "harness/commands/tables/sets.h"
 #include "harness/console/exit.h"
 #include "harness/record/disk/stored.h"
 #include "harness/tables/claims/sheet.h"
@@ -82,37 +83,20 @@ static const char *chosen_work(const struct table_options *o)
 
 // --- what is printed ---
 
-// The exit status of a result: what its cells come to; an error against the truth that could not be
-// found counts as a failure.
-static int judge(const struct rg_result *result)
-{
-    int counts[RG_OUTCOME_COUNT] = {0};
-    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);) {
-        const struct rg_record *record = rg_result_at(result, at);
-        counts[record->outcome]++;
-        if (rg_exit_of(record->truth_error.outcome) == RG_EXIT_FAIL)
-            counts[RG_FAIL]++;
-    }
-    return rg_exit_of_all(counts);
-}
-
 static int form_of(const struct table_options *o)
 {
     return o->json ? RG_RESULT_JSON : o->wide ? RG_RESULT_WIDE : o->format;
 }
 
-// Prints what there is of a table, and writes it where it is whole.
+// Prints what there is of a table, and writes it where it is whole; with --claims it is judged
+// alone.
 static int print(const struct rg_result *result, const void *user)
 {
     const struct table_options *o = user;
-    struct rg_place at = rg_result_start(result);
-    int exit = judge(result);
-    if (o->claims && !rg_claims_add(o->outcomes, result))
-        exit = RG_EXIT_FAIL;
-    if (!o->claims && rg_result_next(result, &at) && !rg_result_print(result, form_of(o), stdout))
-        exit = RG_EXIT_FAIL;
-    fflush(stdout);
+    if (!o->claims)
+        return rg_result_finish(result, form_of(o), o->output);
     const bool is_whole = rg_result_first_missing(result) > result->last_row;
+    int exit = rg_claims_add(o->outcomes, result) ? rg_result_exit(result) : RG_EXIT_FAIL;
     if (is_whole && o->output && !rg_result_write(result, o->output))
         exit = rg_exit_worse(exit, RG_EXIT_USAGE);
     return exit;
@@ -136,29 +120,11 @@ static bool has_work(const struct rg_table *table, const char *wanted)
     return has;
 }
 
-// The words of --set as one text, which the caller frees. NULL, and one logged line, without
-// memory.
-static char *join(const struct rg_words *words)
-{
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    for (int i = 0; out && i < words->count; i++)
-        fprintf(out, "%s%s", i ? " " : "", words->items[i]);
-    if (out && fclose(out) == 0)
-        return text;
-    free(text);
-    return rg_error_null("--set: no memory");
-}
-
 // Whether the technique of each table takes what is set. False, and one logged line, where one does
 // not.
 static bool take_sets(const struct rg_words *sets, const struct rg_table *const chosen[], int count)
 {
     bool ok = true;
-    for (int i = 0; ok && i < sets->count; i++)
-        if (strchr(sets->items[i], ' '))
-            ok = rg_error("--set '%s': a table takes no value with a space", sets->items[i]);
     for (int i = 0; ok && sets->count && i < count; i++) {
         void *settings = rg_subject_settings(rg_technique_find(chosen[i]->technique), sets);
         ok = settings != NULL;
@@ -304,8 +270,8 @@ static int table(const void *values, const struct rg_words *arguments)
         return RG_EXIT_USAGE;
     }
     o.outcomes = &outcomes;
-    if (o.sets.count && !(o.set = join(&o.sets)))
-        return RG_EXIT_FAIL;
+    if (!rg_sets_join(&o.sets, &o.set))
+        return RG_EXIT_USAGE;
     int exit = print_tables(&o, arguments);
     free(o.set);
     if (outcomes.count && !print_claims(&outcomes, o.format))

@@ -1,0 +1,162 @@
+// raingauge sweep: a table of one's own, from axes.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "harness/cli/command.h"
+#include "harness/cli/shared.h"
+#include "harness/cli/subject.h"
+#include "harness/commands/tables/sets.h"
+#include "harness/console/exit.h"
+#include "harness/measure/expected.h"
+#include "harness/tables/print.h"
+#include "harness/tables/regenerate.h"
+#include "harness/tables/sweep/grid.h"
+#include "harness/tables/sweep/plan.h"
+
+struct sweep_options {
+    struct rg_words axes, sets;
+    struct rg_size size;
+    int frame;
+    struct rg_length length;
+    char *devices, *output;
+    int format;
+    bool dry_run, wide, json;
+};
+
+#define AT(field) offsetof(struct sweep_options, field)
+
+static const struct rg_option options[] = {
+    RG_GROUP("What to measure"),
+    {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
+     .about = "what is timed; `raingauge list techniques` prints them", .names = RG_NAMES_TECHNIQUE,
+     .first = 1, .last = 1},
+    {RG_OPTION_TEXTS, "axis", .argument = "KEY=VALUES",
+     .about = "a parameter and its values: 5,10,40; or 5,10..40 in equal steps. Given again, each "
+              "value of one meets each of the other. device=cpu,gl names the devices",
+     .offset = AT(axes), .names = RG_NAMES_PARAMETER},
+    RG_INCLUDE(rg_settings_option, AT(sets), NULL),
+    RG_INCLUDE(rg_size_option, AT(size), "1280x720"),
+    RG_INCLUDE(rg_frame_option, AT(frame), "10"),
+    RG_INCLUDE(rg_length_options, AT(length), NULL),
+    {RG_OPTION_FLAG, "dry-run", .about = "prints the plan, and measures nothing",
+     .offset = AT(dry_run)},
+    RG_GROUP("Devices"),
+    RG_INCLUDE(rg_devices_option, AT(devices), "cpu"),
+    RG_GROUP("Output"),
+    {RG_OPTION_FLAG, "wide", .about = "prints all columns and notes, one line a cell",
+     .offset = AT(wide), .excludes = "format json"},
+    {RG_OPTION_CHOICE, "format", .about = "what to print", .offset = AT(format),
+     .choices = rg_result_formats, .initial = "md"},
+    {RG_OPTION_TEXT, "output", .argument = "DIR",
+     .about = "writes the table into this folder too, in every format", .offset = AT(output),
+     .letter = 'o', .names = RG_NAMES_FOLDER},
+    RG_INCLUDE(rg_json_option, AT(json), NULL),
+    {RG_OPTION_END},
+};
+
+static int print(const struct rg_result *result, const void *user)
+{
+    const struct sweep_options *o = user;
+    const int form = o->json ? RG_RESULT_JSON : o->wide ? RG_RESULT_WIDE : o->format;
+    return rg_result_finish(result, form, o->output);
+}
+
+// Reads the axes; that of the devices is not among the grid's, and *devices gets their names, which
+// the caller frees. False, and one logged line, where one is refused.
+static bool read_axes(const struct rg_words *words, struct rg_grid *grid, char **devices)
+{
+    for (int i = 0; i < words->count; i++) {
+        struct rg_axis axis;
+        if (!rg_axis_read(words->items[i], &axis))
+            return false;
+        if (strcmp(axis.name, "device") != 0) {
+            if (grid->axis_count == RG_GRID_AXES)
+                return rg_error("--axis: more than %d axes", RG_GRID_AXES);
+            grid->axes[grid->axis_count++] = axis;
+            continue;
+        }
+        if (*devices)
+            return rg_error("--axis device: stands twice; name all devices at once");
+        if (!(*devices = strdup(strchr(words->items[i], '=') + 1)))
+            return rg_error("--axis device: no memory");
+    }
+    return grid->axis_count ||
+           rg_error("--axis: none is of a parameter; name one, as in --axis seed=1,2..5");
+}
+
+// Measures the table, or tells what that would take.
+static int run_on(struct rg_grid *grid, const struct rg_devices *devices,
+                  const struct sweep_options *o, const char *set)
+{
+    struct rg_kept kept = {.devices = devices};
+    struct rg_plan plan;
+    const bool planned = rg_plan_make(&grid->table, set, o->length.full, &kept, &plan);
+    if (!rg_kept_free(&kept) || !planned)
+        return rg_exit_of_error();
+    rg_plan_print(&plan, devices, o->dry_run ? stdout : stderr);
+    if (o->dry_run)
+        return RG_EXIT_PASS;
+    grid->table.rows_at_once = rg_plan_rows_at_once(&plan);
+    const struct rg_table *const tables[] = {&grid->table};
+    const struct rg_regenerate_options wanted = {.full = o->length.full,
+                                                 .fresh = true,
+                                                 .set = set,
+                                                 .folder = o->output,
+                                                 .print = print,
+                                                 .user = o};
+    return rg_tables_regenerate(tables, 1, devices, &wanted);
+}
+
+static int open_and_run(struct rg_grid *grid, const struct sweep_options *o, const char *names,
+                        const char *set)
+{
+    struct rg_devices devices;
+    int exit = rg_devices_open(names, &devices);
+    if (exit != RG_EXIT_PASS)
+        return exit;
+    exit = rg_exit_worse(run_on(grid, &devices, o, set), rg_devices_exit(&devices));
+    rg_devices_close(&devices);
+    return exit;
+}
+
+static int run_grid(struct rg_grid *grid, const struct sweep_options *o,
+                    const struct rg_words *arguments)
+{
+    void *settings = NULL;
+    char *names = NULL, *set = NULL;
+    int exit = RG_EXIT_USAGE;
+    const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
+    if (technique && read_axes(&o->axes, grid, &names) && rg_grid_make(grid, technique) &&
+        rg_sets_join(&o->sets, &set)) {
+        grid->table.width = o->size.width;
+        grid->table.height = o->size.height;
+        grid->table.check_frames = o->frame;
+        exit = open_and_run(grid, o, names ? names : o->devices, set);
+    }
+    free(settings);
+    free(names);
+    free(set);
+    return exit;
+}
+
+static int sweep(const void *values, const struct rg_words *arguments)
+{
+    struct rg_grid *grid = rg_alloc(1, sizeof(*grid), "sweep");
+    const int exit = grid ? run_grid(grid, values, arguments) : RG_EXIT_FAIL;
+    free(grid);
+    return exit;
+}
+
+const struct rg_command rg_command_sweep = {
+    .name = "sweep",
+    .usage = "TECHNIQUE --axis KEY=VALUES [--axis KEY=VALUES]... [--set KEY=VALUE]... [--size WxH] "
+             "[--frame N] [--device D,...|all] [--quick|--full] [--dry-run] [--wide] "
+             "[--format F|--json] [-o DIR]",
+    .about = "measures a table of one's own: each value of a parameter on each device",
+    .options = options,
+    .options_size = sizeof(struct sweep_options),
+    .run = sweep,
+};

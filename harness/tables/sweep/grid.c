@@ -1,0 +1,109 @@
+#include "harness/tables/sweep/grid.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "core/techniques/technique.h"
+
+static const struct rg_param *param_of(const struct rg_technique *technique,
+                                       const struct rg_axis *axis)
+{
+    return rg_params_find(technique->params, axis->name);
+}
+
+// A text names the rows; numbers and choices have columns.
+static bool has_column(const struct rg_technique *technique, const struct rg_axis *axis)
+{
+    const struct rg_param *param = param_of(technique, axis);
+    return param && param->kind != RG_PARAM_FILE;
+}
+
+static bool add_columns(struct rg_grid *grid, const struct rg_technique *technique)
+{
+    struct rg_table *table = &grid->table;
+    for (int i = 0; i < grid->axis_count; i++) {
+        const struct rg_axis *axis = &grid->axes[i];
+        for (int k = 0; k < i; k++)
+            if (!strcmp(grid->axes[k].name, axis->name))
+                return rg_error("--axis %s: stands twice; name all its values at once", axis->name);
+        if (has_column(technique, axis))
+            table->columns[table->key_count++] = axis->name;
+        else if (table->names)
+            return rg_error("--axis %s: only one axis can be of files, and %s is", axis->name,
+                            table->names);
+        else
+            table->names = axis->name;
+    }
+    return true;
+}
+
+static double value_of(const struct rg_param *param, const void *settings)
+{
+    const char *at = (const char *)settings + param->offset;
+    return param->kind == RG_PARAM_FLOAT ? *(const double *)(const void *)at
+                                         : *(const int *)(const void *)at;
+}
+
+// Which value of an axis a row has: the last axis goes fastest.
+static int index_at(const struct rg_grid *grid, int axis, int row)
+{
+    for (int i = grid->axis_count - 1; i > axis; i--)
+        row /= grid->axes[i].count;
+    return row % grid->axes[axis].count;
+}
+
+static void write_set(struct rg_grid *grid, int row)
+{
+    size_t used = 0;
+    for (int i = 0; i < grid->axis_count && used < RG_SET_SIZE; i++)
+        used +=
+            (size_t)snprintf(grid->sets[row] + used, RG_SET_SIZE - used, "%s%s=%s", i ? " " : "",
+                             grid->axes[i].name, grid->axes[i].values[index_at(grid, i, row)]);
+    grid->rows[row].set = grid->sets[row];
+}
+
+static bool make_row(struct rg_grid *grid, const struct rg_technique *technique, int row)
+{
+    void *defaults = rg_settings_create(technique), *settings = NULL;
+    int column = 0;
+    write_set(grid, row);
+    if (defaults)
+        settings = rg_settings_copy(technique, defaults, grid->sets[row]);
+    for (int i = 0; settings && i < grid->axis_count; i++) {
+        const struct rg_axis *axis = &grid->axes[i];
+        if (has_column(technique, axis))
+            grid->rows[row].values[column++] = value_of(param_of(technique, axis), settings);
+        else
+            grid->rows[row].name = axis->values[index_at(grid, i, row)];
+    }
+    const bool ok = settings != NULL;
+    free(settings);
+    free(defaults);
+    return ok;
+}
+
+bool rg_grid_make(struct rg_grid *grid, const struct rg_technique *technique)
+{
+    int64_t rows = 1;
+    for (int i = 0; i < grid->axis_count; i++)
+        rows *= grid->axes[i].count;
+    if (rows > RG_TABLE_ROWS)
+        return rg_error("--axis: %lld rows are more than %d; leave some values out",
+                        (long long)rows, RG_TABLE_ROWS);
+    snprintf(grid->id, sizeof(grid->id), "sweep-%s", technique->name);
+    grid->table = (struct rg_table){.id = grid->id,
+                                    .technique = technique->name,
+                                    .about = "a sweep",
+                                    .has_choices = true,
+                                    .variants = {{"full", "", NULL}},
+                                    .row_count = (int)rows,
+                                    .rows = grid->rows,
+                                    .note = "A sweep: a row for each combination of the axes' "
+                                            "values, in their order."};
+    bool ok = add_columns(grid, technique);
+    for (int row = 0; ok && row < rows; row++)
+        ok = make_row(grid, technique, row);
+    return ok;
+}

@@ -1,0 +1,32 @@
+// What a table will take, before it is measured.
+#ifndef RG_HARNESS_TABLES_SWEEP_PLAN_H
+#define RG_HARNESS_TABLES_SWEEP_PLAN_H
+
+#include <stdio.h>
+
+#include "harness/devices/kept.h"
+#include "harness/tables/table.h"
+
+struct rg_plan {
+    int rows, devices;
+    double device_s[RG_MAX_DEVICES]; // that its cells take
+    double check_s;                  // that cpu:reference takes for the images that they must show
+    double row_bytes;                // of this process's memory, what the largest row takes
+    double all_bytes;                // what all rows take together
+};
+
+// Opens the first and the last row on each device for two frames, and reckons what lies between
+// from them: times and memory as they go from row to row by the same factor. False, and one logged
+// line, where one cannot be opened.
+bool rg_plan_make(const struct rg_table *table, const char *set, bool is_full, struct rg_kept *kept,
+                  struct rg_plan *plan);
+
+// "8 rows on cpu, gl: 16 cells, about 40 s (cpu 14 s, gl 20 s, images to check by 6 s), ...", one
+// line.
+void rg_plan_print(const struct rg_plan *plan, const struct rg_devices *devices, FILE *out);
+
+// How many rows may be open at the same time: all, as 0, or one where they take more than half of
+// the memory that is free.
+int rg_plan_rows_at_once(const struct rg_plan *plan);
+
+#endif
