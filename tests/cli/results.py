@@ -14,6 +14,9 @@ from cases import DIFF, FORMATS, NO_CACHE, RENDER, SMALL, STAGES, TABLE
 from runner import NO_DRIVERS
 
 
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+
 def run_json(runner, args, env={}, form=None):
     """What the command prints as JSON, its exit status, and its messages as a list of problems."""
     result = runner.run((args + " --json").split(), env)
@@ -106,6 +109,7 @@ def check_brief(runner):
         brief, wide = runner.run(stored).stdout, runner.run(stored + ["--wide"]).stdout
         refused = [runner.run(stored + ["--wide", other]).returncode for other in ("--json", "--claims")]
         shown = on_terminal(runner, stored, {"TERM": "xterm", "NO_COLOR": None})
+        claims = on_terminal(runner, ["table", "--claims", "--from", "%s/results/tables" % ROOT], {"TERM": "xterm", "NO_COLOR": None})
         plain = [on_terminal(runner, stored, env) for env in ({"TERM": "xterm", "NO_COLOR": "1"}, {"TERM": "dumb", "NO_COLOR": None})]
     lines = [line for line in brief.split("\n") if re.match(r"\| +128 \|", line)]
     if len(lines) != 3 or not re.fullmatch(r"\| +128 \| +480 \| .* \d\.\d\dx \|", lines[0]):
@@ -114,6 +118,8 @@ def check_brief(runner):
         problems.append("wide:\n" + wide)
     if "\033" in brief or "\033[3" not in shown or re.sub(r"\033\[\d+m", "", shown) != brief or plain != [brief, brief]:
         problems.append("on a terminal: %r\n%r" % (shown, plain))
+    if "\033[3" not in claims or "reproduced" not in re.sub(r"\033\[\d+m", "", claims):
+        problems.append("claims on a terminal: %r" % claims)
     return problems + ["--wide is taken with another form: %s" % refused] * (refused != [2, 2])
 
 

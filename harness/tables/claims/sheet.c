@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/base/array.h"
+#include "harness/console/colour.h"
 
 // Before the devices' columns.
 enum { TABLE, SECTION, CLAIM, BEFORE };
@@ -121,9 +122,20 @@ static void add_notes(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
     }
 }
 
+// What a verdict is painted with on a terminal.
+static const char *paint(const char *cell)
+{
+    static const char *const colours[RG_CLAIM_VERDICTS] = {RG_GREEN, RG_RED, RG_YELLOW, RG_YELLOW};
+    for (int i = 0; i < RG_CLAIM_VERDICTS; i++)
+        if (!strcmp(cell, rg_claim_verdict_text((enum rg_claim_verdict)i)))
+            return colours[i];
+    return NULL;
+}
+
 void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, struct rg_sheet *sheet)
 {
     sheet->title = "claims";
+    sheet->paint = rg_has_colours(stdout) ? paint : NULL;
     add_columns(outcomes, sheet);
     add_rows(outcomes, sheet);
     add_notes(outcomes, sheet);

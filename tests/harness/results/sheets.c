@@ -171,6 +171,66 @@ static void test_slope_along_axis(void **state)
     assert_int_equal(s.pairs, 2);
 }
 
+// A row that draws more than 1.2 times the particles in print takes no part; nor does anything
+// where settings were changed.
+static void test_other_work(void **state)
+{
+    (void)state;
+    struct rig rig;
+    const struct rg_place full = {0};
+    measure(&rig, &axis_table, (double[]){40, 1, 200, 1, 10, 1});
+    assert_int_equal(rg_trend_of(&rig.result, full).verdict, RG_TREND_NOT);
+    tell(record_at(&rig, 1, 0), "particles", 198818 * 1.19);
+    assert_int_equal(rg_trend_of(&rig.result, full).verdict, RG_TREND_NOT);
+    record_at(&rig, 1, 0)->facts[0].number = 198818 * 1.21;
+    const struct rg_trend trend = rg_trend_of(&rig.result, full);
+    assert_int_equal(trend.verdict, RG_TREND_REPRODUCED);
+    assert_int_equal(trend.pairs, 1);
+    snprintf(rig.result.changed, sizeof(rig.result.changed), "seed=2");
+    assert_int_equal(rg_trend_of(&rig.result, full).verdict, RG_TREND_OTHER_WORK);
+    rg_result_free(&rig.result);
+}
+
+// Of each work the cells of one variant stay, those of the other leave.
+static void test_keeping_a_variant(void **state)
+{
+    (void)state;
+    struct rig rig;
+    measure(&rig, &styles_table, (double[]){11, 12, 13, 14, 21, 22, 23, 24});
+    assert_false(rg_result_keep_variant(&rig.result, "nonsense"));
+    assert_true(rg_result_keep_variant(&rig.result, "no_geometry"));
+    assert_int_equal(rig.result.variant_count, 1);
+    assert_string_equal(rig.result.variants[0], "no_geometry");
+    const double fps[] = {12, 14, 22, 24};
+    int cells = 0;
+    for (struct rg_place at = rg_result_start(&rig.result); rg_result_next(&rig.result, &at);) {
+        const struct rg_record *record = rg_result_at(&rig.result, at);
+        assert_string_equal(record->variant, "no_geometry");
+        assert_float_equal(rg_record_fps(record), fps[cells++], 1e-9);
+    }
+    assert_int_equal(cells, 4);
+    rg_result_free(&rig.result);
+}
+
+// A part of a table has its own variant's settings and print.
+static void test_part_of_one_variant(void **state)
+{
+    (void)state;
+    const struct rg_devices devices = {.count = 1, .devices = {&device}};
+    const struct rg_table_part part = {
+        .last_row = 0, .variant = "no_geometry", .work = "paper", .set = "seed=2"};
+    struct rg_result result = {0};
+    rg_table_begin(&result, &styles_table, &part, &devices);
+    assert_true(rg_table_add_row(&result, &styles_table, 0));
+    const struct rg_record *record = rg_result_at(&result, (struct rg_place){0});
+    assert_int_equal(rg_result_row_cells(&result), 1);
+    assert_string_equal(record->variant, "no_geometry");
+    assert_string_equal(record->set, "geometry=off blocks=all seed=2");
+    assert_float_equal(rg_record_published_fps(record), 200, 0);
+    assert_string_equal(result.changed, "seed=2");
+    rg_result_free(&result);
+}
+
 static const char *text_at(const struct rg_sheet *sheet, int row, const char *column)
 {
     for (int c = 0; c < sheet->column_count; c++)
@@ -661,14 +721,25 @@ static void test_keeping(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_order_of_names), cmocka_unit_test(test_slope_along_axis),
-        cmocka_unit_test(test_sheet),          cmocka_unit_test(test_costs),
-        cmocka_unit_test(test_sheet_of_names), cmocka_unit_test(test_passes),
-        cmocka_unit_test(test_json),           cmocka_unit_test(test_missing_rows),
-        cmocka_unit_test(test_unsupported),    cmocka_unit_test(test_textures),
-        cmocka_unit_test(test_works),          cmocka_unit_test(test_keeping),
-        cmocka_unit_test(test_growth),         cmocka_unit_test(test_growth_of_few_rows),
-        cmocka_unit_test(test_range),          cmocka_unit_test(test_spread),
+        cmocka_unit_test(test_order_of_names),
+        cmocka_unit_test(test_slope_along_axis),
+        cmocka_unit_test(test_sheet),
+        cmocka_unit_test(test_costs),
+        cmocka_unit_test(test_sheet_of_names),
+        cmocka_unit_test(test_passes),
+        cmocka_unit_test(test_json),
+        cmocka_unit_test(test_missing_rows),
+        cmocka_unit_test(test_unsupported),
+        cmocka_unit_test(test_textures),
+        cmocka_unit_test(test_works),
+        cmocka_unit_test(test_keeping),
+        cmocka_unit_test(test_other_work),
+        cmocka_unit_test(test_keeping_a_variant),
+        cmocka_unit_test(test_part_of_one_variant),
+        cmocka_unit_test(test_growth),
+        cmocka_unit_test(test_growth_of_few_rows),
+        cmocka_unit_test(test_range),
+        cmocka_unit_test(test_spread),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
