@@ -79,10 +79,16 @@ RG_PROC void rg_light_row(const rg_shading *s, RG_RECORD record, rg_block_triang
     if (seen < 0)
         return;
     for (int light = 0; light < s->p.program.lights; light++) {
+#if defined(RG_LIGHT_RECORD)
+        RG_LIGHT_RECORD by = rg_program_record_light(s->rg, s->p.program, record, light);
+#define RG_BY , by
+#else
+#define RG_BY
+#endif
 #pragma clang loop vectorize(assume_safety) vectorize_width(8) interleave_count(1)
         for (int x = 0; x < count; x++) {
             rgba c = rg_program_light(s->rg, s->p.program, record, px[x] < 0 ? seen : px[x], py,
-                                      light);
+                                      light RG_BY);
             lit->r[x] += c.r;
             lit->g[x] += c.g;
             lit->b[x] += c.b;

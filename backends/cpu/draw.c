@@ -61,13 +61,20 @@ static void shade_tiles(const struct drawing *d)
         d->emitter.raster->shade(d->emitter.program, d->emitter.call, bins, t);
 }
 
+// Of a primitive and all its lights.
+static size_t record_bytes(const struct cpu_emitter *e)
+{
+    const size_t lights = e->program->light_size ? (size_t)e->program->lights(e->call) : 0;
+    return e->program->record_size + lights * e->program->light_size;
+}
+
 static bool draw_rounds(struct drawing *d)
 {
     struct cpu_bins *bins = d->emitter.bins;
     const rg_draw_state *draw = d->emitter.draw;
     int most = CPU_MOST_CHUNKS;
     while (d->begin < d->end) {
-        if (!cpu_bins_prepare(bins, draw, d->emitter.program->record_size, d->threads))
+        if (!cpu_bins_prepare(bins, draw, record_bytes(&d->emitter), d->threads))
             return false;
         emit_items(d, most);
         if (bins->failed)

@@ -18,6 +18,17 @@ RG_STRUCT(test_lit_quad)
     float slope;
 };
 #define RG_RECORD test_lit_quad
+
+// What a light needs of a quad alone. With TEST_LIGHT_RECORDS devices keep it, else each pixel
+// makes it anew: pictures are the same.
+RG_STRUCT(test_quad_light)
+{
+    float near; // 0 for a sun
+    float facing_x, facing_y, facing_z;
+};
+#if defined(TEST_LIGHT_RECORDS)
+#define RG_LIGHT_RECORD test_quad_light
+#endif
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/dialect/math.h"
@@ -57,16 +68,39 @@ RG_FN float test_let_through(rg_ctx rg, test_light l, v3 at)
     return l.layer < 0 ? 1.0f : seen;
 }
 
+RG_FN test_quad_light test_quad_light_of(rg_ctx rg, test_lights_params p, test_lit_quad r,
+                                         int light)
+{
+    test_light l = lights_at(rg, p.first + light);
+    float reach = l.kind == TEST_LIGHT_POINT ? l.reach : 1.0f;
+    test_quad_light by;
+    by.near = l.kind == TEST_LIGHT_POINT ? 1.0f : 0.0f;
+    by.facing_x = r.normal.x * reach;
+    by.facing_y = r.normal.y * reach;
+    by.facing_z = r.normal.z * reach;
+    return by;
+}
+
+#if defined(TEST_LIGHT_RECORDS)
+RG_DRAW_RECORD_LIGHT(test_lights)
+{
+    return test_quad_light_of(rg, p, r, light);
+}
+#endif
+
 RG_DRAW_LIGHT(test_lights)
 {
+#if !defined(TEST_LIGHT_RECORDS)
+    test_quad_light by = test_quad_light_of(rg, p, r, light);
+#endif
     test_light l = lights_at(rg, p.first + light);
     v3 at = v3_make(rg_to_float(px) * p.px_to_unit, rg_to_float(py) * p.px_to_unit,
                     test_depth(r, px, py));
-    float near = l.kind == TEST_LIGHT_POINT ? 1.0f : 0.0f;
-    v3 towards = v3_add(l.at, v3_scale(at, -near));
+    v3 towards = v3_add(l.at, v3_scale(at, -by.near));
     float squared = v3_dot(towards, towards) + 0.01f;
-    float facing = rg_max(v3_dot(towards, r.normal), 0.0f) / rg_sqrt(squared);
-    float fading = l.kind == TEST_LIGHT_POINT ? l.reach / squared : 1.0f;
+    v3 normal = v3_make(by.facing_x, by.facing_y, by.facing_z);
+    float facing = rg_max(v3_dot(towards, normal), 0.0f) / rg_sqrt(squared);
+    float fading = l.kind == TEST_LIGHT_POINT ? 1.0f / squared : 1.0f;
     float share = facing * fading * test_let_through(rg, l, at);
     return rg_rgba(l.colour.r * share, l.colour.g * share, l.colour.b * share, share);
 }

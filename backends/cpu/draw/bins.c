@@ -107,13 +107,13 @@ static bool make_record_room(struct cpu_bins *bins, size_t size)
 {
     if (size <= bins->record_room)
         return true;
-    bins->records = renewed(bins->records, size);
-    bins->record_room = bins->records ? size : 0;
-    return bins->records != NULL;
+    bins->records.of_items = renewed(bins->records.of_items, size);
+    bins->record_room = bins->records.of_items ? size : 0;
+    return bins->records.of_items != NULL;
 }
 
 // Programs with records of different size take turns in the same memory.
-static bool make_prim_room(struct cpu_bins *bins, size_t record_size)
+static bool make_prim_room(struct cpu_bins *bins, size_t record_bytes)
 {
     const int prims = wanted(bins->prim_room, bins->prim_count, MOST_PRIMS);
     if (prims != bins->prim_room) {
@@ -121,9 +121,9 @@ static bool make_prim_room(struct cpu_bins *bins, size_t record_size)
         bins->corners = renewed(bins->corners, (size_t)prims * sizeof(*bins->corners));
         bins->prim_room = bins->items && bins->corners ? prims : 0;
     }
-    bins->record_size = record_size;
-    bins->prim_limit = rg_imin(bins->prim_room, (int)(MOST_BYTES / record_size));
-    return bins->prim_limit && make_record_room(bins, (size_t)bins->prim_limit * record_size);
+    bins->prim_limit = rg_imin(bins->prim_room, (int)(MOST_BYTES / record_bytes));
+    bins->records.room = bins->prim_limit;
+    return bins->prim_limit && make_record_room(bins, (size_t)bins->prim_limit * record_bytes);
 }
 
 static int divide(struct cpu_tiling *tiling, const rg_draw_state *draw, int log2_side)
@@ -181,11 +181,11 @@ static bool make_sorters(struct cpu_bins *bins, int threads)
     return true;
 }
 
-bool cpu_bins_prepare(struct cpu_bins *bins, const rg_draw_state *draw, size_t record_size,
+bool cpu_bins_prepare(struct cpu_bins *bins, const rg_draw_state *draw, size_t record_bytes,
                       int threads)
 {
     choose_tiles(&bins->tiling, draw, threads);
-    if (!make_ref_room(bins) || !make_prim_room(bins, record_size) || !make_chunks(bins) ||
+    if (!make_ref_room(bins) || !make_prim_room(bins, record_bytes) || !make_chunks(bins) ||
         !make_sorters(bins, threads))
         return false;
     bins->prim_count = bins->ref_count = bins->chunk_count = 0;
@@ -204,7 +204,7 @@ void cpu_bins_destroy(struct cpu_bins *bins)
         free(bins->sorters[i]);
     }
     free(bins->sorters);
-    free(bins->records);
+    free(bins->records.of_items);
     free(bins->items);
     free(bins->corners);
     free(bins->refs);

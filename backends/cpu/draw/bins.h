@@ -41,8 +41,8 @@ struct cpu_bins {
     struct cpu_tiling tiling;
     // Primitives, by number: their records, items, and corners where no mask serves.
     int prim_room, prim_limit, prim_count;
-    size_t record_room, record_size; // in bytes
-    char *records;
+    size_t record_room; // in bytes
+    struct cpu_records records;
     int *items;
     rg_snapped *corners;
     // References, each chunk's in one piece.
@@ -59,7 +59,7 @@ struct cpu_bins {
 };
 
 // Sees to room for a round of a run; false: there is no memory.
-bool cpu_bins_prepare(struct cpu_bins *bins, const rg_draw_state *draw, size_t record_size,
+bool cpu_bins_prepare(struct cpu_bins *bins, const rg_draw_state *draw, size_t record_bytes,
                       int threads);
 // Numbers for `count` primitives or references, the first one; -1: no room.
 int cpu_bins_prims(struct cpu_bins *bins, int count);

@@ -141,7 +141,7 @@ static bool take_shapes(const struct cpu_emitter *e, struct cpu_chunk *chunk)
     const int first = count ? cpu_bins_prims(bins, count) : 0;
     if (first < 0)
         return false;
-    e->program->records(e->call, item, count, bins->records + (size_t)first * bins->record_size);
+    e->program->records(e->call, item, count, bins->records, first);
     memcpy(bins->items + first, item, (size_t)count * sizeof(*item));
     for (int i = 0; i < count; i++) {
         if (!bin_shape(e, chunk, which[i], first + i)) {

@@ -43,30 +43,39 @@ struct cpu_fragments {
     int kept[CPU_FRAGMENTS];
 };
 
+// The records of primitives, by number: those of their items; behind the room for these, those of
+// their first light, and so on for each light. So what a loop gathers lies a constant apart.
+struct cpu_records {
+    char *of_items;
+    int room; // primitives
+};
+
 // The stages of a DRAW program. All get the call, whose parameters are its rg_draw_call.
 struct cpu_program {
     int corners;        // RG_CORNERS
-    size_t record_size; // in bytes
+    size_t record_size; // of an item, in bytes
+    size_t light_size;  // of the record of an item and light; 0: there is none
 
     // The items from `begin` on: fate and corners.
     void (*items)(const struct cpu_call *call, int begin, int count, struct cpu_items *items);
     // The parts that an item falls into where it is clipped; returns their number.
     int (*clip)(const struct cpu_call *call, int item, rg_snapped parts[CPU_MOST_PARTS]);
-    // The records of some items.
-    void (*records)(const struct cpu_call *call, const int *items, int count, void *records);
+    // The records of some items, from primitive `first` on.
+    void (*records)(const struct cpu_call *call, const int *items, int count,
+                    struct cpu_records records, int first);
     // The fragments of a list, whose pixels go on to a multiple of CPU_LANES, and of `count` pixels
     // from (x, y) on.
-    void (*list)(const struct cpu_call *call, const void *records, const struct cpu_list *list,
-                 struct cpu_fragments *fragments);
-    void (*row)(const struct cpu_call *call, const void *record, int x, int y, int count,
-                struct cpu_fragments *fragments);
+    void (*list)(const struct cpu_call *call, struct cpu_records records,
+                 const struct cpu_list *list, struct cpu_fragments *fragments);
+    void (*row)(const struct cpu_call *call, struct cpu_records records, int prim, int x, int y,
+                int count, struct cpu_fragments *fragments);
     // Of programs with lights, else NULL: how many there are; and the same as `list` and `row`, but
     // depth and `kept` alone.
     int (*lights)(const struct cpu_call *call);
-    void (*list_depth)(const struct cpu_call *call, const void *records,
+    void (*list_depth)(const struct cpu_call *call, struct cpu_records records,
                        const struct cpu_list *list, struct cpu_fragments *fragments);
-    void (*row_depth)(const struct cpu_call *call, const void *record, int x, int y, int count,
-                      struct cpu_fragments *fragments);
+    void (*row_depth)(const struct cpu_call *call, struct cpu_records records, int prim, int x,
+                      int y, int count, struct cpu_fragments *fragments);
 };
 
 #endif

@@ -13,9 +13,9 @@ enum {
 
 // Leaves of a row what lies between the first and the last pixel that will pass the test of depth;
 // returns how many.
-static int trim_hidden(struct shader *s, const void *record, int *x, int y, int count)
+static int trim_hidden(struct shader *s, int prim, int *x, int y, int count)
 {
-    s->program->row_depth(s->call, record, *x, y, count, &s->fragments);
+    s->program->row_depth(s->call, s->bins->records, prim, *x, y, count, &s->fragments);
     const size_t texel = texel_of(s, y << 16 | *x);
     int first = 0, end = count;
     while (first < end && !is_seen(s, first, texel + (size_t)first))
@@ -28,15 +28,14 @@ static int trim_hidden(struct shader *s, const void *record, int *x, int y, int 
 
 static void draw_row(struct shader *s, int prim, int x, int y, int count)
 {
-    const void *record = s->bins->records + (size_t)prim * s->bins->record_size;
     if (s->drops_hidden)
-        count = trim_hidden(s, record, &x, y, count);
+        count = trim_hidden(s, prim, &x, y, count);
     if (!count)
         return;
     const size_t first = (size_t)y * (size_t)s->draw.width + (size_t)x;
     const size_t size = (size_t)count * sizeof(uint), words = (size_t)s->texel_words;
     struct pixels *pixels = &s->pixels;
-    s->program->row(s->call, record, x, y, count, &s->fragments);
+    s->program->row(s->call, s->bins->records, prim, x, y, count, &s->fragments);
     if (words)
         memcpy(pixels->texels, s->target.colour + first * words, size * words);
     if (s->draw.depth_mode != RG_DEPTH_IS_OFF)

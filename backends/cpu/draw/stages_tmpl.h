@@ -40,14 +40,94 @@ static int clip_item(const struct cpu_call *call, int item, rg_snapped parts[CPU
     return count;
 }
 
-static void make_records(const struct cpu_call *call, const int *items, int count, void *records)
+#if defined(RG_LIGHT_RECORD)
+
+static inline __attribute__((always_inline)) RG_LIGHT_RECORD *
+light_records(struct cpu_records records, int light)
 {
-    const rg_ctx rg = bind_context(call);
-    const rg_draw_call p = *(const rg_draw_call *)call->params;
-    RG_RECORD *made = records;
+    RG_LIGHT_RECORD *first =
+        (RG_LIGHT_RECORD *)(records.of_items + (size_t)records.room * sizeof(RG_RECORD));
+    return first + (size_t)light * (size_t)records.room;
+}
+
+// Where records begin is read from an array, because gcc gathers what lies at places that it does
+// not know, and reads one item at a time where it knows that they are a whole record apart.
+static void make_light_records(rg_ctx rg, RG_PARAMS p, const RG_RECORD *of, const int *begin,
+                               int count, int light, RG_LIGHT_RECORD *made)
+{
+#pragma omp simd
+    for (int i = 0; i < count; i++) {
+        const RG_RECORD *r = (const RG_RECORD *)((const char *)of + begin[i]);
+        made[i] = rg_program_record_light(rg, p, *r, light);
+    }
+}
+
+// The record of a listed fragment's item and a light, of which `by` are all.
+static inline __attribute__((always_inline)) const RG_LIGHT_RECORD *
+light_record_of(const RG_LIGHT_RECORD *by, const struct cpu_list *list, int i)
+{
+    const int begin = list->prim[i] * (int)sizeof(RG_LIGHT_RECORD);
+    return (const RG_LIGHT_RECORD *)((const char *)by + begin);
+}
+
+#define RG_LIGHT_RECORDS(name, records, light)                                                     \
+    const RG_LIGHT_RECORD *name = light_records(records, light);
+#define RG_BY(by, list, i)   , *light_record_of(by, list, i)
+#define RG_BY_PRIM(by, prim) , (by)[prim]
+
+#else
+
+#define RG_LIGHT_RECORDS(name, records, light)
+#define RG_BY(by, list, i)
+#define RG_BY_PRIM(by, prim)
+
+#endif
+
+static inline __attribute__((always_inline)) void
+make_item_records(rg_ctx rg, rg_draw_call p, const int *items, int count, RG_RECORD *made)
+{
 #pragma omp simd
     for (int i = 0; i < count; i++)
         made[i] = rg_program_record(rg, p.draw, p.program, items[i]);
+}
+
+#if defined(RG_LIGHT_RECORD)
+
+// With the first light's, in one loop: so it need not gather what it has just made.
+static inline __attribute__((always_inline)) void make_lit_records(rg_ctx rg, rg_draw_call p,
+                                                                   const int *items, int count,
+                                                                   RG_RECORD *made,
+                                                                   RG_LIGHT_RECORD *first)
+{
+#pragma omp simd
+    for (int i = 0; i < count; i++) {
+        const RG_RECORD r = rg_program_record(rg, p.draw, p.program, items[i]);
+        made[i] = r;
+        first[i] = rg_program_record_light(rg, p.program, r, 0);
+    }
+}
+
+#endif
+
+static void make_records(const struct cpu_call *call, const int *items, int count,
+                         struct cpu_records records, int first)
+{
+    const rg_ctx rg = bind_context(call);
+    const rg_draw_call p = *(const rg_draw_call *)call->params;
+    RG_RECORD *made = (RG_RECORD *)records.of_items + first;
+#if defined(RG_LIGHT_RECORD)
+    if (p.program.lights > 0) {
+        make_lit_records(rg, p, items, count, made, light_records(records, 0) + first);
+        int begin[CPU_PLACES];
+        for (int i = 0; i < count; i++)
+            begin[i] = i * (int)sizeof(RG_RECORD);
+        for (int light = 1; light < p.program.lights; light++)
+            make_light_records(rg, p.program, made, begin, count, light,
+                               light_records(records, light) + first);
+        return;
+    }
+#endif
+    make_item_records(rg, p, items, count, made);
 }
 
 // Its depth has yet to be settled.
@@ -110,39 +190,38 @@ static inline __attribute__((always_inline)) rgba light_of(const struct lit *lit
 
 // Where the record of a listed fragment begins: in 32 bits, as gather instructions want it.
 static inline __attribute__((always_inline)) const RG_RECORD *
-record_of(const void *records, const struct cpu_list *list, int i)
+record_of(struct cpu_records records, const struct cpu_list *list, int i)
 {
     const int begin = list->prim[i] * (int)sizeof(RG_RECORD);
-    return (const RG_RECORD *)((const char *)records + begin);
+    return (const RG_RECORD *)(records.of_items + begin);
 }
 
 #if defined(RG_LIGHTS)
 
-static inline __attribute__((always_inline)) rgba only_light(rg_ctx rg, RG_PARAMS p, RG_RECORD r,
-                                                             int x, int y)
+static inline __attribute__((always_inline)) rgba added_to_none(rgba c)
 {
-    const rgba c = rg_program_light(rg, p, r, x, y, 0);
     return rg_rgba(0.0f + c.r, 0.0f + c.g, 0.0f + c.b, 0.0f + c.a);
 }
 
 // One light alone is added in the loop that makes colours, so that what both need is reckoned once.
 static inline __attribute__((always_inline)) void
-shade_lit_list(rg_ctx rg, RG_PARAMS p, const void *records, const struct cpu_list *list, int padded,
-               struct cpu_fragments *fragments)
+shade_lit_list(rg_ctx rg, RG_PARAMS p, struct cpu_records records, const struct cpu_list *list,
+               int padded, struct cpu_fragments *fragments)
 {
+    RG_LIGHT_RECORDS(by, records, 0)
 #pragma omp simd
     for (int i = 0; i < padded; i++) {
         const int x = list->at[i] & 0xffff, y = list->at[i] >> 16;
         const RG_RECORD *r = record_of(records, list, i);
-        put_fragment(fragments, i,
-                     rg_program_fragment(rg, p, *r, x, y, only_light(rg, p, *r, x, y)));
+        const rgba c = rg_program_light(rg, p, *r, x, y, 0 RG_BY(by, list, i));
+        put_fragment(fragments, i, rg_program_fragment(rg, p, *r, x, y, added_to_none(c)));
     }
     settle_depths(fragments, padded);
 }
 
 #endif
 
-static void shade_list(const struct cpu_call *call, const void *records,
+static void shade_list(const struct cpu_call *call, struct cpu_records records,
                        const struct cpu_list *list, struct cpu_fragments *fragments)
 {
     const rg_ctx rg = bind_context(call);
@@ -157,12 +236,13 @@ static void shade_list(const struct cpu_call *call, const void *records,
     struct lit lit;
     clear_light(&lit, padded);
     for (int light = 0; light < p.lights; light++) {
+        RG_LIGHT_RECORDS(by, records, light)
 #pragma omp simd
         for (int i = 0; i < padded; i++) {
             const int at = list->at[i];
             add_light(&lit, i,
                       rg_program_light(rg, p, *record_of(records, list, i), at & 0xffff, at >> 16,
-                                       light));
+                                       light RG_BY(by, list, i)));
         }
     }
 #endif
@@ -176,21 +256,24 @@ static void shade_list(const struct cpu_call *call, const void *records,
     settle_depths(fragments, padded);
 }
 
-static void shade_row(const struct cpu_call *call, const void *record, int x, int y, int count,
-                      struct cpu_fragments *fragments)
+static void shade_row(const struct cpu_call *call, struct cpu_records records, int prim, int x,
+                      int y, int count, struct cpu_fragments *fragments)
 {
     const rg_ctx rg = bind_context(call);
     const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
-    const RG_RECORD r = *(const RG_RECORD *)record;
+    const RG_RECORD r = ((const RG_RECORD *)records.of_items)[prim];
     const int last = count - 1, padded = cpu_padded(count);
     fragments->count = count;
 #if defined(RG_LIGHTS)
     struct lit lit;
     clear_light(&lit, padded);
     for (int light = 0; light < p.lights; light++) {
+        RG_LIGHT_RECORDS(by, records, light)
 #pragma omp simd
         for (int i = 0; i < padded; i++)
-            add_light(&lit, i, rg_program_light(rg, p, r, x + rg_imin(i, last), y, light));
+            add_light(
+                &lit, i,
+                rg_program_light(rg, p, r, x + rg_imin(i, last), y, light RG_BY_PRIM(by, prim)));
     }
 #endif
 #pragma omp simd
@@ -214,7 +297,7 @@ static int count_lights(const struct cpu_call *call)
     return ((const rg_draw_call *)call->params)->program.lights;
 }
 
-static void list_depth(const struct cpu_call *call, const void *records,
+static void list_depth(const struct cpu_call *call, struct cpu_records records,
                        const struct cpu_list *list, struct cpu_fragments *fragments)
 {
     const rg_ctx rg = bind_context(call);
@@ -231,12 +314,12 @@ static void list_depth(const struct cpu_call *call, const void *records,
     settle_depths(fragments, padded);
 }
 
-static void row_depth(const struct cpu_call *call, const void *record, int x, int y, int count,
-                      struct cpu_fragments *fragments)
+static void row_depth(const struct cpu_call *call, struct cpu_records records, int prim, int x,
+                      int y, int count, struct cpu_fragments *fragments)
 {
     const rg_ctx rg = bind_context(call);
     const RG_PARAMS p = ((const rg_draw_call *)call->params)->program;
-    const RG_RECORD r = *(const RG_RECORD *)record;
+    const RG_RECORD r = ((const RG_RECORD *)records.of_items)[prim];
     const rgba dark = rg_rgba(0.0f, 0.0f, 0.0f, 0.0f);
     const int last = count - 1, padded = cpu_padded(count);
 #pragma omp simd
@@ -250,6 +333,9 @@ static void row_depth(const struct cpu_call *call, const void *record, int x, in
 static const struct cpu_program program = {
     .corners = RG_CORNERS,
     .record_size = sizeof(RG_RECORD),
+#if defined(RG_LIGHT_RECORD)
+    .light_size = sizeof(RG_LIGHT_RECORD),
+#endif
     .items = make_items,
     .clip = clip_item,
     .records = make_records,

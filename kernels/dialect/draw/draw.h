@@ -19,6 +19,15 @@
 //   RG_DRAW_LIGHT(name)     { ... }  returns the rgba that light number `light` adds at pixel
 //                                    (px, py), from r.
 //
+// One that defines RG_LIGHT_RECORD besides (a struct of 4-byte scalars) has a record for each item
+// and light, and holds a fifth function:
+//
+//   RG_DRAW_RECORD_LIGHT(name)  { ... }  returns what light number `light` needs of the item whose
+//                                        record is r, from r alone. Its RG_DRAW_LIGHT gets it:
+//                                        `by`.
+//
+// Devices make it once an item and light or once a pixel and light, as suits them.
+//
 // Its RG_DRAW_FRAGMENT also gets `rgba lit`: zero and what lights 0 to p.lights - 1 add, in order.
 // Only the colour may depend on `lit`: devices ask for depth and `kept` before they run the lights,
 // so that they need not light what is hidden.
@@ -83,10 +92,21 @@ RG_FN rg_fragment rg_fragment_make(rgba colour, float depth)
 #define RG_DRAW_RECORD(name)                                                                       \
     RG_FN RG_RECORD rg_program_record(rg_ctx rg RG_UNUSED, rg_draw_state draw RG_UNUSED,           \
                                       RG_PARAMS p RG_UNUSED, int i RG_UNUSED)
+#if defined(RG_LIGHT_RECORD)
+#define RG_DRAW_RECORD_LIGHT(name)                                                                 \
+    RG_FN RG_LIGHT_RECORD rg_program_record_light(rg_ctx rg RG_UNUSED, RG_PARAMS p RG_UNUSED,      \
+                                                  RG_RECORD r RG_UNUSED, int light RG_UNUSED)
+#define RG_LIGHT_BY                      , RG_LIGHT_RECORD by RG_UNUSED
+#define RG_RECORD_LIGHT(rg, p, r, light) , rg_program_record_light(rg, p, r, light)
+#else
+#define RG_LIGHT_BY
+#define RG_RECORD_LIGHT(rg, p, r, light)
+#endif
 #if defined(RG_LIGHTS)
 #define RG_DRAW_LIGHT(name)                                                                        \
     RG_FN rgba rg_program_light(rg_ctx rg RG_UNUSED, RG_PARAMS p RG_UNUSED, RG_RECORD r RG_UNUSED, \
-                                int px RG_UNUSED, int py RG_UNUSED, int light RG_UNUSED)
+                                int px RG_UNUSED, int py RG_UNUSED,                                \
+                                int light RG_UNUSED RG_LIGHT_BY)
 #define RG_FRAGMENT_LIT , rgba lit RG_UNUSED
 #else
 #define RG_FRAGMENT_LIT

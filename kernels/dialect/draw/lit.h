@@ -13,7 +13,8 @@ RG_FN rgba rg_program_lit(rg_ctx rg, RG_PARAMS p, RG_RECORD r, int px, int py)
 {
     rgba lit = rg_rgba(0.0f, 0.0f, 0.0f, 0.0f);
     for (int light = 0; light < p.lights; light++)
-        lit = rg_light_sum(lit, rg_program_light(rg, p, r, px, py, light));
+        lit = rg_light_sum(
+            lit, rg_program_light(rg, p, r, px, py, light RG_RECORD_LIGHT(rg, p, r, light)));
     return lit;
 }
 
