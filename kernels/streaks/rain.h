@@ -47,6 +47,22 @@ RG_STRUCT(streaks_billboard)
     uint rows;     // of a drop's two views: their first rows in the atlas, 12 bits each
 };
 #define RG_RECORD streaks_billboard
+
+// Of a drop, which of its streak textures a light shows, and each one's part in what is seen: one
+// in either view, for the nearest column, or for its neighbours too.
+RG_STRUCT(streaks_lighting)
+{
+    uint column;         // the first, times 2; odd where its pictures are mirrored
+    float lower, higher; // of the first column, in the lower view and in the other
+#if STREAKS_TAPS > 2
+    float lower_1, higher_1; // the next azimuth
+#endif
+#if STREAKS_TAPS > 4
+    float lower_2, higher_2; // the next elevation
+    float lower_3, higher_3; // and both
+#endif
+};
+#define RG_LIGHT_RECORD streaks_lighting
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/streaks/material.h"
@@ -333,10 +349,17 @@ RG_STRUCT(streaks_spot)
 {
     float u;
     float v;
-    v3 ray; // from the eye, as long as 1 along the view
     v3 at;
     float depth;
 };
+
+// From the eye through a place of the picture, as long as 1 along the view.
+RG_FN v3 streaks_ray(streaks_params p, float x, float y)
+{
+    return v3_make(p.rays.xx * x + p.rays.xy * y + p.rays.xz,
+                   p.rays.yx * x + p.rays.yy * y + p.rays.yz,
+                   p.rays.zx * x + p.rays.zy * y + p.rays.zz);
+}
 
 RG_FN streaks_spot streaks_spot_at(streaks_params p, streaks_billboard r, int px, int py)
 {
@@ -349,10 +372,8 @@ RG_FN streaks_spot streaks_spot_at(streaks_params p, streaks_billboard r, int px
     streaks_spot spot;
     spot.u = rg_clamp((r.u_x * dx + r.u_y * dy + r.u_at) * w, 0.0f, 1.0f);
     spot.v = rg_clamp((r.v_x * dx + r.v_y * dy + r.v_at) * w, 0.0f, 1.0f);
-    spot.ray = v3_make(p.rays.xx * x + p.rays.xy * y + p.rays.xz,
-                       p.rays.yx * x + p.rays.yy * y + p.rays.yz,
-                       p.rays.zx * x + p.rays.zy * y + p.rays.zz);
-    spot.at = v3_make(p.eye_x + spot.ray.x * w, p.eye_y + spot.ray.y * w, p.eye_s + spot.ray.z * w);
+    v3 ray = streaks_ray(p, x, y);
+    spot.at = v3_make(p.eye_x + ray.x * w, p.eye_y + ray.y * w, p.eye_s + ray.z * w);
     float before = inverse_w / rg_max(1.0f - r.nearer * inverse_w, 0.1f);
     spot.depth = p.depth_far + p.depth_per_w * before;
     return spot;
@@ -418,79 +439,134 @@ RG_FN streaks_strip streaks_strip_of(streaks_params p, streaks_billboard r, floa
     return s;
 }
 
-RG_FN float streaks_point_texture(rg_ctx rg, streaks_params p, streaks_strip s, int view,
-                                  int column, float x, float y)
-{
-    float factor =
-        factors_at(rg, (s.oscillation * STREAKS_VIEWS + view) * STREAKS_COLUMNS + column);
-    return points_between(rg, x, y, s.oscillation, s.level - p.first_level).r * factor;
-}
-
 RG_FN float streaks_between(float a, float b, float t)
 {
     return a + (b - a) * t;
 }
 
-// Between the two nearest views.
-RG_FN float streaks_views(rg_ctx rg, streaks_params p, streaks_strip s, int elevation, int azimuth,
-                          float u)
+// --- light ---
+
+// Two textures of a drop, by which light of one elevation and azimuth shows in its two views, each
+// times its share.
+RG_FN float streaks_point(rg_ctx rg, streaks_params p, streaks_strip s, int column, float u,
+                          float lower, float higher)
 {
-    int column = elevation * STREAKS_AZIMUTHS + azimuth;
     float x = streaks_across(column, u, s.level);
-    return streaks_between(streaks_point_texture(rg, p, s, s.view, column, x, s.y0),
-                           streaks_point_texture(rg, p, s, s.view + 1, column, x, s.y1), s.between);
+    int level = s.level - p.first_level;
+    return points_between(rg, x, s.y0, s.oscillation, level).r * lower +
+           points_between(rg, x, s.y1, s.oscillation, level).r * higher;
 }
 
-// Light from an elevation and an azimuth, both in steps of the atlas from its first on.
-RG_FN float streaks_azimuths(rg_ctx rg, streaks_params p, streaks_strip s, int elevation,
-                             float azimuth, float u)
+// The part of a column's texture in what is seen of a drop, in the lower of its views (0) or the
+// other (1).
+RG_FN float streaks_part_of(rg_ctx rg, streaks_billboard r, int view, int column, float part)
 {
-#if STREAKS_TAPS == 2
-    return streaks_views(rg, p, s, elevation, rg_to_int(azimuth + 0.5f), u);
-#else
-    int first = rg_imin(rg_to_int(azimuth), STREAKS_AZIMUTHS - 2);
-    return streaks_between(streaks_views(rg, p, s, elevation, first, u),
-                           streaks_views(rg, p, s, elevation, first + 1, u),
-                           azimuth - rg_to_float(first));
-#endif
+    int drop = 1 - streaks_is(r, STREAKS_LOOK_SPLASH);
+    int lower = streaks_view(r.shown);
+    float higher = r.shown - rg_to_float(lower);
+    float seen = view != 0 ? higher : 1.0f - higher;
+    int row = streaks_layer_of(r) * drop * STREAKS_VIEWS + lower + view;
+    return factors_at(rg, row * STREAKS_COLUMNS + column) * (seen * part);
 }
 
-RG_FN float streaks_point(rg_ctx rg, streaks_params p, streaks_strip s, float elevation,
-                          float azimuth, float u)
-{
-#if STREAKS_TAPS == 8
-    int first = rg_imin(rg_to_int(elevation), STREAKS_HEIGHTS - 2);
-    return streaks_between(streaks_azimuths(rg, p, s, first, azimuth, u),
-                           streaks_azimuths(rg, p, s, first + 1, azimuth, u),
-                           elevation - rg_to_float(first));
-#else
-    return streaks_azimuths(rg, p, s, rg_to_int(elevation + 0.5f), azimuth, u);
-#endif
-}
-
-// A streak's radiance at a pixel, for light that brings an irradiance of 1 from a direction of
-// length 1 (figure 4.6).
-RG_FN float streaks_streak(rg_ctx rg, streaks_params p, streaks_billboard r, streaks_spot spot,
-                           v3 to_light)
+// Which textures show light from a direction of length 1 on a streak that is seen along a ray
+// (figure 4.6).
+RG_FN streaks_lighting streaks_lighting_from(rg_ctx rg, streaks_billboard r, v3 to_light, v3 ray)
 {
     float below = 1.0f - rg_to_float(2 * streaks_is(r, STREAKS_LOOK_BELOW));
-    float azimuth = streaks_azimuth(to_light, spot.ray);
-    float elevation = streaks_elevation(to_light) * below + 4.5f;
-    float mirrored = streaks_to_left(to_light, spot.ray) > 0.0f ? 1.0f - spot.u : spot.u;
-    return streaks_point(rg, p, streaks_strip_of(p, r, spot.u, spot.v),
-                         rg_clamp(elevation, 0.0f, rg_to_float(STREAKS_HEIGHTS - 1)),
-                         rg_clamp(azimuth, 0.0f, rg_to_float(STREAKS_AZIMUTHS - 1)), mirrored);
+    float height = rg_clamp(streaks_elevation(to_light) * below + 4.5f, 0.0f,
+                            rg_to_float(STREAKS_HEIGHTS - 1));
+    float azimuth =
+        rg_clamp(streaks_azimuth(to_light, ray), 0.0f, rg_to_float(STREAKS_AZIMUTHS - 1));
+#if STREAKS_TAPS == 8
+    int elevation = rg_imin(rg_to_int(height), STREAKS_HEIGHTS - 2);
+    float upper = height - rg_to_float(elevation);
+#else
+    int elevation = rg_to_int(height + 0.5f);
+    float upper = 0.0f;
+#endif
+#if STREAKS_TAPS == 2
+    int column = elevation * STREAKS_AZIMUTHS + rg_to_int(azimuth + 0.5f);
+    float next = 0.0f;
+#else
+    int first = rg_imin(rg_to_int(azimuth), STREAKS_AZIMUTHS - 2);
+    int column = elevation * STREAKS_AZIMUTHS + first;
+    float next = azimuth - rg_to_float(first);
+#endif
+    streaks_lighting by;
+    by.column = rg_to_uint(column) * 2u + (streaks_to_left(to_light, ray) > 0.0f ? 1u : 0u);
+    by.lower = streaks_part_of(rg, r, 0, column, (1.0f - upper) * (1.0f - next));
+    by.higher = streaks_part_of(rg, r, 1, column, (1.0f - upper) * (1.0f - next));
+#if STREAKS_TAPS > 2
+    by.lower_1 = streaks_part_of(rg, r, 0, column + 1, (1.0f - upper) * next);
+    by.higher_1 = streaks_part_of(rg, r, 1, column + 1, (1.0f - upper) * next);
+#endif
+#if STREAKS_TAPS > 4
+    int above = column + STREAKS_AZIMUTHS;
+    by.lower_2 = streaks_part_of(rg, r, 0, above, upper * (1.0f - next));
+    by.higher_2 = streaks_part_of(rg, r, 1, above, upper * (1.0f - next));
+    by.lower_3 = streaks_part_of(rg, r, 0, above + 1, upper * next);
+    by.higher_3 = streaks_part_of(rg, r, 1, above + 1, upper * next);
+#endif
+    return by;
+}
+
+// From the eye to the middle of a billboard, where its planes are half of what they grow to: so the
+// record need not have it.
+RG_FN v3 streaks_to_middle(streaks_params p, streaks_billboard r)
+{
+    float ux = r.u_x - 0.5f * r.inverse_w_x;
+    float uy = r.u_y - 0.5f * r.inverse_w_y;
+    float u = 0.5f * r.inverse_w_at - r.u_at;
+    float vx = r.v_x - 0.5f * r.inverse_w_x;
+    float vy = r.v_y - 0.5f * r.inverse_w_y;
+    float v = 0.5f * r.inverse_w_at - r.v_at;
+    float area = ux * vy - uy * vx;
+    float over_area = rg_abs(area) > 1e-30f ? 1.0f / area : 0.0f;
+    float dx = (u * vy - uy * v) * over_area;
+    float dy = (ux * v - u * vx) * over_area;
+    float w = 1.0f / rg_max(r.inverse_w_x * dx + r.inverse_w_y * dy + r.inverse_w_at, RG_LEAST_W);
+    return v3_scale(streaks_ray(p, r.origin_x + dx, r.origin_y + dy), w);
+}
+
+// Angles are those at the billboard's middle, as the thesis has it.
+RG_FN streaks_lighting streaks_lighting_of(rg_ctx rg, streaks_params p, streaks_billboard r,
+                                           int light)
+{
+    scenery_light l = lights_at(rg, light);
+    v3 ray = streaks_to_middle(p, r);
+    v3 middle = v3_make(p.eye_x + ray.x, p.eye_y + ray.y, p.eye_s + ray.z);
+    return streaks_lighting_from(rg, r, scenery_light_reach(l, middle).to_light, ray);
+}
+
+// A streak's radiance at a pixel, for light that brings an irradiance of 1.
+RG_FN float streaks_streak(rg_ctx rg, streaks_params p, streaks_billboard r, streaks_spot spot,
+                           streaks_lighting by)
+{
+    streaks_strip s = streaks_strip_of(p, r, spot.u, spot.v);
+    int column = rg_to_int(by.column >> 1);
+    float u = (by.column & 1u) != 0u ? 1.0f - spot.u : spot.u;
+    float radiance = streaks_point(rg, p, s, column, u, by.lower, by.higher);
+#if STREAKS_TAPS > 2
+    radiance = radiance + streaks_point(rg, p, s, column + 1, u, by.lower_1, by.higher_1);
+#endif
+#if STREAKS_TAPS > 4
+    int above = column + STREAKS_AZIMUTHS;
+    radiance = radiance + streaks_point(rg, p, s, above, u, by.lower_2, by.higher_2);
+    radiance = radiance + streaks_point(rg, p, s, above + 1, u, by.lower_3, by.higher_3);
+#endif
+    return radiance;
 }
 
 // Splashes are matt and face up from what they stand on.
 RG_FN rgba streaks_lit_by(rg_ctx rg, streaks_params p, streaks_billboard r, int px, int py,
-                          int light)
+                          int light, streaks_lighting by)
 {
     scenery_light l = lights_at(rg, light);
     streaks_spot spot = streaks_spot_at(p, r, px, py);
     scenery_reach reach = scenery_light_reach(l, spot.at);
     float matt = rg_max(v3_dot(reach.to_light, mesh_normal_unpack(r.up)), 0.0f);
-    float streak = SCENERY_IRRADIANCE * streaks_streak(rg, p, r, spot, reach.to_light);
+    float streak = SCENERY_IRRADIANCE * streaks_streak(rg, p, r, spot, by);
     float splash = rg_to_float(streaks_is(r, STREAKS_LOOK_SPLASH));
     float share =
         reach.share * scenery_unshadowed(rg, l, spot.at) * streaks_between(streak, matt, splash);

@@ -15,9 +15,14 @@ RG_DRAW_RECORD(streaks_rain_4)
     return streaks_billboard_of(rg, draw, p, i);
 }
 
+RG_DRAW_RECORD_LIGHT(streaks_rain_4)
+{
+    return streaks_lighting_of(rg, p, r, light);
+}
+
 RG_DRAW_LIGHT(streaks_rain_4)
 {
-    return streaks_lit_by(rg, p, r, px, py, light);
+    return streaks_lit_by(rg, p, r, px, py, light, by);
 }
 
 RG_DRAW_FRAGMENT(streaks_rain_4)

@@ -14,6 +14,7 @@ static const double cell_radii = 32 / 23.744; // half of a cell's width
 // Lengths in radii are as the eye sees them.
 struct board {
     double corner[3], across[3], along[3]; // u from left to right, v upwards
+    double middle[3];
     struct oracle_point outline[4];
     int level;
     double elevation; // of the eye, in steps of 20 degrees
@@ -67,9 +68,9 @@ static bool outline(struct board *board, const struct streak_view *view)
 static bool make_board(struct board *board, const struct streak_view *view,
                        const struct streak_drop *drop)
 {
-    double middle[3], to_eye[3];
-    add(drop->end, view->up, drop->fall_m / 2, middle);
-    add(view->eye, middle, -1, to_eye);
+    double to_eye[3];
+    add(drop->end, view->up, drop->fall_m / 2, board->middle);
+    add(view->eye, board->middle, -1, to_eye);
     const double pixel_m = -dot(to_eye, view->ahead) / view->focal_px;
     if (pixel_m <= 0)
         return false;
@@ -149,13 +150,16 @@ static double texture(const struct streak_atlas *atlas, const struct board *boar
     return a * (lower + 1 - view) + b * (view - lower);
 }
 
-// The radiance for an irradiance of 1 from a direction of length 1 (figure 4.6).
+// The radiance for an irradiance of 1 from a light (figure 4.6). A billboard has one set of angles:
+// those of the light and of the eye at its middle.
 static double streak_radiance(const struct streak_view *view, const struct streak_atlas *atlas,
                               const struct board *board, const struct streak_drop *drop,
-                              const struct place *place, const double to_light[3])
+                              const struct place *place, const struct streak_light *light)
 {
-    const struct streak_cells cells =
-        streak_cells_of(view, board->elevation < 0, place->ray, to_light);
+    double to_light[3], ray[3];
+    add(board->middle, view->eye, -1, ray);
+    streak_reach(light, board->middle, to_light);
+    const struct streak_cells cells = streak_cells_of(view, board->elevation < 0, ray, to_light);
     double sum = 0;
     for (int i = 0; i < 4; i++)
         if (cells.parts[i] > 0)
@@ -186,7 +190,7 @@ static bool shade(const struct streak_view *view, const struct streak_atlas *atl
         double to_light[3];
         const double reached = streak_reach(&view->lights[i], place.at, to_light);
         const double lit = share * view->gain * reached * pi *
-                           streak_radiance(view, atlas, board, drop, &place, to_light);
+                           streak_radiance(view, atlas, board, drop, &place, &view->lights[i]);
         for (int c = 0; c < 3; c++)
             light[c] += lit * view->lights[i].colour[c];
     }
