@@ -16,7 +16,7 @@
 #include "core/base/log.h"
 #include "core/device/device.h"
 #include "kernels/probe/copy_params.h"
-#include "tests/kernels/quads_params.h"
+#include "tests/kernels/drawing/quads_params.h"
 
 static const char *reason; // why there is no device; NULL: there is one
 static int errors;         // lines logged as errors

@@ -1,7 +1,7 @@
 // What a device lacks is refused from its limits, as unsupported and before the backend is asked:
 // here of a device whose limits say less than it can do.
 #include "tests/core/device/suite.h"
-#include "tests/kernels/quads_params.h"
+#include "tests/kernels/drawing/quads_params.h"
 
 // The device's limits, to be changed; given_back sets them as they were.
 static struct rg_limits kept;

@@ -4,7 +4,7 @@
 #include "tests/core/device/draws/quads.h"
 #include "tests/core/device/images/texels.h"
 #include "tests/core/device/suite.h"
-#include "tests/kernels/lights_params.h"
+#include "tests/kernels/drawing/lights_params.h"
 
 enum { WIDTH = 333, HEIGHT = 217, PIXELS = WIDTH * HEIGHT, LIGHTS = 16, LAYERS = 3 };
 enum { STREAKS = 3000, LARGE = 20, QUADS = STREAKS + LARGE };

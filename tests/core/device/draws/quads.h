@@ -2,7 +2,7 @@
 #ifndef RG_TESTS_CORE_DEVICE_DRAWS_QUADS_H
 #define RG_TESTS_CORE_DEVICE_DRAWS_QUADS_H
 
-#include "tests/kernels/quads_params.h"
+#include "tests/kernels/drawing/quads_params.h"
 
 enum quad_kind {
     QUAD_STREAK,     // 0.2 to 2 px wide, inside

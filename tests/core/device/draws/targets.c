@@ -7,7 +7,7 @@
 #include "kernels/probe/copy_params.h"
 #include "tests/core/device/draws/quads.h"
 #include "tests/kernels/texels/params.h"
-#include "tests/kernels/triangles_params.h"
+#include "tests/kernels/drawing/triangles_params.h"
 
 // Where and how a case draws. Both images have the same shape.
 struct place {

@@ -1,7 +1,7 @@
 // Images of hundreds of megabytes: an atlas of streaks, a city's textures, a map of depth.
 #include "tests/core/device/images/texels.h"
 #include "tests/core/device/suite.h"
-#include "tests/kernels/quads_params.h"
+#include "tests/kernels/drawing/quads_params.h"
 #include "tests/kernels/texels/filter/params.h"
 
 enum { READS = 4096, APART = 96 }; // texels between where layers and levels begin in the pool

@@ -1,7 +1,7 @@
 // The first three corners of quads.h's quads, bright where they are nearer than an image of
 // depth: for tests.
-#include "tests/kernels/quads_params.h"
-#include "tests/kernels/triangles_params.h"
+#include "tests/kernels/drawing/quads_params.h"
+#include "tests/kernels/drawing/triangles_params.h"
 
 #define RG_PARAMS  test_triangles_params
 #define RG_SLOTS   IN(1, float, quads) IMAGE(2, D32F, before)

@@ -1,7 +1,7 @@
 // Quads of quads.h in the light of points and suns, which fall through maps of depth and of
 // halves: for tests.
-#include "tests/kernels/lights_params.h"
-#include "tests/kernels/quads_params.h"
+#include "tests/kernels/drawing/lights_params.h"
+#include "tests/kernels/drawing/quads_params.h"
 
 #define RG_PARAMS test_lights_params
 #define RG_SLOTS                                                                                   \
@@ -32,7 +32,7 @@ RG_STRUCT(test_quad_light)
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/dialect/math.h"
-#include "tests/kernels/quad_item.h"
+#include "tests/kernels/drawing/quad_item.h"
 
 RG_DRAW_ITEM(test_lights)
 {

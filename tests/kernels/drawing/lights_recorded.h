@@ -1,3 +1,3 @@
 // lights.h with a record for each quad and light.
 #define TEST_LIGHT_RECORDS 1
-#include "tests/kernels/lights.h"
+#include "tests/kernels/drawing/lights.h"

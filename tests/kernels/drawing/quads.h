@@ -1,5 +1,5 @@
 // Quads of given corners in clip space, in given colours: for tests.
-#include "tests/kernels/quads_params.h"
+#include "tests/kernels/drawing/quads_params.h"
 
 #define RG_PARAMS  test_quads_params
 #define RG_SLOTS   IN(1, float, quads)
@@ -15,7 +15,7 @@ RG_STRUCT(test_quad)
 #define RG_RECORD test_quad
 #include "kernels/dialect/draw/draw.h"
 
-#include "tests/kernels/quad_item.h"
+#include "tests/kernels/drawing/quad_item.h"
 
 RG_DRAW_ITEM(test_quads)
 {
