@@ -522,7 +522,7 @@ with_wrong_normals = with_normals(TURNED)
 @with_normals(NO_GLSL)
 def check_broken_table(runner, kernels):
     """a table reports a device whose driver refuses a kernel, measures the others, and fails"""
-    report, status, messages = run_json(runner, "table stuppacher-2 --rows 1-1 --device gl,cpu", kernels)
+    report, status, messages = run_json(runner, "table stuppacher-2 --work paper --rows 1-1 --device gl,cpu", kernels)
     gl, cpu = report["cells"]
     problems = [] if len(messages) == 1 else messages + ["%d lines on stderr" % len(messages)]
     if status != 1 or gl["status"] != "error" or "measured" in gl or "flow_normals" not in gl["detail"]:
@@ -538,7 +538,7 @@ def check_crashing_driver(runner):
     with tempfile.TemporaryDirectory() as tmp:
         env = dict(NO_DRIVERS, **runner.crashing_vulkan(tmp))
         reports = {}
-        for command, args in (("list", "devices"), ("diff", "flow --frame 1 " + SMALL), ("table", "stuppacher-2 --rows 1-1"),
+        for command, args in (("list", "devices"), ("diff", "flow --frame 1 " + SMALL), ("table", "stuppacher-2 --work paper --rows 1-1"),
                               ("verify", "raster --frame 1 --size 96x96")):
             reports[command], status, messages = run_json(runner, command + " " + args, env)
             crashed = [line for line in messages if "raingauge: vulkan: its driver crashed (Aborted)" in line]
@@ -558,7 +558,7 @@ def check_crashing_driver(runner):
 @with_wrong_normals
 def check_wrong_table(runner, kernels):
     """a table does not time a device whose image is wrong, and fails"""
-    report, status, problems = run_json(runner, "table stuppacher-2 --rows 1-1 --device cpu,gl", kernels)
+    report, status, problems = run_json(runner, "table stuppacher-2 --work paper --rows 1-1 --device cpu,gl", kernels)
     cpu, gl = report["cells"]
     if status != 1 or cpu["status"] != "ok" or "measured" not in cpu:
         problems.append("exit status %d, cpu: %s" % (status, cpu))

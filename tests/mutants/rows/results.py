@@ -19,7 +19,7 @@ ROWS = [
     Fault(JUDGE, "first - knee >= «h->claim->least * (knee - last)» && first > knee;", "knee - last", "a knee need not be one"),
     Fault(JUDGE, "axis[i] = «log(axis_at(h, h->rows[i]))»;", "axis_at(h, h->rows[i])", "a power is a slope"),
     Fault(HEARING, "at.row = row «- 1»;", "- 0", "claims hear the row below"),
-    Fault(HEARING, "return «fmax(*due / *found, *found / *due)»;", "*due / *found", "more particles than in print are the same work"),
+    Fault("harness/record/record.c", "ratio = «fmax(*due / *found, *found / *due)»;", "*due / *found", "more particles than in print are the same work"),
     Fault("harness/record/record.c", "return «ratio > SAME_COUNT»;", "false", "other work is judged"),
     Fault(HEARING, "if («can_miss(c, row)»)\n                continue;\n            rg_hearing_end(h, RG_CLAIM_UNDECIDED", "true", "a claim's first row may be missing"),
     Fault("harness/record/result.c", "if («!*result->works[i].saves» && strcmp", "true", "our own work is held for the printed one"),
