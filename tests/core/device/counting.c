@@ -117,12 +117,25 @@ static void test_names(void **state)
     rg_log_listen(NULL, NULL);
 }
 
+// The looser of two devices', in either order.
+static void test_tiers(void **state)
+{
+    (void)state;
+    for (int a = RG_T0; a < RG_TIER_COUNT; a++)
+        for (int b = RG_T0; b < RG_TIER_COUNT; b++) {
+            const struct rg_device_info one = {.tier = (enum rg_tier)a},
+                                        two = {.tier = (enum rg_tier)b};
+            assert_int_equal(rg_tier_owed(&one, &two), a > b ? a : b);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_parts),
         cmocka_unit_test(test_bytes),
         cmocka_unit_test(test_names),
+        cmocka_unit_test(test_tiers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

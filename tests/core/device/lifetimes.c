@@ -198,6 +198,25 @@ static void closing_reports_what_still_lives(void **state)
     assert_non_null(strstr(lines, info.name));
 }
 
+// One of a kind is enough.
+static void closing_reports_each_kind(void **state)
+{
+    (void)state;
+    static void *each[3]; // for the search for leaks
+    const struct rg_image_desc desc = {RG_RGBA8, 4, 4, 1, 1};
+    for (int kind = 0; kind < 3; kind++) {
+        struct rg_device *device = rg_device_open(suite_device);
+        assert_non_null(device);
+        each[kind] = kind == 0   ? (void *)rg_buf_create(device, 64, "leaked")
+                     : kind == 1 ? (void *)rg_image_create(device, &desc, "leaked")
+                                 : (void *)rg_pass_create(device, "probe_copy");
+        assert_non_null(each[kind]);
+        listen();
+        assert_false(rg_device_close(device));
+        assert_non_null(strstr(heard_all(), "not destroyed"));
+    }
+}
+
 // --- shared things ---
 
 // A buffer of four words that say what was asked for; counts what is made and destroyed.
@@ -336,6 +355,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(devices_open_and_close),
     cmocka_unit_test(devices_live_side_by_side),
     cmocka_unit_test(closing_reports_what_still_lives),
+    cmocka_unit_test(closing_reports_each_kind),
     cmocka_unit_test(things_are_shared_by_key_and_kind),
     cmocka_unit_test(shared_things_hold_shared_things),
     cmocka_unit_test(closing_reports_what_is_still_shared),

@@ -91,7 +91,9 @@ static void scans_refuse_what_does_not_fit(void **state)
     struct rg_buf *values = filled_buf(*state, 1, 100, "values");
     struct rg_buf *sums = filled_buf(*state, 1, 101, "sums");
     struct rg_buf *small = filled_buf(*state, 1, 99, "small");
+    struct rg_buf *short_by_one = filled_buf(*state, 1, 100, "short by one"); // the total's place
     assert_non_null(scan);
+    assert_refused(rg_scan_sum(scan, values, short_by_one, 100), "101 are needed");
     assert_refused(rg_scan_sum(scan, values, sums, 101), "101 elements");
     assert_refused(rg_scan_sum(scan, values, sums, -1), "-1 elements");
     assert_refused(rg_scan_sum(scan, values, values, 100), "'values'");
@@ -102,6 +104,7 @@ static void scans_refuse_what_does_not_fit(void **state)
     rg_buf_destroy(values);
     rg_buf_destroy(sums);
     rg_buf_destroy(small);
+    rg_buf_destroy(short_by_one);
     rg_scan_destroy(scan);
     rg_scan_destroy(NULL);
 }
