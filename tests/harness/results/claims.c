@@ -91,6 +91,46 @@ static void test_many_samples(void **state)
     assert_in_range(often, 1900, 2100);
 }
 
+// In how many ways m of m + n ranks can be chosen so that so many pairs are in order, by m - 1 and
+// n or m and n - 1: the highest rank is of the one set or of the other.
+enum { MANY = 21, MOST_PAIRS = MANY * MANY };
+
+static double ways[MANY + 1][MANY + 1][MOST_PAIRS + 1];
+
+static void count_ways(void)
+{
+    for (int m = 0; m <= MANY; m++)
+        for (int n = 0; n <= MANY; n++)
+            for (int u = 0; u <= m * n; u++)
+                ways[m][n][u] = !m || !n ? 1
+                                         : (u <= (m - 1) * n ? ways[m - 1][n][u] : 0) +
+                                               (u >= m ? ways[m][n - 1][u - m] : 0);
+}
+
+// Within 0.003 of the exact probability, of which half a pair is 0.005 in the middle.
+static void test_many_are_nearly_exact(void **state)
+{
+    (void)state;
+    count_ways();
+    for (int shift = -3; shift <= 3; shift++) {
+        double low[MANY], high[MANY], all = 0, as_far = 0;
+        int pairs = 0;
+        for (int i = 0; i < MANY; i++) {
+            low[i] = i;
+            high[i] = i + shift + 0.5;
+        }
+        for (int i = 0; i < MOST_PAIRS; i++)
+            pairs += low[i % MANY] < high[i / MANY];
+        for (int u = 0; u <= MOST_PAIRS; u++) {
+            all += ways[MANY][MANY][u];
+            as_far += u >= pairs ? ways[MANY][MANY][u] : 0;
+        }
+        const double found = rg_order_probability(low, MANY, 1, high, MANY);
+        if (!(fabs(found - as_far / all) < 0.003))
+            fail_msg("%d pairs: %g, not %g", pairs, found, as_far / all);
+    }
+}
+
 static void test_a_factor(void **state)
 {
     (void)state;
@@ -335,6 +375,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_order_by_enumeration),
         cmocka_unit_test(test_ties),
+        cmocka_unit_test(test_many_are_nearly_exact),
         cmocka_unit_test(test_many_samples),
         cmocka_unit_test(test_a_factor),
         cmocka_unit_test(test_rows_that_fall),
