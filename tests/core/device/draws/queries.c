@@ -147,6 +147,9 @@ static void queries_that_make_no_sense_are_refused(void **state)
     assert_refused(draw(&rig, &(struct way){.items_a_query = 64, .first = 32}), "from item 32");
     assert_refused(draw(&rig, &(struct way){.items_a_query = 32}), "2 counters for 3 queries");
     rg_buf_destroy(rig.samples);
+    rig.samples = filled_buf(device, 0, 1, "one counter"); // the second query is not a whole one
+    assert_refused(draw(&rig, &(struct way){.items_a_query = 64}), "1 counters for 2 queries");
+    rg_buf_destroy(rig.samples);
     rig.samples = NULL;
     assert_refused(draw(&rig, &(struct way){.items_a_query = 32}), "no buffer for their answers");
     destroy_rig(&rig);

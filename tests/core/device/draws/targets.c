@@ -408,6 +408,8 @@ static void draws_refuse_bad_targets(void **state)
     REFUSED("no depth target given", rig.to.depth = NULL);
     REFUSED("against depth that is not written", rig.to.depth_mode = RG_DEPTH_WRITE);
     REFUSED("scissor 0,0 to 120,85", rig.to.x1 = 120, rig.to.y1 = 85);
+    REFUSED("scissor 0,0 to 5,", rig.to.x1 = 5, rig.to.y1 = right.colour->desc.height + 1);
+    REFUSED("to ", rig.to.x1 = right.colour->desc.width + 1, rig.to.y1 = 5);
     REFUSED("scissor -1,0 to 5,5", rig.to.x0 = -1, rig.to.x1 = 5, rig.to.y1 = 5);
     REFUSED("scissor 7,2 to 7,5 is empty", rig.to.x0 = rig.to.x1 = 7, rig.to.y0 = 2, rig.to.y1 = 5);
     REFUSED("slot 'quads' and a target are one object", rig.to.samples = rig.quads);
