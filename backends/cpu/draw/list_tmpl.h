@@ -20,7 +20,8 @@ struct shader {
     struct cpu_list list;
     struct cpu_fragments fragments;
     struct pixels pixels;
-    bool drops_hidden; // before lights fall on them
+    bool drops_hidden;   // before lights fall on them
+    int recorded_lights; // that have records
     // The list that each pixel was last in, by the low bits of x and y: pixels that share an entry
     // pass for the same.
     uint16_t listing; // counts from 1
@@ -164,7 +165,7 @@ static inline void list_pixel(struct shader *s, int prim, int x, int y)
     list->count++;
 }
 
-// Has a primitive's record on its way, and that of its first light. Were it a function to gcc, it
+// Has a primitive's record on its way, and those of its lights. Were it a function to gcc, it
 // would have no effect, and be left out.
 static inline __attribute__((always_inline)) void fetch_record(const struct shader *s, int prim)
 {
@@ -172,9 +173,10 @@ static inline __attribute__((always_inline)) void fetch_record(const struct shad
     const char *record = s->bins->records.of_items + (size_t)prim * size;
     __builtin_prefetch(record);
     __builtin_prefetch(record + size - 1);
-    if (light_size)
-        __builtin_prefetch(s->bins->records.of_items + (size_t)s->bins->records.room * size +
-                           (size_t)prim * light_size);
+    const char *by = s->bins->records.of_items + (size_t)s->bins->records.room * size +
+                     (size_t)prim * light_size;
+    for (int light = 0; light < s->recorded_lights; light++)
+        __builtin_prefetch(by + (size_t)light * (size_t)s->bins->records.room * light_size);
 }
 
 static void list_mask(struct shader *s, const struct cpu_ref *ref)

@@ -119,6 +119,7 @@ static void begin_tile(struct shader *s, int tile)
     s->target = s->call->target;
     s->draw = *(const rg_draw_state *)s->call->params;
     s->texel_words = texel_words(s->draw.colour_format);
+    s->recorded_lights = s->program->light_size ? s->program->lights(s->call) : 0;
     s->drops_hidden = s->draw.depth_mode != RG_DEPTH_IS_OFF && s->program->lights &&
                       s->program->lights(s->call) >= WORTH_LIGHTS;
     s->x0 = tile % tiling->across * side;
