@@ -56,11 +56,12 @@ static int index_at(const struct rg_grid *grid, int axis, int row)
 
 static void write_set(struct rg_grid *grid, int row)
 {
+    char set[RG_SET_SIZE];
     size_t used = 0;
-    for (int i = 0; i < grid->axis_count && used < RG_SET_SIZE; i++)
-        used +=
-            (size_t)snprintf(grid->sets[row] + used, RG_SET_SIZE - used, "%s%s=%s", i ? " " : "",
-                             grid->axes[i].name, grid->axes[i].values[index_at(grid, i, row)]);
+    for (int i = 0; i < grid->axis_count && used < sizeof(set); i++)
+        used += (size_t)snprintf(set + used, sizeof(set) - used, "%s%s=%s", i ? " " : "",
+                                 grid->axes[i].name, grid->axes[i].values[index_at(grid, i, row)]);
+    memcpy(grid->sets[row], set, sizeof(set));
     grid->rows[row].set = grid->sets[row];
 }
 
