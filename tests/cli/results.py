@@ -112,7 +112,7 @@ def check_brief(runner):
         claims = on_terminal(runner, ["table", "--claims", "--from", "%s/results/tables" % ROOT], {"TERM": "xterm", "NO_COLOR": None})
         plain = [on_terminal(runner, stored, env) for env in ({"TERM": "xterm", "NO_COLOR": "1"}, {"TERM": "dumb", "NO_COLOR": None})]
     lines = [line for line in brief.split("\n") if re.match(r"\| +128 \|", line)]
-    if len(lines) != 3 or not re.fullmatch(r"\| +128 \| +480 \| .* \d\.\d\dx \|", lines[0]):
+    if len(lines) != 3 or not re.fullmatch(r"\| +128 \| +480 \| .* \d+(\.\d+)?x \|", lines[0]):
         problems.append("brief:\n" + brief)
     if "API / wall clock" not in wide or "API / wall clock" in brief or len(re.findall(r"\n\| +128 \|", wide)) != 3:
         problems.append("wide:\n" + wide)

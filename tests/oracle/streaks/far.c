@@ -4,7 +4,7 @@
 #include <stdbool.h>
 
 #include "tests/oracle/streaks/light.h"
-#include "tests/oracle/streaks/vectors.h"
+#include "tests/oracle/vectors.h"
 
 static const double pi = 3.14159265358979323846;
 

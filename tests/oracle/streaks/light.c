@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "tests/oracle/streaks/atlas.h"
-#include "tests/oracle/streaks/vectors.h"
+#include "tests/oracle/vectors.h"
 
 static const double pi = 3.14159265358979323846;
 

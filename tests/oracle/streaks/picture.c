@@ -4,7 +4,7 @@
 
 #include "tests/oracle/raster.h"
 #include "tests/oracle/streaks/light.h"
-#include "tests/oracle/streaks/vectors.h"
+#include "tests/oracle/vectors.h"
 
 static const double pi = 3.14159265358979323846;
 static const double cell_radii = 32 / 23.744; // half of a cell's width

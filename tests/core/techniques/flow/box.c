@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/flow/rig.h"
-#include "tests/oracle/box.h"
+#include "tests/oracle/flow/box.h"
 
 static const char *device = "cpu:reference";
 

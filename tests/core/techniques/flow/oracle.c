@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/flow/rig.h"
-#include "tests/oracle/flow.h"
+#include "tests/oracle/flow/flow.h"
 
 static const char *device = "cpu:reference";
 

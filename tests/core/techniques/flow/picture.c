@@ -15,7 +15,7 @@
 #include "kernels/dialect/image/memory.h"
 #include "tests/core/folder.h"
 #include "tests/core/techniques/flow/rig.h"
-#include "tests/oracle/picture.h"
+#include "tests/oracle/flow/picture.h"
 
 enum { WIDTH = 132, HEIGHT = 100, PIXELS = WIDTH * HEIGHT };
 

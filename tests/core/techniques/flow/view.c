@@ -13,7 +13,7 @@
 
 #include "core/techniques/flow/instance.h"
 #include "tests/core/techniques/flow/rig.h"
-#include "tests/oracle/picture.h"
+#include "tests/oracle/flow/picture.h"
 
 static const char *device = "cpu:reference";
 

@@ -4,7 +4,7 @@
 #define RG_TESTS_ORACLE_DROPS_PANE_PANE_H
 
 #include "tests/oracle/drops/pane/water.h"
-#include "tests/oracle/light.h"
+#include "tests/oracle/flow/light.h"
 
 enum { PANE_LEVELS = 16 };
 

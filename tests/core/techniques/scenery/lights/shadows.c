@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/core/techniques/scenery/rig.h"
+#include "tests/core/techniques/scenery/lights/rig.h"
 
 // Whether a light reaches a point; -1 where that changes within `margin` of it.
 static int reached_about(const struct rg_light *light, struct vec at, double bias, double margin)
@@ -137,6 +137,33 @@ static void the_bias_is_metres_along_the_ray(void **state)
     rig_close(&rig);
 }
 
+// Soft shadows go over from light to dark within the width of a texel, whichever way one walks: an
+// eighth of a texel changes them by an eighth.
+static void soft_shadows_do_not_jump(void **state)
+{
+    enum { DOWN = 3, ROWS = 12, STEPS = POINTS / ROWS };
+    struct rig rig = rig_open(*state);
+    const double step = (double)rig.lights[DOWN].shadow_texel / 8;
+    float *points = malloc(POINTS * 3 * sizeof(*points));
+    for (int i = 0; i < POINTS; i++) { // rows about an edge of a box, across and along
+        const double t = (i % STEPS - STEPS / 2) * step, row = i / STEPS * 0.013;
+        points[3 * i] = (float)(i / STEPS % 2 ? 1 + t : -0.7 + row);
+        points[3 * i + 1] = 1;
+        points[3 * i + 2] = (float)(i / STEPS % 2 ? 0.3 + row : 2 + t);
+    }
+    test_streaks_lit *lit = rig_light_points(&rig, &rig.lights[DOWN], 1, points, POINTS);
+    int between = 0;
+    for (int i = 1; i < POINTS; i++) {
+        between += lit[i].soft > 0 && lit[i].soft < 1;
+        if (i % STEPS)
+            assert_true(fabsf(lit[i].soft - lit[i - 1].soft) < 0.126f);
+    }
+    assert_true(between >= 5 * ROWS);
+    free(lit);
+    free(points);
+    rig_close(&rig);
+}
+
 static void nothing_shades_where_no_map_is(void **state)
 {
     struct rig rig = rig_open(*state);
@@ -172,6 +199,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(shadows_fall_where_rays_are_blocked),
         cmocka_unit_test(floors_do_not_shade_themselves),
         cmocka_unit_test(the_bias_is_metres_along_the_ray),
+        cmocka_unit_test(soft_shadows_do_not_jump),
         cmocka_unit_test(nothing_shades_where_no_map_is),
     };
     return raster_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

@@ -1,10 +1,10 @@
 // A ray caster of flow's box and of its one pane, in double precision: what cpu:reference draws,
 // reckoned from docs/flow.md without anything of kernels/ or core/techniques/.
-#ifndef RG_TESTS_ORACLE_PICTURE_H
-#define RG_TESTS_ORACLE_PICTURE_H
+#ifndef RG_TESTS_ORACLE_FLOW_PICTURE_H
+#define RG_TESTS_ORACLE_FLOW_PICTURE_H
 
-#include "tests/oracle/box.h"
-#include "tests/oracle/light.h"
+#include "tests/oracle/flow/box.h"
+#include "tests/oracle/flow/light.h"
 
 // What a mutant of the oracle does otherwise.
 enum picture_mutation {

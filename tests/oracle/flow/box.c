@@ -1,4 +1,4 @@
-#include "tests/oracle/box.h"
+#include "tests/oracle/flow/box.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "tests/oracle/picture.h"
+#include "tests/oracle/flow/picture.h"
 
 #include <math.h>
 #include <stdlib.h>

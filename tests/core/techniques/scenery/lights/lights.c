@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "tests/core/techniques/scenery/rig.h"
+#include "tests/core/techniques/scenery/lights/rig.h"
 
 static const struct city_lamp lamps[] = {
     {CITY_STREET_LAMP, {9, 8, 11}, {0, -1, 0}},

@@ -1,7 +1,7 @@
 // What lights water and what water does to light, in double precision: environments, normals of a
 // height map, the Fresnel model. Written from docs/flow.md without anything of kernels/.
-#ifndef RG_TESTS_ORACLE_LIGHT_H
-#define RG_TESTS_ORACLE_LIGHT_H
+#ifndef RG_TESTS_ORACLE_FLOW_LIGHT_H
+#define RG_TESTS_ORACLE_FLOW_LIGHT_H
 
 #include <stdint.h>
 

@@ -1,4 +1,4 @@
-#include "tests/oracle/light.h"
+#include "tests/oracle/flow/light.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 // How far lights of streaks reach: reach DEVICE. Against closed forms in double
-// precision; alone and together, in any frame, and against cpu:reference.
+// precision; alone and together, and in any frame.
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/core/techniques/scenery/rig.h"
+#include "tests/core/techniques/scenery/lights/rig.h"
 
 static double share_due(const struct rg_light *light, struct vec at)
 {
@@ -82,7 +82,7 @@ static void cones_and_near_points_have_their_bounds(void **state)
     rig_close(&rig);
 }
 
-// --- sums, frames, devices ---
+// --- sums, frames ---
 
 // Lights do not know of each other: alone, and in any order, they give what they give together.
 static void lights_add_up(void **state)
@@ -139,32 +139,6 @@ static void frames_do_not_matter(void **state)
     rig_close(&rig);
 }
 
-static void all_bytes_are_those_of_the_reference(void **state)
-{
-    struct rg_device *reference = rg_device_open("cpu:reference");
-    assert_non_null(reference);
-    struct rig rigs[2] = {rig_open(*state), rig_open(reference)};
-    float *points = rig_make_points(), *texels[2];
-    test_streaks_lit *lit[2];
-    for (int r = 0; r < 2; r++) {
-        lit[r] = rig_light_points(&rigs[r], rigs[r].lights, LIGHTS, points, POINTS);
-        texels[r] = malloc(MAP_PX * MAP_PX * sizeof(float));
-    }
-    assert_memory_equal(lit[0], lit[1], LIGHTS * POINTS * sizeof(*lit[0]));
-    for (int layer = 0; layer < rigs[0].layers; layer++) {
-        for (int r = 0; r < 2; r++)
-            assert_true(rg_image_read(rigs[r].maps, layer, 0, texels[r]));
-        assert_memory_equal(texels[0], texels[1], MAP_PX * MAP_PX * sizeof(float));
-    }
-    for (int r = 0; r < 2; r++) {
-        free(lit[r]);
-        free(texels[r]);
-        rig_close(&rigs[r]);
-    }
-    free(points);
-    assert_true(rg_device_close(reference));
-}
-
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -172,7 +146,6 @@ int main(int argc, char **argv)
         cmocka_unit_test(cones_and_near_points_have_their_bounds),
         cmocka_unit_test(lights_add_up),
         cmocka_unit_test(frames_do_not_matter),
-        cmocka_unit_test(all_bytes_are_those_of_the_reference),
     };
     return raster_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
 }

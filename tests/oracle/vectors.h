@@ -1,6 +1,6 @@
 // Vectors of three doubles.
-#ifndef RG_TESTS_ORACLE_STREAKS_VECTORS_H
-#define RG_TESTS_ORACLE_STREAKS_VECTORS_H
+#ifndef RG_TESTS_ORACLE_VECTORS_H
+#define RG_TESTS_ORACLE_VECTORS_H
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "tests/oracle/flow.h"
+#include "tests/oracle/flow/flow.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // What the tests of streaks' lights share: boxes over a floor with lights of all kinds around them,
 // points in the air, and what lights do there on a device.
-#ifndef RG_TESTS_CORE_TECHNIQUES_SCENERY_RIG_H
-#define RG_TESTS_CORE_TECHNIQUES_SCENERY_RIG_H
+#ifndef RG_TESTS_CORE_TECHNIQUES_SCENERY_LIGHTS_RIG_H
+#define RG_TESTS_CORE_TECHNIQUES_SCENERY_LIGHTS_RIG_H
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -3,8 +3,8 @@
 // core/techniques/: points in space, not tables of neighbours.
 //
 // The box is a cube of half side 1 about the origin; x runs right, y up, z towards the viewer.
-#ifndef RG_TESTS_ORACLE_BOX_H
-#define RG_TESTS_ORACLE_BOX_H
+#ifndef RG_TESTS_ORACLE_FLOW_BOX_H
+#define RG_TESTS_ORACLE_FLOW_BOX_H
 
 #include <stdbool.h>
 

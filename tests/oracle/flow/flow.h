@@ -4,8 +4,8 @@
 // anything of kernels/ or core/techniques/: it pushes water where the kernels pull it, has no
 // margins, counts droplets in integers, and turns the pane by rotating vectors. What both share are
 // inputs: the maps' values and the list of drops.
-#ifndef RG_TESTS_ORACLE_FLOW_H
-#define RG_TESTS_ORACLE_FLOW_H
+#ifndef RG_TESTS_ORACLE_FLOW_FLOW_H
+#define RG_TESTS_ORACLE_FLOW_FLOW_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,4 +1,4 @@
-#include "tests/core/techniques/scenery/rig.h"
+#include "tests/core/techniques/scenery/lights/rig.h"
 
 #include <stdlib.h>
 #include <string.h>
