@@ -56,7 +56,11 @@ RG_STRUCT(streaks_params)
     float splash_gain, splash_opacity;
     int first_place; // of states
     int sizes;       // classes of drops, a power of 2
+    // A splash is whole up to where splash_last less its distance times splash_fade is 1, and gone
+    // where that is 0. The distance is level, in metres.
+    float splash_last, splash_fade;
+    int nothing_0, nothing_1; // make whole rows of four
 };
-RG_STRUCT_SIZE(streaks_params, 100)
+RG_STRUCT_SIZE(streaks_params, 104)
 
 #endif

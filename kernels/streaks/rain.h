@@ -276,10 +276,12 @@ RG_FN streaks_billboard streaks_splash(rg_ctx rg, streaks_params p, streaks_bill
     int material = streaks_material(rg, p, t);
     float frames = rg_to_float(STREAKS_FRAMES);
     float passed = rg_clamp(t.age / p.splash_s, 0.0f, 1.0f) * frames;
+    float away = rg_hypot(t.x - p.eye_x, t.y - p.eye_y);
+    float kept = rg_clamp(p.splash_last - away * p.splash_fade, 0.0f, 1.0f);
     r.hit = RG_LARGEST;
     r.nearer = shape.nearer;
     r.up = mesh_normal_pack(shape.up);
-    r.share = t.weight * rg_min(frames - passed, 1.0f);
+    r.share = t.weight * rg_min(frames - passed, 1.0f) * kept;
     r.shown = rg_clamp(passed - 0.5f, 0.0f, frames - 1.001f);
     r.look = streaks_look(STREAKS_LOOK_SPLASH +
                               ((streaks_hash(t.number) >> 10) & 1u) * STREAKS_LOOK_MIRRORED,

@@ -8,7 +8,9 @@
 #include "core/techniques/proof.h"
 #include "core/techniques/streaks/instance.h"
 
-#define SMALL "atlas=small city=small depth_map_px=1024 shadow_map_px=256 far_layers=0 state=on "
+#define SMALL                                                                                      \
+    "atlas=small city=small depth_map_px=1024 shadow_map_px=256 far_layers=0 splash_fade=0 "       \
+    "state=on "
 // A sixteenth of the rain space around the city's middle, where the camera then stands: opening
 // makes every particle, and most of them are never near enough to be seen. Its rain is a fifth as
 // dense.
@@ -62,7 +64,7 @@ static const struct rg_pose poses[] = {
     {.set = NEAR},
     {.set = NEAR "rain_width_m=150 walk_m_s=3 time=night lights=6 packets=quad packet_size=3000 "
                  "select=hull splash_materials=on spectrum=marshall-palmer kept=section "
-                 "kept_share=0.03 far_layers=2"},
+                 "kept_share=0.03 far_layers=2 splash_fade=0.25"},
     {.set = SMALL "geometry=off walk_m_s=8 slant_deg=25 slant_azimuth_deg=20 packets=kd "
                   "packet_size=700 drops_m2_s=20 cull=exact order=id depth_map=dynamic "
                   "depth_map_period=3 depth_map_px=512 taps=8 far_layers=3 splash_materials=on"},

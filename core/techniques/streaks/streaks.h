@@ -41,7 +41,7 @@ struct streaks_settings {
     int atlas, taps, absolute_views, last_mip, points;
     int look, drops, splashes, splash_materials, splashes_upright;
     double drop_radius_mm, exposure_s, splash_s, splash_width_mm;
-    double streak_gain, streak_opacity, splash_gain, splash_opacity;
+    double streak_gain, streak_opacity, splash_gain, splash_opacity, splash_fade;
     int far_layers, overlay, keeps_state;
     // the view from outside
     int outside, outside_map;

@@ -5,7 +5,7 @@
 // The thesis draws thin streaks where they cover a pixel's middle, and one splash for all surfaces.
 #define POINTS                                                                                     \
     "thin_streaks=points splash_materials=off splash_up=vertical splash_s=0.15 "                   \
-    "splash_width_mm=40 splash_gain=0.35 splash_opacity=0.35 far_layers=0"
+    "splash_width_mm=40 splash_gain=0.35 splash_opacity=0.35 splash_fade=0 far_layers=0"
 
 // The thesis's machine and view. A row is opened alone: an instance's atlas, city and depth map
 // are large, and its frames can take seconds on the slower devices.

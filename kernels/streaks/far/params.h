@@ -32,6 +32,6 @@ RG_STRUCT(streaks_far_params)
     int seed;
     int taps; // textures that are read for a light: 2, 4 or 8
 };
-RG_STRUCT_SIZE(streaks_far_params, 108)
+RG_STRUCT_SIZE(streaks_far_params, 112)
 
 #endif

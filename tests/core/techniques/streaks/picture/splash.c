@@ -11,6 +11,7 @@
 
 // Of an image of crowns: 21 frames of 6 ms, 48 x 32 texels that show 60 x 40 mm, the impact 8 mm
 // above the lower edge.
+enum { FADE_RADIUS_M = 20 };
 enum { FRAMES = 21, TEXELS_X = 48, TEXELS_Y = 32, FOOT_ROW = 25, WHITE = 0x3c00 };
 static const double frame_s = 0.006, width_mm = 60, foot = 8.0 / 40, size_differs = 0.15;
 
@@ -371,6 +372,39 @@ static void test_splashes_go_out(void **state)
     rain_close(s);
 }
 
+// Whole up to three quarters of the culling radius, gone at its end, and in between by the way that
+// is left.
+static void see_fading(struct streaks *s, const float *place, const double *added, void *user)
+{
+    int *counts = user;
+    const double eye[3] = {(double)s->params.eye_x, (double)s->params.eye_y};
+    const double away = hypot((double)place[0] - eye[0], (double)place[1] - eye[1]);
+    const double left = FRAMES - (double)place[4] / frame_s;
+    const double share = fmin(fmax((FADE_RADIUS_M - away) / (FADE_RADIUS_M / 4.0), 0), 1);
+    const double due = fmin(left, 1) * share, is = brightest(added);
+    counts[share == 1 ? 0 : share > 0 ? 1 : 2]++;
+    if (fabs(is - due) > 0.03)
+        fail_msg("%.2f m away: %.3f, not %.3f", away, is, due);
+}
+
+static void test_splashes_fade_away(void **state)
+{
+    (void)state;
+    int counts[3] = {0};
+    char settings[200];
+    snprintf(settings, sizeof(settings), STREET "geometry=off splash_fade=0.25 culling_radius_m=%d",
+             FADE_RADIUS_M);
+    struct streaks *s = open_large(settings);
+    paint(s, 0, TEXELS_Y - 1, 0, FRAMES - 1);
+    each_splash(s, 12, see_fading, counts);
+    print_message("%d whole splashes, %d fading, %d gone\n", counts[0], counts[1], counts[2]);
+    assert_true(counts[0] > 5 && counts[1] > 5);
+    rain_close(s);
+    s = rain_open("look=thesis");
+    assert_true(s->settings.splash_fade == 0 && s->params.splash_fade == 0);
+    rain_close(s);
+}
+
 // --- light ---
 
 static void see_sun(struct streaks *s, const float *place, const double *added, void *user)
@@ -421,11 +455,9 @@ int main(int argc, char **argv)
 {
     snprintf(path, sizeof(path), "test_splash_%ld.off", (long)getpid());
     struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_on_the_ground),
-        cmocka_unit_test(test_on_a_slope),
-        cmocka_unit_test(test_frames_have_their_times),
-        cmocka_unit_test(test_splashes_go_out),
-        cmocka_unit_test(test_lamberts_law),
+        cmocka_unit_test(test_on_the_ground),           cmocka_unit_test(test_on_a_slope),
+        cmocka_unit_test(test_frames_have_their_times), cmocka_unit_test(test_splashes_go_out),
+        cmocka_unit_test(test_splashes_fade_away),      cmocka_unit_test(test_lamberts_law),
         cmocka_unit_test(test_as_large_as_synthesised),
     };
     return rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
