@@ -1,7 +1,7 @@
 """The city: its surfaces, faces, chunks, lamps and how much of the sky is seen."""
 from fault import Fault
 
-TESTS = ("city", "surfaces of the city", "openness", "dioramas", "city drawn, cpu", "streaks lights, reach, cpu")
+TESTS = ("city", "surfaces of the city", "openness", "dioramas", "city, depth, cpu", "city, look, cpu", "streaks lights, reach, cpu")
 
 BUILD, CHUNKS, OPEN = "core/scene/city/build.c", "core/scene/city/chunks.c", "core/scene/city/openness.c"
 

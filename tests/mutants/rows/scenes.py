@@ -1,13 +1,14 @@
-"""Scenes: cameras, matrices, lights, environments, density maps, the space of rain, spectra and meshes."""
+"""Scenes: cameras, matrices, lights, environments, density maps, packets, the space of rain, spectra and meshes."""
 from fault import Fault
 
 TESTS = ("camera", "matrices", "light file", "environment", "density maps", "rain space", "mesh edges", "mesh models", "mesh files",
-         "openness", "streaks, sizes", "streaks lights, cpu")
+         "openness", "rain packets, grid", "streaks, sizes", "streaks lights, cpu")
 
 CAMERA, MATRIX, LIGHTS = "core/scene/camera.c", "core/scene/matrix.c", "core/scene/light_file.c"
 DENSITY, SPACE, SPECTRUM = "core/scene/density.c", "core/scene/rain_space.c", "core/scene/spectrum.c"
 BLUR, CUBE, KTX, LOAD = ("core/scene/environment/blur.c", "core/scene/environment/cube.c", "core/scene/environment/ktx.c",
                          "core/scene/environment/environment.c")
+GRID = "core/techniques/streaks/packets/grid.c"
 EDGES, FACES, MESH = "core/scene/mesh/edges.c", "core/scene/mesh/faces.c", "core/scene/mesh/mesh.c"
 
 ROWS = [
@@ -35,6 +36,9 @@ ROWS = [
     Fault(DENSITY, "if («end > last»)\n        pieces", "false", "an area leaves out its last part of a texel"),
     Fault(DENSITY, "(bottom[x.end] - top[x.end]) - (bottom[x.begin] «- top[x.begin]»);", "- 0", "an area counts what is above it"),
     Fault(DENSITY, "picture->decoded ? steps : «steps / largest»;", "steps", "a map of floats is not scaled to its largest"),
+    Fault(GRID, "if («is_fine(map, grid)»)\n            return", "true", "a grid's cells are as large as packets allow, whatever the map"),
+    Fault(GRID, "(fmin(x + 1, right) «- fmax(x, left)») *", "- 0", "what cells move counts texels whole from the map's left"),
+    Fault(GRID, "return (int)floor(level + «(double)rg_uniform(cell_random(seed, cell).x)»);", "0", "levels of a grid's cells are rounded down"),
     Fault(SPACE, "fall[1] = «-cos(slant)»;", "cos(slant)", "rain falls upwards"),
     Fault(SPACE, "fall[2] = sin(slant) * «sin(azimuth)»;", "-sin(azimuth)", "rain slants to the other side"),
     Fault(SPACE, "space->half_y_m = «settings->depth_m / 2»;", "settings->width_m / 2", "the space of rain is square"),

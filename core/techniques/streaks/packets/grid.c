@@ -5,7 +5,10 @@
 #include "core/techniques/streaks/packets/inner.h"
 #include "kernels/dialect/rng.h"
 
-enum { CELL_STREAM = 1, BUCKET_FIELD = 1 };
+enum { CELL_STREAM = 1, BUCKET_FIELD = 1, PARTS = 65536 };
+
+// The share of the rain that cells may move: a grid of 12 x 12 moves as much under the cone.
+static const double MOST_DISPLACED = 0.0625;
 
 // What a level tells apart: 1/255 of the densest rain possible, as 8 bits do, but no less than one
 // particle.
@@ -60,22 +63,77 @@ static bool all_fit(const struct rg_density *map, const struct streaks_grid *gri
     return true;
 }
 
-// The coarsest grid whose buckets are no larger than packets; its cells are as square as can be.
+// How much of a cell's rain falls elsewhere in it than the map says, in densities times texels.
+static double displaced(const struct rg_density *map, const struct streaks_grid *grid, int column,
+                        int row)
+{
+    const double wide = (double)map->width / grid->across, high = (double)map->height / grid->down;
+    const double mean = cell_density(map, grid, column, row);
+    const double left = column * wide, right = fmin(left + wide, map->width);
+    const double top = row * high, bottom = fmin(top + high, map->height);
+    double sum = 0;
+    for (int y = (int)top; y < bottom; y++)
+        for (int x = (int)left; x < right; x++)
+            sum += fabs(rg_density_at(map, x, y) - mean) * (fmin(x + 1, right) - fmax(x, left)) *
+                   (fmin(y + 1, bottom) - fmax(y, top));
+    return sum / 2;
+}
+
+// Whether the cells are as small as the map's forms: a cell's rain is even. Summed in whole
+// numbers, so that threads do not matter.
+static bool is_fine(const struct rg_density *map, const struct streaks_grid *grid)
+{
+    const int64_t cells = (int64_t)grid->across * grid->down;
+    int64_t sum = 0;
+#pragma omp parallel for schedule(static) reduction(+ : sum)
+    for (int64_t cell = 0; cell < cells; cell++)
+        sum += llrint(displaced(map, grid, (int)(cell % grid->across), (int)(cell / grid->across)) *
+                      PARTS);
+    return (double)sum <= MOST_DISPLACED * PARTS * rg_density_mean(map) * map->width * map->height;
+}
+
+// So many cells, as square as can be. False where that is too many.
+static bool set_cells(const struct streaks_packets *p, double particles_m2, int across, int down,
+                      double *full_cell, struct streaks_grid *grid)
+{
+    if ((int64_t)across * down > STREAKS_MAX_CELLS)
+        return false;
+    grid->across = across;
+    grid->down = down;
+    *full_cell = particles_m2 * 4 * p->half_x_m * p->half_y_m / across / down;
+    grid->step = step_of(*full_cell);
+    return true;
+}
+
+static int next_multiple(int of, int from)
+{
+    return (from + of - 1) / of * of;
+}
+
+// The coarsest grid whose buckets are no larger than packets. Where its cells are too large for the
+// map's forms, twice as many a side, and so on; in the end each is a texel or a part of one.
 // Returns the particles of a cell where the density is 1, or 0 where that takes too many cells.
 static double choose_cells(const struct streaks_packets *p, const struct rg_density *map,
                            double particles_m2, struct streaks_grid *grid)
 {
-    const double ratio = p->half_y_m / p->half_x_m, area = 4 * p->half_x_m * p->half_y_m;
+    const double ratio = p->half_y_m / p->half_x_m;
     double worst[2] = {0.5, 0.5}, full_cell;
-    for (int longer = 1;; longer++) {
-        grid->across = ratio <= 1 ? longer : (int)fmax(1, rint(longer / ratio));
-        grid->down = ratio <= 1 ? (int)fmax(1, rint(longer * ratio)) : longer;
-        if ((int64_t)grid->across * grid->down > STREAKS_MAX_CELLS)
+    int step = 1;
+    for (int longer = 1;; longer += step) {
+        const int across = ratio <= 1 ? longer : (int)fmax(1, rint(longer / ratio));
+        const int down = ratio <= 1 ? (int)fmax(1, rint(longer * ratio)) : longer;
+        if (!set_cells(p, particles_m2, across, down, &full_cell, grid))
             return 0;
-        full_cell = particles_m2 * area / grid->across / grid->down;
-        grid->step = step_of(full_cell);
-        if (all_fit(map, grid, full_cell, p->settings.packet_size, worst))
+        if (!all_fit(map, grid, full_cell, p->settings.packet_size, worst))
+            continue;
+        if (is_fine(map, grid))
             return full_cell;
+        if (across >= map->width && down >= map->height)
+            return set_cells(p, particles_m2, next_multiple(map->width, across),
+                             next_multiple(map->height, down), &full_cell, grid)
+                       ? full_cell
+                       : 0;
+        step = longer;
     }
 }
 

@@ -311,8 +311,8 @@ static void blank(struct streaks *s, int material)
 }
 
 #define NEAR                                                                                       \
-    "drops=off cull=exact culling_radius_m=2 drops_m2_s=300 local_height_m=8 rain_width_m=120 "    \
-    "rain_depth_m=120 "
+    "drops=off cull=exact culling_radius_m=2 drops_m2_s=300 local_height_m=8 rain_width_m=180 "    \
+    "rain_depth_m=180 "
 #define STREET NEAR "eye_x_m=1 eye_y_m=3 eye_z_m=1 target_x_m=1 target_y_m=0 target_z_m=2 "
 #define ROOF   NEAR "eye_x_m=-56 eye_y_m=73 eye_z_m=16 target_x_m=-56 target_y_m=70 target_z_m=17 "
 

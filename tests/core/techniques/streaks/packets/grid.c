@@ -19,11 +19,11 @@ static void test_grid_agrees_with_trees(void **state)
     (void)state;
     enum { SIDE = 20 };
     struct rg_density *map = rg_density_gradient();
-    static const int sizes[] = {100, 1000, 20000};
-    for (int size = 0; size < 3; size++) {
+    static const int sizes[] = {100, 1000, 20000, 300000};
+    for (int size = 0; size < 4; size++) {
         int64_t counts[2][SIDE * SIDE] = {{0}}, totals[2];
         double step = 0;
-        const int side = size == 2 ? 8 : SIDE; // the grid's own, where its cells are large
+        const int side = size >= 2 ? 16 : SIDE; // the grid's own, where its cells are large
         for (int i = 0; i < 2; i++) {
             struct streaks_packets_settings settings = rig_settings(&rig_space, map, 300000);
             settings.scheme = i ? STREAKS_GRID : STREAKS_KD;
@@ -42,7 +42,7 @@ static void test_grid_agrees_with_trees(void **state)
             totals[i] = all.count;
             // densities come in 255 steps, and are rounded up or down at random
             step = settings.drops_m2_s / 8 * 20 * 400 * 400 / (double)info->places / 255;
-            if (i && size == 2)
+            if (i && size >= 2)
                 assert_int_equal(info->grid_x, side);
             // Buckets repeat, but each place turns them by its own; so 1 in 1000 is not met, but
             // heights are even to a percent.
@@ -66,6 +66,40 @@ static void test_grid_agrees_with_trees(void **state)
         assert_true(degrees >= side * side / 2);
         rig_expect_chance(oracle_chi_square_tail(chi_square, degrees), "a grid against a kd-tree");
     }
+    rg_density_destroy(map);
+}
+
+// However large packets may be, cells are no larger than the map's forms: the share of the rain
+// that falls in other places of a board of 32 x 32 than the map says, but for chance.
+static void test_grid_has_the_forms_of_its_map(void **state)
+{
+    (void)state;
+    enum { SIDE = 32 };
+    float texels[SIDE * SIDE];
+    for (int i = 0; i < SIDE * SIDE; i++) // a hole in the middle, and a checkered edge
+        texels[i] = abs(i % SIDE - 16) + abs(i / SIDE - 16) < 9 ? 0.0f
+                    : i % SIDE < 5                              ? (float)((i + i / SIDE) % 2)
+                                                                : 0.7f;
+    struct rg_density *map = rig_map(SIDE, SIDE, texels);
+    struct streaks_packets_settings settings = rig_settings(&rig_space, map, 3000000);
+    settings.scheme = STREAKS_GRID;
+    settings.packet_size = 3000000;
+    struct streaks_packets *packets = rig_packets(&rig_space, map, &settings);
+    struct rig_particles all = rig_read_all(packets, &rig_space, 20);
+    int64_t counts[SIDE * SIDE] = {0};
+    for (int64_t k = 0; k < all.count; k++)
+        counts[(int)((all.all[k].y_m / 200 + 1) / 2 * SIDE) * SIDE +
+               (int)((all.all[k].x_m / 200 + 1) / 2 * SIDE)]++;
+    const double mass = rg_density_mass(map, 0, 0, SIDE, SIDE);
+    double elsewhere = 0;
+    for (int i = 0; i < SIDE * SIDE; i++)
+        elsewhere += fabs((double)counts[i] - (double)texels[i] / mass * (double)all.count) / 2;
+    print_message("%d x %d cells, %.2f %% of the rain elsewhere\n",
+                  streaks_packets_info(packets)->grid_x, streaks_packets_info(packets)->grid_y,
+                  100 * elsewhere / (double)all.count);
+    assert_true(elsewhere < 0.07 * (double)all.count);
+    free(all.all);
+    streaks_packets_destroy(packets);
     rg_density_destroy(map);
 }
 
@@ -131,6 +165,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_grid_agrees_with_trees),
+        cmocka_unit_test(test_grid_has_the_forms_of_its_map),
         cmocka_unit_test(test_grid_is_exact_on_its_own_map),
         cmocka_unit_test(test_grid_places_turn_differently),
     };
