@@ -12,16 +12,17 @@ static bool draw_model(struct flow *flow)
     return rg_stage(&flow->base, FLOW_MODEL);
 }
 
-// The paper's first pass draws all that does not refract. Panes read this picture, and are drawn
-// onto a copy of it.
+// The paper's first pass draws all that does not refract: the sky, dry mirrors, the model. Panes
+// read this picture, and are drawn onto a copy of it. The model stands before far panes, whose
+// drops cannot show it: these read the picture without.
 static bool draw_behind(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;
+    const struct rg_asset *depth = rg_asset_find(i, "depth");
     const float farthest = 1;
-    if (!rg_stage_runs(i, FLOW_COPY))
-        return true;
-    return rg_image_clear(rg_asset_find(i, "depth")->image, &farthest) &&
-           rg_stage(i, FLOW_SKY_BEHIND) && draw_model(flow) && rg_stage(i, FLOW_COPY);
+    return (!depth || rg_image_clear(depth->image, &farthest)) && rg_stage(i, FLOW_SKY) &&
+           rg_stage(i, FLOW_DRY_MIRRORS) && rg_stage(i, FLOW_BEHIND_MODEL) && draw_model(flow) &&
+           rg_stage(i, FLOW_COPY);
 }
 
 // Spreads some of the bright light of the lit panes on its way to the target.
@@ -33,14 +34,14 @@ static bool draw_glow(struct flow *flow)
 }
 
 // The last pass. Of panes of glass the far ones are drawn first, for one sees through near ones.
-// Of mirrors only those that face the viewer are drawn, over the sky: nothing is seen through them.
+// Of mirrors only those that face the viewer are drawn: nothing is seen through them.
 static bool draw_final(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;
     const struct rg_image_desc *target = &i->target->desc;
     i->counters[FLOW_PIXELS].value += (int64_t)target->width * target->height;
-    return rg_stage(i, FLOW_SKY) && draw_behind(flow) && rg_stage(i, FLOW_FAR_GLASS) &&
-           rg_stage(i, FLOW_NEAR_GLASS) && rg_stage(i, FLOW_MIRRORS) && draw_glow(flow);
+    return draw_behind(flow) && rg_stage(i, FLOW_FAR_GLASS) && rg_stage(i, FLOW_NEAR_GLASS) &&
+           rg_stage(i, FLOW_MIRRORS) && draw_glow(flow);
 }
 
 static bool draw_stage(struct flow *flow)

@@ -36,10 +36,11 @@ enum flow_pass {
     FLOW_BLUR,
     FLOW_NORMALS,
     // what does not refract, and the final image
-    FLOW_SKY_BEHIND,
+    FLOW_SKY,
+    FLOW_DRY_MIRRORS,
+    FLOW_BEHIND_MODEL,
     FLOW_MODEL,
     FLOW_COPY,
-    FLOW_SKY,
     FLOW_FAR_GLASS,
     FLOW_NEAR_GLASS,
     FLOW_MIRRORS,

@@ -29,7 +29,6 @@ static bool is_stage(const struct rg_instance *i)
     return !is_final(i);
 }
 
-// Glass shows what lies behind it, so that is drawn first, as a picture of its own.
 static bool is_glass(const struct rg_instance *i)
 {
     return is_final(i) && settings_of(i)->panes == FLOW_GLASS;
@@ -40,10 +39,10 @@ static bool is_mirror(const struct rg_instance *i)
     return is_final(i) && settings_of(i)->panes == FLOW_MIRROR;
 }
 
-// Nothing is seen through mirrors, so the sky around them is drawn onto the target at once.
-static bool has_sky_around(const struct rg_instance *i)
+// A pane of mirror that fills the view hides all else.
+static bool has_sky(const struct rg_instance *i)
 {
-    return is_mirror(i) && settings_of(i)->view == FLOW_BOX;
+    return is_glass(i) || (is_mirror(i) && settings_of(i)->view == FLOW_BOX);
 }
 
 static bool has_model(const struct rg_instance *i)
@@ -124,16 +123,20 @@ static const struct rg_stage stages[FLOW_PASS_COUNT] = {
     [FLOW_SLIDE] = {"flow_slide", is_sliding, .params = AT(sliding), .over = "given"},
     [FLOW_BLUR] = {"flow_blur", .params = AT(movement), .over = "given"},
     [FLOW_NORMALS] = {"flow_normals", .params = AT(surface), .over = "given"},
-    [FLOW_SKY_BEHIND] = {"flow_sky", is_glass, .params = AT(view), .colour = "behind"},
+    [FLOW_SKY] = {"flow_sky", has_sky, .params = AT(view), .colour = "around"},
+    [FLOW_DRY_MIRRORS] = {"flow_dry_mirror", is_mirror, .params = AT(view), .over = "panes",
+                          .colour = "around", .cull = RG_CULL_BACK},
+    [FLOW_BEHIND_MODEL] = {"flow_copy", has_model, .params = AT(view), .over = "around",
+                           .named = {{"behind", "around"}, {"target", "behind"}}},
     [FLOW_MODEL] = {"flow_model", has_model, .params = AT(model_view), .over = "indices",
                     .colour = "behind", .depth = "depth", .depth_mode = RG_DEPTH_WRITE,
                     .cull = RG_CULL_BACK, .named = {{"normals", "model_normals"}}},
-    [FLOW_COPY] = {"flow_copy", is_glass, .params = AT(view), .over = "behind",
+    [FLOW_COPY] = {"flow_copy", has_sky, .params = AT(view), .over = "around",
                    .named = {{"target", "canvas"}}},
-    [FLOW_SKY] = {"flow_sky", has_sky_around, .params = AT(view), .colour = "canvas"},
     [FLOW_FAR_GLASS] = {"flow_glass", is_glass, .params = AT(view), .over = "panes",
                         .colour = "canvas", .depth = "depth", .depth_mode = RG_DEPTH_TEST,
-                        .blend = RG_BLEND_OVER, .cull = RG_CULL_FRONT},
+                        .blend = RG_BLEND_OVER, .cull = RG_CULL_FRONT,
+                        .named = {{"behind", "around"}}},
     [FLOW_NEAR_GLASS] = {"flow_glass", is_glass, .params = AT(view), .over = "panes",
                          .colour = "canvas", .blend = RG_BLEND_OVER, .cull = RG_CULL_BACK},
     [FLOW_MIRRORS] = {"flow_mirror", is_mirror, .params = AT(view), .over = "panes",
@@ -274,15 +277,29 @@ static void add_glow(struct flow *flow)
     flow->glow_down = glow_of(&small, 0, 1, &flow->settings);
 }
 
+// What water shows, a picture of its own: far panes of glass show what is around the box, near ones
+// the model too.
+static void add_behind(struct flow *flow)
+{
+    struct rg_instance *i = &flow->base;
+    const struct rg_image_desc *target = &i->target->desc;
+    const struct rg_asset *around =
+        rg_add_image(i, "around", RG_RGBA16F, target->width, target->height);
+    if (has_model(i))
+        rg_add_image(i, "behind", RG_RGBA16F, target->width, target->height);
+    else
+        rg_lend_image(i, "behind", around ? around->image : NULL);
+}
+
 static void add_images(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;
     const struct rg_image_desc *target = &i->target->desc;
     add_environment(flow);
-    if (is_glass(i)) {
-        rg_add_image(i, "behind", RG_RGBA16F, target->width, target->height);
+    if (is_final(i))
+        add_behind(flow);
+    if (is_glass(i))
         rg_add_image(i, "depth", RG_D32F, target->width, target->height);
-    }
     if (has_glow(i))
         add_glow(flow);
     const struct rg_asset *canvas = rg_asset_find(i, has_glow(i) ? "lit" : "target");

@@ -13,6 +13,7 @@
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/dialect/image/cube_light.h"
+#include "kernels/flow/panes/behind.h"
 #include "kernels/flow/panes/item.h"
 #include "kernels/flow/panes/surface.h"
 
@@ -24,16 +25,6 @@ RG_DRAW_ITEM(flow_glass)
 RG_DRAW_RECORD(flow_glass)
 {
     return pane_record(rg, draw, p, i);
-}
-
-// The picture of what lies behind, where the water's slope displaces the view to.
-RG_FN rgba seen_through(rg_ctx rg, flow_view_params p, v3 bend, int px, int py)
-{
-    v3 right = v3_make(p.rays.xx, p.rays.yx, p.rays.zx);
-    v3 down = v3_make(p.rays.xy, p.rays.yy, p.rays.zy);
-    float x = rg_to_float(px) + 0.5f - v3_dot(bend, right) * p.refraction_px;
-    float y = rg_to_float(py) + 0.5f - v3_dot(bend, down) * p.refraction_px;
-    return behind_between(rg, x, y, 0, 0);
 }
 
 RG_DRAW_FRAGMENT(flow_glass)

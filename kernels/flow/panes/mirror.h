@@ -1,16 +1,19 @@
-// flow: panes of mirror, lit by the Fresnel model (section 4.3): the water reflects the environment
-// at its own normal, and shows the mirror's reflection behind it, bent by the normal (GPU Gems 2,
-// chapter 19).
+// flow: panes of mirror with their water, lit by the Fresnel model (section 4.3): the water
+// reflects the environment at its own normal, and shows the dry mirrors (dry_mirror.h), displaced
+// by the normal (GPU Gems 2, chapter 19).
 #include "kernels/flow/panes/panes.h"
 #include "kernels/dialect/math.h"
 
-#define RG_PARAMS  flow_view_params
-#define RG_SLOTS   IN(1, uint, normals) IMAGE(2, RG11B10F, environment) IN(3, flow_pane, panes)
+#define RG_PARAMS flow_view_params
+#define RG_SLOTS                                                                                   \
+    IN(1, uint, normals)                                                                           \
+    IMAGE(2, RG11B10F, environment) IN(3, flow_pane, panes) IMAGE(4, RGBA16F, behind)
 #define RG_CORNERS 4
 #define RG_RECORD  flow_pane_record
 #include "kernels/dialect/draw/draw.h"
 
 #include "kernels/dialect/image/cube_light.h"
+#include "kernels/flow/panes/behind.h"
 #include "kernels/flow/panes/item.h"
 #include "kernels/flow/panes/surface.h"
 
@@ -32,14 +35,12 @@ RG_DRAW_FRAGMENT(flow_mirror)
     float towards = v3_dot(ray, water.normal);
     float reflectance = water.wetness * flow_fresnel(p, ray, towards);
     v3 mirrored = v3_add(ray, v3_scale(water.normal, -2.0f * towards));
-    float ahead = -v3_dot(ray, r.n);
-    v3 bent = v3_add(v3_add(ray, v3_scale(r.n, 2.0f * ahead)),
-                     v3_scale(water.bend, -p.refraction_strength * ahead));
-    v3 light = v3_add(
-        v3_scale(light_from(rg, mirrored, p.reflection_level, p.reflection_size), reflectance),
-        v3_scale(light_from(rg, bent, 0, p.environment_size),
-                 (1.0f - reflectance) * p.reflectivity));
-    float seen = flow_on_frame(at, p.frame) ? 0.06f : 1.0f;
-    return rg_fragment_make(rg_rgba(light.x * seen, light.y * seen, light.z * seen, 1.0f),
-                            rg_planes_depth(r.planes, px, py));
+    v3 light = light_from(rg, mirrored, p.reflection_level, p.reflection_size);
+    rgba through = seen_through(rg, p, water.bend, px, py);
+    float kept = 1.0f - reflectance;
+    float shown = flow_on_frame(at, p.frame) ? 0.06f : 1.0f;
+    rgba c = rg_rgba((light.x * reflectance + through.r * kept) * shown,
+                     (light.y * reflectance + through.g * kept) * shown,
+                     (light.z * reflectance + through.b * kept) * shown, 1.0f);
+    return rg_fragment_make(c, rg_planes_depth(r.planes, px, py));
 }

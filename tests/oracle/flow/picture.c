@@ -235,57 +235,82 @@ static void cover(const struct picture_oracle *p, const struct camera *c, const 
     }
 }
 
-static void show_mirror(const struct picture_oracle *p, const struct crossing *at,
-                        const double ray[3], double light[3])
+// Water on a mirror, over the picture of the dry one.
+static void show_mirror(const struct picture_oracle *p, const struct camera *c,
+                        const double *behind, const struct crossing *at, const double ray[3],
+                        const double pixel[2], double light[3])
 {
-    const double *n = p->box.frames[at->pane][2];
-    double bend[3], normal[3], to[3], bent[3], reflected[3], shown[3];
+    double bend[3], normal[3], to[3], reflected[3], through[3];
     const double wetness = surface_at(p, at, bend, normal);
     const double reflectance = wetness * light_reflectance(&p->fresnel, ray, normal);
+    const double far_px = p->refraction_strength * LENS_REACH * c->height;
     mirrored(ray, normal, to);
     light_from_cube(&p->reflection, to, reflected);
-    mirrored(ray, n, bent);
-    add(bent, bend, p->refraction_strength * dot(ray, n));
-    light_from_cube(&p->environment, bent, shown);
+    look_up(behind, c, pixel[0] - dot(bend, c->right) * far_px,
+            pixel[1] - dot(bend, c->down) * far_px, through);
     for (int i = 0; i < 3; i++)
-        light[i] = (reflected[i] * reflectance + shown[i] * (1 - reflectance) * p->reflectivity) *
+        light[i] = (reflected[i] * reflectance + through[i] * (1 - reflectance)) *
                    (on_bar(p, at) ? BAR_LIGHT : 1);
 }
 
-static void draw_pixel(const struct picture_oracle *p, const struct camera *c, const double *behind,
-                       int x, int y, double light[3])
+// What is seen of all that does not refract: `around` without the model, `behind` with it.
+struct pictures {
+    double *around, *behind;
+};
+
+static void draw_pixel(const struct picture_oracle *p, const struct camera *c,
+                       const struct pictures *pictures, int x, int y, double light[3])
 {
     double ray[3], ignored[3];
     const double pixel[2] = {x + 0.5, y + 0.5};
     ray_of(c, x, y, ray);
     struct crossing near_pane = {BOX_FRONT, pixel[0] / c->width, pixel[1] / c->height, true};
     struct crossing far_pane;
+    const double *behind = pictures->behind;
+    const double *around = p->mutation == PICTURE_NO_MASK ? behind : pictures->around;
     const bool near = p->one_pane || meet(p, c, ray, true, &near_pane);
     bool far = !p->one_pane && !p->mirror && meet(p, c, ray, false, &far_pane);
     memcpy(light, behind + (y * c->width + x) * 3, 3 * sizeof(*light));
     if (p->mutation != PICTURE_NO_DEPTH)
         far = far && !see_model(p, c, ray, ignored);
     if (near && p->mirror)
-        show_mirror(p, &near_pane, ray, light);
+        show_mirror(p, c, behind, &near_pane, ray, pixel, light);
     if (near && !p->mirror && p->mutation == PICTURE_FAR_OVER_NEAR)
         cover(p, c, behind, &near_pane, ray, pixel, light);
     if (far && p->mutation != PICTURE_NO_FAR)
-        cover(p, c, behind, &far_pane, ray, pixel, light);
+        cover(p, c, around, &far_pane, ray, pixel, light);
     if (near && !p->mirror && p->mutation != PICTURE_FAR_OVER_NEAR)
         cover(p, c, behind, &near_pane, ray, pixel, light);
+}
+
+// The sky, and dry mirrors before it.
+static void see_around(const struct picture_oracle *p, const struct camera *c, int pixel,
+                       double light[3])
+{
+    double ray[3], to[3];
+    ray_of(c, pixel % c->width, pixel / c->width, ray);
+    struct crossing at = {.pane = BOX_FRONT};
+    const bool on_mirror = p->mirror && (p->one_pane || meet(p, c, ray, true, &at));
+    mirrored(ray, p->box.frames[at.pane][2], to);
+    light_from_cube(&p->environment, on_mirror ? to : ray, light);
+    for (int i = 0; on_mirror && i < 3; i++)
+        light[i] *= p->reflectivity;
 }
 
 void picture_oracle_draw(const struct picture_oracle *p, int width, int height, double *light)
 {
     const struct camera c = camera_of(p, width, height);
-    double *behind = malloc((size_t)(width * height * 3) * sizeof(*behind));
+    const size_t bytes = (size_t)(width * height * 3) * sizeof(double);
+    const struct pictures pictures = {malloc(bytes), malloc(bytes)};
     for (int i = 0; i < width * height; i++) {
         double ray[3];
+        see_around(p, &c, i, pictures.around + 3 * i);
         ray_of(&c, i % width, i / width, ray);
-        if (!see_model(p, &c, ray, behind + 3 * i))
-            light_from_cube(&p->environment, ray, behind + 3 * i);
+        if (!see_model(p, &c, ray, pictures.behind + 3 * i))
+            memcpy(pictures.behind + 3 * i, pictures.around + 3 * i, 3 * sizeof(double));
     }
     for (int i = 0; i < width * height; i++)
-        draw_pixel(p, &c, behind, i % width, i / width, light + 3 * i);
-    free(behind);
+        draw_pixel(p, &c, &pictures, i % width, i / width, light + 3 * i);
+    free(pictures.around);
+    free(pictures.behind);
 }

@@ -13,6 +13,7 @@ enum picture_mutation {
     PICTURE_NO_FAR,        // or not at all
     PICTURE_BULGING,       // drops on far panes bulge towards the viewer
     PICTURE_NO_DEPTH,      // far panes are seen before the model
+    PICTURE_NO_MASK,       // drops on far panes show the model, which stands before them
 };
 
 struct picture_oracle {

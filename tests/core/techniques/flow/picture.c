@@ -438,6 +438,7 @@ static void test_mutants_of_mirror_and_model_are_rejected(void **state)
     REJECT(&pair, lamp_elevation_deg, 1, 3, true);
     REJECT(&pair, drop_shadow, 0.8, 0, true);
     reject_mutation(&pair, PICTURE_NO_DEPTH, true);
+    reject_mutation(&pair, PICTURE_NO_MASK, true);
     pair_close(&pair);
 }
 

@@ -1,0 +1,32 @@
+// flow: panes of mirror as they are without water, which water on them shows displaced: the
+// environment where the mirrored view meets it.
+#include "kernels/flow/panes/panes.h"
+#include "kernels/dialect/math.h"
+
+#define RG_PARAMS  flow_view_params
+#define RG_SLOTS   IMAGE(1, RG11B10F, environment) IN(2, flow_pane, panes)
+#define RG_CORNERS 4
+#define RG_RECORD  flow_pane_record
+#include "kernels/dialect/draw/draw.h"
+
+#include "kernels/dialect/image/cube_light.h"
+#include "kernels/flow/panes/item.h"
+
+RG_DRAW_ITEM(flow_dry_mirror)
+{
+    return pane_item(rg, p.to_clip, i);
+}
+
+RG_DRAW_RECORD(flow_dry_mirror)
+{
+    return pane_record(rg, draw, p, i);
+}
+
+RG_DRAW_FRAGMENT(flow_dry_mirror)
+{
+    v3 ray = m4_turn(p.rays, v3_make(rg_to_float(px), rg_to_float(py), 1.0f));
+    v3 mirrored = v3_add(ray, v3_scale(r.n, -2.0f * v3_dot(ray, r.n)));
+    v3 light = v3_scale(light_from(rg, mirrored, 0, p.environment_size), p.reflectivity);
+    return rg_fragment_make(rg_rgba(light.x, light.y, light.z, 1.0f),
+                            rg_planes_depth(r.planes, px, py));
+}
