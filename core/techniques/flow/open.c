@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
-#include "core/scene/environment/environment.h"
 #include "core/scene/mesh/mesh.h"
 #include "core/techniques/flow/instance.h"
+#include "core/techniques/scenery/environment.h"
 #include "kernels/flow/panes/normal_map.h"
 
 static const char *const counter_names[FLOW_COUNTER_COUNT] = {"drops_landed", "texels_moved",
@@ -240,7 +240,8 @@ static void add_maps(struct flow *flow)
 
 static void add_environment(struct flow *flow)
 {
-    struct rg_environment *environment = rg_environment_load(flow->settings.environment);
+    struct rg_environment *environment = scenery_environment(
+        flow->settings.environment, flow->settings.environment_px, flow->base.device);
     struct rg_image *image =
         environment
             ? rg_environment_upload(environment, flow->settings.environment_px,

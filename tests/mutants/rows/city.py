@@ -1,9 +1,10 @@
 """The city: its surfaces, faces, chunks, lamps and how much of the sky is seen."""
 from fault import Fault
 
-TESTS = ("city", "surfaces of the city", "openness", "dioramas", "city, depth, cpu", "city, look, cpu", "streaks lights, reach, cpu")
+TESTS = ("city", "surfaces of the city", "openness", "dioramas", "city, depth, cpu", "city, look, cpu", "city, around, cpu", "streaks lights, reach, cpu")
 
 BUILD, CHUNKS, OPEN = "core/scene/city/build.c", "core/scene/city/chunks.c", "core/scene/city/openness.c"
+AROUND = "core/techniques/scenery/environment.c"
 
 ROWS = [
     Fault(BUILD, "is_level(n) ? 1 / tile_m : «-1 / tile_m», 0, 0", "1 / tile_m", "textures of walls stand on their head"),
@@ -24,4 +25,7 @@ ROWS = [
     Fault(OPEN, "steepest[level] / sqrtf(1 + «steepest[level] * steepest[level]»);", "steepest[level]", "a wall hides less of the sky"),
     Fault(OPEN, "const float over = 1 / (SCENERY_OPEN_CELL_M «* (float)step»);", "* 1", "what is far hides as much as what is near"),
     Fault(OPEN, "(uint32_t)points[i + below] << «16» |", "8", "a cell's corners are mixed up"),
+    Fault(AROUND, "(size_t)(«size - 1 - x»)", "x", "the city's environment is mirrored"),
+    Fault(AROUND, "{0, 1, 0}, {0, 1, 0}, {0, 0, «-1»}", "1", "the sky of the city's environment is turned"),
+    Fault(AROUND, "{0, 0, 1},  {0, 0, «-1»}};\n    static const float up", "1", "the city's environment shows the same before and behind"),
 ]

@@ -8,6 +8,7 @@
 #include "core/image/files/io.h"
 #include "core/scene/environment/blur.h"
 #include "core/techniques/drops/instance.h"
+#include "core/techniques/scenery/environment.h"
 #include "kernels/dialect/image/format.h"
 
 enum { LARGEST_PX = 4096, WIDE_TEXELS = 24, CHANNELS = 4, LEAST_LEVEL_PX = 4 };
@@ -17,7 +18,8 @@ static void add_environment(struct rg_instance *instance, const struct drops_set
     int levels = 1;
     while (s->environment_px >> levels >= LEAST_LEVEL_PX)
         levels++;
-    struct rg_environment *sharp = rg_environment_load(s->environment);
+    struct rg_environment *sharp =
+        scenery_environment(s->environment, s->environment_px, instance->device);
     struct rg_environment *seen =
         sharp ? rg_environment_blur(sharp, 2 * atan(s->aperture_mm / s->distance_mm / 2)) : NULL;
     struct rg_image *image =

@@ -16,7 +16,7 @@ static bool cast(void *user, const float to_clip[16], const struct rg_draw *onto
 void stage_open(struct rg_device *device, const struct stage_settings *settings,
                 struct stage *stage)
 {
-    struct scenery_settings scene = {.city = {1, CITY_SMALL}};
+    struct scenery_settings scene = {.city = {1, settings->whole ? CITY_FULL : CITY_SMALL}};
     if (settings->model)
         strcpy(scene.model, settings->model);
     *stage = (struct stage){.instance = {.device = device}};

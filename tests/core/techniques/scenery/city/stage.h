@@ -27,6 +27,7 @@ struct stage_settings {
     enum scenery_time time;
     int lights;
     bool unshadowed;
+    bool whole; // the whole city, not the small one
 };
 
 // The caller closes it.

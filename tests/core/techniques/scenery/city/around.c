@@ -1,0 +1,119 @@
+// The city as an environment map: around DEVICE. What the map holds for a direction is what a
+// camera in its middle sees there, whichever way it looks.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/scene/environment/cube.h"
+#include "core/techniques/scenery/environment.h"
+#include "tests/core/techniques/scenery/city/stage.h"
+#include "tests/oracle/flow/light.h"
+
+enum { FACE_PX = 512, TILE = 10 };
+
+// The faces without their borders, as the oracle reads them.
+static struct light_cube cube_of(const struct rg_environment *environment)
+{
+    const int n = environment->size;
+    float *light = malloc((size_t)n * (size_t)n * 18 * sizeof(*light)), *to = light;
+    for (int face = 0; face < 6; face++)
+        for (int y = 0; y < n; y++)
+            for (int x = 0; x < n; x++, to += 3)
+                memcpy(to, rg_environment_texel(environment, face, x, y), 3 * sizeof(*to));
+    return (struct light_cube){light, n};
+}
+
+static double half_of(const struct picture *picture, int pixel, int c)
+{
+    const uint32_t half = picture->colour[2 * pixel + c / 2] >> 16 * (c % 2) & 0xffff;
+    const int exponent = (int)(half >> 10 & 31);
+    return ldexp((half & 0x3ff) / 1024.0 + (exponent ? 1 : 0), (exponent ? exponent : 1) - 15);
+}
+
+// Light that a camera's pixels of a tile show, and that the map has for them.
+struct tile {
+    double seen[3], read[3];
+};
+
+static struct tile tile_of(const struct light_cube *cube, const struct rg_camera *camera,
+                           const struct picture *picture, int first, bool turned)
+{
+    struct tile tile = {{0}, {0}};
+    for (int i = 0; i < TILE * TILE; i++) {
+        const int pixel = first + i / TILE * WIDTH + i % TILE;
+        double way[3], light[3];
+        stage_ray(camera, pixel % WIDTH + 0.5, (int)(pixel / WIDTH) + 0.5, way);
+        if (turned)
+            way[0] = -way[0];
+        light_from_cube(cube, way, light);
+        for (int c = 0; c < 3; c++) {
+            tile.seen[c] += half_of(picture, pixel, c);
+            tile.read[c] += light[c];
+        }
+    }
+    return tile;
+}
+
+// The share of a camera's tiles whose light the map does not have within 10 %, when it is read
+// turned from right to left or not. Single pixels are off where edges and texels are finer than
+// they.
+static double share_off(const struct light_cube *cube, const struct rg_camera *camera,
+                        const struct picture *picture, bool turned)
+{
+    int off = 0, tiles = 0;
+    for (int y = 0; y < HEIGHT; y += TILE)
+        for (int x = 0; x < WIDTH; x += TILE) {
+            const struct tile tile = tile_of(cube, camera, picture, y * WIDTH + x, turned);
+            bool differs = false;
+            for (int c = 0; c < 3; c++)
+                differs |= fabs(tile.read[c] - tile.seen[c]) > 0.1 * tile.seen[c];
+            off += differs;
+            tiles++;
+        }
+    return off / (double)tiles;
+}
+
+static void the_map_is_what_is_seen(void **state)
+{
+    static const float ways[][3] = {{0.3f, 0.1f, -1}, {1, 0.4f, 0.5f},  {-1, -0.3f, 0.2f},
+                                    {0.5f, 1, -0.4f}, {-0.3f, 0.2f, 1}, {0.2f, -1, 0.3f}};
+    struct stage stage;
+    struct picture *picture = malloc(sizeof(*picture));
+    const struct scenery_look look = scenery_day();
+    struct rg_environment *environment = scenery_environment("city", FACE_PX, *state);
+    assert_true(environment && environment->size == FACE_PX);
+    const struct light_cube cube = cube_of(environment);
+    stage_open(*state, &(struct stage_settings){.lights = 1, .whole = true}, &stage);
+    for (size_t i = 0; i < sizeof(ways) / sizeof(ways[0]); i++) {
+        float target[3];
+        for (int c = 0; c < 3; c++)
+            target[c] = city_first_camera.position[c] + ways[i][c];
+        const struct rg_camera camera = stage_camera(city_first_camera.position, target);
+        stage_draw(&stage, &camera, &look, false, picture);
+        const double off = share_off(&cube, &camera, picture, false),
+                     turned = share_off(&cube, &camera, picture, true);
+        print_message("view %zu: %.1f %% off, turned %.1f %%\n", i, 100 * off, 100 * turned);
+        assert_true(off < 0.03 && turned > 0.2);
+    }
+    free((float *)cube.light);
+    free(picture);
+    stage_close(&stage);
+    rg_environment_destroy(environment);
+}
+
+static void other_names_are_loaded(void **state)
+{
+    struct rg_environment *sky = scenery_environment("sky", 64, *state);
+    assert_non_null(sky);
+    rg_environment_destroy(sky);
+    assert_null(scenery_environment("no/such.ktx", 64, *state));
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_map_is_what_is_seen),
+        cmocka_unit_test(other_names_are_loaded),
+    };
+    return raster_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
+}
