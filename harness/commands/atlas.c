@@ -2,12 +2,14 @@
 // a technique. Describes and exports them.
 #include <jansson.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include "core/base/log.h"
 #include "core/scene/atlas/cache.h"
 #include "core/scene/atlas/cave/cave.h"
 #include "core/scene/atlas/levels.h"
+#include "harness/atlas/compare.h"
 #include "harness/atlas/export.h"
 #include "harness/atlas/textures.h"
 #include "harness/cli/command.h"
@@ -19,7 +21,7 @@
 
 struct atlas_options {
     struct rg_length length;
-    char *from, *output; // folders
+    char *from, *compare, *output; // folders
     bool json;
 };
 
@@ -34,6 +36,10 @@ static const struct rg_option options[] = {
     {RG_OPTION_TEXT, "from", .argument = "DIR",
      .about = "packs the original database in this folder instead", .offset = AT(from),
      .names = RG_NAMES_FOLDER},
+    {RG_OPTION_TEXT, "compare", .argument = "DIR",
+     .about = "lays what pictures of the original database are in this folder beside the atlas', "
+              "and prints how alike they are",
+     .offset = AT(compare), .names = RG_NAMES_FOLDER},
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "DIR",
      .about = "writes it into this folder, as EXR and PNG files", .offset = AT(output),
@@ -205,9 +211,11 @@ static int make_textures(const struct atlas_options *o, const char *name)
     const struct rg_technique *technique = rg_subject_technique(name);
     if (!technique)
         return RG_EXIT_USAGE;
-    if (o->from || o->length.quick || o->length.full) {
-        rg_error("atlas %s: --from, --quick and --full are about the streak atlas; leave them out",
-                 name);
+    if (o->from || o->compare || o->length.quick || o->length.full) {
+        rg_error(
+            "atlas %s: --from, --compare, --quick and --full are about the streak atlas; leave "
+            "them out",
+            name);
         return RG_EXIT_USAGE;
     }
     if (!rg_textures_make(technique, o->output, &rows))
@@ -219,6 +227,23 @@ static int make_textures(const struct atlas_options *o, const char *name)
     return RG_EXIT_PASS;
 }
 
+// Lays pictures of the database beside those of the atlas.
+static bool compare(const struct atlas_options *o, const struct rg_atlas *atlas)
+{
+    struct rg_cave_comparison comparison;
+    struct rg_progress progress;
+    const struct rg_atlas_progress tells = {tell, &progress};
+    rg_progress_start(&progress, 1);
+    rg_progress_label(&progress, "comparing pictures");
+    const bool good = rg_cave_compare(o->compare, atlas, &tells, &comparison);
+    rg_progress_end(&progress);
+    if (!good)
+        return false;
+    rg_cave_print(&comparison, atlas, o->compare, o->json);
+    free(comparison.rows);
+    return true;
+}
+
 static int atlas_command(const void *values, const struct rg_words *arguments)
 {
     const struct atlas_options *o = values;
@@ -227,10 +252,12 @@ static int atlas_command(const void *values, const struct rg_words *arguments)
     struct found found;
     if (!find(o, &found))
         return RG_EXIT_USAGE;
-    const bool good = !o->output || rg_atlas_export(found.atlas, o->output);
-    if (good && o->json)
+    const bool good = (!o->output || rg_atlas_export(found.atlas, o->output)) &&
+                      (!o->compare || compare(o, found.atlas));
+    const bool describes = good && !o->compare;
+    if (describes && o->json)
         print_json(&found);
-    else if (good)
+    else if (describes)
         print_text(&found);
     rg_atlas_destroy(found.atlas);
     return good ? RG_EXIT_PASS : RG_EXIT_USAGE;
@@ -238,7 +265,7 @@ static int atlas_command(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_atlas = {
     .name = "atlas",
-    .usage = "[TECHNIQUE] [--quick|--full] [--from DIR] [-o DIR] [--json]",
+    .usage = "[TECHNIQUE] [--quick|--full] [--from DIR] [--compare DIR] [-o DIR] [--json]",
     .about = "makes the streak atlas or a technique's textures; describes and exports them",
     .options = options,
     .options_size = sizeof(struct atlas_options),

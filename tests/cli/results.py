@@ -6,8 +6,10 @@ import os
 import pty
 import re
 import signal
+import struct
 import tempfile
 import time
+import zlib
 
 import forms
 from cases import DIFF, FORMATS, NO_CACHE, RENDER, SMALL, STAGES, TABLE
@@ -425,6 +427,37 @@ def check_atlas(runner):
             rows = list(csv.DictReader(file))
         if len(rows) != 10 * 5 * 91 or not all(float(row["factor"]) > 0 for row in rows):
             problems.append("factors.csv: %d rows" % len(rows))
+    return problems
+
+
+def write_codes(path, width, rows):
+    """A grey PNG of 16 bits."""
+    lines = b"".join(b"\0" + b"".join(struct.pack(">H", code) for code in row) for row in rows)
+    chunks = ((b"IHDR", struct.pack(">IIBBBBB", width, len(rows), 16, 0, 0, 0, 0)), (b"IDAT", zlib.compress(lines)), (b"IEND", b""))
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n" + b"".join(
+            struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data)) for name, data in chunks))
+
+
+def check_compared(runner):
+    """atlas --compare lays pictures of the database beside ours: those of chance are like none, one of an even sky is like its own"""
+    with tempfile.TemporaryDirectory() as tmp:
+        os.mkdir(tmp + "/cam")
+        for k in range(4):  # pixels of chance, by a generator of their own
+            codes = [[(7919 * (row * 8 + column + 1) * (k + 3) ** 2) % 65521 for column in range(8)] for row in range(262)]
+            write_codes("%s/cam/cv0_v10_h%d_osc%d.png" % (tmp, 20 * k + 10, k), 8, codes)
+        chord = [max(1 - ((column - 3.5) / 2.97) ** 2, 0) ** 0.5 for column in range(8)]
+        ends = [min(1, min(row, 261 - row) / 6) for row in range(262)]
+        write_codes(tmp + "/cv0_osc0.png", 8, [[int(60000 * c * e) for c in chord] for e in ends])
+        told, status, problems = run_json(runner, "atlas --quick --compare " + tmp, form="likeness")
+        text = runner.run(["atlas", "--quick", "--compare", tmp]).stdout
+    sets = {row["set"]: row for row in told["sets"]}
+    if status or sets["everywhere"]["median"] < 0.95 or sets["view 0"]["pictures"] != 4 or abs(sets["view 0"]["median"]) > 0.3:
+        problems.append("exit status %d, %s" % (status, told["sets"]))
+    if len(told["pictures"]) != 5 or told["brightness"] is not None or "mean brightness: not compared" not in text:
+        problems.append("%s\n%s" % (told, text))
+    if not re.search(r"\nlight from everywhere +1 +0\.9\d\d +100\.0 % +0\.9\d\d  cv0_osc0\.png\n", text):
+        problems.append(text)
     return problems
 
 

@@ -34,7 +34,7 @@ import results
 from runner import Runner
 
 SUITES = {
-    "atlas": lambda runner: runner.check_all([results.check_atlas]),
+    "atlas": lambda runner: runner.check_all([results.check_atlas, results.check_compared]),
     "cases": lambda runner: cases.run(runner, cases.COMMANDS),
     "renders": lambda runner: cases.run(runner, cases.RENDERS),
     "tables": lambda runner: cases.run(runner, cases.TABLES),

@@ -1,10 +1,11 @@
 """The atlas of streaks and splashes: its cells, levels, lobes and hash."""
 from fault import Fault
 
-TESTS = ("atlas, lobes", "atlas, rays", "atlas, cache", "atlas, database", "atlas, streaks")
+TESTS = ("atlas, lobes", "atlas, rays", "atlas, cache", "atlas, database", "atlas, compared", "atlas, streaks")
 OWN_CACHE = True  # what a fault makes of the atlas is kept by nobody
 
 LOBES, LEVELS = "core/scene/atlas/lights.c", "core/scene/atlas/levels.c"
+FIND, COMPARE, FIGURES = "core/scene/atlas/cave/find.c", "core/scene/atlas/cave/compare.c", "harness/atlas/compare.c"
 
 ROWS = [
     Fault(LOBES, "direction[0] = (float)(cos(elevation) * «sin(azimuth)»);", "-sin(azimuth)", "lights of the atlas are mirrored"),
@@ -18,4 +19,12 @@ ROWS = [
     Fault(LEVELS, "return sum «/ area»;", "/ 1", "a smaller level of the atlas is brighter"),
     Fault(LEVELS, "return to > from ? «to - from» : 0;", "1", "a pixel that is shared counts wholly"),
     Fault(LEVELS, "return layer_texels * (size_t)layer + «rg_atlas_image_texels(&above)»;", "0", "levels of the atlas lie upon each other"),
+    Fault(FIND, "by_width = «y->width - x->width»;", "x->width - y->width", "of a picture's widths the smallest is compared"),
+    Fault(FIND, "return «!name[end]» && k >= 0", "true", "names that only begin like the database's are taken"),
+    Fault(COMPARE, "{0, 1, «4», 3, 2, 5, 8, 7, 6, 9}", "2", "a drop that swings to the right is its own mirror image"),
+    Fault(COMPARE, "(«mirrored» ? width - 1 - c : c)", "false", "no picture is laid beside ours mirrored"),
+    Fault(COMPARE, "const double x = (double)a[i] «- sum_a / count»", "- 0", "pictures correlate about black, not their mean"),
+    Fault(COMPARE, "row->flat |= «!correlate(w->ours, w->theirs, count, &row->correlation[way])»;", "(correlate(w->ours, w->theirs, count, &row->correlation[way]), false)", "even pictures count as unlike"),
+    Fault(FIGURES, "above += «value > GOOD»;", "value > 0.5", "pictures above one half count as good"),
+    Fault(FIGURES, "const double x = «log(row->ours)», y", "row->ours", "brightness is compared by itself, not by its logarithm"),
 ]

@@ -8,7 +8,6 @@
 #include <cmocka.h>
 #include <ftw.h>
 #include <math.h>
-#include <png.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,6 +19,7 @@
 #include "core/scene/atlas/cave/cave.h"
 #include "core/scene/atlas/levels.h"
 #include "core/techniques/streaks/instance.h"
+#include "tests/core/scene/atlas/codes.h"
 
 enum { PATH_SIZE = 512 };
 
@@ -60,27 +60,13 @@ enum { BRIGHTER = 300 };
 
 static void write_png(const char *path, int width, int height, int view, bool env, bool is_left)
 {
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
-    png_infop info = png_create_info_struct(png);
-    png_init_io(png, file);
-    png_set_IHDR(png, info, (png_uint_32)width, (png_uint_32)height, 16, PNG_COLOR_TYPE_GRAY,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_write_info(png, info);
-    for (int r = 0; r < height; r++) {
-        unsigned char row[64];
-        for (int c = 0; c < width; c++) {
-            const int code =
-                code_of(view, env, r, height) + ((c < width / 2) == is_left ? BRIGHTER : 0);
-            row[2 * c] = (unsigned char)(code >> 8);
-            row[2 * c + 1] = (unsigned char)code;
-        }
-        png_write_row(png, row);
-    }
-    png_write_end(png, NULL);
-    png_destroy_write_struct(&png, &info);
-    assert_int_equal(fclose(file), 0);
+    uint16_t *codes = malloc((size_t)(width * height) * sizeof(*codes));
+    for (int r = 0; r < height; r++)
+        for (int c = 0; c < width; c++)
+            codes[r * width + c] = (uint16_t)(code_of(view, env, r, height) +
+                                              ((c < width / 2) == is_left ? BRIGHTER : 0));
+    write_codes(path, width, height, codes);
+    free(codes);
 }
 
 static void make_folder(const char *format, ...) __attribute__((format(printf, 1, 2)));
