@@ -66,6 +66,8 @@ struct flow {
     struct rg_instance base;
     struct flow_settings settings; // resolution_px is what flow_texels made of it
     int pane_count, noise_size;
+    int finest_px;                   // the most that resolution_px becomes as the camera moves
+    struct rg_fact *texels;          // resolution_px, where the camera decides; else NULL
     struct rg_asset *water, *moved;  // of this frame, and scratch for the next
     struct rg_asset *kept, *heading; // directions of texels, likewise; NULL: they keep none
     struct rg_asset *panes;          // how they stand
@@ -90,6 +92,23 @@ bool flow_draw(struct rg_instance *instance);
 
 // Lands `count` drops on each pane: the seeded ones (`frame` is -1), or those of a frame.
 bool flow_land(struct flow *flow, int64_t frame, int count);
+// --- the level of detail (detail.c) ---
+
+// Words of all panes' maps, at the level that needs most.
+struct flow_sizes {
+    int64_t texels, cells, rows;
+};
+struct flow_sizes flow_most_sizes(const struct flow *flow);
+// Sets the level of the first frame; then, once the maps are there, what depends on it.
+void flow_open_detail(struct flow *flow);
+void flow_use_detail(struct flow *flow);
+// Takes the level that the camera's distance asks for at the present frame, with the water that is
+// there: its volume is kept but for a droplet a pane. Directions of texels are forgotten.
+bool flow_follow_camera(struct flow *flow);
+bool flow_change_detail(struct flow *flow, int texels);
+// Writes the map of beads of the present level.
+bool flow_write_beads(struct flow *flow);
+
 // Tells what is on the panes: the facts, all 0, and what they are at the present frame.
 void flow_add_survey(struct flow *flow);
 bool flow_survey(struct flow *flow);

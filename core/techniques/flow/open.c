@@ -169,12 +169,12 @@ static void add_normals(struct flow *flow, int64_t texels)
 static void add_water(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;
-    const int n = flow->settings.resolution_px, row = n + 2 * FLOW_MARGIN;
-    const int64_t texels = (int64_t)flow->pane_count * flow_map_length(n);
+    const int64_t texels = flow_most_sizes(flow).texels;
+    const int row = 1; // flow_use_detail sets it
     flow->water = rg_add_buf(i, "water", texels, NULL);
     flow->moved = rg_add_buf(i, "moved", texels, NULL);
-    rg_set_items(rg_add_buf(i, "given", texels, NULL), n, n, flow->pane_count);
-    rg_set_items(rg_add_buf(i, "arriving", texels, NULL), n, FLOW_STRIPS, flow->pane_count);
+    rg_add_buf(i, "given", texels, NULL);
+    rg_add_buf(i, "arriving", texels, NULL);
     rg_add_buf(i, "blurred", texels, NULL);
     add_normals(flow, texels);
     flow->panes = rg_add_buf(i, "panes", FLOW_MAX_PANES * (int64_t)sizeof(flow_pane) / 4, NULL);
@@ -195,37 +195,22 @@ static void add_map(struct flow *flow, const char *name, float *values, int64_t 
     free(values);
 }
 
-// The map of beads twice beside itself, so that a pane whose beads are shifted reads on to the
-// right.
-static void add_beads(struct flow *flow)
-{
-    const size_t n = (size_t)flow->settings.resolution_px;
-    float *map = flow_bead_map(&flow->settings);
-    float *twice = map ? rg_alloc(2 * n * n, sizeof(*twice), "bead map") : NULL;
-    for (size_t row = 0; twice && row < 2 * n; row++)
-        memcpy(twice + row * n, map + row / 2 * n, n * sizeof(*map));
-    free(map);
-    add_map(flow, "beads", twice, (int64_t)(2 * n * n));
-}
-
 // Maps of the lattice over all panes, and what the texels have beside water.
 static void add_sliding(struct flow *flow)
 {
     struct rg_instance *i = &flow->base;
-    const int n = flow->settings.resolution_px, cells = flow_lattice_cells(&flow->settings);
-    const int64_t texels = (int64_t)flow->pane_count * flow_map_length(n);
-    const int64_t all = (int64_t)flow->pane_count * flow_map_length(cells);
-    rg_set_items(rg_add_buf(i, "level", all, NULL), cells, cells, flow->pane_count);
+    const struct flow_sizes most = flow_most_sizes(flow);
+    const int64_t texels = most.texels, all = most.cells, rows = most.rows;
+    rg_add_buf(i, "level", all, NULL);
     rg_add_buf(i, "close", all, NULL);
     rg_add_buf(i, "wide", all, NULL);
     rg_add_buf(i, "pace", all, NULL);
     rg_add_buf(i, "ridge", all, NULL);
-    const int64_t rows = (int64_t)flow->pane_count * (cells + 2) * (n + 2 * FLOW_MARGIN);
-    rg_set_items(rg_add_buf(i, "close_rows", rows, NULL), n, cells, flow->pane_count);
+    rg_add_buf(i, "close_rows", rows, NULL);
     rg_add_buf(i, "ridge_rows", rows, NULL);
     rg_add_buf(i, "pull", texels, NULL);
     rg_add_buf(i, "paced", texels, NULL);
-    add_beads(flow);
+    rg_add_buf(i, "beads", 2 * (int64_t)flow->finest_px * flow->finest_px, NULL);
     flow->ways = rg_add_buf(i, "ways", 2 * FLOW_PACES * FLOW_MAX_PANES, NULL);
 }
 
@@ -350,19 +335,23 @@ bool flow_open(struct rg_instance *instance)
 {
     struct flow *flow = (struct flow *)instance;
     const struct flow_settings *s = &flow->settings;
-    flow->settings.resolution_px = flow_texels(s, instance->target->desc.height);
     flow->pane_count = flow_pane_count(s);
+    flow_open_detail(flow);
     rg_add_counters(instance, counter_names,
                     has_model(instance) ? FLOW_COUNTER_COUNT : FLOW_TRIANGLES);
     add_water(flow);
     add_maps(flow);
     if (is_sliding(instance))
         add_sliding(flow);
+    if (s->texels_a_pixel > 0)
+        flow->texels = rg_tell(instance, "texels", s->resolution_px);
+    flow_use_detail(flow);
     add_images(flow);
     add_model(flow);
     if (s->survey)
         flow_add_survey(flow);
-    if (rg_open_stages(instance, stages, FLOW_PASS_COUNT, flow, NULL) < 0)
+    if (rg_open_stages(instance, stages, FLOW_PASS_COUNT, flow, NULL) < 0 ||
+        !flow_write_beads(flow))
         return false;
     if (s->model_sides == FLOW_BOTH_SIDES)
         instance->stages[FLOW_MODEL].row.cull = RG_CULL_NONE;

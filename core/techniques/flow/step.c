@@ -140,6 +140,8 @@ static bool slide(struct flow *flow)
 bool flow_step(struct rg_instance *instance)
 {
     struct flow *flow = (struct flow *)instance;
+    if (!flow_follow_camera(flow))
+        return false;
     const int n = flow->settings.resolution_px;
     flow->movement = flow_params_at(&flow->settings, flow->noise_size, instance->frame);
     const bool ok =

@@ -2,13 +2,13 @@
 from fault import Fault
 
 TESTS = ("camera", "matrices", "light file", "environment", "density maps", "rain space", "mesh edges", "mesh models", "mesh files",
-         "openness", "rain packets, grid", "streaks, sizes", "streaks lights, cpu")
+         "openness", "rain packets, grid", "flow detail", "streaks, sizes", "streaks lights, cpu")
 
 CAMERA, MATRIX, LIGHTS = "core/scene/camera.c", "core/scene/matrix.c", "core/scene/light_file.c"
 DENSITY, SPACE, SPECTRUM = "core/scene/density.c", "core/scene/rain_space.c", "core/scene/spectrum.c"
 BLUR, CUBE, KTX, LOAD = ("core/scene/environment/blur.c", "core/scene/environment/cube.c", "core/scene/environment/ktx.c",
                          "core/scene/environment/environment.c")
-GRID = "core/techniques/streaks/packets/grid.c"
+GRID, DETAIL = "core/techniques/streaks/packets/grid.c", "core/techniques/flow/detail.c"
 EDGES, FACES, MESH = "core/scene/mesh/edges.c", "core/scene/mesh/faces.c", "core/scene/mesh/mesh.c"
 
 ROWS = [
@@ -39,6 +39,11 @@ ROWS = [
     Fault(GRID, "if («is_fine(map, grid)»)\n            return", "true", "a grid's cells are as large as packets allow, whatever the map"),
     Fault(GRID, "(fmin(x + 1, right) «- fmax(x, left)») *", "- 0", "what cells move counts texels whole from the map's left"),
     Fault(GRID, "return (int)floor(level + «(double)rg_uniform(cell_random(seed, cell).x)»);", "0", "levels of a grid's cells are rounded down"),
+    Fault(DETAIL, "due > now ? due : «spare < now ? spare : now»;", "due", "a level of detail flickers on its border"),
+    Fault(DETAIL, "left = «sum % 4»;", "0", "a coarser level of detail loses water"),
+    Fault(DETAIL, "here + (k % 2 ? across : «-across»)", "across", "a finer level of detail makes water"),
+    Fault(DETAIL, "return («magnitude(a) < magnitude(b)» ? a : b) / 4;", "magnitude(a) > magnitude(b)", "a finer level of detail has texels higher than all around"),
+    Fault(DETAIL, "«ledger[FLOW_LEDGER_SOURCED] += (uint32_t)panes->droplets[i]»;", "ledger[0] += 0", "the ledger does not know of a new level of detail"),
     Fault(SPACE, "fall[1] = «-cos(slant)»;", "cos(slant)", "rain falls upwards"),
     Fault(SPACE, "fall[2] = sin(slant) * «sin(azimuth)»;", "-sin(azimuth)", "rain slants to the other side"),
     Fault(SPACE, "space->half_y_m = «settings->depth_m / 2»;", "settings->width_m / 2", "the space of rain is square"),

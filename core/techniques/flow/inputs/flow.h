@@ -23,7 +23,7 @@ struct flow_settings {
     char model[RG_PATH_SIZE];
     int model_faces, model_sides;
     double model_size, model_grey;
-    double distance_mm, camera_azimuth_deg, camera_elevation_deg, view_angle_deg;
+    double distance_mm, camera_mm_s, camera_azimuth_deg, camera_elevation_deg, view_angle_deg;
     double pitch_deg, yaw_deg, roll_deg;
     double spin_pitch_deg_s, spin_yaw_deg_s, spin_roll_deg_s;
     double pane_mm, frame_mm;
@@ -72,8 +72,11 @@ void flow_pane_frame(const struct flow_settings *settings, int pane, int64_t fra
 void flow_panes_at(const struct flow_settings *settings, int noise_size, int64_t frame,
                    flow_pane *panes);
 
+// How far the camera is from the middle of the box at a frame. It comes no nearer than half a
+// pane's side beyond the box's corners, unless it begins there.
+double flow_distance_mm(const struct flow_settings *settings, int64_t frame);
 // Texels along a side of a pane: resolution_px, or what the distance to the camera asks for.
-int flow_texels(const struct flow_settings *settings, int height_px);
+int flow_texels(const struct flow_settings *settings, int64_t frame, int height_px);
 
 // The parameters of the movement's and the normal map's kernels at a frame.
 flow_params flow_params_at(const struct flow_settings *settings, int noise_size, int64_t frame);

@@ -13,6 +13,7 @@ static const struct rg_param rows[] = {
     {"model_size", RG_PARAM_FLOAT, AT(model_size), 0.62, 0.01, 1, "1", "the model's longest side, in sides of the box", NULL},
     {"model_grey", RG_PARAM_FLOAT, AT(model_grey), 0.8, 0, 1, "1", "share of the light that the model reflects", NULL},
     {"distance_mm", RG_PARAM_FLOAT, AT(distance_mm), 400, 1, 1000000, "mm", "from the camera to the middle of the box", NULL},
+    {"camera_mm_s", RG_PARAM_FLOAT, AT(camera_mm_s), 0, -100000, 100000, "mm/s", "how fast the camera moves away from the box; below 0: towards it, until it is near", NULL},
     {"camera_azimuth_deg", RG_PARAM_FLOAT, AT(camera_azimuth_deg), 28, -360, 360, "deg", "where the camera stands around the box: 0 in front, 90 at its right", NULL},
     {"camera_elevation_deg", RG_PARAM_FLOAT, AT(camera_elevation_deg), 16, -89, 89, "deg", "how far above the horizon the camera stands", NULL},
     {"resolution_px", RG_PARAM_INT, AT(resolution_px), 512, 16, 8192, "px", "texels along a side of a pane's height map", NULL},

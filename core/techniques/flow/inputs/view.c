@@ -36,14 +36,21 @@ int flow_environment_levels(const struct flow_settings *s)
     return (reflection > ambient ? reflection : ambient) + 1;
 }
 
-int flow_texels(const struct flow_settings *s, int height_px)
+double flow_distance_mm(const struct flow_settings *s, int64_t frame)
+{
+    const double nearest = fmin(s->distance_mm, (sqrt(3) + 1) / 2 * s->pane_mm);
+    return fmax(s->distance_mm + s->camera_mm_s * s->step_s * (double)frame, nearest);
+}
+
+int flow_texels(const struct flow_settings *s, int64_t frame, int height_px)
 {
     if (s->texels_a_pixel <= 0)
         return s->resolution_px;
     // How many pixels the side of a pane covers, at the distance of the box's middle.
     const double half = tan(s->view_angle_deg * M_PI / 360);
-    const double px =
-        s->view == FLOW_BOX ? height_px * s->pane_mm / (2 * s->distance_mm * half) : height_px;
+    const double px = s->view == FLOW_BOX
+                          ? height_px * s->pane_mm / (2 * flow_distance_mm(s, frame) * half)
+                          : height_px;
     int texels = s->resolution_px;
     while (texels / 2 >= px * s->texels_a_pixel && texels / 2 >= 4 * FLOW_MARGIN)
         texels /= 2;
@@ -93,11 +100,12 @@ static void see_pane(const struct flow_settings *s, int64_t frame, int width, in
     p->rays = rays_of(right, down, ahead, eye, width, height);
 }
 
-static bool see_box(const struct flow_settings *s, int width, int height, flow_view_params *p)
+static bool see_box(const struct flow_settings *s, int64_t frame, int width, int height,
+                    flow_view_params *p)
 {
     double eye[3], right[3], down[3], ahead[3];
     direction_of(s->camera_azimuth_deg, s->camera_elevation_deg, eye);
-    const double distance = s->distance_mm * 2 / s->pane_mm;
+    const double distance = flow_distance_mm(s, frame) * 2 / s->pane_mm;
     for (int i = 0; i < 3; i++)
         eye[i] *= distance;
     const struct rg_camera camera = {
@@ -152,7 +160,7 @@ bool flow_view_params_at(const struct flow_settings *s, int64_t frame, int width
         .wet_per_height = (float)(1 / s->wet_height),
     };
     if (s->view == FLOW_BOX)
-        return see_box(s, width, height, p);
+        return see_box(s, frame, width, height, p);
     see_pane(s, frame, width, height, p);
     return true;
 }

@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "tests/core/techniques/flow/rig.h"
-#include "tests/core/techniques/flow/slide_oracle.h"
+#include "tests/oracle/flow/slide.h"
 
 static const char *device = "cpu:reference";
 

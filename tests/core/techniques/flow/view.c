@@ -466,14 +466,14 @@ static void test_resolution_follows_the_distance(void **state)
         s.resolution_px = most_px[i];
         s.texels_a_pixel = 0;
         s.distance_mm = 5000;
-        assert_int_equal(flow_texels(&s, 600), most_px[i]);
+        assert_int_equal(flow_texels(&s, 0, 600), most_px[i]);
         s.texels_a_pixel = 1.5;
         int kinds = 0, last = 0;
         for (s.distance_mm = 50; s.distance_mm < 20000; s.distance_mm *= 1.07) {
             const double half_view_mm =
                 s.distance_mm * tan(s.view_angle_deg / 2 * 0.017453292519943);
             const double due = 1.5 * 600 * s.pane_mm / (2 * half_view_mm);
-            const int texels = flow_texels(&s, 600), fold = most_px[i] / texels;
+            const int texels = flow_texels(&s, 0, 600), fold = most_px[i] / texels;
             kinds += texels != last;
             last = texels;
             if (texels < 16 || (fold & (fold - 1)) || most_px[i] / fold != texels ||

@@ -1,4 +1,4 @@
-#include "tests/core/techniques/flow/slide_oracle.h"
+#include "tests/oracle/flow/slide.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // An independent model of drops that slide, in double precision and millimetres, written from
 // docs/flow.md. Water is no whole number of droplets here.
-#ifndef RG_TESTS_CORE_TECHNIQUES_FLOW_SLIDE_ORACLE_H
-#define RG_TESTS_CORE_TECHNIQUES_FLOW_SLIDE_ORACLE_H
+#ifndef RG_TESTS_ORACLE_FLOW_SLIDE_H
+#define RG_TESTS_ORACLE_FLOW_SLIDE_H
 
 struct slide_oracle {
     int n, cells; // texels and cells of the lattice along a side; n is a multiple of cells
