@@ -71,7 +71,7 @@ def check_growth(runner):
     cells, shape = report["cells"], report["shapes"][0]
     if status or len(report["shapes"]) != 1 or shape["verdict"] != "growth" or shape["published_slope"] is not None:
         problems.append("exit status %d, shapes: %s" % (status, report["shapes"]))
-    if shape["slope"] >= 0 or shape["slope_low"] is not None:  # two rows have no interval
+    if not shape["slope_low"] <= shape["slope"] <= shape["slope_high"] < 0:
         problems.append("shape: %s" % shape)
     for cell in cells:  # it rains until the pane is full, and goes on
         drops, most = cell["counted"]["drops_stepped"], cell["row"]["max_drops"]

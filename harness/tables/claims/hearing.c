@@ -54,6 +54,14 @@ static bool has_number(const struct hearing *h, int row, int variant)
                            : r->outcome == RG_OK && r->sample_count > 0;
 }
 
+// Of both variants.
+static int fewest_samples(const struct hearing *h, int row)
+{
+    const int count = rg_hearing_row(h, row)->sample_count;
+    const int other = h->other < 0 ? count : rg_hearing_row_of(h, row, h->other)->sample_count;
+    return count < other ? count : other;
+}
+
 // Whether each row stands for itself, so that those that are measured suffice.
 static bool is_of_each_row(const struct rg_claim *c)
 {
@@ -78,6 +86,14 @@ static bool hear_rows(struct hearing *h)
             if (can_miss(c, row))
                 continue;
             rg_hearing_end(h, RG_CLAIM_UNDECIDED, "row %d is not measured", row);
+            return false;
+        }
+        const int fewest = fewest_samples(h, row);
+        if (fewest < RG_LEAST_SAMPLES && !is_of_errors(h)) {
+            if (can_miss(c, row))
+                continue;
+            rg_hearing_end(h, RG_CLAIM_UNDECIDED, "row %d has %d samples, and 6 are needed", row,
+                           fewest);
             return false;
         }
         double apart;

@@ -25,4 +25,8 @@ const struct rg_record *rg_hearing_row_of(const struct hearing *h, int row, int 
 // Whether the paper's own numbers speak against the claim. Where it prints none, they do not.
 bool rg_hearing_print_contradicts(const struct hearing *h);
 
+// How far a ratio that the claim reads off its table can be from that of the rows' own rates, as a
+// share: by the rounding of both numbers. 0 of an order, and where nothing is printed.
+double rg_hearing_margin(const struct hearing *h);
+
 #endif

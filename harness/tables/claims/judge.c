@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "harness/tables/claims/hearing.h"
+#include "harness/tables/claims/margin.h"
 #include "harness/tables/claims/order.h"
 
 // Half of the 5 % is for either side.
@@ -26,9 +27,31 @@ struct parts {
 
 static const struct parts no_parts = {.in_favour = 1};
 
-// `faster` is to be at least `factor` times as fast as `slower`.
+static void add_probabilities(struct parts *parts, double against, double in_favour,
+                              const char about[160])
+{
+    if (!parts->count || against > parts->against) {
+        parts->against = against;
+        memcpy(parts->least_sure, about, sizeof(parts->least_sure));
+    }
+    if (!parts->count || in_favour < parts->in_favour) {
+        parts->in_favour = in_favour;
+        memcpy(parts->most_wrong, about, sizeof(parts->most_wrong));
+    }
+    parts->count++;
+}
+
+// How many times as fast one cell is to be as another: surely, so that it counts for the claim, and
+// so that less counts against it. They differ by what print does not tell (claims/margin.h).
+struct bound {
+    double holds, fails;
+};
+
+static const struct bound faster_at_all = {1, 1};
+
+// `faster` is to be so many times as fast as `slower`.
 static void add_part(struct parts *parts, const struct rg_record *faster,
-                     const struct rg_record *slower, double factor)
+                     const struct rg_record *slower, struct bound bound)
 {
     char name[2][40], about[160];
     rg_record_row_name(faster, name[0], sizeof(name[0]));
@@ -39,20 +62,13 @@ static void add_part(struct parts *parts, const struct rg_record *faster,
     else
         snprintf(about, sizeof(about), "%s against %s: %.4g to %.4g fps", name[0], name[1],
                  rg_record_fps(faster), rg_record_fps(slower));
-    const double against = rg_order_probability(faster->samples_ms, faster->sample_count, factor,
-                                                slower->samples_ms, slower->sample_count);
+    const double against =
+        rg_order_probability(faster->samples_ms, faster->sample_count, bound.holds,
+                             slower->samples_ms, slower->sample_count);
     const double in_favour =
-        rg_order_probability(slower->samples_ms, slower->sample_count, 1 / factor,
+        rg_order_probability(slower->samples_ms, slower->sample_count, 1 / bound.fails,
                              faster->samples_ms, faster->sample_count);
-    if (!parts->count || against > parts->against) {
-        parts->against = against;
-        memcpy(parts->least_sure, about, sizeof(about));
-    }
-    if (!parts->count || in_favour < parts->in_favour) {
-        parts->in_favour = in_favour;
-        memcpy(parts->most_wrong, about, sizeof(about));
-    }
-    parts->count++;
+    add_probabilities(parts, against, in_favour, about);
 }
 
 static struct rg_judgement judge_parts(struct hearing *h, const struct parts *parts)
@@ -73,7 +89,8 @@ static struct rg_judgement judge_falls(struct hearing *h)
 {
     struct parts parts = no_parts;
     for (int i = 0; i + 1 < h->count; i++)
-        add_part(&parts, rg_hearing_row(h, h->rows[i]), rg_hearing_row(h, h->rows[i + 1]), 1);
+        add_part(&parts, rg_hearing_row(h, h->rows[i]), rg_hearing_row(h, h->rows[i + 1]),
+                 faster_at_all);
     return judge_parts(h, &parts);
 }
 
@@ -84,8 +101,8 @@ static struct rg_judgement judge_order(struct hearing *h)
         for (int b = 0; b < h->count; b++) {
             const struct rg_record *fast = rg_hearing_row(h, h->rows[a]),
                                    *slow = rg_hearing_row(h, h->rows[b]);
-            if (rg_record_published_fps(fast) > rg_record_published_fps(slow))
-                add_part(&parts, fast, slow, 1);
+            if (rg_margin_orders(rg_record_published_fps(fast), rg_record_published_fps(slow)))
+                add_part(&parts, fast, slow, faster_at_all);
         }
     }
     return judge_parts(h, &parts);
@@ -94,19 +111,22 @@ static struct rg_judgement judge_order(struct hearing *h)
 static struct rg_judgement judge_ratio(struct hearing *h)
 {
     struct parts parts = no_parts;
+    const double least = h->claim->least, margin = rg_hearing_margin(h);
     add_part(&parts, rg_hearing_row(h, h->claim->first), rg_hearing_row(h, h->claim->last),
-             h->claim->least);
+             (struct bound){least * (1 + margin), least * (1 - margin)});
     return judge_parts(h, &parts);
 }
 
 static struct rg_judgement judge_alike(struct hearing *h, double apart)
 {
     struct parts parts = no_parts;
+    const double margin = rg_hearing_margin(h);
+    const struct bound bound = {1 / (apart * (1 - margin)), 1 / (apart * (1 + margin))};
     for (int a = 0; a < h->count; a++)
         for (int b = 0; b < h->count; b++)
             if (a != b)
                 add_part(&parts, rg_hearing_row(h, h->rows[a]), rg_hearing_row(h, h->rows[b]),
-                         1 / apart);
+                         bound);
     return judge_parts(h, &parts);
 }
 
@@ -126,25 +146,28 @@ static struct rg_judgement judge_apart(struct hearing *h)
 static struct rg_judgement judge_faster(struct hearing *h)
 {
     struct parts parts = no_parts;
+    const struct bound bound = {h->claim->least, h->claim->least};
     for (int i = 0; i < h->count; i++)
         add_part(&parts, rg_hearing_row(h, h->rows[i]), rg_hearing_row_of(h, h->rows[i], h->other),
-                 h->claim->least);
+                 bound);
     return judge_parts(h, &parts);
 }
 
-// Of frame rates themselves, the samples' own interval decides.
+// Of frame rates themselves, the samples on either side of what is due decide.
 static struct rg_judgement judge_rate(struct hearing *h)
 {
-    double low = INFINITY, high = INFINITY;
+    struct parts parts = no_parts;
+    const double due_ms = 1000 / h->claim->least;
     for (int i = 0; i < h->count; i++) {
-        low = fmin(low, 1000 / rg_hearing_row(h, h->rows[i])->frame_ms.high);
-        high = fmin(high, 1000 / rg_hearing_row(h, h->rows[i])->frame_ms.low);
+        const struct rg_record *r = rg_hearing_row(h, h->rows[i]);
+        char name[60], about[160];
+        rg_record_row_name(r, name, sizeof(name));
+        snprintf(about, sizeof(about), "%s: %.3g to %.3g fps, due are %.3g", name,
+                 1000 / r->frame_ms.high, 1000 / r->frame_ms.low, h->claim->least);
+        add_probabilities(&parts, rg_sign_probability(r->samples_ms, r->sample_count, due_ms, 1),
+                          rg_sign_probability(r->samples_ms, r->sample_count, due_ms, -1), about);
     }
-    const enum rg_claim_verdict verdict = low >= h->claim->least   ? RG_CLAIM_REPRODUCED
-                                          : high < h->claim->least ? RG_CLAIM_NOT_REPRODUCED
-                                                                   : RG_CLAIM_UNDECIDED;
-    return rg_hearing_end(h, verdict, "the slowest row makes %.3g to %.3g fps, due are %.3g", low,
-                          high, h->claim->least);
+    return judge_parts(h, &parts);
 }
 
 static double axis_at(const struct hearing *h, int row)
@@ -158,20 +181,21 @@ static double axis_at(const struct hearing *h, int row)
 
 static struct rg_judgement judge_exponent(struct hearing *h)
 {
-    double axis[RG_RESULT_ROWS], fps[RG_RESULT_ROWS];
+    struct rg_slope_point points[RG_RESULT_ROWS];
     for (int i = 0; i < h->count; i++) {
-        axis[i] = log(axis_at(h, h->rows[i]));
-        fps[i] = log(rg_record_fps(rg_hearing_row(h, h->rows[i])));
+        const struct rg_record *r = rg_hearing_row(h, h->rows[i]);
+        points[i] = (struct rg_slope_point){
+            .x = log(axis_at(h, h->rows[i])), .samples = r->samples_ms, .count = r->sample_count};
     }
-    const struct rg_interval s = rg_slope_interval(axis, fps, h->count);
+    const struct rg_interval s = rg_slope_resampled(points, h->count);
     if (!isfinite(s.low))
         return rg_hearing_end(h, RG_CLAIM_UNDECIDED, "too few rows for a power");
-    const double least = h->claim->least, most = h->claim->most;
-    const enum rg_claim_verdict verdict = s.low >= least && s.high <= most ? RG_CLAIM_REPRODUCED
-                                          : s.high < least || s.low > most ? RG_CLAIM_NOT_REPRODUCED
-                                                                           : RG_CLAIM_UNDECIDED;
-    return rg_hearing_end(h, verdict, "the power is %.2f, 95 %%: %.2f to %.2f", s.median, s.low,
-                          s.high);
+    const double low = -s.high, high = -s.low, least = h->claim->least, most = h->claim->most;
+    const enum rg_claim_verdict verdict = low >= least && high <= most ? RG_CLAIM_REPRODUCED
+                                          : high < least || low > most ? RG_CLAIM_NOT_REPRODUCED
+                                                                       : RG_CLAIM_UNDECIDED;
+    return rg_hearing_end(h, verdict, "the power is %.2f, 95 %%: %.2f to %.2f", -s.median, low,
+                          high);
 }
 
 // Errors of images are the same at each run.

@@ -9,4 +9,9 @@
 double rg_order_probability(const double *low, int low_count, double factor, const double *high,
                             int high_count);
 
+// The probability that, of independent samples whose median is `bound`, as many lie below it as of
+// these do, or more (the sign test): small where their median is truly lower. With `side` -1
+// instead of 1, above it. Samples that are equal to it count neither way.
+double rg_sign_probability(const double *samples, int count, double bound, int side);
+
 #endif

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "harness/tables/claims/hearing.h"
+#include "harness/tables/claims/margin.h"
 
 static double printed_fps(const struct hearing *h, int row, int variant)
 {
@@ -56,4 +57,23 @@ bool rg_hearing_print_contradicts(const struct hearing *h)
     default:
         return false;
     }
+}
+
+// Of what differs most in print, where a claim is about all its rows.
+static double most_rounding(const struct hearing *h)
+{
+    double most = 0;
+    for (int i = 0; i < h->count; i++)
+        most = fmax(most, rg_margin_rounding(printed_fps(h, h->rows[i], h->at.variant)));
+    return most;
+}
+
+double rg_hearing_margin(const struct hearing *h)
+{
+    const struct rg_claim *c = h->claim;
+    if (c->test != RG_CLAIM_RATIO)
+        return 2 * most_rounding(h);
+    return c->least == 1 ? 0
+                         : rg_margin_rounding(printed_fps(h, c->first, h->at.variant)) +
+                               rg_margin_rounding(printed_fps(h, c->last, h->at.variant));
 }

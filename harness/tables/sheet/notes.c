@@ -80,22 +80,35 @@ static void note_growth(const struct rg_result *result, struct rg_sheet *sheet, 
                   rg_trend_axis(rg_result_at(result, of))->name, -s->slope, interval);
 }
 
+// "; it goes with size to the power -0.98 (95 %: -1.02 to -0.94), published -1.04 (0.08 either
+// way)"
+static void print_slopes(const char *axis, const struct rg_trend *s, char *text, size_t size)
+{
+    char interval[80] = "";
+    if (isfinite(s->slope_low))
+        snprintf(interval, sizeof(interval), " (95 %%: %.2f to %.2f)", s->slope_low, s->slope_high);
+    snprintf(text, size, "; it goes with %s to the power %.2f%s, published %.2f (%.2f either way)",
+             axis, s->slope, interval, s->published_slope, s->margin);
+}
+
 static void note_trend(const struct rg_result *result, struct rg_sheet *sheet, struct rg_place of)
 {
     const struct rg_trend s = rg_trend_of(result, of);
-    char slopes[160] = "", kind[128];
+    char slopes[200] = "", unsettled[64] = "", kind[128];
     if (s.verdict == RG_TREND_GROWTH)
         note_growth(result, sheet, of, &s);
     if (s.verdict >= RG_TREND_GROWTH)
         return;
     if (s.has_slope)
-        snprintf(slopes, sizeof(slopes), "; it goes with %s to the power %.2f, published %.2f",
-                 rg_trend_axis(rg_result_at(result, of))->name, s.slope, s.published_slope);
+        print_slopes(rg_trend_axis(rg_result_at(result, of))->name, &s, slopes, sizeof(slopes));
+    if (s.pairs_undecided)
+        snprintf(unsettled, sizeof(unsettled), "; the samples do not settle %d", s.pairs_undecided);
     name_kind(result, of, kind, sizeof(kind));
-    rg_sheet_note(
-        sheet, "Shape on %s%s: %s. fps %s the published order (%d of %d pairs of rows)%s.",
-        result->devices[of.device].name, kind, rg_trend_text(s.verdict),
-        s.pairs_in_order == s.pairs ? "keeps" : "does not keep", s.pairs_in_order, s.pairs, slopes);
+    rg_sheet_note(sheet,
+                  "Shape on %s%s: %s. fps %s the published order (%d of %d pairs of rows%s)%s.",
+                  result->devices[of.device].name, kind, rg_trend_text(s.verdict),
+                  s.pairs_in_order == s.pairs ? "keeps" : "does not keep", s.pairs_in_order,
+                  s.pairs, unsettled, slopes);
 }
 
 // "12.8 to 30.4, by 58 %": the share of the most by which the least is below it.

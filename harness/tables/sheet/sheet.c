@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 #include <stddef.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -180,8 +181,9 @@ static void fill_times(const struct columns *at, char (*cells)[RG_SHEET_CELL],
 {
     snprintf(cells[at->fps], RG_SHEET_CELL, "%.1f", rg_record_fps(record));
     snprintf(cells[at->ms], RG_SHEET_CELL, "%.3f", record->frame_ms.median);
-    snprintf(cells[at->ms_range], RG_SHEET_CELL, "%.3f to %.3f", record->frame_ms.low,
-             record->frame_ms.high);
+    if (isfinite(record->frame_ms.low))
+        snprintf(cells[at->ms_range], RG_SHEET_CELL, "%.3f to %.3f", record->frame_ms.low,
+                 record->frame_ms.high);
     snprintf(cells[at->first], RG_SHEET_CELL, "%.1f", record->first_frame_ms);
     const bool trusted = rg_timer_is_trusted(record->api_over_wall);
     snprintf(cells[at->api], RG_SHEET_CELL, "%.2f%s", record->api_over_wall,

@@ -3,14 +3,17 @@
 #include <math.h>
 #include <string.h>
 
-// Slopes closer than this, in powers of the axis, count as the same.
-#define SAME_SLOPE 0.25
+#include "harness/tables/claims/margin.h"
+#include "harness/tables/claims/order.h"
+
+// Half of the 5 % is for either side.
+#define ERROR_SHARE 0.025
 
 const char *rg_trend_text(enum rg_trend_verdict verdict)
 {
     static const char *const texts[] = {"reproduced",     "trend only", "same order",
-                                        "not reproduced", "growth",     "not comparable",
-                                        "other work"};
+                                        "not reproduced", "undecided",  "growth",
+                                        "not comparable", "other work"};
     return texts[verdict];
 }
 
@@ -22,94 +25,166 @@ const struct rg_named *rg_trend_axis(const struct rg_record *record)
     return NULL;
 }
 
-// Counts the pairs that a row forms with those before it. Equal numbers in print order nothing.
-static void count_pairs(struct rg_trend *trend, const double *published, const double *measured,
-                        int row)
-{
-    for (int other = 0; other < row; other++) {
-        const double order = published[row] - published[other];
-        trend->pairs += order != 0;
-        trend->pairs_in_order += order * (measured[row] - measured[other]) > 0;
-    }
-}
-
 // Whether a table has a trend: all its rows are there, and timed.
 static bool is_whole(const struct rg_result *result)
 {
     return !result->is_of_textures && rg_result_first_missing(result) > result->last_row;
 }
 
-// What the rows of a trend have: logarithms of what is beside each other.
-struct points {
+// What the rows of a trend have, logarithms but for what is printed.
+struct rows {
     int count;
-    double axis[RG_RESULT_ROWS], published[RG_RESULT_ROWS], measured[RG_RESULT_ROWS];
+    const struct rg_record *records[RG_RESULT_ROWS];
+    struct rg_slope_point points[RG_RESULT_ROWS];
+    double printed[RG_RESULT_ROWS]; // fps
 };
 
-static struct rg_trend judge(struct rg_trend trend)
+static bool is_same(const struct rg_named *a, const struct rg_named *b)
 {
-    const double apart = fabs(trend.slope - trend.published_slope);
-    trend.has_slope = isfinite(trend.slope) && isfinite(trend.published_slope);
-    trend.verdict = trend.pairs_in_order < trend.pairs ? RG_TREND_NOT
-                    : !trend.has_slope                 ? RG_TREND_ORDER
-                    : apart <= SAME_SLOPE              ? RG_TREND_REPRODUCED
-                                                       : RG_TREND_ONLY;
-    return trend;
+    return *a->text ? !strcmp(a->text, b->text) : a->number == b->number;
 }
 
-// Rows that are other work take no part. False where a row has no time.
-static bool collect(const struct rg_result *result, struct rg_place of, struct points *points)
+// Whether two rows differ in the axis alone. Rows that have names alone differ in nothing.
+static bool is_same_group(const struct rg_record *a, const struct rg_record *b)
 {
-    for (of.row = result->first_row; of.row <= result->last_row; of.row++) {
-        const struct rg_record *record = rg_result_at(result, of);
-        const struct rg_named *along = rg_trend_axis(record);
-        if (record->outcome != RG_OK)
+    const struct rg_named *axis = rg_trend_axis(a);
+    for (int i = 0; axis && i < a->row_count; i++)
+        if (&a->row[i] != axis && !is_same(&a->row[i], &b->row[i]))
             return false;
-        if (rg_record_is_other_work(record, NULL))
-            continue;
-        const int row = points->count++;
-        points->axis[row] = along ? log(along->number) : NAN;
-        points->published[row] = log(rg_record_published_fps(record));
-        points->measured[row] = log(rg_record_fps(record));
-    }
     return true;
 }
 
-static struct rg_trend growth_of(const struct points *points)
+static void add_row(struct rows *rows, const struct rg_record *record)
 {
-    const struct rg_interval slope =
-        rg_slope_interval(points->axis, points->measured, points->count);
-    return (struct rg_trend){
-        .verdict = isfinite(slope.median) ? RG_TREND_GROWTH : RG_TREND_UNKNOWN,
-        .has_slope = isfinite(slope.median),
-        .slope = slope.median,
-        .slope_low = slope.low,
-        .slope_high = slope.high,
-        .published_slope = NAN,
-    };
+    const struct rg_named *along = rg_trend_axis(record);
+    const int row = rows->count++;
+    int group = 0;
+    while (group < row && !is_same_group(rows->records[group], record))
+        group++;
+    rows->records[row] = record;
+    rows->printed[row] = rg_record_published_fps(record);
+    rows->points[row] = (struct rg_slope_point){.x = along ? log(along->number) : NAN,
+                                                .group = group,
+                                                .samples = record->samples_ms,
+                                                .count = record->sample_count};
+}
+
+// Where each row differs from all others in more than the axis, what goes with it tells none apart.
+static void join_single_rows(struct rows *rows)
+{
+    bool all_single = true;
+    for (int i = 0; i < rows->count; i++)
+        all_single = all_single && rows->points[i].group == i;
+    for (int i = 0; all_single && i < rows->count; i++)
+        rows->points[i].group = 0;
+}
+
+// Rows that are other work take no part. False where a row has no time.
+static bool collect(const struct rg_result *result, struct rg_place of, struct rows *rows)
+{
+    for (of.row = result->first_row; of.row <= result->last_row; of.row++) {
+        const struct rg_record *record = rg_result_at(result, of);
+        if (record->outcome != RG_OK || !record->sample_count)
+            return false;
+        if (!rg_record_is_other_work(record, NULL))
+            add_row(rows, record);
+    }
+    join_single_rows(rows);
+    return true;
+}
+
+// --- the order ---
+
+struct orders {
+    double surest_against; // the probability of the pair that is most surely the other way round
+};
+
+// Adds a pair whose first row is the faster one in print.
+static void add_pair(struct rg_trend *trend, struct orders *orders, const struct rg_record *fast,
+                     const struct rg_record *slow)
+{
+    const bool enough =
+        fast->sample_count >= RG_LEAST_SAMPLES && slow->sample_count >= RG_LEAST_SAMPLES;
+    const double against = enough ? rg_order_probability(fast->samples_ms, fast->sample_count, 1,
+                                                         slow->samples_ms, slow->sample_count)
+                                  : 1;
+    const double in_favour = enough ? rg_order_probability(slow->samples_ms, slow->sample_count, 1,
+                                                           fast->samples_ms, fast->sample_count)
+                                    : 1;
+    trend->pairs++;
+    trend->pairs_in_order += rg_record_fps(fast) > rg_record_fps(slow);
+    trend->pairs_undecided += against > ERROR_SHARE && in_favour > ERROR_SHARE;
+    orders->surest_against = fmin(orders->surest_against, in_favour);
+}
+
+static struct orders count_pairs(struct rg_trend *trend, const struct rows *rows)
+{
+    struct orders orders = {1};
+    for (int a = 0; a < rows->count; a++)
+        for (int b = 0; b < rows->count; b++)
+            if (rows->points[a].group == rows->points[b].group &&
+                rg_margin_orders(rows->printed[a], rows->printed[b]))
+                add_pair(trend, &orders, rows->records[a], rows->records[b]);
+    return orders;
+}
+
+// --- the verdict ---
+
+static void find_slopes(struct rg_trend *trend, const struct rows *rows)
+{
+    double weights[RG_RESULT_ROWS];
+    const struct rg_interval s = rg_slope_resampled(rows->points, rows->count);
+    rg_slope_weights(rows->points, rows->count, weights);
+    trend->published_slope = 0;
+    for (int i = 0; i < rows->count; i++)
+        trend->published_slope += weights[i] * log(rows->printed[i]);
+    // Times grow where frame rates fall.
+    trend->slope = -s.median;
+    trend->slope_low = -s.high;
+    trend->slope_high = -s.low;
+    trend->margin = !isfinite(trend->published_slope)
+                        ? NAN
+                        : rg_margin_slope(rows->points, weights, rows->printed, rows->count);
+    trend->has_slope = isfinite(trend->slope);
+}
+
+// Each pair must be settled for the order to be; one that is settled the other way is found by
+// chance the sooner the more pairs there are.
+static enum rg_trend_verdict judge(const struct rg_trend *t, const struct orders *orders)
+{
+    if (orders->surest_against * t->pairs <= ERROR_SHARE)
+        return RG_TREND_NOT;
+    if (t->pairs_undecided || t->pairs_in_order < t->pairs)
+        return RG_TREND_UNDECIDED;
+    if (!t->has_slope || !isfinite(t->published_slope))
+        return RG_TREND_ORDER;
+    return t->slope_low >= t->published_slope - t->margin &&
+                   t->slope_high <= t->published_slope + t->margin
+               ? RG_TREND_REPRODUCED
+               : RG_TREND_ONLY;
 }
 
 struct rg_trend rg_trend_of(const struct rg_result *result, struct rg_place of)
 {
     struct rg_trend trend = {.verdict = RG_TREND_UNKNOWN};
-    struct points points = {0};
+    struct rows rows = {0};
     if (!is_whole(result))
         return trend;
     if (*result->hardware && !rg_result_is_of_print(result, of.work))
         return (struct rg_trend){.verdict = RG_TREND_OTHER_WORK};
-    if (!collect(result, of, &points))
+    if (!collect(result, of, &rows))
         return trend;
-    if (!*result->hardware)
-        return growth_of(&points);
-    for (int row = 0; row < points.count; row++)
-        count_pairs(&trend, points.published, points.measured, row);
+    if (!*result->hardware) {
+        find_slopes(&trend, &rows);
+        trend.verdict = trend.has_slope ? RG_TREND_GROWTH : RG_TREND_UNKNOWN;
+        return trend;
+    }
+    const struct orders orders = count_pairs(&trend, &rows);
     if (!trend.pairs)
         return trend;
-    const struct rg_interval slope = rg_slope_interval(points.axis, points.measured, points.count);
-    trend.slope = slope.median;
-    trend.slope_low = slope.low;
-    trend.slope_high = slope.high;
-    trend.published_slope = rg_slope(points.axis, points.published, points.count);
-    return judge(trend);
+    find_slopes(&trend, &rows);
+    trend.verdict = judge(&trend, &orders);
+    return trend;
 }
 
 static json_t *trend_json(const struct rg_result *result, struct rg_place of)
@@ -125,11 +200,13 @@ static json_t *trend_json(const struct rg_result *result, struct rg_place of)
     if (s.has_slope) {
         json_object_set_new(json, "slope_low", rg_number_json(s.slope_low));
         json_object_set_new(json, "slope_high", rg_number_json(s.slope_high));
+        json_object_set_new(json, "published_margin", rg_number_json(s.margin));
     }
     json_t *rest =
-        json_pack("{sssbsisisoso}", "verdict", rg_trend_text(s.verdict), "same_ranking",
+        json_pack("{sssbsisisisoso}", "verdict", rg_trend_text(s.verdict), "same_ranking",
                   s.pairs_in_order == s.pairs, "pairs", s.pairs, "pairs_in_order", s.pairs_in_order,
-                  "slope", rg_number_json(slope), "published_slope", rg_number_json(published));
+                  "pairs_undecided", s.pairs_undecided, "slope", rg_number_json(slope),
+                  "published_slope", rg_number_json(published));
     json_object_update(json, rest);
     json_decref(rest);
     return json;

@@ -10,6 +10,7 @@ enum rg_trend_verdict {
     RG_TREND_ONLY,       // same order, another slope
     RG_TREND_ORDER,      // same order, of rows without an axis
     RG_TREND_NOT,        // another order
+    RG_TREND_UNDECIDED,  // the samples do not settle the order
     RG_TREND_GROWTH,     // nothing is published: how the time of a frame grows along the axis
     RG_TREND_UNKNOWN,
     RG_TREND_OTHER_WORK, // what was measured is not the work that was printed
@@ -18,14 +19,17 @@ const char *rg_trend_text(enum rg_trend_verdict verdict);
 
 struct rg_trend {
     enum rg_trend_verdict verdict;
-    int pairs;                     // of rows whose published numbers differ
-    int pairs_in_order;            // so many of them stand in the published order
+    int pairs;                     // of rows whose published numbers differ by more than rounding
+    int pairs_in_order;            // so many of them stand in the published order, by their medians
+    int pairs_undecided;           // of so many the samples do not settle the order
     bool has_slope;                // the rows have an axis
     double slope, published_slope; // of log(fps) over log(axis); NAN: nothing is published
-    double slope_low, slope_high;  // the slope's interval of 95 %; NAN of fewer than three rows
+    double slope_low, slope_high;  // the slope's interval of 95 %; NAN where there is none
+    double margin;                 // the published slope is so sure (claims/margin.h)
 };
 
-// The trend of the work, variant and device that a place names; its row is not looked at.
+// The trend of the work, variant and device that a place names; its row is not looked at. Rows
+// are held against each other where they differ in the axis alone: of two cameras, each is apart.
 struct rg_trend rg_trend_of(const struct rg_result *result, struct rg_place of);
 
 // What rows have as their axis: the first of the numbers that tell them apart. NULL where there is

@@ -1,4 +1,4 @@
-// Medians, their intervals and slopes, against what tables print.
+// Medians, their intervals and slopes, against what tables print and against known truths.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -7,7 +7,10 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "harness/record/stats.h"
+#include "harness/record/slope.h"
+#include "kernels/dialect/rng.h"
+
+#define assert_near(value, due, within) assert_true(fabs((value) - (due)) <= (within))
 
 // The numbers from 1 to count in an order that is none: ranks are their own values.
 static void fill(double *samples, int count)
@@ -35,7 +38,7 @@ static void test_ranks(void **state)
     }
 }
 
-// With fewer than 6 samples it is their range.
+// With fewer than 6 samples there is no interval.
 static void test_few(void **state)
 {
     (void)state;
@@ -44,37 +47,102 @@ static void test_few(void **state)
         fill(samples, count);
         const struct rg_interval interval = rg_median(samples, count);
         assert_true(interval.median == (count + 1) / 2.0);
-        assert_true(interval.low == 1 && interval.high == count);
+        assert_true(isnan(interval.low) && isnan(interval.high));
     }
 }
 
-// A line with errors: 10 is the spread of x, 4.14 the mean of y, 3.182 Student's t of 3 degrees of
-// freedom.
-static void test_slope(void **state)
+// --- slopes ---
+
+// Sums of squares by hand: (1, 2, 4) has mean 7/3 and squares 42/9.
+static void test_weights(void **state)
 {
     (void)state;
-    const double x[] = {1, 2, 3, 4, 5}, y[] = {2.1, 2.9, 4.3, 4.9, 6.5};
-    double sum = 0;
-    for (int i = 0; i < 5; i++)
-        sum += pow(y[i] - 4.14 - 1.08 * (x[i] - 3), 2);
-    const struct rg_interval found = rg_slope_interval(x, y, 5);
-    const double half = 3.182 * sqrt(sum / 3 / 10);
-    assert_true(fabs(rg_slope(x, y, 5) - (1.08)) < 1e-12);
-    assert_true(fabs(found.median - (1.08)) < 1e-12);
-    assert_true(fabs(found.low - (1.08 - half)) < 1e-12);
-    assert_true(fabs(found.high - (1.08 + half)) < 1e-12);
-    assert_true(isnan(rg_slope_interval(x, y, 2).low));
-    assert_true(fabs(rg_slope_interval(x, y, 2).median - (0.8)) < 1e-12);
-    const double same[] = {3, 3, 3};
-    assert_true(isnan(rg_slope_interval(same, y, 3).median));
+    const struct rg_slope_point line[] = {{.x = 1}, {.x = 2}, {.x = 4}};
+    const struct rg_slope_point groups[] = {
+        {.x = 1}, {.x = 3}, {.x = 11, .group = 1}, {.x = 17, .group = 1}, {.x = 99, .group = 2}};
+    const struct rg_slope_point same[] = {{.x = 3}, {.x = 3}};
+    double w[5];
+    rg_slope_weights(line, 3, w);
+    for (int i = 0; i < 3; i++)
+        assert_near(w[i], (line[i].x - 7.0 / 3) / (42.0 / 9), 1e-12);
+    rg_slope_weights(groups, 5, w); // means 2, 14 and 99; squares 2 and 18
+    assert_near(w[0], -1.0 / 20, 1e-12);
+    assert_near(w[1], 1.0 / 20, 1e-12);
+    assert_near(w[2], -3.0 / 20, 1e-12);
+    assert_near(w[3], 3.0 / 20, 1e-12);
+    assert_near(w[4], 0, 1e-12);
+    rg_slope_weights(same, 2, w);
+    assert_true(isnan(w[0]) && isnan(w[1]));
+    assert_true(isnan(rg_slope_resampled(same, 0).median));
+}
+
+enum { ROWS = 4, MOST = 15, TRIALS = 400 };
+
+// Rows whose true medians go with x to the power 0.7, with scatter that is skewed as times are.
+static void scatter(double samples[ROWS][MOST], int count, double width, int trial)
+{
+    for (int r = 0; r < ROWS; r++)
+        for (int i = 0; i < count; i++) {
+            const rg_uint4 bits = rg_random(5, (uint)trial, (uint)r, (uint)i);
+            const double off = -log((bits.x + 0.5) * 0x1p-32) - log(2); // its median is 0
+            samples[r][i] = pow(r + 1, 0.7) * exp(width * off);
+        }
+}
+
+static struct rg_interval slope_of(double samples[ROWS][MOST], int count)
+{
+    struct rg_slope_point points[ROWS];
+    for (int r = 0; r < ROWS; r++)
+        points[r] = (struct rg_slope_point){.x = log(r + 1), .samples = samples[r], .count = count};
+    return rg_slope_resampled(points, ROWS);
+}
+
+// The interval holds the truth in 95 % of all trials or more. It is wider than 3.5 standard
+// deviations of the slopes that are found, for a normal distribution's has four, and less than
+// half as wide again.
+static void test_coverage(void **state)
+{
+    (void)state;
+    static const int counts[] = {6, MOST};
+    for (int c = 0; c < 2; c++) {
+        double samples[ROWS][MOST], sum = 0, squares = 0, width = 0;
+        int held = 0;
+        for (int trial = 0; trial < TRIALS; trial++) {
+            scatter(samples, counts[c], 0.1, trial);
+            const struct rg_interval s = slope_of(samples, counts[c]);
+            held += s.low <= 0.7 && 0.7 <= s.high;
+            sum += s.median / TRIALS;
+            squares += s.median * s.median / TRIALS;
+            width += (s.high - s.low) / TRIALS;
+        }
+        const double sigma = sqrt(squares - sum * sum);
+        assert_near(sum, 0.7, 0.02);
+        assert_true(held >= 0.95 * TRIALS);
+        assert_true(width < 6 * sigma && width > 3.5 * sigma);
+    }
+}
+
+// A row of five samples leaves no interval; of constant samples it is the slope itself.
+static void test_no_interval(void **state)
+{
+    (void)state;
+    double samples[ROWS][MOST];
+    scatter(samples, 5, 0.1, 1);
+    struct rg_interval s = slope_of(samples, 5);
+    assert_true(isfinite(s.median) && isnan(s.low) && isnan(s.high));
+    scatter(samples, 6, 0, 1);
+    s = slope_of(samples, 6);
+    assert_near(s.median, 0.7, 1e-12);
+    assert_near(s.low, 0.7, 1e-12);
+    assert_near(s.high, 0.7, 1e-12);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ranks),
-        cmocka_unit_test(test_few),
-        cmocka_unit_test(test_slope),
+        cmocka_unit_test(test_ranks),       cmocka_unit_test(test_few),
+        cmocka_unit_test(test_weights),     cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_no_interval),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

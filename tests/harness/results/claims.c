@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "harness/tables/claims/claim.h"
+#include "harness/tables/claims/margin.h"
 #include "harness/tables/claims/order.h"
 #include "harness/tables/papers/papers.h"
 
@@ -139,6 +140,64 @@ static void test_a_factor(void **state)
     assert_true(rg_order_probability(low, 5, 3, high, 5) > 0.99);
 }
 
+// --- medians and what is due ---
+
+// Of six coins all are heads once in 64 times, and five or more 7 times; equal ones are no coins.
+static void test_signs(void **state)
+{
+    (void)state;
+    const double samples[7] = {1, 2, 3, 4, 5, 6, 7};
+    assert_true(fabs(rg_sign_probability(samples, 6, 10, 1) - 1.0 / 64) < 1e-12);
+    assert_true(fabs(rg_sign_probability(samples, 6, 10, -1) - 1) < 1e-12);
+    assert_true(fabs(rg_sign_probability(samples, 6, 5.5, 1) - 7.0 / 64) < 1e-12);
+    assert_true(fabs(rg_sign_probability(samples, 6, 5.5, -1) - 63.0 / 64) < 1e-12);
+    assert_true(fabs(rg_sign_probability(samples, 7, 7, 1) - 1.0 / 64) < 1e-12);
+    assert_true(fabs(rg_sign_probability(samples, 6, 0, -1) - 1.0 / 64) < 1e-12);
+}
+
+// --- what print does not tell ---
+
+static void test_rounding(void **state)
+{
+    (void)state;
+    assert_true(fabs(rg_margin_rounding(25) - 0.5 / 25) < 1e-12);
+    assert_true(fabs(rg_margin_rounding(22.5) - 0.05 / 22.5) < 1e-12);
+    assert_true(fabs(rg_margin_rounding(1.66) - 0.005 / 1.66) < 1e-12);
+    assert_true(rg_margin_rounding(NAN) == 0);
+    assert_true(rg_margin_orders(26.5, 25) && !rg_margin_orders(25.5, 25));
+    assert_true(!rg_margin_orders(25, 26) && !rg_margin_orders(NAN, 1) &&
+                !rg_margin_orders(1, NAN));
+}
+
+// Print that is a line but for one row off by `off` among five, whose neighbours see half of it.
+static double margin_of_line(double off)
+{
+    struct rg_slope_point points[5];
+    double weights[5], printed[5];
+    for (int i = 0; i < 5; i++) {
+        points[i] = (struct rg_slope_point){.x = i};
+        printed[i] =
+            123.4567 * exp(-i + (i == 2 ? off : 0)); // seven digits: no rounding to speak of
+    }
+    rg_slope_weights(points, 5, weights);
+    return rg_margin_slope(points, weights, printed, 5);
+}
+
+// Rows 2 to 4 are off by 0.1, 0.2 and 0.1 of a line, each seen with 1 + 1/4 + 1/4: the middle is
+// 0.1 / 1.5^0.5, and weights have squares that add up to 1/10.
+static void test_scatter_of_print(void **state)
+{
+    (void)state;
+    const double sigma = 0.1 / sqrt(1.5) / 0.6745;
+    assert_true(fabs(margin_of_line(0.2) - 1.96 * sigma / sqrt(10)) < 1e-4);
+    assert_true(margin_of_line(0) < 1e-4);
+    // Rounding alone, of two rows: half of 10 and of 20 either way, evenly.
+    const struct rg_slope_point two[] = {{.x = 0}, {.x = 1}};
+    const double printed[] = {20, 10}, weights[] = {-1, 1};
+    assert_true(fabs(rg_margin_slope(two, weights, printed, 2) -
+                     1.96 * sqrt((0.025 * 0.025 + 0.05 * 0.05) / 3)) < 1e-9);
+}
+
 // --- claims ---
 
 // A result of one device, whose row i has samples about ms[i], off by up to `noise` of it.
@@ -163,7 +222,7 @@ static void make_result(struct rg_result *result, const double ms[ROWS],
             snprintf(r->row[0].name, sizeof(r->row[0].name), "size");
             r->row[0].number = row + 1;
             snprintf(r->published[0].name, sizeof(r->published[0].name), "fps");
-            r->published[0].number = 100 - row;
+            r->published[0].number = 100.5 - row;
             r->sample_count = SAMPLES;
             for (int i = 0; i < SAMPLES; i++)
                 r->samples_ms[i] = (v ? other_ms : ms)[row] * (1 + noise * (2 * chance(x) - 1));
@@ -254,6 +313,94 @@ static void test_ratios(void **state)
     rg_result_free(&result);
 }
 
+// Print says 100.5 and 96.5, so a ratio is known to 0.05 / 100.5 + 0.05 / 96.5. Where that hides on
+// which side of it the rows are, nothing is decided, however little they scatter.
+static void test_ratios_near_print(void **state)
+{
+    (void)state;
+    struct rg_claim ratio = claim_of(RG_CLAIM_RATIO);
+    const double margin = 0.05 / 100.5 + 0.05 / 96.5;
+    ratio.least = 1.46 / (1 + 1.1 * margin);
+    EXPECT(ratio, rising, 1e-6, RG_CLAIM_REPRODUCED, 1);
+    ratio.least = 1.46 / (1 + 0.9 * margin);
+    EXPECT(ratio, rising, 1e-6, RG_CLAIM_UNDECIDED, 1);
+    ratio.least = 1.46 / (1 - 0.9 * margin);
+    EXPECT(ratio, rising, 1e-6, RG_CLAIM_UNDECIDED, 1);
+    ratio.least = 1.46 / (1 - 1.1 * margin);
+    EXPECT(ratio, rising, 1e-6, RG_CLAIM_NOT_REPRODUCED, 1);
+    struct rg_claim alike = claim_of(RG_CLAIM_ALIKE);
+    alike.most = 1.46 / (1 - 1.5 * margin);
+    EXPECT(alike, rising, 1e-6, RG_CLAIM_REPRODUCED, 1);
+    alike.most = 1.46 / (1 - 0.5 * margin);
+    EXPECT(alike, rising, 1e-6, RG_CLAIM_UNDECIDED, 1);
+    alike.most = 1.46 / (1 + 1.5 * margin);
+    EXPECT(alike, rising, 1e-6, RG_CLAIM_NOT_REPRODUCED, 1);
+}
+
+// Of fewer than six samples no claim is decided, however far rows are apart.
+static void test_few_samples(void **state)
+{
+    (void)state;
+    static const double far[ROWS] = {1, 10, 100, 1000, 10000};
+    static const enum rg_claim_test tests[] = {RG_CLAIM_FALLS,  RG_CLAIM_ORDER,   RG_CLAIM_RATIO,
+                                               RG_CLAIM_ALIKE,  RG_CLAIM_APART,   RG_CLAIM_RATE,
+                                               RG_CLAIM_FASTER, RG_CLAIM_EXPONENT};
+    for (size_t i = 0; i < sizeof(tests) / sizeof(tests[0]); i++) {
+        struct rg_claim claim = claim_of(tests[i]);
+        struct rg_result result;
+        uint32_t x = 9;
+        claim.least = tests[i] == RG_CLAIM_EXPONENT ? -99 : 1e-4;
+        claim.most = 99;
+        make_result(&result, far, level, 0.01, &x);
+        const bool decided = rg_claim_judge(&claim, &result, 0).verdict < RG_CLAIM_UNDECIDED;
+        assert_true(decided);
+        for (int row = 0; row < ROWS; row++)
+            for (int v = 0; v < 2; v++)
+                rg_result_at(&result, (struct rg_place){.row = row, .variant = v})->sample_count =
+                    5;
+        const struct rg_judgement j = rg_claim_judge(&claim, &result, 0);
+        assert_int_equal(j.verdict, RG_CLAIM_UNDECIDED);
+        rg_result_free(&result);
+    }
+}
+
+// Nor where the second variant of a claim has fewer.
+static void test_few_samples_of_the_other(void **state)
+{
+    (void)state;
+    struct rg_claim faster = claim_of(RG_CLAIM_FASTER);
+    struct rg_result result;
+    uint32_t x = 9;
+    faster.least = 2;
+    make_result(&result, rising, level, 0.01, &x);
+    assert_int_equal(rg_claim_judge(&faster, &result, 0).verdict, RG_CLAIM_NOT_REPRODUCED);
+    for (int row = 0; row < ROWS; row++)
+        rg_result_at(&result, (struct rg_place){.row = row, .variant = 1})->sample_count = 5;
+    assert_int_equal(rg_claim_judge(&faster, &result, 0).verdict, RG_CLAIM_UNDECIDED);
+    rg_result_free(&result);
+}
+
+// Of several rows each may be too slow by chance: seven that make exactly what is due are seldom
+// found too slow, and the probability behind a verdict is told.
+static void test_rates_jointly(void **state)
+{
+    (void)state;
+    struct rg_claim rate = claim_of(RG_CLAIM_RATE);
+    int counts[RG_CLAIM_VERDICTS];
+    rate.least = 100;
+    count_verdicts(&rate, level, 0.05, counts);
+    assert_true(counts[RG_CLAIM_NOT_REPRODUCED] <= TRIALS / 20);
+    assert_true(counts[RG_CLAIM_REPRODUCED] <= TRIALS / 20);
+    struct rg_result result;
+    uint32_t x = 9;
+    make_result(&result, level, level, 0.01, &x);
+    rate.least = 90;
+    assert_true(fabs(rg_claim_judge(&rate, &result, 0).against - 1.0 / 1024) < 1e-12);
+    rate.least = 110;
+    assert_true(fabs(rg_claim_judge(&rate, &result, 0).in_favour - 5.0 / 1024) < 1e-12);
+    rg_result_free(&result);
+}
+
 static void test_variants_rates_and_powers(void **state)
 {
     (void)state;
@@ -269,12 +416,16 @@ static void test_variants_rates_and_powers(void **state)
     EXPECT(rate, rising, 0.05, RG_CLAIM_UNDECIDED, 0.93);
     rate.least = 75;
     EXPECT(rate, rising, 0.05, RG_CLAIM_NOT_REPRODUCED, 0.99);
+    faster.last = 1; // one pair: either way is found by chance once in 40 times
+    EXPECT(faster, level, 0.05, RG_CLAIM_UNDECIDED, 0.94);
     struct rg_claim power = claim_of(RG_CLAIM_EXPONENT);
     static const double square[ROWS] = {10, 40, 90, 160, 250};
     power.least = -2.2;
     power.most = -1.8;
     EXPECT(power, square, 0.05, RG_CLAIM_REPRODUCED, 0.99);
     EXPECT(power, rising, 0.05, RG_CLAIM_NOT_REPRODUCED, 0.99);
+    power.least = -2; // as it is
+    EXPECT(power, square, 0.05, RG_CLAIM_UNDECIDED, 0.95);
 }
 
 // --- what is not judged ---
@@ -379,7 +530,14 @@ int main(void)
         cmocka_unit_test(test_many_samples),
         cmocka_unit_test(test_a_factor),
         cmocka_unit_test(test_rows_that_fall),
+        cmocka_unit_test(test_signs),
+        cmocka_unit_test(test_rounding),
+        cmocka_unit_test(test_scatter_of_print),
         cmocka_unit_test(test_ratios),
+        cmocka_unit_test(test_ratios_near_print),
+        cmocka_unit_test(test_few_samples),
+        cmocka_unit_test(test_few_samples_of_the_other),
+        cmocka_unit_test(test_rates_jointly),
         cmocka_unit_test(test_variants_rates_and_powers),
         cmocka_unit_test(test_rows_that_are_missing_or_other_work),
         cmocka_unit_test(test_a_knee_and_print),

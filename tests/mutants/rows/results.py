@@ -1,10 +1,11 @@
 """Tables and claims: which rows are heard, how orders are judged, trends, costs and what is prepared."""
 from fault import Fault
 
-TESTS = ("claims", "papers", "figures", "sheets", "regenerate", "journal", "command line, tables", "command line, results")
+TESTS = ("claims", "stats", "verdicts", "papers", "figures", "sheets", "regenerate", "journal", "command line, tables", "command line, results")
 
 JUDGE, HEARING, ORDER, PRINTED = ("harness/tables/claims/judge.c", "harness/tables/claims/hearing.c",
                                   "harness/tables/claims/order.c", "harness/tables/claims/printed.c")
+MARGIN, SLOPE = "harness/tables/claims/margin.c", "harness/record/slope.c"
 TREND, COSTS, PREPARE, BEGIN = ("harness/tables/sheet/trend.c", "harness/tables/sheet/costs.c",
                                 "harness/tables/prepare.c", "harness/tables/begin.c")
 
@@ -12,16 +13,30 @@ ROWS = [
     Fault(JUDGE, "if (!parts->count || «against > parts->against») {", "against < parts->against", "a claim is as sure as its surest part"),
     Fault(JUDGE, "h->judgement.in_favour = fmin(1, parts->in_favour «* parts->count»);", "* 1", "the number of parts is not corrected for"),
     Fault(JUDGE, "if (parts->count && «h->judgement.against <= ERROR_SHARE»)", "h->judgement.against <= 0.05", "a claim needs 90 % alone"),
-    Fault(JUDGE, "rg_hearing_row(h, h->rows[i]), «rg_hearing_row(h, h->rows[i + 1])», 1);", "rg_hearing_row(h, h->rows[0])", "every row is held against the first"),
-    Fault(JUDGE, "low = fmin(low, 1000 / «rg_hearing_row(h, h->rows[i])->frame_ms.high»);", "rg_hearing_row(h, h->rows[i])->frame_ms.median", "a rate's interval begins at its median"),
-    Fault(JUDGE, "«1 / apart»);", "apart", "rows that are alike must differ"),
+    Fault(JUDGE, "rg_hearing_row(h, h->rows[i]), «rg_hearing_row(h, h->rows[i + 1])»,\n                 faster_at_all);", "rg_hearing_row(h, h->rows[0])", "every row is held against the first"),
+    Fault(JUDGE, "r->sample_count, due_ms, «1»),", "-1", "a rate is due the other way round"),
+    Fault(JUDGE, "(struct bound){«least * (1 + margin)», least * (1 - margin)});", "least", "a ratio that print's rounding hides is reproduced"),
+    Fault(JUDGE, "(struct bound){least * (1 + margin), «least * (1 - margin)»});", "least", "a ratio that print's rounding hides is not reproduced"),
+    Fault(JUDGE, "const double low = «-s.high», high = -s.low,", "s.low", "a power has the sign of times"),
+    Fault(HEARING, "if («fewest < RG_LEAST_SAMPLES» && !is_of_errors(h)) {", "false", "five samples decide a claim"),
+    Fault(HEARING, "return «count < other ? count : other»;", "count", "a second variant may have few samples"),
+    Fault(ORDER, "on_side += «side * (bound - samples[i])» > 0;", "bound - samples[i]", "the sign test has one side"),
+    Fault(ORDER, "apart += «samples[i] != bound»;", "1", "samples that are equal to what is due count against it"),
+    Fault(MARGIN, "? «0.5» * pow(10, -decimals)", "1.0", "print is rounded to two of its last digits"),
+    Fault(MARGIN, "«sqrt(1 + (1 - t) * (1 - t) + t * t)»;", "1.0", "print's neighbours have no scatter of their own"),
+    Fault(MARGIN, "/ 2 «/ HALF_WITHIN»;", "/ 1.0", "a middle is a standard deviation"),
+    Fault(MARGIN, "(sigma * sigma + «half * half / 3»);", "0", "slopes know nothing of print's rounding"),
+    Fault(SLOPE, "if («points[i].group != group»)\n            continue;", "false", "all groups have one line"),
+    Fault(SLOPE, "(struct rg_interval){slope, «drawn[OUTSIDE]»,", "drawn[4 * OUTSIDE]", "a slope's interval is too narrow below"),
+    Fault(SLOPE, "if (!count || «fewest < RG_LEAST_SAMPLES» || !isfinite(slope))", "false", "a slope of five samples has an interval"),
+    Fault(JUDGE, "{«1 / (apart * (1 - margin))»,", "apart", "rows that are alike must differ"),
     Fault(JUDGE, "const double against = j.against;\n    «j.against = j.in_favour;»", ";", "apart is judged by alike's probability"),
     Fault(JUDGE, "first - knee >= «h->claim->least * (knee - last)» && first > knee;", "knee - last", "a knee need not be one"),
-    Fault(JUDGE, "axis[i] = «log(axis_at(h, h->rows[i]))»;", "axis_at(h, h->rows[i])", "a power is a slope"),
+    Fault(JUDGE, ".x = «log(axis_at(h, h->rows[i]))»,", "axis_at(h, h->rows[i])", "a power is a slope"),
     Fault(HEARING, "at.row = row «- 1»;", "- 0", "claims hear the row below"),
     Fault("harness/record/record.c", "ratio = «fmax(*due / *found, *found / *due)»;", "*due / *found", "more particles than in print are the same work"),
     Fault("harness/record/record.c", "return «ratio > SAME_COUNT»;", "false", "other work is judged"),
-    Fault(HEARING, "if («can_miss(c, row)»)\n                continue;\n            rg_hearing_end(h, RG_CLAIM_UNDECIDED", "true", "a claim's first row may be missing"),
+    Fault(HEARING, "if («can_miss(c, row)»)\n                continue;\n            rg_hearing_end(h, RG_CLAIM_UNDECIDED, \"row %d is", "true", "a claim's first row may be missing"),
     Fault("harness/record/result.c", "if («!*result->works[i].saves» && strcmp", "true", "our own work is held for the printed one"),
     Fault(ORDER, "below += x < high[j] ? 1 : x > high[j] ? 0 : «0.5»;", "1", "a tie counts as below"),
     Fault(ORDER, "now[u] * i / «(i + j)» : 0;", "(i + j + 1)", "probabilities of orders do not add up to 1"),
@@ -30,10 +45,14 @@ ROWS = [
     Fault(ORDER, "0.5 * erfc((pairs «- 0.5» - mean)", "- 0.0", "many samples' orders have no continuity correction"),
     Fault(PRINTED, "return «print_apart(h) > c->most»;", "false", "a table that contradicts its text is not told"),
     Fault(PRINTED, "least = fmin(least, «printed_fps(h, h->rows[i], h->at.variant)»);", "printed_fps(h, h->rows[0], h->at.variant)", "the slowest printed row is the first"),
-    Fault(TREND, "trend->pairs += «order != 0»;", "1", "rows that are equal in print order something"),
-    Fault(TREND, "trend->pairs_in_order += «order * (measured[row] - measured[other]) > 0»;", "order * (measured[row] - measured[other]) < 0", "trends are judged upside down"),
-    Fault(TREND, "const double apart = «fabs(trend.slope - trend.published_slope)»;", "trend.slope - trend.published_slope", "a trend that falls too fast is reproduced"),
-    Fault(TREND, "if (record->outcome != RG_OK)\n            «return false;»", ";", "a row without a time is part of a trend"),
+    Fault(TREND, "«rg_margin_orders(rows->printed[a], rows->printed[b])»)\n                add_pair(", "rows->printed[a] >= rows->printed[b]", "rows that are equal in print order something"),
+    Fault(TREND, "trend->pairs_in_order += «rg_record_fps(fast) > rg_record_fps(slow)»;", "rg_record_fps(fast) < rg_record_fps(slow)", "trends are judged upside down"),
+    Fault(TREND, "return «t->slope_low >= t->published_slope - t->margin» &&", "true", "a trend that falls too fast is reproduced"),
+    Fault(TREND, "«t->slope_high <= t->published_slope + t->margin»", "true", "a trend that falls too slowly is reproduced"),
+    Fault(TREND, "if («orders->surest_against * t->pairs <= ERROR_SHARE»)", "t->pairs_in_order < t->pairs", "an order that the samples do not settle is another"),
+    Fault(TREND, "if («t->pairs_undecided || t->pairs_in_order < t->pairs»)", "t->pairs_in_order < t->pairs", "an order that the samples do not settle is the same"),
+    Fault(TREND, "if («rows->points[a].group == rows->points[b].group» &&", "true", "rows of two cameras are held against each other"),
+    Fault(TREND, "if (record->outcome != RG_OK || !record->sample_count)\n            «return false;»", ";", "a row without a time is part of a trend"),
     Fault(COSTS, "«rg_record_fps(first) / rg_record_fps(record)»,", "rg_record_fps(record) / rg_record_fps(first)", "costs are upside down"),
     Fault(PREPARE, "rg_job_open(job) && «rg_job_check(job, &p->expected)»", "true", "cells are timed without a look at their image"),
     Fault(PREPARE, "(is_open || (rg_job_open(job) && rg_job_check(job, &p->expected))) && rg_job_count(job))\n            «rg_job_warm_up(job, options);»", ";", "cells are timed without a warm-up",

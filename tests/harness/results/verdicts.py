@@ -1,0 +1,223 @@
+#!/usr/bin/env python3
+"""Verdicts on samples whose truth is known: writes results as raingauge stores them, and has `raingauge table` judge them.
+
+    verdicts.py RAINGAUGE    results/tables of the source are what results are made after
+
+Times scatter as those of machines do: most are a little longer than the shortest, and a few much longer. A verdict is wrong
+where it says the opposite of the truth. Rows that are alike neither fall nor do not: there each verdict is wrong. Prints TAP.
+"""
+import copy
+import csv
+import io
+import json
+import math
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+
+KEPT = pathlib.Path(__file__).resolve().parents[3] / "results" / "tables"
+FILES, DEVICES = 10, 20  # a file each command, a device each trial
+TRIALS = FILES * DEVICES
+MOST_WRONG = 0.05 * TRIALS
+YES, NO, OPEN = "reproduced", "not reproduced", "undecided"
+
+
+class Made:
+    """A table's results on devices that there are not, every row at the given times, and what is said of them."""
+
+    def __init__(self, raingauge, table):
+        self.raingauge, self.table = raingauge, table
+        self.record = json.loads((KEPT / (table + ".json")).read_text(encoding="utf-8"))
+        self.record["works"] = [work for work in self.record.get("works", []) if work["name"] == "paper"]
+        if not self.record["works"]:
+            del self.record["works"]
+        cells = [cell for cell in self.record["cells"] if cell.get("work", "paper") == "paper" and cell["device"] == "cpu"]
+        device = next(one for one in self.record["passport"]["devices"] if one["name"] == "cpu")
+        names = ["cpu:%d" % i for i in range(DEVICES)]
+        self.record["passport"]["devices"] = [dict(device, name=name) for name in names]
+        self.record["cells"] = [dict(copy.deepcopy(cell), device=name) for cell in cells for name in names]
+        for cell in self.record["cells"]:  # as many particles as in print
+            if "particles" in cell["published"]:
+                cell["facts"]["particles"] = cell["published"]["particles"]
+
+    def times(self, ms_of, noise, samples, seed):
+        """Sets samples about the median `ms_of(row, variant)`."""
+        chance = random.Random(seed)
+        middle = math.log(2)  # of exponential scatter
+        for cell in self.record["cells"]:
+            ms = ms_of(cell["row_number"], cell["variant"])
+            # Some are five times as far off, on the side on which they are: the median stays.
+            offs = [noise * (chance.expovariate(1) - middle) * (5 if chance.random() < 0.05 else 1) for _ in range(samples)]
+            cell["measured"]["samples_ms"] = [ms * math.exp(off) for off in offs]
+
+    def errors(self, error_of):
+        for cell in self.record["cells"]:
+            cell["error"]["flip_mask_mean"] = error_of(cell["row_number"])
+
+    def run(self, *args):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / (self.table + ".json")
+            path.write_text(json.dumps(self.record), encoding="utf-8")
+            done = subprocess.run([self.raingauge, "table", "--from", str(path)] + list(args), encoding="utf-8",
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        if done.returncode or done.stderr:
+            raise RuntimeError(done.stderr)
+        return done.stdout
+
+    def verdicts(self, words):
+        """Of the claim that begins so, by device."""
+        for row in csv.DictReader(io.StringIO(self.run("--claims", "--format", "csv"))):
+            if row["claim"].strip('"').startswith(words):
+                return list(row.values())[3:]
+        raise RuntimeError("no claim '%s'" % words)
+
+    def count(self, words, ms_of, noise, samples=15, files=FILES):
+        """How often each verdict is given."""
+        told = []
+        for seed in range(files):
+            self.times(ms_of, noise, samples, "%s %s %d" % (words, noise, seed))
+            told += self.verdicts(words)
+        return {verdict: told.count(verdict) for verdict in (YES, NO, OPEN)}
+
+
+def settled(counts, verdict):
+    """Problems where a truth that noise does not hide is not found nearly always."""
+    return [] if counts[verdict] >= TRIALS - MOST_WRONG else ["settled, of %d due %s: %s" % (TRIALS, verdict, counts)]
+
+
+def hidden(counts, wrong):
+    """Problems where noise hides the truth, and verdicts are wrong too often, or most are no `undecided`."""
+    trials = sum(counts.values())
+    few = sum(counts[verdict] for verdict in wrong) <= 0.05 * trials
+    return [] if few and counts[OPEN] > trials / 2 else ["hidden, of %d wrong are %s: %s" % (trials, wrong, counts)]
+
+
+def open_truth(made, words, ms_of, noise, wrong=(YES, NO)):
+    """The same of what is just true, or just not: nearly as many as may be are decided, by chance."""
+    return hidden(made.count(words, ms_of, noise, files=5 * FILES), wrong)
+
+
+def by_row(ms):
+    return lambda row, variant: ms[row - 1]
+
+
+FALLING, TURNED, LEVEL = [10, 11, 12.1, 13.3, 14.6], [10, 11, 10, 13.3, 14.6], [10, 10, 10, 10, 10]
+
+
+def check_falls(raingauge):
+    """rows that get slower do, rows of which one does not do not, and what noise hides is left open"""
+    made, words = Made(raingauge, "feng-2"), "also varies"
+    return (settled(made.count(words, by_row(FALLING), 0.02), YES) + settled(made.count(words, by_row(TURNED), 0.02), NO) +
+            hidden(made.count(words, by_row(FALLING), 0.5), [NO]) + hidden(made.count(words, by_row(TURNED), 1), [YES]) +
+            open_truth(made, words, by_row(LEVEL), 0.02))
+
+
+def check_order(raingauge):
+    """rows in the order of print are, others are not, and what noise hides is left open; rows that print has equal are in none"""
+    made, words = Made(raingauge, "stuppacher-1"), "models ... influence"
+    ordered, turned = [10, 13, 13.1, 12.5, 11], [10, 13, 13.1, 12.5, 9]  # Buddha and the dragon are equal in print
+    return (settled(made.count(words, by_row(ordered), 0.005), YES) + settled(made.count(words, by_row(turned), 0.02), NO) +
+            hidden(made.count(words, by_row(ordered), 0.5), [NO]) + hidden(made.count(words, by_row(turned), 1), [YES]) +
+            open_truth(made, words, by_row(LEVEL), 0.02))
+
+
+def check_ratio(raingauge):
+    """a ratio that is more than claimed, less, or just that"""
+    made, words = Made(raingauge, "feng-2"), "20,000 drops"
+    of = lambda ratio: by_row([10, 15, 20, 30, 10 * ratio])
+    return (settled(made.count(words, of(4.3), 0.02), YES) + settled(made.count(words, of(3.7), 0.02), NO) +
+            hidden(made.count(words, of(4.3), 0.5), [NO]) + hidden(made.count(words, of(3.7), 0.5), [YES]) +
+            open_truth(made, words, of(4), 0.02, [NO]) + open_truth(made, words, of(4), 0.5, [NO]))
+
+
+def check_rate(raingauge):
+    """a frame rate that is more than claimed, less, or just that"""
+    made, words = Made(raingauge, "chin-timing"), "The simulation runs"
+    of = lambda fps: lambda row, variant: 1000 / fps
+    return (settled(made.count(words, of(32), 0.02), YES) + settled(made.count(words, of(28), 0.02), NO) +
+            hidden(made.count(words, of(30.3), 0.5), [NO]) + hidden(made.count(words, of(29.7), 0.5), [YES]) +
+            open_truth(made, words, of(30), 0.02, [NO]))
+
+
+def check_variants(raingauge):
+    """one variant that is faster in all rows, one that is not in the last, and both alike"""
+    made, words = Made(raingauge, "creus-5.6"), "from four lights on"
+    of = lambda last: lambda row, variant: 10 if variant == "no_geometry" else 9.3 if row < 6 else last
+    level = lambda row, variant: 10
+    return (settled(made.count(words, of(9.3), 0.02), YES) + settled(made.count(words, of(10.7), 0.02), NO) +
+            hidden(made.count(words, of(9.3), 0.5), [NO]) + hidden(made.count(words, of(10.7), 0.7), [YES]) +
+            open_truth(made, words, level, 0.02, [NO]))
+
+
+def check_knee(raingauge):
+    """an error that falls to 20 m and flattens there has its best compromise there, and a straight line has not"""
+    made, words = Made(raingauge, "creus-5.4"), "20 meters come"
+    told = []
+    for error_of in (lambda row: 0.1 + 0.5 * math.exp(-row), lambda row: 0.5 - 0.05 * row):
+        made.errors(error_of)
+        told.append(set(made.verdicts(words)))
+    return [] if told == [{YES}, {NO}] else ["a knee, and a line: %s" % told]
+
+
+def check_few(raingauge):
+    """five samples a row decide nothing, and print no interval"""
+    made = Made(raingauge, "feng-2")
+    problems = []
+    for samples, verdict in ((5, OPEN), (15, YES)):
+        counts = made.count("also varies", by_row(FALLING), 1e-3, samples)
+        if counts[verdict] != TRIALS:
+            problems.append("%d samples: %s" % (samples, counts))
+        intervals = {row["ms, 95 %"] != "" for row in csv.DictReader(io.StringIO(made.run("--format", "csv")))}
+        if intervals != {samples > 5}:
+            problems.append("%d samples, intervals: %s" % (samples, intervals))
+    return problems
+
+
+def shapes(made, ms_of, noise, samples=15):
+    found = []
+    for seed in range(FILES):
+        made.times(ms_of, noise, samples, "shape %s %d" % (noise, seed))
+        found += json.loads(made.run("--json"))["shapes"]
+    return found
+
+
+def check_slope(raingauge):
+    """a slope's interval holds the truth, and a shape is print's where the slope is, however few samples settle that"""
+    made = Made(raingauge, "feng-2")
+    axis, printed = [6000, 8000, 10000, 15000, 20000], [45.96, 39.44, 33.41, 22.09, 11.33]
+    as_printed = by_row([1000 / fps for fps in printed])
+    problems = []
+    for power in (-0.5, -1.5):
+        for noise, samples in ((0.05, 6), (0.05, 15), (0.3, 15)):
+            found = shapes(made, by_row([10 * (x / 6000) ** -power for x in axis]), noise, samples)
+            held = sum(shape["slope_low"] <= power <= shape["slope_high"] for shape in found)
+            if held < TRIALS - MOST_WRONG or any(shape["verdict"] == YES for shape in found):
+                problems.append("%g, %d samples of scatter %g: %d of %d hold it" % (power, samples, noise, held, TRIALS))
+    told = [shape["verdict"] for shape in shapes(made, as_printed, 0.01)]
+    if told.count(YES) < TRIALS - MOST_WRONG:
+        problems.append("as printed: %d of %d" % (told.count(YES), TRIALS))
+    told = [shape["verdict"] for shape in shapes(made, as_printed, 1)]
+    if told.count(NO) > MOST_WRONG or told.count(OPEN) <= TRIALS / 2:
+        problems.append("hidden by noise: %s" % {verdict: told.count(verdict) for verdict in set(told)})
+    return problems
+
+
+CHECKS = (check_falls, check_order, check_ratio, check_rate, check_variants, check_knee, check_few, check_slope)
+
+
+def main(raingauge):
+    failed = 0
+    print("1..%d" % len(CHECKS))
+    for number, check in enumerate(CHECKS, 1):
+        problems = check(raingauge)
+        failed += bool(problems)
+        print("%s %d - %s" % ("not ok" if problems else "ok", number, check.__doc__))
+        for problem in problems:
+            print("# " + problem, flush=True)
+    return failed > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))
