@@ -3,6 +3,7 @@ import csv
 import io
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -60,7 +61,7 @@ def check_compact(runner):
 
 
 def check_claims(runner):
-    """table --claims judges what papers claim of the tables that are kept, each on its devices, and one alone"""
+    """table --claims judges what papers claim of the tables that are kept, each on its devices, and one alone; --wide has every reason"""
     printed = runner.run(["table", "--claims", "--from", KEPT, "--format", "csv"])
     rows = list(csv.DictReader(io.StringIO(printed.stdout)))
     verdicts = {verdict for row in rows for verdict in list(row.values())[3:] if verdict}
@@ -71,6 +72,10 @@ def check_claims(runner):
     about = [row["table"] for row in csv.DictReader(io.StringIO(alone.stdout))]
     if set(about) != {"stuppacher-2"} or len(about) != [row["table"] for row in rows].count("stuppacher-2"):
         problems.append("of one table: %s" % about)
+    noted = [set(re.findall(r'", ((?:not )?reproduced|undecided|other work) on [^:]*?, p (?:<|0|1)', runner.run(asked).stdout))
+             for asked in (["table", "--claims", "--from", KEPT], ["table", "--claims", "--wide", "--from", KEPT])]
+    if noted != [{"not reproduced", "undecided"}, {"reproduced", "not reproduced", "undecided"}]:
+        problems.append("verdicts that have a reason and a probability: %s" % noted)
     refused = runner.run(["table", "--claims", "--from", KEPT, "--format", "json"])
     if refused.returncode != 2 or "choose md, csv or tex" not in refused.stderr:
         problems.append("as JSON: %s" % refused.stderr)

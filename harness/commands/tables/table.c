@@ -67,8 +67,9 @@ static const struct rg_option options[] = {
     {RG_OPTION_CHOICE, "format", .about = "what to print", .offset = AT(format),
      .choices = rg_result_formats, .initial = "md"},
     {RG_OPTION_FLAG, "wide",
-     .about = "prints all columns and notes, as the other formats have them, one line a cell",
-     .offset = AT(wide), .excludes = "format json claims"},
+     .about = "prints all columns and notes, as the other formats have them, one line a cell; with "
+              "--claims the reason of every verdict",
+     .offset = AT(wide), .excludes = "format json"},
     {RG_OPTION_TEXT, "output", .argument = "DIR",
      .about = "writes each table into this folder too, in every format", .offset = AT(output),
      .letter = 'o', .names = RG_NAMES_FOLDER},
@@ -247,10 +248,10 @@ static int print_tables(const struct table_options *o, const struct rg_words *ar
 }
 
 // The verdicts, in the format that is asked for. False, and one logged line, without memory.
-static bool print_claims(const struct rg_claim_outcomes *outcomes, int format)
+static bool print_claims(const struct rg_claim_outcomes *outcomes, int format, bool all_reasons)
 {
     struct rg_sheet sheet = {0};
-    rg_claims_sheet(outcomes, &sheet);
+    rg_claims_sheet(outcomes, all_reasons, &sheet);
     if (format == RG_RESULT_CSV)
         rg_sheet_print_csv(&sheet, stdout);
     else if (format == RG_RESULT_TEX)
@@ -274,7 +275,7 @@ static int table(const void *values, const struct rg_words *arguments)
         return RG_EXIT_USAGE;
     int exit = print_tables(&o, arguments);
     free(o.set);
-    if (outcomes.count && !print_claims(&outcomes, o.format))
+    if (outcomes.count && !print_claims(&outcomes, o.format, o.wide))
         exit = RG_EXIT_FAIL;
     rg_claims_free(&outcomes);
     return exit;

@@ -103,7 +103,7 @@ static void name_alike(const struct rg_claim_outcomes *o, int from, char *text, 
     }
 }
 
-static void add_notes(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
+static void add_notes(const struct rg_claim_outcomes *o, bool all_reasons, struct rg_sheet *sheet)
 {
     for (int i = 0; i < o->count; i++) {
         const struct rg_claim_outcome *outcome = &o->outcomes[i];
@@ -112,7 +112,7 @@ static void add_notes(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
         char p[32], devices[256];
         print_probability(j, p, sizeof(p));
         name_alike(o, i, devices, sizeof(devices));
-        if (j->verdict != RG_CLAIM_REPRODUCED && *devices)
+        if ((all_reasons || j->verdict != RG_CLAIM_REPRODUCED) && *devices)
             rg_sheet_note(sheet, "%s, \"%s\", %s on %s%s: %s.", claim->table, claim->words,
                           rg_claim_verdict_text(j->verdict), devices, p, j->why);
         const bool is_first = !i || o->outcomes[i - 1].claim != claim;
@@ -132,11 +132,12 @@ static const char *paint(const char *cell)
     return NULL;
 }
 
-void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, struct rg_sheet *sheet)
+void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, bool all_reasons,
+                     struct rg_sheet *sheet)
 {
     sheet->title = "claims";
     sheet->paint = rg_has_colours(stdout) ? paint : NULL;
     add_columns(outcomes, sheet);
     add_rows(outcomes, sheet);
-    add_notes(outcomes, sheet);
+    add_notes(outcomes, all_reasons, sheet);
 }

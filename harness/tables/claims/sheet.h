@@ -23,8 +23,10 @@ struct rg_claim_outcomes {
 bool rg_claims_add(struct rg_claim_outcomes *outcomes, const struct rg_result *result);
 void rg_claims_free(struct rg_claim_outcomes *outcomes);
 
-// A row each claim, a column each device, and below the reasons of what is not borne out. The sheet
-// is zeroed before, and the caller frees it.
-void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, struct rg_sheet *sheet);
+// A row each claim, a column each device, and below the reasons of what is not borne out, or with
+// `all_reasons` of every verdict, each with the probability behind it. The sheet is zeroed before,
+// and the caller frees it.
+void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, bool all_reasons,
+                     struct rg_sheet *sheet);
 
 #endif
