@@ -18,6 +18,8 @@ struct rg_expected {
 // Reads what a session shows now. False, and one logged line, on failure. The caller calls
 // rg_expected_free in either case.
 bool rg_expected_read(struct rg_expected *expected, struct rg_session *session);
+// Whether it differs from the background anywhere. False, and one logged line, without memory.
+bool rg_expected_shows_rain(const struct rg_expected *expected, bool *shows);
 void rg_expected_free(struct rg_expected *expected);
 
 #endif

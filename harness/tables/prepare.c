@@ -60,16 +60,6 @@ static bool find_drawn(struct preparation *p, const struct rg_batch *batch, stru
     return *elsewhere != NULL;
 }
 
-// The background is what a mask of rain is made from: for the distance from the truth, and for
-// devices that owe another tier than T0.
-static bool needs_dry(const struct preparation *p)
-{
-    bool needed = p->table->truth != NULL;
-    for (int d = 0; d < p->count; d++)
-        needed = needed || rg_tier_owed(&p->jobs[d].device->info, &p->expected.device) != RG_T0;
-    return needed;
-}
-
 // Gets the image of cpu:reference: from its job where the table measures it with these settings,
 // else from a session opened for that.
 static bool draw_expected(struct preparation *p)
@@ -87,16 +77,33 @@ static bool draw_expected(struct preparation *p)
     return ok;
 }
 
-static bool draw_dry(struct preparation *p)
-{
-    return !needs_dry(p) || rg_frame_draw_dry(rg_kept_device(p->kept, "cpu:reference"), &p->drawn,
-                                              p->check_frames, &p->expected.dry);
-}
-
 static void end_error(struct rg_truth_error *error, enum rg_outcome outcome, const char *why)
 {
     error->outcome = outcome;
     rg_text_copy(error->detail, sizeof(error->detail), why);
+}
+
+// The background is what a mask of rain is made from. cpu draws what cpu:reference does, and
+// sooner.
+static bool draw_dry(struct preparation *p)
+{
+    struct rg_device *device = rg_kept_device(p->kept, "cpu");
+    return device && rg_frame_draw_dry(device, &p->drawn, p->check_frames, &p->expected.dry);
+}
+
+// Ends all records where the image is that of no rain: a device that draws none would pass as well,
+// and what is timed cannot be seen. False without memory.
+static bool fail_without_rain(struct preparation *p, bool *shows)
+{
+    static const char why[] = "its image is the same without rain: nothing of what it would time "
+                              "can be seen";
+    if (!rg_expected_shows_rain(&p->expected, shows))
+        return false;
+    for (int d = 0; !*shows && d < p->count; d++)
+        rg_record_end(p->jobs[d].record, RG_FAIL, why);
+    if (!*shows)
+        end_error(&p->truth_error, RG_FAIL, why);
+    return true;
 }
 
 static bool compare_with_truth(struct preparation *p, const void *settings)
@@ -155,12 +162,13 @@ void rg_batch_prepare(struct rg_batch *batch, struct rg_place at,
 {
     struct preparation p = begin(batch, at);
     void *elsewhere = NULL;
-    if (p.subject.settings && find_drawn(&p, batch, at, &elsewhere) && draw_expected(&p) &&
-        draw_dry(&p)) {
+    bool shows;
+    if (!p.subject.settings || !find_drawn(&p, batch, at, &elsewhere) || !draw_expected(&p) ||
+        !draw_dry(&p) || !fail_without_rain(&p, &shows)) {
+        give_up(&p);
+    } else if (shows) {
         measure_error(&p);
         prepare_jobs(&p, options);
-    } else {
-        give_up(&p);
     }
     free(elsewhere);
     for (int d = 0; d < p.count; d++)

@@ -83,22 +83,42 @@ def check_growth(runner):
 def check_changed(runner):
     """table --set, --variant, --work and --rows hold together, the record tells of them, and nothing changed is held against print"""
     with tempfile.TemporaryDirectory() as tmp:
-        args = "table stuppacher-2 --rows 1-2 --work reading --variant full --device cpu --set drops=0 --set rain_drops_s=0"
+        args = "table stuppacher-2 --rows 1-2 --work reading --variant full --device cpu --set drops=7 --set rain_drops_s=0"
         report, status, problems = run_json(runner, args + " -o " + tmp, form="table")
         texts = {form: open("%s/stuppacher-2.%s" % (tmp, form), encoding="utf-8").read() for form in FORMATS}
         again = runner.run(["table", "--from", tmp, "--json"]).stdout
         none = runner.run(["table", "--from", tmp, "--variant", "no_geometry"])
     if json.loads(again) != report or none.returncode != 2:
         problems.append("from the record: %s\n%s" % (again[:200], none.stderr))
-    if status or report.get("changed") != "drops=0 rain_drops_s=0" or [work["name"] for work in report["works"]] != ["reading"]:
+    if status or report.get("changed") != "drops=7 rain_drops_s=0" or [work["name"] for work in report["works"]] != ["reading"]:
         problems.append("exit status %d, changed: %s, works: %s" % (status, report.get("changed"), report["works"]))
     for cell in report["cells"]:
-        if not cell["set"].endswith("view=pane drops=0 rain_drops_s=0") or cell["counters"]["drops_landed"]:
+        if not cell["set"].endswith("view=pane drops=7 rain_drops_s=0") or cell["counters"]["drops_landed"] != 7:
             problems.append("cell: %s, %s" % (cell["set"], cell["counters"]))
     if [shape["verdict"] for shape in report["shapes"]] != ["other work"]:
         problems.append("shapes: %s" % report["shapes"])
-    if "drops=0 rain_drops_s=0" not in texts["md"] or any(row["fps / published"] for row in csv.DictReader(io.StringIO(texts["csv"]))):
+    if "drops=7 rain_drops_s=0" not in texts["md"] or any(row["fps / published"] for row in csv.DictReader(io.StringIO(texts["csv"]))):
         problems.append(texts["md"] + texts["csv"])
+    return problems
+
+
+def check_no_rain(runner):
+    """a cell whose picture is the same without rain fails on every device and has no number, in the table and before the claims"""
+    problems = []
+    for table, hidden in (("stuppacher-2", ["drops=0", "rain_drops_s=0"]), ("ye-1", ["opacity=0"])):
+        with tempfile.TemporaryDirectory() as tmp:
+            sets = [word for one in hidden for word in ("--set", one)]
+            done = runner.run(["table", table, "--rows", "1-1", "--device", "cpu,cpu:reference", "-o", tmp] + sets)
+            record = json.loads(open("%s/%s.json" % (tmp, table), encoding="utf-8").read())
+            cells = {(cell["device"], cell["status"], "measured" in cell) for cell in record["cells"]}
+            if done.returncode != 1 or cells != {("cpu", "fail", False), ("cpu:reference", "fail", False)} or "without rain" not in done.stdout:
+                problems.append("%s: exit status %d, %s\n%s" % (table, done.returncode, cells, done.stdout))
+            del record["changed"]  # else claims would be about other work
+            with open(tmp + "/claims.json", "w", encoding="utf-8") as file:
+                json.dump(record, file)
+            claims = runner.run(["table", "--claims", "--from", tmp + "/claims.json"]).stdout
+        if "has no number: its image is the same without rain" not in claims or "| reproduced" in claims or "not reproduced" in claims:
+            problems.append("claims of %s:\n%s" % (table, claims))
     return problems
 
 
@@ -527,7 +547,7 @@ def check_atlas_not_kept(runner):
     return problems if images[0] == images[1] and images[0] else problems + ["printed:\n%s, kept:\n%s" % tuple(images)]
 
 
-LONG = [check_tallies, check_growth, check_changed, check_brief, check_sweep, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept]
+LONG = [check_tallies, check_growth, check_changed, check_no_rain, check_brief, check_sweep, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept]
 
 
 # --- a driver that draws wrongly: its kernel is another ---

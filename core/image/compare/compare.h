@@ -113,6 +113,10 @@ bool rg_tiers_compute(const struct rg_picture *a, const struct rg_picture *b,
                       const uint8_t *background_codes, const struct rg_metrics *metrics,
                       uint8_t *mask, struct rg_tiers *tiers);
 
+// Whether a picture has any pixel of rain before its background: of an empty mask nothing can be
+// said.
+bool rg_shows_rain(const uint8_t *codes, const uint8_t *background_codes, int64_t pixels);
+
 // FLIP of each pixel into width * height floats. pixels_per_degree: 1 to 200.
 bool rg_flip_map(const uint8_t *a_codes, const uint8_t *b_codes, int width, int height,
                  float pixels_per_degree, float *map);

@@ -302,3 +302,11 @@ bool rg_tiers_compute(const struct rg_picture *a, const struct rg_picture *b,
     judge(metrics, tiers);
     return true;
 }
+
+bool rg_shows_rain(const uint8_t *codes, const uint8_t *background_codes, int64_t pixels)
+{
+    bool shows = false;
+    for (int64_t i = 0; i < pixels && !shows; i++)
+        shows = distance(codes + i * 4, background_codes + i * 4) > MASK_CODES;
+    return shows;
+}

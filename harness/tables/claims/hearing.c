@@ -62,6 +62,28 @@ static int fewest_samples(const struct hearing *h, int row)
     return count < other ? count : other;
 }
 
+// The record of a row that was measured and failed, of either variant; NULL where there is none.
+static const struct rg_record *failed(const struct hearing *h, int row)
+{
+    const bool has = row > h->result->first_row && row <= h->result->last_row + 1 &&
+                     rg_result_has(h->result, row - 1);
+    const struct rg_record *r = has ? rg_hearing_row(h, row) : NULL;
+    if (r && r->outcome == RG_OK && h->other >= 0)
+        r = rg_hearing_row_of(h, row, h->other);
+    return r && r->outcome != RG_OK ? r : NULL;
+}
+
+// Ends with why a row has no number. Returns false.
+static bool end_without_number(struct hearing *h, int row)
+{
+    const struct rg_record *r = failed(h, row);
+    if (r)
+        rg_hearing_end(h, RG_CLAIM_UNDECIDED, "row %d has no number: %.180s", row, r->detail);
+    else
+        rg_hearing_end(h, RG_CLAIM_UNDECIDED, "row %d is not measured", row);
+    return false;
+}
+
 // Whether each row stands for itself, so that those that are measured suffice.
 static bool is_of_each_row(const struct rg_claim *c)
 {
@@ -85,8 +107,7 @@ static bool hear_rows(struct hearing *h)
             (h->other >= 0 && !has_number(h, row, h->other))) {
             if (can_miss(c, row))
                 continue;
-            rg_hearing_end(h, RG_CLAIM_UNDECIDED, "row %d is not measured", row);
-            return false;
+            return end_without_number(h, row);
         }
         const int fewest = fewest_samples(h, row);
         if (fewest < RG_LEAST_SAMPLES && !is_of_errors(h)) {
@@ -106,9 +127,7 @@ static bool hear_rows(struct hearing *h)
         }
         h->rows[h->count++] = row;
     }
-    if (!h->count)
-        rg_hearing_end(h, RG_CLAIM_UNDECIDED, "no row is measured");
-    return h->count > 0;
+    return h->count > 0 || end_without_number(h, c->first);
 }
 
 bool rg_hearing_begin(struct hearing *h)

@@ -32,7 +32,8 @@ static void *settings_of(const char *assignments)
 static const struct rg_table_row rows[] = {
     {PANE "resolution_px=64 drops=40", {6, 160}, "small"},
     {PANE "environment=/nonexistent.exr", {7, 100}, "broken"},
-    {PANE "resolution_px=96 drops=0", {8, 50}, "dry"},
+    {PANE "resolution_px=96 drops=10", {8, 50}, "few"},
+    {PANE "resolution_px=96 drops=0", {9, 40}, "dry"},
 };
 static const struct rg_table table = {
     .id = "test",
@@ -46,7 +47,7 @@ static const struct rg_table table = {
     .truth = "drops=20",
     .width = 64,
     .height = 64,
-    .row_count = 3,
+    .row_count = 4,
     .rows = rows,
     .note = "a note",
 };
@@ -162,8 +163,25 @@ static void test_table(void **state)
         fail_msg("the file is not named: %s", broken->detail);
     // Both assignments of a row are taken, the number of texels and that of drops.
     const int64_t small = record_at(&rig, 0, 1)->counters[0].value;
-    const int64_t dry = record_at(&rig, 2, 1)->counters[0].value;
-    assert_true(small == 40 && dry == 0);
+    const int64_t few = record_at(&rig, 2, 1)->counters[0].value;
+    assert_true(small == 40 && few == 10);
+    finish(&rig);
+}
+
+// Of a row without drops the variant into which none fall shows nothing, and is not timed; the
+// other is.
+static void test_no_rain(void **state)
+{
+    (void)state;
+    struct rig rig;
+    measure(&rig, &table, 4);
+    const struct rg_record *rainy = record_at(&rig, 3, 0), *dry = record_at(&rig, 3, 1);
+    assert_int_equal(rainy->outcome, RG_OK);
+    assert_true(rainy->sample_count >= RG_LEAST_SAMPLES);
+    assert_int_equal(dry->outcome, RG_FAIL);
+    assert_int_equal(dry->truth_error.outcome, RG_FAIL);
+    assert_int_equal(dry->sample_count, 0);
+    assert_non_null(strstr(dry->detail, "without rain"));
     finish(&rig);
 }
 
@@ -322,9 +340,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_another_image), cmocka_unit_test(test_check_frames),
-        cmocka_unit_test(test_table),         cmocka_unit_test(test_quick_rows),
-        cmocka_unit_test(test_textures),      cmocka_unit_test(test_unsupported),
-        cmocka_unit_test(test_kept),
+        cmocka_unit_test(test_table),         cmocka_unit_test(test_no_rain),
+        cmocka_unit_test(test_quick_rows),    cmocka_unit_test(test_textures),
+        cmocka_unit_test(test_unsupported),   cmocka_unit_test(test_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
