@@ -11,10 +11,10 @@ struct rg_job {
     // Given:
     struct rg_subject subject;
     struct rg_device *device;
-    int check_frames;           // simulated and drawn before the image is compared, at least 1
-    // Timed are so many frames behind the check frames, over and over from a session opened anew; 0:
-    // whatever follows. A technique whose frames differ from what they were when it began, as water
-    // gathers, is timed at one age.
+    int check_frames; // simulated and drawn before the image is compared, at least 1
+    // Timed are so many frames behind the check frames, over and over from a session opened anew;
+    // 0: whatever follows. A technique whose frames differ from what they were when it began, as
+    // water gathers, is timed at one age.
     int window_frames;
     const char *const *counted; // counters whose growth in a frame is kept; NULL: none
     struct rg_record *record;   // not owned; its outcome says whether the job goes on
@@ -25,10 +25,11 @@ struct rg_job {
 };
 
 struct rg_measure_options {
-    int most_samples, least_samples;                   // a job; at most RG_MAX_SAMPLES
-    double sample_ms;                                  // least duration of a sample
-    double job_ms;                                     // what a job's samples may take together
-    double warm_up_ms;                                 // likewise its warm-up
+    int most_samples, least_samples; // a job; at most RG_MAX_SAMPLES
+    double sample_ms;                // least duration of a sample
+    double job_ms;                   // what a job's samples may take together
+    double warm_up_ms;               // likewise its warm-up
+    void (*load)(void); // timed between rounds, to tell how the machine drifts; NULL: nothing is
     void (*progress)(int done, int total, void *user); // NULL: none
     void *user;
 };

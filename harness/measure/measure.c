@@ -5,6 +5,7 @@
 
 #include "core/base/alloc.h"
 #include "harness/console/interrupt.h"
+#include "harness/measure/calibration.h"
 #include "kernels/dialect/rng.h"
 
 // A frame that takes longer than this is not slowed by what the job before left in the caches.
@@ -74,8 +75,10 @@ static bool takes_turn(const struct rg_job *job, int round, int rounds)
     return job->record->outcome == RG_OK && after > before;
 }
 
-static void finish(struct rg_job *job)
+static void finish(struct rg_job *job, const struct rg_calibration *calibration)
 {
+    rg_calibration_tell(calibration, &job->record->calibration_begin_ms,
+                        &job->record->calibration_end_ms);
     if (!rg_job_time_passes(job))
         rg_record_end_by_error(job->record);
     rg_record_settle(job->record);
@@ -105,16 +108,19 @@ void rg_jobs_measure(struct rg_job *jobs, int count, const struct rg_measure_opt
     for (int i = 0; i < ready; i++)
         if (jobs[order[i]].wanted_samples > rounds)
             rounds = jobs[order[i]].wanted_samples;
+    struct rg_calibration calibration = {.load = options->load};
+    rg_calibration_take(&calibration);
     for (int round = 0; round < rounds && !rg_interrupted(); round++) {
         shuffle(order, ready, round);
         for (int i = 0; i < ready && !rg_interrupted(); i++)
             if (takes_turn(&jobs[order[i]], round, rounds))
                 take_sample(&jobs[order[i]]);
+        rg_calibration_take(&calibration);
         if (options->progress)
             options->progress(round + 1, rounds, options->user);
     }
     for (int i = 0; i < ready && !rg_interrupted(); i++)
         if (jobs[order[i]].record->outcome == RG_OK)
-            finish(&jobs[order[i]]);
+            finish(&jobs[order[i]], &calibration);
     free(order);
 }

@@ -45,6 +45,8 @@ void rg_record_settle(struct rg_record *record)
     settle(&record->create_ms);
     settle(&record->first_frame_ms);
     settle(&record->api_over_wall);
+    settle(&record->calibration_begin_ms);
+    settle(&record->calibration_end_ms);
     for (int i = 0; i < record->pass_count; i++)
         settle(&record->passes[i].ms);
     for (int i = 0; i < record->sample_count; i++)
@@ -58,6 +60,13 @@ void rg_record_settle(struct rg_record *record)
 double rg_record_fps(const struct rg_record *record)
 {
     return 1000 / record->frame_ms.median;
+}
+
+double rg_record_drift(const struct rg_record *a, const struct rg_record *b)
+{
+    const double ms_a = a->calibration_begin_ms + a->calibration_end_ms;
+    const double ms_b = b->calibration_begin_ms + b->calibration_end_ms;
+    return ms_a > 0 && ms_b > 0 ? fmax(ms_a / ms_b, ms_b / ms_a) : 1;
 }
 
 double rg_record_passes_ms(const struct rg_record *record)

@@ -56,7 +56,9 @@ struct rg_record {
     double samples_ms[RG_MAX_SAMPLES]; // a frame, in the order in which they were taken
     struct rg_interval frame_ms;       // of the samples
     double api_over_wall; // the API's own clock by wall clock; trusted from 0.8 to 1.05
-    int pass_frames;      // of the run in which passes are told apart
+    // What the calibration's load took when the samples were begun and ended; 0: unknown.
+    double calibration_begin_ms, calibration_end_ms;
+    int pass_frames; // of the run in which passes are told apart
     int pass_count;
     struct rg_pass_time passes[RG_MAX_PASS_TIMES]; // each name once, in the order of the frame
     // What its instance told, after the frames before the image is compared
@@ -91,6 +93,9 @@ void rg_record_settle(struct rg_record *record);
 
 // Frames a second: 1000 over the median of its frame_ms.
 double rg_record_fps(const struct rg_record *record);
+// By how much the machine was slower, or faster, while one was measured than while the other was,
+// as their calibration tells: at least 1; 1 where that is unknown.
+double rg_record_drift(const struct rg_record *a, const struct rg_record *b);
 // What all its passes take together, in the run that syncs after every pass.
 double rg_record_passes_ms(const struct rg_record *record);
 // The frame rate in print; NAN where none is.

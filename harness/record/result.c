@@ -1,5 +1,6 @@
 #include "harness/record/result.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -161,6 +162,19 @@ void rg_result_samples(const struct rg_result *result, int *least, int *most)
         *least = !*least || samples < *least ? samples : *least;
         *most = samples > *most ? samples : *most;
     }
+}
+
+double rg_result_drift(const struct rg_result *result)
+{
+    double least = INFINITY, most = 0;
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);) {
+        const struct rg_record *record = rg_result_at(result, at);
+        if (!(record->calibration_begin_ms > 0))
+            continue;
+        least = fmin(least, fmin(record->calibration_begin_ms, record->calibration_end_ms));
+        most = fmax(most, fmax(record->calibration_begin_ms, record->calibration_end_ms));
+    }
+    return most > 0 ? most / least - 1 : 0;
 }
 
 void rg_result_free(struct rg_result *result)

@@ -92,6 +92,11 @@ int rg_result_printed_work(const struct rg_result *result);
 // How many samples its measured cells took, at least and at most; 0 where none was measured.
 void rg_result_samples(const struct rg_result *result, int *least, int *most);
 
+// By how much the machine's speed went up or down over the run, as a share of the fastest: by what
+// its calibration took at the beginnings and ends of what was measured together. 0 where none
+// tells.
+double rg_result_drift(const struct rg_result *result);
+
 // Frees what it owns.
 void rg_result_free(struct rg_result *result);
 

@@ -1,13 +1,22 @@
 // A table from its rows to their numbers, a batch of rows at a time.
 #include "harness/console/interrupt.h"
 #include "harness/console/progress.h"
+#include "harness/measure/calibration.h"
 #include "harness/tables/batch.h"
 
 // Of fewer than 6 samples a median has no interval of 95 %.
-static const struct rg_measure_options quick = {
-    .most_samples = 15, .least_samples = 6, .sample_ms = 15, .job_ms = 1000, .warm_up_ms = 250};
-static const struct rg_measure_options full = {
-    .most_samples = 61, .least_samples = 6, .sample_ms = 60, .job_ms = 2000, .warm_up_ms = 500};
+static const struct rg_measure_options quick = {.most_samples = 15,
+                                                .least_samples = 6,
+                                                .sample_ms = 15,
+                                                .job_ms = 1000,
+                                                .warm_up_ms = 250,
+                                                .load = rg_calibration_load};
+static const struct rg_measure_options full = {.most_samples = 61,
+                                               .least_samples = 6,
+                                               .sample_ms = 60,
+                                               .job_ms = 2000,
+                                               .warm_up_ms = 500,
+                                               .load = rg_calibration_load};
 
 const struct rg_measure_options *rg_table_options(bool is_full)
 {

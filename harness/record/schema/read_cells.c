@@ -36,6 +36,14 @@ static bool read_passes(struct rg_reader *r, const json_t *measured, struct rg_r
     return true;
 }
 
+// Results of before there was one have none.
+static bool read_calibration(struct rg_reader *r, const json_t *measured, struct rg_record *record)
+{
+    return !json_object_get(measured, "calibration_begin_ms") ||
+           (rg_field_number(r, measured, "calibration_begin_ms", &record->calibration_begin_ms) &&
+            rg_field_number(r, measured, "calibration_end_ms", &record->calibration_end_ms));
+}
+
 static bool read_measured(struct rg_reader *r, const json_t *cell, struct rg_record *record,
                           bool is_timed)
 {
@@ -50,7 +58,8 @@ static bool read_measured(struct rg_reader *r, const json_t *cell, struct rg_rec
              rg_field_number(r, measured, "api_over_wall", &record->api_over_wall) &&
              rg_field_int(r, measured, "frames_a_sample", 1, INT_MAX, &record->frames_a_sample) &&
              rg_field_int(r, measured, "pass_frames", 1, INT_MAX, &record->pass_frames) &&
-             read_samples(r, measured, record) && read_passes(r, measured, record)));
+             read_samples(r, measured, record) && read_calibration(r, measured, record) &&
+             read_passes(r, measured, record)));
 }
 
 static bool read_outcome(struct rg_reader *r, const json_t *object, enum rg_outcome *outcome,

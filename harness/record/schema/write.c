@@ -22,14 +22,19 @@ static json_t *passes_json(const struct rg_record *record, double unit)
 
 static json_t *times_json(const struct rg_record *record)
 {
-    return json_pack("{sfsfsososfsfsfsisosisoso}", "fps", rg_record_fps(record), "ms",
-                     record->frame_ms.median, "ms_low", rg_number_json(record->frame_ms.low),
-                     "ms_high", rg_number_json(record->frame_ms.high), "create_ms",
-                     record->create_ms, "first_frame_ms", record->first_frame_ms, "api_over_wall",
-                     record->api_over_wall, "frames_a_sample", record->frames_a_sample,
-                     "samples_ms", samples_json(record), "pass_frames", record->pass_frames,
-                     "passes_ms", passes_json(record, 1), "passes_share",
-                     passes_json(record, rg_record_passes_ms(record)));
+    json_t *json =
+        json_pack("{sfsfsososfsfsfsisosisoso}", "fps", rg_record_fps(record), "ms",
+                  record->frame_ms.median, "ms_low", rg_number_json(record->frame_ms.low),
+                  "ms_high", rg_number_json(record->frame_ms.high), "create_ms", record->create_ms,
+                  "first_frame_ms", record->first_frame_ms, "api_over_wall", record->api_over_wall,
+                  "frames_a_sample", record->frames_a_sample, "samples_ms", samples_json(record),
+                  "pass_frames", record->pass_frames, "passes_ms", passes_json(record, 1),
+                  "passes_share", passes_json(record, rg_record_passes_ms(record)));
+    if (record->calibration_begin_ms > 0) {
+        json_object_set_new(json, "calibration_begin_ms", json_real(record->calibration_begin_ms));
+        json_object_set_new(json, "calibration_end_ms", json_real(record->calibration_end_ms));
+    }
+    return json;
 }
 
 // A number that the paper printed, other than a frame rate, is written with the fact of the same

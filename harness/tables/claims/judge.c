@@ -62,11 +62,12 @@ static void add_part(struct parts *parts, const struct rg_record *faster,
     else
         snprintf(about, sizeof(about), "%s against %s: %.4g to %.4g fps", name[0], name[1],
                  rg_record_fps(faster), rg_record_fps(slower));
+    const double drift = rg_record_drift(faster, slower);
     const double against =
-        rg_order_probability(faster->samples_ms, faster->sample_count, bound.holds,
+        rg_order_probability(faster->samples_ms, faster->sample_count, bound.holds * drift,
                              slower->samples_ms, slower->sample_count);
     const double in_favour =
-        rg_order_probability(slower->samples_ms, slower->sample_count, 1 / bound.fails,
+        rg_order_probability(slower->samples_ms, slower->sample_count, drift / bound.fails,
                              faster->samples_ms, faster->sample_count);
     add_probabilities(parts, against, in_favour, about);
 }

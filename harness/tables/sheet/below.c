@@ -161,10 +161,14 @@ static void add_method(struct notes *notes, const struct rg_result *result)
     char samples[32] = "";
     if (least < most)
         snprintf(samples, sizeof(samples), "%d to ", least);
-    add(notes, "%s%s%sMedians of %s%d samples by wall clock, %s%s%s.",
+    char drift[48] = "";
+    if (rg_result_drift(result) > 0)
+        snprintf(drift, sizeof(drift), " The machine drifted by %.1f %%.",
+                 100 * rg_result_drift(result));
+    add(notes, "%s%s%sMedians of %s%d samples by wall clock, %s%s%s.%s",
         *result->hardware ? "In print on " : "", result->hardware, *result->hardware ? ". " : "",
         samples, most, result->full ? "full" : "quick", !result->full && *result->quick ? ": " : "",
-        result->full ? "" : result->quick);
+        result->full ? "" : result->quick, drift);
 }
 
 // "Time grows with the drops to the power: cpu 0.98 (0.95 to 1.01), gl 1.02", of tables of no

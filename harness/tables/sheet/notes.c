@@ -203,6 +203,11 @@ static void note_method(const struct rg_result *result, struct rg_sheet *sheet)
         rg_sheet_note(sheet,
                       "%sTimes are wall clock between full syncs, medians of %s samples (%s).",
                       published, samples, result->full ? "full" : "quick");
+        if (rg_result_drift(result) > 0)
+            rg_sheet_note(sheet,
+                          "The machine's speed drifted by %.1f %% over the run, as a load "
+                          "tells that is always the same.",
+                          100 * rg_result_drift(result));
         rg_sheet_note(sheet, "Shares of the passes come from a run of its own that syncs after "
                              "every pass.");
     } else {

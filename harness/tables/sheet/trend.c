@@ -105,12 +105,15 @@ static void add_pair(struct rg_trend *trend, struct orders *orders, const struct
 {
     const bool enough =
         fast->sample_count >= RG_LEAST_SAMPLES && slow->sample_count >= RG_LEAST_SAMPLES;
-    const double against = enough ? rg_order_probability(fast->samples_ms, fast->sample_count, 1,
-                                                         slow->samples_ms, slow->sample_count)
-                                  : 1;
-    const double in_favour = enough ? rg_order_probability(slow->samples_ms, slow->sample_count, 1,
-                                                           fast->samples_ms, fast->sample_count)
-                                    : 1;
+    const double drift = rg_record_drift(fast, slow);
+    const double against = enough
+                               ? rg_order_probability(fast->samples_ms, fast->sample_count, drift,
+                                                      slow->samples_ms, slow->sample_count)
+                               : 1;
+    const double in_favour = enough
+                                 ? rg_order_probability(slow->samples_ms, slow->sample_count, drift,
+                                                        fast->samples_ms, fast->sample_count)
+                                 : 1;
     trend->pairs++;
     trend->pairs_in_order += rg_record_fps(fast) > rg_record_fps(slow);
     trend->pairs_undecided += against > ERROR_SHARE && in_favour > ERROR_SHARE;

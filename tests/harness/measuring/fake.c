@@ -17,6 +17,11 @@ double rg_now_ms(void)
     return now_ms;
 }
 
+void fake_pass(double ms)
+{
+    now_ms += ms;
+}
+
 static void happens(char event)
 {
     if (event_count + 1 < sizeof(events))

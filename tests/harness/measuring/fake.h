@@ -46,5 +46,7 @@ struct fake_device *fake_open(void);
 // drawn, "|" waited, "t" the clock read.
 const char *fake_events(void);
 void fake_forget(void);
+// The wall clock goes on by itself.
+void fake_pass(double ms);
 
 #endif

@@ -210,6 +210,45 @@ static void test_window_is_not_timed(void **state)
     end(&bench);
 }
 
+// A machine that gets slower from round to round, but for one that was disturbed.
+static int loads;
+static void run_load(void)
+{
+    loads++;
+    fake_pass(loads == 2 ? 500 : 10 + loads);
+}
+
+// The load is run before the first round and behind each: nine times of eight rounds. The first
+// three took 11, 500 and 13 ms, the last three 17, 18 and 19. Samples know nothing of that.
+static void test_calibration(void **state)
+{
+    (void)state;
+    const struct fake_script script = {.letter = 'A', .draw_ms = 3};
+    struct rg_measure_options options = plain;
+    struct bench bench;
+    begin(&bench);
+    add(&bench, &script, 1);
+    add(&bench, &script, 1);
+    options.most_samples = options.least_samples = 8;
+    options.load = run_load;
+    loads = 0;
+    measure(&bench, &options);
+    assert_int_equal(loads, 9);
+    for (int i = 0; i < 2; i++) {
+        assert_ms(bench.records[i].calibration_begin_ms, 13);
+        assert_ms(bench.records[i].calibration_end_ms, 18);
+        for (int j = 0; j < 8; j++)
+            assert_ms(bench.records[i].samples_ms[j], 3);
+    }
+    end(&bench);
+    begin(&bench);
+    add(&bench, &script, 1);
+    measure(&bench, &plain); // without a load nothing is told
+    assert_true(bench.records[0].calibration_begin_ms == 0);
+    assert_true(bench.records[0].calibration_end_ms == 0);
+    end(&bench);
+}
+
 // --- the order of samples ---
 
 // Reads the order of samples of one frame each, with a frame before it, from the events.
@@ -428,6 +467,7 @@ int main(void)
         cmocka_unit_test(test_samples),
         cmocka_unit_test(test_bounds_of_samples),
         cmocka_unit_test(test_window_is_not_timed),
+        cmocka_unit_test(test_calibration),
         cmocka_unit_test(test_order),
         cmocka_unit_test(test_spread),
         cmocka_unit_test(test_api_clock),

@@ -22,6 +22,8 @@ static void tell_measured(struct rg_record *record, struct rg_place at)
     record->first_frame_ms = 28;
     record->api_over_wall = 0.987654321987;
     record->frames_a_sample = 3;
+    record->calibration_begin_ms = at.row ? 2 : 2.123456789123;
+    record->calibration_end_ms = at.row ? 2.5 : 1.0 / 3;
     for (int i = 0; i < 7; i++)
         record->samples_ms[record->sample_count++] = 20.123456789123 + 0.7 * i * (at.variant + 1);
     record->pass_frames = 2;

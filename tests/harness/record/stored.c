@@ -30,6 +30,8 @@ static void assert_same_records(const struct rg_result *a, const struct rg_resul
         assert_memory_equal(x->samples_ms, y->samples_ms, sizeof(x->samples_ms));
         assert_memory_equal(&x->frame_ms, &y->frame_ms, sizeof(x->frame_ms));
         assert_true(x->create_ms == y->create_ms && x->api_over_wall == y->api_over_wall);
+        assert_true(x->calibration_begin_ms == y->calibration_begin_ms &&
+                    x->calibration_end_ms == y->calibration_end_ms);
         assert_true(x->truth_error.flip_mask_mean == y->truth_error.flip_mask_mean);
         assert_int_equal(x->outcome, y->outcome);
         assert_string_equal(x->detail, y->detail);

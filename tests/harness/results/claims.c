@@ -364,6 +364,33 @@ static void test_few_samples(void **state)
     }
 }
 
+// Rows whose difference is within that of the machine's speed while they were measured are left
+// open.
+static void test_drift(void **state)
+{
+    (void)state;
+    const struct rg_claim falls = claim_of(RG_CLAIM_FALLS);
+    struct rg_claim ratio = claim_of(RG_CLAIM_RATIO);
+    struct rg_result result;
+    uint32_t x = 9;
+    make_result(&result, rising, level, 0.01, &x);
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_REPRODUCED);
+    struct rg_record *last = rg_result_at(&result, (struct rg_place){.row = ROWS - 1});
+    for (int row = 0; row < ROWS; row++) {
+        struct rg_record *r = rg_result_at(&result, (struct rg_place){.row = row});
+        r->calibration_begin_ms = r->calibration_end_ms = 2;
+    }
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_REPRODUCED);
+    last->calibration_begin_ms = last->calibration_end_ms =
+        2 * 1.12; // the row is 1.098 times as slow
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_UNDECIDED);
+    ratio.least = 1.55; // the rows are 1.46 apart
+    assert_int_equal(rg_claim_judge(&ratio, &result, 0).verdict, RG_CLAIM_UNDECIDED);
+    last->calibration_begin_ms = last->calibration_end_ms = 2;
+    assert_int_equal(rg_claim_judge(&ratio, &result, 0).verdict, RG_CLAIM_NOT_REPRODUCED);
+    rg_result_free(&result);
+}
+
 // Nor where the second variant of a claim has fewer.
 static void test_few_samples_of_the_other(void **state)
 {
@@ -537,6 +564,7 @@ int main(void)
         cmocka_unit_test(test_ratios_near_print),
         cmocka_unit_test(test_few_samples),
         cmocka_unit_test(test_few_samples_of_the_other),
+        cmocka_unit_test(test_drift),
         cmocka_unit_test(test_rates_jointly),
         cmocka_unit_test(test_variants_rates_and_powers),
         cmocka_unit_test(test_rows_that_are_missing_or_other_work),

@@ -611,6 +611,30 @@ static void test_few_samples(void **state)
     }
 }
 
+// A row that was measured while the machine was a tenth slower may be slower for that.
+static void test_drift(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_sheet sheet;
+    const struct rg_place full = {0};
+    measure(&rig, &axis_table, (double[]){40, 1, 20, 1, 19, 1});
+    for (struct rg_place at = rg_result_start(&rig.result); rg_result_next(&rig.result, &at);) {
+        struct rg_record *record = rg_result_at(&rig.result, at);
+        record->calibration_begin_ms = at.row == 2 ? 2.1 : 2;
+        record->calibration_end_ms = at.row == 2 ? 2.3 : 2;
+    }
+    assert_int_equal(rg_trend_of(&rig.result, full).verdict, RG_TREND_UNDECIDED);
+    assert_int_equal(rg_trend_of(&rig.result, full).pairs_undecided, 1);
+    assert_float_equal(rg_result_drift(&rig.result), 0.15, 1e-9);
+    rg_result_sheet(&rig.result, &sheet);
+    assert_true(has_note(&sheet, "drifted by 15.0 % over the run"));
+    rg_sheet_free(&sheet);
+    record_at(&rig, 2, 0)->calibration_begin_ms = record_at(&rig, 2, 0)->calibration_end_ms = 2;
+    assert_int_equal(rg_trend_of(&rig.result, full).pairs_undecided, 0);
+    rg_result_free(&rig.result);
+}
+
 // The exponent of the time of a frame, which another program reckons, with its interval.
 static void test_growth(void **state)
 {
@@ -808,6 +832,7 @@ int main(void)
         cmocka_unit_test(test_order_of_names),
         cmocka_unit_test(test_slope_along_axis),
         cmocka_unit_test(test_few_samples),
+        cmocka_unit_test(test_drift),
         cmocka_unit_test(test_groups),
         cmocka_unit_test(test_unsettled_order),
         cmocka_unit_test(test_sheet),
