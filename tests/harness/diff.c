@@ -121,6 +121,42 @@ static void bad_input_is_one_line(void **state)
     assert_non_null(strstr(last_error, "has 3 channels but"));
 }
 
+// Of EXR files light is compared, and HDR-FLIP is there; of PNG files light and codes.
+static void what_figures_are_of(void **state)
+{
+    (void)state;
+    char png[2][80];
+    for (int i = 0; i < 2; i++) {
+        snprintf(png[i], sizeof(png[i]), "%s/%d.png", folder, i);
+        write_rain(png[i], 160, 3, 60 - 5 * i);
+    }
+    assert_int_equal(run(&(struct rg_diff_request){.a = a, .b = b}), 1);
+    assert_non_null(strstr(text, "\nlinear light\n"));
+    assert_null(strstr(text, "\ncodes"));
+    assert_non_null(strstr(text, "\nHDR-FLIP (ACES, "));
+    assert_int_equal(run(&(struct rg_diff_request){.a = png[0], .b = png[1]}), 1);
+    assert_non_null(strstr(text, "\nlinear light, decoded from sRGB codes\n"));
+    assert_non_null(strstr(text, "\ncodes, over the largest code\n"));
+    assert_null(strstr(text, "HDR-FLIP"));
+    assert_int_equal(run(&(struct rg_diff_request){.a = png[0], .b = png[1], .json = true}), 1);
+    json_t *root = json_loads(text, 0, NULL);
+    json_t *pair = json_array_get(json_object_get(root, "pairs"), 0);
+    const double light = json_number_value(json_object_get(pair, "psnr"));
+    const double codes = json_number_value(json_object_get(json_object_get(pair, "codes"), "psnr"));
+    assert_true(light > 0 && codes > 0 && light != codes);
+    assert_true(json_is_null(json_object_get(pair, "hdr_flip")));
+    assert_true(json_number_value(json_object_get(pair, "flip_weighted_quartile_1")) > 0);
+    json_decref(root);
+    assert_int_equal(run(&(struct rg_diff_request){.a = a, .b = b, .json = true}), 1);
+    root = json_loads(text, 0, NULL);
+    pair = json_array_get(json_object_get(root, "pairs"), 0);
+    assert_true(json_is_null(json_object_get(pair, "codes")));
+    assert_true(json_number_value(json_object_get(json_object_get(pair, "hdr_flip"), "mean")) > 0);
+    json_decref(root);
+    unlink(png[0]);
+    unlink(png[1]);
+}
+
 // The maps are as large as the picture and a scale: dark where nothing differs.
 static void heat_maps_are_written(void **state)
 {
@@ -197,6 +233,7 @@ int main(void)
         cmocka_unit_test(the_same_files),
         cmocka_unit_test(differing_files),
         cmocka_unit_test(json_has_the_documented_shape),
+        cmocka_unit_test(what_figures_are_of),
         cmocka_unit_test(bad_input_is_one_line),
         cmocka_unit_test(heat_maps_are_written),
         cmocka_unit_test(heat_colours_are_magma),

@@ -63,6 +63,26 @@ static bool compute(const struct rg_picture *a, const struct rg_picture *b,
                         (int64_t)a->width * a->height, &c->flip);
 }
 
+// What stands beside, of integers and of high dynamic range.
+static bool compute_beside(const struct rg_picture *a, const struct rg_picture *b,
+                           const uint8_t *mask, bool wants_hdr, struct rg_comparison *c)
+{
+    const int64_t pixels = (int64_t)a->width * a->height;
+    c->has_codes = a->decoded && b->decoded;
+    c->has_hdr_flip = wants_hdr && !a->decoded && !b->decoded;
+    if (c->has_codes && !rg_code_metrics(a, b, &c->code_metrics))
+        return false;
+    if (!c->has_hdr_flip)
+        return true;
+    float *map = malloc((size_t)pixels * sizeof(*map));
+    const bool ok =
+        (map || rg_error("HDR-FLIP of %d x %d pixels: no memory for it", a->width, a->height)) &&
+        rg_hdr_flip_map(a, b, c->pixels_per_degree, map, &c->hdr_flip) &&
+        rg_flip_pool(map, mask, pixels, &c->hdr_flip.flip);
+    free(map);
+    return ok;
+}
+
 static const char *tier_name(const struct rg_tiers *tiers)
 {
     for (int i = 0; i < RG_TIER_COUNT; i++)
@@ -96,7 +116,9 @@ bool rg_compare(const struct rg_picture *a, const char *name_a, const struct rg_
     c->flip_map = malloc(pixels * sizeof(*c->flip_map));
     struct planes planes = {memory, memory + pixels * 4, background ? memory + pixels * 9 : NULL,
                             memory + pixels * 8};
-    bool good = memory && c->flip_map ? compute(a, b, background, &planes, c)
+    bool good = memory && c->flip_map ? compute(a, b, background, &planes, c) &&
+                                            compute_beside(a, b, background ? planes.mask : NULL,
+                                                           options->hdr_flip, c)
                                       : rg_error("%s: no memory to compare %d x %d pixels; crop it",
                                                  name_a, a->width, a->height);
     free(memory);

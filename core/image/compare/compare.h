@@ -4,7 +4,9 @@
 // Two domains. *Linear* figures are taken from the texels as they are. *Encoded* figures are taken
 // from one fixed encoding: colours times the exposure, clamped to 0..1, sRGB-encoded, 8 bits; alpha
 // straight, 8 bits. Encoded differences are quoted in codes (1 code = 1/255). FLIP is LDR-FLIP of
-// the encoded pictures, for HDR files too.
+// the encoded pictures, for HDR files too, and HDR-FLIP beside it where it is asked for. Pictures
+// read from integers were decoded: linear figures of them are of light, and those that other
+// programs give, of codes, stand beside them.
 //
 // Every figure is the same for any number of threads and on any processor.
 #ifndef RG_CORE_IMAGE_COMPARE_COMPARE_H
@@ -39,9 +41,17 @@ struct rg_metrics {
 // FLIP (Andersson et al. 2020), LDR, encoded: 0 the same, 1 as different as can be.
 struct rg_flip {
     double mean, max;
-    double weighted_median;     // pixels below it hold half of the sum
+    double weighted_median;                          // pixels below it hold half of the sum
+    double weighted_quartile_1, weighted_quartile_3; // a quarter, and three
     double p99;                 // 99 % of the pixels are at or below it (nearest rank)
     double mask_mean, mask_p99; // over the rain mask; 0 when it is empty
+};
+
+// HDR-FLIP (Andersson et al. 2021) of A, the reference, and B, tone-mapped by ACES.
+struct rg_hdr_flip {
+    double start_exposure, stop_exposure; // in stops
+    int exposures;                        // from the one to the other, evenly
+    struct rg_flip flip;
 };
 
 // What a tier's verdict says, with the first condition that failed, "" when none.
@@ -75,6 +85,7 @@ struct rg_tiers {
 struct rg_compare_options {
     float exposure;          // 0: 1
     float pixels_per_degree; // 0: 67.02, a 0.7 m wide 3840 pixel screen seen from 0.7 m
+    bool hdr_flip;           // wanted, of pictures that were not decoded from integers
 };
 
 struct rg_comparison {
@@ -82,7 +93,11 @@ struct rg_comparison {
     float exposure, pixels_per_degree;
     const char *tier; // "T0", "T1", "T2" (the strictest that holds) or "none"
     struct rg_metrics metrics;
+    bool has_codes; // both were decoded from integers
+    struct rg_metrics code_metrics;
     struct rg_flip flip;
+    bool has_hdr_flip;
+    struct rg_hdr_flip hdr_flip;
     struct rg_tiers tiers;
     float *flip_map; // width * height FLIP values, row 0 on top; owned
 };
@@ -106,6 +121,10 @@ void rg_encode(const struct rg_picture *picture, float exposure, uint8_t *codes)
 bool rg_metrics_compute(const struct rg_picture *a, const struct rg_picture *b,
                         struct rg_metrics *metrics);
 
+// The same of two pictures' codes, over the largest code, from which they were decoded.
+bool rg_code_metrics(const struct rg_picture *a, const struct rg_picture *b,
+                     struct rg_metrics *metrics);
+
 // `mask` receives 1 for a pixel of the rain mask, 0 for another (width * height bytes).
 // `background_codes`: NULL for none.
 bool rg_tiers_compute(const struct rg_picture *a, const struct rg_picture *b,
@@ -120,6 +139,12 @@ bool rg_shows_rain(const uint8_t *codes, const uint8_t *background_codes, int64_
 // FLIP of each pixel into width * height floats. pixels_per_degree: 1 to 200.
 bool rg_flip_map(const uint8_t *a_codes, const uint8_t *b_codes, int width, int height,
                  float pixels_per_degree, float *map);
+// The same of linear colours from 0 to 1, three a pixel.
+bool rg_flip_map_linear(const float *a, const float *b, int width, int height,
+                        float pixels_per_degree, float *map);
+// HDR-FLIP of each pixel; `hdr` gets the exposures.
+bool rg_hdr_flip_map(const struct rg_picture *a, const struct rg_picture *b,
+                     float pixels_per_degree, float *map, struct rg_hdr_flip *hdr);
 // `mask`: NULL for the whole map.
 bool rg_flip_pool(const float *map, const uint8_t *mask, int64_t pixels, struct rg_flip *flip);
 

@@ -340,7 +340,8 @@ static inline int clamp_index(int i, int count)
 }
 
 struct job {
-    const uint8_t *codes[2];
+    const uint8_t *codes[2]; // NULL: linear colours
+    const float *colours[2];
     int width, height;
     struct filters filters;
     float cmax;
@@ -348,18 +349,30 @@ struct job {
     float *map;
 };
 
-// Reads a tile and its border (the picture's edge pixels go on for ever) into planes.
-static void load_planes(const struct job *job, const uint8_t *codes, int x0, int y0, int columns,
-                        int rows, struct planes *planes)
+// The colour of a pixel, linear.
+static inline const float *colour_at(const struct job *job, int picture, int64_t pixel,
+                                     float decoded[3])
 {
-    const float *linear = job->linear;
+    if (!job->codes[picture])
+        return job->colours[picture] + pixel * 3;
+    const uint8_t *code = job->codes[picture] + pixel * 4;
+    for (int c = 0; c < 3; c++)
+        decoded[c] = job->linear[code[c]];
+    return decoded;
+}
+
+// Reads a tile and its border (the picture's edge pixels go on for ever) into planes.
+static void load_planes(const struct job *job, int picture, int x0, int y0, int columns, int rows,
+                        struct planes *planes)
+{
     int r = job->filters.radius;
     for (int row = 0; row < rows; row++) {
-        const uint8_t *line =
-            codes + (int64_t)clamp_index(y0 - r + row, job->height) * job->width * 4;
+        const int64_t line = (int64_t)clamp_index(y0 - r + row, job->height) * job->width;
         for (int column = 0; column < columns; column++) {
-            const uint8_t *code = line + (int64_t)clamp_index(x0 - r + column, job->width) * 4;
-            float red = linear[code[0]], green = linear[code[1]], blue = linear[code[2]];
+            float decoded[3];
+            const float *colour =
+                colour_at(job, picture, line + clamp_index(x0 - r + column, job->width), decoded);
+            float red = colour[0], green = colour[1], blue = colour[2];
             float y = 0.21263682f * red + 0.71518298f * green + 0.07218020f * blue;
             planes->y[row][column] = y;
             planes->cx[row][column] =
@@ -378,8 +391,11 @@ static bool same_tile(const struct job *job, int x0, int y0, int width, int heig
     int top = clamp_index(y0 - r, job->height);
     int bottom = clamp_index(y0 + height - 1 + r, job->height);
     for (int y = top; y <= bottom; y++) {
-        int64_t at = ((int64_t)y * job->width + left) * 4;
-        if (memcmp(job->codes[0] + at, job->codes[1] + at, (size_t)(right - left + 1) * 4) != 0)
+        const int64_t at = (int64_t)y * job->width + left;
+        const size_t pixels = (size_t)(right - left + 1);
+        if (job->codes[0] ? memcmp(job->codes[0] + at * 4, job->codes[1] + at * 4, pixels * 4)
+                          : memcmp(job->colours[0] + at * 3, job->colours[1] + at * 3,
+                                   pixels * 3 * sizeof(float)))
             return false;
     }
     return true;
@@ -398,8 +414,7 @@ static void flip_tile(const struct job *job, int x0, int y0, struct tile_memory 
     const struct filters *f = &job->filters;
     int columns = (width + LANES - 1) / LANES * LANES + 2 * f->radius;
     for (int p = 0; p < 2; p++)
-        load_planes(job, job->codes[p], x0, y0, columns, height + 2 * f->radius,
-                    &memory->planes[p]);
+        load_planes(job, p, x0, y0, columns, height + 2 * f->radius, &memory->planes[p]);
     for (int row = 0; row < height; row++) {
         for (int p = 0; p < 2; p++) {
             filter_columns(&memory->planes[p], f, row, columns, &memory->vertical);
@@ -411,12 +426,12 @@ static void flip_tile(const struct job *job, int x0, int y0, struct tile_memory 
     }
 }
 
-bool rg_flip_map(const uint8_t *a_codes, const uint8_t *b_codes, int width, int height,
-                 float pixels_per_degree, float *map)
+// Of a job that has its pictures.
+static bool make_map(struct job job, float pixels_per_degree, float *map)
 {
     if (!(pixels_per_degree >= 1.0f && pixels_per_degree <= 200.0f))
         return rg_error("FLIP: %g pixels a degree is outside 1 to 200", (double)pixels_per_degree);
-    struct job job = {.codes = {a_codes, b_codes}, .width = width, .height = height};
+    const int width = job.width, height = job.height;
     job.filters = make_filters((double)pixels_per_degree);
     job.cmax = powf(hyab(hunt_lab(0, 1, 0), hunt_lab(0, 0, 1)), 0.7f);
     job.linear = rg_srgb()->linear;
@@ -436,4 +451,18 @@ bool rg_flip_map(const uint8_t *a_codes, const uint8_t *b_codes, int width, int 
         free(memory);
     }
     return !failed || rg_error("FLIP of %d x %d pixels: no memory for its tiles", width, height);
+}
+
+bool rg_flip_map(const uint8_t *a_codes, const uint8_t *b_codes, int width, int height,
+                 float pixels_per_degree, float *map)
+{
+    return make_map((struct job){.codes = {a_codes, b_codes}, .width = width, .height = height},
+                    pixels_per_degree, map);
+}
+
+bool rg_flip_map_linear(const float *a, const float *b, int width, int height,
+                        float pixels_per_degree, float *map)
+{
+    return make_map((struct job){.colours = {a, b}, .width = width, .height = height},
+                    pixels_per_degree, map);
 }

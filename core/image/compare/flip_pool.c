@@ -94,6 +94,8 @@ bool rg_flip_pool(const float *map, const uint8_t *mask, int64_t pixels, struct 
     flip->mean = (double)sum / 2147483648.0 / (double)count;
     flip->p99 = select_value(map, NULL, pixels, &top, false, rank_p99(count));
     flip->weighted_median = select_value(map, NULL, pixels, &top, true, sum / 2);
+    flip->weighted_quartile_1 = select_value(map, NULL, pixels, &top, true, sum / 4);
+    flip->weighted_quartile_3 = select_value(map, NULL, pixels, &top, true, sum / 4 * 3);
     flip->mask_mean = flip->mean;
     flip->mask_p99 = flip->p99;
     if (!mask)

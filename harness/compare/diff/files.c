@@ -16,10 +16,11 @@ int rg_diff_files(const struct rg_diff_request *request)
     const char *paths[] = {request->a, request->b, request->background};
     struct rg_picture pictures[3] = {{0}};
     struct rg_comparison comparison = {0};
-    bool good =
-        rg_pictures_read(paths, pictures, request->background ? 3 : 2) &&
-        rg_compare(&pictures[0], request->a, &pictures[1], request->b,
-                   request->background ? &pictures[2] : NULL, &request->options, &comparison);
+    struct rg_compare_options options = request->options;
+    options.hdr_flip = true;
+    bool good = rg_pictures_read(paths, pictures, request->background ? 3 : 2) &&
+                rg_compare(&pictures[0], request->a, &pictures[1], request->b,
+                           request->background ? &pictures[2] : NULL, &options, &comparison);
     if (good && request->heatmap_prefix)
         good = rg_pair_heatmaps(request->heatmap_prefix, &pictures[0], &pictures[1], &comparison);
     if (good && request->json)

@@ -21,9 +21,18 @@ static void print_verdicts(const struct rg_tiers *t)
     printf("  T2 geometry                  %s%s\n", yes(&t->of[RG_T2]), t->of[RG_T2].why);
 }
 
-static void print_metrics(const struct rg_metrics *m)
+// What linear figures are of depends on the files: integers were decoded.
+static void print_codes(const struct rg_metrics *m)
 {
-    printf("\nlinear light\n");
+    printf("\ncodes, over the largest code\n");
+    printf("  mean error, rms              %.6g, %.6g\n", m->mean, m->rms);
+    printf("  PSNR                         %.4g dB\n", m->psnr_db);
+    printf("  largest error                %.6g\n", m->max);
+}
+
+static void print_metrics(const struct rg_metrics *m, bool decoded)
+{
+    printf("\nlinear light%s\n", decoded ? ", decoded from sRGB codes" : "");
     printf("  differing values             %lld of %lld, in %lld pixels\n",
            (long long)m->differing_values, (long long)m->values, (long long)m->differing_pixels);
     printf("  mean error, rms              %.6g, %.6g\n", m->mean, m->rms);
@@ -61,19 +70,32 @@ static void print_tiers(const struct rg_comparison *c)
            t->relative_max);
 }
 
+static void print_flip(const struct rg_flip *f)
+{
+    printf("  mean, weighted median        %.6f, %.6f\n", f->mean, f->weighted_median);
+    printf("  weighted quartiles           %.6f, %.6f\n", f->weighted_quartile_1,
+           f->weighted_quartile_3);
+    printf("  99th percentile, largest     %.6f, %.6f\n", f->p99, f->max);
+    printf("  over the mask: mean, p99     %.6f, %.6f\n", f->mask_mean, f->mask_p99);
+}
+
 void rg_pair_print(const char *a, const char *b, const struct rg_comparison *c)
 {
-    const struct rg_flip *f = &c->flip;
     printf("A %s\nB %s\n", a, b);
     printf("%d x %d pixels, %d channel%s; tier %s\n", c->width, c->height, c->channels,
            c->channels > 1 ? "s" : "", c->tier);
     print_verdicts(&c->tiers);
     print_tiers(c);
-    print_metrics(&c->metrics);
+    print_metrics(&c->metrics, c->has_codes);
+    if (c->has_codes)
+        print_codes(&c->code_metrics);
     printf("\nFLIP (LDR, %.4g pixels a degree)\n", (double)c->pixels_per_degree);
-    printf("  mean, weighted median        %.6f, %.6f\n", f->mean, f->weighted_median);
-    printf("  99th percentile, largest     %.6f, %.6f\n", f->p99, f->max);
-    printf("  over the mask: mean, p99     %.6f, %.6f\n", f->mask_mean, f->mask_p99);
+    print_flip(&c->flip);
+    if (!c->has_hdr_flip)
+        return;
+    printf("\nHDR-FLIP (ACES, %d exposures from %.4g to %.4g stops)\n", c->hdr_flip.exposures,
+           c->hdr_flip.start_exposure, c->hdr_flip.stop_exposure);
+    print_flip(&c->hdr_flip.flip);
 }
 
 // JSON has no infinity: null stands for it.
@@ -115,6 +137,28 @@ static json_t *metrics_json(const struct rg_metrics *m)
                      "nonfinite_mismatches", (json_int_t)m->nonfinite_mismatches, "above", above);
 }
 
+static json_t *codes_json(const struct rg_comparison *c)
+{
+    const struct rg_metrics *m = &c->code_metrics;
+    return !c->has_codes
+               ? json_null()
+               : json_pack("{s:o, s:o, s:o, s:o}", "mean", number(m->mean), "rms", number(m->rms),
+                           "max", number(m->max), "psnr", number(m->psnr_db));
+}
+
+static json_t *hdr_flip_json(const struct rg_comparison *c)
+{
+    const struct rg_flip *f = &c->hdr_flip.flip;
+    if (!c->has_hdr_flip)
+        return json_null();
+    return json_pack("{s:f, s:f, s:i, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "start_exposure",
+                     c->hdr_flip.start_exposure, "stop_exposure", c->hdr_flip.stop_exposure,
+                     "exposures", c->hdr_flip.exposures, "mean", f->mean, "weighted_median",
+                     f->weighted_median, "weighted_quartile_1", f->weighted_quartile_1,
+                     "weighted_quartile_3", f->weighted_quartile_3, "p99", f->p99, "max", f->max,
+                     "mask_mean", f->mask_mean, "mask_p99", f->mask_p99);
+}
+
 json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *c)
 {
     const struct rg_flip *f = &c->flip;
@@ -131,6 +175,10 @@ json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *c
     if (!pair)
         return rg_error_null("diff --json: '%s' or '%s' is not UTF-8; give the file another name",
                              a, b);
+    json_object_set_new(pair, "flip_weighted_quartile_1", json_real(f->weighted_quartile_1));
+    json_object_set_new(pair, "flip_weighted_quartile_3", json_real(f->weighted_quartile_3));
+    json_object_set_new(pair, "codes", codes_json(c));
+    json_object_set_new(pair, "hdr_flip", hdr_flip_json(c));
     return pair;
 }
 

@@ -161,23 +161,29 @@ static void to_opponent(const uint8_t *codes, struct vec *picture)
     }
 }
 
-// The largest difference between the program's map and the oracle's.
-static double worst_error(const uint8_t *a, const uint8_t *b, float ppd)
+static const struct oracle *make_oracle(float ppd)
 {
     static struct oracle o;
-    static struct vec va[PIXELS], vb[PIXELS];
-    static float map[PIXELS];
     o.ppd = (double)ppd;
     for (int c = 0; c < 3; c++)
         o.spatial_radius = spatial_kernel(o.ppd, c, o.spatial[c]);
     o.feature_radius = feature_kernel(o.ppd, true, o.edge);
     feature_kernel(o.ppd, false, o.point);
+    return &o;
+}
+
+// The largest difference between the program's map and the oracle's.
+static double worst_error(const uint8_t *a, const uint8_t *b, float ppd)
+{
+    static struct vec va[PIXELS], vb[PIXELS];
+    static float map[PIXELS];
+    const struct oracle *o = make_oracle(ppd);
     to_opponent(a, va);
     to_opponent(b, vb);
     assert_true(rg_flip_map(a, b, WIDTH, HEIGHT, ppd, map));
     double worst = 0, sum = 0;
     for (int i = 0; i < PIXELS; i++) {
-        double error = fabs((double)map[i] - oracle_flip(&o, va, vb, i % WIDTH, i / WIDTH));
+        double error = fabs((double)map[i] - oracle_flip(o, va, vb, i % WIDTH, i / WIDTH));
         worst = fmax(worst, error);
         sum += error;
     }
@@ -226,6 +232,145 @@ static void rain_equals_the_paper(void **state)
     rg_encode(&picture, 1.0f, b);
     rg_picture_destroy(&picture);
     assert_true(worst_error(a, b, 67.0206433f) < 1e-5);
+}
+
+// --- high dynamic range ---
+
+// ACES as it is published, of what an exposure of 0.6 leaves of a colour.
+static double aces(double x)
+{
+    x *= 0.6;
+    return fmin(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 1);
+}
+
+// What is mapped to 0.85, by halving.
+static double bright(void)
+{
+    double low = 0, high = 100;
+    for (int i = 0; i < 200; i++)
+        *(aces((low + high) / 2) < 0.85 ? &low : &high) = (low + high) / 2;
+    return low;
+}
+
+static int ascending_doubles(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+// The median and the largest luminance.
+static void luminances(const struct rg_picture *picture, double *median, double *largest)
+{
+    static double y[PIXELS];
+    for (int i = 0; i < PIXELS; i++) {
+        const float *t = picture->texels + i * 3;
+        y[i] = 0.2126 * (double)t[0] + 0.7152 * (double)t[1] + 0.0722 * (double)t[2];
+    }
+    qsort(y, PIXELS, sizeof(double), ascending_doubles);
+    *median = y[PIXELS / 2]; // of an odd count
+    *largest = y[PIXELS - 1];
+}
+
+static void see(const struct rg_picture *picture, double exposure, struct vec *seen_picture)
+{
+    for (int i = 0; i < PIXELS; i++) {
+        struct vec rgb;
+        for (int c = 0; c < 3; c++)
+            rgb.v[c] = aces((double)picture->texels[i * 3 + c] * exp2(exposure));
+        seen_picture[i] = ycxcz(rgb);
+    }
+}
+
+// Light of a dozen stops, in blocks; `more` of it.
+static struct rg_picture wide_picture(uint32_t seed, float more)
+{
+    struct rg_picture picture;
+    assert_true(rg_picture_create(&picture, WIDTH, HEIGHT, 3, "wide"));
+    for (int i = 0; i < PIXELS * 3; i++) {
+        const uint32_t block = (uint32_t)(i / 3 / WIDTH / 4 * 97 + i / 3 % WIDTH / 4);
+        const float stops = (float)(rain_noise(seed + block * 3 + (uint32_t)i % 3) >> 8) * 0x1p-24f;
+        const float grain = (float)(rain_noise(seed + (uint32_t)i + 9999) >> 8) * 0x1p-24f;
+        picture.texels[i] = more * exp2f(12 * stops - 6) * (0.5f + grain);
+    }
+    return picture;
+}
+
+static void expect_hdr(const struct rg_picture *a, const struct rg_picture *b)
+{
+    static struct vec va[PIXELS], vb[PIXELS];
+    static float map[PIXELS];
+    static double due[PIXELS];
+    struct rg_hdr_flip hdr;
+    double median, largest, sum = 0;
+    const struct oracle *o = make_oracle(31.5f);
+    luminances(a, &median, &largest);
+    const double start = log2(bright() / largest), stop = log2(bright() / median);
+    const int count = (int)fmax(2, ceil(stop - start));
+    assert_true(rg_hdr_flip_map(a, b, 31.5f, map, &hdr));
+    assert_true(fabs(hdr.start_exposure - start) < 1e-5 && fabs(hdr.stop_exposure - stop) < 1e-5);
+    assert_int_equal(hdr.exposures, count);
+    for (int e = 0; e < count; e++) {
+        see(a, start + e * (stop - start) / (count - 1), va);
+        see(b, start + e * (stop - start) / (count - 1), vb);
+        for (int i = 0; i < PIXELS; i++)
+            due[i] = fmax(e ? due[i] : 0, oracle_flip(o, va, vb, i % WIDTH, i / WIDTH));
+    }
+    for (int i = 0; i < PIXELS; i++) {
+        assert_true(fabs((double)map[i] - due[i]) < 1e-4);
+        sum += fabs((double)map[i] - due[i]);
+    }
+    assert_true(sum / PIXELS < 2e-6);
+}
+
+static void hdr_equals_the_paper(void **state)
+{
+    (void)state;
+    struct rg_picture a = wide_picture(1, 1), b = wide_picture(77, 1),
+                      dark = wide_picture(1, 0.01f);
+    expect_hdr(&a, &b);
+    expect_hdr(&a, &dark); // exposures are the reference's
+    expect_hdr(&dark, &a);
+    rg_picture_destroy(&a);
+    rg_picture_destroy(&b);
+    rg_picture_destroy(&dark);
+}
+
+static void hdr_in_closed_form(void **state)
+{
+    (void)state;
+    static float map[PIXELS];
+    struct rg_hdr_flip hdr;
+    struct rg_picture light = wide_picture(1, 1), black = wide_picture(1, 0);
+    assert_true(rg_hdr_flip_map(&light, &light, 67, map, &hdr));
+    for (int i = 0; i < PIXELS; i++)
+        assert_true(map[i] == 0.0f);
+    // Even light, before black: one exposure, at which it is 0.85, differs in L* alone.
+    for (int i = 0; i < PIXELS * 3; i++)
+        light.texels[i] = 512;
+    struct vec green = {{0, 1, 0}}, blue = {{0, 0, 1}};
+    const double cmax = pow(hyab(hunt(green), hunt(blue)), 0.7);
+    const double due = 0.95 + (pow(116 * cbrt(0.85) - 16, 0.7) - 0.4 * cmax) / (0.6 * cmax) * 0.05;
+    assert_true(rg_hdr_flip_map(&light, &black, 67, map, &hdr));
+    assert_int_equal(hdr.exposures, 2);
+    assert_true(fabs(hdr.start_exposure - log2(bright() / 512)) < 1e-5);
+    assert_true(hdr.start_exposure == hdr.stop_exposure);
+    for (int i = 0; i < PIXELS; i++)
+        assert_true(fabs((double)map[i] - due) < 1e-5);
+    // A black reference, and values that are none, have a number, too.
+    light.texels[0] = INFINITY;
+    light.texels[1] = NAN;
+    light.texels[2] = -5;
+    assert_true(rg_hdr_flip_map(&black, &light, 67, map, &hdr));
+    for (int i = 0; i < PIXELS; i++)
+        assert_true(map[i] > 0 && map[i] <= 1);
+    // Of what is below zero, or no number, nothing is seen.
+    for (int i = 0; i < PIXELS * 3; i++)
+        light.texels[i] = i % 2 ? -0.5f : NAN;
+    assert_true(rg_hdr_flip_map(&black, &light, 67, map, &hdr));
+    for (int i = 0; i < PIXELS; i++)
+        assert_true(map[i] == 0.0f);
+    rg_picture_destroy(&light);
+    rg_picture_destroy(&black);
 }
 
 static void known_values(void **state)
@@ -297,15 +442,20 @@ static void pooling_equals_sorting(void **state)
     qsort(sorted, COUNT, sizeof(float), ascending);
     for (int i = 0; i < COUNT; i++)
         sum += (double)sorted[i];
-    int median = 0;
-    while (running + (double)sorted[median] <= sum / 2)
-        running += (double)sorted[median++];
+    int quarter[3] = {0}; // ranks at which a quarter of the sum is passed, two, and three
+    for (int i = 0; i < COUNT; i++) {
+        for (int q = 0; q < 3; q++)
+            quarter[q] += running + (double)sorted[i] <= sum * (q + 1) / 4;
+        running += (double)sorted[i];
+    }
     struct rg_flip flip;
     assert_true(rg_flip_pool(map, mask, COUNT, &flip));
     assert_true(fabs(flip.mean - sum / COUNT) < 1e-9);
     assert_true(flip.max == 1.0);
     assert_true(fabs(flip.p99 - (double)sorted[(COUNT * 99 + 99) / 100 - 1]) < 1e-8);
-    assert_true(fabs(flip.weighted_median - (double)sorted[median]) < 1e-8);
+    assert_true(fabs(flip.weighted_quartile_1 - (double)sorted[quarter[0]]) < 1e-8);
+    assert_true(fabs(flip.weighted_median - (double)sorted[quarter[1]]) < 1e-8);
+    assert_true(fabs(flip.weighted_quartile_3 - (double)sorted[quarter[2]]) < 1e-8);
     assert_true(fabs(flip.mask_mean - mask_sum / masked) < 1e-9);
 }
 
@@ -315,6 +465,8 @@ int main(void)
         cmocka_unit_test(map_equals_the_paper),
         cmocka_unit_test(rain_equals_the_paper),
         cmocka_unit_test(known_values),
+        cmocka_unit_test(hdr_equals_the_paper),
+        cmocka_unit_test(hdr_in_closed_form),
         cmocka_unit_test(approximations_are_as_near_as_stated),
         cmocka_unit_test(pooling_equals_sorting),
     };

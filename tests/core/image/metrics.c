@@ -10,6 +10,7 @@
 #include "core/base/log.h"
 #include "core/image/compare/compare.h"
 #include "core/image/files/oiio.h"
+#include "core/image/srgb.h"
 #include "tests/core/image/rain_picture.h"
 
 static struct rg_picture noise_picture(int width, int height, int channels, uint32_t seed)
@@ -124,6 +125,40 @@ static void openimageio_agrees(void **state)
     }
 }
 
+// Colours are told as codes, alpha as it is: 20 against 10 of 255, and alpha 0.5 against 0.25.
+static void codes_in_closed_form(void **state)
+{
+    (void)state;
+    struct rg_picture a = noise_picture(5, 3, 4, 1), b = noise_picture(5, 3, 4, 1);
+    for (int i = 0; i < 5 * 3 * 4; i++) {
+        const bool alpha = i % 4 == 3;
+        a.texels[i] = alpha ? 0.5f : (float)rg_srgb_decode(20 / 255.0);
+        b.texels[i] = alpha ? 0.25f : (float)rg_srgb_decode(10 / 255.0);
+    }
+    a.decoded = b.decoded = true;
+    struct rg_metrics m;
+    const double d = 10 / 255.0, rms = sqrt((3 * d * d + 0.25 * 0.25) / 4);
+    assert_true(rg_code_metrics(&a, &b, &m));
+    assert_true(near(m.mean, (3 * d + 0.25) / 4, 1e-6) && near(m.rms, rms, 1e-6));
+    assert_true(near(m.max, 0.25, 1e-6) && near(m.psnr_db, 20 * log10(0.5 / rms), 1e-6));
+    const struct rg_compare_options options = {.hdr_flip = true};
+    struct rg_comparison c;
+    assert_true(rg_compare(&a, "a", &b, "b", NULL, &options, &c));
+    assert_true(c.has_codes && !c.has_hdr_flip && c.code_metrics.rms == m.rms);
+    assert_true(c.metrics.rms != m.rms); // of light
+    rg_comparison_destroy(&c);
+    b.decoded = false; // of one of which there are no codes
+    assert_true(rg_compare(&a, "a", &b, "b", NULL, &options, &c));
+    assert_true(!c.has_codes && !c.has_hdr_flip);
+    rg_comparison_destroy(&c);
+    a.decoded = false;
+    assert_true(rg_compare(&a, "a", &b, "b", NULL, &options, &c));
+    assert_true(!c.has_codes && c.has_hdr_flip && c.hdr_flip.flip.mean > 0);
+    rg_comparison_destroy(&c);
+    rg_picture_destroy(&a);
+    rg_picture_destroy(&b);
+}
+
 static void threads_change_nothing(void **state)
 {
     (void)state;
@@ -153,7 +188,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(equal_pictures_have_no_error), cmocka_unit_test(closed_form),
         cmocka_unit_test(nonfinite_values_are_counted), cmocka_unit_test(openimageio_agrees),
-        cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(codes_in_closed_form),         cmocka_unit_test(threads_change_nothing),
     };
     return cmocka_run_group_tests_name("image metrics", tests, NULL, NULL);
 }

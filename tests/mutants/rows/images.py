@@ -7,6 +7,7 @@ TESTS = ("image picture", "image cases", "image metrics", "image tiers", "image 
 TIERS, METRICS, COMPARE = ("core/image/compare/tiers.c", "core/image/compare/metrics.c", "core/image/compare/compare.c")
 PNG, DISC, SRGB, YUV = ("core/image/files/png.c", "core/image/disc.c", "core/image/srgb.c", "core/image/clip/yuv.c")
 PICTURE, IO, FLIP = "core/image/picture.c", "core/image/files/io.c", "core/image/compare/flip.c"
+HDR = "core/image/compare/flip_hdr.c"
 
 ROWS = [
     Fault(SRGB, "encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, «2.4»)", "2.2", "the curve is a power of 2.2"),
@@ -63,4 +64,17 @@ ROWS = [
     Fault(FLIP, "planes->cz[row][column] =\n                «y - (0.01775242f * red + 0.10946563f * green + 0.87278196f * blue)»;", "(0.01775242f * red + 0.10946563f * green + 0.87278196f * blue) - y", "FLIP's blue and yellow are swapped"),
     Fault(FLIP, "return i < 0 ? «0» : i >= count", "-i < count ? -i : 0", "FLIP mirrors the picture at its edge"),
     Fault(FLIP, "float feature = sqrtf(0.70710678f * («edge > point ? edge : point»));", "edge", "FLIP sees no points"),
+    Fault(HDR, "/ fmax(«luminances[pixels - 1]», (double)FLT_EPSILON)", "luminances[pixels / 2]", "exposures begin at the median's"),
+    Fault(HDR, "log2(bright / fmax(«median», (double)FLT_EPSILON))", "luminances[pixels - 1]", "exposures end at the brightest pixel's"),
+    Fault(HDR, "const double bright = -b / (2 * a) «+ sqrt(b * b / (4 * a * a) - c / a)»;", "- sqrt(b * b / (4 * a * a) - c / a)", "the tone curve's other root is taken"),
+    Fault(HDR, "(int)fmax(2, «ceil(hdr->stop_exposure - hdr->start_exposure)»);", "ceil(hdr->stop_exposure - hdr->start_exposure) + 1", "an exposure too many"),
+    Fault(HDR, "largest[i] = «fmaxf(largest[i], room->map[i])»;", "room->map[i]", "the last exposure counts alone"),
+    Fault(HDR, "return «y < 1 ? y : 1»;", "y", "what is brighter than the screen is not cut"),
+    Fault(HDR, "x > LARGEST ? LARGEST : «x > 0 ? x : 0»;", "x", "negative light is mapped"),
+    Fault(HDR, "map_picture(«b», exposure, room->b);", "a", "the reference is compared with itself"),
+    Fault("core/image/compare/flip_pool.c", "weighted_quartile_1 = select_value(map, NULL, pixels, &top, true, «sum / 4»);", "sum / 2", "the first quartile is the median"),
+    Fault("core/image/compare/flip_pool.c", "weighted_quartile_3 = select_value(map, NULL, pixels, &top, true, «sum / 4 * 3»);", "sum / 2", "the third quartile is the median"),
+    Fault("core/image/compare/codes.c", "i % channels < colours ? «(float)rg_srgb_encode((double)from->texels[i])»", "from->texels[i]", "codes are light"),
+    Fault(COMPARE, "c->has_codes = «a->decoded && b->decoded»;", "a->decoded", "codes are told of a file that has none"),
+    Fault(COMPARE, "c->has_hdr_flip = wants_hdr && «!a->decoded && !b->decoded»;", "true", "HDR-FLIP is told of integers"),
 ]

@@ -1,0 +1,120 @@
+// FLIP for high dynamic range: Andersson, Nilsson, Shirley, Akenine-Moeller, "Visualizing Errors in
+// Rendered High Dynamic Range Images", Eurographics 2021. Both pictures are seen at all exposures
+// that show something of the reference, tone-mapped, and the largest difference counts.
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "core/image/compare/compare.h"
+
+// The tone mapping: ACES as Narkowicz fits it, before which its own exposure of 0.6 is applied:
+// (k[0] x^2 + k[1] x + k[2]) / (k[3] x^2 + k[4] x + k[5]).
+static const double k[6] = {0.6 * 0.6 * 2.51, 0.6 * 0.03, 0, 0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14};
+// What is mapped to this is bright, and no more shown the brighter.
+#define BRIGHT 0.85
+// Larger than anything that tone mapping tells from 1, so that no square overflows.
+#define LARGEST 1e9f
+
+// Of negative values and NaN, nothing is seen.
+static inline float seen(float texel, float scale)
+{
+    const float x = texel * scale;
+    return x > LARGEST ? LARGEST : x > 0 ? x : 0;
+}
+
+static inline float tone_mapped(float x)
+{
+    const float k0 = (float)k[0], k1 = (float)k[1], k3 = (float)k[3], k4 = (float)k[4],
+                k5 = (float)k[5];
+    const float y = (k0 * x + k1) * x / ((k3 * x + k4) * x + k5);
+    return y < 1 ? y : 1;
+}
+
+// Red, green and blue of each pixel at an exposure, tone-mapped.
+static void map_picture(const struct rg_picture *picture, double exposure, float *rgb)
+{
+    const int64_t pixels = (int64_t)picture->width * picture->height;
+    const int channels = picture->channels, colours = rg_picture_colours(picture);
+    const float scale = (float)exp2(exposure);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < pixels; i++)
+        for (int c = 0; c < 3; c++)
+            rgb[i * 3 + c] =
+                tone_mapped(seen(picture->texels[i * channels + (colours > 1 ? c : 0)], scale));
+}
+
+// --- the exposures ---
+
+static int ascending(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+static void fill_luminances(const struct rg_picture *picture, float *luminances)
+{
+    const int64_t pixels = (int64_t)picture->width * picture->height;
+    const int channels = picture->channels, colours = rg_picture_colours(picture);
+    const int green = colours > 1, blue = 2 * green;
+    for (int64_t i = 0; i < pixels; i++) {
+        const float *t = picture->texels + i * channels;
+        luminances[i] =
+            0.2126f * seen(t[0], 1) + 0.7152f * seen(t[green], 1) + 0.0722f * seen(t[blue], 1);
+    }
+}
+
+// From the exposure at which the reference's brightest pixel is just bright to that at which its
+// median is.
+static void find_exposures(const struct rg_picture *reference, float *luminances,
+                           struct rg_hdr_flip *hdr)
+{
+    const size_t pixels = (size_t)reference->width * (size_t)reference->height;
+    const double a = k[0] - BRIGHT * k[3], b = k[1] - BRIGHT * k[4], c = k[2] - BRIGHT * k[5];
+    const double bright = -b / (2 * a) + sqrt(b * b / (4 * a * a) - c / a);
+    fill_luminances(reference, luminances);
+    qsort(luminances, pixels, sizeof(*luminances), ascending);
+    const double median = 0.5 * ((double)luminances[(pixels - 1) / 2] + luminances[pixels / 2]);
+    hdr->start_exposure = log2(bright / fmax(luminances[pixels - 1], (double)FLT_EPSILON));
+    hdr->stop_exposure = log2(bright / fmax(median, (double)FLT_EPSILON));
+    hdr->exposures = (int)fmax(2, ceil(hdr->stop_exposure - hdr->start_exposure));
+}
+
+// --- the largest difference ---
+
+// Room for both pictures, a map and the reference's luminances.
+struct room {
+    float *a, *b, *map;
+};
+
+static bool add_exposure(const struct rg_picture *a, const struct rg_picture *b, double exposure,
+                         float pixels_per_degree, const struct room *room, float *largest)
+{
+    const int64_t pixels = (int64_t)a->width * a->height;
+    map_picture(a, exposure, room->a);
+    map_picture(b, exposure, room->b);
+    if (!rg_flip_map_linear(room->a, room->b, a->width, a->height, pixels_per_degree, room->map))
+        return false;
+    for (int64_t i = 0; i < pixels; i++)
+        largest[i] = fmaxf(largest[i], room->map[i]);
+    return true;
+}
+
+bool rg_hdr_flip_map(const struct rg_picture *a, const struct rg_picture *b,
+                     float pixels_per_degree, float *map, struct rg_hdr_flip *hdr)
+{
+    const size_t pixels = (size_t)a->width * (size_t)a->height;
+    float *memory = malloc(pixels * 7 * sizeof(*memory));
+    if (!memory)
+        return rg_error("HDR-FLIP of %d x %d pixels: no memory for it", a->width, a->height);
+    const struct room room = {memory, memory + pixels * 3, memory + pixels * 6};
+    find_exposures(a, room.map, hdr);
+    memset(map, 0, pixels * sizeof(*map));
+    const double step = (hdr->stop_exposure - hdr->start_exposure) / (hdr->exposures - 1);
+    bool good = true;
+    for (int i = 0; good && i < hdr->exposures; i++)
+        good = add_exposure(a, b, hdr->start_exposure + i * step, pixels_per_degree, &room, map);
+    free(memory);
+    return good;
+}
