@@ -208,6 +208,7 @@ RENDERS = [
     Case(RAIN + "--set drops_m2_s=1e9 -o {tmp}/a.png", 2, r"1\.02666e\+14 particles .*lower drops_m2_s"),
     Case(RAIN + "--set packet_size=1 --set packets=kd --set rain_width_m=60 --set rain_depth_m=60 --set memory_mb=500 "
          "--set camera=free -o {tmp}/a.png", 77, r"take 556\.8 MiB, more than the 476\.8 MiB allowed"),
+    Case(RAIN + "--set spectrum=best --set packets=kd --set memory_mb=1 -o {tmp}/a.png", 77, r"lower kept_share or local_height_m"),
     Case(RAIN + "--set camera=free --set eye_y_m=-3 -o {tmp}/a.png", 2, r"its eye is 3 m below the ground; raise eye_y_m"),
     Case(RAIN + "--set culling_radius_m=5000 -o {tmp}/a.png", 2, r"5000 m is wider than the rain space .*limits=off"),
     Case(RAIN + "--set local_height_m=500 -o {tmp}/a.png", 2, r"500 m is higher than the rain space"),

@@ -42,6 +42,7 @@ static bool create_packets(struct streaks *s)
         .scheme = (enum streaks_scheme)set->scheme,
         .by_id = set->by_id,
         .memory_bytes = (int64_t)set->memory_mb * 1000000,
+        .amount = streaks_sizes_differ(s) ? "kept_share" : "drops_m2_s",
     };
     struct rg_density *density = streaks_density(s);
     s->mean_density = density ? rg_density_mean(density) : 0;

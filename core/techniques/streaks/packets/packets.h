@@ -61,6 +61,7 @@ struct streaks_packets_settings {
     // anyway.
     bool by_id;
     int64_t memory_bytes; // that making the particles may take at its peak, 64 GiB at most
+    const char *amount;   // the parameter that decides how many drops there are, for messages
 };
 
 struct streaks_packets_info {

@@ -58,15 +58,15 @@ bool streaks_plan_amount(const struct rg_rain_space *space, const struct rg_dens
                         (int)settings->scheme);
     const double total = amount(space, density, settings);
     if (!(total >= 1))
-        return rg_error("rain: less than one particle in %g m x %g m x %g m; raise drops_m2_s, now "
-                        "%g, or local_height_m",
+        return rg_error("rain: less than one particle in %g m x %g m x %g m; raise %s or "
+                        "local_height_m",
                         2 * space->half_x_m, 2 * space->half_y_m, settings->local_height_m,
-                        settings->drops_m2_s);
+                        settings->amount);
     if (total > INT32_MAX)
         return rg_error(
             "rain: %.6g particles in the local space, at most %d can be told apart; lower "
-            "drops_m2_s, now %g, or local_height_m, now %g",
-            total, INT32_MAX, settings->drops_m2_s, settings->local_height_m);
+            "%s, or local_height_m, now %g",
+            total, INT32_MAX, settings->amount, settings->local_height_m);
     *whole = (int64_t)total;
     return true;
 }
@@ -154,10 +154,10 @@ static bool refuse(const struct streaks_packets_settings *settings, const struct
 {
     return rg_unsupported(
         "rain: %lld particles in %lld packets (%s) take %.1f MiB, more than the %.1f "
-        "MiB allowed; lower drops_m2_s or local_height_m, choose other packets, or "
-        "allow more",
+        "MiB allowed; lower %s or local_height_m, choose other packets, or raise memory_mb",
         (long long)total, (long long)plan->packets, streaks_scheme_name(plan->scheme),
-        (double)plan->peak_bytes / (1 << 20), (double)allowed(settings) / (1 << 20));
+        (double)plan->peak_bytes / (1 << 20), (double)allowed(settings) / (1 << 20),
+        settings->amount);
 }
 
 static bool refuse_cells(const struct streaks_packets_settings *settings)

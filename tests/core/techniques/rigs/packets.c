@@ -36,7 +36,8 @@ struct streaks_packets_settings rig_settings(const struct rg_rain_space *space,
                                              .local_height_m = 20,
                                              .packet_size = 1000,
                                              .scheme = STREAKS_WORLD,
-                                             .memory_bytes = (int64_t)1 << 30};
+                                             .memory_bytes = (int64_t)1 << 30,
+                                             .amount = "drops_m2_s"};
 }
 
 struct streaks_packets *rig_packets(const struct rg_rain_space *space,
