@@ -112,6 +112,12 @@ static const struct rg_mutant mutants[] = {
     {"camera turned by 0.2 degrees", "camera_azimuth_deg", 1, 0.2},
     {"model 1 % larger", "model_size", 1.01, 0},
     {"lamp 5 % brighter", "light", 1.05, 0},
+    {"model 2 % darker", "model_grey", 0.98, 0},
+    {"camera 0.5 % farther away", "distance_mm", 1.005, 0},
+    {"view 0.5 % wider", "view_angle_deg", 1.005, 0},
+    {"bars 10 % wider", "frame_mm", 1.1, 0},
+    {"drops 1 % higher", "drop_height_per_mm", 1.01, 0},
+    {"wet from 10 % more water on", "wet_height", 1.1, 0},
     {NULL, NULL, 0, 0},
 };
 
