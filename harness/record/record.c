@@ -62,10 +62,14 @@ double rg_record_fps(const struct rg_record *record)
     return 1000 / record->frame_ms.median;
 }
 
+double rg_record_load_ms(const struct rg_record *record)
+{
+    return (record->calibration_begin_ms + record->calibration_end_ms) / 2;
+}
+
 double rg_record_drift(const struct rg_record *a, const struct rg_record *b)
 {
-    const double ms_a = a->calibration_begin_ms + a->calibration_end_ms;
-    const double ms_b = b->calibration_begin_ms + b->calibration_end_ms;
+    const double ms_a = rg_record_load_ms(a), ms_b = rg_record_load_ms(b);
     return ms_a > 0 && ms_b > 0 ? fmax(ms_a / ms_b, ms_b / ms_a) : 1;
 }
 

@@ -93,6 +93,8 @@ void rg_record_settle(struct rg_record *record);
 
 // Frames a second: 1000 over the median of its frame_ms.
 double rg_record_fps(const struct rg_record *record);
+// What the calibration's load took while it was measured, on average; 0: unknown.
+double rg_record_load_ms(const struct rg_record *record);
 // By how much the machine was slower, or faster, while one was measured than while the other was,
 // as their calibration tells: at least 1; 1 where that is unknown.
 double rg_record_drift(const struct rg_record *a, const struct rg_record *b);

@@ -86,6 +86,18 @@ static void add_point(const struct rg_slope_point *point, int index, double weig
         drawn[round] += weight * log(median_drawn(sorted, point->count, index, round));
 }
 
+// What a drift of the machine along the axis adds to the slope, or takes away.
+static double slope_of_loads(const struct rg_slope_point *points, int count, const double *weights)
+{
+    double slope = 0;
+    for (int i = 0; i < count; i++) {
+        if (!(points[i].load_ms > 0))
+            return 0;
+        slope += weights[i] * log(points[i].load_ms);
+    }
+    return fabs(slope);
+}
+
 struct rg_interval rg_slope_resampled(const struct rg_slope_point *points, int count)
 {
     double weights[RG_SLOPE_POINTS], drawn[RESAMPLES] = {0}, slope = 0;
@@ -98,5 +110,7 @@ struct rg_interval rg_slope_resampled(const struct rg_slope_point *points, int c
     if (!count || fewest < RG_LEAST_SAMPLES || !isfinite(slope))
         return (struct rg_interval){count && isfinite(slope) ? slope : NAN, NAN, NAN};
     qsort(drawn, RESAMPLES, sizeof(*drawn), ascending);
-    return (struct rg_interval){slope, drawn[OUTSIDE], drawn[RESAMPLES - 1 - OUTSIDE]};
+    const double drift = slope_of_loads(points, count, weights);
+    return (struct rg_interval){slope, drawn[OUTSIDE] - drift,
+                                drawn[RESAMPLES - 1 - OUTSIDE] + drift};
 }

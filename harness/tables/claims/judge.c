@@ -185,8 +185,10 @@ static struct rg_judgement judge_exponent(struct hearing *h)
     struct rg_slope_point points[RG_RESULT_ROWS];
     for (int i = 0; i < h->count; i++) {
         const struct rg_record *r = rg_hearing_row(h, h->rows[i]);
-        points[i] = (struct rg_slope_point){
-            .x = log(axis_at(h, h->rows[i])), .samples = r->samples_ms, .count = r->sample_count};
+        points[i] = (struct rg_slope_point){.x = log(axis_at(h, h->rows[i])),
+                                            .samples = r->samples_ms,
+                                            .count = r->sample_count,
+                                            .load_ms = rg_record_load_ms(r)};
     }
     const struct rg_interval s = rg_slope_resampled(points, h->count);
     if (!isfinite(s.low))

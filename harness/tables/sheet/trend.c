@@ -66,7 +66,8 @@ static void add_row(struct rows *rows, const struct rg_record *record)
     rows->points[row] = (struct rg_slope_point){.x = along ? log(along->number) : NAN,
                                                 .group = group,
                                                 .samples = record->samples_ms,
-                                                .count = record->sample_count};
+                                                .count = record->sample_count,
+                                                .load_ms = rg_record_load_ms(record)};
 }
 
 // Where each row differs from all others in more than the axis, what goes with it tells none apart.

@@ -122,6 +122,29 @@ static void test_coverage(void **state)
     }
 }
 
+// A machine that got slower along the axis, to the power 0.1, may have made the slope steeper by
+// that, or would have, had it got faster. One row whose load is unknown says nothing of the others.
+static void test_drift(void **state)
+{
+    (void)state;
+    double samples[ROWS][MOST];
+    struct rg_slope_point points[ROWS];
+    scatter(samples, MOST, 0.1, 1);
+    for (int r = 0; r < ROWS; r++)
+        points[r] = (struct rg_slope_point){.x = log(r + 1), .samples = samples[r], .count = MOST};
+    const struct rg_interval still = rg_slope_resampled(points, ROWS);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        for (int r = 0; r < ROWS; r++)
+            points[r].load_ms = 2 * pow(r + 1, sign * 0.1);
+        const struct rg_interval s = rg_slope_resampled(points, ROWS);
+        assert_near(s.median, still.median, 1e-12);
+        assert_near(s.low, still.low - 0.1, 1e-12);
+        assert_near(s.high, still.high + 0.1, 1e-12);
+    }
+    points[2].load_ms = 0;
+    assert_near(rg_slope_resampled(points, ROWS).low, still.low, 1e-12);
+}
+
 // A row of five samples leaves no interval; of constant samples it is the slope itself.
 static void test_no_interval(void **state)
 {
@@ -140,9 +163,9 @@ static void test_no_interval(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ranks),       cmocka_unit_test(test_few),
-        cmocka_unit_test(test_weights),     cmocka_unit_test(test_coverage),
-        cmocka_unit_test(test_no_interval),
+        cmocka_unit_test(test_ranks),   cmocka_unit_test(test_few),
+        cmocka_unit_test(test_weights), cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_drift),   cmocka_unit_test(test_no_interval),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
