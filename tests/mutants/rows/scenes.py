@@ -8,7 +8,7 @@ CAMERA, MATRIX, LIGHTS = "core/scene/camera.c", "core/scene/matrix.c", "core/sce
 DENSITY, SPACE, SPECTRUM = "core/scene/density.c", "core/scene/rain_space.c", "core/scene/spectrum.c"
 BLUR, CUBE, KTX, LOAD = ("core/scene/environment/blur.c", "core/scene/environment/cube.c", "core/scene/environment/ktx.c",
                          "core/scene/environment/environment.c")
-GRID, DETAIL = "core/techniques/streaks/packets/grid.c", "core/techniques/flow/detail.c"
+GRID, DETAIL, LOOK = "core/techniques/streaks/packets/grid.c", "core/techniques/flow/detail.c", "core/techniques/streaks/view/look.c"
 EDGES, FACES, MESH = "core/scene/mesh/edges.c", "core/scene/mesh/faces.c", "core/scene/mesh/mesh.c"
 
 ROWS = [
@@ -39,6 +39,8 @@ ROWS = [
     Fault(GRID, "if («is_fine(map, grid)»)\n            return", "true", "a grid's cells are as large as packets allow, whatever the map"),
     Fault(GRID, "(fmin(x + 1, right) «- fmax(x, left)») *", "- 0", "what cells move counts texels whole from the map's left"),
     Fault(GRID, "return (int)floor(level + «(double)rg_uniform(cell_random(seed, cell).x)»);", "0", "levels of a grid's cells are rounded down"),
+    Fault(LOOK, "return streak «+ s->settings.splash_s * s->sizes.fastest_m_s» + splash;", "+ 0",
+          "splashes are left out with blocks that have fallen on below them", tests=("streaks, landing",)),
     Fault(DETAIL, "due > now ? due : «spare < now ? spare : now»;", "due", "a level of detail flickers on its border"),
     Fault(DETAIL, "left = «sum % 4»;", "0", "a coarser level of detail loses water"),
     Fault(DETAIL, "here + (k % 2 ? across : «-across»)", "across", "a finer level of detail makes water"),

@@ -155,8 +155,7 @@ static void expect_no_blocks(const char *view, const char *drops)
     snprintf(settings, sizeof(settings), "%s drops=off splashes=off", view);
     struct rain_texels *dry = rain_draw_at(settings, 30);
     for (int way = 0; way < 3; way++) {
-        snprintf(settings, sizeof(settings),
-                 "%s spectrum=best kept_share=0.2 cull=exact packets=quad packet_size=2000 %s %s",
+        snprintf(settings, sizeof(settings), "%s cull=exact packets=quad packet_size=2000 %s %s",
                  view, drops, ways[way]);
         pictures[way] = rain_draw_at(settings, 30);
         if (memcmp(pictures[way], pictures[0], sizeof(*dry)))
@@ -167,6 +166,8 @@ static void expect_no_blocks(const char *view, const char *drops)
         free(pictures[way]);
     free(dry);
 }
+
+#define SIZES "spectrum=best kept_share=0.2 "
 
 // Blocks and packets are left out that the view cannot see, and nothing else. In views that look up
 // over a low local space, streaks and splashes reach into the picture from below it.
@@ -179,9 +180,22 @@ static void test_blocks_do_not_show(void **state)
         "view_angle_deg=30 eye_y_m=20 target_y_m=0 target_z_m=12",
     };
     for (size_t i = 0; i < sizeof(views) / sizeof(views[0]); i++) {
-        expect_no_blocks(views[i], "splash_width_mm=2000");
-        expect_no_blocks(views[i], "splashes=off splash_s=0.001 exposure_s=0.25");
+        expect_no_blocks(views[i], SIZES "splash_width_mm=2000");
+        expect_no_blocks(views[i], SIZES "splashes=off splash_s=0.001 exposure_s=0.25");
     }
+}
+
+// Drops of one size, which lie in blocks by how far they have fallen. A splash lasts while its drop
+// would fall on below what it hit: on the ground, further than these views see.
+static void test_splashes_outlast_their_blocks(void **state)
+{
+    (void)state;
+    static const char *const views[] = {
+        "view_angle_deg=20 eye_y_m=1 target_y_m=1 target_z_m=40",
+        "view_angle_deg=20 local_height_m=12 eye_y_m=1.5 target_y_m=1.5 target_z_m=40",
+    };
+    for (size_t i = 0; i < sizeof(views) / sizeof(views[0]); i++)
+        expect_no_blocks(views[i], "drops=off splash_width_mm=400 splash_s=0.8 drops_m2_s=20");
 }
 
 int main(int argc, char **argv)
@@ -189,6 +203,7 @@ int main(int argc, char **argv)
     struct CMUnitTest tests[] = {
         cmocka_unit_test(test_drops_land_by_flux),
         cmocka_unit_test(test_blocks_do_not_show),
+        cmocka_unit_test(test_splashes_outlast_their_blocks),
     };
     return rain_tests_run(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));
 }
