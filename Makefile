@@ -65,6 +65,7 @@ results: committed build
 	@echo "== regenerating the tables on every device, $(WHAT), into $(RESULTS)"
 	@$(BUILD)/harness/raingauge table $(WHAT) -o $(BUILD)/results
 	@python3 results/keep.py $(BUILD)/results $(RESULTS)
+	@python3 results/figures.py $(RESULTS)
 
 test: build $(ASAN)/build.ninja
 	@echo "== building in $(ASAN)"

@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""Makes a page's figures from the tables that the repository keeps.
+
+    figures.py [--check] [TABLES [PAGE...]]
+
+In a page the lines between `<!-- figures: TABLE[:ROW,...] ... -->` and `<!-- end of figures -->` are a table of
+milliseconds a frame: a line a row and variant, a column a device, of what was printed alone. ROW counts from 1; without
+any all rows stand there. With `printed` behind the names there is a column of what the paper printed. --check writes
+nothing, and exits 1 if a page says anything else than its tables.
+"""
+import json
+import os
+import re
+import statistics
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+BLOCK = re.compile(r"(<!-- figures: ([^\n]*?) -->\n)(.*?)(<!-- end of figures -->)", re.S)
+DEVICES = ["cpu", "opencl", "gl", "vulkan", "cpu:reference"]
+
+
+def digits(ms):
+    """Three significant digits, and no power of ten."""
+    return f"{ms:.3g}" if ms < 999.5 else f"{ms:.0f}"
+
+
+def line_name(table, cell):
+    names = [f"{value}" if isinstance(value, str) else f"{key} {value:g}" for key, value in cell["row"].items()]
+    variant = [] if cell["variant"] == "full" else [cell["variant"].replace("_", " ")]
+    return ", ".join([table, *names, *variant])
+
+
+def lines_of(folder, table, rows):
+    """Each line's name, what was printed, and milliseconds by device; cells that were not timed have none."""
+    with open(os.path.join(folder, table + ".json"), encoding="utf-8") as file:
+        result = json.load(file)
+    lines = {}
+    for cell in result["cells"]:
+        if cell.get("work", "paper") != "paper" or (rows and cell["row_number"] not in rows):
+            continue
+        line = lines.setdefault((cell["row_number"], cell["variant"]), [line_name(table, cell), "", {}])
+        if cell["published"].get("fps"):
+            line[1] = digits(1000 / cell["published"]["fps"])
+        samples = cell.get("measured", {}).get("samples_ms")
+        line[2][cell["device"]] = digits(statistics.median(samples)) if samples else cell["status"]
+    missing = set(rows) - {row for row, _ in lines}
+    if missing:
+        raise ValueError(f"{table}: {folder} has no row {min(missing)} of it")
+    return [line for _, line in sorted(lines.items(), key=lambda item: item[0][0])]
+
+
+def markdown(folder, asked):
+    words = asked.split()
+    printed = words[-1] == "printed"
+    lines = []
+    for word in words[:-1] if printed else words:
+        table, _, rows = word.partition(":")
+        lines += lines_of(folder, table, [int(row) for row in rows.split(",")] if rows else [])
+    devices = [device for device in DEVICES if any(device in line[2] for line in lines)]
+    head = ["table, row"] + ["published"] * printed + devices
+    out = ["", "| " + " | ".join(head) + " |", "|---" + "|---:" * (len(head) - 1) + "|"]
+    for name, published, ms in lines:
+        out.append("| " + " | ".join([name] + [published] * printed + [ms.get(device, "") for device in devices]) + " |")
+    return "\n".join(out + ["", ""])
+
+
+def rewrite(folder, text):
+    return BLOCK.sub(lambda block: block[1] + markdown(folder, block[2]) + block[4], text)
+
+
+def main():
+    words = [word for word in sys.argv[1:] if word != "--check"]
+    folder = words[0] if words else os.path.join(ROOT, "results", "tables")
+    ok = True
+    for page in words[1:] or [os.path.join(ROOT, "docs", "performance.md")]:
+        with open(page, encoding="utf-8") as file:
+            text = file.read()
+        made = rewrite(folder, text)
+        if not BLOCK.search(text):
+            print(f"{page}: has no figures that are made from tables", file=sys.stderr)
+            ok = False
+        elif made != text and "--check" in sys.argv:
+            print(f"{page}: says other figures than {folder}; run results/figures.py", file=sys.stderr)
+            ok = False
+        elif made != text:
+            with open(page, "w", encoding="utf-8") as file:
+                file.write(made)
+    sys.exit(0 if ok else 1)
+
+
+if __name__ == "__main__":
+    main()
