@@ -34,7 +34,8 @@ static int set_signals(posix_spawnattr_t *attributes)
                                                     POSIX_SPAWN_SETPGROUP);
 }
 
-static int spawn(const char *const args[], const int moved[], int fd_count, pid_t *child)
+static int spawn(char *const environment[], const char *const args[], const int moved[],
+                 int fd_count, pid_t *child)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -44,15 +45,16 @@ static int spawn(const char *const args[], const int moved[], int fd_count, pid_
     error = posix_spawnattr_init(&attributes);
     if (!error) {
         if (!(error = set_fds(&actions, moved, fd_count)) && !(error = set_signals(&attributes)))
-            error =
-                posix_spawnp(child, args[0], &actions, &attributes, (char *const *)args, environ);
+            error = posix_spawnp(child, args[0], &actions, &attributes, (char *const *)args,
+                                 environment);
         posix_spawnattr_destroy(&attributes);
     }
     posix_spawn_file_actions_destroy(&actions);
     return error;
 }
 
-int rg_program_start(const char *const args[], const int fds[], int fd_count, pid_t *child)
+int rg_program_start_in(char *const environment[], const char *const args[], const int fds[],
+                        int fd_count, pid_t *child)
 {
     int moved[MAX_FDS] = {0}, count = 0, error = fd_count > MAX_FDS ? EINVAL : 0;
     for (; !error && count < fd_count; count++) {
@@ -61,11 +63,16 @@ int rg_program_start(const char *const args[], const int fds[], int fd_count, pi
             error = errno;
     }
     if (!error)
-        error = spawn(args, moved, fd_count, child);
+        error = spawn(environment, args, moved, fd_count, child);
     for (int i = 0; i < count; i++)
         if (moved[i] >= 0)
             close(moved[i]);
     return error;
+}
+
+int rg_program_start(const char *const args[], const int fds[], int fd_count, pid_t *child)
+{
+    return rg_program_start_in(environ, args, fds, fd_count, child);
 }
 
 void rg_program_last_line(FILE *printed, char *last, size_t size)

@@ -12,6 +12,10 @@
 // it, and waits for it. 0, or the errno.
 int rg_program_start(const char *const args[], const int fds[], int fd_count, pid_t *child);
 
+// The same with variables of its own, which end in NULL.
+int rg_program_start_in(char *const environment[], const char *const args[], const int fds[],
+                        int fd_count, pid_t *child);
+
 // What a program that failed said last: ": " and the last line with a letter in it, "" where it
 // printed none.
 void rg_program_last_line(FILE *printed, char *last, size_t size);

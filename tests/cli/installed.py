@@ -31,7 +31,8 @@ def check_install(runner):
     with tempfile.TemporaryDirectory() as folder:
         options, problems = install(runner, folder)
         places = {os.path.join(options[where].lstrip("/"), name) for where, name in (
-            ("bindir", "raingauge"), ("libdir", "raingauge/raingauge_importer"), ("libdir", "raingauge/raingauge_oiio.so"),
+            ("bindir", "raingauge"), ("libdir", "raingauge/raingauge_importer"),
+            ("libdir", "raingauge/raingauge_picture_reader"), ("libdir", "raingauge/raingauge_oiio.so"),
             ("mandir", "man1/raingauge.1"), ("datadir", "bash-completion/completions/raingauge"))}
         prefix = folder + options["prefix"]
         found = {os.path.relpath(os.path.join(path, name), prefix) for path, _, names in os.walk(folder) for name in names}

@@ -1,11 +1,17 @@
 #include "core/image/files/oiio.h"
 
 #include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "core/base/cage/cage.h"
 #include "core/image/files/format.h"
+#include "core/image/reader/reply.h"
 #include "core/image/srgb.h"
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;
@@ -48,38 +54,78 @@ static bool decode(struct rg_picture *picture)
     return true;
 }
 
-static bool read_open_file(const struct rg_oiio_functions *oiio, struct rg_oiio_file *file,
-                           int64_t file_bytes, struct rg_picture *picture, struct rg_why *why)
+// --- reading, in the reader's process ---
+
+static bool take_texels(int fd, const struct rg_picture_reply *reply, struct rg_picture *picture,
+                        struct rg_why *why)
 {
-    int64_t bytes = (int64_t)file->width * file->height * file->channels;
-    if (bytes / 1040 > file_bytes)
+    const int64_t bytes = rg_picture_reply_values(reply) * (int64_t)sizeof(float);
+    for (int64_t done = 0; done < bytes;) {
+        const ssize_t got = pread(fd, (char *)picture->texels + done, (size_t)(bytes - done),
+                                  (off_t)((int64_t)sizeof(*reply) + done));
+        if (got == 0 || (got < 0 && errno != EINTR))
+            return rg_why_set(why, "raingauge_picture_reader handed back a part of it; build "
+                                   "raingauge again");
+        done += got > 0 ? got : 0;
+    }
+    return reply->integer ? decode(picture) : true;
+}
+
+static bool take_reply(int fd, int64_t file_bytes, struct rg_picture *picture, struct rg_why *why)
+{
+    struct rg_picture_reply reply;
+    if (pread(fd, &reply, sizeof(reply), 0) != (ssize_t)sizeof(reply) ||
+        reply.magic != RG_PICTURE_REPLY_MAGIC)
+        return rg_why_set(why, "raingauge_picture_reader is of another version; build raingauge "
+                               "again");
+    reply.why[sizeof(reply.why) - 1] = 0;
+    if (reply.why[0])
+        return rg_why_set(why, "cannot be read: %s; write it again", reply.why);
+    if (!rg_picture_reply_fits(&reply, file_bytes))
+        return rg_why_set(
+            why, "promises %.0f values, more than its %lld bytes can hold; write it again",
+            (double)reply.width * reply.height * reply.channels, (long long)file_bytes);
+    return rg_picture_allocate(picture, reply.width, reply.height, reply.channels, why->text,
+                               sizeof(why->text)) &&
+           take_texels(fd, &reply, picture, why);
+}
+
+static bool read_caged(const char *path, int file, int64_t file_bytes, struct rg_picture *picture,
+                       struct rg_why *why)
+{
+    char program[PATH_MAX];
+    struct rg_caged caged;
+    if (!rg_caged_find("raingauge_picture_reader", program, sizeof(program)))
         return rg_why_set(why,
-                          "promises %lld values, more than its %lld bytes can hold; write it "
-                          "again",
-                          (long long)bytes, (long long)file_bytes);
-    if (!rg_picture_allocate(picture, file->width, file->height, file->channels, why->text,
-                             sizeof(why->text)))
-        return false;
-    if (!oiio->read(file, picture->texels))
-        return rg_why_set(why, "cannot be read: %s; write it again", file->why);
-    return file->integer ? decode(picture) : true;
+                          "raingauge_picture_reader is not beside raingauge; install it again");
+    const char *extension = strrchr(path, '.');
+    char name[32];
+    snprintf(name, sizeof(name), "picture%s", extension ? extension : "");
+    const int error = rg_caged_run((const char *const[]){program, name, NULL}, file,
+                                   (int)(60 + file_bytes / 1000000), &caged);
+    const bool good =
+        error ? rg_why_set(why, "%s could not be started: %s", program, strerror(error))
+              : rg_caged_is_sound(&caged, "OpenImageIO", why->text, sizeof(why->text)) &&
+                    take_reply(caged.reply, file_bytes, picture, why);
+    if (caged.reply >= 0)
+        close(caged.reply);
+    return good;
 }
 
 bool rg_oiio_read(const char *path, int64_t file_bytes, struct rg_picture *picture,
                   struct rg_why *why)
 {
-    const struct rg_oiio_functions *oiio = rg_oiio(why->text, sizeof(why->text));
-    if (!oiio)
-        return false;
-    struct rg_oiio_file file = {0};
-    bool good = oiio->open(path, &file)
-                    ? read_open_file(oiio, &file, file_bytes, picture, why)
-                    : rg_why_set(why, "cannot be read: %s; write it again", file.why);
-    oiio->close(&file);
+    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0)
+        return rg_why_set(why, "%s; check the path", strerror(errno));
+    const bool good = read_caged(path, file, file_bytes, picture, why);
+    close(file);
     if (!good)
         rg_picture_destroy(picture);
     return good;
 }
+
+// --- writing ---
 
 static bool write_as(const char *path, const char *format, const struct rg_picture *picture,
                      struct rg_why *why)

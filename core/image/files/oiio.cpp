@@ -9,7 +9,6 @@
 #include "core/image/files/oiio.h"
 
 using OIIO::ImageBuf;
-using OIIO::ImageInput;
 using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
@@ -20,53 +19,6 @@ namespace
 void say(char *why, size_t size, const std::string &text)
 {
     snprintf(why, size, "%s", text.c_str());
-}
-
-bool open_file(const char *path, rg_oiio_file *file) noexcept
-try {
-    file->input = nullptr;
-    ImageSpec hints;
-    hints["oiio:UnassociatedAlpha"] = 1;
-    std::unique_ptr<ImageInput> input = ImageInput::open(path, &hints);
-    if (!input) {
-        say(file->why, sizeof(file->why), OIIO::geterror());
-        return false;
-    }
-    const ImageSpec &spec = input->spec();
-    file->width = spec.width;
-    file->height = spec.height;
-    file->channels = spec.nchannels;
-    file->integer = !spec.format.is_floating_point();
-    if (spec.depth > 1 || spec.deep) {
-        say(file->why, sizeof(file->why), "is a volume or deep; flatten it");
-        return false;
-    }
-    file->input = input.release();
-    return true;
-} catch (const std::exception &e) {
-    say(file->why, sizeof(file->why), e.what());
-    return false;
-}
-
-bool read_file(rg_oiio_file *file, float *texels) noexcept
-try {
-    auto *input = static_cast<ImageInput *>(file->input);
-    if (input->read_image(0, 0, 0, file->channels, TypeDesc::FLOAT, texels) &&
-        !input->has_error())
-        return true;
-    say(file->why, sizeof(file->why), input->geterror());
-    return false;
-} catch (const std::exception &e) {
-    say(file->why, sizeof(file->why), e.what());
-    return false;
-}
-
-void close_file(rg_oiio_file *file) noexcept
-try {
-    delete static_cast<ImageInput *>(file->input);
-    file->input = nullptr;
-    OIIO::geterror(); // OpenImageIO prints errors that nobody asked for when the process ends
-} catch (const std::exception &) {
 }
 
 bool write_file(const char *path, const char *format, int width, int height, int channels,
@@ -110,14 +62,10 @@ try {
 
 extern "C" __attribute__((visibility("default"))) const rg_oiio_functions *rg_oiio_module() noexcept
 {
-    static const rg_oiio_functions functions = {open_file, read_file, close_file, write_file,
-                                                compare};
+    static const rg_oiio_functions functions = {write_file, compare};
     try {
-        // Readers must not fall back to another format's reader, nor keep a pool of threads.
-        OIIO::attribute("try_all_readers", 0);
         OIIO::attribute("threads", 1);
         OIIO::attribute("tiff:half", 1);
-        OIIO::attribute("limits:imagesize_MB", 16384);
     } catch (const std::exception &) {
         return nullptr;
     }

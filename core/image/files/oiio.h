@@ -1,5 +1,5 @@
-// The functions of the OpenImageIO module, the project's only C++: plain C, and no exception leaves
-// them. The module is loaded by oiio.c when one is first needed.
+// The functions of the OpenImageIO module, plain C, and no exception leaves them. The module is
+// loaded by oiio.c when one is first needed.
 #ifndef RG_CORE_IMAGE_FILES_OIIO_H
 #define RG_CORE_IMAGE_FILES_OIIO_H
 
@@ -10,14 +10,6 @@
 extern "C" {
 #endif
 
-// A file while it is read. `why` receives a sentence on failure.
-struct rg_oiio_file {
-    void *input; // owned by the module between open and close
-    int width, height, channels;
-    bool integer; // 8 or 16 bits: values are read as code / largest code
-    char why[400];
-};
-
 // OpenImageIO's ImageBufAlgo::compare: differences of the values of two pictures of one shape.
 struct rg_oiio_comparison {
     double mean, rms, psnr_db, max;
@@ -26,11 +18,6 @@ struct rg_oiio_comparison {
 };
 
 struct rg_oiio_functions {
-    // Opens a file with OpenImageIO's reader for its extension; close it in any case.
-    bool (*open)(const char *path, struct rg_oiio_file *file);
-    // Reads the whole picture as floats into width * height * channels `texels`.
-    bool (*read)(struct rg_oiio_file *file, float *texels);
-    void (*close)(struct rg_oiio_file *file);
     // `format`: "hdr", "tiff" (half floats), "tiff-float".
     bool (*write)(const char *path, const char *format, int width, int height, int channels,
                   const float *texels, char *why, int why_size);

@@ -1,36 +1,16 @@
-#define _GNU_SOURCE // memfd_create
 #include "core/scene/mesh/read.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <limits.h>
-#include <poll.h>
-#include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "core/base/cage/cage.h"
 #include "core/base/log.h"
-#include "core/base/program.h"
 #include "core/scene/mesh/reply.h"
-
-// Where the importer is, seen from the folder of the running program: beside it, installed, or in
-// the build, whose programs and tests lie at several depths.
-static const char *const importer_places[] = {
-    "raingauge_importer",
-    "../lib/raingauge/raingauge_importer",
-    "../" RG_LIBDIR "/raingauge/raingauge_importer",
-    "../core/raingauge_importer",
-    "../../core/raingauge_importer",
-    "../../../core/raingauge_importer",
-    "../../../../core/raingauge_importer",
-    "../../../../../core/raingauge_importer",
-};
 
 // --- the reply ---
 
@@ -74,67 +54,22 @@ static struct rg_mesh *map_reply(const char *name, int fd)
 
 // --- the process ---
 
-// False when it had to be killed.
-static bool wait_for_end(pid_t child, int alive, int timeout_s, int *status)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    const time_t deadline = now.tv_sec + timeout_s;
-    int ended = 0;
-    while (ended == 0 && now.tv_sec <= deadline) {
-        ended = poll(&(struct pollfd){.fd = alive, .events = POLLIN}, 1, 200);
-        ended = ended < 0 && errno == EINTR ? 0 : ended;
-        clock_gettime(CLOCK_MONOTONIC, &now);
-    }
-    if (ended <= 0)
-        kill(child, SIGKILL);
-    while (waitpid(child, status, 0) < 0 && errno == EINTR)
-        continue;
-    return ended > 0;
-}
-
-static struct rg_mesh *judge(const char *name, int status, bool ended, int reply)
-{
-    if (!ended || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
-        return rg_error_null("%s: Assimp did not come to an end with it in time; the file is "
-                             "damaged or too large: repair, convert or decimate it",
-                             name);
-    if (WIFSIGNALED(status))
-        return rg_error_null("%s: Assimp crashed on it (%s); the file is damaged: repair or "
-                             "convert it",
-                             name, strsignal(WTERMSIG(status)));
-    if (WEXITSTATUS(status))
-        return rg_error_null("%s: Assimp ended with status %d on it; the file is damaged: repair "
-                             "or convert it",
-                             name, WEXITSTATUS(status));
-    return map_reply(name, reply);
-}
-
 struct rg_mesh *rg_mesh_read_by(const char *program, int timeout_s, const char *name,
                                 const char *path, const char *member)
 {
-    int alive[2] = {-1, -1}, status = 0;
-    const int reply = memfd_create("raingauge mesh", MFD_CLOEXEC);
-    int error = reply < 0 || pipe2(alive, O_CLOEXEC) ? errno : 0;
-    pid_t child = 0;
-    if (!error) {
-        // The end of `alive` that the process has closes when it ends.
-        error = rg_program_start((const char *const[]){program, path, member, NULL},
-                                 (const int[]){-1, -1, -1, [RG_REPLY_FD] = reply, alive[1]},
-                                 RG_REPLY_FD + 2, &child);
-        close(alive[1]);
-    }
+    char why[300];
+    struct rg_caged caged;
     struct rg_mesh *mesh = NULL;
-    if (error) {
+    const int error =
+        rg_caged_run((const char *const[]){program, path, member, NULL}, -1, timeout_s, &caged);
+    if (error)
         rg_error("%s: %s could not be started: %s", name, program, strerror(error));
-    } else {
-        const bool ended = wait_for_end(child, alive[0], timeout_s, &status);
-        mesh = judge(name, status, ended, reply);
-    }
-    if (alive[0] >= 0)
-        close(alive[0]);
-    if (reply >= 0)
-        close(reply);
+    else if (!rg_caged_is_sound(&caged, "Assimp", why, sizeof(why)))
+        rg_error("%s: %s", name, why);
+    else
+        mesh = map_reply(name, caged.reply);
+    if (caged.reply >= 0)
+        close(caged.reply);
     return mesh;
 }
 
@@ -142,20 +77,10 @@ struct rg_mesh *rg_mesh_read_by(const char *program, int timeout_s, const char *
 
 static bool find_importer(char *path, size_t size)
 {
-    char folder[PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", folder, sizeof(folder) - 1);
-    folder[length < 0 ? 0 : length] = 0;
-    char *slash = strrchr(folder, '/');
-    if (slash)
-        *slash = 0;
-    for (size_t i = 0; i < sizeof(importer_places) / sizeof(importer_places[0]); i++) {
-        const int written = snprintf(path, size, "%s/%s", folder, importer_places[i]);
-        if (written > 0 && (size_t)written < size && !access(path, X_OK))
-            return true;
-    }
-    return rg_error("meshes are read by raingauge_importer, which is not beside raingauge in %s; "
+    return rg_caged_find("raingauge_importer", path, size) ||
+           rg_error("meshes are read by raingauge_importer, which is not beside raingauge in %s; "
                     "build or install it again",
-                    folder);
+                    path);
 }
 
 // What is refused before anything is opened.

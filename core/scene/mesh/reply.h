@@ -1,4 +1,4 @@
-// What raingauge_importer writes to its file descriptor 3, and what it is asked.
+// What raingauge_importer replies in its cage (core/base/cage/cage.h), and what it is asked.
 //
 // Command line: raingauge_importer PATH [MEMBER]. The reply is this header, then vertex_count
 // positions and as many normals (three floats each; a normal of 0 is an absent one), then
@@ -9,7 +9,7 @@
 
 #include <stdint.h>
 
-enum { RG_REPLY_FD = 3, RG_REPLY_MAGIC = 0x4d524731 }; // "1GRM"
+enum { RG_REPLY_MAGIC = 0x4d524731 }; // "1GRM"
 
 // The largest file that is read, and the memory that may be taken for it: ten million faces take
 // Assimp 3 GB, as OBJ.

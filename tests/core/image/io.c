@@ -379,6 +379,51 @@ static void a_full_disk_leaves_the_old_file(void **state)
 }
 
 // Several files, several of them bad: one line, about the first.
+// A tiled TIFF of signed 8-bit CMYK: OpenImageIO 2.4 writes past its memory with it.
+static void write_signed_cmyk(const char *name)
+{
+    enum { SIDE = 64, ENTRIES = 12, AFTER = 8 + 2 + 12 * ENTRIES + 4 };
+    static struct {
+        char magic[4];
+        uint32_t first;
+    } head = {{'I', 'I', 42, 0}, 8};
+    static const struct {
+        uint16_t tag, type;
+        uint32_t count, value;
+    } entries[ENTRIES] = {
+        {256, 3, 1, SIDE},
+        {257, 3, 1, SIDE},
+        {258, 3, 4, AFTER},
+        {259, 3, 1, 1},
+        {262, 3, 1, 5},
+        {277, 3, 1, 4},
+        {284, 3, 1, 1},
+        {322, 3, 1, SIDE},
+        {323, 3, 1, SIDE},
+        {324, 4, 1, 200},
+        {325, 4, 1, SIDE * SIDE * 4},
+        {339, 3, 4, AFTER + 8},
+    };
+    static unsigned char file[200 + SIDE * SIDE * 4];
+    static const uint16_t count = ENTRIES, bits[] = {8, 8, 8, 8}, is_signed[] = {2, 2, 2, 2};
+    memset(file, 0x81, sizeof(file));
+    memcpy(file, &head, sizeof(head));
+    memcpy(file + 8, &count, sizeof(count));
+    memcpy(file + 10, entries, sizeof(entries));
+    memset(file + 10 + sizeof(entries), 0, 4);
+    memcpy(file + AFTER, bits, sizeof(bits));
+    memcpy(file + AFTER + 8, is_signed, sizeof(is_signed));
+    write_bytes(name, file, sizeof(file));
+}
+
+static void a_crash_of_the_library_is_one_line(void **state)
+{
+    (void)state;
+    write_signed_cmyk("cmyk.tif");
+    assert_refused("cmyk.tif", "OpenImageIO");
+    unlink(path_of("cmyk.tif"));
+}
+
 static void one_line_for_many_files(void **state)
 {
     (void)state;
@@ -430,6 +475,7 @@ int main(void)
         cmocka_unit_test(nonfinite_texels_are_kept_and_counted),
         cmocka_unit_test(what_cannot_be_written_leaves_nothing),
         cmocka_unit_test(a_full_disk_leaves_the_old_file),
+        cmocka_unit_test(a_crash_of_the_library_is_one_line),
         cmocka_unit_test(one_line_for_many_files),
     };
     return cmocka_run_group_tests_name("picture files", tests, make_folder, remove_folder);

@@ -1,3 +1,4 @@
+#define _GNU_SOURCE // memmem
 #include <archive.h>
 #include <archive_entry.h>
 #include <errno.h>
@@ -57,23 +58,25 @@ static bool read_entry(struct import *import, struct archive *archive, int64_t s
     return true;
 }
 
-static bool read_member(struct import *import, const char *path, const char *member)
+bool import_read_member(struct import *import)
 {
+    if (!import->member)
+        return true;
     struct archive *archive = archive_read_new();
     struct archive_entry *entry;
     if (!archive || archive_read_support_filter_gzip(archive) != ARCHIVE_OK ||
         archive_read_support_format_tar(archive) != ARCHIVE_OK ||
-        archive_read_open_filename(archive, path, 1 << 16) != ARCHIVE_OK)
+        archive_read_open_fd(archive, import->archive, 1 << 16) != ARCHIVE_OK)
         return import_refuse(import, "cannot be read as a tar archive; install the package again");
     int result;
     while ((result = archive_read_next_header(archive, &entry)) == ARCHIVE_OK)
-        if (!strcmp(archive_entry_pathname(entry), member))
+        if (!strcmp(archive_entry_pathname(entry), import->member))
             return read_entry(import, archive, archive_entry_size(entry));
     return import_refuse(import,
                          result == ARCHIVE_EOF ? "holds no %s; check the name"
                                                : "is damaged before %s; install the "
                                                  "package again",
-                         member);
+                         import->member);
 }
 
 void import_name(struct import *import, const char *name)
@@ -83,13 +86,72 @@ void import_name(struct import *import, const char *name)
     import->extension = dot ? dot + 1 : "";
 }
 
-bool import_read(struct import *import, const char *path, const char *member)
+// --- buffers ---
+
+// The start of the quoted text that ends at `end`, NULL where there is none.
+static const char *find_quote(const char *start, const char *end)
+{
+    while (end > start && end[-1] != '"' && end[-1] != '\n')
+        end--;
+    return end > start && end[-1] == '"' ? end : NULL;
+}
+
+static bool has_buffer(const struct import *import, const char *path)
+{
+    for (int i = 0; i < import->buffer_count; i++)
+        if (!strcmp(import->buffers[i].path, path))
+            return true;
+    return false;
+}
+
+// A file beside the mesh's, which Assimp will ask for by this path.
+static void read_buffer(struct import *import, const char *name, size_t length)
+{
+    const char *slash = strrchr(import->name, '/');
+    const size_t folder = slash ? (size_t)(slash - import->name) + 1 : 0;
+    char *path = malloc(folder + length + 1);
+    if (!path)
+        return;
+    memcpy(path, import->name, folder);
+    memcpy(path + folder, name, length);
+    path[folder + length] = 0;
+    struct import_buffer *buffer = &import->buffers[import->buffer_count];
+    *buffer = (struct import_buffer){.path = path};
+    if (!has_buffer(import, path) && (buffer->bytes = read_whole(path, &buffer->size)))
+        import->buffer_count++;
+    else
+        free(path);
+}
+
+// In the cage nothing can be opened, and only Assimp finds out what a glTF file asks for: so all
+// that is quoted in it and ends in .bin is read before.
+static void read_buffers(struct import *import)
+{
+    static const char ending[] = ".bin\"";
+    const char *start = (const char *)import->bytes, *end = start + import->size;
+    if (strcasecmp(import->extension, "gltf") && strcasecmp(import->extension, "glb"))
+        return;
+    for (const char *at = start; import->buffer_count < IMPORT_MAX_BUFFERS; at++) {
+        at = memmem(at, (size_t)(end - at), ending, strlen(ending));
+        if (!at)
+            return;
+        const char *name = find_quote(start, at);
+        if (name)
+            read_buffer(import, name, (size_t)(at - name) + strlen(".bin"));
+    }
+}
+
+bool import_open(struct import *import, const char *path, const char *member)
 {
     import_name(import, member ? member : path);
+    import->member = member;
     if (member)
-        return read_member(import, path, member);
-    import->bytes = read_whole(path, &import->size);
-    return import->bytes ? true : import_refuse(import, "%s; check the path", strerror(errno));
+        import->archive = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    else if ((import->bytes = read_whole(path, &import->size)))
+        read_buffers(import);
+    return member ? import->archive >= 0 ||
+                        import_refuse(import, "%s; install the package again", strerror(errno))
+                  : import->bytes || import_refuse(import, "%s; check the path", strerror(errno));
 }
 
 // --- Assimp's callbacks ---
@@ -151,13 +213,13 @@ static void flush_nothing(struct aiFile *file)
 static struct aiFile *open_file(struct aiFileIO *files, const char *name, const char *mode)
 {
     const struct import *import = (const struct import *)(void *)files->UserData;
-    unsigned char *bytes = import->bytes;
+    unsigned char *bytes = strcmp(name, import->name) ? NULL : import->bytes;
     size_t size = import->size;
-    if (strcmp(name, import->name)) {
-        const char *dot = strrchr(name, '.');
-        if (!dot || strcasecmp(dot, ".bin") || strpbrk(mode, "wa+"))
-            return NULL;
-        bytes = read_whole(name, &size);
+    for (int i = 0; !bytes && !strpbrk(mode, "wa+") && i < import->buffer_count; i++) {
+        if (!strcmp(name, import->buffers[i].path)) {
+            bytes = import->buffers[i].bytes;
+            size = import->buffers[i].size;
+        }
     }
     struct memory_file *memory = bytes ? malloc(sizeof(*memory)) : NULL;
     if (!memory)

@@ -12,11 +12,23 @@
 
 #include "core/scene/mesh/reply.h"
 
+// A file that the mesh's file names.
+enum { IMPORT_MAX_BUFFERS = 32 };
+struct import_buffer {
+    char *path;
+    unsigned char *bytes;
+    size_t size;
+};
+
 struct import {
     const char *name;      // as Assimp is told it: the path, or the archive's member
     const char *extension; // of the name, without its dot; "" for none
     unsigned char *bytes;  // `size` of them, in memory of a byte more
     size_t size;
+    int archive;        // the descriptor that `member` is read from
+    const char *member; // NULL: none
+    struct import_buffer buffers[IMPORT_MAX_BUFFERS];
+    int buffer_count;
     const struct aiScene *scene;
     struct rg_import_reply reply;
     float *positions, *normals;
@@ -29,14 +41,17 @@ bool import_refuse(struct import *import, const char *format, ...)
 
 // Sets the name and the extension.
 void import_name(struct import *import, const char *name);
-// Reads the file, or the archive's member if that is not NULL.
-bool import_read(struct import *import, const char *path, const char *member);
+// Before the cage is shut: reads the file and the buffers that it names, or opens the archive whose
+// `member` is not NULL. Nothing is parsed.
+bool import_open(struct import *import, const char *path, const char *member);
+// The archive's member, if one is asked for.
+bool import_read_member(struct import *import);
 
 // From the file's bytes to the arrays and their counts in the reply.
 bool import_load(struct import *import);
 
 // Files for Assimp: the one that was read, out of memory, and glTF's buffers (.bin) beside it.
-// Nothing else is opened: no materials, no textures, nothing to write.
+// These were read beforehand. Nothing else is: no materials, no textures, nothing to write.
 struct aiFileIO import_files(struct import *import);
 
 // Rewrites an OFF file as OBJ.

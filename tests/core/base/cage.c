@@ -1,0 +1,180 @@
+// What a program in the cage can still do, and what not.
+#define _GNU_SOURCE // syscall
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/base/cage/cage.h"
+
+// Each returns whether the call went through. They use nothing but system calls.
+static bool opens_a_file(void)
+{
+    return open("/dev/null", O_RDONLY) >= 0;
+}
+
+static bool makes_a_socket(void)
+{
+    return socket(AF_UNIX, SOCK_STREAM, 0) >= 0;
+}
+
+static bool starts_a_process(void)
+{
+    const pid_t child = fork();
+    if (child == 0)
+        _exit(0);
+    return child > 0;
+}
+
+static bool starts_a_program(void)
+{
+    char *const args[] = {(char *)"true", NULL};
+    execv("/bin/true", args); // does not come back where it works
+    return false;
+}
+
+static bool removes_a_file(void)
+{
+    return !unlink("/tmp/raingauge-cage-none") || errno == ENOENT;
+}
+
+static bool kills_its_parent(void)
+{
+    return !kill(getppid(), 0);
+}
+
+static bool makes_memory_executable(void)
+{
+    return mmap(NULL, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) !=
+           MAP_FAILED;
+}
+
+static bool traces(void)
+{
+    return syscall(SYS_ptrace, 0, 0, 0, 0) >= 0;
+}
+
+static bool takes_memory(void)
+{
+    char *bytes = mmap(NULL, 1 << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return bytes != MAP_FAILED && (bytes[4096] = 1) && !munmap(bytes, 1 << 20);
+}
+
+static bool reads_and_writes(void)
+{
+    int both[2];
+    char byte = 'x';
+    memcpy(both, (const int[]){RG_CAGE_FILE, RG_CAGE_REPLY}, sizeof(both));
+    return read(both[0], &byte, 1) == 1 && write(both[1], &byte, 1) == 1;
+}
+
+static const struct {
+    const char *what;
+    bool (*act)(void);
+    bool may;
+} acts[] = {
+    {"opens a file", opens_a_file, false},
+    {"makes a socket", makes_a_socket, false},
+    {"starts a process", starts_a_process, false},
+    {"starts a program", starts_a_program, false},
+    {"removes a file", removes_a_file, false},
+    {"signals its parent", kills_its_parent, false},
+    {"makes memory executable", makes_memory_executable, false},
+    {"traces", traces, false},
+    {"takes memory", takes_memory, true},
+    {"reads and writes what it was given", reads_and_writes, true},
+};
+
+// The exit status of a child that acts: 0 it could, 1 it could not, 2 no cage.
+static int act_in_a_child(size_t i, bool shut)
+{
+    int status = 0;
+    const pid_t child = fork();
+    if (child == 0) {
+        const int zero = open("/dev/zero", O_RDONLY), null = open("/dev/null", O_WRONLY);
+        dup2(zero, RG_CAGE_FILE);
+        dup2(null, RG_CAGE_REPLY);
+        if (shut && !rg_cage_shut())
+            _exit(2);
+        _exit(acts[i].act() ? 0 : 1);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+static void a_caged_program_computes_and_answers(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof(acts) / sizeof(acts[0]); i++) {
+        const int status = act_in_a_child(i, true);
+        if (status != (acts[i].may ? 0 : 1))
+            fail_msg("a caged program that %s: %d", acts[i].what, status);
+    }
+}
+
+// Else the test above would tell nothing.
+static void without_a_cage_all_of_it_works(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof(acts) / sizeof(acts[0]); i++)
+        if (act_in_a_child(i, false) != 0)
+            fail_msg("a free program does not: %s", acts[i].what);
+}
+
+static void limits_hold(void **state)
+{
+    (void)state;
+    int status = 0;
+    const pid_t child = fork();
+    if (child == 0) {
+        const struct rg_cage_limits limits = {.reply_bytes = 4096};
+        rg_cage_limit(&limits);
+        signal(SIGXFSZ, SIG_IGN);
+        const int file = memfd_create("reply", 0);
+        _exit(!ftruncate(file, 4096) && ftruncate(file, 4097) ? 0 : 1);
+    }
+    waitpid(child, &status, 0);
+    assert_int_equal(status, 0);
+}
+
+// The program sees no variable of ours, and has six descriptors; sh opens the folder to count them.
+static void a_caged_program_has_no_environment(void **state)
+{
+    (void)state;
+    struct rg_caged caged;
+    char text[64] = "";
+    const int file = open("/dev/null", O_RDONLY);
+    const char *const args[] = {
+        "/bin/sh", "-c", "set -- /proc/$$/fd/*; echo \"${RG_TEST_SECRET-none} $#\" >&3", NULL};
+    setenv("RG_TEST_SECRET", "seen", 1);
+    assert_int_equal(rg_caged_run(args, file, 20, &caged), 0);
+    assert_true(rg_caged_is_sound(&caged, "sh", text, sizeof(text)));
+    text[pread(caged.reply, text, sizeof(text) - 1, 0)] = 0;
+    assert_string_equal(text, "none 7\n");
+    close(caged.reply);
+    close(file);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_caged_program_computes_and_answers),
+        cmocka_unit_test(without_a_cage_all_of_it_works),
+        cmocka_unit_test(limits_hold),
+        cmocka_unit_test(a_caged_program_has_no_environment),
+    };
+    return cmocka_run_group_tests_name("cage", tests, NULL, NULL);
+}
