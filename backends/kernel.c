@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/file.h"
 #include "core/base/log.h"
 
 const struct rg_slot_info rg_drawn_slots[RG_DRAWN_SLOTS] = {
@@ -65,7 +66,8 @@ bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind,
         return true;
     char path[4096];
     snprintf(path, sizeof(path), "%s/%s.%s", folder, kernel->name, extensions[kind]);
-    FILE *file = fopen(path, "rb");
+    const char *why;
+    FILE *file = rg_file_open(path, &why);
     unsigned char *bytes = file ? read_whole(file, &code->size) : NULL;
     if (file)
         fclose(file);

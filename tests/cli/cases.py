@@ -2,6 +2,7 @@
 import collections
 import os
 import re
+import socket
 import tempfile
 
 from runner import NO_DRIVERS
@@ -65,6 +66,21 @@ COMMANDS = [
     Case("doctor --device ,", 2, r"--device ',': names no device"),
     Case("doctor cpu", 2, r"doctor: 'cpu' is one argument too many"),
     Case("doctor --device cpu", 0, None),
+
+    # what is no file: nothing waits for it
+    Case("diff {data}/fifo.png {data}/a.png", 2, r"fifo\.png: is not a regular file"),
+    Case("diff {data}/fifo.tif {data}/a.png", 2, r"fifo\.tif: is not a regular file"),
+    Case("table --from {data}/fifo.json", 2, r"fifo\.json: cannot be read: is not a regular file"),
+    Case("table --from {data}/socket.json", 2, r"socket\.json: cannot be read: is not a regular file"),
+    Case("atlas --from {data}/fifos -o {tmp}/out", 2, r"dcam00_point_max\.txt: is not a regular file; name the folder"),
+    Case(RENDER + "--set environment={data}/fifo.ktx -o {tmp}/a.png", 2, r"fifo\.ktx: cannot be opened: is not a regular file"),
+    Case(RENDER + "--set environment={data}/fifo.png -o {tmp}/a.png", 2, r"fifo\.png: is not a regular file"),
+    Case(RENDER + "--set environment=/dev/zero.ktx -o {tmp}/a.png", 2, r"zero\.ktx: "),
+    Case(RENDER + "--set model={data}/fifo.obj -o {tmp}/a.png", 2, r"fifo\.obj: is not a regular file"),
+    Case(RAIN + "--set density_map={data}/fifo.png -o {tmp}/a.png", 2, r"fifo\.png: is not a regular file"),
+    Case(RAIN + "--set lights_file={data}/fifo.json -o {tmp}/a.png", 2, r"fifo\.json: no file; name a file of lights"),
+    Case("render cartoon --size 32x32 --frame 1 --set wind=script --set wind_script={data}/fifo.txt -o {tmp}/a.png", 2,
+         r"fifo\.txt: is not a regular file; name a file of winds"),
 
     # diff: files
     Case("diff {data}/a.png {data}/a.png", 0, None),
@@ -339,12 +355,30 @@ WITH_DRIVERS = [
     Case("diff flow --frame 1 " + SMALL, 0, ABSENT, NO_DRIVERS),
     Case("verify flow --stages " + SMALL, 0, ABSENT, NO_DRIVERS),
 
+    # a folder of kernels that are no files
+    Case(RENDER + "--device opencl -o {tmp}/a.png", 2, r"fifos/.*\.cl: cannot be read; RG_KERNEL_DIR must hold",
+         {"RG_KERNEL_DIR": "{data}/fifos"}),
+
     # a driver that creates no context
     Case(RENDER + "--device gl -o {tmp}/a.png", 77, NO_CONTEXT, OLD_GL),
     Case("table --device gl", 77, NO_CONTEXT, OLD_GL),
     Case("table --rows 1-1 --device cpu,gl", 77, NO_CONTEXT, OLD_GL),
     Case("table stuppacher-2 --rows 1-1 --device all", 0, r"warning: unsupported here: gl: no OpenGL 4\.5 core", OLD_GL),
 ]
+
+
+def write_what_is_no_file(runner, data):
+    """FIFOs that nobody writes, and a socket."""
+    database = os.path.join(data, "fifos", "point_light_database", "txt")
+    os.makedirs(database)
+    for name in ("fifo.png", "fifo.tif", "fifo.json", "fifo.ktx", "fifo.obj", "fifo.txt",
+                 os.path.join(database, "dcam00_point_max.txt")):
+        os.mkfifo(os.path.join(data, name))
+    for name in os.listdir(runner.kernels):
+        if name.endswith(".cl"):
+            os.mkfifo(os.path.join(data, "fifos", name))
+    with socket.socket(socket.AF_UNIX) as bound:
+        bound.bind(os.path.join(data, "socket.json"))
 
 
 def write_inputs(runner, data):
@@ -361,10 +395,12 @@ def write_inputs(runner, data):
         with open(os.path.join(data, name), "wb") as file:
             file.write(content)
     os.mkdir(os.path.join(data, "folder.exr"))
+    write_what_is_no_file(runner, data)
 
 
 def check_case(runner, case, data, tmp):
-    result = runner.run(case.args.format(tmp=tmp, data=data).split(), case.env, case.limit)
+    variables = {name: value and value.format(data=data) for name, value in case.env.items()}
+    result = runner.run(case.args.format(tmp=tmp, data=data).split(), variables, case.limit)
     lines = result.stderr.splitlines()
     wanted = () if case.error is None else (case.error,) if isinstance(case.error, str) else case.error
     problems = []

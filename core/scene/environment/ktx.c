@@ -1,9 +1,9 @@
 #include "core/scene/environment/ktx.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "core/base/file.h"
 #include "core/base/log.h"
 #include "core/scene/environment/cube.h"
 #include "kernels/dialect/image/memory.h"
@@ -91,9 +91,10 @@ static struct rg_environment *read_file(const char *path, FILE *file)
 
 struct rg_environment *rg_ktx_read(const char *path)
 {
-    FILE *file = fopen(path, "rb");
+    const char *why;
+    FILE *file = rg_file_open(path, &why);
     if (!file)
-        return rg_error_null("%s: cannot be opened: %s", path, strerror(errno));
+        return rg_error_null("%s: cannot be opened: %s", path, why);
     struct rg_environment *environment = read_file(path, file);
     fclose(file);
     return environment;

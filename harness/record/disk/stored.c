@@ -9,6 +9,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/array.h"
+#include "core/base/file.h"
 #include "core/base/log.h"
 
 // --- texts of documents ---
@@ -37,13 +38,14 @@ static char *read_text(FILE *file, size_t *size)
 
 static char *load(const char *path, size_t *size, char why[RG_WHY_SIZE])
 {
+    const char *reason;
     errno = 0;
-    FILE *file = fopen(path, "rb");
+    FILE *file = rg_file_open(path, &reason);
     char *text = file ? read_text(file, size) : NULL;
     if (!text)
         snprintf(why, RG_WHY_SIZE,
                  "%.200s: cannot be read: %s; name a file as `raingauge table -o` writes it", path,
-                 strerror(errno ? errno : ENOMEM));
+                 file ? strerror(errno ? errno : ENOMEM) : reason);
     if (file)
         fclose(file);
     return text;

@@ -1,11 +1,12 @@
 #include "core/scene/atlas/cave/factors.h"
 
 #include <ctype.h>
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "core/base/file.h"
 
 // A reader of words, one after the other. `line` is for messages.
 struct reader {
@@ -70,10 +71,10 @@ static bool take_factors(struct reader *r, float factors[RG_ATLAS_OSCILLATIONS])
 
 static FILE *open_text(const char *path, struct rg_cave_why *why)
 {
-    FILE *file = fopen(path, "r");
+    const char *reason;
+    FILE *file = rg_file_open(path, &reason);
     if (!file)
-        rg_cave_refuse(why, "%s: %s; name the folder that holds the whole database", path,
-                       strerror(errno));
+        rg_cave_refuse(why, "%s: %s; name the folder that holds the whole database", path, reason);
     return file;
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/base/file.h"
 #include "core/image/files/format.h"
 #include "core/scene/atlas/levels.h"
 
@@ -74,7 +75,8 @@ float rg_cave_leaning(const float *texels, int width, int height)
 int rg_cave_picture_width(const char *path)
 {
     unsigned char head[24]; // the signature, and of the first chunk its length, name and width
-    FILE *file = fopen(path, "rb");
+    const char *why;
+    FILE *file = rg_file_open(path, &why);
     const bool is_whole = file && fread(head, 1, sizeof(head), file) == sizeof(head);
     if (file)
         fclose(file);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/file.h"
 #include "core/base/log.h"
 #include "core/techniques/cartoon/rain/settings.h"
 #include "kernels/cartoon/rain/params.h"
@@ -46,9 +47,10 @@ bool cartoon_wind_read(const char *path, struct cartoon_wind_script *script)
     script->count = 0;
     if (!path[0])
         return rg_error("wind_script: wind=script reads a file; name one (docs/cartoon.md)");
-    FILE *in = fopen(path, "r");
+    const char *why;
+    FILE *in = rg_file_open(path, &why);
     if (!in)
-        return rg_error("%s: %s; name a file of winds (docs/cartoon.md)", path, strerror(errno));
+        return rg_error("%s: %s; name a file of winds (docs/cartoon.md)", path, why);
     for (int line = 1; ok && fgets(text, sizeof(text), in); line++)
         ok = take_line(path, line, text, script);
     if (ok && ferror(in))
