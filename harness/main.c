@@ -17,15 +17,31 @@ static void print_usage(void)
     printf("\n`raingauge COMMAND --help` prints a command's options.\n");
 }
 
-static int run(const struct rg_command *command, int argc, char **argv)
+// A full disk may be noticed at the last write alone.
+static int finish(int exit)
 {
-    int exit = rg_command_run(command, argc - 1, (const char **)argv + 1);
-    // A full disk may be noticed at the last write alone.
     if ((fflush(stdout) || ferror(stdout)) && exit == RG_EXIT_PASS) {
         rg_error("standard output: cannot be written; is the disk full?");
         exit = RG_EXIT_USAGE;
     }
     return exit;
+}
+
+static int run(int argc, char **argv)
+{
+    if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) {
+        print_usage();
+        return RG_EXIT_PASS;
+    }
+    if (!strcmp(argv[1], "--version")) {
+        printf("raingauge %s\n", rg_build_version);
+        return RG_EXIT_PASS;
+    }
+    const struct rg_command *command = rg_command_find(argv[1]);
+    if (command)
+        return rg_command_run(command, argc - 1, (const char **)argv + 1);
+    rg_error("command '%s': unknown; `raingauge --help` lists them", argv[1]);
+    return RG_EXIT_USAGE;
 }
 
 // libgomp's threads spin for tens of milliseconds before they sleep, and on a busy machine keep
@@ -46,18 +62,8 @@ int main(int argc, char **argv)
     spin_briefly(argv);
     // A write past a file-size limit then fails with EFBIG and is reported, instead of killing us.
     signal(SIGXFSZ, SIG_IGN);
-    if (argc < 2 || !strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) {
-        print_usage();
-        return argc < 2 ? RG_EXIT_USAGE : RG_EXIT_PASS;
-    }
-    if (!strcmp(argv[1], "--version")) {
-        printf("raingauge %s\n", rg_build_version);
-        return RG_EXIT_PASS;
-    }
-    const struct rg_command *command = rg_command_find(argv[1]);
-    if (!command) {
-        rg_error("command '%s': unknown; `raingauge --help` lists them", argv[1]);
-        return RG_EXIT_USAGE;
-    }
-    return run(command, argc, argv);
+    if (argc > 1)
+        return finish(run(argc, argv));
+    rg_error("no command; `raingauge --help` lists them");
+    return RG_EXIT_USAGE;
 }

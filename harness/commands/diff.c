@@ -47,6 +47,11 @@ static const struct rg_option options[] = {
 static int diff_devices(const struct diff_options *o, const struct rg_words *arguments)
 {
     void *settings;
+    if (o->background) {
+        rg_error("--background %s: belongs to two files; leave it out, or name them",
+                 o->background);
+        return RG_EXIT_USAGE;
+    }
     const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
     if (!technique)
         return RG_EXIT_USAGE;

@@ -40,7 +40,7 @@ FIT = RAIN + ("--set fit=on --set rain_width_m=60 --set rain_depth_m=60 --set ra
 
 COMMANDS = [
     # every command
-    Case("", 2, None),
+    Case("", 2, r"no command; `raingauge --help` lists them"),
     Case("--help", 0, None),
     Case("--version", 0, None),
     Case("nonsense", 2, r"command 'nonsense': unknown; `raingauge --help` lists them"),
@@ -64,8 +64,19 @@ COMMANDS = [
     Case("doctor --device cpu:7", 2, r"device 'cpu:7': cpu has no such device"),
     Case("doctor --device " + 40 * "x", 2, UNKNOWN_DEVICE),
     Case("doctor --device ,", 2, r"--device ',': names no device"),
+    Case("doctor --device cpu,,,", 2, r"--device 'cpu,,,': names no device beside a comma"),
+    Case("doctor --device=", 2, r"--device '': names no device at all"),
     Case("doctor cpu", 2, r"doctor: 'cpu' is one argument too many"),
     Case("doctor --device cpu", 0, None),
+
+    # diff: what is given and not used
+    Case("diff flow --device cpu,,cpu:reference", 2, r"--device 'cpu,,cpu:reference': names no device beside a comma"),
+    Case("diff flow --device ,cpu,cpu:reference", 2, r"names no device beside a comma"),
+    Case("diff flow --device cpu,cpu:reference --background {data}/a.png", 2, r"--background .*: belongs to two files; leave it out"),
+    Case(RENDER.replace("--frame 1", "--frame -2147483648") + "-o {tmp}/a.png", 2, r"--frame -2147483648: must be 0 to"),
+    Case(RENDER.replace("--frame 1", "--frame=") + "-o {tmp}/a.png", 2, r"--frame : invalid numeric value"),
+    Case(RENDER + "--exposure= -o {tmp}/a.png", 2, r"--exposure : invalid numeric value"),
+    Case(RENDER + "--device cpu,,, -o {tmp}/a.png", 2, r"--device cpu,,,: render draws on one device"),
 
     # what is no file: nothing waits for it
     Case("diff {data}/fifo.png {data}/a.png", 2, r"fifo\.png: is not a regular file"),
@@ -220,7 +231,7 @@ RENDERS = [
     Case(PANE + "--set max_mass_mg=0.2 -o {tmp}/a.png", 2, r"0\.2 mg is below the least mass on cells of 0\.5 mm, .*raise it"),
     Case(PANE + "--set residual_low=0.4 -o {tmp}/a.png", 2, r"a share of 0\.4 is above residual_high=0\.3"),
     Case(PANE + "--set rules=physical --set cell_mm=0.3 -o {tmp}/a.png", 2, r"0\.3 mm is no whole part of 0\.5 mm"),
-    Case(RAIN + "--set drops_m2_s=0 -o {tmp}/a.png", 2, r"0 drops a square metre and second; give a number above 0"),
+    Case(RAIN + "--set drops_m2_s=0 -o {tmp}/a.png", 2, r"parameter 'drops_m2_s': 0 is out of range; 1e-06 to 1000000000"),
     Case(RAIN + "--set drops_m2_s=1e9 -o {tmp}/a.png", 2, r"1\.02666e\+14 particles .*lower drops_m2_s"),
     Case(RAIN + "--set packet_size=1 --set packets=kd --set rain_width_m=60 --set rain_depth_m=60 --set memory_mb=500 "
          "--set camera=free -o {tmp}/a.png", 77, r"take 556\.8 MiB, more than the 476\.8 MiB allowed"),

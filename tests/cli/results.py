@@ -314,7 +314,7 @@ def check_diff_json(runner):
 def check_full_stdout(runner):
     """results that do not fit on standard output are an error"""
     problems = []
-    for args in ("list techniques", "list params flow --json", STAGES, DIFF + "--json"):
+    for args in ("--help", "--version", "render --help", "list techniques", "list params flow --json", STAGES, DIFF + "--json"):
         with open("/dev/full", "w") as full:
             result = runner.run(args.split(), stdout=full)
         if result.returncode != 2 or not re.fullmatch(r"raingauge: standard output: .*\n", result.stderr):

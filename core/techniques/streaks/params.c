@@ -14,7 +14,7 @@ static const struct rg_param rows[] = {
     {"slant_deg", RG_PARAM_FLOAT, AT(slant_deg), 0, 0, 60, "deg", "how far the fall leans from straight down", NULL},
     {"slant_azimuth_deg", RG_PARAM_FLOAT, AT(slant_azimuth_deg), 0, -360, 360, "deg", "where to: 0 along x, 90 along z", NULL},
     {"density_map", RG_PARAM_FILE, AT(density_map), 0, 0, 0, "file", "an image whose grey is the density of drops, white the densest; none: a round gradient", ""},
-    {"drops_m2_s", RG_PARAM_FLOAT, AT(drops_m2_s), STREAKS_DEFAULT_DROPS_M2_S, 0, 1e9, "1/(m2 s)", "drops where the density map is white", NULL},
+    {"drops_m2_s", RG_PARAM_FLOAT, AT(drops_m2_s), STREAKS_DEFAULT_DROPS_M2_S, 1e-6, 1e9, "1/(m2 s)", "drops where the density map is white", NULL},
     {"fall_speed_m_s", RG_PARAM_FLOAT, AT(fall_speed_m_s), 8.16, 0.01, 1000, "m/s", "of all drops", NULL},
     {"spectrum", RG_PARAM_CHOICE, AT(spectrum), 0, 0, 2, "1", "drops of one size, or as many of each as Marshall and Palmer, or Best, found for rain_mm_h; drops_m2_s, fall_speed_m_s and drop_radius_mm are of one size", "off marshall-palmer best"},
     {"rain_mm_h", RG_PARAM_FLOAT, AT(rain_mm_h), 20, 0.1, 500, "mm/h", "of the spectrum, where the density map is white", NULL},
