@@ -31,9 +31,14 @@ static void log_line(enum rg_log_level level, const char *format, va_list args)
 {
     char line[LINE_SIZE];
     vsnprintf(line, sizeof(line), format, args);
-    for (char *c = line; *c; c++)
-        if (*c == '\n' || *c == '\r')
+    for (unsigned char *c = (unsigned char *)line; *c; c++) {
+        if (*c == '\n' || *c == '\r' || *c == '\t')
             *c = ' ';
+        else if (*c < ' ' || *c == 127)
+            *c = '?';
+        else if (*c == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0) // U+0080 to U+009F in UTF-8
+            c[0] = c[1] = '?';
+    }
     if (level == RG_LOG_ERROR)
         memcpy(last_error, line, sizeof(line));
     if (listener)

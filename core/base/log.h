@@ -16,7 +16,8 @@ typedef void (*rg_log_fn)(enum rg_log_level level, const char *line, void *user)
 void rg_log_listen(rg_log_fn fn, void *user);
 
 // Logs one line, "raingauge: ..." on stderr. rg_error returns false and rg_error_null returns NULL,
-// so that a failing function ends in `return rg_error("...")`. Line breaks inside become spaces.
+// so that a failing function ends in `return rg_error("...")`. Line breaks inside become spaces and
+// other control characters question marks: names from files may not steer a terminal.
 // Those two log what another usage or input mends; errors of other kinds have functions below.
 bool rg_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void *rg_error_null(const char *format, ...) __attribute__((format(printf, 1, 2)));

@@ -65,6 +65,15 @@ static bool read_file(const char *path, struct rg_picture *picture, struct rg_wh
            formats[format].read(path, bytes, picture, why);
 }
 
+// A file that is read twice is warned of once.
+static bool was_named_before(const char *const *paths, int index)
+{
+    for (int i = 0; i < index; i++)
+        if (!strcmp(paths[i], paths[index]))
+            return true;
+    return false;
+}
+
 static void warn_of_nonfinite(const char *path, const struct rg_picture *picture)
 {
     int64_t count = 0, first = -1, values = rg_picture_values(picture);
@@ -100,7 +109,7 @@ bool rg_pictures_read(const char *const *paths, struct rg_picture *pictures, int
             told = !rg_error("%s: %s", paths[i], why[i].text);
         if (failed)
             rg_picture_destroy(&pictures[i]);
-        else
+        else if (!was_named_before(paths, i))
             warn_of_nonfinite(paths[i], &pictures[i]);
     }
     free(why);

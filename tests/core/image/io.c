@@ -319,6 +319,13 @@ static void nonfinite_texels_are_kept_and_counted(void **state)
     assert_true(back.texels[(9 * WIDTH + 2) * 3] == -INFINITY);
     rg_picture_destroy(&picture);
     rg_picture_destroy(&back);
+    struct rg_picture both[2];
+    const char *const paths[] = {path_of("nan.exr"), path_of("nan.exr")};
+    warning_count = 0;
+    assert_true(rg_pictures_read(paths, both, 2));
+    assert_int_equal(warning_count, 1);
+    rg_picture_destroy(&both[0]);
+    rg_picture_destroy(&both[1]);
     unlink(path_of("nan.exr"));
 }
 
