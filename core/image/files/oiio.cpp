@@ -1,3 +1,4 @@
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
@@ -21,6 +22,18 @@ void say(char *why, size_t size, const std::string &text)
     snprintf(why, size, "%s", text.c_str());
 }
 
+// OpenImageIO does not look whether closing a file wrote its last bytes: so the file is ours.
+bool write_to(FILE *file, ImageOutput *output, const char *path, ImageSpec &spec,
+              const float *texels)
+{
+    OIIO::Filesystem::IOFile proxy(file, OIIO::Filesystem::IOProxy::Write);
+    OIIO::Filesystem::IOProxy *target = &proxy;
+    spec.attribute("oiio:ioproxy", TypeDesc::PTR, &target);
+    output->set_ioproxy(target);
+    const bool good = output->open(path, spec) && output->write_image(TypeDesc::FLOAT, texels);
+    return output->close() && good;
+}
+
 bool write_file(const char *path, const char *format, int width, int height, int channels,
                 const float *texels, char *why, int why_size) noexcept
 try {
@@ -34,10 +47,12 @@ try {
     ImageSpec spec(width, height, channels, kind == "tiff" ? TypeDesc::HALF : TypeDesc::FLOAT);
     spec["oiio:UnassociatedAlpha"] = 1;
     spec["oiio:ColorSpace"] = "linear";
-    bool good = output->open(path, spec) && output->write_image(TypeDesc::FLOAT, texels);
-    good = output->close() && good;
+    FILE *file = fopen(path, "wb");
+    bool good = file && write_to(file, output.get(), path, spec, texels);
+    const bool whole = file && fflush(file) == 0 && !ferror(file);
+    good = file && fclose(file) == 0 && whole && good;
     if (!good)
-        say(why, why_size, output->has_error() ? output->geterror() : "the disk may be full");
+        say(why, why_size, whole && output->has_error() ? output->geterror() : "the disk may be full");
     return good;
 } catch (const std::exception &e) {
     say(why, why_size, e.what());

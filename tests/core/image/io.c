@@ -385,7 +385,6 @@ static void a_full_disk_leaves_the_old_file(void **state)
     rg_picture_destroy(&picture);
 }
 
-// Several files, several of them bad: one line, about the first.
 // A tiled TIFF of signed 8-bit CMYK: OpenImageIO 2.4 writes past its memory with it.
 static void write_signed_cmyk(const char *name)
 {
@@ -423,6 +422,32 @@ static void write_signed_cmyk(const char *name)
     write_bytes(name, file, sizeof(file));
 }
 
+// What is small lies in a buffer until the file is closed: that fails as well.
+static void a_full_disk_is_noticed_at_the_close(void **state)
+{
+    (void)state;
+    const char *const names[] = {"last.exr", "last.png", "last.hdr", "last.tif"};
+    struct rg_picture picture;
+    assert_true(rg_picture_create(&picture, 8, 8, 3, "grey"));
+    for (int64_t i = 0; i < rg_picture_values(&picture); i++)
+        picture.texels[i] = 0.5f;
+    signal(SIGXFSZ, SIG_IGN);
+    struct rlimit before, small;
+    getrlimit(RLIMIT_FSIZE, &before);
+    for (int i = 0; i < 4; i++) {
+        assert_true(rg_picture_write(path_of(names[i]), &picture, &(struct rg_write_options){0}));
+        struct stat st;
+        stat(path_of(names[i]), &st);
+        unlink(path_of(names[i]));
+        small = before;
+        small.rlim_cur = (rlim_t)st.st_size - 1;
+        setrlimit(RLIMIT_FSIZE, &small);
+        assert_not_written(names[i], &picture, names[i]);
+        setrlimit(RLIMIT_FSIZE, &before);
+    }
+    rg_picture_destroy(&picture);
+}
+
 static void a_crash_of_the_library_is_one_line(void **state)
 {
     (void)state;
@@ -431,6 +456,7 @@ static void a_crash_of_the_library_is_one_line(void **state)
     unlink(path_of("cmyk.tif"));
 }
 
+// Several files, several of them bad: one line, about the first.
 static void one_line_for_many_files(void **state)
 {
     (void)state;
@@ -482,6 +508,7 @@ int main(void)
         cmocka_unit_test(nonfinite_texels_are_kept_and_counted),
         cmocka_unit_test(what_cannot_be_written_leaves_nothing),
         cmocka_unit_test(a_full_disk_leaves_the_old_file),
+        cmocka_unit_test(a_full_disk_is_noticed_at_the_close),
         cmocka_unit_test(a_crash_of_the_library_is_one_line),
         cmocka_unit_test(one_line_for_many_files),
     };
