@@ -116,8 +116,10 @@ RG_FN streaks_shape streaks_shape_of(rg_ctx rg, streaks_params p, streaks_partic
     shape.weight = t.weight;
     shape.up = streaks_up(rg, p, t);
     float under = splash != 0 ? tall * p.splash_foot : 0.0f;
-    shape.base = v3_make(t.x - shape.up.x * under, t.y - shape.up.y * under,
-                         splash != 0 ? t.hit - shape.up.z * under : t.s);
+    float foot = t.hit + streaks_slope(rg, p, t, shape.up);
+    float stands = rg_to_float(splash);
+    float fallen = stands * (foot - shape.up.z * under) + (1.0f - stands) * t.s;
+    shape.base = v3_make(t.x - shape.up.x * under, t.y - shape.up.y * under, fallen);
     shape.axis =
         v3_make(splash != 0 ? shape.up.x * tall : 0.0f, splash != 0 ? shape.up.y * tall : 0.0f,
                 splash != 0 ? shape.up.z * tall : -fall);
@@ -137,12 +139,6 @@ RG_FN streaks_shape streaks_shape_of(rg_ctx rg, streaks_params p, streaks_partic
     shape.covering = splash != 0 ? shape.half_width : covering;
     shape.rim = splash != 0 ? 0.0f : rg_max(drop_radius, lacking);
     return shape;
-}
-
-// As long as 1, or shorter where it is nothing.
-RG_FN v3 streaks_unit(v3 d)
-{
-    return v3_scale(d, 1.0f / rg_sqrt(rg_max(v3_dot(d, d), 1e-12f)));
 }
 
 // What the eye sees a billboard along: to the left of its axis, and along it. The axis is

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "tests/oracle/raster.h"
+
 static double dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -125,6 +127,24 @@ void crown_reach(const struct crown_eye *eye, const struct crown_splash *splash,
     box[3] = is_known ? (int)fmin(y + reach + 1, eye->height) : eye->height;
 }
 
+// Whether a picture from `c` on, `s` across and `t` along in clip space, covers a pixel. Its
+// corners are snapped to 1/256 pixel, as what is drawn is.
+static bool covers(const struct crown_eye *eye, const double c[4], const double s[4],
+                   const double t[4], int x, int y)
+{
+    struct oracle_point corners[4];
+    for (int i = 0; i < 4; i++) {
+        double at[4];
+        for (int k = 0; k < 4; k++)
+            at[k] = c[k] + (i == 1 || i == 2 ? s[k] : 0) + (i >= 2 ? t[k] : 0);
+        if (!(at[3] > 0))
+            return false;
+        corners[i].x = llround(128 * eye->width * (at[0] / at[3] + 1));
+        corners[i].y = llround(128 * eye->height * (at[1] / at[3] + 1));
+    }
+    return oracle_covers(corners, 4, x, y);
+}
+
 // The picture stands on its foot, a fifth of its height above its lower edge, and faces the eye as
 // far as its axis lets it.
 bool crown_seen(const struct crown_eye *eye, const struct crown_splash *splash, int x, int y,
@@ -154,9 +174,10 @@ bool crown_seen(const struct crown_eye *eye, const struct crown_splash *splash, 
     const double px = (x + 0.5) / eye->width * 2 - 1, py = (y + 0.5) / eye->height * 2 - 1;
     const double a = s[0] - px * s[3], b = t[0] - px * t[3], e = px * c[3] - c[0];
     const double d = s[1] - py * s[3], f = t[1] - py * t[3], g = py * c[3] - c[1];
-    const double u = (e * f - b * g) / (a * f - b * d), v = (a * g - e * d) / (a * f - b * d);
+    const double u = fmin(fmax((e * f - b * g) / (a * f - b * d), 0), 1);
+    const double v = fmin(fmax((a * g - e * d) / (a * f - b * d), 0), 1);
     const double w = c[3] + u * s[3] + v * t[3];
-    if (!(u >= 0 && u <= 1 && v >= 0 && v <= 1 && w > 0))
+    if (!covers(eye, c, s, t, x, y))
         return false;
     const double pixels = wide * eye->focal_px / m[3];
     const double level = floor(log2(fmax(CROWN_WIDE / pixels, 1)) + 0.5);
