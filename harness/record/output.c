@@ -7,7 +7,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/image/files/temporary.h"
 
 static bool write_all(int fd, const char *text)
 {
@@ -22,14 +24,6 @@ static bool write_all(int fd, const char *text)
         left -= (size_t)written;
     }
     return fsync(fd) == 0 || errno == EINVAL;
-}
-
-// mkstemp makes files that only the owner reads: gives the file the permissions of any other.
-static bool open_up(int fd)
-{
-    const mode_t mask = umask(0);
-    umask(mask);
-    return fchmod(fd, 0666 & ~mask) == 0;
 }
 
 // Makes a folder unless it is there; `made` says whether it was made.
@@ -47,28 +41,56 @@ bool rg_output_folder(const char *folder)
     return make_folder(folder, &made);
 }
 
+// A file that is written and not yet in its place.
+struct pending {
+    char path[2048];
+    bool is_open;
+    struct rg_temporary temporary;
+};
+
+static bool begin(const char *folder, const struct rg_output_file *file, struct pending *pending)
+{
+    struct rg_why why;
+    pending->is_open = false;
+    if (snprintf(pending->path, sizeof(pending->path), "%s/%s", folder, file->name) >=
+        (int)sizeof(pending->path))
+        return rg_error("%.80s...: its name is too long; name a folder of at most %zu bytes",
+                        folder, sizeof(pending->path) - strlen(file->name) - 2);
+    if (!rg_temporary_make(pending->path, &pending->temporary, &why))
+        return rg_error("%s: %s", pending->path, why.text);
+    pending->is_open = true;
+    return write_all(pending->temporary.fd, file->text) ||
+           rg_error("%s: cannot be written: %s; nothing was changed", pending->path,
+                    strerror(errno));
+}
+
+static bool end(struct pending *pending, bool written)
+{
+    struct rg_why why;
+    pending->is_open = false;
+    return rg_temporary_end(&pending->temporary, written, &why) ||
+           (written && rg_error("%s: %s", pending->path, why.text));
+}
+
+bool rg_output_write_set(const char *folder, const struct rg_output_file *files, int count)
+{
+    struct pending *pending = rg_alloc(RG_MAX_OUTPUT_FILES, sizeof(*pending), "files");
+    bool made = false, ok = pending && make_folder(folder, &made);
+    int begun = 0;
+    for (; ok && begun < count && begun < RG_MAX_OUTPUT_FILES; begun++)
+        ok = begin(folder, &files[begun], &pending[begun]);
+    for (int i = 0; ok && i < begun; i++)
+        ok = end(&pending[i], true);
+    for (int i = 0; !ok && i < begun; i++)
+        if (pending[i].is_open)
+            end(&pending[i], false);
+    if (!ok && made)
+        rmdir(folder);
+    free(pending);
+    return ok;
+}
+
 bool rg_output_write(const char *folder, const char *name, const char *text)
 {
-    char path[2048], temporary[2112];
-    bool made;
-    if (!make_folder(folder, &made))
-        return false;
-    if (snprintf(path, sizeof(path), "%s/%s", folder, name) >= (int)sizeof(path))
-        return rg_error("%.80s...: its name is too long; name a folder of at most %zu bytes",
-                        folder, sizeof(path) - strlen(name) - 2);
-    snprintf(temporary, sizeof(temporary), "%s.XXXXXX", path);
-    int fd = mkstemp(temporary);
-    if (fd < 0)
-        return rg_error("%s: cannot be written: %s; name a folder that can be written", path,
-                        strerror(errno));
-    bool ok = write_all(fd, text) && open_up(fd);
-    ok = close(fd) == 0 && ok;
-    ok = ok && rename(temporary, path) == 0;
-    if (ok)
-        return true;
-    rg_error("%s: cannot be written: %s; nothing was changed", path, strerror(errno));
-    unlink(temporary);
-    if (made)
-        rmdir(folder);
-    return false;
+    return rg_output_write_set(folder, &(struct rg_output_file){name, text}, 1);
 }

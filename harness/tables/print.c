@@ -46,27 +46,36 @@ bool rg_result_print(const struct rg_result *result, int format, FILE *out)
     return !sheet.incomplete;
 }
 
-static bool write_as(const struct rg_result *result, int format, const char *folder)
+// The result in a format, which the caller frees; NULL with one logged line.
+static char *print_text(const struct rg_result *result, int format)
 {
-    char *text = NULL, name[RG_NAME_SIZE + 8];
+    char *text = NULL;
     size_t size;
     FILE *out = open_memstream(&text, &size);
-    if (!out)
-        return rg_error("table '%s': no memory to print it", result->table);
-    bool ok = rg_result_print(result, format, out);
-    if (fclose(out))
+    bool ok = out && rg_result_print(result, format, out);
+    if (!out || fclose(out))
         ok = rg_error("table '%s': no memory to print it", result->table);
-    snprintf(name, sizeof(name), "%s.%s", result->table, rg_result_formats[format]);
-    ok = ok && rg_output_write(folder, name, text);
-    free(text);
-    return ok;
+    if (!ok)
+        free(text);
+    return ok ? text : NULL;
 }
 
 bool rg_result_write(const struct rg_result *result, const char *folder)
 {
+    struct rg_output_file files[RG_MAX_OUTPUT_FILES];
+    char *texts[RG_MAX_OUTPUT_FILES], names[RG_MAX_OUTPUT_FILES][RG_NAME_SIZE + 8];
+    int count = 0;
     bool ok = true;
-    for (int i = 0; ok && rg_result_formats[i]; i++)
-        ok = write_as(result, i, folder);
+    for (; ok && rg_result_formats[count]; count++) {
+        texts[count] = print_text(result, count);
+        snprintf(names[count], sizeof(names[count]), "%s.%s", result->table,
+                 rg_result_formats[count]);
+        files[count] = (struct rg_output_file){names[count], texts[count]};
+        ok = texts[count];
+    }
+    ok = ok && rg_output_write_set(folder, files, count);
+    for (int i = 0; i < count; i++)
+        free(texts[i]);
     return ok;
 }
 

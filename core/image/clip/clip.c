@@ -2,7 +2,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -72,12 +71,12 @@ bool rg_clip_finish(struct rg_clip *clip)
 {
     int64_t bytes;
     struct rg_why why;
-    char temporary[PATH_MAX];
+    struct rg_temporary temporary;
     if (!rg_encoder_finish(&clip->encoder, &bytes))
         return false;
-    if (rg_temporary_make(clip->path, temporary, sizeof(temporary), &why)) {
-        const bool written = copy(clip->encoder.coded, bytes, temporary, &why);
-        if (rg_temporary_end(temporary, clip->path, written, &why))
+    if (rg_temporary_make(clip->path, &temporary, &why)) {
+        const bool written = copy(clip->encoder.coded, bytes, temporary.path, &why);
+        if (rg_temporary_end(&temporary, written, &why))
             return true;
     }
     return rg_error("%s: %s", clip->path, why.text);

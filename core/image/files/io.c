@@ -1,7 +1,6 @@
 #include "core/image/files/io.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -135,10 +134,10 @@ bool rg_picture_write(const char *path, const struct rg_picture *picture,
     struct rg_write_options with = *options;
     if (with.exposure == 0.0f)
         with.exposure = 1.0f;
-    char temporary[PATH_MAX];
+    struct rg_temporary temporary;
     int format = find_format(path, &why);
-    if (format < 0 || !rg_temporary_make(path, temporary, sizeof(temporary), &why))
+    if (format < 0 || !rg_temporary_make(path, &temporary, &why))
         return rg_error("%s: %s", path, why.text);
-    const bool written = formats[format].write(temporary, picture, &with, &why);
-    return rg_temporary_end(temporary, path, written, &why) || rg_error("%s: %s", path, why.text);
+    const bool written = formats[format].write(temporary.path, picture, &with, &why);
+    return rg_temporary_end(&temporary, written, &why) || rg_error("%s: %s", path, why.text);
 }

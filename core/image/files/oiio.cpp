@@ -52,7 +52,8 @@ try {
     const bool whole = file && fflush(file) == 0 && !ferror(file);
     good = file && fclose(file) == 0 && whole && good;
     if (!good)
-        say(why, why_size, whole && output->has_error() ? output->geterror() : "the disk may be full");
+        say(why, why_size,
+            whole && output->has_error() ? output->geterror() : "the disk may be full");
     return good;
 } catch (const std::exception &e) {
     say(why, why_size, e.what());

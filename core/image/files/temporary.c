@@ -1,49 +1,137 @@
+#define _GNU_SOURCE // O_TMPFILE
 #include "core/image/files/temporary.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-bool rg_temporary_make(const char *path, char *temporary, size_t size, struct rg_why *why)
+enum { MAX_NAMES = 100 };
+
+// --- where it goes ---
+
+static bool find_target(const char *path, char target[PATH_MAX], struct rg_why *why)
 {
     struct stat st;
-    if (!stat(path, &st) && !S_ISREG(st.st_mode))
+    if (snprintf(target, PATH_MAX, "%s", path) >= PATH_MAX)
+        return rg_why_set(why, "the path is too long; choose a shorter one");
+    if (lstat(path, &st))
+        return errno == ENOENT || errno == ENOTDIR || errno == EACCES ||
+               rg_why_set(why, "cannot be written: %s; choose another name", strerror(errno));
+    if (S_ISLNK(st.st_mode) && (!realpath(path, target) || stat(target, &st)))
+        return rg_why_set(why, "is a link to nothing; remove it, or name another file");
+    if (!S_ISREG(st.st_mode))
         return rg_why_set(why, S_ISDIR(st.st_mode) ? "is a folder; name a file in it"
                                                    : "is not a regular file; name another");
-    for (int attempt = 0; attempt < 100; attempt++) {
-        if (snprintf(temporary, size, "%s.%ld-%d.tmp", path, (long)getpid(), attempt) >= (int)size)
-            return rg_why_set(why, "the path is too long; choose a shorter one");
-        int fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL, 0666);
-        if (fd >= 0) {
-            close(fd);
-            return true;
-        }
-        if (errno == ENOENT || errno == ENOTDIR)
-            return rg_why_set(why, "its folder is not there; make it first");
-        if (errno != EEXIST)
-            return rg_why_set(why, "cannot be written: %s; choose another folder", strerror(errno));
-    }
-    return rg_why_set(why, "temporary files of this name are in the way; remove them");
+    return !access(target, W_OK) ||
+           rg_why_set(why, "cannot be written: %s; name another file, or make it writable",
+                      strerror(errno));
 }
 
-bool rg_temporary_end(const char *temporary, const char *path, bool written, struct rg_why *why)
+// A name in the target's folder, which is short, so that it fits where the target's does.
+static void name_beside(const char *target, int attempt, char *name, size_t size)
 {
-    if (written && rename(temporary, path))
-        written = rg_why_set(why, "cannot be put in place: %s", strerror(errno));
-    if (!written)
-        unlink(temporary);
-    return written;
+    const char *slash = strrchr(target, '/');
+    snprintf(name, size, "%.*s.raingauge-%ld-%d.tmp", slash ? (int)(slash - target) + 1 : 0, target,
+             (long)getpid(), attempt);
+}
+
+// --- making it ---
+
+static bool is_unknown_here(int error)
+{
+    return error == EOPNOTSUPP || error == EISDIR || error == EINVAL;
+}
+
+static int open_nameless(struct rg_temporary *t)
+{
+    char folder[PATH_MAX];
+    const char *slash = strrchr(t->target, '/');
+    snprintf(folder, sizeof(folder), "%.*s", slash ? (int)(slash - t->target) + 1 : 1,
+             slash ? t->target : ".");
+    t->fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+    if (t->fd < 0)
+        return errno;
+    snprintf(t->path, sizeof(t->path), "/proc/self/fd/%d", t->fd);
+    if (!access(t->path, W_OK))
+        return 0;
+    close(t->fd);
+    return EOPNOTSUPP; // without /proc it could not be written by a path
+}
+
+static int open_named(struct rg_temporary *t)
+{
+    t->is_named = true;
+    t->fd = -1;
+    for (int attempt = 0; t->fd < 0 && attempt < MAX_NAMES; attempt++) {
+        name_beside(t->target, attempt, t->path, sizeof(t->path));
+        t->fd = open(t->path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (t->fd < 0 && errno != EEXIST)
+            break;
+    }
+    return t->fd < 0 ? errno : 0;
+}
+
+bool rg_temporary_make(const char *path, struct rg_temporary *temporary, struct rg_why *why)
+{
+    temporary->is_named = false;
+    if (!find_target(path, temporary->target, why))
+        return false;
+    int error = open_nameless(temporary);
+    if (is_unknown_here(error))
+        error = open_named(temporary);
+    if (error == ENOTDIR)
+        return rg_why_set(why, "cannot be written: %s; name a folder", strerror(error));
+    if (error == ENOENT)
+        return rg_why_set(why, "its folder is not there; make it first");
+    if (error == EEXIST)
+        return rg_why_set(why, "temporary files of this name are in the way; remove them");
+    return !error ||
+           rg_why_set(why, "cannot be written: %s; choose another folder", strerror(error));
+}
+
+// --- putting it in place ---
+
+// Only a file that is there already needs a name for a moment: a link replaces none.
+static bool put_in_place(const struct rg_temporary *t)
+{
+    if (t->is_named)
+        return !rename(t->path, t->target);
+    if (!linkat(AT_FDCWD, t->path, AT_FDCWD, t->target, AT_SYMLINK_FOLLOW))
+        return true;
+    char name[PATH_MAX];
+    for (int attempt = 0; errno == EEXIST && attempt < MAX_NAMES; attempt++) {
+        name_beside(t->target, attempt, name, sizeof(name));
+        if (linkat(AT_FDCWD, t->path, AT_FDCWD, name, AT_SYMLINK_FOLLOW))
+            continue;
+        if (!rename(name, t->target))
+            return true;
+        const int error = errno;
+        unlink(name);
+        errno = error;
+    }
+    return false;
+}
+
+bool rg_temporary_end(struct rg_temporary *temporary, bool written, struct rg_why *why)
+{
+    const bool placed = written && put_in_place(temporary);
+    if (written && !placed)
+        rg_why_set(why, "cannot be put in place: %s", strerror(errno));
+    if (!placed && temporary->is_named)
+        unlink(temporary->path);
+    close(temporary->fd);
+    return placed;
 }
 
 bool rg_temporary_try(const char *path, struct rg_why *why)
 {
-    char temporary[PATH_MAX];
-    if (!rg_temporary_make(path, temporary, sizeof(temporary), why))
+    struct rg_temporary temporary;
+    if (!rg_temporary_make(path, &temporary, why))
         return false;
-    rg_temporary_end(temporary, path, false, why);
+    rg_temporary_end(&temporary, false, why);
     return true;
 }

@@ -1,21 +1,32 @@
 // The file that a result is written to before it is whole.
+//
+// It has no name while it is written, where the file system knows such files: whatever ends the
+// program leaves nothing behind. A link is followed, as a shell's redirection does, and what stands
+// there read-only is refused.
 #ifndef RG_CORE_IMAGE_FILES_TEMPORARY_H
 #define RG_CORE_IMAGE_FILES_TEMPORARY_H
 
+#include <limits.h>
 #include <stdbool.h>
 #include <stddef.h>
 
 #include "core/image/files/why.h"
 
-// Makes an empty file beside `path`, whose path becomes `temporary`. False, and `why` is set, where
-// `path` cannot be written.
-bool rg_temporary_make(const char *path, char *temporary, size_t size, struct rg_why *why);
+struct rg_temporary {
+    char path[PATH_MAX];   // to write it by
+    char target[PATH_MAX]; // where it goes
+    int fd;                // the same file
+    bool is_named;
+};
 
-// Renames it to `path` where it has been `written`, and removes it otherwise. False where `path` is
-// untouched; `why` is set where it could not be renamed.
-bool rg_temporary_end(const char *temporary, const char *path, bool written, struct rg_why *why);
+// Makes an empty file for `path`. False, and `why` is set, where `path` cannot be written.
+bool rg_temporary_make(const char *path, struct rg_temporary *temporary, struct rg_why *why);
 
-// Makes one and removes it: whether `path` can be written is known before any work.
+// Puts it in place where it has been `written`, and drops it otherwise. False where what was there
+// is untouched; `why` is set where it could not be put in place.
+bool rg_temporary_end(struct rg_temporary *temporary, bool written, struct rg_why *why);
+
+// Makes one and drops it: whether `path` can be written is known before any work.
 bool rg_temporary_try(const char *path, struct rg_why *why);
 
 #endif

@@ -12,11 +12,13 @@
 #include <stdio.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/base/log.h"
 #include "core/image/files/format.h"
 #include "core/image/files/io.h"
+#include "core/image/files/temporary.h"
 #include "core/image/srgb.h"
 #include "tests/core/image/rain_picture.h"
 
@@ -46,7 +48,7 @@ static int files_in_folder(void)
     int count = 0;
     DIR *dir = opendir(folder);
     for (struct dirent *entry; (entry = readdir(dir));)
-        count += entry->d_name[0] != '.';
+        count += strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..");
     closedir(dir);
     return count;
 }
@@ -422,6 +424,53 @@ static void write_signed_cmyk(const char *name)
     write_bytes(name, file, sizeof(file));
 }
 
+// Whatever ends the program while it writes, nothing is left, and what was there stays.
+static void a_signal_leaves_nothing(void **state)
+{
+    (void)state;
+    static const int signals[] = {SIGINT, SIGTERM, SIGKILL};
+    write_bytes("kept.png", "old", 3);
+    for (int i = 0; i < 3; i++) {
+        int status = 0;
+        const pid_t child = fork();
+        if (child == 0) {
+            struct rg_why why;
+            struct rg_temporary temporary;
+            signal(signals[i], SIG_DFL);
+            if (rg_temporary_make(path_of("kept.png"), &temporary, &why) &&
+                write(temporary.fd, "new", 3) == 3)
+                raise(signals[i]);
+            _exit(1);
+        }
+        assert_int_equal(waitpid(child, &status, 0), child);
+        assert_true(WIFSIGNALED(status));
+        assert_int_equal(files_in_folder(), 1);
+    }
+    unlink(path_of("kept.png"));
+}
+
+// As a shell's redirection does.
+static void a_link_is_followed(void **state)
+{
+    (void)state;
+    struct rg_picture picture = noise_picture(3);
+    struct stat st;
+    char target[256], link[256];
+    snprintf(target, sizeof(target), "%s", path_of("target.png"));
+    snprintf(link, sizeof(link), "%s", path_of("link.png"));
+    assert_int_equal(symlink(target, link), 0);
+    assert_not_written("link.png", &picture, "a link to nothing");
+    write_bytes("target.png", "old", 3);
+    assert_true(rg_picture_write(link, &picture, &(struct rg_write_options){0}));
+    assert_int_equal(lstat(link, &st), 0);
+    assert_true(S_ISLNK(st.st_mode));
+    assert_int_equal(stat(target, &st), 0);
+    assert_true(st.st_size > 3);
+    rg_picture_destroy(&picture);
+    unlink(link);
+    unlink(target);
+}
+
 // What is small lies in a buffer until the file is closed: that fails as well.
 static void a_full_disk_is_noticed_at_the_close(void **state)
 {
@@ -508,6 +557,8 @@ int main(void)
         cmocka_unit_test(nonfinite_texels_are_kept_and_counted),
         cmocka_unit_test(what_cannot_be_written_leaves_nothing),
         cmocka_unit_test(a_full_disk_leaves_the_old_file),
+        cmocka_unit_test(a_signal_leaves_nothing),
+        cmocka_unit_test(a_link_is_followed),
         cmocka_unit_test(a_full_disk_is_noticed_at_the_close),
         cmocka_unit_test(a_crash_of_the_library_is_one_line),
         cmocka_unit_test(one_line_for_many_files),

@@ -1,10 +1,11 @@
 """Records: journals, stored results, numbers and names, what is written to disk."""
 from fault import Fault
 
-TESTS = ("named", "held", "rows", "journal", "stored", "damaged", "sheets", "measure", "machine", "command line, tables", "command line, stored")
+TESTS = ("named", "held", "rows", "journal", "output", "stored", "damaged", "sheets", "measure", "machine", "command line, tables", "command line, stored")
 
 JOURNAL, STORED, NAMED = "harness/record/disk/journal.c", "harness/record/disk/stored.c", "harness/record/named.c"
 OUTPUT, RESULT, RECORD = "harness/record/output.c", "harness/record/result.c", "harness/record/record.c"
+TEMPORARY = "core/image/files/temporary.c"
 
 ROWS = [
     Fault(JOURNAL, "journal->has_file = «has_same_head(&found, &journal->held)»;", "true", "a journal of another machine is taken over"),
@@ -26,8 +27,8 @@ ROWS = [
     Fault(NAMED, "while (from[length] && length > 0 && «(from[length] & 0xc0) == 0x80»)", "false", "a name is cut within a character"),
     Fault(NAMED, "if (!is_utf8(to))\n        mark_foreign_bytes(to);", ";", "a name that is no UTF-8 is kept"),
     Fault(NAMED, "if («!*named[i].text» && !strcmp(named[i].name, name))", "true", "a text is taken for a number"),
-    Fault(OUTPUT, "ok = ok && «rename(temporary, path) == 0»;", "true", "what is written is not put in place"),
-    Fault(OUTPUT, "return fchmod(fd, 0666 «& ~mask») == 0;", "& 0600", "files are the owner's alone"),
+    Fault(OUTPUT, "ok = end(&pending[i], «true»);", "false", "what is written is not put in place"),
+    Fault(TEMPORARY, "open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, «0666»);", "0600", "files are the owner's alone"),
     Fault(OUTPUT, "return *made || «errno == EEXIST» ||", "false", "a folder that is there is an error"),
     Fault(RESULT, "const int before = first > result->first_row ? «first - result->first_row» : 0;", "first", "rows that are kept move too far"),
     Fault(RESULT, "result->last_row = «last < result->last_row ? last : result->last_row»;", "last", "rows that are kept go on behind the last"),
