@@ -51,12 +51,17 @@ static bool check_ply_header(struct import *import, const char *header)
 {
     static const char *const words[] = {"ply",      "format ",  "comment",
                                         "obj_info", "element ", "property "};
+    // Before the elements Assimp passes over any line, and so it is done here; but it takes a word
+    // for an element behind blanks, too, which is not counted here.
+    bool in_elements = false;
     int number = 1;
     for (const char *line = header; *line; number++) {
         bool known = false;
         for (size_t i = 0; i < sizeof(words) / sizeof(words[0]); i++)
             known = known || !strncmp(line, words[i], strlen(words[i]));
-        if (!known)
+        in_elements = in_elements || !strncmp(line, "element ", 8);
+        const bool is_free = !in_elements && !(*line == ' ' || *line == '\t');
+        if (!known && !is_free)
             return import_refuse(import, "line %d does not belong into its header; export it again",
                                  number);
         line += strcspn(line, "\n");

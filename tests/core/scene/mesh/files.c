@@ -299,6 +299,32 @@ static void test_too_many_faces_without_a_header(void **state)
     unlink(path);
 }
 
+#define PLY_ELEMENTS                                                                               \
+    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"     \
+    "property list uchar int vertex_indices\nend_header\n"
+#define PLY_BODY "0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 1 3 2\n"
+
+// Assimp passes over any line that stands before the elements, but not over an element that is
+// indented: that would not be counted here.
+static void test_free_lines_of_a_ply_header(void **state)
+{
+    (void)state;
+    struct rg_mesh *plain = load_text("plain.ply", "ply\nformat ascii 1.0\n" PLY_ELEMENTS PLY_BODY);
+    struct rg_mesh *mesh =
+        load_text("free.ply", "ply\nformat ascii 1.0\nauthor somebody\n\n"
+                              "of an element of surprise\n" PLY_ELEMENTS PLY_BODY);
+    assert_int_equal(mesh->face_count, 2);
+    assert_true(mesh->hash == plain->hash);
+    rg_mesh_destroy(mesh);
+    rg_mesh_destroy(plain);
+    expect_text_refused("indented.ply",
+                        "ply\nformat ascii 1.0\n element vertex 2\n" PLY_ELEMENTS PLY_BODY,
+                        "line 3 does not belong into its header");
+    expect_text_refused("indented.ply",
+                        "ply\nformat ascii 1.0\n\telement vertex 2\n" PLY_ELEMENTS PLY_BODY,
+                        "line 3 does not belong into its header");
+}
+
 static void test_half_a_file(void **state)
 {
     (void)state;
@@ -455,6 +481,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_indices_out_of_range),
         cmocka_unit_test(test_fifty_million_faces),
         cmocka_unit_test(test_too_many_faces_without_a_header),
+        cmocka_unit_test(test_free_lines_of_a_ply_header),
         cmocka_unit_test(test_half_a_file),
         cmocka_unit_test(test_the_corpus),
         cmocka_unit_test(test_cut_and_changed_files),
