@@ -10,6 +10,7 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/record/output.h"
+#include "harness/record/disk/seal.h"
 #include "harness/record/disk/stored.h"
 
 struct rg_journal {
@@ -75,7 +76,7 @@ static void read_file(struct rg_journal *journal)
     if (access(journal->path, F_OK))
         return;
     if (!rg_stored_read_one(journal->path, &found, why)) {
-        rg_warning("%s: is damaged; the table begins anew", journal->path);
+        rg_warning("%s: is damaged or no journal (%s); the table begins anew", journal->path, why);
         return;
     }
     journal->has_file = has_same_head(&found, &journal->held);
@@ -165,7 +166,8 @@ static bool write_file(struct rg_journal *j)
     if (j->is_in_state)
         make_parents(j->folder);
     json_t *document = rg_result_json(&j->held);
-    char *text = json_dumps(document, RG_JSON_FLAGS | JSON_COMPACT);
+    const bool is_sealed = document && rg_seal(document);
+    char *text = is_sealed ? json_dumps(document, RG_JSON_FLAGS | JSON_COMPACT) : NULL;
     const bool ok = text && rg_output_write(j->folder, j->name, text);
     free(text);
     json_decref(document);

@@ -11,6 +11,7 @@
 #include "core/base/array.h"
 #include "core/base/file.h"
 #include "core/base/log.h"
+#include "harness/record/disk/seal.h"
 
 // --- texts of documents ---
 
@@ -73,6 +74,19 @@ static json_t *next_document(const char *path, const char *text, size_t size, si
     return document;
 }
 
+// Results that were printed carry no checksum; journals do.
+static bool check_seal(const char *path, json_t *document, bool is_journal, char why[RG_WHY_SIZE])
+{
+    const enum rg_sealed sealed = rg_unseal(document);
+    if (sealed == RG_SEAL_WHOLE || (sealed == RG_SEAL_ABSENT && !is_journal))
+        return true;
+    snprintf(why, RG_WHY_SIZE, "%.200s: %s", path,
+             sealed == RG_SEAL_ABSENT ? "has no checksum: it is another version's, or no journal"
+                                      : "its checksum is wrong: it was changed or cut; measure it "
+                                        "again");
+    return false;
+}
+
 // --- a file, a folder ---
 
 static struct rg_result *add(struct rg_stored *stored)
@@ -91,7 +105,8 @@ static bool read_documents(struct rg_stored *stored, const char *path, const cha
     size_t at = strspn(text, " \t\r\n");
     do {
         json_t *document = next_document(path, text, size, &at, why);
-        struct rg_result *result = document ? add(stored) : NULL;
+        struct rg_result *result =
+            document && check_seal(path, document, false, why) ? add(stored) : NULL;
         const bool ok = result && rg_result_from_json(document, path, result, why);
         json_decref(document);
         if (!ok)
@@ -165,7 +180,8 @@ bool rg_stored_read_one(const char *path, struct rg_result *result, char why[RG_
     size_t size, at = 0;
     char *text = load(path, &size, why);
     json_t *document = text ? next_document(path, text, size, &at, why) : NULL;
-    const bool ok = document && rg_result_from_json(document, path, result, why);
+    const bool ok = document && check_seal(path, document, true, why) &&
+                    rg_result_from_json(document, path, result, why);
     json_decref(document);
     free(text);
     return ok;

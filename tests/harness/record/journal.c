@@ -16,6 +16,7 @@
 #include "core/base/log.h"
 #include "harness/console/interrupt.h"
 #include "harness/record/disk/journal.h"
+#include "harness/record/disk/seal.h"
 #include "harness/record/schema/schema.h"
 #include "harness/tables/sheet/sheet.h"
 #include "harness/tables/table.h"
@@ -223,7 +224,11 @@ static int taken_with(struct rig *rig, json_t *journal, const char *path, json_t
     json_t *kept = json_incref(json_object_get(object, field));
     assert_non_null(kept);
     json_object_set_new(object, field, value);
-    assert_int_equal(0, json_dump_file(journal, path, 0));
+    // Without a new checksum any change is noticed; with one, the key is all that tells.
+    assert_int_equal(0, json_dump_file(journal, path, RG_JSON_FLAGS));
+    assert_int_equal(taken(rig, 1, 1), 0);
+    assert_true(rg_seal(journal));
+    assert_int_equal(0, json_dump_file(journal, path, RG_JSON_FLAGS));
     const int count = taken(rig, 1, messages);
     json_object_set_new(object, field, kept);
     return count;
@@ -248,8 +253,65 @@ static void test_other_runs(void **state)
     // A row of other settings counts for nothing, whoever wrote it.
     json_t *cell = json_array_get(json_object_get(json, "cells"), 1);
     assert_int_equal(taken_with(rig, json, path, cell, "set", json_string("drops=1"), 0), 0);
-    assert_int_equal(0, json_dump_file(json, path, 0));
+    assert_true(rg_seal(json));
+    assert_int_equal(0, json_dump_file(json, path, RG_JSON_FLAGS));
     assert_int_equal(taken(rig, 1, 0), 1);
+    json_decref(json);
+}
+
+// Each row comes back as itself, and each of its variants.
+static void test_rows_stay_apart(void **state)
+{
+    struct rig *rig = *state;
+    struct rg_result first, second;
+    begin(rig, &first, 1);
+    begin(rig, &second, 1);
+    struct rg_journal *journal = rg_journal_open(&first, rig->folder, true, true);
+    double ms = 0;
+    for (int row = 0; row < 2; row++) {
+        assert_true(rg_table_add_row(&first, &table, row));
+        assert_true(rg_table_add_row(&second, &table, row));
+        for (struct rg_place at = rg_result_start_row(row); rg_result_next_in_row(&first, &at);)
+            rg_result_at(&first, at)->create_ms = ++ms;
+    }
+    rg_journal_add(journal, &first, 0, 1);
+    for (int row = 1; row >= 0; row--) {
+        assert_true(rg_journal_take(journal, &second, row));
+        for (struct rg_place at = rg_result_start_row(row); rg_result_next_in_row(&second, &at);)
+            assert_true(rg_result_at(&second, at)->create_ms ==
+                        rg_result_at(&first, at)->create_ms);
+    }
+    rg_journal_remove(journal);
+    rg_journal_close(journal);
+    rg_result_free(&first);
+    rg_result_free(&second);
+}
+
+// A row that is copied over another, a number that is changed: both are sound JSON of this run.
+static void test_changes(void **state)
+{
+    struct rig *rig = *state;
+    char path[128];
+    json_t *json = make_journal(rig, path);
+    assert_int_equal(taken(rig, 1, 0), 1);
+    json_t *cells = json_object_get(json, "cells");
+    json_t *second = json_incref(json_array_get(cells, 1));
+    json_t *changed = json_deep_copy(json_array_get(cells, 0));
+    json_array_set_new(cells, 1, changed);
+    assert_int_equal(0, json_dump_file(json, path, RG_JSON_FLAGS));
+    assert_int_equal(taken(rig, 1, 1), 0);
+    changed = json_deep_copy(second);
+    json_object_set_new(changed, "expected_fps", json_real(1e9));
+    json_array_set_new(cells, 1, changed);
+    assert_int_equal(0, json_dump_file(json, path, RG_JSON_FLAGS));
+    assert_int_equal(taken(rig, 1, 1), 0);
+    json_array_set(cells, 1, second);
+    assert_int_equal(0, json_dump_file(json, path, RG_JSON_FLAGS));
+    assert_int_equal(taken(rig, 1, 0), 1);
+    json_object_del(json, "checksum");
+    assert_int_equal(0, json_dump_file(json, path, RG_JSON_FLAGS));
+    assert_int_equal(taken(rig, 1, 1), 0);
+    json_decref(second);
     json_decref(json);
 }
 
@@ -325,8 +387,9 @@ static void test_quick_settings(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_resumes), TEST(test_keeps_no_errors), TEST(test_other_runs),
-        TEST(test_damage),  TEST(test_leaves_nothing),  TEST(test_quick_settings),
+        TEST(test_resumes),         TEST(test_keeps_no_errors), TEST(test_other_runs),
+        TEST(test_rows_stay_apart), TEST(test_changes),         TEST(test_damage),
+        TEST(test_leaves_nothing),  TEST(test_quick_settings),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

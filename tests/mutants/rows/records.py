@@ -16,6 +16,8 @@ ROWS = [
     Fault(JOURNAL, "for (int row = first; j && row <= «last»; row++)", "first", "the first of several rows alone is kept"),
     Fault(JOURNAL, "(last == result->last_row && «!j->is_followed»))", "true", "the last row of a table is not written though others follow"),
     Fault(JOURNAL, "record->device = device;", "", "a row that is taken over has a device without limits"),
+    Fault(JOURNAL, "*record = *rg_result_at(&journal->held, «at»);", "(struct rg_place){.work = at.work, .variant = at.variant}", "every row is taken over as the first"),
+    Fault(STORED, "if («sealed == RG_SEAL_WHOLE» ||", "sealed != RG_SEAL_ABSENT", "a wrong checksum is taken for a right one"),
     Fault(JOURNAL, "if (state && «*state == '/'»)", "true", "a relative state folder is followed"),
     Fault(JOURNAL, "if (length >= (int)size)\n        *folder = 0;", ";", "a state folder that is too long is cut"),
     Fault(STORED, "*at += strspn(text + *at, \" \\t\\r\\n\");", "", "line ends behind a document are taken for another"),
