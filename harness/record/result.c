@@ -24,10 +24,20 @@ bool rg_result_has(const struct rg_result *result, int row)
            result->rows[row - result->first_row];
 }
 
+bool rg_result_wants(const struct rg_result *result, int row)
+{
+    return !result->left_out[row - result->first_row];
+}
+
+static bool is_done(const struct rg_result *result, int row)
+{
+    return rg_result_has(result, row) || !rg_result_wants(result, row);
+}
+
 int rg_result_first_missing(const struct rg_result *result)
 {
     int row = result->first_row;
-    while (row <= result->last_row && rg_result_has(result, row))
+    while (row <= result->last_row && is_done(result, row))
         row++;
     return row;
 }
@@ -57,6 +67,8 @@ bool rg_result_keep_rows(struct rg_result *result, int first, int last)
     const size_t left = (size_t)(RG_RESULT_ROWS - before), size = sizeof(result->rows[0]);
     memmove(result->rows, result->rows + before, left * size);
     memset(result->rows + left, 0, (size_t)before * size);
+    memmove(result->left_out, result->left_out + before, left * sizeof(result->left_out[0]));
+    memset(result->left_out + left, 0, (size_t)before * sizeof(result->left_out[0]));
     result->first_row += before;
     result->last_row = last < result->last_row ? last : result->last_row;
     return true;
@@ -100,7 +112,8 @@ bool rg_result_keep_variant(struct rg_result *result, const char *variant)
 
 bool rg_result_is_of_print(const struct rg_result *result, int work)
 {
-    return *result->hardware && !*result->works[work].saves && !*result->changed;
+    return *result->hardware && !*result->works[work].saves && !*result->changed &&
+           result->size_divisor <= 1;
 }
 
 int rg_result_printed_work(const struct rg_result *result)

@@ -40,8 +40,14 @@ struct rg_result {
     int width, height;       // of the image, in pixels
     int check_frames;        // simulated and drawn before images are compared
     int first_row, last_row; // of the table, from 0
-    int resumed_rows;        // not measured now but by an earlier run that was interrupted
-    int work_count;          // 0: the table does not tell works apart
+    // What a budget of seconds chose (harness/tables/runs/plan.h); 0: there was none.
+    double budget_s;
+    int size_divisor;     // width and height are those of the table by this; 0: as 1
+    double budget_end_ms; // by rg_now_ms, when no row is begun any more; 0: never; in no document
+    bool few_samples;     // the fewest
+    bool left_out[RG_RESULT_ROWS]; // of first_row and those behind it: not to be measured
+    int resumed_rows;              // not measured now but by an earlier run that was interrupted
+    int work_count;                // 0: the table does not tell works apart
     struct rg_result_work works[RG_RESULT_WORKS];
     int variant_count;
     char variants[RG_RESULT_VARIANTS][RG_NAME_SIZE];
@@ -73,6 +79,8 @@ bool rg_result_next_in_row(const struct rg_result *result, struct rg_place *at);
 
 int rg_result_row_cells(const struct rg_result *result); // cells of a row
 bool rg_result_has(const struct rg_result *result, int row);
+// Whether a row is to be there: a budget leaves some out, which are not missing.
+bool rg_result_wants(const struct rg_result *result, int row);
 // The first row that is missing; one behind the last where none is.
 int rg_result_first_missing(const struct rg_result *result);
 

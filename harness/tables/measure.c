@@ -1,4 +1,5 @@
 // A table from its rows to their numbers, a batch of rows at a time.
+#include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/console/progress.h"
 #include "harness/measure/calibration.h"
@@ -17,6 +18,17 @@ static const struct rg_measure_options full = {.most_samples = 61,
                                                .job_ms = 2000,
                                                .warm_up_ms = 500,
                                                .load = rg_calibration_load};
+
+static const struct rg_measure_options few = {.most_samples = 6,
+                                              .least_samples = 6,
+                                              .sample_ms = 15,
+                                              .warm_up_ms = 100,
+                                              .load = rg_calibration_load};
+
+const struct rg_measure_options *rg_table_few_samples(void)
+{
+    return &few;
+}
 
 const struct rg_measure_options *rg_table_options(bool is_full)
 {
@@ -60,7 +72,8 @@ static void prepare(struct measuring *m, struct rg_batch *batch, int row)
 static void settle(struct measuring *m)
 {
     for (int row = m->first; row <= m->last; row++)
-        for (struct rg_place at = rg_result_start_row(row); rg_result_next_in_row(m->result, &at);)
+        for (struct rg_place at = rg_result_start_row(row);
+             rg_result_has(m->result, row) && rg_result_next_in_row(m->result, &at);)
             rg_record_settle(rg_result_at(m->result, at));
 }
 
@@ -68,7 +81,7 @@ static bool add_rows(struct measuring *m)
 {
     bool ok = true;
     for (int row = m->first; ok && row <= m->last; row++)
-        ok = rg_table_add_row(m->result, m->table, row);
+        ok = !rg_result_wants(m->result, row) || rg_table_add_row(m->result, m->table, row);
     return ok;
 }
 
@@ -79,7 +92,8 @@ static bool measure_batch(struct measuring *m)
     m->units = 0;
     const bool ok = add_rows(m) && rg_batch_open(&batch, m->last - m->first + 1);
     for (int row = m->first; ok && row <= m->last; row++)
-        prepare(m, &batch, row);
+        if (rg_result_wants(m->result, row))
+            prepare(m, &batch, row);
     if (ok && !rg_interrupted())
         rg_jobs_measure(batch.jobs, batch.job_count, &m->options);
     show_round(1, 1, m);
@@ -104,6 +118,8 @@ static int end_of_batch(const struct measuring *m, const struct rg_journal *jour
 static bool measure_next(struct measuring *m, struct rg_journal *journal, int64_t row_units)
 {
     m->last = m->first;
+    if (!rg_result_wants(m->result, m->first))
+        return true;
     if (rg_journal_has(journal, m->first) && add_rows(m) &&
         rg_journal_take(journal, m->result, m->first)) {
         m->result->resumed_rows++;
@@ -121,21 +137,38 @@ static bool measure_next(struct measuring *m, struct rg_journal *journal, int64_
     return true;
 }
 
+// Where cells take longer than a budget has them, the rows that are left when it ends are left out.
+static void leave_out_late(struct measuring *m)
+{
+    struct rg_result *result = m->result;
+    if (result->budget_end_ms <= 0 || rg_now_ms() < result->budget_end_ms)
+        return;
+    for (int row = m->first; row <= result->last_row; row++)
+        result->left_out[row - result->first_row] = true;
+}
+
 bool rg_table_measure(struct rg_result *result, const struct rg_table *table, struct rg_kept *kept,
                       struct rg_journal *journal)
 {
     struct measuring m = {.result = result,
                           .table = table,
                           .kept = kept,
-                          .options = result->full ? full : quick,
+                          .options = result->full          ? full
+                                     : result->few_samples ? few
+                                                           : quick,
                           .first = result->first_row};
     const int64_t row_units = (int64_t)2 * CELL_UNITS * rg_result_row_cells(result);
     m.options.progress = show_round;
     m.options.user = &m;
-    rg_progress_start(&m.progress, row_units * (result->last_row - result->first_row + 1));
+    int rows = 0;
+    for (int row = result->first_row; row <= result->last_row; row++)
+        rows += rg_result_wants(result, row);
+    rg_progress_start(&m.progress, row_units * rows);
     bool ok = true;
-    for (; ok && m.first <= result->last_row && !rg_interrupted(); m.first = m.last + 1)
+    for (; ok && m.first <= result->last_row && !rg_interrupted(); m.first = m.last + 1) {
+        leave_out_late(&m);
         ok = measure_next(&m, journal, row_units);
+    }
     rg_progress_end(&m.progress);
     return ok;
 }

@@ -33,6 +33,8 @@ char *rg_table_assignments(const struct rg_result *result, const struct rg_table
 
 // How cells of this length are measured.
 const struct rg_measure_options *rg_table_options(bool is_full);
+// How they are where a budget is short of time: quick, with the fewest samples.
+const struct rg_measure_options *rg_table_few_samples(void);
 
 // Measures the rows of a result that was begun, a batch at a time; those that the journal (NULL:
 // none) has are taken from it. What cannot be had is the outcome of its record. Where it is

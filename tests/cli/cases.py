@@ -333,6 +333,9 @@ TABLES = [
     Case("sweep flow --axis seed=1,2..9 --axis drops=1,2..9", 2, r"--axis: 81 rows are more than 64; leave some values out"),
     Case("sweep flow --axis seed=1 --axis device=cpu --axis device=gl", 2, r"--axis device: stands twice; name all devices at once"),
     Case("sweep flow --axis seed=1 --axis device=nonsense", 2, UNKNOWN_DEVICE),
+    Case("table --budget soon", 2, r"--budget 'soon': is no time; write it as 90s, 4m or 1h"),
+    Case("table --budget 0s", 2, r"--budget '0s': is no time"),
+    Case("table --budget 4m --full", 2, r"--full"),
     Case("table --device nonsense", 2, UNKNOWN_DEVICE),
     Case("table --device ,", 2, r"--device ',': names no device"),
 

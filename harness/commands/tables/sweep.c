@@ -12,7 +12,7 @@
 #include "harness/console/exit.h"
 #include "harness/measure/expected.h"
 #include "harness/tables/print.h"
-#include "harness/tables/regenerate.h"
+#include "harness/tables/runs/regenerate.h"
 #include "harness/tables/sweep/grid.h"
 #include "harness/tables/sweep/plan.h"
 

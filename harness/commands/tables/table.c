@@ -14,7 +14,7 @@
 #include "harness/tables/claims/sheet.h"
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/print.h"
-#include "harness/tables/regenerate.h"
+#include "harness/tables/runs/regenerate.h"
 
 struct table_options {
     struct rg_range rows; // 0: not given
@@ -26,6 +26,7 @@ struct table_options {
     char *variant;          // NULL: all
     struct rg_words sets;   // of --set
     char *set;              // the same as one text; NULL: none
+    char *budget;           // "4m"; NULL: none
     bool fresh, claims, wide, json;
     struct rg_claim_outcomes *outcomes; // what --claims prints in the end
 };
@@ -52,6 +53,10 @@ static const struct rg_option options[] = {
               "not held against print",
      .offset = AT(sets)},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
+    {RG_OPTION_TEXT, "budget", .argument = "TIME",
+     .about = "measures what fits into this time, as 90s or 4m: the rows that curves and claims "
+              "need first, on small pictures, then more; says before what, and after what not",
+     .offset = AT(budget), .excludes = "full rows work variant set from fresh"},
     {RG_OPTION_FLAG, "fresh", .about = "takes nothing from a run that was interrupted",
      .offset = AT(fresh)},
     {RG_OPTION_TEXT, "from", .argument = "FILE|DIR",
@@ -171,12 +176,28 @@ static bool have_rows(struct rg_range rows, const struct rg_table *const chosen[
                     longest->row_count);
 }
 
+// Seconds of "90s", "4m" or "1h"; 0 where a text is none of these, with one logged line.
+static double seconds_of(const char *text)
+{
+    char *end;
+    const double number = strtod(text, &end);
+    const double unit = !strcmp(end, "s")   ? 1
+                        : !strcmp(end, "m") ? 60
+                        : !strcmp(end, "h") ? 3600
+                                            : 0;
+    if (unit > 0 && number > 0 && number * unit < 1e6)
+        return number * unit;
+    rg_error("--budget '%s': is no time; write it as 90s, 4m or 1h", text);
+    return 0;
+}
+
 static int measure(const struct table_options *o, const struct rg_words *arguments)
 {
     const struct rg_table *chosen[RG_MAX_WORDS];
     int count;
-    if (!choose(arguments, o, chosen, &count) || !have_rows(o->rows, chosen, count) ||
-        !take_sets(&o->sets, chosen, count))
+    const double budget_s = o->budget ? seconds_of(o->budget) : 0;
+    if ((o->budget && !(budget_s > 0)) || !choose(arguments, o, chosen, &count) ||
+        !have_rows(o->rows, chosen, count) || !take_sets(&o->sets, chosen, count))
         return RG_EXIT_USAGE;
     const struct rg_regenerate_options wanted = {.first_row = o->rows.first,
                                                  .last_row = o->rows.last,
@@ -185,6 +206,7 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
                                                  .work = chosen_work(o),
                                                  .variant = o->variant,
                                                  .set = o->set,
+                                                 .budget_s = budget_s,
                                                  .folder = o->output,
                                                  .print = print,
                                                  .user = o};
@@ -287,7 +309,7 @@ const struct rg_command rg_command_table = {
         "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--work "
         "paper|reading|ours|queries] "
         "[--variant NAME] [--set KEY=VALUE]... [--claims] [--wide] [--format F|--json] [-o DIR] "
-        "[--fresh] [--from FILE|DIR]",
+        "[--budget TIME] [--fresh] [--from FILE|DIR]",
     .about = "regenerates the papers' tables: published beside measured, on every device",
     .options = options,
     .options_size = sizeof(struct table_options),

@@ -165,10 +165,38 @@ static bool read_changed(struct rg_reader *r, const json_t *document, struct rg_
            rg_field_text(r, document, "changed", result->changed, sizeof(result->changed));
 }
 
+// The rows that a budget left out, which count from 1.
+static bool read_left_out(struct rg_reader *r, const json_t *budget, struct rg_result *result)
+{
+    const json_t *rows = rg_field(r, budget, "left_out", JSON_ARRAY);
+    for (size_t i = 0; i < json_array_size(rows); i++) {
+        const json_int_t row = json_integer_value(json_array_get(rows, i)) - 1;
+        if (row < result->first_row || row > result->last_row)
+            return rg_reader_refuse(r, "left_out", "has a row that is none of the table's");
+        result->left_out[row - result->first_row] = true;
+    }
+    return rows != NULL;
+}
+
+static bool read_budget(struct rg_reader *r, const json_t *document, struct rg_result *result)
+{
+    if (!json_object_get(document, "budget"))
+        return true;
+    const json_t *budget = rg_field(r, document, "budget", JSON_OBJECT);
+    rg_reader_enter(r, "budget");
+    const bool ok = budget && rg_field_number(r, budget, "seconds", &result->budget_s) &&
+                    rg_field_int(r, budget, "size_divisor", 1, 4, &result->size_divisor) &&
+                    rg_field_bool(r, budget, "few_samples", &result->few_samples) &&
+                    read_left_out(r, budget, result);
+    rg_reader_enter(r, "%s", "");
+    return ok;
+}
+
 bool rg_read_head(struct rg_reader *r, const json_t *document, struct rg_result *result)
 {
     return read_format(r, document) && read_names(r, document, result) &&
            read_changed(r, document, result) && read_numbers(r, document, result) &&
-           read_variants(r, document, result) && read_works(r, document, result) &&
-           read_devices(r, document, result) && read_missing(r, document, result);
+           read_budget(r, document, result) && read_variants(r, document, result) &&
+           read_works(r, document, result) && read_devices(r, document, result) &&
+           read_missing(r, document, result);
 }

@@ -149,6 +149,21 @@ static void add_other_work(struct notes *notes, const struct rg_result *result)
             *result->hardware ? ": not what was printed" : "");
 }
 
+// What a budget of time chose, so that nobody takes it for the table.
+static void add_budget(struct notes *notes, const struct rg_result *result)
+{
+    int rows = 0;
+    for (int row = result->first_row; row <= result->last_row; row++)
+        rows += rg_result_wants(result, row);
+    if (result->budget_s > 0)
+        add(notes, "Within a budget of %.0f s: %d of %d rows%s%s.", result->budget_s, rows,
+            result->last_row - result->first_row + 1,
+            result->size_divisor > 2   ? ", pictures of a fourth of the width and height"
+            : result->size_divisor > 1 ? ", pictures of half the width and height"
+                                       : "",
+            result->size_divisor > 1 && *result->hardware ? ": not what was printed" : "");
+}
+
 static void add_method(struct notes *notes, const struct rg_result *result)
 {
     int least, most;
@@ -205,6 +220,7 @@ void rg_brief_below(const struct rg_result *result, FILE *out)
     print_claims(result, out);
     add_outcomes(&notes, result);
     add_other_work(&notes, result);
+    add_budget(&notes, result);
     add_method(&notes, result);
     add_growth(&notes, result);
     add(&notes, "%s", result->note);

@@ -221,7 +221,9 @@ static void note_method(const struct rg_result *result, struct rg_sheet *sheet)
 // The last of the missing rows that follow this one without a gap.
 static int end_of_gap(const struct rg_result *result, int row)
 {
-    while (row < result->last_row && !rg_result_has(result, row + 1))
+    const bool wanted = rg_result_wants(result, row);
+    while (row < result->last_row && !rg_result_has(result, row + 1) &&
+           rg_result_wants(result, row + 1) == wanted)
         row++;
     return row;
 }
@@ -236,8 +238,9 @@ static void note_interruption(const struct rg_result *result, struct rg_sheet *s
         if (rg_result_has(result, row))
             continue;
         const int last = end_of_gap(result, row);
-        rg_sheet_note(sheet, "Rows %d to %d are missing: the run was interrupted.", row + 1,
-                      last + 1);
+        rg_sheet_note(sheet, "Rows %d to %d are missing: %s.", row + 1, last + 1,
+                      rg_result_wants(result, row) ? "the run was interrupted"
+                                                   : "a budget leaves them out");
         row = last;
     }
 }

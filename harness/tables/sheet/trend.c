@@ -84,6 +84,8 @@ static void join_single_rows(struct rows *rows)
 static bool collect(const struct rg_result *result, struct rg_place of, struct rows *rows)
 {
     for (of.row = result->first_row; of.row <= result->last_row; of.row++) {
+        if (!rg_result_has(result, of.row))
+            continue;
         const struct rg_record *record = rg_result_at(result, of);
         if (record->outcome != RG_OK || !record->sample_count)
             return false;

@@ -56,6 +56,41 @@ static void test_round_trip(void **state)
     rg_result_free(&found);
 }
 
+// What a budget chose comes back; a row that it left out is not missing, and one that it did not
+// is.
+static void test_budget(void **state)
+{
+    (void)state;
+    char why[RG_WHY_SIZE];
+    struct rg_result made = make_result(), found = {0};
+    made.budget_s = 240;
+    made.size_divisor = 4;
+    made.few_samples = true;
+    assert_false(rg_result_is_of_print(&made, 0));
+    assert_int_equal(rg_result_first_missing(&made), 2);
+    made.left_out[1] = true;
+    assert_int_equal(rg_result_first_missing(&made), 4);
+    json_t *document = rg_result_json(&made);
+    assert_false(json_boolean_value(json_object_get(document, "interrupted")));
+    if (!rg_result_from_json(document, "file", &found, why))
+        fail_msg("%s", why);
+    assert_true(found.budget_s == 240 && found.size_divisor == 4 && found.few_samples);
+    assert_true(!found.left_out[0] && found.left_out[1] && !found.left_out[2]);
+    assert_same_records(&made, &found);
+    assert_prints_same(&made, &found);
+    // Rows that are kept take their marks with them.
+    assert_true(rg_result_keep_rows(&found, 2, 3));
+    assert_true(found.left_out[0] && !found.left_out[1]);
+    rg_result_free(&found);
+    json_array_append_new(json_object_get(json_object_get(document, "budget"), "left_out"),
+                          json_integer(99));
+    assert_false(rg_result_from_json(document, "file", &found, why));
+    assert_non_null(strstr(why, "left_out"));
+    json_decref(document);
+    rg_result_free(&made);
+    rg_result_free(&found);
+}
+
 // --- what is refused ---
 
 static json_t *document_of_test(void)
@@ -189,6 +224,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_budget),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_files),
     };

@@ -10,7 +10,7 @@
 
 #include "core/base/log.h"
 #include "harness/measure/expected.h"
-#include "harness/tables/regenerate.h"
+#include "harness/tables/runs/regenerate.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"

@@ -35,7 +35,7 @@ ROWS = [
     Fault(RESULT, "const int before = first > result->first_row ? «first - result->first_row» : 0;", "first", "rows that are kept move too far"),
     Fault(RESULT, "result->last_row = «last < result->last_row ? last : result->last_row»;", "last", "rows that are kept go on behind the last"),
     Fault(RESULT, "const int variant = place.work * «result->variant_count» + place.variant;", "1", "works share their cells"),
-    Fault(RESULT, "while (row <= result->last_row && «rg_result_has(result, row)»)", "true", "a missing row is not found"),
+    Fault(RESULT, "while (row <= result->last_row && «is_done(result, row)»)", "true", "a missing row is not found"),
     Fault(RESULT, "*most = «samples > *most ? samples : *most»;", "samples", "the most samples are those of the last cell"),
     Fault(RESULT, "if («record->outcome != RG_OK» || !samples)", "false", "samples of cells that failed count"),
     Fault(RECORD, "return «1000» / record->frame_ms.median;", "1", "frame rates are in frames a millisecond"),

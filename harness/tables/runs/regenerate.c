@@ -1,12 +1,14 @@
-#include "harness/tables/regenerate.h"
+#include "harness/tables/runs/regenerate.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
+#include "harness/tables/runs/budget.h"
 
 // One table of the command.
 struct task {
@@ -46,6 +48,9 @@ static int run_task(struct task *task, struct rg_kept *kept,
     tell_resumed(task);
     if (!rg_table_measure(&task->result, task->table, kept, task->journal))
         return RG_EXIT_FAIL;
+    struct rg_place any = rg_result_start(&task->result);
+    if (!rg_interrupted() && !rg_result_next(&task->result, &any))
+        return RG_EXIT_PASS; // the budget ended before it
     int exit = options->print(&task->result, options->user);
     if (rg_interrupted()) {
         tell_interrupted(task);
@@ -109,10 +114,58 @@ static int run_tasks(struct task *tasks, int count, const struct rg_devices *dev
     return rg_kept_free(&kept) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
 }
 
+// --- within a budget of time ---
+
+// Measures a table as the budget has it. There is no journal: the next run plans anew.
+static int run_within(struct rg_budget *budget, int i, struct rg_kept *kept,
+                      const struct rg_regenerate_options *options)
+{
+    const double start_ms = rg_now_ms();
+    struct task task = {.table = &budget->table};
+    if (!rg_budget_next(budget, i, &task.result, stderr))
+        return RG_EXIT_PASS;
+    kept->devices = &budget->chosen;
+    const int exit = run_task(&task, kept, options);
+    kept->devices = budget->devices;
+    rg_budget_done(budget, i, &task.result, start_ms);
+    rg_result_free(&task.result);
+    return exit;
+}
+
+static int regenerate_within(const struct rg_table *const tables[], int count,
+                             const struct rg_devices *devices,
+                             const struct rg_regenerate_options *options, struct rg_budget *budget)
+{
+    struct rg_kept kept = {.devices = devices};
+    int exit = RG_EXIT_PASS;
+    rg_interrupt_watch();
+    const bool ok = rg_budget_begin(budget, tables, count, &kept, options->budget_s, stderr);
+    for (int i = 0; ok && i < count && !rg_interrupted(); i++)
+        exit = rg_exit_worse(exit, run_within(budget, i, &kept, options));
+    if (ok && !rg_interrupted())
+        rg_budget_end(budget, stderr);
+    if (rg_interrupted())
+        exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
+    return rg_kept_free(&kept) && ok ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
+}
+
+static int plan_and_regenerate(const struct rg_table *const tables[], int count,
+                               const struct rg_devices *devices,
+                               const struct rg_regenerate_options *options)
+{
+    struct rg_budget *budget = rg_alloc(1, sizeof(*budget), "budget");
+    const int exit =
+        budget ? regenerate_within(tables, count, devices, options, budget) : RG_EXIT_FAIL;
+    free(budget);
+    return exit;
+}
+
 int rg_tables_regenerate(const struct rg_table *const tables[], int count,
                          const struct rg_devices *devices,
                          const struct rg_regenerate_options *options)
 {
+    if (options->budget_s > 0)
+        return plan_and_regenerate(tables, count, devices, options);
     struct task *tasks = rg_alloc((size_t)count, sizeof(*tasks), "tables");
     const int made = tasks ? make_tasks(options, devices, tables, count, tasks) : 0;
     const int exit = tasks ? run_tasks(tasks, made, devices, options) : RG_EXIT_FAIL;

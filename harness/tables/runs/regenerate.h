@@ -1,6 +1,6 @@
 // Regenerating tables one after the other, as the command asks for them.
-#ifndef RG_HARNESS_TABLES_REGENERATE_H
-#define RG_HARNESS_TABLES_REGENERATE_H
+#ifndef RG_HARNESS_TABLES_RUNS_REGENERATE_H
+#define RG_HARNESS_TABLES_RUNS_REGENERATE_H
 
 #include "harness/tables/table.h"
 
@@ -9,7 +9,8 @@ struct rg_regenerate_options {
     bool full, fresh;
     const char *work, *variant; // NULL: all
     const char *set;            // over the settings of all cells, as struct rg_table_part has it
-    const char *folder;         // of the results, which journals lie beside; NULL: the user's state
+    double budget_s;    // what all tables may take together, without journals; 0: all they need
+    const char *folder; // of the results, which journals lie beside; NULL: the user's state
     // Prints what there is of a table, which may be interrupted, and returns how that ended
     // (harness/console/exit.h).
     int (*print)(const struct rg_result *result, const void *user);

@@ -1,0 +1,112 @@
+#include "harness/tables/runs/needed.h"
+
+#include <string.h>
+
+#include "harness/tables/claims/claim.h"
+
+static bool is_about(const struct rg_claim *claim, const struct rg_table *table)
+{
+    return !strcmp(claim->table, table->id);
+}
+
+static void need(bool needed[RG_TABLE_ROWS], int row)
+{
+    if (row >= 1 && row <= RG_TABLE_ROWS)
+        needed[row - 1] = true;
+}
+
+// Needs the middle of rows, from 1, unless one between the ends is needed anyway.
+static void need_middle(bool needed[RG_TABLE_ROWS], int first, int last)
+{
+    for (int row = first + 1; row < last; row++)
+        if (needed[row - 1])
+            return;
+    need(needed, (first + last) / 2);
+}
+
+// The rows that quick mode has of a table whose later ones take long, or all.
+static int quick_rows_of(const struct rg_table *table)
+{
+    return table->quick_rows ? table->quick_rows : table->row_count;
+}
+
+// The last row that a claim needs: where each row stands for itself, those of quick mode suffice.
+static int last_of(const struct rg_claim *claim, const struct rg_table *table)
+{
+    const bool is_of_each_row = claim->test == RG_CLAIM_FASTER || claim->test == RG_CLAIM_RATE;
+    const int rows = quick_rows_of(table);
+    return is_of_each_row && claim->last > rows ? rows : claim->last;
+}
+
+// What claims end without, and of those that are about a curve, not about two rows, its middle.
+static void need_claims(const struct rg_table *table, bool needed[RG_TABLE_ROWS])
+{
+    for (const struct rg_claim *claim = rg_claims; claim->table; claim++) {
+        if (!is_about(claim, table))
+            continue;
+        need(needed, claim->first);
+        need(needed, last_of(claim, table));
+        need(needed, claim->knee);
+    }
+    for (const struct rg_claim *claim = rg_claims; claim->table; claim++)
+        if (is_about(claim, table) && claim->test != RG_CLAIM_RATIO)
+            need_middle(needed, claim->first, last_of(claim, table));
+}
+
+int rg_needed_rows(const struct rg_table *table, bool needed[RG_TABLE_ROWS])
+{
+    const int rows = quick_rows_of(table);
+    int count = 0;
+    memset(needed, 0, RG_TABLE_ROWS * sizeof(needed[0]));
+    need(needed, 1);
+    need(needed, rows);
+    need_claims(table, needed);
+    need_middle(needed, 1, rows);
+    for (int row = 0; row < RG_TABLE_ROWS; row++) {
+        needed[row] = (needed[row] || table->is_of_textures) && row < table->row_count;
+        count += needed[row];
+    }
+    return count;
+}
+
+int rg_quick_rows(const struct rg_table *table, bool rows[RG_TABLE_ROWS])
+{
+    int count = 0;
+    rg_needed_rows(table, rows);
+    for (int row = 0; row < table->row_count; row++) {
+        rows[row] = rows[row] || row < quick_rows_of(table);
+        count += rows[row];
+    }
+    return count;
+}
+
+int rg_needed_variants(const struct rg_table *table, bool needed[RG_TABLE_VARIANTS])
+{
+    int count = 0;
+    for (int v = 0; v < RG_TABLE_VARIANTS && table->variants[v].name; v++) {
+        const char *name = table->variants[v].name;
+        needed[v] = v == 0;
+        for (const struct rg_claim *claim = rg_claims; claim->table; claim++)
+            if (is_about(claim, table))
+                needed[v] = needed[v] || !strcmp(name, claim->variant) ||
+                            (claim->other && !strcmp(name, claim->other));
+        count += needed[v];
+    }
+    return count;
+}
+
+bool rg_has_claims(const struct rg_table *table)
+{
+    bool any = false;
+    for (const struct rg_claim *claim = rg_claims; claim->table; claim++)
+        any = any || is_about(claim, table);
+    return any;
+}
+
+bool rg_needs_size(const struct rg_table *table)
+{
+    bool needs = table->is_of_textures;
+    for (const struct rg_claim *claim = rg_claims; claim->table; claim++)
+        needs = needs || (is_about(claim, table) && claim->test == RG_CLAIM_RATE);
+    return needs;
+}

@@ -1,0 +1,120 @@
+#include "harness/tables/runs/plan.h"
+
+static int cells_a_device(const struct rg_budget_table *t, const struct rg_budget_choice *c)
+{
+    return (c->all_rows ? t->rows : t->needed_rows) *
+           (c->all_variants ? t->variants : t->needed_variants) * (c->all_works ? t->works : 1);
+}
+
+double rg_budget_expect(const struct rg_budget_table *t, const struct rg_budget_choice *c)
+{
+    double cell_s = c->devices ? t->check_s[c->size] : 0;
+    for (int d = 0; d < RG_MAX_DEVICES; d++)
+        if (c->devices >> d & 1)
+            cell_s += c->all_samples ? t->cells[d][c->size].all_s : t->cells[d][c->size].few_s;
+    return cell_s * cells_a_device(t, c);
+}
+
+// --- what more could be measured ---
+
+enum stage {
+    CLAIMED, // a table that claims are about, on one device more
+    NEEDED,  // any other
+    HALF,
+    SAMPLES,
+    WHOLE,
+    ROWS,
+    VARIANTS,
+    WORKS,
+    LAST, // on one of the last devices
+    STAGES
+};
+
+// The choice with more of a stage in it; false where it has that, or where the stage has none.
+static bool grow(const struct rg_budget_table *t, struct rg_budget_choice *c, enum stage stage,
+                 unsigned device)
+{
+    const struct rg_budget_choice before = *c;
+    switch (stage) {
+    case CLAIMED:
+        if (!t->has_claims)
+            return false;
+        c->devices |= device;
+        return c->devices != before.devices;
+    case NEEDED:
+    case LAST:
+        c->devices |= device;
+        return c->devices != before.devices;
+    case HALF:
+        c->size = c->size < RG_BUDGET_HALF ? RG_BUDGET_HALF : c->size;
+        return c->size != before.size;
+    case SAMPLES:
+        c->all_samples = true;
+        return !before.all_samples;
+    case WHOLE:
+        c->size = RG_BUDGET_WHOLE;
+        return c->size != before.size;
+    case ROWS:
+        c->all_rows = true;
+        return !before.all_rows && t->rows > t->needed_rows;
+    case VARIANTS:
+        c->all_variants = true;
+        return !before.all_variants && t->variants > t->needed_variants;
+    default:
+        c->all_works = true;
+        return !before.all_works && t->works > 1;
+    }
+}
+
+// A step of a stage: one table more, on one device where the stage is about devices.
+struct step {
+    int table;
+    struct rg_budget_choice grown;
+    double more_s;
+};
+
+static bool is_of_devices(enum stage stage)
+{
+    return stage == CLAIMED || stage == NEEDED || stage == LAST;
+}
+
+// The cheapest step that a stage still has; false where it has none.
+static bool find_step(const struct rg_budget_table *costs, int count, enum stage stage,
+                      unsigned devices, const struct rg_budget_choice *choices, struct step *found)
+{
+    bool any = false;
+    for (int i = 0; i < count; i++) {
+        for (int d = 0; d < (is_of_devices(stage) ? RG_MAX_DEVICES : 1); d++) {
+            struct step step = {i, choices[i], 0};
+            if (is_of_devices(stage) && !(devices >> d & 1))
+                continue;
+            if (!grow(&costs[i], &step.grown, stage, 1u << d))
+                continue;
+            step.grown.expected_s = rg_budget_expect(&costs[i], &step.grown);
+            step.more_s = step.grown.expected_s - choices[i].expected_s;
+            if (!any || step.more_s < found->more_s)
+                *found = step;
+            any = true;
+        }
+    }
+    return any;
+}
+
+double rg_budget_plan(const struct rg_budget_table *costs, int count, unsigned devices,
+                      unsigned last, double budget_s, struct rg_budget_choice *choices)
+{
+    double planned_s = 0;
+    struct step step = {0};
+    for (int i = 0; i < count; i++)
+        choices[i] = (struct rg_budget_choice){.size = costs[i].smallest};
+    for (enum stage stage = CLAIMED; stage < STAGES; stage++) {
+        const unsigned of_stage = stage == LAST ? devices & last : devices & ~last;
+        while (find_step(costs, count, stage, of_stage, choices, &step)) {
+            if (planned_s + step.more_s > budget_s)
+                return planned_s;
+            planned_s += step.more_s;
+            choices[step.table] = step.grown;
+        }
+    }
+    return planned_s;
+}

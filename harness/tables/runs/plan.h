@@ -1,0 +1,47 @@
+// What of all tables is measured, so that it takes no longer than a user will wait: a pure function
+// of what cells are expected to take.
+#ifndef RG_HARNESS_TABLES_RUNS_PLAN_H
+#define RG_HARNESS_TABLES_RUNS_PLAN_H
+
+#include "core/device/device.h"
+#include "harness/tables/papers/published.h"
+
+// Pictures of a fourth of the table's width and height, of half of them, and whole.
+enum rg_budget_size { RG_BUDGET_FOURTH, RG_BUDGET_HALF, RG_BUDGET_WHOLE, RG_BUDGET_SIZES };
+
+// A table's cells, and what they are expected to take, in seconds.
+struct rg_budget_table {
+    int rows, variants, works;        // all that it has
+    int needed_rows, needed_variants; // what its curves and its claims cannot do without
+    bool has_claims;                  // some are about it
+    enum rg_budget_size smallest;     // WHOLE: its size is what it is about
+    struct rg_budget_cost {
+        double few_s; // a cell of the fewest samples
+        double all_s; // of all that quick mode takes
+    } cells[RG_MAX_DEVICES][RG_BUDGET_SIZES];
+    // Beside the cells, for the picture that those of a row, variant and work must show.
+    double check_s[RG_BUDGET_SIZES];
+};
+
+// What of a table is measured. Without devices it is left out.
+struct rg_budget_choice {
+    unsigned devices; // a bit each
+    enum rg_budget_size size;
+    bool all_samples, all_rows, all_variants, all_works; // else the fewest, those that are needed,
+                                                         // and the work that was printed
+    double expected_s;
+};
+
+// What a choice is expected to take.
+double rg_budget_expect(const struct rg_budget_table *table, const struct rg_budget_choice *choice);
+
+// Chooses for each table. First, on each device but those of `last`, come the rows, variants and
+// work that are needed, of tables that claims are about before others, then pictures of half the
+// size, all samples, whole pictures, all rows, all variants, all works, and the devices of `last`:
+// what is cheapest first among the tables, and as far as the budget goes. That order does not
+// depend on the budget, so that a larger one never measures less. Returns what all of it is
+// expected to take. `costs` and `choices` have `count`.
+double rg_budget_plan(const struct rg_budget_table *costs, int count, unsigned devices,
+                      unsigned last, double budget_s, struct rg_budget_choice *choices);
+
+#endif

@@ -1,0 +1,37 @@
+// What cells are expected to take, by opening some of them for a moment.
+#ifndef RG_HARNESS_TABLES_RUNS_PROBE_H
+#define RG_HARNESS_TABLES_RUNS_PROBE_H
+
+#include "harness/devices/kept.h"
+#include "harness/measure/job.h"
+#include "harness/tables/runs/plan.h"
+
+// The frames of a table on a device by size; or both by what they are elsewhere.
+struct rg_frames {
+    double open_ms, frame_ms[RG_BUDGET_SIZES];
+};
+
+// What a technique takes on a device, by what it takes on cpu: found with its first table, for its
+// tables are alike in that. Zeroed before.
+struct rg_budget_kind {
+    struct rg_frames by_cpu[RG_MAX_DEVICES + 1]; // the last is of cpu:reference, which checks
+};
+
+// Opens the first and the last needed row of a table on cpu, and on devices of which nothing is
+// known the last, for two frames of the smallest picture, and the last at the next size as well;
+// what lies between, and beyond, follows from them. What fails is expected to take nothing, for its
+// cells end at once. False, and one logged line, where cpu, cpu:reference or the truth does: then
+// that is all cells of the table.
+bool rg_budget_probe(const struct rg_table *table, struct rg_kept *kept,
+                     struct rg_budget_kind *kind, struct rg_budget_table *costs);
+
+// Expects of a table what another of its technique takes, where there is no time to look at it.
+void rg_budget_alike(const struct rg_table *table, const struct rg_budget_table *other,
+                     struct rg_budget_table *costs);
+
+// What a cell takes, in milliseconds: opening, the frames before its image is compared, warming up,
+// samples with a frame before each, and the passes told apart.
+double rg_budget_cell_ms(const struct rg_table *table, double open_ms, double frame_ms,
+                         const struct rg_measure_options *options);
+
+#endif
