@@ -247,17 +247,22 @@ static bool probe_check(struct probing *p, struct rg_budget_table *costs)
     const struct rg_table *table = p->table;
     const int frames = check_frames_of(table);
     struct rg_frames of_reference;
-    struct probe truth = {0};
+    struct probe truth = {0}, dry;
     if (!find_frames(p, rg_kept_device(p->kept, "cpu:reference"), &of_reference) ||
+        !probe_row(p, p->cpu, p->rows[1], p->smallest,
+                   rg_technique_find(table->technique)->proof->dry, &dry) ||
         (table->truth && !probe_row(p, p->cpu, p->rows[0], p->smallest, table->truth, &truth)))
         return false;
+    // Without rain a frame takes less, on cpu:reference by the same factor as on cpu.
+    const double dry_share = dry.frame_ms / fmax(p->last_of_cpu.frame_ms[p->smallest], 1e-3);
     const double a_pixel_ms = table->truth ? compare_ms() : 0;
     for (int size = 0; size < RG_BUDGET_SIZES; size++) {
         const double larger = p->of_cpu.frame_ms[size] / p->of_cpu.frame_ms[p->smallest];
         costs->check_s[size] =
-            1e-3 * (2 * of_reference.open_ms + 2 * frames * of_reference.frame_ms[size] +
-                    truth.open_ms + frames * truth.frame_ms * larger +
-                    a_pixel_ms * table->width * table->height / (1 << 2 * (2 - size)));
+            1e-3 *
+            (2 * of_reference.open_ms + (1 + dry_share) * frames * of_reference.frame_ms[size] +
+             truth.open_ms + frames * truth.frame_ms * larger +
+             a_pixel_ms * table->width * table->height / (1 << 2 * (2 - size)));
     }
     return true;
 }
