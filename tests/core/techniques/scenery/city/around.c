@@ -23,13 +23,6 @@ static struct light_cube cube_of(const struct rg_environment *environment)
     return (struct light_cube){light, n};
 }
 
-static double half_of(const struct picture *picture, int pixel, int c)
-{
-    const uint32_t half = picture->colour[2 * pixel + c / 2] >> 16 * (c % 2) & 0xffff;
-    const int exponent = (int)(half >> 10 & 31);
-    return ldexp((half & 0x3ff) / 1024.0 + (exponent ? 1 : 0), (exponent ? exponent : 1) - 15);
-}
-
 // Light that a camera's pixels of a tile show, and that the map has for them.
 struct tile {
     double seen[3], read[3];
@@ -47,7 +40,7 @@ static struct tile tile_of(const struct light_cube *cube, const struct rg_camera
             way[0] = -way[0];
         light_from_cube(cube, way, light);
         for (int c = 0; c < 3; c++) {
-            tile.seen[c] += half_of(picture, pixel, c);
+            tile.seen[c] += stage_light(picture, pixel, c);
             tile.read[c] += light[c];
         }
     }

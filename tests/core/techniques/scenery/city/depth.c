@@ -26,9 +26,8 @@ static void without_geometry_all_is_horizon(void **state)
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         const float one = 1;
         for (int c = 0; c < 4; c++) {
-            const uint32_t half = picture->colour[2 * i + c / 2] >> 16 * (c % 2) & 0xffff;
-            const float drawn = ldexpf((float)(half & 0x3ff) / 1024 + 1, (int)(half >> 10) - 15);
-            assert_true(drawn <= due[c] && drawn > due[c] * (1 - 1.0f / 1024));
+            const double drawn = stage_light(picture, i, c);
+            assert_true(drawn <= (double)due[c] && drawn > (double)due[c] * (1 - 1.0 / 1024));
         }
         assert_memory_equal(&picture->depth[i], &one, sizeof(one));
     }

@@ -95,13 +95,6 @@ struct tally {
     double worst, drawn, due;
 };
 
-static double channel(const struct picture *picture, int pixel, int c)
-{
-    const uint32_t half = picture->colour[2 * pixel + c / 2] >> 16 * (c % 2) & 0xffff;
-    const int exponent = (int)(half >> 10 & 31);
-    return ldexp((half & 0x3ff) / 1024.0 + (exponent ? 1 : 0), (exponent ? exponent : 1) - 15);
-}
-
 // A pixel whose neighbourhood meets another surface is on an edge, which may lie on either side of
 // its centre.
 static bool on_edge(const struct scene *scene, const double from[3], const struct rg_camera *camera,
@@ -142,9 +135,9 @@ static void compare_pixel(const struct given *g, const struct rg_camera *camera,
     }
     double off = 0, bright = 0;
     for (int c = 0; c < 3; c++) {
-        off = fmax(off, fabs(channel(picture, pixel, c) - due.light[c]) - due.slack[c]);
+        off = fmax(off, fabs(stage_light(picture, pixel, c) - due.light[c]) - due.slack[c]);
         bright = fmax(bright, due.light[c]);
-        tally->drawn += channel(picture, pixel, c);
+        tally->drawn += stage_light(picture, pixel, c);
         tally->due += due.light[c];
     }
     tally->compared++;

@@ -65,6 +65,13 @@ void stage_draw(struct stage *stage, const struct rg_camera *camera,
     assert_true(rg_image_read(stage->depth, 0, 0, picture->depth));
 }
 
+double stage_light(const struct picture *picture, int pixel, int c)
+{
+    const uint32_t half = picture->colour[2 * pixel + c / 2] >> 16 * (c % 2) & 0xffff;
+    const int exponent = (int)(half >> 10 & 31);
+    return ldexp((half & 0x3ff) / 1024.0 + (exponent ? 1 : 0), (exponent ? exponent : 1) - 15);
+}
+
 struct rg_camera stage_camera(const float position[3], const float target[3])
 {
     struct rg_camera camera = city_first_camera;

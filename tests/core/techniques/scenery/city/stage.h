@@ -41,6 +41,9 @@ struct picture {
 void stage_draw(struct stage *stage, const struct rg_camera *camera,
                 const struct scenery_look *look, bool everything, struct picture *picture);
 
+// The light of a pixel: red (0), green, blue, or its alpha.
+double stage_light(const struct picture *picture, int pixel, int c);
+
 // Views of the streets, from roofs, along a wall, and of a single tower: position and target.
 extern const float stage_views[VIEWS][2][3];
 struct rg_camera stage_camera(const float position[3], const float target[3]);
