@@ -25,8 +25,8 @@ RG_DRAW_RECORD(flow_dry_mirror)
 RG_DRAW_FRAGMENT(flow_dry_mirror)
 {
     v3 ray = m4_turn(p.rays, v3_make(rg_to_float(px), rg_to_float(py), 1.0f));
-    v3 mirrored = v3_add(ray, v3_scale(r.n, -2.0f * v3_dot(ray, r.n)));
-    v3 light = v3_scale(light_from(rg, mirrored, 0, p.environment_size), p.reflectivity);
+    v3 light =
+        v3_scale(light_from(rg, v3_reflect(ray, r.n), 0, p.environment_size), p.reflectivity);
     return rg_fragment_make(rg_rgba(light.x, light.y, light.z, 1.0f),
                             rg_planes_depth(r.planes, px, py));
 }
