@@ -17,7 +17,7 @@
 #include "tests/core/techniques/flow/rig.h"
 #include "tests/oracle/flow/picture.h"
 
-enum { WIDTH = 132, HEIGHT = 100, PIXELS = WIDTH * HEIGHT };
+enum { WIDTH = 132, HEIGHT = 100, PIXELS = WIDTH * HEIGHT, STEPS = 12 };
 
 static const char *device = "cpu:reference";
 
@@ -70,7 +70,7 @@ static void set_oracle(struct pair *pair)
         .mirror = s->panes == FLOW_MIRROR,
         .azimuth_deg = s->camera_azimuth_deg,
         .elevation_deg = s->camera_elevation_deg,
-        .distance = s->distance_mm * 2 / s->pane_mm,
+        .distance = (s->distance_mm + s->camera_mm_s * s->step_s * STEPS) * 2 / s->pane_mm,
         .view_angle_deg = s->view_angle_deg,
         .bar = s->frame_mm / s->pane_mm,
         .fresnel = {s->fresnel_bias, s->fresnel_scale, s->fresnel_power},
@@ -100,7 +100,7 @@ static void pair_open(struct pair *pair, const char *assignments)
     char text[1024];
     snprintf(text, sizeof(text), "%s%s", common, assignments);
     rig_open_sized(&pair->rig, device, text, WIDTH, HEIGHT);
-    rig_step(&pair->rig, 12);
+    rig_step(&pair->rig, STEPS);
     pair->water = rig_water(&pair->rig);
     set_oracle(pair);
 }
@@ -245,6 +245,7 @@ static const char *const turns[] = {
     "pane_pitch_deg=35 pane_roll_deg=20 camera_azimuth_deg=-130 camera_elevation_deg=-25",
     "pane_yaw_deg=70 pane_pitch_deg=-100 camera_elevation_deg=60",
     "pane_roll_deg=170 camera_azimuth_deg=200 view_angle_deg=70 distance_mm=230",
+    "camera_mm_s=450 camera_elevation_deg=20",
     // From below, cut by the view, under lamps.
     "pane_pitch_deg=-20 camera_elevation_deg=-50 view_angle_deg=22",
 };
