@@ -14,9 +14,7 @@ import forms
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 KEPT = os.path.join(ROOT, "results", "tables")
 KEEP = os.path.join(ROOT, "results", "keep.py")
-TRANSLATE = os.path.join(ROOT, "tests", "tools", "translate_records.py")
 FORMS = ("csv", "json", "md")
-SMALL = "stuppacher-2"
 
 
 def read(*path):
@@ -82,45 +80,6 @@ def check_claims(runner):
     return problems
 
 
-def earlier(record):
-    """A record as it was printed before results could be read back."""
-    old = {name: record[name] for name in ("format", "table", "hardware", "length", "passport", "missing", "cells")}
-    for cell in old["cells"]:
-        del cell["tally"], cell["row_number"]
-    return old
-
-
-def journal(record):
-    """A journal of then: cells by row, what was measured beside the status, pairs for objects."""
-    devices = [device["name"] for device in record["passport"]["devices"]]
-    settings = {cell["row_number"]: cell["set"] for cell in record["cells"]}
-    rows = {}
-    for cell in record["cells"]:
-        flat = {"status": cell["status"], **cell["measured"], "passes": list(cell["measured"]["passes_ms"].items())}
-        flat.update(counters=list(cell["counters"].items()), facts=list(cell["facts"].items()))
-        rows.setdefault(str(cell["row_number"] - 1), {"cells": [], "errors": [{}]})["cells"].append(flat)
-        assert cell["device"] == devices[len(rows[str(cell["row_number"] - 1)]["cells"]) - 1]
-    key = {"table": record["table"], "length": record["length"], "passport": record["passport"],
-           "rows": [row - 1 for row in record["rows"]], "settings": [settings[row] for row in sorted(settings)]}
-    return {"key": key, "rows": rows}
-
-
-def check_translated(runner):
-    """translate_records.py makes today's records of earlier ones, and of earlier journals"""
-    problems = []
-    for name, form in (("table.json", earlier), ("table.journal", journal)):
-        with tempfile.TemporaryDirectory() as tmp:
-            with open(os.path.join(tmp, name), "w", encoding="utf-8") as file:
-                json.dump(form(json.loads(read(KEPT, SMALL + ".json"))), file)
-            python(TRANSLATE, KEPT, tmp + "/new", os.path.join(tmp, name))
-            record = os.path.join(tmp, "new", name)
-            problems += forms.problems("table", json.loads(read(record)))
-            printed = runner.run(["table", "--from", record])
-        if printed.stderr or printed.stdout != read(KEPT, SMALL + ".md"):
-            problems.append("%s: %s\n%s" % (name, printed.stderr, printed.stdout))
-    return problems
-
-
 def check_dirty_tree(runner):
     """make results refuses a tree with changes that no commit holds, with one line, before it builds"""
     git = ["git", "-c", "user.name=a", "-c", "user.email=a", "-c", "commit.gpgsign=false"]
@@ -149,4 +108,4 @@ def check_dirty_tree(runner):
     return problems
 
 
-CHECKS = [check_printed, check_compact, check_claims, check_translated, check_dirty_tree]
+CHECKS = [check_printed, check_compact, check_claims, check_dirty_tree]
