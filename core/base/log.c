@@ -27,6 +27,28 @@ enum rg_error_kind rg_last_error_kind(void)
     return last_kind;
 }
 
+// Whether no such line has been printed yet. Where too many are kept, each counts as new.
+static bool is_new(const char *line)
+{
+    enum { MOST_LINES = 256 };
+    static char *lines[MOST_LINES];
+    int i = 0;
+    while (i < MOST_LINES && lines[i] && strcmp(lines[i], line) != 0)
+        i++;
+    if (i < MOST_LINES && lines[i])
+        return false;
+    if (i < MOST_LINES)
+        lines[i] = strdup(line);
+    return true;
+}
+
+// One error is one line for people, however many devices or cells meet it.
+static void print(enum rg_log_level level, const char *line)
+{
+    if (level == RG_LOG_INFO || is_new(line))
+        fprintf(stderr, "raingauge: %s%s\n", level == RG_LOG_WARNING ? "warning: " : "", line);
+}
+
 static void log_line(enum rg_log_level level, const char *format, va_list args)
 {
     char line[LINE_SIZE];
@@ -44,7 +66,7 @@ static void log_line(enum rg_log_level level, const char *format, va_list args)
     if (listener)
         listener(level, line, listener_user);
     else
-        fprintf(stderr, "raingauge: %s%s\n", level == RG_LOG_WARNING ? "warning: " : "", line);
+        print(level, line);
 }
 
 #define LOG(level)                                                                                 \
@@ -86,6 +108,31 @@ bool rg_driver_error(const char *format, ...)
 void *rg_driver_error_null(const char *format, ...)
 {
     ERROR(RG_ERROR_DRIVER, NULL);
+}
+
+bool rg_crash_error(const char *format, ...)
+{
+    ERROR(RG_ERROR_CRASH, false);
+}
+
+bool rg_timeout_error(const char *format, ...)
+{
+    ERROR(RG_ERROR_TIMEOUT, false);
+}
+
+static void log_text(enum rg_log_level level, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+static void log_text(enum rg_log_level level, const char *format, ...)
+{
+    LOG(level);
+}
+
+void rg_log_relay(enum rg_log_level level, enum rg_error_kind kind, const char *line)
+{
+    log_text(level, "%s", line);
+    if (level == RG_LOG_ERROR)
+        last_kind = kind;
 }
 
 void rg_warning(const char *format, ...)

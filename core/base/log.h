@@ -8,6 +8,7 @@
 #include <stdbool.h>
 
 enum rg_log_level { RG_LOG_ERROR, RG_LOG_WARNING, RG_LOG_INFO };
+enum { RG_LOG_LEVELS = RG_LOG_INFO + 1 };
 
 // Receives each line, without a newline. `user` is what rg_log_listen was given.
 typedef void (*rg_log_fn)(enum rg_log_level level, const char *line, void *user);
@@ -15,10 +16,12 @@ typedef void (*rg_log_fn)(enum rg_log_level level, const char *line, void *user)
 // Sends lines to `fn` instead of stderr; NULL restores stderr. Not thread-safe: call it at start.
 void rg_log_listen(rg_log_fn fn, void *user);
 
-// Logs one line, "raingauge: ..." on stderr. rg_error returns false and rg_error_null returns NULL,
-// so that a failing function ends in `return rg_error("...")`. Line breaks inside become spaces and
-// other control characters question marks: names from files may not steer a terminal.
-// Those two log what another usage or input mends; errors of other kinds have functions below.
+// Logs one line, "raingauge: ..." on stderr, where an error or a warning that was printed before is
+// not printed again: several devices, cells and processes may meet one. rg_error returns false and
+// rg_error_null returns NULL, so that a failing function ends in `return rg_error("...")`. Line
+// breaks inside become spaces and other control characters question marks: names from files may not
+// steer a terminal. Those two log what another usage or input mends; errors of other kinds have
+// functions below.
 bool rg_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void *rg_error_null(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void rg_warning(const char *format, ...) __attribute__((format(printf, 1, 2)));
@@ -39,8 +42,20 @@ enum rg_error_kind {
     RG_ERROR_INPUT,       // rg_error: the user's, bad usage or input
     RG_ERROR_UNSUPPORTED, // rg_unsupported: nobody's
     RG_ERROR_DRIVER,      // rg_driver_error: the driver's
+    RG_ERROR_CRASH,       // the driver's: it ended the process that it ran in
+    RG_ERROR_TIMEOUT,     // the driver's: it did not come back in time
 };
+enum { RG_ERROR_KINDS = RG_ERROR_TIMEOUT + 1 };
 enum rg_error_kind rg_last_error_kind(void);
+
+// Errors of a driver whose process has ended, or was ended because it did not come back.
+bool rg_crash_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
+bool rg_timeout_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+// Logs a line as another process logged it, or would have if it had lived: an error is of this
+// kind. A warning that was logged so before is not logged again, for processes know nothing of each
+// other.
+void rg_log_relay(enum rg_log_level level, enum rg_error_kind kind, const char *line);
 
 // The last error's line, "" when there was none. Valid until the next error; records quote it.
 const char *rg_last_error(void);

@@ -32,5 +32,14 @@ bool rg_outcome_is_broken(enum rg_outcome outcome)
 
 enum rg_outcome rg_outcome_of_error(void)
 {
-    return rg_last_error_kind() == RG_ERROR_UNSUPPORTED ? RG_UNSUPPORTED : RG_ERROR;
+    switch (rg_last_error_kind()) {
+    case RG_ERROR_UNSUPPORTED:
+        return RG_UNSUPPORTED;
+    case RG_ERROR_CRASH:
+        return RG_CRASH;
+    case RG_ERROR_TIMEOUT:
+        return RG_TIMEOUT;
+    default:
+        return RG_ERROR;
+    }
 }

@@ -25,8 +25,8 @@ bool rg_outcome_find(const char *name, enum rg_outcome *outcome);
 // timeout.
 bool rg_outcome_is_broken(enum rg_outcome outcome);
 
-// How work ended that the last error (core/base/log.h) kept from being done: RG_UNSUPPORTED, or
-// RG_ERROR for every other kind of error.
+// How work ended that the last error (core/base/log.h) kept from being done: unsupported, a crash
+// or a timeout as that error says, and RG_ERROR for every other kind of error.
 enum rg_outcome rg_outcome_of_error(void);
 
 #endif

@@ -6,6 +6,7 @@
 #include <strings.h>
 
 #include "core/base/alloc.h"
+#include "core/base/doing.h"
 #include "core/base/require.h"
 #include "core/device/limits.h"
 #include "core/device/packing.h"
@@ -90,6 +91,7 @@ struct rg_device *rg_device_open(const char *name)
     require_or_null(index >= 0,
                     "device '%s': %s has no such device; `raingauge list devices` prints the names",
                     name, backend->name);
+    rg_doing_begin("opening device", name);
     struct rg_work *work = rg_alloc(1, sizeof(*work), name);
     struct rg_device *device = work ? backend->create(index) : NULL;
     if (!device) {
@@ -126,6 +128,7 @@ const struct rg_work *rg_device_work(const struct rg_device *device)
 
 bool rg_device_sync(struct rg_device *device)
 {
+    rg_doing_begin("waiting for the device", "");
     return device->backend->sync(device);
 }
 

@@ -2,6 +2,7 @@
 
 #include <limits.h>
 
+#include "core/base/doing.h"
 #include "core/base/require.h"
 #include "core/device/limits.h"
 #include "core/device/work.h"
@@ -12,6 +13,7 @@ struct rg_pass *rg_grid_create(struct rg_device *device, const char *name)
 {
     const struct rg_kernel *kernel = rg_kernel_find(name);
     require_or_null(kernel, "kernel '%s': unknown; kernels/meson.build lists them", name);
+    rg_doing_begin("compiling kernel", name);
     struct rg_pass *pass = rg_limits_allow_kernel(&device->info, kernel)
                                ? device->backend->pass_create(device, kernel)
                                : NULL;
@@ -123,6 +125,7 @@ bool rg_dispatch(struct rg_pass *pass, const struct rg_run *run)
 {
     struct rg_work *work = pass->device->work;
     work->dispatches++;
+    rg_doing_begin("running kernel", pass->kernel->name);
     return work->tally ? rg_tally_run(work->tally, pass, run)
                        : pass->device->backend->pass_run(pass, run);
 }

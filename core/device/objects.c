@@ -1,5 +1,6 @@
 #include "core/device/objects.h"
 
+#include "core/base/doing.h"
 #include "core/base/require.h"
 #include "core/device/limits.h"
 #include "core/device/work.h"
@@ -12,6 +13,7 @@ struct rg_buf *rg_buf_create(struct rg_device *device, int64_t size, const char 
                     (long long)size);
     require_or_null(size % 4 == 0, "buffer '%s': its size, %lld bytes, is no multiple of 4", name,
                     (long long)size);
+    rg_doing_begin("making buffer", name);
     struct rg_buf *buf = rg_limits_allow_object(device, "buffer", name) &&
                                  rg_limits_allow_buf(&device->info, size, name)
                              ? device->backend->buf_create(device, (size_t)size, name)
@@ -51,6 +53,7 @@ bool rg_buf_write(struct rg_buf *buf, int64_t offset, const void *data, int64_t 
     if (!check_range(buf, "write", offset, size))
         return false;
     buf->device->work->bytes_written += size;
+    rg_doing_begin("writing buffer", buf->name);
     return buf->device->backend->buf_write(buf, (size_t)offset, data, (size_t)size);
 }
 
@@ -59,6 +62,7 @@ bool rg_buf_read(struct rg_buf *buf, int64_t offset, void *data, int64_t size)
     if (!check_range(buf, "read", offset, size))
         return false;
     buf->device->work->bytes_read += size;
+    rg_doing_begin("reading buffer", buf->name);
     return buf->device->backend->buf_read(buf, (size_t)offset, data, (size_t)size);
 }
 
@@ -99,6 +103,7 @@ struct rg_image *rg_image_create(struct rg_device *device, const struct rg_image
     if (!check_desc(desc, name) || !rg_limits_allow_object(device, "image", name) ||
         !rg_limits_allow_image(&device->info, desc, name))
         return NULL;
+    rg_doing_begin("making image", name);
     struct rg_image *image = device->backend->image_create(device, desc, name);
     if (!image)
         return NULL;
@@ -140,6 +145,7 @@ bool rg_image_write(struct rg_image *image, int layer, int level, const void *te
     if (!check_layer(image, layer, level))
         return false;
     image->device->work->bytes_written += level_bytes(image, level);
+    rg_doing_begin("writing image", image->name);
     return image->device->backend->image_write(image, layer, level, texels);
 }
 
@@ -148,11 +154,13 @@ bool rg_image_read(struct rg_image *image, int layer, int level, void *texels)
     if (!check_layer(image, layer, level))
         return false;
     image->device->work->bytes_read += level_bytes(image, level);
+    rg_doing_begin("reading image", image->name);
     return image->device->backend->image_read(image, layer, level, texels);
 }
 
 bool rg_image_clear(struct rg_image *image, const void *texel)
 {
+    rg_doing_begin("clearing image", image->name);
     return image->device->backend->image_clear(image, texel);
 }
 

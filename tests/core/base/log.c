@@ -5,10 +5,12 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
 #include "core/base/log.h"
+#include "core/base/outcome.h"
 
 static char heard[1024];
 
@@ -36,8 +38,67 @@ static void lines_hold_no_control_characters(void **state)
     rg_log_listen(NULL, NULL);
 }
 
+// How often a line stands in what was printed.
+static int printed(FILE *file, const char *line)
+{
+    char read[256];
+    int count = 0;
+    rewind(file);
+    while (fgets(read, sizeof(read), file))
+        count += !strncmp(read, line, strlen(line)) && read[strlen(line)] == '\n';
+    return count;
+}
+
+// Several devices and cells meet one error; people read it once, and who listens hears all of it.
+static void an_error_is_printed_once(void **state)
+{
+    (void)state;
+    FILE *file = tmpfile();
+    fflush(stderr);
+    const int kept = dup(2);
+    dup2(fileno(file), 2);
+    for (int i = 0; i < 3; i++) {
+        rg_error("%s is lost", "the device");
+        rg_warning("the device is old");
+        rg_info("frame %d", 1);
+    }
+    rg_error("another is lost");
+    assert_string_equal(rg_last_error(), "another is lost");
+    rg_error("the device is lost"); // printed before, and yet the last
+    fflush(stderr);
+    dup2(kept, 2);
+    close(kept);
+    assert_string_equal(rg_last_error(), "the device is lost");
+    assert_int_equal(printed(file, "raingauge: the device is lost"), 1);
+    assert_int_equal(printed(file, "raingauge: another is lost"), 1);
+    assert_int_equal(printed(file, "raingauge: warning: the device is old"), 1);
+    assert_int_equal(printed(file, "raingauge: frame 1"), 3);
+    fclose(file);
+}
+
+static void a_relayed_error_has_its_kind(void **state)
+{
+    (void)state;
+    rg_log_listen(listen, NULL);
+    rg_log_relay(RG_LOG_ERROR, RG_ERROR_UNSUPPORTED, "100 %d of it is missing");
+    assert_string_equal(heard, "100 %d of it is missing");
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_UNSUPPORTED);
+    rg_log_relay(RG_LOG_WARNING, RG_ERROR_INPUT, "beware");
+    assert_string_equal(heard, "beware");
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_UNSUPPORTED);
+    rg_timeout_error("it hangs");
+    assert_int_equal(rg_outcome_of_error(), RG_TIMEOUT);
+    rg_crash_error("it fell");
+    assert_int_equal(rg_outcome_of_error(), RG_CRASH);
+    rg_log_listen(NULL, NULL);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lines_hold_no_control_characters)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lines_hold_no_control_characters),
+        cmocka_unit_test(an_error_is_printed_once),
+        cmocka_unit_test(a_relayed_error_has_its_kind),
+    };
     return cmocka_run_group_tests_name("log", tests, NULL, NULL);
 }

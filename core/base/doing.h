@@ -1,0 +1,22 @@
+// What this process is doing, where another process can see it: a driver that crashes or hangs
+// takes along whoever called it, and cannot say in what.
+#ifndef RG_CORE_BASE_DOING_H
+#define RG_CORE_BASE_DOING_H
+
+#include <stdatomic.h>
+#include <stdint.h>
+
+// A page that both processes map. It is only ever written by the one that does something.
+struct rg_doing {
+    _Atomic uint64_t count; // of what was begun: it stands still while a driver hangs
+    char what[120];         // "running pass 'flow_blur'"; may be torn while it is written
+};
+
+// From now on rg_doing_begin writes there; NULL: nowhere. The page outlives all such calls.
+void rg_doing_share(struct rg_doing *page);
+
+// Says what begins: "running pass", and the name of its object, "" for none. It costs two copies of
+// short texts, and nothing where nobody sees it.
+void rg_doing_begin(const char *what, const char *name);
+
+#endif
