@@ -50,8 +50,11 @@ struct rg_limits {
     bool has_queries;                 // the API's own occlusion queries
 };
 
+enum { RG_DEVICE_NAME_SIZE = 256 };
+
 struct rg_device_info {
-    char name[32];    // as the command line says it: "cpu:reference", "gl", "vulkan:1"
+    // As the command line says it: "cpu:reference", "gl", "vulkan:1", "gl@LP_NUM_THREADS=1".
+    char name[RG_DEVICE_NAME_SIZE];
     char device[128]; // what the driver calls it: "llvmpipe (LLVM 15.0.6, 256 bits)"
     char driver[160]; // driver and version: "Mesa 22.3.6"
     char api[64];     // "OpenGL 4.5 core", "Vulkan 1.3.230", "OpenCL 1.2", "C11, AVX-512"

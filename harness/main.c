@@ -8,6 +8,8 @@
 #include "core/base/log.h"
 #include "harness/commands/commands.h"
 #include "harness/record/passport/build_info.h"
+#include "harness/devices/serving/serving.h"
+#include "harness/devices/workers/worker.h"
 
 static void print_usage(void)
 {
@@ -57,9 +59,23 @@ static void spin_briefly(char **argv)
     unsetenv("GOMP_SPINCOUNT"); // it could not: the passport must not claim what libgomp never read
 }
 
+// Drivers' destructors are no part of the work, and some of them crash. Sanitizers look for leaks
+// when a process ends as usual.
+static int serve(const char *argument)
+{
+    const int status = rg_serving(argument);
+#ifndef __SANITIZE_ADDRESS__
+    _exit(status);
+#endif
+    return status;
+}
+
 int main(int argc, char **argv)
 {
+    if (argc == 3 && !strcmp(argv[1], RG_WORKER_ARGUMENT))
+        return serve(argv[2]);
     spin_briefly(argv);
+    rg_workers.program = "/proc/self/exe";
     // A write past a file-size limit then fails with EFBIG and is reported, instead of killing us.
     signal(SIGXFSZ, SIG_IGN);
     if (argc > 1)

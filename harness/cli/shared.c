@@ -1,11 +1,31 @@
 #include "harness/cli/shared.h"
 
+const struct rg_option rg_timeout_option[] = {
+    {RG_OPTION_INT, "timeout", .argument = "S",
+     .about = "seconds after which a device that does not answer is given up", .least = 1,
+     .most = 86400, .initial = "120"},
+    {RG_OPTION_END},
+};
+
 const struct rg_option rg_devices_option[] = {
     {RG_OPTION_TEXT, "device", .argument = "D,...|all",
-     .about = "devices to use; `raingauge list devices` prints the names",
+     .about = "devices to use; `raingauge list devices` prints the names, and "
+              "gl@LP_NUM_THREADS=1;KEY=VALUE is one with an environment of its own",
      .names = RG_NAMES_DEVICES},
     {RG_OPTION_END},
 };
+
+#define AT(field) offsetof(struct rg_devices_asked, field)
+
+const struct rg_option rg_asked_options[] = {
+    {RG_OPTION_TEXT, "require", .argument = "D,...",
+     .about = "devices or APIs without which the command fails", .offset = AT(require),
+     .names = RG_NAMES_DEVICES},
+    RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
+    {RG_OPTION_END},
+};
+
+#undef AT
 
 const struct rg_option rg_settings_option[] = {
     {RG_OPTION_TEXTS, "set", .argument = "KEY=VALUE",

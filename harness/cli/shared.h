@@ -4,8 +4,11 @@
 #define RG_HARNESS_CLI_SHARED_H
 
 #include "harness/cli/option.h"
+#include "harness/devices/devices.h"
 
 extern const struct rg_option rg_devices_option[];  // char *: --device, names with commas, or "all"
+extern const struct rg_option rg_asked_options[];   // struct rg_devices_asked: --require, --timeout
+extern const struct rg_option rg_timeout_option[];  // int, seconds: --timeout
 extern const struct rg_option rg_settings_option[]; // struct rg_words: --set
 extern const struct rg_option rg_size_option[];     // struct rg_size: --size
 extern const struct rg_option rg_frame_option[];    // int: --frame

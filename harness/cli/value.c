@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "harness/devices/names.h"
 #include "harness/cli/option.h"
 
 enum { MAX_SIZE_PX = 16384 };
@@ -125,21 +126,9 @@ static bool set_choice(const struct rg_option *row, int *choice, const char *tex
     return rg_error("--%s %s: choose %s", row->name, text, all);
 }
 
-// Names with a comma between two, as the user writes them: none is empty.
-static bool check_names(const struct rg_option *row, const char *text)
-{
-    for (const char *name = text; name; name = strchr(name, ',')) {
-        name += name != text;
-        if (!*name || *name == ',')
-            return rg_error("--%s '%s': names no device %s; write names with a comma between two",
-                            row->name, text, *text ? "beside a comma" : "at all");
-    }
-    return true;
-}
-
 static bool set_text(const struct rg_option *row, char **copy, const char *text)
 {
-    if (row->names == RG_NAMES_DEVICES && !check_names(row, text))
+    if (row->names == RG_NAMES_DEVICES && !rg_device_names_check(text))
         return false;
     free(*copy);
     return (*copy = strdup(text)) || rg_error("--%s %s: no memory for it", row->name, text);

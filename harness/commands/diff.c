@@ -12,7 +12,8 @@ struct diff_options {
     struct rg_words sets;
     struct rg_size size;
     int frames;
-    char *devices, *background, *heatmap_prefix; // names; files
+    struct rg_devices_asked devices;
+    char *background, *heatmap_prefix; // files
     double exposure;
     bool json;
 };
@@ -27,7 +28,8 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     RG_INCLUDE(rg_frame_option, AT(frames), "60"),
     RG_INCLUDE(rg_size_option, AT(size), NULL),
-    RG_INCLUDE(rg_devices_option, AT(devices), "all"),
+    RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
+    RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     RG_GROUP("What to compare: two files"),
     // The operand has no last place, so that a wrong number of arguments comes to the line below.
     {RG_OPTION_OPERAND, .argument = "A B", .about = "picture files of one size; A is the true one",
@@ -57,7 +59,7 @@ static int diff_devices(const struct diff_options *o, const struct rg_words *arg
         return RG_EXIT_USAGE;
     const int exit = rg_diff_devices(&(struct rg_diff_devices_request){
         .subject = {technique, settings, o->size.width, o->size.height},
-        .devices = o->devices,
+        .devices = &o->devices,
         .frames = o->frames,
         .heatmap_prefix = o->heatmap_prefix,
         .exposure = o->exposure,

@@ -1,4 +1,5 @@
 // raingauge doctor: what this machine and its drivers can be trusted with.
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,48 +8,48 @@
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/devices/devices.h"
+#include "harness/devices/names.h"
 #include "harness/doctor/report.h"
 #include "harness/record/passport/passport.h"
+#include "harness/devices/workers/worker.h"
 
 struct doctor_options {
     char *devices; // their names
+    int timeout_s;
     bool json;
 };
 
 #define AT(field) offsetof(struct doctor_options, field)
 
 static const struct rg_option options[] = {
-    RG_GROUP("Devices"), RG_INCLUDE(rg_devices_option, AT(devices), "all"),
-    RG_GROUP("Output"),  RG_INCLUDE(rg_json_option, AT(json), NULL),
+    RG_GROUP("Devices"),
+    RG_INCLUDE(rg_devices_option, AT(devices), "all"),
+    RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
+    RG_GROUP("Output"),
+    RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
 };
 
-static void add_name(struct rg_doctor_report *report, const char *name, size_t length)
+static void add_name(struct rg_doctor_report *report, const char *name)
 {
     struct rg_device_info *info = &report->examinations[report->count++].info;
-    memcpy(info->name, name, length);
+    snprintf(info->name, sizeof(info->name), "%s", name);
 }
 
 // Fills the report with the names that --device gives; false: bad usage.
 static bool take_names(struct rg_doctor_report *report, const char *names)
 {
-    if (!strcmp(names, "all")) {
-        for (int i = 0; i < report->list.count; i++)
-            add_name(report, report->list.infos[i].name, strlen(report->list.infos[i].name));
-        return true;
-    }
-    for (const char *name = names; *name;) {
-        const size_t length = strcspn(name, ",");
-        if (length >= sizeof(report->list.infos[0].name))
-            return rg_error("device '%.*s': unknown; `raingauge list devices` prints the names",
-                            (int)length, name);
-        if (length && report->count == RG_MAX_DEVICES)
+    struct rg_device_name name;
+    for (int i = 0; !strcmp(names, "all") && i < report->list.count; i++)
+        add_name(report, report->list.infos[i].name);
+    while (strcmp(names, "all") != 0 && *names) {
+        if (!rg_device_name_read(&names, &name))
+            return false;
+        if (report->count == RG_MAX_DEVICES)
             return rg_error("--device: more than %d names", RG_MAX_DEVICES);
-        if (length)
-            add_name(report, name, length);
-        name += length + (name[length] == ',');
+        add_name(report, name.name);
     }
-    return report->count || rg_error("--device '%s': names no device", names);
+    return true;
 }
 
 // A failure outweighs an absence: it is never hidden by one.
@@ -75,30 +76,25 @@ static void describe(struct rg_doctor_report *report)
 static bool examine(struct rg_doctor_report *report)
 {
     for (int i = 0; i < report->count; i++) {
-        struct rg_examination *e = &report->examinations[i];
-        rg_doctor_examine(e);
-        if (e->is_unknown)
-            return rg_error("%s", e->why);
+        rg_doctor_examine(&report->examinations[i]);
+        if (report->examinations[i].is_unknown)
+            return false;
     }
     return true;
 }
 
-// One line on stderr for each device that is not well.
+// One line on stderr for each device that computes amiss; other failures have been logged.
 static void complain(const struct rg_doctor_report *report)
 {
-    for (int i = 0; i < report->count; i++) {
-        const struct rg_examination *e = &report->examinations[i];
-        if (e->status == RG_OK)
-            continue;
-        if (!strncmp(e->why, "device '", strlen("device '")))
-            rg_error("%s", e->why);
-        else
-            rg_error("device '%s': %s", e->info.name, e->why);
-    }
+    for (int i = 0; i < report->count; i++)
+        if (report->examinations[i].status == RG_FAIL)
+            rg_error("device '%s': %s", report->examinations[i].info.name,
+                     report->examinations[i].why);
 }
 
 static int run(struct rg_doctor_report *report, const struct doctor_options *o)
 {
+    rg_workers.timeout_s = o->timeout_s;
     rg_devices_list(&report->list);
     if (!take_names(report, o->devices) || !examine(report))
         return RG_EXIT_USAGE;

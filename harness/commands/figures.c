@@ -11,6 +11,7 @@
 struct figures_options {
     struct rg_size size;
     char *device, *output;
+    int timeout_s;
 };
 
 #define AT(field) offsetof(struct figures_options, field)
@@ -25,6 +26,7 @@ static const struct rg_option options[] = {
     {RG_OPTION_TEXT, "device", .argument = "D",
      .about = "the device to use; `raingauge list devices` prints the names", .offset = AT(device),
      .initial = "cpu", .names = RG_NAMES_DEVICE},
+    RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "DIR",
      .about = "the folder of the pictures, and of figures.md, which shows them with captions",
@@ -60,7 +62,8 @@ static int figures_command(const void *values, const struct rg_words *arguments)
     struct rg_devices devices;
     if (!count)
         return RG_EXIT_USAGE;
-    int exit = rg_devices_open(o->device, &devices);
+    int exit = rg_devices_open_asked(
+        &(struct rg_devices_asked){.names = o->device, .timeout_s = o->timeout_s}, &devices);
     if (exit == RG_EXIT_PASS) {
         const struct rg_figure_run run = {.device = devices.devices[0],
                                           .width = o->size.width,

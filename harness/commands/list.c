@@ -13,8 +13,10 @@
 #include "harness/devices/devices.h"
 #include "harness/frames/figures/figures.h"
 #include "harness/tables/papers/papers.h"
+#include "harness/devices/workers/worker.h"
 
 struct list_options {
+    int timeout_s;
     bool json;
 };
 
@@ -29,6 +31,8 @@ static const struct rg_option options[] = {
      .choices = lists, .first = 1, .last = 1},
     {RG_OPTION_OPERAND, .argument = "TECHNIQUE", .about = "whose parameters",
      .names = RG_NAMES_TECHNIQUE, .first = 2, .last = 2},
+    RG_GROUP("Devices"),
+    RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
     RG_GROUP("Output"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
@@ -169,6 +173,7 @@ static int list(const void *values, const struct rg_words *arguments)
     if (!strcmp(what, "figures"))
         return print(list_figures(), what, about_fields, o->json);
     if (!strcmp(what, "devices")) {
+        rg_workers.timeout_s = o->timeout_s;
         int exit;
         print(list_devices(&exit), what, device_fields, o->json);
         return exit;

@@ -12,6 +12,7 @@
 #include "harness/commands/drawn.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/devices.h"
+#include "harness/devices/names.h"
 #include "harness/frames/frame.h"
 #include "harness/frames/numbered.h"
 
@@ -21,7 +22,8 @@ struct render_options {
     int frame;
     struct rg_range frames; // -1: not given
     int fps;                // 0: not given
-    char *device, *output;  // a name; a file, NULL for the technique's name with .png or .webm
+    int timeout_s;
+    char *device, *output; // a name; a file, NULL for the technique's name with .png or .webm
     double exposure;
     bool json;
 };
@@ -45,6 +47,7 @@ static const struct rg_option options[] = {
     {RG_OPTION_TEXT, "device", .argument = "D",
      .about = "the device to use; `raingauge list devices` prints the names", .offset = AT(device),
      .initial = "cpu", .names = RG_NAMES_DEVICE},
+    RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "FILE",
      .about =
@@ -130,9 +133,12 @@ static int render_on(struct rg_device *device, const struct rg_technique *techni
 
 static bool names_one_device(const char *names)
 {
-    if (strcmp(names, "all") != 0 && !strchr(names, ','))
-        return true;
-    return rg_error("--device %s: render draws on one device; `raingauge diff` compares several",
+    struct rg_device_name name;
+    const char *rest = names;
+    if (!rg_device_name_read(&rest, &name))
+        return false;
+    return (strcmp(names, "all") != 0 && !*rest) ||
+           rg_error("--device %s: render draws on one device; `raingauge diff` compares several",
                     names);
 }
 
@@ -146,7 +152,8 @@ static int render(const void *values, const struct rg_words *arguments)
     if (!technique)
         return RG_EXIT_USAGE;
     struct rg_devices devices;
-    int exit = rg_devices_open(o->device, &devices);
+    int exit = rg_devices_open_asked(
+        &(struct rg_devices_asked){.names = o->device, .timeout_s = o->timeout_s}, &devices);
     if (exit == RG_EXIT_PASS)
         exit = render_on(devices.devices[0], technique, settings, o);
     rg_devices_close(&devices);

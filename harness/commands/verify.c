@@ -17,7 +17,7 @@ struct verify_options {
     int steps; // -1: as poses and the length say
     struct rg_length length;
     bool stages;
-    char *devices; // their names
+    struct rg_devices_asked devices;
     bool json;
 };
 
@@ -35,7 +35,8 @@ static const struct rg_option options[] = {
     {RG_OPTION_FLAG, "stages", .offset = AT(stages),
      .about = "names the first stage that leaves other bits in an asset, instead; 3 frames"},
     RG_GROUP("Devices"),
-    RG_INCLUDE(rg_devices_option, AT(devices), "all"),
+    RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
+    RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     RG_GROUP("Output"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
@@ -78,7 +79,7 @@ static struct rg_device *find_or_open(const struct rg_devices *devices, const ch
     for (int i = 0; i < devices->count; i++)
         if (!strcmp(devices->devices[i]->info.name, name))
             return devices->devices[i];
-    return *extra = rg_device_open(name);
+    return *extra = rg_devices_open_one(name);
 }
 
 // What the machine lacks, and what fails there, is said, not passed over.
@@ -153,7 +154,7 @@ static int verify(const void *values, const struct rg_words *arguments)
     struct rg_devices devices;
     int count = 0, exit = RG_EXIT_USAGE;
     if (choose_all(arguments, &o->sets, subjects, &count)) {
-        exit = rg_devices_open(o->devices, &devices);
+        exit = rg_devices_open_asked(&o->devices, &devices);
         if (exit == RG_EXIT_PASS) {
             exit = verify_on(o, &devices, subjects, count);
             if (!rg_devices_close(&devices))

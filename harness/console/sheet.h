@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-enum { RG_SHEET_COLUMNS = 32, RG_SHEET_CELL = 96 };
+enum { RG_SHEET_COLUMNS = 32, RG_SHEET_CELL = 256 };
 
 struct rg_sheet {
     const char *title;

@@ -7,22 +7,10 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/console/exit.h"
-#include "harness/devices/child.h"
-
-enum { LIST_TIMEOUT_S = 60 };
+#include "harness/devices/names.h"
+#include "harness/devices/workers/device.h"
 
 // --- listing ---
-
-struct listing {
-    const struct rg_backend *backend;
-    struct rg_device_list list;
-};
-
-static void list_one(void *answer)
-{
-    struct listing *listing = answer;
-    rg_device_list_add(&listing->list, listing->backend);
-}
 
 static void note_failure(struct rg_device_list *list, const struct rg_backend *backend,
                          enum rg_outcome outcome, const char *why)
@@ -34,21 +22,62 @@ static void note_failure(struct rg_device_list *list, const struct rg_backend *b
              backend->package ? backend->package : "");
 }
 
-void rg_devices_list(struct rg_device_list *list)
+static void take_list(struct rg_message *reply, int backend, struct rg_device_list *list)
+{
+    const int count = rg_take_index(reply, RG_MAX_DEVICES + 1 - list->count);
+    for (int i = 0; i < count; i++) {
+        list->backends[list->count] = rg_backends[backend];
+        list->backend_index[list->count] = i;
+        if (RG_TAKE(reply, list->infos[list->count]))
+            list->count++;
+    }
+    const char *why = rg_take_text(reply);
+    if (count)
+        return;
+    struct rg_missing *missing = &list->missing[list->missing_count++];
+    *missing = (struct rg_missing){.backend = rg_backends[backend], .outcome = RG_UNSUPPORTED};
+    snprintf(missing->why, sizeof(missing->why), "%s", why);
+}
+
+// Asks a worker for the devices of a backend.
+static void list_remote(struct rg_worker *worker, int backend, struct rg_device_list *list)
+{
+    struct rg_message request = {0}, reply;
+    char why[512];
+    rg_put_int(&request, backend);
+    const enum rg_outcome outcome =
+        rg_worker_try(worker, RG_CALL_LIST, &request, &reply, why, sizeof(why));
+    if (outcome == RG_OK)
+        take_list(&reply, backend, list);
+    else
+        note_failure(list, rg_backends[backend], outcome, *why ? why : rg_last_error());
+    rg_message_free(&request);
+    rg_message_free(&reply);
+}
+
+// Each backend's worker goes into `workers`, by backend, for the first of its devices.
+static void list_all(struct rg_device_list *list, struct rg_worker *workers[RG_MAX_BACKENDS])
 {
     memset(list, 0, sizeof(*list));
-    struct listing *listing = rg_child_answer_create(sizeof(*listing));
-    for (int b = 0; listing && rg_backends[b]; b++) {
-        char why[256];
-        *listing = (struct listing){rg_backends[b], *list};
-        const enum rg_outcome end =
-            rg_child_run(list_one, listing, LIST_TIMEOUT_S, why, sizeof(why));
-        if (end == RG_OK)
-            *list = listing->list;
-        else
-            note_failure(list, rg_backends[b], end, why);
+    if (!rg_workers.program) {
+        rg_device_list_all(list);
+        return;
     }
-    rg_child_answer_destroy(listing, sizeof(*listing));
+    for (int b = 0; rg_backends[b]; b++) {
+        workers[b] = rg_worker_create(rg_backends[b]->name, NULL);
+        if (workers[b])
+            list_remote(workers[b], b, list);
+        else
+            note_failure(list, rg_backends[b], RG_ERROR, "no memory for its worker");
+    }
+}
+
+void rg_devices_list(struct rg_device_list *list)
+{
+    struct rg_worker *workers[RG_MAX_BACKENDS] = {0};
+    list_all(list, workers);
+    for (int b = 0; b < RG_MAX_BACKENDS; b++)
+        rg_worker_destroy(workers[b]);
 }
 
 int rg_devices_complain(const struct rg_device_list *list)
@@ -77,13 +106,29 @@ static void leave_out(struct rg_devices *devices, const char *name, enum rg_outc
     snprintf(absent->why, sizeof(absent->why), "%.255s", why);
 }
 
-static void open_listed(struct rg_devices *devices, const struct rg_device_list *list)
+struct rg_device *rg_devices_open_one(const char *name)
+{
+    struct rg_device_name parsed;
+    if (!rg_device_name_read(&name, &parsed) || (*name && !rg_error("--device: one is wanted")))
+        return NULL;
+    return rg_workers.program ? rg_remote_open(NULL, parsed.name, parsed.environment)
+                              : rg_device_open(parsed.name);
+}
+
+static void open_listed(struct rg_devices *devices, const struct rg_device_list *list,
+                        struct rg_worker *workers[RG_MAX_BACKENDS])
 {
     for (int i = 0; i < list->missing_count; i++)
         leave_out(devices, list->missing[i].backend->name, list->missing[i].outcome,
                   list->missing[i].why);
     for (int i = 0; i < list->count; i++) {
-        struct rg_device *device = rg_device_open(list->infos[i].name);
+        struct rg_worker **worker = workers;
+        while (rg_backends[worker - workers] != list->backends[i])
+            worker++;
+        struct rg_device *device = rg_workers.program
+                                       ? rg_remote_open(*worker, list->infos[i].name, NULL)
+                                       : rg_device_open(list->infos[i].name);
+        *worker = NULL; // the device owns it
         if (device)
             devices->devices[devices->count++] = device;
         else
@@ -93,12 +138,15 @@ static void open_listed(struct rg_devices *devices, const struct rg_device_list 
 
 static int open_all(struct rg_devices *devices)
 {
+    struct rg_worker *workers[RG_MAX_BACKENDS] = {0};
     struct rg_device_list *list = rg_alloc(1, sizeof(*list), "list of devices");
     if (!list)
         return RG_EXIT_FAIL;
-    rg_devices_list(list);
+    list_all(list, workers);
     rg_devices_complain(list);
-    open_listed(devices, list);
+    open_listed(devices, list, workers);
+    for (int b = 0; b < RG_MAX_BACKENDS; b++)
+        rg_worker_destroy(workers[b]);
     free(list);
     return devices->count ? RG_EXIT_PASS
                           : rg_exit_worse(RG_EXIT_UNSUPPORTED, rg_devices_exit(devices));
@@ -106,28 +154,23 @@ static int open_all(struct rg_devices *devices)
 
 static int open_named(const char *names, struct rg_devices *devices)
 {
-    char *copy = strdup(names), *rest = NULL;
-    int exit = copy ? RG_EXIT_PASS : RG_EXIT_FAIL;
-    if (!copy)
-        rg_error("--device: no memory for its names");
-    for (char *name = !copy ? NULL : strtok_r(copy, ",", &rest); name && exit == RG_EXIT_PASS;
-         name = strtok_r(NULL, ",", &rest)) {
-        struct rg_device *device = NULL;
-        if (devices->count == RG_MAX_DEVICES)
+    struct rg_device_name name;
+    const char *rest = names;
+    do {
+        if (devices->count == RG_MAX_DEVICES) {
             rg_error("--device: more than %d names", RG_MAX_DEVICES);
-        else
-            device = rg_device_open(name);
-        if (device)
-            devices->devices[devices->count++] = device;
-        else
-            exit = rg_exit_of_error();
-    }
-    free(copy);
-    if (exit == RG_EXIT_PASS && !devices->count) {
-        rg_error("--device '%s': names no device", names);
-        exit = RG_EXIT_USAGE;
-    }
-    return exit;
+            return RG_EXIT_USAGE;
+        }
+        if (!rg_device_name_read(&rest, &name))
+            return RG_EXIT_USAGE;
+        struct rg_device *device = rg_workers.program
+                                       ? rg_remote_open(NULL, name.name, name.environment)
+                                       : rg_device_open(name.name);
+        if (!device)
+            return rg_exit_of_error();
+        devices->devices[devices->count++] = device;
+    } while (*rest);
+    return RG_EXIT_PASS;
 }
 
 int rg_devices_open(const char *names, struct rg_devices *devices)
@@ -137,6 +180,45 @@ int rg_devices_open(const char *names, struct rg_devices *devices)
     if (exit != RG_EXIT_PASS)
         rg_devices_close(devices);
     return exit;
+}
+
+// "gl" is there when a device of that backend is.
+static bool is_of(const struct rg_device *device, const char *name)
+{
+    const size_t length = strcspn(device->info.name, ":@");
+    return !strcmp(device->info.name, name) ||
+           (strlen(name) == length && !strncmp(device->info.name, name, length));
+}
+
+static bool is_there(const struct rg_devices *devices, const char *name)
+{
+    const char *why = "it is not among --device";
+    for (int i = 0; i < devices->count; i++)
+        if (is_of(devices->devices[i], name))
+            return true;
+    for (int i = 0; i < devices->absent_count; i++)
+        if (!strcmp(devices->absent[i].name, name))
+            why = devices->absent[i].why;
+    return rg_driver_error("--require %s: %s", name, why);
+}
+
+bool rg_devices_have(const struct rg_devices *devices, const char *require)
+{
+    struct rg_device_name name;
+    bool all = true;
+    while (require && *require)
+        all = rg_device_name_read(&require, &name) && is_there(devices, name.name) && all;
+    return all;
+}
+
+int rg_devices_open_asked(const struct rg_devices_asked *asked, struct rg_devices *devices)
+{
+    rg_workers.timeout_s = asked->timeout_s;
+    const int exit = rg_devices_open(asked->names, devices);
+    if (exit != RG_EXIT_PASS || rg_devices_have(devices, asked->require))
+        return exit;
+    rg_devices_close(devices);
+    return RG_EXIT_FAIL;
 }
 
 int rg_devices_exit(const struct rg_devices *devices)

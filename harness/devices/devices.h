@@ -4,13 +4,16 @@
 
 #include "core/device/device.h"
 
-// Lists the devices of every backend, each in a child process: a driver that crashes, hangs or
-// prints harms nothing, and its backend is missing with that outcome. To be called before this
-// process uses a driver or OpenMP.
+// Lists the devices of every backend, each in a worker: a driver that crashes, hangs or prints
+// harms nothing, and its backend is missing with that outcome.
 void rg_devices_list(struct rg_device_list *list);
 // Says what is missing of a list, in a line each: a warning where it is unsupported, else an error.
 // Returns an enum rg_exit: fail where a driver failed.
 int rg_devices_complain(const struct rg_device_list *list);
+
+// Opens a device by name, in a worker of its own (harness/devices/workers/device.h). A name may have an
+// environment (harness/devices/names.h). NULL, and one logged line, on failure.
+struct rg_device *rg_devices_open_one(const char *name);
 
 // The devices that `names` holds: "all", or names separated by commas. Opened, in order. A name
 // that is unknown is bad usage, a driver that is absent unsupported, one that fails a failure; when
@@ -21,12 +24,23 @@ struct rg_devices {
     // What is left out: backends without a device, and devices that are listed and do not open.
     int absent_count;
     struct rg_absent_device {
-        char name[32];           // the backend's or the device's
-        enum rg_outcome outcome; // unsupported, or how its driver failed
-        char why[256];           // one line
+        char name[RG_DEVICE_NAME_SIZE]; // the backend's or the device's
+        enum rg_outcome outcome;        // unsupported, or how its driver failed
+        char why[256];                  // one line
     } absent[RG_MAX_BACKENDS + RG_MAX_DEVICES];
 };
 int rg_devices_open(const char *names, struct rg_devices *devices);
+
+// What the command line asks of devices.
+struct rg_devices_asked {
+    char *names;   // of --device
+    char *require; // names of devices or of backends that must be among them; NULL: none
+    int timeout_s; // a device that does not answer for so long is given up
+};
+// The same. What is required and is not there is a failure, with one line that says why.
+int rg_devices_open_asked(const struct rg_devices_asked *asked, struct rg_devices *devices);
+// Whether what is required is among the devices; else one line is logged for each that is not.
+bool rg_devices_have(const struct rg_devices *devices, const char *require);
 // Of what was left out, an enum rg_exit: fail where a driver failed.
 int rg_devices_exit(const struct rg_devices *devices);
 // Closes them; false on a leak.

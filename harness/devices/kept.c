@@ -39,7 +39,7 @@ struct rg_device *rg_kept_device(struct rg_kept *kept, const char *name)
     while (*own && strcmp((*own)->info.name, name) && own < kept->own + RG_KEPT_DEVICES - 1)
         own++;
     if (!*own)
-        *own = rg_device_open(name);
+        *own = rg_devices_open_one(name);
     return *own;
 }
 

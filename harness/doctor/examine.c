@@ -1,13 +1,11 @@
-// Examining devices, each in a child process.
+// Examining devices, each in a worker.
 #include <stdio.h>
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/devices/child.h"
+#include "harness/devices/devices.h"
 #include "harness/doctor/report.h"
-
-// A probe of a software driver takes seconds; compilers under a sanitizer or a loaded machine more.
-enum { EXAMINE_TIMEOUT_S = 180 };
+#include "harness/devices/workers/device.h"
 
 int rg_examination_failures(const struct rg_examination *examination)
 {
@@ -15,12 +13,6 @@ int rg_examination_failures(const struct rg_examination *examination)
     for (int i = 0; i < RG_PROBE_COUNT; i++)
         failures += !examination->probe[i].builtin && examination->probe[i].different > 0;
     return failures;
-}
-
-// The child writes what it is about to do, so that a crash shows what it happened in.
-static void begin(struct rg_examination *examination, const char *step)
-{
-    snprintf(examination->why, sizeof(examination->why), "%s", step);
 }
 
 // Ends it with the last error.
@@ -32,8 +24,7 @@ static void fail(struct rg_examination *examination)
 
 static struct rg_device *open_device(struct rg_examination *examination)
 {
-    begin(examination, "opening the device");
-    struct rg_device *device = rg_device_open(examination->info.name);
+    struct rg_device *device = rg_devices_open_one(examination->info.name);
     if (!device) {
         fail(examination);
         examination->is_unknown = rg_last_error_kind() == RG_ERROR_INPUT;
@@ -44,53 +35,54 @@ static struct rg_device *open_device(struct rg_examination *examination)
     return device;
 }
 
-static void examine(void *answer)
+// Asks the device's worker for a result of one struct.
+static bool ask(struct rg_worker *worker, enum rg_call call, void *result, size_t size)
 {
-    struct rg_examination *examination = answer;
-    struct rg_device *device = open_device(examination);
-    if (!device)
-        return;
-    begin(examination, "probing its arithmetic");
-    examination->probed = rg_probe_run(device, examination->probe);
-    if (!examination->probed) {
-        fail(examination);
-        return;
+    struct rg_message reply;
+    const bool ok = rg_worker_call(worker, call, NULL, &reply) &&
+                    rg_take(&reply, result, (int64_t)size) && !reply.failed;
+    rg_message_free(&reply);
+    return ok;
+}
+
+static bool probe(struct rg_worker *worker, struct rg_probe_result results[RG_PROBE_COUNT])
+{
+    struct rg_message reply;
+    const bool ok = rg_worker_call(worker, RG_CALL_PROBE, NULL, &reply);
+    for (int i = 0; ok && i < RG_PROBE_COUNT; i++) {
+        const char *name = rg_take_name(&reply);
+        RG_TAKE(&reply, results[i]);
+        results[i].name = name;
     }
-    const int failures = rg_examination_failures(examination);
-    begin(examination, "auditing its timer");
-    examination->audited = rg_timer_audit(device, &examination->timer);
-    if (examination->audited) {
-        begin(examination, "measuring its ceilings");
-        examination->measured = rg_ceilings_measure(device, &examination->ceilings);
-    }
-    if (!examination->measured || !rg_device_close(device)) {
-        fail(examination);
-        return;
-    }
-    examination->status = failures ? RG_FAIL : RG_OK;
-    examination->why[0] = 0;
-    if (failures)
-        snprintf(examination->why, sizeof(examination->why),
-                 "%d of %d operations that kernels use give other bits than C", failures,
-                 RG_PROBE_OP_COUNT);
+    const bool whole = ok && !reply.failed;
+    rg_message_free(&reply);
+    return whole;
+}
+
+// Each step begins only where those before it came to their end.
+static bool examine(struct rg_examination *e, struct rg_worker *worker)
+{
+    e->probed = probe(worker, e->probe);
+    e->audited = e->probed && ask(worker, RG_CALL_AUDIT, &e->timer, sizeof(e->timer));
+    e->measured = e->audited && ask(worker, RG_CALL_CEILINGS, &e->ceilings, sizeof(e->ceilings));
+    return e->measured;
 }
 
 void rg_doctor_examine(struct rg_examination *examination)
 {
-    char why[256];
-    struct rg_examination *answer = rg_child_answer_create(sizeof(*answer));
-    if (!answer) {
+    struct rg_device *device = open_device(examination);
+    if (!device)
+        return;
+    const bool ok = examine(examination, rg_remote_worker(device));
+    if (!ok)
         fail(examination);
+    if (!rg_device_close(device) && ok)
+        fail(examination);
+    const int failures = examination->probed ? rg_examination_failures(examination) : 0;
+    if (examination->status != RG_OK || !failures)
         return;
-    }
-    *answer = (struct rg_examination){.info = examination->info};
-    const enum rg_outcome end = rg_child_run(examine, answer, EXAMINE_TIMEOUT_S, why, sizeof(why));
-    *examination = *answer;
-    rg_child_answer_destroy(answer, sizeof(*answer));
-    if (end == RG_OK)
-        return;
-    char step[64];
-    snprintf(step, sizeof(step), "%.60s", examination->why);
-    examination->status = end;
-    snprintf(examination->why, sizeof(examination->why), "%s%s%s", step, *step ? ": " : "", why);
+    examination->status = RG_FAIL;
+    snprintf(examination->why, sizeof(examination->why),
+             "%d of %d operations that kernels use give other bits than C", failures,
+             RG_PROBE_OP_COUNT);
 }

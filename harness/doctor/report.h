@@ -30,8 +30,8 @@ struct rg_doctor_report {
     json_t *warnings;                    // array of strings
 };
 
-// Opens the device that info.name names, probes its arithmetic and audits its timer, in a child
-// process. The result takes the place of what was there.
+// Opens the device that info.name names in a worker, probes its arithmetic and audits its timer.
+// What fails has been logged; what was found before stays.
 void rg_doctor_examine(struct rg_examination *examination);
 
 // Traps that are visible from outside: one sentence each. The caller releases the array.

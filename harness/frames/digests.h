@@ -4,7 +4,7 @@
 #define RG_HARNESS_FRAMES_DIGESTS_H
 
 #include "core/techniques/stages/contents.h"
-#include "harness/frames/session.h"
+#include "harness/frames/subject.h"
 
 // So many frames of a subject, each simulated and drawn.
 struct rg_digest_run {

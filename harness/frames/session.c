@@ -1,26 +1,27 @@
 #include "harness/frames/session.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/base/alloc.h"
-#include "core/techniques/stages/frame.h"
-#include "harness/console/clock.h"
-#include "harness/console/interrupt.h"
-#include "harness/frames/inside.h"
+#include "harness/frames/ways.h"
+#include "harness/devices/workers/device.h"
 
-struct rg_session {
-    struct rg_instance *instance;
-};
+static const struct rg_session_ways *ways_of(const struct rg_device *device)
+{
+    return rg_remote_worker(device) ? &rg_remote_session : &rg_local_session;
+}
 
 struct rg_session *rg_session_open(struct rg_device *device, const struct rg_subject *subject)
 {
     struct rg_session *session = rg_alloc(1, sizeof(*session), subject->technique->name);
     if (!session)
         return NULL;
-    session->instance = rg_instance_open(subject->technique, device, subject->settings,
-                                         subject->width, subject->height);
-    if (session->instance)
+    *session = (struct rg_session){.ways = ways_of(device),
+                                   .device = device,
+                                   .technique = subject->technique,
+                                   .width = subject->width,
+                                   .height = subject->height};
+    if (session->ways->open(session, subject))
         return session;
     free(session);
     return NULL;
@@ -42,157 +43,125 @@ struct rg_session *rg_session_run(struct rg_device *device, const struct rg_subj
 void rg_session_close(struct rg_session *session)
 {
     if (session)
-        rg_instance_close(session->instance);
+        session->ways->close(session);
     free(session);
 }
 
 struct rg_device *rg_session_device(const struct rg_session *session)
 {
-    return session->instance->device;
-}
-
-struct rg_instance *rg_session_instance(struct rg_session *session)
-{
-    return session->instance;
+    return session->device;
 }
 
 // --- simulating and drawing ---
 
 bool rg_session_step(struct rg_session *session)
 {
-    return session->instance->technique->step(session->instance);
+    return session->ways->step(session);
 }
 
 bool rg_session_draw(struct rg_session *session)
 {
-    return session->instance->technique->draw(session->instance);
+    return session->ways->draw(session);
 }
 
 bool rg_session_sync(struct rg_session *session)
 {
-    return rg_device_sync(session->instance->device);
+    return session->ways->sync(session);
 }
 
-bool rg_session_frames(struct rg_session *session, int frames)
+bool rg_session_frames(struct rg_session *session, int frames, double *wall_ms)
 {
-    bool ok = true;
-    for (int i = 0; ok && i < frames && !rg_interrupted(); i++)
-        ok = rg_session_step(session) && rg_session_draw(session);
-    return ok && rg_session_sync(session);
+    return session->ways->frames(session, frames, wall_ms);
 }
 
 bool rg_session_count(struct rg_session *session, struct rg_tally *tally)
 {
-    struct rg_device *device = session->instance->device;
-    rg_tally_begin(device, tally);
-    const bool ok = rg_session_frames(session, 1);
-    rg_tally_end(device);
-    return ok;
-}
-
-struct stage_clock {
-    struct rg_session *session;
-    void (*tell)(const char *kernel, double ms, void *user);
-    void *user;
-    double last_ms;
-    bool ok;
-};
-
-static void after_stage(const struct rg_opened_stage *stage, void *user)
-{
-    struct stage_clock *clock = user;
-    clock->ok = rg_session_sync(clock->session) && clock->ok;
-    const double now_ms = rg_now_ms();
-    clock->tell(stage->row.kernel, now_ms - clock->last_ms, clock->user);
-    clock->last_ms = now_ms;
+    return session->ways->count(session, tally);
 }
 
 bool rg_session_stages(struct rg_session *session,
                        void (*tell)(const char *kernel, double ms, void *user), void *user)
 {
-    struct stage_clock clock = {session, tell, user, rg_now_ms(), true};
-    session->instance->after_stage = after_stage;
-    session->instance->user = &clock;
-    const bool ok = rg_session_frames(session, 1);
-    session->instance->after_stage = NULL;
-    return ok && clock.ok;
+    return session->ways->stages(session, tell, user);
 }
 
 bool rg_session_time(struct rg_session *session, int64_t *time_ns)
 {
-    return rg_device_time(session->instance->device, time_ns);
+    return session->ways->time(session, time_ns);
 }
 
 // --- its picture ---
 
 void *rg_session_read(struct rg_session *session, size_t *size)
 {
-    return rg_frame_read(session->instance, size);
+    return session->ways->read(session, size);
 }
 
 bool rg_session_picture(const struct rg_session *session, const void *texels,
                         struct rg_picture *picture)
 {
-    return rg_frame_picture(session->instance, texels, picture);
+    return rg_frame_picture(texels, session->width, session->height, picture);
 }
 
 bool rg_session_read_picture(struct rg_session *session, struct rg_picture *picture)
 {
-    return rg_frame_read_picture(session->instance, picture);
+    size_t size;
+    void *texels = rg_session_read(session, &size);
+    const bool ok = texels && rg_session_picture(session, texels, picture);
+    free(texels);
+    return ok;
 }
 
 // --- its state, and what it tells of itself ---
 
 void rg_session_tell(const struct rg_session *session, struct rg_account *account)
 {
-    const struct rg_instance *instance = session->instance;
-    *account = (struct rg_account){.frame = instance->frame,
-                                   .counter_count = instance->counter_count,
-                                   .fact_count = instance->fact_count};
-    memcpy(account->counters, instance->counters, sizeof(account->counters));
-    memcpy(account->facts, instance->facts, sizeof(account->facts));
+    session->ways->tell(session, account);
 }
 
 int rg_session_state_count(const struct rg_session *session)
 {
-    return session->instance->state_count;
+    return session->state_count;
 }
 
 void *rg_session_read_state(struct rg_session *session, int index, struct rg_state *layout,
                             size_t *size)
 {
-    const struct rg_state *state = &session->instance->state[index];
-    struct rg_buf *buf = state->asset->buf;
-    void *words = malloc(buf->size);
-    if (!words)
-        return rg_error_null("buffer '%s': no memory for %zu bytes", state->name, buf->size);
-    if (rg_buf_read(buf, 0, words, (int64_t)buf->size)) {
-        *layout = *state;
-        layout->asset = NULL;
-        *size = buf->size;
-        return words;
-    }
-    free(words);
-    return NULL;
+    return session->ways->read_state(session, index, layout, size);
+}
+
+const struct rg_law *rg_session_law(const struct rg_session *session, int number)
+{
+    const struct rg_law *law = session->technique->proof->laws;
+    for (int i = 0; law->name && i < number; i++)
+        law++;
+    return law->name ? law : NULL;
 }
 
 bool rg_session_obeys(const struct rg_session *session, const struct rg_law *law, char *detail,
                       size_t size)
 {
-    return law->holds(session->instance, detail, size);
+    return session->ways->obeys(session, law, detail, size);
 }
 
 bool rg_session_texture(const struct rg_session *session, const char *name,
                         struct rg_image_desc *desc, int *first_level)
 {
-    const struct rg_instance *instance = session->instance;
-    for (int i = 0; i < instance->texture_count; i++) {
-        const struct rg_texture *texture = &instance->textures[i];
-        if (strcmp(texture->name, name))
-            continue;
-        *desc = texture->image->desc;
-        *first_level = texture->first_level;
-        return true;
-    }
-    return false;
+    return session->ways->texture(session, name, desc, first_level);
+}
+
+// --- digests ---
+
+bool rg_digests_take(const struct rg_digest_run *run, struct rg_device *device,
+                     struct rg_digests *digests)
+{
+    return ways_of(device)->take_digests(run, device, digests);
+}
+
+bool rg_digests_contents(const struct rg_digest_run *run, struct rg_device *device, int row,
+                         struct rg_contents *contents, struct rg_state *state)
+{
+    *contents = (struct rg_contents){0};
+    *state = (struct rg_state){0};
+    return ways_of(device)->take_contents(run, device, row, contents, state);
 }

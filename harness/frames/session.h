@@ -1,10 +1,11 @@
 // A technique open on a device: the one way by which the harness reaches an instance.
 //
 // What comes back is copied, and nothing points into the instance or the device's memory. So the
-// instance may one day live in a process of its own, which a driver can bring down without harming
-// the command; this folder alone would know.
+// instance may live in a worker (harness/devices/workers/device.h), which a driver can bring down
+// without harming the command; this folder alone knows.
 //
 // Functions that return false or NULL have logged one line. A session that has failed is closed.
+// When a worker ends, each session in it has failed.
 #ifndef RG_HARNESS_FRAMES_SESSION_H
 #define RG_HARNESS_FRAMES_SESSION_H
 
@@ -12,13 +13,7 @@
 #include "core/image/picture.h"
 #include "core/techniques/proof.h"
 #include "core/techniques/technique.h"
-
-// What is opened, and for how large an image. Nothing in it is owned.
-struct rg_subject {
-    const struct rg_technique *technique;
-    const void *settings;
-    int width, height; // pixels
-};
+#include "harness/frames/subject.h"
 
 struct rg_session;
 
@@ -40,8 +35,9 @@ bool rg_session_draw(struct rg_session *session);
 // Waits until all is done.
 bool rg_session_sync(struct rg_session *session);
 // Simulates and draws so many frames, and waits; fewer when the user interrupts
-// (harness/console/interrupt.h), which is no failure.
-bool rg_session_frames(struct rg_session *session, int frames);
+// (harness/console/interrupt.h), which is no failure. `wall_ms` gets how long that took by the
+// clock of the process in which the instance lives, from call to end; NULL: nobody asks.
+bool rg_session_frames(struct rg_session *session, int frames, double *wall_ms);
 // One such frame, with what it comes to counted exactly, which takes its time.
 bool rg_session_count(struct rg_session *session, struct rg_tally *tally);
 // One such frame that also waits after every stage, and tells how long each took by wall clock, by
@@ -64,14 +60,6 @@ bool rg_session_read_picture(struct rg_session *session, struct rg_picture *pict
 
 // --- its state, and what it tells of itself ---
 
-// What an instance tells of itself now.
-struct rg_account {
-    int64_t frame; // frames simulated
-    int counter_count;
-    struct rg_counter counters[RG_MAX_COUNTERS];
-    int fact_count;
-    struct rg_fact facts[RG_MAX_FACTS];
-};
 void rg_session_tell(const struct rg_session *session, struct rg_account *account);
 
 // The number of the state's buffers, and the words of one, which the caller frees. `layout` gets
@@ -79,6 +67,8 @@ void rg_session_tell(const struct rg_session *session, struct rg_account *accoun
 int rg_session_state_count(const struct rg_session *session);
 void *rg_session_read_state(struct rg_session *session, int index, struct rg_state *layout,
                             size_t *size);
+// The law of this number of its technique's proof; NULL: there is none.
+const struct rg_law *rg_session_law(const struct rg_session *session, int number);
 // Whether a law of the technique's proof holds now; else `detail` says what is wrong.
 bool rg_session_obeys(const struct rg_session *session, const struct rg_law *law, char *detail,
                       size_t size);

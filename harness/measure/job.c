@@ -12,10 +12,10 @@ enum { MAX_WARM_UP_FRAMES = 20, MIN_WARM_UP_FRAMES = 4 };
 
 double rg_job_time(struct rg_job *job, int frames)
 {
-    const double start = rg_now_ms();
-    if (!rg_session_frames(job->session, frames))
+    double wall_ms = 0;
+    if (!rg_session_frames(job->session, frames, &wall_ms))
         rg_record_end_by_error(job->record);
-    return (rg_now_ms() - start) / frames;
+    return wall_ms / frames;
 }
 
 bool rg_job_stay_in_window(struct rg_job *job, int frames)
@@ -37,11 +37,9 @@ static bool open_session(struct rg_job *job)
     job->session = rg_session_open(job->device, &job->subject);
     if (!job->session || !rg_session_sync(job->session))
         return rg_record_end_by_error(job->record);
-    const double opened = rg_now_ms();
-    if (!rg_session_frames(job->session, 1))
+    job->record->create_ms = rg_now_ms() - start;
+    if (!rg_session_frames(job->session, 1, &job->record->first_frame_ms))
         return rg_record_end_by_error(job->record);
-    job->record->create_ms = opened - start;
-    job->record->first_frame_ms = rg_now_ms() - opened;
     return true;
 }
 

@@ -166,7 +166,7 @@ RENDERS = [
     Case("render flow flow", 2, r"'flow' is one argument too many"),
     Case(RENDER + "--device nonsense -o {tmp}/a.png", 2, UNKNOWN_DEVICE),
     Case(RENDER + "--device cpu:nonsense -o {tmp}/a.png", 2, r"device 'cpu:nonsense': cpu has no such device"),
-    Case(RENDER + "--device , -o {tmp}/a.png", 2, r"--device ,: render draws on one device"),
+    Case(RENDER + "--device , -o {tmp}/a.png", 2, r"--device ',': names no device beside a comma"),
     Case(RENDER + "--device cpu,gl -o {tmp}/a.png", 2, r"--device cpu,gl: render draws on one device"),
     Case(RENDER + "--device all -o {tmp}/a.png", 2, r"--device all: render draws on one device"),
     Case(RENDER + "--set nonsense=1 -o {tmp}/a.png", 2, r"parameter 'nonsense': flow has none .*`raingauge list params flow`"),

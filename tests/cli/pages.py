@@ -139,7 +139,7 @@ def check_completed_words(runner):
         "table creus-5.1 stu": ["stuppacher-1", "stuppacher-2"],
         "figures creus-4.1": [name for name in listed(runner, "figures") if name.startswith("creus-4.1")],
         "table --format ": ["md", "csv", "json", "tex"],
-        "table -o ": [],
+        "table -o ": ["drivers"],
         "table -o ../c": ["../core", "../cli"],
         "diff run": ["run.py", "runner.py"],
         "diff fl": ["flow"],

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The command line as people and scripts meet it: exit codes, messages, files left behind.
 
-    run.py SUITE RAINGAUGE KERNEL_DIR CRASHING_DRIVER
+    run.py SUITE RAINGAUGE KERNEL_DIR CRASHING_DRIVER MISBEHAVING_DRIVER
 
     SUITE: atlas    the streak atlas is made, kept where XDG_CACHE_HOME says, and read
            cases    a table of commands and how they end: a new command adds rows
@@ -12,6 +12,7 @@
            clips    frames in a row, as clips and as numbered pictures, on the CPU
            stored   tables that were interrupted, or are printed again
            long     what verify prints, tables that are counted, set in a row or begun anew, an atlas that is not kept
+           misbehaving  drivers that crash, hang, lie about their end or lose their device
            wrong    a driver that draws wrongly is found
            doctor   the report about this machine
            pages    the manual page and bash's completion
@@ -29,6 +30,7 @@ import clips
 import doctor
 import installed
 import kept
+import misbehaving
 import pages
 import results
 from runner import Runner
@@ -43,6 +45,7 @@ SUITES = {
     "clips": lambda runner: runner.check_all(clips.CHECKS),
     "stored": lambda runner: runner.check_all(results.STORED),
     "long": lambda runner: runner.check_all(results.LONG),
+    "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
     "wrong": lambda runner: runner.check_all(results.WRONG),
     "doctor": lambda runner: runner.check_all(doctor.CHECKS),
     "pages": lambda runner: runner.check_all(pages.CHECKS),
@@ -52,7 +55,7 @@ SUITES = {
 
 
 def main():
-    runner = Runner(*sys.argv[2:5])
+    runner = Runner(*sys.argv[2:6])
     SUITES[sys.argv[1]](runner)
     return runner.finish()
 

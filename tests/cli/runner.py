@@ -17,8 +17,9 @@ NO_DRIVERS = {
 
 
 class Runner:
-    def __init__(self, raingauge, kernels, crasher):
-        self.raingauge, self.kernels, self.crasher = map(os.path.abspath, (raingauge, kernels, crasher))
+    def __init__(self, raingauge, kernels, crasher, misbehaver):
+        self.raingauge, self.kernels, self.crasher, self.misbehaver = map(
+            os.path.abspath, (raingauge, kernels, crasher, misbehaver))
         self.count = self.failed = 0
         self.state = tempfile.TemporaryDirectory()  # what commands keep between runs
 

@@ -18,12 +18,10 @@ void *rg_frame_read(struct rg_instance *instance, size_t *size)
     return NULL;
 }
 
-bool rg_frame_picture(const struct rg_instance *instance, const void *texels,
-                      struct rg_picture *picture)
+bool rg_frame_picture(const void *texels, int width, int height, struct rg_picture *picture)
 {
-    const struct rg_image_desc *desc = &instance->target->desc;
     const uint16_t *halves = texels;
-    if (!rg_picture_create(picture, desc->width, desc->height, 4, "image"))
+    if (!rg_picture_create(picture, width, height, 4, "image"))
         return false;
     for (int64_t i = 0; i < rg_picture_values(picture); i++)
         picture->texels[i] = rg_unpack_half(halves[i]);
@@ -32,9 +30,10 @@ bool rg_frame_picture(const struct rg_instance *instance, const void *texels,
 
 bool rg_frame_read_picture(struct rg_instance *instance, struct rg_picture *picture)
 {
+    const struct rg_image_desc *desc = &instance->target->desc;
     size_t size;
     void *texels = rg_frame_read(instance, &size);
-    const bool ok = texels && rg_frame_picture(instance, texels, picture);
+    const bool ok = texels && rg_frame_picture(texels, desc->width, desc->height, picture);
     free(texels);
     return ok;
 }

@@ -9,10 +9,9 @@
 // logged line, on failure.
 void *rg_frame_read(struct rg_instance *instance, size_t *size);
 
-// The same as a picture of 4 channels, which the caller destroys; `texels` as rg_frame_read gave
-// them. False, and one logged line, without memory.
-bool rg_frame_picture(const struct rg_instance *instance, const void *texels,
-                      struct rg_picture *picture);
+// The same, of so many pixels, as a picture of 4 channels, which the caller destroys; `texels` as
+// rg_frame_read gave them. False, and one logged line, without memory.
+bool rg_frame_picture(const void *texels, int width, int height, struct rg_picture *picture);
 
 // Both at once; the caller destroys the picture. False, and one logged line, on failure.
 bool rg_frame_read_picture(struct rg_instance *instance, struct rg_picture *picture);

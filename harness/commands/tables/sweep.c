@@ -10,6 +10,7 @@
 #include "harness/cli/subject.h"
 #include "harness/commands/tables/sets.h"
 #include "harness/console/exit.h"
+#include "harness/devices/names.h"
 #include "harness/measure/expected.h"
 #include "harness/tables/print.h"
 #include "harness/tables/runs/regenerate.h"
@@ -21,7 +22,8 @@ struct sweep_options {
     struct rg_size size;
     int frame;
     struct rg_length length;
-    char *devices, *output;
+    struct rg_devices_asked devices;
+    char *output;
     int format;
     bool dry_run, wide, json;
 };
@@ -44,7 +46,8 @@ static const struct rg_option options[] = {
     {RG_OPTION_FLAG, "dry-run", .about = "prints the plan, and measures nothing",
      .offset = AT(dry_run)},
     RG_GROUP("Devices"),
-    RG_INCLUDE(rg_devices_option, AT(devices), "cpu"),
+    RG_INCLUDE(rg_devices_option, AT(devices.names), "cpu"),
+    RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_FLAG, "wide", .about = "prints all columns and notes, one line a cell",
      .offset = AT(wide), .excludes = "format json"},
@@ -64,23 +67,27 @@ static int print(const struct rg_result *result, const void *user)
     return rg_result_finish(result, form, o->output);
 }
 
+// Names of devices are no values of a parameter: they may hold commas and dots.
+#define DEVICE_AXIS "device="
+
 // Reads the axes; that of the devices is not among the grid's, and *devices gets their names, which
 // the caller frees. False, and one logged line, where one is refused.
 static bool read_axes(const struct rg_words *words, struct rg_grid *grid, char **devices)
 {
     for (int i = 0; i < words->count; i++) {
-        struct rg_axis axis;
-        if (!rg_axis_read(words->items[i], &axis))
-            return false;
-        if (strcmp(axis.name, "device") != 0) {
+        const char *text = words->items[i];
+        if (strncmp(text, DEVICE_AXIS, strlen(DEVICE_AXIS)) != 0) {
             if (grid->axis_count == RG_GRID_AXES)
                 return rg_error("--axis: more than %d axes", RG_GRID_AXES);
-            grid->axes[grid->axis_count++] = axis;
+            if (!rg_axis_read(text, &grid->axes[grid->axis_count++]))
+                return false;
             continue;
         }
         if (*devices)
             return rg_error("--axis device: stands twice; name all devices at once");
-        if (!(*devices = strdup(strchr(words->items[i], '=') + 1)))
+        if (!rg_device_names_check(text + strlen(DEVICE_AXIS)))
+            return false;
+        if (!(*devices = strdup(text + strlen(DEVICE_AXIS))))
             return rg_error("--axis device: no memory");
     }
     return grid->axis_count ||
@@ -110,11 +117,15 @@ static int run_on(struct rg_grid *grid, const struct rg_devices *devices,
     return rg_tables_regenerate(tables, 1, devices, &wanted);
 }
 
-static int open_and_run(struct rg_grid *grid, const struct sweep_options *o, const char *names,
+// The axis of the devices, where there is one, stands for --device.
+static int open_and_run(struct rg_grid *grid, const struct sweep_options *o, char *names,
                         const char *set)
 {
     struct rg_devices devices;
-    int exit = rg_devices_open(names, &devices);
+    struct rg_devices_asked asked = o->devices;
+    if (names)
+        asked.names = names;
+    int exit = rg_devices_open_asked(&asked, &devices);
     if (exit != RG_EXIT_PASS)
         return exit;
     exit = rg_exit_worse(run_on(grid, &devices, o, set), rg_devices_exit(&devices));
@@ -134,7 +145,7 @@ static int run_grid(struct rg_grid *grid, const struct sweep_options *o,
         grid->table.width = o->size.width;
         grid->table.height = o->size.height;
         grid->table.check_frames = o->frame;
-        exit = open_and_run(grid, o, names ? names : o->devices, set);
+        exit = open_and_run(grid, o, names, set);
     }
     free(settings);
     free(names);

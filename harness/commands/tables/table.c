@@ -19,14 +19,15 @@
 struct table_options {
     struct rg_range rows; // 0: not given
     struct rg_length length;
-    char *devices, *output; // names; a folder
-    char *from;             // a file or folder; NULL: the tables are measured
-    int format;             // of rg_result_formats
-    int work;               // of `works`
-    char *variant;          // NULL: all
-    struct rg_words sets;   // of --set
-    char *set;              // the same as one text; NULL: none
-    char *budget;           // "4m"; NULL: none
+    struct rg_devices_asked devices;
+    char *output;         // a folder
+    char *from;           // a file or folder; NULL: the tables are measured
+    int format;           // of rg_result_formats
+    int work;             // of `works`
+    char *variant;        // NULL: all
+    struct rg_words sets; // of --set
+    char *set;            // the same as one text; NULL: none
+    char *budget;         // "4m"; NULL: none
     bool fresh, claims, wide, json;
     struct rg_claim_outcomes *outcomes; // what --claims prints in the end
 };
@@ -64,7 +65,8 @@ static const struct rg_option options[] = {
               "nothing",
      .offset = AT(from), .names = RG_NAMES_FILE, .excludes = "device quick full fresh set"},
     RG_GROUP("Devices"),
-    RG_INCLUDE(rg_devices_option, AT(devices), "all"),
+    RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
+    RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_FLAG, "claims",
      .about = "prints what the papers claim about the tables, and whether it holds, not the tables",
@@ -211,7 +213,7 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
                                                  .print = print,
                                                  .user = o};
     struct rg_devices devices;
-    int exit = rg_devices_open(o->devices, &devices);
+    int exit = rg_devices_open_asked(&o->devices, &devices);
     if (exit != RG_EXIT_PASS)
         return exit;
     exit = rg_exit_worse(rg_tables_regenerate(chosen, count, &devices, &wanted),

@@ -1,5 +1,6 @@
 #include "harness/compare/diff/devices.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,44 +24,76 @@ struct session {
     struct shot shots[RG_MAX_DEVICES];
     int shot_count;
     struct rg_picture background;
-    json_t *pairs; // with --json
+    int failed;               // devices that gave no picture
+    int compared;             // pairs
+    int exit;                 // an enum rg_exit: what those that failed come to
+    json_t *pairs, *failures; // with --json
 };
 
 // Draws the same frame without rain. The rain mask is where a picture differs from it.
 static bool take_background(struct session *s)
 {
     const struct rg_diff_devices_request *r = s->asked;
-    struct rg_device *device = rg_device_open("cpu");
+    struct rg_device *device = rg_devices_open_one("cpu");
     bool ok = device && rg_frame_draw_dry(device, &r->subject, r->frames, &s->background);
     return rg_device_close(device) && ok;
+}
+
+// What became of a device that gave no picture. The error has been logged.
+static void note_failure(struct session *s, const char *device, enum rg_outcome outcome,
+                         const char *why)
+{
+    s->failed++;
+    if (outcome != RG_UNSUPPORTED)
+        s->exit = rg_exit_worse(s->exit, rg_exit_of(outcome));
+    if (s->failures)
+        json_array_append_new(s->failures, json_pack("{ssssss}", "device", device, "status",
+                                                     rg_outcome_name(outcome), "detail", why));
+}
+
+// Draws on a device. False where the user's input is refused, as every other device would.
+static bool take_picture(struct session *s, struct rg_device *device)
+{
+    const struct rg_diff_devices_request *r = s->asked;
+    struct shot *shot = &s->shots[s->shot_count];
+    shot->info = &device->info;
+    if (rg_frame_draw(device, &r->subject, r->frames, &shot->picture)) {
+        s->shot_count++;
+        return true;
+    }
+    if (rg_last_error_kind() == RG_ERROR_INPUT)
+        return false;
+    note_failure(s, device->info.name, rg_outcome_of_error(), rg_last_error());
+    return true;
 }
 
 static bool take_pictures(struct session *s, const struct rg_devices *devices)
 {
     struct rg_progress progress;
     rg_progress_start(&progress, devices->count + 1);
-    const struct rg_diff_devices_request *r = s->asked;
     bool ok = take_background(s);
+    for (int i = 0; i < devices->absent_count; i++)
+        note_failure(s, devices->absent[i].name, devices->absent[i].outcome,
+                     devices->absent[i].why);
     for (int d = 0; ok && d < devices->count; d++) {
         rg_progress_add(&progress, 1);
-        struct shot *shot = &s->shots[s->shot_count++];
-        shot->info = &devices->devices[d]->info;
-        ok = rg_frame_draw(devices->devices[d], &r->subject, r->frames, &shot->picture);
+        ok = take_picture(s, devices->devices[d]);
     }
     rg_progress_end(&progress);
     return ok;
 }
 
-// "cpu:reference" and "gl" become PREFIX-cpu_reference-gl.
+// "cpu:reference" and "gl" become PREFIX-cpu_reference-gl: what may steer a shell or name a folder
+// is left out.
 static bool write_heatmaps(const struct session *s, const struct shot *a, const struct shot *b,
                            const struct rg_comparison *comparison)
 {
-    char prefix[2048];
+    char prefix[2500];
     int base = (int)strlen(s->asked->heatmap_prefix);
     snprintf(prefix, sizeof(prefix), "%.1900s-%s-%s", s->asked->heatmap_prefix, a->info->name,
              b->info->name);
     for (char *c = prefix + base; c < prefix + strlen(prefix); c++)
-        if (*c == ':')
+        if (!isalnum((unsigned char)*c) && !strchr("-.=", *c))
             *c = '_';
     return rg_pair_heatmaps(prefix, &a->picture, &b->picture, comparison);
 }
@@ -68,19 +101,20 @@ static bool write_heatmaps(const struct session *s, const struct shot *a, const 
 static void print_pair(const struct shot *a, const struct shot *b, const struct rg_comparison *c,
                        bool holds)
 {
-    char pair[80];
+    char pair[2 * RG_DEVICE_NAME_SIZE + 2];
     snprintf(pair, sizeof(pair), "%s, %s", a->info->name, b->info->name);
     printf("%-30s %-5s %-5s %10lld %6d/255 %8lld %9.6f %8.4g\n", pair, holds ? "ok" : "fail",
            c->tier, (long long)c->metrics.differing_values, c->tiers.max_codes,
            (long long)c->tiers.mask_pixels, c->flip.mean, c->metrics.psnr_db);
 }
 
-static int compare_pair(const struct session *s, const struct shot *a, const struct shot *b)
+static int compare_pair(struct session *s, const struct shot *a, const struct shot *b)
 {
     struct rg_comparison c;
     if (!rg_compare(&a->picture, a->info->name, &b->picture, b->info->name, &s->background,
                     &(struct rg_compare_options){.exposure = (float)s->asked->exposure}, &c))
         return RG_EXIT_USAGE;
+    s->compared++;
     const bool holds = c.tiers.of[rg_tier_owed(a->info, b->info)].holds;
     bool ok = true;
     if (s->pairs)
@@ -93,19 +127,28 @@ static int compare_pair(const struct session *s, const struct shot *a, const str
     return !ok ? RG_EXIT_USAGE : holds ? RG_EXIT_PASS : RG_EXIT_FAIL;
 }
 
+// No pair is no proof, and is said.
+static void tell_count(const struct session *s)
+{
+    printf("%d pairs of %d devices compared", s->compared, s->shot_count);
+    if (s->failed)
+        printf("; %d more devices gave no picture", s->failed);
+    printf("\n");
+}
+
 static int compare_all(struct session *s)
 {
-    int exit = RG_EXIT_PASS;
-    if (s->asked->json)
-        s->pairs = json_array();
-    else
+    int exit = s->exit;
+    if (!s->asked->json)
         printf("%-30s %-5s %-5s %10s %10s %8s %9s %8s\n", "pair", "", "tier", "differing",
                "largest", "mask px", "FLIP mean", "PSNR dB");
     for (int i = 0; i < s->shot_count; i++) {
         for (int j = i + 1; j < s->shot_count && exit != RG_EXIT_USAGE; j++)
             exit = rg_exit_worse(exit, compare_pair(s, &s->shots[i], &s->shots[j]));
     }
-    if (s->pairs && !rg_pairs_print_json(s->pairs))
+    if (!s->asked->json)
+        tell_count(s);
+    else if (!rg_pairs_print_json(s->pairs, s->failures))
         exit = RG_EXIT_USAGE;
     return exit;
 }
@@ -116,17 +159,24 @@ int rg_diff_devices(const struct rg_diff_devices_request *request)
     if (!s)
         return RG_EXIT_FAIL;
     s->asked = request;
+    if (request->json) {
+        s->pairs = json_array();
+        s->failures = json_array();
+    }
     struct rg_devices devices;
-    int exit = rg_devices_open(request->devices, &devices);
+    int exit = rg_devices_open_asked(request->devices, &devices);
     if (exit == RG_EXIT_PASS && devices.count < 2) {
-        rg_error("--device %s: a comparison takes two devices", request->devices);
+        rg_error("--device %s: a comparison takes two devices", request->devices->names);
         exit = RG_EXIT_USAGE;
     } else if (exit == RG_EXIT_PASS) {
         exit = take_pictures(s, &devices) ? compare_all(s) : rg_exit_of_error();
-        exit = rg_exit_worse(exit, rg_devices_exit(&devices));
+        if (!s->compared)
+            exit = rg_exit_worse(exit, RG_EXIT_NOTHING);
     }
     for (int i = 0; i < s->shot_count; i++)
         rg_picture_destroy(&s->shots[i].picture);
+    json_decref(s->pairs);
+    json_decref(s->failures);
     rg_picture_destroy(&s->background);
     rg_devices_close(&devices);
     free(s);

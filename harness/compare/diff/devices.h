@@ -4,12 +4,13 @@
 
 #include <stdbool.h>
 
+#include "harness/devices/devices.h"
 #include "harness/frames/session.h"
 
 // Nothing in it is owned.
 struct rg_diff_devices_request {
     struct rg_subject subject;
-    const char *devices;        // their names, as rg_devices_open takes them
+    const struct rg_devices_asked *devices;
     int frames;                 // simulated before the picture is drawn
     const char *heatmap_prefix; // NULL: none; else PREFIX-A-B-flip.png and -difference.png
     double exposure;

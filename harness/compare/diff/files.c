@@ -8,7 +8,11 @@ static bool print_json(const struct rg_diff_request *request,
                        const struct rg_comparison *comparison)
 {
     json_t *pair = rg_pair_json(request->a, request->b, comparison);
-    return pair && rg_pairs_print_json(json_pack("[o]", pair));
+    json_t *pairs = pair ? json_pack("[o]", pair) : NULL, *failures = json_array();
+    const bool good = pairs && rg_pairs_print_json(pairs, failures);
+    json_decref(pairs);
+    json_decref(failures);
+    return good;
 }
 
 int rg_diff_files(const struct rg_diff_request *request)

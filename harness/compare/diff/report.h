@@ -14,9 +14,9 @@ void rg_pair_print(const char *a, const char *b, const struct rg_comparison *com
 // The same for machines (docs/records.md); the caller owns it. NULL, and one logged
 // line, when a name is not UTF-8.
 json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *comparison);
-// Prints an array of pairs with its format number, and frees it. False, and one logged line, on
-// failure.
-bool rg_pairs_print_json(json_t *pairs);
+// Prints an array of pairs, and one of devices that gave no picture, with their format number.
+// False, and one logged line, on failure.
+bool rg_pairs_print_json(json_t *pairs, json_t *failures);
 
 // Writes PREFIX-flip.png and PREFIX-difference.png. False, and one logged line, on failure.
 bool rg_pair_heatmaps(const char *prefix, const struct rg_picture *a, const struct rg_picture *b,

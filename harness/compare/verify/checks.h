@@ -5,10 +5,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "backends/backend.h"
 #include "core/base/outcome.h"
 
 struct rg_check {
-    char technique[32], check[32], device[32];
+    char technique[32], check[32], device[RG_DEVICE_NAME_SIZE];
     enum rg_outcome status;
     char detail[512];
 };

@@ -60,8 +60,7 @@ static bool probe_subject(struct rg_kept *kept, struct rg_device *device,
     if (!session)
         return false;
     const double opened = rg_now_ms();
-    const bool ok = rg_session_frames(session, 1);
-    probe->frame_ms = rg_now_ms() - opened;
+    const bool ok = rg_session_frames(session, 1, &probe->frame_ms);
     probe->open_ms = fmax(opened - start - probe->frame_ms, 0);
     rg_kept_put(kept, session);
     return ok;

@@ -156,7 +156,7 @@ static const char *pass_name(const struct rg_record *record, const char *name)
 // "light 70 %, given 12 %, other 18 %": the largest first, as many as fit.
 static void print_passes(const struct rg_record *record, char text[RG_SHEET_CELL])
 {
-    enum { ROOM_FOR_OTHER = sizeof(", other 100 %") };
+    enum { ROOM_FOR_OTHER = sizeof(", other 100 %"), MOST = 96 };
     const struct rg_pass_time *pass;
     const double sum = rg_record_passes_ms(record);
     bool done[RG_MAX_PASS_TIMES] = {false};
@@ -166,14 +166,13 @@ static void print_passes(const struct rg_record *record, char text[RG_SHEET_CELL
         char entry[64];
         const int length = snprintf(entry, sizeof(entry), "%s%s %.0f %%", used ? ", " : "",
                                     pass_name(record, pass->name), 100 * pass->ms / sum);
-        if (used + (size_t)length + ROOM_FOR_OTHER > RG_SHEET_CELL)
+        if (used + (size_t)length + ROOM_FOR_OTHER > MOST)
             break;
-        used += (size_t)snprintf(text + used, RG_SHEET_CELL - used, "%s", entry);
+        used += (size_t)snprintf(text + used, MOST - used, "%s", entry);
         left -= pass->ms;
     }
     if (sum > 0 && left >= 0.005 * sum)
-        snprintf(text + used, RG_SHEET_CELL - used, "%sother %.0f %%", used ? ", " : "",
-                 100 * left / sum);
+        snprintf(text + used, MOST - used, "%sother %.0f %%", used ? ", " : "", 100 * left / sum);
 }
 
 static void fill_times(const struct columns *at, char (*cells)[RG_SHEET_CELL],

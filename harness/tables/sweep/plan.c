@@ -8,19 +8,9 @@
 #include "core/base/log.h"
 #include "harness/console/clock.h"
 #include "harness/measure/expected.h"
+#include "harness/devices/workers/device.h"
 
-// --- memory of this process, and of the machine ---
-
-static double resident_bytes(void)
-{
-    long pages = 0, resident = 0;
-    FILE *file = fopen("/proc/self/statm", "r");
-    if (file && fscanf(file, "%ld %ld", &pages, &resident) != 2)
-        resident = 0;
-    if (file)
-        fclose(file);
-    return (double)resident * (double)sysconf(_SC_PAGESIZE);
-}
+// --- memory of the machine ---
 
 static double free_bytes(void)
 {
@@ -45,15 +35,14 @@ struct probe {
 static bool probe_settings(struct rg_device *device, const struct rg_subject *subject,
                            struct probe *probe)
 {
-    const double before = resident_bytes(), start = rg_now_ms();
+    const double before = (double)rg_remote_held_bytes(device), start = rg_now_ms();
     struct rg_session *session = rg_session_run(device, subject, 1);
     if (!session)
         return false;
     const double opened = rg_now_ms();
-    const bool ok = rg_session_frames(session, 1);
+    const bool ok = rg_session_frames(session, 1, &probe->frame_ms);
     probe->open_ms = opened - start;
-    probe->frame_ms = rg_now_ms() - opened;
-    probe->bytes = fmax(resident_bytes() - before, 0);
+    probe->bytes = fmax((double)rg_remote_held_bytes(device) - before, 0);
     rg_session_close(session);
     return ok;
 }

@@ -21,7 +21,7 @@ ROWS = [
     Fault(LEVELS, "return layer_texels * (size_t)layer + «rg_atlas_image_texels(&above)»;", "0", "levels of the atlas lie upon each other"),
     Fault(FIND, "by_width = «y->width - x->width»;", "x->width - y->width", "of a picture's widths the smallest is compared"),
     Fault(FIND, "return «!name[end]» && k >= 0", "true", "names that only begin like the database's are taken"),
-    Fault(COMPARE, "{0, 1, «4», 3, 2, 5, 8, 7, 6, 9}", "2", "a drop that swings to the right is its own mirror image"),
+    Fault(COMPARE, "return «mirrors[oscillation]»;", "oscillation == 2 ? 2 : mirrors[oscillation]", "a drop that swings to the right is its own mirror image"),
     Fault(COMPARE, "(«mirrored» ? width - 1 - c : c)", "false", "no picture is laid beside ours mirrored"),
     Fault(COMPARE, "const double x = (double)a[i] «- sum_a / count»", "- 0", "pictures correlate about black, not their mean"),
     Fault(COMPARE, "row->flat |= «!correlate(w->ours, w->theirs, count, &row->correlation[way])»;", "(correlate(w->ours, w->theirs, count, &row->correlation[way]), false)", "even pictures count as unlike"),

@@ -1,11 +1,11 @@
-#include "harness/frames/digests.h"
+// Digests of a run in this process.
+#include "harness/frames/recorder.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/base/array.h"
 #include "core/base/log.h"
-#include "harness/frames/inside.h"
 
 // A run that is recorded.
 struct recorder {
@@ -86,35 +86,35 @@ static void after_stage(const struct rg_opened_stage *stage, void *user)
 static bool run_recorded(const struct rg_digest_run *run, struct rg_device *device,
                          struct recorder *r)
 {
-    struct rg_session *session = rg_session_open(device, &run->subject);
-    if (!session)
-        return false;
-    r->instance = rg_session_instance(session);
-    r->ok = true;
+    const struct rg_subject *subject = &run->subject;
+    const struct rg_technique *technique = subject->technique;
+    r->instance =
+        rg_instance_open(technique, device, subject->settings, subject->width, subject->height);
+    r->ok = r->instance != NULL;
     for (int i = 0; r->ok && i < r->instance->asset_count; i++)
         record(r, NULL, i); // what opening has left
-    r->instance->after_stage = after_stage;
-    r->instance->user = r;
+    if (r->instance) {
+        r->instance->after_stage = after_stage;
+        r->instance->user = r;
+    }
     for (int i = 0; r->ok && i < run->frames; i++)
-        r->ok = rg_session_step(session) && rg_session_draw(session) && r->ok;
-    rg_session_close(session);
+        r->ok = technique->step(r->instance) && technique->draw(r->instance) && r->ok;
+    rg_instance_close(r->instance);
     return r->ok;
 }
 
-bool rg_digests_take(const struct rg_digest_run *run, struct rg_device *device,
-                     struct rg_digests *digests)
+bool rg_recorder_take(const struct rg_digest_run *run, struct rg_device *device,
+                      struct rg_digests *digests)
 {
     struct recorder r = {.digests = digests, .wanted = -1};
     return run_recorded(run, device, &r);
 }
 
-bool rg_digests_contents(const struct rg_digest_run *run, struct rg_device *device, int row,
-                         struct rg_contents *contents, struct rg_state *state)
+bool rg_recorder_contents(const struct rg_digest_run *run, struct rg_device *device, int row,
+                          struct rg_contents *contents, struct rg_state *state)
 {
     struct rg_digests digests = {0};
     struct recorder r = {.digests = &digests, .wanted = row, .contents = contents, .state = state};
-    *contents = (struct rg_contents){0};
-    *state = (struct rg_state){0};
     const bool ok = run_recorded(run, device, &r);
     rg_digests_free(&digests);
     return ok && (contents->bytes ||

@@ -1,0 +1,103 @@
+#include "harness/devices/names.h"
+
+#include <ctype.h>
+#include <string.h>
+
+#include "core/base/log.h"
+
+// The end of a name: a comma outside of quotes, or the end of all. NULL: a quote does not end.
+static const char *find_end(const char *name)
+{
+    bool quoted = false;
+    for (; *name && (quoted || *name != ','); name++)
+        quoted = quoted != (*name == '"');
+    return quoted ? NULL : name;
+}
+
+// Copies a value up to its semicolon, or the end, without quotes. Returns what follows it.
+static const char *copy_value(const char *from, char **to)
+{
+    bool quoted = false;
+    for (; *from && (quoted || *from != ';'); from++) {
+        if (*from != '"')
+            *(*to)++ = *from;
+        else if (quoted && from[1] == '"')
+            *(*to)++ = *from++;
+        else
+            quoted = !quoted;
+    }
+    return *from ? from + 1 : from;
+}
+
+// Copies a variable's name and its '='. NULL where it is none.
+static const char *copy_key(const char *from, char **to)
+{
+    const size_t length = strcspn(from, "=");
+    if (!length || from[length] != '=' || isdigit((unsigned char)*from))
+        return NULL;
+    for (size_t i = 0; i < length; i++)
+        if (!isalnum((unsigned char)from[i]) && from[i] != '_')
+            return NULL;
+    memcpy(*to, from, length + 1);
+    *to += length + 1;
+    return from + length + 1;
+}
+
+static bool read_environment(struct rg_device_name *name)
+{
+    const char *from = strchr(name->name, '@');
+    char *to = name->environment;
+    for (from = from ? from + 1 : ""; *from; *to++ = 0) {
+        const char *value = copy_key(from, &to);
+        if (!value)
+            return rg_error("device '%s': '%s' is no KEY=value", name->name, from);
+        from = copy_value(value, &to);
+    }
+    *to = 0;
+    const bool is_told = !strchr(name->name, '@') || to > name->environment;
+    return is_told || rg_error("device '%s': no KEY=value follows its '@'", name->name);
+}
+
+// Where a list of names is amiss at its beginning, "" where it is not.
+static const char *fault_of(const char *names, const char *end)
+{
+    if (!end)
+        return "a double quote is not closed";
+    if (!*names)
+        return "names no device at all; write names with a comma between two";
+    return end == names || (*end && !end[1])
+               ? "names no device beside a comma; write names with a comma between two"
+               : "";
+}
+
+// Reads the first of `rest`, a part of `names`, which messages quote.
+static bool read_name(const char *names, const char **rest, struct rg_device_name *name)
+{
+    const char *end = find_end(*rest), *fault = fault_of(*rest, end);
+    if (*fault)
+        return rg_error("--device '%s': %s", names, fault);
+    const size_t length = (size_t)(end - *rest);
+    if (length >= sizeof(name->name))
+        return rg_error("device '%.60s...': a name has at most %d characters", *rest,
+                        RG_DEVICE_NAME_SIZE - 1);
+    memset(name, 0, sizeof(*name));
+    memcpy(name->name, *rest, length);
+    *rest = *end ? end + 1 : end;
+    return read_environment(name);
+}
+
+bool rg_device_name_read(const char **names, struct rg_device_name *name)
+{
+    return read_name(*names, names, name);
+}
+
+bool rg_device_names_check(const char *names)
+{
+    struct rg_device_name name;
+    const char *rest = names;
+    do
+        if (!read_name(names, &rest, &name))
+            return false;
+    while (*rest);
+    return true;
+}

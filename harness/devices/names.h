@@ -1,0 +1,26 @@
+// Names of devices as the command line has them.
+//
+// A name may have an environment: "vulkan@VK_DRIVER_FILES=old.json;LP_NUM_THREADS=1". Its worker is
+// started with these variables over raingauge's own, so that two drivers of one API, or one driver
+// in two settings, stand side by side. A value that holds a comma, a semicolon or a double quote is
+// put in double quotes; within them two double quotes mean one.
+#ifndef RG_HARNESS_DEVICES_NAMES_H
+#define RG_HARNESS_DEVICES_NAMES_H
+
+#include <stdbool.h>
+
+#include "backends/backend.h"
+
+struct rg_device_name {
+    char name[RG_DEVICE_NAME_SIZE];            // as it was given, quotes included
+    char environment[RG_DEVICE_NAME_SIZE + 2]; // "KEY=value", each ended by a zero, the last by two
+};
+
+// Whether all names are such forms; else one line has been logged.
+bool rg_device_names_check(const char *names);
+
+// Reads the first of several names, which commas separate, and moves `*names` behind it and the
+// comma. False, and one logged line, where it is empty, too long or no such form.
+bool rg_device_name_read(const char **names, struct rg_device_name *name);
+
+#endif

@@ -1,0 +1,93 @@
+// Calls about the device (harness/devices/workers/device.c, harness/devices/ and harness/doctor/
+// make them).
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "core/device/probe.h"
+#include "harness/measure/ceilings.h"
+#include "harness/measure/timer_audit.h"
+#include "harness/devices/serving/services.h"
+
+static struct rg_device *device;
+
+struct rg_device *rg_served_device(const char *name)
+{
+    char plain[RG_DEVICE_NAME_SIZE];
+    snprintf(plain, sizeof(plain), "%.*s", (int)strcspn(name, "@"), name);
+    if (!device)
+        device = rg_device_open(plain);
+    return device;
+}
+
+bool rg_served_device_close(void)
+{
+    const bool clean = rg_device_close(device);
+    device = NULL;
+    return clean;
+}
+
+// A list of one backend holds no pointer but of the backend itself.
+bool rg_serve_list(struct rg_message *request, struct rg_message *reply)
+{
+    static struct rg_device_list list;
+    memset(&list, 0, sizeof(list));
+    const int backend = rg_take_index(request, RG_MAX_BACKENDS);
+    rg_device_list_add(&list, rg_backends[backend]);
+    rg_put_int(reply, list.count);
+    for (int i = 0; i < list.count; i++)
+        RG_PUT(reply, list.infos[i]);
+    rg_put_text(reply, list.missing_count ? list.missing[0].why : "");
+    return true;
+}
+
+static int index_of(const struct rg_backend *backend)
+{
+    int index = 0;
+    while (rg_backends[index] != backend)
+        index++;
+    return index;
+}
+
+bool rg_serve_open(struct rg_message *request, struct rg_message *reply)
+{
+    const struct rg_device *opened = rg_served_device(rg_take_text(request));
+    if (!opened)
+        return false;
+    RG_PUT(reply, opened->info);
+    rg_put_int(reply, index_of(opened->backend));
+    return true;
+}
+
+bool rg_serve_probe(struct rg_message *request, struct rg_message *reply)
+{
+    struct rg_probe_result results[RG_PROBE_COUNT];
+    (void)request;
+    if (!rg_probe_run(device, results))
+        return false;
+    for (int i = 0; i < RG_PROBE_COUNT; i++) {
+        rg_put_text(reply, results[i].name);
+        RG_PUT(reply, results[i]);
+    }
+    return true;
+}
+
+bool rg_serve_audit(struct rg_message *request, struct rg_message *reply)
+{
+    struct rg_timer_audit audit;
+    (void)request;
+    if (!rg_timer_audit(device, &audit))
+        return false;
+    RG_PUT(reply, audit);
+    return true;
+}
+
+bool rg_serve_ceilings(struct rg_message *request, struct rg_message *reply)
+{
+    struct rg_ceilings ceilings;
+    (void)request;
+    if (!rg_ceilings_measure(device, &ceilings))
+        return false;
+    RG_PUT(reply, ceilings);
+    return true;
+}

@@ -1,0 +1,91 @@
+#include "harness/devices/workers/device.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "harness/devices/workers/held.h"
+
+struct remote {
+    struct rg_device pub;
+    struct rg_backend
+        backend; // the worker's, of which the name alone is used, and how it is closed
+    struct rg_worker *worker;
+};
+
+static bool sync_remote(struct rg_device *device)
+{
+    (void)device; // nothing is asked of it but through sessions, and their calls have been answered
+    return true;
+}
+
+static void destroy_remote(struct rg_device *device)
+{
+    struct remote *remote = (struct remote *)device;
+    rg_worker_retire(remote->worker);
+    rg_worker_destroy(remote->worker);
+    free(remote);
+}
+
+// Asks for the device. Its name is as the driver's list has it, before an environment.
+static bool ask_for(struct remote *remote, const char *name, const char *environment)
+{
+    struct rg_message request = {0}, reply;
+    const size_t plain = strcspn(name, "@");
+    char own[RG_DEVICE_NAME_SIZE];
+    snprintf(own, sizeof(own), "%.*s", (int)plain, name);
+    rg_put_text(&request, own);
+    bool ok = rg_worker_call(remote->worker, RG_CALL_OPEN, &request, &reply) &&
+              RG_TAKE(&reply, remote->pub.info);
+    const int backend = ok ? rg_take_index(&reply, RG_MAX_BACKENDS) : 0;
+    ok = ok && !reply.failed && rg_backends[backend];
+    rg_message_free(&request);
+    rg_message_free(&reply);
+    if (!ok)
+        return false;
+    remote->pub.backend = &remote->backend;
+    remote->backend = (struct rg_backend){.name = rg_backends[backend]->name,
+                                          .package = rg_backends[backend]->package,
+                                          .sync = sync_remote,
+                                          .destroy = destroy_remote};
+    char *told = remote->pub.info.name;
+    told[RG_DEVICE_NAME_SIZE - 1] = 0;
+    if (environment && *environment)
+        snprintf(told + strlen(told), RG_DEVICE_NAME_SIZE - strlen(told), "%s", name + plain);
+    return true;
+}
+
+struct rg_device *rg_remote_open(struct rg_worker *worker, const char *name,
+                                 const char *environment)
+{
+    struct remote *remote = rg_alloc(1, sizeof(*remote), name);
+    struct rg_work *work = remote ? rg_alloc(1, sizeof(*work), name) : NULL;
+    if (work)
+        remote->worker = worker ? worker : rg_worker_create(name, environment);
+    else
+        rg_worker_destroy(worker);
+    if (work && remote->worker && ask_for(remote, name, environment)) {
+        remote->pub.work = work;
+        return &remote->pub;
+    }
+    if (remote)
+        rg_worker_destroy(remote->worker);
+    free(work);
+    free(remote);
+    return NULL;
+}
+
+struct rg_worker *rg_remote_worker(const struct rg_device *device)
+{
+    return device->backend->destroy == destroy_remote ? ((const struct remote *)device)->worker
+                                                      : NULL;
+}
+
+int64_t rg_remote_held_bytes(const struct rg_device *device)
+{
+    const struct rg_worker *worker = rg_remote_worker(device);
+    return rg_held_bytes(worker ? rg_worker_process(worker) : getpid());
+}

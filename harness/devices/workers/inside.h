@@ -1,0 +1,12 @@
+// What both sides of a worker agree on. Only files of this folder may include this.
+#ifndef RG_HARNESS_DEVICES_WORKERS_INSIDE_H
+#define RG_HARNESS_DEVICES_WORKERS_INSIDE_H
+
+// The channel's socket in the worker's process, behind the three descriptors that every process
+// has.
+enum { RG_WORKER_SOCKET = 3 };
+// Its arguments behind the program: RG_WORKER_ARGUMENT, and in one word the harness's process and
+// where the worker tells what it does.
+#define RG_WORKER_CHANNEL "%ld:%d"
+
+#endif

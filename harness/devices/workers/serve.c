@@ -1,0 +1,98 @@
+#include "harness/devices/workers/serve.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+#include "harness/console/interrupt.h"
+#include "harness/devices/workers/channel.h"
+#include "harness/devices/workers/inside.h"
+
+// Lines that were logged since the last reply.
+static struct {
+    int count;
+    struct rg_message lines;
+} logged;
+
+static void keep_line(enum rg_log_level level, const char *line, void *user)
+{
+    (void)user;
+    rg_put_int(&logged.lines, level);
+    rg_put_text(&logged.lines, line);
+    logged.count++;
+}
+
+// A reply is: whether the call succeeded, whose the last error was, the lines, and the result.
+static bool send_reply(struct rg_channel *channel, bool ok, const struct rg_message *result)
+{
+    struct rg_message reply = {0};
+    rg_put_int(&reply, ok);
+    rg_put_int(&reply, rg_last_error_kind());
+    rg_put_int(&reply, logged.count);
+    rg_put(&reply, logged.lines.bytes, logged.lines.size);
+    if (ok)
+        rg_put(&reply, result->bytes, result->size);
+    const bool sent = rg_channel_send(channel, &reply);
+    rg_message_free(&reply);
+    rg_message_free(&logged.lines);
+    logged.count = 0;
+    return sent;
+}
+
+static bool serve_one(struct rg_channel *channel, rg_service *const services[],
+                      struct rg_message *request, enum rg_call *call)
+{
+    struct rg_message result = {0};
+    *call = (enum rg_call)rg_take_index(request, RG_CALL_COUNT_OF_CALLS);
+    rg_doing_begin(rg_call_doing(*call), "");
+    const bool ok = !request->failed &&
+                    (services[*call] || rg_error("a worker does not serve this call")) &&
+                    services[*call](request, &result) && !request->failed && !result.failed;
+    const bool sent = send_reply(channel, ok, &result);
+    rg_message_free(&result);
+    return sent;
+}
+
+// The harness's death is this process's; no core of it is kept, for its memory is a driver's.
+static void become_a_worker(pid_t harness)
+{
+    const struct rlimit none = {0, 0};
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != harness)
+        _exit(1); // it has ended before this was set
+    setrlimit(RLIMIT_CORE, &none);
+    signal(SIGXFSZ, SIG_IGN);
+    rg_interrupt_watch();
+}
+
+int rg_serve(const char *argument, rg_service *const services[RG_CALL_COUNT_OF_CALLS])
+{
+    struct rg_channel channel;
+    long harness = 0;
+    int doing_id = 0;
+    struct rg_message request;
+    enum rg_call call = RG_CALL_OPEN;
+    if (sscanf(argument, RG_WORKER_CHANNEL, &harness, &doing_id) != 2)
+        return 1;
+    become_a_worker((pid_t)harness);
+    if (!rg_channel_join(&channel, RG_WORKER_SOCKET, doing_id))
+        return 1;
+    rg_log_listen(keep_line, NULL);
+    rg_doing_share(channel.doing.bytes);
+    bool goes_on = true;
+    while (goes_on && call != RG_CALL_CLOSE) {
+        const enum rg_arrival arrival = rg_channel_receive(&channel, &request, -1);
+        if (arrival == RG_NOT_YET)
+            continue;
+        goes_on = arrival == RG_ARRIVED && serve_one(&channel, services, &request, &call);
+        rg_message_free(&request);
+    }
+    rg_doing_share(NULL);
+    rg_log_listen(NULL, NULL);
+    rg_channel_close(&channel);
+    return 0;
+}

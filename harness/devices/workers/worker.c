@@ -1,0 +1,336 @@
+#define _GNU_SOURCE // memfd_create
+#include "harness/devices/workers/worker.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "core/base/program.h"
+#include "harness/console/clock.h"
+#include "harness/console/interrupt.h"
+#include "harness/devices/workers/channel.h"
+#include "harness/devices/workers/environment.h"
+#include "harness/devices/workers/held.h"
+#include "harness/devices/workers/inside.h"
+
+enum { LOOK_MS = 100, END_MS = 5000 };
+
+struct rg_workers rg_workers = {.timeout_s = 120};
+
+struct rg_worker {
+    char *name, *environment; // owned
+    pid_t process;            // 0: none lives
+    struct rg_channel channel;
+    FILE *printed;       // what the process prints; drivers do
+    bool is_interrupted; // it was told so
+    bool is_closed;      // its device was
+    int life;
+    enum rg_outcome end; // how its process ended last
+};
+
+struct rg_worker *rg_worker_create(const char *name, const char *environment)
+{
+    struct rg_worker *worker = rg_alloc(1, sizeof(*worker), name);
+    if (!worker)
+        return NULL;
+    worker->channel.socket = -1;
+    worker->name = strdup(name);
+    worker->environment = rg_environment_copy(environment);
+    if (worker->name && worker->environment)
+        return worker;
+    rg_worker_destroy(worker);
+    return rg_error_null("device '%s': no memory for its worker", name);
+}
+
+int rg_worker_life(const struct rg_worker *worker)
+{
+    return worker->life;
+}
+
+static bool tell_loss(const struct rg_worker *worker, enum rg_outcome outcome, const char *why)
+{
+    if (outcome == RG_CRASH)
+        return rg_crash_error("device '%s': %s", worker->name, why);
+    if (outcome == RG_TIMEOUT)
+        return rg_timeout_error("device '%s': %s", worker->name, why);
+    return rg_driver_error("device '%s': %s", worker->name, why);
+}
+
+pid_t rg_worker_process(const struct rg_worker *worker)
+{
+    return worker->process;
+}
+
+bool rg_worker_has(const struct rg_worker *worker, int life)
+{
+    return worker->process && worker->life == life;
+}
+
+bool rg_worker_still_has(const struct rg_worker *worker, int life)
+{
+    return rg_worker_has(worker, life) ||
+           tell_loss(worker, worker->end, "what was open on it has gone with its process");
+}
+
+// --- its process ---
+
+static void forget_process(struct rg_worker *worker)
+{
+    worker->process = 0;
+    worker->is_interrupted = worker->is_closed = false;
+    rg_channel_close(&worker->channel);
+    if (worker->printed)
+        fclose(worker->printed);
+    worker->printed = NULL;
+}
+
+// False, with the reason in `why`, on failure.
+static bool start(struct rg_worker *worker, char *why, size_t size)
+{
+    char argument[40];
+    int theirs;
+    const int printed = memfd_create("raingauge worker's output", MFD_CLOEXEC);
+    char **environment = rg_environment_with(worker->environment);
+    int error = rg_channel_create(&worker->channel, &theirs);
+    worker->printed = printed < 0 ? NULL : fdopen(printed, "w+");
+    if (!error && (!worker->printed || !environment))
+        error = ENOMEM;
+    snprintf(argument, sizeof(argument), RG_WORKER_CHANNEL, (long)getpid(),
+             worker->channel.doing.id);
+    const char *const args[] = {rg_workers.program, RG_WORKER_ARGUMENT, argument, NULL};
+    if (!error)
+        error = rg_program_start_in(environment, args, (const int[]){-1, printed, printed, theirs},
+                                    4, &worker->process);
+    free(environment);
+    if (theirs >= 0)
+        close(theirs);
+    if (!error) {
+        worker->life++;
+        return true;
+    }
+    forget_process(worker);
+    snprintf(why, size, "no process could be started for it: %s", strerror(error));
+    worker->end = RG_ERROR;
+    return false;
+}
+
+static bool has_ended(struct rg_worker *worker, int *status)
+{
+    return waitpid(worker->process, status, WNOHANG) == worker->process;
+}
+
+// Waits for the end of a process that has closed its channel; it is killed where that lasts.
+static int end_process(struct rg_worker *worker)
+{
+    int status = 0;
+    const double start_ms = rg_now_ms();
+    while (!has_ended(worker, &status)) {
+        if (rg_now_ms() - start_ms > END_MS)
+            kill(worker->process, SIGKILL);
+        usleep(500);
+    }
+    return status;
+}
+
+// A process that was asked to close its device has nothing more to do but to end.
+static void end(struct rg_worker *worker)
+{
+    char last[200];
+    rg_channel_close(&worker->channel);
+    const int status = end_process(worker);
+    rg_program_last_line(worker->printed, last, sizeof(last));
+    if (worker->is_closed && status)
+        rg_crash_error("device '%s': its process ended with status %d when all was done%s",
+                       worker->name, WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
+                       last);
+    forget_process(worker);
+}
+
+void rg_worker_destroy(struct rg_worker *worker)
+{
+    if (!worker)
+        return;
+    if (worker->process)
+        end(worker);
+    free(worker->name);
+    free(worker->environment);
+    free(worker);
+}
+
+// --- watching it ---
+
+// What ended a process, where that was we.
+enum verdict { BY_ITSELF, HANGS, HOLDS_TOO_MUCH };
+
+// A terminal's Ctrl-C does not reach the worker, which is in a group of its own. It is told once,
+// for a second signal would end it.
+static void pass_on_interruption(struct rg_worker *worker)
+{
+    if (rg_interrupted() && !worker->is_interrupted)
+        kill(worker->process, SIGINT);
+    worker->is_interrupted = worker->is_interrupted || rg_interrupted();
+}
+
+// Also where a process of its own keeps the channel open. It is not waited for yet.
+static bool is_dead(const struct rg_worker *worker)
+{
+    siginfo_t info = {0};
+    return waitid(P_PID, (id_t)worker->process, &info, WEXITED | WNOHANG | WNOWAIT) ||
+           info.si_pid == worker->process;
+}
+
+static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
+                             enum verdict *verdict)
+{
+    const struct rg_doing *doing = worker->channel.doing.bytes;
+    uint64_t seen = 0;
+    double since_ms = rg_now_ms();
+    for (;;) {
+        const enum rg_arrival arrival = rg_channel_receive(&worker->channel, reply, LOOK_MS);
+        if (arrival != RG_NOT_YET)
+            return arrival;
+        pass_on_interruption(worker);
+        const uint64_t count = atomic_load(&doing->count);
+        if (count != seen)
+            since_ms = rg_now_ms();
+        seen = count;
+        if (rg_now_ms() - since_ms > 1000.0 * rg_workers.timeout_s)
+            *verdict = HANGS;
+        else if (rg_workers.memory_bytes &&
+                 rg_held_bytes(worker->process) > rg_workers.memory_bytes)
+            *verdict = HOLDS_TOO_MUCH;
+        if (*verdict != BY_ITSELF || is_dead(worker))
+            return RG_ENDED;
+    }
+}
+
+// --- telling how it ended ---
+
+// What it was doing goes behind how it ended, and then what its process printed last.
+static void tell_end(const struct rg_worker *worker, enum verdict verdict, int status, char *why,
+                     size_t size)
+{
+    char last[200], doing[140] = "", line[200];
+    struct rg_doing seen = *(const struct rg_doing *)worker->channel.doing.bytes;
+    seen.what[sizeof(seen.what) - 1] = 0;
+    if (*seen.what)
+        snprintf(doing, sizeof(doing), " while %s", seen.what);
+    rg_program_last_line(worker->printed, last, sizeof(last));
+    if (verdict == HANGS)
+        snprintf(line, sizeof(line), "its driver did not come back within %d s",
+                 rg_workers.timeout_s);
+    else if (verdict == HOLDS_TOO_MUCH)
+        snprintf(line, sizeof(line), "it took more than %lld MiB of memory and was ended",
+                 (long long)(rg_workers.memory_bytes >> 20));
+    else if (WIFSIGNALED(status))
+        snprintf(line, sizeof(line), "its driver crashed (%s)", strsignal(WTERMSIG(status)));
+    else
+        snprintf(line, sizeof(line), "its driver ended the process with status %d",
+                 WEXITSTATUS(status));
+    snprintf(why, size, "%s%s%s", line, doing, last);
+}
+
+static enum rg_outcome bury(struct rg_worker *worker, enum verdict verdict, char *why, size_t size)
+{
+    if (verdict != BY_ITSELF)
+        kill(worker->process, SIGKILL);
+    tell_end(worker, verdict, end_process(worker), why, size);
+    forget_process(worker);
+    worker->end = verdict == HANGS ? RG_TIMEOUT : RG_CRASH;
+    return worker->end;
+}
+
+// --- calls ---
+
+// False, with how it ended in `why`, where it has ended too often, or cannot be started.
+static bool comes_to_life(struct rg_worker *worker, char *why, size_t size)
+{
+    if (worker->process)
+        return true;
+    if (worker->life < RG_WORKER_LIVES)
+        return start(worker, why, size);
+    snprintf(why, size, "left out, for its process has ended %d times", worker->life);
+    return false;
+}
+
+// A driver's error names its device; what the user did amiss has no device.
+static void relay(const struct rg_worker *worker, enum rg_log_level level, enum rg_error_kind kind,
+                  const char *line)
+{
+    char named[1300];
+    const bool adds =
+        level == RG_LOG_ERROR && kind != RG_ERROR_INPUT && !strstr(line, worker->name);
+    snprintf(named, sizeof(named), "device '%s': %s", worker->name, line);
+    rg_log_relay(level, kind, adds ? named : line);
+}
+
+// Logs what the worker did, and says whether the call succeeded.
+static bool open_reply(const struct rg_worker *worker, struct rg_message *reply)
+{
+    const bool ok = rg_take_index(reply, 2);
+    const int kind = rg_take_index(reply, RG_ERROR_KINDS);
+    const int64_t count = rg_take_int(reply);
+    for (int64_t i = 0; i < count && !reply->failed; i++) {
+        const int level = rg_take_index(reply, RG_LOG_LEVELS);
+        const char *line = rg_take_text(reply);
+        if (!reply->failed)
+            relay(worker, (enum rg_log_level)level, (enum rg_error_kind)kind, line);
+    }
+    return ok && !reply->failed;
+}
+
+// What is asked: the call, then the request.
+static bool send(struct rg_worker *worker, enum rg_call call, const struct rg_message *request)
+{
+    struct rg_message message = {0};
+    rg_put_int(&message, call);
+    if (request)
+        rg_put(&message, request->bytes, request->size);
+    const bool sent = rg_channel_send(&worker->channel, &message);
+    rg_message_free(&message);
+    return sent;
+}
+
+enum rg_outcome rg_worker_try(struct rg_worker *worker, enum rg_call call,
+                              const struct rg_message *request, struct rg_message *reply, char *why,
+                              size_t why_size)
+{
+    enum verdict verdict = BY_ITSELF;
+    *reply = (struct rg_message){0};
+    *why = 0;
+    if (request && request->failed)
+        return RG_ERROR;
+    if (!comes_to_life(worker, why, why_size))
+        return worker->end;
+    if (!send(worker, call, request) || watch(worker, reply, &verdict) == RG_ENDED)
+        return bury(worker, verdict, why, why_size);
+    return open_reply(worker, reply) ? RG_OK : rg_outcome_of_error();
+}
+
+bool rg_worker_call(struct rg_worker *worker, enum rg_call call, const struct rg_message *request,
+                    struct rg_message *reply)
+{
+    char why[512];
+    const enum rg_outcome outcome = rg_worker_try(worker, call, request, reply, why, sizeof(why));
+    return outcome == RG_OK || (*why && tell_loss(worker, outcome, why));
+}
+
+bool rg_worker_ask(struct rg_worker *worker, enum rg_call call, const struct rg_message *request)
+{
+    struct rg_message reply;
+    const bool ok = rg_worker_call(worker, call, request, &reply);
+    rg_message_free(&reply);
+    return ok;
+}
+
+void rg_worker_retire(struct rg_worker *worker)
+{
+    worker->is_closed = worker->process && rg_worker_ask(worker, RG_CALL_CLOSE, NULL);
+}

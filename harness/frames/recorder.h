@@ -1,0 +1,14 @@
+// Digests of a run in this process. Only files of this folder may include this: all others go
+// through digests.h.
+#ifndef RG_HARNESS_FRAMES_RECORDER_H
+#define RG_HARNESS_FRAMES_RECORDER_H
+
+#include "harness/frames/digests.h"
+
+// As rg_digests_take and rg_digests_contents; what is given is zeroed.
+bool rg_recorder_take(const struct rg_digest_run *run, struct rg_device *device,
+                      struct rg_digests *digests);
+bool rg_recorder_contents(const struct rg_digest_run *run, struct rg_device *device, int row,
+                          struct rg_contents *contents, struct rg_state *state);
+
+#endif

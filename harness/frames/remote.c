@@ -1,0 +1,256 @@
+// A session whose instance lives in a worker (harness/devices/serving/sessions.c serves its calls).
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/base/log.h"
+#include "harness/frames/ways.h"
+#include "harness/frames/messages.h"
+#include "harness/devices/workers/device.h"
+
+static struct rg_worker *worker_of(const struct rg_session *session)
+{
+    return rg_remote_worker(session->device);
+}
+
+// Asks for a call of a session: its number goes before what `request` holds, which is freed. False,
+// with one logged line, on failure; `reply` is to be freed in either case.
+static bool call(const struct rg_session *session, enum rg_call which, struct rg_message *request,
+                 struct rg_message *reply)
+{
+    struct rg_message whole = {0};
+    *reply = (struct rg_message){0};
+    bool ok = rg_worker_still_has(worker_of(session), session->life);
+    rg_put_int(&whole, session->number);
+    if (request)
+        rg_put(&whole, request->bytes, request->size);
+    whole.failed = whole.failed || (request && request->failed);
+    ok = ok && rg_worker_call(worker_of(session), which, &whole, reply);
+    rg_message_free(&whole);
+    if (request)
+        rg_message_free(request);
+    return ok;
+}
+
+// The same where nothing but success comes back.
+static bool ask(struct rg_session *session, enum rg_call which)
+{
+    struct rg_message reply;
+    const bool ok = call(session, which, NULL, &reply);
+    rg_message_free(&reply);
+    return ok;
+}
+
+// Ends the taking of a reply.
+static bool finish(struct rg_message *reply, bool ok)
+{
+    ok = ok && !reply->failed;
+    rg_message_free(reply);
+    return ok;
+}
+
+static bool open_remote(struct rg_session *session, const struct rg_subject *subject)
+{
+    struct rg_message request = {0}, reply;
+    struct rg_worker *worker = worker_of(session);
+    rg_put_text(&request, session->device->info.name);
+    rg_put_subject(&request, subject);
+    bool ok = rg_worker_call(worker, RG_CALL_SESSION_OPEN, &request, &reply);
+    if (ok) {
+        session->number = rg_take_index(&reply, INT32_MAX);
+        session->state_count = rg_take_index(&reply, RG_MAX_STATE + 1);
+        session->life = rg_worker_life(worker);
+    }
+    rg_message_free(&request);
+    return finish(&reply, ok);
+}
+
+// What is gone with its worker needs no closing, and no line.
+static void close_remote(struct rg_session *session)
+{
+    if (rg_worker_has(worker_of(session), session->life))
+        ask(session, RG_CALL_SESSION_CLOSE);
+}
+
+// --- simulating and drawing ---
+
+static bool step(struct rg_session *session)
+{
+    return ask(session, RG_CALL_STEP);
+}
+
+static bool draw(struct rg_session *session)
+{
+    return ask(session, RG_CALL_DRAW);
+}
+
+static bool wait_for_all(struct rg_session *session)
+{
+    return ask(session, RG_CALL_SYNC);
+}
+
+static bool run_frames(struct rg_session *session, int frames, double *wall_ms)
+{
+    struct rg_message request = {0}, reply;
+    double ms = 0;
+    rg_put_int(&request, frames);
+    const bool ok = call(session, RG_CALL_FRAMES, &request, &reply) && RG_TAKE(&reply, ms);
+    if (wall_ms)
+        *wall_ms = ms;
+    return finish(&reply, ok);
+}
+
+static bool count(struct rg_session *session, struct rg_tally *tally)
+{
+    struct rg_message reply;
+    const bool ok = call(session, RG_CALL_COUNT, NULL, &reply) && RG_TAKE(&reply, *tally);
+    return finish(&reply, ok);
+}
+
+static bool time_stages(struct rg_session *session,
+                        void (*tell)(const char *kernel, double ms, void *user), void *user)
+{
+    struct rg_message reply;
+    const bool ok = call(session, RG_CALL_STAGES, NULL, &reply);
+    const int64_t stages = ok ? rg_take_int(&reply) : 0;
+    for (int64_t i = 0; i < stages && !reply.failed; i++) {
+        double ms = 0;
+        const char *kernel = rg_take_name(&reply);
+        if (RG_TAKE(&reply, ms))
+            tell(kernel, ms, user);
+    }
+    return finish(&reply, ok);
+}
+
+static bool tell_time(struct rg_session *session, int64_t *time_ns)
+{
+    struct rg_message reply;
+    const bool ok = call(session, RG_CALL_TIME, NULL, &reply) && RG_TAKE(&reply, *time_ns);
+    return finish(&reply, ok);
+}
+
+// --- its picture, its state, and what it tells of itself ---
+
+// The bytes of a reply's block, of the size that is due where that is not 0; NULL where they fail.
+static void *take_bytes(struct rg_message *reply, bool ok, size_t due, size_t *size)
+{
+    int64_t taken = 0;
+    void *bytes = ok ? rg_take_block(reply, &taken) : NULL;
+    *size = (size_t)taken;
+    if (bytes && due && *size != due)
+        reply->failed =
+            !rg_driver_error("a picture from another process has %zu bytes, not %zu", *size, due);
+    if (finish(reply, bytes != NULL))
+        return bytes;
+    free(bytes);
+    return NULL;
+}
+
+static void *read_picture(struct rg_session *session, size_t *size)
+{
+    struct rg_message reply;
+    const bool ok = call(session, RG_CALL_READ, NULL, &reply);
+    const size_t due =
+        (size_t)session->width * (size_t)session->height * (size_t)rg_format_size(RG_RGBA16F);
+    return take_bytes(&reply, ok, due, size);
+}
+
+// Of a session that has gone nothing is told.
+static void tell(const struct rg_session *session, struct rg_account *account)
+{
+    struct rg_message reply;
+    const bool ok = call(session, RG_CALL_TELL, NULL, &reply) && rg_take_account(&reply, account);
+    if (!finish(&reply, ok))
+        *account = (struct rg_account){0};
+}
+
+static void *read_state(struct rg_session *session, int index, struct rg_state *layout,
+                        size_t *size)
+{
+    struct rg_message request = {0}, reply;
+    rg_put_int(&request, index);
+    const bool ok =
+        call(session, RG_CALL_READ_STATE, &request, &reply) && rg_take_layout(&reply, layout);
+    return take_bytes(&reply, ok, 0, size);
+}
+
+static bool obeys(const struct rg_session *session, const struct rg_law *law, char *detail,
+                  size_t size)
+{
+    struct rg_message request = {0}, reply;
+    rg_put_int(&request, law - session->technique->proof->laws);
+    const bool ok = call(session, RG_CALL_OBEYS, &request, &reply);
+    const bool holds = ok && rg_take_index(&reply, 2);
+    snprintf(detail, size, "%s", ok ? rg_take_text(&reply) : rg_last_error());
+    return finish(&reply, ok) && holds;
+}
+
+static bool texture(const struct rg_session *session, const char *name, struct rg_image_desc *desc,
+                    int *first_level)
+{
+    struct rg_message request = {0}, reply;
+    rg_put_text(&request, name);
+    const bool ok = call(session, RG_CALL_TEXTURE, &request, &reply);
+    const bool found =
+        ok && rg_take_index(&reply, 2) && RG_TAKE(&reply, *desc) && RG_TAKE(&reply, *first_level);
+    return finish(&reply, ok) && found;
+}
+
+// --- digests ---
+
+static bool call_for_run(const struct rg_digest_run *run, struct rg_device *device,
+                         enum rg_call which, int row, struct rg_message *reply)
+{
+    struct rg_message request = {0};
+    rg_put_text(&request, device->info.name);
+    rg_put_subject(&request, &run->subject);
+    rg_put_int(&request, run->frames);
+    rg_put_int(&request, row);
+    const bool ok = rg_worker_call(rg_remote_worker(device), which, &request, reply);
+    rg_message_free(&request);
+    return ok;
+}
+
+static bool take_digests(const struct rg_digest_run *run, struct rg_device *device,
+                         struct rg_digests *digests)
+{
+    struct rg_message reply;
+    int64_t size = 0;
+    bool ok = call_for_run(run, device, RG_CALL_DIGESTS, 0, &reply);
+    digests->rows = ok ? rg_take_block(&reply, &size) : NULL;
+    digests->room = digests->count = (int)(size / (int64_t)sizeof(*digests->rows));
+    for (int i = 0; i < digests->count; i++)
+        digests->rows[i].stage[RG_ASSET_NAME - 1] = digests->rows[i].asset[RG_ASSET_NAME - 1] = 0;
+    return finish(&reply, ok);
+}
+
+static bool take_contents(const struct rg_digest_run *run, struct rg_device *device, int row,
+                          struct rg_contents *contents, struct rg_state *state)
+{
+    struct rg_message reply;
+    int64_t size = 0;
+    bool ok = call_for_run(run, device, RG_CALL_CONTENTS, row, &reply) &&
+              RG_TAKE(&reply, contents->desc) && rg_take_layout(&reply, state);
+    contents->bytes = ok ? rg_take_block(&reply, &size) : NULL;
+    contents->size = (size_t)size;
+    return finish(&reply, ok);
+}
+
+const struct rg_session_ways rg_remote_session = {
+    .open = open_remote,
+    .close = close_remote,
+    .step = step,
+    .draw = draw,
+    .sync = wait_for_all,
+    .frames = run_frames,
+    .count = count,
+    .stages = time_stages,
+    .time = tell_time,
+    .read = read_picture,
+    .tell = tell,
+    .read_state = read_state,
+    .obeys = obeys,
+    .texture = texture,
+    .take_digests = take_digests,
+    .take_contents = take_contents,
+};

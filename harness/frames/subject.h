@@ -1,0 +1,23 @@
+// What a session is opened with, and what it tells of itself.
+#ifndef RG_HARNESS_FRAMES_SUBJECT_H
+#define RG_HARNESS_FRAMES_SUBJECT_H
+
+#include "core/techniques/technique.h"
+
+// What is opened, and for how large an image. Nothing in it is owned.
+struct rg_subject {
+    const struct rg_technique *technique;
+    const void *settings;
+    int width, height; // pixels
+};
+
+// What an instance tells of itself now.
+struct rg_account {
+    int64_t frame; // frames simulated
+    int counter_count;
+    struct rg_counter counters[RG_MAX_COUNTERS];
+    int fact_count;
+    struct rg_fact facts[RG_MAX_FACTS];
+};
+
+#endif

@@ -1,0 +1,257 @@
+// A driver that misbehaves, for each API: one function of it aborts, faults, ends the process,
+// hangs, takes memory without end, or reports that the device is lost.
+//
+// RG_MISBEHAVE=FUNCTION:HOW:CALLS names which function does so, how (abort, fault, exit, hang,
+// swell, lost), and how many calls go well before. All else goes to the real driver. For Vulkan
+// this library is a driver of its own in front of lavapipe, which the loader finds by a manifest
+// (VK_DRIVER_FILES); for EGL, OpenGL and OpenCL it is loaded before others (LD_PRELOAD).
+#define _GNU_SOURCE // RTLD_NEXT, dlvsym
+#include <dlfcn.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+#include <EGL/egl.h>
+#include <GL/gl.h>
+#include <vulkan/vk_icd.h>
+#include <vulkan/vulkan.h>
+
+// --- misbehaving ---
+
+static void swell(void)
+{
+    for (;;) {
+        char *more =
+            mmap(NULL, 1 << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        if (more != MAP_FAILED)
+            memset(more, 1, 1 << 20);
+        usleep(500);
+    }
+}
+
+static void fault(void)
+{
+    volatile int *volatile nowhere = NULL;
+    *nowhere = 1;
+}
+
+// Whether this call is to report that the device is lost; it does not come back where it ends
+// otherwise.
+static bool misbehaves(const char *function)
+{
+    static int calls;
+    const char *asked = getenv("RG_MISBEHAVE");
+    char name[64] = "", how[16] = "";
+    int after = 0;
+    if (!asked || sscanf(asked, "%63[^:]:%15[^:]:%d", name, how, &after) != 3 ||
+        strcmp(name, function) != 0 || calls++ < after)
+        return false;
+    if (!strcmp(how, "abort"))
+        abort();
+    if (!strcmp(how, "fault"))
+        fault();
+    if (!strcmp(how, "exit"))
+        _exit(0);
+    if (!strcmp(how, "swell"))
+        swell();
+    while (!strcmp(how, "hang"))
+        pause();
+    return true;
+}
+
+// --- functions that are asked for by name ---
+
+typedef void (*any_function)(void);
+
+// Each has the real function once it was asked for.
+static PFN_vkEnumeratePhysicalDevices real_vkEnumeratePhysicalDevices;
+static PFN_vkCreateDevice real_vkCreateDevice;
+static PFN_vkCreateComputePipelines real_vkCreateComputePipelines;
+static PFN_vkQueueSubmit real_vkQueueSubmit;
+static PFN_vkWaitForFences real_vkWaitForFences;
+static PFN_vkGetDeviceProcAddr real_vkGetDeviceProcAddr;
+static EGLBoolean (*real_eglInitialize)(EGLDisplay, EGLint *, EGLint *);
+static any_function (*real_eglGetProcAddress)(const char *);
+static void (*real_glLinkProgram)(GLuint);
+static void (*real_glDispatchCompute)(GLuint, GLuint, GLuint);
+static void (*real_glFinish)(void);
+
+static VkResult hooked_vkEnumeratePhysicalDevices(VkInstance i, uint32_t *n, VkPhysicalDevice *d)
+{
+    return misbehaves("vkEnumeratePhysicalDevices") ? VK_ERROR_INITIALIZATION_FAILED
+                                                    : real_vkEnumeratePhysicalDevices(i, n, d);
+}
+
+static VkResult hooked_vkCreateDevice(VkPhysicalDevice p, const VkDeviceCreateInfo *info,
+                                      const VkAllocationCallbacks *a, VkDevice *d)
+{
+    return misbehaves("vkCreateDevice") ? VK_ERROR_DEVICE_LOST : real_vkCreateDevice(p, info, a, d);
+}
+
+static VkResult hooked_vkCreateComputePipelines(VkDevice d, VkPipelineCache c, uint32_t n,
+                                                const VkComputePipelineCreateInfo *infos,
+                                                const VkAllocationCallbacks *a, VkPipeline *p)
+{
+    return misbehaves("vkCreateComputePipelines")
+               ? VK_ERROR_DEVICE_LOST
+               : real_vkCreateComputePipelines(d, c, n, infos, a, p);
+}
+
+static VkResult hooked_vkQueueSubmit(VkQueue q, uint32_t n, const VkSubmitInfo *infos, VkFence f)
+{
+    return misbehaves("vkQueueSubmit") ? VK_ERROR_DEVICE_LOST : real_vkQueueSubmit(q, n, infos, f);
+}
+
+static VkResult hooked_vkWaitForFences(VkDevice d, uint32_t n, const VkFence *f, VkBool32 all,
+                                       uint64_t ns)
+{
+    return misbehaves("vkWaitForFences") ? VK_ERROR_DEVICE_LOST
+                                         : real_vkWaitForFences(d, n, f, all, ns);
+}
+
+static any_function hook_of(const char *name, any_function real);
+
+static PFN_vkVoidFunction hooked_vkGetDeviceProcAddr(VkDevice device, const char *name)
+{
+    return hook_of(name, real_vkGetDeviceProcAddr(device, name));
+}
+
+static EGLBoolean hooked_eglInitialize(EGLDisplay d, EGLint *major, EGLint *minor)
+{
+    return misbehaves("eglInitialize") ? EGL_FALSE : real_eglInitialize(d, major, minor);
+}
+
+static any_function hooked_eglGetProcAddress(const char *name)
+{
+    return hook_of(name, real_eglGetProcAddress(name));
+}
+
+static void hooked_glLinkProgram(GLuint program)
+{
+    if (!misbehaves("glLinkProgram"))
+        real_glLinkProgram(program);
+}
+
+static void hooked_glDispatchCompute(GLuint x, GLuint y, GLuint z)
+{
+    if (!misbehaves("glDispatchCompute"))
+        real_glDispatchCompute(x, y, z);
+}
+
+static void hooked_glFinish(void)
+{
+    if (!misbehaves("glFinish"))
+        real_glFinish();
+}
+
+// clang-format off
+#define HOOK(function) {#function, (any_function)hooked_##function, (any_function *)(void *)&real_##function}
+// clang-format on
+static any_function hook_of(const char *name, any_function real)
+{
+    static const struct {
+        const char *name;
+        any_function hooked, *real;
+    } hooks[] = {
+        HOOK(vkEnumeratePhysicalDevices),
+        HOOK(vkCreateDevice),
+        HOOK(vkCreateComputePipelines),
+        HOOK(vkQueueSubmit),
+        HOOK(vkWaitForFences),
+        HOOK(vkGetDeviceProcAddr),
+        HOOK(eglInitialize),
+        HOOK(eglGetProcAddress),
+        HOOK(glLinkProgram),
+        HOOK(glDispatchCompute),
+        HOOK(glFinish),
+    };
+    for (size_t i = 0; real && name && i < sizeof(hooks) / sizeof(hooks[0]); i++) {
+        if (strcmp(hooks[i].name, name) != 0)
+            continue;
+        *hooks[i].real = real;
+        return hooks[i].hooked;
+    }
+    return real;
+}
+
+// --- Vulkan: a driver in front of lavapipe ---
+
+static void *lavapipe(const char *function)
+{
+    static void *library;
+    if (!library)
+        library = dlopen("libvulkan_lvp.so", RTLD_NOW | RTLD_LOCAL);
+    return library ? dlsym(library, function) : NULL;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL vk_icdNegotiateLoaderICDInterfaceVersion(uint32_t *version)
+{
+    PFN_vkNegotiateLoaderICDInterfaceVersion real =
+        (PFN_vkNegotiateLoaderICDInterfaceVersion)lavapipe(
+            "vk_icdNegotiateLoaderICDInterfaceVersion");
+    return real ? real(version) : VK_ERROR_INCOMPATIBLE_DRIVER;
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vk_icdGetInstanceProcAddr(VkInstance instance,
+                                                                   const char *name)
+{
+    PFN_vkGetInstanceProcAddr real =
+        (PFN_vkGetInstanceProcAddr)lavapipe("vk_icdGetInstanceProcAddr");
+    return real ? hook_of(name, real(instance, name)) : NULL;
+}
+
+// --- EGL and OpenGL: libepoxy asks the dynamic linker for each function ---
+
+void *dlsym(void *handle, const char *name)
+{
+    static void *(*real)(void *, const char *);
+    if (!real)
+        real = (void *(*)(void *, const char *))dlvsym(RTLD_NEXT, "dlsym", "GLIBC_2.34");
+    if (!real)
+        real = (void *(*)(void *, const char *))dlvsym(RTLD_NEXT, "dlsym", "GLIBC_2.2.5");
+    void *found = real(handle, name);
+    const bool is_ours = !strncmp(name, "gl", 2) || !strncmp(name, "egl", 3);
+    return is_ours ? (void *)hook_of(name, (any_function)found) : found;
+}
+
+// --- OpenCL: linked functions ---
+
+#define REAL(function) ((__typeof__(&(function)))dlsym(RTLD_NEXT, #function))
+
+cl_int clGetDeviceIDs(cl_platform_id platform, cl_device_type type, cl_uint room,
+                      cl_device_id *devices, cl_uint *count)
+{
+    return misbehaves("clGetDeviceIDs")
+               ? CL_OUT_OF_HOST_MEMORY
+               : REAL(clGetDeviceIDs)(platform, type, room, devices, count);
+}
+
+cl_int clBuildProgram(cl_program program, cl_uint count, const cl_device_id *devices,
+                      const char *options, void(CL_CALLBACK *notify)(cl_program, void *),
+                      void *user)
+{
+    return misbehaves("clBuildProgram")
+               ? CL_OUT_OF_RESOURCES
+               : REAL(clBuildProgram)(program, count, devices, options, notify, user);
+}
+
+cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions,
+                              const size_t *offset, const size_t *global, const size_t *local,
+                              cl_uint waits, const cl_event *list, cl_event *event)
+{
+    return misbehaves("clEnqueueNDRangeKernel")
+               ? CL_OUT_OF_RESOURCES
+               : REAL(clEnqueueNDRangeKernel)(queue, kernel, dimensions, offset, global, local,
+                                              waits, list, event);
+}
+
+cl_int clFinish(cl_command_queue queue)
+{
+    return misbehaves("clFinish") ? CL_OUT_OF_RESOURCES : REAL(clFinish)(queue);
+}

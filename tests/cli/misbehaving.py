@@ -1,0 +1,160 @@
+"""Drivers that misbehave: a command keeps what every other device gives, says in one line what became of one, and ends."""
+import json
+import os
+import re
+import tempfile
+
+import forms
+
+SMALL = "--set environment_px=64 --set resolution_px=96 --size 96x96 "
+# What each command is asked for, on all devices.
+COMMANDS = {
+    "doctor": "doctor --json",
+    "diff": "diff raster --frame 1 --json --size 96x96",
+    "table": "table stuppacher-2 --work paper --rows 1-1 --quick --json",
+    "verify": "verify raster --quick --json --size 96x96",
+}
+OTHERS = {"cpu", "cpu:reference", "gl", "vulkan", "opencl"}
+HOW = {
+    "abort": ("crash", r"its driver crashed \(Aborted\)"),
+    "fault": ("crash", r"its driver crashed \(Segmentation fault\)"),
+    "exit": ("crash", r"its driver ended the process with status 0"),
+    "hang": ("timeout", r"its driver did not come back within 5 s"),
+}
+
+
+def shim(runner, folder, device, function, how, calls):
+    """Variables with which a function of a device's driver misbehaves after so many calls."""
+    env = {"RG_MISBEHAVE": "%s:%s:%d" % (function, how, calls)}
+    if device != "vulkan":
+        return dict(env, LD_PRELOAD=runner.misbehaver)
+    path = os.path.join(folder, "misbehaving.json")
+    with open(path, "w") as file:
+        json.dump({"file_format_version": "1.0.0", "ICD": {"library_path": runner.misbehaver, "api_version": "1.1.0"}}, file)
+    return dict(env, VK_DRIVER_FILES=path)
+
+
+def found_well(command, report):
+    """The devices for which the command has a result, from its JSON."""
+    if command == "doctor":
+        return {device["name"] for device in report["devices"] if device["status"] == "ok"}
+    if command == "diff":
+        return {name for pair in report["pairs"] if pair["tier"] == "T0" for name in (pair["a"], pair["b"])}
+    if command == "table":
+        return {cell["device"] for cell in report["cells"] if cell["status"] == "ok"}
+    good = {check["device"] for check in report["checks"] if check["status"] == "ok" and check["check"] == "image"}
+    return good | {"cpu:reference"}
+
+
+# Device, function, how, calls that go well before. Functions of opening come first, then those of running.
+CASES = [
+    ("vulkan", "vkEnumeratePhysicalDevices", "abort", 0),
+    ("vulkan", "vkCreateDevice", "fault", 0),
+    ("vulkan", "vkCreateComputePipelines", "hang", 1),
+    ("vulkan", "vkQueueSubmit", "exit", 0),
+    ("vulkan", "vkQueueSubmit", "lost", 0),
+    ("gl", "eglInitialize", "exit", 0),
+    ("gl", "glLinkProgram", "abort", 2),
+    ("gl", "glDispatchCompute", "fault", 3),
+    ("gl", "glDispatchCompute", "hang", 3),
+    ("opencl", "clGetDeviceIDs", "fault", 0),
+    ("opencl", "clBuildProgram", "abort", 0),
+    ("opencl", "clEnqueueNDRangeKernel", "exit", 2),
+    ("opencl", "clEnqueueNDRangeKernel", "lost", 2),
+]
+
+
+def problems_of(runner, command, case):
+    """What is wrong with how a command ends while a device misbehaves."""
+    device, function, how, calls = case
+    with tempfile.TemporaryDirectory() as folder:
+        result = runner.run(COMMANDS[command].split() + ["--timeout", "5"], shim(runner, folder, *case))
+    about = "%s, %s:%s:%d: " % (command, function, how, calls)
+    try:
+        report = json.loads(result.stdout)
+    except ValueError:
+        return [about + "exit status %d, no JSON: %s %s" % (result.returncode, result.stdout[:200], result.stderr)]
+    problems = forms.problems(command, report)
+    if result.returncode != 1:
+        problems.append("exit status %d" % result.returncode)
+    kept = found_well(command, report) & OTHERS
+    if kept != OTHERS - {device}:
+        problems.append("results of %s" % sorted(kept))
+    lines = result.stderr.splitlines()
+    if not lines or len(set(lines)) != len(lines) or len(lines) > 4:
+        problems.append("%d lines" % len(lines))
+    if how in HOW and not any(re.search(device + ".*" + HOW[how][1], line) for line in lines):
+        problems.append("it is not said how")
+    if any(device not in line for line in lines):
+        problems.append("a line names another device")
+    return [about + problem for problem in problems] + ([about + result.stderr] if problems else [])
+
+
+def check_comparisons(runner):
+    """diff keeps the pairs of every other device, whatever one of them does"""
+    return [problem for case in CASES for problem in problems_of(runner, "diff", case)]
+
+
+def check_commands(runner):
+    """so do doctor, table and verify, of a device that falls in opening, and of one that does so in running"""
+    return [problem for command in ("doctor", "table", "verify") for case in (CASES[1], CASES[3], CASES[7], CASES[10])
+            for problem in problems_of(runner, command, case)]
+
+
+def check_alone(runner):
+    """render of a device that falls fails, with one line, and writes nothing"""
+    problems = []
+    for case in (CASES[3], CASES[6], CASES[11], CASES[8]):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "picture.png")
+            args = ("render flow --frame 2 --timeout 5 --device %s -o %s %s" % (case[0], path, SMALL)).split()
+            result = runner.run(args, shim(runner, folder, *case))
+            lines = result.stderr.splitlines()
+            if result.returncode != 1 or len(lines) != 1 or not re.search(HOW[case[2]][1], lines[0]) or os.path.exists(path):
+                problems.append("%s: exit status %d, %s" % (case, result.returncode, lines))
+    return problems
+
+
+def check_listed(runner):
+    """list devices names what is left, and says of a backend that falls that it crashed"""
+    problems = []
+    for case in (CASES[0], CASES[5], CASES[9]):
+        with tempfile.TemporaryDirectory() as folder:
+            result = runner.run(["list", "devices", "--json"], shim(runner, folder, *case))
+        names = {device["name"] for device in json.loads(result.stdout)["devices"]}
+        lines = result.stderr.splitlines()
+        if names != OTHERS - {case[0]} or result.returncode != 1 or len(lines) != 1 or not re.search(HOW[case[2]][1], lines[0]):
+            problems.append("%s: %s, exit status %d, %s" % (case, sorted(names), result.returncode, lines))
+    return problems
+
+
+def check_required(runner):
+    """--require fails a command where a device is missing that it names, and changes nothing where it is there"""
+    problems = []
+    for device, status in (("cpu,gl", 0), ("vulkan", 1), ("opencl", 0)):
+        with tempfile.TemporaryDirectory() as folder:
+            env = {"VK_DRIVER_FILES": "/nonexistent"}
+            result = runner.run(COMMANDS["diff"].split() + ["--require", device], env)
+        said = "--require vulkan: vulkan: no" in result.stderr
+        if result.returncode != status or said != (status == 1):
+            problems.append("--require %s: exit status %d, %s" % (device, result.returncode, result.stderr))
+    return problems
+
+
+def check_environments(runner):
+    """two settings and two drivers of one API stand side by side, told apart by their names"""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "other.json")
+        shim(runner, folder, "vulkan", "none", "none", 0)
+        os.rename(os.path.join(folder, "misbehaving.json"), path)
+        names = ["vulkan", "vulkan@LP_NUM_THREADS=1", "vulkan@VK_DRIVER_FILES=" + path,
+                 'gl@LP_NATIVE_VECTOR_WIDTH=128;RG_NOTE="a,b;c"']
+        result = runner.run(COMMANDS["diff"].split() + ["--device", ",".join(names)])
+    report = json.loads(result.stdout)
+    found = [(pair["a"], pair["b"], pair["tier"]) for pair in report["pairs"]]
+    wanted = [(a, b, "T0") for i, a in enumerate(names) for b in names[i + 1:]]
+    return [] if found == wanted and result.returncode == 0 and not result.stderr else [
+        "%s, exit status %d, %s" % (found, result.returncode, result.stderr)]
+
+
+CHECKS = [check_comparisons, check_commands, check_alone, check_listed, check_required, check_environments]

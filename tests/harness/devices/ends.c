@@ -1,0 +1,347 @@
+#define _GNU_SOURCE // MAP_ANONYMOUS, usleep
+// What a worker does to the harness: return a result, or a line that says how it ended.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/base/doing.h"
+#include "core/base/log.h"
+#include "harness/devices/workers/serve.h"
+#include "harness/devices/workers/worker.h"
+
+// --- in the worker ---
+
+enum { MANY = 10 << 20 };
+
+static bool double_it(struct rg_message *request, struct rg_message *reply)
+{
+    rg_put_int(reply, 2 * rg_take_int(request));
+    return true;
+}
+
+static bool send_many(struct rg_message *request, struct rg_message *reply)
+{
+    const int first = (int)rg_take_int(request);
+    char *bytes = malloc(MANY);
+    for (int i = 0; bytes && i < MANY; i++)
+        bytes[i] = (char)(first + i / 3);
+    rg_put_block(reply, bytes, MANY);
+    free(bytes);
+    return true;
+}
+
+static bool refuse(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    (void)reply;
+    printf("noise\n");
+    rg_warning("a worry");
+    return rg_unsupported("this device has no soul");
+}
+
+static bool end(struct rg_message *request, struct rg_message *reply)
+{
+    (void)reply;
+    const int how = (int)rg_take_int(request);
+    rg_doing_begin("running kernel", "flow_blur");
+    fprintf(stderr, "first\nsecond line\n----\n");
+    if (how < 0)
+        _exit(-1 - how);
+    raise(how);
+    return true;
+}
+
+static bool hang(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    (void)reply;
+    while (pause())
+        continue;
+    return true;
+}
+
+static bool swell(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    (void)reply;
+    for (char *more = NULL; more != MAP_FAILED;) {
+        more = mmap(NULL, 1 << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        memset(more, 1, 1 << 20);
+        usleep(500);
+    }
+    return true;
+}
+
+// Its own process holds the channel's descriptors when it ends.
+static bool leave_a_child(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    (void)reply;
+    if (fork() == 0) {
+        sleep(2);
+        _exit(0);
+    }
+    _exit(3);
+}
+
+static bool tell_variable(struct rg_message *request, struct rg_message *reply)
+{
+    const char *value = getenv(rg_take_text(request));
+    rg_put_text(reply, value ? value : "(none)");
+    return true;
+}
+
+static bool tell_process(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    rg_put_int(reply, getpid());
+    return true;
+}
+
+static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {
+    [RG_CALL_STEP] = double_it,     [RG_CALL_READ] = send_many,     [RG_CALL_DRAW] = refuse,
+    [RG_CALL_SYNC] = end,           [RG_CALL_TIME] = hang,          [RG_CALL_COUNT] = swell,
+    [RG_CALL_OPEN] = leave_a_child, [RG_CALL_TELL] = tell_variable, [RG_CALL_LIST] = tell_process,
+};
+
+// --- in the harness ---
+
+static char logged[4096];
+
+static void keep(enum rg_log_level level, const char *line, void *user)
+{
+    (void)user;
+    const size_t used = strlen(logged);
+    snprintf(logged + used, sizeof(logged) - used, "%s%s\n",
+             level == RG_LOG_WARNING ? "warning: " : "", line);
+}
+
+static int begin(void **state)
+{
+    *logged = 0;
+    rg_workers.timeout_s = 100;
+    rg_workers.memory_bytes = 0;
+    return !(*state = rg_worker_create("toy", NULL));
+}
+
+static int finish(void **state)
+{
+    rg_worker_destroy(*state);
+    return 0;
+}
+
+// Asks with a number; the outcome, and what comes back of a number.
+static enum rg_outcome ask(struct rg_worker *worker, enum rg_call call, int64_t number,
+                           int64_t *result)
+{
+    struct rg_message request = {0}, reply;
+    rg_put_int(&request, number);
+    const bool ok = rg_worker_call(worker, call, &request, &reply);
+    if (ok && result)
+        *result = rg_take_int(&reply);
+    rg_message_free(&request);
+    rg_message_free(&reply);
+    return ok ? RG_OK : rg_outcome_of_error();
+}
+
+static void results_come_back(void **state)
+{
+    int64_t result = 0;
+    for (int i = 0; i < 100; i++) {
+        assert_int_equal(ask(*state, RG_CALL_STEP, i, &result), RG_OK);
+        assert_int_equal(result, 2 * i);
+    }
+    assert_int_equal(rg_worker_life(*state), 1);
+    assert_string_equal(logged, "");
+}
+
+static void large_results_come_back_and_small_ones_after_them(void **state)
+{
+    for (int first = 1; first < 4; first++) {
+        struct rg_message request = {0}, reply;
+        int64_t size, small;
+        rg_put_int(&request, first);
+        assert_true(rg_worker_call(*state, RG_CALL_READ, &request, &reply));
+        char *bytes = rg_take_block(&reply, &size);
+        assert_int_equal(size, MANY);
+        for (int i = 0; i < MANY; i++)
+            if (bytes[i] != (char)(first + i / 3))
+                fail_msg("byte %d is %d", i, bytes[i]);
+        free(bytes);
+        rg_message_free(&request);
+        rg_message_free(&reply);
+        assert_int_equal(ask(*state, RG_CALL_STEP, first, &small), RG_OK);
+        assert_int_equal(small, 2 * first);
+    }
+}
+
+static void lines_and_kinds_of_errors_come_back(void **state)
+{
+    struct rg_worker *other = rg_worker_create("other", NULL);
+    assert_int_equal(ask(*state, RG_CALL_DRAW, 0, NULL), RG_UNSUPPORTED);
+    assert_string_equal(logged, "warning: a worry\ndevice 'toy': this device has no soul\n");
+    assert_int_equal(ask(other, RG_CALL_DRAW, 0, NULL), RG_UNSUPPORTED);
+    assert_string_equal(logged, "warning: a worry\ndevice 'toy': this device has no soul\n"
+                                "warning: a worry\ndevice 'other': this device has no soul\n");
+    assert_int_equal(rg_worker_life(*state), 1);
+    rg_worker_destroy(other);
+}
+
+static void what_is_not_served_is_an_error(void **state)
+{
+    assert_int_equal(ask(*state, RG_CALL_AUDIT, 0, NULL), RG_ERROR);
+    assert_int_equal(rg_worker_life(*state), 1);
+}
+
+static void crashes_are_told_with_what_was_done_and_the_last_words(void **state)
+{
+    assert_int_equal(ask(*state, RG_CALL_SYNC, SIGKILL, NULL), RG_CRASH);
+    assert_string_equal(logged, "device 'toy': its driver crashed (Killed) while running kernel "
+                                "'flow_blur': second line\n");
+}
+
+static void an_exit_is_no_success(void **state)
+{
+    assert_int_equal(ask(*state, RG_CALL_SYNC, -1, NULL), RG_CRASH);
+    assert_non_null(strstr(logged, "its driver ended the process with status 0 while running"));
+    assert_int_equal(ask(*state, RG_CALL_SYNC, -6, NULL), RG_CRASH);
+    assert_non_null(strstr(logged, "its driver ended the process with status 5 while running"));
+}
+
+static void a_hang_is_ended(void **state)
+{
+    rg_workers.timeout_s = 0;
+    assert_int_equal(ask(*state, RG_CALL_TIME, 0, NULL), RG_TIMEOUT);
+    assert_string_equal(logged,
+                        "device 'toy': its driver did not come back within 0 s while asking "
+                        "for the device's time\n");
+}
+
+static void what_takes_too_much_memory_is_ended(void **state)
+{
+    rg_workers.memory_bytes = 512 << 20;
+    assert_int_equal(ask(*state, RG_CALL_COUNT, 0, NULL), RG_CRASH);
+    assert_string_equal(logged, "device 'toy': it took more than 512 MiB of memory and was ended "
+                                "while counting a frame's work\n");
+}
+
+static void the_end_is_seen_though_its_child_holds_the_channel(void **state)
+{
+    assert_int_equal(ask(*state, RG_CALL_OPEN, 0, NULL), RG_CRASH);
+    assert_non_null(strstr(logged, "ended the process with status 3"));
+}
+
+static void it_lives_three_times(void **state)
+{
+    int64_t result;
+    for (int life = 1; life <= RG_WORKER_LIVES; life++) {
+        assert_int_equal(ask(*state, RG_CALL_STEP, life, &result), RG_OK);
+        assert_int_equal(result, 2 * life);
+        assert_int_equal(rg_worker_life(*state), life);
+        assert_true(rg_worker_has(*state, life));
+        assert_false(rg_worker_has(*state, life - 1));
+        assert_int_equal(ask(*state, RG_CALL_SYNC, SIGKILL, NULL), RG_CRASH);
+        assert_false(rg_worker_has(*state, life));
+    }
+    *logged = 0;
+    assert_int_equal(ask(*state, RG_CALL_STEP, 1, &result), RG_CRASH);
+    assert_string_equal(logged, "device 'toy': left out, for its process has ended 3 times\n");
+}
+
+static void a_worker_that_is_killed_while_it_waits_crashed(void **state)
+{
+    int64_t process = 0, result;
+    assert_int_equal(ask(*state, RG_CALL_LIST, 0, &process), RG_OK);
+    assert_int_equal(rg_worker_process(*state), process);
+    kill((pid_t)process, SIGKILL);
+    assert_int_equal(ask(*state, RG_CALL_STEP, 1, &result), RG_CRASH);
+    assert_int_equal(ask(*state, RG_CALL_STEP, 4, &result), RG_OK);
+    assert_int_equal(result, 8);
+}
+
+static bool tells(struct rg_worker *worker, const char *variable, const char *value)
+{
+    struct rg_message request = {0}, reply;
+    rg_put_text(&request, variable);
+    const bool ok = rg_worker_call(worker, RG_CALL_TELL, &request, &reply);
+    const bool same = ok && !strcmp(rg_take_text(&reply), value);
+    rg_message_free(&request);
+    rg_message_free(&reply);
+    return same;
+}
+
+static void its_environment_stands_over_the_harness_s(void **state)
+{
+    (void)state;
+    setenv("RG_TEST_KEPT", "kept", 1);
+    setenv("RG_TEST_TWO", "ours", 1);
+    struct rg_worker *worker = rg_worker_create("toy", "RG_TEST_ONE=a=1\0RG_TEST_TWO=theirs\0");
+    assert_true(tells(worker, "RG_TEST_KEPT", "kept"));
+    assert_true(tells(worker, "RG_TEST_ONE", "a=1"));
+    assert_true(tells(worker, "RG_TEST_TWO", "theirs"));
+    assert_string_equal(getenv("RG_TEST_TWO"), "ours");
+    assert_null(getenv("RG_TEST_ONE"));
+    rg_worker_destroy(worker);
+}
+
+// A harness that is killed takes its workers along.
+static void no_worker_outlives_the_harness(void **state)
+{
+    (void)state;
+    int told[2], status;
+    int64_t process = 0;
+    assert_int_equal(pipe(told), 0);
+    const pid_t harness = fork();
+    if (harness == 0) {
+        struct rg_worker *worker = rg_worker_create("toy", NULL);
+        ask(worker, RG_CALL_LIST, 0, &process);
+        if (write(told[1], &process, sizeof(process)) == sizeof(process))
+            raise(SIGKILL);
+        _exit(1);
+    }
+    close(told[1]);
+    assert_int_equal(read(told[0], &process, sizeof(process)), sizeof(process));
+    close(told[0]);
+    waitpid(harness, &status, 0);
+    assert_true(WIFSIGNALED(status));
+    for (int i = 0; i < 10000 && !kill((pid_t)process, 0); i++)
+        usleep(1000);
+    assert_int_equal(kill((pid_t)process, 0), -1);
+    assert_int_equal(errno, ESRCH);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 3 && !strcmp(argv[1], RG_WORKER_ARGUMENT))
+        return rg_serve(argv[2], services);
+    const struct CMUnitTest tests[] = {
+#define WITH_WORKER(test) cmocka_unit_test_setup_teardown(test, begin, finish)
+        WITH_WORKER(results_come_back),
+        WITH_WORKER(large_results_come_back_and_small_ones_after_them),
+        WITH_WORKER(lines_and_kinds_of_errors_come_back),
+        WITH_WORKER(what_is_not_served_is_an_error),
+        WITH_WORKER(crashes_are_told_with_what_was_done_and_the_last_words),
+        WITH_WORKER(an_exit_is_no_success),
+        WITH_WORKER(a_hang_is_ended),
+        WITH_WORKER(what_takes_too_much_memory_is_ended),
+        WITH_WORKER(the_end_is_seen_though_its_child_holds_the_channel),
+        WITH_WORKER(it_lives_three_times),
+        WITH_WORKER(a_worker_that_is_killed_while_it_waits_crashed),
+        cmocka_unit_test(its_environment_stands_over_the_harness_s),
+        cmocka_unit_test(no_worker_outlives_the_harness),
+    };
+    rg_workers.program = "/proc/self/exe";
+    rg_log_listen(keep, NULL);
+    return cmocka_run_group_tests_name("workers that end", tests, NULL, NULL);
+}

@@ -1,0 +1,107 @@
+// Names of devices with an environment.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/devices/names.h"
+
+static char logged[1024];
+
+static void keep(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)user;
+    snprintf(logged, sizeof(logged), "%s", line);
+}
+
+// The variables of a name with a bar behind each.
+static const char *variables(const struct rg_device_name *name)
+{
+    static char text[512];
+    *text = 0;
+    for (const char *v = name->environment; *v; v += strlen(v) + 1)
+        snprintf(text + strlen(text), sizeof(text) - strlen(text), "%s|", v);
+    return text;
+}
+
+static void check(const char *names, int count, const char *const expected[][2])
+{
+    struct rg_device_name name;
+    const char *rest = names;
+    assert_true(rg_device_names_check(names));
+    for (int i = 0; i < count; i++) {
+        assert_true(rg_device_name_read(&rest, &name));
+        assert_string_equal(name.name, expected[i][0]);
+        assert_string_equal(variables(&name), expected[i][1]);
+    }
+    assert_string_equal(rest, "");
+}
+
+static void names_are_read_one_after_the_other(void **state)
+{
+    (void)state;
+    check("cpu", 1, (const char *const[][2]){{"cpu", ""}});
+    check("cpu:reference,gl,vulkan:1", 3,
+          (const char *const[][2]){{"cpu:reference", ""}, {"gl", ""}, {"vulkan:1", ""}});
+    check(
+        "vulkan,vulkan@LP_NUM_THREADS=1", 2,
+        (const char *const[][2]){{"vulkan", ""}, {"vulkan@LP_NUM_THREADS=1", "LP_NUM_THREADS=1|"}});
+    check("gl@A=1;B_2=x y;C=,vulkan@D=a=b", 2,
+          (const char *const[][2]){{"gl@A=1;B_2=x y;C=", "A=1|B_2=x y|C=|"},
+                                   {"vulkan@D=a=b", "D=a=b|"}});
+}
+
+static void quotes_hold_commas_semicolons_and_quotes(void **state)
+{
+    (void)state;
+    check("gl@A=\"1,2;3\";B=\"say \"\"so\"\"\",cpu", 2,
+          (const char *const[][2]){{"gl@A=\"1,2;3\";B=\"say \"\"so\"\"\"", "A=1,2;3|B=say \"so\"|"},
+                                   {"cpu", ""}});
+    check("gl@A=x\",\"y;B=\"\"", 1, (const char *const[][2]){{"gl@A=x\",\"y;B=\"\"", "A=x,y|B=|"}});
+}
+
+static void what_is_no_such_form_is_refused(void **state)
+{
+    (void)state;
+    char long_name[400];
+    memset(long_name, 'x', sizeof(long_name) - 1);
+    long_name[sizeof(long_name) - 1] = 0;
+    const char *const refused[][2] = {
+        {"", "at all"},
+        {",cpu", "beside a comma"},
+        {"cpu,", "beside a comma"},
+        {"cpu,,gl", "beside"},
+        {"gl@", "no KEY=value"},
+        {"gl@A", "'A' is no KEY=value"},
+        {"gl@=1", "'=1' is no"},
+        {"gl@1A=2", "'1A=2' is no"},
+        {"gl@A B=2", "is no KEY=value"},
+        {"gl@A=1;B", "'B' is"},
+        {"gl@A=\"1", "is not closed"},
+        {long_name, "at most 255"},
+        {"gl@A=1;;B=2", "is no KEY=value"},
+    };
+    for (size_t i = 0; i < sizeof(refused) / sizeof(refused[0]); i++) {
+        *logged = 0;
+        assert_false(rg_device_names_check(refused[i][0]));
+        if (!strstr(logged, refused[i][1]))
+            fail_msg("%s: %s", refused[i][0], logged);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_are_read_one_after_the_other),
+        cmocka_unit_test(quotes_hold_commas_semicolons_and_quotes),
+        cmocka_unit_test(what_is_no_such_form_is_refused),
+    };
+    rg_log_listen(keep, NULL);
+    return cmocka_run_group_tests_name("names of devices", tests, NULL, NULL);
+}

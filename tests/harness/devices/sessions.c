@@ -1,0 +1,361 @@
+// A session in a worker gives what one in this process gives, byte for byte, and ends as a worker
+// does.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/devices/devices.h"
+#include "harness/frames/digests.h"
+#include "harness/frames/session.h"
+#include "harness/devices/serving/serving.h"
+#include "harness/devices/workers/device.h"
+
+enum { LOCAL, REMOTE, FRAMES = 5 };
+
+static char logged[2048];
+
+static void keep(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)user;
+    const size_t used = strlen(logged);
+    snprintf(logged + used, sizeof(logged) - used, "%s\n", line);
+}
+
+// The same device twice, and a subject.
+struct pair {
+    struct rg_device *devices[2];
+    struct rg_session *sessions[2];
+    void *settings;
+    struct rg_subject subject;
+};
+
+static struct pair open_pair(const char *technique, const char *set, int frames)
+{
+    struct pair pair = {.subject = {rg_technique_find(technique), NULL, 48, 32}};
+    void *defaults = rg_settings_create(pair.subject.technique);
+    pair.settings = rg_settings_copy(pair.subject.technique, defaults, set);
+    pair.subject.settings = pair.settings;
+    free(defaults);
+    rg_workers.program = "/proc/self/exe";
+    pair.devices[REMOTE] = rg_devices_open_one("cpu");
+    pair.devices[LOCAL] = rg_device_open("cpu");
+    for (int i = 0; i < 2; i++) {
+        assert_non_null(pair.devices[i]);
+        pair.sessions[i] = rg_session_run(pair.devices[i], &pair.subject, frames);
+        assert_non_null(pair.sessions[i]);
+    }
+    assert_null(rg_remote_worker(pair.devices[LOCAL]));
+    assert_non_null(rg_remote_worker(pair.devices[REMOTE]));
+    return pair;
+}
+
+static void close_pair(struct pair *pair)
+{
+    for (int i = 0; i < 2; i++) {
+        rg_session_close(pair->sessions[i]);
+        assert_true(rg_device_close(pair->devices[i]));
+    }
+    free(pair->settings);
+}
+
+static struct pair open_flow(int frames)
+{
+    return open_pair("flow", "environment_px=64 resolution_px=96", frames);
+}
+
+static void devices_tell_the_same_of_themselves(void **state)
+{
+    (void)state;
+    struct pair pair = open_flow(0);
+    const struct rg_device_info *local = &pair.devices[LOCAL]->info;
+    const struct rg_device_info *remote = &pair.devices[REMOTE]->info;
+    assert_string_equal(local->name, remote->name);
+    assert_string_equal(local->device, remote->device);
+    assert_string_equal(local->driver, remote->driver);
+    assert_string_equal(local->api, remote->api);
+    assert_int_equal(local->tier, remote->tier);
+    assert_memory_equal(&local->limits.formats, &remote->limits.formats,
+                        sizeof(local->limits.formats));
+    assert_string_equal(pair.devices[REMOTE]->backend->name, "cpu");
+    close_pair(&pair);
+}
+
+static void pictures_are_the_same(void **state)
+{
+    (void)state;
+    struct pair pair = open_flow(FRAMES);
+    for (int round = 0; round < 2; round++) {
+        size_t sizes[2];
+        void *texels[2];
+        struct rg_picture pictures[2] = {{0}};
+        for (int i = 0; i < 2; i++) {
+            texels[i] = rg_session_read(pair.sessions[i], &sizes[i]);
+            assert_true(rg_session_picture(pair.sessions[i], texels[i], &pictures[i]));
+        }
+        assert_int_equal(sizes[LOCAL], sizes[REMOTE]);
+        assert_memory_equal(texels[LOCAL], texels[REMOTE], sizes[LOCAL]);
+        assert_memory_equal(pictures[LOCAL].texels, pictures[REMOTE].texels,
+                            (size_t)rg_picture_values(&pictures[LOCAL]) * sizeof(float));
+        for (int i = 0; i < 2; i++) {
+            rg_picture_destroy(&pictures[i]);
+            free(texels[i]);
+            double wall_ms = -1;
+            assert_true(rg_session_frames(pair.sessions[i], 2, &wall_ms));
+            assert_true(wall_ms > 0);
+        }
+    }
+    close_pair(&pair);
+}
+
+static void states_are_the_same(void **state)
+{
+    (void)state;
+    struct pair pair = open_flow(FRAMES);
+    const int count = rg_session_state_count(pair.sessions[LOCAL]);
+    assert_true(count > 0);
+    assert_int_equal(count, rg_session_state_count(pair.sessions[REMOTE]));
+    for (int s = 0; s < count; s++) {
+        struct rg_state layouts[2];
+        size_t sizes[2];
+        void *words[2];
+        for (int i = 0; i < 2; i++)
+            words[i] = rg_session_read_state(pair.sessions[i], s, &layouts[i], &sizes[i]);
+        assert_int_equal(sizes[LOCAL], sizes[REMOTE]);
+        assert_memory_equal(words[LOCAL], words[REMOTE], sizes[LOCAL]);
+        assert_string_equal(layouts[LOCAL].name, layouts[REMOTE].name);
+        assert_int_equal(layouts[LOCAL].row, layouts[REMOTE].row);
+        assert_int_equal(layouts[LOCAL].margin, layouts[REMOTE].margin);
+        assert_int_equal(layouts[LOCAL].is_float, layouts[REMOTE].is_float);
+        free(words[LOCAL]);
+        free(words[REMOTE]);
+    }
+    close_pair(&pair);
+}
+
+static void accounts_and_counts_are_the_same(void **state)
+{
+    (void)state;
+    struct pair pair = open_flow(FRAMES);
+    struct rg_tally tallies[2];
+    struct rg_account accounts[2];
+    for (int i = 0; i < 2; i++) {
+        assert_true(rg_session_count(pair.sessions[i], &tallies[i]));
+        rg_session_tell(pair.sessions[i], &accounts[i]);
+    }
+    assert_memory_equal(&tallies[LOCAL], &tallies[REMOTE], sizeof(tallies[LOCAL]));
+    assert_true(tallies[LOCAL].runs > 0);
+    assert_int_equal(accounts[LOCAL].frame, FRAMES + 1);
+    assert_int_equal(accounts[REMOTE].frame, FRAMES + 1);
+    assert_int_equal(accounts[LOCAL].counter_count, accounts[REMOTE].counter_count);
+    assert_int_equal(accounts[LOCAL].fact_count, accounts[REMOTE].fact_count);
+    assert_true(accounts[LOCAL].counter_count > 0 && accounts[LOCAL].fact_count > 0);
+    for (int i = 0; i < accounts[LOCAL].counter_count; i++) {
+        assert_string_equal(accounts[LOCAL].counters[i].name, accounts[REMOTE].counters[i].name);
+        assert_int_equal(accounts[LOCAL].counters[i].value, accounts[REMOTE].counters[i].value);
+    }
+    for (int i = 0; i < accounts[LOCAL].fact_count; i++) {
+        assert_string_equal(accounts[LOCAL].facts[i].name, accounts[REMOTE].facts[i].name);
+        assert_string_equal(accounts[LOCAL].facts[i].text, accounts[REMOTE].facts[i].text);
+        assert_true(accounts[LOCAL].facts[i].number == accounts[REMOTE].facts[i].number);
+    }
+    close_pair(&pair);
+}
+
+struct stages {
+    int count;
+    const char *kernels[64];
+    double ms;
+};
+
+static void note_stage(const char *kernel, double ms, void *user)
+{
+    struct stages *stages = user;
+    stages->kernels[stages->count++] = kernel;
+    stages->ms += ms;
+}
+
+static void stages_are_told_in_the_same_order(void **state)
+{
+    (void)state;
+    struct pair pair = open_flow(FRAMES);
+    struct stages told[2] = {{0}};
+    for (int i = 0; i < 2; i++)
+        assert_true(rg_session_stages(pair.sessions[i], note_stage, &told[i]));
+    assert_true(told[LOCAL].count > 3);
+    assert_int_equal(told[LOCAL].count, told[REMOTE].count);
+    for (int i = 0; i < told[LOCAL].count; i++)
+        assert_string_equal(told[LOCAL].kernels[i], told[REMOTE].kernels[i]);
+    assert_true(told[REMOTE].ms > 0);
+    close_pair(&pair);
+}
+
+// Whatever the laws say, they say the same of the same state.
+static void laws_and_textures_are_the_same(void **state)
+{
+    (void)state;
+    struct pair pair = open_flow(FRAMES);
+    int laws = 0;
+    for (const struct rg_law *law = pair.subject.technique->proof->laws; law->name; law++) {
+        char details[2][256] = {"", ""};
+        const bool holds = rg_session_obeys(pair.sessions[LOCAL], law, details[LOCAL], 256);
+        assert_int_equal(holds, rg_session_obeys(pair.sessions[REMOTE], law, details[REMOTE], 256));
+        assert_string_equal(details[LOCAL], details[REMOTE]);
+        assert_ptr_equal(rg_session_law(pair.sessions[REMOTE], laws), law);
+        laws++;
+    }
+    assert_true(laws > 0);
+    assert_null(rg_session_law(pair.sessions[REMOTE], laws));
+    struct rg_image_desc descs[2];
+    int levels[2];
+    for (int i = 0; i < 2; i++) {
+        assert_true(rg_session_texture(pair.sessions[i], "environment", &descs[i], &levels[i]));
+        assert_false(rg_session_texture(pair.sessions[i], "nothing", &descs[i], &levels[i]));
+    }
+    assert_memory_equal(&descs[LOCAL], &descs[REMOTE], sizeof(descs[LOCAL]));
+    assert_int_equal(levels[LOCAL], levels[REMOTE]);
+    close_pair(&pair);
+}
+
+static void digests_are_the_same(void **state)
+{
+    (void)state;
+    struct pair pair = open_flow(0);
+    const struct rg_digest_run run = {pair.subject, 2};
+    struct rg_digests digests[2] = {{0}};
+    for (int i = 0; i < 2; i++)
+        assert_true(rg_digests_take(&run, pair.devices[i], &digests[i]));
+    assert_int_equal(digests[LOCAL].count, digests[REMOTE].count);
+    assert_memory_equal(digests[LOCAL].rows, digests[REMOTE].rows,
+                        (size_t)digests[LOCAL].count * sizeof(*digests[LOCAL].rows));
+    for (int row = 0; row < digests[LOCAL].count; row += digests[LOCAL].count / 3) {
+        struct rg_contents contents[2];
+        struct rg_state states[2];
+        for (int i = 0; i < 2; i++)
+            assert_true(rg_digests_contents(&run, pair.devices[i], row, &contents[i], &states[i]));
+        assert_int_equal(contents[LOCAL].size, contents[REMOTE].size);
+        assert_memory_equal(contents[LOCAL].bytes, contents[REMOTE].bytes, contents[LOCAL].size);
+        assert_int_equal(contents[LOCAL].desc.width, contents[REMOTE].desc.width);
+        assert_int_equal(!states[LOCAL].name, !states[REMOTE].name);
+        for (int i = 0; i < 2; i++)
+            rg_contents_free(&contents[i]);
+    }
+    for (int i = 0; i < 2; i++)
+        rg_digests_free(&digests[i]);
+    close_pair(&pair);
+}
+
+// Files' names, choices and numbers reach the worker as they are.
+static void settings_arrive_as_they_are(void **state)
+{
+    (void)state;
+    struct pair pair = open_pair("streaks", "drops_m2_s=20 atlas=small city=small seed=7", FRAMES);
+    size_t sizes[2];
+    void *texels[2];
+    for (int i = 0; i < 2; i++)
+        texels[i] = rg_session_read(pair.sessions[i], &sizes[i]);
+    assert_memory_equal(texels[LOCAL], texels[REMOTE], sizes[LOCAL]);
+    free(texels[LOCAL]);
+    free(texels[REMOTE]);
+    close_pair(&pair);
+}
+
+static void what_the_worker_refuses_is_refused_here(void **state)
+{
+    (void)state;
+    struct pair pair = open_flow(0);
+    void *settings =
+        rg_settings_copy(pair.subject.technique, pair.settings, "environment=/nowhere/at-all.ktx");
+    struct rg_subject subject = pair.subject;
+    subject.settings = settings;
+    char lines[2][2048];
+    for (int i = 0; i < 2; i++) {
+        *logged = 0;
+        assert_null(rg_session_open(pair.devices[i], &subject));
+        assert_int_equal(rg_last_error_kind(), RG_ERROR_INPUT);
+        strcpy(lines[i], logged);
+    }
+    assert_non_null(strstr(lines[LOCAL], "/nowhere/at-all.ktx"));
+    assert_string_equal(lines[LOCAL], lines[REMOTE]);
+    free(settings);
+    close_pair(&pair);
+}
+
+// A worker that ends takes its sessions along; the device stands again for the next.
+static void a_session_ends_with_its_worker(void **state)
+{
+    (void)state;
+    struct pair pair = open_flow(FRAMES);
+    struct rg_worker *worker = rg_remote_worker(pair.devices[REMOTE]);
+    struct rg_session *session = pair.sessions[REMOTE], *next;
+    struct rg_account account = {.frame = 77};
+    kill(rg_worker_process(worker), SIGKILL);
+    *logged = 0;
+    assert_false(rg_session_step(session));
+    assert_int_equal(rg_outcome_of_error(), RG_CRASH);
+    assert_non_null(strstr(logged, "device 'cpu': its driver crashed (Killed)"));
+    assert_false(rg_session_draw(session));
+    assert_int_equal(rg_outcome_of_error(), RG_CRASH);
+    rg_session_tell(session, &account);
+    assert_int_equal(account.frame, 0);
+    assert_int_equal(rg_worker_life(worker), 1); // no call of a session that is gone starts another
+
+    next = rg_session_run(pair.devices[REMOTE], &pair.subject, 2);
+    assert_non_null(next);
+    assert_int_equal(rg_worker_life(worker), 2);
+    assert_false(rg_session_step(session)); // it has gone, though another has its number
+    assert_true(rg_session_step(next));
+    rg_session_tell(next, &account);
+    assert_int_equal(account.frame, 3);
+    *logged = 0;
+    rg_session_close(session);
+    assert_true(rg_session_step(next));
+    assert_string_equal(logged, "");
+    pair.sessions[REMOTE] = next;
+    close_pair(&pair);
+}
+
+static void devices_have_an_environment(void **state)
+{
+    (void)state;
+    rg_workers.program = "/proc/self/exe";
+    struct rg_devices devices;
+    assert_int_equal(
+        rg_devices_open("cpu@RG_CPU_LEVEL=plain,cpu:reference@A=\"1,2\",cpu", &devices), 0);
+    assert_int_equal(devices.count, 3);
+    assert_string_equal(devices.devices[0]->info.name, "cpu@RG_CPU_LEVEL=plain");
+    assert_non_null(strstr(devices.devices[0]->info.api, "plain"));
+    assert_string_equal(devices.devices[1]->info.name, "cpu:reference@A=\"1,2\"");
+    assert_string_equal(devices.devices[2]->info.name, "cpu");
+    assert_true(rg_devices_close(&devices));
+    assert_null(rg_devices_open_one("cpu@RG_CPU_LEVEL=v99"));
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 3 && !strcmp(argv[1], RG_WORKER_ARGUMENT))
+        return rg_serving(argv[2]);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(devices_tell_the_same_of_themselves),
+        cmocka_unit_test(pictures_are_the_same),
+        cmocka_unit_test(states_are_the_same),
+        cmocka_unit_test(accounts_and_counts_are_the_same),
+        cmocka_unit_test(stages_are_told_in_the_same_order),
+        cmocka_unit_test(laws_and_textures_are_the_same),
+        cmocka_unit_test(digests_are_the_same),
+        cmocka_unit_test(settings_arrive_as_they_are),
+        cmocka_unit_test(what_the_worker_refuses_is_refused_here),
+        cmocka_unit_test(a_session_ends_with_its_worker),
+        cmocka_unit_test(devices_have_an_environment),
+    };
+    rg_log_listen(keep, NULL);
+    return cmocka_run_group_tests_name("sessions in workers", tests, NULL, NULL);
+}

@@ -1,0 +1,48 @@
+"""Workers: how they are asked, how they end, and what is made of it; names of devices."""
+from fault import Fault
+
+TESTS = ("workers that end", "messages", "names of devices", "sessions in workers", "log", "command line, misbehaving")
+
+W = "harness/devices/workers/"
+WORKER, CHANNEL, SERVE, MESSAGE, ENVIRONMENT, DEVICE = (
+    W + name + ".c" for name in ("worker", "channel", "serve", "message", "environment", "device"))
+NAMES, DEVICES, REMOTE, LOG = ("harness/devices/names.c", "harness/devices/devices.c", "harness/frames/remote.c", "core/base/log.c")
+DIFF = "harness/compare/diff/devices.c"
+
+ROWS = [
+    Fault(WORKER, "if («worker->life < RG_WORKER_LIVES»)", "true", "a worker is started without end"),
+    Fault(WORKER, "return «worker->process» && worker->life == life;", "true", "what was open is there though its process has ended"),
+    Fault(WORKER, "return worker->process && «worker->life == life»;", "true", "what was open in another life is there"),
+    Fault(WORKER, "worker->end = verdict == HANGS ? «RG_TIMEOUT» : RG_CRASH;", "RG_CRASH", "a hang is a crash"),
+    Fault(WORKER, "*verdict != BY_ITSELF || «is_dead(worker)»", "false", "an end is not seen while another process holds the channel"),
+    Fault(WORKER, "> 1000.0 * rg_workers.timeout_s)", "> 1e12)", "a hang lasts for ever"),
+    Fault(WORKER, "else if («rg_workers.memory_bytes» &&", "0", "memory has no limit"),
+    Fault(WORKER, "else if («WIFSIGNALED(status)»)", "false", "a signal is told as a status"),
+    Fault(WORKER, "return «ok» && !reply->failed;", "true", "a call that failed succeeds"),
+    Fault(WORKER, "if (verdict != BY_ITSELF)\n        kill(worker->process, SIGKILL);", ";", "who hangs is not killed, and waited for until it is"),
+    Fault(WORKER, "level == RG_LOG_ERROR && «kind != RG_ERROR_INPUT» &&", "true", "the user's error is the device's"),
+    Fault(WORKER, "&& «!strstr(line, worker->name)»;", "true", "a line names its device twice"),
+    Fault(SERVE, "prctl(PR_SET_PDEATHSIG, SIGKILL);", ";", "a worker outlives a harness that is killed"),
+    Fault(SERVE, "rg_put_int(&reply, «rg_last_error_kind()»);", "RG_ERROR_INPUT", "every error of a worker is the user's"),
+    Fault(SERVE, "rg_doing_share(channel.doing.bytes);", ";", "nobody sees what a worker does"),
+    Fault(SERVE, "while (goes_on && «call != RG_CALL_CLOSE»)", "true", "a worker goes on when it was asked to close"),
+    Fault(CHANNEL, "if (notice->size < 0 || «notice->size > taken->size»)", "false", "a size that lies is believed"),
+    Fault(CHANNEL, "(!taken->bytes || «taken->id != notice->segment») &&", "false", "a large message is looked for where small ones were"),
+    Fault(MESSAGE, "if (message->failed || size < 0 || «size > message->size - message->at»)", "false", "a value is taken from behind the message"),
+    Fault(MESSAGE, "if (text && size > 0 && «!text[size - 1]»)", "true", "a text has no end"),
+    Fault(MESSAGE, "if (index >= 0 && «index < end»)", "true", "an index is out of its range"),
+    Fault(ENVIRONMENT, "if («!has_key_of(variables, *v)»)", "true", "a variable stands twice, and the old one counts where the last does"),
+    Fault(DEVICE, "if (environment && *environment)\n        snprintf(told", "if (0)\n        snprintf(told", "a device's name does not tell its environment"),
+    Fault(NAMES, "for (; *name && («quoted» || *name != ','); name++)", "false", "a comma in quotes ends a name"),
+    Fault(NAMES, "for (; *from && («quoted» || *from != ';'); from++) {", "false", "a semicolon in quotes ends a value"),
+    Fault(NAMES, "else if (quoted && «from[1] == '\"'»)", "false", "two quotes mean none"),
+    Fault(NAMES, "return quoted ? «NULL» : name;", "name", "a quote may stay open"),
+    Fault(DEVICES, "if (exit != RG_EXIT_PASS || «rg_devices_have(devices, asked->require)»)", "true", "what is required may be missing"),
+    Fault(DEVICES, "note_failure(list, rg_backends[b], RG_ERROR, \"no memory for its worker\");", ";", "a backend without a worker is not missed", lives="there is no memory for a few bytes"),
+    Fault(REMOTE, "if («rg_worker_has(worker_of(session), session->life)»)", "true", "what is gone with its worker is closed, with a line"),
+    Fault(REMOTE, "bool ok = «rg_worker_still_has(worker_of(session), session->life)»;", "true", "a session of another life is asked"),
+    Fault(REMOTE, "if (bytes && due && *size != due)", "if (0)", "a picture may be of any size", lives="the worker is this program, and sends the size that is due"),
+    Fault(LOG, "if (level == RG_LOG_INFO || «is_new(line)»)", "true", "one error is many lines"),
+    Fault(DIFF, "if (rg_last_error_kind() == RG_ERROR_INPUT)\n        return false;", "return false;", "a device that fails ends the comparison of the others"),
+    Fault(DIFF, "s->exit = rg_exit_worse(s->exit, rg_exit_of(outcome));", ";", "a device that failed passes"),
+]
