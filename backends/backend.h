@@ -77,18 +77,21 @@ struct rg_buf {
     struct rg_device *device;
     size_t size;
     const char *name; // for messages and debug labels; the caller's, for the object's life
+    bool is_counted;  // core/device's alone: it takes no memory, and no backend knows it
 };
 
 struct rg_image {
     struct rg_device *device;
     struct rg_image_desc desc;
     const char *name; // as a buffer's
+    bool is_counted;  // likewise
 };
 
 struct rg_pass {
     struct rg_device *device;
     const struct rg_kernel *kernel;
     struct rg_packer *packer; // of a DRAW pass: core/device/packing.c owns it; NULL for others
+    bool is_counted;          // as a buffer's
 };
 
 struct rg_binding {

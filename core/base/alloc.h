@@ -5,11 +5,19 @@
 #include <stdlib.h>
 
 #include "core/base/log.h"
+#include "core/base/memory.h"
 
 // Zeroed memory for `count` elements, which the caller frees. NULL, and one logged line that names
-// `what` it was for, when there is none.
+// `what` it was for, when there is none, or more is asked for at once than is allowed (memory.h).
 static inline void *rg_alloc(size_t count, size_t size, const char *what)
 {
+    enum { LARGE_BYTES = 1 << 26 };
+    size_t bytes;
+    if (!__builtin_mul_overflow(count, size, &bytes) && bytes >= LARGE_BYTES &&
+        !rg_memory_allows((int64_t)bytes)) {
+        rg_memory_refuse(what, (int64_t)bytes, "less of it");
+        return NULL;
+    }
     void *memory = calloc(count ? count : 1, size);
     return memory ? memory
                   : rg_error_null("%s: no memory for %zu times %zu bytes; ask for less, or close "

@@ -8,6 +8,7 @@ enum { LINE_SIZE = 1024 };
 
 static rg_log_fn listener;
 static void *listener_user;
+static bool is_held;
 static char last_error[LINE_SIZE];
 static enum rg_error_kind last_kind;
 
@@ -15,6 +16,11 @@ void rg_log_listen(rg_log_fn fn, void *user)
 {
     listener = fn;
     listener_user = user;
+}
+
+void rg_log_hold(bool holds)
+{
+    is_held = holds;
 }
 
 const char *rg_last_error(void)
@@ -52,6 +58,8 @@ static void print(enum rg_log_level level, const char *line)
 static void log_line(enum rg_log_level level, const char *format, va_list args)
 {
     char line[LINE_SIZE];
+    if (is_held)
+        return;
     vsnprintf(line, sizeof(line), format, args);
     for (unsigned char *c = (unsigned char *)line; *c; c++) {
         if (*c == '\n' || *c == '\r' || *c == '\t')

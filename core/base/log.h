@@ -16,6 +16,9 @@ typedef void (*rg_log_fn)(enum rg_log_level level, const char *line, void *user)
 // Sends lines to `fn` instead of stderr; NULL restores stderr. Not thread-safe: call it at start.
 void rg_log_listen(rg_log_fn fn, void *user);
 
+// Lines are dropped while this holds: what goes wrong then is expected, and said by who holds.
+void rg_log_hold(bool holds);
+
 // Logs one line, "raingauge: ..." on stderr, where an error or a warning that was printed before is
 // not printed again: several devices, cells and processes may meet one. rg_error returns false and
 // rg_error_null returns NULL, so that a failing function ends in `return rg_error("...")`. Line

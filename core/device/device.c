@@ -137,6 +137,28 @@ bool rg_device_time(struct rg_device *device, int64_t *time_ns)
     return rg_limits_allow_time(&device->info) && device->backend->time(device, time_ns);
 }
 
+void rg_room_begin(struct rg_device *device, enum rg_room room)
+{
+    struct rg_work *work = device->work;
+    work->most_bytes = work->before_bytes = work->live_bytes;
+    work->room = RG_ROOM_WATCHED;
+    if (room == RG_ROOM_COUNTED)
+        rg_room_count(device);
+}
+
+// What packs primitives outlives those whose primitives it packs: it is made anew.
+int64_t rg_room_end(struct rg_device *device, bool *is_taken)
+{
+    struct rg_work *work = device->work;
+    *is_taken = work->room != RG_ROOM_COUNTED;
+    if (!*is_taken) {
+        rg_packing_destroy(device);
+        rg_log_hold(false);
+    }
+    work->room = RG_ROOM_TAKEN;
+    return work->most_bytes - work->before_bytes;
+}
+
 enum rg_tier rg_tier_owed(const struct rg_device_info *a, const struct rg_device_info *b)
 {
     return a->tier > b->tier ? a->tier : b->tier;

@@ -47,6 +47,14 @@ bool rg_device_sync(struct rg_device *device);
 // logged line, on failure, and unsupported where the device has no clock.
 bool rg_device_time(struct rg_device *device, int64_t *time_ns);
 
+// Finds what something needs that is opened on the device between the two, and closed before the
+// second: `room` is RG_ROOM_COUNTED, or RG_ROOM_WATCHED to take it unless it is too much. Nothing
+// is logged while objects are counted.
+void rg_room_begin(struct rg_device *device, enum rg_room room);
+// The bytes that buffers and images took together at most, or would have taken, on the device since
+// the first; `is_taken` says whether all were made.
+int64_t rg_room_end(struct rg_device *device, bool *is_taken);
+
 // The tier that pictures of two devices must hold, in either order: the looser of theirs, for what
 // one of them may differ by from cpu:reference it may differ by from the other.
 enum rg_tier rg_tier_owed(const struct rg_device_info *a, const struct rg_device_info *b);

@@ -1,9 +1,56 @@
 #include "core/device/objects.h"
 
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
 #include "core/base/doing.h"
 #include "core/base/require.h"
 #include "core/device/limits.h"
 #include "core/device/work.h"
+
+// --- room ---
+
+static bool is_counting(const struct rg_device *device)
+{
+    return device->work->room == RG_ROOM_COUNTED;
+}
+
+// Memory of a device with its own is its driver's business.
+static bool take(struct rg_device *device, int64_t bytes)
+{
+    return !device->info.software || rg_memory_take(bytes);
+}
+
+static void give(struct rg_device *device, int64_t bytes)
+{
+    if (device->info.software)
+        rg_memory_give(bytes);
+}
+
+// Takes room for an object, where objects are not counted alone. False, and one logged line, where
+// there is not as much.
+static bool make_room(struct rg_device *device, int64_t bytes, const char *noun, const char *name)
+{
+    char begin[160];
+    if (is_counting(device) || take(device, bytes))
+        return true;
+    if (device->work->room == RG_ROOM_WATCHED) {
+        rg_room_count(device);
+        return true;
+    }
+    snprintf(begin, sizeof(begin), "%s '%.60s': %.60s", noun, name, device->info.name);
+    return rg_memory_refuse(begin, bytes, "a smaller --size or setting");
+}
+
+// Counts an object that has been made, or that is counted alone.
+static void count_object(struct rg_device *device, int64_t bytes, int64_t *objects)
+{
+    struct rg_work *work = device->work;
+    (*objects)++;
+    work->live_bytes += bytes;
+    work->most_bytes = work->most_bytes > work->live_bytes ? work->most_bytes : work->live_bytes;
+}
 
 // --- buffers ---
 
@@ -14,17 +61,22 @@ struct rg_buf *rg_buf_create(struct rg_device *device, int64_t size, const char 
     require_or_null(size % 4 == 0, "buffer '%s': its size, %lld bytes, is no multiple of 4", name,
                     (long long)size);
     rg_doing_begin("making buffer", name);
-    struct rg_buf *buf = rg_limits_allow_object(device, "buffer", name) &&
-                                 rg_limits_allow_buf(&device->info, size, name)
-                             ? device->backend->buf_create(device, (size_t)size, name)
-                             : NULL;
-    if (!buf)
+    if (!rg_limits_allow_object(device, "buffer", name) ||
+        !rg_limits_allow_buf(&device->info, size, name) || !make_room(device, size, "buffer", name))
         return NULL;
+    const bool counted = is_counting(device);
+    struct rg_buf *buf = counted ? rg_alloc(1, sizeof(*buf), name)
+                                 : device->backend->buf_create(device, (size_t)size, name);
+    if (!buf) {
+        if (!counted)
+            give(device, size);
+        return NULL;
+    }
     buf->device = device;
     buf->size = (size_t)size;
     buf->name = name;
-    device->work->live_buffers++;
-    device->work->live_bytes += size;
+    buf->is_counted = counted;
+    count_object(device, size, &device->work->live_buffers);
     return buf;
 }
 
@@ -36,6 +88,11 @@ void rg_buf_destroy(struct rg_buf *buf)
     device->backend->sync(device);
     device->work->live_buffers--;
     device->work->live_bytes -= (int64_t)buf->size;
+    if (buf->is_counted) {
+        free(buf);
+        return;
+    }
+    give(device, (int64_t)buf->size);
     device->backend->buf_destroy(buf);
 }
 
@@ -52,6 +109,8 @@ bool rg_buf_write(struct rg_buf *buf, int64_t offset, const void *data, int64_t 
 {
     if (!check_range(buf, "write", offset, size))
         return false;
+    if (is_counting(buf->device))
+        return true;
     buf->device->work->bytes_written += size;
     rg_doing_begin("writing buffer", buf->name);
     return buf->device->backend->buf_write(buf, (size_t)offset, data, (size_t)size);
@@ -61,6 +120,8 @@ bool rg_buf_read(struct rg_buf *buf, int64_t offset, void *data, int64_t size)
 {
     if (!check_range(buf, "read", offset, size))
         return false;
+    if (is_counting(buf->device))
+        return memset(data, 0, (size_t)size);
     buf->device->work->bytes_read += size;
     rg_doing_begin("reading buffer", buf->name);
     return buf->device->backend->buf_read(buf, (size_t)offset, data, (size_t)size);
@@ -104,14 +165,22 @@ struct rg_image *rg_image_create(struct rg_device *device, const struct rg_image
         !rg_limits_allow_image(&device->info, desc, name))
         return NULL;
     rg_doing_begin("making image", name);
-    struct rg_image *image = device->backend->image_create(device, desc, name);
-    if (!image)
+    const int64_t bytes = image_bytes(desc);
+    if (!make_room(device, bytes, "image", name))
         return NULL;
+    const bool counted = is_counting(device);
+    struct rg_image *image = counted ? rg_alloc(1, sizeof(*image), name)
+                                     : device->backend->image_create(device, desc, name);
+    if (!image) {
+        if (!counted)
+            give(device, bytes);
+        return NULL;
+    }
     image->device = device;
     image->desc = *desc;
     image->name = name;
-    device->work->live_images++;
-    device->work->live_bytes += image_bytes(desc);
+    image->is_counted = counted;
+    count_object(device, bytes, &device->work->live_images);
     return image;
 }
 
@@ -123,6 +192,11 @@ void rg_image_destroy(struct rg_image *image)
     device->backend->sync(device);
     device->work->live_images--;
     device->work->live_bytes -= image_bytes(&image->desc);
+    if (image->is_counted) {
+        free(image);
+        return;
+    }
+    give(device, image_bytes(&image->desc));
     device->backend->image_destroy(image);
 }
 
@@ -144,6 +218,8 @@ bool rg_image_write(struct rg_image *image, int layer, int level, const void *te
 {
     if (!check_layer(image, layer, level))
         return false;
+    if (is_counting(image->device))
+        return true;
     image->device->work->bytes_written += level_bytes(image, level);
     rg_doing_begin("writing image", image->name);
     return image->device->backend->image_write(image, layer, level, texels);
@@ -153,6 +229,8 @@ bool rg_image_read(struct rg_image *image, int layer, int level, void *texels)
 {
     if (!check_layer(image, layer, level))
         return false;
+    if (is_counting(image->device))
+        return memset(texels, 0, (size_t)level_bytes(image, level));
     image->device->work->bytes_read += level_bytes(image, level);
     rg_doing_begin("reading image", image->name);
     return image->device->backend->image_read(image, layer, level, texels);
@@ -161,7 +239,7 @@ bool rg_image_read(struct rg_image *image, int layer, int level, void *texels)
 bool rg_image_clear(struct rg_image *image, const void *texel)
 {
     rg_doing_begin("clearing image", image->name);
-    return image->device->backend->image_clear(image, texel);
+    return is_counting(image->device) || image->device->backend->image_clear(image, texel);
 }
 
 struct rg_image *rg_image_create_with(struct rg_device *device, const struct rg_image_desc *desc,

@@ -5,6 +5,16 @@
 #include "core/base/alloc.h"
 #include "kernels/dialect/draw/coverage.h"
 
+// --- room ---
+
+void rg_room_count(struct rg_device *device)
+{
+    device->work->room = RG_ROOM_COUNTED;
+    rg_log_hold(true);
+}
+
+// --- counting work ---
+
 void rg_tally_begin(struct rg_device *device, struct rg_tally *tally)
 {
     const struct rg_work *work = device->work;

@@ -8,13 +8,24 @@
 
 #include "backends/backend.h"
 
+// Whether objects are made, and memory is taken for them.
+enum rg_room {
+    RG_ROOM_TAKEN,   // it is; one that exceeds what is allowed (core/base/memory.h) is refused
+    RG_ROOM_WATCHED, // it is, up to the first that exceeds it; all others are counted
+    RG_ROOM_COUNTED, // it is not: objects have a size alone, runs and writes do nothing, and what
+                     // is read is zeroes
+};
+
 struct rg_work {
     int64_t runs;                      // pass runs asked for
     int64_t dispatches;                // pass runs after folding
     int64_t items;                     // items run
     int64_t bytes_written, bytes_read; // between host and device
     int64_t live_buffers, live_images, live_passes;
-    int64_t live_bytes;     // of buffers and images
+    int64_t live_bytes;   // of buffers and images
+    int64_t most_bytes;   // the most that lived since rg_room_begin (device.h)
+    int64_t before_bytes; // and what lived then
+    enum rg_room room;
     struct rg_tally *tally; // NULL: only this is counted
 };
 
@@ -30,6 +41,9 @@ struct rg_tally {
     int64_t texels_fetched;            // from images
     int64_t bytes_written, bytes_read; // between host and device
 };
+
+// From here on objects are counted alone: for core/device/objects.c.
+void rg_room_count(struct rg_device *device);
 
 // Counts into a tally from here on, until the end.
 void rg_tally_begin(struct rg_device *device, struct rg_tally *tally);

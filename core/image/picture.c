@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 
 #include "core/base/log.h"
+#include "core/base/memory.h"
 
 // Memory for large pictures comes in huge pages where the system gives them: touching it for the
 // first time is otherwise a tenth of a comparison's time.
@@ -44,9 +45,11 @@ bool rg_picture_allocate(struct rg_picture *picture, int64_t width, int64_t heig
         return false;
     }
     int64_t bytes = width * height * channels * 4;
-    float *texels = allocate_texels((size_t)bytes);
+    float *texels = rg_memory_allows(bytes) ? allocate_texels((size_t)bytes) : NULL;
     if (!texels) {
-        snprintf(why, why_size, "no memory for %lld x %lld pixels (%lld MiB); make it smaller",
+        snprintf(why, why_size,
+                 "no memory for %lld x %lld pixels (%lld MiB); make it smaller, or allow more with "
+                 "--memory",
                  (long long)width, (long long)height, (long long)(bytes >> 20));
         return false;
     }
@@ -61,6 +64,21 @@ bool rg_picture_create(struct rg_picture *picture, int width, int height, int ch
     if (!rg_picture_allocate(picture, width, height, channels, why, sizeof(why)))
         return rg_error("%s: %s", name, why);
     return true;
+}
+
+int64_t rg_pictures_bytes(int width, int height, int count)
+{
+    const int64_t texel_bytes = 4 * sizeof(float), half_texel_bytes = 4 * 2;
+    return (int64_t)width * height * (count * texel_bytes + half_texel_bytes);
+}
+
+bool rg_pictures_fit(int width, int height, int count)
+{
+    const int64_t bytes = rg_pictures_bytes(width, height, count);
+    char begin[64];
+    snprintf(begin, sizeof(begin), "room for %d picture%s of %dx%d", count, count > 1 ? "s" : "",
+             width, height);
+    return rg_memory_allows(bytes) || rg_memory_refuse(begin, bytes, "a smaller --size");
 }
 
 void rg_picture_destroy(struct rg_picture *picture)

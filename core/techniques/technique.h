@@ -58,9 +58,15 @@ const struct rg_technique *rg_technique_find(const char *name);
 extern const struct rg_technique *const rg_techniques[];
 
 // Opens a technique on a device with a target of width x height pixels, at frame 0. `settings` is
-// copied. NULL, with one logged line, on failure.
+// copied. NULL, with one logged line, on failure; also where it needs more memory than is allowed
+// (core/base/memory.h), of which none is held then.
 struct rg_instance *rg_instance_open(const struct rg_technique *technique, struct rg_device *device,
                                      const void *settings, int width, int height);
+// What an instance takes on the device once its first frame is drawn, in bytes of buffers and
+// images: opened, stepped and drawn without any of them, from the same sizes. Where the technique
+// does not get on with contents of zeroes, it is what it has asked for until then.
+int64_t rg_instance_bytes(const struct rg_technique *technique, struct rg_device *device,
+                          const void *settings, int width, int height);
 // Frees the instance with its assets and stages; NULL is accepted.
 void rg_instance_close(struct rg_instance *instance);
 

@@ -28,6 +28,7 @@ enum rg_option_kind {
     RG_OPTION_FACTOR,  // double, above 0 and at most `most`; 0: not given, without a default
     RG_OPTION_CHOICE,  // int, the index among `choices`; -1: not given, without a default
     RG_OPTION_SIZE,    // struct rg_size
+    RG_OPTION_BYTES,   // int64_t, above 0; 0: not given
     RG_OPTION_RANGE,   // struct rg_range, from `least` to `most`; least - 1: not given
     RG_OPTION_TEXT,    // char *, which the parser owns; NULL: not given, without a default
     RG_OPTION_TEXTS,   // struct rg_words: one for each time that it was given

@@ -42,6 +42,13 @@ const struct rg_option rg_size_option[] = {
     {RG_OPTION_END},
 };
 
+const struct rg_option rg_memory_option[] = {
+    {RG_OPTION_BYTES, "memory", .argument = "SIZE",
+     .about = "memory that may be taken, as 512M or 4G; what needs more is refused. Without it, "
+              "what is free, less a tenth"},
+    {RG_OPTION_END},
+};
+
 const struct rg_option rg_frame_option[] = {
     {RG_OPTION_INT, "frame", .argument = "N", .about = "frames to simulate before drawing",
      .least = 0, .most = 1e7},

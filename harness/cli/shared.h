@@ -11,6 +11,7 @@ extern const struct rg_option rg_asked_options[];   // struct rg_devices_asked: 
 extern const struct rg_option rg_timeout_option[];  // int, seconds: --timeout
 extern const struct rg_option rg_settings_option[]; // struct rg_words: --set
 extern const struct rg_option rg_size_option[];     // struct rg_size: --size
+extern const struct rg_option rg_memory_option[];   // int64_t, bytes: --memory
 extern const struct rg_option rg_frame_option[];    // int: --frame
 extern const struct rg_option rg_exposure_option[]; // double: --exposure
 extern const struct rg_option rg_json_option[];     // bool: --json

@@ -53,6 +53,23 @@ static bool set_factor(const struct rg_option *row, double *number, const char *
     return true;
 }
 
+// A number with a unit behind it; each unit is 1024 of the one before.
+static bool set_bytes(const struct rg_option *row, int64_t *bytes, const char *text)
+{
+    static const char units[] = "KMGT";
+    char *end;
+    double value = strtod(text, &end);
+    const char *unit = end == text || !*end ? NULL : strchr(units, *end);
+    if (!unit || (strcmp(end + 1, "") != 0 && strcmp(end + 1, "iB") != 0))
+        return rg_error("--%s %s: is no size; write it as 512M, 4G or 1.5G", row->name, text);
+    for (const char *u = units; u <= unit; u++)
+        value *= 1024;
+    if (!(value >= 1 && value <= 0x1p50))
+        return rg_error("--%s %s: must be above 0, at most 1024T", row->name, text);
+    *bytes = (int64_t)value;
+    return true;
+}
+
 // --- pairs of numbers ---
 
 // Reads a whole number at *text and moves *text behind it. A number that does not fit becomes the
@@ -169,6 +186,8 @@ bool rg_option_set(const struct rg_option *row, void *values, const char *text, 
         return set_choice(row, at(row, values), text);
     case RG_OPTION_SIZE:
         return set_size(row, at(row, values), text);
+    case RG_OPTION_BYTES:
+        return set_bytes(row, at(row, values), text);
     case RG_OPTION_RANGE:
         return set_range(row, at(row, values), text);
     case RG_OPTION_TEXT:

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
@@ -15,6 +16,7 @@ struct diff_options {
     struct rg_devices_asked devices;
     char *background, *heatmap_prefix; // files
     double exposure;
+    int64_t memory_bytes;
     bool json;
 };
 
@@ -30,6 +32,7 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_size_option, AT(size), NULL),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
+    RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("What to compare: two files"),
     // The operand has no last place, so that a wrong number of arguments comes to the line below.
     {RG_OPTION_OPERAND, .argument = "A B", .about = "picture files of one size; A is the true one",
@@ -72,6 +75,7 @@ static int diff_devices(const struct diff_options *o, const struct rg_words *arg
 static int diff(const void *values, const struct rg_words *arguments)
 {
     const struct diff_options *o = values;
+    rg_memory_allow(o->memory_bytes);
     if (arguments->count == 1)
         return diff_devices(o, arguments);
     if (arguments->count != 2) {

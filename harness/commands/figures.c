@@ -2,6 +2,7 @@
 #include <stdio.h>
 
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/console/interrupt.h"
@@ -12,6 +13,7 @@ struct figures_options {
     struct rg_size size;
     char *device, *output;
     int timeout_s;
+    int64_t memory_bytes;
 };
 
 #define AT(field) offsetof(struct figures_options, field)
@@ -27,6 +29,7 @@ static const struct rg_option options[] = {
      .about = "the device to use; `raingauge list devices` prints the names", .offset = AT(device),
      .initial = "cpu", .names = RG_NAMES_DEVICE},
     RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
+    RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "DIR",
      .about = "the folder of the pictures, and of figures.md, which shows them with captions",
@@ -60,6 +63,7 @@ static int figures_command(const void *values, const struct rg_words *arguments)
     const struct rg_figure *figures[MOST_FIGURES];
     const int count = choose(arguments, figures);
     struct rg_devices devices;
+    rg_memory_allow(o->memory_bytes);
     if (!count)
         return RG_EXIT_USAGE;
     int exit = rg_devices_open_asked(

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "core/image/clip/clip.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
@@ -25,6 +26,7 @@ struct render_options {
     int timeout_s;
     char *device, *output; // a name; a file, NULL for the technique's name with .png or .webm
     double exposure;
+    int64_t memory_bytes;
     bool json;
 };
 
@@ -48,6 +50,7 @@ static const struct rg_option options[] = {
      .about = "the device to use; `raingauge list devices` prints the names", .offset = AT(device),
      .initial = "cpu", .names = RG_NAMES_DEVICE},
     RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
+    RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "FILE",
      .about =
@@ -97,9 +100,15 @@ static bool check_output(const struct render_options *o)
 static struct rg_session *draw(struct rg_device *device, const struct rg_drawn *drawn, int frame,
                                double exposure)
 {
+    const struct rg_subject *subject = &drawn->subject;
+    if (!rg_pictures_fit(subject->width, subject->height, 1))
+        return NULL;
     if (drawn->sequence)
         return rg_sequence_run(drawn->sequence, device);
-    struct rg_session *session = rg_session_run(device, &drawn->subject, frame);
+    const int64_t picture_bytes = rg_pictures_bytes(subject->width, subject->height, 1);
+    rg_memory_take(picture_bytes); // so that nothing else takes it meanwhile
+    struct rg_session *session = rg_session_run(device, subject, frame);
+    rg_memory_give(picture_bytes);
     if (session && rg_frame_write(session, drawn->path, exposure))
         return session;
     rg_session_close(session);
@@ -146,6 +155,7 @@ static int render(const void *values, const struct rg_words *arguments)
 {
     const struct render_options *o = values;
     void *settings;
+    rg_memory_allow(o->memory_bytes);
     if (!names_one_device(o->device) || !check_output(o))
         return RG_EXIT_USAGE;
     const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
@@ -18,6 +19,7 @@ struct verify_options {
     struct rg_length length;
     bool stages;
     struct rg_devices_asked devices;
+    int64_t memory_bytes;
     bool json;
 };
 
@@ -37,6 +39,7 @@ static const struct rg_option options[] = {
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
+    RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
@@ -153,6 +156,7 @@ static int verify(const void *values, const struct rg_words *arguments)
     struct subject subjects[MAX_TECHNIQUES] = {{0}};
     struct rg_devices devices;
     int count = 0, exit = RG_EXIT_USAGE;
+    rg_memory_allow(o->memory_bytes);
     if (choose_all(arguments, &o->sets, subjects, &count)) {
         exit = rg_devices_open_asked(&o->devices, &devices);
         if (exit == RG_EXIT_PASS) {

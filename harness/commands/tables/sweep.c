@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
+#include "core/base/memory.h"
 #include "core/base/log.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
@@ -25,6 +26,7 @@ struct sweep_options {
     struct rg_devices_asked devices;
     char *output;
     int format;
+    int64_t memory_bytes;
     bool dry_run, wide, json;
 };
 
@@ -48,6 +50,7 @@ static const struct rg_option options[] = {
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "cpu"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
+    RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_FLAG, "wide", .about = "prints all columns and notes, one line a cell",
      .offset = AT(wide), .excludes = "format json"},
@@ -155,7 +158,9 @@ static int run_grid(struct rg_grid *grid, const struct sweep_options *o,
 
 static int sweep(const void *values, const struct rg_words *arguments)
 {
+    const struct sweep_options *o = values;
     struct rg_grid *grid = rg_alloc(1, sizeof(*grid), "sweep");
+    rg_memory_allow(o->memory_bytes);
     const int exit = grid ? run_grid(grid, values, arguments) : RG_EXIT_FAIL;
     free(grid);
     return exit;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
@@ -29,6 +30,7 @@ struct table_options {
     char *set;            // the same as one text; NULL: none
     char *budget;         // "4m"; NULL: none
     bool fresh, claims, wide, json;
+    int64_t memory_bytes;
     struct rg_claim_outcomes *outcomes; // what --claims prints in the end
 };
 
@@ -67,6 +69,7 @@ static const struct rg_option options[] = {
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
+    RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_FLAG, "claims",
      .about = "prints what the papers claim about the tables, and whether it holds, not the tables",
@@ -295,6 +298,7 @@ static int table(const void *values, const struct rg_words *arguments)
         return RG_EXIT_USAGE;
     }
     o.outcomes = &outcomes;
+    rg_memory_allow(o.memory_bytes);
     if (!rg_sets_join(&o.sets, &o.set))
         return RG_EXIT_USAGE;
     int exit = print_tables(&o, arguments);

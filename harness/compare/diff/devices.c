@@ -168,6 +168,10 @@ int rg_diff_devices(const struct rg_diff_devices_request *request)
     if (exit == RG_EXIT_PASS && devices.count < 2) {
         rg_error("--device %s: a comparison takes two devices", request->devices->names);
         exit = RG_EXIT_USAGE;
+    } else if (exit == RG_EXIT_PASS &&
+               !rg_pictures_fit(request->subject.width, request->subject.height,
+                                devices.count + 1)) {
+        exit = RG_EXIT_USAGE;
     } else if (exit == RG_EXIT_PASS) {
         exit = take_pictures(s, &devices) ? compare_all(s) : rg_exit_of_error();
         if (!s->compared)

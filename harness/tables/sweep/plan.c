@@ -3,27 +3,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "harness/console/clock.h"
 #include "harness/measure/expected.h"
 #include "harness/devices/workers/device.h"
-
-// --- memory of the machine ---
-
-static double free_bytes(void)
-{
-    char line[128];
-    double kilobytes = 0;
-    FILE *file = fopen("/proc/meminfo", "r");
-    while (file && fgets(line, sizeof(line), file))
-        if (!strncmp(line, "MemAvailable:", 13))
-            kilobytes = strtod(line + 13, NULL);
-    if (file)
-        fclose(file);
-    return kilobytes * 1024;
-}
 
 // --- a row, opened for a moment ---
 
@@ -174,5 +159,5 @@ void rg_plan_print(const struct rg_plan *plan, const struct rg_devices *devices,
 
 int rg_plan_rows_at_once(const struct rg_plan *plan)
 {
-    return plan->all_bytes > free_bytes() / 2 ? 1 : 0;
+    return plan->all_bytes > (double)rg_memory_left() / 2 ? 1 : 0;
 }

@@ -129,13 +129,45 @@ static void test_tiers(void **state)
         }
 }
 
+// Objects that are only counted have a size and read as zeroes, and runs with them do nothing; the
+// room is that of what lived together at most.
+static void test_room(void **state)
+{
+    (void)state;
+    bool is_taken;
+    uint32_t words[4] = {1, 2, 3, 4};
+    struct rg_device *device = rg_device_open("cpu");
+    struct rg_buf *kept = rg_buf_create_with(device, words, 16, "kept");
+    rg_room_begin(device, RG_ROOM_COUNTED);
+    struct rg_buf *large = rg_buf_create(device, 4000, "large");
+    rg_buf_destroy(large);
+    struct rg_buf *small = rg_buf_create(device, 400, "small");
+    struct rg_pass *pass = rg_pass_create(device, "probe_copy");
+    const struct probe_copy_params params = {4, 1, 0};
+    assert_true(rg_pass_run(pass, &(struct rg_run){.params = &params,
+                                                   .slots = {[1].buf = small, [2].buf = kept},
+                                                   .extent = {4, 1, 1}}));
+    assert_true(rg_buf_read(small, 0, words, 16));
+    assert_int_equal(words[0] + words[1] + words[2] + words[3], 0);
+    rg_buf_destroy(small);
+    rg_pass_destroy(pass);
+    assert_int_equal(rg_room_end(device, &is_taken), 4000);
+    assert_false(is_taken);
+    assert_true(rg_buf_read(kept, 0, words, 16));
+    assert_int_equal(words[3], 4); // nothing ran
+    rg_room_begin(device, RG_ROOM_WATCHED);
+    rg_buf_destroy(rg_buf_create(device, 800, "made"));
+    assert_int_equal(rg_room_end(device, &is_taken), 800);
+    assert_true(is_taken);
+    rg_buf_destroy(kept);
+    assert_true(rg_device_close(device));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_parts),
-        cmocka_unit_test(test_bytes),
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_tiers),
+        cmocka_unit_test(test_parts), cmocka_unit_test(test_bytes), cmocka_unit_test(test_names),
+        cmocka_unit_test(test_tiers), cmocka_unit_test(test_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

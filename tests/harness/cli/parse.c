@@ -19,6 +19,7 @@ struct sample_options {
     struct rg_size size;
     struct rg_range rows, things;
     int frames, steps, format, form;
+    int64_t memory_bytes;
     double factor, exposure;
     char *devices, *output;
     struct rg_length length;
@@ -37,6 +38,7 @@ static const struct rg_option options[] = {
      .most = INT_MAX},
     {RG_OPTION_RANGE, "things", .argument = "A-B", .about = "things", .offset = AT(things),
      .least = 0, .most = 9},
+    RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_INCLUDE(rg_frame_option, AT(frames), "60"),
     {RG_OPTION_INT, "steps", .argument = "N", .about = "steps", .offset = AT(steps), .least = 2,
      .most = 9},
@@ -64,6 +66,9 @@ static int see(const void *values, const struct rg_words *arguments)
                  o->size.width, o->size.height, o->rows.first, o->rows.last, o->things.first,
                  o->things.last, o->frames, o->steps, o->format, o->form, o->factor, o->exposure,
                  o->devices, o->output ? o->output : "none", o->length.quick, o->length.full);
+    if (o->memory_bytes)
+        used += snprintf(seen + used, sizeof(seen) - (size_t)used, " memory %lld",
+                         (long long)o->memory_bytes);
     for (int i = 0; i < o->sets.count; i++)
         used += snprintf(seen + used, sizeof(seen) - (size_t)used, " %s", o->sets.items[i]);
     for (int i = 0; i < arguments->count; i++)
@@ -137,6 +142,9 @@ static void values_are_of_their_kinds(void **state)
                "--exposure 1e-3 --device gl,vulkan --output a --quick --set k=1 --set l=2 one two",
                "3x4 5-6 3-9 7 8 2 0 9.5 0.001 gl,vulkan a 10 k=1 l=2 'one' 'two'");
     expect_run("--rows 5 --things 0 --full -o b", "512x512 5-5 0-0 60 1 1 -1 0 1 cpu b 01");
+    expect_run("--memory 1.5GiB", "512x512 0-0 -1--1 60 1 1 -1 0 1 cpu none 00 memory 1610612736");
+    expect_run("--memory 2K", "512x512 0-0 -1--1 60 1 1 -1 0 1 cpu none 00 memory 2048");
+    expect_run("--memory 3T", "512x512 0-0 -1--1 60 1 1 -1 0 1 cpu none 00 memory 3298534883328");
 }
 
 static void arguments_stand_anywhere_and_the_last_value_counts(void **state)
@@ -184,6 +192,19 @@ static void what_is_wrong_is_refused_in_one_line(void **state)
     expect_refusal("--factor nan", "--factor nan: must be above 0, at most 10");
     expect_refusal("--factor 1m", "--factor 1m: invalid numeric value; `raingauge sample --help` "
                                   "prints the options");
+    for (int i = 0; i < 6; i++) {
+        static const char *const wrong[] = {"4", "G", "4GB", "4g", "nanG", "4Gx"};
+        char line[64], message[128];
+        snprintf(line, sizeof(line), "--memory %s", wrong[i]);
+        snprintf(message, sizeof(message),
+                 i == 4 ? "%s: must be above 0, at most 1024T"
+                        : "%s: is no size; write it as 512M, 4G or 1.5G",
+                 line);
+        expect_refusal(line, message);
+    }
+    expect_refusal("--memory 0G", "--memory 0G: must be above 0, at most 1024T");
+    expect_refusal("--memory -1G", "--memory -1G: must be above 0, at most 1024T");
+    expect_refusal("--memory 1025T", "--memory 1025T: must be above 0, at most 1024T");
     expect_refusal("--full --quick", "--quick and --full: choose one");
     expect_refusal("--none",
                    "--none: unknown option; `raingauge sample --help` prints the options");

@@ -16,6 +16,7 @@ static const size_t value_sizes[] = {
     [RG_OPTION_FACTOR] = sizeof(double),       [RG_OPTION_CHOICE] = sizeof(int),
     [RG_OPTION_SIZE] = sizeof(struct rg_size), [RG_OPTION_RANGE] = sizeof(struct rg_range),
     [RG_OPTION_TEXT] = sizeof(char *),         [RG_OPTION_TEXTS] = sizeof(struct rg_words),
+    [RG_OPTION_BYTES] = sizeof(int64_t),
 };
 
 // The row of this name, or NULL.

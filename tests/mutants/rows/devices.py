@@ -4,10 +4,11 @@ from fault import Fault
 TESTS = ("device counting", "device suite, kernels, cpu", "device suite, kernels, cpu_reference", "device suite, images, cpu",
          "device suite, draws, cpu", "device suite, targets, cpu", "drawing, cpu", "stages",
          "device suite, kernels, vulkan", "device suite, draws, vulkan", "device suite, targets, vulkan",
-         "command line, renders")
+         "command line, renders", "memory", "room")
 
 GRID, PACKING, SCAN, SHARED = "core/device/grid.c", "core/device/packing.c", "core/device/scan.c", "core/device/shared.c"
 TARGETS, DEVICE, LIMITS, WORK = "core/device/targets.c", "core/device/device.c", "core/device/limits.c", "core/device/work.c"
+MEMORY, TECHNIQUE = "core/base/memory.c", "core/techniques/technique.c"
 OBJECTS, PASS, IMAGE, DRAW = "core/device/objects.c", "backends/cpu/pass.c", "backends/cpu/image.c", "backends/cpu/draw.c"
 
 ROWS = [
@@ -19,6 +20,15 @@ ROWS = [
     Fault(GRID, "require(«bound->buf->device == pass->device»,", "true", "another device's buffer is taken"),
     Fault(OBJECTS, "device->work->live_bytes «-= image_bytes(&image->desc)»;", "-= 0", "memory of images that are gone counts"),
     Fault(OBJECTS, "image->device->work->bytes_read += «level_bytes(image, level)»;", "level_bytes(image, 0)", "each level is as large as the first"),
+    Fault(OBJECTS, "return «!device->info.software» || rg_memory_take(bytes);", "true", "what devices on the CPU take is not counted"),
+    Fault(OBJECTS, "give(device, «(int64_t)buf->size»);", "0", "a buffer that is gone gives nothing back"),
+    Fault(OBJECTS, "give(device, «image_bytes(&image->desc)»);", "0", "an image that is gone gives nothing back"),
+    Fault(OBJECTS, "work->most_bytes = «work->most_bytes > work->live_bytes» ?", "false", "what lives now is taken for the most that lived"),
+    Fault(MEMORY, "return bytes «- bytes / 10»;", "- 0", "no margin is left of what is free"),
+    Fault(MEMORY, "memory.taken_bytes «+= bytes»;", "+= 0", "what is taken is not counted"),
+    Fault(MEMORY, "«memory.is_chosen» ? 0 : less_a_tenth", "false", "the user cannot allow more than is free"),
+    Fault(MEMORY, "setenv(variable, text, «1»);", "0", "other processes learn the first limit alone"),
+    Fault(TECHNIQUE, "if («(int64_t)width * height >= LARGE_PX» &&", "false", "large pictures are taken before they are counted"),
     Fault(LIMITS, "return «size <= most» ||\n           rg_unsupported(\"buffer", "true", "a buffer may be of any size"),
     Fault(LIMITS, "if (desc->width > most->max_px || «desc->height > most->max_px» ||", "false", "an image may be of any height"),
     Fault(LIMITS, "if («++*member_of(count, slot->kind) > allowed»)", "false", "a kernel may have any number of slots"),

@@ -1,0 +1,141 @@
+#include "core/base/memory.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+
+// Below this, what is available is not looked up: that takes tens of microseconds.
+#define SMALL_BYTES ((int64_t)1 << 20)
+
+static const char variable[] = "RG_MEMORY_BYTES";
+
+static struct {
+    bool is_known;  // the limit has been found
+    bool is_chosen; // it is the user's, rather than what was free
+    int64_t limit_bytes, taken_bytes;
+} memory;
+
+// --- what the machine has ---
+
+// The number in a file that holds one; -1: there is none.
+static int64_t number_in(const char *path)
+{
+    long long number = -1;
+    FILE *file = fopen(path, "r");
+    if (file && fscanf(file, "%lld", &number) != 1)
+        number = -1;
+    if (file)
+        fclose(file);
+    return number;
+}
+
+static int64_t available_to_all(void)
+{
+    char line[128];
+    long long kib = 0;
+    FILE *file = fopen("/proc/meminfo", "r");
+    while (file && fgets(line, sizeof(line), file))
+        if (sscanf(line, "MemAvailable: %lld", &kib) == 1)
+            break;
+    if (file)
+        fclose(file);
+    return kib * 1024;
+}
+
+int64_t rg_memory_available(void)
+{
+    const int64_t all = available_to_all();
+    const int64_t most = number_in("/sys/fs/cgroup/memory.max");
+    const int64_t now = number_in("/sys/fs/cgroup/memory.current");
+    if (most < 0 || now < 0 || most - now > all)
+        return all;
+    return most > now ? most - now : 0;
+}
+
+static int64_t less_a_tenth(int64_t bytes)
+{
+    return bytes - bytes / 10;
+}
+
+// --- what is allowed ---
+
+static void find_limit(void)
+{
+    const char *chosen = getenv(variable);
+    const int64_t available = rg_memory_available();
+    memory.is_known = true;
+    memory.is_chosen = chosen && atoll(chosen) > 0;
+    memory.limit_bytes = memory.is_chosen ? atoll(chosen)
+                         : available      ? less_a_tenth(available)
+                                          : INT64_MAX;
+}
+
+void rg_memory_allow(int64_t bytes)
+{
+    char text[RG_MEMORY_TEXT];
+    if (bytes <= 0)
+        return;
+    snprintf(text, sizeof(text), "%lld", (long long)bytes);
+    setenv(variable, text, 1);
+    find_limit();
+}
+
+static int64_t left_of_limit(void)
+{
+    if (!memory.is_known)
+        find_limit();
+    return memory.limit_bytes > memory.taken_bytes ? memory.limit_bytes - memory.taken_bytes : 0;
+}
+
+// What others have taken meanwhile counts as well, unless the user has chosen.
+int64_t rg_memory_left(void)
+{
+    const int64_t left = left_of_limit();
+    const int64_t available = memory.is_chosen ? 0 : less_a_tenth(rg_memory_available());
+    return available && available < left ? available : left;
+}
+
+bool rg_memory_allows(int64_t bytes)
+{
+    return bytes <= (bytes < SMALL_BYTES ? left_of_limit() : rg_memory_left());
+}
+
+bool rg_memory_take(int64_t bytes)
+{
+    if (!rg_memory_allows(bytes))
+        return false;
+    memory.taken_bytes += bytes;
+    return true;
+}
+
+void rg_memory_give(int64_t bytes)
+{
+    memory.taken_bytes -= bytes;
+}
+
+// --- what is said of it ---
+
+const char *rg_memory_text(int64_t bytes, char text[RG_MEMORY_TEXT])
+{
+    const double mib = (double)bytes / (1 << 20);
+    if (mib < 1000)
+        snprintf(text, RG_MEMORY_TEXT, mib < 9.95 ? "%.1f MiB" : "%.0f MiB", mib);
+    else
+        snprintf(text, RG_MEMORY_TEXT, "%.1f GiB", mib / 1024);
+    return text;
+}
+
+bool rg_memory_refuse(const char *begin, int64_t bytes, const char *mend)
+{
+    char needed[RG_MEMORY_TEXT], left[RG_MEMORY_TEXT];
+    rg_memory_text(bytes, needed);
+    rg_memory_text(rg_memory_left(), left);
+    return memory.is_chosen ? rg_error("%s needs %s, and %s of --memory are left; allow more, or "
+                                       "ask for less: %s",
+                                       begin, needed, left, mend)
+                            : rg_error("%s needs %s, and %s are free; --memory allows more, %s "
+                                       "needs less",
+                                       begin, needed, left, mend);
+}

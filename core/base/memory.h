@@ -1,0 +1,36 @@
+// How much memory may be taken: what large things ask before they take it.
+//
+// Devices that run on the CPU count their buffers and images here, as long as they live. What is
+// taken on the host and is gone soon asks without being counted.
+#ifndef RG_CORE_BASE_MEMORY_H
+#define RG_CORE_BASE_MEMORY_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { RG_MEMORY_TEXT = 24 };
+
+// Bytes that this machine can give without swapping (MemAvailable), or that the process's control
+// group still allows, where that is less. 0: unknown.
+int64_t rg_memory_available(void);
+
+// Allows so many bytes, where that is above 0, also to the processes that are started from here on,
+// by the environment variable RG_MEMORY_BYTES. Until then it is what is available, less a tenth.
+void rg_memory_allow(int64_t bytes);
+
+// Bytes that may still be taken: 0 or more.
+int64_t rg_memory_left(void);
+// Whether so many may be taken at once. Cheap for less than a MiB.
+bool rg_memory_allows(int64_t bytes);
+// Takes them, or false: then nothing is taken. What was taken is given back with rg_memory_give.
+bool rg_memory_take(int64_t bytes);
+void rg_memory_give(int64_t bytes);
+
+// "5.2 GiB", "37 MiB"
+const char *rg_memory_text(int64_t bytes, char text[RG_MEMORY_TEXT]);
+
+// Logs "BEGIN needs 5.2 GiB, and 3.1 GiB are free; --memory allows more, MEND needs less", or how
+// much is left of what the user allows, and returns false.
+bool rg_memory_refuse(const char *begin, int64_t bytes, const char *mend);
+
+#endif

@@ -1,0 +1,97 @@
+// How much memory may be taken: a limit that is counted against, told to other processes, and
+// refused by in one line.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "core/base/memory.h"
+
+#define MIB ((int64_t)1 << 20)
+
+// It runs first, before a limit has been chosen.
+static void without_a_choice_a_tenth_of_what_is_free_is_kept(void **state)
+{
+    (void)state;
+    const int64_t available = rg_memory_available(), left = rg_memory_left();
+    assert_true(available > 0);
+    // Others take and give meanwhile.
+    assert_true(left > available / 2 && left < available * 95 / 100);
+    assert_false(rg_memory_take(available));
+    assert_true(rg_memory_take(100 * MIB));
+    assert_true(rg_memory_left() <= left - 50 * MIB);
+    rg_memory_give(100 * MIB);
+}
+
+static void what_is_taken_counts_until_it_is_given_back(void **state)
+{
+    (void)state;
+    rg_memory_allow(10 * MIB);
+    rg_memory_allow(0); // no choice
+    assert_int_equal(rg_memory_left(), 10 * MIB);
+    assert_true(rg_memory_take(10 * MIB - 4));
+    assert_false(rg_memory_take(5)); // small, and still counted
+    assert_false(rg_memory_allows(5));
+    assert_true(rg_memory_allows(4));
+    rg_memory_allow(4 * MIB); // less than is taken
+    assert_int_equal(rg_memory_left(), 0);
+    assert_false(rg_memory_take(1));
+    rg_memory_give(10 * MIB - 4);
+    assert_int_equal(rg_memory_left(), 4 * MIB);
+}
+
+// The user may allow more than is free, and processes that are started learn it.
+static void a_choice_outweighs_what_is_free(void **state)
+{
+    (void)state;
+    const int64_t more = rg_memory_available() * 2;
+    rg_memory_allow(more);
+    assert_int_equal(rg_memory_left(), more);
+    assert_int_equal(atoll(getenv("RG_MEMORY_BYTES")), more);
+}
+
+static void a_refusal_has_the_numbers(void **state)
+{
+    (void)state;
+    char text[RG_MEMORY_TEXT];
+    assert_string_equal(rg_memory_text(37 * MIB, text), "37 MiB");
+    assert_string_equal(rg_memory_text(5 * MIB / 2, text), "2.5 MiB");
+    assert_string_equal(rg_memory_text(5325 * MIB, text), "5.2 GiB");
+    rg_memory_allow(3174 * MIB);
+    assert_false(rg_memory_refuse("streaks on cpu", 5325 * MIB, "a smaller --size"));
+    assert_string_equal(rg_last_error(),
+                        "streaks on cpu needs 5.2 GiB, and 3.1 GiB of --memory are left; allow "
+                        "more, or ask for less: a smaller --size");
+}
+
+// One large piece, which is not counted, is held against what is left.
+static void large_pieces_of_the_host_are_refused(void **state)
+{
+    (void)state;
+    rg_memory_allow(100 * MIB);
+    void *fits = rg_alloc(99, MIB, "a map");
+    assert_non_null(fits);
+    free(fits);
+    assert_null(rg_alloc(101, MIB, "a map"));
+    assert_non_null(
+        strstr(rg_last_error(), "a map needs 101 MiB, and 100 MiB of --memory are left"));
+}
+
+int main(void)
+{
+    unsetenv("RG_MEMORY_BYTES");
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(without_a_choice_a_tenth_of_what_is_free_is_kept),
+        cmocka_unit_test(what_is_taken_counts_until_it_is_given_back),
+        cmocka_unit_test(a_choice_outweighs_what_is_free),
+        cmocka_unit_test(a_refusal_has_the_numbers),
+        cmocka_unit_test(large_pieces_of_the_host_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
