@@ -120,7 +120,9 @@ void rg_memory_give(int64_t bytes)
 const char *rg_memory_text(int64_t bytes, char text[RG_MEMORY_TEXT])
 {
     const double mib = (double)bytes / (1 << 20);
-    if (mib < 1000)
+    if (mib < 1)
+        snprintf(text, RG_MEMORY_TEXT, "%.0f KiB", mib * 1024);
+    else if (mib < 1000)
         snprintf(text, RG_MEMORY_TEXT, mib < 9.95 ? "%.1f MiB" : "%.0f MiB", mib);
     else
         snprintf(text, RG_MEMORY_TEXT, "%.1f GiB", mib / 1024);

@@ -26,7 +26,7 @@ bool rg_memory_allows(int64_t bytes);
 bool rg_memory_take(int64_t bytes);
 void rg_memory_give(int64_t bytes);
 
-// "5.2 GiB", "37 MiB"
+// "5.2 GiB", "37 MiB", "64 KiB"
 const char *rg_memory_text(int64_t bytes, char text[RG_MEMORY_TEXT]);
 
 // Logs "BEGIN needs 5.2 GiB, and 3.1 GiB are free; --memory allows more, MEND needs less", or how

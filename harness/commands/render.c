@@ -7,6 +7,7 @@
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "core/image/clip/clip.h"
+#include "core/image/files/io.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
@@ -105,6 +106,8 @@ static struct rg_session *draw(struct rg_device *device, const struct rg_drawn *
         return NULL;
     if (drawn->sequence)
         return rg_sequence_run(drawn->sequence, device);
+    if (!rg_picture_can_be_written(drawn->path, (int64_t)subject->width * subject->height))
+        return NULL;
     const int64_t picture_bytes = rg_pictures_bytes(subject->width, subject->height, 1);
     rg_memory_take(picture_bytes); // so that nothing else takes it meanwhile
     struct rg_session *session = rg_session_run(device, subject, frame);

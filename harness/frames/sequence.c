@@ -24,12 +24,15 @@ static bool open_place(struct run *run)
 {
     const struct rg_sequence *s = run->sequence;
     char path[PATH_MAX];
+    const int64_t frames = (int64_t)s->last - s->first + 1;
+    const int64_t pixels = frames * s->subject.width * s->subject.height;
     if (!rg_clip_is_named(s->path))
         return rg_numbered_path(s->path, s->first, path, sizeof(path)) &&
-               rg_picture_can_be_written(path);
+               rg_picture_can_be_written(path, pixels);
     run->clip = rg_clip_open(s->path, &(struct rg_clip_options){.width = s->subject.width,
                                                                 .height = s->subject.height,
                                                                 .fps = s->fps,
+                                                                .frames = frames,
                                                                 .exposure = (float)s->exposure,
                                                                 .stop = rg_interrupted});
     return run->clip != NULL;

@@ -9,6 +9,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/image/files/disk.h"
 #include "core/image/files/temporary.h"
 
 static bool write_all(int fd, const char *text)
@@ -39,6 +40,23 @@ bool rg_output_folder(const char *folder)
 {
     bool made;
     return make_folder(folder, &made);
+}
+
+// What is tried: a file in the folder, or the folder itself, as a file, where it is to be made.
+bool rg_output_can_be_written(const char *folder, int64_t bytes)
+{
+    char path[2048];
+    struct rg_why why;
+    struct stat st;
+    const bool is_there = !stat(folder, &st);
+    size_t length = strlen(folder);
+    while (!is_there && length > 1 && folder[length - 1] == '/')
+        length--;
+    if (snprintf(path, sizeof(path), "%.*s%s", (int)length, folder, is_there ? "/result" : "") >=
+        (int)sizeof(path))
+        return rg_error("%.80s...: its name is too long", folder);
+    return (rg_temporary_try(path, &why) && rg_disk_has_room(path, bytes, &why)) ||
+           rg_error("%s: %s", folder, why.text);
 }
 
 // A file that is written and not yet in its place.

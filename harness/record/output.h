@@ -3,11 +3,15 @@
 #define RG_HARNESS_RECORD_OUTPUT_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 struct rg_output_file {
     const char *name, *text;
 };
-enum { RG_MAX_OUTPUT_FILES = 8 };
+enum {
+    RG_MAX_OUTPUT_FILES = 8,
+    RG_OUTPUT_TABLE_BYTES = 1 << 13, // of a table's files, at least
+};
 
 // Writes files that belong together: all are there, or what was there before. They are written
 // beside their names first, which takes what can fail, and then renamed. The folder is made as
@@ -17,6 +21,10 @@ bool rg_output_write_set(const char *folder, const struct rg_output_file *files,
 // Writes `text` to FOLDER/NAME by a temporary file that is renamed. The folder is made if only its
 // last part is missing. False, with one logged line and nothing left behind, on failure.
 bool rg_output_write(const char *folder, const char *name, const char *text);
+
+// Whether files of so many bytes can be written into a folder, as is found out before any work; one
+// that is not there can be made as below, and is not yet. False, and one logged line.
+bool rg_output_can_be_written(const char *folder, int64_t bytes);
 
 // Makes a folder for what is written next, if only its last part is missing. False, with one logged
 // line, where that fails.

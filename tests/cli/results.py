@@ -7,6 +7,7 @@ import pty
 import re
 import signal
 import struct
+import subprocess
 import tempfile
 import time
 import zlib
@@ -503,7 +504,35 @@ def check_textures(runner):
     return problems
 
 
-CHECKS = [check_textures, check_forms, check_table_json, check_table_files, check_render_json, check_diff_json, check_full_stdout]
+# What would take hours, so that a refusal comes before the work: on a disk of 64 KiB.
+TOO_LARGE = [
+    ("render raster --frame 10000000 --size 1024x1024 -o a.png", "a.png: the disk has 64 KiB left, and at least 102 KiB"),
+    ("render raster --frame 10000000 --size 512x512 -o a.exr", "a.exr: the disk has 64 KiB left, and at least 77 KiB"),
+    ("render raster --frames 0-9999999 --size 64x64 -o a%08d.hdr", "a00000000.hdr: the disk has 64 KiB left, and at least 11"),
+    ("render raster --frames 0-9999999 --size 256x256 -o a.webm", "a.webm: the disk has 64 KiB left, and at least 6"),
+    ("diff raster --frame 10000000 --size 1024x1024 --device cpu,cpu:reference -o a", "a-flip.png: the disk has 64 KiB left"),
+    ("table --full --device cpu -o a", "a: the disk has 64 KiB left"),
+    ("figures --size 1024x1024 -o a", "a: the disk has 64 KiB left"),
+]
+
+
+def check_full_disk(runner):
+    """what cannot fit on the disk is refused before the work"""
+    problems = []
+    for args, error in TOO_LARGE:
+        script = "mount -t tmpfs -o size=64k tmpfs /mnt && cd /mnt && \"$0\" %s; status=$?; ls; exit $status" % args
+        done = subprocess.run(["unshare", "-rm", "sh", "-c", script, runner.raingauge], env=runner.variables({}),
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", timeout=100)
+        if re.search("unshare: |mount: ", done.stderr):
+            print("# not tried: no file system may be mounted here: " + done.stderr.strip())
+            return []
+        if done.returncode != 2 or done.stdout or error not in done.stderr or done.stderr.count("\n") != 1:
+            problems.append("%s: status %d, %s%s" % (args, done.returncode, done.stdout, done.stderr))
+    return problems
+
+
+CHECKS = [check_textures, check_forms, check_table_json, check_table_files, check_render_json, check_diff_json, check_full_stdout,
+          check_full_disk]
 STORED = [check_interrupted, check_stored]
 
 

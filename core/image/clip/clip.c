@@ -13,6 +13,7 @@
 #include "core/base/log.h"
 #include "core/image/clip/encoder.h"
 #include "core/image/clip/yuv.h"
+#include "core/image/files/disk.h"
 #include "core/image/files/temporary.h"
 
 struct rg_clip {
@@ -84,10 +85,16 @@ bool rg_clip_finish(struct rg_clip *clip)
 
 // --- opening and closing ---
 
+// What a clip takes at least: drawn ones took three times as much.
+static int64_t least_bytes(const struct rg_clip_options *options)
+{
+    return (int64_t)options->width * options->height * options->frames / 100;
+}
+
 struct rg_clip *rg_clip_open(const char *path, const struct rg_clip_options *options)
 {
     struct rg_why why;
-    if (!rg_temporary_try(path, &why))
+    if (!rg_temporary_try(path, &why) || !rg_disk_has_room(path, least_bytes(options), &why))
         return rg_error_null("%s: %s", path, why.text);
     struct rg_clip *clip = rg_alloc(1, sizeof(*clip), path);
     if (!clip)

@@ -12,6 +12,7 @@
 struct rg_clip_options {
     int width, height;  // of every picture, in pixels
     int fps;            // frames a second
+    int64_t frames;     // of the clip, as far as is known: the disk must have room for them
     float exposure;     // linear colours are multiplied by this, clamped and sRGB-encoded
     bool (*stop)(void); // asked while vpxenc is waited for: true gives up, and nothing is logged
 };
@@ -22,7 +23,8 @@ struct rg_clip;
 bool rg_clip_is_named(const char *path);
 
 // Starts vpxenc. `path` stays the caller's, and outlives the clip. NULL, and one logged line, where
-// vpxenc is missing, which is unsupported, or where the clip could not be written.
+// vpxenc is missing, which is unsupported, or where the clip could not be written, or the disk has
+// no room.
 struct rg_clip *rg_clip_open(const char *path, const struct rg_clip_options *options);
 // Hands the next frame on. False, and one logged line, where vpxenc has failed.
 bool rg_clip_add(struct rg_clip *clip, const struct rg_picture *picture);

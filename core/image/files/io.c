@@ -9,18 +9,23 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "core/image/files/disk.h"
 #include "core/image/files/format.h"
 #include "core/image/files/temporary.h"
 
 static const struct {
     const char *extension;
+    double least_pixel_bytes; // of a picture that a technique draws; docs/reliability.md has what
+                              // several took
     bool (*read)(const char *, int64_t, struct rg_picture *, struct rg_why *);
     bool (*write)(const char *, const struct rg_picture *, const struct rg_write_options *,
                   struct rg_why *);
 } formats[] = {
-    {"exr", rg_exr_read, rg_exr_write},         {"png", rg_png_read, rg_png_write},
-    {"hdr", rg_oiio_read, rg_oiio_write_hdr},   {"tif", rg_oiio_read, rg_oiio_write_tiff},
-    {"tiff", rg_oiio_read, rg_oiio_write_tiff},
+    {"exr", 0.3, rg_exr_read, rg_exr_write},
+    {"png", 0.1, rg_png_read, rg_png_write},
+    {"hdr", 0.3, rg_oiio_read, rg_oiio_write_hdr},
+    {"tif", 0.25, rg_oiio_read, rg_oiio_write_tiff},
+    {"tiff", 0.25, rg_oiio_read, rg_oiio_write_tiff},
 };
 
 // The index into formats, or -1 with `why` set.
@@ -120,10 +125,18 @@ bool rg_picture_read(const char *path, struct rg_picture *picture)
     return rg_pictures_read(&path, picture, 1);
 }
 
-bool rg_picture_can_be_written(const char *path)
+int64_t rg_picture_file_bytes(const char *path, int64_t pixels)
 {
     struct rg_why why;
-    return (find_format(path, &why) >= 0 && rg_temporary_try(path, &why)) ||
+    const int format = find_format(path, &why);
+    return format < 0 ? 0 : (int64_t)((double)pixels * formats[format].least_pixel_bytes);
+}
+
+bool rg_picture_can_be_written(const char *path, int64_t pixels)
+{
+    struct rg_why why;
+    return (find_format(path, &why) >= 0 && rg_temporary_try(path, &why) &&
+            rg_disk_has_room(path, rg_picture_file_bytes(path, pixels), &why)) ||
            rg_error("%s: %s", path, why.text);
 }
 

@@ -17,9 +17,14 @@ bool rg_picture_read(const char *path, struct rg_picture *picture);
 // Reads several files at once, on as many threads. All are read or none: then one line is logged.
 bool rg_pictures_read(const char *const *paths, struct rg_picture *pictures, int count);
 
-// Whether a picture can be written there, as is found out before any work: the format is known, the
-// folder is there and takes files. False and one logged line.
-bool rg_picture_can_be_written(const char *path);
+// The least bytes that drawn pictures of so many pixels take in a file of this name; 0 where its
+// format is not known. Some take up to twenty times as much.
+int64_t rg_picture_file_bytes(const char *path, int64_t pixels);
+
+// Whether pictures of so many pixels together can be written there, as is found out before any
+// work: the format is known, the folder is there and takes files, the disk has room. False and one
+// logged line.
+bool rg_picture_can_be_written(const char *path, int64_t pixels);
 
 // Writes beside `path` and renames, so that a failure leaves nothing behind and what was there
 // untouched; it logs one line. The folder has to be there.

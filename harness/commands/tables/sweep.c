@@ -13,6 +13,7 @@
 #include "harness/console/exit.h"
 #include "harness/devices/names.h"
 #include "harness/measure/expected.h"
+#include "harness/record/output.h"
 #include "harness/tables/print.h"
 #include "harness/tables/runs/regenerate.h"
 #include "harness/tables/sweep/grid.h"
@@ -148,7 +149,8 @@ static int run_grid(struct rg_grid *grid, const struct sweep_options *o,
         grid->table.width = o->size.width;
         grid->table.height = o->size.height;
         grid->table.check_frames = o->frame;
-        exit = open_and_run(grid, o, names, set);
+        if (!o->output || rg_output_can_be_written(o->output, RG_OUTPUT_TABLE_BYTES))
+            exit = open_and_run(grid, o, names, set);
     }
     free(settings);
     free(names);

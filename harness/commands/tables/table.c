@@ -13,6 +13,7 @@
 #include "harness/console/exit.h"
 #include "harness/record/disk/stored.h"
 #include "harness/tables/claims/sheet.h"
+#include "harness/record/output.h"
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/print.h"
 #include "harness/tables/runs/regenerate.h"
@@ -216,6 +217,8 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
                                                  .print = print,
                                                  .user = o};
     struct rg_devices devices;
+    if (o->output && !rg_output_can_be_written(o->output, (int64_t)count * RG_OUTPUT_TABLE_BYTES))
+        return RG_EXIT_USAGE;
     int exit = rg_devices_open_asked(&o->devices, &devices);
     if (exit != RG_EXIT_PASS)
         return exit;

@@ -153,6 +153,15 @@ static int compare_all(struct session *s)
     return exit;
 }
 
+// For the picture of each device and the one without rain, and for two heat maps a pair.
+static bool has_room(const struct rg_diff_devices_request *request, int devices)
+{
+    const int width = request->subject.width, height = request->subject.height;
+    const int64_t maps = (int64_t)devices * (devices - 1);
+    return rg_pictures_fit(width, height, devices + 1) &&
+           rg_pair_heatmaps_can_be_written(request->heatmap_prefix, maps * width * height);
+}
+
 int rg_diff_devices(const struct rg_diff_devices_request *request)
 {
     struct session *s = rg_alloc(1, sizeof(*s), "diff");
@@ -168,9 +177,7 @@ int rg_diff_devices(const struct rg_diff_devices_request *request)
     if (exit == RG_EXIT_PASS && devices.count < 2) {
         rg_error("--device %s: a comparison takes two devices", request->devices->names);
         exit = RG_EXIT_USAGE;
-    } else if (exit == RG_EXIT_PASS &&
-               !rg_pictures_fit(request->subject.width, request->subject.height,
-                                devices.count + 1)) {
+    } else if (exit == RG_EXIT_PASS && !has_room(request, devices.count)) {
         exit = RG_EXIT_USAGE;
     } else if (exit == RG_EXIT_PASS) {
         exit = take_pictures(s, &devices) ? compare_all(s) : rg_exit_of_error();

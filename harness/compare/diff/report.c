@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "core/image/compare/heatmap.h"
 #include "core/image/files/io.h"
@@ -191,15 +192,31 @@ bool rg_pairs_print_json(json_t *pairs, json_t *failures)
     return good || rg_error("standard output: cannot be written; is the disk full?");
 }
 
+// PREFIX-name.png, which the caller frees. NULL, and one logged line, without memory.
+static char *heatmap_path(const char *prefix, const char *name)
+{
+    const size_t size = strlen(prefix) + strlen(name) + 6;
+    char *path = rg_alloc(size, 1, "a heat map's name");
+    if (path)
+        snprintf(path, size, "%s-%s.png", prefix, name);
+    return path;
+}
+
+bool rg_pair_heatmaps_can_be_written(const char *prefix, int64_t pixels)
+{
+    char *path = prefix ? heatmap_path(prefix, "flip") : NULL;
+    const bool good = !prefix || (path && rg_picture_can_be_written(path, pixels));
+    free(path);
+    return good;
+}
+
 // Draws `values` and writes them as PREFIX-name.png.
 static bool write_heatmap(const char *prefix, const char *name, const float *values,
                           const struct rg_comparison *c, float top)
 {
-    size_t size = strlen(prefix) + strlen(name) + 6;
-    char *path = malloc(size);
+    char *path = heatmap_path(prefix, name);
     if (!path)
-        return rg_error("%s: no memory for the heat map's name", prefix);
-    snprintf(path, size, "%s-%s.png", prefix, name);
+        return false;
     struct rg_picture heat;
     bool good = rg_heatmap_draw(values, c->width, c->height, top, &heat) &&
                 rg_picture_write(path, &heat, &(struct rg_write_options){0});

@@ -123,11 +123,17 @@ static bool next(const struct rg_figure_run *run, const struct rg_figure *figure
     return session && rg_frame_write(session, path, exposure_of(figure));
 }
 
+static bool has_room(const struct rg_figure_run *run)
+{
+    const int64_t pixels = (int64_t)run->width * run->height * run->count;
+    return rg_output_can_be_written(run->folder, rg_picture_file_bytes(".png", pixels));
+}
+
 bool rg_figures_draw(const struct rg_figure_run *run)
 {
     struct rg_progress progress;
     struct rg_session *last = NULL;
-    bool good = rg_output_folder(run->folder);
+    bool good = has_room(run) && rg_output_folder(run->folder);
     rg_interrupt_watch();
     rg_progress_start(&progress, run->count);
     for (int i = 0; good && !rg_interrupted() && i < run->count; i++) {

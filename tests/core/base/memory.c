@@ -61,6 +61,7 @@ static void a_refusal_has_the_numbers(void **state)
     (void)state;
     char text[RG_MEMORY_TEXT];
     assert_string_equal(rg_memory_text(37 * MIB, text), "37 MiB");
+    assert_string_equal(rg_memory_text(MIB / 16, text), "64 KiB");
     assert_string_equal(rg_memory_text(5 * MIB / 2, text), "2.5 MiB");
     assert_string_equal(rg_memory_text(5325 * MIB, text), "5.2 GiB");
     rg_memory_allow(3174 * MIB);

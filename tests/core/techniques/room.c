@@ -7,11 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
 #include "core/base/log.h"
 #include "core/base/memory.h"
+#include "core/image/files/io.h"
 #include "core/techniques/technique.h"
 
 // Settings that change what is taken: of images, buffers, textures and meshes. Those of scenes are
@@ -142,11 +145,48 @@ static void large_pictures_are_refused_before_anything_is_taken(void **state)
     free(settings);
 }
 
+// A picture's file takes what it is said to take at least, and at most twenty times that.
+static void files_take_what_they_are_said_to_take(void **state)
+{
+    (void)state;
+    static const char *const paths[] = {"/tmp/raingauge-room.png", "/tmp/raingauge-room.exr"};
+    for (int i = 0; i < SUBJECTS - CITIES; i++) {
+        const struct subject *s = &subjects[i];
+        if (strstr(s->set, "geometry=off"))
+            continue; // nearly black
+        const struct rg_technique *technique = rg_technique_find(s->technique);
+        void *settings = settings_of(technique, s->set);
+        struct rg_device *device = rg_device_open("cpu");
+        struct rg_instance *instance = rg_instance_open(technique, device, settings, 640, 480);
+        struct rg_picture picture = {0};
+        assert_non_null(instance);
+        assert_true(technique->step(instance) && technique->draw(instance) &&
+                    rg_frame_read_picture(instance, &picture));
+        rg_picture_drop_opaque_alpha(&picture);
+        for (int p = 0; p < 2; p++) {
+            struct stat file;
+            assert_true(rg_picture_write(paths[p], &picture, &(struct rg_write_options){0}));
+            assert_int_equal(stat(paths[p], &file), 0);
+            unlink(paths[p]);
+            const int64_t said = rg_picture_file_bytes(paths[p], 640 * 480);
+            if (file.st_size < said || file.st_size > 20 * said)
+                print_message("%s %s: %lld said, %lld taken\n", s->technique, paths[p],
+                              (long long)said, (long long)file.st_size);
+            assert_in_range(file.st_size, said, 20 * said);
+        }
+        rg_picture_destroy(&picture);
+        rg_instance_close(instance);
+        assert_true(rg_device_close(device));
+        free(settings);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(large_pictures_are_refused_before_anything_is_taken),
         cmocka_unit_test(what_is_counted_is_what_is_taken),
+        cmocka_unit_test(files_take_what_they_are_said_to_take),
         cmocka_unit_test(what_exceeds_what_is_allowed_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,10 +6,12 @@ TESTS = ("image picture", "image cases", "image metrics", "image tiers", "image 
 
 TIERS, METRICS, COMPARE = ("core/image/compare/tiers.c", "core/image/compare/metrics.c", "core/image/compare/compare.c")
 PNG, DISC, SRGB, YUV = ("core/image/files/png.c", "core/image/disc.c", "core/image/srgb.c", "core/image/clip/yuv.c")
-PICTURE, IO, FLIP = "core/image/picture.c", "core/image/files/io.c", "core/image/compare/flip.c"
+PICTURE, DISK, IO, FLIP = "core/image/picture.c", "core/image/files/disk.c", "core/image/files/io.c", "core/image/compare/flip.c"
 HDR = "core/image/compare/flip_hdr.c"
 
 ROWS = [
+    Fault(DISK, "return «(double)bytes <= free_bytes» ||", "true", "a disk has room for anything", tests=("command line, results",)),
+    Fault(IO, "rg_disk_has_room(path, «rg_picture_file_bytes(path, pixels)», &why)", "0", "pictures are said to take no room", tests=("command line, results",)),
     Fault(SRGB, "encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, «2.4»)", "2.2", "the curve is a power of 2.2"),
     Fault(SRGB, "linear <= «0.0031308» ? linear", "0.04045", "the curve's dark part ends where that of codes does"),
     Fault(SRGB, "rg_srgb_decode((c «- 0.5») / 255)", "- 0.0", "codes are cut off, not rounded"),
