@@ -15,7 +15,7 @@ static inline void *rg_alloc(size_t count, size_t size, const char *what)
     size_t bytes;
     if (!__builtin_mul_overflow(count, size, &bytes) && bytes >= LARGE_BYTES &&
         !rg_memory_allows((int64_t)bytes)) {
-        rg_memory_refuse(what, (int64_t)bytes, "less of it");
+        rg_memory_refuse(what, (int64_t)bytes, "a smaller --size or setting");
         return NULL;
     }
     void *memory = calloc(count ? count : 1, size);

@@ -7,6 +7,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/doing.h"
+#include "core/base/memory.h"
 #include "core/base/require.h"
 #include "core/device/limits.h"
 #include "core/device/packing.h"
@@ -137,10 +138,20 @@ bool rg_device_time(struct rg_device *device, int64_t *time_ns)
     return rg_limits_allow_time(&device->info) && device->backend->time(device, time_ns);
 }
 
+// What takes more is counted first: then making it takes seconds, and counting it is little of
+// that.
+#define MOST_UNCOUNTED_BYTES ((int64_t)1 << 30)
+
+static int64_t smaller(int64_t a, int64_t b)
+{
+    return a < b ? a : b;
+}
+
 void rg_room_begin(struct rg_device *device, enum rg_room room)
 {
     struct rg_work *work = device->work;
     work->most_bytes = work->before_bytes = work->live_bytes;
+    work->watch_bytes = smaller(rg_memory_left() / 4, MOST_UNCOUNTED_BYTES);
     work->room = RG_ROOM_WATCHED;
     if (room == RG_ROOM_COUNTED)
         rg_room_count(device);

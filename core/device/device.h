@@ -48,8 +48,8 @@ bool rg_device_sync(struct rg_device *device);
 bool rg_device_time(struct rg_device *device, int64_t *time_ns);
 
 // Finds what something needs that is opened on the device between the two, and closed before the
-// second: `room` is RG_ROOM_COUNTED, or RG_ROOM_WATCHED to take it unless it is too much. Nothing
-// is logged while objects are counted.
+// second: `room` is RG_ROOM_COUNTED, or RG_ROOM_WATCHED to take it unless it is a quarter of what
+// is left, or a GiB. Nothing is logged while objects are counted.
 void rg_room_begin(struct rg_device *device, enum rg_room room);
 // The bytes that buffers and images took together at most, or would have taken, on the device since
 // the first; `is_taken` says whether all were made.

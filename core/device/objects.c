@@ -33,12 +33,12 @@ static void give(struct rg_device *device, int64_t bytes)
 static bool make_room(struct rg_device *device, int64_t bytes, const char *noun, const char *name)
 {
     char begin[160];
+    const struct rg_work *work = device->work;
+    if (work->room == RG_ROOM_WATCHED && device->info.software &&
+        work->live_bytes - work->before_bytes + bytes > work->watch_bytes)
+        rg_room_count(device);
     if (is_counting(device) || take(device, bytes))
         return true;
-    if (device->work->room == RG_ROOM_WATCHED) {
-        rg_room_count(device);
-        return true;
-    }
     snprintf(begin, sizeof(begin), "%s '%.60s': %.60s", noun, name, device->info.name);
     return rg_memory_refuse(begin, bytes, "a smaller --size or setting");
 }

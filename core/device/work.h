@@ -11,7 +11,7 @@
 // Whether objects are made, and memory is taken for them.
 enum rg_room {
     RG_ROOM_TAKEN,   // it is; one that exceeds what is allowed (core/base/memory.h) is refused
-    RG_ROOM_WATCHED, // it is, up to the first that exceeds it; all others are counted
+    RG_ROOM_WATCHED, // it is, until much of what is allowed is taken; all others are counted
     RG_ROOM_COUNTED, // it is not: objects have a size alone, runs and writes do nothing, and what
                      // is read is zeroes
 };
@@ -25,6 +25,7 @@ struct rg_work {
     int64_t live_bytes;   // of buffers and images
     int64_t most_bytes;   // the most that lived since rg_room_begin (device.h)
     int64_t before_bytes; // and what lived then
+    int64_t watch_bytes;  // beyond which objects are counted, where they are watched
     enum rg_room room;
     struct rg_tally *tally; // NULL: only this is counted
 };

@@ -7,10 +7,6 @@
 #include "core/base/alloc.h"
 #include "core/device/work.h"
 
-// Pictures from this size on are counted before anything of them is taken, for a frame of them
-// takes longer than that. What is smaller is taken until it is too much.
-#define LARGE_PX ((int64_t)4096 * 4096)
-
 // Opens it on whatever room the device has now.
 static struct rg_instance *open_instance(const struct rg_technique *technique,
                                          struct rg_device *device, const void *settings, int width,
@@ -30,47 +26,48 @@ static struct rg_instance *open_instance(const struct rg_technique *technique,
     return NULL;
 }
 
-int64_t rg_instance_bytes(const struct rg_technique *technique, struct rg_device *device,
-                          const void *settings, int width, int height)
+// Closes what was opened on counted room, once its first frame is counted too. Returns its bytes.
+static int64_t count_frame(const struct rg_technique *technique, struct rg_device *device,
+                           struct rg_instance *instance)
 {
     bool is_taken;
-    rg_room_begin(device, RG_ROOM_COUNTED);
-    struct rg_instance *instance = open_instance(technique, device, settings, width, height);
     if (instance && technique->step(instance))
         technique->draw(instance);
     rg_instance_close(instance);
     return rg_room_end(device, &is_taken);
 }
 
-// Logs that it needs so many bytes, of which there are not as many. Returns NULL.
-static struct rg_instance *refuse(const struct rg_technique *technique,
-                                  const struct rg_device *device, int width, int height,
-                                  int64_t bytes)
+int64_t rg_instance_bytes(const struct rg_technique *technique, struct rg_device *device,
+                          const void *settings, int width, int height)
+{
+    rg_room_begin(device, RG_ROOM_COUNTED);
+    return count_frame(technique, device,
+                       open_instance(technique, device, settings, width, height));
+}
+
+static bool is_allowed(const struct rg_technique *technique, const struct rg_device *device,
+                       int width, int height, int64_t bytes)
 {
     char begin[160];
     snprintf(begin, sizeof(begin), "%s of %dx%d on %.60s", technique->name, width, height,
              device->info.name);
-    rg_memory_refuse(begin, bytes, "a smaller --size or setting");
-    return NULL;
+    return rg_memory_allows(bytes) || rg_memory_refuse(begin, bytes, "a smaller --size or setting");
 }
 
 struct rg_instance *rg_instance_open(const struct rg_technique *technique, struct rg_device *device,
                                      const void *settings, int width, int height)
 {
     bool is_taken;
-    if ((int64_t)width * height >= LARGE_PX && device->info.software) {
-        const int64_t bytes = rg_instance_bytes(technique, device, settings, width, height);
-        if (!rg_memory_allows(bytes))
-            return refuse(technique, device, width, height, bytes);
-    }
     rg_room_begin(device, RG_ROOM_WATCHED);
     struct rg_instance *instance = open_instance(technique, device, settings, width, height);
-    if (device->work->room == RG_ROOM_COUNTED) {
-        rg_instance_close(instance);
-        instance = NULL;
+    if (device->work->room != RG_ROOM_COUNTED) {
+        rg_room_end(device, &is_taken);
+        return instance;
     }
-    const int64_t bytes = rg_room_end(device, &is_taken);
-    return is_taken ? instance : refuse(technique, device, width, height, bytes);
+    const int64_t bytes = count_frame(technique, device, instance);
+    return is_allowed(technique, device, width, height, bytes)
+               ? open_instance(technique, device, settings, width, height)
+               : NULL;
 }
 
 void rg_instance_close(struct rg_instance *instance)

@@ -531,6 +531,40 @@ def check_full_disk(runner):
     return problems
 
 
+# What takes tens of MB or more: the process takes at most so much beside what is said.
+SAID = ["raster --size 2048x2048", "cartoon --size 2048x1024", "flow --size 512x512 --set resolution_px=1024",
+        "drops --size 1024x1024"]
+BESIDE_BYTES, FACTOR = 40e6, 1.25
+
+
+def resident_bytes(runner, args):
+    """The most memory that a command had, its status and what it printed to stderr."""
+    with tempfile.TemporaryFile("w+") as log, tempfile.TemporaryDirectory() as folder:
+        child = subprocess.Popen([runner.raingauge] + args + ["-o", os.path.join(folder, "a.exr")], stderr=log,
+                                 env=runner.variables({}), stdout=subprocess.DEVNULL)
+        _, status, usage = os.wait4(child.pid, 0)
+        log.seek(0)
+        return usage.ru_maxrss * 1024, os.waitstatus_to_exitcode(status), log.read()
+
+
+def check_memory(runner):
+    """a process takes what is said that it needs, and what is refused takes little"""
+    problems = []
+    for args in SAID:
+        width, height = map(int, re.search(r"--size (\d+)x(\d+)", args).groups())
+        picture = width * height * 24
+        args = ("render " + args + " --frame 1").split()
+        taken, status, log = resident_bytes(runner, args)
+        small, refused, line = resident_bytes(runner, args + ["--memory", "%fM" % (picture / 2**20 + 1)])
+        number, unit = re.search(r"needs ([\d.]+) ([MG])iB, and 1.0 MiB of --memory are left", line).groups()
+        said = float(number) * {"M": 2**20, "G": 2**30}[unit] + picture
+        if status or log or refused != 2 or not 0.7 * said < taken < FACTOR * said + BESIDE_BYTES:
+            problems.append("%s: said %.0f, taken %.0f, status %d: %s" % (args, said, taken, status, log))
+        if small > taken / 2:
+            problems.append("%s: refusing it takes %.0f" % (args, small))
+    return problems
+
+
 CHECKS = [check_textures, check_forms, check_table_json, check_table_files, check_render_json, check_diff_json, check_full_stdout,
           check_full_disk]
 STORED = [check_interrupted, check_stored]
@@ -576,7 +610,8 @@ def check_atlas_not_kept(runner):
     return problems if images[0] == images[1] and images[0] else problems + ["printed:\n%s, kept:\n%s" % tuple(images)]
 
 
-LONG = [check_tallies, check_growth, check_changed, check_no_rain, check_brief, check_sweep, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept]
+LONG = [check_tallies, check_growth, check_changed, check_no_rain, check_brief, check_sweep, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept,
+        check_memory]
 
 
 # --- a driver that draws wrongly: its kernel is another ---

@@ -59,14 +59,24 @@ struct rg_asset *rg_add_room(struct rg_instance *instance, const char *name, int
     return rg_make_room(instance, asset, count) ? asset : fail(instance);
 }
 
+// In pieces, so that the host holds no second one as large.
+static bool write_zeroes(struct rg_buf *buf, int64_t bytes)
+{
+    const int64_t piece = (int64_t)4 << 20;
+    void *zeroes = rg_alloc((size_t)(bytes < piece ? bytes : piece), 1, buf->name);
+    bool ok = zeroes != NULL;
+    for (int64_t done = 0; ok && done < bytes; done += piece)
+        ok = rg_buf_write(buf, done, zeroes, bytes - done < piece ? bytes - done : piece);
+    free(zeroes);
+    return ok;
+}
+
 struct rg_asset *rg_add_buf(struct rg_instance *instance, const char *name, int64_t count,
                             const void *words)
 {
     struct rg_asset *asset = rg_add_room(instance, name, count);
-    void *zeroes = asset && !words ? rg_alloc((size_t)count, 4, name) : NULL;
-    const void *contents = words ? words : zeroes;
-    const bool ok = asset && contents && rg_buf_write(asset->buf, 0, contents, count * 4);
-    free(zeroes);
+    const bool ok = asset && (words ? rg_buf_write(asset->buf, 0, words, count * 4)
+                                    : write_zeroes(asset->buf, count * 4));
     if (!ok)
         return fail(instance);
     asset->is_defined = true;
