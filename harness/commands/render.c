@@ -110,7 +110,7 @@ static struct rg_session *draw(struct rg_device *device, const struct rg_drawn *
         return NULL;
     const int64_t picture_bytes = rg_pictures_bytes(subject->width, subject->height, 1);
     rg_memory_take(picture_bytes); // so that nothing else takes it meanwhile
-    struct rg_session *session = rg_session_run(device, subject, frame);
+    struct rg_session *session = rg_frame_run(device, subject, frame);
     rg_memory_give(picture_bytes);
     if (session && rg_frame_write(session, drawn->path, exposure))
         return session;

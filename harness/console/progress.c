@@ -8,6 +8,8 @@
 #include "core/base/log.h"
 #include "harness/console/clock.h"
 
+static bool is_told_otherwise;
+
 enum { BAR_COLUMNS = 24, DRAW_EVERY_MS = 100 };
 
 static void wipe(void)
@@ -64,9 +66,44 @@ void rg_progress_label(struct rg_progress *p, const char *format, ...)
         draw(p);
 }
 
+double rg_progress_all_ms(const struct rg_progress *p, double now_ms)
+{
+    const int64_t since = p->done - p->first_done;
+    return p->first_ms > 0 && since > 0
+               ? p->first_ms - p->start_ms +
+                     (now_ms - p->first_ms) / (double)since * (double)(p->total - p->first_done)
+               : 0;
+}
+
+void rg_progress_told(void)
+{
+    is_told_otherwise = true;
+}
+
+bool rg_progress_is_long(const struct rg_progress *p, double now_ms, double long_ms)
+{
+    return rg_progress_all_ms(p, now_ms) > long_ms && now_ms - p->first_ms >= long_ms / 10;
+}
+
+static void tell_if_long(struct rg_progress *p)
+{
+    char text[RG_DURATION_TEXT];
+    const double now_ms = rg_now_ms();
+    if (p->first_ms <= 0) {
+        p->first_ms = now_ms;
+        p->first_done = p->done;
+    } else if (!p->is_told && rg_progress_is_long(p, now_ms, rg_long_s() * 1e3)) {
+        p->is_told = true;
+        rg_info("about %s in all%s%s", rg_duration_text(rg_progress_all_ms(p, now_ms) / 1e3, text),
+                *p->label ? "; now: " : "", p->label);
+    }
+}
+
 void rg_progress_add(struct rg_progress *p, int64_t units)
 {
     p->done += units;
+    if (!p->shown && !is_told_otherwise)
+        tell_if_long(p);
     if (p->shown && rg_now_ms() - p->drawn_ms > DRAW_EVERY_MS)
         draw(p);
 }

@@ -1,4 +1,5 @@
-// A progress bar with the time left, on stderr, where that is a terminal; nothing in a pipe.
+// A progress bar with the time left, on stderr, where that is a terminal. In a pipe what lasts long
+// is told in one line, once the first units show how long.
 #ifndef RG_HARNESS_CONSOLE_PROGRESS_H
 #define RG_HARNESS_CONSOLE_PROGRESS_H
 
@@ -9,6 +10,9 @@ struct rg_progress {
     bool shown; // stderr is a terminal
     int64_t total, done;
     double start_ms, drawn_ms;
+    double first_ms;    // when the first units were done; 0: they are not
+    int64_t first_done; // how many they were
+    bool is_told;       // how long it takes
     char label[64];
 };
 
@@ -20,6 +24,13 @@ void rg_progress_label(struct rg_progress *progress, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 // So many units more are done. Cheap: it draws ten times a second at most.
 void rg_progress_add(struct rg_progress *progress, int64_t units);
+// How long all of it takes, in milliseconds, as far as is known: the first units are slower than
+// the others, for drivers compile in them. 0: it is not known yet.
+double rg_progress_all_ms(const struct rg_progress *progress, double now_ms);
+// Whether that is longer than `long_ms`, and a tenth of `long_ms` shows it.
+bool rg_progress_is_long(const struct rg_progress *progress, double now_ms, double long_ms);
+// How long has been told otherwise: no bar of this process tells it.
+void rg_progress_told(void);
 // Wipes the bar away.
 void rg_progress_end(struct rg_progress *progress);
 

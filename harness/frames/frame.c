@@ -2,7 +2,10 @@
 
 #include <stdlib.h>
 
+#include "core/base/log.h"
 #include "core/image/files/io.h"
+#include "harness/console/clock.h"
+#include "harness/console/progress.h"
 
 bool rg_frame_draw(struct rg_device *device, const struct rg_subject *subject, int frames,
                    struct rg_picture *picture)
@@ -23,6 +26,53 @@ bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subjec
     const bool ok = settings && rg_frame_draw(device, &dry, frames, picture);
     free(settings);
     return ok;
+}
+
+// Pictures from this size on are looked at in small first.
+#define LARGE_PX ((int64_t)4096 * 4096)
+
+// Tells how long a large picture takes, where that is long.
+static bool foretell(struct rg_device *device, const struct rg_subject *subject)
+{
+    enum { SIDES = 8 };
+    struct rg_subject small = *subject;
+    small.width /= SIDES;
+    small.height /= SIDES;
+    if ((int64_t)subject->width * subject->height < LARGE_PX || small.width < 1 || small.height < 1)
+        return true;
+    struct rg_session *session = rg_session_run(device, &small, 0);
+    if (!session)
+        return false;
+    char text[RG_DURATION_TEXT];
+    const double start_ms = rg_now_ms();
+    const bool ok = rg_session_draw(session) && rg_session_sync(session);
+    const double s = (rg_now_ms() - start_ms) * SIDES * SIDES / 1e3;
+    rg_session_close(session);
+    if (ok && s > rg_long_s())
+        rg_info("%s of %dx%d: drawing it once takes about %s", subject->technique->name,
+                subject->width, subject->height, rg_duration_text(s, text));
+    return ok;
+}
+
+struct rg_session *rg_frame_run(struct rg_device *device, const struct rg_subject *subject,
+                                int frames)
+{
+    struct rg_session *session =
+        foretell(device, subject) ? rg_session_open(device, subject) : NULL;
+    struct rg_progress progress;
+    bool ok = session != NULL;
+    rg_progress_start(&progress, frames);
+    rg_progress_label(&progress, "%s, %d frames", subject->technique->name, frames);
+    for (int i = 0; ok && i < frames; i++) {
+        ok = rg_session_step(session);
+        rg_progress_add(&progress, 1);
+    }
+    ok = ok && rg_session_draw(session) && rg_session_sync(session);
+    rg_progress_end(&progress);
+    if (ok)
+        return session;
+    rg_session_close(session);
+    return NULL;
 }
 
 bool rg_frame_write(struct rg_session *session, const char *path, double exposure)

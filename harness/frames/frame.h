@@ -13,6 +13,12 @@ bool rg_frame_draw(struct rg_device *device, const struct rg_subject *subject, i
 bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subject, int frames,
                        struct rg_picture *picture);
 
+// Opens a subject on a device, simulates so many frames and draws the last, with a bar of progress;
+// of a picture so large that it alone may last long, how long is found out first, from one of an
+// eighth of its sides. NULL, and one logged line, on failure.
+struct rg_session *rg_frame_run(struct rg_device *device, const struct rg_subject *subject,
+                                int frames);
+
 // Writes the frame that a session has drawn last as a picture file, without an alpha that is 1
 // everywhere. False, and one logged line, on failure.
 bool rg_frame_write(struct rg_session *session, const char *path, double exposure);

@@ -7,6 +7,7 @@
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "harness/console/clock.h"
+#include "harness/console/progress.h"
 #include "harness/measure/expected.h"
 #include "harness/devices/workers/device.h"
 
@@ -124,13 +125,10 @@ bool rg_plan_make(const struct rg_table *table, const char *set, bool is_full, s
 
 // --- telling ---
 
-// "48 s", "3 min": two digits.
 static void print_duration(double s, FILE *out)
 {
-    if (s < 99.5)
-        fprintf(out, "%.2g s", s);
-    else
-        fprintf(out, "%.0f min", s / 60);
+    char text[RG_DURATION_TEXT];
+    fputs(rg_duration_text(s, text), out);
 }
 
 void rg_plan_print(const struct rg_plan *plan, const struct rg_devices *devices, FILE *out)
@@ -155,6 +153,7 @@ void rg_plan_print(const struct rg_plan *plan, const struct rg_devices *devices,
     const bool all = !rg_plan_rows_at_once(plan);
     fprintf(out, "), about %.0f MB with %s\n", (all ? plan->all_bytes : plan->row_bytes) / 1e6,
             all ? "all rows open in turn" : "one row open at a time");
+    rg_progress_told();
 }
 
 int rg_plan_rows_at_once(const struct rg_plan *plan)

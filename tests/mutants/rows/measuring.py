@@ -7,7 +7,13 @@ JOB, MEASURE, PASSES = "harness/measure/job.c", "harness/measure/measure.c", "ha
 AUDIT, CEILINGS, STATS = "harness/measure/timer_audit.c", "harness/measure/ceilings.c", "harness/record/stats.c"
 SESSION = "harness/frames/local.c"
 
+PROGRESS = "harness/console/progress.c"
+
 ROWS = [
+    Fault(PROGRESS, "p->first_ms «- p->start_ms» +", "- 0", "the first units of a bar are told wrongly", tests=("progress",)),
+    Fault(PROGRESS, "(double)(p->total «- p->first_done»)", "- 0", "the first units of a bar are told twice", tests=("progress",)),
+    Fault(PROGRESS, "} else if («!p->is_told» && rg_progress_is_long", "true", "how long is told again and again", tests=("progress",)),
+    Fault(PROGRESS, "return «rg_progress_all_ms(p, now_ms) > long_ms» &&", "true", "what is short is told as well", tests=("progress",)),
     Fault(SESSION, "*wall_ms = «rg_now_ms() - start_ms»;", "0", "frames take no time"),
     Fault(SESSION, "ok = ok && «wait_for_all(session)»;", "true", "frames are not waited for"),
     Fault(SESSION, "clock->ok = «wait_for_all(clock->session)» && clock->ok;", "true", "a stage is not waited for"),

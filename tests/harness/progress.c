@@ -1,0 +1,100 @@
+// How long something takes, from its first units.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "core/base/log.h"
+#include "harness/console/clock.h"
+#include "harness/console/progress.h"
+
+static char told[256];
+static int lines;
+
+static void hear(enum rg_log_level level, const char *line, void *user)
+{
+    (void)user;
+    assert_int_equal(level, RG_LOG_INFO);
+    snprintf(told, sizeof(told), "%s", line);
+    lines++;
+}
+
+static void durations_have_two_digits(void **state)
+{
+    (void)state;
+    char text[RG_DURATION_TEXT];
+    assert_string_equal(rg_duration_text(8.54, text), "8.5 s");
+    assert_string_equal(rg_duration_text(48, text), "48 s");
+    assert_string_equal(rg_duration_text(170, text), "3 min");
+    assert_string_equal(rg_duration_text(9720, text), "2.7 h");
+    assert_string_equal(rg_duration_text(720000, text), "200 h");
+}
+
+// The first units, which took 5 s, say nothing of the others, of which 20 took 2 s.
+static void the_first_units_count_for_themselves(void **state)
+{
+    (void)state;
+    struct rg_progress p = {.total = 110, .start_ms = 1000};
+    assert_true(rg_progress_all_ms(&p, 5000) == 0);
+    p.first_ms = 6000;
+    p.first_done = p.done = 10;
+    assert_true(rg_progress_all_ms(&p, 7000) == 0);
+    p.done = 30;
+    assert_true(rg_progress_all_ms(&p, 8000) == 5000 + 100 * 100);
+    assert_true(rg_progress_is_long(&p, 8000, 14999));
+    assert_false(rg_progress_is_long(&p, 8000, 15000));
+    p.total = 1000010; // longer by far, and a tenth of what is long has not passed
+    assert_true(rg_progress_is_long(&p, 8000, 20000));
+    assert_false(rg_progress_is_long(&p, 8000, 20001));
+}
+
+static void run(const char *long_s, int units)
+{
+    struct rg_progress p;
+    setenv("RG_LONG_S", long_s, 1);
+    lines = 0;
+    rg_progress_start(&p, 1000);
+    rg_progress_label(&p, "flow");
+    rg_log_listen(hear, NULL);
+    for (int i = 0; i < units; i++) {
+        nanosleep(&(struct timespec){0, 2000000}, NULL);
+        rg_progress_add(&p, 1);
+    }
+    rg_log_listen(NULL, NULL);
+    rg_progress_end(&p);
+}
+
+static void what_is_long_is_told_once(void **state)
+{
+    (void)state;
+    run("0.001", 20);
+    assert_int_equal(lines, 1);
+    assert_non_null(strstr(told, " in all; now: flow"));
+    assert_ptr_equal(strstr(told, "about "), told);
+    run("1e9", 20);
+    assert_int_equal(lines, 0);
+    run("0.001", 1); // nothing is known yet
+    assert_int_equal(lines, 0);
+    rg_progress_told();
+    run("0.001", 20);
+    assert_int_equal(lines, 0);
+}
+
+int main(void)
+{
+    if (!freopen("/dev/null", "w", stderr)) // no terminal
+        return 1;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(durations_have_two_digits),
+        cmocka_unit_test(the_first_units_count_for_themselves),
+        cmocka_unit_test(what_is_long_is_told_once),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
