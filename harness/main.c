@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "core/base/log.h"
 #include "harness/commands/commands.h"
+#include "harness/console/threads.h"
 #include "harness/record/passport/build_info.h"
 #include "harness/devices/serving/serving.h"
 #include "harness/devices/workers/worker.h"
@@ -46,19 +46,6 @@ static int run(int argc, char **argv)
     return RG_EXIT_USAGE;
 }
 
-// libgomp's threads spin for tens of milliseconds before they sleep, and on a busy machine keep
-// from running what they wait for: frames can take ten times as long. It reads how long to spin
-// once, when it is loaded, so raingauge starts itself again with a millisecond, unless the user has
-// chosen.
-static void spin_briefly(char **argv)
-{
-    if (getenv("GOMP_SPINCOUNT") || getenv("OMP_WAIT_POLICY"))
-        return;
-    if (!setenv("GOMP_SPINCOUNT", "8000", 0))
-        execv("/proc/self/exe", argv);
-    unsetenv("GOMP_SPINCOUNT"); // it could not: the passport must not claim what libgomp never read
-}
-
 // Drivers' destructors are no part of the work, and some of them crash. Sanitizers look for leaks
 // when a process ends as usual.
 static int serve(const char *argument)
@@ -74,7 +61,7 @@ int main(int argc, char **argv)
 {
     if (argc == 3 && !strcmp(argv[1], RG_WORKER_ARGUMENT))
         return serve(argv[2]);
-    spin_briefly(argv);
+    rg_threads_settle(argv);
     rg_workers.program = "/proc/self/exe";
     // A write past a file-size limit then fails with EFBIG and is reported, instead of killing us.
     signal(SIGXFSZ, SIG_IGN);

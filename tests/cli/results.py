@@ -582,8 +582,33 @@ def check_long(runner):
     return problems
 
 
+def check_threads(runner):
+    """threads are at most four a processor, and what is wrong with their number is said once"""
+    problems = []
+    processors = os.sysconf("SC_NPROCESSORS_ONLN")
+    most = "raingauge: warning: OMP_NUM_THREADS=%s: more than 4 threads on each of " + \
+           "%d processors; %d are used\n" % (processors, 4 * processors)
+    for spin in (None, "0"):
+        for number, line in (("abc", r"\nlibgomp: Invalid value for environment variable OMP_NUM_THREADS.*\n"), ("100000", most % "100000"),
+                             ("1", ""), ("100000,2", most % "100000,2"), (str(4 * processors), "")):
+            done = runner.run(["list", "devices", "--json"], dict(NO_DRIVERS, OMP_NUM_THREADS=number, GOMP_SPINCOUNT=spin))
+            first = [device["api"] for device in json.loads(done.stdout)["devices"] if device["name"] == "cpu"]
+            used = processors if number == "abc" else min(int(number.split(",")[0]), 4 * processors)
+            told = re.sub(r"(?m)^raingauge: warning: unsupported here: .*\n", "", done.stderr)
+            if done.returncode or not re.fullmatch(line, told):
+                problems.append("%s: status %d, %r" % (number, done.returncode, told))
+            if not first or not re.search(r", %d threads?$" % used, first[0]):
+                problems.append("%s: %s" % (number, first))
+    with tempfile.TemporaryDirectory() as folder:
+        args = RENDER.split() + ["--json", "-o", os.path.join(folder, "a.png")]
+        drawn = json.loads(runner.run(args, {"OMP_NUM_THREADS": "abc"}).stdout)
+    if "OMP_NUM_THREADS" in drawn["passport"]["environment"]:
+        problems.append("the passport has a number that is none")
+    return problems
+
+
 CHECKS = [check_textures, check_forms, check_table_json, check_table_files, check_render_json, check_diff_json, check_full_stdout,
-          check_full_disk, check_long]
+          check_full_disk, check_long, check_threads]
 STORED = [check_interrupted, check_stored]
 
 

@@ -6,7 +6,12 @@ TESTS = ("parameters", "command line, parsing", "options of all commands", "comm
 
 PARAMS, VALUE, PARSE, OPTION = ("core/techniques/params.c", "harness/cli/value.c", "harness/cli/parse.c", "harness/cli/option.c")
 
+THREADS = "harness/console/threads.c"
+
 ROWS = [
+    Fault(THREADS, "|| «threads <= THREADS_A_PROCESSOR * processors»)", "true", "a hundred thousand threads are made", tests=("command line, results",)),
+    Fault(THREADS, "return «!unsetenv(count_name)»;", "false", "each process complains of a wrong number of threads", tests=("command line, results",)),
+    Fault(THREADS, "«dup2(nothing, STDERR_FILENO)»;", "0", "libgomp complains twice", tests=("command line, results",)),
     Fault(PARAMS, "*double_at(param, settings) = param->initial;", "*double_at(param, settings) = (int)param->initial;", "defaults are whole numbers"),
     Fault(PARAMS, "param->kind == RG_PARAM_FLOAT || «value == floor(value)»;", "true", "a whole number may have a fraction"),
     Fault(PARAMS, "if (end == text || «*end» || !isfinite(value) || !whole)", "false", "what follows a number is ignored"),

@@ -1,0 +1,77 @@
+#include "harness/console/threads.h"
+
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+
+enum { THREADS_A_PROCESSOR = 4 };
+
+static const char count_name[] = "OMP_NUM_THREADS", stderr_name[] = "RG_STDERR";
+
+// libgomp's threads spin for tens of milliseconds before they sleep, and on a busy machine keep
+// from running what they wait for: frames can take ten times as long. A millisecond is set, unless
+// the user has chosen. True where something has changed.
+static bool spin_briefly(void)
+{
+    return !getenv("GOMP_SPINCOUNT") && !getenv("OMP_WAIT_POLICY") &&
+           !setenv("GOMP_SPINCOUNT", "8000", 0);
+}
+
+// A number that libgomp has complained of, and ignores, is taken away, so that no other process of
+// raingauge complains of it again; a list of numbers is libgomp's to judge. A number that is too
+// large becomes the largest: a stack each, and frames that take a hundred times as long, would
+// follow. True where something has changed.
+static bool limit_threads(void)
+{
+    const char *given = getenv(count_name);
+    char *end, most[24];
+    const long threads = given ? strtol(given, &end, 10) : 1;
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    if (given && (end == given || threads < 1))
+        return !unsetenv(count_name);
+    if (processors < 1 || threads <= THREADS_A_PROCESSOR * processors)
+        return false;
+    rg_warning("%s=%.40s: more than %d threads on each of %ld processors; %ld are used", count_name,
+               given, THREADS_A_PROCESSOR, processors, THREADS_A_PROCESSOR * processors);
+    snprintf(most, sizeof(most), "%ld", THREADS_A_PROCESSOR * processors);
+    return !setenv(count_name, most, 1);
+}
+
+// libgomp has complained when this process was loaded: when it is loaded again, nothing is heard of
+// it. The next process finds the right file in a variable.
+static void silence(void)
+{
+    char number[16];
+    const int heard = dup(STDERR_FILENO), nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    snprintf(number, sizeof(number), "%d", heard);
+    if (heard >= 0 && nothing >= 0 && !setenv(stderr_name, number, 1))
+        dup2(nothing, STDERR_FILENO);
+    if (nothing >= 0)
+        close(nothing);
+}
+
+static void hear_again(void)
+{
+    const char *number = getenv(stderr_name);
+    const int heard = number ? atoi(number) : -1;
+    if (heard > STDERR_FILENO && dup2(heard, STDERR_FILENO) >= 0)
+        close(heard);
+    unsetenv(stderr_name);
+}
+
+void rg_threads_settle(char **argv)
+{
+    hear_again();
+    const bool spins = spin_briefly();
+    if (!limit_threads() && !spins)
+        return;
+    silence();
+    execv("/proc/self/exe", argv);
+    hear_again();
+    if (spins)
+        unsetenv("GOMP_SPINCOUNT"); // the passport must not claim what libgomp never read
+}

@@ -1,0 +1,10 @@
+// The threads of OpenMP, as the environment sets them before raingauge is loaded.
+#ifndef RG_HARNESS_CONSOLE_THREADS_H
+#define RG_HARNESS_CONSOLE_THREADS_H
+
+// Makes the variables that libgomp reads sound, and starts raingauge again with them where one has
+// changed, for libgomp reads them once, when it is loaded. Threads are at most four a processor,
+// with one warning where more are asked for. What libgomp complains of it says once.
+void rg_threads_settle(char **argv);
+
+#endif
