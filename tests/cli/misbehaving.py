@@ -20,6 +20,7 @@ HOW = {
     "fault": ("crash", r"its driver crashed \(Segmentation fault\)"),
     "exit": ("crash", r"its driver ended the process with status 0"),
     "hang": ("timeout", r"its driver did not come back within 5 s"),
+    "swell": ("crash", r"it took more than 2048 MiB of memory and was ended"),
 }
 
 
@@ -55,6 +56,7 @@ CASES = [
     ("vulkan", "vkQueueSubmit", "lost", 0),
     ("gl", "eglInitialize", "exit", 0),
     ("gl", "glLinkProgram", "abort", 2),
+    ("gl", "glLinkProgram", "swell", 2),
     ("gl", "glDispatchCompute", "fault", 3),
     ("gl", "glDispatchCompute", "hang", 3),
     ("opencl", "clGetDeviceIDs", "fault", 0),
@@ -68,7 +70,7 @@ def problems_of(runner, command, case):
     """What is wrong with how a command ends while a device misbehaves."""
     device, function, how, calls = case
     with tempfile.TemporaryDirectory() as folder:
-        result = runner.run(COMMANDS[command].split() + ["--timeout", "5"], shim(runner, folder, *case))
+        result = runner.run(COMMANDS[command].split() + ["--timeout", "5"] + ["--memory", "1GiB"] * (command != "doctor"), shim(runner, folder, *case))
     about = "%s, %s:%s:%d: " % (command, function, how, calls)
     try:
         report = json.loads(result.stdout)
@@ -97,14 +99,14 @@ def check_comparisons(runner):
 
 def check_commands(runner):
     """so do doctor, table and verify, of a device that falls in opening, and of one that does so in running"""
-    return [problem for command in ("doctor", "table", "verify") for case in (CASES[1], CASES[3], CASES[7], CASES[10])
+    return [problem for command in ("doctor", "table", "verify") for case in (CASES[1], CASES[3], CASES[8], CASES[11])
             for problem in problems_of(runner, command, case)]
 
 
 def check_alone(runner):
     """render of a device that falls fails, with one line, and writes nothing"""
     problems = []
-    for case in (CASES[3], CASES[6], CASES[11], CASES[8]):
+    for case in (CASES[3], CASES[6], CASES[12], CASES[9]):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "picture.png")
             args = ("render flow --frame 2 --timeout 5 --device %s -o %s %s" % (case[0], path, SMALL)).split()
@@ -118,7 +120,7 @@ def check_alone(runner):
 def check_listed(runner):
     """list devices names what is left, and says of a backend that falls that it crashed"""
     problems = []
-    for case in (CASES[0], CASES[5], CASES[9]):
+    for case in (CASES[0], CASES[5], CASES[10]):
         with tempfile.TemporaryDirectory() as folder:
             result = runner.run(["list", "devices", "--json"], shim(runner, folder, *case))
         names = {device["name"] for device in json.loads(result.stdout)["devices"]}

@@ -16,11 +16,11 @@ void rg_message_free(struct rg_message *message)
 
 void rg_put(struct rg_message *message, const void *bytes, int64_t size)
 {
-    if (message->failed)
+    if (message->failed || !size)
         return;
     message->failed =
         !rg_array_fit(&message->bytes, &message->room, message->size + size, 1, "message");
-    if (message->failed)
+    if (message->failed || !size)
         return;
     memcpy(message->bytes + message->size, bytes, (size_t)size);
     message->size += size;

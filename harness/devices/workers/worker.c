@@ -12,6 +12,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "core/base/program.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
@@ -22,15 +23,20 @@
 
 enum { LOOK_MS = 100, END_MS = 5000 };
 
+// What a process may hold beside what it was allowed to take (core/base/memory.h): the program, its
+// driver, and what that compiles.
+#define OWN_BYTES ((int64_t)1 << 30)
+
 struct rg_workers rg_workers = {.timeout_s = 120};
 
 struct rg_worker {
     char *name, *environment; // owned
     pid_t process;            // 0: none lives
     struct rg_channel channel;
-    FILE *printed;       // what the process prints; drivers do
-    bool is_interrupted; // it was told so
-    bool is_closed;      // its device was
+    FILE *printed;        // what the process prints; drivers do
+    bool is_interrupted;  // it was told so
+    bool is_closed;       // its device was
+    int64_t memory_bytes; // that its process may hold
     int life;
     enum rg_outcome end; // how its process ended last
 };
@@ -112,6 +118,8 @@ static bool start(struct rg_worker *worker, char *why, size_t size)
     if (theirs >= 0)
         close(theirs);
     if (!error) {
+        worker->memory_bytes =
+            rg_workers.memory_bytes ? rg_workers.memory_bytes : rg_memory_left() + OWN_BYTES;
         worker->life++;
         return true;
     }
@@ -203,8 +211,7 @@ static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
         seen = count;
         if (rg_now_ms() - since_ms > 1000.0 * rg_workers.timeout_s)
             *verdict = HANGS;
-        else if (rg_workers.memory_bytes &&
-                 rg_held_bytes(worker->process) > rg_workers.memory_bytes)
+        else if (rg_held_bytes(worker->process) > worker->memory_bytes)
             *verdict = HOLDS_TOO_MUCH;
         if (*verdict != BY_ITSELF || is_dead(worker))
             return RG_ENDED;
@@ -228,7 +235,7 @@ static void tell_end(const struct rg_worker *worker, enum verdict verdict, int s
                  rg_workers.timeout_s);
     else if (verdict == HOLDS_TOO_MUCH)
         snprintf(line, sizeof(line), "it took more than %lld MiB of memory and was ended",
-                 (long long)(rg_workers.memory_bytes >> 20));
+                 (long long)(worker->memory_bytes >> 20));
     else if (WIFSIGNALED(status))
         snprintf(line, sizeof(line), "its driver crashed (%s)", strsignal(WTERMSIG(status)));
     else
@@ -237,11 +244,24 @@ static void tell_end(const struct rg_worker *worker, enum verdict verdict, int s
     snprintf(why, size, "%s%s%s", line, doing, last);
 }
 
+// A sanitizer's report has many lines, and all of them are wanted.
+static void show_report(FILE *printed)
+{
+#ifdef __SANITIZE_ADDRESS__
+    char line[512];
+    rewind(printed);
+    while (fgets(line, sizeof(line), printed))
+        fputs(line, stderr);
+#endif
+    (void)printed;
+}
+
 static enum rg_outcome bury(struct rg_worker *worker, enum verdict verdict, char *why, size_t size)
 {
     if (verdict != BY_ITSELF)
         kill(worker->process, SIGKILL);
     tell_end(worker, verdict, end_process(worker), why, size);
+    show_report(worker->printed);
     forget_process(worker);
     worker->end = verdict == HANGS ? RG_TIMEOUT : RG_CRASH;
     return worker->end;

@@ -21,7 +21,8 @@ struct rg_workers {
     const char *program;  // "/proc/self/exe"; NULL: there are no workers, and devices live in this
                           // process, as they do in a worker
     int timeout_s;        // a worker that has begun nothing for so long is ended
-    int64_t memory_bytes; // one that holds more is ended; 0: no limit
+    int64_t memory_bytes; // one that holds more is ended; 0: what may be taken (core/base/memory.h)
+                          // and 1 GiB
 };
 extern struct rg_workers rg_workers;
 // The first argument of a program that is started as a worker.

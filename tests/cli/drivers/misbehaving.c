@@ -28,9 +28,9 @@ static void swell(void)
 {
     for (;;) {
         char *more =
-            mmap(NULL, 1 << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+            mmap(NULL, 8 << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
         if (more != MAP_FAILED)
-            memset(more, 1, 1 << 20);
+            memset(more, 1, 8 << 20);
         usleep(500);
     }
 }

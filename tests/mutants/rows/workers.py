@@ -16,7 +16,7 @@ ROWS = [
     Fault(WORKER, "worker->end = verdict == HANGS ? «RG_TIMEOUT» : RG_CRASH;", "RG_CRASH", "a hang is a crash"),
     Fault(WORKER, "*verdict != BY_ITSELF || «is_dead(worker)»", "false", "an end is not seen while another process holds the channel"),
     Fault(WORKER, "> 1000.0 * rg_workers.timeout_s)", "> 1e12)", "a hang lasts for ever"),
-    Fault(WORKER, "else if («rg_workers.memory_bytes» &&", "0", "memory has no limit"),
+    Fault(WORKER, "else if («rg_held_bytes(worker->process) > worker->memory_bytes»)", "false", "memory has no limit"),
     Fault(WORKER, "else if («WIFSIGNALED(status)»)", "false", "a signal is told as a status"),
     Fault(WORKER, "return «ok» && !reply->failed;", "true", "a call that failed succeeds"),
     Fault(WORKER, "if (verdict != BY_ITSELF)\n        kill(worker->process, SIGKILL);", ";", "who hangs is not killed, and waited for until it is"),
