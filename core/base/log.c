@@ -1,10 +1,11 @@
 #include "core/base/log.h"
 
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { LINE_SIZE = 1024 };
+enum { LINE_SIZE = 1024, MOST_TOLD = 256 };
 
 static rg_log_fn listener;
 static void *listener_user;
@@ -33,26 +34,19 @@ enum rg_error_kind rg_last_error_kind(void)
     return last_kind;
 }
 
-// Whether no such line has been printed yet. Where too many are kept, each counts as new.
-static bool is_new(const char *line)
+bool rg_log_is_news(enum rg_log_level level, const char *line)
 {
-    enum { MOST_LINES = 256 };
-    static char *lines[MOST_LINES];
-    int i = 0;
-    while (i < MOST_LINES && lines[i] && strcmp(lines[i], line) != 0)
-        i++;
-    if (i < MOST_LINES && lines[i])
-        return false;
-    if (i < MOST_LINES)
-        lines[i] = strdup(line);
+    static uint64_t told[MOST_TOLD];
+    static int count;
+    uint64_t hash = UINT64_C(0xcbf29ce484222325); // FNV-1a
+    for (const unsigned char *c = (const unsigned char *)line; *c; c++)
+        hash = (hash ^ *c) * UINT64_C(0x100000001b3);
+    for (int i = 0; i < count; i++)
+        if (told[i] == hash)
+            return level == RG_LOG_INFO;
+    if (count < MOST_TOLD)
+        told[count++] = hash;
     return true;
-}
-
-// One error is one line for people, however many devices or cells meet it.
-static void print(enum rg_log_level level, const char *line)
-{
-    if (level == RG_LOG_INFO || is_new(line))
-        fprintf(stderr, "raingauge: %s%s\n", level == RG_LOG_WARNING ? "warning: " : "", line);
 }
 
 static void log_line(enum rg_log_level level, const char *format, va_list args)
@@ -73,8 +67,8 @@ static void log_line(enum rg_log_level level, const char *format, va_list args)
         memcpy(last_error, line, sizeof(line));
     if (listener)
         listener(level, line, listener_user);
-    else
-        print(level, line);
+    else if (rg_log_is_news(level, line))
+        fprintf(stderr, "raingauge: %s%s\n", level == RG_LOG_WARNING ? "warning: " : "", line);
 }
 
 #define LOG(level)                                                                                 \

@@ -16,6 +16,10 @@ typedef void (*rg_log_fn)(enum rg_log_level level, const char *line, void *user)
 // Sends lines to `fn` instead of stderr; NULL restores stderr. Not thread-safe: call it at start.
 void rg_log_listen(rg_log_fn fn, void *user);
 
+// Whether people are told a line: an error or a warning once, however many devices or cells meet
+// its cause. It counts as told then. A listener hears every line; one that prints asks this.
+bool rg_log_is_news(enum rg_log_level level, const char *line);
+
 // Lines are dropped while this holds: what goes wrong then is expected, and said by who holds.
 void rg_log_hold(bool holds);
 

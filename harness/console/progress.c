@@ -41,6 +41,8 @@ static void draw(struct rg_progress *p)
 // A message takes the bar's line; the bar is drawn anew below it.
 static void print_above(enum rg_log_level level, const char *line, void *user)
 {
+    if (!rg_log_is_news(level, line))
+        return;
     wipe();
     fprintf(stderr, "raingauge: %s%s\n", level == RG_LOG_WARNING ? "warning: " : "", line);
     draw(user);

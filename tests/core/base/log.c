@@ -93,12 +93,48 @@ static void a_relayed_error_has_its_kind(void **state)
     rg_log_listen(NULL, NULL);
 }
 
+// Many devices meet one cause: who prints is told the line once, who listens hears each.
+static void a_line_is_news_once(void **state)
+{
+    (void)state;
+    assert_true(rg_log_is_news(RG_LOG_ERROR, "a.obj: no such file"));
+    assert_true(rg_log_is_news(RG_LOG_ERROR, "b.obj: no such file"));
+    assert_false(rg_log_is_news(RG_LOG_ERROR, "a.obj: no such file"));
+    assert_true(rg_log_is_news(RG_LOG_WARNING, "c.obj: old"));
+    assert_false(rg_log_is_news(RG_LOG_WARNING, "c.obj: old"));
+    assert_true(rg_log_is_news(RG_LOG_INFO, "done") && rg_log_is_news(RG_LOG_INFO, "done"));
+    heard[0] = 0;
+    rg_log_listen(listen, NULL);
+    rg_error("a.obj: no such file");
+    rg_log_listen(NULL, NULL);
+    assert_string_equal(heard, "a.obj: no such file");
+}
+
+// What goes wrong while lines are held is not heard, and is no last error.
+static void held_lines_are_dropped(void **state)
+{
+    (void)state;
+    rg_error("before");
+    heard[0] = 0;
+    rg_log_listen(listen, NULL);
+    rg_log_hold(true);
+    rg_error("meanwhile");
+    rg_log_hold(false);
+    assert_string_equal(heard, "");
+    assert_string_equal(rg_last_error(), "before");
+    rg_warning("after");
+    rg_log_listen(NULL, NULL);
+    assert_string_equal(heard, "after");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_hold_no_control_characters),
         cmocka_unit_test(an_error_is_printed_once),
         cmocka_unit_test(a_relayed_error_has_its_kind),
+        cmocka_unit_test(a_line_is_news_once),
+        cmocka_unit_test(held_lines_are_dropped),
     };
     return cmocka_run_group_tests_name("log", tests, NULL, NULL);
 }

@@ -42,7 +42,7 @@ ROWS = [
     Fault(REMOTE, "if («rg_worker_has(worker_of(session), session->life)»)", "true", "what is gone with its worker is closed, with a line"),
     Fault(REMOTE, "bool ok = «rg_worker_still_has(worker_of(session), session->life)»;", "true", "a session of another life is asked"),
     Fault(REMOTE, "if (bytes && due && *size != due)", "if (0)", "a picture may be of any size", lives="the worker is this program, and sends the size that is due"),
-    Fault(LOG, "if (level == RG_LOG_INFO || «is_new(line)»)", "true", "one error is many lines"),
+    Fault(LOG, "else if («rg_log_is_news(level, line)»)", "true", "one error is many lines"),
     Fault(DIFF, "if (rg_last_error_kind() == RG_ERROR_INPUT)\n        return false;", "return false;", "a device that fails ends the comparison of the others"),
     Fault(DIFF, "s->exit = rg_exit_worse(s->exit, rg_exit_of(outcome));", ";", "a device that failed passes"),
 ]
