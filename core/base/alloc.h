@@ -11,10 +11,8 @@
 // `what` it was for, when there is none, or more is asked for at once than is allowed (memory.h).
 static inline void *rg_alloc(size_t count, size_t size, const char *what)
 {
-    enum { LARGE_BYTES = 1 << 26 };
     size_t bytes;
-    if (!__builtin_mul_overflow(count, size, &bytes) && bytes >= LARGE_BYTES &&
-        !rg_memory_allows((int64_t)bytes)) {
+    if (!__builtin_mul_overflow(count, size, &bytes) && !rg_memory_allows_piece((int64_t)bytes)) {
         rg_memory_refuse(what, (int64_t)bytes, "a smaller --size or setting");
         return NULL;
     }

@@ -9,6 +9,8 @@
 // Below this, what is available is not looked up: that takes tens of microseconds.
 #define SMALL_BYTES ((int64_t)1 << 20)
 
+#define LARGE_BYTES ((int64_t)1 << 26)
+
 static const char variable[] = "RG_MEMORY_BYTES";
 
 static struct {
@@ -100,6 +102,11 @@ int64_t rg_memory_left(void)
 bool rg_memory_allows(int64_t bytes)
 {
     return bytes <= (bytes < SMALL_BYTES ? left_of_limit() : rg_memory_left());
+}
+
+bool rg_memory_allows_piece(int64_t bytes)
+{
+    return bytes < LARGE_BYTES || rg_memory_allows(bytes);
 }
 
 bool rg_memory_take(int64_t bytes)

@@ -22,6 +22,8 @@ void rg_memory_allow(int64_t bytes);
 int64_t rg_memory_left(void);
 // Whether so many may be taken at once. Cheap for less than a MiB.
 bool rg_memory_allows(int64_t bytes);
+// The same of a piece that the host takes for a while: below 64 MiB nobody asks.
+bool rg_memory_allows_piece(int64_t bytes);
 // Takes them, or false: then nothing is taken. What was taken is given back with rg_memory_give.
 bool rg_memory_take(int64_t bytes);
 void rg_memory_give(int64_t bytes);

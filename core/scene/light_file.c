@@ -8,6 +8,8 @@
 
 #include "core/base/log.h"
 
+// A parsed file takes some twenty times its size, and sixteen lights take a few kilobytes.
+#define MOST_BYTES     (1 << 18)
 #define FARTHEST_M     100000.0
 #define STRONGEST      1e6 // a colour, and an intensity
 #define WIDEST_DEG     80.0
@@ -226,6 +228,9 @@ bool rg_light_file_read(const char *path, struct rg_lights *lights)
         return rg_error("%s: %s; name a file of lights (docs/lights.md)", path, strerror(errno));
     if (!S_ISREG(st.st_mode))
         return rg_error("%s: no file; name a file of lights (docs/lights.md)", path);
+    if (st.st_size > MOST_BYTES)
+        return rg_error("%s: has %lld bytes; %d are the most, and %d lights", path,
+                        (long long)st.st_size, MOST_BYTES, SCENERY_MAX_LIGHTS);
     json_error_t error;
     json_t *root = json_load_file(path, JSON_REJECT_DUPLICATES, &error);
     if (!root)

@@ -75,6 +75,9 @@ static void a_refusal_has_the_numbers(void **state)
 static void large_pieces_of_the_host_are_refused(void **state)
 {
     (void)state;
+    rg_memory_allow(10 * MIB);
+    assert_true(rg_memory_allows_piece(64 * MIB - 1));
+    assert_false(rg_memory_allows_piece(64 * MIB));
     rg_memory_allow(100 * MIB);
     void *fits = rg_alloc(99, MIB, "a map");
     assert_non_null(fits);

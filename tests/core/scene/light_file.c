@@ -160,6 +160,29 @@ static void there_are_sixteen_lights_at_most(void **state)
     }
 }
 
+// A file is not parsed where no lights can take so much: a sound one with white space behind it.
+static void files_are_of_256_kib_at_most(void **state)
+{
+    (void)state;
+    enum { MOST = 1 << 18 };
+    static const char lights_text[] =
+        "{\"lights\": [{\"type\": \"sun\", \"direction\": [0, -1, 0], "
+        "\"colour\": [1, 1, 1]}]}";
+    char *text = malloc(MOST + 2);
+    struct rg_lights lights;
+    assert_non_null(text);
+    memset(text, ' ', MOST + 2);
+    memcpy(text, lights_text, sizeof(lights_text) - 1);
+    text[MOST] = 0;
+    assert_true(read_text(text, &lights));
+    text[MOST] = ' ';
+    text[MOST + 1] = 0;
+    assert_false(read_text(text, &lights));
+    assert_non_null(
+        strstr(rg_last_error(), "has 262145 bytes; 262144 are the most, and 16 lights"));
+    free(text);
+}
+
 static void what_is_no_file_is_refused(void **state)
 {
     (void)state;
@@ -240,6 +263,7 @@ int main(void)
         cmocka_unit_test(what_is_left_out_has_defaults),
         cmocka_unit_test(bad_files_are_refused_in_one_line),
         cmocka_unit_test(there_are_sixteen_lights_at_most),
+        cmocka_unit_test(files_are_of_256_kib_at_most),
         cmocka_unit_test(what_is_no_file_is_refused),
         cmocka_unit_test(lights_come_in_the_order_of_the_figure),
         cmocka_unit_test(more_lights_than_lamps_are_refused),

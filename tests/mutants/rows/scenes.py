@@ -12,6 +12,8 @@ GRID, DETAIL, LOOK = "core/techniques/streaks/packets/grid.c", "core/techniques/
 EDGES, FACES, MESH = "core/scene/mesh/edges.c", "core/scene/mesh/faces.c", "core/scene/mesh/mesh.c"
 
 ROWS = [
+    Fault("core/scene/light_file.c", "if («st.st_size > MOST_BYTES»)", "false", "files of lights are parsed, however large", tests=("light file",)),
+    Fault("core/scene/mesh/read.c", "return «rg_memory_allows_piece(MEMORY_A_BYTE * st.st_size)» ||", "true", "meshes are read without room for them", tests=("mesh files",)),
     Fault(CAMERA, "rows[4 * i + j] = «columns[j][i]»;", "columns[i][j]", "matrices are handed on transposed"),
     Fault(CAMERA, "projection[1][1] = «-projection[1][1]»;", "projection[1][1]", "pictures stand on their head"),
     Fault(CAMERA, "glm_rad(«camera->angle_deg»), aspect", "camera->angle_deg / 2", "the angle of view is half"),

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "core/scene/mesh/read.h"
 
 static const char *fuzz_folder; // the program's argument
@@ -172,6 +173,24 @@ static void test_what_is_no_file(void **state)
     write_file(path, "", 0);
     assert_int_equal(truncate(path, ((off_t)1 << 30) + 1), 0);
     expect_refused(path, "1073741825 bytes; at most 1073741824");
+    unlink(path);
+}
+
+// What reading a file takes is held against what is allowed before it is read.
+static void test_no_memory_to_read_it(void **state)
+{
+    (void)state;
+    char path[256];
+    snprintf(path, sizeof(path), "%s", in_folder("zeroes.ply"));
+    write_file(path, "", 0);
+    assert_int_equal(truncate(path, 20 << 20), 0);
+    rg_memory_allow(((int64_t)80 << 20) - 1);
+    expect_refused(path, "zeroes.ply needs 80 MiB, and 80 MiB of --memory are left");
+    rg_memory_allow((int64_t)80 << 20);
+    listen_now();
+    assert_null(rg_mesh_read(path, NULL)); // for another reason
+    assert_null(strstr(lines.last, "--memory"));
+    rg_memory_allow((int64_t)64 << 30);
     unlink(path);
 }
 
@@ -474,6 +493,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_nodes_place_meshes),
         cmocka_unit_test(test_the_hash_is_the_geometrys),
         cmocka_unit_test(test_what_is_no_file),
+        cmocka_unit_test(test_no_memory_to_read_it),
         cmocka_unit_test(test_what_is_no_mesh),
         cmocka_unit_test(test_strips),
         cmocka_unit_test(test_no_faces),
