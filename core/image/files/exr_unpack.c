@@ -104,6 +104,8 @@ static exr_result_t decompress(exr_decode_pipeline_t *decode)
 
 void rg_exr_take_over(struct rg_exr_unpacker *unpacker, exr_decode_pipeline_t *decode)
 {
+    if (!decode->unpack_and_convert_fn) // it reads floats of one channel right to their place
+        return;
     decode->unpack_and_convert_fn = unpack;
     if (!decode->decompress_fn) // an uncompressed file
         return;

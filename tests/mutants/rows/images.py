@@ -1,13 +1,15 @@
 """Pictures: curves, files, halving and blurring, clips, metrics, masks and tiers."""
 from fault import Fault
 
-TESTS = ("image picture", "image cases", "image metrics", "image tiers", "image io", "image disc", "image flip", "image yuv", "image diff",
+TESTS = ("image picture", "image cases", "image metrics", "image tiers", "image io", "image disc", "image flip", "image yuv", "image diff", "image foreign",
          "command line, clips", "command line, renders")
 
 TIERS, METRICS, COMPARE = ("core/image/compare/tiers.c", "core/image/compare/metrics.c", "core/image/compare/compare.c")
 PNG, DISC, SRGB, YUV = ("core/image/files/png.c", "core/image/disc.c", "core/image/srgb.c", "core/image/clip/yuv.c")
 PICTURE, DISK, IO, FLIP = "core/image/picture.c", "core/image/files/disk.c", "core/image/files/io.c", "core/image/compare/flip.c"
 HDR = "core/image/compare/flip_hdr.c"
+PICTURE, IO, FLIP = "core/image/picture.c", "core/image/files/io.c", "core/image/compare/flip.c"
+HDR, UNPACK = "core/image/compare/flip_hdr.c", "core/image/files/exr_unpack.c"
 
 ROWS = [
     Fault(DISK, "return «(double)bytes <= free_bytes» ||", "true", "a disk has room for anything", tests=("command line, results",)),
@@ -31,6 +33,7 @@ ROWS = [
     Fault(PNG, "codes[c] = rg_srgb_code(srgb, from[c] «* exposure»);", "* 1", "the exposure of a PNG is left out"),
     Fault(PNG, "if (raw_bytes / «1040» <= file_bytes)", "1", "PNG that compress well are refused"),
     Fault(PNG, "picture->decoded = good && «curve»;", "true", "codes that were kept count as made linear"),
+    Fault(UNPACK, "if («!decode->unpack_and_convert_fn»)", "false", "an EXR of one channel of floats is unpacked from nowhere"),
     Fault(IO, "bad += «texels[i] - texels[i] != 0.0f»;", "texels[i] != texels[i]", "infinite values are not warned of"),
     Fault(IO, "(long long)(first / picture->channels % «picture->width»)", "picture->height", "a warning's x is counted by the height"),
     Fault(YUV, "const int x = left + («i & 1» && left + 1 < width);", "i & 2", "a block of a clip reads one column"),
