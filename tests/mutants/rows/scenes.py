@@ -10,10 +10,13 @@ BLUR, CUBE, KTX, LOAD = ("core/scene/environment/blur.c", "core/scene/environmen
                          "core/scene/environment/environment.c")
 GRID, DETAIL, LOOK = "core/techniques/streaks/packets/grid.c", "core/techniques/flow/detail.c", "core/techniques/streaks/view/look.c"
 EDGES, FACES, MESH = "core/scene/mesh/edges.c", "core/scene/mesh/faces.c", "core/scene/mesh/mesh.c"
+WIND, MOTION = "core/techniques/cartoon/rain/wind.c", ("cartoon rain, motion and lists, cpu_reference",)
 
 ROWS = [
     Fault("core/scene/light_file.c", "if («st.st_size > MOST_BYTES»)", "false", "files of lights are parsed, however large", tests=("light file",)),
     Fault("core/scene/mesh/read.c", "return «rg_memory_allows_piece(MEMORY_A_BYTE * st.st_size)» ||", "true", "meshes are read without room for them", tests=("mesh files",)),
+    Fault(WIND, "if (!(fabs(knot.time_s) <= FARTHEST && «fabs(knot.turn_deg) <= FARTHEST»))", "true", "a wind may turn so far that its direction is no number", tests=MOTION),
+    Fault(WIND, "const bool ok = c == EOF || «strchr(text, '#') != NULL»;", "true", "what a long line goes on with is not looked at", tests=MOTION),
     Fault(CAMERA, "rows[4 * i + j] = «columns[j][i]»;", "columns[i][j]", "matrices are handed on transposed"),
     Fault(CAMERA, "projection[1][1] = «-projection[1][1]»;", "projection[1][1]", "pictures stand on their head"),
     Fault(CAMERA, "glm_rad(«camera->angle_deg»), aspect", "camera->angle_deg / 2", "the angle of view is half"),

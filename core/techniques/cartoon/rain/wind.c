@@ -13,6 +13,7 @@
 #include "kernels/dialect/rng.h"
 
 #define GUST_TURN_DEG 40.0 // how far a gust of 1 turns the wind
+#define FARTHEST      1e6  // seconds and degrees: between such, cosines and quotients are numbers
 
 // --- scripts ---
 
@@ -24,13 +25,15 @@ static bool take_line(const char *path, int line, char *text, struct cartoon_win
     text[strcspn(text, "#\n")] = 0;
     if (!text[strspn(text, " \t\r")])
         return true;
-    if (sscanf(text, "%lf %lf %lf %c", &knot.time_s, &knot.speed_m_s, &knot.turn_deg, &rest) != 3 ||
-        !isfinite(knot.time_s) || !isfinite(knot.turn_deg))
+    if (sscanf(text, "%lf %lf %lf %c", &knot.time_s, &knot.speed_m_s, &knot.turn_deg, &rest) != 3)
         return rg_error("%s:%d: no wind; write seconds, m/s and degrees, such as '2.5 8 90'", path,
                         line);
     if (!(fabs(knot.speed_m_s) <= CARTOON_SOUND_M_S))
         return rg_error("%s:%d: a wind of %g m/s; sound has %g, choose less", path, line,
                         knot.speed_m_s, CARTOON_SOUND_M_S);
+    if (!(fabs(knot.time_s) <= FARTHEST && fabs(knot.turn_deg) <= FARTHEST))
+        return rg_error("%s:%d: %g s, %g degrees; both lie within %g of 0", path, line, knot.time_s,
+                        knot.turn_deg, FARTHEST);
     if (script->count && !(knot.time_s > script->knots[script->count - 1].time_s))
         return rg_error("%s:%d: %g s does not follow %g s; put lines in the order of time", path,
                         line, knot.time_s, script->knots[script->count - 1].time_s);
@@ -38,6 +41,19 @@ static bool take_line(const char *path, int line, char *text, struct cartoon_win
         return rg_error("%s:%d: one line too many; %d is the most", path, line, CARTOON_WIND_KNOTS);
     script->knots[script->count++] = knot;
     return true;
+}
+
+// Passes over what a line goes on with behind `text`. False where that is no comment, or the text
+// holds a zero, and so what follows is unknown.
+static bool skip_rest(const char *text, FILE *in)
+{
+    if (strchr(text, '\n'))
+        return true;
+    int c = fgetc(in);
+    const bool ok = c == EOF || strchr(text, '#') != NULL;
+    while (c != '\n' && c != EOF)
+        c = fgetc(in);
+    return ok;
 }
 
 bool cartoon_wind_read(const char *path, struct cartoon_wind_script *script)
@@ -52,7 +68,11 @@ bool cartoon_wind_read(const char *path, struct cartoon_wind_script *script)
     if (!in)
         return rg_error("%s: %s; name a file of winds (docs/cartoon.md)", path, why);
     for (int line = 1; ok && fgets(text, sizeof(text), in); line++)
-        ok = take_line(path, line, text, script);
+        ok =
+            skip_rest(text, in)
+                ? take_line(path, line, text, script)
+                : rg_error("%s:%d: more than %zu bytes, or no text; write lines such as '2.5 8 90'",
+                           path, line, sizeof(text) - 2);
     if (ok && ferror(in))
         ok = rg_error("%s: %s; name a file of winds (docs/cartoon.md)", path, strerror(errno));
     else if (ok && !script->count)

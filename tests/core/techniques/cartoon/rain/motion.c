@@ -402,12 +402,31 @@ static void wind_goes_by_its_script(void **state)
         rig_expect("wind along z", wind[1], -due[i][1] * sin(turn), 1e-9);
     }
     rig_close(c);
-    static const char *const bad[] = {"", "1 2\n", "1 400 0\n", "1 2 3\n1 2 3\n", "1 2 3 4\n"};
+    unlink(path);
+}
+
+// Numbers so large that a direction or a quotient of times is none are refused; a comment may be
+// long, but not a line.
+static void wind_scripts_are_checked(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/raingauge-wind-XXXXXX", text[1024];
+    const int file = mkstemp(path);
+    assert_true(file >= 0 && !close(file));
+    static const char *const bad[] = {
+        "",          "1 2\n",     "1 400 0\n",  "1 2 3\n1 2 3\n",
+        "1 2 3 4\n", "1 2 1e7\n", "1 2 -inf\n", "-1e7 2 3\n1e7 2 3\n"};
     struct cartoon_wind_script script;
-    for (int i = 0; i < 5; i++) {
+    for (size_t i = 0; i < sizeof(bad) / sizeof(bad[0]); i++) {
         put_script(path, bad[i]);
         assert_false(cartoon_wind_read(path, &script));
     }
+    snprintf(text, sizeof(text), "1 2 3 # %0500d 4 5 6\n2 3 4\n", 0);
+    put_script(path, text);
+    assert_true(cartoon_wind_read(path, &script) && script.count == 2);
+    snprintf(text, sizeof(text), "1 2 3 %300s\n2 3 4\n", "");
+    put_script(path, text);
+    assert_false(cartoon_wind_read(path, &script));
     unlink(path);
 }
 
@@ -450,6 +469,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(splashes_live_and_fade),
         cmocka_unit_test(presets_stand_for_settings),
         cmocka_unit_test(wind_goes_by_its_script),
+        cmocka_unit_test(wind_scripts_are_checked),
         cmocka_unit_test(wind_blows_by_chance),
     };
     device = rg_device_open(argc > 1 ? argv[1] : "cpu");
