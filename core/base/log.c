@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/base/plain.h"
+
 enum { LINE_SIZE = 1024, MOST_TOLD = 256 };
 
 static rg_log_fn listener;
@@ -55,14 +57,7 @@ static void log_line(enum rg_log_level level, const char *format, va_list args)
     if (is_held)
         return;
     vsnprintf(line, sizeof(line), format, args);
-    for (unsigned char *c = (unsigned char *)line; *c; c++) {
-        if (*c == '\n' || *c == '\r' || *c == '\t')
-            *c = ' ';
-        else if (*c < ' ' || *c == 127)
-            *c = '?';
-        else if (*c == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0) // U+0080 to U+009F in UTF-8
-            c[0] = c[1] = '?';
-    }
+    rg_plain(line);
     if (level == RG_LOG_ERROR)
         memcpy(last_error, line, sizeof(line));
     if (listener)

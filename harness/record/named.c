@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/plain.h"
+
 // Whether a text is UTF-8: jansson takes nothing else.
 static bool is_utf8(const char *text)
 {
@@ -29,6 +31,7 @@ void rg_text_copy(char *to, size_t size, const char *from)
     to[length] = 0;
     if (!is_utf8(to))
         mark_foreign_bytes(to);
+    rg_plain(to);
 }
 
 json_t *rg_json_text(const char *text)

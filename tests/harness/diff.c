@@ -65,6 +65,20 @@ static void the_same_files(void **state)
     assert_non_null(strstr(text, "PSNR                         inf dB"));
 }
 
+// A name may not steer the terminal.
+static void names_are_plain(void **state)
+{
+    (void)state;
+    char path[128];
+    snprintf(path, sizeof(path), "%s/a\x1b[2J.exr", folder);
+    assert_int_equal(link(a, path), 0);
+    assert_int_equal(run(&(struct rg_diff_request){.a = path, .b = b, .background = background}),
+                     1);
+    unlink(path);
+    assert_non_null(strstr(text, "/a?[2J.exr\n"));
+    assert_null(strchr(text, 0x1b));
+}
+
 static void differing_files(void **state)
 {
     (void)state;
@@ -230,13 +244,10 @@ static int remove_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_same_files),
-        cmocka_unit_test(differing_files),
-        cmocka_unit_test(json_has_the_documented_shape),
-        cmocka_unit_test(what_figures_are_of),
-        cmocka_unit_test(bad_input_is_one_line),
-        cmocka_unit_test(heat_maps_are_written),
-        cmocka_unit_test(heat_colours_are_magma),
+        cmocka_unit_test(the_same_files),        cmocka_unit_test(differing_files),
+        cmocka_unit_test(names_are_plain),       cmocka_unit_test(json_has_the_documented_shape),
+        cmocka_unit_test(what_figures_are_of),   cmocka_unit_test(bad_input_is_one_line),
+        cmocka_unit_test(heat_maps_are_written), cmocka_unit_test(heat_colours_are_magma),
     };
     return cmocka_run_group_tests_name("diff of files", tests, make_files, remove_files);
 }

@@ -7,6 +7,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/base/plain.h"
 #include "core/image/compare/heatmap.h"
 #include "core/image/files/io.h"
 
@@ -80,9 +81,18 @@ static void print_flip(const struct rg_flip *f)
     printf("  over the mask: mean, p99     %.6f, %.6f\n", f->mask_mean, f->mask_p99);
 }
 
+static void print_name(char which, const char *name)
+{
+    char plain[4096];
+    snprintf(plain, sizeof(plain), "%s", name);
+    rg_plain(plain);
+    printf("%c %s\n", which, plain);
+}
+
 void rg_pair_print(const char *a, const char *b, const struct rg_comparison *c)
 {
-    printf("A %s\nB %s\n", a, b);
+    print_name('A', a);
+    print_name('B', b);
     printf("%d x %d pixels, %d channel%s; tier %s\n", c->width, c->height, c->channels,
            c->channels > 1 ? "s" : "", c->tier);
     print_verdicts(&c->tiers);

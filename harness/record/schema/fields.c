@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/base/plain.h"
+
 void rg_reader_enter(struct rg_reader *reader, const char *format, ...)
 {
     va_list args;
@@ -77,6 +79,7 @@ static bool take_text(struct rg_reader *reader, const json_t *value, const char 
     if (length >= size)
         return rg_reader_refuse(reader, name, "is no text of less than %zu bytes", size);
     memcpy(text, json_string_value(value), length + 1);
+    rg_plain(text);
     return true;
 }
 
@@ -169,6 +172,7 @@ static bool take_named(struct rg_reader *reader, const char *key, const json_t *
     struct rg_named *named = to;
     *named = (struct rg_named){.number = NAN};
     memcpy(named->name, key, strlen(key) + 1);
+    rg_plain(named->name);
     if (json_is_number(value))
         named->number = json_number_value(value);
     if (json_is_string(value))
@@ -189,6 +193,7 @@ static bool take_count(struct rg_reader *reader, const char *key, const json_t *
     (void)reader;
     *count = (struct rg_count){.value = json_integer_value(value)};
     memcpy(count->name, key, strlen(key) + 1);
+    rg_plain(count->name);
     return json_is_integer(value);
 }
 

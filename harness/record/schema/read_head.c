@@ -95,7 +95,7 @@ static bool read_variants(struct rg_reader *r, const json_t *document, struct rg
         const char *name = json_string_value(json_array_get(array, (size_t)i));
         if (!name || !*name || strlen(name) >= RG_NAME_SIZE)
             return rg_reader_refuse(r, "variants", "has an element that is no short name");
-        memcpy(result->variants[result->variant_count++], name, strlen(name) + 1);
+        rg_text_copy(result->variants[result->variant_count++], RG_NAME_SIZE, name);
     }
     return count > 0;
 }
@@ -154,7 +154,7 @@ static bool read_missing(struct rg_reader *r, const json_t *document, struct rg_
         const char *text = json_string_value(json_array_get(array, i));
         if (!text || strlen(text) >= sizeof(result->missing[0]))
             return rg_reader_refuse(r, "missing", "has an element that is no line of text");
-        memcpy(result->missing[result->missing_count++], text, strlen(text) + 1);
+        rg_text_copy(result->missing[result->missing_count++], sizeof(result->missing[0]), text);
     }
     return array != NULL;
 }

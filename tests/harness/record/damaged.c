@@ -150,11 +150,44 @@ static void test_bytes(void **state)
     rg_result_free(&made);
 }
 
+// Texts and names in a document may not steer the terminal that it is printed on.
+static void test_control_characters(void **state)
+{
+    (void)state;
+    static const int formats[] = {RG_RESULT_MD, RG_RESULT_CSV, RG_RESULT_TEX, RG_RESULT_WIDE};
+    char why[RG_WHY_SIZE];
+    struct rg_result result = {0};
+    json_t *document = make_document();
+    json_object_set_new(document, "note",
+                        json_string("no\x1b[2Jte \x7f \xc2\x9b"
+                                    "2J"));
+    json_object_set_new(document, "missing", json_pack("[s]", "mis\x1b[2Jsing"));
+    json_t *cell = json_array_get(json_object_get(document, "cells"), 0);
+    json_object_set_new(json_object_get(cell, "row"), "scene", json_string("sce\x1b[2Jne"));
+    json_object_set_new(json_object_get(cell, "facts"),
+                        "fa\x1b"
+                        "ct",
+                        json_string("a\x1b[2Jb"));
+    if (!rg_result_from_json(document, "file", &result, why))
+        fail_msg("%s", why);
+    for (size_t i = 0; i < sizeof(formats) / sizeof(formats[0]); i++) {
+        char *text = print_result(&result, formats[i]);
+        assert_null(strchr(text, 0x1b));
+        assert_null(strchr(text, 0x7f));
+        assert_null(strstr(text, "\xc2\x9b"));
+        free(text);
+    }
+    assert_string_equal(result.note, "no?[2Jte ? ??2J");
+    rg_result_free(&result);
+    json_decref(document);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_other_kinds),
         cmocka_unit_test(test_bytes),
+        cmocka_unit_test(test_control_characters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,7 @@ TESTS = ("named", "held", "rows", "journal", "output", "stored", "damaged", "she
 
 JOURNAL, STORED, NAMED = "harness/record/disk/journal.c", "harness/record/disk/stored.c", "harness/record/named.c"
 OUTPUT, RESULT, RECORD = "harness/record/output.c", "harness/record/result.c", "harness/record/record.c"
-TEMPORARY = "core/image/files/temporary.c"
+TEMPORARY, FIELDS = "core/image/files/temporary.c", "harness/record/schema/fields.c"
 
 ROWS = [
     Fault(JOURNAL, "journal->has_file = «has_same_head(&found, &journal->held)»;", "true", "a journal of another machine is taken over"),
@@ -17,6 +17,7 @@ ROWS = [
     Fault(JOURNAL, "(last == result->last_row && «!j->is_followed»))", "true", "the last row of a table is not written though others follow"),
     Fault(JOURNAL, "record->device = device;", "", "a row that is taken over has a device without limits"),
     Fault(JOURNAL, "*record = *rg_result_at(&journal->held, «at»);", "(struct rg_place){.work = at.work, .variant = at.variant}", "every row is taken over as the first"),
+    Fault(FIELDS, "memcpy(text, json_string_value(value), length + 1);\n    «rg_plain(text);»", ";", "a stored text steers the terminal"),
     Fault(STORED, "if («sealed == RG_SEAL_WHOLE» ||", "sealed != RG_SEAL_ABSENT", "a wrong checksum is taken for a right one"),
     Fault(JOURNAL, "if (state && «*state == '/'»)", "true", "a relative state folder is followed"),
     Fault(JOURNAL, "if (length >= (int)size)\n        *folder = 0;", ";", "a state folder that is too long is cut"),

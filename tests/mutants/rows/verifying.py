@@ -5,8 +5,10 @@ TESTS = ("verify", "differing", "image diff", "exit", "command line, wrong", "co
 
 DEVICES, MUTANTS = "harness/compare/verify/devices.c", "harness/compare/verify/mutants.c"
 SNAPSHOT, CHECKS, STAGES = ("harness/compare/verify/snapshot.c", "harness/compare/verify/checks.c", "harness/compare/verify/stages.c")
+REPORT = "harness/compare/diff/report.c"
 
 ROWS = [
+    Fault(REPORT, "rg_plain(plain);", ";", "a file's name steers the terminal"),
     Fault(SNAPSHOT, "for (int i = 0; equal && i < «a->state_count»; i++)", "0", "states are never compared"),
     Fault(SNAPSHOT, "return a_bytes == b_bytes && «!memcmp(a, b, a_bytes)»;", "true", "states of one size are the same"),
     Fault(SNAPSHOT, "return «same(a->texels, a->texels_bytes, b->texels, b->texels_bytes)»;", "true", "images are never compared"),
