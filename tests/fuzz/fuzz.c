@@ -1,14 +1,8 @@
 #include "tests/fuzz/fuzz.h"
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "core/base/log.h"
 #include "tests/core/scene/mesh/fault.h"
-
-static int lines;
-static char last_line[1024];
 
 const char *fuzz_name(const uint8_t *data, size_t size)
 {
@@ -23,32 +17,11 @@ const char *fuzz_name(const uint8_t *data, size_t size)
     return "fuzz.obj";
 }
 
-static void listen(enum rg_log_level level, const char *line, void *user)
-{
-    (void)level;
-    (void)user;
-    lines++;
-    snprintf(last_line, sizeof(last_line), "%s", line);
-}
-
-void fuzz_listen(void)
-{
-    lines = 0;
-    rg_log_listen(listen, NULL);
-}
-
-static void complain(const char *fault)
-{
-    fprintf(stderr, "fault: %s; %d lines, the last: %s\n", fault, lines, last_line);
-    abort();
-}
-
 void fuzz_judge(struct rg_mesh *mesh)
 {
     const char *fault = mesh ? mesh_fault(mesh) : NULL;
     if (fault)
-        complain(fault);
-    if (lines != (mesh ? 0 : 1))
-        complain(mesh ? "loaded, with words" : "refused, not in one line");
+        fuzz_complain(fault);
+    fuzz_judge_lines(mesh, 0);
     rg_mesh_destroy(mesh);
 }

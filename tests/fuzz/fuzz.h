@@ -2,18 +2,12 @@
 #ifndef RG_TESTS_FUZZ_FUZZ_H
 #define RG_TESTS_FUZZ_FUZZ_H
 
-#include <stddef.h>
-#include <stdint.h>
-
 #include "core/scene/mesh/mesh.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+#include "tests/fuzz/heard.h"
 
 // What a file of these bytes is called, by what it begins with: "fuzz.ply".
 const char *fuzz_name(const uint8_t *data, size_t size);
 
-// Counts lines from now on.
-void fuzz_listen(void);
 // Aborts unless the mesh keeps mesh.h's promises and no line was logged, or it is NULL and one was.
 // Then destroys it.
 void fuzz_judge(struct rg_mesh *mesh);

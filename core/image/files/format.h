@@ -23,6 +23,9 @@ bool rg_png_write(const char *path, const struct rg_picture *picture,
 // HDR and TIFF. The writer takes the format from `extension`, since `path` is a temporary name.
 bool rg_oiio_read(const char *path, int64_t file_bytes, struct rg_picture *picture,
                   struct rg_why *why);
+// What the reader's process handed back of a file of so many bytes (core/image/reader/reply.h). The
+// picture may hold texels where the reply turns out to be cut; the caller destroys it either way.
+bool rg_oiio_take_reply(int fd, int64_t file_bytes, struct rg_picture *picture, struct rg_why *why);
 bool rg_oiio_write_hdr(const char *path, const struct rg_picture *picture,
                        const struct rg_write_options *options, struct rg_why *why);
 bool rg_oiio_write_tiff(const char *path, const struct rg_picture *picture,

@@ -71,7 +71,7 @@ static bool take_texels(int fd, const struct rg_picture_reply *reply, struct rg_
     return reply->integer ? decode(picture) : true;
 }
 
-static bool take_reply(int fd, int64_t file_bytes, struct rg_picture *picture, struct rg_why *why)
+bool rg_oiio_take_reply(int fd, int64_t file_bytes, struct rg_picture *picture, struct rg_why *why)
 {
     struct rg_picture_reply reply;
     if (pread(fd, &reply, sizeof(reply), 0) != (ssize_t)sizeof(reply) ||
@@ -106,7 +106,7 @@ static bool read_caged(const char *path, int file, int64_t file_bytes, struct rg
     const bool good =
         error ? rg_why_set(why, "%s could not be started: %s", program, strerror(error))
               : rg_caged_is_sound(&caged, "OpenImageIO", why->text, sizeof(why->text)) &&
-                    take_reply(caged.reply, file_bytes, picture, why);
+                    rg_oiio_take_reply(caged.reply, file_bytes, picture, why);
     if (caged.reply >= 0)
         close(caged.reply);
     return good;

@@ -1,0 +1,51 @@
+// What the picture reader hands back, however wrong. The first byte is how long the file says that
+// it was, in kibibytes; the rest is the reply.
+#define _GNU_SOURCE // memfd_create
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "core/image/files/format.h"
+#include "core/image/reader/reply.h"
+#include "tests/fuzz/heard.h"
+
+// Mostly a reply that says no error and is of a size that its texels fit, or nothing else would be
+// tried.
+static void mend_header(uint8_t *reply, size_t size)
+{
+    struct rg_picture_reply header;
+    memcpy(&header, reply, sizeof(header));
+    if (header.reserved % 4 == 0)
+        return;
+    header.magic = RG_PICTURE_REPLY_MAGIC;
+    header.why[0] = 0;
+    const int32_t values = (int32_t)((size - sizeof(header)) / 4);
+    if (header.reserved % 4 == 1 && header.channels > 0 && header.channels < 5 && values) {
+        header.width = 1 + (int32_t)((uint32_t)header.width % 16);
+        header.height = values / header.width / header.channels;
+    }
+    memcpy(reply, &header, sizeof(header));
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    if (size < 1 + sizeof(struct rg_picture_reply))
+        return 0;
+    uint8_t *reply = malloc(size - 1);
+    const int fd = memfd_create("reply", MFD_CLOEXEC);
+    if (!reply || fd < 0)
+        abort();
+    memcpy(reply, data + 1, size - 1);
+    mend_header(reply, size - 1);
+    if (write(fd, reply, size - 1) != (ssize_t)size - 1)
+        abort();
+    struct rg_picture picture = {0};
+    struct rg_why why = {""};
+    if (!rg_oiio_take_reply(fd, (int64_t)data[0] << 10, &picture, &why) && !*why.text)
+        fuzz_complain("refused without a word");
+    rg_picture_destroy(&picture);
+    close(fd);
+    free(reply);
+    return 0;
+}

@@ -1,0 +1,69 @@
+// Results and journals. What is taken is written and taken again: the two must say the same, or a
+// record that is kept is not the one that was measured. A journal's checksum is mended first.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/record/disk/seal.h"
+#include "harness/record/disk/stored.h"
+#include "tests/fuzz/heard.h"
+
+static void check_again(const struct rg_result *result)
+{
+    char why[RG_WHY_SIZE] = "";
+    struct rg_result again = {0};
+    json_t *document = rg_result_json(result);
+    if (!document)
+        fuzz_complain("taken, and cannot be written");
+    if (!rg_result_from_json(document, "again", &again, why)) {
+        fputs(why, stderr);
+        fuzz_complain("taken, written, and refused");
+    }
+    json_t *written = rg_result_json(&again);
+    if (!json_equal(document, written))
+        fuzz_complain("taken, written and taken as another");
+    json_decref(written);
+    json_decref(document);
+    rg_result_free(&again);
+}
+
+static void read_results(const uint8_t *data, size_t size)
+{
+    struct rg_stored stored = {0};
+    const char *path = fuzz_write("fuzz.json", data, size);
+    fuzz_listen();
+    const bool taken = rg_stored_read(&stored, path);
+    fuzz_judge_lines(taken, 0);
+    for (int i = 0; taken && i < stored.count; i++)
+        check_again(&stored.results[i]);
+    rg_stored_free(&stored);
+}
+
+static void read_journal(const char *text, size_t size)
+{
+    char why[RG_WHY_SIZE] = "";
+    struct rg_result result = {0};
+    const char *path = fuzz_write("fuzz.journal", (const uint8_t *)text, size);
+    fuzz_listen();
+    const bool taken = rg_stored_read_one(path, &result, why);
+    fuzz_judge_lines(true, 0);
+    if (!taken && !*why)
+        fuzz_complain("refused without a word");
+    if (taken)
+        check_again(&result);
+    rg_result_free(&result);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    read_results(data, size);
+    json_t *document = json_loadb((const char *)data, size, JSON_DISABLE_EOF_CHECK, NULL);
+    char *text = json_is_object(document) && rg_seal(document) ? json_dumps(document, 0) : NULL;
+    if (text)
+        read_journal(text, strlen(text));
+    else
+        read_journal((const char *)data, size);
+    free(text);
+    json_decref(document);
+    return 0;
+}
