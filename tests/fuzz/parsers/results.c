@@ -1,11 +1,13 @@
 // Results and journals. What is taken is written and taken again: the two must say the same, or a
-// record that is kept is not the one that was measured. A journal's checksum is mended first.
+// record that is kept is not the one that was measured. It is printed in every format. A journal's
+// checksum is mended first.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "harness/record/disk/seal.h"
 #include "harness/record/disk/stored.h"
+#include "harness/tables/print.h"
 #include "tests/fuzz/heard.h"
 
 static void check_again(const struct rg_result *result)
@@ -27,6 +29,30 @@ static void check_again(const struct rg_result *result)
     rg_result_free(&again);
 }
 
+// In every format, without what steers a terminal; JSON is for programs, and keeps DEL.
+static void check_printed(const struct rg_result *result)
+{
+    for (int format = RG_RESULT_WIDE; format <= RG_RESULT_TEX; format++) {
+        char *text = NULL;
+        size_t size;
+        FILE *out = open_memstream(&text, &size);
+        fuzz_listen();
+        if (!out || !rg_result_print(result, format, out) || fclose(out))
+            fuzz_complain("taken, and cannot be printed");
+        fuzz_judge_lines(true, 0);
+        for (const unsigned char *c = (const unsigned char *)text; *c; c++)
+            if ((*c < ' ' && *c != '\n') || (*c == 127 && format != RG_RESULT_JSON))
+                fuzz_complain("a control character is printed");
+        free(text);
+    }
+}
+
+static void check(const struct rg_result *result)
+{
+    check_again(result);
+    check_printed(result);
+}
+
 static void read_results(const uint8_t *data, size_t size)
 {
     struct rg_stored stored = {0};
@@ -35,7 +61,7 @@ static void read_results(const uint8_t *data, size_t size)
     const bool taken = rg_stored_read(&stored, path);
     fuzz_judge_lines(taken, 0);
     for (int i = 0; taken && i < stored.count; i++)
-        check_again(&stored.results[i]);
+        check(&stored.results[i]);
     rg_stored_free(&stored);
 }
 
@@ -50,7 +76,7 @@ static void read_journal(const char *text, size_t size)
     if (!taken && !*why)
         fuzz_complain("refused without a word");
     if (taken)
-        check_again(&result);
+        check(&result);
     rg_result_free(&result);
 }
 
