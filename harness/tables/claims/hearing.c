@@ -141,6 +141,12 @@ bool rg_hearing_begin(struct hearing *h)
         rg_hearing_end(h, RG_CLAIM_OTHER_WORK, "settings were changed: %.100s", h->result->changed);
         return false;
     }
+    if (claim->test == RG_CLAIM_RATE && h->result->size_divisor > 1) {
+        rg_hearing_end(h, RG_CLAIM_OTHER_WORK,
+                       "pictures have 1/%d of the width and height that the rate is claimed of",
+                       h->result->size_divisor);
+        return false;
+    }
     if (h->at.work < 0) {
         rg_hearing_end(h, RG_CLAIM_OTHER_WORK, "the work that was printed is not measured");
         return false;

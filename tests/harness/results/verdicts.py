@@ -141,6 +141,20 @@ def check_rate(raingauge):
             open_truth(made, words, of(30), 0.02, [NO]))
 
 
+def check_size(raingauge):
+    """a frame rate of smaller pictures bears out none of whole ones, and how rows compare is judged at any size"""
+    rate, ratio = Made(raingauge, "chin-timing"), Made(raingauge, "feng-2")
+    problems = []
+    for divisor, told in ((1, {YES}), (2, {"other work"}), (4, {"other work"})):
+        budget = {"seconds": 240, "size_divisor": divisor, "few_samples": False, "left_out": []}
+        rate.record["budget"] = ratio.record["budget"] = budget
+        rate.times(lambda row, variant: 1, 0.01, 15, "size")
+        ratio.times(by_row([10, 15, 20, 30, 43]), 0.01, 15, "size")
+        if set(rate.verdicts("The simulation runs")) != told or set(ratio.verdicts("20,000 drops")) != {YES}:
+            problems.append("a divisor of %d: %s" % (divisor, set(rate.verdicts("The simulation runs"))))
+    return problems
+
+
 def check_variants(raingauge):
     """one variant that is faster in all rows, one that is not in the last, and both alike"""
     made, words = Made(raingauge, "creus-5.6"), "from four lights on"
@@ -204,7 +218,7 @@ def check_slope(raingauge):
     return problems
 
 
-CHECKS = (check_falls, check_order, check_ratio, check_rate, check_variants, check_knee, check_few, check_slope)
+CHECKS = (check_falls, check_order, check_ratio, check_rate, check_size, check_variants, check_knee, check_few, check_slope)
 
 
 def main(raingauge):
