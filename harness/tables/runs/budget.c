@@ -7,151 +7,20 @@
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/tables/runs/needed.h"
+#include "harness/tables/runs/tell.h"
 
 static double passed_s(const struct rg_budget *b)
 {
     return (rg_now_ms() - b->start_ms) / 1000;
 }
 
-// --- telling ---
-
-// The rows of a table that are chosen.
-static void choose_rows(const struct rg_budget *b, int i, bool rows[RG_TABLE_ROWS])
-{
-    if (b->choices[i].all_rows)
-        rg_quick_rows(b->tables[i], rows);
-    else
-        rg_needed_rows(b->tables[i], rows);
-}
-
-static int divisor_of(const struct rg_budget_choice *choice)
-{
-    return 4 >> choice->size;
-}
-
-// "1, 4, 8-10": rows that are measured, or that are not.
-static void name_rows(const struct rg_budget *b, int i, bool left_out, char *text, size_t size)
-{
-    bool chosen[RG_TABLE_ROWS];
-    size_t used = 0;
-    int from = -1;
-    const int rows = b->tables[i]->row_count;
-    choose_rows(b, i, chosen);
-    *text = 0;
-    for (int row = 0; row <= rows; row++) {
-        const bool in = row < rows && chosen[row] != left_out;
-        if (in && from < 0)
-            from = row;
-        if (in || from < 0)
-            continue;
-        if (used < size)
-            used += (size_t)snprintf(text + used, size - used, "%s%d", used ? ", " : "", from + 1);
-        if (row - from > 1 && used < size)
-            used += (size_t)snprintf(text + used, size - used, "-%d", row);
-        from = -1;
-    }
-}
-
-static void name_devices(const struct rg_budget *b, unsigned devices, char *text, size_t size)
-{
-    size_t used = 0;
-    *text = 0;
-    for (int d = 0; d < b->devices->count; d++)
-        if (devices >> d & 1 && used < size)
-            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
-                                     b->devices->devices[d]->info.name);
-}
-
-// What is needed of a table would take so long.
-static double needed_s(const struct rg_budget *b, int i)
-{
-    const struct rg_budget_choice needed = {.devices = b->all & ~b->last,
-                                            .size = b->costs[i].smallest};
-    return rg_budget_expect(&b->costs[i], &needed);
-}
-
-static void print_table(const struct rg_budget *b, int i, FILE *out)
-{
-    const struct rg_table *table = b->tables[i];
-    const struct rg_budget_choice *c = &b->choices[i];
-    char rows[256], devices[256];
-    name_rows(b, i, false, rows, sizeof(rows));
-    name_devices(b, c->devices, devices, sizeof(devices));
-    if (!c->devices) {
-        fprintf(out, "  %-16s left out; what is needed of it would take %.0f s\n", table->id,
-                needed_s(b, i));
-        return;
-    }
-    const int divisor = divisor_of(c);
-    fprintf(out, "  %-16s %5.1f s  rows %s%s%s", table->id, c->expected_s, rows,
-            c->all_works && b->costs[i].works > 1 ? ", all works" : "",
-            c->all_variants && b->costs[i].variants > b->costs[i].needed_variants ? ", all variants"
-                                                                                  : "");
-    if (!table->is_of_textures)
-        fprintf(out, ", %dx%d, %s samples", table->width / divisor, table->height / divisor,
-                c->all_samples ? "quick" : "6");
-    fprintf(out, ", on %s\n", devices);
-}
-
-static void print_plan(const struct rg_budget *b, FILE *out)
-{
-    double all_s = b->probed_s;
-    for (int i = 0; i < b->count; i++)
-        all_s += needed_s(b, i);
-    fprintf(out,
-            "plan: %.0f s, with %.0f s that this plan took; the budget is %.0f s, and what curves "
-            "and claims need would take %.0f s\n",
-            b->probed_s + b->planned_s, b->probed_s, b->seconds, all_s);
-    for (int i = 0; i < b->count; i++)
-        print_table(b, i, out);
-    fflush(out);
-}
-
-// What of a table is not measured; false where it is whole.
-static bool print_left_out(const struct rg_budget *b, int i, FILE *out)
-{
-    const struct rg_budget_table *costs = &b->costs[i];
-    const struct rg_budget_choice *c = &b->choices[i];
-    char rows[256], devices[256];
-    if (!c->devices) {
-        fprintf(out, "  %-16s all of it\n", b->tables[i]->id);
-        return true;
-    }
-    name_rows(b, i, true, rows, sizeof(rows));
-    name_devices(b, b->all & ~c->devices, devices, sizeof(devices));
-    char text[768];
-    const int length =
-        snprintf(text, sizeof(text), "%s%s%s%s%s%s%s%s", *rows ? "; rows " : "", rows,
-                 !c->all_works && costs->works > 1 ? "; works but what was printed" : "",
-                 !c->all_variants && costs->variants > costs->needed_variants
-                     ? "; variants that no claim is about"
-                     : "",
-                 c->size < RG_BUDGET_WHOLE ? "; whole pictures" : "",
-                 c->all_samples || b->tables[i]->is_of_textures ? "" : "; more than 6 samples",
-                 *devices ? "; " : "", devices);
-    if (length > 2)
-        fprintf(out, "  %-16s %s\n", b->tables[i]->id, text + 2);
-    return length > 2;
-}
-
-void rg_budget_end(const struct rg_budget *b, FILE *out)
-{
-    const double taken_s = passed_s(b), planned_s = b->probed_s + b->planned_s;
-    fprintf(out, "took %.0f s, planned %.0f s (%+.0f %%), of a budget of %.0f s; left out:\n",
-            taken_s, planned_s, 100 * (taken_s / planned_s - 1), b->seconds);
-    bool any = false;
-    for (int i = 0; i < b->count; i++)
-        any = print_left_out(b, i, out) || any;
-    if (!any)
-        fprintf(out, "  nothing\n");
-}
-
 // --- planning ---
 
-// The first table of the same technique, and of the same kind of size.
+// The first table of the same technique, and of the same kind of size. Those of textures are alike
+// in nothing.
 static int kind_of(const struct rg_table *const tables[], int i)
 {
-    for (int k = 0; k < i; k++)
+    for (int k = 0; k < i && !tables[i]->is_of_textures; k++)
         if (!strcmp(tables[k]->technique, tables[i]->technique) &&
             tables[k]->width == tables[i]->width && !tables[k]->is_of_textures)
             return k;
@@ -162,7 +31,7 @@ static int kind_of(const struct rg_table *const tables[], int i)
 #define MOST_PROBING 0.25
 
 // Looks at the first table of each technique, or at the others, as long as there is time for it.
-static void probe_tables(struct rg_budget *b, struct rg_kept *kept, bool first_ones, FILE *out)
+static void probe_tables(struct rg_budget *b, struct rg_kept *kept, bool first_ones)
 {
     for (int i = 0; i < b->count && !rg_interrupted(); i++) {
         const int kind = kind_of(b->tables, i);
@@ -172,10 +41,24 @@ static void probe_tables(struct rg_budget *b, struct rg_kept *kept, bool first_o
             rg_budget_alike(b->tables[i], &b->costs[kind], &b->costs[i]);
             continue;
         }
-        fprintf(out, "planning: %s\n", b->tables[i]->id);
-        fflush(out);
+        rg_info("planning: %s", b->tables[i]->id);
         rg_budget_probe(b->tables[i], kept, &b->kinds[kind], &b->costs[i]);
     }
+}
+
+// Of the devices that are given: cpu comes first, and cpu:reference last, unless it is alone.
+static void name_bits(struct rg_budget *b)
+{
+    struct rg_budget_devices *bits = &b->bits;
+    for (int d = 0; d < b->devices->count; d++) {
+        const char *name = b->devices->devices[d]->info.name;
+        bits->all |= 1u << d;
+        bits->first |= !strcmp(name, "cpu") ? 1u << d : 0;
+        bits->last |= !strcmp(name, "cpu:reference") ? 1u << d : 0;
+    }
+    bits->last = bits->last == bits->all ? 0 : bits->last;
+    const unsigned others = bits->all & ~bits->last;
+    bits->first = bits->first ? bits->first : others & (~others + 1);
 }
 
 bool rg_budget_begin(struct rg_budget *b, const struct rg_table *const tables[], int count,
@@ -189,21 +72,18 @@ bool rg_budget_begin(struct rg_budget *b, const struct rg_table *const tables[],
     if (count > RG_BUDGET_TABLES)
         return rg_error("--budget: %d tables are more than %d; name fewer", count,
                         RG_BUDGET_TABLES);
-    for (int d = 0; d < kept->devices->count; d++) {
-        b->all |= 1u << d;
-        if (!strcmp(kept->devices->devices[d]->info.name, "cpu:reference"))
-            b->last |= 1u << d;
-    }
-    // The one device that is given is measured, whichever it is.
-    b->last = b->last == b->all ? 0 : b->last;
-    probe_tables(b, kept, true, out);
-    probe_tables(b, kept, false, out);
+    name_bits(b);
+    probe_tables(b, kept, true);
+    probe_tables(b, kept, false);
     if (rg_interrupted())
         return true;
     b->probed_s = passed_s(b);
-    b->planned_s =
-        rg_budget_plan(b->costs, count, b->all, b->last, seconds - b->probed_s, b->choices);
-    print_plan(b, out);
+    b->planned_s = rg_budget_plan(b->costs, count, &b->bits, seconds - b->probed_s, b->choices);
+    bool any = false;
+    for (int i = 0; i < count; i++)
+        any = any || b->choices[i].devices;
+    if (any)
+        rg_budget_tell(b, out);
     return true;
 }
 
@@ -230,10 +110,10 @@ static void plan_again(struct rg_budget *b, int from, FILE *out)
         due_s += b->choices[i].expected_s;
     if (due_s <= left_s)
         return;
-    rg_budget_plan(b->costs + from, b->count - from, b->all, b->last, left_s, b->choices + from);
+    rg_budget_plan(b->costs + from, b->count - from, &b->bits, left_s, b->choices + from);
     if (!is_same_choice(&before, &b->choices[from])) {
         fprintf(out, "planned anew, as cells take %.2f times as long as they were to:\n", slow);
-        print_table(b, from, out);
+        rg_budget_tell_table(b, from, out);
     }
 }
 
@@ -262,7 +142,7 @@ static void choose_devices(struct rg_budget *b, int i)
 static void leave_out_rows(const struct rg_budget *b, int i, struct rg_result *result)
 {
     bool chosen[RG_TABLE_ROWS];
-    choose_rows(b, i, chosen);
+    rg_budget_rows(b, i, chosen);
     for (int row = 0; row < b->tables[i]->row_count; row++)
         result->left_out[row] = !chosen[row];
 }
@@ -275,8 +155,8 @@ bool rg_budget_next(struct rg_budget *b, int i, struct rg_result *result, FILE *
         return false;
     const struct rg_table_part part = {.last_row = b->tables[i]->row_count - 1};
     b->table = *b->tables[i];
-    b->table.width /= divisor_of(c);
-    b->table.height /= divisor_of(c);
+    b->table.width /= rg_budget_divisor(c);
+    b->table.height /= rg_budget_divisor(c);
     if (!c->all_works && b->table.works[0].name)
         b->table.works[1].name = NULL;
     choose_variants(b, i);
@@ -285,7 +165,7 @@ bool rg_budget_next(struct rg_budget *b, int i, struct rg_result *result, FILE *
     leave_out_rows(b, i, result);
     result->budget_s = b->seconds;
     result->budget_end_ms = b->start_ms + 1000 * b->seconds;
-    result->size_divisor = divisor_of(c);
+    result->size_divisor = rg_budget_divisor(c);
     result->few_samples = !c->all_samples;
     return true;
 }
@@ -294,14 +174,37 @@ void rg_budget_done(struct rg_budget *b, int i, const struct rg_result *result, 
 {
     int wanted = 0, had = 0;
     bool chosen[RG_TABLE_ROWS];
-    choose_rows(b, i, chosen);
+    rg_budget_rows(b, i, chosen);
     for (int row = 0; row < b->tables[i]->row_count; row++) {
         wanted += chosen[row];
         had += rg_result_has(result, row);
     }
-    // Textures are expected to take nothing, which tells nothing of the others.
-    if (!(b->choices[i].expected_s > 0))
+    b->measured += had > 0;
+    // Textures are expected to take nothing, where what holds them is open: that tells nothing of
+    // the others.
+    if (b->tables[i]->is_of_textures)
         return;
     b->due_s += b->choices[i].expected_s * had / fmax(wanted, 1);
     b->taken_s += (rg_now_ms() - start_ms) / 1000;
+}
+
+// The table of which the least takes least.
+static int cheapest(const struct rg_budget *b)
+{
+    int least = 0;
+    for (int i = 1; i < b->count; i++)
+        if (rg_budget_least_s(b, i) < rg_budget_least_s(b, least))
+            least = i;
+    return least;
+}
+
+bool rg_budget_end(const struct rg_budget *b, FILE *out)
+{
+    const int least = cheapest(b);
+    if (!b->measured)
+        return rg_error("--budget: nothing was measured within %g s, of which planning took %.1f "
+                        "s; %s would take %.1f s more: give more time, or name fewer tables",
+                        b->seconds, b->probed_s, b->tables[least]->id, rg_budget_least_s(b, least));
+    rg_budget_tell_end(b, passed_s(b), out);
+    return true;
 }

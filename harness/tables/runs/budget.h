@@ -4,27 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/tables/runs/probe.h"
-#include "harness/tables/table.h"
-
-enum { RG_BUDGET_TABLES = 64 };
-
-// Begun by rg_budget_begin; what a choice points to lives as long as this.
-struct rg_budget {
-    const struct rg_table *const *tables;
-    int count;
-    const struct rg_devices *devices; // all that are given
-    double seconds, start_ms;
-    double probed_s, planned_s; // what probing took; what is planned behind it
-    double due_s, taken_s;      // what tables that are done were to take, and took
-    unsigned all, last;         // devices, a bit each; cpu:reference comes last
-    struct rg_budget_kind kinds[RG_BUDGET_TABLES]; // at the first table of each technique
-    struct rg_budget_table costs[RG_BUDGET_TABLES];
-    struct rg_budget_choice choices[RG_BUDGET_TABLES];
-    // Of the table that is measured now.
-    struct rg_table table;
-    struct rg_devices chosen;
-};
+#include "harness/tables/runs/chosen.h"
 
 // Probes the tables and prints the plan to `out`, a line a table. `kept` is of all devices. False,
 // and one logged line, where there are too many tables.
@@ -39,7 +19,8 @@ bool rg_budget_next(struct rg_budget *budget, int table, struct rg_result *resul
 void rg_budget_done(struct rg_budget *budget, int table, const struct rg_result *result,
                     double start_ms);
 
-// Prints what was left out, and what all took beside what was planned.
-void rg_budget_end(const struct rg_budget *budget, FILE *out);
+// Prints what was left out, and what all took beside what was planned. False, and one logged line
+// that names the cheapest table, where nothing was measured.
+bool rg_budget_end(const struct rg_budget *budget, FILE *out);
 
 #endif

@@ -18,6 +18,8 @@ double rg_budget_expect(const struct rg_budget_table *t, const struct rg_budget_
 // --- what more could be measured ---
 
 enum stage {
+    FIRST,   // a table, on the first device
+    DUE,     // pictures of the size that claims are about
     CLAIMED, // a table that claims are about, on one device more
     NEEDED,  // any other
     HALF,
@@ -30,21 +32,33 @@ enum stage {
     STAGES
 };
 
-// The choice with more of a stage in it; false where it has that, or where the stage has none.
+static bool is_of_devices(enum stage stage)
+{
+    return stage == FIRST || stage == CLAIMED || stage == NEEDED || stage == LAST;
+}
+
+// The choice with more of a stage in it; false where it has that, or where the stage has none. Of a
+// table that is on no device there is nothing to refine.
 static bool grow(const struct rg_budget_table *t, struct rg_budget_choice *c, enum stage stage,
                  unsigned device)
 {
     const struct rg_budget_choice before = *c;
+    if (!c->devices && (!is_of_devices(stage) || stage == LAST))
+        return false;
     switch (stage) {
     case CLAIMED:
         if (!t->has_claims)
             return false;
         c->devices |= device;
         return c->devices != before.devices;
+    case FIRST:
     case NEEDED:
     case LAST:
         c->devices |= device;
         return c->devices != before.devices;
+    case DUE:
+        c->size = t->due;
+        return c->size != before.size;
     case HALF:
         c->size = c->size < RG_BUDGET_HALF ? RG_BUDGET_HALF : c->size;
         return c->size != before.size;
@@ -73,9 +87,11 @@ struct step {
     double more_s;
 };
 
-static bool is_of_devices(enum stage stage)
+static unsigned devices_of(const struct rg_budget_devices *devices, enum stage stage)
 {
-    return stage == CLAIMED || stage == NEEDED || stage == LAST;
+    return stage == FIRST  ? devices->first
+           : stage == LAST ? devices->all & devices->last
+                           : devices->all & ~devices->last;
 }
 
 // The cheapest step that a stage still has; false where it has none.
@@ -100,18 +116,17 @@ static bool find_step(const struct rg_budget_table *costs, int count, enum stage
     return any;
 }
 
-double rg_budget_plan(const struct rg_budget_table *costs, int count, unsigned devices,
-                      unsigned last, double budget_s, struct rg_budget_choice *choices)
+double rg_budget_plan(const struct rg_budget_table *costs, int count,
+                      const struct rg_budget_devices *devices, double budget_s,
+                      struct rg_budget_choice *choices)
 {
     double planned_s = 0;
     struct step step = {0};
     for (int i = 0; i < count; i++)
         choices[i] = (struct rg_budget_choice){.size = costs[i].smallest};
-    for (enum stage stage = CLAIMED; stage < STAGES; stage++) {
-        const unsigned of_stage = stage == LAST ? devices & last : devices & ~last;
-        while (find_step(costs, count, stage, of_stage, choices, &step)) {
-            if (planned_s + step.more_s > budget_s)
-                return planned_s;
+    for (enum stage stage = FIRST; stage < STAGES; stage++) {
+        while (find_step(costs, count, stage, devices_of(devices, stage), choices, &step) &&
+               planned_s + step.more_s <= budget_s) {
             planned_s += step.more_s;
             choices[step.table] = step.grown;
         }

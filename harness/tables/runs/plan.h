@@ -14,7 +14,8 @@ struct rg_budget_table {
     int rows, variants, works;        // all that it has
     int needed_rows, needed_variants; // what its curves and its claims cannot do without
     bool has_claims;                  // some are about it
-    enum rg_budget_size smallest;     // WHOLE: its size is what it is about
+    enum rg_budget_size smallest;     // below which its pictures show too little
+    enum rg_budget_size due;          // which its claims are about, or the smallest
     struct rg_budget_cost {
         double few_s; // a cell of the fewest samples
         double all_s; // of all that quick mode takes
@@ -35,13 +36,23 @@ struct rg_budget_choice {
 // What a choice is expected to take.
 double rg_budget_expect(const struct rg_budget_table *table, const struct rg_budget_choice *choice);
 
-// Chooses for each table. First, on each device but those of `last`, come the rows, variants and
-// work that are needed, of tables that claims are about before others, then pictures of half the
-// size, all samples, whole pictures, all rows, all variants, all works, and the devices of `last`:
-// what is cheapest first among the tables, and as far as the budget goes. That order does not
-// depend on the budget, so that a larger one never measures less. Returns what all of it is
-// expected to take. `costs` and `choices` have `count`.
-double rg_budget_plan(const struct rg_budget_table *costs, int count, unsigned devices,
-                      unsigned last, double budget_s, struct rg_budget_choice *choices);
+// The devices of a plan, a bit each.
+struct rg_budget_devices {
+    unsigned all;
+    unsigned first; // one of them, on which each table is measured before any is on another
+    unsigned last;  // some of them, which come when all else is measured
+};
+
+// Chooses for each table, in stages. First come, on device `first` and in the smallest pictures,
+// the rows, variants and work that are needed, of each table; then the size that claims are about;
+// then the same on each device but those of `last`, of tables that claims are about before others;
+// then pictures of half the size, all samples, whole pictures, all rows, all variants, all works,
+// and the devices of `last`. Within a stage the cheapest table comes first, so that a large one
+// keeps no small one out. Where the rest of a stage is too dear, the next one has what time is
+// left. So a larger budget never measures less of a stage while it measures the same of those
+// before it. Returns what all of it is expected to take. `costs` and `choices` have `count`.
+double rg_budget_plan(const struct rg_budget_table *costs, int count,
+                      const struct rg_budget_devices *devices, double budget_s,
+                      struct rg_budget_choice *choices);
 
 #endif

@@ -5,44 +5,10 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "core/image/compare/compare.h"
 #include "harness/console/clock.h"
-#include "harness/measure/expected.h"
+#include "harness/tables/runs/cell.h"
 #include "harness/tables/runs/needed.h"
 #include "harness/tables/table.h"
-
-// --- a cell ---
-
-static int check_frames_of(const struct rg_table *table)
-{
-    return table->check_frames ? table->check_frames : RG_CHECK_FRAMES;
-}
-
-// Frames of a window of which no more are left: its instance is opened anew.
-static double reopen_ms(const struct rg_table *table, double open_ms, double frame_ms,
-                        double frames)
-{
-    if (!table->window_frames)
-        return 0;
-    return floor(frames / table->window_frames) * (open_ms + check_frames_of(table) * frame_ms);
-}
-
-double rg_budget_cell_ms(const struct rg_table *table, double open_ms, double frame_ms,
-                         const struct rg_measure_options *o)
-{
-    const double ms = fmax(frame_ms, 1e-3);
-    double a_sample = fmax(ceil(o->sample_ms / ms), 1);
-    if (table->window_frames)
-        a_sample = fmin(a_sample, table->window_frames - 1);
-    a_sample += ms < 100;
-    const double samples =
-        fmin(fmax(floor(o->job_ms / (ms * a_sample)), o->least_samples), o->most_samples);
-    const double warm_up = fmax(4, fmin(20, o->warm_up_ms / ms) / 2);
-    const double calibration = ms < o->sample_ms ? 4 : 0;
-    const double passes = fmin(fmax(ceil(400 / (1.5 * ms)), 2), 10) * 1.5;
-    const double frames = 1 + warm_up + calibration + samples * a_sample + passes;
-    return open_ms + (check_frames_of(table) + frames) * ms + reopen_ms(table, open_ms, ms, frames);
-}
 
 // --- what is opened ---
 
@@ -78,10 +44,10 @@ struct probing {
     struct rg_frames of_cpu, last_of_cpu; // of both rows, and of the last
 };
 
-static bool probe_row(struct probing *p, struct rg_device *device, int row,
-                      enum rg_budget_size size, const char *over, struct probe *probe)
+// The settings of a row, with some over them; the caller frees them. NULL, and one logged line, on
+// failure.
+static void *settings_of(const struct probing *p, int row, const char *over)
 {
-    static const int divisors[] = {4, 2, 1};
     const struct rg_technique *technique = rg_technique_find(p->table->technique);
     const struct rg_place at = {.row = row};
     char *assignments = rg_table_assignments(&p->result, p->table, at);
@@ -90,13 +56,22 @@ static bool probe_row(struct probing *p, struct rg_device *device, int row,
         of_row = rg_settings_copy(technique, defaults, assignments);
     if (of_row)
         settings = rg_settings_copy(technique, of_row, over);
-    const struct rg_subject subject = {technique, settings, p->table->width / divisors[size],
-                                       p->table->height / divisors[size]};
-    const bool ok = settings && probe_subject(p->kept, device, &subject, probe);
-    free(settings);
     free(of_row);
     free(defaults);
     free(assignments);
+    return settings;
+}
+
+static bool probe_row(struct probing *p, struct rg_device *device, int row,
+                      enum rg_budget_size size, const char *over, struct probe *probe)
+{
+    static const int divisors[] = {4, 2, 1};
+    void *settings = settings_of(p, row, over);
+    const struct rg_subject subject = {rg_technique_find(p->table->technique), settings,
+                                       p->table->width / divisors[size],
+                                       p->table->height / divisors[size]};
+    const bool ok = settings && probe_subject(p->kept, device, &subject, probe);
+    free(settings);
     return ok;
 }
 
@@ -168,32 +143,6 @@ static bool find_frames(struct probing *p, struct rg_device *device, struct rg_f
     return true;
 }
 
-// What comparing pictures of noise takes, a pixel: FLIP takes the same for all pictures.
-static double compare_ms(void)
-{
-    enum { SIDE = 128 };
-    struct rg_picture a = {0}, b = {0}, dry = {0};
-    struct rg_comparison comparison = {0};
-    double ms = 0;
-    if (rg_picture_create(&a, SIDE, SIDE, 4, "probe") &&
-        rg_picture_create(&b, SIDE, SIDE, 4, "probe") &&
-        rg_picture_create(&dry, SIDE, SIDE, 4, "probe")) {
-        for (int i = 0; i < SIDE * SIDE * 4; i++) {
-            a.texels[i] = (float)(i % 7) / 7;
-            b.texels[i] = (float)(i % 5) / 5;
-            dry.texels[i] = 0;
-        }
-        const double start = rg_now_ms();
-        rg_compare(&a, "a", &b, "b", &dry, &(struct rg_compare_options){0}, &comparison);
-        ms = (rg_now_ms() - start) / (SIDE * SIDE);
-    }
-    rg_comparison_destroy(&comparison);
-    rg_picture_destroy(&a);
-    rg_picture_destroy(&b);
-    rg_picture_destroy(&dry);
-    return ms;
-}
-
 static void find_ends(const struct rg_table *table, int rows[2])
 {
     bool needed[RG_TABLE_ROWS];
@@ -207,13 +156,14 @@ static void name_costs(const struct rg_table *table, struct rg_budget_table *cos
 {
     enum { SMALL_PIXELS = 512 * 512 };
     bool needed[RG_TABLE_ROWS], rows[RG_TABLE_ROWS], variants[RG_TABLE_VARIANTS];
-    const bool is_small = table->width * table->height <= SMALL_PIXELS;
-    *costs = (struct rg_budget_table){
-        .rows = rg_quick_rows(table, rows),
-        .needed_rows = rg_needed_rows(table, needed),
-        .needed_variants = rg_needed_variants(table, variants),
-        .has_claims = rg_has_claims(table),
-        .smallest = is_small || rg_needs_size(table) ? RG_BUDGET_WHOLE : RG_BUDGET_FOURTH};
+    const bool is_small = table->is_of_textures || table->width * table->height <= SMALL_PIXELS;
+    *costs = (struct rg_budget_table){.rows = rg_quick_rows(table, rows),
+                                      .needed_rows = rg_needed_rows(table, needed),
+                                      .needed_variants = rg_needed_variants(table, variants),
+                                      .has_claims = rg_has_claims(table),
+                                      .smallest = is_small ? RG_BUDGET_WHOLE : RG_BUDGET_FOURTH,
+                                      .due = is_small || rg_needs_size(table) ? RG_BUDGET_WHOLE
+                                                                              : RG_BUDGET_FOURTH};
     while (costs->variants < RG_TABLE_VARIANTS && table->variants[costs->variants].name)
         costs->variants++;
     while (costs->works < RG_TABLE_WORKS && table->works[costs->works].name)
@@ -244,7 +194,7 @@ static bool probe_cpu(struct probing *p)
 static bool probe_check(struct probing *p, struct rg_budget_table *costs)
 {
     const struct rg_table *table = p->table;
-    const int frames = check_frames_of(table);
+    const int frames = rg_budget_check_frames(table);
     struct rg_frames of_reference;
     struct probe truth = {0}, dry;
     if (!find_frames(p, rg_kept_device(p->kept, "cpu:reference"), &of_reference) ||
@@ -254,7 +204,7 @@ static bool probe_check(struct probing *p, struct rg_budget_table *costs)
         return false;
     // Without rain a frame takes less, on cpu:reference by the same factor as on cpu.
     const double dry_share = dry.frame_ms / fmax(p->last_of_cpu.frame_ms[p->smallest], 1e-3);
-    const double a_pixel_ms = table->truth ? compare_ms() : 0;
+    const double a_pixel_ms = table->truth ? rg_budget_compare_ms() : 0;
     for (int size = 0; size < RG_BUDGET_SIZES; size++) {
         const double larger = p->of_cpu.frame_ms[size] / p->of_cpu.frame_ms[p->smallest];
         costs->check_s[size] =
@@ -281,6 +231,42 @@ static void probe_cells(struct probing *p, struct rg_budget_table *costs)
     }
 }
 
+// How many of a table's cells on a device open an instance: those that follow one with the same
+// settings have it open, and take nothing.
+static int openings(const struct probing *p, const struct rg_budget_table *costs)
+{
+    char *before = NULL;
+    int count = 0;
+    for (int row = 0; row < costs->rows; row++) {
+        for (int v = 0; v < costs->variants; v++) {
+            const struct rg_place at = {.row = row, .variant = v};
+            char *now = rg_table_assignments(&p->result, p->table, at);
+            count += !before || !now || strcmp(before, now) != 0;
+            free(before);
+            before = now;
+        }
+    }
+    free(before);
+    return count;
+}
+
+// A texture's level takes nothing but opening what holds it.
+static void probe_textures(struct probing *p, struct rg_budget_table *costs)
+{
+    const double share = (double)openings(p, costs) / (costs->rows * costs->variants);
+    for (int d = 0; d < p->kept->devices->count; d++) {
+        void *settings = settings_of(p, p->rows[0], "");
+        const struct rg_subject subject = {rg_technique_find(p->table->technique), settings,
+                                           p->table->width, p->table->height};
+        const double start = rg_now_ms();
+        const bool ok = settings && rg_kept_open(p->kept, p->kept->devices->devices[d], &subject);
+        const double a_cell_s = ok ? 1e-3 * share * (rg_now_ms() - start) : 0;
+        free(settings);
+        for (int size = 0; size < RG_BUDGET_SIZES; size++)
+            costs->cells[d][size] = (struct rg_budget_cost){a_cell_s, a_cell_s};
+    }
+}
+
 bool rg_budget_probe(const struct rg_table *table, struct rg_kept *kept,
                      struct rg_budget_kind *kind, struct rg_budget_table *costs)
 {
@@ -290,9 +276,10 @@ bool rg_budget_probe(const struct rg_table *table, struct rg_kept *kept,
     p.smallest = costs->smallest;
     find_ends(table, p.rows);
     rg_table_begin(&p.result, table, &part, kept->devices);
-    // A texture's level takes nothing once what holds it is open.
     const bool ok = table->is_of_textures || (probe_cpu(&p) && probe_check(&p, costs));
-    if (ok && !table->is_of_textures)
+    if (table->is_of_textures)
+        probe_textures(&p, costs);
+    else if (ok)
         probe_cells(&p, costs);
     rg_result_free(&p.result);
     return ok;

@@ -19,7 +19,8 @@ struct rg_budget_kind {
 
 // Opens the first and the last needed row of a table on cpu, and on devices of which nothing is
 // known the last, for two frames of the smallest picture, and the last at the next size as well;
-// what lies between, and beyond, follows from them. What fails is expected to take nothing, for its
+// what lies between, and beyond, follows from them. Of a table of textures it opens the first row
+// on each device. What fails is expected to take nothing, for its
 // cells end at once. False, and one logged line, where cpu, cpu:reference or the truth does: then
 // that is all cells of the table.
 bool rg_budget_probe(const struct rg_table *table, struct rg_kept *kept,
@@ -28,10 +29,5 @@ bool rg_budget_probe(const struct rg_table *table, struct rg_kept *kept,
 // Expects of a table what another of its technique takes, where there is no time to look at it.
 void rg_budget_alike(const struct rg_table *table, const struct rg_budget_table *other,
                      struct rg_budget_table *costs);
-
-// What a cell takes, in milliseconds: opening, the frames before its image is compared, warming up,
-// samples with a frame before each, and the passes told apart.
-double rg_budget_cell_ms(const struct rg_table *table, double open_ms, double frame_ms,
-                         const struct rg_measure_options *options);
 
 #endif

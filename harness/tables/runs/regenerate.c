@@ -142,8 +142,8 @@ static int regenerate_within(const struct rg_table *const tables[], int count,
     const bool ok = rg_budget_begin(budget, tables, count, &kept, options->budget_s, stderr);
     for (int i = 0; ok && i < count && !rg_interrupted(); i++)
         exit = rg_exit_worse(exit, run_within(budget, i, &kept, options));
-    if (ok && !rg_interrupted())
-        rg_budget_end(budget, stderr);
+    if (ok && !rg_interrupted() && !rg_budget_end(budget, stderr))
+        exit = rg_exit_worse(exit, RG_EXIT_NOTHING);
     if (rg_interrupted())
         exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
     return rg_kept_free(&kept) && ok ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);

@@ -8,13 +8,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "harness/tables/runs/cell.h"
 #include "harness/tables/runs/needed.h"
 #include "harness/tables/runs/plan.h"
-#include "harness/tables/runs/probe.h"
 #include "harness/tables/claims/claim.h"
 #include "harness/tables/papers/papers.h"
 
-enum { TABLES = 5, DEVICES = 3, REFERENCE = 1u << 2, ALL = 7 };
+enum { TABLES = 5, DEVICES = 3, FIRST = 1u << 0, REFERENCE = 1u << 2, ALL = 7 };
+static const struct rg_budget_devices devices = {.all = ALL, .first = FIRST, .last = REFERENCE};
 
 // Costs that differ from table to table, device to device and size to size.
 static void make_costs(struct rg_budget_table costs[TABLES])
@@ -27,7 +28,7 @@ static void make_costs(struct rg_budget_table costs[TABLES])
                                       .needed_variants = 1,
                                       .works = 1 + i % 2,
                                       .has_claims = i % 2 == 1,
-                                      .smallest = i == 2 ? RG_BUDGET_WHOLE : RG_BUDGET_FOURTH};
+                                      .due = i == 2 ? RG_BUDGET_WHOLE : RG_BUDGET_FOURTH};
         for (int size = 0; size < RG_BUDGET_SIZES; size++) {
             t->check_s[size] = 0.1 * (i + 1) * (1 + size);
             for (int d = 0; d < DEVICES; d++) {
@@ -42,7 +43,7 @@ static double plan(double budget_s, struct rg_budget_choice choices[TABLES])
 {
     struct rg_budget_table costs[TABLES];
     make_costs(costs);
-    return rg_budget_plan(costs, TABLES, ALL, REFERENCE, budget_s, choices);
+    return rg_budget_plan(costs, TABLES, &devices, budget_s, choices);
 }
 
 // By hand: a table of two needed rows of five, on two devices.
@@ -69,36 +70,55 @@ static void times_are_those_of_the_cells(void **state)
     assert_true(rg_budget_expect(&table, &c) == 0);
 }
 
-static bool has_at_least(const struct rg_budget_choice *more, const struct rg_budget_choice *less)
+// How much there is of each stage, in their order.
+enum { STAGES = 11 };
+static void count_stages(const struct rg_budget_choice choices[TABLES], int counts[STAGES])
 {
-    return (less->devices & ~more->devices) == 0 && more->size >= less->size &&
-           more->all_samples >= less->all_samples && more->all_rows >= less->all_rows &&
-           more->all_variants >= less->all_variants && more->all_works >= less->all_works;
+    memset(counts, 0, STAGES * sizeof(*counts));
+    for (int i = 0; i < TABLES; i++) {
+        const struct rg_budget_choice *c = &choices[i];
+        const bool is_on_both = (c->devices & ~REFERENCE) == (ALL & ~REFERENCE);
+        counts[0] += c->devices != 0;
+        counts[1] += i == 2 && c->size == RG_BUDGET_WHOLE;
+        counts[2] += i % 2 == 1 && is_on_both;
+        counts[3] += is_on_both;
+        counts[4] += c->size >= RG_BUDGET_HALF;
+        counts[5] += c->all_samples;
+        counts[6] += c->size == RG_BUDGET_WHOLE;
+        counts[7] += c->all_rows;
+        counts[8] += c->all_variants;
+        counts[9] += c->all_works;
+        counts[10] += (c->devices & REFERENCE) != 0;
+    }
 }
 
 // Nothing is planned beyond the budget, what is told is the sum of what is chosen, and a larger
-// budget measures all that a smaller one does.
+// budget measures no less of a stage where it measures the same of those before.
 static void a_budget_is_kept_and_more_of_it_is_never_less(void **state)
 {
     (void)state;
     struct rg_budget_table costs[TABLES];
-    struct rg_budget_choice before[TABLES] = {{0}}, choices[TABLES];
-    double planned_before = 0;
-    int changes = 0;
+    struct rg_budget_choice choices[TABLES];
+    int before[STAGES] = {0}, counts[STAGES], changes = 0;
     make_costs(costs);
     for (double budget_s = 0; budget_s < 3000; budget_s += 0.7) {
         const double planned_s = plan(budget_s, choices);
         double sum_s = 0;
-        assert_true(planned_s <= budget_s && planned_s >= planned_before);
-        changes += planned_s > planned_before;
+        int stage = 0;
+        assert_true(planned_s <= budget_s);
         for (int i = 0; i < TABLES; i++) {
-            assert_true(has_at_least(&choices[i], &before[i]));
             assert_true(choices[i].expected_s == rg_budget_expect(&costs[i], &choices[i]));
             sum_s += choices[i].expected_s;
         }
         assert_true(fabs(sum_s - planned_s) < 1e-9 * (1 + sum_s));
-        memcpy(before, choices, sizeof(before));
-        planned_before = planned_s;
+        count_stages(choices, counts);
+        while (stage < STAGES - 1 && counts[stage] == before[stage])
+            stage++;
+        if (counts[stage] < before[stage])
+            fail_msg("%.1f s has less of stage %d: %d, not %d", budget_s, stage, counts[stage],
+                     before[stage]);
+        changes += counts[stage] > before[stage];
+        memcpy(before, counts, sizeof(before));
     }
     assert_true(changes > 20);
 }
@@ -121,33 +141,112 @@ static void enough_is_everything(void **state)
     }
 }
 
-// What is needed comes first, on all devices but the last ones, and those come last of all; a
-// table whose size is what it is about keeps it.
-static void what_is_needed_comes_first(void **state)
+// What the least of a table takes, by its cells.
+static double least_s(const struct rg_budget_table *table)
+{
+    const struct rg_budget_choice least = {.devices = FIRST};
+    return rg_budget_expect(table, &least);
+}
+
+// No table is left out that there was time for on the first device: others are not on a second one,
+// nor in larger pictures, nor with more samples, while it is not there.
+static void each_table_comes_before_more_of_another(void **state)
+{
+    (void)state;
+    struct rg_budget_table costs[TABLES];
+    make_costs(costs);
+    int partial = 0;
+    for (double budget_s = 0.5; budget_s < 100; budget_s += 0.5) {
+        struct rg_budget_choice choices[TABLES];
+        double due_s = 0;
+        bool fits = true;
+        plan(budget_s, choices);
+        // Table 0 is cheapest, table 4 is dearest.
+        for (int i = 0; i < TABLES; i++) {
+            due_s += least_s(&costs[i]);
+            assert_true(choices[i].devices == 0 || choices[i].devices & FIRST);
+            assert_int_equal(choices[i].devices != 0, due_s <= budget_s);
+            fits = fits && due_s <= budget_s;
+        }
+        partial += !fits && choices[0].devices;
+    }
+    assert_true(partial > 10);
+}
+
+// A table that is too dear on any device keeps nothing from the others, which get all there is.
+static void what_is_too_dear_starves_no_other(void **state)
+{
+    (void)state;
+    struct rg_budget_table costs[TABLES];
+    struct rg_budget_choice choices[TABLES];
+    make_costs(costs);
+    for (int d = 0; d < DEVICES; d++)
+        for (int size = 0; size < RG_BUDGET_SIZES; size++)
+            costs[1].cells[d][size].few_s = costs[1].cells[d][size].all_s = 1e6;
+    rg_budget_plan(costs, TABLES, &devices, 1e5, choices);
+    assert_int_equal(choices[1].devices, 0);
+    assert_true(choices[1].expected_s == 0 && !choices[1].all_samples);
+    for (int i = 0; i < TABLES; i++)
+        assert_true(i == 1 || (choices[i].devices == ALL && choices[i].size == RG_BUDGET_WHOLE &&
+                               choices[i].all_samples && choices[i].all_rows));
+    // Too dear on the second device alone, it is on the first.
+    make_costs(costs);
+    for (int size = 0; size < RG_BUDGET_SIZES; size++)
+        costs[1].cells[1][size].few_s = costs[1].cells[1][size].all_s = 1e6;
+    rg_budget_plan(costs, TABLES, &devices, 1e5, choices);
+    assert_int_equal(choices[1].devices, FIRST | REFERENCE);
+    assert_int_equal(choices[3].devices, ALL);
+}
+
+// Its size is what a claim is about, and there is no time for it: the table is there in smaller
+// pictures rather than not at all.
+static void a_size_gives_way_before_a_table_does(void **state)
+{
+    (void)state;
+    struct rg_budget_table costs[TABLES];
+    struct rg_budget_choice choices[TABLES];
+    make_costs(costs);
+    for (int d = 0; d < DEVICES; d++)
+        costs[2].cells[d][RG_BUDGET_WHOLE].few_s = costs[2].cells[d][RG_BUDGET_WHOLE].all_s = 1e6;
+    rg_budget_plan(costs, TABLES, &devices, 1e5, choices);
+    assert_true(choices[2].devices & FIRST);
+    assert_int_equal(choices[2].size, RG_BUDGET_HALF);
+    // Where there is time, its size comes before a second device.
+    make_costs(costs);
+    double due_s = 0;
+    for (int i = 0; i < TABLES; i++)
+        due_s += least_s(&costs[i]);
+    const struct rg_budget_choice sized = {.devices = FIRST, .size = RG_BUDGET_WHOLE};
+    due_s += rg_budget_expect(&costs[2], &sized) - least_s(&costs[2]);
+    rg_budget_plan(costs, TABLES, &devices, due_s + 1e-6, choices);
+    for (int i = 0; i < TABLES; i++) {
+        assert_int_equal(choices[i].devices, FIRST);
+        assert_int_equal(choices[i].size, i == 2 ? RG_BUDGET_WHOLE : RG_BUDGET_FOURTH);
+    }
+}
+
+// Just enough for the second device of tables that claims are about leaves nothing for others,
+// however little they would take.
+static void what_claims_need_comes_first(void **state)
 {
     (void)state;
     struct rg_budget_choice choices[TABLES];
-    for (double budget_s = 1; budget_s < 3000; budget_s += 3) {
-        bool all_claimed = true, any_other = false;
-        bool all_needed = true, any_more = false, all_else = true;
-        plan(budget_s, choices);
-        for (int i = 0; i < TABLES; i++) {
-            const struct rg_budget_choice *c = &choices[i];
-            const bool is_whole = c->all_samples && c->size == RG_BUDGET_WHOLE && (c->all_rows) &&
-                                  (c->all_variants || i % 3 == 0) && (c->all_works || i % 2 == 0);
-            all_claimed = all_claimed && (i % 2 == 0 || (c->devices & ~REFERENCE) == 3);
-            any_other = any_other || (i % 2 == 0 && c->devices);
-            all_needed = all_needed && (c->devices & ~REFERENCE) == (ALL & ~REFERENCE);
-            any_more = any_more || c->all_rows || c->all_samples || c->all_works ||
-                       (i != 2 && c->size != RG_BUDGET_FOURTH);
-            all_else = all_else && is_whole;
-            assert_true(i != 2 || c->size == RG_BUDGET_WHOLE);
-        }
-        assert_true(all_claimed || !any_other);
-        assert_true(all_needed || !any_more);
-        for (int i = 0; i < TABLES; i++)
-            assert_true(all_else || !(choices[i].devices & REFERENCE));
+    struct rg_budget_table costs[TABLES];
+    make_costs(costs);
+    double due_s = 1e-6;
+    for (int i = 0; i < TABLES; i++) {
+        struct rg_budget_choice due = {.devices = i % 2 == 1 ? 3 : FIRST, .size = costs[i].due};
+        for (int size = 0; size < RG_BUDGET_SIZES && i % 2 == 0; size++)
+            costs[i].cells[1][size].few_s = 0.01;
+        due_s += rg_budget_expect(&costs[i], &due);
     }
+    rg_budget_plan(costs, TABLES, &devices, due_s, choices);
+    for (int i = 0; i < TABLES; i++)
+        assert_int_equal(choices[i].devices, i % 2 == 1 ? 3 : FIRST);
+    // With a little more all have it, and none the last one.
+    rg_budget_plan(costs, TABLES, &devices, due_s + 0.1, choices);
+    for (int i = 0; i < TABLES; i++)
+        assert_int_equal(choices[i].devices, 3);
 }
 
 // The ends and the middle of each table, and what claims end without.
@@ -214,7 +313,10 @@ int main(void)
         cmocka_unit_test(times_are_those_of_the_cells),
         cmocka_unit_test(a_budget_is_kept_and_more_of_it_is_never_less),
         cmocka_unit_test(enough_is_everything),
-        cmocka_unit_test(what_is_needed_comes_first),
+        cmocka_unit_test(each_table_comes_before_more_of_another),
+        cmocka_unit_test(what_is_too_dear_starves_no_other),
+        cmocka_unit_test(a_size_gives_way_before_a_table_does),
+        cmocka_unit_test(what_claims_need_comes_first),
         cmocka_unit_test(rows_of_curves_and_claims_are_needed),
         cmocka_unit_test(a_cell_takes_what_its_frames_take),
     };
