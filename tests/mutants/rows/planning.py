@@ -1,9 +1,10 @@
 """Budgets of time: what cells are expected to take, what is chosen of tables, and when that is planned anew."""
 from fault import Fault
 
-TESTS = ("budget",)
+TESTS = ("budget", "planner")
 
-PLAN, CELL = "harness/tables/runs/plan.c", "harness/tables/runs/cell.c"
+PLAN, CELL, BUDGET, PROBE = ("harness/tables/runs/plan.c", "harness/tables/runs/cell.c", "harness/tables/runs/budget.c",
+                             "harness/tables/runs/probe.c")
 
 ROWS = [
     Fault(PLAN, "for (enum stage stage = «FIRST»; stage < STAGES; stage++) {", "CLAIMED", "a dear table of claims comes before cheap ones"),
@@ -17,4 +18,17 @@ ROWS = [
     Fault(CELL, "fmax(floor(o->job_ms / (ms * a_sample)), «o->least_samples»)", "0", "long frames have fewer samples than six"),
     Fault(CELL, "return «floor(frames / table->window_frames)» *", "0 * frames", "a window is never left"),
     Fault("harness/tables/claims/hearing.c", "if («claim->test == RG_CLAIM_RATE && h->result->size_divisor > 1») {", "false", "a rate of small pictures is judged", tests=("verdicts",)),
+    Fault(BUDGET, "? «fmin(fmax(b->taken_s / b->due_s, 0.5), 4)» : 1;", "1.0", "slow cells are planned as if they were not", tests=("planner",)),
+    Fault(BUDGET, "if («due_s <= left_s»)", "true", "nothing is planned anew", tests=("planner",)),
+    Fault(BUDGET, "left_s = («b->seconds - passed_s(b)») / slow;", "b->seconds", "time does not pass", tests=("planner",)),
+    Fault(BUDGET, "b->choices[i].expected_s «* had / fmax(wanted, 1)»;", "* 1.0", "rows that are not done were due", tests=("planner",)),
+    Fault(BUDGET, "if («b->tables[i]->is_of_textures»)\n        return;", "false", "textures tell how slow frames are", tests=("planner",)),
+    Fault(BUDGET, "if («!b->measured»)", "false", "a budget in which nothing is measured passes", tests=("planner",)),
+    Fault(BUDGET, "b->measured += «had > 0»;", "1", "a table without a row counts as measured", tests=("planner",)),
+    Fault(PROBE, "/ («pixels[smallest + 1] - pixels[smallest]»);", "1.0", "larger pictures take as long as smaller ones", tests=("planner",)),
+    Fault(PROBE, "p->of_cpu.frame_ms[size] *= «(1 + more) / 2»;", "1 + 0 * more", "every row takes as long as the last", tests=("planner",)),
+    Fault(PROBE, "(«1 + dry_share») * frames", "1 + 0 * dry_share", "a dry picture takes nothing", tests=("planner",)),
+    Fault(PROBE, "probe->open_ms = fmax(opened - start «- probe->frame_ms», 0);", "- 0", "the first frame counts as opening", tests=("planner",)),
+    Fault(PROBE, "if («!(ratio->frame_ms[RG_BUDGET_WHOLE] > 0)») {", "true", "every table looks at every device", tests=("planner",)),
+    Fault(PROBE, "count += «!before || !now || strcmp(before, now) != 0»;", "1", "each level opens its texture", tests=("planner",)),
 ]

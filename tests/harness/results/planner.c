@@ -1,0 +1,415 @@
+// What a budget learns of tables by opening some of their cells, and how it plans anew as they take
+// longer: devices and a technique that take time by a script, and a clock that only they move.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "core/techniques/proof.h"
+#include "harness/console/clock.h"
+#include "harness/tables/runs/budget.h"
+#include "harness/tables/runs/cell.h"
+#include "tests/harness/measuring/fake.h"
+
+#define assert_ms(value, ms) assert_near(value, ms, 1e-6)
+
+// --- a technique whose frames take what its settings say ---
+
+struct slow_settings {
+    double open_ms, fixed_ms, pixel_us;
+};
+struct slow_instance {
+    struct rg_instance pub;
+    struct slow_settings settings;
+};
+
+#define AT(field) offsetof(struct slow_settings, field)
+static const struct rg_param params[] = {
+    {"open_ms", RG_PARAM_FLOAT, AT(open_ms), 40, 0, 1e6, "ms", "of opening", NULL},
+    {"fixed_ms", RG_PARAM_FLOAT, AT(fixed_ms), 10, 0, 1e6, "ms", "of a frame", NULL},
+    {"pixel_us", RG_PARAM_FLOAT, AT(pixel_us), 0.125, 0, 1e6, "us", "more of each pixel", NULL},
+};
+static const struct rg_param_table param_table = {
+    .technique = "slow", .rows = params, .count = 3, .settings_size = sizeof(struct slow_settings)};
+
+// A device's item_ms is how many times as long it takes.
+static struct fake_device *fake_of(const struct rg_instance *instance)
+{
+    return (struct fake_device *)instance->device;
+}
+
+static int opened;
+
+static bool open_slow(struct rg_instance *instance)
+{
+    const struct slow_instance *slow = (const struct slow_instance *)instance;
+    opened++;
+    fake_pass(slow->settings.open_ms * fake_of(instance)->item_ms);
+    return true;
+}
+
+static bool step_slow(struct rg_instance *instance)
+{
+    instance->frame++;
+    return true;
+}
+
+static bool draw_slow(struct rg_instance *instance)
+{
+    const struct slow_settings *s = &((const struct slow_instance *)instance)->settings;
+    const double pixels = (double)instance->target->desc.width * instance->target->desc.height;
+    fake_pass((s->fixed_ms + 1e-3 * s->pixel_us * pixels) * fake_of(instance)->item_ms);
+    return true;
+}
+
+static const struct rg_proof proof = {.dry = "fixed_ms=0"};
+static const struct rg_technique slow_technique = {
+    .name = "slow",
+    .params = &param_table,
+    .proof = &proof,
+    .size = sizeof(struct slow_instance),
+    .settings = offsetof(struct slow_instance, settings),
+    .open = open_slow,
+    .step = step_slow,
+    .draw = draw_slow,
+};
+
+// In place of the build's own list.
+const struct rg_technique *const rg_techniques[] = {&slow_technique, NULL};
+const struct rg_technique *rg_technique_find(const char *name)
+{
+    assert_string_equal(name, "slow");
+    return &slow_technique;
+}
+
+// --- tables of it ---
+
+static const struct rg_table_row rows[] = {
+    {"fixed_ms=2", {1}, "a"}, {"fixed_ms=4", {2}, "b"}, {"fixed_ms=10", {3}, "c"}};
+static const struct rg_table table = {.id = "slow-1",
+                                      .technique = "slow",
+                                      .columns = {"fixed_ms"},
+                                      .key_count = 1,
+                                      .variants = {{"full", "", NULL}},
+                                      .width = 1024,
+                                      .height = 512,
+                                      .check_frames = 5,
+                                      .row_count = 3,
+                                      .rows = rows,
+                                      .note = "a note"};
+
+struct rig {
+    struct fake_device *fakes[3];
+    struct rg_devices devices;
+    struct rg_kept kept;
+};
+
+// cpu, cpu:reference, which takes ten times as long, and gl, which takes three times as long.
+static void begin(struct rig *rig)
+{
+    static const char *const names[] = {"cpu", "cpu:reference", "gl"};
+    static const double slowness[] = {1, 10, 3};
+    *rig = (struct rig){.devices = {.count = 3}};
+    for (int d = 0; d < 3; d++) {
+        rig->fakes[d] = fake_open();
+        rig->fakes[d]->item_ms = slowness[d];
+        rg_text_copy(rig->fakes[d]->pub.info.name, RG_NAME_SIZE, names[d]);
+        rig->devices.devices[d] = &rig->fakes[d]->pub;
+    }
+    rig->kept.devices = &rig->devices;
+    opened = 0;
+}
+
+static void end(struct rig *rig)
+{
+    assert_true(rg_kept_free(&rig->kept));
+    for (int d = 0; d < 3; d++)
+        assert_true(rg_device_close(&rig->fakes[d]->pub));
+}
+
+// The last row's frame, and the middle of both ends by how they differ in the smallest pictures.
+static double frame_ms(enum rg_budget_size size)
+{
+    const double pixels[] = {32768, 131072, 524288};
+    const double last_ms = 10 + 1.25e-4 * pixels[size], smallest_ms = 10 + 1.25e-4 * pixels[0];
+    return last_ms * (1 + (2 + 1.25e-4 * pixels[0]) / smallest_ms) / 2;
+}
+
+static void expect_cells(const struct rg_budget_table *costs)
+{
+    static const double slowness[] = {1, 10, 3};
+    for (int d = 0; d < 3; d++)
+        for (enum rg_budget_size size = 0; size < RG_BUDGET_SIZES; size++) {
+            const double ms = frame_ms(size) * slowness[d], open_ms = 40 * slowness[d];
+            const struct rg_budget_cost *cell = &costs->cells[d][size];
+            assert_ms(cell->few_s * 1e3,
+                      rg_budget_cell_ms(&table, open_ms, ms, rg_table_few_samples()));
+            assert_ms(cell->all_s * 1e3,
+                      rg_budget_cell_ms(&table, open_ms, ms, rg_table_options(false)));
+        }
+}
+
+// Costs follow from rows, sizes and devices; what is known of a technique is not looked at again.
+static void what_a_table_takes_is_what_was_seen(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_budget_kind kind = {0};
+    struct rg_budget_table costs, again;
+    begin(&rig);
+    assert_true(rg_budget_probe(&table, &rig.kept, &kind, &costs));
+    assert_int_equal(costs.rows, 3);
+    assert_int_equal(costs.needed_rows, 3);
+    assert_int_equal(costs.smallest, RG_BUDGET_FOURTH);
+    assert_int_equal(costs.due, RG_BUDGET_FOURTH);
+    expect_cells(&costs);
+    // Opened twice, drawn five times with rain and five times without, on cpu:reference.
+    const double dry_share = 1.25e-4 * 32768 / (10 + 1.25e-4 * 32768);
+    for (enum rg_budget_size size = 0; size < RG_BUDGET_SIZES; size++)
+        assert_ms(costs.check_s[size] * 1e3, 2 * 400 + (1 + dry_share) * 5 * 10 * frame_ms(size));
+    // On cpu both ends, a larger picture and a dry one; on others a small and a larger one.
+    assert_int_equal(opened, 4 + 2 + 2);
+    opened = 0;
+    assert_true(rg_budget_probe(&table, &rig.kept, &kind, &again));
+    assert_int_equal(opened, 4);
+    expect_cells(&again);
+    end(&rig);
+}
+
+// A small picture is not made smaller, and a device that fails takes nothing.
+static void a_device_that_fails_takes_nothing(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_budget_kind kind = {0};
+    struct rg_budget_table costs;
+    struct rg_table small = table;
+    small.width = 256;
+    begin(&rig);
+    rig.fakes[2]->waits_left = 0;
+    assert_true(rg_budget_probe(&small, &rig.kept, &kind, &costs));
+    assert_int_equal(costs.smallest, RG_BUDGET_WHOLE);
+    assert_true(costs.cells[2][RG_BUDGET_WHOLE].few_s == 0);
+    assert_true(costs.cells[0][RG_BUDGET_WHOLE].few_s > 0);
+    // Without cpu all cells fail.
+    rig.fakes[0]->waits_left = 0;
+    assert_false(rg_budget_probe(&small, &rig.kept, &kind, &costs));
+    rig.fakes[0]->waits_left = -1;
+    end(&rig);
+}
+
+// Levels of a texture take what opening it takes, once for those with the same settings.
+static void textures_take_what_opening_them_takes(void **state)
+{
+    (void)state;
+    static const struct rg_table_row levels[] = {
+        {"", {0}, "a"}, {"", {1}, "a"}, {"fixed_ms=1", {0}, "a"}, {"fixed_ms=1", {1}, "a"}};
+    static const double due_ms[] = {40, 400, 120};
+    struct rig rig;
+    struct rg_budget_kind kind = {0};
+    struct rg_budget_table costs;
+    struct rg_table textures = table;
+    textures.rows = levels;
+    textures.row_count = 4;
+    textures.is_of_textures = true;
+    begin(&rig);
+    assert_true(rg_budget_probe(&textures, &rig.kept, &kind, &costs));
+    assert_int_equal(opened, 3);
+    for (int d = 0; d < 3; d++) {
+        const struct rg_budget_choice c = {.devices = 1u << d, .size = RG_BUDGET_WHOLE};
+        assert_ms(rg_budget_expect(&costs, &c) * 1e3, 2 * due_ms[d]);
+    }
+    end(&rig);
+}
+
+// --- planning anew ---
+
+enum { TABLES = 3 };
+
+// Three tables of three rows on one device, a cell 4 s, of all samples 8 s: all of it takes 72 s.
+struct plan {
+    struct rig rig;
+    struct rg_table tables[TABLES];
+    const struct rg_table *of[TABLES];
+    struct rg_budget budget;
+    struct rg_result result;
+    FILE *out;
+    char *told;
+    size_t size;
+};
+
+static void begin_plan(struct plan *p, double seconds)
+{
+    memset(p, 0, sizeof(*p));
+    begin(&p->rig);
+    p->rig.devices.count = 1;
+    p->out = open_memstream(&p->told, &p->size);
+    p->budget = (struct rg_budget){.tables = p->of,
+                                   .count = TABLES,
+                                   .devices = &p->rig.devices,
+                                   .seconds = seconds,
+                                   .start_ms = rg_now_ms(),
+                                   .bits = {.all = 1, .first = 1}};
+    for (int i = 0; i < TABLES; i++) {
+        p->tables[i] = table;
+        p->of[i] = &p->tables[i];
+        p->budget.costs[i] = (struct rg_budget_table){.rows = 3,
+                                                      .needed_rows = 3,
+                                                      .variants = 1,
+                                                      .needed_variants = 1,
+                                                      .works = 1,
+                                                      .smallest = RG_BUDGET_WHOLE,
+                                                      .due = RG_BUDGET_WHOLE,
+                                                      .cells = {{[RG_BUDGET_WHOLE] = {4, 8}}}};
+    }
+    p->budget.planned_s =
+        rg_budget_plan(p->budget.costs, TABLES, &p->budget.bits, seconds, p->budget.choices);
+}
+
+// Measures a table, so many of its rows, which takes so long.
+static void run(struct plan *p, int i, int count, double seconds)
+{
+    const double start_ms = rg_now_ms();
+    assert_true(rg_budget_next(&p->budget, i, &p->result, p->out));
+    for (int row = 0; row < count; row++)
+        assert_true(rg_result_add_row(&p->result, row));
+    fake_pass(1000 * seconds);
+    rg_budget_done(&p->budget, i, &p->result, start_ms);
+    rg_result_free(&p->result);
+    p->result = (struct rg_result){0};
+}
+
+// Whether a table is there, with few samples.
+static void expect_next(struct plan *p, int i, bool is_there, bool has_few)
+{
+    assert_int_equal(rg_budget_next(&p->budget, i, &p->result, p->out), is_there);
+    assert_true(!is_there || p->result.few_samples == has_few);
+    rg_result_free(&p->result);
+    p->result = (struct rg_result){0};
+}
+
+static void expect_told(struct plan *p, const char *words)
+{
+    fflush(p->out);
+    if (words ? !strstr(p->told, words) : *p->told)
+        fail_msg("told, not %s: %s", words ? words : "nothing", p->told);
+}
+
+static void end_plan(struct plan *p)
+{
+    fclose(p->out);
+    free(p->told);
+    p->rig.devices.count = 3;
+    end(&p->rig);
+}
+
+// What takes as long as it was to, or less, changes nothing.
+static void a_plan_that_is_kept_is_not_made_anew(void **state)
+{
+    (void)state;
+    for (double seconds = 12; seconds <= 24; seconds += 12) {
+        struct plan p;
+        begin_plan(&p, 72.5);
+        run(&p, 0, 3, seconds);
+        expect_next(&p, 1, true, false);
+        expect_told(&p, NULL);
+        end_plan(&p);
+    }
+}
+
+// 30 s for 24: of 42.5 s that are left those behind it may take 34 by the plan, which is 24 of the
+// fewest, and not 12 more for all samples of one.
+static void cells_that_take_longer_have_the_rest_planned_anew(void **state)
+{
+    (void)state;
+    struct plan p;
+    begin_plan(&p, 72.5);
+    run(&p, 0, 3, 30);
+    expect_next(&p, 1, true, true);
+    expect_told(&p, "as cells take 1.25 times as long as they were to");
+    end_plan(&p);
+    // 40 s: of 32.5 s they may take 19.5, which is one table.
+    begin_plan(&p, 72.5);
+    run(&p, 0, 3, 40);
+    expect_next(&p, 1, true, true);
+    expect_next(&p, 2, false, false);
+    expect_told(&p, "1.67 times");
+    end_plan(&p);
+    // No time at all.
+    begin_plan(&p, 72.5);
+    run(&p, 0, 3, 73);
+    expect_next(&p, 1, false, false);
+    end_plan(&p);
+}
+
+// A third of the rows that was to take 8 s and took 10 is as slow as the whole that takes 30.
+static void rows_that_are_not_done_tell_nothing(void **state)
+{
+    (void)state;
+    struct plan p;
+    begin_plan(&p, 72.5);
+    run(&p, 0, 1, 10);
+    assert_ms(p.budget.due_s, 8);
+    assert_ms(p.budget.taken_s, 10);
+    expect_next(&p, 1, true, false); // 48 of 62.5 by 1.25
+    end_plan(&p);
+    // Textures are no measure of how fast frames are.
+    begin_plan(&p, 72.5);
+    p.tables[0].is_of_textures = true;
+    run(&p, 0, 3, 10);
+    assert_ms(p.budget.due_s, 0);
+    assert_ms(p.budget.taken_s, 0);
+    assert_int_equal(p.budget.measured, 1);
+    end_plan(&p);
+}
+
+static void expect_line(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    assert_non_null(strstr(line, user));
+    assert_non_null(strstr(line, "slow-1 would take 12.0 s more"));
+}
+
+// A budget in which nothing was measured is an error, and one with a table is not.
+static void nothing_is_an_error(void **state)
+{
+    (void)state;
+    struct plan p;
+    begin_plan(&p, 2);
+    expect_next(&p, 0, false, false);
+    rg_log_listen(expect_line, "nothing was measured within 2 s");
+    assert_false(rg_budget_end(&p.budget, p.out));
+    end_plan(&p);
+    // The time is over before a row is done.
+    begin_plan(&p, 13);
+    run(&p, 0, 0, 14);
+    rg_log_listen(expect_line, "nothing was measured within 13 s");
+    assert_false(rg_budget_end(&p.budget, p.out));
+    rg_log_listen(NULL, NULL);
+    end_plan(&p);
+    begin_plan(&p, 13);
+    run(&p, 0, 3, 12);
+    assert_true(rg_budget_end(&p.budget, p.out));
+    expect_told(&p, "took 12 s, planned 12 s (+0 %), of a budget of 13 s; left out:");
+    expect_told(&p, "all of it");
+    end_plan(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_a_table_takes_is_what_was_seen),
+        cmocka_unit_test(a_device_that_fails_takes_nothing),
+        cmocka_unit_test(textures_take_what_opening_them_takes),
+        cmocka_unit_test(a_plan_that_is_kept_is_not_made_anew),
+        cmocka_unit_test(cells_that_take_longer_have_the_rest_planned_anew),
+        cmocka_unit_test(rows_that_are_not_done_tell_nothing),
+        cmocka_unit_test(nothing_is_an_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
