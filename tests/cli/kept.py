@@ -3,6 +3,7 @@ import csv
 import io
 import json
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -80,6 +81,28 @@ def check_claims(runner):
     return problems
 
 
+def check_lengths(runner):
+    """table --claims names the length of what it judged, and judges no table that is there in two lengths or sizes"""
+    kept = json.loads(read(KEPT, "feng-2.json"))
+    small = {"budget": {"seconds": 240, "size_divisor": 4, "few_samples": False, "left_out": []}}
+    lengths = {"full": {"length": "full"}, "quick": {"length": "quick"}, "quick, with 1/4 of the width and height": dict(small, length="quick")}
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        for one, change in lengths.items():
+            pathlib.Path(tmp, "a.json").write_text(json.dumps(dict(kept, **change)), encoding="utf-8")
+            printed = runner.run(["table", "--claims", "--from", tmp]).stdout
+            if "Measured %s: feng-2." % one not in printed or printed.count("Measured") != 1:
+                problems.append("%s: %s" % (one, printed))
+            for other, also in lengths.items():
+                pathlib.Path(tmp, "b.json").write_text(json.dumps(dict(kept, **also)), encoding="utf-8")
+                mixed = runner.run(["table", "--claims", "--from", tmp])
+                refused = mixed.returncode == 2 and "measured %s, and %s, which no verdict mixes" % (one, other) in mixed.stderr
+                if refused != (one != other) or refused == bool(mixed.stdout):
+                    problems.append("%s and %s: %s" % (one, other, mixed.stderr))
+            os.remove(tmp + "/b.json")
+    return problems
+
+
 def check_dirty_tree(runner):
     """make results refuses a tree with changes that no commit holds, with one line, before it builds"""
     git = ["git", "-c", "user.name=a", "-c", "user.email=a", "-c", "commit.gpgsign=false"]
@@ -108,4 +131,4 @@ def check_dirty_tree(runner):
     return problems
 
 
-CHECKS = [check_printed, check_compact, check_claims, check_dirty_tree]
+CHECKS = [check_printed, check_compact, check_claims, check_lengths, check_dirty_tree]

@@ -246,10 +246,34 @@ static bool keep(struct rg_result *result, const struct table_options *o)
            (!o->variant || rg_result_keep_variant(result, o->variant));
 }
 
+// Verdicts on a table are of one length and size. False, and one logged line, where it is there in
+// two.
+static bool have_one_length(const struct rg_stored *stored, const struct table_options *o,
+                            const struct rg_words *ids)
+{
+    for (int i = 0; o->claims && i < stored->count; i++) {
+        for (int k = 0; k < i; k++) {
+            char here[64], before[64];
+            const char *table = stored->results[i].table;
+            if (strcmp(table, stored->results[k].table) != 0 || !is_named(ids, table))
+                continue;
+            rg_claims_length(&stored->results[i], here, sizeof(here));
+            rg_claims_length(&stored->results[k], before, sizeof(before));
+            if (strcmp(here, before) != 0)
+                return rg_error("%s: holds table '%s' measured %s, and %s, which no verdict mixes; "
+                                "name the file of one of them",
+                                o->from, table, before, here);
+        }
+    }
+    return true;
+}
+
 static int print_stored(struct rg_stored *stored, const struct table_options *o,
                         const struct rg_words *ids)
 {
     int exit = RG_EXIT_PASS, printed = 0;
+    if (!have_one_length(stored, o, ids))
+        return RG_EXIT_USAGE;
     for (int i = 0; i < stored->count; i++) {
         struct rg_result *result = &stored->results[i];
         if (!is_named(ids, result->table) || !keep(result, o))

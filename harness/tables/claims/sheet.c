@@ -11,6 +11,15 @@
 // Before the devices' columns.
 enum { TABLE, SECTION, CLAIM, BEFORE };
 
+void rg_claims_length(const struct rg_result *result, char *text, size_t size)
+{
+    const char *length = result->full ? "full" : "quick";
+    if (result->size_divisor > 1)
+        snprintf(text, size, "%s, with 1/%d of the width and height", length, result->size_divisor);
+    else
+        snprintf(text, size, "%s", length);
+}
+
 bool rg_claims_add(struct rg_claim_outcomes *o, const struct rg_result *result)
 {
     for (const struct rg_claim *claim = rg_claims; claim->table; claim++) {
@@ -20,6 +29,7 @@ bool rg_claims_add(struct rg_claim_outcomes *o, const struct rg_result *result)
             struct rg_claim_outcome *outcome = &o->outcomes[o->count++];
             outcome->claim = claim;
             memcpy(outcome->device, result->devices[i].name, RG_NAME_SIZE);
+            rg_claims_length(result, outcome->length, sizeof(outcome->length));
             outcome->judgement = rg_claim_judge(claim, result, i);
         }
     }
@@ -103,6 +113,35 @@ static void name_alike(const struct rg_claim_outcomes *o, int from, char *text, 
     }
 }
 
+// The tables of which a length was judged, from an outcome on: "feng-1, feng-2"; "" when it was
+// told before.
+static void name_tables(const struct rg_claim_outcomes *o, int from, char *text, size_t size)
+{
+    size_t used = 0;
+    const char *last = "";
+    *text = 0;
+    for (int i = 0; i < o->count; i++) {
+        const char *table = o->outcomes[i].claim->table;
+        if (strcmp(o->outcomes[i].length, o->outcomes[from].length) != 0)
+            continue;
+        if (i < from)
+            return;
+        if (strcmp(table, last) != 0 && used < size)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", table);
+        last = table;
+    }
+}
+
+static void add_lengths(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
+{
+    for (int i = 0; i < o->count; i++) {
+        char tables[512];
+        name_tables(o, i, tables, sizeof(tables));
+        if (*tables)
+            rg_sheet_note(sheet, "Measured %s: %s.", o->outcomes[i].length, tables);
+    }
+}
+
 static void add_notes(const struct rg_claim_outcomes *o, bool all_reasons, struct rg_sheet *sheet)
 {
     for (int i = 0; i < o->count; i++) {
@@ -139,5 +178,6 @@ void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, bool all_reasons,
     sheet->paint = rg_has_colours(stdout) ? paint : NULL;
     add_columns(outcomes, sheet);
     add_rows(outcomes, sheet);
+    add_lengths(outcomes, sheet);
     add_notes(outcomes, all_reasons, sheet);
 }

@@ -9,6 +9,7 @@
 struct rg_claim_outcome {
     const struct rg_claim *claim;
     char device[RG_NAME_SIZE];
+    char length[64]; // of what was judged: "full", or "quick, with 1/4 of the width and height"
     struct rg_judgement judgement;
 };
 
@@ -18,14 +19,17 @@ struct rg_claim_outcomes {
     struct rg_claim_outcome *outcomes; // owned; all of a claim follow each other
 };
 
+// "full", "quick", or either with the share that pictures have of the table's width and height.
+void rg_claims_length(const struct rg_result *result, char *text, size_t size);
+
 // Adds the outcomes of the claims about a result's table. The outcomes are zeroed before the first.
 // False, with one logged line, without memory.
 bool rg_claims_add(struct rg_claim_outcomes *outcomes, const struct rg_result *result);
 void rg_claims_free(struct rg_claim_outcomes *outcomes);
 
-// A row each claim, a column each device, and below the reasons of what is not borne out, or with
-// `all_reasons` of every verdict, each with the probability behind it. The sheet is zeroed before,
-// and the caller frees it.
+// A row each claim, a column each device, and below how long what was judged was measured, by
+// table, and the reasons of what is not borne out, or with `all_reasons` of every verdict, each
+// with the probability behind it. The sheet is zeroed before, and the caller frees it.
 void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, bool all_reasons,
                      struct rg_sheet *sheet);
 

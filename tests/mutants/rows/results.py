@@ -69,4 +69,6 @@ ROWS = [
     Fault(BEGIN, "result->check_frames = table->check_frames ? «table->check_frames» : RG_CHECK_FRAMES;", "RG_CHECK_FRAMES", "each table is checked after ten frames"),
     Fault(BEGIN, "«result->full || !table->quick ? \"\" : table->quick»,", "\"\"", "quick rows are full ones"),
     Fault(BEGIN, "if («rg_table_is_extra(table, c)»)", "true", "keys are told as printed numbers"),
+    Fault("harness/commands/tables/table.c", "if («strcmp(here, before) != 0»)\n                return rg_error", "false", "verdicts mix quick and full", tests=("command line, kept",)),
+    Fault("harness/tables/claims/sheet.c", "const char *length = «result->full ? \"full\" : \"quick\"»;", "\"quick\"", "claims of full tables are told as quick", tests=("command line, kept",)),
 ]
