@@ -1,0 +1,37 @@
+// googletest's protocol, so that runners that know gtest drive the gate: what they ask for, and the
+// lines that they read. https://google.github.io/googletest/advanced.html
+//
+// deqp-runner is the strictest of them. In its list a line with a point is a suite, and a name ends
+// at a space. While a test runs it takes any "[WORD] " for its result, ends at a WORD that it does
+// not know, and takes a process that ends without a result for a crash.
+#ifndef RG_HARNESS_COMPARE_GATE_REPORT_GTEST_H
+#define RG_HARNESS_COMPARE_GATE_REPORT_GTEST_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "harness/compare/gate/report/report.h"
+
+// Whether --gtest_filter=FILTER lets a test through: patterns between colons, of which one must
+// match, then "-" and patterns of which none may. "*" is any text, "?" any character. Nothing
+// before the "-" is "*"; an empty filter lets nothing through.
+bool rg_gtest_matches(const char *filter, const char *name);
+
+// The name for gtest of a case of a report, "streaks.small/cpu" of "streaks.small.cpu": its suite
+// reaches to the first point, and further points become slashes. Where that is not enough, for a
+// name has no suite, or characters that a filter or a list would misread, or more than
+// RG_GTEST_KEPT bytes, these become "_" or are cut, and a hash of the whole name follows, so that
+// it stays the only one.
+enum { RG_GTEST_KEPT = 160, RG_GTEST_NAME = 256 };
+void rg_gtest_name(const char *name, char made[RG_GTEST_NAME]);
+
+// --gtest_list_tests: the cases that the filter lets through, by suite; none need have run.
+void rg_gtest_list(FILE *out, const struct rg_report *report, const char *filter);
+
+// The first line; before a case begins; when it has ended; at the end, of all that ran.
+void rg_gtest_begin(FILE *out, int count);
+void rg_gtest_run(FILE *out, const char *name);
+void rg_gtest_result(FILE *out, const struct rg_report_case *told);
+void rg_gtest_end(FILE *out, const struct rg_report *report);
+
+#endif

@@ -1,0 +1,214 @@
+// JUnit's XML. https://docs.gitlab.com/ci/testing/unit_test_reports/
+//
+// It is written without a library: docs/dependencies.md says why.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/compare/gate/report/report.h"
+#include "harness/compare/gate/report/texts.h"
+
+// What stands for a byte of clean text; NULL: the byte. Attributes lose line breaks that are not
+// escaped.
+static const char *escape(char c, bool is_attribute)
+{
+    return c == '&'                    ? "&amp;"
+           : c == '<'                  ? "&lt;"
+           : c == '>'                  ? "&gt;"
+           : c == '"'                  ? "&quot;"
+           : is_attribute && c == '\n' ? "&#10;"
+           : is_attribute && c == '\t' ? "&#9;"
+                                       : NULL;
+}
+
+static void put(FILE *out, const char *text, size_t bytes, bool is_attribute)
+{
+    for (size_t i = 0; i < bytes; i++) {
+        const char *escaped = escape(text[i], is_attribute);
+        if (escaped)
+            fputs(escaped, out);
+        else
+            fputc(text[i], out);
+    }
+}
+
+static void put_attribute(FILE *out, const char *name, const char *text)
+{
+    fprintf(out, " %s=\"", name);
+    put(out, text, strlen(text), true);
+    fputc('"', out);
+}
+
+static double seconds_of(double seconds)
+{
+    return isfinite(seconds) && seconds > 0 ? seconds : 0;
+}
+
+// --- details, which are cut where the file would be too large ---
+
+static size_t escaped_size(const char *text)
+{
+    size_t size = 0;
+    for (; *text; text++) {
+        const char *escaped = escape(*text, false);
+        size += escaped ? strlen(escaped) : 1;
+    }
+    return size;
+}
+
+// At most `most` bytes of what is written.
+static void put_details(FILE *out, const char *details, size_t most)
+{
+    size_t bytes = 0, written = 0;
+    for (; details[bytes]; bytes++) {
+        const char *escaped = escape(details[bytes], false);
+        written += escaped ? strlen(escaped) : 1;
+        if (written > most)
+            break;
+    }
+    bytes = rg_texts_fit(details, bytes);
+    fputc('\n', out);
+    put(out, details, bytes, false);
+    if (details[bytes])
+        fprintf(out, "\n... (%zu bytes more: the file would exceed %d MB)", strlen(details + bytes),
+                RG_JUNIT_LIMIT / 1000000);
+}
+
+static size_t details_size(const struct rg_report *report, size_t most)
+{
+    size_t sum = 0;
+    for (int i = 0; i < report->case_count; i++) {
+        const size_t size = escaped_size(report->cases[i].details);
+        sum += size < most ? size : most;
+    }
+    return sum;
+}
+
+// The most bytes of a case's details, so that all of them have `room`: the longest are cut first.
+static size_t most_of_details(const struct rg_report *report, size_t room)
+{
+    size_t low = 0, high = RG_JUNIT_LIMIT;
+    while (low < high) {
+        const size_t middle = (low + high + 1) / 2;
+        if (details_size(report, middle) <= room)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return low;
+}
+
+// --- a case ---
+
+// What a reader of the body sees without the attributes: the message comes again.
+static void put_body(FILE *out, const struct rg_report_case *told, size_t most)
+{
+    char measured[RG_REPORT_MEASURED];
+    rg_report_measured(told, measured, sizeof(measured));
+    put(out, told->message, strlen(told->message), false);
+    fprintf(out, *measured ? "\n%s" : "%s", measured);
+    if (*told->details)
+        put_details(out, told->details, most);
+}
+
+// GitLab shows the pictures that stand so in system-out; a path has no escape there.
+static void put_attachments(FILE *out, const struct rg_report_case *told)
+{
+    if (!told->attachment_count)
+        return;
+    fprintf(out, "   <system-out>");
+    for (int i = 0; i < told->attachment_count; i++) {
+        const char *path = told->attachments[i];
+        const bool is_safe = !strstr(path, "]]") && path[strlen(path) - 1] != ']';
+        fputs(is_safe ? "[[ATTACHMENT|" : "not attached, for its name: ", out);
+        put(out, path, strlen(path), false);
+        fputs(is_safe ? "]]\n" : "\n", out);
+    }
+    fprintf(out, "</system-out>\n");
+}
+
+// What passed has its body in system-err: in system-out a message could name a file as a picture.
+static void put_case(FILE *out, const struct rg_report_case *told, size_t most)
+{
+    static const char *const elements[] = {[RG_KIND_PASS] = "system-err",
+                                           [RG_KIND_FAILURE] = "failure",
+                                           [RG_KIND_ERROR] = "error",
+                                           [RG_KIND_SKIPPED] = "skipped"};
+    const enum rg_ending_kind kind = rg_ending_kind(told->ending);
+    fprintf(out, "  <testcase");
+    put_attribute(out, "name", told->name);
+    put_attribute(out, "classname", told->technique);
+    fprintf(out, " time=\"%.3f\">\n", seconds_of(told->seconds));
+    if (kind == RG_KIND_PASS)
+        put_attachments(out, told); // system-out stands before system-err
+    fprintf(out, "   <%s", elements[kind]);
+    if (kind != RG_KIND_PASS)
+        put_attribute(out, "message", told->message);
+    if (kind == RG_KIND_FAILURE || kind == RG_KIND_ERROR)
+        put_attribute(out, "type", rg_ending_name(told->ending));
+    fputc('>', out);
+    fprintf(out, "%s: ", rg_ending_name(told->ending));
+    put_body(out, told, most);
+    fprintf(out, "</%s>\n", elements[kind]);
+    if (kind != RG_KIND_PASS)
+        put_attachments(out, told);
+    fprintf(out, "  </testcase>\n");
+}
+
+// --- the file ---
+
+static void put_head(FILE *out, const struct rg_report *report, const char *element)
+{
+    int kinds[RG_KIND_SKIPPED + 1] = {0};
+    double seconds = 0;
+    for (int i = 0; i < report->case_count; i++) {
+        kinds[rg_ending_kind(report->cases[i].ending)]++;
+        seconds += seconds_of(report->cases[i].seconds);
+    }
+    fprintf(out,
+            "<%s name=\"raingauge gate\" tests=\"%d\" failures=\"%d\" errors=\"%d\" "
+            "skipped=\"%d\" time=\"%.3f\">\n",
+            element, report->case_count, kinds[RG_KIND_FAILURE], kinds[RG_KIND_ERROR],
+            kinds[RG_KIND_SKIPPED], seconds);
+}
+
+static void put_report(FILE *out, const struct rg_report *report, size_t most)
+{
+    fprintf(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    put_head(out, report, "testsuites");
+    fputc(' ', out);
+    put_head(out, report, "testsuite");
+    fprintf(out, "  <properties><property name=\"passport\"");
+    put_attribute(out, "value", report->passport ? report->passport : "");
+    fprintf(out, "/></properties>\n");
+    for (int i = 0; i < report->case_count; i++)
+        put_case(out, &report->cases[i], most);
+    fprintf(out, " </testsuite>\n</testsuites>\n");
+}
+
+// How large the file is when each case's details are cut to nothing.
+static bool size_without_details(const struct rg_report *report, size_t *size)
+{
+    char *text = NULL;
+    FILE *out = open_memstream(&text, size);
+    if (out)
+        put_report(out, report, 0);
+    const bool is_held = out && !ferror(out);
+    const bool is_counted = out && fclose(out) == 0 && is_held;
+    free(text);
+    return is_counted ||
+           rg_error("JUnit: no memory for %d cases; close other programs", report->case_count);
+}
+
+bool rg_report_junit(const struct rg_report *report, FILE *out)
+{
+    size_t size;
+    if (!size_without_details(report, &size))
+        return false;
+    if (size >= RG_JUNIT_LIMIT)
+        return rg_error("JUnit: %d cases exceed %d MB without their details; gate fewer at once",
+                        report->case_count, RG_JUNIT_LIMIT / 1000000);
+    put_report(out, report, most_of_details(report, RG_JUNIT_LIMIT - 1 - size));
+    return true;
+}

@@ -1,0 +1,208 @@
+#include "harness/compare/gate/report/report.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+#include "core/base/alloc.h"
+#include "core/base/array.h"
+#include "core/image/files/temporary.h"
+#include "harness/compare/gate/report/texts.h"
+
+static const struct {
+    const char *name;
+    enum rg_ending_kind kind;
+} endings[RG_ENDING_COUNT] = {
+    [RG_ENDING_CRASH] = {"crash", RG_KIND_ERROR},
+    [RG_ENDING_TIMEOUT] = {"timeout", RG_KIND_ERROR},
+    [RG_ENDING_ERROR] = {"error", RG_KIND_ERROR},
+    [RG_ENDING_DIFFERS] = {"differs", RG_KIND_FAILURE},
+    [RG_ENDING_UNEXPECTED_PASS] = {"unexpected pass", RG_KIND_FAILURE},
+    [RG_ENDING_NOTHING_MEASURED] = {"nothing measured", RG_KIND_ERROR},
+    [RG_ENDING_REGRESSED] = {"regressed", RG_KIND_FAILURE},
+    [RG_ENDING_INCONCLUSIVE] = {"inconclusive", RG_KIND_SKIPPED},
+    [RG_ENDING_FLAKE] = {"flake", RG_KIND_SKIPPED},
+    [RG_ENDING_EXPECTED_FAILURE] = {"expected failure", RG_KIND_SKIPPED},
+    [RG_ENDING_UNSUPPORTED] = {"unsupported", RG_KIND_SKIPPED},
+    [RG_ENDING_SKIPPED] = {"skipped", RG_KIND_SKIPPED},
+    [RG_ENDING_IMPROVED] = {"improved", RG_KIND_PASS},
+    [RG_ENDING_PASS] = {"pass", RG_KIND_PASS},
+};
+
+const char *rg_ending_name(enum rg_ending ending)
+{
+    return endings[ending].name;
+}
+
+enum rg_ending_kind rg_ending_kind(enum rg_ending ending)
+{
+    return endings[ending].kind;
+}
+
+// --- texts that the report owns ---
+
+// Keeps memory with the report; NULL, and it is freed, where it cannot.
+static void *keep(struct rg_report *report, void *memory)
+{
+    if (memory && rg_array_fit(&report->texts, &report->text_room, report->text_count + 1,
+                               sizeof(*report->texts), "texts of a report"))
+        return report->texts[report->text_count++] = memory;
+    free(memory);
+    return NULL;
+}
+
+static const char *keep_text(struct rg_report *report, const char *text, bool is_line)
+{
+    return keep(report, rg_texts_clean(text ? text : "", is_line));
+}
+
+// A text of one line, cut where it is longer than RG_REPORT_LINE.
+static const char *keep_line(struct rg_report *report, const char *text)
+{
+    char *line = keep(report, rg_texts_clean(text ? text : "", true));
+    const size_t length = line ? strlen(line) : 0;
+    if (length <= RG_REPORT_LINE)
+        return line;
+    enum { TAIL = 40 };
+    const size_t fits = rg_texts_fit(line, RG_REPORT_LINE - TAIL);
+    snprintf(line + fits, TAIL, "... (%zu bytes more)", length - fits);
+    return line;
+}
+
+static const char *const *keep_lines(struct rg_report *report, const char *const *lines, int count)
+{
+    const char **kept = keep(report, rg_alloc((size_t)count, sizeof(*kept), "a report"));
+    for (int i = 0; kept && i < count; i++)
+        if (!(kept[i] = keep_line(report, lines[i])))
+            return NULL;
+    return kept;
+}
+
+// --- names ---
+
+static bool has_name(const struct rg_report *report, const char *name)
+{
+    for (int i = 0; i < report->case_count; i++)
+        if (!strcmp(report->cases[i].name, name))
+            return true;
+    return false;
+}
+
+// A name that no other case has.
+static const char *keep_name(struct rg_report *report, const char *name)
+{
+    enum { TAIL = 32 };
+    const char *clean = keep_text(report, name, true);
+    char *made = clean ? keep(report, rg_alloc(strlen(clean) + TAIL, 1, "a report")) : NULL;
+    if (!made)
+        return NULL;
+    size_t length = strlen(strcpy(made, clean));
+    if (length > RG_REPORT_NAME) {
+        const uint64_t hash = XXH3_64bits(name, strlen(name));
+        length = rg_texts_fit(clean, RG_REPORT_NAME - TAIL);
+        length += (size_t)snprintf(made + length, TAIL, "...%016" PRIx64, hash);
+    }
+    for (int number = 2; has_name(report, made); number++)
+        snprintf(made + length, TAIL, " (%d)", number);
+    return made;
+}
+
+// --- a report ---
+
+bool rg_report_add(struct rg_report *report, const struct rg_report_case *found)
+{
+    struct rg_report_case added = *found;
+    added.name = keep_name(report, found->name ? found->name : "");
+    added.technique = keep_line(report, found->technique);
+    added.message = keep_line(report, found->message);
+    added.details = keep_text(report, found->details, false);
+    added.devices = keep_lines(report, found->devices, found->device_count);
+    added.attachments = keep_lines(report, found->attachments, found->attachment_count);
+    if (!added.name || !added.technique || !added.message || !added.details || !added.devices ||
+        !added.attachments ||
+        !rg_array_fit(&report->cases, &report->case_room, report->case_count + 1,
+                      sizeof(*report->cases), "cases of a report"))
+        return false;
+    report->cases[report->case_count++] = added;
+    return true;
+}
+
+bool rg_report_set_passport(struct rg_report *report, const char *passport)
+{
+    return (report->passport = keep_text(report, passport, false)) != NULL;
+}
+
+void rg_report_free(struct rg_report *report)
+{
+    for (int i = 0; i < report->text_count; i++)
+        free(report->texts[i]);
+    free(report->texts);
+    free(report->cases);
+    *report = (struct rg_report){0};
+}
+
+int rg_report_count(const struct rg_report *report, enum rg_ending ending)
+{
+    int count = 0;
+    for (int i = 0; i < report->case_count; i++)
+        count += report->cases[i].ending == ending;
+    return count;
+}
+
+int *rg_report_worst_first(const struct rg_report *report)
+{
+    int *order = rg_alloc((size_t)report->case_count, sizeof(*order), "a report"), count = 0;
+    for (int ending = 0; order && ending < RG_ENDING_COUNT; ending++)
+        for (int i = 0; i < report->case_count; i++)
+            if (report->cases[i].ending == (enum rg_ending)ending)
+                order[count++] = i;
+    return order;
+}
+
+bool rg_report_write(const struct rg_report *report, rg_report_form form, const char *path)
+{
+    struct rg_temporary temporary;
+    struct rg_why why;
+    if (!rg_temporary_make(path, &temporary, &why))
+        return rg_error("%s: %s", path, why.text);
+    FILE *out = fopen(temporary.path, "w");
+    const bool is_made = out && form(report, out);
+    bool is_written = out && !ferror(out);
+    is_written = out && fclose(out) == 0 && is_written;
+    if (!is_written)
+        rg_error("%s: cannot be written: %s; what was there is unchanged", path, strerror(errno));
+    const bool is_whole = is_made && is_written;
+    return rg_temporary_end(&temporary, is_whole, &why)
+               ? is_whole
+               : is_whole && rg_error("%s: %s", path, why.text);
+}
+
+void rg_report_measured(const struct rg_report_case *told, char *text, size_t size)
+{
+    const struct rg_bounded *ratio = &told->ratio;
+    *text = 0;
+    if (!isfinite(ratio->value))
+        return;
+    int length = snprintf(text, size, "ratio %.4g", ratio->value);
+    if (isfinite(ratio->low) && isfinite(ratio->high))
+        length += snprintf(text + length, size - (size_t)length, " (%.4g to %.4g)", ratio->low,
+                           ratio->high);
+    if (isfinite(told->smallest_visible))
+        snprintf(text + length, size - (size_t)length, ", would have seen %.3g %%",
+                 100 * told->smallest_visible);
+}
+
+void rg_report_summary(const struct rg_report *report, char text[RG_REPORT_SUMMARY])
+{
+    int length = snprintf(text, RG_REPORT_SUMMARY, "%d case%s", report->case_count,
+                          report->case_count == 1 ? "" : "s");
+    for (int i = 0; i < RG_ENDING_COUNT; i++) {
+        const int count = rg_report_count(report, (enum rg_ending)i);
+        if (count)
+            length += snprintf(text + length, RG_REPORT_SUMMARY - (size_t)length, ", %d %s", count,
+                               rg_ending_name((enum rg_ending)i));
+    }
+}

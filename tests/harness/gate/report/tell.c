@@ -1,0 +1,136 @@
+// Writes the report that stdin tells in one form, so that a script can read it back.
+//
+// tell FORM PATH     junit, bmf, json, text, coloured, annotations, gtest, summary; PATH "-":
+// stdout tell list FILTER   what --gtest_list_tests prints tell matches       pairs of filter and
+// name; prints 1 or 0 for each tell names         the names for gtest, one a line
+//
+// stdin has fields that each end in a byte 0: the passport, then of each case its name, technique,
+// device, seconds, ending by number, message, details, picture, and value, low and high of the
+// ratio, the smallest visible change, and value, low and high of the time, and the baseline's.
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/compare/gate/report/gtest.h"
+#include "harness/compare/gate/report/report.h"
+
+enum { FIELDS = 16, MOST_BYTES = 100 * 1000 * 1000 };
+
+static const char *next(const char **at, const char *end)
+{
+    if (*at >= end)
+        return NULL;
+    const char *field = *at;
+    *at += strlen(field) + 1;
+    return field;
+}
+
+static bool add(struct rg_report *report, const char *const *f)
+{
+    const struct rg_report_case told = {
+        .name = f[0],
+        .technique = f[1],
+        .devices = &f[2],
+        .device_count = 1,
+        .seconds = atof(f[3]),
+        .ending = (enum rg_ending)atoi(f[4]),
+        .message = f[5],
+        .details = f[6],
+        .attachments = &f[7],
+        .attachment_count = *f[7] != 0,
+        .ratio = {atof(f[8]), atof(f[9]), atof(f[10])},
+        .smallest_visible = atof(f[11]),
+        .time_ms = {atof(f[12]), atof(f[13]), atof(f[14])},
+        .baseline_ms = atof(f[15]),
+    };
+    return rg_report_add(report, &told);
+}
+
+static bool fill(struct rg_report *report, const char *at, const char *end)
+{
+    const char *passport = next(&at, end);
+    if (!passport || !rg_report_set_passport(report, passport))
+        return false;
+    for (const char *first; (first = next(&at, end));) {
+        const char *fields[FIELDS] = {first};
+        for (int i = 1; i < FIELDS; i++)
+            if (!(fields[i] = next(&at, end)))
+                return false;
+        if (!add(report, fields))
+            return false;
+    }
+    return true;
+}
+
+static bool coloured(const struct rg_report *report, FILE *out)
+{
+    return rg_report_text_coloured(report, out, true);
+}
+
+static bool gtest(const struct rg_report *report, FILE *out)
+{
+    rg_gtest_begin(out, report->case_count);
+    for (int i = 0; i < report->case_count; i++) {
+        rg_gtest_run(out, report->cases[i].name);
+        rg_gtest_result(out, &report->cases[i]);
+    }
+    rg_gtest_end(out, report);
+    return true;
+}
+
+static bool names(const struct rg_report *report, FILE *out)
+{
+    char made[RG_GTEST_NAME];
+    for (int i = 0; i < report->case_count; i++) {
+        rg_gtest_name(report->cases[i].name, made);
+        fprintf(out, "%s\n", made);
+    }
+    return true;
+}
+
+static bool print_matches(const char *at, const char *end)
+{
+    for (const char *filter, *name; (filter = next(&at, end)) && (name = next(&at, end));)
+        putchar(rg_gtest_matches(filter, name) ? '1' : '0');
+    return true;
+}
+
+static const struct {
+    const char *name;
+    rg_report_form form;
+} forms[] = {{"junit", rg_report_junit}, {"bmf", rg_report_bmf},
+             {"json", rg_report_json},   {"text", rg_report_text},
+             {"coloured", coloured},     {"annotations", rg_report_annotations},
+             {"gtest", gtest},           {"names", names}};
+
+static bool tell(const struct rg_report *report, const char *form, const char *path)
+{
+    if (!strcmp(form, "summary"))
+        return rg_report_append_markdown(report, path);
+    if (!strcmp(form, "list")) {
+        rg_gtest_list(stdout, report, path);
+        return true;
+    }
+    for (size_t i = 0; i < sizeof(forms) / sizeof(*forms); i++)
+        if (!strcmp(forms[i].name, form))
+            return strcmp(path, "-") ? rg_report_write(report, forms[i].form, path)
+                                     : forms[i].form(report, stdout);
+    return false;
+}
+
+int main(int argc, char **argv)
+{
+    char *text = malloc(MOST_BYTES);
+    if (argc < 3 || !text)
+        return 2;
+    const size_t bytes = fread(text, 1, MOST_BYTES - 1, stdin);
+    text[bytes] = 0;
+    struct rg_report report = {0};
+    const bool is_told = !strcmp(argv[1], "matches")
+                             ? print_matches(text, text + bytes)
+                             : fill(&report, text, text + bytes) && tell(&report, argv[1], argv[2]);
+    rg_report_free(&report);
+    free(text);
+    return is_told ? 0 : 1;
+}
