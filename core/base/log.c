@@ -1,4 +1,5 @@
 #include "core/base/log.h"
+#include "core/base/place.h"
 
 #include <stdarg.h>
 #include <stdint.h>
@@ -14,6 +15,7 @@ static void *listener_user;
 static bool is_held;
 static char last_error[LINE_SIZE];
 static enum rg_error_kind last_kind;
+static const char *error_place;
 
 void rg_log_listen(rg_log_fn fn, void *user)
 {
@@ -24,6 +26,11 @@ void rg_log_listen(rg_log_fn fn, void *user)
 void rg_log_hold(bool holds)
 {
     is_held = holds;
+}
+
+void rg_log_place(const char *place)
+{
+    error_place = place;
 }
 
 const char *rg_last_error(void)
@@ -53,10 +60,13 @@ bool rg_log_is_news(enum rg_log_level level, const char *line)
 
 static void log_line(enum rg_log_level level, const char *format, va_list args)
 {
-    char line[LINE_SIZE];
+    char line[LINE_SIZE] = "";
     if (is_held)
         return;
-    vsnprintf(line, sizeof(line), format, args);
+    if (error_place && level == RG_LOG_ERROR)
+        snprintf(line, sizeof(line) / 2, "%s: ", error_place);
+    const size_t used = strlen(line);
+    vsnprintf(line + used, sizeof(line) - used, format, args);
     rg_plain(line);
     if (level == RG_LOG_ERROR)
         memcpy(last_error, line, sizeof(line));

@@ -1,0 +1,161 @@
+#include "harness/compare/gate/cells/cells.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/array.h"
+#include "core/base/log.h"
+#include "core/base/place.h"
+#include "harness/compare/gate/text/lines.h"
+
+enum { MAX_SIZE_PX = 16384, MAX_FRAMES = 100000 };
+
+// A name stands in reports, in files' names and in filters of tests.
+static bool is_name(const char *name)
+{
+    for (const char *c = name; *c; c++)
+        if (!isalnum((unsigned char)*c) && !strchr("_.-/", *c))
+            return false;
+    return isalnum((unsigned char)*name) && strlen(name) < RG_GATE_NAME_SIZE;
+}
+
+static bool take_name(struct rg_gate_cell *cell, const char *name)
+{
+    if (!is_name(name))
+        return rg_error("name '%.80s': write letters, digits and _ . - /, at most %d", name,
+                        RG_GATE_NAME_SIZE - 1);
+    snprintf(cell->name, sizeof(cell->name), "%s", name);
+    return true;
+}
+
+static bool take_technique(struct rg_gate_cell *cell, const char *name)
+{
+    cell->technique = rg_technique_find(name);
+    return cell->technique ||
+           rg_error("technique '%.80s': unknown; `raingauge list techniques` prints them", name);
+}
+
+// A whole number of at most `most` up to `end`; -1 for anything else.
+static int number(const char *text, char end, int most, const char **rest)
+{
+    long value = 0;
+    const char *c = text;
+    for (; isdigit((unsigned char)*c) && value <= most; c++)
+        value = value * 10 + (*c - '0');
+    *rest = c + (*c != 0);
+    return c > text && *c == end && value <= most ? (int)value : -1;
+}
+
+static bool take_size(struct rg_gate_cell *cell, const char *text)
+{
+    const char *rest;
+    cell->width = number(text, 'x', MAX_SIZE_PX, &rest);
+    cell->height = cell->width > 0 ? number(rest, 0, MAX_SIZE_PX, &rest) : -1;
+    return cell->height > 0 || rg_error("size '%.80s': write WIDTHxHEIGHT of 1 to %d pixels, as in "
+                                        "128x96",
+                                        text, MAX_SIZE_PX);
+}
+
+static bool take_frames(struct rg_gate_cell *cell, const char *text)
+{
+    const char *rest;
+    cell->frames = number(text, 0, MAX_FRAMES, &rest);
+    return cell->frames >= 0 ||
+           rg_error("frames '%.80s': write a whole number of 0 to %d", text, MAX_FRAMES);
+}
+
+static bool take_settings(struct rg_gate_cell *cell, const char *assignments)
+{
+    cell->settings = rg_settings_create(cell->technique);
+    if (!cell->settings)
+        return false;
+    cell->assignments = strdup(assignments);
+    for (char *c = cell->assignments; c && *c; c++)
+        if (*c == '\t')
+            *c = ' ';
+    return cell->assignments
+               ? rg_params_set_all(cell->technique->params, cell->settings, cell->assignments)
+               : rg_error("no memory");
+}
+
+static bool take_fields(struct rg_gate_cell *cell, char *text)
+{
+    char *technique = rg_line_cut(text), *size = rg_line_cut(technique);
+    char *frames = rg_line_cut(size), *assignments = rg_line_cut(frames);
+    if (!*frames)
+        return rg_error("a line of fewer than four words; write NAME TECHNIQUE SIZE FRAMES "
+                        "[KEY=VALUE]...");
+    return take_name(cell, text) && take_technique(cell, technique) && take_size(cell, size) &&
+           take_frames(cell, frames) && take_settings(cell, assignments);
+}
+
+static bool is_alone(const struct rg_gate_cells *cells, const struct rg_gate_cell *cell)
+{
+    for (const struct rg_gate_cell *other = cells->cells; other < cell; other++)
+        if (!strcmp(other->name, cell->name))
+            return rg_error("name '%s': line %d has it already; take another", cell->name,
+                            other->line);
+    return true;
+}
+
+static bool take_line(struct rg_gate_cells *cells, char *text, int line)
+{
+    if (cells->count == RG_GATE_CELLS)
+        return rg_error("more than %d cells; split the file", RG_GATE_CELLS);
+    if (!rg_array_fit(&cells->cells, &cells->room, cells->count + 1, sizeof(*cells->cells),
+                      "cells"))
+        return false;
+    struct rg_gate_cell *cell = &cells->cells[cells->count++];
+    *cell = (struct rg_gate_cell){.line = line};
+    return take_fields(cell, rg_line_skip(text)) && is_alone(cells, cell);
+}
+
+static bool take_lines(struct rg_gate_cells *cells, const struct rg_lines *lines)
+{
+    char place[512];
+    bool ok = true;
+    for (int64_t i = 0; i < lines->count && ok; i++) {
+        if (rg_line_is_empty(&lines->lines[i]))
+            continue;
+        snprintf(place, sizeof(place), "%.400s:%lld", lines->name, (long long)i + 1);
+        rg_log_place(place);
+        ok = take_line(cells, lines->lines[i].text, (int)i + 1);
+        rg_log_place(NULL);
+    }
+    return ok && (cells->count || rg_error("%s: no cell in it; write NAME TECHNIQUE SIZE FRAMES "
+                                           "[KEY=VALUE]... lines",
+                                           lines->name));
+}
+
+bool rg_gate_cells_of(const char *name, const char *text, size_t size, struct rg_gate_cells *cells)
+{
+    *cells = (struct rg_gate_cells){.count = 0};
+    struct rg_lines lines;
+    const bool ok = rg_lines_of(name, text, size, &lines) && take_lines(cells, &lines);
+    rg_lines_free(&lines);
+    return ok;
+}
+
+bool rg_gate_cells_read(const char *path, struct rg_gate_cells *cells)
+{
+    if (!path)
+        return rg_gate_cells_of("built-in cells", rg_gate_cells_text, strlen(rg_gate_cells_text),
+                                cells);
+    *cells = (struct rg_gate_cells){.count = 0};
+    struct rg_lines lines;
+    const bool ok = rg_lines_read(path, &lines) && take_lines(cells, &lines);
+    rg_lines_free(&lines);
+    return ok;
+}
+
+void rg_gate_cells_free(struct rg_gate_cells *cells)
+{
+    for (int64_t i = 0; i < cells->count; i++) {
+        free(cells->cells[i].settings);
+        free(cells->cells[i].assignments);
+    }
+    free(cells->cells);
+    *cells = (struct rg_gate_cells){.count = 0};
+}

@@ -1,0 +1,50 @@
+// What the files of this room share.
+#ifndef RG_HARNESS_COMPARE_GATE_EXPECTED_INSIDE_H
+#define RG_HARNESS_COMPARE_GATE_EXPECTED_INSIDE_H
+
+#include "harness/compare/gate/expected/expected.h"
+
+enum { RG_KNOWN_ANY = 1 << RG_FAIL | 1 << RG_ERROR | 1 << RG_CRASH | 1 << RG_TIMEOUT };
+
+// Adds an empty row of the last file, which the caller fills in. NULL, and one logged line, without
+// memory.
+struct rg_expectation *rg_known_new(struct rg_known *expected, enum rg_known_kind kind,
+                                    int64_t line);
+
+// Read the last file's lines into rows. False, and one logged line, where one is refused.
+bool rg_known_read_own(struct rg_known *expected);
+bool rg_known_read_mesa(struct rg_known *expected, enum rg_known_form form);
+
+// Compiles a regular expression of Rust's syntax as one of POSIX; docs/expectations.md says what
+// of it there is. NULL, and one logged line that begins with `place`, where it cannot be had. The
+// caller calls regfree and free.
+regex_t *rg_known_regex(const char *place, const char *text);
+
+extern const char *const rg_known_kinds[];  // "skip", "flake", "fail"
+extern const char *const rg_known_fields[]; // "device", ...
+
+// For how long an expectation holds that a patch writes.
+enum { RG_KNOWN_LEASE_DAYS = 90 };
+
+// Write an expectation, each line with `end`. What a name has that a line cannot becomes a ?, which
+// matches it.
+void rg_known_write_head(FILE *out, enum rg_known_kind kind, const char *cell, const char *end);
+void rg_known_write_field(FILE *out, int field, const char *value, const char *end);
+void rg_known_write_new(FILE *out, const struct rg_known_result *result, int today,
+                        const char *end);
+void rg_known_write_outcomes(unsigned outcomes, char *text, size_t size);
+// Mesa's line, which the caller frees: "" where it cannot hold the name. NULL, and one logged line,
+// without memory.
+char *rg_known_mesa_line(const char *cell, unsigned outcomes, const char *end);
+
+// A line of a file that another text stands for: "" takes it out. A line behind the last is added.
+struct rg_line_edit {
+    int64_t line; // from 0
+    char *text;   // whole lines, each with its end
+};
+// Prints a unified diff of the edits, which are in the order of their lines. False, and one logged
+// line, where `out` cannot be written.
+bool rg_lines_diff(const struct rg_lines *lines, const struct rg_line_edit *edits, int64_t count,
+                   FILE *out);
+
+#endif

@@ -1,0 +1,126 @@
+// Regular expressions in Rust's syntax, which deqp-runner has, by those of POSIX, which the C
+// library has. What the two write differently is translated, and what POSIX has not is refused:
+// nothing is taken for something else. Only whether there is a match matters, so that lazy and
+// greedy are one.
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "harness/compare/gate/expected/inside.h"
+
+enum { MOST_BYTES = 16384 };
+
+struct translation {
+    const char *place;
+    const char *at;   // what comes next
+    char *to;         // where it goes to: at most 6 bytes for each of the text's
+    bool is_repeated; // what stands last is a repetition, which a ? would make lazy
+};
+
+static void put(struct translation *t, const char *text)
+{
+    const size_t length = strlen(text);
+    memcpy(t->to, text, length);
+    t->to += length;
+}
+
+static bool refuse(const struct translation *t, const char *what)
+{
+    return rg_error("%s: regular expression: %s at '%.40s' is not known here; write it without "
+                    "(docs/expectations.md)",
+                    t->place, what, t->at);
+}
+
+static bool take_escape(struct translation *t)
+{
+    const char c = t->at[1];
+    if (c == 'd')
+        put(t, "[0-9]");
+    else if (c == 'D')
+        put(t, "[^0-9]");
+    else if (c && strchr("wWsSbB.+*?()[]{}|^$\\", c))
+        put(t, (char[]){'\\', c, 0});
+    else if (ispunct((unsigned char)c) && c != '<' && c != '>') // which Rust has for words' ends
+        put(t, (char[]){c, 0});
+    else
+        return refuse(t, "this escape");
+    t->at += 2;
+    return true;
+}
+
+// A class in brackets, in which POSIX knows no backslash.
+static bool take_class(struct translation *t)
+{
+    const char *end = t->at + 1;
+    end += *end == '^';
+    end += *end == ']';
+    end += strcspn(end, "]");
+    const size_t length = (size_t)(end - t->at) + 1;
+    if (!*end)
+        return refuse(t, "a [ without its ]");
+    if (memchr(t->at, '\\', length) || memchr(t->at + 1, '[', length - 1) ||
+        memchr(t->at, '&', length) || memchr(t->at, '~', length))
+        return refuse(t, "a class with \\, [, & or ~ in it");
+    memcpy(t->to, t->at, length);
+    t->to += length;
+    t->at += length;
+    return true;
+}
+
+static bool take_other(struct translation *t)
+{
+    const char c = *t->at;
+    if (c == '(' && t->at[1] == '?') {
+        if (t->at[2] != ':')
+            return refuse(t, "this group");
+        t->at += 2;
+    }
+    const bool is_lazy = c == '?' && t->is_repeated;
+    if (!is_lazy)
+        *t->to++ = c;
+    t->is_repeated = !is_lazy && strchr("*+?}", c);
+    t->at++;
+    return true;
+}
+
+static bool translate(struct translation *t)
+{
+    bool ok = true;
+    while (ok && *t->at) {
+        const bool is_one = *t->at == '\\' || *t->at == '[';
+        ok = *t->at == '\\' ? take_escape(t) : *t->at == '[' ? take_class(t) : take_other(t);
+        if (is_one)
+            t->is_repeated = false;
+    }
+    *t->to = 0;
+    return ok;
+}
+
+static regex_t *compile(const char *place, const char *text, const char *posix)
+{
+    regex_t *regex = rg_alloc(1, sizeof(*regex), place);
+    if (!regex)
+        return NULL;
+    const int code = regcomp(regex, posix, REG_EXTENDED | REG_NOSUB);
+    if (!code)
+        return regex;
+    char why[128];
+    regerror(code, regex, why, sizeof(why));
+    free(regex);
+    return rg_error_null("%s: regular expression '%.80s': %s; mend it", place, text, why);
+}
+
+regex_t *rg_known_regex(const char *place, const char *text)
+{
+    const size_t length = strlen(text);
+    if (length > MOST_BYTES)
+        return rg_error_null("%s: a regular expression of %zu bytes; at most %d", place, length,
+                             MOST_BYTES);
+    char *posix = rg_alloc(6, length + 1, place);
+    struct translation t = {.place = place, .at = text, .to = posix};
+    regex_t *regex = posix && translate(&t) ? compile(place, text, posix) : NULL;
+    free(posix);
+    return regex;
+}

@@ -1,0 +1,138 @@
+#include "harness/compare/gate/text/lines.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+#include "core/base/array.h"
+#include "core/base/file.h"
+#include "core/base/log.h"
+
+enum { MOST_BYTES = 64 << 20 };
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t';
+}
+
+char *rg_line_skip(char *text)
+{
+    while (is_blank(*text))
+        text++;
+    return text;
+}
+
+char *rg_line_cut(char *text)
+{
+    char *end = text + strcspn(text, " \t");
+    char *rest = rg_line_skip(end);
+    *end = 0;
+    return rest;
+}
+
+bool rg_line_is_empty(const struct rg_line *line)
+{
+    const char *text = rg_line_skip(line->text);
+    return !*text || *text == '#';
+}
+
+static bool is_clean(const struct rg_lines *lines, const char *text, size_t length)
+{
+    for (size_t i = 0; i < length; i++)
+        if (((unsigned char)text[i] < ' ' && text[i] != '\t') || text[i] == 127)
+            return rg_error("%s:%lld: control character 0x%02x in column %zu; take it out",
+                            lines->name, (long long)lines->count + 1, (unsigned char)text[i],
+                            i + 1);
+    return true;
+}
+
+// The line that begins at `at`. False where it is refused.
+static bool add_line(struct rg_lines *lines, size_t at)
+{
+    char *text = lines->texts + at;
+    const char *end = memchr(text, '\n', lines->size - at);
+    size_t length = end ? (size_t)(end - text) : lines->size - at;
+    const size_t whole = length + (end != NULL);
+    length -= end && length > 0 && text[length - 1] == '\r';
+    if (!is_clean(lines, text, length) ||
+        !rg_array_fit(&lines->lines, &lines->room, lines->count + 1, sizeof(*lines->lines),
+                      lines->name))
+        return false;
+    while (length > 0 && is_blank(text[length - 1]))
+        length--;
+    text[length] = 0;
+    lines->lines[lines->count++] = (struct rg_line){text, at, whole};
+    return true;
+}
+
+static bool split(struct rg_lines *lines)
+{
+    for (size_t at = 0; at < lines->size;) {
+        if (!add_line(lines, at))
+            return false;
+        at += lines->lines[lines->count - 1].length;
+    }
+    return true;
+}
+
+bool rg_lines_of(const char *name, const char *text, size_t size, struct rg_lines *lines)
+{
+    *lines = (struct rg_lines){.size = size, .name = strdup(name)};
+    lines->raw = rg_alloc(1, size + 1, name);
+    lines->texts = rg_alloc(1, size + 1, name);
+    if (!lines->name || !lines->raw || !lines->texts)
+        return false;
+    memcpy(lines->raw, text, size);
+    memcpy(lines->texts, text, size);
+    return split(lines);
+}
+
+// All bytes of a file, which the caller frees; NULL where they cannot be read.
+static char *read_bytes(const char *path, FILE *in, size_t *size)
+{
+    char *bytes = NULL;
+    int64_t room = 0;
+    *size = 0;
+    for (size_t got = 1; got > 0; *size += got) {
+        if (*size > MOST_BYTES)
+            rg_error("%s: longer than %d bytes; split it", path, MOST_BYTES);
+        if (*size > MOST_BYTES ||
+            !rg_array_fit(&bytes, &room, (int64_t)*size + BUFSIZ, 1, "a text file")) {
+            free(bytes);
+            return NULL;
+        }
+        got = fread(bytes + *size, 1, BUFSIZ, in);
+    }
+    if (ferror(in)) {
+        rg_error("%s: %s; name a text file that can be read", path, strerror(errno));
+        free(bytes);
+        return NULL;
+    }
+    return bytes;
+}
+
+bool rg_lines_read(const char *path, struct rg_lines *lines)
+{
+    *lines = (struct rg_lines){.count = 0};
+    const char *why;
+    FILE *in = rg_file_open(path, &why);
+    if (!in)
+        return rg_error("%s: %s; name a text file that can be read", path, why);
+    size_t size;
+    char *bytes = read_bytes(path, in, &size);
+    const bool ok = bytes && rg_lines_of(path, bytes, size, lines);
+    free(bytes);
+    fclose(in);
+    return ok;
+}
+
+void rg_lines_free(struct rg_lines *lines)
+{
+    free(lines->name);
+    free(lines->raw);
+    free(lines->texts);
+    free(lines->lines);
+    *lines = (struct rg_lines){.count = 0};
+}

@@ -1,0 +1,384 @@
+// What is expected is read from text, and results are judged by it on a day that is given.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "core/base/log.h"
+#include "harness/compare/gate/expected/expected.h"
+#include "harness/compare/gate/text/date.h"
+#include "harness/compare/gate/text/glob.h"
+
+static char logged[2048];
+static int logged_lines;
+
+static void listen(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)user;
+    logged_lines++;
+    snprintf(logged, sizeof(logged), "%s", line);
+}
+
+static bool add(struct rg_known *expected, const char *text, enum rg_known_form form)
+{
+    logged_lines = 0;
+    *logged = 0;
+    return rg_known_add_text(expected, "my.txt", text, strlen(text), form);
+}
+
+static int day(const char *text)
+{
+    int number;
+    assert_true(rg_date_read(text, &number));
+    return number;
+}
+
+// --- days and patterns ---
+
+static void days_are_those_of_the_calendar(void **state)
+{
+    (void)state;
+    assert_int_equal(day("1970-01-01"), 0);
+    assert_int_equal(day("2000-03-01"), 11017); // from date(1)
+    assert_int_equal(day("2026-11-23"), 20780);
+    assert_int_equal(day("2100-03-01") - day("2100-02-28"), 1);
+    assert_int_equal(day("2024-03-01") - day("2024-02-28"), 2);
+    static const char *const wrong[] = {"",           "2026-2-01",   "2026-02-29", "2026-13-01",
+                                        "2026-00-01", "2026-01-00",  "2026-04-31", "2026-01-011",
+                                        "1969-12-31", " 2026-01-01", "2026/01/01", "20260101"};
+    int number;
+    for (size_t i = 0; i < sizeof(wrong) / sizeof(wrong[0]); i++)
+        if (rg_date_read(wrong[i], &number))
+            fail_msg("'%s' is a day", wrong[i]);
+    char text[RG_DATE_SIZE];
+    for (int d = day("1999-12-25"); d < day("2004-03-05"); d++) {
+        rg_date_write(d, text);
+        assert_int_equal(day(text), d);
+    }
+}
+
+static void patterns_describe_whole_names(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *pattern, *text;
+        bool is_one;
+    } rows[] = {
+        {"", "", true},          {"", "a", false},      {"*", "", true},
+        {"a", "a", true},        {"a", "ab", false},    {"a", "b", false},
+        {"a*", "a/b", true},     {"*b", "aab", true},   {"*ab", "aab", true},
+        {"a?c", "abc", true},    {"a?c", "ac", false},  {"a*b*c", "axxbyybzc", true},
+        {"a*b*c", "acb", false}, {"[a]", "[a]", true},  {"[a]", "a", false},
+        {"**a", "ba", true},     {"\\*", "\\zz", true}, {"Mesa 22.3.*", "Mesa 22.3.6", true},
+    };
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
+        if (rg_glob(rows[i].pattern, rows[i].text) != rows[i].is_one)
+            fail_msg("'%s' and '%s'", rows[i].pattern, rows[i].text);
+}
+
+// --- judging ---
+
+static const char own[] = "# known\n"
+                          "fail streaks/*\n"
+                          "  device     vulkan*\n"
+                          "  driver     Mesa 22.3.*\n"
+                          "  outcome    fail\n"
+                          "\n"
+                          "  # at the edges\n"
+                          "  pixels     10..40\n"
+                          "  difference 0.002..0.01\n"
+                          "  reason     blends half floats by truncating\n"
+                          "  link       https://example.org/1\n"
+                          "  since      2026-11-01\n"
+                          "  until      2026-12-31\n"
+                          "fail raster/crash\n"
+                          "\toutcome crash timeout\n"
+                          "\treason it crashes\n"
+                          "\tsince 2026-11-01\n"
+                          "\tuntil 2026-11-30\n"
+                          "flake streaks/odd\n"
+                          "  reason scheduling\n"
+                          "  since 2026-11-01\n"
+                          "  until 2026-12-31\n"
+                          "flake drops/odd\n"
+                          "  outcome timeout\n"
+                          "  reason slow\n"
+                          "  since 2026-11-01\n"
+                          "  until 2026-12-31\n"
+                          "skip */slow\n"
+                          "  reason takes an hour\n"
+                          "  since 2026-11-01\n"
+                          "  until 2026-12-31\n";
+
+struct judged {
+    struct rg_known_result result;
+    const char *today;
+    enum rg_met met;
+};
+
+static void judge(const struct rg_known *expected, const struct judged *rows, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const struct rg_known_result *r = &rows[i].result;
+        const int64_t row = rg_known_row(expected, r->cell, r->device, r->driver);
+        const enum rg_met met = rg_known_judge(expected, row, r, day(rows[i].today));
+        if (met != rows[i].met)
+            fail_msg("row %zu: %s, not %s", i, rg_met_name(met), rg_met_name(rows[i].met));
+    }
+}
+
+#define VK "vulkan@A=b", "Mesa 22.3.6"
+
+static void results_meet_what_is_expected(void **state)
+{
+    (void)state;
+    struct rg_known expected = {.count = 0};
+    if (!add(&expected, own, RG_FORM_OWN))
+        fail_msg("%s", logged);
+    static const struct judged rows[] = {
+        {{"streaks/a", VK, RG_FAIL, 10, 0.01}, "2026-12-31", RG_MET_EXPECTED},
+        {{"streaks/a", VK, RG_FAIL, 40, 0.002}, "2026-12-31", RG_MET_EXPECTED},
+        {{"streaks/a", VK, RG_FAIL, 9, 0.01}, "2026-12-31", RG_MET_DIFFERENT},
+        {{"streaks/a", VK, RG_FAIL, 41, 0.01}, "2026-12-31", RG_MET_DIFFERENT},
+        {{"streaks/a", VK, RG_FAIL, 20, 0.011}, "2026-12-31", RG_MET_DIFFERENT},
+        {{"streaks/a", VK, RG_FAIL, NAN, 0.01}, "2026-12-31", RG_MET_DIFFERENT},
+        {{"streaks/a", VK, RG_CRASH, NAN, NAN}, "2026-12-31", RG_MET_DIFFERENT},
+        {{"streaks/a", VK, RG_OK, 0, 0}, "2026-12-31", RG_MET_FIXED},
+        {{"streaks/a", VK, RG_OK, 0, 0}, "2027-01-01", RG_MET_FIXED},
+        {{"streaks/a", VK, RG_FAIL, 20, 0.01}, "2027-01-01", RG_MET_EXPIRED},
+        {{"streaks/a", VK, RG_UNSUPPORTED, NAN, NAN}, "2026-12-31", RG_MET_NOTHING},
+        {{"streaks/a", "gl", "Mesa 22.3.6", RG_FAIL, 20, 0.01}, "2026-12-31", RG_MET_NOTHING},
+        {{"streaks/a", "vulkan", "Mesa 23.0.1", RG_FAIL, 20, 0.01}, "2026-12-31", RG_MET_NOTHING},
+        {{"raster/crash", "gl", "", RG_TIMEOUT, NAN, NAN}, "2026-11-30", RG_MET_EXPECTED},
+        {{"raster/crash", "gl", "", RG_FAIL, 1, 1}, "2026-11-30", RG_MET_DIFFERENT},
+        {{"streaks/odd", VK, RG_FAIL, 99, 9}, "2026-12-31", RG_MET_FLAKY},
+        {{"streaks/odd", VK, RG_OK, 0, 0}, "2026-12-31", RG_MET_FLAKY},
+        {{"streaks/odd", VK, RG_OK, 0, 0}, "2027-01-01", RG_MET_EXPIRED},
+        {{"drops/odd", "gl", "", RG_TIMEOUT, 0, 0}, "2026-12-31", RG_MET_FLAKY},
+        {{"drops/odd", "gl", "", RG_CRASH, 0, 0}, "2026-12-31", RG_MET_DIFFERENT},
+        {{"streaks/slow", VK, RG_FAIL, 0, 0}, "2026-12-31", RG_MET_SKIPPED},
+        {{"streaks/slow", VK, RG_FAIL, 0, 0}, "2027-01-01", RG_MET_EXPIRED},
+    };
+    judge(&expected, rows, sizeof(rows) / sizeof(rows[0]));
+    const int64_t slow = rg_known_row(&expected, "a/slow", "gl", "");
+    assert_true(rg_known_skips(&expected, slow, day("2026-12-31")));
+    assert_false(rg_known_skips(&expected, slow, day("2027-01-01")));
+    assert_false(rg_known_skips(&expected, 0, day("2026-11-23")));
+    assert_false(rg_known_skips(&expected, -1, 0));
+    rg_known_free(&expected);
+}
+
+static void a_gate_fails_by_what_is_not_known(void **state)
+{
+    (void)state;
+    static const struct {
+        enum rg_met met;
+        enum rg_outcome outcome;
+        bool fails;
+    } rows[] = {
+        {RG_MET_NOTHING, RG_OK, false},
+        {RG_MET_NOTHING, RG_UNSUPPORTED, false},
+        {RG_MET_NOTHING, RG_FAIL, true},
+        {RG_MET_NOTHING, RG_ERROR, true},
+        {RG_MET_NOTHING, RG_TIMEOUT, true},
+        {RG_MET_EXPECTED, RG_FAIL, false},
+        {RG_MET_FIXED, RG_OK, true},
+        {RG_MET_DIFFERENT, RG_CRASH, true},
+        {RG_MET_EXPIRED, RG_FAIL, true},
+        {RG_MET_FLAKY, RG_CRASH, false},
+        {RG_MET_SKIPPED, RG_UNSUPPORTED, false},
+    };
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++)
+        if (rg_met_fails(rows[i].met, rows[i].outcome) != rows[i].fails)
+            fail_msg("row %zu", i);
+}
+
+// --- Mesa's files ---
+
+static void mesas_files_are_read_as_they_are(void **state)
+{
+    (void)state;
+    struct rg_known expected = {.count = 0};
+    assert_true(add(&expected,
+                    "# fails\r\n\r\nstreaks.a,Fail\r\nstreaks.b [x] y,Crash\r\nstreaks.c,Pass\r\n"
+                    "streaks.d,Timeout,1.5\r\nstreaks.s,Fail\r\nstreaks.e,Flake",
+                    RG_FORM_FAILS));
+    assert_true(add(&expected, "# flakes\n^streaks\\.f\\d+$\nodd.*copy\n", RG_FORM_FLAKES));
+    assert_true(add(&expected, "streaks.s\n(?:raster|drops)\\.[a-c]+?$\n", RG_FORM_SKIPS));
+    static const struct judged rows[] = {
+        {{"streaks.a", "gl", "", RG_FAIL, 5, 5}, "2026-12-31", RG_MET_EXPECTED},
+        {{"streaks.a", "gl", "", RG_ERROR, 5, 5}, "2026-12-31", RG_MET_EXPECTED},
+        {{"streaks.a", "gl", "", RG_CRASH, 5, 5}, "2026-12-31", RG_MET_DIFFERENT},
+        {{"streaks.a", "gl", "", RG_OK, 0, 0}, "2026-12-31", RG_MET_FIXED},
+        {{"streaks.ab", "gl", "", RG_FAIL, 5, 5}, "2026-12-31", RG_MET_NOTHING},
+        {{"streaks.b [x] y", "gl", "", RG_CRASH, 5, 5}, "9999-12-31", RG_MET_EXPECTED},
+        {{"streaks.c", "gl", "", RG_FAIL, 5, 5}, "2026-12-31", RG_MET_NOTHING},
+        {{"streaks.d", "gl", "", RG_TIMEOUT, 5, 5}, "2026-12-31", RG_MET_EXPECTED},
+        {{"streaks.e", "gl", "", RG_FAIL, 5, 5}, "2026-12-31", RG_MET_FLAKY},
+        {{"streaks.f12", "gl", "", RG_CRASH, 5, 5}, "2026-12-31", RG_MET_FLAKY},
+        {{"streaks.f", "gl", "", RG_CRASH, 5, 5}, "2026-12-31", RG_MET_NOTHING},
+        {{"an odd.copy here", "gl", "", RG_CRASH, 5, 5}, "2026-12-31", RG_MET_FLAKY},
+        {{"x.streaks.s.y", "gl", "", RG_FAIL, 5, 5}, "2026-12-31", RG_MET_SKIPPED},
+        {{"streaks.s", "gl", "", RG_FAIL, 5, 5}, "2026-12-31", RG_MET_SKIPPED}, // before its fail
+        {{"raster.abc", "gl", "", RG_FAIL, 5, 5}, "2026-12-31", RG_MET_SKIPPED},
+        {{"raster.", "gl", "", RG_FAIL, 5, 5}, "2026-12-31", RG_MET_NOTHING},
+        {{"raster.d", "gl", "", RG_FAIL, 5, 5}, "2026-12-31", RG_MET_NOTHING},
+    };
+    judge(&expected, rows, sizeof(rows) / sizeof(rows[0]));
+    rg_known_free(&expected);
+}
+
+// What Rust's regular expressions have and ours has not is refused, never taken for something else.
+static void expressions_are_rusts_or_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *regex, *matched, *unmatched;
+    } rows[] = {
+        {"a\\.b", "a.b", "axb"},        {"a.b", "axb", "ab"},       {"^a$", "a", "ba"},
+        {"\\bab\\b", "x ab y", "xab"},  {"\\w\\s\\d", "a 1", "a1"}, {"a{2,3}?b", "aab", "ab"},
+        {"a+?b", "aab", "b"},           {"(a|b)c", "bc", "c"},      {"[^]a]x", "bx", "]x"},
+        {"a\\-b\\/c\\@", "a-b/c@", ""}, {"x\\D$", "xa", "x1"},      {"\\(bias\\)?$", "(bias", ""},
+        {"[0-9.]+,", "1.2,", "a,"},     {"a??b", "b", "a"},
+    };
+    struct rg_known expected;
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        memset(&expected, 0, sizeof(expected));
+        if (!add(&expected, rows[i].regex, RG_FORM_SKIPS))
+            fail_msg("%s", logged);
+        if (rg_known_row(&expected, rows[i].matched, "", "") < 0)
+            fail_msg("%s: not %s", rows[i].regex, rows[i].matched);
+        if (rg_known_row(&expected, rows[i].unmatched, "", "") >= 0)
+            fail_msg("%s: %s", rows[i].regex, rows[i].unmatched);
+        rg_known_free(&expected);
+    }
+    static const char *const refused[] = {"(?i)a",   "(?P<n>a)", "\\pL", "\\x41", "\\A", "[\\d]",
+                                          "[[:x:]]", "[a&&b]",   "[a",   "a\\",   "(a",  "a\\<"};
+    for (size_t i = 0; i < sizeof(refused) / sizeof(refused[0]); i++) {
+        memset(&expected, 0, sizeof(expected));
+        if (add(&expected, refused[i], RG_FORM_SKIPS) || expected.count || logged_lines != 1 ||
+            strncmp(logged, "my.txt:1: regular expression", 28) != 0)
+            fail_msg("%s: %s", refused[i], logged);
+        rg_known_free(&expected);
+    }
+}
+
+// --- what is wrong ---
+
+#define REST "\n reason r\n since 2026-01-01\n until 2026-02-01\n"
+
+static void what_is_wrong_is_said_with_its_line(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        enum rg_known_form form;
+        const char *said;
+    } rows[] = {
+        {"fial a" REST, RG_FORM_OWN, "my.txt:1: 'fial': write fail, flake or skip"},
+        {"\n device gl", RG_FORM_OWN, "my.txt:2: a field of nothing"},
+        {"skip" REST, RG_FORM_OWN, "my.txt:1: 'skip' has no pattern"},
+        {"skip a b" REST, RG_FORM_OWN, "my.txt:1: 'skip' has more than one word"},
+        {"skip a\n devic gl" REST, RG_FORM_OWN, "my.txt:2: field 'devic': unknown"},
+        {"skip a\n device gl\n device vk" REST, RG_FORM_OWN,
+         "my.txt:3: field 'device' stands twice"},
+        {"skip a\n device" REST, RG_FORM_OWN, "my.txt:2: field 'device' has no value"},
+        {"fail a\n outcome ok" REST, RG_FORM_OWN, "my.txt:2: outcome 'ok'"},
+        {"fail a\n outcome fail\n pixels 3..2" REST, RG_FORM_OWN, "my.txt:3: pixels '3..2'"},
+        {"fail a\n outcome fail\n pixels -1" REST, RG_FORM_OWN, "my.txt:3: pixels '-1'"},
+        {"fail a\n outcome fail\n difference nan" REST, RG_FORM_OWN, "my.txt:3: difference 'nan'"},
+        {"fail a\n outcome fail\n pixels 1..2x" REST, RG_FORM_OWN, "my.txt:3: pixels '1..2x'"},
+        {"#\nfail a" REST, RG_FORM_OWN, "my.txt:2: fail a: no field 'outcome'"},
+        {"skip a\n since 2026-01-01\n until 2026-02-01", RG_FORM_OWN,
+         "my.txt:1: skip a: no field 'reason'"},
+        {"skip a\n reason r\n since 2026-01-01", RG_FORM_OWN, "my.txt:1: skip a: no field 'until'"},
+        {"skip a\n since 2026-02-30" REST, RG_FORM_OWN, "my.txt:2: since '2026-02-30': no day"},
+        {"skip a\n reason r\n since 2026-02-02\n until 2026-02-01", RG_FORM_OWN,
+         "my.txt:1: skip a: it ends"},
+        {"skip a" REST "skip b\x7f" REST, RG_FORM_OWN,
+         "my.txt:5: control character 0x7f in column 7"},
+        {"a", RG_FORM_FAILS, "my.txt:1: 'a': write TEST,Fail"},
+        {",Fail", RG_FORM_FAILS, "my.txt:1: ',Fail': write TEST,Fail"},
+        {"\na,Broken", RG_FORM_FAILS, "my.txt:2: status 'Broken'"},
+    };
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        struct rg_known expected = {.count = 0};
+        const bool ok = add(&expected, rows[i].text, rows[i].form);
+        if (ok || expected.file_count || expected.count || logged_lines != 1 ||
+            strncmp(logged, rows[i].said, strlen(rows[i].said)) != 0)
+            fail_msg("row %zu said: %s", i, logged);
+        rg_known_free(&expected);
+    }
+}
+
+static void an_empty_file_expects_nothing(void **state)
+{
+    (void)state;
+    struct rg_known expected = {.count = 0};
+    for (int form = RG_FORM_OWN; form <= RG_FORM_SKIPS; form++)
+        assert_true(add(&expected, form % 2 ? "" : "\n\r\n# nothing", (enum rg_known_form)form));
+    assert_int_equal(expected.file_count, 4);
+    assert_int_equal(rg_known_row(&expected, "a", "", ""), -1);
+    rg_known_free(&expected);
+    for (int i = 0; i < 16; i++)
+        assert_true(add(&expected, "", RG_FORM_OWN));
+    assert_false(add(&expected, "", RG_FORM_OWN));
+    assert_non_null(strstr(logged, "my.txt: more than 16 files"));
+    rg_known_free(&expected);
+    assert_false(rg_known_add(&expected, "/nowhere/x.txt", RG_FORM_OWN));
+    assert_non_null(strstr(logged, "/nowhere/x.txt: No such file"));
+}
+
+// 100,000 lines, each with a name of its own, and names of 10 kB with as many stars.
+static void large_files_are_read(void **state)
+{
+    (void)state;
+    char *text = NULL, name[10241];
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    for (int i = 0; i < 100000; i++)
+        fprintf(out, "streaks/cell-%d,Fail\n", i);
+    for (size_t i = 0; i + 1 < sizeof(name); i += 2) {
+        name[i] = 'n';
+        name[i + 1] = '*';
+    }
+    name[sizeof(name) - 1] = 0;
+    fprintf(out, "%s,Crash\n", name);
+    fclose(out);
+    struct rg_known expected = {.count = 0};
+    assert_true(rg_known_add_text(&expected, "many.txt", text, size, RG_FORM_FAILS));
+    assert_int_equal(expected.count, 100001);
+    assert_int_equal(rg_known_row(&expected, "streaks/cell-99999", "", ""), 99999);
+    assert_int_equal(rg_known_row(&expected, name, "", ""), 100000);
+    assert_int_equal(rg_known_row(&expected, "streaks/cell-100000", "", ""), -1);
+    rg_known_free(&expected);
+    free(text);
+    assert_true(rg_glob(name, name));
+    name[sizeof(name) - 2] = 'x';
+    assert_false(rg_glob(name, "nnnnnnnnnnnnnnnnnnnnnnnn"));
+}
+
+int main(void)
+{
+    rg_log_listen(listen, NULL);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(days_are_those_of_the_calendar),
+        cmocka_unit_test(patterns_describe_whole_names),
+        cmocka_unit_test(results_meet_what_is_expected),
+        cmocka_unit_test(a_gate_fails_by_what_is_not_known),
+        cmocka_unit_test(mesas_files_are_read_as_they_are),
+        cmocka_unit_test(expressions_are_rusts_or_refused),
+        cmocka_unit_test(what_is_wrong_is_said_with_its_line),
+        cmocka_unit_test(an_empty_file_expects_nothing),
+        cmocka_unit_test(large_files_are_read),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

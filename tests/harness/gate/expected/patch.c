@@ -1,0 +1,278 @@
+// The patch of a file of expectations makes it true: patch(1) applies it, and then the same results
+// meet what they ought to.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/base/program.h"
+#include "harness/compare/gate/expected/expected.h"
+#include "harness/compare/gate/text/date.h"
+
+static const char name[] = "my.txt"; // in a folder of the test's own
+
+static int day(const char *text)
+{
+    int number;
+    assert_true(rg_date_read(text, &number));
+    return number;
+}
+
+static void write_file(const char *path, const char *text)
+{
+    FILE *out = fopen(path, "wb");
+    assert_non_null(out);
+    fputs(text, out);
+    assert_int_equal(fclose(out), 0);
+}
+
+static char *read_file(const char *path)
+{
+    char *text = calloc(1, 65536);
+    FILE *in = fopen(path, "rb");
+    assert_true(in && text);
+    assert_true(fread(text, 1, 65535, in) < 65535);
+    fclose(in);
+    return text;
+}
+
+static void apply(void)
+{
+    const char *const args[] = {"patch", "-s", "-p0",     "--binary", "--no-backup-if-mismatch",
+                                "-F0",   "-i", "my.diff", NULL};
+    const int fds[] = {-1, 1, 2};
+    pid_t child;
+    int status;
+    assert_int_equal(rg_program_start(args, fds, 3, &child), 0);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
+}
+
+// The text once it is patched, which the caller frees.
+static char *patched(const char *text, enum rg_known_form form,
+                     const struct rg_known_result *results, int64_t count, const char *today)
+{
+    struct rg_known known = {.count = 0};
+    write_file(name, text);
+    assert_true(rg_known_add(&known, name, form));
+    FILE *out = fopen("my.diff", "wb");
+    assert_non_null(out);
+    assert_true(rg_known_patch(&known, 0, results, count, day(today), true, out));
+    const bool is_any = ftell(out) > 0;
+    fclose(out);
+    rg_known_free(&known);
+    if (is_any)
+        apply();
+    // What a patch has written is true: no other follows.
+    assert_true(rg_known_add(&known, name, form));
+    out = fopen("my.diff", "wb");
+    assert_non_null(out);
+    assert_true(rg_known_patch(&known, 0, results, count, day(today), true, out));
+    assert_int_equal(ftell(out), 0);
+    fclose(out);
+    rg_known_free(&known);
+    return read_file(name);
+}
+
+static void expect(const char *text, enum rg_known_form form, const struct rg_known_result *results,
+                   int64_t count, const char *today, const char *wanted)
+{
+    char *now = patched(text, form, results, count, today);
+    assert_string_equal(now, wanted);
+    free(now);
+}
+
+#define ROW(pattern, pixels, until)                                                                \
+    "fail " pattern "\n  outcome fail\n  pixels " pixels "\n  # why\n  reason r\n  since "         \
+    "2026-01-01\n  until " until "\n"
+
+static void what_is_true_stays(void **state)
+{
+    (void)state;
+    static const struct rg_known_result results[] = {{"a", "gl", "M", RG_FAIL, 15, 1},
+                                                     {"b", "gl", "M", RG_OK, 0, 0},
+                                                     {"c", "gl", "M", RG_UNSUPPORTED, NAN, NAN}};
+    static const char text[] = ROW("a", "10..20", "2026-02-01");
+    expect(text, RG_FORM_OWN, results, 3, "2026-02-01", text);
+}
+
+static void what_is_fixed_goes(void **state)
+{
+    (void)state;
+    static const struct rg_known_result results[] = {{"b", "gl", "M", RG_OK, 0, 0}};
+    expect("# head\n" ROW("a", "1", "2026-02-01") "\n" ROW("b", "2", "2026-02-01") "\n" ROW(
+               "c", "3", "2026-02-01"),
+           RG_FORM_OWN, results, 1, "2026-01-15",
+           "# head\n" ROW("a", "1", "2026-02-01") "\n" ROW("c", "3", "2026-02-01"));
+    expect(ROW("b", "2", "2026-02-01"), RG_FORM_OWN, results, 1, "2027-01-15", "");
+}
+
+static void what_fails_otherwise_gets_the_new_evidence(void **state)
+{
+    (void)state;
+    static const struct rg_known_result results[] = {{"a1", "gl", "M", RG_FAIL, 25, 1},
+                                                     {"a2", "gl", "M", RG_FAIL, 5, 1}};
+    expect(ROW("a*", "10..20", "2026-02-01"), RG_FORM_OWN, results, 1, "2026-01-15",
+           "fail a*\n  outcome fail\n  pixels     10..25\n  # why\n  reason r\n  since "
+           "2026-01-01\n  until 2026-02-01\n");
+    expect(ROW("a*", "10..20", "2026-02-01"), RG_FORM_OWN, results, 2, "2026-01-15",
+           "fail a*\n  outcome fail\n  pixels     5..25\n  # why\n  reason r\n  since "
+           "2026-01-01\n  until 2026-02-01\n");
+    expect(ROW("a*", "10..20", "2026-02-01"), RG_FORM_OWN, results + 1, 1, "2026-01-15",
+           "fail a*\n  outcome fail\n  pixels     5..20\n  # why\n  reason r\n  since "
+           "2026-01-01\n  until 2026-02-01\n");
+    static const struct rg_known_result crashes[] = {{"a1", "gl", "M", RG_CRASH, NAN, NAN}};
+    expect(ROW("a*", "10..20", "2026-02-01"), RG_FORM_OWN, crashes, 1, "2026-01-15",
+           "fail a*\n  outcome    crash\n  pixels 10..20\n  # why\n  reason r\n  since "
+           "2026-01-01\n  until 2026-02-01\n");
+}
+
+static void what_has_expired_gets_ninety_days(void **state)
+{
+    (void)state;
+    static const struct rg_known_result results[] = {{"a", "gl", "M", RG_FAIL, 15, 1}};
+    expect(ROW("a", "10..20", "2026-02-01"), RG_FORM_OWN, results, 1, "2026-02-02",
+           "fail a\n  outcome fail\n  pixels 10..20\n  # why\n  reason r\n  since 2026-01-01\n"
+           "  until      2026-05-03\n");
+    static const char rest[] = "skip a\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n";
+    expect(rest, RG_FORM_OWN, results, 0, "2026-02-02", rest); // no result: nothing is known of it
+    static const struct rg_known_result passes[] = {{"a", "gl", "M", RG_OK, 0, 0}};
+    expect(rest, RG_FORM_OWN, passes, 1, "2026-02-02", "");
+    expect("flake a\n  reason r\n  since 2026-01-01\n  until 2026-02-01", RG_FORM_OWN, passes, 1,
+           "2026-02-02", "");
+}
+
+// One cell of a pattern passes: those that still fail get a row each.
+static void a_pattern_that_is_fixed_in_part_is_split(void **state)
+{
+    (void)state;
+    static const struct rg_known_result results[] = {{"a1", "gl", "M 1", RG_FAIL, 15, 1},
+                                                     {"a2", "gl", "M 1", RG_OK, 0, 0},
+                                                     {"a3", "vulkan", "M 1", RG_FAIL, 35, 1}};
+    expect("#\n\n" ROW("a*", "10..20", "2026-02-01"), RG_FORM_OWN, results, 3, "2026-01-15",
+           "#\n\nfail a1\n  device     gl\n  outcome    fail\n  pixels     10..20\n  reason     "
+           "r\n  since      2026-01-01\n  until      2026-02-01\n"
+           "\nfail a3\n  device     vulkan\n  outcome    fail\n  pixels     10..35\n  reason     "
+           "r\n  since      2026-01-01\n  until      2026-02-01\n");
+}
+
+#define NEW(cell, rest)                                                                            \
+    "fail " cell "\n  device     gl\n  driver     M\n" rest "  reason     not explained\n"         \
+    "  since      2026-01-15\n  until      2026-04-15\n"
+
+static void what_is_new_is_added(void **state)
+{
+    (void)state;
+    static const struct rg_known_result results[] = {{"a", "gl", "M", RG_FAIL, 15, 0.25},
+                                                     {"b", "gl", "M", RG_CRASH, NAN, NAN}};
+    static const char added[] =
+        NEW("a", "  outcome    fail\n  pixels     15\n  difference 0.25\n") "\n" NEW(
+            "b", "  outcome    crash\n");
+    expect("", RG_FORM_OWN, results, 2, "2026-01-15", added);
+    char text[4096];
+    snprintf(text, sizeof(text), "# head\n\n%s", added);
+    expect("# head", RG_FORM_OWN, results, 2, "2026-01-15", text); // its last line gets an end
+    // The last row goes, and others come in its place.
+    static const struct rg_known_result both[] = {{"c", "gl", "M", RG_OK, 0, 0},
+                                                  {"b", "gl", "M", RG_CRASH, NAN, NAN}};
+    expect(ROW("c", "1", "2026-02-01"), RG_FORM_OWN, both, 2, "2026-01-15",
+           "\n" NEW("b", "  outcome    crash\n"));
+}
+
+// Rows far from each other are mended in hunks of their own, and lines keep their ends.
+static void long_files_and_foreign_line_ends_are_kept(void **state)
+{
+    (void)state;
+    static const struct rg_known_result results[] = {
+        {"t.0", "gl", "M", RG_OK, 0, 0},       {"t.7", "gl", "M", RG_CRASH, 0, 0},
+        {"t.14", "gl", "M", RG_FAIL, 5, 0},    {"t.20", "gl", "M", RG_OK, 0, 0},
+        {"t.39", "gl", "M", RG_TIMEOUT, 0, 0}, {"new,comma", "gl", "M", RG_FAIL, 0, 0},
+        {"new", "gl", "M", RG_ERROR, 0, 0}};
+    char text[4096] = "", wanted[4096] = "";
+    for (int i = 0; i < 40; i++) {
+        char line[64];
+        snprintf(line, sizeof(line), "t.%d,Fail%s", i, i < 39 ? "\r\n" : "");
+        strcat(text, line);
+        snprintf(line, sizeof(line), "t.%d,%s\r\n", i,
+                 i == 7    ? "Crash"
+                 : i == 39 ? "Timeout"
+                           : "Fail");
+        if (i != 0 && i != 20)
+            strcat(wanted, line);
+    }
+    strcat(wanted, "new,Fail\r\n");
+    write_file(name, text);
+    struct rg_known known = {.count = 0};
+    assert_true(rg_known_add(&known, name, RG_FORM_FAILS));
+    FILE *out = fopen("my.diff", "wb");
+    assert_non_null(out);
+    assert_true(rg_known_patch(&known, 0, results, 7, 0, true, out));
+    fclose(out);
+    rg_known_free(&known);
+    apply();
+    char *now = read_file(name), *diff = read_file("my.diff");
+    assert_string_equal(now, wanted);
+    int hunks = 0;
+    for (const char *at = diff; (at = strstr(at, "\n@@ -")); at++)
+        hunks++;
+    assert_int_equal(hunks, 4);
+    free(now);
+    free(diff);
+}
+
+// Names of 10 kB, with blanks and control characters, become patterns that match them.
+static void hostile_names_are_matched_by_what_is_written(void **state)
+{
+    (void)state;
+    char cell[10241];
+    memset(cell, 'n', sizeof(cell) - 1);
+    memcpy(cell, "a b\n<\"'&\x01\t\x7f", 11);
+    cell[sizeof(cell) - 1] = 0;
+    const struct rg_known_result results[] = {{cell, "d\nreason x", "", RG_FAIL, 1, NAN}};
+    char *text = patched("", RG_FORM_OWN, results, 1, "2026-01-15");
+    struct rg_known known = {.count = 0};
+    assert_true(rg_known_add(&known, name, RG_FORM_OWN));
+    assert_int_equal(rg_known_row(&known, cell, "d\nreason x", "Any"), 0);
+    assert_int_equal(rg_known_row(&known, cell, "e", ""), -1);
+    rg_known_free(&known);
+    free(text);
+}
+
+static int enter_folder(void **state)
+{
+    (void)state;
+    static char folder[] = "/tmp/rg_patch_XXXXXX";
+    return mkdtemp(folder) ? chdir(folder) : -1;
+}
+
+static int leave_folder(void **state)
+{
+    (void)state;
+    char folder[256];
+    unlink(name);
+    unlink("my.diff");
+    return getcwd(folder, sizeof(folder)) && !chdir("/") ? rmdir(folder) : -1;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_true_stays),
+        cmocka_unit_test(what_is_fixed_goes),
+        cmocka_unit_test(what_fails_otherwise_gets_the_new_evidence),
+        cmocka_unit_test(what_has_expired_gets_ninety_days),
+        cmocka_unit_test(a_pattern_that_is_fixed_in_part_is_split),
+        cmocka_unit_test(what_is_new_is_added),
+        cmocka_unit_test(long_files_and_foreign_line_ends_are_kept),
+        cmocka_unit_test(hostile_names_are_matched_by_what_is_written),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
