@@ -1,7 +1,7 @@
 """Records: journals, stored results, numbers and names, what is written to disk."""
 from fault import Fault
 
-TESTS = ("named", "held", "rows", "journal", "output", "stored", "damaged", "sheets", "measure", "machine", "command line, tables", "command line, stored")
+TESTS = ("named", "held", "rows", "journal", "output", "stored", "damaged", "sheets, cells", "sheets, json", "sheets, parts", "measure", "machine", "command line, tables", "command line, stored")
 
 JOURNAL, STORED, NAMED = "harness/record/disk/journal.c", "harness/record/disk/stored.c", "harness/record/named.c"
 OUTPUT, RESULT, RECORD = "harness/record/output.c", "harness/record/result.c", "harness/record/record.c"

@@ -1,0 +1,146 @@
+// What a sheet says of its table as a whole: costs, spread, growth.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "harness/record/schema/schema.h"
+#include "harness/tables/sheet/trend.h"
+#include "tests/harness/results/sheets/rig.h"
+
+// Named rows of no paper: the first has all on.
+static const struct rg_table parts_table = {
+    .id = "parts",
+    .technique = "drops",
+    .names = "parts",
+    .columns = {"merge"},
+    .key_count = 1,
+    .has_choices = true,
+    .truth = "merge=on",
+    .variants = {{"full", "", NULL}},
+    .row_count = 3,
+    .rows = (const struct rg_table_row[]){{"", {1}, "all"},
+                                          {"merge=off", {0}, "no merging"},
+                                          {"merge=off erode=off", {0}, "none"}},
+    .note = "a note",
+};
+
+// What a part costs is what a frame takes without it.
+static void test_costs(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_sheet sheet;
+    sheet_measure(&rig, &parts_table, (double[]){50, 100, 40});
+    sheet_record_at(&rig, 1, 0)->truth_error.flip_mask_mean = 0.25;
+    rg_result_sheet(&rig.result, &sheet);
+    assert_true(sheet_has_note(&sheet,
+                               "Cost on cpu: of the time of a frame of `all`, one of these takes: "
+                               "no merging 0.50 (FLIP 0.250), none 1.25 (FLIP 0.000)."));
+    rg_sheet_free(&sheet);
+    sheet_record_at(&rig, 2, 0)->outcome = RG_FAIL;
+    rg_result_sheet(&rig.result, &sheet);
+    assert_false(sheet_has_note(&sheet, "Cost on cpu"));
+    rg_sheet_free(&sheet);
+    rg_result_free(&rig.result);
+}
+
+static const struct rg_table growth_table = {
+    .id = "growth",
+    .technique = "flow",
+    .columns = {"drops"},
+    .key_count = 1,
+    .variants = {{"full", "", NULL}},
+    .row_count = 4,
+    .rows =
+        (const struct rg_table_row[]){
+            {"", {10}, NULL}, {"", {100}, NULL}, {"", {1000}, NULL}, {"", {10000}, NULL}},
+    .note = "a note",
+};
+
+// The exponent of the time of a frame, which another program reckons, with its interval.
+static void test_growth(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_sheet sheet;
+    const double fps[] = {1000 / 1., 1000 / 2.2, 1000 / 3.9, 1000 / 8.1};
+    sheet_measure(&rig, &growth_table, fps);
+    const struct rg_trend s = rg_trend_of(&rig.result, (struct rg_place){.row = 0});
+    assert_int_equal(s.verdict, RG_TREND_GROWTH);
+    assert_true(s.has_slope);
+    assert_float_equal(s.slope, -0.29740970, 1e-7);
+    assert_float_equal(s.slope_low, s.slope, 2e-4);
+    assert_float_equal(s.slope_high, s.slope, 2e-4);
+    rg_result_sheet(&rig.result, &sheet);
+    assert_true(sheet_has_note(&sheet,
+                               "Growth on cpu: the time of a frame goes with drops to the power "
+                               "0.30 (95 %: 0.30 to 0.30)."));
+    assert_false(sheet_has_note(&sheet, "Shape on cpu"));
+    rg_sheet_free(&sheet);
+    json_t *trends = rg_trends_json(&rig.result);
+    const char *verdict;
+    double low, high;
+    assert_int_equal(0, json_unpack(trends, "[{ss, sF, sF, sn}]", "verdict", &verdict, "slope_low",
+                                    &low, "slope_high", &high, "published_slope"));
+    assert_string_equal(verdict, "growth");
+    assert_true(low < s.slope && s.slope < high);
+    json_decref(trends);
+    rg_result_free(&rig.result);
+}
+
+// Two rows have a line, and an interval by their samples; a row without a time leaves nothing to
+// say.
+static void test_growth_of_few_rows(void **state)
+{
+    (void)state;
+    struct rg_table two = growth_table;
+    struct rig rig;
+    struct rg_sheet sheet;
+    two.row_count = 2;
+    sheet_measure(&rig, &two, (double[]){1000, 100});
+    rg_result_sheet(&rig.result, &sheet);
+    assert_true(sheet_has_note(&sheet, "goes with drops to the power 1.00 (95 %: 1.00 to 1.00)."));
+    rg_sheet_free(&sheet);
+    rg_result_free(&rig.result);
+    assert_int_equal(sheet_trend_of(&growth_table, 0, (double[]){9, 0, 3, 1}).verdict,
+                     RG_TREND_UNKNOWN);
+}
+
+// Over rows and variants, and the most over the rows of one. What saves work is not held against
+// print.
+static void test_spread(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_sheet sheet;
+    sheet_measure(&rig, &sheet_styles_table, (double[]){50, 100, 60, 110, 45, 50, 60, 110});
+    rg_result_sheet(&rig.result, &sheet);
+    assert_true(sheet_has_note(&sheet,
+                               "Spread of fps on cpu, paper: 45.0 to 100.0, by 55 %, over the "
+                               "rows of a variant by up to 50 %; published 80.00 to 200.00, by "
+                               "60 %, over the rows of a variant by up to 20 %."));
+    assert_true(sheet_has_note(&sheet,
+                               "Spread of fps on cpu, ours: 60.0 to 110.0, by 45 %, over the rows "
+                               "of a variant by up to 0 %."));
+    rg_sheet_free(&sheet);
+    rg_result_free(&rig.result);
+    sheet_measure(&rig, &sheet_styles_table, (double[]){50, 100, 60, 110, 0, 50, 60, 110});
+    rg_result_sheet(&rig.result, &sheet);
+    assert_false(sheet_has_note(&sheet, "Spread of fps on cpu, paper"));
+    rg_sheet_free(&sheet);
+    rg_result_free(&rig.result);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_costs),
+        cmocka_unit_test(test_spread),
+        cmocka_unit_test(test_growth),
+        cmocka_unit_test(test_growth_of_few_rows),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
