@@ -262,6 +262,29 @@ static void more_targets_than_are_kept(void **state)
     assert_int_equal(errors, 0);
 }
 
+static int finishes; // times that the driver was waited for
+static void (*wait_for_driver)(void);
+
+static void count_finish(void)
+{
+    finishes++;
+    wait_for_driver();
+}
+
+// A clock that is read behind a sync says nothing unless the driver has finished: glFlush returns
+// while it works.
+static void a_sync_waits_for_the_driver(void **state)
+{
+    assert_true(rg_device_sync(*state)); // libepoxy finds the function on its first call
+    wait_for_driver = epoxy_glFinish;
+    epoxy_glFinish = count_finish;
+    finishes = 0;
+    const bool ok = rg_device_sync(*state);
+    epoxy_glFinish = wait_for_driver;
+    assert_true(ok);
+    assert_int_equal(finishes, 1);
+}
+
 static void what_the_driver_refuses_is_one_line(void **state)
 {
     struct rg_device *device = *state;
@@ -321,6 +344,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(framebuffers_go_with_their_images, open_device,
                                         close_device),
         cmocka_unit_test_setup_teardown(more_targets_than_are_kept, open_device, close_device),
+        cmocka_unit_test_setup_teardown(a_sync_waits_for_the_driver, open_device, close_device),
         cmocka_unit_test_setup_teardown(what_the_driver_refuses_is_one_line, open_device,
                                         close_device),
         cmocka_unit_test(drivers_are_silent),

@@ -106,6 +106,29 @@ static void test_mask(void **state)
     assert_int_equal(judge(&pair).mask_pixels, 2);
 }
 
+// Unless a screen is named it is 3,840 pixels and 0.7 m wide and seen from 0.7 m, and errors are
+// those that are seen there.
+static void test_usual_screen(void **state)
+{
+    (void)state;
+    const double usual = 3840 / 0.7 * 0.7 * 3.14159265358979 / 180;
+    const struct rg_compare_options options[] = {{0}, {.pixels_per_degree = (float)usual}};
+    struct rg_comparison found[2];
+    struct pair pair;
+    begin(&pair);
+    set(pair.a[3][4], GREY, GREY, GREY + 80);
+    struct rg_picture a = picture_of(pair.a), b = picture_of(pair.b);
+    for (int i = 0; i < 2; i++)
+        assert_true(rg_compare(&a, "a", &b, "b", NULL, &options[i], &found[i]));
+    assert_float_equal(found[0].pixels_per_degree, usual, 1e-4);
+    assert_float_equal(found[0].flip.mean, found[1].flip.mean, 1e-6);
+    assert_true(found[0].flip.mean > 0);
+    for (int i = 0; i < 2; i++)
+        rg_comparison_destroy(&found[i]);
+    rg_picture_destroy(&a);
+    rg_picture_destroy(&b);
+}
+
 // Each colour and alpha count; the largest difference is that of all rows.
 static void test_differences(void **state)
 {
@@ -223,10 +246,10 @@ static void test_no_number(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mask),      cmocka_unit_test(test_differences),
-        cmocka_unit_test(test_bias),      cmocka_unit_test(test_matches),
-        cmocka_unit_test(test_tiles),     cmocka_unit_test(test_energy),
-        cmocka_unit_test(test_no_number),
+        cmocka_unit_test(test_mask),        cmocka_unit_test(test_usual_screen),
+        cmocka_unit_test(test_differences), cmocka_unit_test(test_bias),
+        cmocka_unit_test(test_matches),     cmocka_unit_test(test_tiles),
+        cmocka_unit_test(test_energy),      cmocka_unit_test(test_no_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

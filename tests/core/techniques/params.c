@@ -1,15 +1,19 @@
 // Parameters by name, of a table that is made here: what is taken, what is refused and why, and
-// how a value prints.
+// how a value prints; and the ranges of all techniques' parameters.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/log.h"
 #include "core/techniques/params.h"
+#include "core/techniques/technique.h"
 
 struct settings {
     int drops, look, size;
@@ -112,6 +116,48 @@ static void test_numbers(void **state)
     assert_refuses("slope=2.01", "out of range; -2 to 2 deg");
 }
 
+// A number as it prints in a list of parameters, assigned to one of them.
+static bool takes_number(const struct rg_param_table *params, void *settings, const char *name,
+                         double value, int digits)
+{
+    char assignment[128];
+    snprintf(assignment, sizeof(assignment), "%s=%.*g", name, digits, value);
+    return rg_params_set(params, settings, assignment);
+}
+
+static void assert_range_holds(const struct rg_param_table *params, const struct rg_param *param,
+                               void *settings)
+{
+    enum { PRINTED = 10, EXACT = 17 }; // digits
+    const bool is_int = param->kind == RG_PARAM_INT;
+    const double below = is_int ? param->min - 1 : nextafter(param->min, -INFINITY);
+    const double above = is_int ? param->max + 1 : nextafter(param->max, INFINITY);
+    const bool ends = takes_number(params, settings, param->name, param->min, PRINTED) &&
+                      takes_number(params, settings, param->name, param->max, PRINTED);
+    if (!ends)
+        fail_msg("%s: %s", params->technique, rg_last_error());
+    if (takes_number(params, settings, param->name, below, EXACT) ||
+        takes_number(params, settings, param->name, above, EXACT))
+        fail_msg("%s: %s is taken beyond its range, %.10g to %.10g", params->technique, param->name,
+                 param->min, param->max);
+}
+
+// Every number of every technique takes both ends of its range as they print, and nothing beyond.
+static void test_ranges(void **state)
+{
+    (void)state;
+    for (int t = 0; rg_techniques[t]; t++) {
+        const struct rg_param_table *params = rg_techniques[t]->params;
+        void *settings = calloc(1, params->settings_size);
+        assert_non_null(settings);
+        rg_params_reset(params, settings);
+        for (int i = 0; i < params->count; i++)
+            if (params->rows[i].kind == RG_PARAM_INT || params->rows[i].kind == RG_PARAM_FLOAT)
+                assert_range_holds(params, &params->rows[i], settings);
+        free(settings);
+    }
+}
+
 static void test_choices(void **state)
 {
     (void)state;
@@ -194,9 +240,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_defaults), cmocka_unit_test(test_numbers),
-        cmocka_unit_test(test_choices),  cmocka_unit_test(test_presets),
-        cmocka_unit_test(test_paths),    cmocka_unit_test(test_names),
-        cmocka_unit_test(test_texts),
+        cmocka_unit_test(test_ranges),   cmocka_unit_test(test_choices),
+        cmocka_unit_test(test_presets),  cmocka_unit_test(test_paths),
+        cmocka_unit_test(test_names),    cmocka_unit_test(test_texts),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

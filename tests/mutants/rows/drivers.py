@@ -19,6 +19,7 @@ ROWS = [
     Fault(GL, "glDepthMask(«depth == RG_DEPTH_WRITE»);", "GL_TRUE", "gl: a depth that is tested is written", tests=OF_GL),
     Fault(GL, "if (memcmp(now->scissor, wanted->scissor, sizeof(now->scissor)) != 0)\n        «glScissor(wanted->scissor[0], wanted->scissor[1], wanted->scissor[2], wanted->scissor[3]);»", "glScissor(0, 0, wanted->width, wanted->height);", "gl: scissors are ignored", tests=OF_GL),
     Fault(TARGET, ".behind = rg_draw_counts(draw) ? depth : 0,\n        .layer = «draw->layer»,", "0", "gl: every layer is the first", tests=OF_GL),
+    Fault("backends/gl/time.c", "«glFinish();»", "glFlush();", "gl: a sync does not wait", tests=("gl",)),
     Fault(VK, "const bool whole = «!draw->x1»;", "true", "vulkan: scissors are ignored", tests=OF_VK),
     Fault(VK, ".y = (float)-((RG_VIEWPORT_PX - «height») / 2),", "width", "vulkan: pictures that are not square are shifted", tests=OF_VK),
     Fault(VK_TIME, "*time_ns = (int64_t)((long double)vk->ticks_total * «vk->limits.timestampPeriod»);", "0.1f", "vulkan: ticks are tenths of nanoseconds", tests=("vulkan", "device suite, kernels, vulkan")),

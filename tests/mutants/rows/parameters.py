@@ -21,6 +21,8 @@ ROWS = [
     Fault(PARAMS, "*end || «!isfinite(value)» || !whole)", "false", "a parameter may be no number"),
     Fault(PARAMS, "if (value < param->min || «value > param->max»)", "false", "a parameter may be above its range"),
     Fault(PARAMS, "if («value < param->min» || value > param->max)", "false", "a parameter may be below its range"),
+    Fault(PARAMS, "if (value < param->min || «value > param->max»)", "value >= param->max", "a parameter's maximum is refused"),
+    Fault(PARAMS, "if («value < param->min» || value > param->max)", "value <= param->min", "a parameter's minimum is refused"),
     Fault(PARAMS, "if («strlen(text) == length» && !memcmp(choice, text, length)) {", "true", "the beginning of a choice is taken for it"),
     Fault(PARAMS, "if («strlen(text) >= RG_PATH_SIZE»)", "strlen(text) > RG_PATH_SIZE + 8", "a path of 1024 bytes is taken"),
     Fault(PARAMS, "return «!table->preset» || strcmp(param->name, table->preset) ||", "true", "a preset assigns nothing"),
