@@ -1,12 +1,12 @@
 #include "core/base/log.h"
-#include "core/base/place.h"
+#include "core/base/text/place.h"
 
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "core/base/plain.h"
+#include "core/base/text/plain.h"
 
 enum { LINE_SIZE = 1024, MOST_TOLD = 256 };
 

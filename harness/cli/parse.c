@@ -5,7 +5,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "core/base/words.h"
+#include "core/base/text/words.h"
 #include "harness/cli/command.h"
 
 struct line {

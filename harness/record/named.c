@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/base/plain.h"
+#include "core/base/text/plain.h"
 
 // Whether a text is UTF-8: jansson takes nothing else.
 static bool is_utf8(const char *text)

@@ -24,7 +24,7 @@ struct rg_count {
 };
 
 // Copies text as JSON can hold it and terminals take it: whole characters of UTF-8, as many as fit,
-// question marks for bytes of what is none, and plain (core/base/plain.h).
+// question marks for bytes of what is none, and plain (core/base/text/plain.h).
 void rg_text_copy(char *to, size_t size, const char *from);
 // What a document gives back for a number: rounded to RG_NUMBER_DIGITS; NAN where JSON has none.
 double rg_number_kept(double number);

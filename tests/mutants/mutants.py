@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tries the tests: builds a copy of the source that holds every fault of rows/*.py behind a switch, and runs the tests that
+"""Tries the tests: builds a copy of the source that holds every fault of rows/ behind a switch, and runs the tests that
 ought to notice each.
 
 mutants.py BUILD [AREA]...    BUILD is a build of the source; an area is a file of rows/, or a room of kernels
@@ -32,7 +32,7 @@ sys.path.insert(0, str(HERE))
 def areas():
     """The modules of rows, by name, in order."""
     found = {}
-    for path in sorted((HERE / "rows").glob("*.py")):
+    for path in sorted((HERE / "rows").glob("**/*.py")):
         spec = importlib.util.spec_from_file_location(path.stem, path)
         module = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(module)

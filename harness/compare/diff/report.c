@@ -7,7 +7,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
-#include "core/base/plain.h"
+#include "core/base/text/plain.h"
 #include "core/image/compare/heatmap.h"
 #include "core/image/files/io.h"
 

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <sys/utsname.h>
 
-#include "core/base/words.h"
+#include "core/base/text/words.h"
 
 enum { LINE_SIZE = 8192, MAX_PATH = 1024 };
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/base/plain.h"
+#include "core/base/text/plain.h"
 
 void rg_reader_enter(struct rg_reader *reader, const char *format, ...)
 {

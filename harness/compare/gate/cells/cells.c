@@ -7,7 +7,7 @@
 
 #include "core/base/array.h"
 #include "core/base/log.h"
-#include "core/base/place.h"
+#include "core/base/text/place.h"
 #include "harness/compare/gate/text/lines.h"
 
 enum { MAX_SIZE_PX = 16384, MAX_FRAMES = 100000 };

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "core/base/log.h"
-#include "core/base/place.h"
+#include "core/base/text/place.h"
 #include "harness/compare/gate/cells/cells.h"
 
 static char logged[2048];

@@ -1,4 +1,4 @@
-#include "core/base/plain.h"
+#include "core/base/text/plain.h"
 
 void rg_plain(char *text)
 {

@@ -1,6 +1,6 @@
 // Words in a text, with a space between two.
-#ifndef RG_CORE_BASE_WORDS_H
-#define RG_CORE_BASE_WORDS_H
+#ifndef RG_CORE_BASE_TEXT_WORDS_H
+#define RG_CORE_BASE_TEXT_WORDS_H
 
 #include <stdbool.h>
 

@@ -1,4 +1,4 @@
-#include "core/base/words.h"
+#include "core/base/text/words.h"
 
 #include <string.h>
 

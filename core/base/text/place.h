@@ -1,6 +1,6 @@
 // Where in a file the work stands that may log an error.
-#ifndef RG_CORE_BASE_PLACE_H
-#define RG_CORE_BASE_PLACE_H
+#ifndef RG_CORE_BASE_TEXT_PLACE_H
+#define RG_CORE_BASE_TEXT_PLACE_H
 
 // Puts "PLACE: " before each error from now on, so that a refusal from below, which knows nothing
 // of files, is still one line that names its place. NULL: no longer. Not copied: it lives until
