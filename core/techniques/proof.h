@@ -11,7 +11,7 @@ struct rg_instance;
 enum { RG_POSE_LEFT_OUT = -1 };
 
 // A scene of verify. It takes so many steps with --full and with --quick; 0: as many as verify
-// takes of its own, RG_POSE_LEFT_OUT: it is not run.
+// takes of its own, RG_POSE_LEFT_OUT: it is not run. With neither it takes a part of the full ones.
 struct rg_pose {
     const char *set; // "panes=mirror"
     int full_steps, quick_steps;
@@ -24,7 +24,8 @@ struct rg_law {
     bool (*holds)(const struct rg_instance *instance, char *detail, size_t size);
 };
 
-// A model that is a little off: a numeric parameter becomes value * factor + offset.
+// A model that is a little off: a numeric parameter becomes value * factor + offset, which is
+// within its range and not the value itself.
 struct rg_mutant {
     const char *about; // "one drop fewer"
     const char *param;

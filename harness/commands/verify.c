@@ -31,7 +31,12 @@ static const struct rg_option options[] = {
      .about = "`raingauge list techniques` prints them; all are meant where none is named",
      .names = RG_NAMES_TECHNIQUE, .first = 1},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
-    RG_INCLUDE(rg_length_options, AT(length), NULL),
+    {RG_OPTION_FLAG, "quick", .offset = AT(length.quick), .excludes = "full",
+     .about = "the poses that show the most, for few steps (100, unless a pose says otherwise)"},
+    {RG_OPTION_FLAG, "full", .offset = AT(length.full),
+     .about = "every pose with three seeds, for all its steps (1,000, unless it says otherwise); "
+              "without either, a fifth of them, with three seeds of the first pose and one of each "
+              "other"},
     RG_INCLUDE(rg_frame_option, AT(steps), NULL),
     RG_INCLUDE(rg_size_option, AT(size), NULL),
     {RG_OPTION_FLAG, "stages", .offset = AT(stages),
@@ -127,7 +132,9 @@ static int verify_on(const struct verify_options *o, const struct rg_devices *de
     struct rg_verify v = {
         .width = o->size.width,
         .height = o->size.height,
-        .quick = o->length.quick,
+        .length = o->length.quick  ? RG_VERIFY_QUICK
+                  : o->length.full ? RG_VERIFY_FULL
+                                   : RG_VERIFY_USUAL,
         .steps = o->steps < 0 && o->stages ? STAGE_FRAMES : o->steps,
         .reference = find_or_open(devices, reference_name, &extra[0]),
         .mutant_device = find_or_open(devices, mutant_name, &extra[1]),
@@ -173,7 +180,7 @@ static int verify(const void *values, const struct rg_words *arguments)
 const struct rg_command rg_command_verify = {
     .name = "verify",
     .usage = "[TECHNIQUE...] [--device D,...|all] [--quick|--full] [--set KEY=VALUE]... [--json]",
-    .about = "proves that all devices compute the same: 1,000 steps, --quick 100; laws and mutants",
+    .about = "proves that all devices compute the same: poses, laws and mutants",
     .options = options,
     .options_size = sizeof(struct verify_options),
     .run = verify,

@@ -85,7 +85,7 @@ static const struct rg_pose poses[] = {
     {SMALL "residual=off", 300, RG_POSE_LEFT_OUT},
     {SMALL "smooth=off", 300, RG_POSE_LEFT_OUT},
     {SMALL "trail=lines", 300, RG_POSE_LEFT_OUT},
-    {SMALL "remove_s=2.5", 300, RG_POSE_LEFT_OUT},
+    {SMALL "remove_s=0.8", 300, RG_POSE_LEFT_OUT}, // after 48 steps: before the usual run ends
     {SMALL "tilt_deg=50", 300, RG_POSE_LEFT_OUT},
     {SMALL "turn_deg=-110", 300, RG_POSE_LEFT_OUT},
     {WET "turn_deg=180 trail=lines substeps=2 residual=off", 300, 20},

@@ -113,7 +113,7 @@ static const struct rg_mutant mutants[] = {
     {"drops 3 % brighter", "light", 1.03, 0},
     {"nearest drops 1 % farther", "near_m", 1.01, 0},
     {"steps 1 % longer", "step_s", 1.01, 0},
-    {"drops hide 3 % more", "opacity", 1.03, 0},
+    {"drops hide 3 % less", "opacity", 0.97, 0},
     {"the view turned by 0.2 degrees", "heading_deg", 1, 0.2},
     {NULL, NULL, 0, 0},
 };

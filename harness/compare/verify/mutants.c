@@ -25,17 +25,31 @@ int64_t rg_verify_mutant_work(const struct rg_verify *v)
     return runs * MUTANT_STEPS;
 }
 
+struct verdicts {
+    int run, killed;
+    bool error;
+    char alive[400]; // what survived, separated by ", "
+    char fault[400]; // of the list, the first; "": none
+};
+
 // The parameter's value as the mutant has it. False where that is out of its range, or the model's
-// own value: 1 % less of nothing is no mutant.
+// own value: 1 % less of nothing is no mutant, and the list that has it is wrong.
 static bool mutate(const struct rg_verify *v, const struct rg_mutant *mutant, char *text,
-                   size_t size)
+                   size_t size, struct verdicts *verdicts)
 {
     const struct rg_param *param = rg_params_find(v->technique->params, mutant->param);
     char value[RG_PATH_SIZE];
     rg_params_text(param, v->settings, value, sizeof(value));
     const double own = strtod(value, NULL), mutated = own * mutant->factor + mutant->offset;
     snprintf(text, size, "%s=%.17g", mutant->param, mutated);
-    return mutated != own && mutated >= param->min && mutated <= param->max;
+    const bool is_one = mutated != own && mutated >= param->min && mutated <= param->max;
+    if (!is_one && !*verdicts->fault)
+        snprintf(verdicts->fault, sizeof(verdicts->fault),
+                 "'%s' is none: %s is %.10g in the model's scene and would be %.10g, of %.10g to "
+                 "%.10g; mend the list of %s",
+                 mutant->about, mutant->param, own, mutated, param->min, param->max,
+                 v->technique->name);
+    return is_one;
 }
 
 // The image of the scene, with `assignments` over it.
@@ -50,12 +64,6 @@ static bool draw(struct rg_verify *v, const char *assignments, struct rg_picture
     free(settings);
     return ok;
 }
-
-struct verdicts {
-    int run, killed;
-    bool error;
-    char alive[400]; // what survived, separated by ", "
-};
 
 // Whether T1 notices the mutant: there is rain, and it is not the model's.
 static bool is_rejected(const struct rg_picture *truth, const struct rg_picture *other,
@@ -93,8 +101,8 @@ static void run_all(struct rg_verify *v, const struct rg_picture *truth,
         char assignment[256];
         struct rg_picture mutated = {0};
         rg_progress_label(v->progress, "%s: mutant: %s", v->technique->name, m->about);
-        if (!mutate(v, m, assignment, sizeof(assignment)))
-            continue;
+        if (!mutate(v, m, assignment, sizeof(assignment), verdicts))
+            continue; // the verdicts tell
         if (draw(v, assignment, &mutated))
             judge(m->about, truth, &mutated, dry, verdicts);
         else
@@ -134,13 +142,15 @@ static void report(struct rg_verify *v, const struct verdicts *verdicts)
     const char *technique = v->technique->name, *device = v->mutant_device->info.name;
     if (verdicts->error)
         rg_checks_add_error(v->checks, technique, "mutants", device);
+    else if (*verdicts->fault)
+        rg_checks_add(v->checks, technique, "mutants", device, RG_FAIL, "%s", verdicts->fault);
     else if (verdicts->killed == verdicts->run && verdicts->run)
         rg_checks_add(v->checks, technique, "mutants", device, RG_OK, "killed %d/%d",
                       verdicts->killed, verdicts->run);
     else
         rg_checks_add(v->checks, technique, "mutants", device, RG_FAIL,
                       "killed %d/%d; T1 accepts: %s", verdicts->killed, verdicts->run,
-                      *verdicts->alive ? verdicts->alive : "none was in its parameter's range");
+                      *verdicts->alive ? verdicts->alive : "there are none");
 }
 
 // The proof's scene over the technique's defaults. NULL, and one logged line, on failure.

@@ -1,21 +1,36 @@
 // Which poses of a technique are run, and for how long.
 #include "harness/compare/verify/verify.h"
 
-// Of poses that do not say.
-enum { QUICK_STEPS = 100, FULL_STEPS = 1000 };
+// QUICK_STEPS and FULL_STEPS are those of poses that do not say. One in USUAL_PART of the full ones
+// is enough for drops to run down a pane and for storms to fill a scene, which later steps repeat.
+enum { QUICK_STEPS = 100, FULL_STEPS = 1000, USUAL_PART = 5 };
+
+static int usual_steps(int quick, int full)
+{
+    const int part = (full + USUAL_PART - 1) / USUAL_PART;
+    const int steps = quick > part ? quick : part; // with fewer than the quick ones it may not rain
+    return full == RG_POSE_LEFT_OUT || steps > full ? full : steps;
+}
+
+static int own_steps(enum rg_verify_length length, const struct rg_pose *pose)
+{
+    const int quick = pose->quick_steps ? pose->quick_steps : QUICK_STEPS;
+    const int full = pose->full_steps ? pose->full_steps : FULL_STEPS;
+    if (length == RG_VERIFY_USUAL)
+        return usual_steps(quick, full);
+    return length == RG_VERIFY_QUICK ? quick : full;
+}
 
 int rg_verify_steps(const struct rg_verify *v, const struct rg_pose *pose)
 {
-    const int own = v->quick ? pose->quick_steps : pose->full_steps;
-    if (own == RG_POSE_LEFT_OUT || v->steps < 0)
-        return own ? own : v->quick ? QUICK_STEPS : FULL_STEPS;
-    return v->steps;
+    const int own = own_steps(v->length, pose);
+    return own == RG_POSE_LEFT_OUT || v->steps < 0 ? own : v->steps;
 }
 
 bool rg_verify_has_seed(const struct rg_verify *v, const struct rg_pose *pose, int seed)
 {
     const int place = (int)(pose - v->technique->proof->poses);
-    return !v->quick || place == 0 || place % RG_VERIFY_SEEDS == seed;
+    return v->length == RG_VERIFY_FULL || place == 0 || place % RG_VERIFY_SEEDS == seed;
 }
 
 int rg_verify_poses(const struct rg_verify *v)

@@ -9,11 +9,18 @@
 
 enum { RG_VERIFY_SEEDS = 3 };
 
+// How much of a proof is run. Its mutants are drawn alike in each.
+enum rg_verify_length {
+    RG_VERIFY_USUAL, // every pose, for a part of its steps, and the seeds in turn
+    RG_VERIFY_QUICK, // the poses that are not left out of it, for their quick steps; seeds in turn
+    RG_VERIFY_FULL,  // every pose, for all its steps, with every seed
+};
+
 struct rg_verify {
     const struct rg_technique *technique;
-    const void *settings;             // the user's
-    int width, height;                // of the image
-    bool quick;                       // else full
+    const void *settings; // the user's
+    int width, height;    // of the image
+    enum rg_verify_length length;
     int steps;                        // of every pose; -1: as many as a pose says
     struct rg_device *reference;      // what the others are compared with
     const struct rg_devices *devices; // may hold the reference: it is not compared with itself
@@ -24,9 +31,9 @@ struct rg_verify {
 
 // Steps of a pose before it is drawn; RG_POSE_LEFT_OUT where it is not run.
 int rg_verify_steps(const struct rg_verify *verify, const struct rg_pose *pose);
-// Whether a pose runs with a seed of RG_VERIFY_SEEDS. With --quick the first pose runs with all of
-// them, and each other one with one, in turn: a device that errs does so in some pose, and three
-// seeds of each cost three times as much.
+// Whether a pose runs with a seed of RG_VERIFY_SEEDS. But for RG_VERIFY_FULL the first pose runs
+// with all of them, and each other one with one, in turn: a device that errs does so in some pose,
+// and three seeds of each cost three times as much.
 bool rg_verify_has_seed(const struct rg_verify *verify, const struct rg_pose *pose, int seed);
 // How many poses are run.
 int rg_verify_poses(const struct rg_verify *verify);

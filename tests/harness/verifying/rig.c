@@ -16,7 +16,7 @@ const struct rg_law rig_no_laws[] = {{NULL, NULL}};
 static const struct rg_proof proof = {
     .poses = rig_poses, .dry = "drops=0 rain_drops_s=0", .laws = rig_no_laws};
 struct rg_technique rig_flow;
-bool rig_is_quick;
+enum rg_verify_length rig_length;
 int rig_steps;
 void (*rig_part)(struct rg_verify *verify);
 
@@ -32,7 +32,7 @@ int rig_setup(void **state)
     (void)state;
     rig_flow = *rg_technique_find("flow");
     rig_flow.proof = &proof;
-    rig_is_quick = false;
+    rig_length = RG_VERIFY_USUAL;
     rig_steps = 2;
     rig_part = rg_verify_devices;
     return 0;
@@ -51,7 +51,7 @@ void rig_verify(const char *assignments, enum rg_tier tier, int width, int heigh
                           .settings = settings,
                           .width = width,
                           .height = height,
-                          .quick = rig_is_quick,
+                          .length = rig_length,
                           .steps = rig_steps,
                           .reference = reference,
                           .devices = &devices,

@@ -13,7 +13,7 @@ extern const struct rg_law rig_no_laws[];
 extern struct rg_technique rig_flow;
 
 // How long poses are run.
-extern bool rig_is_quick;
+extern enum rg_verify_length rig_length;
 extern int rig_steps;
 // The part of `verify` that is run: rg_verify_devices, or another.
 extern void (*rig_part)(struct rg_verify *verify);

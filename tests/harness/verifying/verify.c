@@ -132,16 +132,18 @@ static bool count_step(struct rg_instance *instance)
 
 static const struct rg_pose long_poses[] = {
     {"drops=40", 3, 2}, {"drops=50", 5, RG_POSE_LEFT_OUT}, {"drops=60", 2, 1}, {NULL, 0, 0}};
+static const struct rg_pose uncommon_poses[] = {
+    {"", 11, RG_POSE_LEFT_OUT}, {"", 0, 0}, {"", 8, 0}, {"", RG_POSE_LEFT_OUT, 5}, {NULL, 0, 0}};
 static const struct rg_proof long_proof = {
     .poses = long_poses, .dry = "drops=0 rain_drops_s=0", .laws = rig_no_laws};
 
 // Verifies these poses: so many steps are taken with all seeds, and the line says how many.
-static void expect_steps(bool quick, int asked, int with_all, const char *says)
+static void expect_steps(enum rg_verify_length length, int asked, int with_all, const char *says)
 {
     struct rg_checks checks;
     rig_flow.proof = &long_proof;
     rig_flow.step = count_step;
-    rig_is_quick = quick;
+    rig_length = length;
     rig_steps = asked;
     taken = 0;
     rig_verify(RIG_CHEAP, RG_T0, 16, 16, &checks);
@@ -154,10 +156,26 @@ static void expect_steps(bool quick, int asked, int with_all, const char *says)
 static void poses_say_how_long(void **state)
 {
     (void)state;
-    expect_steps(false, -1, 3 * 10, "9 runs of 2 to 5 steps, identical to cpu:reference");
-    expect_steps(true, -1, 3 * 2 + 1, "4 runs of 1 to 2 steps, identical to cpu:reference");
-    expect_steps(false, 4, 3 * 12, "9 runs of 4 steps, identical to cpu:reference");
-    expect_steps(true, 4, 3 * 4 + 4, "4 runs of 4 steps, identical to cpu:reference");
+    expect_steps(RG_VERIFY_FULL, -1, 3 * 10, "9 runs of 2 to 5 steps, identical to cpu:reference");
+    expect_steps(RG_VERIFY_QUICK, -1, 3 * 2 + 1,
+                 "4 runs of 1 to 2 steps, identical to cpu:reference");
+    expect_steps(RG_VERIFY_USUAL, -1, 3 * 2 + 1 + 1,
+                 "5 runs of 1 to 2 steps, identical to cpu:reference");
+    expect_steps(RG_VERIFY_FULL, 4, 3 * 12, "9 runs of 4 steps, identical to cpu:reference");
+    expect_steps(RG_VERIFY_QUICK, 4, 3 * 4 + 4, "4 runs of 4 steps, identical to cpu:reference");
+    expect_steps(RG_VERIFY_USUAL, 4, 3 * 4 + 8, "5 runs of 4 steps, identical to cpu:reference");
+}
+
+// Else a fifth of the full steps, but no fewer than the quick ones, without which it may not rain,
+// and no more than the full ones.
+static void usual_runs_are_shorter(void **state)
+{
+    (void)state;
+    const struct rg_verify v = {.technique = &rig_flow, .steps = -1};
+    assert_int_equal(rg_verify_steps(&v, &uncommon_poses[0]), 3);
+    assert_int_equal(rg_verify_steps(&v, &uncommon_poses[1]), 200);
+    assert_int_equal(rg_verify_steps(&v, &uncommon_poses[2]), 8);
+    assert_int_equal(rg_verify_steps(&v, &uncommon_poses[3]), RG_POSE_LEFT_OUT);
 }
 
 // Poses that say nothing take what verify takes of its own; the bar knows them all.
@@ -165,10 +183,11 @@ static void poses_need_not_say(void **state)
 {
     (void)state;
     const struct rg_devices none = {0};
-    struct rg_verify v = {.technique = &rig_flow, .devices = &none, .steps = -1};
+    struct rg_verify v = {
+        .technique = &rig_flow, .devices = &none, .length = RG_VERIFY_FULL, .steps = -1};
     assert_int_equal(rg_verify_steps(&v, &rig_poses[0]), 1000);
     assert_int_equal(rg_verify_device_work(&v), 1000 * RG_VERIFY_SEEDS);
-    v.quick = true;
+    v.length = RG_VERIFY_QUICK;
     assert_int_equal(rg_verify_steps(&v, &rig_poses[0]), 100);
     v.steps = 0;
     assert_int_equal(rg_verify_steps(&v, &rig_poses[0]), 0);
@@ -179,21 +198,25 @@ static void poses_need_not_say(void **state)
     assert_int_equal(rg_verify_stage_work(&v), 2);
 }
 
-// Of quick runs the first pose has every seed, and the others take turns.
+// Of all but full runs the first pose has every seed, and the others take turns.
 static void poses_take_turns_with_seeds(void **state)
 {
     (void)state;
-    struct rg_verify v = {.technique = &rig_flow, .quick = true, .steps = -1};
+    struct rg_verify v = {.technique = &rig_flow, .steps = -1};
     rig_flow.proof = &long_proof;
     for (int seed = 0; seed < RG_VERIFY_SEEDS; seed++) {
         assert_true(rg_verify_has_seed(&v, &long_poses[0], seed));
         assert_int_equal(rg_verify_has_seed(&v, &long_poses[1], seed), seed == 1);
         assert_int_equal(rg_verify_has_seed(&v, &long_poses[2], seed), seed == 2);
+        v.length = RG_VERIFY_FULL;
+        assert_true(rg_verify_has_seed(&v, &long_poses[1], seed));
+        v.length = seed == 0 ? RG_VERIFY_QUICK : RG_VERIFY_USUAL;
     }
 }
 
-// Draws mutants of flow in this scene, and says what came of them.
-static void verify_mutants(const char *scene, const struct rg_mutant *mutants, const char *says)
+// Draws mutants of flow in this scene, which comes to that.
+static void verify_mutants(const char *scene, const struct rg_mutant *mutants,
+                           enum rg_outcome outcome, const char *says)
 {
     const struct rg_proof seen = {
         .dry = "drops=0 rain_drops_s=0", .mutant_scene = scene, .mutants = mutants};
@@ -204,14 +227,16 @@ static void verify_mutants(const char *scene, const struct rg_mutant *mutants, c
                           .checks = &checks,
                           .progress = &progress};
     rig_flow.proof = &seen;
+    rg_log_listen(ignore, NULL);
     rg_progress_start(&progress, rg_verify_mutant_work(&v));
     rg_verify_mutants(&v);
     rg_progress_end(&progress);
+    rg_log_listen(NULL, NULL);
     assert_int_equal(checks.count, 1);
     assert_string_equal(checks.rows[0].check, "mutants");
     assert_string_equal(checks.rows[0].detail, says);
-    assert_int_equal(rg_checks_exit(&checks),
-                     strstr(says, "accepts") ? RG_EXIT_FAIL : RG_EXIT_PASS);
+    assert_int_equal(checks.rows[0].status, outcome);
+    assert_int_equal(rg_checks_exit(&checks), outcome == RG_OK ? RG_EXIT_PASS : RG_EXIT_FAIL);
     assert_true(rg_device_close(v.mutant_device));
     rg_checks_free(&checks);
 }
@@ -223,10 +248,69 @@ static void a_mutant_that_lives_fails(void **state)
     const struct rg_mutant mutants[] = {{"another seed", "seed", 1, 1},
                                         {"a model behind", "model_size", 1.01, 0},
                                         {"a rounding", "fresnel_bias", 1.002, 0},
-                                        {"the model, which is none", "fresnel_bias", 1, 0},
                                         {NULL, NULL, 0, 0}};
-    verify_mutants(RIG_CHEAP " rain_drops_s=0 drops=400", mutants,
+    verify_mutants(RIG_CHEAP " rain_drops_s=0 drops=400", mutants, RG_FAIL,
                    "killed 1/3; T1 accepts: a model behind, a rounding");
+}
+
+// A mutant that cannot be drawn is a fault of the list, though all that can be are killed.
+static void a_mutant_that_is_none_fails(void **state)
+{
+    (void)state;
+    const struct rg_mutant seed = {"another seed", "seed", 1, 1}, none = {NULL, NULL, 0, 0};
+    const struct rg_mutant above[] = {seed, {"too many drops", "drops", 1, 1e6}, none};
+    const struct rg_mutant below[] = {{"too few drops", "drops", 1, -401}, seed, none};
+    const struct rg_mutant itself[] = {seed, {"the model", "fresnel_bias", 1, 0}, none};
+    const char scene[] = RIG_CHEAP " rain_drops_s=0 drops=400";
+    verify_mutants(scene, above, RG_FAIL,
+                   "'too many drops' is none: drops is 400 in the model's scene and would be "
+                   "1000400, of 0 to 100000; mend the list of flow");
+    verify_mutants(scene, below, RG_FAIL,
+                   "'too few drops' is none: drops is 400 in the model's scene and would be -1, of "
+                   "0 to 100000; mend the list of flow");
+    verify_mutants(scene, itself, RG_FAIL,
+                   "'the model' is none: fresnel_bias is 0.02 in the model's scene and would be "
+                   "0.02, of 0 to 1; mend the list of flow");
+}
+
+// Whether the instance has the seed behind the default one.
+static bool has_another_seed(const struct rg_instance *instance)
+{
+    char text[16];
+    rg_params_text(rg_params_find(rig_flow.params, "seed"),
+                   (const char *)instance + rig_flow.settings, text, sizeof(text));
+    return !strcmp(text, "2");
+}
+
+static bool fail_on_another_seed(struct rg_instance *instance)
+{
+    if (strcmp(instance->device->info.name, "cpu") || !has_another_seed(instance))
+        return rg_technique_find("flow")->step(instance);
+    return rg_driver_error("kernel 'rain': its driver is tired");
+}
+
+// An error is one, though the others of a list are killed.
+static void a_mutant_that_fails_is_an_error(void **state)
+{
+    (void)state;
+    const struct rg_mutant mutants[] = {
+        {"fewer drops", "drops", 0.5, 0}, {"another seed", "seed", 1, 1}, {NULL, NULL, 0, 0}};
+    rig_flow.step = fail_on_another_seed;
+    verify_mutants(RIG_CHEAP " rain_drops_s=0 drops=400", mutants, RG_ERROR,
+                   "kernel 'rain': its driver is tired");
+}
+
+// And so is one run of several.
+static void a_run_that_fails_is_an_error(void **state)
+{
+    (void)state;
+    struct rg_checks checks;
+    rig_flow.step = fail_on_another_seed;
+    rig_verify(RIG_CHEAP " drops=40", RG_T0, 16, 16, &checks);
+    assert_int_equal(rig_outcome(&checks, "state", "cpu"), RG_ERROR);
+    assert_int_equal(rig_outcome(&checks, "image", "cpu"), RG_ERROR);
+    assert_int_equal(rg_checks_exit(&checks), RG_EXIT_FAIL);
+    rg_checks_free(&checks);
 }
 
 // What is a little wrong is wrong among the few pixels where it rains, not among all: the dry
@@ -236,7 +320,7 @@ static void a_mutant_is_judged_where_it_rains(void **state)
     (void)state;
     const struct rg_mutant mutants[] = {{"Fresnel bias a quarter higher", "fresnel_bias", 1.25, 0},
                                         {NULL, NULL, 0, 0}};
-    verify_mutants(RIG_CHEAP " rain_drops_s=0 drops=60", mutants, "killed 1/1");
+    verify_mutants(RIG_CHEAP " rain_drops_s=0 drops=60", mutants, RG_OK, "killed 1/1");
 }
 
 // Whose error it was decides how all ends.
@@ -265,10 +349,14 @@ int main(void)
         cmocka_unit_test_setup(a_drivers_failure_fails, rig_setup),
         cmocka_unit_test_setup(devices_are_held_to_what_they_owe, rig_setup),
         cmocka_unit_test_setup(poses_say_how_long, rig_setup),
+        cmocka_unit_test_setup(usual_runs_are_shorter, rig_setup),
         cmocka_unit_test_setup(poses_need_not_say, rig_setup),
         cmocka_unit_test_setup(poses_take_turns_with_seeds, rig_setup),
         cmocka_unit_test(errors_are_somebodys),
         cmocka_unit_test_setup(a_mutant_that_lives_fails, rig_setup),
+        cmocka_unit_test_setup(a_mutant_that_is_none_fails, rig_setup),
+        cmocka_unit_test_setup(a_mutant_that_fails_is_an_error, rig_setup),
+        cmocka_unit_test_setup(a_run_that_fails_is_an_error, rig_setup),
         cmocka_unit_test_setup(a_mutant_is_judged_where_it_rains, rig_setup),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,6 +4,7 @@ from fault import Fault
 TESTS = ("verify", "differing", "image diff", "exit", "command line, wrong", "command line, cases")
 
 DEVICES, MUTANTS = "harness/compare/verify/devices.c", "harness/compare/verify/mutants.c"
+POSES = "harness/compare/verify/poses.c"
 SNAPSHOT, CHECKS, STAGES = ("harness/compare/verify/snapshot.c", "harness/compare/verify/checks.c", "harness/compare/verify/stages.c")
 REPORT = "harness/compare/diff/report.c"
 
@@ -32,7 +33,16 @@ ROWS = [
     Fault(MUTANTS, "bool rejected = «!comparison.tiers.of[RG_T1].holds» &&", "true", "every mutant counts as killed"),
     Fault(MUTANTS, "bool rejected = «!comparison.tiers.of[RG_T1].holds» &&", "!comparison.tiers.of[RG_T0].holds", "a rounding counts as a mutant's death"),
     Fault(MUTANTS, "const double own = strtod(value, NULL), mutated = own * mutant->factor «+ mutant->offset»;", "+ 0", "mutants have no offset"),
-    Fault(MUTANTS, "return «mutated != own» && mutated >= param->min", "true", "the model itself is tried as a mutant"),
+    Fault(MUTANTS, "const bool is_one = «mutated != own» && mutated >= param->min", "true", "the model itself is tried as a mutant"),
+    Fault(MUTANTS, "if («!is_one» && !*verdicts->fault)", "false", "a mutant out of its parameter's range is passed over"),
+    Fault(MUTANTS, "if («verdicts->error»)\n        rg_checks_add_error", "false", "a mutant that fails passes"),
+    Fault(DEVICES, "else if («t->errors»)\n        rg_checks_add", "false", "a run that fails passes"),
+    Fault(POSES, "const int steps = «quick > part ? quick : part»;", "part", "usual runs are shorter than quick ones"),
+    Fault(POSES, "(«full + USUAL_PART - 1») / USUAL_PART;", "full", "a part of the steps is cut off, not rounded up"),
+    Fault(POSES, "return «full == RG_POSE_LEFT_OUT || steps > full» ? full : steps;", "false", "usual runs may be longer than full ones"),
+    Fault(POSES, "return length == RG_VERIFY_QUICK ? «quick» : full;", "full", "quick runs are full ones"),
+    Fault(POSES, "return «v->length == RG_VERIFY_FULL» || place == 0", "false", "full runs have one seed of most poses"),
+    Fault(POSES, "own == RG_POSE_LEFT_OUT || v->steps < 0 ? own : «v->steps»;", "own", "the user's steps are ignored"),
     Fault(MUTANTS, "else if («verdicts->killed == verdicts->run && verdicts->run»)", "verdicts->run", "a mutant that lives passes"),
     Fault(CHECKS, "counts[checks->rows[i].status]++;", "counts[RG_OK]++;", "every check counts as ok"),
     Fault(CHECKS, "return rg_exit_worse(«checks->exit», rg_exit_of_all(counts));", "RG_EXIT_PASS", "an error that no check tells is forgotten"),
