@@ -5,11 +5,4 @@
 // Milliseconds from an arbitrary start.
 double rg_now_ms(void);
 
-// "48 s", "3 min", "2.7 h": two digits.
-enum { RG_DURATION_TEXT = 24 };
-const char *rg_duration_text(double s, char text[RG_DURATION_TEXT]);
-
-// Seconds from which a command says how long it will take: 30, or what RG_LONG_S says.
-double rg_long_s(void);
-
 #endif

@@ -7,6 +7,7 @@
 
 #include "core/base/log.h"
 #include "harness/console/clock.h"
+#include "harness/console/duration.h"
 
 static bool is_told_otherwise;
 

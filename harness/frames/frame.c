@@ -5,6 +5,7 @@
 #include "core/base/log.h"
 #include "core/image/files/io.h"
 #include "harness/console/clock.h"
+#include "harness/console/duration.h"
 #include "harness/console/progress.h"
 
 bool rg_frame_draw(struct rg_device *device, const struct rg_subject *subject, int frames,

@@ -13,6 +13,7 @@
 
 #include "core/base/log.h"
 #include "harness/console/clock.h"
+#include "harness/console/duration.h"
 #include "harness/console/progress.h"
 
 static char told[256];

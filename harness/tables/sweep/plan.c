@@ -7,6 +7,7 @@
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "harness/console/clock.h"
+#include "harness/console/duration.h"
 #include "harness/console/progress.h"
 #include "harness/measure/expected.h"
 #include "harness/devices/workers/device.h"
