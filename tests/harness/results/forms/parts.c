@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "harness/tables/sheet/trend.h"
-#include "tests/harness/results/sheets/rig.h"
+#include "tests/harness/results/forms/rig.h"
 
 // Of each work the cells of one variant stay, those of the other leave.
 static void test_keeping_a_variant(void **state)

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "harness/record/schema/schema.h"
-#include "tests/harness/results/sheets/rig.h"
+#include "tests/harness/results/forms/rig.h"
 
 static void test_sheet(void **state)
 {

@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 #include "harness/record/schema/schema.h"
-#include "tests/harness/results/sheets/rig.h"
+#include "tests/harness/results/forms/rig.h"
 
 static void test_json(void **state)
 {

@@ -1,4 +1,4 @@
-#include "tests/harness/results/sheets/rig.h"
+#include "tests/harness/results/forms/rig.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

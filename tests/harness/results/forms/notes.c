@@ -8,7 +8,7 @@
 
 #include "harness/record/schema/schema.h"
 #include "harness/tables/sheet/trend.h"
-#include "tests/harness/results/sheets/rig.h"
+#include "tests/harness/results/forms/rig.h"
 
 // Named rows of no paper: the first has all on.
 static const struct rg_table parts_table = {

@@ -10,7 +10,7 @@
 
 #include "harness/record/schema/schema.h"
 #include "harness/tables/sheet/trend.h"
-#include "tests/harness/results/sheets/rig.h"
+#include "tests/harness/results/forms/rig.h"
 
 static void test_order_of_names(void **state)
 {
