@@ -99,6 +99,12 @@ int64_t rg_memory_left(void)
     return available && available < left ? available : left;
 }
 
+int64_t rg_memory_grant(void)
+{
+    const int64_t left = left_of_limit();
+    return !memory.is_chosen ? 0 : left > 0 ? left : 1;
+}
+
 bool rg_memory_allows(int64_t bytes)
 {
     return bytes <= (bytes < SMALL_BYTES ? left_of_limit() : rg_memory_left());

@@ -18,6 +18,10 @@ int64_t rg_memory_available(void);
 // by the environment variable RG_MEMORY_BYTES. Until then it is what is available, less a tenth.
 void rg_memory_allow(int64_t bytes);
 
+// What a process may take that works for this one, in bytes: what is left, where the user has
+// chosen how much that is; 0 where it is to find out by itself.
+int64_t rg_memory_grant(void);
+
 // Bytes that may still be taken: 0 or more.
 int64_t rg_memory_left(void);
 // Whether so many may be taken at once. Cheap for less than a MiB.

@@ -69,7 +69,7 @@ bool rg_picture_create(struct rg_picture *picture, int width, int height, int ch
 int64_t rg_pictures_bytes(int width, int height, int count)
 {
     const int64_t texel_bytes = 4 * sizeof(float), half_texel_bytes = 4 * 2;
-    return (int64_t)width * height * (count * texel_bytes + half_texel_bytes);
+    return (int64_t)width * height * (count * texel_bytes + 2 * half_texel_bytes);
 }
 
 bool rg_pictures_fit(int width, int height, int count)

@@ -24,8 +24,8 @@ struct rg_picture {
 bool rg_picture_create(struct rg_picture *picture, int width, int height, int channels,
                        const char *name);
 
-// What so many pictures of 4 channels take that are held at once, and the texels of the one that is
-// being read from a device, in bytes.
+// What so many pictures of 4 channels take that are held at once, in bytes, with the texels of the
+// one that is being read from a device, which lie in memory that its process shares as well.
 int64_t rg_pictures_bytes(int width, int height, int count);
 // Whether they may be taken (core/base/memory.h), as is found out before any is drawn. False, and
 // one logged line.

@@ -75,12 +75,27 @@ static void print_lines(const struct rg_checks *checks)
     }
 }
 
+// No check is no proof, and is said.
+static void print_count(const struct rg_checks *checks)
+{
+    int counts[RG_OUTCOME_COUNT] = {0};
+    for (int i = 0; i < checks->count; i++)
+        counts[checks->rows[i].status]++;
+    printf("%d checks", checks->count);
+    for (int i = 0; i < RG_OUTCOME_COUNT; i++)
+        if (counts[i])
+            printf(", %d %s", counts[i], rg_outcome_name((enum rg_outcome)i));
+    printf("\n");
+}
+
 void rg_checks_print(const struct rg_checks *checks, bool json)
 {
-    if (json)
+    if (json) {
         print_json(checks);
-    else
-        print_lines(checks);
+        return;
+    }
+    print_lines(checks);
+    print_count(checks);
 }
 
 int rg_checks_exit(const struct rg_checks *checks)

@@ -3,6 +3,7 @@
 
 #include "core/base/array.h"
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "harness/frames/digests.h"
 #include "harness/frames/messages.h"
 #include "harness/frames/session.h"
@@ -28,6 +29,7 @@ bool rg_serve_session_open(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_subject subject;
     struct rg_device *device = rg_served_device(rg_take_text(request));
+    rg_memory_allow(rg_take_int(request));
     if (!device || !rg_take_subject(request, &subject) ||
         !rg_array_fit(&sessions.all, &sessions.room, sessions.count + 1, sizeof(*sessions.all),
                       "sessions"))
