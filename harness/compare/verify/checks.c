@@ -75,12 +75,18 @@ static void print_lines(const struct rg_checks *checks)
     }
 }
 
+static void count_outcomes(const struct rg_checks *checks, int counts[RG_OUTCOME_COUNT])
+{
+    memset(counts, 0, RG_OUTCOME_COUNT * sizeof(*counts));
+    for (int i = 0; i < checks->count; i++)
+        counts[checks->rows[i].status]++;
+}
+
 // No check is no proof, and is said.
 static void print_count(const struct rg_checks *checks)
 {
-    int counts[RG_OUTCOME_COUNT] = {0};
-    for (int i = 0; i < checks->count; i++)
-        counts[checks->rows[i].status]++;
+    int counts[RG_OUTCOME_COUNT];
+    count_outcomes(checks, counts);
     printf("%d checks", checks->count);
     for (int i = 0; i < RG_OUTCOME_COUNT; i++)
         if (counts[i])
@@ -100,9 +106,8 @@ void rg_checks_print(const struct rg_checks *checks, bool json)
 
 int rg_checks_exit(const struct rg_checks *checks)
 {
-    int counts[RG_OUTCOME_COUNT] = {0};
-    for (int i = 0; i < checks->count; i++)
-        counts[checks->rows[i].status]++;
+    int counts[RG_OUTCOME_COUNT];
+    count_outcomes(checks, counts);
     return rg_exit_worse(checks->exit, rg_exit_of_all(counts));
 }
 
