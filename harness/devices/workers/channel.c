@@ -56,13 +56,16 @@ static bool make_room(struct rg_segment *segment, int64_t size)
     return !rg_segment_create(segment, room);
 }
 
-bool rg_channel_send(struct rg_channel *channel, const struct rg_message *message)
+bool rg_channel_send(struct rg_channel *channel, const struct rg_message *head,
+                     const struct rg_message *body)
 {
-    if (message->failed || !make_room(&channel->sent, message->size))
+    const int64_t size = head->size + body->size;
+    if (head->failed || body->failed || !make_room(&channel->sent, size))
         return false;
-    const struct notice notice = {message->size, channel->sent.id};
-    if (message->size)
-        memcpy(channel->sent.bytes, message->bytes, (size_t)message->size);
+    const struct notice notice = {size, channel->sent.id};
+    memcpy(channel->sent.bytes, head->bytes, (size_t)head->size);
+    if (body->size)
+        memcpy((char *)channel->sent.bytes + head->size, body->bytes, (size_t)body->size);
     ssize_t sent;
     do
         sent = send(channel->socket, &notice, sizeof(notice), MSG_NOSIGNAL);

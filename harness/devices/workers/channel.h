@@ -22,8 +22,9 @@ int rg_channel_create(struct rg_channel *channel, int *theirs);
 bool rg_channel_join(struct rg_channel *channel, int socket, int doing_id);
 void rg_channel_close(struct rg_channel *channel);
 
-// Sends a message whole. False where the other end has ended, or there is no memory.
-bool rg_channel_send(struct rg_channel *channel, const struct rg_message *message);
+// Sends a message of two parts, whole. False where the other end has ended, or there is no memory.
+bool rg_channel_send(struct rg_channel *channel, const struct rg_message *head,
+                     const struct rg_message *body);
 // Waits for up to `timeout_ms`, -1 for as long as it takes, and takes a message, which the caller
 // frees.
 enum rg_arrival { RG_ARRIVED, RG_ENDED, RG_NOT_YET };

@@ -29,14 +29,13 @@ static void keep_line(enum rg_log_level level, const char *line, void *user)
 // A reply is: whether the call succeeded, whose the last error was, the lines, and the result.
 static bool send_reply(struct rg_channel *channel, bool ok, const struct rg_message *result)
 {
+    static const struct rg_message nothing;
     struct rg_message reply = {0};
     rg_put_int(&reply, ok);
     rg_put_int(&reply, rg_last_error_kind());
     rg_put_int(&reply, logged.count);
     rg_put(&reply, logged.lines.bytes, logged.lines.size);
-    if (ok)
-        rg_put(&reply, result->bytes, result->size);
-    const bool sent = rg_channel_send(channel, &reply);
+    const bool sent = rg_channel_send(channel, &reply, ok ? result : &nothing);
     rg_message_free(&reply);
     rg_message_free(&logged.lines);
     logged.count = 0;

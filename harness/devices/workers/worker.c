@@ -309,12 +309,11 @@ static bool open_reply(const struct rg_worker *worker, struct rg_message *reply)
 // What is asked: the call, then the request.
 static bool send(struct rg_worker *worker, enum rg_call call, const struct rg_message *request)
 {
-    struct rg_message message = {0};
-    rg_put_int(&message, call);
-    if (request)
-        rg_put(&message, request->bytes, request->size);
-    const bool sent = rg_channel_send(&worker->channel, &message);
-    rg_message_free(&message);
+    static const struct rg_message nothing;
+    struct rg_message head = {0};
+    rg_put_int(&head, call);
+    const bool sent = rg_channel_send(&worker->channel, &head, request ? request : &nothing);
+    rg_message_free(&head);
     return sent;
 }
 
