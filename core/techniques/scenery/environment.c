@@ -58,10 +58,9 @@ static bool open_stage(struct rg_device *device, enum scenery_time time, int siz
 // from outside.
 static struct rg_camera camera_of(int face)
 {
-    static const float ahead[FACES][3] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
-                                          {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
-    static const float up[FACES][3] = {{0, 1, 0}, {0, 1, 0}, {0, 0, -1},
-                                       {0, 0, 1}, {0, 1, 0}, {0, 1, 0}};
+    const float ahead[FACES][3] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                   {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
+    const float up[FACES][3] = {{0, 1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}, {0, 1, 0}, {0, 1, 0}};
     struct rg_camera camera = city_first_camera;
     camera.angle_deg = 90;
     for (int i = 0; i < 3; i++)

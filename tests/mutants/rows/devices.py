@@ -28,7 +28,7 @@ ROWS = [
     Fault(MEMORY, "memory.taken_bytes «+= bytes»;", "+= 0", "what is taken is not counted"),
     Fault(MEMORY, "«memory.is_chosen» ? 0 : less_a_tenth", "false", "the user cannot allow more than is free"),
     Fault(MEMORY, "setenv(variable, text, «1»);", "0", "other processes learn the first limit alone"),
-    Fault(OBJECTS, "work->live_bytes - work->before_bytes + bytes «> work->watch_bytes»)", "< 0", "what is large is taken before it is counted"),
+    Fault(OBJECTS, "«work->live_bytes - work->before_bytes + bytes > work->watch_bytes»)", "false", "what is large is taken before it is counted"),
     Fault(TECHNIQUE, "return «rg_memory_allows(bytes)» ||", "true", "what was counted is opened, however much it is"),
     Fault(LIMITS, "return «size <= most» ||\n           rg_unsupported(\"buffer", "true", "a buffer may be of any size"),
     Fault(LIMITS, "if (desc->width > most->max_px || «desc->height > most->max_px» ||", "false", "an image may be of any height"),

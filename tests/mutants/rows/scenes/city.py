@@ -27,5 +27,5 @@ ROWS = [
     Fault(OPEN, "(uint32_t)points[i + below] << «16» |", "8", "a cell's corners are mixed up"),
     Fault(AROUND, "(size_t)(«size - 1 - x»)", "x", "the city's environment is mirrored"),
     Fault(AROUND, "{0, 1, 0}, {0, 1, 0}, {0, 0, «-1»}", "1", "the sky of the city's environment is turned"),
-    Fault(AROUND, "{0, 0, 1},  {0, 0, «-1»}};\n    static const float up", "1", "the city's environment shows the same before and behind"),
+    Fault(AROUND, "{0, 0, 1},  {0, 0, «-1»}};\n    const float up", "1", "the city's environment shows the same before and behind"),
 ]
