@@ -30,9 +30,10 @@ static void draw(struct rg_progress *p)
     const double passed_s = (p->drawn_ms - p->start_ms) * 1e-3;
     wipe();
     fprintf(stderr, "[%s] %3d %%", bar, (int)(part * 100));
-    // The first moments do not tell how long the rest takes.
-    if (part > 0.01 && passed_s > 1) {
-        const int left_s = (int)(passed_s / part - passed_s + 0.5);
+    // The first moments do not tell how long the rest takes, unless that was expected.
+    if (p->expected_unit_ms > 0 || (part > 0.01 && passed_s > 1)) {
+        const double left_ms = (double)(p->total - p->done) * rg_progress_unit_ms(p, p->drawn_ms);
+        const int left_s = (int)(left_ms * 1e-3 + 0.5);
         fprintf(stderr, "  %d:%02d left", left_s / 60, left_s % 60);
     }
     fprintf(stderr, "  %s", p->label);
@@ -49,14 +50,36 @@ static void print_above(enum rg_log_level level, const char *line, void *user)
     draw(user);
 }
 
+static void tell_all(const struct rg_progress *p, double ms)
+{
+    char text[RG_DURATION_TEXT];
+    rg_info("about %s in all%s%s", rg_duration_text(ms / 1e3, text), *p->label ? "; now: " : "",
+            p->label);
+}
+
+void rg_progress_start_expected(struct rg_progress *p, int64_t total, double unit_ms)
+{
+    *p = (struct rg_progress){.shown = isatty(STDERR_FILENO),
+                              .total = total,
+                              .start_ms = rg_now_ms(),
+                              .expected_unit_ms = unit_ms};
+    if (p->shown) {
+        rg_log_listen(print_above, p);
+        draw(p);
+    } else if ((double)total * unit_ms > rg_long_s() * 1e3) {
+        p->is_told = true;
+        tell_all(p, (double)total * unit_ms);
+    }
+}
+
 void rg_progress_start(struct rg_progress *p, int64_t total)
 {
-    *p = (struct rg_progress){
-        .shown = isatty(STDERR_FILENO), .total = total, .start_ms = rg_now_ms()};
-    if (!p->shown)
-        return;
-    rg_log_listen(print_above, p);
-    draw(p);
+    rg_progress_start_expected(p, total, 0);
+}
+
+void rg_progress_grow(struct rg_progress *p, int64_t units)
+{
+    p->total += units;
 }
 
 void rg_progress_label(struct rg_progress *p, const char *format, ...)
@@ -78,6 +101,14 @@ double rg_progress_all_ms(const struct rg_progress *p, double now_ms)
                : 0;
 }
 
+double rg_progress_unit_ms(const struct rg_progress *p, double now_ms)
+{
+    const double passed_ms = now_ms - p->start_ms;
+    const double prior = p->expected_unit_ms > 0 ? 0.1 * (double)p->total : 0;
+    const double units = (double)p->done + prior;
+    return units > 0 ? (passed_ms + prior * p->expected_unit_ms) / units : 0;
+}
+
 void rg_progress_told(void)
 {
     is_told_otherwise = true;
@@ -90,25 +121,46 @@ bool rg_progress_is_long(const struct rg_progress *p, double now_ms, double long
 
 static void tell_if_long(struct rg_progress *p)
 {
-    char text[RG_DURATION_TEXT];
     const double now_ms = rg_now_ms();
     if (p->first_ms <= 0) {
         p->first_ms = now_ms;
         p->first_done = p->done;
     } else if (!p->is_told && rg_progress_is_long(p, now_ms, rg_long_s() * 1e3)) {
         p->is_told = true;
-        rg_info("about %s in all%s%s", rg_duration_text(rg_progress_all_ms(p, now_ms) / 1e3, text),
-                *p->label ? "; now: " : "", p->label);
+        tell_all(p, rg_progress_all_ms(p, now_ms));
     }
+}
+
+// With every tenth, where what units take was expected.
+static void tell_left(struct rg_progress *p)
+{
+    char text[RG_DURATION_TEXT];
+    const int tenths = p->total > 0 ? (int)(10 * p->done / p->total) : 10;
+    if (!p->is_told || tenths <= p->told_tenths || tenths > 9)
+        return;
+    p->told_tenths = tenths;
+    const double left_ms = (double)(p->total - p->done) * rg_progress_unit_ms(p, rg_now_ms());
+    rg_info("about %s left%s%s", rg_duration_text(left_ms / 1e3, text), *p->label ? "; now: " : "",
+            p->label);
 }
 
 void rg_progress_add(struct rg_progress *p, int64_t units)
 {
     p->done += units;
-    if (!p->shown && !is_told_otherwise)
+    if (!p->shown && p->expected_unit_ms > 0)
+        tell_left(p);
+    else if (!p->shown && !is_told_otherwise)
         tell_if_long(p);
     if (p->shown && rg_now_ms() - p->drawn_ms > DRAW_EVERY_MS)
         draw(p);
+}
+
+void rg_progress_hide(const struct rg_progress *p)
+{
+    if (!p->shown)
+        return;
+    wipe();
+    fflush(stderr);
 }
 
 void rg_progress_end(struct rg_progress *p)

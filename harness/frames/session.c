@@ -47,6 +47,12 @@ void rg_session_close(struct rg_session *session)
     free(session);
 }
 
+bool rg_session_lives(const struct rg_session *session)
+{
+    const struct rg_worker *worker = rg_remote_worker(session->device);
+    return !worker || rg_worker_has(worker, session->life);
+}
+
 struct rg_device *rg_session_device(const struct rg_session *session)
 {
     return session->device;

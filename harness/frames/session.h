@@ -24,6 +24,10 @@ struct rg_session *rg_session_run(struct rg_device *device, const struct rg_subj
                                   int frames);
 void rg_session_close(struct rg_session *session); // NULL is accepted
 
+// Whether its instance is still there: it ends with its worker, which another session's call can
+// bring down.
+bool rg_session_lives(const struct rg_session *session);
+
 struct rg_device *rg_session_device(const struct rg_session *session);
 
 // --- simulating and drawing ---

@@ -18,11 +18,18 @@ double rg_job_time(struct rg_job *job, int frames)
     return wall_ms / frames;
 }
 
-bool rg_job_stay_in_window(struct rg_job *job, int frames)
+static bool is_in_window(const struct rg_job *job, int frames)
 {
     struct rg_account told;
+    if (!job->window_frames)
+        return true;
     rg_session_tell(job->session, &told);
-    if (!job->window_frames || told.frame + frames <= job->check_frames + job->window_frames)
+    return told.frame + frames <= job->check_frames + job->window_frames;
+}
+
+bool rg_job_be_ready(struct rg_job *job, int frames)
+{
+    if (job->session && rg_session_lives(job->session) && is_in_window(job, frames))
         return true;
     rg_session_close(job->session);
     job->session = rg_session_run(job->device, &job->subject, job->check_frames);
@@ -147,7 +154,7 @@ bool rg_job_warm_up(struct rg_job *job, const struct rg_measure_options *options
 {
     const double start = rg_now_ms();
     for (int i = 1; i <= MAX_WARM_UP_FRAMES && job->record->outcome == RG_OK; i++) {
-        if (!rg_job_stay_in_window(job, 1))
+        if (!rg_job_be_ready(job, 1))
             return false;
         const double before = job->warm_frame_ms, now = rg_job_time(job, 1);
         job->warm_frame_ms = now;

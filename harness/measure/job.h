@@ -21,7 +21,6 @@ struct rg_job {
     // Found:
     struct rg_session *session;
     double warm_frame_ms; // the last frame of the warm-up
-    int wanted_samples;   // so many will be taken
 };
 
 struct rg_measure_options {
@@ -29,6 +28,8 @@ struct rg_measure_options {
     double sample_ms;                // least duration of a sample
     double job_ms;                   // what a job's samples may take together
     double warm_up_ms;               // likewise its warm-up
+    // The samples are taken up to this share of all, so that a job can be visited again; 0: all.
+    double share;
     void (*load)(void); // timed between rounds, to tell how the machine drifts; NULL: nothing is
     void (*progress)(int done, int total, void *user); // NULL: none
     void *user;
@@ -46,9 +47,10 @@ bool rg_job_check(struct rg_job *job, const struct rg_expected *expected);
 bool rg_job_count(struct rg_job *job);
 bool rg_job_warm_up(struct rg_job *job, const struct rg_measure_options *options);
 
-// Opens a job's session anew, up to its check frames, where so many more frames would leave its
-// window. Ends the record on failure.
-bool rg_job_stay_in_window(struct rg_job *job, int frames);
+// Opens a job's session anew, up to its check frames, where it is closed, where another job's call
+// has brought its worker down, or where so many more frames would leave its window. Ends the record
+// on failure.
+bool rg_job_be_ready(struct rg_job *job, int frames);
 // The time that each of some frames takes by wall clock, between full syncs. Ends the record on
 // failure.
 double rg_job_time(struct rg_job *job, int frames);

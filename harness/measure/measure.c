@@ -6,36 +6,21 @@
 #include "core/base/alloc.h"
 #include "harness/console/interrupt.h"
 #include "harness/measure/calibration.h"
+#include "harness/measure/sampling.h"
 #include "kernels/dialect/rng.h"
 
-// A frame that takes longer than this is not slowed by what the job before left in the caches.
-#define LONG_FRAME_MS 100
-
-// Whether a frame that is not timed comes before a sample, so that what another job left in the
-// caches does not slow the sample.
-static bool needs_run_up(double frame_ms)
-{
-    return frame_ms < LONG_FRAME_MS;
-}
-
-// The window holds a sample and the frame before it.
-static int most_frames(const struct rg_job *job)
-{
-    return job->window_frames ? job->window_frames - 1 : 100000;
-}
-
-// Frames a sample, so that it lasts long enough to be timed well, and the number of samples.
+// Settles how the job is sampled. Samples that it has from an earlier visit, or an earlier run, are
+// of the same length.
 static void calibrate(struct rg_job *job, const struct rg_measure_options *options)
 {
     double ms = job->warm_frame_ms;
-    if (ms < options->sample_ms && rg_job_stay_in_window(job, 4))
+    if (job->record->wanted_samples)
+        return;
+    if (ms < options->sample_ms && rg_job_be_ready(job, 4))
         ms = fmin(rg_job_time(job, 2), rg_job_time(job, 2));
-    job->record->frames_a_sample =
-        (int)fmin(fmax(ceil(options->sample_ms / ms), 1), most_frames(job));
-    const double sample_ms = ms * (job->record->frames_a_sample + (needs_run_up(ms) ? 1 : 0));
-    job->wanted_samples =
-        (int)fmin(fmax(floor(options->job_ms / sample_ms), options->least_samples),
-                  fmin(options->most_samples, RG_MAX_SAMPLES));
+    const struct rg_sampling sampling = rg_sampling_of(ms, job->window_frames, options);
+    job->record->frames_a_sample = sampling.frames_a_sample;
+    job->record->wanted_samples = sampling.samples;
 }
 
 // Shuffled by the project's own generator, so that a run's order can be had again.
@@ -54,11 +39,11 @@ static void shuffle(int *order, int count, int round)
 static void take_sample(struct rg_job *job)
 {
     struct rg_record *record = job->record;
-    const bool is_last = record->sample_count + 1 == job->wanted_samples;
+    const bool is_last = record->sample_count + 1 == record->wanted_samples;
     int64_t begin, end;
-    if (!rg_job_stay_in_window(job, record->frames_a_sample + 1))
+    if (!rg_job_be_ready(job, record->frames_a_sample + 1))
         return;
-    if (needs_run_up(job->warm_frame_ms))
+    if (rg_sampling_has_run_up(job->warm_frame_ms))
         rg_job_time(job, 1);
     const bool has_begun = is_last && rg_session_time(job->session, &begin);
     const double ms = rg_job_time(job, record->frames_a_sample);
@@ -70,57 +55,120 @@ static void take_sample(struct rg_job *job)
 // Whether a job takes a sample in this round: its own are spread evenly over all rounds.
 static bool takes_turn(const struct rg_job *job, int round, int rounds)
 {
-    const int before = (int)((int64_t)round * job->wanted_samples / rounds);
-    const int after = (int)(((int64_t)round + 1) * job->wanted_samples / rounds);
-    return job->record->outcome == RG_OK && after > before;
+    const struct rg_record *record = job->record;
+    const int due = (int)(((int64_t)round + 1) * record->wanted_samples / rounds);
+    return record->outcome == RG_OK && record->sample_count < due;
 }
 
-static void finish(struct rg_job *job, const struct rg_calibration *calibration)
-{
-    rg_calibration_tell(calibration, &job->record->calibration_begin_ms,
-                        &job->record->calibration_end_ms);
-    if (!rg_job_time_passes(job))
-        rg_record_end_by_error(job->record);
-    rg_record_settle(job->record);
-}
+// --- rounds ---
 
-// Calibrates the jobs that can be measured, whose indices go into `order`. Returns their number.
-static int calibrate_all(struct rg_job *jobs, int count, const struct rg_measure_options *options,
-                         int *order)
+// The jobs that are measured, visited in turn.
+struct rounds {
+    struct rg_job *jobs;
+    int *order, count; // indices of jobs
+    bool *is_begun;    // a job: it has samples of an earlier visit
+    int all;           // rounds, of which so many share the samples of the longest job
+    struct rg_calibration calibration;
+};
+
+// Settles how the jobs that can be measured are sampled.
+static void begin(struct rounds *r, struct rg_job *jobs, int count,
+                  const struct rg_measure_options *options)
 {
-    int ready = 0;
+    r->jobs = jobs;
     for (int i = 0; i < count; i++) {
-        if (jobs[i].record->outcome != RG_OK)
+        const struct rg_record *record = jobs[i].record;
+        if (record->outcome != RG_OK || rg_interrupted())
             continue;
         calibrate(&jobs[i], options);
-        order[ready++] = i;
+        r->is_begun[i] = record->sample_count > 0;
+        r->order[r->count++] = i;
+        r->all = record->wanted_samples > r->all ? record->wanted_samples : r->all;
     }
-    return ready;
+}
+
+// False where no job had its turn.
+static bool do_round(struct rounds *r, int round)
+{
+    bool any = false;
+    shuffle(r->order, r->count, round);
+    for (int i = 0; i < r->count && !rg_interrupted(); i++) {
+        if (!takes_turn(&r->jobs[r->order[i]], round, r->all))
+            continue;
+        any = true;
+        take_sample(&r->jobs[r->order[i]]);
+    }
+    return any;
+}
+
+// What the load takes goes into all records: at the beginning of the first visit, and now.
+static void note_calibration(struct rounds *r)
+{
+    double begin_ms, end_ms;
+    rg_calibration_take(&r->calibration);
+    rg_calibration_tell(&r->calibration, &begin_ms, &end_ms);
+    for (int i = 0; i < r->count; i++) {
+        struct rg_record *record = r->jobs[r->order[i]].record;
+        if (!r->is_begun[r->order[i]])
+            record->calibration_begin_ms = begin_ms;
+        record->calibration_end_ms = end_ms;
+    }
+}
+
+static void finish(struct rg_job *job)
+{
+    struct rg_record *record = job->record;
+    if (record->outcome != RG_OK || record->sample_count < record->wanted_samples)
+        return;
+    if (!rg_job_time_passes(job))
+        rg_record_end_by_error(record);
+    rg_record_settle(record);
+}
+
+static void measure(struct rounds *r, const struct rg_measure_options *options)
+{
+    const int last = (int)ceil(r->all * (options->share > 0 ? options->share : 1) - 1e-9);
+    r->calibration = (struct rg_calibration){.load = options->load};
+    rg_calibration_take(&r->calibration);
+    for (int round = 0; round < last && !rg_interrupted(); round++) {
+        if (do_round(r, round))
+            note_calibration(r);
+        if (options->progress)
+            options->progress(round + 1, last, options->user);
+    }
+    for (int i = 0; i < r->count && !rg_interrupted(); i++)
+        finish(&r->jobs[r->order[i]]);
 }
 
 void rg_jobs_measure(struct rg_job *jobs, int count, const struct rg_measure_options *options)
 {
-    int *order = rg_alloc((size_t)count, sizeof(int), "jobs"), rounds = 0;
-    for (int i = 0; !order && i < count; i++)
+    struct rounds rounds = {.order = rg_alloc((size_t)count, sizeof(int), "jobs"),
+                            .is_begun = rg_alloc((size_t)count, sizeof(bool), "jobs")};
+    const bool ok = rounds.order && rounds.is_begun;
+    for (int i = 0; !ok && i < count; i++)
         if (jobs[i].record->outcome == RG_OK)
             rg_record_end_by_error(jobs[i].record);
-    const int ready = order ? calibrate_all(jobs, count, options, order) : 0;
-    for (int i = 0; i < ready; i++)
-        if (jobs[order[i]].wanted_samples > rounds)
-            rounds = jobs[order[i]].wanted_samples;
-    struct rg_calibration calibration = {.load = options->load};
-    rg_calibration_take(&calibration);
-    for (int round = 0; round < rounds && !rg_interrupted(); round++) {
-        shuffle(order, ready, round);
-        for (int i = 0; i < ready && !rg_interrupted(); i++)
-            if (takes_turn(&jobs[order[i]], round, rounds))
-                take_sample(&jobs[order[i]]);
-        rg_calibration_take(&calibration);
-        if (options->progress)
-            options->progress(round + 1, rounds, options->user);
+    if (ok) {
+        begin(&rounds, jobs, count, options);
+        measure(&rounds, options);
     }
-    for (int i = 0; i < ready && !rg_interrupted(); i++)
-        if (jobs[order[i]].record->outcome == RG_OK)
-            finish(&jobs[order[i]], &calibration);
-    free(order);
+    free(rounds.is_begun);
+    free(rounds.order);
+}
+
+double rg_jobs_expected_ms(const struct rg_job *jobs, int count,
+                           const struct rg_measure_options *options)
+{
+    double ms = 0;
+    for (int i = 0; i < count; i++) {
+        const struct rg_record *record = jobs[i].record;
+        if (record->outcome != RG_OK || !(jobs[i].warm_frame_ms > 0))
+            continue;
+        struct rg_sampling sampling =
+            rg_sampling_of(jobs[i].warm_frame_ms, jobs[i].window_frames, options);
+        if (record->wanted_samples)
+            sampling.samples = record->wanted_samples - record->sample_count;
+        ms += rg_sampling_ms(&sampling, jobs[i].warm_frame_ms);
+    }
+    return ms;
 }

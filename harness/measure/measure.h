@@ -9,9 +9,18 @@
 
 // Times all prepared jobs whose records are ok. Ends between two samples when it is interrupted
 // (harness/console/interrupt.h), with records that are not whole.
+//
+// With options->share, or where it was interrupted, a record keeps the samples that were taken, and
+// how many are wanted; another call takes the others, also of jobs whose sessions were closed, and
+// of records that came from a file.
 void rg_jobs_measure(struct rg_job *jobs, int count, const struct rg_measure_options *options);
+// What that would take, in milliseconds, by the last frame of their warm-up; without opening again.
+double rg_jobs_expected_ms(const struct rg_job *jobs, int count,
+                           const struct rg_measure_options *options);
 
 // Tells what each pass takes, in a run of its own that syncs after every pass. False on failure.
 bool rg_job_time_passes(struct rg_job *job);
+// What that takes, in milliseconds, where a frame takes so long.
+double rg_passes_expected_ms(double frame_ms);
 
 #endif

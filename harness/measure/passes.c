@@ -1,4 +1,5 @@
 // What each pass of a frame takes.
+#include <math.h>
 #include <string.h>
 
 #include "harness/console/clock.h"
@@ -37,10 +38,17 @@ bool rg_job_time_passes(struct rg_job *job)
     bool ok = true;
     while (ok && record->pass_frames < MOST_FRAMES &&
            (record->pass_frames < LEAST_FRAMES || rg_now_ms() - start < PASSES_MS)) {
-        ok = rg_job_stay_in_window(job, 1) && rg_session_stages(job->session, add_stage, record);
+        ok = rg_job_be_ready(job, 1) && rg_session_stages(job->session, add_stage, record);
         record->pass_frames++;
     }
     for (int i = 0; i < record->pass_count; i++)
         record->passes[i].ms /= record->pass_frames;
     return ok;
+}
+
+// A frame that waits after every stage takes longer than one that does not.
+double rg_passes_expected_ms(double frame_ms)
+{
+    const double ms = 1.5 * frame_ms;
+    return ms * fmin(fmax(ceil(PASSES_MS / ms), LEAST_FRAMES), MOST_FRAMES);
 }

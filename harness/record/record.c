@@ -57,6 +57,12 @@ void rg_record_settle(struct rg_record *record)
     record->frame_ms = rg_median(sorted, record->sample_count);
 }
 
+bool rg_record_is_whole(const struct rg_record *record)
+{
+    return record->outcome != RG_OK ||
+           (record->pass_frames > 0 && record->sample_count >= record->wanted_samples);
+}
+
 double rg_record_fps(const struct rg_record *record)
 {
     return 1000 / record->frame_ms.median;

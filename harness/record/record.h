@@ -53,6 +53,7 @@ struct rg_record {
     double create_ms;      // opening: buffers, inputs, and what the driver compiles then
     double first_frame_ms; // the first step and drawing, with what the driver compiles then
     int frames_a_sample, sample_count;
+    int wanted_samples;                // so many are to be taken; until then the cell is not whole
     double samples_ms[RG_MAX_SAMPLES]; // a frame, in the order in which they were taken
     struct rg_interval frame_ms;       // of the samples
     double api_over_wall; // the API's own clock by wall clock; trusted from 0.8 to 1.05
@@ -91,6 +92,9 @@ bool rg_record_end_by_error(struct rg_record *record);
 // samples. So a record prints the same before it is written as after it is read back.
 void rg_record_settle(struct rg_record *record);
 
+// Whether nothing of it is left to measure: it ended, or all its samples are taken, and its passes
+// were told apart.
+bool rg_record_is_whole(const struct rg_record *record);
 // Frames a second: 1000 over the median of its frame_ms.
 double rg_record_fps(const struct rg_record *record);
 // What the calibration's load took while it was measured, on average; 0: unknown.

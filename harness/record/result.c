@@ -24,6 +24,22 @@ bool rg_result_has(const struct rg_result *result, int row)
            result->rows[row - result->first_row];
 }
 
+bool rg_result_is_whole(const struct rg_result *result, int row)
+{
+    bool whole = true;
+    for (struct rg_place at = rg_result_start_row(row);
+         !result->is_of_textures && rg_result_next_in_row(result, &at);)
+        whole = whole && rg_record_is_whole(rg_result_at(result, at));
+    return whole;
+}
+
+void rg_result_drop_begun(struct rg_result *result)
+{
+    for (int row = result->first_row; row <= result->last_row; row++)
+        if (rg_result_has(result, row) && !rg_result_is_whole(result, row))
+            rg_result_drop_row(result, row);
+}
+
 bool rg_result_wants(const struct rg_result *result, int row)
 {
     return !result->left_out[row - result->first_row];

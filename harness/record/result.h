@@ -79,6 +79,10 @@ bool rg_result_next_in_row(const struct rg_result *result, struct rg_place *at);
 
 int rg_result_row_cells(const struct rg_result *result); // cells of a row
 bool rg_result_has(const struct rg_result *result, int row);
+// Whether nothing of a row that is there is left to measure.
+bool rg_result_is_whole(const struct rg_result *result, int row);
+// Drops the rows of which something is left to measure.
+void rg_result_drop_begun(struct rg_result *result);
 // Whether a row is to be there: a budget leaves some out, which are not missing.
 bool rg_result_wants(const struct rg_result *result, int row);
 // The first row that is missing; one behind the last where none is.

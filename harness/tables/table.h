@@ -3,8 +3,6 @@
 #define RG_HARNESS_TABLES_TABLE_H
 
 #include "harness/devices/kept.h"
-#include "harness/measure/job.h"
-#include "harness/record/disk/journal.h"
 #include "harness/record/result.h"
 #include "harness/tables/papers/published.h"
 
@@ -30,17 +28,5 @@ const struct rg_table_work *rg_table_work_at(const struct rg_result *result,
 // logged line, without memory.
 char *rg_table_assignments(const struct rg_result *result, const struct rg_table *table,
                            struct rg_place at);
-
-// How cells of this length are measured.
-const struct rg_measure_options *rg_table_options(bool is_full);
-// How they are where a budget is short of time: quick, with the fewest samples.
-const struct rg_measure_options *rg_table_few_samples(void);
-
-// Measures the rows of a result that was begun, a batch at a time; those that the journal (NULL:
-// none) has are taken from it. What cannot be had is the outcome of its record. Where it is
-// interrupted, the rows of the batch and those behind it are missing. False, with one logged line,
-// without memory. The caller calls rg_result_free in either case.
-bool rg_table_measure(struct rg_result *result, const struct rg_table *table, struct rg_kept *kept,
-                      struct rg_journal *journal);
 
 #endif

@@ -88,6 +88,59 @@ static void what_is_long_is_told_once(void **state)
     assert_int_equal(lines, 0);
 }
 
+// Of 1000 units that were to take 10 ms each, what is known beforehand counts as 100 of them.
+static void what_was_expected_counts_as_a_tenth(void **state)
+{
+    (void)state;
+    struct rg_progress p = {.total = 1000, .start_ms = 500, .expected_unit_ms = 10};
+    assert_true(rg_progress_unit_ms(&p, 500) == 10);
+    p.done = 100;
+    assert_true(rg_progress_unit_ms(&p, 500 + 2000) == 15); // they took 20 ms each
+    p.done = 900;
+    assert_true(rg_progress_unit_ms(&p, 500 + 18000) == 19);
+    p.expected_unit_ms = 0;
+    assert_true(rg_progress_unit_ms(&p, 500 + 18000) == 20);
+    p.done = 0;
+    assert_true(rg_progress_unit_ms(&p, 500 + 18000) == 0);
+}
+
+static void hear_all(enum rg_log_level level, const char *line, void *user)
+{
+    (void)user;
+    assert_int_equal(level, RG_LOG_INFO);
+    snprintf(told + strlen(told), sizeof(told) - strlen(told), "%s\n", line);
+    lines++;
+}
+
+// At once, and with every tenth how long the rest takes.
+static void what_was_expected_is_told_at_once(void **state)
+{
+    (void)state;
+    struct rg_progress p;
+    setenv("RG_LONG_S", "900", 1);
+    told[0] = 0;
+    lines = 0;
+    rg_log_listen(hear_all, NULL);
+    rg_progress_start_expected(&p, 100, 9e6);
+    rg_progress_label(&p, "creus-5.4, row 2");
+    rg_progress_add(&p, 9);
+    assert_string_equal(told, "about 250 h in all\n");
+    rg_progress_add(&p, 1);
+    assert_int_equal(lines, 2);
+    rg_progress_grow(&p, 100);
+    rg_progress_add(&p, 30); // two tenths of twice as many
+    rg_progress_add(&p, 1);
+    assert_int_equal(lines, 3);
+    rg_progress_add(&p, 160);
+    assert_int_equal(lines, 3);
+    assert_non_null(strstr(told, " left; now: creus-5.4, row 2\n"));
+    lines = 0;
+    rg_progress_start_expected(&p, 100, 8e3); // which is not long
+    rg_progress_add(&p, 50);
+    assert_int_equal(lines, 0);
+    rg_log_listen(NULL, NULL);
+}
+
 int main(void)
 {
     if (!freopen("/dev/null", "w", stderr)) // no terminal
@@ -96,6 +149,8 @@ int main(void)
         cmocka_unit_test(durations_have_two_digits),
         cmocka_unit_test(the_first_units_count_for_themselves),
         cmocka_unit_test(what_is_long_is_told_once),
+        cmocka_unit_test(what_was_expected_counts_as_a_tenth),
+        cmocka_unit_test(what_was_expected_is_told_at_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -110,7 +110,6 @@ static int run_on(struct rg_grid *grid, const struct rg_devices *devices,
     rg_plan_print(&plan, devices, o->dry_run ? stdout : stderr);
     if (o->dry_run)
         return RG_EXIT_PASS;
-    grid->table.rows_at_once = rg_plan_rows_at_once(&plan);
     const struct rg_table *const tables[] = {&grid->table};
     const struct rg_regenerate_options wanted = {.full = o->length.full,
                                                  .fresh = true,

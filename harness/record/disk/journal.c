@@ -16,7 +16,7 @@
 struct rg_journal {
     char folder[1536], name[128], path[2048]; // no folder: there is none to be had
     bool is_in_state;                         // of the user's; else with the results
-    struct rg_result held;                    // the rows that are whole
+    struct rg_result held;                    // the rows that are whole, or begun
     bool has_file, is_followed;
     bool is_broken; // it could not be written, which one logged line said
 };
@@ -113,9 +113,19 @@ struct rg_journal *rg_journal_open(const struct rg_result *result, const char *f
     return j;
 }
 
-bool rg_journal_has(const struct rg_journal *journal, int row)
+static bool holds(const struct rg_journal *journal, int row)
 {
     return journal && rg_result_has(&journal->held, row);
+}
+
+bool rg_journal_has(const struct rg_journal *journal, int row)
+{
+    return holds(journal, row) && rg_result_is_whole(&journal->held, row);
+}
+
+bool rg_journal_has_part(const struct rg_journal *journal, int row)
+{
+    return holds(journal, row) && !rg_result_is_whole(&journal->held, row);
 }
 
 static bool is_of_same(const struct rg_record *a, const struct rg_record *b)
@@ -127,7 +137,7 @@ static bool is_of_same(const struct rg_record *a, const struct rg_record *b)
 
 bool rg_journal_take(const struct rg_journal *journal, struct rg_result *result, int row)
 {
-    if (!rg_journal_has(journal, row))
+    if (!holds(journal, row))
         return false;
     struct rg_place at;
     for (at = rg_result_start_row(row); rg_result_next_in_row(result, &at);)
@@ -144,15 +154,23 @@ bool rg_journal_take(const struct rg_journal *journal, struct rg_result *result,
 
 // --- writing ---
 
-static bool has_error(const struct rg_result *result, int row)
+// Whether a cell can be gone on with: nothing is known of one without a sample.
+static bool is_begun(const struct rg_result *result, const struct rg_record *record)
 {
-    bool found = false;
-    for (struct rg_place at = rg_result_start_row(row); rg_result_next_in_row(result, &at);) {
+    return record->outcome != RG_OK || record->sample_count || result->is_of_textures;
+}
+
+// Whether a row is worth keeping: what is broken may pass by the next run.
+static bool is_worth_keeping(const struct rg_result *result, int row)
+{
+    bool worth = rg_result_has(result, row);
+    for (struct rg_place at = rg_result_start_row(row);
+         worth && rg_result_next_in_row(result, &at);) {
         const struct rg_record *record = rg_result_at(result, at);
-        found = found || rg_outcome_is_broken(record->outcome) ||
-                rg_outcome_is_broken(record->truth_error.outcome);
+        worth = is_begun(result, record) && !rg_outcome_is_broken(record->outcome) &&
+                !rg_outcome_is_broken(record->truth_error.outcome);
     }
-    return found;
+    return worth;
 }
 
 static bool write_file(struct rg_journal *j)
@@ -176,18 +194,27 @@ static bool write_file(struct rg_journal *j)
 
 static void hold_row(struct rg_journal *j, const struct rg_result *result, int row)
 {
-    if (has_error(result, row) || !rg_result_add_row(&j->held, row))
+    if (!is_worth_keeping(result, row) || !rg_result_add_row(&j->held, row))
         return;
     for (struct rg_place at = rg_result_start_row(row); rg_result_next_in_row(result, &at);)
         *rg_result_at(&j->held, at) = *rg_result_at(result, at);
+}
+
+static bool is_whole(const struct rg_result *result)
+{
+    bool whole = true;
+    for (int row = result->first_row; whole && row <= result->last_row; row++)
+        whole = !rg_result_wants(result, row) ||
+                (rg_result_has(result, row) && rg_result_is_whole(result, row));
+    return whole;
 }
 
 void rg_journal_add(struct rg_journal *j, const struct rg_result *result, int first, int last)
 {
     for (int row = first; j && row <= last; row++)
         hold_row(j, result, row);
-    // Nothing is lost once the last row is measured and printed.
-    if (!j || j->is_broken || (last == result->last_row && !j->is_followed))
+    // Nothing is lost once all rows are measured and printed.
+    if (!j || j->is_broken || (!j->is_followed && is_whole(result)))
         return;
     j->is_broken = !write_file(j);
     j->has_file = !j->is_broken;

@@ -109,6 +109,8 @@ static bool read_documents(struct rg_stored *stored, const char *path, const cha
             document && check_seal(path, document, false, why) ? add(stored) : NULL;
         const bool ok = result && rg_result_from_json(document, path, result, why);
         json_decref(document);
+        if (ok)
+            rg_result_drop_begun(result);
         if (!ok)
             return false;
     } while (at < size);

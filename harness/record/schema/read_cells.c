@@ -44,6 +44,17 @@ static bool read_calibration(struct rg_reader *r, const json_t *measured, struct
             rg_field_number(r, measured, "calibration_end_ms", &record->calibration_end_ms));
 }
 
+// A cell that is not whole has no run in which passes are told apart.
+static bool read_wanted(struct rg_reader *r, const json_t *measured, struct rg_record *record)
+{
+    record->wanted_samples = record->sample_count;
+    if (json_object_get(measured, "samples_wanted"))
+        return rg_field_int(r, measured, "samples_wanted", record->sample_count, RG_MAX_SAMPLES,
+                            &record->wanted_samples) &&
+               rg_field_int(r, measured, "pass_frames", 0, 0, &record->pass_frames);
+    return rg_field_int(r, measured, "pass_frames", 1, INT_MAX, &record->pass_frames);
+}
+
 static bool read_measured(struct rg_reader *r, const json_t *cell, struct rg_record *record,
                           bool is_timed)
 {
@@ -57,9 +68,8 @@ static bool read_measured(struct rg_reader *r, const json_t *cell, struct rg_rec
              rg_field_number(r, measured, "first_frame_ms", &record->first_frame_ms) &&
              rg_field_number(r, measured, "api_over_wall", &record->api_over_wall) &&
              rg_field_int(r, measured, "frames_a_sample", 1, INT_MAX, &record->frames_a_sample) &&
-             rg_field_int(r, measured, "pass_frames", 1, INT_MAX, &record->pass_frames) &&
-             read_samples(r, measured, record) && read_calibration(r, measured, record) &&
-             read_passes(r, measured, record)));
+             read_samples(r, measured, record) && read_wanted(r, measured, record) &&
+             read_calibration(r, measured, record) && read_passes(r, measured, record)));
 }
 
 static bool read_outcome(struct rg_reader *r, const json_t *object, enum rg_outcome *outcome,

@@ -30,6 +30,8 @@ static json_t *times_json(const struct rg_record *record)
                   "frames_a_sample", record->frames_a_sample, "samples_ms", samples_json(record),
                   "pass_frames", record->pass_frames, "passes_ms", passes_json(record, 1),
                   "passes_share", passes_json(record, rg_record_passes_ms(record)));
+    if (!rg_record_is_whole(record))
+        json_object_set_new(json, "samples_wanted", json_integer(record->wanted_samples));
     if (record->calibration_begin_ms > 0) {
         json_object_set_new(json, "calibration_begin_ms", json_real(record->calibration_begin_ms));
         json_object_set_new(json, "calibration_end_ms", json_real(record->calibration_end_ms));

@@ -6,7 +6,7 @@
 #define RAIN                                                                                       \
     .technique = "cartoon",                                                                        \
     .hardware = "AMD Athlon XP 2500+ 1.83 GHz with NVIDIA GeForce 6800 LE", .names = "model",      \
-    .width = 512, .height = 512, .check_frames = 75, .rows_at_once = 1, .counted = {"drops_asked"}
+    .width = 512, .height = 512, .check_frames = 75, .counted = {"drops_asked"}
 #define WORKS                                                                                      \
     .works = {                                                                                     \
         {"paper", "redraw=always query=spheres cut=off", ""},                                      \

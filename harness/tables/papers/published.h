@@ -68,9 +68,8 @@ struct rg_table {
     // Counters of the technique that have a column: what they grow by in a frame, NULL after the
     // last.
     const char *counted[RG_TABLE_COUNTED + 1];
-    // So many rows have their cells open, and are visited in turn, at the same time; 0: all rows.
-    // One where instances are large, or a row takes long: an interrupted table goes on with the
-    // first row that is not measured.
+    // At most so many rows have their cells open, and are visited in turn, at the same time; 0: as
+    // many as memory holds.
     int rows_at_once;
     int check_frames;  // simulated and drawn before images are compared; 0: RG_CHECK_FRAMES
     int window_frames; // timed behind them, over and over (struct rg_job); 0: whatever follows

@@ -23,7 +23,6 @@ const struct rg_table rg_table_ye_1 = {
     .key_count = 1,
     .quick = "geometry=off",
     .quick_rows = 2,
-    .rows_at_once = 1,
     .variants = {{"traditional", TRADITIONAL, NULL},
                  {"heap", TRADITIONAL "renewal=heap", NULL},
                  {"state", TRADITIONAL "state=compact", NULL},

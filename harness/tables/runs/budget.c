@@ -16,17 +16,6 @@ static double passed_s(const struct rg_budget *b)
 
 // --- planning ---
 
-// The first table of the same technique, and of the same kind of size. Those of textures are alike
-// in nothing.
-static int kind_of(const struct rg_table *const tables[], int i)
-{
-    for (int k = 0; k < i && !tables[i]->is_of_textures; k++)
-        if (!strcmp(tables[k]->technique, tables[i]->technique) &&
-            tables[k]->width == tables[i]->width && !tables[k]->is_of_textures)
-            return k;
-    return i;
-}
-
 // Of the budget, as much as looking at more than one table of a technique may take.
 #define MOST_PROBING 0.25
 
@@ -34,7 +23,7 @@ static int kind_of(const struct rg_table *const tables[], int i)
 static void probe_tables(struct rg_budget *b, struct rg_kept *kept, bool first_ones)
 {
     for (int i = 0; i < b->count && !rg_interrupted(); i++) {
-        const int kind = kind_of(b->tables, i);
+        const int kind = rg_budget_kind_of(b->tables, i);
         if ((kind == i) != first_ones)
             continue;
         if (kind != i && passed_s(b) > MOST_PROBING * b->seconds) {
@@ -42,7 +31,7 @@ static void probe_tables(struct rg_budget *b, struct rg_kept *kept, bool first_o
             continue;
         }
         rg_info("planning: %s", b->tables[i]->id);
-        rg_budget_probe(b->tables[i], kept, &b->kinds[kind], &b->costs[i]);
+        rg_budget_probe(b->tables[i], kept, false, &b->kinds[kind], &b->costs[i]);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "core/image/compare/compare.h"
 #include "harness/console/clock.h"
 #include "harness/measure/expected.h"
+#include "harness/measure/sampling.h"
 
 int rg_budget_check_frames(const struct rg_table *table)
 {
@@ -25,16 +26,10 @@ double rg_budget_cell_ms(const struct rg_table *table, double open_ms, double fr
                          const struct rg_measure_options *o)
 {
     const double ms = fmax(frame_ms, 1e-3);
-    double a_sample = fmax(ceil(o->sample_ms / ms), 1);
-    if (table->window_frames)
-        a_sample = fmin(a_sample, table->window_frames - 1);
-    a_sample += ms < 100;
-    const double samples =
-        fmin(fmax(floor(o->job_ms / (ms * a_sample)), o->least_samples), o->most_samples);
+    const struct rg_sampling sampling = rg_sampling_of(ms, table->window_frames, o);
     const double warm_up = fmax(4, fmin(20, o->warm_up_ms / ms) / 2);
     const double calibration = ms < o->sample_ms ? 4 : 0;
-    const double passes = fmin(fmax(ceil(400 / (1.5 * ms)), 2), 10) * 1.5;
-    const double frames = 1 + warm_up + calibration + samples * a_sample + passes;
+    const double frames = 1 + warm_up + calibration + rg_sampling_ms(&sampling, ms) / ms;
     return open_ms + (rg_budget_check_frames(table) + frames) * ms +
            reopen_ms(table, open_ms, ms, frames);
 }

@@ -1,5 +1,16 @@
 #include "harness/tables/runs/plan.h"
 
+#include <string.h>
+
+int rg_budget_kind_of(const struct rg_table *const tables[], int i)
+{
+    for (int k = 0; k < i && !tables[i]->is_of_textures; k++)
+        if (!strcmp(tables[k]->technique, tables[i]->technique) &&
+            tables[k]->width == tables[i]->width && !tables[k]->is_of_textures)
+            return k;
+    return i;
+}
+
 static int cells_a_device(const struct rg_budget_table *t, const struct rg_budget_choice *c)
 {
     return (c->all_rows ? t->rows : t->needed_rows) *

@@ -17,8 +17,9 @@ struct rg_budget_table {
     enum rg_budget_size smallest;     // below which its pictures show too little
     enum rg_budget_size due;          // which its claims are about, or the smallest
     struct rg_budget_cost {
-        double few_s; // a cell of the fewest samples
-        double all_s; // of all that quick mode takes
+        double few_s;      // a cell of the fewest samples
+        double all_s;      // of all that quick mode takes
+        double sampling_s; // of these, what the samples take
     } cells[RG_MAX_DEVICES][RG_BUDGET_SIZES];
     // Beside the cells, for the picture that those of a row, variant and work must show.
     double check_s[RG_BUDGET_SIZES];
@@ -42,6 +43,10 @@ struct rg_budget_devices {
     unsigned first; // one of them, on which each table is measured before any is on another
     unsigned last;  // some of them, which come when all else is measured
 };
+
+// The first table of the same technique, and of the same kind of size. Those of textures are alike
+// in nothing.
+int rg_budget_kind_of(const struct rg_table *const tables[], int table);
 
 // Chooses for each table, in stages. First come, on device `first` and in the smallest pictures,
 // the rows, variants and work that are needed, of each table; then the size that claims are about;

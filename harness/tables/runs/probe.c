@@ -6,9 +6,10 @@
 
 #include "core/base/log.h"
 #include "harness/console/clock.h"
+#include "harness/measure/sampling.h"
 #include "harness/tables/runs/cell.h"
 #include "harness/tables/runs/needed.h"
-#include "harness/tables/table.h"
+#include "harness/tables/measuring/measure.h"
 
 // --- what is opened ---
 
@@ -216,6 +217,17 @@ static bool probe_check(struct probing *p, struct rg_budget_table *costs)
     return true;
 }
 
+static struct rg_budget_cost cost_of(const struct probing *p, double open_ms, double frame_ms)
+{
+    const struct rg_measure_options *all = rg_table_options(p->result.full);
+    const struct rg_sampling sampling =
+        rg_sampling_of(fmax(frame_ms, 1e-3), p->table->window_frames, all);
+    return (struct rg_budget_cost){
+        1e-3 * rg_budget_cell_ms(p->table, open_ms, frame_ms, rg_table_few_samples()),
+        1e-3 * rg_budget_cell_ms(p->table, open_ms, frame_ms, all),
+        1e-3 * rg_sampling_ms(&sampling, frame_ms)};
+}
+
 static void probe_cells(struct probing *p, struct rg_budget_table *costs)
 {
     for (int d = 0; d < p->kept->devices->count; d++) {
@@ -223,11 +235,7 @@ static void probe_cells(struct probing *p, struct rg_budget_table *costs)
         if (!find_frames(p, p->kept->devices->devices[d], &frames))
             continue;
         for (int size = 0; size < RG_BUDGET_SIZES; size++)
-            costs->cells[d][size] = (struct rg_budget_cost){
-                1e-3 * rg_budget_cell_ms(p->table, frames.open_ms, frames.frame_ms[size],
-                                         rg_table_few_samples()),
-                1e-3 * rg_budget_cell_ms(p->table, frames.open_ms, frames.frame_ms[size],
-                                         rg_table_options(false))};
+            costs->cells[d][size] = cost_of(p, frames.open_ms, frames.frame_ms[size]);
     }
 }
 
@@ -263,17 +271,17 @@ static void probe_textures(struct probing *p, struct rg_budget_table *costs)
         const double a_cell_s = ok ? 1e-3 * share * (rg_now_ms() - start) : 0;
         free(settings);
         for (int size = 0; size < RG_BUDGET_SIZES; size++)
-            costs->cells[d][size] = (struct rg_budget_cost){a_cell_s, a_cell_s};
+            costs->cells[d][size] = (struct rg_budget_cost){a_cell_s, a_cell_s, 0};
     }
 }
 
-bool rg_budget_probe(const struct rg_table *table, struct rg_kept *kept,
+bool rg_budget_probe(const struct rg_table *table, struct rg_kept *kept, bool full,
                      struct rg_budget_kind *kind, struct rg_budget_table *costs)
 {
-    const struct rg_table_part part = {.last_row = table->row_count - 1};
+    const struct rg_table_part part = {.last_row = table->row_count - 1, .full = full};
     struct probing p = {.table = table, .kept = kept, .kind = kind};
     name_costs(table, costs);
-    p.smallest = costs->smallest;
+    p.smallest = full ? RG_BUDGET_WHOLE : costs->smallest;
     find_ends(table, p.rows);
     rg_table_begin(&p.result, table, &part, kept->devices);
     const bool ok = table->is_of_textures || (probe_cpu(&p) && probe_check(&p, costs));

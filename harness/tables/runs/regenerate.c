@@ -9,24 +9,29 @@
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/tables/runs/budget.h"
+#include "harness/tables/runs/forecast.h"
+#include "harness/tables/measuring/measure.h"
 
 // One table of the command.
 struct task {
     const struct rg_table *table;
     struct rg_result result;
     struct rg_journal *journal;
+    struct rg_table_bar bar; // its part of the command's; without a progress it has its own
 };
 
 static void tell_resumed(const struct task *task)
 {
     const struct rg_result *result = &task->result;
-    int rows = 0;
-    for (int row = result->first_row; row <= result->last_row; row++)
+    int rows = 0, parts = 0;
+    for (int row = result->first_row; row <= result->last_row; row++) {
         rows += rg_journal_has(task->journal, row);
-    if (rows)
-        rg_info("%s: %d of %d rows are those of a run that was interrupted; --fresh measures them "
-                "anew",
-                result->table, rows, result->last_row - result->first_row + 1);
+        parts += rg_journal_has_part(task->journal, row);
+    }
+    if (rows || parts)
+        rg_info("%s: %d of %d rows are those of a run that was interrupted, and %d have some of "
+                "their samples; --fresh measures them anew",
+                result->table, rows, result->last_row - result->first_row + 1, parts);
 }
 
 static void tell_interrupted(const struct task *task)
@@ -36,8 +41,9 @@ static void tell_interrupted(const struct task *task)
     if (missing > task->result.last_row)
         rg_info("%s: done, and then interrupted; the same command goes on with the next table", id);
     else if (path)
-        rg_info("%s: interrupted; the same command goes on with row %d (%s)", id, missing + 1,
-                path);
+        rg_info("%s: interrupted; the same command goes on with row %d and what it has of others "
+                "(%s)",
+                id, missing + 1, path);
     else
         rg_info("%s: interrupted before a row of it was done; the same command begins it anew", id);
 }
@@ -46,8 +52,11 @@ static int run_task(struct task *task, struct rg_kept *kept,
                     const struct rg_regenerate_options *options)
 {
     tell_resumed(task);
-    if (!rg_table_measure(&task->result, task->table, kept, task->journal))
+    const struct rg_table_bar *bar = task->bar.progress ? &task->bar : NULL;
+    if (!rg_table_measure(&task->result, task->table, kept, task->journal, bar))
         return RG_EXIT_FAIL;
+    if (bar)
+        rg_progress_hide(bar->progress);
     struct rg_place any = rg_result_start(&task->result);
     if (!rg_interrupted() && !rg_result_next(&task->result, &any))
         return RG_EXIT_PASS; // the budget ended before it
@@ -93,24 +102,74 @@ static int make_tasks(const struct rg_regenerate_options *o, const struct rg_dev
     return made;
 }
 
-// When a table fails, the others are still measured and written.
-static int run_tasks(struct task *tasks, int count, const struct rg_devices *devices,
-                     const struct rg_regenerate_options *o)
+static int cells_of(const struct task *tasks, int count)
 {
-    struct rg_kept kept = {.devices = devices};
-    int exit = RG_EXIT_PASS;
-    rg_interrupt_watch();
-    for (int i = 0; i < count && !rg_interrupted(); i++) {
-        if (i)
-            printf("\n");
-        exit = rg_exit_worse(exit, run_task(&tasks[i], &kept, o));
+    int cells = 0;
+    for (int i = 0; i < count; i++)
+        for (int row = tasks[i].result.first_row; row <= tasks[i].result.last_row; row++)
+            if (!rg_journal_has(tasks[i].journal, row))
+                cells += rg_result_row_cells(&tasks[i].result);
+    return cells;
+}
+
+// What cells of each table are expected to take. NULL where it is not worth finding out; the caller
+// frees it.
+static struct rg_cell_time *foresee(const struct task *tasks, int count, struct rg_kept *kept,
+                                    bool full)
+{
+    const struct rg_table *tables[RG_BUDGET_TABLES];
+    if (count > RG_BUDGET_TABLES || !rg_forecast_is_worth(cells_of(tasks, count), full))
+        return NULL;
+    for (int i = 0; i < count; i++)
+        tables[i] = tasks[i].table;
+    struct rg_cell_time *times = rg_alloc((size_t)count, sizeof(*times), "forecast");
+    if (times)
+        rg_forecast(tables, count, kept, full, times);
+    return times;
+}
+
+// Begins the command's bar, of which each table has its part.
+static void begin_bar(struct task *tasks, int count, const struct rg_cell_time *times,
+                      struct rg_progress *progress)
+{
+    int64_t units = 0;
+    for (int i = 0; i < count; i++) {
+        tasks[i].bar = rg_table_bar_of(times ? &times[i] : NULL, progress);
+        units += rg_table_units(&tasks[i].result, &tasks[i].bar, tasks[i].journal);
     }
+    rg_progress_start_expected(progress, units, times ? RG_TABLE_UNIT_MS : 0);
+}
+
+static void end_tasks(struct task *tasks, int count)
+{
     for (int i = 0; i < count; i++) {
         if (!rg_interrupted())
             rg_journal_remove(tasks[i].journal);
         rg_result_free(&tasks[i].result);
         rg_journal_close(tasks[i].journal);
     }
+}
+
+// When a table fails, the others are still measured and written.
+static int run_tasks(struct task *tasks, int count, const struct rg_devices *devices,
+                     const struct rg_regenerate_options *o)
+{
+    struct rg_kept kept = {.devices = devices};
+    struct rg_progress progress;
+    int exit = RG_EXIT_PASS;
+    rg_interrupt_watch();
+    struct rg_cell_time *times = foresee(tasks, count, &kept, o->full);
+    begin_bar(tasks, count, times, &progress);
+    free(times);
+    for (int i = 0; i < count && !rg_interrupted(); i++) {
+        if (i)
+            printf("\n");
+        exit = rg_exit_worse(exit, run_task(&tasks[i], &kept, o));
+    }
+    rg_progress_end(&progress);
+    if (rg_interrupted())
+        exit = rg_exit_worse(exit, RG_EXIT_SIGNALLED + rg_interrupt_signal());
+    end_tasks(tasks, count);
     return rg_kept_free(&kept) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
 }
 

@@ -11,6 +11,7 @@
 #include "harness/console/progress.h"
 #include "harness/measure/expected.h"
 #include "harness/devices/workers/device.h"
+#include "harness/tables/measuring/measure.h"
 
 // --- a row, opened for a moment ---
 
@@ -151,13 +152,9 @@ void rg_plan_print(const struct rg_plan *plan, const struct rg_devices *devices,
         fprintf(out, ", images to check by ");
         print_duration(plan->check_s, out);
     }
-    const bool all = !rg_plan_rows_at_once(plan);
-    fprintf(out, "), about %.0f MB with %s\n", (all ? plan->all_bytes : plan->row_bytes) / 1e6,
-            all ? "all rows open in turn" : "one row open at a time");
+    const bool all = plan->all_bytes <= (double)rg_memory_left() / 2;
+    fprintf(out, "), about %.0f MB%s\n", (all ? plan->all_bytes : plan->row_bytes) / 1e6,
+            all ? " with all rows open in turn"
+                : " a row, of which as many are open as memory holds");
     rg_progress_told();
-}
-
-int rg_plan_rows_at_once(const struct rg_plan *plan)
-{
-    return plan->all_bytes > (double)rg_memory_left() / 2 ? 1 : 0;
 }

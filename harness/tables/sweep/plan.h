@@ -25,8 +25,4 @@ bool rg_plan_make(const struct rg_table *table, const char *set, bool is_full, s
 // line.
 void rg_plan_print(const struct rg_plan *plan, const struct rg_devices *devices, FILE *out);
 
-// How many rows may be open at the same time: all, as 0, or one where they take more than half of
-// the memory that is free.
-int rg_plan_rows_at_once(const struct rg_plan *plan);
-
 #endif

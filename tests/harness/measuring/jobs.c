@@ -206,7 +206,7 @@ static void test_samples(void **state)
     rg_jobs_measure(jobs, 2, &options);
     for (int i = 0; i < 2; i++) {
         assert_int_equal(records[i].outcome, RG_OK);
-        assert_int_equal(records[i].sample_count, jobs[i].wanted_samples);
+        assert_int_equal(records[i].sample_count, jobs[i].record->wanted_samples);
         assert_in_range(records[i].sample_count, 2, 40);
         assert_in_range(records[i].pass_frames, 2, 10);
         rg_job_close(&jobs[i]);

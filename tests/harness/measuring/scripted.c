@@ -336,6 +336,86 @@ static void test_spread(void **state)
     end(&bench);
 }
 
+// --- jobs that are visited again ---
+
+static int count_of(char event)
+{
+    int count = 0;
+    for (const char *at = fake_events(); *at; at++)
+        count += *at == event;
+    return count;
+}
+
+// Each visit takes its share, opens again what was closed, and takes no calibration for rounds in
+// which there is nothing to do. Only the last tells passes apart and reads the API's clock.
+static void test_visits(void **state)
+{
+    (void)state;
+    const struct fake_script often = {.letter = 'A', .open_ms = 400, .draw_ms = 50};
+    const struct fake_script seldom = {.letter = 'B', .open_ms = 400, .draw_ms = 98};
+    static const int samples[3][2] = {{4, 2}, {8, 4}, {12, 6}};
+    struct rg_measure_options options = plain;
+    options.job_ms = 1200; // 12 samples of A, 6 of B
+    options.load = run_load;
+    struct bench bench;
+    begin(&bench);
+    add(&bench, &often, 2);
+    add(&bench, &seldom, 2);
+    loads = 2;
+    for (int visit = 0; visit < 3; visit++) {
+        const int loads_before = loads;
+        options.share = (visit + 1) / 3.0;
+        options.sample_ms = visit ? 500 : 20; // how a job is sampled was settled
+        if (!visit)
+            measure(&bench, &options);
+        else
+            rg_jobs_measure(bench.jobs, 2, &options);
+        assert_int_equal(loads - loads_before,
+                         5); // before the first round, and behind each of four
+        assert_int_equal(count_of('('), visit ? 2 : 0);
+        assert_int_equal(count_of('t'), visit == 2 ? 4 : 0);
+        for (int i = 0; i < 2; i++) {
+            assert_int_equal(bench.records[i].outcome, RG_OK);
+            assert_int_equal(bench.records[i].sample_count, samples[visit][i]);
+            assert_int_equal(bench.records[i].wanted_samples, samples[2][i]);
+            assert_int_equal(bench.records[i].frames_a_sample, 1);
+            assert_int_equal(bench.records[i].pass_frames > 0, visit == 2);
+            assert_int_equal(rg_record_is_whole(&bench.records[i]), visit == 2);
+            assert_ms(bench.records[i].calibration_begin_ms, 13.5); // 13 and 14: of the first visit
+            rg_job_close(&bench.jobs[i]);
+        }
+        fake_forget();
+    }
+    assert_ms(bench.records[0].calibration_end_ms, 26.5);
+    for (int i = 0; i < 12; i++)
+        assert_ms(bench.records[0].samples_ms[i], 50);
+    rg_jobs_measure(bench.jobs, 2, &options); // nothing is left to take
+    assert_int_equal(bench.records[0].sample_count, 12);
+    end(&bench);
+}
+
+// What is left to take is expected to last as long as it does.
+static void test_expected(void **state)
+{
+    (void)state;
+    const struct fake_script script = {.letter = 'A', .draw_ms = 50};
+    struct rg_measure_options options = plain;
+    options.job_ms = 1200; // 12 samples, with a frame before each
+    struct bench bench;
+    begin(&bench);
+    add(&bench, &script, 2);
+    add(&bench, &script, 2)->record->outcome = RG_FAIL;
+    assert_true(rg_job_open(&bench.jobs[0]) && rg_job_warm_up(&bench.jobs[0], &options));
+    bench.jobs[1].warm_frame_ms = 1;
+    const double passes_ms = 6 * 75; // until 400 ms are over
+    assert_ms(rg_jobs_expected_ms(bench.jobs, 2, &options), 12 * 2 * 50 + passes_ms);
+    options.share = 0.25;
+    rg_jobs_measure(bench.jobs, 2, &options);
+    assert_int_equal(bench.records[0].sample_count, 3);
+    assert_ms(rg_jobs_expected_ms(bench.jobs, 2, &options), 9 * 2 * 50 + passes_ms);
+    end(&bench);
+}
+
 // --- the API's own clock ---
 
 static double api_over_wall(double rate, bool has_clock, int64_t *reads)
@@ -422,7 +502,7 @@ static void test_interrupted(void **state)
     assert_true(rg_interrupted());
     assert_true(share > 0 && share < 1);
     for (int i = 0; i < 2; i++) {
-        assert_true(bench.records[i].sample_count < bench.jobs[i].wanted_samples);
+        assert_true(bench.records[i].sample_count < bench.jobs[i].record->wanted_samples);
         assert_int_equal(bench.records[i].pass_frames, 0);
         assert_true(bench.records[i].frame_ms.median == 0);
     }
@@ -450,9 +530,9 @@ static void test_lost(void **state)
         assert_non_null(strstr(job->record->detail, "lost"));
         // It is asked for no more than the sample in which it was lost.
         assert_true(bench.fake->waits <= waits + 3);
-        assert_true(job->record->sample_count <= job->wanted_samples);
+        assert_true(job->record->sample_count <= job->record->wanted_samples);
         assert_int_equal(well->record->outcome, RG_OK);
-        assert_int_equal(well->record->sample_count, well->wanted_samples);
+        assert_int_equal(well->record->sample_count, well->record->wanted_samples);
         rg_job_close(well);
         assert_true(rg_device_close(&other->pub));
         end(&bench);
@@ -470,6 +550,8 @@ int main(void)
         cmocka_unit_test(test_calibration),
         cmocka_unit_test(test_order),
         cmocka_unit_test(test_spread),
+        cmocka_unit_test(test_visits),
+        cmocka_unit_test(test_expected),
         cmocka_unit_test(test_api_clock),
         cmocka_unit_test(test_passes),
         cmocka_unit_test(test_interrupted),

@@ -17,9 +17,10 @@
 #include "harness/console/interrupt.h"
 #include "harness/record/disk/journal.h"
 #include "harness/record/disk/seal.h"
+#include "harness/record/disk/stored.h"
 #include "harness/record/schema/schema.h"
 #include "harness/tables/sheet/sheet.h"
-#include "harness/tables/table.h"
+#include "harness/tables/measuring/measure.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"
@@ -53,6 +54,7 @@ struct rig {
     struct rg_kept kept;
     int messages;
     bool interrupts; // at the first message, which is about the second row's file
+    bool is_last;    // no table follows
 };
 
 static int setup(void **state)
@@ -102,8 +104,8 @@ static json_t *run_table(struct rig *rig, struct rg_result *result, bool fresh)
     rig->messages = 0;
     rg_interrupt_watch();
     rg_log_listen(hear, rig);
-    struct rg_journal *journal = rg_journal_open(result, rig->folder, fresh, true);
-    assert_true(rg_table_measure(result, &table, &rig->kept, journal));
+    struct rg_journal *journal = rg_journal_open(result, rig->folder, fresh, !rig->is_last);
+    assert_true(rg_table_measure(result, &table, &rig->kept, journal, NULL));
     rg_log_listen(NULL, NULL);
     rg_journal_close(journal);
     return rg_result_json(result);
@@ -119,39 +121,90 @@ static int resumed_rows(const json_t *json)
     return (int)json_integer_value(json_object_get(json, "resumed_rows"));
 }
 
-// The first row is whole when the second interrupts the run; the next run takes it to the last
-// digit.
+// Whether a note of the result's sheet says that rows are an earlier run's.
+static bool tells_of_earlier_run(const struct rg_result *result)
+{
+    struct rg_sheet sheet;
+    bool is_told = false;
+    rg_result_sheet(result, &sheet);
+    for (int n = 0; n < sheet.note_count; n++)
+        is_told =
+            is_told || strstr(sheet.notes[n], "1 were measured by a run that was interrupted");
+    rg_sheet_free(&sheet);
+    return is_told;
+}
+
+// The second row cannot be opened and is not kept; the first is, and the next run takes it to the
+// last digit.
 static void test_resumes(void **state)
 {
     struct rig *rig = *state;
     struct rg_result result;
-    rig->interrupts = true;
     json_t *first = run_table(rig, &result, false);
-    assert_int_equal(rg_interrupt_signal(), SIGINT);
-    assert_int_equal(rg_result_first_missing(&result), 1);
-    assert_true(json_is_true(json_object_get(first, "interrupted")));
-    assert_int_equal(json_array_size(json_object_get(first, "cells")), 2);
+    assert_true(json_is_false(json_object_get(first, "interrupted")));
+    assert_int_equal(json_array_size(json_object_get(first, "cells")), 4);
     assert_int_equal(resumed_rows(first), 0);
+    assert_false(tells_of_earlier_run(&result));
     rg_result_free(&result);
 
-    rig->interrupts = false;
     json_t *second = run_table(rig, &result, false);
     assert_int_equal(rg_result_first_missing(&result), 2);
-    assert_true(json_is_false(json_object_get(second, "interrupted")));
-    assert_int_equal(json_array_size(json_object_get(second, "cells")), 4);
     assert_int_equal(resumed_rows(second), 1);
     for (size_t i = 0; i < 2; i++)
         assert_true(json_equal(cell_at(first, i), cell_at(second, i)));
-    struct rg_sheet sheet;
-    rg_result_sheet(&result, &sheet);
-    bool is_told = false;
-    for (int n = 0; n < sheet.note_count; n++)
-        is_told =
-            is_told || strstr(sheet.notes[n], "1 were measured by a run that was interrupted");
-    assert_true(is_told);
-    rg_sheet_free(&sheet);
+    assert_true(tells_of_earlier_run(&result));
     rg_result_free(&result);
     json_decref(first);
+    json_decref(second);
+}
+
+static const json_t *samples_of(const json_t *json, size_t cell)
+{
+    return json_object_get(json_object_get(cell_at(json, cell), "measured"), "samples_ms");
+}
+
+// The first row has some of its samples when the second interrupts the run, which prints none of
+// it; the next run takes those, and the others.
+static void test_goes_on(void **state)
+{
+    struct rig *rig = *state;
+    struct rg_result result;
+    char path[128];
+    rig->interrupts = rig->is_last = true;
+    json_t *first = run_table(rig, &result, false);
+    rig->interrupts = false;
+    assert_int_equal(rg_interrupt_signal(), SIGINT);
+    assert_true(json_is_true(json_object_get(first, "interrupted")));
+    assert_int_equal(json_array_size(json_object_get(first, "cells")), 0);
+    rg_result_free(&result);
+    json_decref(first);
+
+    snprintf(path, sizeof(path), "%s/test-quick.journal", rig->folder);
+    json_t *kept = json_load_file(path, 0, NULL);
+    assert_int_equal(json_array_size(json_object_get(kept, "cells")), 2);
+    struct rg_stored stored = {0};
+    assert_true(rg_stored_read(&stored, path)); // which holds no row that could be printed
+    assert_int_equal(rg_result_first_missing(&stored.results[0]), 0);
+    rg_stored_free(&stored);
+    begin(rig, &result, 1);
+    struct rg_journal *journal = rg_journal_open(&result, rig->folder, false, true);
+    assert_true(rg_journal_has_part(journal, 0) && !rg_journal_has(journal, 0));
+    assert_false(rg_journal_has_part(journal, 1));
+    rg_journal_close(journal);
+    rg_result_free(&result);
+
+    json_t *second = run_table(rig, &result, false);
+    assert_int_equal(resumed_rows(second), 1);
+    for (size_t i = 0; i < 2; i++) {
+        const json_t *some = samples_of(kept, i), *all = samples_of(second, i);
+        const struct rg_place at = {.variant = (int)i};
+        assert_int_equal(json_array_size(all), rg_result_at(&result, at)->wanted_samples);
+        assert_int_equal(json_array_size(some), (json_array_size(all) + 2) / 3);
+        for (size_t k = 0; k < json_array_size(some); k++)
+            assert_true(json_equal(json_array_get(some, k), json_array_get(all, k)));
+    }
+    rg_result_free(&result);
+    json_decref(kept);
     json_decref(second);
 }
 
@@ -177,13 +230,11 @@ static void test_keeps_no_errors(void **state)
 
 // --- what is no journal of this run ---
 
-// The journal's JSON, of a run that ended in the second row.
+// The journal's JSON, of a run whose second row could not be opened.
 static json_t *make_journal(struct rig *rig, char path[128])
 {
     struct rg_result result;
-    rig->interrupts = true;
     json_t *printed = run_table(rig, &result, true);
-    rig->interrupts = false;
     rg_result_free(&result);
     snprintf(path, 128, "%s/test-quick.journal", rig->folder);
     json_t *json = json_load_file(path, 0, NULL);
@@ -271,8 +322,10 @@ static void test_rows_stay_apart(void **state)
     for (int row = 0; row < 2; row++) {
         assert_true(rg_table_add_row(&first, &table, row));
         assert_true(rg_table_add_row(&second, &table, row));
-        for (struct rg_place at = rg_result_start_row(row); rg_result_next_in_row(&first, &at);)
+        for (struct rg_place at = rg_result_start_row(row); rg_result_next_in_row(&first, &at);) {
             rg_result_at(&first, at)->create_ms = ++ms;
+            rg_result_at(&first, at)->sample_count = 1; // of none nothing is kept
+        }
     }
     rg_journal_add(journal, &first, 0, 1);
     for (int row = 1; row >= 0; row--) {
@@ -353,7 +406,7 @@ static void test_leaves_nothing(void **state)
         struct rg_result result;
         begin(rig, &result, 0);
         struct rg_journal *journal = rg_journal_open(&result, rig->folder, false, is_followed);
-        assert_true(rg_table_measure(&result, &table, &rig->kept, journal));
+        assert_true(rg_table_measure(&result, &table, &rig->kept, journal, NULL));
         assert_int_equal(files_in(rig->folder), is_followed);
         assert_int_equal(rg_journal_path(journal) != NULL, is_followed);
         rg_journal_remove(journal);
@@ -377,7 +430,7 @@ static void test_quick_settings(void **state)
     free(quick);
     free(full);
     result.full = false;
-    assert_true(rg_table_measure(&result, &table, &rig->kept, NULL));
+    assert_true(rg_table_measure(&result, &table, &rig->kept, NULL, NULL));
     assert_true(rg_result_at(&result, bare)->counters[0].value == 25); // drops that landed
     rg_result_free(&result);
 }
@@ -387,9 +440,9 @@ static void test_quick_settings(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_resumes),         TEST(test_keeps_no_errors), TEST(test_other_runs),
-        TEST(test_rows_stay_apart), TEST(test_changes),         TEST(test_damage),
-        TEST(test_leaves_nothing),  TEST(test_quick_settings),
+        TEST(test_resumes),    TEST(test_goes_on),         TEST(test_keeps_no_errors),
+        TEST(test_other_runs), TEST(test_rows_stay_apart), TEST(test_changes),
+        TEST(test_damage),     TEST(test_leaves_nothing),  TEST(test_quick_settings),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

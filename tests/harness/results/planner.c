@@ -12,8 +12,11 @@
 #include "core/base/log.h"
 #include "core/techniques/proof.h"
 #include "harness/console/clock.h"
+#include "harness/tables/measuring/measure.h"
 #include "harness/tables/runs/budget.h"
+#include "harness/measure/sampling.h"
 #include "harness/tables/runs/cell.h"
+#include "harness/tables/runs/forecast.h"
 #include "tests/harness/measuring/fake.h"
 
 #define assert_ms(value, ms) assert_near(value, ms, 1e-6)
@@ -162,7 +165,7 @@ static void what_a_table_takes_is_what_was_seen(void **state)
     struct rg_budget_kind kind = {0};
     struct rg_budget_table costs, again;
     begin(&rig);
-    assert_true(rg_budget_probe(&table, &rig.kept, &kind, &costs));
+    assert_true(rg_budget_probe(&table, &rig.kept, false, &kind, &costs));
     assert_int_equal(costs.rows, 3);
     assert_int_equal(costs.needed_rows, 3);
     assert_int_equal(costs.smallest, RG_BUDGET_FOURTH);
@@ -175,7 +178,7 @@ static void what_a_table_takes_is_what_was_seen(void **state)
     // On cpu both ends, a larger picture and a dry one; on others a small and a larger one.
     assert_int_equal(opened, 4 + 2 + 2);
     opened = 0;
-    assert_true(rg_budget_probe(&table, &rig.kept, &kind, &again));
+    assert_true(rg_budget_probe(&table, &rig.kept, false, &kind, &again));
     assert_int_equal(opened, 4);
     expect_cells(&again);
     end(&rig);
@@ -192,13 +195,13 @@ static void a_device_that_fails_takes_nothing(void **state)
     small.width = 256;
     begin(&rig);
     rig.fakes[2]->waits_left = 0;
-    assert_true(rg_budget_probe(&small, &rig.kept, &kind, &costs));
+    assert_true(rg_budget_probe(&small, &rig.kept, false, &kind, &costs));
     assert_int_equal(costs.smallest, RG_BUDGET_WHOLE);
     assert_true(costs.cells[2][RG_BUDGET_WHOLE].few_s == 0);
     assert_true(costs.cells[0][RG_BUDGET_WHOLE].few_s > 0);
     // Without cpu all cells fail.
     rig.fakes[0]->waits_left = 0;
-    assert_false(rg_budget_probe(&small, &rig.kept, &kind, &costs));
+    assert_false(rg_budget_probe(&small, &rig.kept, false, &kind, &costs));
     rig.fakes[0]->waits_left = -1;
     end(&rig);
 }
@@ -218,13 +221,45 @@ static void textures_take_what_opening_them_takes(void **state)
     textures.row_count = 4;
     textures.is_of_textures = true;
     begin(&rig);
-    assert_true(rg_budget_probe(&textures, &rig.kept, &kind, &costs));
+    assert_true(rg_budget_probe(&textures, &rig.kept, false, &kind, &costs));
     assert_int_equal(opened, 3);
     for (int d = 0; d < 3; d++) {
         const struct rg_budget_choice c = {.devices = 1u << d, .size = RG_BUDGET_WHOLE};
         assert_ms(rg_budget_expect(&costs, &c) * 1e3, 2 * due_ms[d]);
     }
     end(&rig);
+}
+
+// A cell takes what it does on the average device, with its share of what the row is checked by. In
+// full mode it is opened as it will be measured.
+static void a_forecast_is_of_all_devices(void **state)
+{
+    (void)state;
+    static const double slowness[] = {1, 10, 3};
+    const struct rg_table *const tables[] = {&table, &table};
+    const struct rg_measure_options *full = rg_table_options(true);
+    const double last_ms = 10 + 1.25e-4 * 524288, first_ms = 2 + 1.25e-4 * 524288;
+    const double mean_ms = (last_ms + first_ms) / 2, dry_share = 1.25e-4 * 524288 / last_ms;
+    double open_ms = 2 * 400 + (1 + dry_share) * 5 * 10 * mean_ms, sampling_ms = 0;
+    struct rg_cell_time times[2] = {{0, 0}, {0, 0}};
+    struct rig rig;
+    begin(&rig);
+    rg_forecast(tables, 2, &rig.kept, true, times);
+    for (int d = 0; d < 3; d++) {
+        const double ms = mean_ms * slowness[d];
+        const struct rg_sampling sampling = rg_sampling_of(ms, 0, full);
+        sampling_ms += rg_sampling_ms(&sampling, ms);
+        open_ms +=
+            rg_budget_cell_ms(&table, 40 * slowness[d], ms, full) - rg_sampling_ms(&sampling, ms);
+    }
+    for (int i = 0; i < 2; i++) {
+        assert_ms(times[i].open_ms, open_ms / 3);
+        assert_ms(times[i].sampling_ms, sampling_ms / 3);
+    }
+    assert_int_equal(opened, 5 + 3); // of the first both ends, a dry one, and on two other devices
+    end(&rig);
+    assert_true(rg_forecast_is_worth(1, true));
+    assert_false(rg_forecast_is_worth(299, false));
 }
 
 // --- planning anew ---
@@ -406,6 +441,7 @@ int main(void)
         cmocka_unit_test(what_a_table_takes_is_what_was_seen),
         cmocka_unit_test(a_device_that_fails_takes_nothing),
         cmocka_unit_test(textures_take_what_opening_them_takes),
+        cmocka_unit_test(a_forecast_is_of_all_devices),
         cmocka_unit_test(a_plan_that_is_kept_is_not_made_anew),
         cmocka_unit_test(cells_that_take_longer_have_the_rest_planned_anew),
         cmocka_unit_test(rows_that_are_not_done_tell_nothing),

@@ -11,6 +11,7 @@
 #include "core/base/log.h"
 #include "harness/measure/expected.h"
 #include "harness/tables/runs/regenerate.h"
+#include "harness/tables/measuring/measure.h"
 
 #define CHEAP                                                                                      \
     "view=pane panes=mirror environment=sky environment_px=16 reflection_px=16 resolution_px=64"
@@ -91,7 +92,7 @@ static int measure(struct rig *rig, const struct rg_table *of, int count)
     rig->devices.devices[0]->backend = &changed;
     rg_table_begin(&rig->result, of, &part, &rig->devices);
     rg_log_listen(keep_quiet, &messages);
-    assert_true(rg_table_measure(&rig->result, of, &rig->kept, NULL));
+    assert_true(rg_table_measure(&rig->result, of, &rig->kept, NULL, NULL));
     rg_log_listen(NULL, NULL);
     return messages;
 }

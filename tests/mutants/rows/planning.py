@@ -15,7 +15,6 @@ ROWS = [
     Fault(PLAN, "planned_s += «step.more_s»;", "0", "a plan has no end"),
     Fault(PLAN, "case CLAIMED:\n        if («!t->has_claims»)", "false", "claims need nothing first"),
     Fault(PLAN, "double cell_s = c->devices ? «t->check_s[c->size]» : 0;", "0", "the image to check by takes nothing"),
-    Fault(CELL, "fmax(floor(o->job_ms / (ms * a_sample)), «o->least_samples»)", "0", "long frames have fewer samples than six"),
     Fault(CELL, "return «floor(frames / table->window_frames)» *", "0 * frames", "a window is never left"),
     Fault("harness/tables/claims/hearing.c", "if («claim->test == RG_CLAIM_RATE && h->result->size_divisor > 1») {", "false", "a rate of small pictures is judged", tests=("verdicts",)),
     Fault(BUDGET, "? «fmin(fmax(b->taken_s / b->due_s, 0.5), 4)» : 1;", "1.0", "slow cells are planned as if they were not", tests=("planner",)),

@@ -3,6 +3,7 @@ from fault import Fault
 
 TESTS = ("named", "held", "rows", "journal", "output", "stored", "damaged", "sheets, cells", "sheets, json", "sheets, parts", "measure", "machine", "command line, tables", "command line, stored")
 
+TABLE = "harness/tables/measuring/measure.c"
 JOURNAL, STORED, NAMED = "harness/record/disk/journal.c", "harness/record/disk/stored.c", "harness/record/named.c"
 OUTPUT, RESULT, RECORD = "harness/record/output.c", "harness/record/result.c", "harness/record/record.c"
 TEMPORARY, FIELDS = "core/image/files/temporary.c", "harness/record/schema/fields.c"
@@ -11,10 +12,15 @@ ROWS = [
     Fault(JOURNAL, "journal->has_file = «has_same_head(&found, &journal->held)»;", "true", "a journal of another machine is taken over"),
     Fault(JOURNAL, "return «!strcmp(a->set, b->set)» && a->row_count", "true", "a row of other parameters is taken over"),
     Fault(JOURNAL, "if (!fresh && *j->folder)\n        read_file(j);", "if (*j->folder) read_file(j);", "a fresh run takes over the old one"),
-    Fault(JOURNAL, "if («has_error(result, row)» || !rg_result_add_row", "false", "a row that a driver broke is kept"),
-    Fault(JOURNAL, "rg_outcome_is_broken(record->outcome) ||\n                «rg_outcome_is_broken(record->truth_error.outcome)»;", "false", "a truth that could not be drawn is kept"),
+    Fault(JOURNAL, "is_begun(result, record) && «!rg_outcome_is_broken(record->outcome)» &&", "true", "a row that a driver broke is kept"),
+    Fault(JOURNAL, "«!rg_outcome_is_broken(record->truth_error.outcome)»;", "true", "a truth that could not be drawn is kept"),
     Fault(JOURNAL, "for (int row = first; j && row <= «last»; row++)", "first", "the first of several rows alone is kept"),
-    Fault(JOURNAL, "(last == result->last_row && «!j->is_followed»))", "true", "the last row of a table is not written though others follow"),
+    Fault(JOURNAL, "|| («!j->is_followed» && is_whole(result)))", "true", "the last row of a table is not written though others follow"),
+    Fault(JOURNAL, "|| (!j->is_followed && «is_whole(result)»))", "true", "a table that no other follows is not kept"),
+    Fault(JOURNAL, "return holds(journal, row) && «rg_result_is_whole(&journal->held, row)»;", "true", "a row with some of its samples is taken for whole", tests=("journal",)),
+    Fault(STORED, "if (ok)\n            «rg_result_drop_begun(result);»", ";", "a row that is not whole is printed", tests=("journal",)),
+    Fault(TABLE, "|| row <= last ? «VISITS» : 1;", "1", "groups of rows are visited once", tests=("journal",)),
+    Fault(TABLE, "if (rg_interrupted())\n        «rg_result_drop_begun(m->result);»", ";", "an interrupted run prints rows that are not whole", tests=("journal",)),
     Fault(JOURNAL, "record->device = device;", "", "a row that is taken over has a device without limits"),
     Fault(JOURNAL, "*record = *rg_result_at(&journal->held, «at»);", "(struct rg_place){.work = at.work, .variant = at.variant}", "every row is taken over as the first"),
     Fault(FIELDS, "memcpy(text, json_string_value(value), length + 1);\n    «rg_plain(text);»", ";", "a stored text steers the terminal"),

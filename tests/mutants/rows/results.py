@@ -7,7 +7,7 @@ JUDGE, HEARING, ORDER, PRINTED = ("harness/tables/claims/judge.c", "harness/tabl
                                   "harness/tables/claims/order.c", "harness/tables/claims/printed.c")
 MARGIN, SLOPE = "harness/tables/claims/margin.c", "harness/record/slope.c"
 TREND, COSTS, PREPARE, BEGIN = ("harness/tables/sheet/trend.c", "harness/tables/sheet/costs.c",
-                                "harness/tables/prepare.c", "harness/tables/begin.c")
+                                "harness/tables/measuring/prepare.c", "harness/tables/begin.c")
 
 ROWS = [
     Fault(JUDGE, "if (!parts->count || «against > parts->against») {", "against < parts->against", "a claim is as sure as its surest part"),

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/tables/batch.h"
+#include "harness/tables/measuring/batch.h"
 
 static bool tell_size(struct rg_record *record, const struct rg_session *session, const char *name,
                       int level)

@@ -1,6 +1,6 @@
 // The rows of a table that are measured together: the live jobs behind their records.
-#ifndef RG_HARNESS_TABLES_BATCH_H
-#define RG_HARNESS_TABLES_BATCH_H
+#ifndef RG_HARNESS_TABLES_MEASURING_BATCH_H
+#define RG_HARNESS_TABLES_MEASURING_BATCH_H
 
 #include "harness/measure/measure.h"
 #include "harness/tables/table.h"

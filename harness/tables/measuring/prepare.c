@@ -9,7 +9,7 @@
 #include "core/image/compare/compare.h"
 #include "harness/console/interrupt.h"
 #include "harness/frames/frame.h"
-#include "harness/tables/batch.h"
+#include "harness/tables/measuring/batch.h"
 
 // A row's variant, while its jobs are prepared.
 struct preparation {

@@ -1,4 +1,4 @@
-#include "harness/tables/batch.h"
+#include "harness/tables/measuring/batch.h"
 
 #include <stdlib.h>
 
