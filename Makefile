@@ -7,6 +7,7 @@
 
 BUILD = build
 ASAN = build-asan
+TSAN = build-tsan
 TABLES = $(BUILD)/tables
 # How long they may take together.
 BUDGET = 4m
@@ -49,6 +50,11 @@ $(ASAN)/build.ninja:
 	@meson setup $(ASAN) -Doptimization=1 -Ddebug=true -Db_sanitize=address,undefined \
 	  -Db_lundef=false -Ddrivers=false >/dev/null || { cat $(ASAN)/meson-logs/meson-log.txt; exit 1; }
 
+$(TSAN)/build.ninja:
+	@echo "== configuring $(TSAN), with the thread sanitizer"
+	@meson setup $(TSAN) -Doptimization=1 -Ddebug=true -Db_sanitize=thread \
+	  -Db_lundef=false -Ddrivers=false >/dev/null || { cat $(TSAN)/meson-logs/meson-log.txt; exit 1; }
+
 build: setup $(BUILD)/build.ninja
 	@echo "== building in $(BUILD)"
 	@ninja -C $(BUILD)
@@ -77,14 +83,17 @@ results: committed build
 	@python3 results/keep.py $(BUILD)/results $(RESULTS)
 	@python3 results/figures.py $(RESULTS)
 
-test: build $(ASAN)/build.ninja
+test: build $(ASAN)/build.ninja $(TSAN)/build.ninja
 	@echo "== building in $(ASAN)"
 	@ninja -C $(ASAN)
 	@echo "== testing, all devices"
 	@meson test -C $(BUILD) --no-rebuild --print-errorlogs || true
 	@echo "== testing under sanitizers, the CPU devices and the harness"
 	@meson test -C $(ASAN) --no-rebuild --print-errorlogs --suite sanitized || true
-	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog.json $(ASAN)/meson-logs/testlog.json
+	@echo "== testing in $(TSAN): whether threads race"
+	@meson test -C $(TSAN) --print-errorlogs --suite watched || true
+	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog.json $(ASAN)/meson-logs/testlog.json \
+	  $(TSAN)/meson-logs/testlog.json
 
 thorough: build
 	@echo "== testing at length, all devices"
@@ -99,4 +108,4 @@ format:
 	@git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i
 
 clean:
-	rm -rf $(BUILD) $(ASAN)
+	rm -rf $(BUILD) $(ASAN) $(TSAN)

@@ -127,6 +127,8 @@ static void begin_tile(struct shader *s, int tile)
     s->x1 = s->x0 + side;
     s->y1 = s->y0 + side;
     s->list.count = 0;
+    // Vectors reach beyond the last pixel: there they find what was gathered before, or this.
+    memset(&s->pixels, 0, sizeof(s->pixels));
     begin_listing(s);
 }
 

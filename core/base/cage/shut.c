@@ -20,7 +20,7 @@
 #define __SANITIZE_ADDRESS__
 #endif
 #endif
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 enum { SLOWNESS = 3, LIMITS_MEMORY = 0 };
 #else
 enum { SLOWNESS = 1, LIMITS_MEMORY = 1 };

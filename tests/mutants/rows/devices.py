@@ -10,6 +10,7 @@ GRID, PACKING, SCAN, SHARED = "core/device/grid.c", "core/device/packing.c", "co
 TARGETS, DEVICE, LIMITS, WORK = "core/device/targets.c", "core/device/device.c", "core/device/limits.c", "core/device/work.c"
 MEMORY, TECHNIQUE = "core/base/memory.c", "core/techniques/technique.c"
 OBJECTS, PASS, IMAGE, DRAW = "core/device/objects.c", "backends/cpu/pass.c", "backends/cpu/image.c", "backends/cpu/draw.c"
+SHADE = "backends/cpu/draw/shade_tmpl.h"
 
 ROWS = [
     Fault(GRID, "require(count > 0 && «origin >= 0» && origin + count", "true", "items may begin below 0"),
@@ -57,6 +58,7 @@ ROWS = [
     Fault(PASS, "if («notes.slot»)\n        return rg_driver_error", "false", "cpu:reference does not tell of a place out of range"),
     Fault(IMAGE, "memcpy(first + at, pattern, «total - at < step ? total - at : step»);", "total - at < step ? 0 : step", "clearing leaves out the last texels"),
     Fault(DRAW, "cpu_emit(&mine, i, d->end - begin > size ? «begin + size» : d->end);", "begin + size - 1", "a chunk's last item is not drawn"),
+    Fault(SHADE, "memset(&s->pixels, 0, «sizeof(s->pixels)»);", "0 * sizeof(s->pixels)", "vectors reach for texels that nobody has set", tests=("values, raster",)),
     Fault(DRAW, "for (int i = draw->item_begin; i < draw->item_end; i += «CPU_BATCH»)", "CPU_BATCH + 1", "counting leaves out items"),
     Fault(DRAW, "counts->records += «items.fate[i] != RG_FATE_DEAD»;", "1", "items that are not seen count as records"),
 ]
