@@ -13,7 +13,7 @@ enum { LEAST_BYTES = 1 << 16 }; // of a segment for messages
 // What the socket carries: where the message is.
 struct notice {
     int64_t size;
-    int segment;
+    int segment, unused; // so that no byte of it is left unset
 };
 
 int rg_channel_create(struct rg_channel *channel, int *theirs)
@@ -62,7 +62,7 @@ bool rg_channel_send(struct rg_channel *channel, const struct rg_message *head,
     const int64_t size = head->size + body->size;
     if (head->failed || body->failed || !make_room(&channel->sent, size))
         return false;
-    const struct notice notice = {size, channel->sent.id};
+    const struct notice notice = {size, channel->sent.id, 0};
     memcpy(channel->sent.bytes, head->bytes, (size_t)head->size);
     if (body->size)
         memcpy((char *)channel->sent.bytes + head->size, body->bytes, (size_t)body->size);
