@@ -59,6 +59,13 @@ bool rg_output_can_be_written(const char *folder, int64_t bytes)
            rg_error("%s: %s", folder, why.text);
 }
 
+bool rg_output_file_can_be_written(const char *path, int64_t bytes)
+{
+    struct rg_why why;
+    return (rg_temporary_try(path, &why) && rg_disk_has_room(path, bytes, &why)) ||
+           rg_error("%s: %s", path, why.text);
+}
+
 // A file that is written and not yet in its place.
 struct pending {
     char path[2048];

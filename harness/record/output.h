@@ -26,6 +26,9 @@ bool rg_output_write(const char *folder, const char *name, const char *text);
 // that is not there can be made as below, and is not yet. False, and one logged line.
 bool rg_output_can_be_written(const char *folder, int64_t bytes);
 
+// The same of a file of so many bytes, whose folder has to be there.
+bool rg_output_file_can_be_written(const char *path, int64_t bytes);
+
 // Makes a folder for what is written next, if only its last part is missing. False, with one logged
 // line, where that fails.
 bool rg_output_folder(const char *folder);

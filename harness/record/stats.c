@@ -9,12 +9,12 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// The largest k with P(X < k) <= 0.025 for X of `count` fair coins; 0 when there is none.
-static int outer_rank(int count)
+// The largest k with P(X < k) <= tail for X of `count` fair coins; 0 when there is none.
+static int outer_rank(int count, double tail)
 {
     double probability = pow(0.5, count), below = 0;
     int k = 0;
-    while (below + probability <= 0.025) {
+    while (below + probability <= tail) {
         below += probability;
         probability *= (double)(count - k) / (k + 1);
         k++;
@@ -24,8 +24,13 @@ static int outer_rank(int count)
 
 struct rg_interval rg_median(double *samples, int count)
 {
+    return rg_median_at(samples, count, 0.025);
+}
+
+struct rg_interval rg_median_at(double *samples, int count, double tail)
+{
     qsort(samples, (size_t)count, sizeof(*samples), ascending);
-    const int k = outer_rank(count);
+    const int k = outer_rank(count, tail);
     return (struct rg_interval){
         .median = (samples[(count - 1) / 2] + samples[count / 2]) / 2,
         .low = k ? samples[k - 1] : NAN,

@@ -14,5 +14,8 @@ struct rg_interval {
 // independent samples (the sign test's interval). Of fewer than RG_LEAST_SAMPLES no such interval
 // exists, and its ends are NAN.
 struct rg_interval rg_median(double *samples, int count);
+// The same with an interval that the true median is below, and above, with a probability of at most
+// `tail` each; its ends are NAN where so few samples have none.
+struct rg_interval rg_median_at(double *samples, int count, double tail);
 
 #endif

@@ -8,7 +8,7 @@ import subprocess
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-COMMANDS = ("doctor", "list", "render", "table", "sweep", "diff", "verify", "figures", "atlas")
+COMMANDS = ("doctor", "list", "render", "table", "sweep", "diff", "verify", "gate", "figures", "atlas")
 PARTS = r"\.(TH|SH|SS|TP|PP)\b"  # the macros that the page uses
 ESCAPES = r"\\(f[BIR]|[-&e])"
 
@@ -139,7 +139,7 @@ def check_completed_words(runner):
         "table creus-5.1 stu": ["stuppacher-1", "stuppacher-2"],
         "figures creus-4.1": [name for name in listed(runner, "figures") if name.startswith("creus-4.1")],
         "table --format ": ["md", "csv", "json", "tex"],
-        "table -o ": ["drivers"],
+        "table -o ": ["devices", "drivers"],
         "table -o ../c": ["../core", "../cli"],
         "diff run": ["run.py", "runner.py"],
         "diff fl": ["flow"],

@@ -13,6 +13,7 @@
            stored   tables that were interrupted, or are printed again
            long     what verify prints, tables that are counted, set in a row or begun anew, an atlas that is not kept
            misbehaving  drivers that crash, hang, lie about their end or lose their device
+           gates    one device held against another
            wrong    a driver that draws wrongly is found
            doctor   the report about this machine
            pages    the manual page and bash's completion
@@ -21,13 +22,16 @@
 
 Prints TAP, for meson.
 """
+import os
 import sys
 
 sys.dont_write_bytecode = True  # the sources' folder stays as it is
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "devices"))
 
 import cases
 import clips
 import doctor
+import gates
 import installed
 import kept
 import misbehaving
@@ -46,6 +50,7 @@ SUITES = {
     "stored": lambda runner: runner.check_all(results.STORED),
     "long": lambda runner: runner.check_all(results.LONG),
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
+    "gates": lambda runner: runner.check_all(gates.CHECKS),
     "wrong": lambda runner: runner.check_all(results.WRONG),
     "doctor": lambda runner: runner.check_all(doctor.CHECKS),
     "pages": lambda runner: runner.check_all(pages.CHECKS),

@@ -10,6 +10,7 @@
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
 #include "harness/commands/tables/sets.h"
+#include "harness/console/duration.h"
 #include "harness/console/exit.h"
 #include "harness/record/disk/stored.h"
 #include "harness/tables/claims/sheet.h"
@@ -182,27 +183,12 @@ static bool have_rows(struct rg_range rows, const struct rg_table *const chosen[
                     longest->row_count);
 }
 
-// Seconds of "90s", "4m" or "1h"; 0 where a text is none of these, with one logged line.
-static double seconds_of(const char *text)
-{
-    char *end;
-    const double number = strtod(text, &end);
-    const double unit = !strcmp(end, "s")   ? 1
-                        : !strcmp(end, "m") ? 60
-                        : !strcmp(end, "h") ? 3600
-                                            : 0;
-    if (unit > 0 && number > 0 && number * unit < 1e6)
-        return number * unit;
-    rg_error("--budget '%s': is no time; write it as 90s, 4m or 1h", text);
-    return 0;
-}
-
 static int measure(const struct table_options *o, const struct rg_words *arguments)
 {
     const struct rg_table *chosen[RG_MAX_WORDS];
     int count;
-    const double budget_s = o->budget ? seconds_of(o->budget) : 0;
-    if ((o->budget && !(budget_s > 0)) || !choose(arguments, o, chosen, &count) ||
+    double budget_s = 0;
+    if ((o->budget && !rg_duration_read(o->budget, "--budget", &budget_s)) || !choose(arguments, o, chosen, &count) ||
         !have_rows(o->rows, chosen, count) || !take_sets(&o->sets, chosen, count))
         return RG_EXIT_USAGE;
     const struct rg_regenerate_options wanted = {.first_row = o->rows.first,

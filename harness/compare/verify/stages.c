@@ -15,18 +15,6 @@ int64_t rg_verify_stage_work(const struct rg_verify *v)
     return (int64_t)rg_verify_poses(v) * (v->devices->count + 1);
 }
 
-// The first row in which two runs differ; -1: none.
-static int first_difference(const struct rg_digests *a, const struct rg_digests *b)
-{
-    const int count = a->count < b->count ? a->count : b->count;
-    for (int i = 0; i < count; i++) {
-        const struct rg_digest *p = &a->rows[i], *q = &b->rows[i];
-        if (p->hash != q->hash || p->stages_run != q->stages_run || strcmp(p->asset, q->asset) != 0)
-            return i;
-    }
-    return a->count == b->count ? -1 : count;
-}
-
 // Where and by how much, from a second run of both.
 static void describe(struct rg_verify *v, const struct rg_digest_run *run, struct rg_device *device,
                      int row, char *text, size_t size)
@@ -48,7 +36,7 @@ static void describe(struct rg_verify *v, const struct rg_digest_run *run, struc
 static void blame(struct rg_verify *v, const struct rg_digest_run *run, struct rg_device *device,
                   const char *pose, const struct rg_digests *now, const struct rg_digests *expected)
 {
-    const int row = first_difference(now, expected);
+    const int row = rg_digests_first_difference(now, expected);
     const struct rg_digest *d = row < now->count ? &now->rows[row] : &expected->rows[row];
     const bool same_place = row < now->count && row < expected->count &&
                             !strcmp(d->asset, expected->rows[row].asset) &&
@@ -72,7 +60,7 @@ static void compare(struct rg_verify *v, const struct rg_digest_run *run, struct
     const bool ok = rg_digests_take(run, device, &now);
     if (!ok)
         rg_checks_add_error(v->checks, run->subject.technique->name, "stages", device->info.name);
-    else if (first_difference(&now, expected) < 0)
+    else if (rg_digests_first_difference(&now, expected) < 0)
         rg_checks_add(v->checks, run->subject.technique->name, "stages", device->info.name, RG_OK,
                       "%s%s%d frames, %d digests of assets behind %d stages, as on %s", pose,
                       *pose ? ": " : "", run->frames, now.count,

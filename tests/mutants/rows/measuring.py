@@ -68,7 +68,7 @@ ROWS = [
     Fault(PASSES, "rg_now_ms() - start < «PASSES_MS»", "40", "the run that tells passes apart ends early"),
     Fault(PASSES, "«record->pass_frames < LEAST_FRAMES» ||", "false", "passes of slow frames are told of one frame"),
     Fault(PASSES, "if (record->pass_count == RG_MAX_PASS_TIMES - 1)\n        «name = \"other\";»", "", "what is summed is called by its first pass"),
-    Fault(STATS, "while (below + probability <= «0.025»)", "0.05", "an interval of 90 %"),
+    Fault(STATS, "rg_median_at(samples, count, «0.025»)", "0.05", "an interval of 90 %"),
     Fault(STATS, "probability *= (double)«(count - k)» / (k + 1);", "(count - k - 1)", "an interval's ranks follow another count"),
     Fault(STATS, ".low = k ? samples[«k - 1»] : NAN,", "k", "the interval's low end is a rank too high"),
     Fault(STATS, ".high = k ? samples[«count - k»] : NAN,", "count - 1", "the interval's high end is the largest sample"),

@@ -47,6 +47,6 @@ ROWS = [
     Fault(CHECKS, "counts[checks->rows[i].status]++;", "counts[RG_OK]++;", "every check counts as ok"),
     Fault(CHECKS, "return rg_exit_worse(«checks->exit», rg_exit_of_all(counts));", "RG_EXIT_PASS", "an error that no check tells is forgotten"),
     Fault(CHECKS, "if («rg_last_error_kind() == RG_ERROR_INPUT»)", "false", "the user's error is a device's"),
-    Fault(STAGES, "if («p->hash != q->hash» || p->stages_run", "false", "a stage's contents are not compared"),
-    Fault(STAGES, "return a->count == b->count ? -1 : «count»;", "-1", "a run of fewer stages is the same"),
+    Fault("harness/frames/recorder.c", "if («p->hash != q->hash» || p->stages_run", "false", "a stage's contents are not compared"),
+    Fault("harness/frames/recorder.c", "return a->count == b->count ? -1 : «count»;", "-1", "a run of fewer stages is the same"),
 ]

@@ -1,0 +1,235 @@
+// raingauge gate: whether one device is worse than another: other pictures, states or counters, or
+// slower by a margin.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+#include "core/base/memory.h"
+#include "harness/cli/command.h"
+#include "harness/cli/shared.h"
+#include "harness/compare/gate/report/gtest.h"
+#include "harness/compare/gate/run/gate.h"
+#include "harness/console/duration.h"
+#include "harness/devices/workers/worker.h"
+#include "harness/record/output.h"
+
+struct gate_options {
+    char *cells; // a file; NULL: those that are built in
+    double margin_percent;
+    char *budget;             // "2m"; NULL: none
+    struct rg_words known[3]; // files of expectations, of Mesa's fails, of Mesa's flakes
+    struct rg_words skips;    // of Mesa's skips
+    char *junit, *bmf;        // files; NULL: none
+    char *filter;             // googletest's
+    int timeout_s;
+    int64_t memory_bytes;
+    bool list, pictures_only, github, json;
+};
+
+#define AT(field) offsetof(struct gate_options, field)
+
+static const struct rg_option options[] = {
+    RG_GROUP("What to compare"),
+    {RG_OPTION_OPERAND, .argument = "A B",
+     .about = "two devices: B is held against A; each may have an environment, as in "
+              "'vulkan@VK_DRIVER_FILES=new.json'",
+     .names = RG_NAMES_DEVICE, .first = 1, .last = 2},
+    {RG_OPTION_TEXT, "cells", .argument = "FILE",
+     .about =
+         "the cells to run, one a line (docs/expectations.md); without it those that are built "
+         "in",
+     .offset = AT(cells), .names = RG_NAMES_FILE},
+    {RG_OPTION_FACTOR, "margin", .argument = "PERCENT",
+     .about = "B is worse where its frames take longer by so much", .offset = AT(margin_percent),
+     .initial = "5", .most = 100},
+    {RG_OPTION_FLAG, "pictures",
+     .about = "compares pictures, states and counters, and times nothing",
+     .offset = AT(pictures_only), .excludes = "margin budget"},
+    {RG_OPTION_TEXT, "budget", .argument = "TIME",
+     .about = "begins no launch behind so much time, as 90s or 4m; what is not decided by then is "
+              "inconclusive",
+     .offset = AT(budget)},
+    RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
+    RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
+    RG_GROUP("What is known"),
+    {RG_OPTION_TEXTS, "expectations", .argument = "FILE",
+     .about = "failures, flakes and skips that are expected (docs/expectations.md)",
+     .offset = AT(known[RG_FORM_OWN]), .names = RG_NAMES_FILE},
+    {RG_OPTION_TEXTS, "fails", .argument = "FILE",
+     .about = "the same as Mesa's *-fails.txt has them", .offset = AT(known[RG_FORM_FAILS]),
+     .names = RG_NAMES_FILE},
+    {RG_OPTION_TEXTS, "flakes", .argument = "FILE", .about = "the same as Mesa's *-flakes.txt",
+     .offset = AT(known[RG_FORM_FLAKES]), .names = RG_NAMES_FILE},
+    {RG_OPTION_TEXTS, "skips", .argument = "FILE", .about = "the same as Mesa's *-skips.txt",
+     .offset = AT(skips), .names = RG_NAMES_FILE},
+    RG_GROUP("Output"),
+    {RG_OPTION_TEXT, "junit", .argument = "FILE", .about = "writes JUnit's XML (docs/ci.md)",
+     .offset = AT(junit), .names = RG_NAMES_FILE},
+    {RG_OPTION_TEXT, "bmf", .argument = "FILE", .about = "writes Bencher's metric format",
+     .offset = AT(bmf), .names = RG_NAMES_FILE},
+    {RG_OPTION_FLAG, "github",
+     .about = "prints GitHub's annotations, and appends to the file of $GITHUB_STEP_SUMMARY",
+     .offset = AT(github), .excludes = "json"},
+    RG_INCLUDE(rg_json_option, AT(json), NULL),
+    RG_GROUP("googletest's protocol"),
+    {RG_OPTION_FLAG, "gtest_list_tests", .about = "prints the names of the cases, and runs none",
+     .offset = AT(list), .excludes = "json github"},
+    {RG_OPTION_TEXT, "gtest_filter", .argument = "FILTER",
+     .about = "runs these cases, and prints as googletest does", .offset = AT(filter),
+     .excludes = "json github"},
+    {RG_OPTION_END},
+};
+
+// --- what is read ---
+
+// The files of the three forms of options, and the skips.
+static bool read_known(const struct gate_options *o, struct rg_known *known)
+{
+    bool ok = true;
+    for (int form = RG_FORM_OWN; form <= RG_FORM_SKIPS; form++) {
+        const struct rg_words *files = form == RG_FORM_SKIPS ? &o->skips : &o->known[form];
+        for (int i = 0; ok && i < files->count; i++)
+            ok = rg_known_add(known, files->items[i], (enum rg_known_form)form);
+    }
+    return ok;
+}
+
+static int today(void)
+{
+    return (int)(time(NULL) / (24 * 60 * 60));
+}
+
+// --- what is printed ---
+
+static bool list_cases(const struct rg_gate_cells *cells, const char *device, const char *filter)
+{
+    struct rg_report report = {.case_count = 0};
+    bool ok = true;
+    for (int64_t i = 0; ok && i < cells->count; i++) {
+        char *name = rg_gate_case_name(&cells->cells[i], device);
+        ok = name && rg_report_add(&report, &(struct rg_report_case){.name = name,
+                                                                     .ending = RG_ENDING_SKIPPED});
+        free(name);
+    }
+    if (ok)
+        rg_gtest_list(stdout, &report, filter ? filter : "*");
+    rg_report_free(&report);
+    return ok;
+}
+
+static void print_as_gtest(const struct rg_report *report)
+{
+    rg_gtest_begin(stdout, report->case_count);
+    for (int i = 0; i < report->case_count; i++) {
+        rg_gtest_run(stdout, report->cases[i].name);
+        rg_gtest_result(stdout, &report->cases[i]);
+    }
+    rg_gtest_end(stdout, report);
+}
+
+// What would make the project's own files of expectations true.
+static bool print_patches(const struct rg_known *known, const struct rg_gate *gate)
+{
+    bool ok = true;
+    for (int file = 0; ok && file < known->file_count; file++)
+        if (known->files[file].form == RG_FORM_OWN)
+            ok = rg_known_patch(known, file, gate->results, gate->result_count, today(), false,
+                                stdout);
+    return ok;
+}
+
+static bool print_text(const struct rg_known *known, const struct rg_gate *gate)
+{
+    return rg_report_text(&gate->report, stdout) && print_patches(known, gate);
+}
+
+static bool print_github(const struct rg_report *report)
+{
+    const char *summary = getenv("GITHUB_STEP_SUMMARY");
+    return rg_report_annotations(report, stdout) &&
+           (!summary || rg_report_append_markdown(report, summary));
+}
+
+static bool print(const struct gate_options *o, const struct rg_known *known,
+                  const struct rg_gate *gate)
+{
+    const struct rg_report *report = &gate->report;
+    bool ok = true;
+    if (o->junit)
+        ok = rg_report_write(report, rg_report_junit, o->junit);
+    if (o->bmf)
+        ok = rg_report_write(report, rg_report_bmf, o->bmf) && ok;
+    if (o->json)
+        return rg_report_json(report, stdout) && ok;
+    if (o->filter)
+        print_as_gtest(report);
+    else
+        ok = print_text(known, gate) && ok;
+    return (!o->github || print_github(report)) && ok;
+}
+
+// --- the command ---
+
+// Whether the files can be written, as is found out before any work.
+static bool can_write(const struct gate_options *o)
+{
+    enum { REPORT_BYTES = 1 << 20 };
+    return (!o->junit || rg_output_file_can_be_written(o->junit, REPORT_BYTES)) &&
+           (!o->bmf || rg_output_file_can_be_written(o->bmf, REPORT_BYTES));
+}
+
+static int run(const struct gate_options *o, const struct rg_words *sides,
+               const struct rg_gate_cells *cells, const struct rg_known *known)
+{
+    struct rg_gate gate = {.case_count = 0};
+    struct rg_gate_request request = {.sides = {sides->items[0], sides->items[1]},
+                                      .cells = cells,
+                                      .known = known,
+                                      .today = today(),
+                                      .margin = o->margin_percent / 100,
+                                      .pictures_only = o->pictures_only,
+                                      .filter = o->filter};
+    int exit = RG_EXIT_USAGE;
+    if ((!o->budget || rg_duration_read(o->budget, "--budget", &request.budget_s)) &&
+        can_write(o)) {
+        exit = rg_gate_run(&request, &gate);
+        if (exit != RG_EXIT_USAGE && exit < RG_EXIT_SIGNALLED && !print(o, known, &gate))
+            exit = rg_exit_worse(exit, RG_EXIT_FAIL);
+    }
+    rg_gate_free(&gate);
+    return exit;
+}
+
+static int gate(const void *values, const struct rg_words *arguments)
+{
+    const struct gate_options *o = values;
+    struct rg_gate_cells cells = {.count = 0};
+    struct rg_known known = {.count = 0};
+    int exit = RG_EXIT_USAGE;
+    rg_memory_allow(o->memory_bytes);
+    rg_workers.timeout_s = o->timeout_s;
+    if (arguments->count != 2)
+        rg_error("gate: name two devices, the one that B is held against first, as in `raingauge "
+                 "gate cpu cpu@OMP_NUM_THREADS=1`");
+    else if (rg_gate_cells_read(o->cells, &cells) && read_known(o, &known))
+        exit = o->list ? list_cases(&cells, arguments->items[1], o->filter) ? RG_EXIT_PASS
+                                                                            : RG_EXIT_FAIL
+                       : run(o, arguments, &cells, &known);
+    rg_known_free(&known);
+    rg_gate_cells_free(&cells);
+    return exit;
+}
+
+const struct rg_command rg_command_gate = {
+    .name = "gate",
+    .usage = "A B [--cells FILE] [--margin PERCENT] [--budget TIME] [--pictures] [--expectations "
+             "FILE]... [--junit FILE] [--bmf FILE] [--github] [--json]",
+    .about =
+        "tells whether device B is worse than A: other pictures, states or counters, or slower",
+    .options = options,
+    .options_size = sizeof(struct gate_options),
+    .run = gate,
+};

@@ -1,0 +1,190 @@
+#include "harness/compare/gate/decide/decide.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/record/stats.h"
+
+// Launches whose neighbours are this much alike, and more than those that are not linked are by
+// chance one time of twenty, are counted in pairs, and pairs in pairs of pairs.
+#define LINKED    0.2
+#define BY_CHANCE 1.645
+// Of fewer it cannot be told how alike they are.
+enum { LEAST_LINKED = 8 };
+// More launches than this share that see no difference at all come from a coarse timer.
+#define COARSE 0.05
+// The standard deviation of a normal distribution by its median absolute deviation, and that of a
+// median by it and the root of the count.
+#define DEVIATION 1.4826
+#define OF_MEDIAN 1.2533
+
+const char *rg_two_name(enum rg_verdict_of_two verdict)
+{
+    static const char *const names[] = {"inconclusive", "pass", "regressed", "improved"};
+    return names[verdict];
+}
+
+struct rg_gate_rule rg_gate_rule_of(int rows)
+{
+    return (struct rg_gate_rule){.margin = 0.05,
+                                 .error = 0.01,
+                                 .rows = rows,
+                                 .look_count = 5,
+                                 .looks = {16, 32, 64, 128, 256}};
+}
+
+double rg_quad_log(const double a_ms[2], const double b_ms[2])
+{
+    return (log(b_ms[0]) + log(b_ms[1]) - log(a_ms[0]) - log(a_ms[1])) / 2;
+}
+
+// --- the normal distribution ---
+
+static double above(double x)
+{
+    return erfc(x / sqrt(2)) / 2;
+}
+
+// What a normal variable exceeds with this probability, by halving.
+static double exceeded_with(double probability)
+{
+    double low = 0, high = 40;
+    for (int i = 0; i < 100; i++) {
+        const double middle = (low + high) / 2;
+        *(above(middle) > probability ? &low : &high) = middle;
+    }
+    return low;
+}
+
+// --- launches ---
+
+// How alike neighbours are: the correlation of each launch with the one before it.
+static double link_of(const double *logs, int count)
+{
+    double mean = 0, all = 0, linked = 0;
+    for (int i = 0; i < count; i++)
+        mean += logs[i] / count;
+    for (int i = 0; i < count; i++)
+        all += (logs[i] - mean) * (logs[i] - mean);
+    for (int i = 1; i < count; i++)
+        linked += (logs[i] - mean) * (logs[i - 1] - mean);
+    return all > 0 ? linked / all : 0;
+}
+
+// Takes the means of pairs, until those that follow each other are no longer alike. What is left
+// over in the end is in none. Returns how many there are.
+static int group(double *logs, int count)
+{
+    while (count >= LEAST_LINKED && link_of(logs, count) > fmax(LINKED, BY_CHANCE / sqrt(count))) {
+        count /= 2;
+        for (int i = 0; i < count; i++)
+            logs[i] = (logs[2 * i] + logs[2 * i + 1]) / 2;
+    }
+    return count;
+}
+
+static double spread_of(const double *sorted, int count, double median)
+{
+    double away[RG_GATE_UNITS];
+    for (int i = 0; i < count; i++)
+        away[i] = fabs(sorted[i] - median);
+    return DEVIATION * rg_median_at(away, count, 0).median;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+// The median of the means of all pairs, each with itself too: that of at most 64 launches, evenly
+// taken, which is as good.
+static double shift_of(const double *sorted, int count)
+{
+    enum { MOST = 64 };
+    static double means[MOST * (MOST + 1) / 2];
+    const int taken = count < MOST ? count : MOST;
+    int pairs = 0;
+    for (int i = 0; i < taken; i++)
+        for (int j = i; j < taken; j++)
+            means[pairs++] =
+                (sorted[(long)i * count / taken] + sorted[(long)j * count / taken]) / 2;
+    qsort(means, (size_t)pairs, sizeof(*means), ascending);
+    return (means[(pairs - 1) / 2] + means[pairs / 2]) / 2;
+}
+
+static bool is_coarse(const double *logs, int count)
+{
+    int ties = 0;
+    for (int i = 0; i < count; i++)
+        ties += logs[i] == 0;
+    return ties > COARSE * count;
+}
+
+// --- deciding ---
+
+// What each end of a look's interval may be wrong with.
+static double tail_of(const struct rg_gate_rule *rule)
+{
+    return rule->error / rule->rows / rule->look_count / 2;
+}
+
+static enum rg_verdict_of_two judge(const struct rg_gate_rule *rule, double median, double low,
+                                    double high)
+{
+    const double margin = log1p(rule->margin), worth = log1p(rule->margin / 2);
+    if (low > 0 && median > worth)
+        return RG_TWO_REGRESSED;
+    if (high < 0 && median < -worth)
+        return RG_TWO_IMPROVED;
+    return low > -margin && high < margin ? RG_TWO_PASS : RG_TWO_INCONCLUSIVE;
+}
+
+// A change is seen where the interval is above no change and the median above half of the margin.
+static double seen_from(const struct rg_gate_rule *rule, double error_of_median, double surety)
+{
+    const double by_interval = (exceeded_with(tail_of(rule)) + surety) * error_of_median;
+    const double by_worth = log1p(rule->margin / 2) + surety * error_of_median;
+    return fmax(by_interval, by_worth);
+}
+
+static double error_of(const struct rg_gate_decision *d)
+{
+    return OF_MEDIAN * d->spread / sqrt(d->units);
+}
+
+struct rg_gate_decision rg_gate_decide(const struct rg_gate_rule *rule, const double *logs,
+                                       int count)
+{
+    double sorted[RG_GATE_UNITS];
+    struct rg_gate_decision d = {.ratio = 1, .high = INFINITY, .shift = 1, .smallest = INFINITY};
+    const int taken = count < RG_GATE_UNITS ? count : RG_GATE_UNITS;
+    if (taken < 1)
+        return d;
+    memcpy(sorted, logs, (size_t)taken * sizeof(*sorted));
+    d.is_coarse = is_coarse(logs, taken);
+    d.units = group(sorted, taken);
+    d.is_grouped = d.units < taken;
+    const struct rg_interval median = rg_median_at(sorted, d.units, tail_of(rule));
+    d.ratio = exp(median.median);
+    d.shift = exp(shift_of(sorted, d.units));
+    d.spread = spread_of(sorted, d.units, median.median);
+    d.smallest = expm1(seen_from(rule, error_of(&d), exceeded_with(0.05)));
+    if (isnan(median.low))
+        return d;
+    d.low = exp(median.low);
+    d.high = exp(median.high);
+    if (!d.is_coarse)
+        d.verdict = judge(rule, median.median, median.low, median.high);
+    return d;
+}
+
+double rg_gate_power(const struct rg_gate_rule *rule, const struct rg_gate_decision *d,
+                     double change)
+{
+    const double error = error_of(d), least = seen_from(rule, error, 0);
+    if (!(error > 0))
+        return log1p(change) > least;
+    return above((least - log1p(change)) / error);
+}

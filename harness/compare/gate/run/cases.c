@@ -1,0 +1,160 @@
+#include "harness/compare/gate/run/cases.h"
+
+#include <math.h>
+#include <stdio.h>
+
+// --- endings ---
+
+static enum rg_ending ending_of_outcome(enum rg_outcome outcome)
+{
+    static const enum rg_ending endings[RG_OUTCOME_COUNT] = {
+        [RG_OK] = RG_ENDING_PASS,
+        [RG_FAIL] = RG_ENDING_DIFFERS,
+        [RG_UNSUPPORTED] = RG_ENDING_UNSUPPORTED,
+        [RG_ERROR] = RG_ENDING_ERROR,
+        [RG_CRASH] = RG_ENDING_CRASH,
+        [RG_TIMEOUT] = RG_ENDING_TIMEOUT,
+    };
+    return endings[outcome];
+}
+
+static enum rg_ending ending_of_times(const struct rg_gate_case *c)
+{
+    static const enum rg_ending endings[] = {
+        [RG_TWO_INCONCLUSIVE] = RG_ENDING_INCONCLUSIVE,
+        [RG_TWO_PASS] = RG_ENDING_PASS,
+        [RG_TWO_REGRESSED] = RG_ENDING_REGRESSED,
+        [RG_TWO_IMPROVED] = RG_ENDING_IMPROVED,
+    };
+    if (c->row.end == RG_END_BROKEN && c->times.outcome != RG_OK)
+        return ending_of_outcome(c->times.outcome);
+    if (!c->row.decision.units)
+        return RG_ENDING_NOTHING_MEASURED;
+    return endings[c->row.decision.verdict];
+}
+
+static enum rg_ending ending_of(const struct rg_gate_case *c, enum rg_met met)
+{
+    const enum rg_ending own = c->agreement.outcome == RG_OK && c->is_timed
+                                   ? ending_of_times(c)
+                                   : ending_of_outcome(c->agreement.outcome);
+    switch (met) {
+    case RG_MET_SKIPPED:
+        return RG_ENDING_SKIPPED;
+    case RG_MET_FLAKY:
+        return RG_ENDING_FLAKE;
+    case RG_MET_EXPECTED:
+        return RG_ENDING_EXPECTED_FAILURE;
+    case RG_MET_FIXED:
+        return RG_ENDING_UNEXPECTED_PASS;
+    case RG_MET_DIFFERENT:
+    case RG_MET_EXPIRED:
+        return own == RG_ENDING_PASS ? RG_ENDING_UNEXPECTED_PASS : own;
+    default:
+        return own;
+    }
+}
+
+// --- words ---
+
+static const char *why_open(const struct rg_gate_case *c)
+{
+    switch (c->row.end) {
+    case RG_END_LOOKS:
+        return "the interval allows both after the last launch that was planned";
+    case RG_END_OVER:
+        return "the time was over before it was decided";
+    case RG_END_DISTURBED:
+        return "the machine gave its time to others in most launches";
+    case RG_END_UNCONFIRMED:
+        return "it was found once, and not when it was measured again";
+    default:
+        return "nothing more could be measured";
+    }
+}
+
+static void put_times(const struct rg_gate_case *c, enum rg_ending ending, char *text, size_t size)
+{
+    const struct rg_gate_decision *d = &c->row.decision;
+    const double percent = 100 * (d->ratio - 1);
+    if (ending == RG_ENDING_INCONCLUSIVE)
+        snprintf(text, size, "%s%s", why_open(c),
+                 d->is_coarse ? "; the clock is too coarse for so short a time" : "");
+    else if (ending == RG_ENDING_REGRESSED || ending == RG_ENDING_IMPROVED)
+        snprintf(text, size, "a frame takes %.1f %% %s (%.1f to %.1f %%), %.3g ms before",
+                 fabs(percent), percent > 0 ? "longer" : "less", 100 * (d->low - 1),
+                 100 * (d->high - 1), c->row.a_ms.median);
+    else if (c->times.outcome != RG_OK)
+        snprintf(text, size, "%s", c->times.why);
+}
+
+static void put_details(const struct rg_gate_case *c, char *text, size_t size)
+{
+    const struct rg_gate_decision *d = &c->row.decision;
+    if (!c->is_timed || !d->units) {
+        snprintf(text, size, "%s", c->agreement.details);
+        return;
+    }
+    snprintf(
+        text, size,
+        "%d launches%s, %d disturbed; a launch scatters by %.1f %%; shift %.4f\n"
+        "a change would be found: 2 %% with %.0f %%, 3 %% with %.0f %%, 5 %% with %.0f %%",
+        c->row.launches, d->is_grouped ? ", counted in groups, for they follow each other" : "",
+        c->row.disturbed, 100 * expm1(d->spread), d->shift, 100 * rg_gate_power(&c->rule, d, 0.02),
+        100 * rg_gate_power(&c->rule, d, 0.03), 100 * rg_gate_power(&c->rule, d, 0.05));
+}
+
+static void put_message(const struct rg_gate_case *c, enum rg_met met, enum rg_ending ending,
+                        char *text, size_t size)
+{
+    char own[RG_AGREEMENT_TEXT + 200] = "";
+    if (c->agreement.outcome != RG_OK)
+        snprintf(own, sizeof(own), "%s%s%s", c->agreement.device ? c->agreement.device : "",
+                 c->agreement.device ? ": " : "", c->agreement.message);
+    else if (c->is_timed)
+        put_times(c, ending, own, sizeof(own));
+    snprintf(text, size, "%s%s%s", met == RG_MET_NOTHING ? "" : rg_met_name(met),
+             met != RG_MET_NOTHING && *own ? ": " : "", own);
+}
+
+static void put_measures(const struct rg_gate_case *c, struct rg_report_case *told)
+{
+    const struct rg_gate_decision *d = &c->row.decision;
+    told->ratio = told->time_ms = (struct rg_bounded){NAN, NAN, NAN};
+    told->smallest_visible = told->baseline_ms = NAN;
+    if (!c->is_timed || !d->units)
+        return;
+    told->ratio =
+        (struct rg_bounded){d->ratio, d->low > 0 ? d->low : NAN, isfinite(d->high) ? d->high : NAN};
+    told->smallest_visible = isfinite(d->smallest) ? d->smallest : NAN;
+    told->time_ms = (struct rg_bounded){c->row.b_ms.median, c->row.b_ms.low, c->row.b_ms.high};
+    told->baseline_ms = c->row.a_ms.median;
+}
+
+void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *request,
+                       struct rg_report_case *told, struct rg_known_result *result)
+{
+    *result = (struct rg_known_result){.cell = c->cell->name,
+                                       .device = request->sides[RG_SIDE_B],
+                                       .driver = c->driver,
+                                       .outcome = c->agreement.outcome,
+                                       .pixels = c->agreement.pixels,
+                                       .difference = c->agreement.difference};
+    const enum rg_met met =
+        c->is_skipped ? RG_MET_SKIPPED
+                      : rg_known_judge(request->known, c->expectation, result, request->today);
+    const enum rg_ending ending = ending_of(c, met);
+    put_message(c, met, ending, c->message, sizeof(c->message));
+    put_details(c, c->details, sizeof(c->details));
+    for (int side = 0; side < RG_SIDES; side++)
+        c->devices[side] = request->sides[side];
+    *told = (struct rg_report_case){.name = c->name,
+                                    .technique = c->cell->technique->name,
+                                    .devices = c->devices,
+                                    .device_count = RG_SIDES,
+                                    .seconds = c->seconds,
+                                    .ending = ending,
+                                    .message = c->message,
+                                    .details = c->details};
+    put_measures(c, told);
+}

@@ -1,0 +1,32 @@
+// A cell of a gate and all that was found of it, and the case of a report that it makes.
+#ifndef RG_HARNESS_COMPARE_GATE_RUN_CASES_H
+#define RG_HARNESS_COMPARE_GATE_RUN_CASES_H
+
+#include "harness/compare/gate/run/agree.h"
+#include "harness/compare/gate/run/request.h"
+#include "harness/compare/gate/run/times.h"
+
+struct rg_gate_case {
+    const struct rg_gate_cell *cell;
+    char *name; // owned by the gate
+    double seconds;
+    char driver[160];    // B's
+    int64_t expectation; // of request->known; -1: none
+    bool is_skipped, is_compared, is_timed;
+    struct rg_agreement agreement;
+    // Where it is timed.
+    int timed; // its row
+    struct rg_gate_rule rule;
+    struct rg_gate_row row;
+    struct rg_timed_cell times;
+    // What its case of a report points to.
+    char message[RG_AGREEMENT_TEXT + 400], details[RG_AGREEMENT_TEXT + 400];
+    const char *devices[RG_SIDES];
+};
+
+// Fills in its case, which points into it and into the request, and what the expectations are held
+// against.
+void rg_gate_case_tell(struct rg_gate_case *of, const struct rg_gate_request *request,
+                       struct rg_report_case *told, struct rg_known_result *result);
+
+#endif

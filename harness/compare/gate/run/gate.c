@@ -1,0 +1,242 @@
+#include "harness/compare/gate/run/gate.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "harness/compare/gate/report/gtest.h"
+#include "harness/compare/gate/run/agree.h"
+#include "harness/compare/gate/run/cases.h"
+#include "harness/compare/gate/run/times.h"
+#include "harness/console/clock.h"
+#include "harness/console/exit.h"
+#include "harness/console/interrupt.h"
+#include "harness/record/passport/passport.h"
+
+char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
+{
+    const size_t size = strlen(cell->name) + strlen(device) + 2;
+    char *name = rg_alloc(size, 1, "gate");
+    if (name)
+        snprintf(name, size, "%s.%s", cell->name, device);
+    return name;
+}
+
+// A gate while it runs.
+struct run {
+    const struct rg_gate_request *asked;
+    struct rg_side sides[RG_SIDES];
+    struct rg_timed_cell *timed;
+    int timed_count;
+    struct rg_gate *gate; // a case a cell that the filter lets through
+};
+
+// --- cells are chosen ---
+
+static bool is_chosen(const struct rg_gate_request *asked, const char *name)
+{
+    char gtest[RG_GTEST_NAME];
+    rg_gtest_name(name, gtest);
+    return !asked->filter || rg_gtest_matches(asked->filter, gtest);
+}
+
+static bool add_case(struct run *r, const struct rg_gate_cell *cell)
+{
+    const struct rg_gate_request *asked = r->asked;
+    char *name = rg_gate_case_name(cell, asked->sides[RG_SIDE_B]);
+    if (name && is_chosen(asked, name))
+        r->gate->cases[r->gate->case_count++] =
+            (struct rg_gate_case){.cell = cell, .name = name, .expectation = -1};
+    else
+        free(name);
+    return name != NULL;
+}
+
+static bool choose(struct run *r)
+{
+    const size_t cells = (size_t)r->asked->cells->count;
+    bool ok = true;
+    r->gate->cases = rg_alloc(cells, sizeof(*r->gate->cases), "gate");
+    r->timed = rg_alloc(cells, sizeof(*r->timed), "gate");
+    r->gate->results = rg_alloc(cells, sizeof(*r->gate->results), "gate");
+    for (size_t i = 0; ok && r->gate->cases && i < cells; i++)
+        ok = add_case(r, &r->asked->cells->cells[i]);
+    return ok && r->gate->cases && r->timed && r->gate->results;
+}
+
+// --- both sides are compared ---
+
+// Whether both sides are there; else what keeps one from it ends the case.
+static bool launch_for(struct run *r, struct rg_gate_case *c)
+{
+    for (int side = 0; side < RG_SIDES; side++) {
+        if (r->sides[side].device || rg_side_launch(&r->sides[side]))
+            continue;
+        c->agreement = (struct rg_agreement){.outcome = rg_outcome_of_error(),
+                                             .device = r->sides[side].name,
+                                             .pixels = NAN,
+                                             .difference = NAN};
+        snprintf(c->agreement.message, RG_AGREEMENT_TEXT, "%s", rg_last_error());
+        return false;
+    }
+    return true;
+}
+
+// What the report's numbers depend on: the machine, and the sides that are there.
+static bool set_passport(struct run *r)
+{
+    struct rg_device_info infos[RG_SIDES];
+    int count = 0;
+    for (int side = 0; side < RG_SIDES; side++)
+        if (r->sides[side].device)
+            infos[count++] = r->sides[side].device->info;
+    json_t *json = rg_passport_json(infos, count);
+    char *text = json ? json_dumps(json, JSON_INDENT(1)) : NULL;
+    const bool ok = text && rg_report_set_passport(&r->gate->report, text);
+    free(text);
+    json_decref(json);
+    return ok;
+}
+
+// Whether both names are such that a device could have them.
+static bool have_names(struct run *r)
+{
+    for (int side = 0; side < RG_SIDES; side++)
+        if (!rg_side_launch(&r->sides[side]) && rg_last_error_kind() == RG_ERROR_INPUT)
+            return false;
+    return set_passport(r);
+}
+
+static void find_expectation(struct run *r, struct rg_gate_case *c)
+{
+    const struct rg_device *b = r->sides[RG_SIDE_B].device;
+    snprintf(c->driver, sizeof(c->driver), "%s", b ? b->info.driver : "");
+    c->expectation =
+        rg_known_row(r->asked->known, c->cell->name, r->asked->sides[RG_SIDE_B], c->driver);
+    c->is_skipped = rg_known_skips(r->asked->known, c->expectation, r->asked->today);
+}
+
+static void compare(struct run *r, struct rg_gate_case *c)
+{
+    const double start_ms = rg_now_ms();
+    const bool there = launch_for(r, c);
+    find_expectation(r, c);
+    if (there && !c->is_skipped)
+        rg_gate_agree(c->cell, r->sides, &c->agreement);
+    c->seconds = (rg_now_ms() - start_ms) / 1000;
+    c->is_compared = there && !c->is_skipped;
+    if (c->is_compared && c->agreement.outcome == RG_OK && !r->asked->pictures_only) {
+        c->timed = r->timed_count;
+        r->timed[r->timed_count++] = (struct rg_timed_cell){.cell = c->cell};
+        c->is_timed = true;
+    }
+}
+
+// --- what agrees is timed ---
+
+static bool measure(struct run *r, struct rg_gate_row *rows)
+{
+    struct rg_gate_rule rule = rg_gate_rule_of(r->timed_count);
+    struct rg_gate_times times = {
+        .sides = r->sides,
+        .cells = r->timed,
+        .end_ms = r->asked->budget_s > 0 ? rg_now_ms() + 1e3 * r->asked->budget_s : 0};
+    const struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over,
+                                          &times};
+    rule.margin = r->asked->margin;
+    if (!rg_course_run(&rule, &source, RG_COURSE_SEED, rows))
+        return false;
+    for (int i = 0; i < r->gate->case_count; i++) {
+        struct rg_gate_case *c = &r->gate->cases[i];
+        if (!c->is_timed)
+            continue;
+        c->row = rows[c->timed];
+        c->rule = rule;
+        c->times = r->timed[c->timed];
+        c->seconds += c->times.seconds;
+    }
+    return true;
+}
+
+static bool time_all(struct run *r)
+{
+    if (!r->timed_count || rg_interrupted())
+        return true;
+    struct rg_gate_row *rows = rg_alloc((size_t)r->timed_count, sizeof(*rows), "gate");
+    const bool ok = rows && measure(r, rows);
+    free(rows);
+    return ok;
+}
+
+// --- what came of it ---
+
+static bool report(struct run *r)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < r->gate->case_count; i++) {
+        struct rg_report_case told;
+        struct rg_gate_case *c = &r->gate->cases[i];
+        struct rg_known_result *result = &r->gate->results[r->gate->result_count];
+        rg_gate_case_tell(c, r->asked, &told, result);
+        r->gate->result_count += c->is_compared;
+        ok = rg_report_add(&r->gate->report, &told);
+        if (r->asked->tell)
+            r->asked->tell(&told, r->asked->user);
+    }
+    return ok;
+}
+
+int rg_gate_exit(const struct rg_report *report)
+{
+    int kinds[RG_KIND_SKIPPED + 1] = {0};
+    for (int e = 0; e < RG_ENDING_COUNT; e++)
+        kinds[rg_ending_kind((enum rg_ending)e)] += rg_report_count(report, (enum rg_ending)e);
+    if (kinds[RG_KIND_FAILURE] || kinds[RG_KIND_ERROR])
+        return RG_EXIT_FAIL;
+    if (rg_report_count(report, RG_ENDING_INCONCLUSIVE))
+        return RG_EXIT_INCONCLUSIVE;
+    if (kinds[RG_KIND_PASS] || rg_report_count(report, RG_ENDING_EXPECTED_FAILURE) ||
+        rg_report_count(report, RG_ENDING_FLAKE))
+        return RG_EXIT_PASS;
+    return rg_report_count(report, RG_ENDING_UNSUPPORTED) ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
+}
+
+static void end(struct run *r)
+{
+    for (int side = 0; side < RG_SIDES; side++)
+        rg_side_close(&r->sides[side]);
+    free(r->timed);
+}
+
+int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
+{
+    struct run r = {.asked = request, .gate = gate};
+    for (int side = 0; side < RG_SIDES; side++)
+        r.sides[side].name = request->sides[side];
+    rg_interrupt_watch();
+    if (!have_names(&r)) {
+        end(&r);
+        return RG_EXIT_USAGE;
+    }
+    bool ok = choose(&r);
+    for (int i = 0; ok && i < gate->case_count && !rg_interrupted(); i++)
+        compare(&r, &gate->cases[i]);
+    ok = ok && time_all(&r) && (rg_interrupted() || report(&r));
+    end(&r);
+    if (rg_interrupted())
+        return RG_EXIT_SIGNALLED + rg_interrupt_signal();
+    return ok ? rg_gate_exit(&gate->report) : RG_EXIT_FAIL;
+}
+
+void rg_gate_free(struct rg_gate *gate)
+{
+    rg_report_free(&gate->report);
+    for (int i = 0; i < gate->case_count; i++)
+        free(gate->cases[i].name);
+    free(gate->cases);
+    free(gate->results);
+    *gate = (struct rg_gate){.results = NULL};
+}

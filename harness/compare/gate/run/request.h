@@ -1,0 +1,25 @@
+// What a gate is asked. Nothing in it is owned.
+#ifndef RG_HARNESS_COMPARE_GATE_RUN_REQUEST_H
+#define RG_HARNESS_COMPARE_GATE_RUN_REQUEST_H
+
+#include "harness/compare/gate/cells/cells.h"
+#include "harness/compare/gate/expected/expected.h"
+#include "harness/compare/gate/report/report.h"
+#include "harness/compare/gate/run/sides.h"
+
+struct rg_gate_request {
+    const char *sides[RG_SIDES]; // names of devices, A's first
+    const struct rg_gate_cells *cells;
+    const struct rg_known *known; // what is expected to go wrong
+    int today;                    // harness/compare/gate/text/date.h
+    double margin;                // 0.05 for 5 %
+    double budget_s;              // no launch is begun behind it; 0: there is none
+    bool pictures_only;           // nothing is timed
+    const char *filter;           // of googletest, for names of cases; NULL: all
+    // Told of each case before it is begun and when it has ended; NULL: nobody asks. A case that is
+    // timed ends with all others.
+    void (*tell)(const struct rg_report_case *told, void *user);
+    void *user;
+};
+
+#endif

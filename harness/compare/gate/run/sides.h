@@ -1,0 +1,21 @@
+// The two things of a gate: devices in workers of their own, which are started anew for every
+// launch.
+#ifndef RG_HARNESS_COMPARE_GATE_RUN_SIDES_H
+#define RG_HARNESS_COMPARE_GATE_RUN_SIDES_H
+
+#include "harness/devices/devices.h"
+
+// A is what B is held against.
+enum { RG_SIDE_A, RG_SIDE_B, RG_SIDES };
+
+struct rg_side {
+    const char *name;         // as --device takes one device; not owned
+    struct rg_device *device; // NULL: not open
+};
+
+// Closes the device, if one is open, and opens it again: its worker is another process then. False,
+// with one logged line, on failure.
+bool rg_side_launch(struct rg_side *side);
+void rg_side_close(struct rg_side *side);
+
+#endif

@@ -1,0 +1,132 @@
+"""gate: one device held against another; what is worse is told in every form, and ends with a status of its own."""
+import json
+import os
+import re
+import subprocess
+import tempfile
+
+import forms
+
+TESTS = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+SCHEMA = os.path.join(TESTS, "harness", "gate", "report", "junit.xsd")
+TORUS = "raster/torus raster 64x48 2 scene=mesh model=torus faces=300\n"
+QUICK = TORUS + "flow/pane flow 64x48 2 view=pane resolution_px=64\n"
+
+
+class Files:
+    """A folder with a file of cells in it."""
+
+    def __init__(self, cells=QUICK):
+        self.folder = tempfile.TemporaryDirectory()
+        self.cells = self.path("cells.txt", cells)
+
+    def path(self, name, text=None):
+        path = os.path.join(self.folder.name, name)
+        if text is not None:
+            with open(path, "w") as file:
+                file.write(text)
+        return path
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.folder.cleanup()
+
+
+def endings(report):
+    return {case["name"]: case["ending"] for case in report["gated"]}
+
+
+def check_same(runner):
+    """a device agrees with itself, and the built-in cells run on it"""
+    result = runner.run("gate cpu cpu --pictures --json".split())
+    report = json.loads(result.stdout)
+    problems = forms.problems("gate", report)
+    if result.returncode or result.stderr or len(report["gated"]) < 6 or set(endings(report).values()) != {"pass"}:
+        problems.append("exit status %d, %s, %s" % (result.returncode, result.stderr, endings(report)))
+    return problems
+
+
+def check_slower(runner):
+    """what takes several times as long is found, in every form"""
+    problems = []
+    with Files(TORUS) as files:
+        junit, bmf = files.path("junit.xml"), files.path("bmf.json")
+        result = runner.run(["gate", "cpu", "cpu:reference", "--cells", files.cells, "--json", "--junit", junit, "--bmf", bmf])
+        report = json.loads(result.stdout)
+        problems += forms.problems("gate", report)
+        wanted = {"raster/torus.cpu:reference": "regressed"}
+        if result.returncode != 1 or endings(report) != wanted:
+            problems.append("exit status %d, %s, %s" % (result.returncode, result.stderr, endings(report)))
+        if any(case["ratio"]["value"] < 1.05 or not case["ratio"]["low"] > 1 for case in report["gated"]):
+            problems.append("ratios: %s" % [case["ratio"] for case in report["gated"]])
+        lint = subprocess.run(["xmllint", "--noout", "--schema", SCHEMA, junit], capture_output=True, text=True, check=False)
+        if lint.returncode:
+            problems.append(lint.stderr)
+        with open(bmf) as file:
+            measures = json.load(file)
+        if set(measures) != set(wanted) or not all(m["latency"]["lower_value"] <= m["latency"]["value"] <= m["latency"]["upper_value"]
+                                                   for m in measures.values()):
+            problems.append("bmf: %s" % measures)
+    return problems
+
+
+def check_open(runner):
+    """what is not decided when the time is over is inconclusive, with a status of its own"""
+    with Files() as files:
+        result = runner.run(["gate", "cpu", "cpu", "--cells", files.cells, "--budget", "0.2s", "--json"])
+        found = json.loads(result.stdout)
+    bad = result.returncode != 3 or set(endings(found).values()) != {"inconclusive"}
+    return ["exit status %d, %s" % (result.returncode, result.stdout)] if bad else []
+
+
+def check_crash(runner):
+    """a driver that falls ends its own cells, and what is expected of it is no failure"""
+    problems = []
+    with Files() as files:
+        driver = files.path("driver.json")
+        with open(driver, "w") as file:
+            json.dump({"file_format_version": "1.0.0", "ICD": {"library_path": runner.misbehaver, "api_version": "1.1.0"}}, file)
+        device = "vulkan@VK_DRIVER_FILES=%s;RG_MISBEHAVE=vkQueueSubmit:abort:0" % driver
+        known = files.path("known.txt", "fail *\n  device vulkan@*\n  outcome crash\n  reason it falls\n  since 2026-11-01\n"
+                           "  until 2099-01-01\n")
+        for more, status, wanted in (([], 1, {"crash"}), (["--expectations", known], 0, {"expected failure"})):
+            result = runner.run(["gate", "vulkan", device, "--cells", files.cells, "--json", "--timeout", "10"] + more)
+            found = set(endings(json.loads(result.stdout)).values()) if result.stdout else set()
+            if result.returncode != status or found != wanted:
+                problems.append("exit status %d, %s, %s" % (result.returncode, found, result.stderr))
+    return problems
+
+
+def check_gtest(runner):
+    """googletest's protocol: names are listed, a filter runs some of them, and each has a result"""
+    with Files() as files:
+        args = ["gate", "cpu", "cpu", "--cells", files.cells, "--pictures"]
+        listed = runner.run(args + ["--gtest_list_tests"])
+        ran = runner.run(args + ["--gtest_filter=flow*"])
+    problems = []
+    if listed.returncode or not re.fullmatch(r"raster_torus\.\n  cpu_\w{16}\nflow_pane\.\n  cpu_\w{16}\n", listed.stdout):
+        problems.append("listed: %s" % listed.stdout)
+    if ran.returncode or not re.search(r"\[       OK \] flow_pane\.cpu_\w{16} \(", ran.stdout) or "torus" in ran.stdout:
+        problems.append("ran: %s" % ran.stdout)
+    return problems
+
+
+def check_refused(runner):
+    """bad input is refused in one line, before anything is measured"""
+    problems = []
+    with Files() as files:
+        bad = files.path("bad.txt", "flow/pane flow 64x48 2 no_such_key=1\n")
+        for args, says in ((["cpu"], "name two devices"), (["cpu", "none"], "none"), (["cpu", "cpu", "--cells", bad], "bad.txt:1: "),
+                           (["cpu", "cpu", "--budget", "soon"], "--budget 'soon': is no time"),
+                           (["cpu", "cpu", "--margin", "0"], "--margin"),
+                           (["cpu", "cpu", "--expectations", files.path("none.txt")], "none.txt"),
+                           (["cpu", "cpu", "--junit", files.path("none/junit.xml")], "none/junit.xml")):
+            result = runner.run(["gate"] + args)
+            if result.returncode != 2 or result.stdout or result.stderr.count("\n") != 1 or says not in result.stderr:
+                problems.append("%s: exit status %d, %s%s" % (args, result.returncode, result.stdout, result.stderr))
+    return problems
+
+
+CHECKS = [check_same, check_slower, check_open, check_crash, check_gtest, check_refused]

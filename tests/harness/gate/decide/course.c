@@ -1,0 +1,219 @@
+// The course of a gate, with times that the test makes: how often what is timed, in which order,
+// and when it ends.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "harness/compare/gate/decide/course.h"
+
+enum { MOST_ROWS = 4 };
+
+static uint64_t state_of_chance = 1;
+
+// A uniform number from 0 on, below 1 (splitmix64).
+static double uniform(void)
+{
+    uint64_t z = state_of_chance += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+// Times of rows whose B takes so many times as long as A.
+struct script {
+    double ratios[MOST_ROWS];
+    double later_ratio;   // of row 0 from launch `later` on
+    int later;            // 0: never
+    int broken_row, over; // -1: none; after so many launches the time is over; 0: never
+    int disturbed_every;  // quads of row 0; 0: none
+    double noise;
+    int launches, taken[MOST_ROWS], b_first[MOST_ROWS];
+    int first_row[MOST_ROWS]; // how often a row came first in a launch
+    bool is_first;
+    int last_launch;
+};
+
+static bool launch(int number, void *user)
+{
+    struct script *s = user;
+    assert_int_equal(number, s->launches);
+    s->launches++;
+    s->is_first = true;
+    return number < 2000;
+}
+
+static bool take(int row, bool b_first, struct rg_quads *quads, void *user)
+{
+    struct script *s = user;
+    const bool is_later = !row && s->later && s->launches > s->later;
+    const double b_ms =
+        10 * (is_later ? s->later_ratio : s->ratios[row]) * exp(s->noise * (2 * uniform() - 1));
+    s->first_row[row] += s->is_first;
+    s->is_first = false;
+    s->taken[row]++;
+    s->b_first[row] += b_first;
+    *quads = (struct rg_quads){log(b_ms / 10), 10, b_ms, false};
+    quads->is_disturbed = !row && s->disturbed_every && s->taken[row] % s->disturbed_every;
+    if (quads->is_disturbed)
+        quads->log = quads->b_ms = 1e6;
+    return row != s->broken_row || s->taken[row] < 5;
+}
+
+static bool is_over(void *user)
+{
+    const struct script *s = user;
+    return s->over && s->launches >= s->over;
+}
+
+static void run(struct script *s, int rows, struct rg_gate_row *found)
+{
+    const struct rg_gate_rule rule = rg_gate_rule_of(rows);
+    const struct rg_quad_source source = {launch, take, is_over, s};
+    state_of_chance = 5;
+    assert_true(rg_course_run(&rule, &source, RG_COURSE_SEED, found));
+}
+
+#define SCRIPT(...) ((struct script){.noise = 0.004, .broken_row = -1, __VA_ARGS__})
+
+// What is the same ends with the first look that can tell; what is not, when it was found again.
+static void test_verdicts(void **state)
+{
+    (void)state;
+    struct rg_gate_row found[4];
+    struct script s = SCRIPT(.ratios = {1, 1.06, 0.9, 1.01});
+    run(&s, 4, found);
+    static const enum rg_verdict_of_two due[] = {RG_TWO_PASS, RG_TWO_REGRESSED, RG_TWO_IMPROVED,
+                                                 RG_TWO_PASS};
+    static const int launches[] = {16, 32, 32, 16};
+    for (int row = 0; row < 4; row++) {
+        assert_int_equal(found[row].decision.verdict, due[row]);
+        assert_int_equal(found[row].end, RG_END_DECIDED);
+        assert_int_equal(found[row].launches, launches[row]);
+        assert_int_equal(s.taken[row], launches[row]);
+        assert_int_equal(found[row].before.verdict, launches[row] > 16 ? due[row] : 0);
+        assert_true(fabs(found[row].decision.ratio - s.ratios[row]) < 0.004);
+        assert_true(fabs(found[row].a_ms.median - 10) < 1e-9);
+        assert_true(fabs(found[row].b_ms.median - 10 * s.ratios[row]) < 0.05);
+    }
+    assert_int_equal(s.launches, 32);
+}
+
+// Orders are drawn: neither of a quad comes first much oftener than the other, nor a row of a
+// launch.
+static void test_orders(void **state)
+{
+    (void)state;
+    struct rg_gate_row found[4];
+    struct script s = SCRIPT(.ratios = {1, 1, 1, 1});
+    s.noise = 0.6;
+    run(&s, 4, found);
+    for (int row = 0; row < 4; row++) {
+        assert_int_equal(found[row].decision.verdict, RG_TWO_INCONCLUSIVE);
+        assert_int_equal(found[row].end, RG_END_LOOKS);
+        assert_int_equal(s.taken[row], 256);
+        assert_in_range(s.b_first[row], 96, 160);
+        assert_in_range(s.first_row[row], 40, 88);
+    }
+}
+
+// What was slower for a while, and is not when it is measured again, is no regression.
+static void test_confirmation(void **state)
+{
+    (void)state;
+    struct rg_gate_row found[1];
+    struct script s = SCRIPT(.ratios = {1.1}, .later_ratio = 1, .later = 16);
+    run(&s, 1, found);
+    assert_int_equal(found[0].decision.verdict, RG_TWO_INCONCLUSIVE);
+    assert_int_equal(found[0].end, RG_END_UNCONFIRMED);
+    assert_int_equal(found[0].before.verdict, RG_TWO_REGRESSED);
+    assert_int_equal(found[0].launches, 32);
+    s = SCRIPT(.ratios = {1.1}, .later_ratio = 0.9, .later = 16);
+    run(&s, 1, found);
+    assert_int_equal(found[0].end, RG_END_UNCONFIRMED);
+}
+
+// A row that breaks ends alone; when the time is over all end, and none with a verdict.
+static void test_ends(void **state)
+{
+    (void)state;
+    struct rg_gate_row found[2];
+    struct script s = SCRIPT(.ratios = {1, 1});
+    s.broken_row = 1;
+    run(&s, 2, found);
+    assert_int_equal(found[0].decision.verdict, RG_TWO_PASS);
+    assert_int_equal(found[1].decision.verdict, RG_TWO_INCONCLUSIVE);
+    assert_int_equal(found[1].end, RG_END_BROKEN);
+    assert_int_equal(s.taken[1], 5);
+    s = SCRIPT(.ratios = {1.1, 1}, .over = 20);
+    run(&s, 2, found);
+    assert_int_equal(s.launches, 20);
+    assert_int_equal(found[0].end, RG_END_OVER); // it was found once, and not again
+    assert_int_equal(found[0].decision.verdict, RG_TWO_INCONCLUSIVE);
+    assert_int_equal(found[1].decision.verdict, RG_TWO_PASS);
+}
+
+// Of 300 courses of two that are the same, on a machine that is now fast for the one and now for
+// the other, for some launches each, none ends with a verdict but pass.
+static bool take_linked(int row, bool b_first, struct rg_quads *quads, void *user)
+{
+    double *last = user;
+    (void)row;
+    (void)b_first;
+    double noise = 0;
+    for (int i = 0; i < 12; i++)
+        noise += uniform() - 0.5;
+    *last = 0.4 * *last + 0.0275 * noise;
+    *quads = (struct rg_quads){*last, 10, 10 * exp(*last), false};
+    return true;
+}
+
+static bool launch_any(int number, void *user)
+{
+    (void)user;
+    return number >= 0;
+}
+
+static void test_linked_noise(void **state)
+{
+    (void)state;
+    const struct rg_gate_rule rule = rg_gate_rule_of(1);
+    for (uint32_t i = 0; i < 300; i++) {
+        double last = 0;
+        struct rg_gate_row found;
+        const struct rg_quad_source source = {launch_any, take_linked, NULL, &last};
+        assert_true(rg_course_run(&rule, &source, i, &found));
+        assert_int_not_equal(found.decision.verdict, RG_TWO_REGRESSED);
+        assert_int_not_equal(found.decision.verdict, RG_TWO_IMPROVED);
+    }
+}
+
+// Quads that were disturbed do not count, whatever their times are, and more are taken for them.
+static void test_disturbed(void **state)
+{
+    (void)state;
+    struct rg_gate_row found[1];
+    struct script s = SCRIPT(.ratios = {1}, .disturbed_every = 2);
+    run(&s, 1, found);
+    assert_int_equal(found[0].decision.verdict, RG_TWO_PASS);
+    assert_int_equal(found[0].launches, 32);
+    assert_int_equal(found[0].disturbed, 16);
+    s = SCRIPT(.ratios = {1}, .disturbed_every = 1 << 30);
+    run(&s, 1, found);
+    assert_int_equal(found[0].end, RG_END_DISTURBED);
+    assert_int_equal(found[0].launches, 33);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_verdicts),     cmocka_unit_test(test_orders),
+        cmocka_unit_test(test_confirmation), cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_disturbed),    cmocka_unit_test(test_linked_noise),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,255 @@
+// Verdicts on two things of which it is known how they differ: closed cases, and noise whose truth
+// is known.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "harness/compare/gate/decide/decide.h"
+
+#define assert_near(value, due, within) assert_true(fabs((double)(value) - (due)) <= (within))
+
+// --- noise ---
+
+static uint64_t state_of_chance = 1;
+
+// A uniform number above 0 and below 1 (splitmix64).
+static double uniform(void)
+{
+    uint64_t z = state_of_chance += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return ((double)((z ^ (z >> 31)) >> 11) + 0.5) * 0x1p-53;
+}
+
+static double normal(void)
+{
+    const double r = sqrt(-2 * log(uniform()));
+    return r * cos(6.283185307179586 * uniform());
+}
+
+enum noise { NORMAL, SKEWED, TWO_STATES, LINKED, NOISES };
+
+// A launch's logarithm around 0 with the spread of a launch, 3 %, in median.
+static double noise_of(enum noise noise, double *last)
+{
+    switch (noise) {
+    case SKEWED: // the difference of two that are far above now and then
+        return 0.02 * (log(uniform()) - log(uniform()));
+    case TWO_STATES: // caches lie well or badly, for each by itself
+        return 0.004 * normal() + 0.03 * ((uniform() < 0.4) - (uniform() < 0.4));
+    case LINKED: // a machine that is warm for a while
+        *last = 0.4 * *last + 0.0275 * normal();
+        return *last;
+    default:
+        return 0.03 * normal();
+    }
+}
+
+static void fill(enum noise noise, double change, double *logs, int count)
+{
+    double last = 0;
+    for (int i = 0; i < 20; i++)
+        noise_of(noise, &last);
+    for (int i = 0; i < count; i++)
+        logs[i] = log1p(change) + noise_of(noise, &last);
+}
+
+// --- closed cases ---
+
+// A machine that slows down steadily slows both alike; twice as long is log 2.
+static void test_quads(void **state)
+{
+    (void)state;
+    const double a[] = {10, 10 * 1.1 * 1.1 * 1.1}, b[] = {10 * 1.1, 10 * 1.1 * 1.1};
+    assert_near(rg_quad_log(a, b), 0, 1e-12);
+    const double twice[] = {20 * 1.1, 20 * 1.1 * 1.1};
+    assert_near(rg_quad_log(a, twice), log(2), 1e-12);
+    assert_near(rg_quad_log(twice, a), -log(2), 1e-12);
+}
+
+// Of 16 launches and a tail of 0.0005, all must be on one side but one of either; the least and the
+// largest, and their neighbours, are the ends as the binomial distribution has them.
+static void test_interval(void **state)
+{
+    (void)state;
+    struct rg_gate_rule rule = {
+        .margin = 0.05, .error = 0.001, .rows = 1, .look_count = 1, .looks = {16}};
+    double logs[16];
+    for (int i = 0; i < 16; i++)
+        logs[i] = 0.001 * ((i * 7) % 16 - 7.5);
+    struct rg_gate_decision d = rg_gate_decide(&rule, logs, 16);
+    // P(X = 0) + P(X = 1) is 17 / 65536, and that of three more is 137 / 65536.
+    assert_near(d.low, exp(-0.0065), 1e-12);
+    assert_near(d.high, exp(0.0065), 1e-12);
+    assert_near(d.ratio, 1, 1e-12);
+    assert_near(d.shift, 1, 1e-12);
+    assert_int_equal(d.verdict, RG_TWO_PASS);
+    rule.rows = 2; // of which each has half: 17 / 65536 is more than 0.00025
+    d = rg_gate_decide(&rule, logs, 16);
+    assert_near(d.low, exp(-0.0075), 1e-12);
+    rule.look_count = 20; // a tail of 0.0000125: of 16 launches none is so sure
+    d = rg_gate_decide(&rule, logs, 16);
+    assert_true(d.low == 0 && isinf(d.high));
+    assert_int_equal(d.verdict, RG_TWO_INCONCLUSIVE);
+    d = rg_gate_decide(&rule, logs, 0);
+    assert_int_equal(d.verdict, RG_TWO_INCONCLUSIVE);
+    assert_int_equal(d.units, 0);
+}
+
+// What is sure and small is no regression; what is large and unsure is none either.
+static void test_verdicts(void **state)
+{
+    (void)state;
+    const struct rg_gate_rule rule = rg_gate_rule_of(1);
+    static const struct {
+        double change, swing;
+        enum rg_verdict_of_two verdict;
+    } cases[] = {{0, 0.001, RG_TWO_PASS},          {0.02, 0.001, RG_TWO_PASS},
+                 {-0.02, 0.001, RG_TWO_PASS},      {0.03, 0.001, RG_TWO_REGRESSED},
+                 {0.2, 0.01, RG_TWO_REGRESSED},    {-0.03, 0.001, RG_TWO_IMPROVED},
+                 {0.03, 0.1, RG_TWO_INCONCLUSIVE}, {0, 0.2, RG_TWO_INCONCLUSIVE}};
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        double logs[32];
+        for (int k = 0; k < 32; k++)
+            logs[k] = log1p(cases[i].change) + cases[i].swing * ((k * 13) % 32 - 15.5) / 15.5;
+        assert_int_equal(rg_gate_decide(&rule, logs, 32).verdict, cases[i].verdict);
+    }
+}
+
+// Launches that follow each other's noise are counted in groups, until neighbours are no longer
+// alike: here in fours.
+static void test_links(void **state)
+{
+    (void)state;
+    const struct rg_gate_rule rule = rg_gate_rule_of(1);
+    double logs[66];
+    for (int i = 0; i < 66; i++)
+        logs[i] = i % 16 < 8 ? 0.02 + 0.0001 * i : -0.02 + 0.0001 * i;
+    struct rg_gate_decision d = rg_gate_decide(&rule, logs, 66);
+    assert_true(d.is_grouped);
+    assert_int_equal(d.units, 16);
+    for (int i = 0; i < 66; i++)
+        logs[i] = i % 2 ? 0.02 : -0.02;
+    d = rg_gate_decide(&rule, logs, 66);
+    assert_false(d.is_grouped);
+    assert_int_equal(d.units, 66);
+}
+
+// A timer that sees no difference in more than one of twenty launches decides nothing.
+static void test_coarse(void **state)
+{
+    (void)state;
+    const struct rg_gate_rule rule = rg_gate_rule_of(1);
+    double logs[64];
+    for (int ties = 3; ties <= 4; ties++) {
+        for (int i = 0; i < 64; i++)
+            logs[i] = i < ties ? 0 : 0.0001 * ((i * 29) % 64 - 31.5);
+        const struct rg_gate_decision d = rg_gate_decide(&rule, logs, 64);
+        assert_int_equal(d.is_coarse, ties > 3);
+        assert_int_equal(d.verdict, ties > 3 ? RG_TWO_INCONCLUSIVE : RG_TWO_PASS);
+    }
+}
+
+// With a spread s, 64 launches and a tail of 0.025 the interval must be 1.96 errors above 0,
+// and 1.645 more are needed for 95 %; the error of a median is 1.2533 s / 8.
+static void test_what_could_be_seen(void **state)
+{
+    (void)state;
+    const struct rg_gate_rule rule = {
+        .margin = 0.01, .error = 0.05, .rows = 1, .look_count = 1, .looks = {64}};
+    double logs[64];
+    for (int i = 0; i < 64; i++)
+        logs[i] = 0.002 * ((i * 29) % 64 - 31.5);
+    struct rg_gate_decision d = rg_gate_decide(&rule, logs, 64);
+    assert_near(d.spread, 1.4826 * 0.032, 1e-9);
+    const double error = 1.2533 * d.spread / 8;
+    assert_near(d.smallest, expm1((1.959964 + 1.644854) * error), 1e-6);
+    assert_near(rg_gate_power(&rule, &d, d.smallest), 0.95, 1e-6);
+    assert_near(rg_gate_power(&rule, &d, expm1(1.959964 * error)), 0.5, 1e-6);
+    // Of little spread, half of the margin is what binds.
+    for (int i = 0; i < 64; i++)
+        logs[i] *= 0.001;
+    d = rg_gate_decide(&rule, logs, 64);
+    assert_near(d.smallest, expm1(log1p(0.005) + 1.644854 * error * 0.001), 1e-8);
+}
+
+// --- noise whose truth is known ---
+
+static void count_verdicts(enum noise noise, double change, int launches, int counts[4])
+{
+    enum { TRIALS = 400 };
+    const struct rg_gate_rule rule = rg_gate_rule_of(1);
+    for (int i = 0; i < 4; i++)
+        counts[i] = 0;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        double logs[RG_GATE_UNITS];
+        fill(noise, change, logs, launches);
+        counts[rg_gate_decide(&rule, logs, launches).verdict]++;
+    }
+}
+
+// Of 400 pairs that are the same none, or one, is told apart, with few launches and with many. That
+// launches are linked is not always noticed: what then is left the course sees (course.c).
+static void test_same(void **state)
+{
+    (void)state;
+    state_of_chance = 1;
+    for (enum noise noise = 0; noise < LINKED; noise++)
+        for (int launches = 16; launches <= 256; launches *= 4) {
+            int counts[4];
+            count_verdicts(noise, 0, launches, counts);
+            assert_in_range(counts[RG_TWO_REGRESSED] + counts[RG_TWO_IMPROVED], 0, 1);
+            if (launches == 256)
+                assert_in_range(counts[RG_TWO_PASS], 396, 400);
+        }
+}
+
+// What takes 5 % longer, or less, is found, by 256 launches in each of 400 trials but two.
+static void test_slower(void **state)
+{
+    (void)state;
+    state_of_chance = 2;
+    for (enum noise noise = 0; noise < LINKED; noise++) { // in groups, 256 are too few
+        int counts[4];
+        count_verdicts(noise, 0.05, 256, counts);
+        assert_in_range(counts[RG_TWO_REGRESSED], 398, 400);
+        count_verdicts(noise, 1 / 1.05 - 1, 256, counts);
+        assert_in_range(counts[RG_TWO_IMPROVED], 398, 400);
+    }
+}
+
+// The interval holds the truth as often as it claims to; here it claims 95 %.
+static void test_coverage(void **state)
+{
+    (void)state;
+    enum { TRIALS = 2000 };
+    const struct rg_gate_rule rule = {
+        .margin = 0.05, .error = 0.05, .rows = 1, .look_count = 1, .looks = {40}};
+    state_of_chance = 3;
+    for (enum noise noise = 0; noise < NOISES; noise++) {
+        int held = 0;
+        for (int trial = 0; trial < TRIALS; trial++) {
+            double logs[160];
+            fill(noise, 0.01, logs, 160);
+            const struct rg_gate_decision d = rg_gate_decide(&rule, logs, 160);
+            held += d.low <= 1.01 && 1.01 <= d.high;
+        }
+        assert_true(held >= 0.94 * TRIALS);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_quads),    cmocka_unit_test(test_interval),
+        cmocka_unit_test(test_verdicts), cmocka_unit_test(test_links),
+        cmocka_unit_test(test_coarse),   cmocka_unit_test(test_what_could_be_seen),
+        cmocka_unit_test(test_same),     cmocka_unit_test(test_slower),
+        cmocka_unit_test(test_coverage),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
