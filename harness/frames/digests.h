@@ -32,8 +32,6 @@ struct rg_digests {
 bool rg_digests_take(const struct rg_digest_run *run, struct rg_device *device,
                      struct rg_digests *digests);
 void rg_digests_free(struct rg_digests *digests);
-// The first row in which two runs differ; -1: none.
-int rg_digests_first_difference(const struct rg_digests *a, const struct rg_digests *b);
 
 // Runs once more, and brings what the asset of a row held then, with what is known of it as a state
 // (`state`: its name is NULL where it is none). False, and one logged line, on failure; the

@@ -122,17 +122,6 @@ bool rg_recorder_contents(const struct rg_digest_run *run, struct rg_device *dev
                            run->subject.technique->name, device->info.name));
 }
 
-int rg_digests_first_difference(const struct rg_digests *a, const struct rg_digests *b)
-{
-    const int count = a->count < b->count ? a->count : b->count;
-    for (int i = 0; i < count; i++) {
-        const struct rg_digest *p = &a->rows[i], *q = &b->rows[i];
-        if (p->hash != q->hash || p->stages_run != q->stages_run || strcmp(p->asset, q->asset) != 0)
-            return i;
-    }
-    return a->count == b->count ? -1 : count;
-}
-
 void rg_digests_free(struct rg_digests *digests)
 {
     free(digests->rows);

@@ -98,8 +98,7 @@ static void word_text(uint32_t bits, bool as_float, char *text, size_t size)
 
 // Where nothing says what words are, they count as floats if their exponent is neither that of a
 // small integer nor all ones.
-static bool looks_like_float(const struct rg_contents *c, const struct rg_state *state,
-                             uint32_t bits)
+bool rg_contents_has_float(const struct rg_contents *c, const struct rg_state *state, uint32_t bits)
 {
     const uint32_t exponent = bits >> 23 & 0xff;
     if (c->desc.levels)
@@ -138,7 +137,7 @@ void rg_contents_describe(const struct rg_contents *c, const struct rg_contents 
     uint32_t bits, expected_bits;
     memcpy(&bits, a + 4 * first, 4);
     memcpy(&expected_bits, b + 4 * first, 4);
-    const bool as_float = looks_like_float(c, state, expected_bits ? expected_bits : bits);
+    const bool as_float = rg_contents_has_float(c, state, expected_bits ? expected_bits : bits);
     place_text(c, state, 4 * first, place, sizeof(place));
     word_text(bits, as_float, is, sizeof(is));
     word_text(expected_bits, as_float, due, sizeof(due));

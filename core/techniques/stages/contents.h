@@ -26,4 +26,9 @@ uint64_t rg_contents_hash(const struct rg_contents *contents);
 void rg_contents_describe(const struct rg_contents *contents, const struct rg_contents *expected,
                           const struct rg_state *state, char *text, size_t size);
 
+// Whether a word counts as a float: by the image's format, by what is known of the state, or, where
+// nothing tells, by its bits.
+bool rg_contents_has_float(const struct rg_contents *contents, const struct rg_state *state,
+                           uint32_t bits);
+
 #endif

@@ -8,6 +8,7 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "core/device/device.h"
+#include "harness/compare/blame/blame.h"
 #include "harness/compare/diff/report.h"
 #include "harness/console/exit.h"
 #include "harness/console/progress.h"
@@ -15,6 +16,7 @@
 #include "harness/frames/frame.h"
 
 struct shot {
+    struct rg_device *device;
     const struct rg_device_info *info;
     struct rg_picture picture;
 };
@@ -56,6 +58,7 @@ static bool take_picture(struct session *s, struct rg_device *device)
 {
     const struct rg_diff_devices_request *r = s->asked;
     struct shot *shot = &s->shots[s->shot_count];
+    shot->device = device;
     shot->info = &device->info;
     if (rg_frame_draw(device, &r->subject, r->frames, &shot->picture)) {
         s->shot_count++;
@@ -108,6 +111,35 @@ static void print_pair(const struct shot *a, const struct shot *b, const struct 
            (long long)c->tiers.mask_pixels, c->flip.mean, c->metrics.psnr_db);
 }
 
+// Whether it is the reference, or nearer to it by the tier it owes or, among equals, by what cpu
+// is.
+static bool is_truer(const struct rg_device_info *a, const struct rg_device_info *b)
+{
+    if (a->tier != b->tier)
+        return a->tier < b->tier;
+    return !strncmp(a->name, "cpu", 3) && strcmp(b->name, "cpu:reference") != 0;
+}
+
+// Where the two part, for a pair that does not hold what its devices owe each other; the one that
+// is nearer to cpu:reference is held for the truth. NULL where nothing is found, or where that
+// fails, which has been logged: that the pair fails is known already.
+static json_t *blame_pair(struct session *s, const struct shot *a, const struct shot *b)
+{
+    const struct rg_diff_devices_request *r = s->asked;
+    const struct shot *truth = is_truer(b->info, a->info) ? b : a, *other = truth == a ? b : a;
+    const struct rg_digest_run run = {r->subject, r->frames < 1 ? 1 : r->frames};
+    struct rg_blame blame;
+    if (!rg_blame_find(&run, other->device, truth->device, &blame))
+        return NULL;
+    if (r->json)
+        return blame.found ? rg_blame_json(&blame) : NULL;
+    if (blame.found)
+        printf("  %s: %s\n", other->info->name, blame.text);
+    else
+        printf("  no stage leaves other bits when each is read: it may not differ in every run\n");
+    return NULL;
+}
+
 static int compare_pair(struct session *s, const struct shot *a, const struct shot *b)
 {
     struct rg_comparison c;
@@ -117,10 +149,15 @@ static int compare_pair(struct session *s, const struct shot *a, const struct sh
     s->compared++;
     const bool holds = c.tiers.of[rg_tier_owed(a->info, b->info)].holds;
     bool ok = true;
-    if (s->pairs)
-        ok = json_array_append_new(s->pairs, rg_pair_json(a->info->name, b->info->name, &c)) == 0;
-    else
+    json_t *pair = s->pairs ? rg_pair_json(a->info->name, b->info->name, &c) : NULL;
+    if (!s->pairs)
         print_pair(a, b, &c, holds);
+    json_t *blame = holds ? NULL : blame_pair(s, a, b);
+    if (pair && blame)
+        json_object_set(pair, "blame", blame);
+    json_decref(blame);
+    if (s->pairs)
+        ok = json_array_append_new(s->pairs, pair) == 0;
     if (s->asked->heatmap_prefix)
         ok = write_heatmaps(s, a, b, &c) && ok;
     rg_comparison_destroy(&c);

@@ -2,10 +2,10 @@
 // and by how much. It takes a few frames of each pose, since every asset is read after every stage.
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/base/log.h"
 #include "core/device/device.h"
+#include "harness/compare/blame/blame.h"
 #include "harness/compare/verify/verify.h"
 #include "harness/console/exit.h"
 #include "harness/frames/digests.h"
@@ -15,40 +15,14 @@ int64_t rg_verify_stage_work(const struct rg_verify *v)
     return (int64_t)rg_verify_poses(v) * (v->devices->count + 1);
 }
 
-// Where and by how much, from a second run of both.
-static void describe(struct rg_verify *v, const struct rg_digest_run *run, struct rg_device *device,
-                     int row, char *text, size_t size)
-{
-    struct rg_contents now, expected;
-    struct rg_state state;
-    const bool ok = rg_digests_contents(run, device, row, &now, &state);
-    if (!ok)
-        snprintf(text, size, ": %s", rg_last_error());
-    else if (!rg_digests_contents(run, v->reference, row, &expected, &state))
-        snprintf(text, size, ": %s", rg_last_error());
-    else
-        rg_contents_describe(&now, &expected, state.name ? &state : NULL, text, size);
-    if (ok)
-        rg_contents_free(&expected);
-    rg_contents_free(&now);
-}
-
 static void blame(struct rg_verify *v, const struct rg_digest_run *run, struct rg_device *device,
                   const char *pose, const struct rg_digests *now, const struct rg_digests *expected)
 {
-    const int row = rg_digests_first_difference(now, expected);
-    const struct rg_digest *d = row < now->count ? &now->rows[row] : &expected->rows[row];
-    const bool same_place = row < now->count && row < expected->count &&
-                            !strcmp(d->asset, expected->rows[row].asset) &&
-                            d->stages_run == expected->rows[row].stages_run;
-    char where[400] = " is written by one of the two alone";
     const bool is_exact = rg_tier_owed(&device->info, &v->reference->info) == RG_T0;
-    if (same_place)
-        describe(v, run, device, row, where, sizeof(where));
+    struct rg_blame blame;
+    rg_blame_row(run, device, v->reference, now, expected, &blame); // the text tells of a failure
     rg_checks_add(v->checks, run->subject.technique->name, "stages", device->info.name,
-                  is_exact ? RG_FAIL : RG_OK, "%s%sframe %lld, %s %s: %s%s", pose,
-                  *pose ? ": " : "", (long long)d->frame, *d->stage ? "stage" : "opening", d->stage,
-                  d->asset, where);
+                  is_exact ? RG_FAIL : RG_OK, "%s%s%s", pose, *pose ? ": " : "", blame.text);
 }
 
 static void compare(struct rg_verify *v, const struct rg_digest_run *run, struct rg_device *device,
@@ -60,7 +34,7 @@ static void compare(struct rg_verify *v, const struct rg_digest_run *run, struct
     const bool ok = rg_digests_take(run, device, &now);
     if (!ok)
         rg_checks_add_error(v->checks, run->subject.technique->name, "stages", device->info.name);
-    else if (rg_digests_first_difference(&now, expected) < 0)
+    else if (rg_blame_first(&now, expected) < 0)
         rg_checks_add(v->checks, run->subject.technique->name, "stages", device->info.name, RG_OK,
                       "%s%s%d frames, %d digests of assets behind %d stages, as on %s", pose,
                       *pose ? ": " : "", run->frames, now.count,

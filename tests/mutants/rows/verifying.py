@@ -1,12 +1,13 @@
 """verify and diff: states, images and laws compared, mutants judged, outcomes counted."""
 from fault import Fault
 
-TESTS = ("verify", "differing", "image diff", "exit", "command line, wrong", "command line, cases")
+TESTS = ("verify", "differing", "blame", "image diff", "exit", "command line, wrong", "command line, cases")
 
 DEVICES, MUTANTS = "harness/compare/verify/devices.c", "harness/compare/verify/mutants.c"
 POSES = "harness/compare/verify/poses.c"
-SNAPSHOT, CHECKS, STAGES = ("harness/compare/verify/snapshot.c", "harness/compare/verify/checks.c", "harness/compare/verify/stages.c")
+SNAPSHOT, CHECKS = ("harness/compare/verify/snapshot.c", "harness/compare/verify/checks.c")
 REPORT = "harness/compare/diff/report.c"
+BLAME, DIFFERENCE = "harness/compare/blame/blame.c", "harness/compare/blame/difference.c"
 
 ROWS = [
     Fault(REPORT, "rg_plain(plain);", ";", "a file's name steers the terminal"),
@@ -47,6 +48,20 @@ ROWS = [
     Fault(CHECKS, "counts[checks->rows[i].status]++;", "counts[RG_OK]++;", "every check counts as ok"),
     Fault(CHECKS, "return rg_exit_worse(«checks->exit», rg_exit_of_all(counts));", "RG_EXIT_PASS", "an error that no check tells is forgotten"),
     Fault(CHECKS, "if («rg_last_error_kind() == RG_ERROR_INPUT»)", "false", "the user's error is a device's"),
-    Fault("harness/frames/recorder.c", "if («p->hash != q->hash» || p->stages_run", "false", "a stage's contents are not compared"),
-    Fault("harness/frames/recorder.c", "return a->count == b->count ? -1 : «count»;", "-1", "a run of fewer stages is the same"),
+    Fault(BLAME, "if («p->hash != q->hash» || p->stages_run", "false", "a stage's contents are not compared"),
+    Fault(BLAME, "return a->count == b->count ? -1 : «count»;", "-1", "a run of fewer stages is the same"),
+    Fault(BLAME, "blame->x = (int)(byte % layer / texel «% width»);", "", "a texel's column is told as its number"),
+    Fault(BLAME, "blame->y = (int)(byte % layer / texel «/ width»);", "", "a texel's row is told as its number"),
+    Fault(BLAME, "(int)d->frame «+ 1» : run->frames", "- 1", "a second run ends before what is asked for"),
+    Fault(BLAME, "if (part.frames == run->frames)\n            break;", "break;", "only the first frame is blamed"),
+    Fault(DIFFERENCE, "if («any(&p, has_nan)»)", "false", "a NaN is another value"),
+    Fault(DIFFERENCE, "return size > 8 && «(bits & exponent) == exponent»;", "false", "no float is endless"),
+    Fault(DIFFERENCE, "if (has_before && «all(&p, is_left)»)", "any(&p, is_left)", "one missing item makes all missing"),
+    Fault(DIFFERENCE, "if (has_before && «all(&p, was_due_so)»)", "false", "surplus is not told"),
+    Fault(DIFFERENCE, "const bool same = count && «!memcmp(now, due, (size_t)(count * element_bytes))»;", "true", "all elements are the same"),
+    Fault(DIFFERENCE, "qsort(now, (size_t)count, (size_t)element_bytes, by_bytes);", ";", "elements are compared as they lie"),
+    Fault(DIFFERENCE, "bits & sign ? «-(int64_t)(bits & ~sign)» : (int64_t)bits", "(int64_t)bits", "small floats on both sides of zero are far apart"),
+    Fault(DIFFERENCE, "if («all(&p, is_in_last_bits)»)", "any(&p, is_in_last_bits)", "one float in the last bits makes all so"),
+    Fault(DIFFERENCE, "«!has_near(p->due, a, x, y)» || !has_near(p->now, b, x, y)", "false", "a value that the truth has nowhere lies at an edge"),
+    Fault(DIFFERENCE, "for (int v = y > 0 ? y - 1 : 0; «v <= y + 1» && v < c->desc.height; v++)", "true", "an edge may lie anywhere below"),
 ]

@@ -8,7 +8,7 @@
 
 #include "core/base/log.h"
 #include "core/image/compare/compare.h"
-#include "harness/frames/digests.h"
+#include "harness/compare/blame/blame.h"
 #include "harness/frames/frame.h"
 #include "harness/record/record.h"
 
@@ -151,25 +151,14 @@ static bool do_alike_work(struct pair *p)
 
 // --- blame ---
 
-// The first stage behind which an asset has other bits, from a run of both in which every asset is
-// read after every stage.
+// The first stage that leaves other bits on B than on A, and in what way.
 static void name_first_stage(struct pair *p)
 {
     const struct rg_digest_run run = {p->subject, p->cell->frames};
-    struct rg_digests digests[RG_SIDES] = {{0}, {0}};
-    bool ok = true;
-    for (int side = 0; ok && side < RG_SIDES; side++)
-        ok = rg_digests_take(&run, p->sides[side].device, &digests[side]);
-    const int row = ok ? rg_digests_first_difference(&digests[0], &digests[1]) : -1;
-    const struct rg_digests *longer = &digests[digests[1].count > digests[0].count];
-    if (row >= 0) {
-        const struct rg_digest *d = &longer->rows[row];
-        snprintf(p->found->details, RG_AGREEMENT_TEXT,
-                 "first in frame %lld, %s %s: asset %s; `raingauge verify --stages` says where",
-                 (long long)d->frame, *d->stage ? "stage" : "opening", d->stage, d->asset);
-    }
-    for (int side = 0; side < RG_SIDES; side++)
-        rg_digests_free(&digests[side]);
+    struct rg_blame blame;
+    if (rg_blame_find(&run, p->sides[RG_SIDE_B].device, p->sides[RG_SIDE_A].device, &blame) &&
+        blame.found)
+        snprintf(p->found->details, RG_AGREEMENT_TEXT, "%s", blame.text);
 }
 
 void rg_gate_agree(const struct rg_gate_cell *cell, struct rg_side sides[RG_SIDES],

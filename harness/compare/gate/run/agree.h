@@ -5,7 +5,7 @@
 #include "harness/compare/gate/cells/cells.h"
 #include "harness/compare/gate/run/sides.h"
 
-enum { RG_AGREEMENT_TEXT = 600 };
+enum { RG_AGREEMENT_TEXT = 640 };
 
 struct rg_agreement {
     enum rg_outcome outcome; // OK: they agree; fail: they do not; else what kept it from being seen

@@ -1,0 +1,274 @@
+// Blame: each kind of difference is told by a planted one, and the first stage, asset and place of
+// two devices that part are named.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/techniques/technique.h"
+#include "harness/compare/blame/blame.h"
+#include "tests/harness/verifying/rig.h"
+
+enum { WORDS = 16 };
+
+static float now[WORDS], due[WORDS], before[WORDS];
+static struct rg_contents contents, expected, earlier;
+static struct rg_differing differing;
+static const struct rg_state floats = {.name = "floats", .is_float = true};
+
+// Floats 1 to 16 in both, and 100 to 115 before.
+static int setup(void **state)
+{
+    (void)state;
+    contents = (struct rg_contents){.size = sizeof(now), .bytes = now};
+    expected = (struct rg_contents){.size = sizeof(due), .bytes = due};
+    earlier = (struct rg_contents){.size = sizeof(before), .bytes = before};
+    for (int i = 0; i < WORDS; i++) {
+        now[i] = due[i] = (float)(i + 1);
+        before[i] = (float)(i + 100);
+    }
+    return 0;
+}
+
+static enum rg_difference found(int element_bytes)
+{
+    return rg_difference_of(&contents, &expected, &earlier, element_bytes, &floats, &differing);
+}
+
+// A picture of 4 x 4 texels of floats.
+static void make_image(enum rg_format format, int side)
+{
+    contents.desc = expected.desc = earlier.desc = (struct rg_image_desc){
+        .format = format, .width = side, .height = side, .layers = 1, .levels = 1};
+}
+
+static void nothing_differs(void **state)
+{
+    (void)state;
+    assert_int_equal(found(4), RG_DIFFERENCE_NONE);
+    assert_int_equal(differing.count, 0);
+    contents.size = 12;
+    assert_int_equal(found(4), RG_DIFFERENCE_SIZE);
+}
+
+static void the_first_word_and_their_number(void **state)
+{
+    (void)state;
+    now[5] = 50;
+    now[15] = 60;
+    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+    assert_int_equal(differing.first, 5);
+    assert_int_equal(differing.count, 2);
+}
+
+// Of one side alone; where both are NaN with other bits it is no matter of NaN.
+static void a_nan_is_told(void **state)
+{
+    (void)state;
+    now[3] = NAN;
+    assert_int_equal(found(4), RG_DIFFERENCE_NAN);
+    now[3] = due[3];
+    due[7] = INFINITY;
+    assert_int_equal(found(4), RG_DIFFERENCE_NAN);
+    now[7] = NAN;
+    due[7] = -NAN;
+    assert_int_not_equal(found(4), RG_DIFFERENCE_NAN);
+    setup(NULL);
+    make_image(RG_RGBA16F, 2);
+    contents.size = expected.size = 32;
+    memcpy(now, &(uint32_t){0x7c003c00}, 4);
+    memcpy(due, &(uint32_t){0x3c003c00}, 4);
+    assert_int_equal(found(4), RG_DIFFERENCE_NAN);
+}
+
+// All of it is missing, or all is surplus; a part is neither.
+static void what_the_stage_left_out_is_told(void **state)
+{
+    (void)state;
+    now[4] = before[4];
+    now[9] = before[9];
+    assert_int_equal(found(4), RG_DIFFERENCE_MISSING);
+    now[2] = 55;
+    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+    setup(NULL);
+    due[4] = before[4];
+    assert_int_equal(found(4), RG_DIFFERENCE_SURPLUS);
+    earlier.bytes = NULL;
+    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+}
+
+// Elements of two words: words that changed places alone are no other order.
+static void another_order_is_told(void **state)
+{
+    (void)state;
+    memcpy(now + 4, due + 10, 8);
+    memcpy(now + 10, due + 4, 8);
+    assert_int_equal(found(8), RG_DIFFERENCE_ORDER);
+    assert_int_equal(found(16), RG_DIFFERENCE_VALUES);
+    now[4]++;
+    assert_int_equal(found(8), RG_DIFFERENCE_VALUES);
+    setup(NULL);
+    now[0] = due[4]; // three in turn
+    now[4] = due[10];
+    now[10] = due[0];
+    assert_int_equal(found(4), RG_DIFFERENCE_ORDER);
+}
+
+static void last_bits_are_told(void **state)
+{
+    (void)state;
+    now[6] = nextafterf(due[6], 0);
+    assert_int_equal(found(4), RG_DIFFERENCE_LAST_BITS);
+    due[8] = 1e-44f; // either side of zero
+    now[8] = -1e-44f;
+    assert_int_equal(found(4), RG_DIFFERENCE_LAST_BITS);
+    now[7] = due[7] * 1.001f;
+    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+    setup(NULL);
+    make_image(RG_RGBA8, 4);
+    memcpy(now, &(uint32_t){0x10203040}, 4);
+    memcpy(due, &(uint32_t){0x0f213040}, 4);
+    assert_int_equal(found(4), RG_DIFFERENCE_LAST_BITS);
+    memcpy(due, &(uint32_t){0x0e213040}, 4);
+    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+}
+
+// A step that lies a texel to the right; one that lies two does not count.
+static void an_edge_is_told(void **state)
+{
+    (void)state;
+    make_image(RG_R32F, 4);
+    for (int i = 0; i < WORDS; i++) {
+        due[i] = i % 4 < 2 ? 1.0f : 9.0f;
+        now[i] = i % 4 < 3 ? 1.0f : 9.0f;
+    }
+    assert_int_equal(found(4), RG_DIFFERENCE_EDGE);
+    for (int i = 0; i < WORDS; i++)
+        due[i] = i % 4 < 1 ? 1.0f : 9.0f;
+    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+    for (int i = 0; i < WORDS; i++)
+        due[i] = now[i] = i < 12 ? 1.0f : 9.0f;
+    now[0] = 9.0f; // which is three rows below
+    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+    now[0] = 5.0f; // which is nowhere
+    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+}
+
+static void names_are_read_back(void **state)
+{
+    (void)state;
+    for (int i = 0; i < RG_DIFFERENCE_COUNT; i++)
+        assert_int_equal(rg_difference_find(rg_difference_name((enum rg_difference)i)), i);
+    assert_int_equal(rg_difference_find("?"), RG_DIFFERENCE_NONE);
+}
+
+// --- devices that part ---
+
+// From the second step on, `cpu` has one word more in the state.
+static bool step_off_on_cpu(struct rg_instance *instance)
+{
+    struct rg_buf *buf = instance->state[0].asset->buf;
+    uint32_t word;
+    if (!rg_technique_find("flow")->step(instance))
+        return false;
+    if (strcmp(instance->device->info.name, "cpu") != 0 || instance->frame < 2)
+        return true;
+    return rg_buf_read(buf, 40, &word, 4) && (word ^= 1, rg_buf_write(buf, 40, &word, 4));
+}
+
+static void find(int frames, struct rg_blame *blame)
+{
+    struct rg_device *truth = rg_device_open("cpu:reference"), *device = rg_device_open("cpu");
+    void *defaults = rg_settings_create(&rig_flow);
+    void *settings = rg_settings_copy(&rig_flow, defaults, RIG_CHEAP " drops=40");
+    const struct rg_digest_run run = {{&rig_flow, settings, 16, 16}, frames};
+    assert_true(rg_blame_find(&run, device, truth, blame));
+    free(settings);
+    free(defaults);
+    assert_true(rg_device_close(device));
+    assert_true(rg_device_close(truth));
+}
+
+static void where_devices_part_is_found(void **state)
+{
+    struct rg_blame blame;
+    rig_setup(state);
+    find(5, &blame);
+    assert_false(blame.found);
+    rig_flow.step = step_off_on_cpu;
+    find(1, &blame);
+    assert_false(blame.found);
+    find(5, &blame);
+    assert_true(blame.found);
+    assert_false(blame.is_alone);
+    assert_int_equal(blame.first.frame, 2);
+    assert_true(blame.first.hash != blame.expected);
+    assert_false(blame.is_image);
+    assert_int_equal(blame.differing, 1);
+    assert_non_null(strstr(blame.text, "frame 2, stage flow_"));
+    assert_non_null(strstr(blame.text, blame.first.asset));
+    json_t *json = rg_blame_json(&blame);
+    assert_non_null(json);
+    assert_int_equal(json_integer_value(json_object_get(json, "item")), blame.item);
+    assert_string_equal(json_string_value(json_object_get(json, "class")),
+                        rg_difference_name(blame.difference));
+    json_decref(json);
+}
+
+// Behind the drawing of frame 2 the host changes a texel of the target on `cpu`; or on both, each
+// to another value.
+static bool changes_both;
+
+static bool draw_off(struct rg_instance *instance)
+{
+    uint16_t *texels = malloc(16 * 16 * 8);
+    bool ok = texels && rg_technique_find("flow")->draw(instance);
+    const bool on_cpu = !strcmp(instance->device->info.name, "cpu");
+    if (ok && instance->frame == 2 && (on_cpu || changes_both)) {
+        ok = rg_image_read(instance->target, 0, 0, texels);
+        texels[4 * (16 * 9 + 5)] ^= on_cpu ? 0x4000 : 0x2000;
+        ok = ok && rg_image_write(instance->target, 0, 0, texels);
+    }
+    free(texels);
+    return ok;
+}
+
+static void a_texel_is_named(void **state)
+{
+    struct rg_blame blame;
+    rig_setup(state);
+    rig_flow.draw = draw_off;
+    changes_both = false;
+    find(5, &blame);
+    assert_true(blame.found);
+    assert_true(blame.is_alone);
+    assert_non_null(strstr(blame.text, "target is written by one of the two alone"));
+    changes_both = true;
+    find(5, &blame);
+    assert_false(blame.is_alone);
+    assert_true(blame.is_image);
+    assert_int_equal(blame.x, 5);
+    assert_int_equal(blame.y, 9);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(nothing_differs, setup),
+        cmocka_unit_test_setup(the_first_word_and_their_number, setup),
+        cmocka_unit_test_setup(a_nan_is_told, setup),
+        cmocka_unit_test_setup(what_the_stage_left_out_is_told, setup),
+        cmocka_unit_test_setup(another_order_is_told, setup),
+        cmocka_unit_test_setup(last_bits_are_told, setup),
+        cmocka_unit_test_setup(an_edge_is_told, setup),
+        cmocka_unit_test(names_are_read_back),
+        cmocka_unit_test(where_devices_part_is_found),
+        cmocka_unit_test(a_texel_is_named),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
