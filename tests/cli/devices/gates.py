@@ -6,6 +6,7 @@ import subprocess
 import tempfile
 
 import forms
+import results
 
 TESTS = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCHEMA = os.path.join(TESTS, "harness", "gate", "report", "junit.xsd")
@@ -99,6 +100,23 @@ def check_crash(runner):
     return problems
 
 
+def check_miscompiled(runner):
+    """a kernel in which one constant is another is found before anything is timed, and blamed on its stage"""
+    with Files() as files:
+        kernels = files.path("kernels")
+        os.mkdir(kernels)
+        runner.kernels_with(kernels, "flow_normals.glsl", results.RIGHT, results.TURNED)
+        result = runner.run(["gate", "gl", "gl@RG_KERNEL_DIR=" + kernels, "--cells", files.cells, "--json", "--budget", "1s"])
+        report = json.loads(result.stdout)
+    found = {case["name"].split(".")[0]: case for case in report["gated"]}
+    problems = []
+    if result.returncode != 1 or found["flow/pane"]["ending"] != "differs" or found["raster/torus"]["ending"] == "differs":
+        problems.append("exit status %d, %s" % (result.returncode, endings(report)))
+    if "stage flow_normals" not in found["flow/pane"]["details"] or found["flow/pane"]["ratio"]["value"] is not None:
+        problems.append("%s" % found["flow/pane"])
+    return problems
+
+
 def check_gtest(runner):
     """googletest's protocol: names are listed, a filter runs some of them, and each has a result"""
     with Files() as files:
@@ -129,4 +147,4 @@ def check_refused(runner):
     return problems
 
 
-CHECKS = [check_same, check_slower, check_open, check_crash, check_gtest, check_refused]
+CHECKS = [check_same, check_slower, check_open, check_crash, check_miscompiled, check_gtest, check_refused]
