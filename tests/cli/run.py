@@ -11,6 +11,7 @@
            results  what table, diff and render print, on the CPU
            clips    frames in a row, as clips and as numbered pictures, on the CPU
            stored   tables that were interrupted, or are printed again
+           losses   runs that are killed, and a second one beside one that measures
            long     what verify prints, tables that are counted, set in a row or begun anew, an atlas that is not kept
            misbehaving  drivers that crash, hang, lie about their end or lose their device
            gates    one device held against another
@@ -34,6 +35,7 @@ import doctor
 import gates
 import installed
 import kept
+import losses
 import misbehaving
 import pages
 import results
@@ -48,6 +50,7 @@ SUITES = {
     "results": lambda runner: runner.check_all(results.CHECKS),
     "clips": lambda runner: runner.check_all(clips.CHECKS),
     "stored": lambda runner: runner.check_all(results.STORED),
+    "losses": lambda runner: runner.check_all(losses.CHECKS),
     "long": lambda runner: runner.check_all(results.LONG),
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
     "gates": lambda runner: runner.check_all(gates.CHECKS),

@@ -4,48 +4,21 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/record/output.h"
+#include "harness/record/disk/hold.h"
 #include "harness/record/disk/seal.h"
 #include "harness/record/disk/stored.h"
 
 struct rg_journal {
     char folder[1536], name[128], path[2048]; // no folder: there is none to be had
-    bool is_in_state;                         // of the user's; else with the results
     struct rg_result held;                    // the rows that are whole, or begun
     bool has_file, is_followed;
     bool is_broken; // it could not be written, which one logged line said
 };
-
-// --- its folder ---
-
-// Makes the folders that a folder lies in. What fails here is told by the writing that follows.
-static void make_parents(char *folder)
-{
-    for (char *end = strchr(folder + 1, '/'); end; end = strchr(end + 1, '/')) {
-        *end = 0;
-        mkdir(folder, 0777);
-        *end = '/';
-    }
-}
-
-// The folder for what a user's programs keep between runs, by the XDG base directories; "" where no
-// variable names one. Its last part is made by who writes there.
-static void find_state_folder(char *folder, size_t size)
-{
-    const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
-    int length = 0;
-    if (state && *state == '/')
-        length = snprintf(folder, size, "%s/raingauge", state);
-    else if (home && *home == '/')
-        length = snprintf(folder, size, "%s/.local/state/raingauge", home);
-    if (length >= (int)size)
-        *folder = 0;
-}
 
 // --- reading ---
 
@@ -98,9 +71,8 @@ struct rg_journal *rg_journal_open(const struct rg_result *result, const char *f
     if (!j)
         return NULL;
     j->is_followed = is_followed;
-    j->is_in_state = !folder;
     if (!folder)
-        find_state_folder(j->folder, sizeof(j->folder));
+        rg_state_folder(j->folder, sizeof(j->folder));
     else if (strlen(folder) < sizeof(j->folder))
         memcpy(j->folder, folder, strlen(folder) + 1);
     snprintf(j->name, sizeof(j->name), "%s-%s.journal", result->table,
@@ -181,8 +153,6 @@ static bool write_file(struct rg_journal *j)
                    j->name);
         return false;
     }
-    if (j->is_in_state)
-        make_parents(j->folder);
     json_t *document = rg_result_json(&j->held);
     const bool is_sealed = document && rg_seal(document);
     char *text = is_sealed ? json_dumps(document, RG_JSON_FLAGS | JSON_COMPACT) : NULL;

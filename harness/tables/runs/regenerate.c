@@ -8,6 +8,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
+#include "harness/record/disk/hold.h"
 #include "harness/tables/runs/budget.h"
 #include "harness/tables/runs/forecast.h"
 #include "harness/tables/measuring/measure.h"
@@ -85,9 +86,10 @@ static struct rg_table_part part_of(const struct rg_table *table,
 }
 
 // Begins the tables that have some of the rows that are asked for. All journals are read before one
-// is written, since a table may be named twice.
+// is written, since a table may be named twice. `keeps`: there are journals.
 static int make_tasks(const struct rg_regenerate_options *o, const struct rg_devices *devices,
-                      const struct rg_table *const tables[], int count, struct task *tasks)
+                      const struct rg_table *const tables[], int count, bool keeps,
+                      struct task *tasks)
 {
     int made = 0;
     for (int i = 0; i < count; i++) {
@@ -97,7 +99,7 @@ static int make_tasks(const struct rg_regenerate_options *o, const struct rg_dev
         tasks[made].table = tables[i];
         rg_table_begin(&tasks[made++].result, tables[i], &part, devices);
     }
-    for (int i = 0; i < made; i++)
+    for (int i = 0; keeps && i < made; i++)
         tasks[i].journal = rg_journal_open(&tasks[i].result, o->folder, o->fresh, i < made - 1);
     return made;
 }
@@ -219,15 +221,40 @@ static int plan_and_regenerate(const struct rg_table *const tables[], int count,
     return exit;
 }
 
-int rg_tables_regenerate(const struct rg_table *const tables[], int count,
-                         const struct rg_devices *devices,
-                         const struct rg_regenerate_options *options)
+static int regenerate(const struct rg_table *const tables[], int count,
+                      const struct rg_devices *devices, const struct rg_regenerate_options *options,
+                      bool keeps)
 {
     if (options->budget_s > 0)
         return plan_and_regenerate(tables, count, devices, options);
     struct task *tasks = rg_alloc((size_t)count, sizeof(*tasks), "tables");
-    const int made = tasks ? make_tasks(options, devices, tables, count, tasks) : 0;
+    const int made = tasks ? make_tasks(options, devices, tables, count, keeps, tasks) : 0;
     const int exit = tasks ? run_tasks(tasks, made, devices, options) : RG_EXIT_FAIL;
     free(tasks);
+    return exit;
+}
+
+int rg_tables_regenerate(const struct rg_table *const tables[], int count,
+                         const struct rg_devices *devices,
+                         const struct rg_regenerate_options *options)
+{
+    char state[1536] = "";
+    struct rg_hold hold = {.fd = -1};
+    if (!options->folder)
+        rg_state_folder(state, sizeof(state));
+    const char *folder = options->folder ? options->folder : state;
+    const bool is_ours = !*folder || rg_hold_folder(folder, &hold);
+    if (!is_ours && options->folder) {
+        rg_error("%s: another raingauge measures into it; wait until it has ended, or name another "
+                 "folder",
+                 folder);
+        return RG_EXIT_USAGE;
+    }
+    if (!is_ours)
+        rg_warning("%s: another raingauge that measures keeps its rows there; this one keeps none: "
+                   "write into a folder with -o to go on after an interruption",
+                   folder);
+    const int exit = regenerate(tables, count, devices, options, is_ours);
+    rg_hold_release(&hold);
     return exit;
 }

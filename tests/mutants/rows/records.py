@@ -6,6 +6,7 @@ TESTS = ("named", "held", "rows", "journal", "output", "stored", "damaged", "she
 TABLE = "harness/tables/measuring/measure.c"
 JOURNAL, STORED, NAMED = "harness/record/disk/journal.c", "harness/record/disk/stored.c", "harness/record/named.c"
 OUTPUT, RESULT, RECORD = "harness/record/output.c", "harness/record/result.c", "harness/record/record.c"
+HOLD, REGENERATE = "harness/record/disk/hold.c", "harness/tables/runs/regenerate.c"
 TEMPORARY, FIELDS = "core/image/files/temporary.c", "harness/record/schema/fields.c"
 
 ROWS = [
@@ -25,8 +26,11 @@ ROWS = [
     Fault(JOURNAL, "*record = *rg_result_at(&journal->held, «at»);", "(struct rg_place){.work = at.work, .variant = at.variant}", "every row is taken over as the first"),
     Fault(FIELDS, "memcpy(text, json_string_value(value), length + 1);\n    «rg_plain(text);»", ";", "a stored text steers the terminal"),
     Fault(STORED, "if («sealed == RG_SEAL_WHOLE» ||", "sealed != RG_SEAL_ABSENT", "a wrong checksum is taken for a right one"),
-    Fault(JOURNAL, "if (state && «*state == '/'»)", "true", "a relative state folder is followed"),
-    Fault(JOURNAL, "if (length >= (int)size)\n        *folder = 0;", ";", "a state folder that is too long is cut"),
+    Fault(HOLD, "if (state && «*state == '/'»)", "true", "a relative state folder is followed"),
+    Fault(HOLD, "if (length >= (int)size)\n        *folder = 0;", ";", "a state folder that is too long is cut"),
+    Fault(HOLD, "return «!is_taken»;", "true", "two runs write into a folder at once", tests=("command line, losses",)),
+    Fault(REGENERATE, "if («!is_ours» && options->folder)", "false", "a second run into a folder goes on", tests=("command line, losses",)),
+    Fault(REGENERATE, "for (int i = 0; «keeps» && i < made; i++)", "true", "a run whose state folder another holds keeps rows there", tests=("command line, losses",)),
     Fault(STORED, "*at += strspn(text + *at, \" \\t\\r\\n\");", "", "line ends behind a document are taken for another"),
     Fault(STORED, "return ends_in(entry->d_name, \".json\") || «ends_in(entry->d_name, \".journal\")»;", "false", "journals of a folder are not read"),
     Fault(STORED, "for (const char *c = text; c < text + «*at»; c++)", "0", "a damaged document's line is counted from its own beginning"),

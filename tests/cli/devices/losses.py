@@ -1,0 +1,162 @@
+"""What is lost when a run that measures is killed, or another begins beside it: nothing that was measured before."""
+import fcntl
+import json
+import os
+import re
+import signal
+import tempfile
+import time
+
+# Once the first table is measured, all of it is in its journal, for as long as the second takes.
+FIRST, SECOND, ROWS = "stuppacher-2", "chin-grid", 3
+TABLES = "table %s %s --quick --device cpu --rows 1-%d -o " % (FIRST, SECOND, ROWS)
+JOURNAL = FIRST + "-quick.journal"
+LIMIT_S = 60  # for what takes a second
+
+
+def wait_for(condition):
+    """Whether it holds within the limit."""
+    end = time.monotonic() + LIMIT_S
+    while not condition() and time.monotonic() < end:
+        time.sleep(0.01)
+    return bool(condition())
+
+
+def workers_of(pid):
+    """The processes that a process has started."""
+    with open("/proc/%d/task/%d/children" % (pid, pid)) as file:
+        return [int(word) for word in file.read().split()]
+
+
+def runs(pid):
+    """Whether there is such a process that has not ended."""
+    try:
+        with open("/proc/%d/stat" % pid) as file:
+            return file.read().rsplit(")", 1)[1].split()[0] not in "ZX"
+    except OSError:
+        return False
+
+
+def segments(pid):
+    """System V memory that a process made."""
+    with open("/proc/sysvipc/shm") as file:
+        return [line for line in file.read().splitlines()[1:] if int(line.split()[4]) == pid]
+
+
+def rows_of(path):
+    """Rows and what was measured of it, as text, of a result or journal."""
+    with open(path) as file:
+        report = json.load(file)
+    cells = {}
+    for cell in report["cells"]:
+        cells.setdefault(json.dumps(cell["row"]), []).append(json.dumps(cell, sort_keys=True))
+    return cells
+
+
+def begin(runner, out):
+    """A run that has the first table in its journal, and its workers."""
+    process = runner.start((TABLES + out).split())
+    path = os.path.join(out, JOURNAL)
+    wait_for(lambda: os.path.exists(path) or process.poll() is not None)
+    return process, workers_of(process.pid) if process.poll() is None else []
+
+
+def goes_on(runner, out, held):
+    """What is wrong with a run after one that left the rows `held`."""
+    result = runner.run((TABLES + out).split())
+    said = re.fullmatch(r"raingauge: %s: (\d) of %d rows are those of a run that was interrupted, .*\n" % (FIRST, ROWS), result.stderr)
+    if result.returncode or not said or int(said.group(1)) != len(held):
+        return ["again: exit status %d, %d rows held, %s" % (result.returncode, len(held), result.stderr)]
+    rows, others = (rows_of(os.path.join(out, table + ".json")) for table in (FIRST, SECOND))
+    problems = [] if len(rows) == len(others) == ROWS else ["%d and %d rows in the end" % (len(rows), len(others))]
+    problems += ["row %s is another" % row for row in held if rows.get(row) != held[row]]
+    left = sorted(os.listdir(out))
+    if left != sorted(table + "." + form for table in (FIRST, SECOND) for form in ("csv", "json", "md", "tex")):
+        problems.append("left: %s" % left)
+    return problems
+
+
+def killed(runner, kills_harness, kills_worker):
+    """What is wrong after SIGKILL of the harness, of the worker of cpu before it, or of that alone."""
+    with tempfile.TemporaryDirectory() as out:
+        process, workers = begin(runner, out)
+        if not workers:
+            return ["no worker: %s" % (process.communicate(),)]
+        for pid in workers[:1] * kills_worker:
+            os.kill(pid, signal.SIGKILL)
+        if kills_harness:
+            process.kill()
+        _, messages = process.communicate(timeout=LIMIT_S)
+        problems = [] if wait_for(lambda: not any(map(runs, workers))) else ["a worker is left"]
+        # A worker that was just started again in the killed one's place has it until it ends, too.
+        if not wait_for(lambda: not segments(process.pid)):
+            problems.append("memory is left: %s" % segments(process.pid))
+        if kills_harness:
+            return problems + goes_on(runner, out, rows_of(os.path.join(out, JOURNAL)))
+        ends = {}
+        for table in (FIRST, SECOND):
+            with open(os.path.join(out, table + ".json")) as file:
+                ends[table] = sorted(cell["status"] for cell in json.load(file)["cells"])
+        if process.returncode != 1 or messages.count("\n") != 1 or "(Killed)" not in messages:
+            problems.append("exit status %d, %s" % (process.returncode, messages))
+        if set(ends[FIRST]) != {"ok"} or ends[SECOND] != ["crash"] + ["ok"] * (ROWS - 1):
+            problems.append("outcomes: %s" % ends)
+        return problems
+
+
+def check_harness_killed(runner):
+    """a harness that is killed loses no row that was whole, leaves no worker and no memory, and the same command goes on"""
+    return killed(runner, True, False)
+
+
+def check_worker_killed(runner):
+    """a worker that is killed is the outcome of the row that it was at, and the others are measured"""
+    return killed(runner, False, True)
+
+
+def check_both_killed(runner):
+    """nor is a row lost where both are killed"""
+    return killed(runner, True, True)
+
+
+def check_second(runner):
+    """a second run into a folder is refused, and the first loses nothing"""
+    problems = []
+    with tempfile.TemporaryDirectory() as out:
+        first, _ = begin(runner, out)
+        os.kill(first.pid, signal.SIGSTOP)  # it is there for as long as the second takes
+        with open(os.path.join(out, JOURNAL)) as file:
+            before = file.read()
+        second = runner.run((TABLES + out).split())
+        with open(os.path.join(out, JOURNAL)) as file:
+            same = file.read() == before
+        os.kill(first.pid, signal.SIGCONT)
+        _, messages = first.communicate(timeout=LIMIT_S)
+        if second.returncode != 2 or second.stdout or not same or not re.fullmatch(
+                r"raingauge: .*: another raingauge measures into it; wait until it has ended, or name another folder\n", second.stderr):
+            problems.append("second: exit status %d, %s%s" % (second.returncode, second.stdout, second.stderr))
+        if first.returncode or messages or any(len(rows_of(os.path.join(out, table + ".json"))) != ROWS for table in (FIRST, SECOND)):
+            problems.append("first: exit status %d, %s" % (first.returncode, messages))
+        third = runner.run((TABLES + out).split())
+        if third.returncode or third.stderr:
+            problems.append("third: exit status %d, %s" % (third.returncode, third.stderr))
+    return problems
+
+
+def check_held(runner):
+    """where another holds the folder of the user's state, a run keeps no rows and says so; a folder that is free is held by nobody"""
+    problems = []
+    with tempfile.TemporaryDirectory() as state:
+        os.mkdir(state + "/raingauge")
+        folder = os.open(state + "/raingauge", os.O_RDONLY)
+        fcntl.flock(folder, fcntl.LOCK_EX)
+        for says in (r"raingauge: .*/raingauge: another raingauge that measures keeps its rows there; this one keeps none: .*\n", ""):
+            result = runner.run("table stuppacher-2 --rows 1-1 --device cpu".split(), {"XDG_STATE_HOME": state})
+            if result.returncode or not re.fullmatch(says, result.stderr):
+                problems.append("exit status %d, %s" % (result.returncode, result.stderr))
+            fcntl.flock(folder, fcntl.LOCK_UN)
+        os.close(folder)
+    return problems
+
+
+CHECKS = [check_harness_killed, check_worker_killed, check_both_killed, check_second, check_held]
