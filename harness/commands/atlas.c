@@ -18,6 +18,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/progress.h"
 #include "harness/record/named.h"
+#include "harness/record/output.h"
 
 struct atlas_options {
     struct rg_length length;
@@ -47,6 +48,16 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
 };
+
+// What the files take at least: 14 MB of the small atlas, 89 of the full one and 0.9 of cartoon's
+// textures were written.
+enum { SMALL_BYTES = 4 << 20, FULL_BYTES = 40 << 20, TEXTURES_BYTES = 1 << 18 };
+
+// Asked before the work, which takes minutes where an atlas is to be traced.
+static bool can_be_kept(const struct atlas_options *o, int64_t bytes)
+{
+    return !o->output || rg_output_can_be_written(o->output, bytes);
+}
 
 static const char *const size_names[RG_ATLAS_SIZE_COUNT] = {"full", "small", "cave", "cave-small"};
 
@@ -218,7 +229,7 @@ static int make_textures(const struct atlas_options *o, const char *name)
             name);
         return RG_EXIT_USAGE;
     }
-    if (!rg_textures_make(technique, o->output, &rows))
+    if (!can_be_kept(o, TEXTURES_BYTES) || !rg_textures_make(technique, o->output, &rows))
         return RG_EXIT_USAGE;
     if (o->json)
         print_rows_json(technique, &rows);
@@ -250,7 +261,7 @@ static int atlas_command(const void *values, const struct rg_words *arguments)
     if (arguments->count)
         return make_textures(o, arguments->items[0]);
     struct found found;
-    if (!find(o, &found))
+    if (!can_be_kept(o, o->length.quick ? SMALL_BYTES : FULL_BYTES) || !find(o, &found))
         return RG_EXIT_USAGE;
     const bool good = (!o->output || rg_atlas_export(found.atlas, o->output)) &&
                       (!o->compare || compare(o, found.atlas));

@@ -134,7 +134,7 @@ COMMANDS = [
     Case("atlas flow", 2, r"technique 'flow': it generates no textures; `raingauge atlas --help`"),
     Case("atlas cartoon --quick", 2, r"atlas cartoon: --from, --compare, --quick and --full are about the streak atlas; leave them out"),
     Case("atlas cartoon --from {tmp}", 2, r"atlas cartoon: --from, --compare, --quick and --full are about the streak atlas"),
-    Case("atlas cartoon -o {tmp}/none/out", 2, r"none/out: cannot be made: .*; name a folder"),
+    Case("atlas cartoon -o {tmp}/none/out", 2, r"none/out: its folder is not there; make it first"),
     Case("atlas --quick --full", 2, r"--quick and --full: choose one"),
     Case("atlas --device cpu", 2, r"--device: unknown option; `raingauge atlas --help`"),
     Case("atlas --from", 2, r"--from: .*`raingauge atlas --help`"),
@@ -144,7 +144,7 @@ COMMANDS = [
     Case("atlas --quick --compare {tmp}", 2, r"no picture of the database, such as cv0_v10_h90_osc1\.png, is in it; name another folder"),
     Case("atlas cartoon --compare {tmp}", 2, r"atlas cartoon: --from, --compare, --quick and --full are about the streak atlas"),
     Case("atlas --quick --from {data}/a.png", 2, r"a\.png/point_light_database/txt/dcam00_point_max\.txt: Not a directory"),
-    Case("atlas --quick -o {tmp}/none/out", 2, r"none/out: cannot be made: .*; name a folder"),
+    Case("atlas --quick -o {tmp}/none/out", 2, r"none/out: its folder is not there; make it first"),
 
     # verify
     Case(STAGES, 0, None),

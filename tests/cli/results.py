@@ -521,6 +521,8 @@ TOO_LARGE = [
     ("diff raster --frame 10000000 --size 1024x1024 --device cpu,cpu:reference -o a", "a-flip.png: the disk has 64 KiB left"),
     ("table --full --device cpu -o a", "a: the disk has 64 KiB left"),
     ("figures --size 1024x1024 -o a", "a: the disk has 64 KiB left"),
+    ("atlas --full -o a", "a: the disk has 64 KiB left, and at least 40"),
+    ("atlas cartoon -o a", "a: the disk has 64 KiB left, and at least 256 KiB"),
 ]
 
 
