@@ -12,6 +12,7 @@
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
 #include "harness/commands/drawn.h"
+#include "harness/compare/shrink/case.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/devices.h"
 #include "harness/devices/names.h"
@@ -25,6 +26,7 @@ struct render_options {
     struct rg_range frames; // -1: not given
     int fps;                // 0: not given
     int timeout_s;
+    char *replayed;        // a file; NULL: a technique is drawn
     char *device, *output; // a name; a file, NULL for the technique's name with .png or .webm
     double exposure;
     int64_t memory_bytes;
@@ -46,6 +48,11 @@ static const struct rg_option options[] = {
      .about = "every frame from A to B instead, as a clip or as numbered pictures",
      .offset = AT(frames), .least = 0, .most = 1e7, .excludes = "frame"},
     RG_INCLUDE(rg_size_option, AT(size), NULL),
+    {RG_OPTION_TEXT, "case", .argument = "FILE",
+     .about =
+         "replays a case of `raingauge shrink` instead: says whether the device leaves what is "
+         "expected, and writes no picture",
+     .offset = AT(replayed), .names = RG_NAMES_FILE, .excludes = "set frame frames size output"},
     RG_GROUP("Devices"),
     {RG_OPTION_TEXT, "device", .argument = "D",
      .about = "the device to use; `raingauge list devices` prints the names", .offset = AT(device),
@@ -154,6 +161,21 @@ static bool names_one_device(const char *names)
                     names);
 }
 
+static int replay(const struct render_options *o)
+{
+    struct rg_case found;
+    struct rg_devices devices = {0};
+    int exit = rg_case_read(o->replayed, &found) ? RG_EXIT_PASS : RG_EXIT_USAGE;
+    if (exit == RG_EXIT_PASS)
+        exit = rg_devices_open_asked(
+            &(struct rg_devices_asked){.names = o->device, .timeout_s = o->timeout_s}, &devices);
+    if (exit == RG_EXIT_PASS)
+        exit = rg_case_replay(&found, devices.devices[0]);
+    rg_devices_close(&devices);
+    rg_case_free(&found);
+    return exit;
+}
+
 static int render(const void *values, const struct rg_words *arguments)
 {
     const struct render_options *o = values;
@@ -161,6 +183,13 @@ static int render(const void *values, const struct rg_words *arguments)
     rg_memory_allow(o->memory_bytes);
     if (!names_one_device(o->device) || !check_output(o))
         return RG_EXIT_USAGE;
+    if (o->replayed && !arguments->count)
+        return replay(o);
+    if (o->replayed) {
+        rg_error("--case %s: names its technique itself; leave out '%s'", o->replayed,
+                 arguments->items[0]);
+        return RG_EXIT_USAGE;
+    }
     const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
     if (!technique)
         return RG_EXIT_USAGE;

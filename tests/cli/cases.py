@@ -59,6 +59,13 @@ COMMANDS = [
     Case("list params nonsense", 2, r"technique 'nonsense': unknown"),
     Case("list devices twice", 2, r"'twice' is one argument too many"),
 
+    # shrink
+    Case("shrink --help", 0, None),
+    Case("shrink flow --device cpu", 2, r"shrink takes two devices, the one in doubt first"),
+    Case("shrink nonsense", 2, r"technique 'nonsense': unknown"),
+    Case("render --case {tmp}/none.txt", 2, r"none\.txt: "),
+    Case("render flow --case {tmp}/none.txt", 2, r"names its technique itself; leave out 'flow'"),
+
     # doctor
     Case("doctor --device nonsense", 2, UNKNOWN_DEVICE),
     Case("doctor --device cpu:7", 2, r"device 'cpu:7': cpu has no such device"),

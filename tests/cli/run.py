@@ -15,6 +15,7 @@
            long     what verify prints, tables that are counted, set in a row or begun anew, an atlas that is not kept
            misbehaving  drivers that crash, hang, lie about their end or lose their device
            gates    one device held against another
+           shrinking  a driver that miscompiles: blamed, and shrunk to a case
            wrong    a driver that draws wrongly is found
            doctor   the report about this machine
            pages    the manual page and bash's completion
@@ -39,6 +40,7 @@ import losses
 import misbehaving
 import pages
 import results
+import shrinking
 from runner import Runner
 
 SUITES = {
@@ -54,6 +56,7 @@ SUITES = {
     "long": lambda runner: runner.check_all(results.LONG),
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
     "gates": lambda runner: runner.check_all(gates.CHECKS),
+    "shrinking": lambda runner: runner.check_all(shrinking.CHECKS),
     "wrong": lambda runner: runner.check_all(results.WRONG),
     "doctor": lambda runner: runner.check_all(doctor.CHECKS),
     "pages": lambda runner: runner.check_all(pages.CHECKS),

@@ -105,12 +105,19 @@ static uint32_t value_of(uint32_t word, int at, int size)
     return size == 32 ? word : word >> at & ((1u << size) - 1);
 }
 
+// What a float unit makes where there is no number, or none so large.
+static bool is_made_endless(uint32_t bits)
+{
+    return (bits & 0x7fffffff) == 0x7fc00000 || (bits & 0x7fffffff) == 0x7f800000;
+}
+
 static bool has_nan(const struct pair *p, int64_t word)
 {
     const uint32_t a = word_of(p->now, word), b = word_of(p->due, word);
-    // An integer's bits may be those of a NaN: what both are decides.
-    const bool both = p->now->desc.levels || (p->state && p->state->is_float);
-    const int size = both ? value_bits(p, word) : value_bits(p, word) ? 32 : 0;
+    const int size = value_bits(p, word);
+    // Where nothing tells floats from integers, whose bits may be those of any NaN.
+    if (!p->now->desc.levels && !p->state)
+        return size && is_made_endless(a) != is_made_endless(b);
     for (int at = 0; size && at < 32; at += size)
         if (is_endless(value_of(a, at, size), size) != is_endless(value_of(b, at, size), size))
             return true;

@@ -4,7 +4,8 @@
 // RG_MISBEHAVE=FUNCTION:HOW:CALLS names which function does so, how (abort, fault, exit, hang,
 // swell, lost), and how many calls go well before. All else goes to the real driver. For Vulkan
 // this library is a driver of its own in front of lavapipe, which the loader finds by a manifest
-// (VK_DRIVER_FILES); for EGL, OpenGL and OpenCL it is loaded before others (LD_PRELOAD).
+// (VK_DRIVER_FILES), and may change a constant of a shader; for EGL, OpenGL and OpenCL it is loaded
+// before others (LD_PRELOAD).
 #define _GNU_SOURCE // RTLD_NEXT, dlvsym
 #include <dlfcn.h>
 #include <stdbool.h>
@@ -73,6 +74,7 @@ typedef void (*any_function)(void);
 static PFN_vkEnumeratePhysicalDevices real_vkEnumeratePhysicalDevices;
 static PFN_vkCreateDevice real_vkCreateDevice;
 static PFN_vkCreateComputePipelines real_vkCreateComputePipelines;
+static PFN_vkCreateShaderModule real_vkCreateShaderModule;
 static PFN_vkQueueSubmit real_vkQueueSubmit;
 static PFN_vkWaitForFences real_vkWaitForFences;
 static PFN_vkGetDeviceProcAddr real_vkGetDeviceProcAddr;
@@ -113,6 +115,31 @@ static VkResult hooked_vkWaitForFences(VkDevice d, uint32_t n, const VkFence *f,
 {
     return misbehaves("vkWaitForFences") ? VK_ERROR_DEVICE_LOST
                                          : real_vkWaitForFences(d, n, f, all, ns);
+}
+
+// RG_MISCOMPILE=BYTES:WORD:VALUE, the last two in hexadecimal: in the shader that has so many
+// bytes, constants of four bytes with the one value get the other.
+static VkResult hooked_vkCreateShaderModule(VkDevice d, const VkShaderModuleCreateInfo *info,
+                                            const VkAllocationCallbacks *a, VkShaderModule *m)
+{
+    enum { OP_CONSTANT = 43, CONSTANT_WORDS = 4, HEADER_WORDS = 5 };
+    const char *asked = getenv("RG_MISCOMPILE");
+    size_t bytes;
+    uint32_t from, to;
+    if (!asked || sscanf(asked, "%zu:%x:%x", &bytes, &from, &to) != 3 || bytes != info->codeSize)
+        return real_vkCreateShaderModule(d, info, a, m);
+    uint32_t *code = malloc(bytes);
+    if (!code)
+        return VK_ERROR_OUT_OF_HOST_MEMORY;
+    memcpy(code, info->pCode, bytes);
+    for (size_t i = HEADER_WORDS; i < bytes / 4 && code[i] >> 16; i += code[i] >> 16)
+        if (code[i] == (CONSTANT_WORDS << 16 | OP_CONSTANT) && code[i + 3] == from)
+            code[i + 3] = to;
+    VkShaderModuleCreateInfo changed = *info;
+    changed.pCode = code;
+    const VkResult result = real_vkCreateShaderModule(d, &changed, a, m);
+    free(code);
+    return result;
 }
 
 static any_function hook_of(const char *name, any_function real);
@@ -162,6 +189,7 @@ static any_function hook_of(const char *name, any_function real)
         HOOK(vkEnumeratePhysicalDevices),
         HOOK(vkCreateDevice),
         HOOK(vkCreateComputePipelines),
+        HOOK(vkCreateShaderModule),
         HOOK(vkQueueSubmit),
         HOOK(vkWaitForFences),
         HOOK(vkGetDeviceProcAddr),

@@ -86,6 +86,23 @@ static void a_nan_is_told(void **state)
     assert_int_equal(found(4), RG_DIFFERENCE_NAN);
 }
 
+// Of a buffer of which nothing is known only the NaN that units make counts, beside what can be a
+// float: an integer may have the bits of any other.
+static void a_nan_of_unknown_words_is_told(void **state)
+{
+    (void)state;
+    memcpy(now, &(uint32_t){0x7fc00000}, 4);
+    assert_int_equal(rg_difference_of(&contents, &expected, &earlier, 4, NULL, &differing),
+                     RG_DIFFERENCE_NAN);
+    memcpy(now, &(uint32_t){0x7f99abcd}, 4);
+    assert_int_equal(rg_difference_of(&contents, &expected, &earlier, 4, NULL, &differing),
+                     RG_DIFFERENCE_VALUES);
+    memcpy(now, &(uint32_t){0x7fc00000}, 4);
+    memcpy(due, &(uint32_t){7}, 4);
+    assert_int_equal(rg_difference_of(&contents, &expected, &earlier, 4, NULL, &differing),
+                     RG_DIFFERENCE_VALUES);
+}
+
 // All of it is missing, or all is surplus; a part is neither.
 static void what_the_stage_left_out_is_told(void **state)
 {
@@ -262,6 +279,7 @@ int main(void)
         cmocka_unit_test_setup(nothing_differs, setup),
         cmocka_unit_test_setup(the_first_word_and_their_number, setup),
         cmocka_unit_test_setup(a_nan_is_told, setup),
+        cmocka_unit_test_setup(a_nan_of_unknown_words_is_told, setup),
         cmocka_unit_test_setup(what_the_stage_left_out_is_told, setup),
         cmocka_unit_test_setup(another_order_is_told, setup),
         cmocka_unit_test_setup(last_bits_are_told, setup),

@@ -7,6 +7,7 @@ DEVICES, MUTANTS = "harness/compare/verify/devices.c", "harness/compare/verify/m
 POSES = "harness/compare/verify/poses.c"
 SNAPSHOT, CHECKS = ("harness/compare/verify/snapshot.c", "harness/compare/verify/checks.c")
 REPORT = "harness/compare/diff/report.c"
+CASE, SHRINK = "harness/compare/shrink/case.c", "harness/compare/shrink/shrink.c"
 BLAME, DIFFERENCE = "harness/compare/blame/blame.c", "harness/compare/blame/difference.c"
 
 ROWS = [
@@ -64,4 +65,11 @@ ROWS = [
     Fault(DIFFERENCE, "if («all(&p, is_in_last_bits)»)", "any(&p, is_in_last_bits)", "one float in the last bits makes all so"),
     Fault(DIFFERENCE, "«!has_near(p->due, a, x, y)» || !has_near(p->now, b, x, y)", "false", "a value that the truth has nowhere lies at an edge"),
     Fault(DIFFERENCE, "for (int v = y > 0 ? y - 1 : 0; «v <= y + 1» && v < c->desc.height; v++)", "true", "an edge may lie anywhere below"),
+    Fault(DIFFERENCE, "return size && «is_made_endless(a) != is_made_endless(b)»;", "is_endless(a, 32) != is_endless(b, 32)", "an integer is taken for a NaN"),
+    Fault(SHRINK, "run.frames = «s->blame.first.frame > 1 ? (int)s->blame.first.frame : 1»;", "s->best.frames", "frames are not shrunk", tests=("command line, shrinking",)),
+    Fault(SHRINK, "if («attempt_size(s, LEAST_PX, LEAST_PX)»)", "true", "the picture is not shrunk", tests=("command line, shrinking",)),
+    Fault(SHRINK, "return «param->kind == RG_PARAM_INT» && !strstr", "false", "counts are not shrunk", tests=("command line, shrinking",)),
+    Fault(CASE, "exit = «hash == c->expected» ? RG_EXIT_PASS", "true", "every device leaves what is expected", tests=("command line, shrinking",)),
+    Fault(CASE, "while (row < digests.count && («digests.rows[row].stages_run != c->stages_run» ||", "false", "a case is judged behind the first stage that wrote the asset", tests=("command line, shrinking",)),
+    Fault(CASE, "if («strcmp(value, initial) != 0»)", "false", "a case tells no settings", tests=("command line, shrinking",)),
 ]

@@ -1,0 +1,95 @@
+// raingauge shrink: the least with which two devices still differ in the same way, as a file.
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/base/log.h"
+#include "core/base/memory.h"
+#include "harness/cli/command.h"
+#include "harness/cli/shared.h"
+#include "harness/cli/subject.h"
+#include "harness/compare/shrink/shrink.h"
+
+struct shrink_options {
+    struct rg_words sets;
+    struct rg_size size;
+    int frames, seconds;
+    struct rg_devices_asked devices;
+    char *output; // a file
+    int64_t memory_bytes;
+};
+
+#define AT(field) offsetof(struct shrink_options, field)
+
+static const struct rg_option options[] = {
+    RG_GROUP("What to shrink"),
+    {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
+     .about = "what differs; `raingauge list techniques` prints them", .names = RG_NAMES_TECHNIQUE,
+     .first = 1, .last = 1},
+    RG_INCLUDE(rg_settings_option, AT(sets), NULL),
+    RG_INCLUDE(rg_frame_option, AT(frames), "5"),
+    RG_INCLUDE(rg_size_option, AT(size), NULL),
+    {RG_OPTION_INT, "seconds", .argument = "S",
+     .about = "nothing more is tried after so many seconds", .offset = AT(seconds), .initial = "45",
+     .least = 1, .most = 86400},
+    RG_GROUP("Devices"),
+    {RG_OPTION_TEXT, "device", .argument = "A,B",
+     .about = "the device that is in doubt, and the one that is held for the truth",
+     .offset = AT(devices.names), .initial = "vulkan,cpu:reference", .names = RG_NAMES_DEVICES},
+    RG_INCLUDE(rg_asked_options, AT(devices), NULL),
+    RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
+    RG_GROUP("Output"),
+    {RG_OPTION_TEXT, "output", .argument = "FILE",
+     .about = "the case, which `raingauge render --case FILE` replays", .offset = AT(output),
+     .letter = 'o', .initial = "case.txt", .names = RG_NAMES_FILE},
+    {RG_OPTION_END},
+};
+
+static int shrink_on(const struct rg_devices *devices, const struct rg_subject *subject,
+                     const struct shrink_options *o)
+{
+    const struct rg_shrink_request request = {.run = {*subject, o->frames < 1 ? 1 : o->frames},
+                                              .device = devices->devices[0],
+                                              .truth = devices->devices[1],
+                                              .seconds = o->seconds};
+    struct rg_case found;
+    struct rg_blame blame;
+    int tried, exit = RG_EXIT_FAIL;
+    if (rg_shrink_case(&request, &found, &blame, &tried) &&
+        rg_case_write(&found, blame.text, o->output)) {
+        printf("%s\n%d runs tried; the case is in %s\n", blame.text, tried, o->output);
+        exit = RG_EXIT_PASS;
+    }
+    rg_case_free(&found);
+    return exit;
+}
+
+static int shrink(const void *values, const struct rg_words *arguments)
+{
+    const struct shrink_options *o = values;
+    void *settings;
+    rg_memory_allow(o->memory_bytes);
+    const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
+    if (!technique)
+        return RG_EXIT_USAGE;
+    const struct rg_subject subject = {technique, settings, o->size.width, o->size.height};
+    struct rg_devices devices;
+    int exit = rg_devices_open_asked(&o->devices, &devices);
+    if (exit == RG_EXIT_PASS && devices.count != 2) {
+        rg_error("--device %s: shrink takes two devices, the one in doubt first", o->devices.names);
+        exit = RG_EXIT_USAGE;
+    } else if (exit == RG_EXIT_PASS) {
+        exit = shrink_on(&devices, &subject, o);
+    }
+    rg_devices_close(&devices);
+    free(settings);
+    return exit;
+}
+
+const struct rg_command rg_command_shrink = {
+    .name = "shrink",
+    .usage = "TECHNIQUE --device A,B [--set KEY=VALUE]... [-o FILE]",
+    .about = "reduces a difference of two devices to a case that one replays",
+    .options = options,
+    .options_size = sizeof(struct shrink_options),
+    .run = shrink,
+};

@@ -1,0 +1,192 @@
+#include "harness/compare/shrink/case.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "core/base/text/place.h"
+#include "harness/compare/gate/text/lines.h"
+#include "harness/console/exit.h"
+#include "harness/record/output.h"
+
+enum { TEXT_SIZE = 1 << 16 };
+
+// --- writing ---
+
+static void write_settings(FILE *out, const struct rg_subject *subject, const void *defaults)
+{
+    const struct rg_param_table *table = subject->technique->params;
+    char value[RG_PATH_SIZE], initial[RG_PATH_SIZE];
+    for (int i = 0; i < table->count; i++) {
+        rg_params_text(&table->rows[i], subject->settings, value, sizeof(value));
+        rg_params_text(&table->rows[i], defaults, initial, sizeof(initial));
+        if (strcmp(value, initial) != 0)
+            fprintf(out, "set %s=%s\n", table->rows[i].name, value);
+    }
+}
+
+static void write_text(FILE *out, const struct rg_case *c, const void *defaults, const char *note)
+{
+    const struct rg_subject *subject = &c->run.subject;
+    fprintf(out, "# A difference between two devices: raingauge render --case FILE --device D\n");
+    fprintf(out, "# %s\n", note);
+    fprintf(out, "technique %s\nsize %dx%d\nframes %d\n", subject->technique->name, subject->width,
+            subject->height, c->run.frames);
+    write_settings(out, subject, defaults);
+    fprintf(out, "behind %d\nstage %s\nasset %s\nclass %s\n", c->stages_run,
+            *c->stage ? c->stage : "-", c->asset, rg_difference_name(c->difference));
+    fprintf(out, "expected %016" PRIx64 "\nfound %016" PRIx64 "\n", c->expected, c->found);
+    fprintf(out, "truth %s\ndevice %s\n", c->truth, c->device);
+}
+
+bool rg_case_write(const struct rg_case *c, const char *note, const char *path)
+{
+    char folder[RG_PATH_SIZE], *text = NULL;
+    size_t size;
+    const char *slash = strrchr(path, '/');
+    snprintf(folder, sizeof(folder), "%.*s", slash ? (int)(slash - path) + 1 : 1,
+             slash ? path : ".");
+    void *defaults = rg_settings_create(c->run.subject.technique);
+    FILE *out = defaults ? open_memstream(&text, &size) : NULL;
+    if (out)
+        write_text(out, c, defaults, note);
+    const bool ok =
+        out && fclose(out) == 0 && rg_output_write(folder, slash ? slash + 1 : path, text);
+    free(text);
+    free(defaults);
+    return ok;
+}
+
+// --- reading ---
+
+static bool take_number(const char *text, int least, int *number)
+{
+    char *end;
+    const long value = strtol(text, &end, 10);
+    *number = (int)value;
+    return end != text && !*end && value >= least && value <= 10000000;
+}
+
+static bool take_digest(const char *text, uint64_t *digest)
+{
+    char *end;
+    *digest = strtoull(text, &end, 16);
+    return strlen(text) == 16 && !*end;
+}
+
+static bool take_size(const char *text, struct rg_subject *subject)
+{
+    char rest;
+    return sscanf(text, "%d%*1[x]%d%c", &subject->width, &subject->height, &rest) == 2 &&
+           subject->width > 0 && subject->height > 0 && subject->width <= 16384 &&
+           subject->height <= 16384;
+}
+
+static bool take_technique(const char *text, struct rg_case *c)
+{
+    struct rg_subject *subject = &c->run.subject;
+    if (subject->technique || !(subject->technique = rg_technique_find(text)))
+        return false;
+    subject->settings = rg_settings_create(subject->technique);
+    return subject->settings != NULL;
+}
+
+static bool take_text(const char *text, char *to, size_t size)
+{
+    return *text && (size_t)snprintf(to, size, "%s", text) < size;
+}
+
+static bool take_line(const char *word, const char *rest, struct rg_case *c)
+{
+    if (!strcmp(word, "technique"))
+        return take_technique(rest, c);
+    if (!strcmp(word, "size"))
+        return take_size(rest, &c->run.subject);
+    if (!strcmp(word, "frames"))
+        return take_number(rest, 0, &c->run.frames);
+    if (!strcmp(word, "behind"))
+        return take_number(rest, 0, &c->stages_run);
+    if (!strcmp(word, "stage"))
+        return take_text(rest, c->stage, sizeof(c->stage));
+    if (!strcmp(word, "asset"))
+        return take_text(rest, c->asset, sizeof(c->asset));
+    if (!strcmp(word, "class"))
+        return (c->difference = rg_difference_find(rest)) != RG_DIFFERENCE_NONE;
+    if (!strcmp(word, "expected"))
+        return take_digest(rest, &c->expected);
+    if (!strcmp(word, "found"))
+        return take_digest(rest, &c->found);
+    if (!strcmp(word, "truth"))
+        return take_text(rest, c->truth, sizeof(c->truth));
+    return !strcmp(word, "device") && take_text(rest, c->device, sizeof(c->device));
+}
+
+static bool read_line(const char *path, int64_t number, char *word, struct rg_case *c)
+{
+    char place[RG_PATH_SIZE + 32];
+    const char *rest = rg_line_cut(word);
+    if (!strcmp(word, "set") && c->run.subject.technique) {
+        snprintf(place, sizeof(place), "%s: line %lld", path, (long long)number);
+        rg_log_place(place);
+        const bool ok = rg_params_set(c->run.subject.technique->params,
+                                      (void *)(uintptr_t)c->run.subject.settings, rest);
+        rg_log_place(NULL);
+        return ok;
+    }
+    return take_line(word, rest, c) ||
+           rg_error("%s: line %lld: '%s' is no line of a case here; write one anew with "
+                    "`raingauge shrink`",
+                    path, (long long)number, word);
+}
+
+bool rg_case_read(const char *path, struct rg_case *c)
+{
+    struct rg_lines lines;
+    *c = (struct rg_case){0};
+    bool ok = rg_lines_read(path, &lines);
+    for (int64_t i = 0; ok && i < lines.count; i++)
+        if (!rg_line_is_empty(&lines.lines[i]))
+            ok = read_line(path, i + 1, rg_line_skip(lines.lines[i].text), c);
+    rg_lines_free(&lines);
+    if (ok && (!c->run.subject.settings || !c->run.subject.width || !*c->asset || !c->expected))
+        ok = rg_error("%s: lacks its technique, size, asset or expected digest; write one anew "
+                      "with `raingauge shrink`",
+                      path);
+    return ok;
+}
+
+void rg_case_free(struct rg_case *c)
+{
+    free((void *)(uintptr_t)c->run.subject.settings);
+    *c = (struct rg_case){0};
+}
+
+// --- replaying ---
+
+int rg_case_replay(const struct rg_case *c, struct rg_device *device)
+{
+    struct rg_digests digests = {0};
+    int exit = RG_EXIT_FAIL;
+    if (!rg_digests_take(&c->run, device, &digests)) {
+        rg_digests_free(&digests);
+        return rg_exit_of_error();
+    }
+    int row = 0;
+    while (row < digests.count && (digests.rows[row].stages_run != c->stages_run ||
+                                   strcmp(digests.rows[row].asset, c->asset) != 0))
+        row++;
+    if (row == digests.count) {
+        printf("other: %s leaves no %s behind stage %d\n", device->info.name, c->asset,
+               c->stages_run);
+    } else {
+        const uint64_t hash = digests.rows[row].hash;
+        exit = hash == c->expected ? RG_EXIT_PASS : RG_EXIT_FAIL;
+        printf("%s: %s leaves %016" PRIx64 " in %s behind stage %s; expected %016" PRIx64 "%s\n",
+               exit == RG_EXIT_PASS ? "same" : "other", device->info.name, hash, c->asset, c->stage,
+               c->expected, hash == c->found && hash != c->expected ? ", as was found" : "");
+    }
+    rg_digests_free(&digests);
+    return exit;
+}

@@ -1,0 +1,31 @@
+// A case: a difference between two devices as a short text that one device replays.
+#ifndef RG_HARNESS_COMPARE_SHRINK_CASE_H
+#define RG_HARNESS_COMPARE_SHRINK_CASE_H
+
+#include "harness/compare/blame/blame.h"
+
+enum { RG_CASE_NAME = 256 };
+
+struct rg_case {
+    struct rg_digest_run run; // its settings are owned
+    int stages_run;           // behind which the asset differs
+    char stage[RG_ASSET_NAME], asset[RG_ASSET_NAME];
+    enum rg_difference difference;
+    uint64_t expected, found;                       // digests of the asset
+    char device[RG_CASE_NAME], truth[RG_CASE_NAME]; // that it was found with
+};
+
+// Writes it, with every parameter that is not at its default, and `note`, one line. False, and one
+// logged line, on failure; no part of a file is left.
+bool rg_case_write(const struct rg_case *found, const char *note, const char *path);
+
+// Reads one. False, and one logged line with the file and the line, where it is none; rg_case_free
+// in either case.
+bool rg_case_read(const char *path, struct rg_case *found);
+void rg_case_free(struct rg_case *found);
+
+// Replays it on a device, prints what it left, and returns an enum rg_exit: pass where that is what
+// the case expects.
+int rg_case_replay(const struct rg_case *found, struct rg_device *device);
+
+#endif

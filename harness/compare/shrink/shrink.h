@@ -1,0 +1,20 @@
+// Reduces a difference between two devices to the least that still has it.
+#ifndef RG_HARNESS_COMPARE_SHRINK_SHRINK_H
+#define RG_HARNESS_COMPARE_SHRINK_SHRINK_H
+
+#include "harness/compare/shrink/case.h"
+
+struct rg_shrink_request {
+    struct rg_digest_run run;
+    struct rg_device *device, *truth;
+    int seconds; // after which nothing more is tried
+};
+
+// Tries fewer frames, pixels, items and lights, and defaults of parameters, as long as the same
+// stage differs in the same asset and class. `found` gets the least, whose settings the caller
+// frees, and `blame` what it comes to; `tried`, how many were. False, and one logged line, where
+// nothing differs or a device fails.
+bool rg_shrink_case(const struct rg_shrink_request *request, struct rg_case *found,
+                    struct rg_blame *blame, int *tried);
+
+#endif
