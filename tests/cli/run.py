@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The command line as people and scripts meet it: exit codes, messages, files left behind.
 
-    run.py SUITE RAINGAUGE KERNEL_DIR CRASHING_DRIVER MISBEHAVING_DRIVER
+    run.py SUITE RAINGAUGE KERNEL_DIR CRASHING_DRIVER MISBEHAVING_DRIVER EARLIER_CLOCK
 
     SUITE: atlas    the streak atlas is made, kept where XDG_CACHE_HOME says, and read
            cases    a table of commands and how they end: a new command adds rows
@@ -11,7 +11,7 @@
            results  what table, diff and render print, on the CPU
            clips    frames in a row, as clips and as numbered pictures, on the CPU
            stored   tables that were interrupted, or are printed again
-           losses   runs that are killed, and a second one beside one that measures
+           losses   runs that are killed, that lose their disk, folder or clock, and a second one beside one that measures
            long     what verify prints, tables that are counted, set in a row or begun anew, an atlas that is not kept
            misbehaving  drivers that crash, hang, lie about their end or lose their device
            gates    one device held against another
@@ -66,7 +66,7 @@ SUITES = {
 
 
 def main():
-    runner = Runner(*sys.argv[2:6])
+    runner = Runner(*sys.argv[2:7])
     SUITES[sys.argv[1]](runner)
     return runner.finish()
 

@@ -1,4 +1,5 @@
 """Runs raingauge as a person would, and prints TAP."""
+import ctypes
 import json
 import os
 import re
@@ -16,10 +17,19 @@ NO_DRIVERS = {
 }
 
 
+PR_CAPBSET_DROP, CAP_DAC_OVERRIDE = 24, 1
+
+
+def obey_modes():
+    """Has what this process starts obey the modes of files, though it is root's."""
+    if os.getuid() == 0 and ctypes.CDLL(None, use_errno=True).prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE, 0, 0, 0):
+        raise OSError(ctypes.get_errno(), "CAP_DAC_OVERRIDE cannot be dropped")
+
+
 class Runner:
-    def __init__(self, raingauge, kernels, crasher, misbehaver):
-        self.raingauge, self.kernels, self.crasher, self.misbehaver = map(
-            os.path.abspath, (raingauge, kernels, crasher, misbehaver))
+    def __init__(self, raingauge, kernels, crasher, misbehaver, earlier):
+        self.raingauge, self.kernels, self.crasher, self.misbehaver, self.earlier = map(
+            os.path.abspath, (raingauge, kernels, crasher, misbehaver, earlier))
         self.count = self.failed = 0
         self.state = tempfile.TemporaryDirectory()  # what commands keep between runs
 
@@ -33,17 +43,20 @@ class Runner:
         variables.update(env)
         return {name: value for name, value in variables.items() if value is not None}
 
-    def start(self, args, env={}):
+    def start(self, args, env={}, obeys_modes=False):
         """A command that goes on beside this process; the caller waits for it."""
         return subprocess.Popen([self.raingauge] + args, env=self.variables(env), stdin=subprocess.DEVNULL,
+                                preexec_fn=obey_modes if obeys_modes else None,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
 
-    def run(self, args, env={}, limit=None, stdout=subprocess.PIPE):
-        """A command with these variables, which can write files of up to `limit` bytes."""
+    def run(self, args, env={}, limit=None, stdout=subprocess.PIPE, obeys_modes=False):
+        """A command with these variables, which can write files of up to `limit` bytes; root's own obeys the modes of files."""
 
         def restrict():
             if limit is not None:
                 resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+            if obeys_modes:
+                obey_modes()
 
         return subprocess.run([self.raingauge] + args, env=self.variables(env), preexec_fn=restrict, timeout=300,
                               stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE,

@@ -187,7 +187,7 @@ void rg_journal_add(struct rg_journal *j, const struct rg_result *result, int fi
     if (!j || j->is_broken || (!j->is_followed && is_whole(result)))
         return;
     j->is_broken = !write_file(j);
-    j->has_file = !j->is_broken;
+    j->has_file = j->has_file || !j->is_broken; // what was written before stays
 }
 
 const char *rg_journal_path(const struct rg_journal *journal)

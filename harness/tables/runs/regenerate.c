@@ -19,6 +19,7 @@ struct task {
     struct rg_result result;
     struct rg_journal *journal;
     struct rg_table_bar bar; // its part of the command's; without a progress it has its own
+    bool is_lost;            // its files could not be written
 };
 
 static void tell_resumed(const struct task *task)
@@ -62,6 +63,7 @@ static int run_task(struct task *task, struct rg_kept *kept,
     if (!rg_interrupted() && !rg_result_next(&task->result, &any))
         return RG_EXIT_PASS; // the budget ended before it
     int exit = options->print(&task->result, options->user);
+    task->is_lost = exit == RG_EXIT_USAGE;
     if (rg_interrupted()) {
         tell_interrupted(task);
         exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
@@ -142,10 +144,25 @@ static void begin_bar(struct task *tasks, int count, const struct rg_cell_time *
     rg_progress_start_expected(progress, units, times ? RG_TABLE_UNIT_MS : 0);
 }
 
+// Journals go once all tables are written: where one is not, the same command begins with what they
+// have, of those before it too.
+static bool keeps_journals(const struct task *tasks, int count)
+{
+    bool any_is_lost = false, has_file = false;
+    for (int i = 0; i < count; i++) {
+        any_is_lost = any_is_lost || tasks[i].is_lost;
+        has_file = has_file || rg_journal_path(tasks[i].journal);
+    }
+    if (any_is_lost && has_file && !rg_interrupted())
+        rg_info("once files can be written, the same command goes on with what was measured");
+    return any_is_lost || rg_interrupted();
+}
+
 static void end_tasks(struct task *tasks, int count)
 {
+    const bool are_kept = keeps_journals(tasks, count);
     for (int i = 0; i < count; i++) {
-        if (!rg_interrupted())
+        if (!are_kept)
             rg_journal_remove(tasks[i].journal);
         rg_result_free(&tasks[i].result);
         rg_journal_close(tasks[i].journal);

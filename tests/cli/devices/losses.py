@@ -3,13 +3,14 @@ import fcntl
 import json
 import os
 import re
+import resource
 import signal
 import tempfile
 import time
 
 # Once the first table is measured, all of it is in its journal, for as long as the second takes.
-FIRST, SECOND, ROWS = "stuppacher-2", "chin-grid", 3
-TABLES = "table %s %s --quick --device cpu --rows 1-%d -o " % (FIRST, SECOND, ROWS)
+FIRST, SECOND, ROWS = "stuppacher-2", "chin-grid", 2
+TABLES = "table %s %s --quick --device cpu --work paper --rows 1-%d -o " % (FIRST, SECOND, ROWS)
 JOURNAL = FIRST + "-quick.journal"
 LIMIT_S = 60  # for what takes a second
 
@@ -157,4 +158,74 @@ def check_held(runner):
     return problems
 
 
-CHECKS = [check_harness_killed, check_both_killed, check_second, check_held]
+def check_worker_killed(runner):
+    """a worker that is killed alone is a crash of the cell that it was at; it is started again, and all else is measured"""
+    return killed(runner, False, True)
+
+
+def lost_midway(runner, lose, restore):
+    """What is wrong where results can no longer be written once the first table is, and the command is given again later."""
+    with tempfile.TemporaryDirectory() as out:
+        process = runner.start((TABLES + out).split(), obeys_modes=True)
+        path, last = (os.path.join(out, name) for name in (JOURNAL, FIRST + ".tex"))
+        wait_for(lambda: os.path.exists(last) or process.poll() is not None)
+        if process.poll() is not None:
+            return ["ended before: %s" % (process.communicate(),)]
+        held = rows_of(path)
+        lose(process, out)
+        _, messages = process.communicate(timeout=LIMIT_S)
+        restore(out)
+        told = (r"(raingauge: .*%s.*: cannot be written: .*\n){1,2}"
+                r"raingauge: once files can be written, the same command goes on with what was measured\n" % SECOND)
+        problems = []
+        if process.returncode != 2 or not re.fullmatch(told, messages):
+            problems.append("exit status %d, %s" % (process.returncode, messages))
+        left = sorted(os.listdir(out))
+        if left != [JOURNAL] + [FIRST + form for form in (".csv", ".json", ".md", ".tex")] or rows_of(path) != held:
+            return problems + ["left: %s" % left]
+        return problems + goes_on(runner, out, held)
+
+
+def check_full(runner):
+    """where the disk fills in mid-run, the journal stays as it was, a line says so, and the same command goes on"""
+    return lost_midway(runner, lambda process, out: resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (2000, 2000)),
+                       lambda out: None)
+
+
+def check_read_only_midway(runner):
+    """nor is anything lost where the folder turns read-only in mid-run"""
+    return lost_midway(runner, lambda process, out: os.chmod(out, 0o500), lambda out: os.chmod(out, 0o700))
+
+
+def check_read_only(runner):
+    """a folder that is read-only is refused before anything is measured"""
+    with tempfile.TemporaryDirectory() as out:
+        os.chmod(out, 0o500)
+        result = runner.run((TABLES + out).split(), obeys_modes=True)
+        if result.returncode != 2 or result.stdout or not re.fullmatch(r"raingauge: .*ermission denied.*\n", result.stderr):
+            return ["exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr)]
+    return []
+
+
+def check_earlier(runner):
+    """a clock that is set back changes nothing: what was measured at a later time is taken up, and what lasts is measured"""
+    with tempfile.TemporaryDirectory() as out:
+        process, workers = begin(runner, out)
+        if not workers:
+            return ["no worker: %s" % (process.communicate(),)]
+        process.kill()
+        process.communicate(timeout=LIMIT_S)
+        path = os.path.join(out, JOURNAL)
+        os.utime(path, (time.time() + 1e8, time.time() + 1e8))
+        problems = goes_on(runner, out, rows_of(path))
+        result = runner.run((TABLES + out + " --fresh").split(),
+                            {"LD_PRELOAD": runner.earlier, "EARLIER_BY_S": "3600", "EARLIER_EVERY": "7"})
+        samples = [sample for table in (FIRST, SECOND) for cells in rows_of(os.path.join(out, table + ".json")).values()
+                   for cell in cells for sample in json.loads(cell)["measured"]["samples_ms"]]
+        if result.returncode or result.stderr or len(samples) < 6 * 2 * ROWS or not all(0 < ms < 1e5 for ms in samples):
+            problems.append("set back: exit status %d, %s, %s" % (result.returncode, result.stderr, samples))
+    return problems
+
+
+CHECKS = [check_harness_killed, check_worker_killed, check_both_killed, check_second, check_held, check_full,
+          check_read_only_midway, check_read_only, check_earlier]

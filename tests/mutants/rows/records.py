@@ -6,7 +6,7 @@ TESTS = ("named", "held", "rows", "journal", "output", "stored", "damaged", "she
 TABLE = "harness/tables/measuring/measure.c"
 JOURNAL, STORED, NAMED = "harness/record/disk/journal.c", "harness/record/disk/stored.c", "harness/record/named.c"
 OUTPUT, RESULT, RECORD = "harness/record/output.c", "harness/record/result.c", "harness/record/record.c"
-HOLD, REGENERATE = "harness/record/disk/hold.c", "harness/tables/runs/regenerate.c"
+HOLD, REGENERATE, CLOCK = "harness/record/disk/hold.c", "harness/tables/runs/regenerate.c", "harness/console/clock.c"
 TEMPORARY, FIELDS = "core/image/files/temporary.c", "harness/record/schema/fields.c"
 
 ROWS = [
@@ -31,6 +31,8 @@ ROWS = [
     Fault(HOLD, "return «!is_taken»;", "true", "two runs write into a folder at once", tests=("command line, losses",)),
     Fault(REGENERATE, "if («!is_ours» && options->folder)", "false", "a second run into a folder goes on", tests=("command line, losses",)),
     Fault(REGENERATE, "for (int i = 0; «keeps» && i < made; i++)", "true", "a run whose state folder another holds keeps rows there", tests=("command line, losses",)),
+    Fault(REGENERATE, "return «any_is_lost || rg_interrupted()»;", "rg_interrupted()", "what was measured is lost where the results cannot be written", tests=("command line, losses",)),
+    Fault(CLOCK, "clock_gettime(«CLOCK_MONOTONIC», &now);", "CLOCK_REALTIME", "times are taken by a clock that can be set back", tests=("command line, losses",)),
     Fault(STORED, "*at += strspn(text + *at, \" \\t\\r\\n\");", "", "line ends behind a document are taken for another"),
     Fault(STORED, "return ends_in(entry->d_name, \".json\") || «ends_in(entry->d_name, \".journal\")»;", "false", "journals of a folder are not read"),
     Fault(STORED, "for (const char *c = text; c < text + «*at»; c++)", "0", "a damaged document's line is counted from its own beginning"),
