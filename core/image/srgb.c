@@ -18,8 +18,10 @@ double rg_srgb_encode(double linear)
 
 static void make_tables(void)
 {
-    for (int c = 0; c < 256; c++)
+    for (int c = 0; c < 256; c++) {
         tables.linear[c] = (float)rg_srgb_decode(c / 255.0);
+        tables.encoded[c] = (float)rg_srgb_encode((double)tables.linear[c]);
+    }
     for (int c = 1; c < 256; c++) {
         double exact = rg_srgb_decode((c - 0.5) / 255);
         float above = (float)exact;

@@ -11,6 +11,7 @@ enum { RG_SRGB_STEPS = 13 * 128, RG_SRGB_LOWEST_BITS = 114 << 23 };
 
 struct rg_srgb {
     float linear[256];    // of a code
+    float encoded[256];   // of a code's linear value, by the curve
     float threshold[257]; // the smallest linear value that rounds to a code, or above it
     uint8_t code[2048];   // at the start of each step; the rest is never asked for
 };
@@ -34,6 +35,15 @@ static inline uint8_t rg_srgb_code(const struct rg_srgb *srgb, float linear)
     memcpy(&bits, &linear, sizeof(bits));
     uint8_t code = srgb->code[(bits - RG_SRGB_LOWEST_BITS) >> 16 & 2047];
     return (uint8_t)(code + (linear >= srgb->threshold[code + 1]));
+}
+
+// rg_srgb_encode of a linear value as a float: of one that was decoded from 8 bits without the
+// power.
+static inline float rg_srgb_encoded(const struct rg_srgb *srgb, float linear)
+{
+    const uint8_t code = rg_srgb_code(srgb, linear);
+    return srgb->linear[code] == linear ? srgb->encoded[code]
+                                        : (float)rg_srgb_encode((double)linear);
 }
 
 // The 8-bit code of alpha, which has no curve.

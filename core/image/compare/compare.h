@@ -121,6 +121,12 @@ void rg_encode(const struct rg_picture *picture, float exposure, uint8_t *codes)
 bool rg_metrics_compute(const struct rg_picture *a, const struct rg_picture *b,
                         struct rg_metrics *metrics);
 
+// The same of what `make` makes of each row, into as many floats as the row has values: whole
+// pictures of them would cost more than all figures.
+typedef void rg_row_maker(const struct rg_picture *picture, int y, float *row);
+bool rg_metrics_of_rows(const struct rg_picture *a, const struct rg_picture *b, rg_row_maker *make,
+                        struct rg_metrics *metrics);
+
 // The same of two pictures' codes, over the largest code, from which they were decoded.
 bool rg_code_metrics(const struct rg_picture *a, const struct rg_picture *b,
                      struct rg_metrics *metrics);

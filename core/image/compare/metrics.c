@@ -128,16 +128,15 @@ static int find_max(const float *a, const float *b, int values, float max)
     return 0;
 }
 
-static void measure_row(const struct rg_picture *pa, const struct rg_picture *pb, int y,
+static void measure_row(const float *a, const float *b, const struct rg_picture *shape,
                         struct row_metrics *row)
 {
-    int values = pa->width * pa->channels;
-    const float *a = pa->texels + (int64_t)y * values, *b = pb->texels + (int64_t)y * values;
+    int values = shape->width * shape->channels;
     memset(row, 0, sizeof(*row));
     if (!sum_finite_row(a, b, values, row))
         sum_any_row(a, b, values, row);
     if (memcmp(a, b, (size_t)values * 4) != 0)
-        count_row(a, b, pa->width, pa->channels, row);
+        count_row(a, b, shape->width, shape->channels, row);
     if (row->max > 0.0f)
         row->max_index = find_max(a, b, values, row->max);
 }
@@ -173,18 +172,58 @@ static void add_rows(const struct row_metrics *rows, int height, int channels, s
     m->psnr_db = m->rms > 0 ? 20 * log10((double)largest / m->rms) : INFINITY;
 }
 
+static const float *row_of(const struct rg_picture *picture, int y)
+{
+    return picture->texels + (int64_t)y * picture->width * picture->channels;
+}
+
+static void measure_rows(const struct rg_picture *a, const struct rg_picture *b,
+                         struct row_metrics *rows)
+{
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < a->height; y++)
+        measure_row(row_of(a, y), row_of(b, y), a, &rows[y]);
+}
+
+// The same of rows that are made first. False without memory for them.
+static bool measure_made_rows(const struct rg_picture *a, const struct rg_picture *b,
+                              rg_row_maker *make, struct row_metrics *rows)
+{
+    const size_t values = (size_t)a->width * (size_t)a->channels;
+    bool ok = true;
+#pragma omp parallel reduction(&& : ok)
+    {
+        float *made = malloc(2 * values * sizeof(*made));
+        ok = made != NULL;
+#pragma omp for schedule(static)
+        for (int y = 0; y < a->height; y++)
+            if (made) {
+                make(a, y, made);
+                make(b, y, made + values);
+                measure_row(made, made + values, a, &rows[y]);
+            }
+        free(made);
+    }
+    return ok;
+}
+
+bool rg_metrics_of_rows(const struct rg_picture *a, const struct rg_picture *b, rg_row_maker *make,
+                        struct rg_metrics *metrics)
+{
+    struct row_metrics *rows = calloc((size_t)a->height, sizeof(*rows));
+    const bool ok = rows && (!make || measure_made_rows(a, b, make, rows));
+    if (ok && !make)
+        measure_rows(a, b, rows);
+    memset(metrics, 0, sizeof(*metrics));
+    metrics->values = rg_picture_values(a);
+    if (ok)
+        add_rows(rows, a->height, a->channels, metrics);
+    free(rows);
+    return ok || rg_error("comparing %d x %d pixels: no memory; crop them", a->width, a->height);
+}
+
 bool rg_metrics_compute(const struct rg_picture *a, const struct rg_picture *b,
                         struct rg_metrics *metrics)
 {
-    struct row_metrics *rows = malloc((size_t)a->height * sizeof(*rows));
-    if (!rows)
-        return rg_error("comparing %d x %d pixels: no memory; crop them", a->width, a->height);
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < a->height; y++)
-        measure_row(a, b, y, &rows[y]);
-    memset(metrics, 0, sizeof(*metrics));
-    metrics->values = rg_picture_values(a);
-    add_rows(rows, a->height, a->channels, metrics);
-    free(rows);
-    return true;
+    return rg_metrics_of_rows(a, b, NULL, metrics);
 }

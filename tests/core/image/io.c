@@ -187,8 +187,11 @@ static void encoding_is_the_formula(void **state)
         float x = (float)(rain_noise(i) >> 8) * 0x1p-24f;
         x = i % 4 ? x : x * x * x;
         assert_int_equal(rg_srgb_code(srgb, x), (int)floor(255 * rg_srgb_encode((double)x) + 0.5));
+        assert_true(rg_srgb_encoded(srgb, x) == (float)rg_srgb_encode((double)x));
     }
     for (int c = 1; c < 256; c++) {
+        assert_true(rg_srgb_encoded(srgb, srgb->linear[c]) ==
+                    (float)rg_srgb_encode((double)srgb->linear[c]));
         assert_int_equal(rg_srgb_code(srgb, srgb->threshold[c]), c);
         assert_int_equal(rg_srgb_code(srgb, nextafterf(srgb->threshold[c], 0)), c - 1);
     }
