@@ -64,6 +64,7 @@ int main(int argc, char **argv)
         return serve(argv[2]);
     rg_threads_settle(argv);
     rg_workers.program = "/proc/self/exe";
+    rg_workers.hello = rg_serving_hello();
     // A write past a file-size limit then fails with EFBIG and is reported, instead of killing us.
     signal(SIGXFSZ, SIG_IGN);
     if (argc > 1)

@@ -136,6 +136,18 @@ static bool follow_preset(const struct rg_param_table *table, const struct rg_pa
            rg_params_set_all(table, settings, table->presets[*int_at(param, settings)]);
 }
 
+bool rg_params_set_one(const struct rg_param *param, void *settings, const char *value)
+{
+    switch (param->kind) {
+    case RG_PARAM_CHOICE:
+        return set_choice(param, settings, value);
+    case RG_PARAM_FILE:
+        return set_path(param, settings, value);
+    default:
+        return set_number(param, settings, value);
+    }
+}
+
 bool rg_params_set(const struct rg_param_table *table, void *settings, const char *assignment)
 {
     const char *equals = strchr(assignment, '=');
@@ -146,14 +158,7 @@ bool rg_params_set(const struct rg_param_table *table, void *settings, const cha
     const struct rg_param *param = rg_params_find(table, name);
     if (!param)
         return unknown_name(table, name);
-    switch (param->kind) {
-    case RG_PARAM_CHOICE:
-        return set_choice(param, settings, equals + 1) && follow_preset(table, param, settings);
-    case RG_PARAM_FILE:
-        return set_path(param, settings, equals + 1);
-    default:
-        return set_number(param, settings, equals + 1);
-    }
+    return rg_params_set_one(param, settings, equals + 1) && follow_preset(table, param, settings);
 }
 
 bool rg_params_set_all(const struct rg_param_table *table, void *settings, const char *assignments)

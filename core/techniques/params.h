@@ -46,6 +46,9 @@ void rg_params_reset(const struct rg_param_table *table, void *settings);
 // number, out of range or no choice, a path too long.
 bool rg_params_set(const struct rg_param_table *table, void *settings, const char *assignment);
 
+// Takes a value of this parameter alone: that of a preset assigns nothing else.
+bool rg_params_set_one(const struct rg_param *param, void *settings, const char *value);
+
 // Takes several, separated by spaces.
 bool rg_params_set_all(const struct rg_param_table *table, void *settings, const char *assignments);
 

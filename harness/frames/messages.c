@@ -6,29 +6,113 @@
 
 #include "core/base/log.h"
 
-// Settings hold no pointer (core/techniques/params.h), so that their bytes are what they are.
+// --- settings, by name: another build may have them elsewhere, and others beside them ---
+
+enum { VALUE_SIZE = RG_PATH_SIZE + 1 };
+
+static double *number_at(const struct rg_param *param, const void *settings)
+{
+    return (double *)((char *)(uintptr_t)settings + param->offset);
+}
+
+static bool is_initial(const struct rg_param *param, const void *settings, const void *initial)
+{
+    char value[VALUE_SIZE], usual[VALUE_SIZE];
+    if (param->kind == RG_PARAM_FLOAT)
+        return *number_at(param, settings) == param->initial;
+    rg_params_text(param, settings, value, sizeof(value));
+    rg_params_text(param, initial, usual, sizeof(usual));
+    return !strcmp(value, usual);
+}
+
+// A number with a fraction goes as its bits, for a text rounds it.
+static void put_param(struct rg_message *message, const struct rg_param *param,
+                      const void *settings, const void *initial)
+{
+    char value[VALUE_SIZE];
+    const bool is_number = param->kind == RG_PARAM_FLOAT;
+    rg_put_text(message, param->name);
+    rg_put_int(message, is_initial(param, settings, initial));
+    rg_put_int(message, is_number);
+    if (is_number) {
+        RG_PUT(message, *number_at(param, settings));
+        return;
+    }
+    rg_params_text(param, settings, value, sizeof(value));
+    rg_put_text(message, value);
+}
+
 void rg_put_subject(struct rg_message *message, const struct rg_subject *subject)
 {
+    const struct rg_param_table *params = subject->technique->params;
+    void *initial = rg_settings_create(subject->technique);
+    message->failed = message->failed || !initial;
     rg_put_text(message, subject->technique->name);
-    rg_put_block(message, subject->settings, (int64_t)subject->technique->params->settings_size);
+    rg_put_int(message, params->count);
+    for (int i = 0; initial && i < params->count; i++)
+        put_param(message, &params->rows[i], subject->settings, initial);
     rg_put_int(message, subject->width);
     rg_put_int(message, subject->height);
+    free(initial);
+}
+
+static bool take_number(struct rg_message *message, const struct rg_param *param, void *settings)
+{
+    double value;
+    if (!RG_TAKE(message, value) || !param)
+        return !message->failed;
+    if (param->kind != RG_PARAM_FLOAT || !(value >= param->min && value <= param->max))
+        return rg_error("a message between processes has no value for '%s'", param->name);
+    *number_at(param, settings) = value;
+    return true;
+}
+
+static bool take_text(struct rg_message *message, const struct rg_param *param, void *settings)
+{
+    const char *value = rg_take_text(message);
+    if (message->failed || !param)
+        return !message->failed;
+    if (param->kind == RG_PARAM_FLOAT)
+        return rg_error("a message between processes has no value for '%s'", param->name);
+    return rg_params_set_one(param, settings, value);
+}
+
+// What this build does not know may be left alone where it is as it usually is.
+static bool take_param(struct rg_message *message, const struct rg_param_table *params,
+                       void *settings)
+{
+    const char *name = rg_take_text(message);
+    const struct rg_param *param = rg_params_find(params, name);
+    const bool is_usual = rg_take_index(message, 2);
+    if (!message->failed && !param && !is_usual)
+        return rg_error("parameter '%.80s': this build's %s has none of that name, and the other "
+                        "build gives it a value that is not usual",
+                        name, params->technique);
+    return rg_take_index(message, 2) ? take_number(message, param, settings)
+                                     : take_text(message, param, settings);
 }
 
 bool rg_take_subject(struct rg_message *message, struct rg_subject *subject)
 {
-    int64_t size = 0;
     *subject = (struct rg_subject){.technique = rg_technique_find(rg_take_text(message))};
-    void *settings = subject->technique ? rg_take_block(message, &size) : NULL;
+    const int count = rg_take_index(message, INT32_MAX);
+    if (!subject->technique)
+        return rg_error("a message between processes names no technique");
+    void *settings = rg_settings_create(subject->technique);
+    bool ok = settings;
+    for (int i = 0; ok && i < count && !message->failed; i++)
+        ok = take_param(message, subject->technique->params, settings);
     subject->settings = settings;
     subject->width = rg_take_index(message, INT32_MAX);
     subject->height = rg_take_index(message, INT32_MAX);
-    if (settings && !message->failed && (size_t)size == subject->technique->params->settings_size)
+    if (ok && !message->failed)
         return true;
     free(settings);
     subject->settings = NULL;
-    return rg_error("a message between processes names no subject");
+    return ok ? rg_error("a message between processes names no subject") : false;
 }
+
+// --- what a session tells ---
 
 void rg_put_account(struct rg_message *message, const struct rg_account *account)
 {

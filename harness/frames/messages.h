@@ -5,6 +5,8 @@
 #include "harness/frames/subject.h"
 #include "harness/devices/workers/message.h"
 
+// A subject goes by names, so that a build with other parameters takes it too: what it does not
+// know it refuses only where the value is not the usual one.
 void rg_put_subject(struct rg_message *message, const struct rg_subject *subject);
 // The caller frees the settings, NULL where it failed.
 bool rg_take_subject(struct rg_message *message, struct rg_subject *subject);

@@ -13,6 +13,7 @@ static bool serve_close(struct rg_message *request, struct rg_message *reply)
 int rg_serving(const char *argument)
 {
     static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {
+        [RG_CALL_HELLO] = rg_serve_hello,
         [RG_CALL_LIST] = rg_serve_list,
         [RG_CALL_OPEN] = rg_serve_open,
         [RG_CALL_CLOSE] = serve_close,

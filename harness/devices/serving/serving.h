@@ -6,4 +6,8 @@
 // Serves as a worker (rg_serve), until the harness ends. Returns the exit status.
 int rg_serving(const char *argument);
 
+// The messages that this build takes and gives, as a text for rg_workers.hello: builds that have
+// the same understand each other.
+const char *rg_serving_hello(void);
+
 #endif

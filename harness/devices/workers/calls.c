@@ -3,6 +3,7 @@
 const char *rg_call_doing(enum rg_call call)
 {
     static const char *const doing[RG_CALL_COUNT_OF_CALLS] = {
+        [RG_CALL_HELLO] = "greeting",
         [RG_CALL_LIST] = "listing devices",
         [RG_CALL_OPEN] = "opening the device",
         [RG_CALL_CLOSE] = "closing the device",

@@ -4,6 +4,7 @@
 #define RG_HARNESS_DEVICES_WORKERS_CALLS_H
 
 enum rg_call {
+    RG_CALL_HELLO, // do both speak of the same things (hello.h)? First for ever, in all builds
     // The device
     RG_CALL_LIST,     // a backend's devices
     RG_CALL_OPEN,     // the one device of this worker

@@ -41,3 +41,12 @@ char **rg_environment_with(char *variables)
             all[used++] = *v;
     return all;
 }
+
+const char *rg_environment_find(const char *variables, const char *key)
+{
+    const size_t length = strlen(key);
+    for (const char *v = variables; *v; v += strlen(v) + 1)
+        if (!strncmp(v, key, length) && v[length] == '=')
+            return v + length + 1;
+    return NULL;
+}

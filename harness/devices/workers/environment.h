@@ -10,4 +10,7 @@ char *rg_environment_copy(const char *variables);
 // that the caller frees, of texts that it does not. NULL without memory, and nothing is logged.
 char **rg_environment_with(char *variables);
 
+// A variable's value, which lives as long as `variables`; NULL: it is not among them.
+const char *rg_environment_find(const char *variables, const char *key);
+
 #endif

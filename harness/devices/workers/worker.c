@@ -21,7 +21,8 @@
 #include "harness/devices/workers/held.h"
 #include "harness/devices/workers/inside.h"
 
-enum { LOOK_MS = 100, END_MS = 5000 };
+// A program that is asked whether it is a raingauge gets so long.
+enum { LOOK_MS = 100, END_MS = 5000, HELLO_MS = 20000 };
 
 // What a process may hold beside what it was allowed to take (core/base/memory.h): the program, its
 // driver, and what that compiles.
@@ -97,7 +98,13 @@ static void forget_process(struct rg_worker *worker)
     worker->printed = NULL;
 }
 
-// False, with the reason in `why`, on failure.
+// Another build; NULL: this one.
+static const char *program_of(const struct rg_worker *worker)
+{
+    return rg_environment_find(worker->environment, RG_WORKER_PROGRAM);
+}
+
+// False, with the reason in `why`, or one logged line where it is the user's, on failure.
 static bool start(struct rg_worker *worker, char *why, size_t size)
 {
     char argument[40];
@@ -110,7 +117,9 @@ static bool start(struct rg_worker *worker, char *why, size_t size)
         error = ENOMEM;
     snprintf(argument, sizeof(argument), RG_WORKER_CHANNEL, (long)getpid(),
              worker->channel.doing.id);
-    const char *const args[] = {rg_workers.program, RG_WORKER_ARGUMENT, argument, NULL};
+    const char *const other = program_of(worker);
+    const char *const args[] = {other ? other : rg_workers.program, RG_WORKER_ARGUMENT, argument,
+                                NULL};
     if (!error)
         error = rg_program_start_in(environment, args, (const int[]){-1, printed, printed, theirs},
                                     4, &worker->process);
@@ -124,8 +133,11 @@ static bool start(struct rg_worker *worker, char *why, size_t size)
         return true;
     }
     forget_process(worker);
-    snprintf(why, size, "no process could be started for it: %s", strerror(error));
     worker->end = RG_ERROR;
+    if (other)
+        return rg_error("device '%s': " RG_WORKER_PROGRAM "=%s cannot be started: %s", worker->name,
+                        other, strerror(error));
+    snprintf(why, size, "no process could be started for it: %s", strerror(error));
     return false;
 }
 
@@ -267,18 +279,7 @@ static enum rg_outcome bury(struct rg_worker *worker, enum verdict verdict, char
     return worker->end;
 }
 
-// --- calls ---
-
-// False, with how it ended in `why`, where it has ended too often, or cannot be started.
-static bool comes_to_life(struct rg_worker *worker, char *why, size_t size)
-{
-    if (worker->process)
-        return true;
-    if (worker->life < RG_WORKER_LIVES)
-        return start(worker, why, size);
-    snprintf(why, size, "left out, for its process has ended %d times", worker->life);
-    return false;
-}
+// --- messages ---
 
 // A driver's error names its device; what the user did amiss has no device.
 static void relay(const struct rg_worker *worker, enum rg_log_level level, enum rg_error_kind kind,
@@ -316,6 +317,48 @@ static bool send(struct rg_worker *worker, enum rg_call call, const struct rg_me
     rg_message_free(&head);
     return sent;
 }
+
+// --- coming to life ---
+
+// Whether a process of another program has the same messages as this one. What it says otherwise
+// cannot be understood.
+static bool is_greeted(struct rg_worker *worker)
+{
+    struct rg_message reply = {0};
+    const bool same = send(worker, RG_CALL_HELLO, NULL) &&
+                      rg_channel_receive(&worker->channel, &reply, HELLO_MS) == RG_ARRIVED &&
+                      rg_take_index(&reply, 2) && !rg_take_int(&reply) && !rg_take_int(&reply) &&
+                      !strcmp(rg_take_text(&reply), rg_workers.hello);
+    rg_message_free(&reply);
+    return same;
+}
+
+// Ends a process that is not greeted.
+static bool turn_away(struct rg_worker *worker)
+{
+    kill(worker->process, SIGKILL);
+    end_process(worker);
+    forget_process(worker);
+    worker->end = RG_ERROR;
+    return rg_error("device '%s': " RG_WORKER_PROGRAM "=%s is no raingauge that this one can ask; "
+                    "build both from commits whose messages between processes are the same",
+                    worker->name, program_of(worker));
+}
+
+// False where it has ended too often, or cannot be started, with how it ended in `why`, or one
+// logged line.
+static bool comes_to_life(struct rg_worker *worker, char *why, size_t size)
+{
+    if (worker->process)
+        return true;
+    if (worker->life < RG_WORKER_LIVES)
+        return start(worker, why, size) &&
+               (!program_of(worker) || is_greeted(worker) || turn_away(worker));
+    snprintf(why, size, "left out, for its process has ended %d times", worker->life);
+    return false;
+}
+
+// --- calls ---
 
 enum rg_outcome rg_worker_try(struct rg_worker *worker, enum rg_call call,
                               const struct rg_message *request, struct rg_message *reply, char *why,

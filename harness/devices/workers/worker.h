@@ -20,6 +20,7 @@ enum { RG_WORKER_LIVES = 3 };
 struct rg_workers {
     const char *program;  // "/proc/self/exe"; NULL: there are no workers, and devices live in this
                           // process, as they do in a worker
+    const char *hello;    // what a worker of another program must answer; NULL: there are none
     int timeout_s;        // a worker that has begun nothing for so long is ended
     int64_t memory_bytes; // one that holds more is ended; 0: what may be taken (core/base/memory.h)
                           // and 1 GiB
@@ -27,6 +28,9 @@ struct rg_workers {
 extern struct rg_workers rg_workers;
 // The first argument of a program that is started as a worker.
 #define RG_WORKER_ARGUMENT "worker"
+// The variable of a worker's environment that names its program where that is not
+// rg_workers.program: another build, which is greeted first.
+#define RG_WORKER_PROGRAM "RG_PROGRAM"
 
 struct rg_worker;
 

@@ -109,10 +109,18 @@ static bool tell_process(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
+static bool greet(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    rg_put_text(reply, "these messages");
+    return true;
+}
+
 static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {
     [RG_CALL_STEP] = double_it,     [RG_CALL_READ] = send_many,     [RG_CALL_DRAW] = refuse,
     [RG_CALL_SYNC] = end,           [RG_CALL_TIME] = hang,          [RG_CALL_COUNT] = swell,
     [RG_CALL_OPEN] = leave_a_child, [RG_CALL_TELL] = tell_variable, [RG_CALL_LIST] = tell_process,
+    [RG_CALL_HELLO] = greet,
 };
 
 // --- in the harness ---
@@ -295,6 +303,44 @@ static void its_environment_stands_over_the_harness_s(void **state)
     rg_worker_destroy(worker);
 }
 
+static enum rg_outcome ask_program(const char *hello, const char *environment, int64_t *result)
+{
+    struct rg_worker *worker = rg_worker_create("toy", environment);
+    *logged = 0;
+    rg_workers.hello = hello;
+    const enum rg_outcome outcome = ask(worker, RG_CALL_STEP, 21, result);
+    rg_worker_destroy(worker);
+    return outcome;
+}
+
+static void another_build_is_asked_where_its_messages_are_the_same(void **state)
+{
+    (void)state;
+    int64_t result = 0;
+    assert_int_equal(ask_program("these messages", "RG_PROGRAM=/proc/self/exe\0", &result), RG_OK);
+    assert_int_equal(result, 42);
+    assert_string_equal(logged, "");
+    // This program itself is not asked.
+    assert_int_equal(ask_program("other messages", NULL, &result), RG_OK);
+}
+
+static void another_build_with_other_messages_is_turned_away(void **state)
+{
+    (void)state;
+    int64_t result = 0;
+    static const char *const programs[] = {"RG_PROGRAM=/proc/self/exe\0", "RG_PROGRAM=/bin/true\0",
+                                           "RG_PROGRAM=/bin/cat\0"};
+    for (size_t i = 0; i < sizeof(programs) / sizeof(*programs); i++) {
+        assert_int_not_equal(ask_program("other messages", programs[i], &result), RG_OK);
+        assert_int_equal(rg_last_error_kind(), RG_ERROR_INPUT);
+        assert_non_null(strstr(logged, "is no raingauge that this one can ask"));
+        assert_ptr_equal(strchr(logged, '\n'), logged + strlen(logged) - 1);
+    }
+    assert_int_not_equal(ask_program("these messages", "RG_PROGRAM=/none/raingauge\0", &result),
+                         RG_OK);
+    assert_non_null(strstr(logged, "RG_PROGRAM=/none/raingauge cannot be started: No such file"));
+}
+
 // A harness that is killed takes its workers along.
 static void no_worker_outlives_the_harness(void **state)
 {
@@ -339,6 +385,8 @@ int main(int argc, char **argv)
         WITH_WORKER(it_lives_three_times),
         WITH_WORKER(a_worker_that_is_killed_while_it_waits_crashed),
         cmocka_unit_test(its_environment_stands_over_the_harness_s),
+        cmocka_unit_test(another_build_is_asked_where_its_messages_are_the_same),
+        cmocka_unit_test(another_build_with_other_messages_is_turned_away),
         cmocka_unit_test(no_worker_outlives_the_harness),
     };
     rg_workers.program = "/proc/self/exe";

@@ -1,13 +1,13 @@
 """Workers: how they are asked, how they end, and what is made of it; names of devices."""
 from fault import Fault
 
-TESTS = ("workers that end", "messages", "names of devices", "sessions in workers", "log", "command line, misbehaving")
+TESTS = ("workers that end", "messages", "names of devices", "sessions in workers", "subjects between processes", "log", "command line, misbehaving")
 
 W = "harness/devices/workers/"
 WORKER, CHANNEL, SERVE, MESSAGE, ENVIRONMENT, DEVICE = (
     W + name + ".c" for name in ("worker", "channel", "serve", "message", "environment", "device"))
 NAMES, DEVICES, REMOTE, LOG = ("harness/devices/names.c", "harness/devices/devices.c", "harness/frames/remote.c", "core/base/log.c")
-DIFF = "harness/compare/diff/devices.c"
+DIFF, MESSAGES = "harness/compare/diff/devices.c", "harness/frames/messages.c"
 
 ROWS = [
     Fault(WORKER, "if («worker->life < RG_WORKER_LIVES»)", "true", "a worker is started without end"),
@@ -22,6 +22,13 @@ ROWS = [
     Fault(WORKER, "if (verdict != BY_ITSELF)\n        kill(worker->process, SIGKILL);", ";", "who hangs is not killed, and waited for until it is"),
     Fault(WORKER, "level == RG_LOG_ERROR && «kind != RG_ERROR_INPUT» &&", "true", "the user's error is the device's"),
     Fault(WORKER, "&& «!strstr(line, worker->name)»;", "true", "a line names its device twice"),
+    Fault(WORKER, "(!program_of(worker) || «is_greeted(worker)» ||", "true", "another program is taken for a raingauge"),
+    Fault(WORKER, "args[] = {«other ? other : rg_workers.program»,", "rg_workers.program", "another build is this one"),
+    Fault(WORKER, "if («other»)\n        return rg_error(", "false", "a program that is not there is a driver's failure"),
+    Fault(MESSAGES, "if (!message->failed && !param && «!is_usual»)", "false", "what a build does not know is left alone"),
+    Fault(MESSAGES, "if (!message->failed && !param && «!is_usual»)", "true", "what a build does not know is refused though it is as usual"),
+    Fault(MESSAGES, "const bool is_number = «param->kind == RG_PARAM_FLOAT»;", "false", "a number with a fraction is rounded on its way"),
+    Fault(MESSAGES, "|| «!(value >= param->min && value <= param->max)»)", "false", "a number on its way has no range"),
     Fault(SERVE, "prctl(PR_SET_PDEATHSIG, SIGKILL);", ";", "a worker outlives a harness that is killed"),
     Fault(SERVE, "rg_put_int(&reply, «rg_last_error_kind()»);", "RG_ERROR_INPUT", "every error of a worker is the user's"),
     Fault(SERVE, "rg_doing_share(channel.doing.bytes);", ";", "nobody sees what a worker does"),

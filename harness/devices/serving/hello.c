@@ -1,0 +1,31 @@
+// What a worker says of the messages that it takes and gives, so that one of another build is told
+// from one that lies.
+#include <stdio.h>
+
+#include "core/device/probe.h"
+#include "harness/devices/serving/services.h"
+#include "harness/devices/serving/serving.h"
+#include "harness/frames/digests.h"
+#include "harness/measure/ceilings.h"
+#include "harness/measure/timer_audit.h"
+
+// Counted up where calls and sizes stay as they are and mean something else.
+enum { FORMAT = 1 };
+
+const char *rg_serving_hello(void)
+{
+    static char text[120];
+    snprintf(text, sizeof(text),
+             "raingauge messages %d: %d calls, sizes %zu %zu %zu %zu %zu %zu %zu", FORMAT,
+             RG_CALL_COUNT_OF_CALLS, sizeof(struct rg_device_info), sizeof(struct rg_tally),
+             sizeof(struct rg_image_desc), sizeof(struct rg_digest), sizeof(struct rg_probe_result),
+             sizeof(struct rg_timer_audit), sizeof(struct rg_ceilings));
+    return text;
+}
+
+bool rg_serve_hello(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    rg_put_text(reply, rg_serving_hello());
+    return true;
+}
