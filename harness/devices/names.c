@@ -1,6 +1,7 @@
 #include "harness/devices/names.h"
 
 #include <ctype.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "core/base/log.h"
@@ -100,4 +101,32 @@ bool rg_device_names_check(const char *names)
             return false;
     while (*rest);
     return true;
+}
+
+// Writes a value between double quotes, two for each of its own; at most `size` bytes.
+static size_t quote_value(const char *value, char *to, size_t size)
+{
+    size_t used = 0;
+    for (const char *v = value; *v && used + 3 < size; v++) {
+        to[used++] = *v;
+        if (*v == '"')
+            to[used++] = '"';
+    }
+    to[used] = 0;
+    return used;
+}
+
+bool rg_device_name_with(const char *name, const char *key, const char *value,
+                         char with[RG_DEVICE_NAME_SIZE])
+{
+    char quoted[2 * RG_DEVICE_NAME_SIZE];
+    const char *mark = value[strcspn(value, ",;\"")] ? "\"" : "";
+    if (*mark)
+        quote_value(value, quoted, sizeof(quoted));
+    const int length =
+        snprintf(with, RG_DEVICE_NAME_SIZE, "%s%c%s=%s%s%s", name, strchr(name, '@') ? ';' : '@',
+                 key, mark, *mark ? quoted : value, mark);
+    return length < RG_DEVICE_NAME_SIZE ||
+           rg_error("device '%s': with %s=%.60s... its name has more than %d characters", name, key,
+                    value, RG_DEVICE_NAME_SIZE - 1);
 }

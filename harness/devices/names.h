@@ -23,4 +23,9 @@ bool rg_device_names_check(const char *names);
 // comma. False, and one logged line, where it is empty, too long or no such form.
 bool rg_device_name_read(const char **names, struct rg_device_name *name);
 
+// A device's name with one variable more; a value that needs quotes gets them. False, and one
+// logged line, where it gets too long.
+bool rg_device_name_with(const char *name, const char *key, const char *value,
+                         char with[RG_DEVICE_NAME_SIZE]);
+
 #endif

@@ -66,7 +66,7 @@ SUITES = {
 
 
 def main():
-    runner = Runner(*sys.argv[2:7])
+    runner = Runner(*sys.argv[2:8])
     SUITES[sys.argv[1]](runner)
     return runner.finish()
 

@@ -27,9 +27,9 @@ def obey_modes():
 
 
 class Runner:
-    def __init__(self, raingauge, kernels, crasher, misbehaver, earlier):
-        self.raingauge, self.kernels, self.crasher, self.misbehaver, self.earlier = map(
-            os.path.abspath, (raingauge, kernels, crasher, misbehaver, earlier))
+    def __init__(self, raingauge, kernels, crasher, misbehaver, earlier, slower):
+        self.raingauge, self.kernels, self.crasher, self.misbehaver, self.earlier, self.slower = map(
+            os.path.abspath, (raingauge, kernels, crasher, misbehaver, earlier, slower))
         self.count = self.failed = 0
         self.state = tempfile.TemporaryDirectory()  # what commands keep between runs
 

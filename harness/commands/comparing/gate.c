@@ -17,7 +17,9 @@
 #include "harness/record/output.h"
 
 struct gate_options {
-    char *cells; // a file; NULL: those that are built in
+    char *against; // another build; NULL: two devices are named
+    char *devices; // of both builds
+    char *cells;   // a file; NULL: those that are built in
     double margin_percent;
     char *budget;             // "2m"; NULL: none
     struct rg_words known[3]; // files of expectations, of Mesa's fails, of Mesa's flakes
@@ -37,6 +39,11 @@ static const struct rg_option options[] = {
      .about = "two devices: B is held against A; each may have an environment, as in "
               "'vulkan@VK_DRIVER_FILES=new.json'",
      .names = RG_NAMES_DEVICE, .first = 1, .last = 2},
+    {RG_OPTION_TEXT, "against", .argument = "BINARY",
+     .about =
+         "instead of A and B: devices of this build are held against those of another raingauge",
+     .offset = AT(against), .names = RG_NAMES_FILE},
+    RG_INCLUDE(rg_devices_option, AT(devices), NULL),
     {RG_OPTION_TEXT, "cells", .argument = "FILE",
      .about =
          "the cells to run, one a line (docs/expectations.md); without it those that are built "
@@ -104,20 +111,30 @@ static int today(void)
 
 // --- what is printed ---
 
-static bool list_cases(const struct rg_gate_cells *cells, const char *device, const char *filter)
+static bool add_names(const struct rg_gate_cells *cells, const char *device,
+                      struct rg_report *report)
 {
-    struct rg_report report = {.case_count = 0};
     bool ok = true;
     for (int64_t i = 0; ok && i < cells->count; i++) {
         char *name = rg_gate_case_name(&cells->cells[i], device);
-        ok = name && rg_report_add(&report, &(struct rg_report_case){.name = name,
-                                                                     .ending = RG_ENDING_SKIPPED});
+        ok = name && rg_report_add(report, &(struct rg_report_case){.name = name,
+                                                                    .ending = RG_ENDING_SKIPPED});
         free(name);
     }
+    return ok;
+}
+
+static int list_cases(const struct rg_gate_cells *cells, const struct rg_gate_pairs *pairs,
+                      const char *filter)
+{
+    struct rg_report report = {.case_count = 0};
+    bool ok = true;
+    for (int i = 0; ok && i < pairs->count; i++)
+        ok = add_names(cells, pairs->all[i].names[RG_SIDE_B], &report);
     if (ok)
         rg_gtest_list(stdout, &report, filter ? filter : "*");
     rg_report_free(&report);
-    return ok;
+    return ok ? RG_EXIT_PASS : RG_EXIT_FAIL;
 }
 
 static void print_as_gtest(const struct rg_report *report)
@@ -181,11 +198,11 @@ static bool can_write(const struct gate_options *o)
            (!o->bmf || rg_output_file_can_be_written(o->bmf, REPORT_BYTES));
 }
 
-static int run(const struct gate_options *o, const struct rg_words *sides,
+static int run(const struct gate_options *o, const struct rg_gate_pairs *pairs,
                const struct rg_gate_cells *cells, const struct rg_known *known)
 {
     struct rg_gate gate = {.case_count = 0};
-    struct rg_gate_request request = {.sides = {sides->items[0], sides->items[1]},
+    struct rg_gate_request request = {.pairs = pairs,
                                       .cells = cells,
                                       .known = known,
                                       .today = today(),
@@ -203,21 +220,37 @@ static int run(const struct gate_options *o, const struct rg_words *sides,
     return exit;
 }
 
+// What is held against what. Returns an enum rg_exit, one logged line with it where that is not
+// pass.
+static int find_pairs(const struct gate_options *o, const struct rg_words *sides,
+                      struct rg_gate_pairs *pairs)
+{
+    if (o->against && !sides->count)
+        return rg_gate_pairs_of_builds(o->against, o->devices ? o->devices : "all", pairs);
+    *pairs = (struct rg_gate_pairs){.count = 1};
+    if (o->devices && !o->against)
+        rg_error("gate: --device is of --against; name two devices alone");
+    else if (o->against || sides->count != 2)
+        rg_error("gate: name two devices, the one that B is held against first, as in `raingauge "
+                 "gate cpu cpu@OMP_NUM_THREADS=1`, or another build by --against");
+    else if (rg_gate_pair_of(sides->items[0], sides->items[1], &pairs->all[0]))
+        return RG_EXIT_PASS;
+    return RG_EXIT_USAGE;
+}
+
 static int gate(const void *values, const struct rg_words *arguments)
 {
     const struct gate_options *o = values;
     struct rg_gate_cells cells = {.count = 0};
     struct rg_known known = {.count = 0};
-    int exit = RG_EXIT_USAGE;
+    struct rg_gate_pairs pairs;
     rg_memory_allow(o->memory_bytes);
     rg_workers.timeout_s = o->timeout_s;
-    if (arguments->count != 2)
-        rg_error("gate: name two devices, the one that B is held against first, as in `raingauge "
-                 "gate cpu cpu@OMP_NUM_THREADS=1`");
-    else if (rg_gate_cells_read(o->cells, &cells) && read_known(o, &known))
-        exit = o->list ? list_cases(&cells, arguments->items[1], o->filter) ? RG_EXIT_PASS
-                                                                            : RG_EXIT_FAIL
-                       : run(o, arguments, &cells, &known);
+    int exit = find_pairs(o, arguments, &pairs);
+    if (exit == RG_EXIT_PASS && (!rg_gate_cells_read(o->cells, &cells) || !read_known(o, &known)))
+        exit = RG_EXIT_USAGE;
+    if (exit == RG_EXIT_PASS)
+        exit = o->list ? list_cases(&cells, &pairs, o->filter) : run(o, &pairs, &cells, &known);
     rg_known_free(&known);
     rg_gate_cells_free(&cells);
     return exit;
@@ -225,7 +258,8 @@ static int gate(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_gate = {
     .name = "gate",
-    .usage = "A B [--cells FILE] [--margin PERCENT] [--budget TIME] [--pictures] [--expectations "
+    .usage = "{A B | --against BINARY [--device D,...|all]} [--cells FILE] [--margin PERCENT] "
+             "[--budget TIME] [--pictures] [--expectations "
              "FILE]... [--junit FILE] [--bmf FILE] [--github] [--json]",
     .about =
         "tells whether device B is worse than A: other pictures, states or counters, or slower",

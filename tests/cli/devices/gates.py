@@ -73,6 +73,22 @@ def check_slower(runner):
     return problems
 
 
+def check_builds(runner):
+    """another build is held against this one on each device that is named, and what it does more is found"""
+    problems = []
+    with Files(TORUS) as files:
+        args = ["gate", "--against", runner.slower, "--cells", files.cells, "--json"]
+        for more, device, wanted in ((["--pictures"], "cpu,cpu:reference", {"raster/torus.cpu": "pass", "raster/torus.cpu:reference": "pass"}),
+                                     ([], "cpu@RG_EXTRA_LOOPS=100000", {"raster/torus.cpu@RG_EXTRA_LOOPS=100000": "improved"})):
+            result = runner.run(args + more + ["--device", device])
+            report = json.loads(result.stdout) if result.stdout else {"gated": []}
+            if result.returncode or result.stderr or endings(report) != wanted:
+                problems.append("%s: exit status %d, %s, %s" % (device, result.returncode, result.stderr, endings(report)))
+            problems += ["devices: %s" % case["devices"] for case in report["gated"]
+                         if case["devices"][0] != case["devices"][1] + ";@"["@" not in case["devices"][1]] + "RG_PROGRAM=" + runner.slower]
+    return problems
+
+
 def check_open(runner):
     """what is not decided when the time is over is inconclusive, with a status of its own"""
     with Files() as files:
@@ -136,7 +152,9 @@ def check_refused(runner):
     problems = []
     with Files() as files:
         bad = files.path("bad.txt", "flow/pane flow 64x48 2 no_such_key=1\n")
-        for args, says in ((["cpu"], "name two devices"), (["cpu", "none"], "none"), (["cpu", "cpu", "--cells", bad], "bad.txt:1: "),
+        for args, says in ((["cpu"], "name two devices"), (["--against", "none"], "--against 'none'"),
+                           (["--against", "/bin/true", "--device", "cpu"], "RG_PROGRAM=/bin/true is no raingauge"),
+                           (["cpu", "cpu", "--against", runner.slower], "name two devices"), (["cpu", "cpu", "--device", "cpu"], "--device"), (["cpu", "none"], "none"), (["cpu", "cpu", "--cells", bad], "bad.txt:1: "),
                            (["cpu", "cpu", "--budget", "soon"], "--budget 'soon': is no time"),
                            (["cpu", "cpu", "--margin", "0"], "--margin"),
                            (["cpu", "cpu", "--expectations", files.path("none.txt")], "none.txt"),
@@ -147,4 +165,4 @@ def check_refused(runner):
     return problems
 
 
-CHECKS = [check_same, check_slower, check_open, check_crash, check_miscompiled, check_gtest, check_refused]
+CHECKS = [check_same, check_slower, check_builds, check_open, check_crash, check_miscompiled, check_gtest, check_refused]

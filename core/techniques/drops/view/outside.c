@@ -20,11 +20,15 @@ static void add_environment(struct rg_instance *instance, const struct drops_set
         levels++;
     struct rg_environment *sharp =
         scenery_environment(s->environment, s->environment_px, instance->device);
-    struct rg_environment *seen =
-        sharp ? rg_environment_blur(sharp, 2 * atan(s->aperture_mm / s->distance_mm / 2)) : NULL;
+    // Seen through a pinhole a point stays one.
+    struct rg_environment *blurred =
+        sharp && s->aperture_mm > 0
+            ? rg_environment_blur(sharp, 2 * atan(s->aperture_mm / s->distance_mm / 2))
+            : NULL;
+    const struct rg_environment *seen = s->aperture_mm > 0 ? blurred : sharp;
     struct rg_image *image =
         seen ? rg_environment_upload(seen, s->environment_px, levels, instance->device) : NULL;
-    rg_environment_destroy(seen);
+    rg_environment_destroy(blurred);
     rg_environment_destroy(sharp);
     rg_give_image(instance, "environment", image);
     rg_tell_texture(instance, "environment", image, 0);

@@ -135,7 +135,7 @@ void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *req
                        struct rg_report_case *told, struct rg_known_result *result)
 {
     *result = (struct rg_known_result){.cell = c->cell->name,
-                                       .device = request->sides[RG_SIDE_B],
+                                       .device = c->pair->names[RG_SIDE_B],
                                        .driver = c->driver,
                                        .outcome = c->agreement.outcome,
                                        .pixels = c->agreement.pixels,
@@ -147,7 +147,7 @@ void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *req
     put_message(c, met, ending, c->message, sizeof(c->message));
     put_details(c, c->details, sizeof(c->details));
     for (int side = 0; side < RG_SIDES; side++)
-        c->devices[side] = request->sides[side];
+        c->devices[side] = c->pair->names[side];
     *told = (struct rg_report_case){.name = c->name,
                                     .technique = c->cell->technique->name,
                                     .devices = c->devices,

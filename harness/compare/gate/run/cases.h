@@ -8,6 +8,7 @@
 
 struct rg_gate_case {
     const struct rg_gate_cell *cell;
+    const struct rg_gate_pair *pair;
     char *name; // owned by the gate
     double seconds;
     char driver[160];    // B's

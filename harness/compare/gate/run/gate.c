@@ -28,10 +28,15 @@ char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
 // A gate while it runs.
 struct run {
     const struct rg_gate_request *asked;
+    struct rg_gate *gate; // a case a pair and cell that the filter lets through
+    struct rg_device_info infos[RG_SIDES * RG_MAX_DEVICES]; // of all sides that are there
+    int info_count;
+    // Of the pair that is held against each other now.
+    const struct rg_gate_pair *pair;
     struct rg_side sides[RG_SIDES];
     struct rg_timed_cell *timed;
     int timed_count;
-    struct rg_gate *gate; // a case a cell that the filter lets through
+    int first_case;
 };
 
 // --- cells are chosen ---
@@ -46,25 +51,32 @@ static bool is_chosen(const struct rg_gate_request *asked, const char *name)
 static bool add_case(struct run *r, const struct rg_gate_cell *cell)
 {
     const struct rg_gate_request *asked = r->asked;
-    char *name = rg_gate_case_name(cell, asked->sides[RG_SIDE_B]);
+    char *name = rg_gate_case_name(cell, r->pair->names[RG_SIDE_B]);
     if (name && is_chosen(asked, name))
         r->gate->cases[r->gate->case_count++] =
-            (struct rg_gate_case){.cell = cell, .name = name, .expectation = -1};
+            (struct rg_gate_case){.cell = cell, .pair = r->pair, .name = name, .expectation = -1};
     else
         free(name);
     return name != NULL;
 }
 
-static bool choose(struct run *r)
+static bool make_room(struct run *r)
 {
     const size_t cells = (size_t)r->asked->cells->count;
-    bool ok = true;
-    r->gate->cases = rg_alloc(cells, sizeof(*r->gate->cases), "gate");
+    const size_t cases = cells * (size_t)r->asked->pairs->count;
+    r->gate->cases = rg_alloc(cases, sizeof(*r->gate->cases), "gate");
     r->timed = rg_alloc(cells, sizeof(*r->timed), "gate");
-    r->gate->results = rg_alloc(cells, sizeof(*r->gate->results), "gate");
-    for (size_t i = 0; ok && r->gate->cases && i < cells; i++)
+    r->gate->results = rg_alloc(cases, sizeof(*r->gate->results), "gate");
+    return r->gate->cases && r->timed && r->gate->results;
+}
+
+static bool choose(struct run *r)
+{
+    bool ok = true;
+    r->first_case = r->gate->case_count;
+    for (int64_t i = 0; ok && i < r->asked->cells->count; i++)
         ok = add_case(r, &r->asked->cells->cells[i]);
-    return ok && r->gate->cases && r->timed && r->gate->results;
+    return ok;
 }
 
 // --- both sides are compared ---
@@ -88,12 +100,7 @@ static bool launch_for(struct run *r, struct rg_gate_case *c)
 // What the report's numbers depend on: the machine, and the sides that are there.
 static bool set_passport(struct run *r)
 {
-    struct rg_device_info infos[RG_SIDES];
-    int count = 0;
-    for (int side = 0; side < RG_SIDES; side++)
-        if (r->sides[side].device)
-            infos[count++] = r->sides[side].device->info;
-    json_t *json = rg_passport_json(infos, count);
+    json_t *json = rg_passport_json(r->infos, r->info_count);
     char *text = json ? json_dumps(json, JSON_INDENT(1)) : NULL;
     const bool ok = text && rg_report_set_passport(&r->gate->report, text);
     free(text);
@@ -101,13 +108,36 @@ static bool set_passport(struct run *r)
     return ok;
 }
 
-// Whether both names are such that a device could have them.
-static bool have_names(struct run *r)
+static void begin_pair(struct run *r, int pair)
+{
+    r->pair = &r->asked->pairs->all[pair];
+    r->timed_count = 0;
+    for (int side = 0; side < RG_SIDES; side++)
+        r->sides[side].name = r->pair->names[side];
+}
+
+static void end_pair(struct run *r)
 {
     for (int side = 0; side < RG_SIDES; side++)
-        if (!rg_side_launch(&r->sides[side]) && rg_last_error_kind() == RG_ERROR_INPUT)
-            return false;
-    return set_passport(r);
+        rg_side_close(&r->sides[side]);
+}
+
+// Whether all names are such that a device could have them. A side that is not there otherwise ends
+// its cases.
+static bool have_names(struct run *r)
+{
+    bool ok = true;
+    for (int pair = 0; ok && pair < r->asked->pairs->count; pair++) {
+        begin_pair(r, pair);
+        for (int side = 0; ok && side < RG_SIDES; side++) {
+            if (rg_side_launch(&r->sides[side]))
+                r->infos[r->info_count++] = r->sides[side].device->info;
+            else
+                ok = rg_last_error_kind() != RG_ERROR_INPUT;
+        }
+        end_pair(r);
+    }
+    return ok;
 }
 
 static void find_expectation(struct run *r, struct rg_gate_case *c)
@@ -115,7 +145,7 @@ static void find_expectation(struct run *r, struct rg_gate_case *c)
     const struct rg_device *b = r->sides[RG_SIDE_B].device;
     snprintf(c->driver, sizeof(c->driver), "%s", b ? b->info.driver : "");
     c->expectation =
-        rg_known_row(r->asked->known, c->cell->name, r->asked->sides[RG_SIDE_B], c->driver);
+        rg_known_row(r->asked->known, c->cell->name, r->pair->names[RG_SIDE_B], c->driver);
     c->is_skipped = rg_known_skips(r->asked->known, c->expectation, r->asked->today);
 }
 
@@ -147,9 +177,10 @@ static bool measure(struct run *r, struct rg_gate_row *rows)
     const struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over,
                                           &times};
     rule.margin = r->asked->margin;
+    rule.error /= r->asked->pairs->count;
     if (!rg_course_run(&rule, &source, RG_COURSE_SEED, rows))
         return false;
-    for (int i = 0; i < r->gate->case_count; i++) {
+    for (int i = r->first_case; i < r->gate->case_count; i++) {
         struct rg_gate_case *c = &r->gate->cases[i];
         if (!c->is_timed)
             continue;
@@ -204,28 +235,28 @@ int rg_gate_exit(const struct rg_report *report)
     return rg_report_count(report, RG_ENDING_UNSUPPORTED) ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
 }
 
-static void end(struct run *r)
+static bool run_pair(struct run *r, int pair)
 {
-    for (int side = 0; side < RG_SIDES; side++)
-        rg_side_close(&r->sides[side]);
-    free(r->timed);
+    begin_pair(r, pair);
+    bool ok = choose(r);
+    for (int i = r->first_case; ok && i < r->gate->case_count && !rg_interrupted(); i++)
+        compare(r, &r->gate->cases[i]);
+    ok = ok && time_all(r);
+    end_pair(r);
+    return ok;
 }
 
 int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
 {
     struct run r = {.asked = request, .gate = gate};
-    for (int side = 0; side < RG_SIDES; side++)
-        r.sides[side].name = request->sides[side];
     rg_interrupt_watch();
-    if (!have_names(&r)) {
-        end(&r);
+    if (!have_names(&r))
         return RG_EXIT_USAGE;
-    }
-    bool ok = choose(&r);
-    for (int i = 0; ok && i < gate->case_count && !rg_interrupted(); i++)
-        compare(&r, &gate->cases[i]);
-    ok = ok && time_all(&r) && (rg_interrupted() || report(&r));
-    end(&r);
+    bool ok = make_room(&r) && set_passport(&r);
+    for (int pair = 0; ok && pair < request->pairs->count && !rg_interrupted(); pair++)
+        ok = run_pair(&r, pair);
+    ok = ok && (rg_interrupted() || report(&r));
+    free(r.timed);
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
     return ok ? rg_gate_exit(&gate->report) : RG_EXIT_FAIL;

@@ -5,10 +5,10 @@
 #include "harness/compare/gate/cells/cells.h"
 #include "harness/compare/gate/expected/expected.h"
 #include "harness/compare/gate/report/report.h"
-#include "harness/compare/gate/run/sides.h"
+#include "harness/compare/gate/run/pairs.h"
 
 struct rg_gate_request {
-    const char *sides[RG_SIDES]; // names of devices, A's first
+    const struct rg_gate_pairs *pairs; // one after the other
     const struct rg_gate_cells *cells;
     const struct rg_known *known; // what is expected to go wrong
     int today;                    // harness/compare/gate/text/date.h

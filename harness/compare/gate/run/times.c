@@ -10,11 +10,13 @@
 #include "harness/frames/session.h"
 #include "harness/record/stats.h"
 
-// A timing lasts so long, and a slot of a quad has so many, of which the median counts. A launch
-// takes so many quads: opening a cell costs as much as several, and what disturbs one of them is
-// not in their median.
-#define TIMING_MS 4
-enum { TIMINGS = 3, QUADS = 3, MOST_FRAMES = 1000 };
+// A timing lasts so long at least, and a place of a quad has as many as fill it, of which the
+// median counts: where another process has a core, it takes it for some milliseconds at a time, and
+// many short timings lie between, as few long ones do not. A launch takes so many quads: opening a
+// cell costs as much as several, and what disturbs one of them is not in their median.
+#define TIMING_MS 1
+#define PLACE_MS  9
+enum { LEAST_TIMINGS = 3, MOST_TIMINGS = 9, QUADS = 3, MOST_FRAMES = 1000 };
 // Of the time of a quad, as much may go to others.
 #define MOST_STOLEN 0.05
 
@@ -71,20 +73,30 @@ static bool fail(struct rg_timed_cell *timed)
 }
 
 // The time of a frame, by the median of some timings.
-static bool time_slot(struct rg_session *session, int frames, double *frame_ms)
+static bool time_place(const struct rg_timed_cell *timed, struct rg_session *session,
+                       double *frame_ms)
 {
-    double timings_ms[TIMINGS];
-    for (int i = 0; i < TIMINGS; i++) {
-        if (!rg_session_frames(session, frames, &timings_ms[i]))
+    double timings_ms[MOST_TIMINGS];
+    for (int i = 0; i < timed->timings; i++) {
+        if (!rg_session_frames(session, timed->frames, &timings_ms[i]))
             return false;
-        timings_ms[i] /= frames;
+        timings_ms[i] /= timed->frames;
     }
-    *frame_ms = rg_median(timings_ms, TIMINGS).median;
+    *frame_ms = rg_median(timings_ms, timed->timings).median;
     return true;
 }
 
-// Frames that are not timed, for drivers compile in the first, and how many make a timing: the same
-// on both sides, by the faster.
+// How many frames make a timing, and how many timings a place, where a frame takes so long.
+static void settle(struct rg_timed_cell *timed, double frame_ms)
+{
+    frame_ms = fmax(frame_ms, 1e-6);
+    timed->frames = (int)fmin(fmax(ceil(TIMING_MS / frame_ms), 1), MOST_FRAMES);
+    timed->timings =
+        (int)fmin(fmax(ceil(PLACE_MS / (timed->frames * frame_ms)), LEAST_TIMINGS), MOST_TIMINGS);
+}
+
+// Frames that are not timed, for drivers compile in the first. By the faster side is settled how
+// many are timed, the same on both.
 static bool warm_up(struct rg_timed_cell *timed, struct rg_session *sessions[RG_SIDES])
 {
     double fastest_ms = INFINITY;
@@ -96,7 +108,7 @@ static bool warm_up(struct rg_timed_cell *timed, struct rg_session *sessions[RG_
         fastest_ms = fmin(fastest_ms, ms / 2);
     }
     if (!timed->frames)
-        timed->frames = (int)fmin(fmax(ceil(TIMING_MS / fmax(fastest_ms, 1e-6)), 1), MOST_FRAMES);
+        settle(timed, fastest_ms);
     return true;
 }
 
@@ -107,7 +119,7 @@ static bool time_quad(struct rg_timed_cell *timed, struct rg_session *sessions[R
     int taken[RG_SIDES] = {0, 0};
     for (int i = 0; i < 4; i++) {
         const int side = order[i];
-        if (!time_slot(sessions[side], timed->frames, &times_ms[side][taken[side]++]))
+        if (!time_place(timed, sessions[side], &times_ms[side][taken[side]++]))
             return false;
     }
     return true;

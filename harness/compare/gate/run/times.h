@@ -9,7 +9,7 @@
 // A cell that is timed.
 struct rg_timed_cell {
     const struct rg_gate_cell *cell;
-    int frames;              // in each timing, on both sides; 0: not settled yet
+    int frames, timings;     // in a timing, and in each place, on both sides; 0: not settled yet
     enum rg_outcome outcome; // why nothing more can be had of it; OK: it can
     char why[256];
     double seconds; // that it took

@@ -1,0 +1,72 @@
+#include "harness/compare/gate/run/pairs.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/base/alloc.h"
+#include "core/base/log.h"
+#include "harness/console/exit.h"
+#include "harness/devices/names.h"
+#include "harness/devices/workers/worker.h"
+
+static bool copy_name(const char *from, char to[RG_DEVICE_NAME_SIZE])
+{
+    struct rg_device_name name;
+    if (!rg_device_name_read(&from, &name))
+        return false;
+    if (*from)
+        return rg_error("gate: '%s,%s' are two devices; name one", name.name, from);
+    snprintf(to, RG_DEVICE_NAME_SIZE, "%s", name.name);
+    return true;
+}
+
+bool rg_gate_pair_of(const char *a, const char *b, struct rg_gate_pair *pair)
+{
+    return copy_name(a, pair->names[RG_SIDE_A]) && copy_name(b, pair->names[RG_SIDE_B]);
+}
+
+static bool add(const char *program, const char *name, struct rg_gate_pairs *pairs)
+{
+    if (pairs->count == RG_MAX_DEVICES)
+        return rg_error("--device: more than %d names", RG_MAX_DEVICES);
+    struct rg_gate_pair *pair = &pairs->all[pairs->count++];
+    snprintf(pair->names[RG_SIDE_B], RG_DEVICE_NAME_SIZE, "%s", name);
+    return rg_device_name_with(name, RG_WORKER_PROGRAM, program, pair->names[RG_SIDE_A]);
+}
+
+static int add_listed(const char *program, struct rg_gate_pairs *pairs)
+{
+    struct rg_device_list *list = rg_alloc(1, sizeof(*list), "list of devices");
+    if (!list)
+        return RG_EXIT_FAIL;
+    rg_devices_list(list);
+    int exit = rg_devices_complain(list);
+    for (int i = 0; i < list->count && exit != RG_EXIT_USAGE; i++)
+        if (!add(program, list->infos[i].name, pairs))
+            exit = RG_EXIT_USAGE;
+    free(list);
+    return pairs->count || exit != RG_EXIT_PASS ? exit : RG_EXIT_UNSUPPORTED;
+}
+
+static int add_named(const char *program, const char *names, struct rg_gate_pairs *pairs)
+{
+    struct rg_device_name name;
+    do
+        if (!rg_device_name_read(&names, &name) || !add(program, name.name, pairs))
+            return RG_EXIT_USAGE;
+    while (*names);
+    return RG_EXIT_PASS;
+}
+
+int rg_gate_pairs_of_builds(const char *program, const char *names, struct rg_gate_pairs *pairs)
+{
+    *pairs = (struct rg_gate_pairs){0};
+    if (access(program, X_OK)) {
+        rg_error("--against '%s': no program that can be started; name another build's raingauge",
+                 program);
+        return RG_EXIT_USAGE;
+    }
+    return strcmp(names, "all") ? add_named(program, names, pairs) : add_listed(program, pairs);
+}

@@ -1,0 +1,24 @@
+// What a gate holds against what: devices by two.
+#ifndef RG_HARNESS_COMPARE_GATE_RUN_PAIRS_H
+#define RG_HARNESS_COMPARE_GATE_RUN_PAIRS_H
+
+#include "harness/compare/gate/run/sides.h"
+
+struct rg_gate_pair {
+    char names[RG_SIDES][RG_DEVICE_NAME_SIZE]; // as --device takes one device
+};
+
+struct rg_gate_pairs {
+    int count;
+    struct rg_gate_pair all[RG_MAX_DEVICES];
+};
+
+// Two devices. False, and one logged line, where a name is none.
+bool rg_gate_pair_of(const char *a, const char *b, struct rg_gate_pair *pair);
+
+// Each of the devices that `names` holds, with commas or "all", of another build and of this one:
+// `program` is the other's. Returns an enum rg_exit: usage where a name or the program is none, and
+// with "all" unsupported or fail where there is no device.
+int rg_gate_pairs_of_builds(const char *program, const char *names, struct rg_gate_pairs *pairs);
+
+#endif

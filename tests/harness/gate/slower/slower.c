@@ -1,0 +1,20 @@
+// raingauge with real work beside each frame that it times, on the thread that simulates and draws:
+// RG_EXTRA_LOOPS of work.h.
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "harness/console/interrupt.h"
+#include "tests/harness/gate/slower/work.h"
+
+bool __real_rg_interrupted(void);
+bool __wrap_rg_interrupted(void);
+
+// A session asks once a frame (harness/frames/local.c), within what is timed.
+bool __wrap_rg_interrupted(void)
+{
+    static long loops = -1;
+    if (loops < 0)
+        loops = getenv("RG_EXTRA_LOOPS") ? atol(getenv("RG_EXTRA_LOOPS")) : 0;
+    rg_test_work(loops);
+    return __real_rg_interrupted();
+}
