@@ -158,6 +158,7 @@ const struct rg_backend rg_backend_gl = {
     .image_clear = gl_image_clear,
     .pass_create = gl_pass_create,
     .pass_destroy = gl_pass_destroy,
+    .pass_code = gl_pass_code,
     .pass_run = gl_pass_run,
     .sync = gl_sync,
     .time = gl_time,

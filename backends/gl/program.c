@@ -59,6 +59,7 @@ static bool attach(const struct gl_device *device, const struct rg_kernel *kerne
 
 static bool link(const struct gl_device *device, const struct rg_kernel *kernel, GLuint program)
 {
+    glProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE); // gl_pass_code
     glLinkProgram(program);
     GLint linked = GL_FALSE;
     glGetProgramiv(program, GL_LINK_STATUS, &linked);

@@ -140,6 +140,7 @@ const struct rg_backend rg_backend_opencl = {
     .image_clear = opencl_image_clear,
     .pass_create = opencl_pass_create,
     .pass_destroy = opencl_pass_destroy,
+    .pass_code = opencl_pass_code,
     .pass_run = opencl_pass_run,
     .sync = opencl_sync,
     .time = opencl_time,

@@ -27,6 +27,37 @@ struct rg_pass *opencl_pass_create(struct rg_device *device, const struct rg_ker
     return NULL;
 }
 
+// Appends a kernel's program, built for the context's one device.
+static bool append_program(cl_kernel kernel, unsigned char **bytes, size_t *size)
+{
+    cl_program program;
+    size_t more = 0;
+    if (clGetKernelInfo(kernel, CL_KERNEL_PROGRAM, sizeof(program), &program, NULL) ||
+        clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof(more), &more, NULL) || !more)
+        return false;
+    unsigned char *longer = realloc(*bytes, *size + more);
+    if (!longer)
+        return false;
+    *bytes = longer;
+    longer += *size;
+    *size += more;
+    return !clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof(longer), &longer, NULL);
+}
+
+void *opencl_pass_code(struct rg_pass *pass, size_t *size)
+{
+    const struct opencl_pass *opencl = (const struct opencl_pass *)pass;
+    unsigned char *bytes = NULL;
+    bool ok = true;
+    *size = 0;
+    for (int i = 0; ok && i < OPENCL_VARIANTS; i++)
+        ok = !opencl->variants[i] || append_program(opencl->variants[i], &bytes, size);
+    if (ok)
+        return bytes;
+    free(bytes);
+    return NULL;
+}
+
 // The arguments of shaders/grid.cl, in its order. Drivers take about 20 ns for each.
 static cl_int set_arguments(cl_kernel kernel, const struct rg_kernel *info,
                             const struct rg_run *run)

@@ -159,6 +159,7 @@ const struct rg_backend rg_backend_vulkan = {
     .image_clear = vk_image_clear,
     .pass_create = vk_pass_create,
     .pass_destroy = vk_pass_destroy,
+    .pass_code = vk_pass_code,
     .pass_run = vk_pass_run,
     .sync = vk_sync,
     .time = vk_time,

@@ -48,6 +48,21 @@ void vk_pass_destroy(struct rg_pass *pass)
     destroy((struct vk_device *)pass->device, (struct vk_pass *)pass);
 }
 
+// A cache begins with a header of the driver's, which tells one build of it from another.
+void *vk_pass_code(struct rg_pass *pass, size_t *size)
+{
+    const VkDevice device = ((struct vk_device *)pass->device)->handle;
+    const VkPipelineCache cache = ((struct vk_pass *)pass)->cache;
+    void *bytes = NULL;
+    *size = 0;
+    if (vkGetPipelineCacheData(device, cache, size, NULL) == VK_SUCCESS && *size)
+        bytes = malloc(*size);
+    if (bytes && vkGetPipelineCacheData(device, cache, size, bytes) == VK_SUCCESS)
+        return bytes;
+    free(bytes);
+    return NULL;
+}
+
 // --- running ---
 
 // Gets a batch with room for one more run.

@@ -45,8 +45,8 @@ static bool create_pipeline(struct vk_device *device, const struct rg_kernel *ke
                   .pName = "main"},
         .layout = pass->layout,
     };
-    bool ok = vk_try("kernel", kernel->name, vkCreateComputePipelines, device->handle,
-                     VK_NULL_HANDLE, 1, &info, NULL, &pass->pipeline);
+    bool ok = vk_try("kernel", kernel->name, vkCreateComputePipelines, device->handle, pass->cache,
+                     1, &info, NULL, &pass->pipeline);
     vkDestroyShaderModule(device->handle, module, NULL);
     if (ok)
         vk_name(device, VK_OBJECT_TYPE_PIPELINE, VK_HANDLE(pass->pipeline), kernel->name);
@@ -64,6 +64,11 @@ static bool create_drawing(struct vk_device *device, const struct rg_kernel *ker
 bool vk_program_create(struct vk_device *device, const struct rg_kernel *kernel,
                        struct vk_pass *pass)
 {
+    static const VkPipelineCacheCreateInfo empty = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+    if (!vk_try("kernel", kernel->name, vkCreatePipelineCache, device->handle, &empty, NULL,
+                &pass->cache))
+        return false;
     return kernel->draw ? create_drawing(device, kernel, pass)
                         : create_pipeline(device, kernel, pass);
 }
@@ -81,6 +86,7 @@ static void destroy_drawing(struct vk_device *device, struct vk_drawing *drawing
 void vk_program_destroy(struct vk_device *device, struct vk_pass *pass)
 {
     vkDestroyPipeline(device->handle, pass->pipeline, NULL);
+    vkDestroyPipelineCache(device->handle, pass->cache, NULL);
     if (pass->drawing)
         destroy_drawing(device, pass->drawing);
 }

@@ -123,6 +123,7 @@ struct vk_pass {
     VkDescriptorSetLayout set_layout;
     VkPipelineLayout layout;
     VkDescriptorUpdateTemplate update; // from union vk_descriptor[RG_MAX_SLOTS]
+    VkPipelineCache cache;             // of its pipelines, for vk_pass_code
     VkPipeline pipeline;               // of a GRID kernel
     struct vk_drawing *drawing;        // of a DRAW program
     size_t params_bytes;
@@ -286,6 +287,7 @@ void vk_queries_close(struct vk_device *device);
 // pass.c
 struct rg_pass *vk_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
 void vk_pass_destroy(struct rg_pass *pass);
+void *vk_pass_code(struct rg_pass *pass, size_t *size);
 bool vk_pass_run(struct rg_pass *pass, const struct rg_run *run);
 
 // time.c

@@ -92,6 +92,17 @@ static bool tell_time(struct rg_session *session, int64_t *time_ns)
     return rg_device_time(session->device, time_ns);
 }
 
+static bool tell_code(struct rg_session *session, struct rg_session_code *code)
+{
+    const struct rg_instance *instance = session->instance;
+    *code = (struct rg_session_code){.libraries = rg_libraries_hash()};
+    rg_program_id(code->program);
+    for (int i = 0; i < instance->stage_count; i++)
+        if (instance->stages[i].owns_pass)
+            rg_pass_code(instance->stages[i].pass, &code->passes);
+    return true;
+}
+
 // --- its picture, its state, and what it tells of itself ---
 
 static void *read_picture(struct rg_session *session, size_t *size)
@@ -158,6 +169,7 @@ const struct rg_session_ways rg_local_session = {
     .count = count,
     .stages = time_stages,
     .time = tell_time,
+    .code = tell_code,
     .read = read_picture,
     .tell = tell,
     .read_state = read_state,

@@ -131,6 +131,20 @@ static bool tell_time(struct rg_session *session, int64_t *time_ns)
     return finish(&reply, ok);
 }
 
+static bool tell_code(struct rg_session *session, struct rg_session_code *code)
+{
+    struct rg_message reply;
+    const bool ok = call(session, RG_CALL_CODE, NULL, &reply);
+    *code = (struct rg_session_code){.libraries = 0};
+    if (ok) {
+        snprintf(code->program, sizeof(code->program), "%s", rg_take_text(&reply));
+        RG_TAKE(&reply, code->libraries);
+        RG_TAKE(&reply, code->passes.hash);
+        code->passes.bytes = rg_take_int(&reply);
+    }
+    return finish(&reply, ok);
+}
+
 // --- its picture, its state, and what it tells of itself ---
 
 // The bytes of a reply's block, of the size that is due where that is not 0; NULL where they fail.
@@ -248,6 +262,7 @@ const struct rg_session_ways rg_remote_session = {
     .count = count,
     .stages = time_stages,
     .time = tell_time,
+    .code = tell_code,
     .read = read_picture,
     .tell = tell,
     .read_state = read_state,

@@ -96,6 +96,11 @@ bool rg_session_time(struct rg_session *session, int64_t *time_ns)
     return session->ways->time(session, time_ns);
 }
 
+bool rg_session_code(struct rg_session *session, struct rg_session_code *code)
+{
+    return session->ways->code(session, code);
+}
+
 // --- its picture ---
 
 void *rg_session_read(struct rg_session *session, size_t *size)

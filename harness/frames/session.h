@@ -51,6 +51,9 @@ bool rg_session_stages(struct rg_session *session,
 // The API's own clock (rg_device_time).
 bool rg_session_time(struct rg_session *session, int64_t *time_ns);
 
+// The code that runs for it, once it has drawn.
+bool rg_session_code(struct rg_session *session, struct rg_session_code *code);
+
 // --- its picture ---
 
 // The target's texels as the device holds them: *size bytes, which the caller frees.

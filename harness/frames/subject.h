@@ -2,7 +2,9 @@
 #ifndef RG_HARNESS_FRAMES_SUBJECT_H
 #define RG_HARNESS_FRAMES_SUBJECT_H
 
+#include "core/device/pass.h"
 #include "core/techniques/technique.h"
+#include "harness/record/passport/program.h"
 
 // What is opened, and for how large an image. Nothing in it is owned.
 struct rg_subject {
@@ -18,6 +20,13 @@ struct rg_account {
     struct rg_counter counters[RG_MAX_COUNTERS];
     int fact_count;
     struct rg_fact facts[RG_MAX_FACTS];
+};
+
+// What runs for an instance: equal where the same code does. It is told of, and decides nothing.
+struct rg_session_code {
+    char program[RG_PROGRAM_ID_SIZE]; // raingauge itself
+    uint64_t libraries;               // drivers among them
+    struct rg_pass_code passes; // what the driver's compiler has made, as the API hands it out
 };
 
 #endif

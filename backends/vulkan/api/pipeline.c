@@ -112,7 +112,7 @@ static bool create_pipeline(struct vk_device *device, struct vk_pass *pass, cons
     info.layout = pass->layout;
     info.renderPass = vk_render_pass(device, look->target, name);
     if (!info.renderPass || !vk_try("kernel", name, vkCreateGraphicsPipelines, device->handle,
-                                    VK_NULL_HANDLE, 1, &info, NULL, pipeline)) {
+                                    pass->cache, 1, &info, NULL, pipeline)) {
         *pipeline = VK_NULL_HANDLE;
         return false;
     }

@@ -29,6 +29,7 @@ int rg_serving(const char *argument)
         [RG_CALL_COUNT] = rg_serve_count,
         [RG_CALL_STAGES] = rg_serve_stages,
         [RG_CALL_TIME] = rg_serve_time,
+        [RG_CALL_CODE] = rg_serve_code,
         [RG_CALL_READ] = rg_serve_read,
         [RG_CALL_TELL] = rg_serve_tell,
         [RG_CALL_READ_STATE] = rg_serve_read_state,

@@ -143,6 +143,19 @@ bool rg_serve_time(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
+bool rg_serve_code(struct rg_message *request, struct rg_message *reply)
+{
+    struct rg_session *session = take_session(request);
+    struct rg_session_code code;
+    if (!session || !rg_session_code(session, &code))
+        return false;
+    rg_put_text(reply, code.program);
+    RG_PUT(reply, code.libraries);
+    RG_PUT(reply, code.passes.hash);
+    rg_put_int(reply, code.passes.bytes);
+    return true;
+}
+
 // --- its picture, its state, and what it tells of itself ---
 
 bool rg_serve_read(struct rg_message *request, struct rg_message *reply)

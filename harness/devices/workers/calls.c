@@ -19,6 +19,7 @@ const char *rg_call_doing(enum rg_call call)
         [RG_CALL_COUNT] = "counting a frame's work",
         [RG_CALL_STAGES] = "timing a frame's passes",
         [RG_CALL_TIME] = "asking for the device's time",
+        [RG_CALL_CODE] = "telling of its code",
         [RG_CALL_READ] = "reading the picture",
         [RG_CALL_TELL] = "telling of a technique",
         [RG_CALL_READ_STATE] = "reading the state",

@@ -22,6 +22,7 @@ enum rg_call {
     RG_CALL_COUNT,
     RG_CALL_STAGES,
     RG_CALL_TIME,
+    RG_CALL_CODE,
     RG_CALL_READ,
     RG_CALL_TELL,
     RG_CALL_READ_STATE,

@@ -4,6 +4,7 @@
 #include <link.h>
 #include <stdio.h>
 #include <string.h>
+#include <xxhash.h>
 
 static size_t padded(size_t size)
 {
@@ -26,19 +27,48 @@ static void read_notes(const char *notes, size_t size, char id[RG_PROGRAM_ID_SIZ
     }
 }
 
-// The program is the first that is told of.
-static int read_program(struct dl_phdr_info *info, size_t size, void *id)
+static void read_object(const struct dl_phdr_info *info, char id[RG_PROGRAM_ID_SIZE])
 {
-    (void)size;
     for (int i = 0; i < info->dlpi_phnum; i++)
         if (info->dlpi_phdr[i].p_type == PT_NOTE)
             read_notes((const char *)(info->dlpi_addr + info->dlpi_phdr[i].p_vaddr),
                        info->dlpi_phdr[i].p_memsz, id);
+}
+
+// The program is the first that is told of.
+static int read_program(struct dl_phdr_info *info, size_t size, void *id)
+{
+    (void)size;
+    read_object(info, id);
     return 1;
+}
+
+struct libraries {
+    int count; // the program included
+    uint64_t hash;
+};
+
+// A sum, for their order says nothing.
+static int add_library(struct dl_phdr_info *info, size_t size, void *user)
+{
+    (void)size;
+    struct libraries *all = user;
+    char id[RG_PROGRAM_ID_SIZE] = "";
+    if (all->count++)
+        read_object(info, id);
+    all->hash += XXH3_64bits(id, strlen(id));
+    return 0;
 }
 
 void rg_program_id(char id[RG_PROGRAM_ID_SIZE])
 {
     snprintf(id, RG_PROGRAM_ID_SIZE, "unknown");
     dl_iterate_phdr(read_program, id);
+}
+
+uint64_t rg_libraries_hash(void)
+{
+    struct libraries all = {0};
+    dl_iterate_phdr(add_library, &all);
+    return all.hash;
 }

@@ -2,11 +2,16 @@
 #ifndef RG_HARNESS_RECORD_PASSPORT_PROGRAM_H
 #define RG_HARNESS_RECORD_PASSPORT_PROGRAM_H
 
+#include <stdint.h>
+
 enum { RG_PROGRAM_ID_SIZE = 129 };
 
 // The linker's build id, in hexadecimal digits: a hash of the program, so that any change gives
 // another one. A commit's name with "-dirty" would stay the same. "unknown" where the linker left
 // no build id.
 void rg_program_id(char id[RG_PROGRAM_ID_SIZE]);
+
+// A hash of the build ids of the libraries that are loaded now, drivers among them.
+uint64_t rg_libraries_hash(void);
 
 #endif

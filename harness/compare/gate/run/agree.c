@@ -161,6 +161,14 @@ static void name_first_stage(struct pair *p)
         snprintf(p->found->details, RG_AGREEMENT_TEXT, "%s", blame.text);
 }
 
+static bool tell_code(struct pair *p, struct rg_session_code code[RG_SIDES])
+{
+    bool ok = true;
+    for (int side = 0; ok && side < RG_SIDES; side++)
+        ok = rg_session_code(p->sessions[side], &code[side]);
+    return ok;
+}
+
 void rg_gate_agree(const struct rg_gate_cell *cell, struct rg_side sides[RG_SIDES],
                    struct rg_agreement *agreement)
 {
@@ -176,6 +184,8 @@ void rg_gate_agree(const struct rg_gate_cell *cell, struct rg_side sides[RG_SIDE
     }
     ok = ok && have_alike_pictures(&p) && (!owe_bits(&p) || have_alike_states(&p)) &&
          have_alike_counters(&p) && do_alike_work(&p);
+    if (ok || agreement->outcome == RG_FAIL)
+        agreement->has_code = tell_code(&p, agreement->code);
     for (int side = 0; side < RG_SIDES; side++)
         rg_session_close(p.sessions[side]);
     if (agreement->outcome == RG_FAIL)

@@ -4,6 +4,7 @@
 
 #include "harness/compare/gate/cells/cells.h"
 #include "harness/compare/gate/run/sides.h"
+#include "harness/frames/session.h"
 
 enum { RG_AGREEMENT_TEXT = 640 };
 
@@ -12,6 +13,8 @@ struct rg_agreement {
     const char *device;      // the side that it is about, where one alone failed; NULL: both
     char message[RG_AGREEMENT_TEXT]; // why, one line; "" where they agree
     char details[RG_AGREEMENT_TEXT]; // the first stage that left other bits; ""
+    bool has_code;
+    struct rg_session_code code[RG_SIDES];
     double pixels,
         difference; // that differ, and the most a channel of them does; NAN: not compared
 };

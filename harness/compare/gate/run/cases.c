@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 // --- endings ---
 
@@ -88,13 +89,30 @@ static void put_times(const struct rg_gate_case *c, enum rg_ending ending, char 
         snprintf(text, size, "%s", c->times.why);
 }
 
-static void put_details(const struct rg_gate_case *c, char *text, size_t size)
+// Which code ran on both sides. It explains a verdict, and never makes one.
+static void put_code(const struct rg_gate_case *c, char *text, size_t size)
+{
+    const struct rg_session_code *a = &c->agreement.code[RG_SIDE_A];
+    const struct rg_session_code *b = &c->agreement.code[RG_SIDE_B];
+    const bool program = !strcmp(a->program, b->program), libraries = a->libraries == b->libraries,
+               passes = a->passes.hash == b->passes.hash;
+    const bool is_found =
+        c->is_timed && c->row.decision.units && c->row.decision.verdict > RG_TWO_PASS;
+    char handed[120] = "the API hands out no compiled passes";
+    if (b->passes.bytes)
+        snprintf(handed, sizeof(handed), "compiled passes %08x and %08x, %lld bytes",
+                 (unsigned)(a->passes.hash >> 32), (unsigned)(b->passes.hash >> 32),
+                 (long long)b->passes.bytes);
+    snprintf(text, size, "%s program, %s libraries; %s%s", program ? "the same" : "another",
+             libraries ? "the same" : "other", handed,
+             is_found && program && libraries && passes
+                 ? ": it is the same code, so look at threads, clocks and memory"
+                 : "");
+}
+
+static void put_decision(const struct rg_gate_case *c, char *text, size_t size)
 {
     const struct rg_gate_decision *d = &c->row.decision;
-    if (!c->is_timed || !d->units) {
-        snprintf(text, size, "%s", c->agreement.details);
-        return;
-    }
     snprintf(
         text, size,
         "%d launches%s, %d disturbed; a launch scatters by %.1f %%; shift %.4f\n"
@@ -102,6 +120,20 @@ static void put_details(const struct rg_gate_case *c, char *text, size_t size)
         c->row.launches, d->is_grouped ? ", counted in groups, for they follow each other" : "",
         c->row.disturbed, 100 * expm1(d->spread), d->shift, 100 * rg_gate_power(&c->rule, d, 0.02),
         100 * rg_gate_power(&c->rule, d, 0.03), 100 * rg_gate_power(&c->rule, d, 0.05));
+}
+
+static void put_details(const struct rg_gate_case *c, char *text, size_t size)
+{
+    if (c->is_timed && c->row.decision.units)
+        put_decision(c, text, size);
+    else
+        snprintf(text, size, "%s", c->agreement.details);
+    const size_t used = strlen(text);
+    if (!c->agreement.has_code || used + 1 >= size)
+        return;
+    if (used)
+        text[used] = '\n';
+    put_code(c, text + used + !!used, size - used - !!used);
 }
 
 static void put_message(const struct rg_gate_case *c, enum rg_met met, enum rg_ending ending,

@@ -95,20 +95,21 @@ static void settle(struct rg_timed_cell *timed, double frame_ms)
         (int)fmin(fmax(ceil(PLACE_MS / (timed->frames * frame_ms)), LEAST_TIMINGS), MOST_TIMINGS);
 }
 
-// Frames that are not timed, for drivers compile in the first. By the faster side is settled how
-// many are timed, the same on both.
+// Frames that are not timed, for drivers compile in the first. By both sides' mean is settled how
+// many are timed, the same on both: as a ratio, so that neither a slow one takes for ever nor a
+// fast one is too short for the clock.
 static bool warm_up(struct rg_timed_cell *timed, struct rg_session *sessions[RG_SIDES])
 {
-    double fastest_ms = INFINITY;
+    double product = 1;
     for (int side = 0; side < RG_SIDES; side++) {
         double ms;
         if (!rg_session_frames(sessions[side], 1, &ms) ||
             !rg_session_frames(sessions[side], 2, &ms))
             return false;
-        fastest_ms = fmin(fastest_ms, ms / 2);
+        product *= ms / 2;
     }
     if (!timed->frames)
-        settle(timed, fastest_ms);
+        settle(timed, sqrt(product));
     return true;
 }
 
