@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "harness/doctor/report.h"
+#include "harness/record/passport/key.h"
+#include "harness/record/passport/passport.h"
 
 enum { WIDTH = 100, LABEL = 14, COLUMN = 14, COLUMNS = (WIDTH - LABEL) / COLUMN };
 
@@ -65,6 +67,7 @@ static void print_machine(const json_t *machine)
              string_of(machine, "cores_list"), quota,
              (double)json_integer_value(json_object_get(machine, "memory_bytes")) / (1 << 30));
     print_field("cores", text);
+    print_field("clocks", string_of(machine, "clocks"));
     snprintf(text, sizeof(text), "%s, %s", string_of(machine, "kernel"),
              string_of(machine, "distribution"));
     print_field("system", text);
@@ -151,7 +154,20 @@ static void print_arithmetic(const struct rg_examination *e)
     }
 }
 
-static void print_device(const struct rg_examination *e)
+// What times on the device are bound to.
+static void print_key(const json_t *passport, const struct rg_device_info *info)
+{
+    char key[RG_KEY_SIZE], of[RG_KEY_TEXT], text[RG_KEY_SIZE + RG_KEY_TEXT + 8];
+    json_t *device = rg_passport_device(info), *parts = rg_key_parts(passport, device);
+    rg_key_hash(parts, key);
+    rg_key_text(parts, of);
+    snprintf(text, sizeof(text), "%s of %s", key, of);
+    print_field("key", text);
+    json_decref(parts);
+    json_decref(device);
+}
+
+static void print_device(const struct rg_examination *e, const json_t *passport)
 {
     char text[700];
     printf("\n%s\n", e->info.name);
@@ -161,6 +177,7 @@ static void print_device(const struct rg_examination *e)
         print_field("device", e->info.device);
         print_field("driver", e->info.driver);
         print_limits(&e->info.limits);
+        print_key(passport, &e->info);
     }
     if (e->probed)
         print_arithmetic(e);
@@ -237,7 +254,7 @@ void rg_doctor_print_text(const struct rg_doctor_report *report)
     json_t *warning;
     print_passport(report->passport);
     for (int d = 0; d < report->count; d++)
-        print_device(&report->examinations[d]);
+        print_device(&report->examinations[d], report->passport);
     print_builtin_table(report);
     if (report->list.missing_count)
         printf("\nmissing\n");

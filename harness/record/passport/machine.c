@@ -156,6 +156,41 @@ static void read_quota(struct rg_machine *machine, const char *root)
         fclose(file);
 }
 
+// --- clocks ---
+
+// What stands in the first line of a file; "" where it is not there.
+static const char *read_line(const char *root, const char *path, char line[64])
+{
+    *line = 0;
+    read_value(root, path, "", line, 64);
+    return line;
+}
+
+static void add_clock(struct rg_machine *machine, const char *text)
+{
+    const size_t used = strlen(machine->clocks);
+    snprintf(machine->clocks + used, sizeof(machine->clocks) - used, "%s%s", used ? ", " : "",
+             text);
+}
+
+// The first processor stands for all, and its highest clock is rounded to 0.1 GHz.
+static void read_clocks(struct rg_machine *machine, const char *root)
+{
+    char line[64], text[32];
+    if (*read_line(root, "/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor", line))
+        add_clock(machine, line);
+    const double khz =
+        atof(read_line(root, "/sys/devices/system/cpu/cpu0/cpufreq/scaling_max_freq", line));
+    if (khz > 0) {
+        snprintf(text, sizeof(text), "at most %.1f GHz", khz * 1e-6);
+        add_clock(machine, text);
+    }
+    if (*read_line(root, "/sys/devices/system/cpu/cpufreq/boost", line))
+        add_clock(machine, *line == '0' ? "boost off" : "boost on");
+    else if (*read_line(root, "/sys/devices/system/cpu/intel_pstate/no_turbo", line))
+        add_clock(machine, *line == '0' ? "boost on" : "boost off");
+}
+
 // --- GPUs and the system ---
 
 static int count_files(const char *root, const char *pattern)
@@ -195,6 +230,7 @@ void rg_machine_read(struct rg_machine *machine, const char *root)
                sizeof(machine->cores_list));
     machine->cores_allowed = rg_cpu_list_count(machine->cores_list);
     read_quota(machine, root);
+    read_clocks(machine, root);
     machine->gpu_nodes =
         count_files(root, "/dev/dri/renderD*") + count_files(root, "/dev/nvidia[0-9]*");
 }

@@ -7,7 +7,8 @@
 
 #include "backends/backend.h"
 
-// The passport of this process with these devices; the caller releases it. Holds nothing that
+// The passport of this process with these devices, each with its comparison key
+// (harness/record/passport/key.h); the caller releases it. Holds nothing that
 // changes from run to run on one machine (no clock frequencies, no load, no host name).
 json_t *rg_passport_json(const struct rg_device_info *infos, int count);
 

@@ -120,6 +120,22 @@ static void a_containers_quota_is_found(void **state)
     assert_true(read_machine().quota_cpus == 2);
 }
 
+// Only what bounds the clocks is told, however it is told.
+static void clocks_are_told(void **state)
+{
+    (void)state;
+    assert_string_equal(read_machine().clocks, "");
+    put("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor", "performance\n");
+    assert_string_equal(read_machine().clocks, "performance");
+    put("/sys/devices/system/cpu/cpu0/cpufreq/scaling_max_freq", "3590123\n");
+    put("/sys/devices/system/cpu/cpu0/cpufreq/scaling_cur_freq", "1200000\n");
+    assert_string_equal(read_machine().clocks, "performance, at most 3.6 GHz");
+    put("/sys/devices/system/cpu/intel_pstate/no_turbo", "1\n");
+    assert_string_equal(read_machine().clocks, "performance, at most 3.6 GHz, boost off");
+    put("/sys/devices/system/cpu/cpufreq/boost", "1\n");
+    assert_string_equal(read_machine().clocks, "performance, at most 3.6 GHz, boost on");
+}
+
 static void lists_are_counted(void **state)
 {
     (void)state;
@@ -138,7 +154,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_A_FOLDER(a_machine_is_read),           IN_A_FOLDER(an_empty_root_is_all_unknown),
         IN_A_FOLDER(version_2_quotas_are_found),  IN_A_FOLDER(version_1_quotas_are_found),
-        IN_A_FOLDER(a_containers_quota_is_found), cmocka_unit_test(lists_are_counted),
+        IN_A_FOLDER(a_containers_quota_is_found), IN_A_FOLDER(clocks_are_told),
+        cmocka_unit_test(lists_are_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,133 @@
+// What the comparison key of a device depends on, and what it does not.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "harness/record/passport/key.h"
+
+static json_t *make_passport(void)
+{
+    return json_pack(
+        "{s{ssssssss}s{sss[ss]sisisssnsssssssI}s{ssssss}}", "raingauge", "version", "0.1.0",
+        "commit", "0123", "compiler", "gcc 12.2.0", "type", "release", "machine", "cpu",
+        "Toy CPU @ 1.00GHz", "features", "avx2", "fma", "cores_online", 8, "cores_allowed", 4,
+        "cores_list", "0-3", "quota_cpus", "kernel", "Linux 6.1.0-18-amd64 x86_64", "distribution",
+        "Toy Linux 3", "clocks", "performance", "memory_bytes", (json_int_t)1 << 33, "environment",
+        "LP_NUM_THREADS", "2", "RG_KERNEL_DIR", "/tmp/kernels", "VK_DRIVER_FILES", "/tmp/a.json");
+}
+
+static json_t *make_device(void)
+{
+    return json_pack("{sssssssssb}", "name", "gl", "api", "OpenGL 4.5 core", "device",
+                     "llvmpipe (LLVM 15.0.6, 256 bits)", "driver", "Mesa 22.3.6", "software", 1);
+}
+
+// The key after one field is made another; without a path, as it is.
+static void key_with(const char *group, const char *field, json_t *value, char key[RG_KEY_SIZE])
+{
+    json_t *passport = make_passport(), *device = make_device();
+    if (field)
+        json_object_set_new(strcmp(group, "device") ? json_object_get(passport, group) : device,
+                            field, value);
+    json_t *parts = rg_key_parts(passport, device);
+    rg_key_hash(parts, key);
+    json_decref(parts);
+    json_decref(device);
+    json_decref(passport);
+}
+
+static void assert_changes(bool changes, const char *group, const char *field, json_t *value)
+{
+    char key[RG_KEY_SIZE], other[RG_KEY_SIZE];
+    key_with(NULL, NULL, NULL, key);
+    key_with(group, field, value, other);
+    assert_int_equal(strlen(key), 16);
+    if ((strcmp(key, other) != 0) != changes)
+        fail_msg("%s.%s: %s and %s", group, field, key, other);
+}
+
+static void what_speed_depends_on_changes_it(void **state)
+{
+    (void)state;
+    assert_changes(true, "machine", "cpu", json_string("Toy CPU @ 2.00GHz"));
+    assert_changes(true, "machine", "features", json_pack("[s]", "avx2"));
+    assert_changes(true, "machine", "cores_allowed", json_integer(2));
+    assert_changes(true, "machine", "quota_cpus", json_real(1.5));
+    assert_changes(true, "machine", "clocks", json_string("powersave"));
+    assert_changes(true, "machine", "kernel", json_string("Linux 6.1.0-20-amd64 x86_64"));
+    assert_changes(true, "raingauge", "compiler", json_string("clang 14.0.6"));
+    assert_changes(true, "raingauge", "type", json_string("debug"));
+    assert_changes(true, "environment", "LP_NUM_THREADS", json_string("1"));
+    assert_changes(true, "environment", "LP_NATIVE_VECTOR_WIDTH", json_string("128"));
+    assert_changes(true, "device", "api", json_string("OpenGL 4.6 core"));
+    assert_changes(true, "device", "device", json_string("llvmpipe (LLVM 16.0.0, 256 bits)"));
+    assert_changes(true, "device", "driver", json_string("Mesa 23.1.0"));
+}
+
+static void what_else_changes_does_not(void **state)
+{
+    (void)state;
+    assert_changes(false, "machine", "cpu", json_string("  Toy CPU   @ 1.00GHz "));
+    assert_changes(false, "machine", "cores_list", json_string("4-7"));
+    assert_changes(false, "machine", "cores_online", json_integer(16));
+    assert_changes(false, "machine", "memory_bytes", json_integer(1));
+    assert_changes(false, "machine", "distribution", json_string("Toy Linux 4"));
+    assert_changes(false, "raingauge", "commit", json_string("4567-dirty"));
+    assert_changes(false, "raingauge", "program", json_string("89ab"));
+    assert_changes(false, "environment", "RG_KERNEL_DIR", json_string("/tmp/others"));
+    assert_changes(false, "environment", "VK_DRIVER_FILES", json_string("/tmp/b.json"));
+    assert_changes(false, "environment", "HOME", json_string("/tmp"));
+    assert_changes(false, "device", "name", json_string("gl:0"));
+}
+
+// A quota that is a little another is the same to a tenth of a CPU.
+static void quotas_are_rounded(void **state)
+{
+    (void)state;
+    char one[RG_KEY_SIZE], near[RG_KEY_SIZE], other[RG_KEY_SIZE];
+    key_with("machine", "quota_cpus", json_real(1.5), one);
+    key_with("machine", "quota_cpus", json_real(1.52), near);
+    key_with("machine", "quota_cpus", json_real(1.6), other);
+    assert_string_equal(one, near);
+    assert_string_not_equal(one, other);
+}
+
+static void parts_are_told(void **state)
+{
+    (void)state;
+    char text[RG_KEY_TEXT];
+    json_t *passport = make_passport(), *device = make_device();
+    json_t *now = rg_key_parts(passport, device);
+    json_object_set_new(device, "driver", json_string("Mesa 21.0"));
+    json_object_set_new(json_object_get(passport, "machine"), "clocks", json_string(""));
+    json_t *then = rg_key_parts(passport, device);
+    rg_key_difference(now, then, text);
+    assert_string_equal(text,
+                        "clocks performance and not unknown; driver Mesa 22.3.6 and not Mesa 21.0");
+    rg_key_difference(now, now, text);
+    assert_string_equal(text, "");
+    rg_key_text(now, text);
+    assert_non_null(strstr(text, "cores 4; quota none; clocks performance; kernel Linux 6.1.0"));
+    assert_non_null(
+        strstr(text, "variables LP_NUM_THREADS=2; api OpenGL 4.5 core; device llvmpipe"));
+    json_decref(then);
+    json_decref(now);
+    json_decref(device);
+    json_decref(passport);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_speed_depends_on_changes_it),
+        cmocka_unit_test(what_else_changes_does_not),
+        cmocka_unit_test(quotas_are_rounded),
+        cmocka_unit_test(parts_are_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
