@@ -1,5 +1,6 @@
 #include "harness/compare/gate/decide/course.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
@@ -47,6 +48,25 @@ static void shuffle(struct gate *s)
 
 // --- verdicts ---
 
+static struct rg_gate_decision decide(const struct gate *s, int row)
+{
+    const struct row_course *c = &s->courses[row];
+    return s->source->before
+               ? rg_gate_decide_apart(s->rule, &s->source->before[row], c->logs, c->count)
+               : rg_gate_decide(s->rule, c->logs, c->count);
+}
+
+// Of times that were taken earlier, all.
+static struct rg_interval a_ms_of(const struct gate *s, int row)
+{
+    if (!s->source->before)
+        return rg_median(s->courses[row].times_ms[0], s->courses[row].count);
+    struct rg_gate_sample sample = s->source->before[row];
+    for (int i = 0; i < sample.count; i++)
+        sample.logs[i] = exp(sample.logs[i]);
+    return rg_median(sample.logs, sample.count);
+}
+
 static void end(struct gate *s, int row, enum rg_course_end why)
 {
     struct row_course *c = &s->courses[row];
@@ -57,7 +77,7 @@ static void end(struct gate *s, int row, enum rg_course_end why)
         found->decision.verdict = RG_TWO_INCONCLUSIVE;
     if (!c->count)
         return;
-    found->a_ms = rg_median(c->times_ms[0], c->count);
+    found->a_ms = a_ms_of(s, row);
     found->b_ms = rg_median(c->times_ms[1], c->count);
 }
 
@@ -75,7 +95,7 @@ static void look(struct gate *s, int row)
 {
     struct row_course *c = &s->courses[row];
     struct rg_gate_row *found = &s->rows[row];
-    found->decision = rg_gate_decide(s->rule, c->logs, c->count);
+    found->decision = decide(s, row);
     const enum rg_verdict_of_two verdict = found->decision.verdict;
     const bool is_last = c->look + 1 == s->rule->look_count;
     if (verdict == RG_TWO_INCONCLUSIVE && !is_last)
@@ -137,8 +157,7 @@ static void end_all(struct gate *s, enum rg_course_end why)
     for (int row = 0; row < s->rule->rows; row++) {
         if (s->courses[row].is_done)
             continue;
-        s->rows[row].decision =
-            rg_gate_decide(s->rule, s->courses[row].logs, s->courses[row].count);
+        s->rows[row].decision = decide(s, row);
         end(s, row, why);
     }
 }

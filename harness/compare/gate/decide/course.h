@@ -27,6 +27,9 @@ struct rg_quad_source {
     // follow from the times, which would be peeking. NULL: never.
     bool (*is_over)(void *user);
     void *user;
+    // Of each row, A's times that were taken earlier: then `take` takes B's alone, once, whatever
+    // b_first says, and the log is that of its time. NULL: both are taken in turn.
+    const struct rg_gate_sample *before;
 };
 
 // Why a row has no other verdict than inconclusive.

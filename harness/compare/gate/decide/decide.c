@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/compare/gate/decide/inside.h"
 #include "harness/record/stats.h"
 
 // Launches whose neighbours are this much alike, and more than those that are not linked are by
@@ -32,6 +33,16 @@ struct rg_gate_rule rg_gate_rule_of(int rows)
                                  .rows = rows,
                                  .look_count = 5,
                                  .looks = {16, 32, 64, 128, 256}};
+}
+
+struct rg_gate_rule rg_gate_rule_apart(int rows)
+{
+    return (struct rg_gate_rule){.is_apart = true,
+                                 .margin = 0.1,
+                                 .error = 0.01,
+                                 .rows = rows,
+                                 .look_count = 3,
+                                 .looks = {8, 16, 32}};
 }
 
 double rg_quad_log(const double a_ms[2], const double b_ms[2])
@@ -72,9 +83,7 @@ static double link_of(const double *logs, int count)
     return all > 0 ? linked / all : 0;
 }
 
-// Takes the means of pairs, until those that follow each other are no longer alike. What is left
-// over in the end is in none. Returns how many there are.
-static int group(double *logs, int count)
+int rg_gate_group(double *logs, int count)
 {
     while (count >= LEAST_LINKED && link_of(logs, count) > fmax(LINKED, BY_CHANCE / sqrt(count))) {
         count /= 2;
@@ -84,7 +93,7 @@ static int group(double *logs, int count)
     return count;
 }
 
-static double spread_of(const double *sorted, int count, double median)
+double rg_gate_spread(const double *sorted, int count, double median)
 {
     double away[RG_GATE_UNITS];
     for (int i = 0; i < count; i++)
@@ -124,34 +133,54 @@ static bool is_coarse(const double *logs, int count)
 
 // --- deciding ---
 
-// What each end of a look's interval may be wrong with.
-static double tail_of(const struct rg_gate_rule *rule)
+double rg_gate_tail(const struct rg_gate_rule *rule)
 {
     return rule->error / rule->rows / rule->look_count / 2;
+}
+
+// What the interval must exclude, and the median exceed.
+static double excluded(const struct rg_gate_rule *rule)
+{
+    return rule->is_apart ? log1p(rule->margin / 2) : 0;
+}
+
+static double worth(const struct rg_gate_rule *rule)
+{
+    return log1p(rule->is_apart ? rule->margin : rule->margin / 2);
 }
 
 static enum rg_verdict_of_two judge(const struct rg_gate_rule *rule, double median, double low,
                                     double high)
 {
-    const double margin = log1p(rule->margin), worth = log1p(rule->margin / 2);
-    if (low > 0 && median > worth)
+    const double margin = log1p(rule->margin);
+    if (low > excluded(rule) && median > worth(rule))
         return RG_TWO_REGRESSED;
-    if (high < 0 && median < -worth)
+    if (high < -excluded(rule) && median < -worth(rule))
         return RG_TWO_IMPROVED;
     return low > -margin && high < margin ? RG_TWO_PASS : RG_TWO_INCONCLUSIVE;
 }
 
-// A change is seen where the interval is above no change and the median above half of the margin.
-static double seen_from(const struct rg_gate_rule *rule, double error_of_median, double surety)
+// A change is seen where the interval is above what it must exclude, and the median is worth a
+// word.
+static double seen_from(const struct rg_gate_rule *rule, double error, double surety)
 {
-    const double by_interval = (exceeded_with(tail_of(rule)) + surety) * error_of_median;
-    const double by_worth = log1p(rule->margin / 2) + surety * error_of_median;
+    const double by_interval =
+        excluded(rule) + (exceeded_with(rg_gate_tail(rule)) + surety) * error;
+    const double by_worth = worth(rule) + surety * error;
     return fmax(by_interval, by_worth);
 }
 
-static double error_of(const struct rg_gate_decision *d)
+void rg_gate_conclude(const struct rg_gate_rule *rule, const struct rg_interval *of,
+                      struct rg_gate_decision *d)
 {
-    return OF_MEDIAN * d->spread / sqrt(d->units);
+    d->ratio = exp(of->median);
+    d->smallest = expm1(seen_from(rule, d->error, exceeded_with(0.05)));
+    if (isnan(of->low))
+        return;
+    d->low = exp(of->low);
+    d->high = exp(of->high);
+    if (!d->is_coarse)
+        d->verdict = judge(rule, of->median, of->low, of->high);
 }
 
 struct rg_gate_decision rg_gate_decide(const struct rg_gate_rule *rule, const double *logs,
@@ -164,26 +193,20 @@ struct rg_gate_decision rg_gate_decide(const struct rg_gate_rule *rule, const do
         return d;
     memcpy(sorted, logs, (size_t)taken * sizeof(*sorted));
     d.is_coarse = is_coarse(logs, taken);
-    d.units = group(sorted, taken);
+    d.units = rg_gate_group(sorted, taken);
     d.is_grouped = d.units < taken;
-    const struct rg_interval median = rg_median_at(sorted, d.units, tail_of(rule));
-    d.ratio = exp(median.median);
+    const struct rg_interval median = rg_median_at(sorted, d.units, rg_gate_tail(rule));
     d.shift = exp(shift_of(sorted, d.units));
-    d.spread = spread_of(sorted, d.units, median.median);
-    d.smallest = expm1(seen_from(rule, error_of(&d), exceeded_with(0.05)));
-    if (isnan(median.low))
-        return d;
-    d.low = exp(median.low);
-    d.high = exp(median.high);
-    if (!d.is_coarse)
-        d.verdict = judge(rule, median.median, median.low, median.high);
+    d.spread = rg_gate_spread(sorted, d.units, median.median);
+    d.error = OF_MEDIAN * d.spread / sqrt(d.units);
+    rg_gate_conclude(rule, &median, &d);
     return d;
 }
 
 double rg_gate_power(const struct rg_gate_rule *rule, const struct rg_gate_decision *d,
                      double change)
 {
-    const double error = error_of(d), least = seen_from(rule, error, 0);
+    const double error = d->error, least = seen_from(rule, error, 0);
     if (!(error > 0))
         return log1p(change) > least;
     return above((least - log1p(change)) / error);

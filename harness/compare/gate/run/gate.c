@@ -175,7 +175,7 @@ static bool measure(struct run *r, struct rg_gate_row *rows)
         .cells = r->timed,
         .end_ms = r->asked->budget_s > 0 ? rg_now_ms() + 1e3 * r->asked->budget_s : 0};
     const struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over,
-                                          &times};
+                                          &times, NULL};
     rule.margin = r->asked->margin;
     rule.error /= r->asked->pairs->count;
     if (!rg_course_run(&rule, &source, RG_COURSE_SEED, rows))

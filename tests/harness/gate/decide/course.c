@@ -73,7 +73,7 @@ static bool is_over(void *user)
 static void run(struct script *s, int rows, struct rg_gate_row *found)
 {
     const struct rg_gate_rule rule = rg_gate_rule_of(rows);
-    const struct rg_quad_source source = {launch, take, is_over, s};
+    const struct rg_quad_source source = {launch, take, is_over, s, NULL};
     state_of_chance = 5;
     assert_true(rg_course_run(&rule, &source, RG_COURSE_SEED, found));
 }
@@ -185,7 +185,7 @@ static void test_linked_noise(void **state)
     for (uint32_t i = 0; i < 300; i++) {
         double last = 0;
         struct rg_gate_row found;
-        const struct rg_quad_source source = {launch_any, take_linked, NULL, &last};
+        const struct rg_quad_source source = {launch_any, take_linked, NULL, &last, NULL};
         assert_true(rg_course_run(&rule, &source, i, &found));
         assert_int_not_equal(found.decision.verdict, RG_TWO_REGRESSED);
         assert_int_not_equal(found.decision.verdict, RG_TWO_IMPROVED);

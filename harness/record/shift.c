@@ -1,0 +1,58 @@
+#include "harness/record/shift.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PAIRS = RG_SHIFT_SAMPLES * RG_SHIFT_SAMPLES, HALF = PAIRS / 2 + 1 };
+
+// The probabilities that of all pairs of two samples alike, b is above a in exactly u, for each u
+// up to half of the pairs. The smallest value of all is one of a's, and all b's lie above it, or
+// one of b's, which lies above no a: so each follows from those of a sample less.
+static const double *distribution(int a_count, int b_count)
+{
+    static double of[RG_SHIFT_SAMPLES + 1][HALF]; // by the number of b's
+    const int half = a_count * b_count / 2 + 1;
+    for (int b = 0; b <= b_count; b++)
+        for (int u = 0; u < half; u++)
+            of[b][u] = u == 0;
+    for (int a = 1; a <= a_count; a++)
+        for (int b = 1; b <= b_count; b++)
+            for (int u = half - 1; u >= 0; u--)
+                of[b][u] = ((u >= b ? a * of[b][u - b] : 0) + b * of[b - 1][u]) / (a + b);
+    return of[b_count];
+}
+
+// The largest k with P(U < k) <= tail; 0 when there is none.
+static int outer_rank(int a_count, int b_count, double tail)
+{
+    const double *probability = distribution(a_count, b_count);
+    const int most = a_count * b_count / 2;
+    double below = 0;
+    int k = 0;
+    while (k < most && below + probability[k] <= tail)
+        below += probability[k++];
+    return k;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+struct rg_interval rg_shift(const double *a, int a_count, const double *b, int b_count, double tail)
+{
+    double differences[PAIRS];
+    const int pairs = a_count * b_count;
+    for (int i = 0; i < a_count; i++)
+        for (int j = 0; j < b_count; j++)
+            differences[i * b_count + j] = b[j] - a[i];
+    qsort(differences, (size_t)pairs, sizeof(*differences), ascending);
+    const int k = outer_rank(a_count, b_count, tail);
+    return (struct rg_interval){
+        .median = (differences[(pairs - 1) / 2] + differences[pairs / 2]) / 2,
+        .low = k ? differences[k - 1] : NAN,
+        .high = k ? differences[pairs - k] : NAN,
+    };
+}
