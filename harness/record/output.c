@@ -119,3 +119,14 @@ bool rg_output_write(const char *folder, const char *name, const char *text)
 {
     return rg_output_write_set(folder, &(struct rg_output_file){name, text}, 1);
 }
+
+bool rg_output_write_file(const char *path, const char *text)
+{
+    char folder[2048];
+    const char *slash = strrchr(path, '/');
+    const int length = slash ? (int)(slash - path) + 1 : 1;
+    if (length >= (int)sizeof(folder))
+        return rg_error("%.80s...: its name is too long", path);
+    snprintf(folder, sizeof(folder), "%.*s", length, slash ? path : ".");
+    return rg_output_write(folder, slash ? slash + 1 : path, text);
+}

@@ -22,6 +22,9 @@ bool rg_output_write_set(const char *folder, const struct rg_output_file *files,
 // last part is missing. False, with one logged line and nothing left behind, on failure.
 bool rg_output_write(const char *folder, const char *name, const char *text);
 
+// The same of a path, whose folder has to be there, or its last part be missing.
+bool rg_output_write_file(const char *path, const char *text);
+
 // Whether files of so many bytes can be written into a folder, as is found out before any work; one
 // that is not there can be made as below, and is not yet. False, and one logged line.
 bool rg_output_can_be_written(const char *folder, int64_t bytes);

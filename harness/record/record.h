@@ -81,6 +81,8 @@ struct rg_tally_field {
 };
 enum { RG_TALLY_FIELDS = 10 };
 extern const struct rg_tally_field rg_tally_fields[RG_TALLY_FIELDS];
+// An object of them; what a device cannot count is null. The caller owns it.
+json_t *rg_tally_json(const struct rg_tally *tally);
 
 // Ends the record with an outcome other than OK, for the reason `detail`. Returns false, so that a
 // caller can end with it.

@@ -17,9 +17,12 @@ static const double *distribution(int a_count, int b_count)
         for (int u = 0; u < half; u++)
             of[b][u] = u == 0;
     for (int a = 1; a <= a_count; a++)
-        for (int b = 1; b <= b_count; b++)
-            for (int u = half - 1; u >= 0; u--)
-                of[b][u] = ((u >= b ? a * of[b][u - b] : 0) + b * of[b - 1][u]) / (a + b);
+        for (int b = 1; b <= b_count; b++) {
+            const int most = a * b < half ? a * b : half - 1;
+            const double of_a = (double)a / (a + b), of_b = (double)b / (a + b);
+            for (int u = most; u >= 0; u--)
+                of[b][u] = (u >= b ? of_a * of[b][u - b] : 0) + of_b * of[b - 1][u];
+        }
     return of[b_count];
 }
 

@@ -15,6 +15,7 @@
            long     what verify prints, tables that are counted, set in a row or begun anew, an atlas that is not kept
            misbehaving  drivers that crash, hang, lie about their end or lose their device
            gates    one device held against another
+           baselines  a device held against what was kept of it
            shrinking  a driver that miscompiles: blamed, and shrunk to a case
            wrong    a driver that draws wrongly is found
            doctor   the report about this machine
@@ -30,6 +31,7 @@ import sys
 sys.dont_write_bytecode = True  # the sources' folder stays as it is
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "devices"))
 
+import baselines
 import cases
 import clips
 import doctor
@@ -56,6 +58,7 @@ SUITES = {
     "long": lambda runner: runner.check_all(results.LONG),
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
     "gates": lambda runner: runner.check_all(gates.CHECKS),
+    "baselines": lambda runner: runner.check_all(baselines.CHECKS),
     "shrinking": lambda runner: runner.check_all(shrinking.CHECKS),
     "wrong": lambda runner: runner.check_all(results.WRONG),
     "doctor": lambda runner: runner.check_all(doctor.CHECKS),

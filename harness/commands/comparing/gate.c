@@ -1,5 +1,5 @@
-// raingauge gate: whether one device is worse than another: other pictures, states or counters, or
-// slower by a margin.
+// raingauge gate: whether one device is worse than another, or than a baseline: other pictures,
+// states or counters, or slower by a margin.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +10,7 @@
 #include "core/base/memory.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
+#include "harness/compare/gate/baseline/against.h"
 #include "harness/compare/gate/report/gtest.h"
 #include "harness/compare/gate/run/gate.h"
 #include "harness/console/duration.h"
@@ -17,10 +18,11 @@
 #include "harness/record/output.h"
 
 struct gate_options {
-    char *against; // another build; NULL: two devices are named
-    char *devices; // of both builds
-    char *cells;   // a file; NULL: those that are built in
-    double margin_percent;
+    char *against;            // another build; NULL: two devices are named, or a baseline
+    char *baseline;           // a file; NULL: two sides run
+    char *devices;            // of both builds, or of the baseline
+    char *cells;              // a file; NULL: those that are built in
+    double margin_percent;    // 0: not given
     char *budget;             // "2m"; NULL: none
     struct rg_words known[3]; // files of expectations, of Mesa's fails, of Mesa's flakes
     struct rg_words skips;    // of Mesa's skips
@@ -43,6 +45,9 @@ static const struct rg_option options[] = {
      .about =
          "instead of A and B: devices of this build are held against those of another raingauge",
      .offset = AT(against), .names = RG_NAMES_FILE},
+    {RG_OPTION_TEXT, "baseline", .argument = "FILE",
+     .about = "instead of A and B: devices are held against what `raingauge baseline -o` wrote",
+     .offset = AT(baseline), .names = RG_NAMES_FILE, .excludes = "against"},
     RG_INCLUDE(rg_devices_option, AT(devices), NULL),
     {RG_OPTION_TEXT, "cells", .argument = "FILE",
      .about =
@@ -50,8 +55,9 @@ static const struct rg_option options[] = {
          "in",
      .offset = AT(cells), .names = RG_NAMES_FILE},
     {RG_OPTION_FACTOR, "margin", .argument = "PERCENT",
-     .about = "B is worse where its frames take longer by so much", .offset = AT(margin_percent),
-     .initial = "5", .most = 100},
+     .about = "B is worse where its frames take longer by so much; without it 5, and against a "
+              "baseline, since one run is as such faster than another, 10",
+     .offset = AT(margin_percent), .most = 100},
     {RG_OPTION_FLAG, "pictures",
      .about = "compares pictures, states and counters, and times nothing",
      .offset = AT(pictures_only), .excludes = "margin budget"},
@@ -111,6 +117,14 @@ static int today(void)
 
 // --- what is printed ---
 
+// What takes part: two sides by two, or a baseline.
+struct gate_input {
+    struct rg_gate_pairs pairs;
+    struct rg_baseline baseline;
+    struct rg_gate_cells cells;
+    struct rg_known known;
+};
+
 static bool add_names(const struct rg_gate_cells *cells, const char *device,
                       struct rg_report *report)
 {
@@ -124,15 +138,17 @@ static bool add_names(const struct rg_gate_cells *cells, const char *device,
     return ok;
 }
 
-static int list_cases(const struct rg_gate_cells *cells, const struct rg_gate_pairs *pairs,
-                      const char *filter)
+static int list_cases(const struct gate_options *o, const struct gate_input *in)
 {
     struct rg_report report = {.case_count = 0};
     bool ok = true;
-    for (int i = 0; ok && i < pairs->count; i++)
-        ok = add_names(cells, pairs->all[i].names[RG_SIDE_B], &report);
+    for (int i = 0; ok && i < in->pairs.count; i++)
+        ok = add_names(&in->cells, in->pairs.all[i].names[RG_SIDE_B], &report);
+    for (int i = 0; ok && i < in->baseline.device_count; i++)
+        ok = !rg_baseline_asks(o->devices, in->baseline.devices[i].name) ||
+             add_names(&in->cells, in->baseline.devices[i].name, &report);
     if (ok)
-        rg_gtest_list(stdout, &report, filter ? filter : "*");
+        rg_gtest_list(stdout, &report, o->filter ? o->filter : "*");
     rg_report_free(&report);
     return ok ? RG_EXIT_PASS : RG_EXIT_FAIL;
 }
@@ -160,6 +176,7 @@ static bool print_patches(const struct rg_known *known, const struct rg_gate *ga
 
 static bool print_text(const struct rg_known *known, const struct rg_gate *gate)
 {
+    fputs(gate->note ? gate->note : "", stdout);
     return rg_report_text(&gate->report, stdout) && print_patches(known, gate);
 }
 
@@ -198,22 +215,30 @@ static bool can_write(const struct gate_options *o)
            (!o->bmf || rg_output_file_can_be_written(o->bmf, REPORT_BYTES));
 }
 
-static int run(const struct gate_options *o, const struct rg_gate_pairs *pairs,
-               const struct rg_gate_cells *cells, const struct rg_known *known)
+static int run_either(const struct gate_options *o, const struct gate_input *in,
+                      struct rg_gate_request *request, struct rg_gate *gate)
+{
+    const double margin = o->baseline ? rg_gate_rule_apart(1).margin : rg_gate_rule_of(1).margin;
+    request->margin = o->margin_percent > 0 ? o->margin_percent / 100 : margin;
+    return o->baseline
+               ? rg_against_run(&(struct rg_against){request, &in->baseline, o->devices}, gate)
+               : rg_gate_run(request, gate);
+}
+
+static int run(const struct gate_options *o, const struct gate_input *in)
 {
     struct rg_gate gate = {.case_count = 0};
-    struct rg_gate_request request = {.pairs = pairs,
-                                      .cells = cells,
-                                      .known = known,
+    struct rg_gate_request request = {.pairs = &in->pairs,
+                                      .cells = &in->cells,
+                                      .known = &in->known,
                                       .today = today(),
-                                      .margin = o->margin_percent / 100,
                                       .pictures_only = o->pictures_only,
                                       .filter = o->filter};
     int exit = RG_EXIT_USAGE;
     if ((!o->budget || rg_duration_read(o->budget, "--budget", &request.budget_s)) &&
         can_write(o)) {
-        exit = rg_gate_run(&request, &gate);
-        if (exit != RG_EXIT_USAGE && exit < RG_EXIT_SIGNALLED && !print(o, known, &gate))
+        exit = run_either(o, in, &request, &gate);
+        if (exit != RG_EXIT_USAGE && exit < RG_EXIT_SIGNALLED && !print(o, &in->known, &gate))
             exit = rg_exit_worse(exit, RG_EXIT_FAIL);
     }
     rg_gate_free(&gate);
@@ -227,42 +252,54 @@ static int find_pairs(const struct gate_options *o, const struct rg_words *sides
 {
     if (o->against && !sides->count)
         return rg_gate_pairs_of_builds(o->against, o->devices ? o->devices : "all", pairs);
+    if (o->baseline && !sides->count)
+        return RG_EXIT_PASS;
     *pairs = (struct rg_gate_pairs){.count = 1};
-    if (o->devices && !o->against)
-        rg_error("gate: --device is of --against; name two devices alone");
-    else if (o->against || sides->count != 2)
+    if (o->devices && !o->against && !o->baseline)
+        rg_error("gate: --device is of --against and --baseline; name two devices alone");
+    else if (o->against || o->baseline || sides->count != 2)
         rg_error("gate: name two devices, the one that B is held against first, as in `raingauge "
-                 "gate cpu cpu@OMP_NUM_THREADS=1`, or another build by --against");
+                 "gate cpu cpu@OMP_NUM_THREADS=1`, or another build by --against, or a file by "
+                 "--baseline");
     else if (rg_gate_pair_of(sides->items[0], sides->items[1], &pairs->all[0]))
         return RG_EXIT_PASS;
     return RG_EXIT_USAGE;
 }
 
+static bool read_input(const struct gate_options *o, struct gate_input *in)
+{
+    return rg_gate_cells_read(o->cells, &in->cells) && read_known(o, &in->known) &&
+           (!o->baseline || (rg_baseline_read(&in->baseline, o->baseline) &&
+                             rg_baseline_fits(&in->baseline, o->baseline, &in->cells,
+                                              o->cells ? o->cells : "built-in cells", o->devices)));
+}
+
 static int gate(const void *values, const struct rg_words *arguments)
 {
     const struct gate_options *o = values;
-    struct rg_gate_cells cells = {.count = 0};
-    struct rg_known known = {.count = 0};
-    struct rg_gate_pairs pairs;
+    struct gate_input in = {.pairs = {.count = 0}};
     rg_memory_allow(o->memory_bytes);
     rg_workers.timeout_s = o->timeout_s;
-    int exit = find_pairs(o, arguments, &pairs);
-    if (exit == RG_EXIT_PASS && (!rg_gate_cells_read(o->cells, &cells) || !read_known(o, &known)))
+    int exit = find_pairs(o, arguments, &in.pairs);
+    if (exit == RG_EXIT_PASS && !read_input(o, &in))
         exit = RG_EXIT_USAGE;
     if (exit == RG_EXIT_PASS)
-        exit = o->list ? list_cases(&cells, &pairs, o->filter) : run(o, &pairs, &cells, &known);
-    rg_known_free(&known);
-    rg_gate_cells_free(&cells);
+        exit = o->list ? list_cases(o, &in) : run(o, &in);
+    rg_baseline_free(&in.baseline);
+    rg_known_free(&in.known);
+    rg_gate_cells_free(&in.cells);
     return exit;
 }
 
 const struct rg_command rg_command_gate = {
     .name = "gate",
-    .usage = "{A B | --against BINARY [--device D,...|all]} [--cells FILE] [--margin PERCENT] "
+    .usage = "{A B | {--against BINARY | --baseline FILE} [--device D,...|all]} [--cells FILE] "
+             "[--margin PERCENT] "
              "[--budget TIME] [--pictures] [--expectations "
              "FILE]... [--junit FILE] [--bmf FILE] [--github] [--json]",
     .about =
-        "tells whether device B is worse than A: other pictures, states or counters, or slower",
+        "tells whether device B is worse than A, or than a baseline: other pictures, states or "
+        "counters, or slower",
     .options = options,
     .options_size = sizeof(struct gate_options),
     .run = gate,

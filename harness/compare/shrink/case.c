@@ -43,17 +43,13 @@ static void write_text(FILE *out, const struct rg_case *c, const void *defaults,
 
 bool rg_case_write(const struct rg_case *c, const char *note, const char *path)
 {
-    char folder[RG_PATH_SIZE], *text = NULL;
+    char *text = NULL;
     size_t size;
-    const char *slash = strrchr(path, '/');
-    snprintf(folder, sizeof(folder), "%.*s", slash ? (int)(slash - path) + 1 : 1,
-             slash ? path : ".");
     void *defaults = rg_settings_create(c->run.subject.technique);
     FILE *out = defaults ? open_memstream(&text, &size) : NULL;
     if (out)
         write_text(out, c, defaults, note);
-    const bool ok =
-        out && fclose(out) == 0 && rg_output_write(folder, slash ? slash + 1 : path, text);
+    const bool ok = out && fclose(out) == 0 && rg_output_write_file(path, text);
     free(text);
     free(defaults);
     return ok;

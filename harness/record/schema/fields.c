@@ -25,9 +25,8 @@ bool rg_reader_refuse(struct rg_reader *reader, const char *field, const char *f
     va_end(args);
     const char *dot = *reader->place && *field ? "." : "";
     const char *space = *reader->place || *field ? " " : "";
-    snprintf(reader->why, reader->why_size,
-             "%.200s: %s%s%.48s%s%s; name a file as `raingauge table -o` writes it", reader->file,
-             reader->place, dot, field, space, what);
+    snprintf(reader->why, reader->why_size, "%.200s: %s%s%.48s%s%s; %s", reader->file,
+             reader->place, dot, field, space, what, reader->mend);
     return false;
 }
 
@@ -201,4 +200,22 @@ bool rg_field_counts(struct rg_reader *reader, const json_t *object, const char 
                      struct rg_count *counts, int most, int *count)
 {
     return read_list(reader, object, name, counts, sizeof(*counts), most, count, take_count);
+}
+
+bool rg_field_tally(struct rg_reader *reader, const json_t *object, const char *name,
+                    struct rg_tally *tally)
+{
+    char outer[sizeof(reader->place)];
+    const json_t *json = rg_field(reader, object, name, JSON_OBJECT);
+    bool ok = json != NULL;
+    memcpy(outer, reader->place, sizeof(outer));
+    rg_reader_enter(reader, "%.60s.%s", outer, name);
+    for (int i = 0; ok && i < RG_TALLY_FIELDS; i++) {
+        const struct rg_tally_field *field = &rg_tally_fields[i];
+        int64_t count;
+        ok = rg_field_count(reader, json, field->name, &count);
+        memcpy((char *)tally + field->offset, &count, sizeof(count));
+    }
+    memcpy(reader->place, outer, sizeof(outer));
+    return ok;
 }

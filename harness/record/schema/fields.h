@@ -7,10 +7,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "harness/record/named.h"
+#include "harness/record/record.h"
 
 struct rg_reader {
-    const char *file;
+    const char *file, *mend; // "name a file as `raingauge table -o` writes it"
     // Of the object that fields are read from: "cells[3].measured"; "": the document.
     char place[96];
     char *why; // receives the line
@@ -47,6 +47,10 @@ bool rg_field_number(struct rg_reader *reader, const json_t *object, const char 
 // A whole number that is not negative; -1 for null.
 bool rg_field_count(struct rg_reader *reader, const json_t *object, const char *name,
                     int64_t *value);
+
+// The counts of a tally.
+bool rg_field_tally(struct rg_reader *reader, const json_t *object, const char *name,
+                    struct rg_tally *tally);
 
 // An object whose fields are named values, or counts: at most `most` of them.
 bool rg_field_named(struct rg_reader *reader, const json_t *object, const char *name,

@@ -101,20 +101,9 @@ static bool read_truth_error(struct rg_reader *r, const json_t *cell, struct rg_
 
 static bool read_tally(struct rg_reader *r, const json_t *cell, struct rg_record *record)
 {
-    char cell_place[sizeof(r->place)];
     if (json_is_null(json_object_get(cell, "tally")))
         return true;
-    const json_t *json = rg_field(r, cell, "tally", JSON_OBJECT);
-    memcpy(cell_place, r->place, sizeof(cell_place));
-    rg_reader_enter(r, "%.60s.tally", cell_place);
-    record->has_tally = json != NULL;
-    for (int i = 0; record->has_tally && i < RG_TALLY_FIELDS; i++) {
-        const struct rg_tally_field *field = &rg_tally_fields[i];
-        int64_t count;
-        record->has_tally = rg_field_count(r, json, field->name, &count);
-        memcpy((char *)&record->tally + field->offset, &count, sizeof(count));
-    }
-    memcpy(r->place, cell_place, sizeof(cell_place));
+    record->has_tally = rg_field_tally(r, cell, "tally", &record->tally);
     return record->has_tally;
 }
 
@@ -233,7 +222,10 @@ bool rg_read_cells(struct rg_reader *r, const json_t *document, struct rg_result
 bool rg_result_from_json(const json_t *document, const char *file, struct rg_result *result,
                          char why[RG_WHY_SIZE])
 {
-    struct rg_reader reader = {.file = file, .why = why, .why_size = RG_WHY_SIZE};
+    struct rg_reader reader = {.file = file,
+                               .mend = "name a file as `raingauge table -o` writes it",
+                               .why = why,
+                               .why_size = RG_WHY_SIZE};
     *why = 0;
     if (rg_read_head(&reader, document, result) && rg_read_cells(&reader, document, result))
         return true;

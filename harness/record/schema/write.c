@@ -62,21 +62,6 @@ static json_t *error_json(const struct rg_truth_error *error)
                      "flip_mean", error->flip_mean, "max", error->max_codes);
 }
 
-// What this device cannot count is null.
-static json_t *tally_json(const struct rg_record *record)
-{
-    if (!record->has_tally)
-        return json_null();
-    json_t *json = json_object();
-    for (int i = 0; i < RG_TALLY_FIELDS; i++) {
-        const struct rg_tally_field *field = &rg_tally_fields[i];
-        int64_t count;
-        memcpy(&count, (const char *)&record->tally + field->offset, sizeof(count));
-        json_object_set_new(json, field->name, count < 0 ? json_null() : json_integer(count));
-    }
-    return json;
-}
-
 static json_t *cell_json(const struct rg_result *result, struct rg_place at)
 {
     const struct rg_record *record = rg_result_at(result, at);
@@ -89,7 +74,8 @@ static json_t *cell_json(const struct rg_result *result, struct rg_place at)
     json_object_set_new(json, "published",
                         rg_named_json(record->published, record->published_count));
     json_object_set_new(json, "counters", rg_counts_json(record->counters, record->counter_count));
-    json_object_set_new(json, "tally", tally_json(record));
+    json_object_set_new(json, "tally",
+                        record->has_tally ? rg_tally_json(&record->tally) : json_null());
     if (record->counted_count)
         json_object_set_new(json, "counted",
                             rg_counts_json(record->counted, record->counted_count));

@@ -5,6 +5,8 @@ TESTS = ("named", "held", "rows", "journal", "output", "stored", "damaged", "she
 
 TABLE = "harness/tables/measuring/measure.c"
 JOURNAL, STORED, NAMED = "harness/record/disk/journal.c", "harness/record/disk/stored.c", "harness/record/named.c"
+DOCUMENT, KEY = "harness/record/disk/document.c", "harness/record/passport/key.c"
+MACHINE, VARIABLES = "harness/record/passport/machine.c", "harness/record/passport/variables.c"
 OUTPUT, RESULT, RECORD = "harness/record/output.c", "harness/record/result.c", "harness/record/record.c"
 HOLD, REGENERATE, CLOCK = "harness/record/disk/hold.c", "harness/tables/runs/regenerate.c", "harness/console/clock.c"
 TEMPORARY, FIELDS = "core/image/files/temporary.c", "harness/record/schema/fields.c"
@@ -25,7 +27,7 @@ ROWS = [
     Fault(JOURNAL, "record->device = device;", "", "a row that is taken over has a device without limits"),
     Fault(JOURNAL, "*record = *rg_result_at(&journal->held, «at»);", "(struct rg_place){.work = at.work, .variant = at.variant}", "every row is taken over as the first"),
     Fault(FIELDS, "memcpy(text, json_string_value(value), length + 1);\n    «rg_plain(text);»", ";", "a stored text steers the terminal"),
-    Fault(STORED, "if («sealed == RG_SEAL_WHOLE» ||", "sealed != RG_SEAL_ABSENT", "a wrong checksum is taken for a right one"),
+    Fault(DOCUMENT, "if («sealed == RG_SEAL_WHOLE» ||", "sealed != RG_SEAL_ABSENT", "a wrong checksum is taken for a right one"),
     Fault(HOLD, "if (state && «*state == '/'»)", "true", "a relative state folder is followed"),
     Fault(HOLD, "if (length >= (int)size)\n        *folder = 0;", ";", "a state folder that is too long is cut"),
     Fault(HOLD, "return «!is_taken»;", "true", "two runs write into a folder at once", tests=("command line, losses",)),
@@ -33,9 +35,9 @@ ROWS = [
     Fault(REGENERATE, "for (int i = 0; «keeps» && i < made; i++)", "true", "a run whose state folder another holds keeps rows there", tests=("command line, losses",)),
     Fault(REGENERATE, "return «any_is_lost || rg_interrupted()»;", "rg_interrupted()", "what was measured is lost where the results cannot be written", tests=("command line, losses",)),
     Fault(CLOCK, "clock_gettime(«CLOCK_MONOTONIC», &now);", "CLOCK_REALTIME", "times are taken by a clock that can be set back", tests=("command line, losses",)),
-    Fault(STORED, "*at += strspn(text + *at, \" \\t\\r\\n\");", "", "line ends behind a document are taken for another"),
+    Fault(DOCUMENT, "*at += strspn(text + *at, \" \\t\\r\\n\");", "", "line ends behind a document are taken for another"),
     Fault(STORED, "return ends_in(entry->d_name, \".json\") || «ends_in(entry->d_name, \".journal\")»;", "false", "journals of a folder are not read"),
-    Fault(STORED, "for (const char *c = text; c < text + «*at»; c++)", "0", "a damaged document's line is counted from its own beginning"),
+    Fault(DOCUMENT, "for (const char *c = text; c < text + «*at»; c++)", "0", "a damaged document's line is counted from its own beginning"),
     Fault(STORED, "} while («at < size»);", "false", "the first document of a file alone is read"),
     Fault(NAMED, "return number == floor(number) && «fabs(number) < 9007199254740992.0»;", "true", "numbers that lost digits are written as whole"),
     Fault(NAMED, "if (!isfinite(number))\n        «return json_null();»", "return json_real(0);", "no number is written as 0"),
@@ -54,4 +56,10 @@ ROWS = [
     Fault(RECORD, "return «1000» / record->frame_ms.median;", "1", "frame rates are in frames a millisecond"),
     Fault(RECORD, "*low = most ? 1000 / *most : rg_record_published_fps(record);", "*low = rg_record_published_fps(record);", "a printed range has no low end"),
     Fault(RECORD, "for (int i = 0; i < record->sample_count; i++)\n        «settle(&record->samples_ms[i]);»", ";", "samples print otherwise once they are read back"),
+    Fault(KEY, "set(parts, \"clocks\", \"%s\", «text_of(machine, \"clocks\")»);", "\"\"", "times under other clocks are held against each other", tests=("key",)),
+    Fault(KEY, "if («*cpu != ' '» || (length", "true", "a CPU that one kernel pads with blanks is another", tests=("key",)),
+    Fault(KEY, "if («rg_variable_is_of_speed(name)» && used", "true", "another path to the same driver is another key", tests=("key",)),
+    Fault(KEY, "if («strcmp(is, was)» && used", "true", "parts that are the same are told as a difference", tests=("key",)),
+    Fault(VARIABLES, "return «rg_variables[i].is_of_speed»;", "false", "times with other threads are held against each other", tests=("key",)),
+    Fault(MACHINE, "add_clock(machine, «*line == '0'» ? \"boost on\" : \"boost off\");", "*line != '0'", "a processor that is kept from boosting is said to boost", tests=("machine",)),
 ]

@@ -47,7 +47,7 @@ struct rg_expectation {
     int64_t at[RG_FIELD_COUNT];         // their lines
     unsigned outcomes;                  // a bit, 1 << enum rg_outcome, for each that is expected
     struct rg_envelope pixels, difference; // where values[] has them
-    int since, until;                      // days (harness/compare/gate/text/date.h); INT_MAX: no end
+    int since, until; // days (harness/compare/gate/text/date.h); INT_MAX: no end
 };
 
 struct rg_known {

@@ -4,6 +4,19 @@
 #include <stdio.h>
 #include <string.h>
 
+const char *rg_gate_case_device(const struct rg_gate_case *c)
+{
+    return c->devices[c->device_count - 1];
+}
+
+void rg_gate_case_expect(struct rg_gate_case *c, const struct rg_gate_request *request,
+                         const struct rg_device *device)
+{
+    snprintf(c->driver, sizeof(c->driver), "%s", device ? device->info.driver : "");
+    c->expectation = rg_known_row(request->known, c->cell->name, rg_gate_case_device(c), c->driver);
+    c->is_skipped = rg_known_skips(request->known, c->expectation, request->today);
+}
+
 // --- endings ---
 
 static enum rg_ending ending_of_outcome(enum rg_outcome outcome)
@@ -113,13 +126,18 @@ static void put_code(const struct rg_gate_case *c, char *text, size_t size)
 static void put_decision(const struct rg_gate_case *c, char *text, size_t size)
 {
     const struct rg_gate_decision *d = &c->row.decision;
-    snprintf(
-        text, size,
-        "%d launches%s, %d disturbed; a launch scatters by %.1f %%; shift %.4f\n"
-        "a change would be found: 2 %% with %.0f %%, 3 %% with %.0f %%, 5 %% with %.0f %%",
-        c->row.launches, d->is_grouped ? ", counted in groups, for they follow each other" : "",
-        c->row.disturbed, 100 * expm1(d->spread), d->shift, 100 * rg_gate_power(&c->rule, d, 0.02),
-        100 * rg_gate_power(&c->rule, d, 0.03), 100 * rg_gate_power(&c->rule, d, 0.05));
+    const double paired[] = {0.02, 0.03, 0.05}, apart[] = {0.1, 0.15, 0.2};
+    const double *changes = c->rule.is_apart ? apart : paired;
+    int length = snprintf(text, size,
+                          "%d launches%s, %d disturbed; a launch scatters by %.1f %%; shift %.4f\n"
+                          "a change would be found:",
+                          c->row.launches,
+                          d->is_grouped ? ", counted in groups, for they follow each other" : "",
+                          c->row.disturbed, 100 * expm1(d->spread), d->shift);
+    for (int i = 0; i < 3; i++)
+        length +=
+            snprintf(text + length, size - (size_t)length, "%s %.0f %% with %.0f %%", i ? "," : "",
+                     100 * changes[i], 100 * rg_gate_power(&c->rule, d, changes[i]));
 }
 
 static void put_details(const struct rg_gate_case *c, char *text, size_t size)
@@ -139,12 +157,12 @@ static void put_details(const struct rg_gate_case *c, char *text, size_t size)
 static void put_message(const struct rg_gate_case *c, enum rg_met met, enum rg_ending ending,
                         char *text, size_t size)
 {
-    char own[RG_AGREEMENT_TEXT + 200] = "";
-    if (c->agreement.outcome != RG_OK)
-        snprintf(own, sizeof(own), "%s%s%s", c->agreement.device ? c->agreement.device : "",
-                 c->agreement.device ? ": " : "", c->agreement.message);
-    else if (c->is_timed)
-        put_times(c, ending, own, sizeof(own));
+    char own[RG_AGREEMENT_TEXT + 360], times[300] = "";
+    const char *device = c->agreement.device, *said = c->agreement.message;
+    if (c->agreement.outcome == RG_OK && c->is_timed)
+        put_times(c, ending, times, sizeof(times));
+    snprintf(own, sizeof(own), "%s%s%s%s%s", device ? device : "", device ? ": " : "", said,
+             *said && *times ? "; " : "", times);
     snprintf(text, size, "%s%s%s", met == RG_MET_NOTHING ? "" : rg_met_name(met),
              met != RG_MET_NOTHING && *own ? ": " : "", own);
 }
@@ -167,7 +185,7 @@ void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *req
                        struct rg_report_case *told, struct rg_known_result *result)
 {
     *result = (struct rg_known_result){.cell = c->cell->name,
-                                       .device = c->pair->names[RG_SIDE_B],
+                                       .device = rg_gate_case_device(c),
                                        .driver = c->driver,
                                        .outcome = c->agreement.outcome,
                                        .pixels = c->agreement.pixels,
@@ -178,12 +196,10 @@ void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *req
     const enum rg_ending ending = ending_of(c, met);
     put_message(c, met, ending, c->message, sizeof(c->message));
     put_details(c, c->details, sizeof(c->details));
-    for (int side = 0; side < RG_SIDES; side++)
-        c->devices[side] = c->pair->names[side];
     *told = (struct rg_report_case){.name = c->name,
                                     .technique = c->cell->technique->name,
                                     .devices = c->devices,
-                                    .device_count = RG_SIDES,
+                                    .device_count = c->device_count,
                                     .seconds = c->seconds,
                                     .ending = ending,
                                     .message = c->message,

@@ -8,10 +8,12 @@
 
 struct rg_gate_case {
     const struct rg_gate_cell *cell;
-    const struct rg_gate_pair *pair;
     char *name; // owned by the gate
     double seconds;
-    char driver[160];    // B's
+    // The sides, of which the last is held against what is before it, or against what was.
+    const char *devices[RG_SIDES];
+    int device_count;
+    char driver[160];    // the last one's
     int64_t expectation; // of request->known; -1: none
     bool is_skipped, is_compared, is_timed;
     struct rg_agreement agreement;
@@ -22,8 +24,13 @@ struct rg_gate_case {
     struct rg_timed_cell times;
     // What its case of a report points to.
     char message[RG_AGREEMENT_TEXT + 400], details[RG_AGREEMENT_TEXT + 400];
-    const char *devices[RG_SIDES];
 };
+
+// The device that a case is of.
+const char *rg_gate_case_device(const struct rg_gate_case *of);
+// Finds what is expected of it, with its device, which is NULL where it is not there.
+void rg_gate_case_expect(struct rg_gate_case *of, const struct rg_gate_request *request,
+                         const struct rg_device *device);
 
 // Fills in its case, which points into it and into the request, and what the expectations are held
 // against.

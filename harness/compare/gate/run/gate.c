@@ -25,6 +25,14 @@ char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
     return name;
 }
 
+bool rg_gate_set_passport(struct rg_gate *gate, const json_t *passport)
+{
+    char *text = passport ? json_dumps(passport, JSON_INDENT(1)) : NULL;
+    const bool ok = text && rg_report_set_passport(&gate->report, text);
+    free(text);
+    return ok;
+}
+
 // A gate while it runs.
 struct run {
     const struct rg_gate_request *asked;
@@ -41,7 +49,7 @@ struct run {
 
 // --- cells are chosen ---
 
-static bool is_chosen(const struct rg_gate_request *asked, const char *name)
+bool rg_gate_is_chosen(const struct rg_gate_request *asked, const char *name)
 {
     char gtest[RG_GTEST_NAME];
     rg_gtest_name(name, gtest);
@@ -52,9 +60,13 @@ static bool add_case(struct run *r, const struct rg_gate_cell *cell)
 {
     const struct rg_gate_request *asked = r->asked;
     char *name = rg_gate_case_name(cell, r->pair->names[RG_SIDE_B]);
-    if (name && is_chosen(asked, name))
+    if (name && rg_gate_is_chosen(asked, name))
         r->gate->cases[r->gate->case_count++] =
-            (struct rg_gate_case){.cell = cell, .pair = r->pair, .name = name, .expectation = -1};
+            (struct rg_gate_case){.cell = cell,
+                                  .name = name,
+                                  .devices = {r->pair->names[RG_SIDE_A], r->pair->names[RG_SIDE_B]},
+                                  .device_count = RG_SIDES,
+                                  .expectation = -1};
     else
         free(name);
     return name != NULL;
@@ -101,9 +113,7 @@ static bool launch_for(struct run *r, struct rg_gate_case *c)
 static bool set_passport(struct run *r)
 {
     json_t *json = rg_passport_json(r->infos, r->info_count);
-    char *text = json ? json_dumps(json, JSON_INDENT(1)) : NULL;
-    const bool ok = text && rg_report_set_passport(&r->gate->report, text);
-    free(text);
+    const bool ok = rg_gate_set_passport(r->gate, json);
     json_decref(json);
     return ok;
 }
@@ -140,20 +150,11 @@ static bool have_names(struct run *r)
     return ok;
 }
 
-static void find_expectation(struct run *r, struct rg_gate_case *c)
-{
-    const struct rg_device *b = r->sides[RG_SIDE_B].device;
-    snprintf(c->driver, sizeof(c->driver), "%s", b ? b->info.driver : "");
-    c->expectation =
-        rg_known_row(r->asked->known, c->cell->name, r->pair->names[RG_SIDE_B], c->driver);
-    c->is_skipped = rg_known_skips(r->asked->known, c->expectation, r->asked->today);
-}
-
 static void compare(struct run *r, struct rg_gate_case *c)
 {
     const double start_ms = rg_now_ms();
     const bool there = launch_for(r, c);
-    find_expectation(r, c);
+    rg_gate_case_expect(c, r->asked, r->sides[RG_SIDE_B].device);
     if (there && !c->is_skipped)
         rg_gate_agree(c->cell, r->sides, &c->agreement);
     c->seconds = (rg_now_ms() - start_ms) / 1000;
@@ -167,55 +168,54 @@ static void compare(struct run *r, struct rg_gate_case *c)
 
 // --- what agrees is timed ---
 
-static bool measure(struct run *r, struct rg_gate_row *rows)
+bool rg_gate_measure(struct rg_gate *gate, int first, const struct rg_gate_rule *rule,
+                     const struct rg_quad_source *source, const struct rg_timed_cell *timed)
 {
-    struct rg_gate_rule rule = rg_gate_rule_of(r->timed_count);
-    struct rg_gate_times times = {
-        .sides = r->sides,
-        .cells = r->timed,
-        .end_ms = r->asked->budget_s > 0 ? rg_now_ms() + 1e3 * r->asked->budget_s : 0};
-    const struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over,
-                                          &times, NULL};
-    rule.margin = r->asked->margin;
-    rule.error /= r->asked->pairs->count;
-    if (!rg_course_run(&rule, &source, RG_COURSE_SEED, rows))
-        return false;
-    for (int i = r->first_case; i < r->gate->case_count; i++) {
-        struct rg_gate_case *c = &r->gate->cases[i];
+    struct rg_gate_row *rows = rg_alloc((size_t)rule->rows, sizeof(*rows), "gate");
+    const bool ok = rows && rg_course_run(rule, source, RG_COURSE_SEED, rows);
+    for (int i = first; ok && i < gate->case_count; i++) {
+        struct rg_gate_case *c = &gate->cases[i];
         if (!c->is_timed)
             continue;
         c->row = rows[c->timed];
-        c->rule = rule;
-        c->times = r->timed[c->timed];
+        c->rule = *rule;
+        c->times = timed[c->timed];
         c->seconds += c->times.seconds;
     }
-    return true;
+    free(rows);
+    return ok;
 }
 
 static bool time_all(struct run *r)
 {
     if (!r->timed_count || rg_interrupted())
         return true;
-    struct rg_gate_row *rows = rg_alloc((size_t)r->timed_count, sizeof(*rows), "gate");
-    const bool ok = rows && measure(r, rows);
-    free(rows);
-    return ok;
+    struct rg_gate_rule rule = rg_gate_rule_of(r->timed_count);
+    struct rg_gate_times times = {
+        .sides = r->sides,
+        .cells = r->timed,
+        .end_ms = r->asked->budget_s > 0 ? rg_now_ms() + 1e3 * r->asked->budget_s : 0};
+    const struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over, &times,
+                                          NULL};
+    rule.margin = r->asked->margin;
+    rule.error /= r->asked->pairs->count;
+    return rg_gate_measure(r->gate, r->first_case, &rule, &source, r->timed);
 }
 
 // --- what came of it ---
 
-static bool report(struct run *r)
+bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
 {
     bool ok = true;
-    for (int i = 0; ok && i < r->gate->case_count; i++) {
+    for (int i = 0; ok && i < gate->case_count; i++) {
         struct rg_report_case told;
-        struct rg_gate_case *c = &r->gate->cases[i];
-        struct rg_known_result *result = &r->gate->results[r->gate->result_count];
-        rg_gate_case_tell(c, r->asked, &told, result);
-        r->gate->result_count += c->is_compared;
-        ok = rg_report_add(&r->gate->report, &told);
-        if (r->asked->tell)
-            r->asked->tell(&told, r->asked->user);
+        struct rg_gate_case *c = &gate->cases[i];
+        struct rg_known_result *result = &gate->results[gate->result_count];
+        rg_gate_case_tell(c, asked, &told, result);
+        gate->result_count += c->is_compared;
+        ok = rg_report_add(&gate->report, &told);
+        if (asked->tell)
+            asked->tell(&told, asked->user);
     }
     return ok;
 }
@@ -255,7 +255,7 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
     bool ok = make_room(&r) && set_passport(&r);
     for (int pair = 0; ok && pair < request->pairs->count && !rg_interrupted(); pair++)
         ok = run_pair(&r, pair);
-    ok = ok && (rg_interrupted() || report(&r));
+    ok = ok && (rg_interrupted() || rg_gate_report(request, gate));
     free(r.timed);
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
@@ -269,5 +269,6 @@ void rg_gate_free(struct rg_gate *gate)
         free(gate->cases[i].name);
     free(gate->cases);
     free(gate->results);
+    free(gate->note);
     *gate = (struct rg_gate){.results = NULL};
 }

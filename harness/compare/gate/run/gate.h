@@ -3,7 +3,11 @@
 #ifndef RG_HARNESS_COMPARE_GATE_RUN_GATE_H
 #define RG_HARNESS_COMPARE_GATE_RUN_GATE_H
 
+#include <jansson.h>
+
+#include "harness/compare/gate/decide/course.h"
 #include "harness/compare/gate/run/request.h"
+#include "harness/compare/gate/run/times.h"
 
 // What a gate leaves behind; it points into the request. Zeroed before; the owner calls
 // rg_gate_free.
@@ -13,6 +17,7 @@ struct rg_gate {
     struct rg_gate_case *cases; // harness/compare/gate/run/cases.h
     int64_t result_count;
     struct rg_known_result *results; // one a case that ran, for rg_known_patch
+    char *note;                      // what is printed for people above the report; owned
 };
 
 // The name of a cell's case on B: "streaks/rain.vulkan@VK_DRIVER_FILES=new.json"; the caller frees
@@ -25,5 +30,17 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate);
 // The exit status of a report that is whole.
 int rg_gate_exit(const struct rg_report *report);
 void rg_gate_free(struct rg_gate *gate);
+
+// --- the parts, for other gates that make the same report ---
+
+// Whether the filter lets a case of this name through.
+bool rg_gate_is_chosen(const struct rg_gate_request *request, const char *name);
+bool rg_gate_set_passport(struct rg_gate *gate, const json_t *passport);
+// Runs a course, and gives each case from `first` on that is timed its row of it; `timed` are the
+// rows' cells.
+bool rg_gate_measure(struct rg_gate *gate, int first, const struct rg_gate_rule *rule,
+                     const struct rg_quad_source *source, const struct rg_timed_cell *timed);
+// Makes the report of all cases.
+bool rg_gate_report(const struct rg_gate_request *request, struct rg_gate *gate);
 
 #endif

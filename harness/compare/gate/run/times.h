@@ -5,11 +5,12 @@
 #include "harness/compare/gate/cells/cells.h"
 #include "harness/compare/gate/decide/course.h"
 #include "harness/compare/gate/run/sides.h"
+#include "harness/compare/gate/run/slot.h"
 
 // A cell that is timed.
 struct rg_timed_cell {
     const struct rg_gate_cell *cell;
-    int frames, timings;     // in a timing, and in each place, on both sides; 0: not settled yet
+    struct rg_slot slot;     // the same on both sides
     enum rg_outcome outcome; // why nothing more can be had of it; OK: it can
     char why[256];
     double seconds; // that it took

@@ -1,27 +1,28 @@
 """Verdicts on two things that were timed in turn, and the course that leads to them."""
 from fault import Fault
 
-TESTS = ("verdicts of two", "course of a gate")
+TESTS = ("verdicts of two", "verdicts apart", "course of a gate")
 
 DECIDE, COURSE = "harness/compare/gate/decide/decide.c", "harness/compare/gate/decide/course.c"
+APART, SHIFT = "harness/compare/gate/decide/apart.c", "harness/record/shift.c"
 
 ROWS = [
     Fault(DECIDE, "- log(a_ms[0]) «- log(a_ms[1])») / 2;", "- log(a_ms[0])", "a quad has A's first time twice"),
     Fault(DECIDE, "return rule->error / rule->rows «/ rule->look_count» / 2;", "", "each look spends all of the error"),
     Fault(DECIDE, "return rule->error «/ rule->rows» / rule->look_count / 2;", "", "each row spends all of the error"),
     Fault(DECIDE, "return rule->error / rule->rows / rule->look_count «/ 2»;", "", "each end of an interval spends all of the error"),
-    Fault(DECIDE, "if (low > 0 «&& median > worth»)", "", "what is small and sure is a regression"),
-    Fault(DECIDE, "if («low > 0» && median > worth)", "true", "what is large and unsure is a regression"),
-    Fault(DECIDE, "if (high < 0 «&& median < -worth»)", "", "what is small and sure is an improvement"),
+    Fault(DECIDE, "if (low > excluded(rule) && «median > worth(rule)»)", "true", "what is small and sure is a regression"),
+    Fault(DECIDE, "if («low > excluded(rule)» && median > worth(rule))", "true", "what is large and unsure is a regression"),
+    Fault(DECIDE, "if (high < -excluded(rule) && «median < -worth(rule)»)", "true", "what is small and sure is an improvement"),
     Fault(DECIDE, "return «low > -margin» && high < margin", "true", "what may be faster by more than the margin passes", lives="an improvement is looked for first, and one that is unsure and large has an interval that is wide on both sides in the cases"),
     Fault(DECIDE, "low > -margin && «high < margin» ?", "true", "what may be slower by more than the margin passes"),
     Fault(DECIDE, "while («count >= LEAST_LINKED» && link_of(logs, count)", "true", "two launches are taken for linked", lives="of fewer than eight the bound by chance is above what a correlation reaches"),
     Fault(DECIDE, "&& «link_of(logs, count) > fmax(LINKED, BY_CHANCE / sqrt(count))»)", "false", "linked launches are counted one by one"),
     Fault(DECIDE, "return ties > «COARSE» * count;", "0.5", "a coarse timer decides"),
-    Fault(DECIDE, "if («!d.is_coarse»)", "true", "a coarse timer is told and decides"),
+    Fault(DECIDE, "if («!d->is_coarse»)", "true", "a coarse timer is told and decides"),
     Fault(DECIDE, "return «DEVIATION» * rg_median_at", "1", "the spread is half of what it is"),
-    Fault(DECIDE, "(exceeded_with(tail_of(rule)) «+ surety») * error_of_median;", "", "a change that is seen one time of two is said to be seen"),
-    Fault(DECIDE, "return «OF_MEDIAN» * d->spread", "1", "a median is as sure as a mean"),
+    Fault(DECIDE, "(exceeded_with(rg_gate_tail(rule)) «+ surety») * error;", "", "a change that is seen one time of two is said to be seen"),
+    Fault(DECIDE, "d.error = «OF_MEDIAN» * d.spread", "1", "a median is as sure as a mean"),
     Fault(DECIDE, "return fmax(by_interval, «by_worth»);", "by_interval", "what is no worth a word is said to be seen"),
     Fault(COURSE, "s->source->take(row, «draw(s, 2, row) & 1», &quads", "false", "A always comes first"),
     Fault(COURSE, "        «shuffle(s);»\n", ";", "rows have no order of their own in a launch"),
@@ -31,4 +32,16 @@ ROWS = [
     Fault(COURSE, "row->disturbed > 32 && «row->disturbed > 3 * (row->launches - row->disturbed)»;", "true", "a third of the launches disturbed ends a row"),
     Fault(COURSE, "    else\n        «begin_again(s, row);»", "end(s, row, RG_END_DECIDED);", "what is found once counts"),
     Fault(COURSE, "if («why != RG_END_DECIDED»)", "false", "a course that was cut short has a verdict"),
+    Fault(DECIDE, "return rule->is_apart ? «log1p(rule->margin / 2)» : 0;", "0", "what runs differ by as such is a regression", tests=("verdicts apart",)),
+    Fault(DECIDE, "return log1p(«rule->is_apart» ? rule->margin : rule->margin / 2);", "false", "times that were taken apart tell half of the margin", tests=("verdicts apart",)),
+    Fault(APART, "units.count = rg_gate_group(units.logs, units.count);", ";", "linked launches that were taken apart are counted one by one", tests=("verdicts apart",)),
+    Fault(APART, "a.spread * a.spread / a.count «+ b.spread * b.spread / b.count»)", "", "what launches now scatter is no error", tests=("verdicts apart",)),
+    Fault(APART, "rg_shift(a.logs, a.count, b.logs, b.count, «rg_gate_tail(rule)»);", "rule->error", "times that were taken apart spend all of the error at each end", tests=("verdicts apart",)),
+    Fault(SHIFT, "(«u >= b» ? of_a * of[b][u - b] : 0)", "u > b", "a pair is missing from the distribution", tests=("verdicts apart",)),
+    Fault(SHIFT, "+ «of_b» * of[b - 1][u];", "of_a", "two samples are taken for as large as each other", tests=("verdicts apart",)),
+    Fault(SHIFT, "below + probability[k] <= «tail»)", "2 * tail", "each end of an interval spends all of the error", tests=("verdicts apart",)),
+    Fault(SHIFT, "b[j] «- a[i]»;", "+ a[i]", "a shift is a sum", tests=("verdicts apart",)),
+    Fault(SHIFT, ".high = k ? differences[«pairs - k»] : NAN,", "pairs - k - 1", "the upper end is one pair too low", tests=("verdicts apart",)),
+    Fault(COURSE, "return «s->source->before»\n", "NULL", "times that were taken earlier are not looked at", tests=("verdicts apart",)),
+    Fault(COURSE, "sample.logs[i] = «exp(sample.logs[i])»;", "sample.logs[i]", "the time before is told as a logarithm", tests=("verdicts apart",)),
 ]

@@ -1,0 +1,166 @@
+#include "harness/compare/gate/baseline/baseline.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+#include "core/base/array.h"
+#include "core/base/log.h"
+#include "harness/devices/names.h"
+
+// --- digests ---
+
+void rg_digest_of(const void *bytes, size_t size, char digest[RG_DIGEST_SIZE])
+{
+    snprintf(digest, RG_DIGEST_SIZE, "%016" PRIx64, (uint64_t)XXH3_64bits(bytes, size));
+}
+
+void rg_digest_of_cell(const struct rg_gate_cell *cell, char digest[RG_DIGEST_SIZE])
+{
+    const struct rg_param_table *table = cell->technique->params;
+    char line[RG_PATH_SIZE + 128], value[RG_PATH_SIZE];
+    snprintf(line, sizeof(line), "%s %dx%d %d", cell->technique->name, cell->width, cell->height,
+             cell->frames);
+    uint64_t hash = XXH3_64bits(line, strlen(line));
+    for (int i = 0; i < table->count; i++) {
+        rg_params_text(&table->rows[i], cell->settings, value, sizeof(value));
+        snprintf(line, sizeof(line), "%s=%s", table->rows[i].name, value);
+        hash = XXH3_64bits_withSeed(line, strlen(line), hash);
+    }
+    snprintf(digest, RG_DIGEST_SIZE, "%016" PRIx64, hash);
+}
+
+// --- rows and devices ---
+
+struct rg_baseline_row *rg_baseline_add(struct rg_baseline *baseline)
+{
+    if (!rg_array_fit(&baseline->rows, &baseline->room, baseline->count + 1,
+                      sizeof(*baseline->rows), "baseline"))
+        return NULL;
+    struct rg_baseline_row *row = &baseline->rows[baseline->count++];
+    *row = (struct rg_baseline_row){.outcome = RG_OK};
+    return row;
+}
+
+const struct rg_baseline_row *rg_baseline_find(const struct rg_baseline *baseline, const char *cell,
+                                               const char *device)
+{
+    for (int64_t i = 0; i < baseline->count; i++)
+        if (!strcmp(baseline->rows[i].cell, cell) && !strcmp(baseline->rows[i].device, device))
+            return &baseline->rows[i];
+    return NULL;
+}
+
+const struct rg_baseline_device *rg_baseline_device(const struct rg_baseline *baseline,
+                                                    const char *name)
+{
+    for (int i = 0; i < baseline->device_count; i++)
+        if (!strcmp(baseline->devices[i].name, name))
+            return &baseline->devices[i];
+    return NULL;
+}
+
+void rg_baseline_free(struct rg_baseline *baseline)
+{
+    for (int i = 0; i < baseline->device_count; i++)
+        json_decref(baseline->devices[i].parts);
+    json_decref(baseline->passport);
+    free(baseline->rows);
+    *baseline = (struct rg_baseline){.count = 0};
+}
+
+// --- whether it is of these cells ---
+
+bool rg_baseline_asks(const char *devices, const char *device)
+{
+    struct rg_device_name name;
+    bool asks = !devices || !strcmp(devices, "all");
+    while (!asks && devices && *devices && rg_device_name_read(&devices, &name))
+        asks = !strcmp(name.name, device);
+    return asks;
+}
+
+static bool has_devices(const struct rg_baseline *baseline, const char *path, const char *devices)
+{
+    struct rg_device_name name;
+    while (devices && strcmp(devices, "all") && *devices) {
+        if (!rg_device_name_read(&devices, &name))
+            return false;
+        if (!rg_baseline_device(baseline, name.name))
+            return rg_error("--device %s: %s has no such device; add it with `raingauge baseline "
+                            "--update`",
+                            name.name, path);
+    }
+    return true;
+}
+
+static const struct rg_gate_cell *find_cell(const struct rg_gate_cells *cells, const char *name)
+{
+    for (int64_t i = 0; i < cells->count; i++)
+        if (!strcmp(cells->cells[i].name, name))
+            return &cells->cells[i];
+    return NULL;
+}
+
+// Each row's cell is there, and does what it did.
+static bool has_its_cells(const struct rg_baseline *baseline, const char *path,
+                          const struct rg_gate_cells *cells, const char *cells_name)
+{
+    for (int64_t i = 0; i < baseline->count; i++) {
+        const struct rg_baseline_row *row = &baseline->rows[i];
+        const struct rg_gate_cell *cell = find_cell(cells, row->cell);
+        char settings[RG_DIGEST_SIZE];
+        if (!cell)
+            return rg_error("%s: its cell '%s' is not in %s; take it out with `raingauge baseline "
+                            "--update`",
+                            path, row->cell, cells_name);
+        rg_digest_of_cell(cell, settings);
+        if (strcmp(settings, row->settings) != 0)
+            return rg_error("%s: its cell '%s' has settings of digest %s, and that of %s:%d has "
+                            "%s; name the cells that it was made of, or make it anew with "
+                            "`raingauge baseline --update`",
+                            path, row->cell, row->settings, cells_name, cell->line, settings);
+    }
+    return true;
+}
+
+bool rg_baseline_fits(const struct rg_baseline *baseline, const char *path,
+                      const struct rg_gate_cells *cells, const char *cells_name,
+                      const char *devices)
+{
+    if (!has_devices(baseline, path, devices) || !has_its_cells(baseline, path, cells, cells_name))
+        return false;
+    for (int64_t i = 0; i < cells->count; i++)
+        for (int d = 0; d < baseline->device_count; d++)
+            if (!rg_baseline_find(baseline, cells->cells[i].name, baseline->devices[d].name))
+                return rg_error("%s: has no cell '%s' of %s:%d; add it with `raingauge baseline "
+                                "--update`",
+                                path, cells->cells[i].name, cells_name, cells->cells[i].line);
+    return true;
+}
+
+// --- times ---
+
+struct rg_gate_sample rg_baseline_sample(const struct rg_launches *launches)
+{
+    struct rg_gate_sample sample = {.count = launches->count};
+    for (int i = 0; i < launches->count; i++)
+        sample.logs[i] = log(launches->ms[i]);
+    return sample;
+}
+
+double rg_launches_median(const struct rg_launches *launches)
+{
+    struct rg_launches sorted = *launches;
+    return sorted.count ? rg_median(sorted.ms, sorted.count).median : NAN;
+}
+
+double rg_baseline_scatter(const struct rg_launches *launches)
+{
+    const struct rg_gate_rule rule = rg_gate_rule_apart(1);
+    const struct rg_gate_sample sample = rg_baseline_sample(launches);
+    return expm1(rg_gate_decide_apart(&rule, &sample, sample.logs, sample.count).spread);
+}

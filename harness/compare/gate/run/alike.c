@@ -1,0 +1,97 @@
+#include "harness/compare/gate/run/alike.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "core/image/compare/compare.h"
+#include "harness/compare/blame/blame.h"
+#include "harness/frames/frame.h"
+
+bool rg_agreement_differs(struct rg_agreement *agreement, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    agreement->outcome = RG_FAIL;
+    vsnprintf(agreement->message, RG_AGREEMENT_TEXT, format, args);
+    va_end(args);
+    return false;
+}
+
+bool rg_agreement_fails(struct rg_agreement *agreement, const char *device)
+{
+    agreement->outcome = rg_outcome_of_error();
+    agreement->device = device;
+    snprintf(agreement->message, RG_AGREEMENT_TEXT, "%s", rg_last_error());
+    return false;
+}
+
+bool rg_agreement_blame(const struct rg_gate_cell *cell, struct rg_device *device,
+                        struct rg_device *truth, struct rg_agreement *agreement)
+{
+    const struct rg_digest_run run = {{cell->technique, cell->settings, cell->width, cell->height},
+                                      cell->frames};
+    struct rg_blame blame;
+    const bool ok = rg_blame_find(&run, device, truth, &blame);
+    if (ok && blame.found)
+        snprintf(agreement->details, RG_AGREEMENT_TEXT, "%s", blame.text);
+    return ok;
+}
+
+bool rg_alike_pictures(const struct rg_gate_cell *cell, struct rg_device *device, enum rg_tier owed,
+                       const struct rg_drawn *a, const struct rg_drawn *b,
+                       struct rg_agreement *agreement)
+{
+    const struct rg_subject subject = {cell->technique, cell->settings, cell->width, cell->height};
+    struct rg_picture dry = {0};
+    struct rg_comparison c = {0};
+    if (!rg_frame_draw_dry(device, &subject, cell->frames, &dry))
+        return rg_agreement_fails(agreement, a->name);
+    bool ok = rg_compare(&a->picture, a->name, &b->picture, b->name, &dry,
+                         &(struct rg_compare_options){0}, &c);
+    if (!ok) {
+        rg_agreement_fails(agreement, a->name);
+    } else {
+        agreement->pixels = (double)c.metrics.differing_pixels;
+        agreement->difference = c.tiers.max_codes;
+        ok = c.tiers.of[owed].holds ||
+             rg_agreement_differs(agreement, "the picture differs: %s", c.tiers.of[owed].why);
+    }
+    rg_comparison_destroy(&c);
+    rg_picture_destroy(&dry);
+    return ok;
+}
+
+bool rg_alike_counters(const struct rg_counters *a, const struct rg_counters *b,
+                       struct rg_agreement *agreement)
+{
+    if (a->count != b->count)
+        return rg_agreement_differs(agreement, "there are %d and %d counters", a->count, b->count);
+    for (int i = 0; i < a->count; i++) {
+        const struct rg_count *one = &a->counters[i], *other = &b->counters[i];
+        if (strcmp(one->name, other->name) != 0)
+            return rg_agreement_differs(agreement, "a counter is '%s' and '%s'", one->name,
+                                        other->name);
+        if (one->value != other->value)
+            return rg_agreement_differs(agreement, "the counter '%s' is %lld and %lld", one->name,
+                                        (long long)one->value, (long long)other->value);
+    }
+    return true;
+}
+
+bool rg_alike_work(const struct rg_tally *a, const struct rg_tally *b,
+                   struct rg_agreement *agreement)
+{
+    for (int i = 0; i < RG_TALLY_FIELDS; i++) {
+        const struct rg_tally_field *field = &rg_tally_fields[i];
+        int64_t counts[2];
+        memcpy(&counts[0], (const char *)a + field->offset, sizeof(int64_t));
+        memcpy(&counts[1], (const char *)b + field->offset, sizeof(int64_t));
+        if (strcmp(field->name, "dispatches") && counts[0] >= 0 && counts[1] >= 0 &&
+            counts[0] != counts[1])
+            return rg_agreement_differs(agreement, "a frame has %lld and %lld %s",
+                                        (long long)counts[0], (long long)counts[1], field->name);
+    }
+    return true;
+}

@@ -1,0 +1,348 @@
+"""baseline, and gate --baseline: what cells did is kept, and devices are held against it later."""
+import ctypes
+import ctypes.util
+import json
+import os
+import re
+import subprocess
+
+import forms
+import results
+from gates import SCHEMA, TORUS, Files, endings
+
+PANE = "flow/pane flow 64x48 2 view=pane resolution_px=64\n"
+CPU = ["--device", "cpu"]
+QUICK = ["--launches", "8"]
+
+
+def checksum(document):
+    """As harness/record/disk/seal.c makes it: XXH3 of the compact text with sorted names and numbers of nine digits."""
+    jansson = ctypes.CDLL(ctypes.util.find_library("jansson"))
+    jansson.json_loads.restype = ctypes.c_void_p
+    jansson.json_dumps.restype = ctypes.c_void_p
+    jansson.json_dumps.argtypes = [ctypes.c_void_p, ctypes.c_size_t]
+    loaded = jansson.json_loads(json.dumps(document).encode(), ctypes.c_size_t(0), None)
+    compact, sort_keys, digits = 0x20, 0x80, 9 << 11
+    text = ctypes.string_at(jansson.json_dumps(loaded, compact | sort_keys | digits))
+    xxhash = ctypes.CDLL(ctypes.util.find_library("xxhash"))
+    xxhash.XXH3_64bits.restype = ctypes.c_uint64
+    return "%016x" % xxhash.XXH3_64bits(text, ctypes.c_size_t(len(text)))
+
+
+def change(path, edit, to=None):
+    """Changes a baseline, and its checksum with it."""
+    with open(path) as file:
+        document = json.load(file)
+    del document["checksum"]
+    edit(document)
+    document["checksum"] = checksum(document)
+    with open(to or path, "w") as file:
+        json.dump(document, file)
+    return to or path
+
+
+def make(runner, files, *more, device="cpu", name="baseline.json"):
+    path = files.path(name)
+    result = runner.run(["baseline", "--device", device, "--cells", files.cells, "-o", path] + list(more))
+    if result.returncode or result.stderr:
+        raise ValueError("baseline: exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr))
+    return path, result.stdout
+
+
+def gate(runner, files, path, *more, env={}):
+    """A gate of what is the same every time, unless `more` has a budget."""
+    args = list(more) if "--budget" in more or "--margin" in more else ["--pictures"] + list(more)
+    return runner.run(["gate", "--baseline", path, "--cells", files.cells, "--json"] + args, env)
+
+
+def check_same(runner):
+    """a device does what its baseline has, which is of the documented form, and its keys are printed"""
+    problems = []
+    with Files() as files:
+        path, printed = make(runner, files, *QUICK)
+        with open(path) as file:
+            document = json.load(file)
+        problems += forms.problems("baseline", document)
+        rows = document["baseline"]
+        if not re.fullmatch(r"cpu: key [0-9a-f]{16}; a launch scatters by [\d.]+ %\n.*: 2 cells on 1 device\n", printed) or len(rows) != 2:
+            problems.append("%s, %d rows" % (printed, len(rows)))
+        if any(len(row["launches_ms"]) != 8 or row["outcome"] != "ok" or len(row["picture"]) != 16 for row in rows):
+            problems.append("rows: %s" % rows)
+        if not any(row["states"] for row in rows) or not any(row["counters"] for row in rows):
+            problems.append("no row has states, or none has counters")
+        result = gate(runner, files, path)
+        report = json.loads(result.stdout)
+        problems += forms.problems("gate", report)
+        if result.returncode or endings(report) != {"raster/torus.cpu": "pass", "flow/pane.cpu": "pass"}:
+            problems.append("exit status %d, %s%s" % (result.returncode, result.stderr, endings(report)))
+        told = runner.run(["gate", "--baseline", path, "--cells", files.cells, "--pictures"])
+        key = document["devices"][0]["key"]
+        if "cpu: key %s, as the baseline's\n" % key not in told.stdout:
+            problems.append("told: %s" % told.stdout)
+        if key not in report["passport_text"]:
+            problems.append("passport: %s" % report["passport_text"])
+    return problems
+
+
+def check_timed(runner):
+    """times under the same key are decided on; what takes a hundred times as long as it did is found, and what did so before too"""
+    with Files(TORUS) as files:
+        path, _ = make(runner, files, *QUICK)
+        cases = {}
+        for name, factor in (("same", 1), ("slower", 0.01), ("faster", 100)):
+            def scale(document, factor=factor):
+                for row in document["baseline"]:
+                    row["launches_ms"] = [ms * factor for ms in row["launches_ms"]]
+            result = gate(runner, files, change(path, scale, files.path("scaled.json")), "--budget", "1m")
+            cases[name] = result.returncode, json.loads(result.stdout)["gated"][0]
+    problems = []
+    status, case = cases["same"]  # how fast the machine is now is not the test's to say
+    if status not in (0, 1, 3) or case["ending"] not in ("pass", "inconclusive", "regressed", "improved") or not case["ratio"]["value"]:
+        problems.append("same: exit status %d, %s" % (status, case))
+    if "key is another" in case["message"] or "launches" not in case["details"] or case["baseline_ms"] is None:
+        problems.append("same: %s" % case)
+    status, case = cases["slower"]
+    if status != 1 or case["ending"] != "regressed" or not 10 < case["ratio"]["value"] < 1000 or not case["ratio"]["low"] > 1:
+        problems.append("slower: exit status %d, %s" % (status, case))
+    status, case = cases["faster"]
+    if status or case["ending"] != "improved" or not 0.001 < case["ratio"]["value"] < 0.1 or not case["ratio"]["high"] < 1:
+        problems.append("faster: exit status %d, %s" % (status, case))
+    return problems
+
+
+def check_changes(runner):
+    """a digest, a counter or a count of work that is another is found and named; an ending as in the baseline is not hidden"""
+    problems = []
+
+    def state(row):
+        row["states"] = {name: "0123456789abcdef" for name in row["states"]}
+
+    def counter(row):
+        row["counters"] = {name: value + 1 for name, value in row["counters"].items()}
+
+    def work(row):
+        row["work"]["items"] += 1
+
+    def picture(row):
+        row["picture"] = "0123456789abcdef"
+
+    def fell(row):
+        row.update(outcome="crash", why="it fell", picture="", states={}, counters={}, launches_ms=[])
+
+    def wrong(row):
+        row.update(outcome="fail", why="the picture differs")
+
+    with Files(PANE) as files:
+        path, _ = make(runner, files, "--pictures")
+        for edit, ending, says in ((state, "differs", "has digest"), (counter, "differs", "the counter '"),
+                                   (work, "differs", "items"),
+                                   (picture, "pass", "holds T0 against cpu:reference as it draws now"),
+                                   (fell, "pass", "the baseline has it as crash"), (wrong, "pass", "")):
+            edited = change(path, lambda d, edit=edit: [edit(row) for row in d["baseline"]], files.path("edited.json"))
+            result = gate(runner, files, edited)
+            case = json.loads(result.stdout)["gated"][0]
+            if case["ending"] != ending or says not in case["message"] or result.returncode != (ending != "pass"):
+                problems.append("%s: exit status %d, %s" % (edit.__name__, result.returncode, case))
+            if ending == "differs" and "what raingauge computes" not in case["details"]:
+                problems.append("%s: details: %s" % (edit.__name__, case["details"]))
+    return problems
+
+
+def check_miscompiled(runner):
+    """a kernel with another constant is found by its picture, which cpu:reference draws anew, and blamed on its stage"""
+    with Files() as files:
+        path, _ = make(runner, files, "--pictures", device="gl,cpu")
+        kernels = files.path("kernels")
+        os.mkdir(kernels)
+        runner.kernels_with(kernels, "flow_normals.glsl", results.RIGHT, results.TURNED)
+        result = gate(runner, files, path, env={"RG_KERNEL_DIR": kernels})
+        found = {case["name"]: case for case in json.loads(result.stdout)["gated"]}
+        known = files.path("known.txt", "fail flow/*\n  device gl\n  outcome fail\n  reason turned\n  since 2026-11-01\n"
+                           "  until 2099-01-01\n")
+        expected = gate(runner, files, path, "--expectations", known, env={"RG_KERNEL_DIR": kernels})
+        only = gate(runner, files, path, "--device", "cpu", env={"RG_KERNEL_DIR": kernels})
+        wrong = runner.run(["baseline", "--device", "gl", "--cells", files.cells, "--pictures", "-o", files.path("wrong.json")],
+                           {"RG_KERNEL_DIR": kernels})
+        again = gate(runner, files, files.path("wrong.json"), env={"RG_KERNEL_DIR": kernels})
+    problems = []
+    if result.returncode != 1 or {n: c["ending"] for n, c in found.items()} != {
+            "raster/torus.gl": "pass", "flow/pane.gl": "differs", "raster/torus.cpu": "pass", "flow/pane.cpu": "pass"}:
+        problems.append("exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr))
+    if "stage flow_normals" not in found["flow/pane.gl"]["details"] or "picture differs" not in found["flow/pane.gl"]["message"]:
+        problems.append("%s" % found["flow/pane.gl"])
+    if expected.returncode or "expected failure" not in endings(json.loads(expected.stdout)).values():
+        problems.append("expected: exit status %d, %s" % (expected.returncode, expected.stdout))
+    if only.returncode or set(endings(json.loads(only.stdout))) != {"raster/torus.cpu", "flow/pane.cpu"}:
+        problems.append("--device cpu: %s" % only.stdout)
+    # A baseline that is made of a driver that draws wrongly does not make that right.
+    if wrong.returncode != 1 or "flow/pane.gl: fail: the picture differs" not in wrong.stdout:
+        problems.append("wrong: exit status %d, %s" % (wrong.returncode, wrong.stdout))
+    if again.returncode != 1 or endings(json.loads(again.stdout))["flow/pane.gl"] != "differs":
+        problems.append("again: exit status %d, %s" % (again.returncode, again.stdout))
+    return problems
+
+
+def check_advice(runner):
+    """under another key times are advice by the yardsticks, and fail nothing"""
+    problems = []
+
+    def other(document):
+        for device in document["devices"]:
+            device["of"]["cores"] = "64"
+        for row in document["baseline"]:
+            row["launches_ms"] = [ms / 100 for ms in row["launches_ms"]]
+        for name in document["yardsticks_ms"]:
+            document["yardsticks_ms"][name] = [ms / 30 for ms in document["yardsticks_ms"][name]]
+
+    with Files(TORUS) as files:
+        path, _ = make(runner, files, *QUICK)
+        change(path, other)
+        result = runner.run(["gate", "--baseline", path, "--cells", files.cells])
+        if result.returncode or "so that times are advisory: cores 2" not in re.sub(r"cores \d+", "cores 2", result.stdout):
+            problems.append("exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr))
+        case = json.loads(gate(runner, files, path, "--budget", "1m").stdout)["gated"][0]
+        told = re.search(r"advisory, for its key is another: a frame takes ([\d.]+) times as long \(.*\), and ([\d.]+) to ([\d.]+) "
+                         r"times by the yardsticks", case["message"])
+        if case["ending"] != "pass" or case["ratio"]["value"] is not None or not told:
+            problems.append("%s" % case)
+        elif not (10 < float(told[1]) < 1000 and float(told[2]) <= float(told[3]) < float(told[1])):
+            problems.append("ratios: %s" % case["message"])
+        for name in ("chain", "vector", "copy", "fork_join"):
+            if name + " takes" not in case["details"]:
+                problems.append("%s: %s" % (name, case["details"]))
+    return problems
+
+
+def refuse(runner, args, says):
+    result = runner.run(args)
+    if result.returncode != 2 or result.stdout or result.stderr.count("\n") != 1 or says not in result.stderr:
+        return ["%s: exit status %d, %s%s" % (args, result.returncode, result.stdout, result.stderr)]
+    return []
+
+
+def check_refused(runner):
+    """a baseline that is missing, damaged, foreign or another version's is an error, for the gate and for updates"""
+    problems = []
+    with Files() as files:
+        path, _ = make(runner, files, "--pictures")
+        with open(path) as file:
+            text = file.read()
+        bad = {
+            "cut.json": (text[:len(text) // 2], "cut.json: line "),
+            "edited.json": (text.replace('"outcome": "ok"', '"outcome": "fail"', 1), "its checksum is wrong"),
+            "more.json": (text + text, "goes on behind its end"),
+            "foreign.json": ('{"format": 1, "table": "creus-5.4", "cells": []}', "is no baseline"),
+            "list.json": ("[1, 2]", "is no baseline"),
+            "notes.txt": ("a line\n", "line 1 is no JSON"),
+            "newer.json": (text.replace('"format": 1', '"format": 2', 1), "format is 2, and this raingauge reads 1"),
+            "empty.json": ("", "is no JSON"),
+        }
+        for name, (content, says) in bad.items():
+            there = files.path(name, content)
+            problems += refuse(runner, ["gate", "--baseline", there, "--cells", files.cells], says)
+            problems += refuse(runner, ["baseline", "--device", "cpu", "--cells", files.cells, "-o", there, "--update"], says)
+            with open(there) as file:
+                if file.read() != content:
+                    problems.append("%s is another" % name)
+        twice = change(path, lambda d: d["baseline"].append(d["baseline"][0]), files.path("twice.json"))
+        problems += refuse(runner, ["gate", "--baseline", twice, "--cells", files.cells], "stands there twice")
+        problems += refuse(runner, ["gate", "--baseline", files.path("none.json"), "--cells", files.cells], "none.json: ")
+        problems += refuse(runner, ["gate", "--baseline", path, "--cells", files.cells, "cpu"], "or a file by --baseline")
+        problems += refuse(runner, ["gate", "--baseline", path, "--cells", files.cells, "--device", "gl"], "has no such device")
+        problems += refuse(runner, ["gate", "cpu", "cpu", "--device", "cpu"], "--device is of --against and --baseline")
+        problems += refuse(runner, ["baseline", "--device", "cpu"], "name the file to write")
+        problems += refuse(runner, ["baseline", "--device", "cpu", "-o", files.path("none/b.json")], "none/b.json")
+        more = files.path("more.txt", TORUS + PANE + "new raster 32x32 1\n")
+        problems += refuse(runner, ["gate", "--baseline", path, "--cells", more], "has no cell 'new' of ")
+        fewer = files.path("fewer.txt", TORUS)
+        problems += refuse(runner, ["gate", "--baseline", path, "--cells", fewer], "its cell 'flow/pane' is not in ")
+        other = files.path("other.txt", TORUS.replace("faces=300", "faces=400") + PANE)
+        result = runner.run(["gate", "--baseline", path, "--cells", other])
+        if result.returncode != 2 or path not in result.stderr or "other.txt:1 has" not in result.stderr:
+            problems.append("other settings: %s" % result.stderr)
+    return problems
+
+
+def check_update(runner):
+    """an update says what changes, a line a cell, and writes only when it is told to, whole"""
+    problems = []
+    with Files() as files:
+        path, _ = make(runner, files, "--pictures")
+
+        def run(cells, *more):
+            return runner.run(["baseline", "--device", "cpu", "--pictures", "--cells", cells, "-o", path] + list(more))
+
+        def content():
+            with open(path) as file:
+                return file.read()
+
+        before = content()
+        for more in ((), ("--update",)):
+            result = run(files.cells, *more)
+            if result.returncode or "nothing changes" not in result.stdout or content() != before:
+                problems.append("same %s: exit status %d, %s" % (more, result.returncode, result.stdout))
+        cells = files.path("other.txt", TORUS.replace("faces=300", "faces=400") + "new raster 64x48 2 scene=mesh model=torus faces=200\n")
+        result = run(cells)
+        lines = result.stdout.splitlines()
+        if result.returncode != 1 or content() != before or result.stderr:
+            problems.append("told: exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr))
+        if len(lines) != 5 or not re.fullmatch(r"~ raster/torus\.cpu: other settings, another picture, .*a frame and not \d+", lines[1]) \
+                or lines[2] != "+ new.cpu: new" or lines[3] != "- flow/pane.cpu: gone" or "3 changes; it is as it was" not in lines[4]:
+            problems.append("lines: %s" % lines)
+        full = runner.run(["baseline", "--device", "cpu", "--pictures", "--cells", cells, "-o", path, "--update"], limit=200)
+        if full.returncode not in (1, 2) or content() != before:
+            problems.append("full disk: exit status %d, %s" % (full.returncode, full.stderr))
+        result = run(cells, "--update")
+        if result.returncode or content() == before or "2 cells on 1 device" not in result.stdout:
+            problems.append("written: exit status %d, %s" % (result.returncode, result.stdout))
+        result = runner.run(["gate", "--baseline", path, "--cells", cells, "--pictures"])
+        if result.returncode or sorted(os.listdir(files.folder.name)) != ["baseline.json", "cells.txt", "other.txt"]:
+            problems.append("gate: exit status %d, %s, %s" % (result.returncode, result.stdout, os.listdir(files.folder.name)))
+        for edit, says in ((lambda d: d["devices"][0]["of"].update(cores="64"), "~ cpu: another key: cores "),
+                           (lambda d: d["baseline"][0].update(outcome="crash", why="it fell"), "ok and not crash"),
+                           (lambda d: d["baseline"][0]["work"].update(items=7), " items a frame and not 7")):
+            edited = change(path, edit, files.path("edited.json"))
+            result = runner.run(["baseline", "--device", "cpu", "--pictures", "--cells", cells, "-o", edited])
+            if result.returncode != 1 or says not in result.stdout:
+                problems.append("%s: exit status %d, %s" % (says, result.returncode, result.stdout))
+    return problems
+
+
+def check_forms(runner):
+    """the forms for CI are of a baseline's gate too: JUnit, Bencher's, googletest's, GitHub's"""
+    problems = []
+    with Files() as files:
+        path, _ = make(runner, files, *QUICK)
+        args = ["gate", "--baseline", path, "--cells", files.cells]
+        junit, bmf = files.path("junit.xml"), files.path("bmf.json")
+        runner.run(args + ["--budget", "0.2s", "--junit", junit, "--bmf", bmf, "--github"])
+        lint = subprocess.run(["xmllint", "--noout", "--schema", SCHEMA, junit], capture_output=True, text=True, check=False)
+        if lint.returncode or not os.path.exists(bmf):
+            problems.append(lint.stderr)
+        listed = runner.run(args + ["--gtest_list_tests"])
+        ran = runner.run(args + ["--pictures", "--gtest_filter=flow*"])
+        if listed.returncode or not re.fullmatch(r"raster_torus\.\n  cpu_\w{16}\nflow_pane\.\n  cpu_\w{16}\n", listed.stdout):
+            problems.append("listed: %s" % listed.stdout)
+        if ran.returncode or not re.search(r"\[       OK \] flow_pane\.cpu_\w{16} \(", ran.stdout) or "torus" in ran.stdout:
+            problems.append("ran: %s" % ran.stdout)
+        if "key" in ran.stdout:
+            problems.append("a runner of googletest would read: %s" % ran.stdout)
+    return problems
+
+
+def check_absent(runner):
+    """a device that is no longer there is unsupported, and one whose driver falls fails its own cells"""
+    with Files(TORUS) as files:
+        path, _ = make(runner, files, "--pictures", device="cpu,vulkan")
+        absent = gate(runner, files, path, env={"VK_DRIVER_FILES": "/nonexistent"})
+        fallen = gate(runner, files, path, env=runner.crashing_vulkan(files.folder.name))
+    problems = []
+    if absent.returncode or endings(json.loads(absent.stdout)) != {"raster/torus.cpu": "pass", "raster/torus.vulkan": "unsupported"}:
+        problems.append("exit status %d, %s" % (absent.returncode, absent.stdout))
+    if fallen.returncode != 1 or endings(json.loads(fallen.stdout)) != {"raster/torus.cpu": "pass", "raster/torus.vulkan": "crash"}:
+        problems.append("exit status %d, %s" % (fallen.returncode, fallen.stdout))
+    return problems
+
+
+CHECKS = [check_same, check_timed, check_changes, check_miscompiled, check_advice, check_refused, check_update, check_forms,
+          check_absent]

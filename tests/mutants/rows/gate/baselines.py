@@ -1,0 +1,35 @@
+"""Baselines of gates: what is kept, what is held against it, and what is refused."""
+from fault import Fault
+
+TESTS = ("command line, baselines",)
+
+FILE, BASELINE = "harness/compare/gate/baseline/file.c", "harness/compare/gate/baseline/baseline.c"
+COMPARE, AGAINST = "harness/compare/gate/baseline/compare.c", "harness/compare/gate/baseline/against.c"
+CHANGES, MAKE, TAKE = "harness/compare/gate/baseline/changes.c", "harness/compare/gate/baseline/make.c", "harness/compare/gate/baseline/take.c"
+COMMAND, ALIKE = "harness/commands/comparing/baseline.c", "harness/compare/gate/run/alike.c"
+
+ROWS = [
+    Fault(FILE, "!read_format(&r, document) || «!rg_document_unseal(path, document, true, why)»)", "(json_object_del(document, \"checksum\"), false)", "a baseline that was edited is taken"),
+    Fault(FILE, "return «format == RG_BASELINE_FORMAT» ||", "true", "a baseline of another version is taken"),
+    Fault(FILE, "if (ok && «at < size») {", "false", "what follows a baseline is passed over"),
+    Fault(FILE, "return «rg_baseline_find(baseline, row->cell, row->device) == row» ||", "true", "a cell that stands there twice is taken"),
+    Fault(BASELINE, "«strcmp(settings, row->settings) != 0»)", "false", "other work is held against a baseline"),
+    Fault(BASELINE, "hash = XXH3_64bits_withSeed(line, strlen(line), «hash»);", "0", "the last parameter alone is in a cell's digest"),
+    Fault(BASELINE, "if («!rg_baseline_find(baseline, cells->cells[i].name, baseline->devices[d].name)»)", "false", "a cell that the baseline lacks is passed over"),
+    Fault(COMPARE, "if («is_same» && before->outcome == RG_OK)", "true", "no picture is looked at"),
+    Fault(COMPARE, "if (is_same && «before->outcome == RG_OK»)", "true", "a driver that drew wrongly for the baseline is right"),
+    Fault(COMPARE, "if («strcmp(was->digest, is->digest) != 0»)", "false", "states are not looked at"),
+    Fault(COMPARE, "«rg_alike_counters(&before->counters, &now.counters, agreement)»)", "true", "counters are not looked at"),
+    Fault(COMPARE, "        «rg_alike_work(&before->work, &now.work, agreement);»", ";", "the work of a frame is not looked at"),
+    Fault(COMPARE, "row->decision.ratio «/ slower»;", "", "yardsticks are told and do not count"),
+    Fault(ALIKE, "if («one->value != other->value»)", "false", "counters that differ are alike"),
+    Fault(AGAINST, "c->is_timed = «r->same_key[r->side_of[number]]»;", "true", "times under another key fail the gate"),
+    Fault(AGAINST, "if («rg_baseline_asks(r->asked->devices, baseline->rows[i].device)»)", "true", "devices that nobody asked for run"),
+    Fault(CHANGES, "if («strcmp(then->picture, now->picture) != 0»)", "false", "another picture is no change"),
+    Fault(CHANGES, "        if («rg_baseline_find(now, row->cell, row->device)»)\n            continue;", "row", "a cell that is gone is no change"),
+    Fault(CHANGES, "if (!was || «json_equal(is->parts, was->parts)»)", "true", "another key is no change"),
+    Fault(MAKE, "    «row->outcome = agreement.outcome;»\n", ";", "a picture that is wrong makes a baseline as one that is right"),
+    Fault(TAKE, "rg_digest_of(words, «size», state->digest);", "0", "a state's digest is of nothing"),
+    Fault(COMMAND, "if (is_there && «!o->update») {", "false", "a baseline is written over without being asked to"),
+    Fault(COMMAND, "«(!*is_there || rg_baseline_read(old, path))»;", "true", "what is no baseline is written over"),
+]
