@@ -84,7 +84,7 @@ ROWS = [
     Fault("core/image/compare/flip_pool.c", "weighted_quartile_1 = select_value(map, NULL, pixels, &top, true, «sum / 4»);", "sum / 2", "the first quartile is the median"),
     Fault("core/image/compare/flip_pool.c", "weighted_quartile_3 = select_value(map, NULL, pixels, &top, true, «sum / 4 * 3»);", "sum / 2", "the third quartile is the median"),
     Fault("core/image/compare/codes.c", "row[c] = c < colours ? «rg_srgb_encoded(srgb, texel[c])» : texel[c];", "texel[c]", "codes are light"),
-    Fault("core/image/srgb.h", "return «srgb->linear[code] == linear» ?", "true", "codes of 16 bits are rounded to 8"),
+    Fault("core/image/srgb.h", "return «srgb->linear[code] == linear» ?", "1", "codes of 16 bits are rounded to 8"),
     Fault(COMPARE, "c->has_codes = «a->decoded && b->decoded»;", "a->decoded", "codes are told of a file that has none"),
     Fault(COMPARE, "c->has_hdr_flip = wants_hdr && «!a->decoded && !b->decoded»;", "true", "HDR-FLIP is told of integers"),
 ]
