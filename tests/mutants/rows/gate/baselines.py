@@ -21,7 +21,7 @@ ROWS = [
     Fault(COMPARE, "if («strcmp(was->digest, is->digest) != 0»)", "false", "states are not looked at"),
     Fault(COMPARE, "«rg_alike_counters(&before->counters, &now.counters, agreement)»)", "true", "counters are not looked at"),
     Fault(COMPARE, "        «rg_alike_work(&before->work, &now.work, agreement);»", ";", "the work of a frame is not looked at"),
-    Fault(COMPARE, "row->decision.ratio «/ slower»;", "", "yardsticks are told and do not count"),
+    Fault(COMPARE, "row->decision.ratio / «slower»;", "1", "yardsticks are told and do not count"),
     Fault(ALIKE, "if («one->value != other->value»)", "false", "counters that differ are alike"),
     Fault(AGAINST, "c->is_timed = «r->same_key[r->side_of[number]]»;", "true", "times under another key fail the gate"),
     Fault(AGAINST, "if («rg_baseline_asks(r->asked->devices, baseline->rows[i].device)»)", "true", "devices that nobody asked for run"),

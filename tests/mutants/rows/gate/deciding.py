@@ -8,9 +8,9 @@ APART, SHIFT = "harness/compare/gate/decide/apart.c", "harness/record/shift.c"
 
 ROWS = [
     Fault(DECIDE, "- log(a_ms[0]) «- log(a_ms[1])») / 2;", "- log(a_ms[0])", "a quad has A's first time twice"),
-    Fault(DECIDE, "return rule->error / rule->rows «/ rule->look_count» / 2;", "", "each look spends all of the error"),
-    Fault(DECIDE, "return rule->error «/ rule->rows» / rule->look_count / 2;", "", "each row spends all of the error"),
-    Fault(DECIDE, "return rule->error / rule->rows / rule->look_count «/ 2»;", "", "each end of an interval spends all of the error"),
+    Fault(DECIDE, "return rule->error / rule->rows / «rule->look_count» / 2;", "1", "each look spends all of the error"),
+    Fault(DECIDE, "return rule->error / «rule->rows» / rule->look_count / 2;", "1", "each row spends all of the error"),
+    Fault(DECIDE, "return rule->error / rule->rows / rule->look_count / «2»;", "1", "each end of an interval spends all of the error"),
     Fault(DECIDE, "if (low > excluded(rule) && «median > worth(rule)»)", "true", "what is small and sure is a regression"),
     Fault(DECIDE, "if («low > excluded(rule)» && median > worth(rule))", "true", "what is large and unsure is a regression"),
     Fault(DECIDE, "if (high < -excluded(rule) && «median < -worth(rule)»)", "true", "what is small and sure is an improvement"),
