@@ -1,7 +1,6 @@
 #include "core/device/pass.h"
 
 #include <stdlib.h>
-#include <xxhash.h>
 
 #include "core/device/draw.h"
 #include "core/device/grid.h"
@@ -23,24 +22,24 @@ void rg_pass_destroy(struct rg_pass *pass)
     rg_grid_destroy(pass);
 }
 
-static void add_code(struct rg_pass *pass, struct rg_pass_code *code)
+static void give_code(struct rg_pass *pass,
+                      void (*take)(const void *bytes, size_t size, void *user), void *user)
 {
     size_t size = 0;
     void *bytes =
         pass->device->backend->pass_code ? pass->device->backend->pass_code(pass, &size) : NULL;
-    if (bytes) {
-        code->hash = XXH3_64bits_withSeed(bytes, size, code->hash);
-        code->bytes += (int64_t)size;
-    }
+    if (bytes)
+        take(bytes, size, user);
     free(bytes);
 }
 
-void rg_pass_code(struct rg_pass *pass, struct rg_pass_code *code)
+void rg_pass_code(struct rg_pass *pass, void (*take)(const void *bytes, size_t size, void *user),
+                  void *user)
 {
-    add_code(pass, code);
+    give_code(pass, take, user);
     if (pass->packer) {
-        add_code(pass->packer->count, code);
-        add_code(pass->packer->emit, code);
+        give_code(pass->packer->count, take, user);
+        give_code(pass->packer->emit, take, user);
     }
 }
 

@@ -8,14 +8,10 @@
 struct rg_pass *rg_pass_create(struct rg_device *device, const char *kernel);
 void rg_pass_destroy(struct rg_pass *pass);
 
-// What the driver's compiler has made of passes so far, as the API hands it out: equal code has
-// equal hashes, for passes that are added in the same order. Zeroed: none.
-struct rg_pass_code {
-    uint64_t hash;
-    int64_t bytes; // 0: the API hands none out
-};
-// Adds a pass, with what packs its items.
-void rg_pass_code(struct rg_pass *pass, struct rg_pass_code *code);
+// Gives what the driver's compiler has made of a pass so far, and of what packs its items, as the
+// API hands it out, which may be nothing: bytes that last as long as the call.
+void rg_pass_code(struct rg_pass *pass, void (*take)(const void *bytes, size_t size, void *user),
+                  void *user);
 
 // Checks a run, counts it and hands it to the backend. False and one logged line where a check or
 // the driver refuses it.

@@ -1,8 +1,10 @@
 // A session whose instance lives in this process.
 #include <stdlib.h>
 #include <string.h>
+#include <xxhash.h>
 
 #include "core/base/log.h"
+#include "core/device/pass.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/frames/ways.h"
@@ -92,6 +94,13 @@ static bool tell_time(struct rg_session *session, int64_t *time_ns)
     return rg_device_time(session->device, time_ns);
 }
 
+static void add_pass_code(const void *bytes, size_t size, void *user)
+{
+    struct rg_session_code *code = user;
+    code->passes.hash = XXH3_64bits_withSeed(bytes, size, code->passes.hash);
+    code->passes.bytes += (int64_t)size;
+}
+
 static bool tell_code(struct rg_session *session, struct rg_session_code *code)
 {
     const struct rg_instance *instance = session->instance;
@@ -99,7 +108,7 @@ static bool tell_code(struct rg_session *session, struct rg_session_code *code)
     rg_program_id(code->program);
     for (int i = 0; i < instance->stage_count; i++)
         if (instance->stages[i].owns_pass)
-            rg_pass_code(instance->stages[i].pass, &code->passes);
+            rg_pass_code(instance->stages[i].pass, add_pass_code, code);
     return true;
 }
 

@@ -2,7 +2,6 @@
 #ifndef RG_HARNESS_FRAMES_SUBJECT_H
 #define RG_HARNESS_FRAMES_SUBJECT_H
 
-#include "core/device/pass.h"
 #include "core/techniques/technique.h"
 #include "harness/record/passport/program.h"
 
@@ -26,7 +25,10 @@ struct rg_account {
 struct rg_session_code {
     char program[RG_PROGRAM_ID_SIZE]; // raingauge itself
     uint64_t libraries;               // drivers among them
-    struct rg_pass_code passes; // what the driver's compiler has made, as the API hands it out
+    struct {
+        uint64_t hash;
+        int64_t bytes; // 0: the API hands none out
+    } passes;          // what the driver's compiler has made of them
 };
 
 #endif
