@@ -137,6 +137,25 @@ static void test_confirmation(void **state)
     assert_int_equal(found[0].end, RG_END_UNCONFIRMED);
 }
 
+// What was found by a later look is measured again from the first: a change that is plain by then
+// needs no more launches than that has.
+static void test_first_look_again(void **state)
+{
+    (void)state;
+    struct rg_gate_row found[1];
+    struct script s = SCRIPT(.ratios = {1.045});
+    s.noise = 0.08;
+    run(&s, 1, found);
+    const int units = found[0].before.units;
+    assert_true(units > 16);
+    s = SCRIPT(.ratios = {1.045}, .later_ratio = 1.3, .later = units);
+    s.noise = 0.08;
+    run(&s, 1, found);
+    assert_int_equal(found[0].before.units, units);
+    assert_int_equal(found[0].decision.units, 16);
+    assert_int_equal(found[0].launches, units + 16);
+}
+
 // A row that breaks ends alone; when the time is over all end, and none with a verdict.
 static void test_ends(void **state)
 {
@@ -202,6 +221,11 @@ static void test_disturbed(void **state)
     assert_int_equal(found[0].decision.verdict, RG_TWO_PASS);
     assert_int_equal(found[0].launches, 32);
     assert_int_equal(found[0].disturbed, 16);
+    s = SCRIPT(.ratios = {1}, .disturbed_every = 2); // one of two counts, as long as it takes
+    s.noise = 0.6;
+    run(&s, 1, found);
+    assert_int_equal(found[0].end, RG_END_LOOKS);
+    assert_int_equal(found[0].launches, 512);
     s = SCRIPT(.ratios = {1}, .disturbed_every = 1 << 30);
     run(&s, 1, found);
     assert_int_equal(found[0].end, RG_END_DISTURBED);
@@ -212,8 +236,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_verdicts),     cmocka_unit_test(test_orders),
-        cmocka_unit_test(test_confirmation), cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_disturbed),    cmocka_unit_test(test_linked_noise),
+        cmocka_unit_test(test_confirmation), cmocka_unit_test(test_first_look_again),
+        cmocka_unit_test(test_ends),         cmocka_unit_test(test_disturbed),
+        cmocka_unit_test(test_linked_noise),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
