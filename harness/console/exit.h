@@ -13,6 +13,7 @@ enum rg_exit {
     RG_EXIT_INCONCLUSIVE = 3,
     RG_EXIT_NOTHING = 4,      // nothing was measured
     RG_EXIT_UNSUPPORTED = 77, // not supported on this machine
+    RG_EXIT_GIT_SKIP = 125,   // `git bisect run` alone is told so: this commit cannot be tested
     RG_EXIT_SIGNALLED = 128,  // and the signal's number: ended early because it was asked to
 };
 

@@ -66,6 +66,11 @@ COMMANDS = [
     Case("render --case {tmp}/none.txt", 2, r"none\.txt: "),
     Case("render flow --case {tmp}/none.txt", 2, r"names its technique itself; leave out 'flow'"),
 
+    # bisect; tests/cli/devices/bisecting.py has more
+    Case("bisect --help", 0, None),
+    Case("bisect", 2, r"bisect: --run names the command that judges"),
+    Case("bisect --run false", 1, r"bad \(exit status 1, 1 try\)"),
+
     # doctor
     Case("doctor --device nonsense", 2, UNKNOWN_DEVICE),
     Case("doctor --device cpu:7", 2, r"device 'cpu:7': cpu has no such device"),

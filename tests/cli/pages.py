@@ -8,7 +8,7 @@ import subprocess
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-COMMANDS = ("doctor", "list", "render", "table", "sweep", "diff", "shrink", "verify", "gate", "baseline", "figures", "atlas")
+COMMANDS = ("doctor", "list", "render", "table", "sweep", "diff", "shrink", "verify", "gate", "baseline", "bisect", "figures", "atlas")
 PARTS = r"\.(TH|SH|SS|TP|PP)\b"  # the macros that the page uses
 ESCAPES = r"\\(f[BIR]|[-&e])"
 

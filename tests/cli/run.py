@@ -16,6 +16,7 @@
            misbehaving  drivers that crash, hang, lie about their end or lose their device
            gates    one device held against another
            baselines  a device held against what was kept of it
+           bisects  the first of several drivers that is bad
            shrinking  a driver that miscompiles: blamed, and shrunk to a case
            wrong    a driver that draws wrongly is found
            doctor   the report about this machine
@@ -32,6 +33,7 @@ sys.dont_write_bytecode = True  # the sources' folder stays as it is
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "devices"))
 
 import baselines
+import bisecting
 import cases
 import clips
 import doctor
@@ -59,6 +61,7 @@ SUITES = {
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
     "gates": lambda runner: runner.check_all(gates.CHECKS),
     "baselines": lambda runner: runner.check_all(baselines.CHECKS),
+    "bisects": lambda runner: runner.check_all(bisecting.CHECKS),
     "shrinking": lambda runner: runner.check_all(shrinking.CHECKS),
     "wrong": lambda runner: runner.check_all(results.WRONG),
     "doctor": lambda runner: runner.check_all(doctor.CHECKS),

@@ -1,0 +1,174 @@
+// raingauge bisect: the first of several things in order that is bad, as a command judges them; and
+// the command's verdict in git's words.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/cli/command.h"
+#include "harness/cli/shared.h"
+#include "harness/compare/bisect/bisect.h"
+#include "harness/console/duration.h"
+#include "harness/console/interrupt.h"
+
+struct bisect_options {
+    char *good, *bad; // candidates; NULL: git has its own
+    char *line;       // for the shell
+    char *list;       // a file
+    char *budget;     // "2m"
+    int tries, crash;
+    bool fresh, dry_run, json;
+};
+
+#define AT(field) offsetof(struct bisect_options, field)
+
+enum { CRASH_SKIP, CRASH_BAD };
+static const char *const crashes[] = {"skip", "bad", NULL};
+
+static const struct rg_option options[] = {
+    RG_GROUP("What to search"),
+    {RG_OPTION_OPERAND, .argument = "CANDIDATE",
+     .about = "what is tried, in order: devices with their environments, folders of builds, or any "
+              "words",
+     .names = RG_NAMES_FILE, .first = 1},
+    {RG_OPTION_TEXT, "list", .argument = "FILE",
+     .about = "the same, one a line; empty lines and those that begin with # say nothing",
+     .offset = AT(list), .names = RG_NAMES_FILE},
+    {RG_OPTION_TEXT, "good", .argument = "A",
+     .about = "the candidate that is known to be good; where neither end is among the candidates, "
+              "the two stand around them",
+     .offset = AT(good), .names = RG_NAMES_FILE},
+    {RG_OPTION_TEXT, "bad", .argument = "B", .about = "the candidate that is known to be bad",
+     .offset = AT(bad), .names = RG_NAMES_FILE},
+    {RG_OPTION_FLAG, "fresh", .about = "takes nothing from a bisect that was interrupted",
+     .offset = AT(fresh)},
+    RG_GROUP("How one is judged"),
+    {RG_OPTION_TEXT, "run", .argument = "COMMAND",
+     .about = "a line for the shell, in which {} is the candidate, {good} the good end and "
+              "{budget} a time; its exit status is the verdict: 0 good, 1 bad, 3 again, 4, 77 and "
+              "125 skip, else it stops (docs/ci.md)",
+     .offset = AT(line)},
+    {RG_OPTION_INT, "tries", .argument = "N",
+     .about = "what says 3 is tried so many times, then skipped", .offset = AT(tries),
+     .initial = "3", .least = 1, .most = 16},
+    {RG_OPTION_TEXT, "budget", .argument = "TIME",
+     .about = "what {budget} stands for at the first try; at each further it is twice as much",
+     .offset = AT(budget), .initial = "2m"},
+    {RG_OPTION_CHOICE, "crash", .about = "what a command says that a signal ends",
+     .offset = AT(crash), .initial = "skip", .choices = crashes},
+    {RG_OPTION_FLAG, "dry-run", .about = "prints the command of each candidate, and runs none",
+     .offset = AT(dry_run), .excludes = "json"},
+    RG_GROUP("Output"),
+    RG_INCLUDE(rg_json_option, AT(json), NULL),
+    {RG_OPTION_END},
+};
+
+// --- inside `git bisect run` ---
+
+// git takes 1 to 127 for bad, but 125 for skip, and ends above that.
+static int git_status(enum rg_judgement verdict)
+{
+    return verdict == RG_JUDGED_GOOD   ? RG_EXIT_PASS
+           : verdict == RG_JUDGED_BAD  ? RG_EXIT_FAIL
+           : verdict == RG_JUDGED_SKIP ? RG_EXIT_GIT_SKIP
+           : rg_interrupted()          ? RG_EXIT_SIGNALLED + rg_interrupt_signal()
+                                       : RG_EXIT_SIGNALLED;
+}
+
+static int judge_for_git(const struct rg_judging *judging)
+{
+    rg_interrupt_watch();
+    const struct rg_judged judged = rg_judge(judging, NULL, NULL);
+    rg_info("%s (exit status %d, %d %s)", rg_judgement_name(judged.verdict), judged.status,
+            judged.tries, judged.tries == 1 ? "try" : "tries");
+    return git_status(judged.verdict);
+}
+
+// --- a list ---
+
+static int print_lines(const struct rg_candidates *candidates, const struct rg_judging *judging)
+{
+    bool ok = true;
+    for (int64_t i = 0; ok && i < candidates->count; i++) {
+        char *line = rg_judging_line(judging, candidates->names[i], candidates->names[0], 0);
+        ok = line != NULL;
+        if (ok)
+            printf("%s\n", line);
+        free(line);
+    }
+    return ok ? RG_EXIT_PASS : RG_EXIT_FAIL;
+}
+
+static int search(const struct bisect_options *o, const struct rg_candidates *candidates,
+                  const struct rg_judging *judging)
+{
+    struct rg_bisect bisect = {.candidates = candidates,
+                               .judging = judging,
+                               .fresh = o->fresh,
+                               .tell = o->json ? NULL : rg_bisect_print_verdict};
+    int exit = rg_bisect_run(&bisect);
+    if (!o->json)
+        rg_bisect_print_end(&bisect);
+    else if (bisect.judged && bisect.order && !rg_bisect_print_json(&bisect, stdout))
+        exit = rg_exit_worse(exit, RG_EXIT_FAIL);
+    rg_bisect_free(&bisect);
+    return exit;
+}
+
+static int bisect_list(const struct bisect_options *o, const struct rg_words *arguments,
+                       const struct rg_judging *judging)
+{
+    struct rg_candidates candidates = {.count = 0};
+    bool ok = !o->list || rg_candidates_read(o->list, &candidates);
+    for (int i = 0; ok && i < arguments->count; i++)
+        ok = rg_candidates_add(arguments->items[i], &candidates);
+    int exit = RG_EXIT_USAGE;
+    if (ok && rg_candidates_between(o->good, o->bad, &candidates))
+        exit = o->dry_run ? print_lines(&candidates, judging) : search(o, &candidates, judging);
+    rg_candidates_free(&candidates);
+    return exit;
+}
+
+// --- the command ---
+
+static bool check(const struct bisect_options *o, const struct rg_words *arguments, bool *is_git)
+{
+    const bool has_list = o->list || arguments->count;
+    *is_git = !o->good && !o->bad && !has_list;
+    if (!o->line)
+        return rg_error("bisect: --run names the command that judges, as in `raingauge bisect "
+                        "--good A --bad B --run 'raingauge gate {good} {}' A X Y B`");
+    if (o->list && arguments->count)
+        return rg_error("--list %s and '%s': name candidates in one of the two", o->list,
+                        arguments->items[0]);
+    if (*is_git)
+        return !(o->json || o->dry_run || o->fresh) ||
+               rg_error("bisect: inside `git bisect run` there are no candidates; leave out "
+                        "--json, --dry-run and --fresh");
+    if (!o->good || !o->bad)
+        return rg_error("bisect: --good and --bad name the two ends; --%s is missing",
+                        o->good ? "bad" : "good");
+    return strstr(o->line, "{}") ||
+           rg_error("--run '%s': has no {} where the candidate stands", o->line);
+}
+
+static int bisect(const void *values, const struct rg_words *arguments)
+{
+    const struct bisect_options *o = values;
+    struct rg_judging judging = {
+        .line = o->line, .tries = o->tries, .crash_is_bad = o->crash == CRASH_BAD};
+    if (!check(o, arguments, &judging.prints_here) ||
+        !rg_duration_read(o->budget, "--budget", &judging.budget_s))
+        return RG_EXIT_USAGE;
+    return judging.prints_here ? judge_for_git(&judging) : bisect_list(o, arguments, &judging);
+}
+
+const struct rg_command rg_command_bisect = {
+    .name = "bisect",
+    .usage = "[--good A --bad B] --run COMMAND [--list FILE | CANDIDATE...] [--json]",
+    .about = "finds the first of several drivers or builds that is bad, or judges for `git bisect "
+             "run`",
+    .options = options,
+    .options_size = sizeof(struct bisect_options),
+    .run = bisect,
+};

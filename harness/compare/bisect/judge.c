@@ -1,0 +1,120 @@
+#include "harness/compare/bisect/judge.h"
+
+#include <errno.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+#include "core/base/program.h"
+#include "harness/compare/bisect/blanks.h"
+#include "harness/console/clock.h"
+#include "harness/console/exit.h"
+#include "harness/console/interrupt.h"
+
+const char *rg_judgement_name(enum rg_judgement verdict)
+{
+    static const char *const names[RG_JUDGED_COUNT] = {
+        [RG_JUDGED_NONE] = "none", [RG_JUDGED_GOOD] = "good",   [RG_JUDGED_BAD] = "bad",
+        [RG_JUDGED_SKIP] = "skip", [RG_JUDGED_AGAIN] = "again", [RG_JUDGED_STOP] = "stop"};
+    return names[verdict];
+}
+
+enum rg_judgement rg_judgement_of(int status, bool crash_is_bad)
+{
+    switch (status) {
+    case RG_EXIT_PASS:
+        return RG_JUDGED_GOOD;
+    case RG_EXIT_FAIL:
+        return RG_JUDGED_BAD;
+    case RG_EXIT_INCONCLUSIVE:
+        return RG_JUDGED_AGAIN;
+    case RG_EXIT_NOTHING:
+    case RG_EXIT_UNSUPPORTED:
+    case RG_EXIT_GIT_SKIP:
+        return RG_JUDGED_SKIP;
+    case RG_EXIT_SIGNALLED + SIGINT:
+    case RG_EXIT_SIGNALLED + SIGTERM:
+        return RG_JUDGED_STOP;
+    default:
+        if (status <= RG_EXIT_SIGNALLED)
+            return RG_JUDGED_STOP;
+        return crash_is_bad ? RG_JUDGED_BAD : RG_JUDGED_SKIP;
+    }
+}
+
+// Waits for a process, and ends its group where we are asked to end. Its exit status as a shell
+// tells it.
+static int wait_for(pid_t child)
+{
+    enum { PAUSE_MS = 5 };
+    const double patience_ms = 10000;
+    double asked_ms = 0;
+    int status;
+    pid_t ended;
+    while ((ended = waitpid(child, &status, WNOHANG)) == 0 || (ended < 0 && errno == EINTR)) {
+        if (rg_interrupted() && !asked_ms) {
+            asked_ms = rg_now_ms();
+            kill(-child, SIGTERM);
+        } else if (asked_ms && rg_now_ms() > asked_ms + patience_ms) {
+            kill(-child, SIGKILL);
+        }
+        nanosleep(&(struct timespec){.tv_nsec = PAUSE_MS * 1000000}, NULL);
+    }
+    return ended != child        ? RG_EXIT_SIGNALLED
+           : WIFSIGNALED(status) ? RG_EXIT_SIGNALLED + WTERMSIG(status)
+                                 : WEXITSTATUS(status);
+}
+
+// The status of the shell with a line; below 0: it could not be started.
+static int run_line(const char *line, bool prints_here)
+{
+    const char *const args[] = {"/bin/sh", "-c", line, NULL};
+    const int fds[] = {-1, prints_here ? STDOUT_FILENO : STDERR_FILENO, STDERR_FILENO};
+    pid_t child;
+    fflush(NULL);
+    const int error = rg_program_start(args, fds, 3, &child);
+    if (!error)
+        return wait_for(child);
+    rg_error("/bin/sh: cannot be started: %s; close other programs", strerror(error));
+    return -1;
+}
+
+char *rg_judging_line(const struct rg_judging *judging, const char *candidate, const char *good,
+                      int number)
+{
+    char budget[32];
+    snprintf(budget, sizeof(budget), "%.10gs", ldexp(judging->budget_s, number));
+    return rg_blanks_fill(judging->line, &(struct rg_blanks){candidate, good, budget});
+}
+
+static int try_once(const struct rg_judging *judging, const char *candidate, const char *good,
+                    int number)
+{
+    char *line = rg_judging_line(judging, candidate, good, number);
+    const int status = line ? run_line(line, judging->prints_here) : -1;
+    free(line);
+    return status;
+}
+
+struct rg_judged rg_judge(const struct rg_judging *judging, const char *candidate, const char *good)
+{
+    struct rg_judged judged = {.verdict = RG_JUDGED_AGAIN};
+    const double start_ms = rg_now_ms();
+    while (judged.verdict == RG_JUDGED_AGAIN && judged.tries < judging->tries) {
+        judged.status = try_once(judging, candidate, good, judged.tries);
+        judged.verdict = judged.status < 0 || rg_interrupted()
+                             ? RG_JUDGED_STOP
+                             : rg_judgement_of(judged.status, judging->crash_is_bad);
+        judged.tries++;
+    }
+    if (judged.verdict == RG_JUDGED_AGAIN)
+        judged.verdict = RG_JUDGED_SKIP;
+    judged.seconds = (rg_now_ms() - start_ms) / 1000;
+    return judged;
+}

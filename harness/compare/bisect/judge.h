@@ -1,0 +1,51 @@
+// One candidate of a bisect, judged by a command.
+#ifndef RG_HARNESS_COMPARE_BISECT_JUDGE_H
+#define RG_HARNESS_COMPARE_BISECT_JUDGE_H
+
+#include <stdbool.h>
+
+enum rg_judgement {
+    RG_JUDGED_NONE, // not judged yet
+    RG_JUDGED_GOOD,
+    RG_JUDGED_BAD,
+    RG_JUDGED_SKIP,  // it cannot be judged
+    RG_JUDGED_AGAIN, // not with so much measured
+    RG_JUDGED_STOP,  // no candidate could be: the command is wrong, or was asked to end
+};
+enum { RG_JUDGED_COUNT = RG_JUDGED_STOP + 1 };
+
+// "good": the words of all forms.
+const char *rg_judgement_name(enum rg_judgement verdict);
+
+// What the exit status of a command says: 0 good, 1 bad, 3 again, 4, 77 and 125 skip; a process
+// that a signal ended, or a status above 128, as shells tell of such a process, skip or, where
+// `crash_is_bad`, bad; all else stop.
+enum rg_judgement rg_judgement_of(int status, bool crash_is_bad);
+
+struct rg_judging {
+    const char *line; // for the shell, with blanks (blanks.h)
+    double budget_s;  // that {budget} stands for at the first try; each further has twice as much
+    int tries;        // at most
+    bool crash_is_bad;
+    bool prints_here; // what the command prints to stdout comes to ours; else to stderr
+};
+
+struct rg_judged {
+    enum rg_judgement verdict; // never again: what is so after the last try is skipped
+    int status;                // of the last try: 128 and the number of a signal that ended it
+    int tries;
+    double seconds;
+};
+
+// The line of a try, counted from 0, with its blanks filled, which the caller frees. NULL, and one
+// logged line, without memory.
+char *rg_judging_line(const struct rg_judging *judging, const char *candidate, const char *good,
+                      int number);
+
+// Judges a candidate; NULLs where it has no name. Its verdict is stop, too, and one line is logged,
+// where the shell cannot be started. A signal that asks raingauge to end
+// (harness/console/interrupt.h) ends the command first.
+struct rg_judged rg_judge(const struct rg_judging *judging, const char *candidate,
+                          const char *good);
+
+#endif

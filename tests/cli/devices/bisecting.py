@@ -1,0 +1,194 @@
+"""bisect: the first of several drivers that is bad, alone and inside git bisect run; its verdicts, what it keeps, what it refuses."""
+import json
+import os
+import signal
+import subprocess
+import tempfile
+import time
+
+import forms
+
+TESTS = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+EXAMPLES = os.path.join(TESTS, os.pardir, "docs", "ci")
+TORUS = "raster/torus raster 64x48 2 scene=mesh model=torus faces=300\n"
+HOSTILE = ["it's", 'a "b" c', "$HOME `id` \\", "x;exit 1", "-n", "Ü ⟨ü⟩", "two  blanks", "{good}", "{budget}", "*", "~", "#x"]
+
+
+def write(folder, name, text):
+    path = os.path.join(folder, name)
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w") as file:
+        file.write(text)
+
+
+def manifest(library):
+    return json.dumps({"file_format_version": "1.0.0", "ICD": {"library_path": library, "api_version": "1.1.0"}})
+
+
+def shell(runner, folder, script):
+    """A script of docs/ci in a folder, where raingauge is found by its name."""
+    env = runner.variables({"PATH": os.path.dirname(runner.raingauge) + ":" + os.environ["PATH"], "HOME": folder})
+    return subprocess.run(["sh", os.path.join(EXAMPLES, script)], cwd=folder, env=env, capture_output=True, text=True, timeout=120, check=False)
+
+
+def bisect(runner, line, more=(), good="1", bad="9", names="123456789"):
+    """A bisect of words with --json: its exit status, its report, what it said."""
+    ran = runner.run(["bisect", "--good", good, "--bad", bad, "--run", line, "--json", *more, *names])
+    return ran.returncode, json.loads(ran.stdout) if ran.stdout else None, ran.stderr
+
+
+def check_builds(runner):
+    """of five builds the first that crashes is found, and one that is no driver is skipped, as docs/ci.md shows it"""
+    with tempfile.TemporaryDirectory() as folder:
+        write(folder, "cells.txt", TORUS)
+        for build, library in (("1", runner.misbehaver), ("2", runner.misbehaver), ("3", None), ("4", runner.crasher), ("5", runner.crasher)):
+            write(folder, "builds/%s/icd.json" % build, manifest(library) if library else "no driver\n")
+        ran = shell(runner, folder, "bisect-builds.sh")
+        problems = [] if ran.returncode == 3 else ["exit status %d, %s" % (ran.returncode, ran.stderr)]
+        wanted = ["good  builds/1", "bad   builds/5", "skip  builds/3", "good  builds/2", "bad   builds/4"]
+        lines = ran.stdout.split("\n")
+        if [line.split("  (")[0] for line in lines[:5]] != wanted or lines[5:] != [
+                "builds/2 is good; the first bad one is one of these, of which the last alone was judged:", "  builds/3", "  builds/4", ""]:
+            problems.append(ran.stdout)
+        write(folder, "builds/3/icd.json", manifest(runner.misbehaver))
+        ran = shell(runner, folder, "bisect-builds.sh")
+        if ran.returncode or not ran.stdout.endswith("the first bad one is builds/4; builds/3 before it is good\n"):
+            problems.append("exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr))
+    return problems
+
+
+def check_git(runner):
+    """git bisect run finds the commit whose driver crashes, past commits that do not build, as docs/ci.md shows it"""
+    with tempfile.TemporaryDirectory() as folder:
+        def git(*args):
+            return subprocess.run(["git", "-c", "user.name=n", "-c", "user.email=e", *args], cwd=folder, capture_output=True, text=True,
+                                  env=runner.variables({"HOME": folder}), check=True).stdout.strip()
+
+        git("init", "-q", "-b", "main")
+        write(folder, ".git/info/exclude", "cells.txt\n")
+        write(folder, "cells.txt", TORUS)
+        commits = []
+        for number in range(8):
+            write(folder, "Makefile", "all:\n\t@%s\n# %d\n" % ("false" if number in (3, 4) else "true", number))
+            write(folder, "icd.json", manifest(runner.crasher if number >= 6 else runner.misbehaver))
+            git("add", ".")
+            git("commit", "-q", "-m", "commit %d" % number)
+            commits.append(git("rev-parse", "HEAD"))
+        git("tag", "good", commits[0])
+        ran = shell(runner, folder, "bisect-git.sh")
+    found = "%s is the first bad commit" % commits[6] in ran.stdout
+    return [] if found and ran.returncode == 0 else ["exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr)]
+
+
+def check_statuses(runner):
+    """inside git bisect run each exit status of a command becomes git's, and what is inconclusive is tried with twice the time"""
+    problems = []
+    rows = [("exit 0", 0), ("exit 1", 1), ("exit 3", 125), ("exit 4", 125), ("exit 77", 125), ("exit 125", 125), ("kill -SEGV $$", 125),
+            ("exit 134", 125), ("exit 2", 128), ("exit 127", 128), ("exit 5", 128), ("exit 128", 128), ("no-such-command", 128), ("exit 130", 128)]
+    for line, status in rows:
+        ran = runner.run(["bisect", "--run", line])
+        if ran.returncode != status:
+            problems.append("%s: exit status %d, %s" % (line, ran.returncode, ran.stderr))
+    ran = runner.run(["bisect", "--crash", "bad", "--run", "kill -SEGV $$"])
+    if ran.returncode != 1:
+        problems.append("--crash bad: exit status %d" % ran.returncode)
+    ran = runner.run("bisect --tries 4 --budget 5s --run".split() + ["echo {budget} {}; test {budget} = 20s && exit 1; exit 3"])
+    if ran.returncode != 1 or ran.stdout != "5s {}\n10s {}\n20s {}\n" or "3 tries" not in ran.stderr:
+        problems.append("tries: exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr))
+    return problems
+
+
+def check_lists(runner):
+    """a list is halved between its ends, which are judged first, and each way to end has its status"""
+    problems = []
+    for line, ends, status, end, first_bad, judged in (
+            ("test {} -lt 6", ("1", "9"), 0, "found", ["6"], "19576"), ("test {} -gt 4", ("9", "1"), 0, "found", ["4"], "91534"),
+            ("test {} -lt 2", ("1", "2"), 0, "found", ["2"], "12"),
+            ("case {} in [4-6]) exit 4;; [1-3]) ;; *) exit 1; esac", ("1", "9"), 3, "one of several", list("4567"), None),
+            ("test {} -lt 1", ("1", "9"), 1, "good is not good", [], "1"), ("test {} -lt 10", ("1", "9"), 1, "bad is not bad", [], "19"),
+            ("exit 77; {}", ("1", "9"), 4, "good is not good", [], "1"), ("test {} -lt 5 || exit 2", ("1", "9"), 2, "stopped", [], "1")):
+        found, report, said = bisect(runner, line, good=ends[0], bad=ends[1])
+        problems += forms.problems("bisect", report)
+        order = "".join(row["candidate"] for row in report["judged"])
+        if (found, report["end"], report["first_bad"]) != (status, end, first_bad) or judged not in (None, order):
+            problems.append("%s: exit status %d, %s in order %s, %s" % (line, found, report, order, said))
+    return problems
+
+
+def check_names(runner):
+    """the shell takes a candidate of any characters for one word, in any quotes, and JSON has it as it is"""
+    problems = []
+    for name in HOSTILE:
+        ran = runner.run(["bisect", "--good", "good", "--bad", name, "--run", "test {} = good", "--json"])
+        if ran.returncode or json.loads(ran.stdout)["first_bad"] != [name]:
+            problems.append("%r: exit status %d, %s%s" % (name, ran.returncode, ran.stdout, ran.stderr))
+        shown = runner.run(["bisect", "--good", "good", "--bad", name, "--dry-run", "--run", "printf '%s|' {} \"{}\" '{}' \"a{}\""])
+        spoken = subprocess.run(["sh", "-c", shown.stdout.split("\n")[1]], capture_output=True, text=True, check=False)
+        if spoken.stdout != "%s|%s|%s|a%s|" % (4 * (name,)):
+            problems.append("%r: %s becomes %r" % (name, shown.stdout, spoken.stdout))
+    with tempfile.TemporaryDirectory() as folder:
+        write(folder, "list.txt", "# oldest first\n\n" + "".join("  %s  \r\n" % name for name in ["good"] + HOSTILE[:-1]))
+        ran = runner.run(["bisect", "--list", os.path.join(folder, "list.txt"), "--good", "good", "--bad", "~", "--json", "--run", "test {} = good"])
+        if ran.returncode or json.loads(ran.stdout)["first_bad"] != HOSTILE[:1]:
+            problems.append("list: exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr))
+    return problems
+
+
+def check_goes_on(runner):
+    """a bisect that is interrupted ends its command, and goes on from its verdicts; a damaged file of them is not taken"""
+    problems = []
+    with tempfile.TemporaryDirectory() as folder:
+        env = {"XDG_STATE_HOME": folder}
+        line = "echo {} >>%s/tried; test -e %s/go || test {} -ne 5 || { touch %s/waits; sleep 300; }; test {} -lt 6" % (folder, folder, folder)
+        args = ["bisect", "--good", "1", "--bad", "9", "--run", line, *"123456789"]
+        process = runner.start(args, env=env)
+        end = time.monotonic() + 60
+        while not os.path.exists(os.path.join(folder, "waits")) and time.monotonic() < end:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        output, said = process.communicate(timeout=60)
+        if process.returncode != 130 or output.count("\n") != 2 or "goes on from 2 verdicts" not in said:
+            problems.append("interrupted: exit status %d, %s%s" % (process.returncode, output, said))
+        kept = os.listdir(os.path.join(folder, "raingauge"))
+        write(folder, "go", "")
+        path = os.path.join(folder, "raingauge", kept[0])
+        with open(path) as file:
+            text = file.read()
+        ran = runner.run(args, env=env)
+        with open(os.path.join(folder, "tried")) as file:
+            tried = file.read().split()
+        if ran.returncode or tried != list("195576") or "goes on with 2 verdicts" not in ran.stderr or "the first bad one is 6" not in ran.stdout:
+            problems.append("again: exit status %d, tried %s, %s%s" % (ran.returncode, tried, ran.stdout, ran.stderr))
+        if os.path.exists(path):
+            problems.append("the verdicts stay")
+        for damaged in (text.replace("good 0", "good 44"), text + "bad 3\n", text + text, text.replace("good", "well")):
+            write(folder, "raingauge/" + kept[0], damaged)
+            ran = runner.run(args, env=env)
+            if ran.returncode or "is damaged; the bisect begins anew" not in ran.stderr or ran.stdout.count("exit status") != 5:
+                problems.append("damaged: exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr))
+        write(folder, "raingauge/" + kept[0], text)
+        ran = runner.run(args + ["--fresh"], env=env)
+        if ran.returncode or "goes on" in ran.stderr:
+            problems.append("fresh: %s" % ran.stderr)
+    return problems
+
+
+def check_refused(runner):
+    """what cannot be a bisect is refused in one line"""
+    problems = []
+    for args, says in ((["--good", "a", "--bad", "b"], "--run names the command"), (["--run", "{}", "--good", "a"], "--bad is missing"),
+                       (["--run", "{}", "a", "b"], "--good is missing"), (["--run", "true", "--good", "a", "--bad", "b"], "has no {}"),
+                       (["--run", "{}", "--good", "a", "--bad", "a"], "both 'a'"), (["--run", "true", "--json"], "leave out"),
+                       (["--run", "{}", "--good", "a", "--bad", "x", "a", "b"], "--bad 'x' is not among"),
+                       (["--run", "{}", "--good", "a", "--bad", "b", "a", "b", "a"], "'a' is there twice"),
+                       (["--run", "{}", "--good", "a", "--bad", "b\n"], "control character"), (["--run", "{}", "--good", "a", "--bad", ""], "no name"),
+                       (["--run", "{}", "--good", "a", "--bad", "b", "--list", "/nonexistent"], "/nonexistent"),
+                       (["--run", "{}", "--good", "a", "--bad", "b", "--list", "/dev/null"], "/dev/null"),
+                       (["--run", "{}", "--budget", "soon"], "--budget 'soon'"), (["--run", "{}", "--tries", "0"], "--tries 0")):
+        ran = runner.run(["bisect"] + args)
+        if ran.returncode != 2 or ran.stdout or ran.stderr.count("\n") != 1 or says not in ran.stderr:
+            problems.append("%s: exit status %d, %s%s" % (args, ran.returncode, ran.stdout, ran.stderr))
+    return problems
+
+
+CHECKS = [check_builds, check_git, check_statuses, check_lists, check_names, check_goes_on, check_refused]

@@ -1,0 +1,32 @@
+"""Bisects: which candidate is judged next, what a command's exit status says, how it is called, and what is kept."""
+from fault import Fault
+
+TESTS = ("bisect", "command line, bisects")
+
+BISECT = "harness/compare/bisect/"
+SEARCH, BLANKS, JUDGE = BISECT + "search.c", BISECT + "blanks.c", BISECT + "judge.c"
+LIST, KEPT, RUN = BISECT + "list.c", BISECT + "kept.c", BISECT + "bisect.c"
+COMMAND = "harness/commands/comparing/bisect.c"
+
+ROWS = [
+    Fault(SEARCH, "first + «(length - 1) / 2»;", "0", "a stretch is walked through one by one"),
+    Fault(SEARCH, "if («length > longest» ||", "!longest", "what is skipped in the middle is left one by one", lives="the first stretch is halved all the same, and finds the same"),
+    Fault(SEARCH, "            search.bad = i;\n            «break;»", ";", "the last bad one is found"),
+    Fault(SEARCH, "            search.good = i;\n            «search.left = 0;»", ";", "what lies before the last good one counts as left"),
+    Fault(BLANKS, "if (quotes == SINGLE && «c == '\\''»)", "false", "a quote in a candidate ends the quotes"),
+    Fault(BLANKS, "strchr(«\"\\\\\\\"$`\"», c)", "\"\\\\\\\"\"", "the shell runs what a candidate says"),
+    Fault(BLANKS, "«*line == '\\\\' && quotes != SINGLE && line[1]» ? 2 : 1;", "false", "an escaped quote opens quotes"),
+    Fault(JUDGE, "return «RG_JUDGED_AGAIN»;", "RG_JUDGED_STOP", "what is inconclusive ends a bisect"),
+    Fault(JUDGE, "return «crash_is_bad ? RG_JUDGED_BAD : RG_JUDGED_SKIP»;", "RG_JUDGED_SKIP", "--crash bad says nothing"),
+    Fault(JUDGE, "if («status <= RG_EXIT_SIGNALLED»)", "status < 100", "a command that is not there is skipped"),
+    Fault(JUDGE, "ldexp(judging->budget_s, «number»)", "0", "each try has the same time"),
+    Fault(JUDGE, "            «kill(-child, SIGTERM);»", ";", "the command of an interrupted bisect runs on"),
+    Fault(LIST, "    if («from > to»)", "false", "a list with the newest first is searched backwards"),
+    Fault(LIST, "«!has_each_once(candidates)»", "false", "a candidate that stands there twice has two verdicts"),
+    Fault(KEPT, "|| «strcmp(text + used, b->candidates->names[at])»)", "false", "a verdict is taken for another candidate", lives="the hash in the file's name is of the candidates, and damage that changes a name alone is not tried"),
+    Fault(KEPT, "judged.verdict == RG_JUDGED_NONE || «b->judged[at].verdict != RG_JUDGED_NONE»", "false", "a verdict that stands there twice is taken twice"),
+    Fault(KEPT, "hash = «hash_text(bisect->candidates->names[i], hash)»;", "hash", "verdicts of other candidates are taken"),
+    Fault(RUN, "    «rg_bisect_kept_remove(&r->kept);»", ";", "verdicts stay when a bisect is done"),
+    Fault(RUN, "b->fresh ? «0» : rg_bisect", "rg_bisect_kept_take(&r->kept, b)", "--fresh takes verdicts"),
+    Fault(COMMAND, ": verdict == RG_JUDGED_SKIP ? «RG_EXIT_GIT_SKIP»", "1", "git takes what was skipped for bad"),
+]
