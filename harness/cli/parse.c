@@ -20,6 +20,50 @@ struct line {
 
 enum parsed { RUN, HELP, REFUSED };
 
+// --- flags with values ---
+
+// Programs that start tests write a flag as --NAME=1, and --NAME=0 where it does not hold. Whether
+// a word is one of these, and which flag's.
+static const struct rg_option *flag_of(const struct line *line, const char *word, bool *holds)
+{
+    static const char yes[] = "1 true yes on", no[] = "0 false no off";
+    const char *equals = strncmp(word, "--", 2) ? NULL : strchr(word, '=');
+    *holds = equals && equals[1] && rg_has_word(yes, equals + 1);
+    if (!*holds && !(equals && equals[1] && rg_has_word(no, equals + 1)))
+        return NULL;
+    for (int i = 0; i < line->count; i++)
+        if (line->rows[i].kind == RG_OPTION_FLAG && line->rows[i].name &&
+            strlen(line->rows[i].name) == (size_t)(equals - word - 2) &&
+            !strncmp(line->rows[i].name, word + 2, strlen(line->rows[i].name)))
+            return &line->rows[i];
+    return NULL;
+}
+
+// The words with such flags written as --NAME, or left out; a NULL follows. The caller frees them
+// with free_words. NULL without memory.
+static const char **settle_flags(const struct line *line, int argc, const char **argv, int *count)
+{
+    const char **words = rg_alloc((size_t)argc + 1, sizeof(*words), "options");
+    bool goes_on = words != NULL; // to the "--" behind which nothing is an option
+    for (int i = *count = 0; words && i < argc; i++) {
+        bool holds;
+        goes_on = goes_on && strcmp(argv[i], "--");
+        const struct rg_option *flag = goes_on ? flag_of(line, argv[i], &holds) : NULL;
+        if (!flag || holds)
+            words[(*count)++] = flag ? strndup(argv[i], strlen(flag->name) + 2) : strdup(argv[i]);
+    }
+    return words;
+}
+
+static void free_words(const char **words)
+{
+    for (int i = 0; words && words[i]; i++)
+        free((char *)words[i]);
+    free(words);
+}
+
+// --- the line ---
+
 // Sets every option's value to that of an option that is not given.
 static bool set_defaults(struct line *line)
 {
@@ -127,14 +171,19 @@ int rg_command_run(const struct rg_command *command, int argc, const char **argv
     struct line line = {.command = command};
     line.count = rg_option_rows(command->options, line.rows);
     line.values = rg_alloc(1, command->options_size, "options");
-    if (!line.values)
+    int count = 0;
+    const char **words = line.values ? settle_flags(&line, argc, argv, &count) : NULL;
+    if (!words) {
+        free(line.values);
         return RG_EXIT_FAIL;
+    }
     make_table(&line, table);
-    line.context = poptGetContext("raingauge", argc, argv, table, 0);
+    line.context = poptGetContext("raingauge", count, words, table, 0);
     const int exit = set_defaults(&line) ? run(&line) : RG_EXIT_FAIL;
     poptFreeContext(line.context);
     for (int i = 0; i < line.count; i++)
         rg_option_free(&line.rows[i], line.values);
     free(line.values);
+    free_words(words);
     return exit;
 }

@@ -16,6 +16,8 @@
            misbehaving  drivers that crash, hang, lie about their end or lose their device
            gates    one device held against another
            baselines  a device held against what was kept of it
+           reports  what gates tell, of names with any characters and of what is expected
+           ci       gates as CI services and runners of googletest run them
            bisects  the first of several drivers that is bad
            shrinking  a driver that miscompiles: blamed, and shrunk to a case
            wrong    a driver that draws wrongly is found
@@ -35,6 +37,7 @@ sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "dev
 import baselines
 import bisecting
 import cases
+import ci
 import clips
 import doctor
 import gates
@@ -43,6 +46,7 @@ import kept
 import losses
 import misbehaving
 import pages
+import reports
 import results
 import shrinking
 from runner import Runner
@@ -61,6 +65,8 @@ SUITES = {
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
     "gates": lambda runner: runner.check_all(gates.CHECKS),
     "baselines": lambda runner: runner.check_all(baselines.CHECKS),
+    "reports": lambda runner: runner.check_all(reports.CHECKS),
+    "ci": lambda runner: runner.check_all(ci.CHECKS),
     "bisects": lambda runner: runner.check_all(bisecting.CHECKS),
     "shrinking": lambda runner: runner.check_all(shrinking.CHECKS),
     "wrong": lambda runner: runner.check_all(results.WRONG),

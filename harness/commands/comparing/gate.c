@@ -11,6 +11,8 @@
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/compare/gate/baseline/against.h"
+#include "harness/commands/comparing/outputs.h"
+#include "harness/compare/gate/pictures/pictures.h"
 #include "harness/compare/gate/report/gtest.h"
 #include "harness/compare/gate/run/gate.h"
 #include "harness/console/duration.h"
@@ -27,10 +29,11 @@ struct gate_options {
     struct rg_words known[3]; // files of expectations, of Mesa's fails, of Mesa's flakes
     struct rg_words skips;    // of Mesa's skips
     char *junit, *bmf;        // files; NULL: none
-    char *filter;             // googletest's
+    char *pictures;           // a folder for those that differ; NULL: beside the file of JUnit
+    struct rg_gtest_asked gtest;
     int timeout_s;
     int64_t memory_bytes;
-    bool list, pictures_only, github, json;
+    bool pictures_only, github, json;
 };
 
 #define AT(field) offsetof(struct gate_options, field)
@@ -79,6 +82,10 @@ static const struct rg_option options[] = {
     {RG_OPTION_TEXTS, "skips", .argument = "FILE", .about = "the same as Mesa's *-skips.txt",
      .offset = AT(skips), .names = RG_NAMES_FILE},
     RG_GROUP("Output"),
+    {RG_OPTION_TEXT, "output", .argument = "DIR",
+     .about = "writes pictures that differ, A's and B's and heat maps, which reports then name; "
+              "with --junit FILE they go to FILE's folder, into FILE-pictures",
+     .offset = AT(pictures), .letter = 'o', .names = RG_NAMES_FOLDER},
     {RG_OPTION_TEXT, "junit", .argument = "FILE", .about = "writes JUnit's XML (docs/ci.md)",
      .offset = AT(junit), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXT, "bmf", .argument = "FILE", .about = "writes Bencher's metric format",
@@ -87,12 +94,7 @@ static const struct rg_option options[] = {
      .about = "prints GitHub's annotations, and appends to the file of $GITHUB_STEP_SUMMARY",
      .offset = AT(github), .excludes = "json"},
     RG_INCLUDE(rg_json_option, AT(json), NULL),
-    RG_GROUP("googletest's protocol"),
-    {RG_OPTION_FLAG, "gtest_list_tests", .about = "prints the names of the cases, and runs none",
-     .offset = AT(list), .excludes = "json github"},
-    {RG_OPTION_TEXT, "gtest_filter", .argument = "FILTER",
-     .about = "runs these cases, and prints as googletest does", .offset = AT(filter),
-     .excludes = "json github"},
+    RG_INCLUDE(rg_gtest_options, AT(gtest), NULL),
     {RG_OPTION_END},
 };
 
@@ -148,29 +150,23 @@ static int list_cases(const struct gate_options *o, const struct gate_input *in)
         ok = !rg_baseline_asks(o->devices, in->baseline.devices[i].name) ||
              add_names(&in->cells, in->baseline.devices[i].name, &report);
     if (ok)
-        rg_gtest_list(stdout, &report, o->filter ? o->filter : "*");
+        rg_gtest_list(stdout, &report, o->gtest.filter ? o->gtest.filter : "*");
     rg_report_free(&report);
     return ok ? RG_EXIT_PASS : RG_EXIT_FAIL;
 }
 
-static void print_as_gtest(const struct rg_report *report)
-{
-    rg_gtest_begin(stdout, report->case_count);
-    for (int i = 0; i < report->case_count; i++) {
-        rg_gtest_run(stdout, report->cases[i].name);
-        rg_gtest_result(stdout, &report->cases[i]);
-    }
-    rg_gtest_end(stdout, report);
-}
-
-// What would make the project's own files of expectations true.
+// What would make the files of expected failures true; the first gets failures that are new.
 static bool print_patches(const struct rg_known *known, const struct rg_gate *gate)
 {
-    bool ok = true;
-    for (int file = 0; ok && file < known->file_count; file++)
-        if (known->files[file].form == RG_FORM_OWN)
-            ok = rg_known_patch(known, file, gate->results, gate->result_count, today(), false,
-                                stdout);
+    bool ok = true, adds_new = true;
+    for (int file = 0; ok && file < known->file_count; file++) {
+        const enum rg_known_form form = known->files[file].form;
+        if (form != RG_FORM_OWN && form != RG_FORM_FAILS)
+            continue;
+        ok = rg_known_patch(known, file, gate->results, gate->result_count, today(), adds_new,
+                            stdout);
+        adds_new = false;
+    }
     return ok;
 }
 
@@ -187,32 +183,30 @@ static bool print_github(const struct rg_report *report)
            (!summary || rg_report_append_markdown(report, summary));
 }
 
-static bool print(const struct gate_options *o, const struct rg_known *known,
-                  const struct rg_gate *gate)
+static bool print(const struct gate_options *o, const struct rg_gate_outputs *outputs,
+                  const struct rg_known *known, const struct rg_gate *gate)
 {
     const struct rg_report *report = &gate->report;
     bool ok = true;
-    if (o->junit)
-        ok = rg_report_write(report, rg_report_junit, o->junit);
+    if (*outputs->junit)
+        ok = rg_report_write(report, rg_report_junit, outputs->junit);
     if (o->bmf)
         ok = rg_report_write(report, rg_report_bmf, o->bmf) && ok;
     if (o->json)
         return rg_report_json(report, stdout) && ok;
-    if (o->filter)
-        print_as_gtest(report);
-    else
-        ok = print_text(known, gate) && ok;
+    ok = (outputs->prints_gtest ? rg_gtest_print(report, stdout) : print_text(known, gate)) && ok;
     return (!o->github || print_github(report)) && ok;
 }
 
 // --- the command ---
 
-// Whether the files can be written, as is found out before any work.
-static bool can_write(const struct gate_options *o)
+// Whether all can be written, as is found out before any work.
+static bool can_write(const struct gate_options *o, const struct rg_gate_outputs *outputs)
 {
     enum { REPORT_BYTES = 1 << 20 };
-    return (!o->junit || rg_output_file_can_be_written(o->junit, REPORT_BYTES)) &&
-           (!o->bmf || rg_output_file_can_be_written(o->bmf, REPORT_BYTES));
+    return (!*outputs->junit || rg_output_file_can_be_written(outputs->junit, REPORT_BYTES)) &&
+           (!o->bmf || rg_output_file_can_be_written(o->bmf, REPORT_BYTES)) &&
+           (!*outputs->pictures || rg_gate_pictures_can_be_written(outputs->pictures, 0));
 }
 
 static int run_either(const struct gate_options *o, const struct gate_input *in,
@@ -228,17 +222,23 @@ static int run_either(const struct gate_options *o, const struct gate_input *in,
 static int run(const struct gate_options *o, const struct gate_input *in)
 {
     struct rg_gate gate = {.case_count = 0};
+    struct rg_gate_outputs outputs = {.prints_gtest = false};
     struct rg_gate_request request = {.pairs = &in->pairs,
                                       .cells = &in->cells,
                                       .known = &in->known,
                                       .today = today(),
                                       .pictures_only = o->pictures_only,
-                                      .filter = o->filter};
+                                      .filter = o->gtest.filter};
     int exit = RG_EXIT_USAGE;
-    if ((!o->budget || rg_duration_read(o->budget, "--budget", &request.budget_s)) &&
-        can_write(o)) {
+    if (rg_gtest_shards(&request.shards) &&
+        rg_gate_outputs_settle(o->junit, o->pictures, &o->gtest, &outputs) &&
+        (!o->budget || rg_duration_read(o->budget, "--budget", &request.budget_s)) &&
+        can_write(o, &outputs)) {
+        outputs.prints_gtest |= request.shards.total > 1;
+        request.pictures = *outputs.pictures ? outputs.pictures : NULL;
         exit = run_either(o, in, &request, &gate);
-        if (exit != RG_EXIT_USAGE && exit < RG_EXIT_SIGNALLED && !print(o, &in->known, &gate))
+        if (exit != RG_EXIT_USAGE && exit < RG_EXIT_SIGNALLED &&
+            !print(o, &outputs, &in->known, &gate))
             exit = rg_exit_worse(exit, RG_EXIT_FAIL);
     }
     rg_gate_free(&gate);
@@ -284,7 +284,7 @@ static int gate(const void *values, const struct rg_words *arguments)
     if (exit == RG_EXIT_PASS && !read_input(o, &in))
         exit = RG_EXIT_USAGE;
     if (exit == RG_EXIT_PASS)
-        exit = o->list ? list_cases(o, &in) : run(o, &in);
+        exit = o->gtest.list ? list_cases(o, &in) : run(o, &in);
     rg_baseline_free(&in.baseline);
     rg_known_free(&in.known);
     rg_gate_cells_free(&in.cells);

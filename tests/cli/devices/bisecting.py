@@ -26,7 +26,10 @@ def manifest(library):
 
 
 def shell(runner, folder, script):
-    """A script of docs/ci in a folder, where raingauge is found by its name."""
+    """A script of docs/ci, which docs/ci.md quotes, in a folder where raingauge is found by its name."""
+    with open(os.path.join(EXAMPLES, script)) as file, open(EXAMPLES + ".md") as page:
+        if "\n```\n%s```\n" % file.read() not in page.read():
+            raise ValueError("docs/ci.md does not quote " + script)
     env = runner.variables({"PATH": os.path.dirname(runner.raingauge) + ":" + os.environ["PATH"], "HOME": folder})
     return subprocess.run(["sh", os.path.join(EXAMPLES, script)], cwd=folder, env=env, capture_output=True, text=True, timeout=120, check=False)
 

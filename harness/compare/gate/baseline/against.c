@@ -64,7 +64,7 @@ static bool add_case(struct run *r, const struct rg_baseline_row *row)
 {
     const struct rg_gate_cell *cell = find_cell(r->asked->request->cells, row->cell);
     char *name = rg_gate_case_name(cell, row->device);
-    if (!name || !rg_gate_is_chosen(r->asked->request, name)) {
+    if (!name || !rg_gate_is_chosen(r->asked->request, r->gate, name)) {
         free(name);
         return name != NULL;
     }
@@ -287,5 +287,5 @@ int rg_against_run(const struct rg_against *against, struct rg_gate *gate)
     end(&r);
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
-    return ok ? rg_gate_exit(&gate->report) : RG_EXIT_FAIL;
+    return ok ? rg_gate_exit(gate) : RG_EXIT_FAIL;
 }

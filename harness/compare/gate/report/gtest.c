@@ -208,3 +208,14 @@ void rg_gtest_end(FILE *out, const struct rg_report *report)
     put_listed(out, report, word_of(RG_ENDING_SKIPPED));
     put_listed(out, report, word_of(RG_ENDING_CRASH));
 }
+
+bool rg_gtest_print(const struct rg_report *report, FILE *out)
+{
+    rg_gtest_begin(out, report->case_count);
+    for (int i = 0; i < report->case_count; i++) {
+        rg_gtest_run(out, report->cases[i].name);
+        rg_gtest_result(out, &report->cases[i]);
+    }
+    rg_gtest_end(out, report);
+    return true;
+}

@@ -17,6 +17,14 @@
 // before the "-" is "*"; an empty filter lets nothing through.
 bool rg_gtest_matches(const char *filter, const char *name);
 
+// Of the cases that a filter lets through, in their order, every `total`th runs, from `index` on.
+struct rg_gtest_shards {
+    int total, index;
+};
+// What $GTEST_TOTAL_SHARDS and $GTEST_SHARD_INDEX say; without them one shard has all. Makes the
+// file of $GTEST_SHARD_STATUS_FILE. False, and one logged line, where they are no shard.
+bool rg_gtest_shards(struct rg_gtest_shards *shards);
+
 // The name for gtest of a case of a report, "streaks.small/cpu" of "streaks.small.cpu": its suite
 // reaches to the first point, and further points become slashes. Where that is not enough, for a
 // name has no suite, or characters that a filter or a list would misread, or more than
@@ -33,5 +41,7 @@ void rg_gtest_begin(FILE *out, int count);
 void rg_gtest_run(FILE *out, const char *name);
 void rg_gtest_result(FILE *out, const struct rg_report_case *told);
 void rg_gtest_end(FILE *out, const struct rg_report *report);
+// All of these, of a report that is whole.
+bool rg_gtest_print(const struct rg_report *report, FILE *out);
 
 #endif

@@ -110,13 +110,14 @@ static bool tell_code(struct pair *p, struct rg_session_code code[RG_SIDES])
 }
 
 void rg_gate_agree(const struct rg_gate_cell *cell, struct rg_side sides[RG_SIDES],
-                   struct rg_agreement *agreement)
+                   const char *folder, const char *name, struct rg_agreement *agreement)
 {
     struct pair p = {.cell = cell,
                      .sides = sides,
                      .subject = {cell->technique, cell->settings, cell->width, cell->height},
                      .found = agreement};
-    *agreement = (struct rg_agreement){.pixels = NAN, .difference = NAN};
+    *agreement =
+        (struct rg_agreement){.folder = folder, .name = name, .pixels = NAN, .difference = NAN};
     bool ok = true;
     for (int side = 0; ok && side < RG_SIDES; side++) {
         p.sessions[side] = rg_session_run(sides[side].device, &p.subject, cell->frames);

@@ -7,8 +7,9 @@
 
 // Runs a cell on both sides, which are open, and compares its picture, by the tier that the two owe
 // each other, its states to the bit where that is T0, and its counters and the work of a frame
-// exactly.
+// exactly. Pictures that differ are written into a folder, under the case's name
+// (harness/compare/gate/pictures/); NULL: none are.
 void rg_gate_agree(const struct rg_gate_cell *cell, struct rg_side sides[RG_SIDES],
-                   struct rg_agreement *agreement);
+                   const char *folder, const char *name, struct rg_agreement *agreement);
 
 #endif

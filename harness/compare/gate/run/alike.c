@@ -7,6 +7,7 @@
 #include "core/base/log.h"
 #include "core/image/compare/compare.h"
 #include "harness/compare/blame/blame.h"
+#include "harness/compare/gate/pictures/pictures.h"
 #include "harness/frames/frame.h"
 
 bool rg_agreement_differs(struct rg_agreement *agreement, const char *format, ...)
@@ -57,6 +58,9 @@ bool rg_alike_pictures(const struct rg_gate_cell *cell, struct rg_device *device
         agreement->difference = c.tiers.max_codes;
         ok = c.tiers.of[owed].holds ||
              rg_agreement_differs(agreement, "the picture differs: %s", c.tiers.of[owed].why);
+        if (!ok && agreement->folder)
+            agreement->has_pictures = rg_gate_pictures_write(agreement->folder, agreement->name,
+                                                             &a->picture, &b->picture, &c);
     }
     rg_comparison_destroy(&c);
     rg_picture_destroy(&dry);

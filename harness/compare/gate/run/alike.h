@@ -20,6 +20,10 @@ struct rg_agreement {
                                      // or ""
     char details[RG_AGREEMENT_TEXT]; // the first stage that left other bits; ""
     // Which code ran on both sides; of one that ran alone, nothing is held against it.
+    // Where pictures that differ are written (harness/compare/gate/pictures/), and under which
+    // name; NULL: nowhere. Whether they have been.
+    const char *folder, *name;
+    bool has_pictures;
     bool has_code;
     struct rg_session_code code[RG_SIDES];
     double pixels,

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/base/alloc.h"
+
 const char *rg_gate_case_device(const struct rg_gate_case *c)
 {
     return c->devices[c->device_count - 1];
@@ -181,6 +183,17 @@ static void put_measures(const struct rg_gate_case *c, struct rg_report_case *to
     told->baseline_ms = c->row.a_ms.median;
 }
 
+static void put_pictures(struct rg_gate_case *c, const char *folder, struct rg_report_case *told)
+{
+    c->paths = rg_alloc(RG_GATE_PICTURES, sizeof(*c->paths), "gate");
+    for (int i = 0; c->paths && i < RG_GATE_PICTURES; i++) {
+        rg_gate_picture_path(folder, c->name, i, c->paths[i]);
+        c->pictures[i] = c->paths[i];
+    }
+    told->attachments = c->pictures;
+    told->attachment_count = c->paths ? RG_GATE_PICTURES : 0;
+}
+
 void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *request,
                        struct rg_report_case *told, struct rg_known_result *result)
 {
@@ -205,4 +218,6 @@ void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *req
                                     .message = c->message,
                                     .details = c->details};
     put_measures(c, told);
+    if (c->agreement.has_pictures)
+        put_pictures(c, request->pictures, told);
 }

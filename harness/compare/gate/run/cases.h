@@ -2,6 +2,7 @@
 #ifndef RG_HARNESS_COMPARE_GATE_RUN_CASES_H
 #define RG_HARNESS_COMPARE_GATE_RUN_CASES_H
 
+#include "harness/compare/gate/pictures/pictures.h"
 #include "harness/compare/gate/run/agree.h"
 #include "harness/compare/gate/run/request.h"
 #include "harness/compare/gate/run/times.h"
@@ -24,6 +25,8 @@ struct rg_gate_case {
     struct rg_timed_cell times;
     // What its case of a report points to.
     char message[RG_AGREEMENT_TEXT + 400], details[RG_AGREEMENT_TEXT + 400];
+    const char *pictures[RG_GATE_PICTURES];
+    char (*paths)[PATH_MAX]; // of pictures that were written; owned by the gate
 };
 
 // The device that a case is of.

@@ -8,6 +8,7 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/compare/gate/report/gtest.h"
+#include "harness/compare/gate/report/texts.h"
 #include "harness/compare/gate/run/agree.h"
 #include "harness/compare/gate/run/cases.h"
 #include "harness/compare/gate/run/times.h"
@@ -19,10 +20,13 @@
 char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
 {
     const size_t size = strlen(cell->name) + strlen(device) + 2;
-    char *name = rg_alloc(size, 1, "gate");
-    if (name)
-        snprintf(name, size, "%s.%s", cell->name, device);
-    return name;
+    char *name = rg_alloc(size, 1, "gate"), *clean;
+    if (!name)
+        return NULL;
+    snprintf(name, size, "%s.%s", cell->name, device);
+    clean = rg_texts_clean(name, true);
+    free(name);
+    return clean;
 }
 
 bool rg_gate_set_passport(struct rg_gate *gate, const json_t *passport)
@@ -49,18 +53,18 @@ struct run {
 
 // --- cells are chosen ---
 
-bool rg_gate_is_chosen(const struct rg_gate_request *asked, const char *name)
+bool rg_gate_is_chosen(const struct rg_gate_request *asked, struct rg_gate *gate, const char *name)
 {
     char gtest[RG_GTEST_NAME];
     rg_gtest_name(name, gtest);
-    return !asked->filter || rg_gtest_matches(asked->filter, gtest);
+    return (!asked->filter || rg_gtest_matches(asked->filter, gtest)) &&
+           gate->chosen++ % asked->shards.total == asked->shards.index;
 }
 
 static bool add_case(struct run *r, const struct rg_gate_cell *cell)
 {
-    const struct rg_gate_request *asked = r->asked;
     char *name = rg_gate_case_name(cell, r->pair->names[RG_SIDE_B]);
-    if (name && rg_gate_is_chosen(asked, name))
+    if (name && rg_gate_is_chosen(r->asked, r->gate, name))
         r->gate->cases[r->gate->case_count++] =
             (struct rg_gate_case){.cell = cell,
                                   .name = name,
@@ -156,7 +160,7 @@ static void compare(struct run *r, struct rg_gate_case *c)
     const bool there = launch_for(r, c);
     rg_gate_case_expect(c, r->asked, r->sides[RG_SIDE_B].device);
     if (there && !c->is_skipped)
-        rg_gate_agree(c->cell, r->sides, &c->agreement);
+        rg_gate_agree(c->cell, r->sides, r->asked->pictures, c->name, &c->agreement);
     c->seconds = (rg_now_ms() - start_ms) / 1000;
     c->is_compared = there && !c->is_skipped;
     if (c->is_compared && c->agreement.outcome == RG_OK && !r->asked->pictures_only) {
@@ -220,11 +224,14 @@ bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
     return ok;
 }
 
-int rg_gate_exit(const struct rg_report *report)
+int rg_gate_exit(const struct rg_gate *gate)
 {
+    const struct rg_report *report = &gate->report;
     int kinds[RG_KIND_SKIPPED + 1] = {0};
     for (int e = 0; e < RG_ENDING_COUNT; e++)
         kinds[rg_ending_kind((enum rg_ending)e)] += rg_report_count(report, (enum rg_ending)e);
+    if (!gate->case_count && gate->chosen)
+        return RG_EXIT_PASS; // other shards have them all
     if (kinds[RG_KIND_FAILURE] || kinds[RG_KIND_ERROR])
         return RG_EXIT_FAIL;
     if (rg_report_count(report, RG_ENDING_INCONCLUSIVE))
@@ -259,14 +266,16 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
     free(r.timed);
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
-    return ok ? rg_gate_exit(&gate->report) : RG_EXIT_FAIL;
+    return ok ? rg_gate_exit(gate) : RG_EXIT_FAIL;
 }
 
 void rg_gate_free(struct rg_gate *gate)
 {
     rg_report_free(&gate->report);
-    for (int i = 0; i < gate->case_count; i++)
+    for (int i = 0; i < gate->case_count; i++) {
         free(gate->cases[i].name);
+        free(gate->cases[i].paths);
+    }
     free(gate->cases);
     free(gate->results);
     free(gate->note);

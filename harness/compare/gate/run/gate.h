@@ -12,6 +12,7 @@
 // What a gate leaves behind; it points into the request. Zeroed before; the owner calls
 // rg_gate_free.
 struct rg_gate {
+    int chosen; // cases that the filter lets through, of which the shard has some
     struct rg_report report;
     int case_count;
     struct rg_gate_case *cases; // harness/compare/gate/run/cases.h
@@ -20,21 +21,23 @@ struct rg_gate {
     char *note;                      // what is printed for people above the report; owned
 };
 
-// The name of a cell's case on B: "streaks/rain.vulkan@VK_DRIVER_FILES=new.json"; the caller frees
+// The name of a cell's case on B: "streaks/rain.vulkan@VK_DRIVER_FILES=new.json", with characters
+// that a report cannot hold replaced, so that filters know it as lists have it; the caller frees
 // it. NULL, and one logged line, without memory.
 char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device);
 
 // Runs it. Returns an enum rg_exit: fail where something is worse or broken, inconclusive where
 // times leave it open, nothing measured where nothing was compared, unsupported where a side is.
 int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate);
-// The exit status of a report that is whole.
-int rg_gate_exit(const struct rg_report *report);
+// The exit status of one whose report is whole.
+int rg_gate_exit(const struct rg_gate *gate);
 void rg_gate_free(struct rg_gate *gate);
 
 // --- the parts, for other gates that make the same report ---
 
-// Whether the filter lets a case of this name through.
-bool rg_gate_is_chosen(const struct rg_gate_request *request, const char *name);
+// Whether the filter lets a case of this name through, and the shard has it.
+bool rg_gate_is_chosen(const struct rg_gate_request *request, struct rg_gate *gate,
+                       const char *name);
 bool rg_gate_set_passport(struct rg_gate *gate, const json_t *passport);
 // Runs a course, and gives each case from `first` on that is timed its row of it; `timed` are the
 // rows' cells.

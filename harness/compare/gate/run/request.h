@@ -4,18 +4,21 @@
 
 #include "harness/compare/gate/cells/cells.h"
 #include "harness/compare/gate/expected/expected.h"
+#include "harness/compare/gate/report/gtest.h"
 #include "harness/compare/gate/report/report.h"
 #include "harness/compare/gate/run/pairs.h"
 
 struct rg_gate_request {
     const struct rg_gate_pairs *pairs; // one after the other
     const struct rg_gate_cells *cells;
-    const struct rg_known *known; // what is expected to go wrong
-    int today;                    // harness/compare/gate/text/date.h
-    double margin;                // 0.05 for 5 %
-    double budget_s;              // no launch is begun behind it; 0: there is none
-    bool pictures_only;           // nothing is timed
-    const char *filter;           // of googletest, for names of cases; NULL: all
+    const struct rg_known *known;  // what is expected to go wrong
+    int today;                     // harness/compare/gate/text/date.h
+    double margin;                 // 0.05 for 5 %
+    double budget_s;               // no launch is begun behind it; 0: there is none
+    bool pictures_only;            // nothing is timed
+    const char *filter;            // of googletest, for names of cases; NULL: all
+    struct rg_gtest_shards shards; // of what it lets through
+    const char *pictures;          // a folder for those that differ, which is made; NULL: none
     // Told of each case before it is begun and when it has ended; NULL: nobody asks. A case that is
     // timed ends with all others.
     void (*tell)(const struct rg_report_case *told, void *user);

@@ -68,17 +68,6 @@ static bool coloured(const struct rg_report *report, FILE *out)
     return rg_report_text_coloured(report, out, true);
 }
 
-static bool gtest(const struct rg_report *report, FILE *out)
-{
-    rg_gtest_begin(out, report->case_count);
-    for (int i = 0; i < report->case_count; i++) {
-        rg_gtest_run(out, report->cases[i].name);
-        rg_gtest_result(out, &report->cases[i]);
-    }
-    rg_gtest_end(out, report);
-    return true;
-}
-
 static bool names(const struct rg_report *report, FILE *out)
 {
     char made[RG_GTEST_NAME];
@@ -102,7 +91,7 @@ static const struct {
 } forms[] = {{"junit", rg_report_junit}, {"bmf", rg_report_bmf},
              {"json", rg_report_json},   {"text", rg_report_text},
              {"coloured", coloured},     {"annotations", rg_report_annotations},
-             {"gtest", gtest},           {"names", names}};
+             {"gtest", rg_gtest_print},  {"names", names}};
 
 static bool tell(const struct rg_report *report, const char *form, const char *path)
 {

@@ -1,0 +1,53 @@
+#include "harness/commands/comparing/gtest.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/log.h"
+
+#define AT(field) offsetof(struct rg_gtest_asked, field)
+#define NOTHING   "changes nothing here; runners pass it"
+
+const struct rg_option rg_gtest_options[] = {
+    RG_GROUP("googletest's protocol"),
+    {RG_OPTION_FLAG, "gtest_list_tests", .about = "prints the names of the cases, and runs none",
+     .offset = AT(list), .excludes = "json github"},
+    {RG_OPTION_TEXT, "gtest_filter", .argument = "FILTER",
+     .about = "runs these cases, and prints as googletest does", .offset = AT(filter),
+     .excludes = "json github"},
+    {RG_OPTION_TEXT, "gtest_output", .argument = "xml:FILE",
+     .about = "writes JUnit's XML, and prints as googletest does", .offset = AT(output),
+     .excludes = "json github junit"},
+    {RG_OPTION_INT, "gtest_repeat", .argument = "N",
+     .about = "1 alone: how often a case is measured is settled beforehand", .offset = AT(repeat),
+     .least = 1, .most = 1},
+    {RG_OPTION_TEXT, "gtest_color", .argument = "WHEN", .about = NOTHING, .offset = AT(color)},
+    {RG_OPTION_TEXT, "gtest_random_seed", .argument = "N", .about = NOTHING, .offset = AT(seed)},
+    {RG_OPTION_TEXT, "gtest_death_test_style", .argument = "STYLE", .about = NOTHING,
+     .offset = AT(death_style)},
+    {RG_OPTION_FLAG, "gtest_also_run_disabled_tests", .about = NOTHING, .offset = AT(disabled)},
+    {RG_OPTION_FLAG, "gtest_shuffle", .about = NOTHING, .offset = AT(shuffle)},
+    {RG_OPTION_FLAG, "gtest_brief", .about = NOTHING, .offset = AT(brief)},
+    {RG_OPTION_FLAG, "gtest_print_time", .about = NOTHING, .offset = AT(print_time)},
+    {RG_OPTION_FLAG, "gtest_print_utf8", .about = NOTHING, .offset = AT(utf8)},
+    {RG_OPTION_FLAG, "gtest_catch_exceptions", .about = NOTHING, .offset = AT(catches)},
+    {RG_OPTION_FLAG, "gtest_break_on_failure", .about = NOTHING, .offset = AT(breaks)},
+    {RG_OPTION_FLAG, "gtest_throw_on_failure", .about = NOTHING, .offset = AT(throws)},
+    {RG_OPTION_FLAG, "gtest_fail_fast", .about = NOTHING, .offset = AT(fails_fast)},
+    {RG_OPTION_END},
+};
+
+bool rg_gtest_output(const struct rg_gtest_asked *asked, char path[PATH_MAX])
+{
+    const char *asks = asked->output ? asked->output : "";
+    const char *file = !strncmp(asks, "xml:", 4) ? asks + 4 : "";
+    const bool is_folder = *file && file[strlen(file) - 1] == '/';
+    *path = 0;
+    if (!*asks)
+        return true;
+    if (strcmp(asks, "xml") && !*file)
+        return rg_error("--gtest_output %s: write it as xml:FILE; --json prints JSON", asks);
+    return snprintf(path, PATH_MAX, "%s%s", *file ? file : "test_detail.xml",
+                    is_folder ? "raingauge.xml" : "") < PATH_MAX ||
+           rg_error("--gtest_output: its path is too long");
+}

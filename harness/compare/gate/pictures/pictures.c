@@ -1,0 +1,52 @@
+#include "harness/compare/gate/pictures/pictures.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <xxhash.h>
+
+#include "core/base/log.h"
+#include "core/image/files/io.h"
+#include "harness/compare/diff/report.h"
+#include "harness/record/output.h"
+
+static void prefix_of(const char *folder, const char *name, char prefix[PATH_MAX])
+{
+    enum { KEPT = 100 };
+    char plain[KEPT + 1];
+    snprintf(plain, sizeof(plain), "%s", name);
+    for (char *c = plain; *c; c++)
+        if (!strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-=@", *c))
+            *c = '_';
+    snprintf(prefix, PATH_MAX, "%.3800s/%s_%016" PRIx64, folder, plain,
+             (uint64_t)XXH3_64bits(name, strlen(name)));
+}
+
+void rg_gate_picture_path(const char *folder, const char *name, int picture, char path[PATH_MAX])
+{
+    static const char *const ends[RG_GATE_PICTURES] = {"a", "b", "flip", "difference"};
+    char prefix[PATH_MAX];
+    prefix_of(folder, name, prefix);
+    snprintf(path, PATH_MAX, "%.4000s-%s.png", prefix, ends[picture]);
+}
+
+bool rg_gate_pictures_can_be_written(const char *folder, int64_t pixels)
+{
+    enum { BYTES_A_PIXEL = 3 };
+    if (strlen(folder) > PATH_MAX / 2)
+        return rg_error("%.80s...: is too long a name for a folder; choose a shorter one", folder);
+    return rg_output_can_be_written(folder, RG_GATE_PICTURES * BYTES_A_PIXEL * pixels);
+}
+
+bool rg_gate_pictures_write(const char *folder, const char *name, const struct rg_picture *a,
+                            const struct rg_picture *b, const struct rg_comparison *comparison)
+{
+    char prefix[PATH_MAX], path[PATH_MAX];
+    bool ok = rg_output_folder(folder);
+    for (int i = 0; ok && i < 2; i++) {
+        rg_gate_picture_path(folder, name, i, path);
+        ok = rg_picture_write(path, i ? b : a, &(struct rg_write_options){0});
+    }
+    prefix_of(folder, name, prefix);
+    return ok && rg_pair_heatmaps(prefix, a, b, comparison);
+}

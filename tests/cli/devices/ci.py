@@ -1,0 +1,182 @@
+"""gate in CI: the examples of docs/ci as they are, run by stand-ins of their services, and what runners of googletest ask for."""
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import xml.etree.ElementTree
+
+import bisecting
+import results
+import runners
+from gates import QUICK, SCHEMA, TORUS, Files, endings
+
+PNG = b"\x89PNG\r\n\x1a\n"
+THIRD = TORUS.replace("raster/torus", "raster/third")
+KNOWN = os.path.join(runners.TESTS, os.pardir, "results", "expectations.txt")
+
+
+def lint(path):
+    ran = subprocess.run(["xmllint", "--noout", "--schema", SCHEMA, path], capture_output=True, text=True, check=False)
+    return [ran.stderr] if ran.returncode else []
+
+
+def drivers(runner, folder, new):
+    """The files of a project in CI: an older driver that works, and a newer one."""
+    bisecting.write(folder, "cells.txt", TORUS)
+    bisecting.write(folder, "old/icd.json", bisecting.manifest(runner.misbehaver))
+    bisecting.write(folder, "new/icd.json", bisecting.manifest(new))
+    shutil.copy(KNOWN, os.path.join(folder, "expectations.txt"))
+
+
+def ends_in_xml(path):
+    return [next((child.tag for child in case if not child.tag.startswith("system")), "pass")
+            for case in xml.etree.ElementTree.parse(path).iter("testcase")]
+
+
+def check_gitlab(runner):
+    """docs/ci/gitlab-ci.yml: what is not decided is a warning, a crash fails, and the report that it names is JUnit's"""
+    problems = []
+    for new, status, ends in ((runner.misbehaver, "warning", ["skipped"]), (runner.crasher, "failed", ["error"]), ("/nonexistent", "warning", ["skipped"])):
+        with tempfile.TemporaryDirectory() as folder:
+            drivers(runner, folder, new)
+            found, log, kept, junit = runners.gitlab(runner, folder, BUDGET="0.1s")
+            problems += lint(junit)
+            if (found, ends_in_xml(junit)) != (status, ends) or kept != ["gate.xml"]:
+                problems.append("%s: %s, %s, %s" % (new, found, kept, log))
+    return problems
+
+
+def check_github(runner):
+    """docs/ci/github.yml: annotations, a summary and files for the upload, whether the gate passes or not"""
+    problems = []
+    for new, status, command, head in ((runner.misbehaver, "success", ["warning", "notice"], "1 case, 1 inconclusive"),
+                                       (runner.crasher, "failure", ["error"], "1 case, 1 crash"),
+                                       ("/nonexistent", "success", ["notice"], "1 case, 1 unsupported")):
+        with tempfile.TemporaryDirectory() as folder:
+            drivers(runner, folder, new)
+            found, log, summary, uploaded = runners.github(runner, folder, BUDGET="0.1s")
+            if found != status or [row[0] for row in runners.annotations(log)] != command or not summary.startswith(
+                    "## raingauge gate: %s\n" % head) or uploaded != ["gate.xml", "gate.json"]:
+                problems.append("%s: %s, %s, %s, %s" % (new, found, uploaded, log, summary))
+    return problems
+
+
+def check_deqp_runner(runner):
+    """docs/ci/deqp-runner.sh: each case that is listed has one result, and a baseline of failures holds"""
+    problems = []
+    for new, word in ((runner.misbehaver, "Pass"), (runner.crasher, "Fail"), ("/nonexistent", "Skip")):
+        with tempfile.TemporaryDirectory() as folder:
+            drivers(runner, folder, new)
+            bisecting.write(folder, "cells.txt", QUICK + THIRD)
+            bisecting.write(folder, "failures.csv", "")
+            failed, found, news = runners.deqp_runner(runner, folder, NEW="new/icd.json")
+            if [row[1] for row in found] != 3 * [word] or failed != (word == "Fail") or len(news) != 3 * failed:
+                problems.append("%s: %s, %s" % (new, found, news))
+            bisecting.write(folder, "failures.csv", "".join("%s,%s\n" % row for row in found if row[1] == "Fail"))
+            if runners.deqp_runner(runner, folder, NEW="new/icd.json")[0]:
+                problems.append("%s: the baseline does not hold" % new)
+    return problems
+
+
+def check_meson(runner):
+    """docs/ci/meson.build: meson takes a gate for a googletest, with its cases in its own report"""
+    problems = []
+    for new, status in ((runner.misbehaver, 0), (runner.crasher, 1)):
+        with tempfile.TemporaryDirectory() as folder:
+            drivers(runner, folder, new)
+            bisecting.write(folder, "cells.txt", QUICK)
+            shutil.copy(os.path.join(runners.EXAMPLES, "meson.build"), folder)
+            env = runners.environment(runner, folder, {})
+            for command in (["meson", "setup", "build"], ["meson", "test", "-C", "build", "--no-rebuild"]):
+                ran = subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True, timeout=240, check=False)
+            log = os.path.join(folder, "build", "meson-logs", "testlog.junit.xml")
+            if ran.returncode != status or not os.path.exists(log) or ends_in_xml(log) != 2 * ["error" if status else "pass"]:
+                problems.append("%s: exit status %d, %s%s" % (new, ran.returncode, ran.stdout, ran.stderr))
+    return problems
+
+
+def check_pictures(runner):
+    """pictures that differ are written beside the JUnit report, which names them, and nothing is where none differ"""
+    problems = []
+    with Files() as files:
+        kernels = files.path("kernels")
+        os.mkdir(kernels)
+        runner.kernels_with(kernels, "flow_normals.glsl", results.RIGHT, results.TURNED)
+        for more, folder in (([], "gate-pictures"), (["-o", files.path("]] <&>'")], "]] <&>'")):
+            for device, status in (("gl", 0), ("gl@RG_KERNEL_DIR=" + kernels, 1)):
+                ran = runner.run(["gate", "gl", device, "--cells", files.cells, "--pictures", "--junit", files.path("gate.xml"), "--json"] + more)
+                cases = {case["name"].split(".")[0]: case["attachments"] for case in json.loads(ran.stdout)["gated"]}
+                problems += lint(files.path("gate.xml"))
+                told = "".join(xml.etree.ElementTree.parse(files.path("gate.xml")).getroot().itertext())
+                wrong = [path for path in cases["flow/pane"] if os.path.dirname(path) != files.path(folder) or path not in told]
+                if "]]" not in folder:
+                    wrong += [path for path in cases["flow/pane"] if "[[ATTACHMENT|%s]]" % path not in told]
+                if ran.returncode != status or len(cases["flow/pane"]) != 4 * status or cases["raster/torus"] or wrong:
+                    problems.append("%s: exit status %d, %s, %s" % (device, ran.returncode, cases, ran.stderr))
+                if os.path.exists(files.path(folder)) != bool(status):
+                    problems.append("%s: the folder" % device)
+                for path in cases["flow/pane"]:
+                    with open(path, "rb") as file:
+                        if file.read(8) != PNG:
+                            problems.append(path + " is no picture")
+        ends = sorted(path[-9:].split("-")[-1] for path in cases["flow/pane"])
+        if ends != ["a.png", "b.png", "difference.png", "flip.png"] and len(set(cases["flow/pane"])) != 4:
+            problems.append("%s" % ends)
+        ran = runner.run(["gate", "cpu", "cpu", "--cells", files.cells, "--pictures", "-o", files.path("none/none")])
+        if ran.returncode != 2 or ran.stderr.count("\n") != 1:
+            problems.append("no folder: exit status %d, %s" % (ran.returncode, ran.stderr))
+    return problems
+
+
+def check_gtest_flags(runner):
+    """what runners of googletest pass is taken, also with a value, and what cannot be done is refused"""
+    problems = []
+    flags = ("--gtest_color=no --gtest_print_time=0 --gtest_brief=1 --gtest_shuffle --gtest_random_seed=7 --gtest_repeat=1 --gtest_fail_fast=false "
+             "--gtest_also_run_disabled_tests --gtest_catch_exceptions=0 --gtest_break_on_failure=0 --gtest_throw_on_failure=1 "
+             "--gtest_death_test_style=fast --gtest_print_utf8=yes").split()
+    with Files() as files:
+        os.mkdir(files.path("reports"))
+        args = ["gate", "cpu", "cpu", "--cells", files.cells, "--pictures"]
+        for output, path in ((files.path("a.xml"), "a.xml"), (files.path("reports") + "/", "reports/raingauge.xml")):
+            ran = runner.run(args + flags + ["--gtest_output=xml:" + output])
+            if ran.returncode or ran.stderr or "[==========] 2 tests ran." not in ran.stdout or ends_in_xml(files.path(path)) != 2 * ["pass"]:
+                problems.append("exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr))
+        ran = runner.run(args + ["--gtest_list_tests=0", "--gtest_filter=flow*"])
+        if ran.returncode or "1 test ran" not in ran.stdout:
+            problems.append("=0: exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr))
+        for more, says in ((["--gtest_repeat=2"], "--gtest_repeat 2"), (["--gtest_output=json:x"], "--gtest_output json:x"),
+                           (["--gtest_output=xml:a", "--junit", "b"], "choose one"), (["--gtest_shuffle=maybe"], "--gtest_shuffle"),
+                           (["--gtest_shuffle="], "--gtest_shuffle"), (["--gtest_stream_result_to=x:1"], "--gtest_stream_result_to")):
+            ran = runner.run(args + more)
+            if ran.returncode != 2 or ran.stdout or ran.stderr.count("\n") != 1 or says not in ran.stderr:
+                problems.append("%s: exit status %d, %s%s" % (more, ran.returncode, ran.stdout, ran.stderr))
+    return problems
+
+
+def check_shards(runner):
+    """shards of googletest have each case once, also where there are more of them than cases"""
+    problems = []
+    with Files(QUICK + THIRD) as files:
+        args = ["gate", "cpu", "cpu", "--cells", files.cells, "--pictures"]
+        every = runners.listed(runner.run(args + ["--gtest_list_tests"], env={"GTEST_TOTAL_SHARDS": "2", "GTEST_SHARD_INDEX": "1"}).stdout)
+        for total in (1, 2, 4):
+            found = []
+            for index in range(total):
+                status = files.path("status")
+                ran = runner.run(args, env={"GTEST_TOTAL_SHARDS": str(total), "GTEST_SHARD_INDEX": str(index), "GTEST_SHARD_STATUS_FILE": status})
+                if ran.returncode or not os.path.exists(status):
+                    problems.append("%d of %d: exit status %d, %s" % (index, total, ran.returncode, ran.stderr))
+                os.unlink(status)
+                found += [name for name, _ in runners.results(ran.stdout)]
+            if total > 1 and sorted(found) != sorted(every):
+                problems.append("%d shards: %s, not %s" % (total, found, every))
+        for total, index, says in (("2", "2", "GTEST_SHARD_INDEX 2"), ("two", "0", "GTEST_TOTAL_SHARDS 'two'"), ("2", None, "one of them"),
+                                   (None, "0", "one of them"), ("0", "0", "GTEST_SHARD_INDEX 0"), ("2", "-1", "GTEST_SHARD_INDEX '-1'")):
+            ran = runner.run(args, env={"GTEST_TOTAL_SHARDS": total, "GTEST_SHARD_INDEX": index})
+            if ran.returncode != 2 or ran.stdout or ran.stderr.count("\n") != 1 or says not in ran.stderr:
+                problems.append("%s, %s: exit status %d, %s" % (total, index, ran.returncode, ran.stderr))
+    return problems
+
+
+CHECKS = [check_gitlab, check_github, check_deqp_runner, check_meson, check_pictures, check_gtest_flags, check_shards]

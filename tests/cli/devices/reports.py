@@ -1,0 +1,143 @@
+"""gate's reports by the command itself: names of devices with any characters, and results that meet expectations or do not."""
+import json
+import os
+import re
+import subprocess
+import tempfile
+import xml.etree.ElementTree
+
+import forms
+import results
+import runners
+from ci import KNOWN, THIRD, lint
+from gates import QUICK, TORUS, Files
+
+# Values of a variable that no driver reads, and what reports make of the characters that they cannot hold.
+HOSTILE = ["'quotes\" and ` <failure message=\"x\">&amp;</failure> ]]> <![CDATA[", "[[ATTACHMENT|/etc/passwd]] \x1b[31m\x07\x7f a\nb\tc\rd",
+           "100% : , %0A ::error title=x::y ##[error]x | a | **b** |", "[  FAILED  ] x -*?: Ü 漢 \U0001f327 two  blanks ", "x" * 200]
+
+
+def shown(text):
+    return "".join(chr(0x2400 + ord(c)) if c < " " else "\u2421" if c == "\x7f" else c for c in text)
+
+
+def strict(text):
+    def once(pairs):
+        assert len({name for name, _ in pairs}) == len(pairs)
+        return dict(pairs)
+    return json.loads(text, object_pairs_hook=once, parse_constant=float.__new__)
+
+
+def unescaped(text):
+    return re.sub(r"\\([!-/:-@\[-`{-~])", r"\1", text)
+
+
+def check_name(runner, value):
+    device = 'cpu@RG_TEST_NOTE="%s"' % value.replace('"', '""')
+    problems = []
+    with Files(TORUS) as files:
+        junit, bmf, summary = files.path("a.xml"), files.path("a.json"), files.path("a.md")
+        args = ["gate", "cpu", device, "--cells", files.cells, "--junit", junit, "--bmf", bmf]
+        ran = runner.run(args + ["--budget", "0.05s", "--json"])
+        if not ran.stdout:
+            return ["%r: exit status %d, %s" % (value, ran.returncode, ran.stderr)]
+        report = strict(ran.stdout)
+        name = report["gated"][0]["name"]
+        problems += forms.problems("gate", report) + lint(junit)
+        if not name.startswith("raster/torus.cpu@") or shown(value).replace('"', "") not in name.replace('"', ""):
+            problems.append("%r: JSON has %r" % (value, name))
+        case = xml.etree.ElementTree.parse(junit).find("testsuite/testcase")
+        if case.get("name") != name or "[[ATTACHMENT" in (case.findtext("system-out") or ""):
+            problems.append("%r: JUnit has %r" % (value, case.get("name")))
+        with open(bmf) as file:
+            if list(strict(file.read())) not in ([name], []):
+                problems.append("%r: BMF" % value)
+        ran = runner.run(args + ["--budget", "0.05s", "--github"], env={"GITHUB_STEP_SUMMARY": summary})
+        told = [line for line in ran.stdout.split("\n") if line.startswith("::")]
+        title = [re.sub("%(..)", lambda code: chr(int(code[1], 16)), re.match(r"::warning title=([^:,]*)::", line)[1]) for line in told]
+        with open(summary) as file:
+            cells = re.split(r"(?<!\\)(?:\\\\)*\|", file.read().split("\n")[4])
+        if title != [name] or unescaped(cells[2]).strip() != name.strip() or re.search("[\x00-\x09\x0b-\x1f\x7f]|^(?!::).*##\\[", ran.stdout, re.M):
+            problems.append("%r: GitHub has %r and %r" % (value, told, cells))
+        args = ["gate", "cpu", device, "--cells", files.cells, "--pictures"]
+        listed = runners.listed(runner.run(args + ["--gtest_list_tests"]).stdout)
+        ran = runner.run(args + ["--gtest_filter=" + listed[0]])
+        if len(listed) != 1 or runners.results(ran.stdout) != [(listed[0], "Pass")]:
+            problems.append("%r: gtest has %s and %s" % (value, listed, ran.stdout))
+    return problems
+
+
+def check_names(runner):
+    """a device's name of any characters comes back from every form; one that is too long is refused in a line"""
+    problems = [problem for value in HOSTILE for problem in check_name(runner, value)]
+    ran = runner.run(["gate", "cpu", "cpu@NOTE=" + 10000 * "x"])
+    if ran.returncode != 2 or ran.stdout or ran.stderr.count("\n") != 1:
+        problems.append("10 kB: exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr))
+    return problems
+
+
+# --- expectations ---
+
+FIELDS = "  device gl@*\n  reason a test\n  since 2019-01-01\n  until %s\n"
+LATE, PAST = "2099-12-31", "2020-01-01"
+
+
+def expectation(line, until=LATE, outcome="fail"):
+    return line + "\n" + FIELDS % until + ("  outcome %s\n" % outcome if outcome else "")
+
+
+def gate(runner, folder, more):
+    """A gate of kernels that are right and wrong: its exit status, each case's ending and message, the patch that it prints."""
+    args = [runner.raingauge, "gate", "gl", "gl@RG_KERNEL_DIR=kernels", "--cells", "cells.txt", "--pictures"] + more
+    ran = subprocess.run(args, cwd=folder, env=runner.variables({}), capture_output=True, text=True, timeout=240, check=False)
+    endings = {cell: ending for ending, cell in re.findall(r"^(\S.*?)  +(\w+/\w+)\.gl@", ran.stdout, re.M)}
+    return ran.returncode, endings, ran.stdout
+
+
+def check_expectations(runner):
+    """expected, fixed, fails differently, expired, flaky and skipped: each has its ending, and the patch makes the file true"""
+    rows = [(expectation("fail flow/*"), 0, "expected failure", "", False), (expectation("fail flow/*", outcome="crash"), 1, "differs", "fails differently", True),
+            (expectation("fail *"), 1, "expected failure", "", True), (expectation("fail flow/*", until=PAST), 1, "differs", "expired", True),
+            (expectation("flake flow/*", outcome=None), 0, "flake", "the picture differs", False), (expectation("skip flow/*", outcome=None), 0, "skipped", "", False),
+            (expectation("skip flow/*", until=PAST, outcome=None), 1, "differs", "expired", True), ("# nothing\n", 1, "differs", "", True)]
+    problems = []
+    with tempfile.TemporaryDirectory() as folder:
+        os.mkdir(os.path.join(folder, "kernels"))
+        runner.kernels_with(os.path.join(folder, "kernels"), "flow_normals.glsl", results.RIGHT, results.TURNED)
+        with open(os.path.join(folder, "cells.txt"), "w") as file:
+            file.write(QUICK)
+        for text, status, ending, says, has_patch in rows:
+            path = os.path.join(folder, "known.txt")
+            with open(path, "w") as file:
+                file.write(text)
+            found, endings, told = gate(runner, folder, ["--expectations", "known.txt"])
+            wanted = {"flow/pane": ending, "raster/torus": "unexpected pass" if text.startswith("fail *") else "pass"}
+            patch = told[told.index("--- "):] if "--- " in told else ""
+            if (found, endings) != (status, wanted) or says not in told or bool(patch) != has_patch:
+                problems.append("%s: exit status %d, %s\n%s" % (text, found, endings, told))
+            if not patch:
+                continue
+            applied = subprocess.run(["patch", "-p0", "-s"], cwd=folder, input=patch, capture_output=True, text=True, check=False)
+            found, endings, told = gate(runner, folder, ["--expectations", "known.txt"])
+            now = ("differs", 1) if text.startswith("skip") else ("expected failure", 0)  # a skip that goes lets its cell run
+            if applied.returncode or (endings["flow/pane"], found) != now:
+                problems.append("%s: patched: exit status %d, %s\n%s%s" % (text, found, endings, applied.stdout, told))
+    return problems
+
+
+def check_own(runner):
+    """results/expectations.txt can be read, and the example in its head is one"""
+    with open(KNOWN) as file:
+        own = file.read()
+    example = "".join(line[4:] for line in own.splitlines(True) if line.startswith("#   "))
+    problems = []
+    with Files(THIRD) as files:
+        for text in ("", example):
+            known = files.path("known.txt", own + text)
+            ran = runner.run(["gate", "cpu", "cpu", "--cells", files.cells, "--pictures", "--expectations", known])
+            if ran.returncode or ran.stderr:
+                problems.append("exit status %d, %s" % (ran.returncode, ran.stderr))
+    return problems if example.startswith("fail ") else problems + [example]
+
+
+CHECKS = [check_names, check_expectations, check_own]

@@ -1,0 +1,26 @@
+"""What runs a gate in CI: googletest's flags and shards, pictures that differ, patches of what is expected."""
+from fault import Fault
+
+TESTS = ("command line, ci", "command line, reports")
+
+SHARDS, PARSE, FLAGS = "harness/compare/gate/report/shards.c", "harness/cli/parse.c", "harness/commands/comparing/gtest.c"
+RUN, AGREE, CASES = (f"harness/compare/gate/run/{name}.c" for name in ("gate", "alike", "cases"))
+PICTURES, COMMAND = "harness/compare/gate/pictures/pictures.c", "harness/commands/comparing/gate.c"
+
+ROWS = [
+    Fault(SHARDS, "file = «path && *path» ? fopen", "false", "no runner is told that shards are understood"),
+    Fault(SHARDS, "    if («!has_total || !has_index»)", "false", "half of a shard is taken for all of it"),
+    Fault(SHARDS, "&& «value >= 0» && value", "true", "shards are counted below 0"),
+    Fault(SHARDS, "(«shards->index < shards->total» ||", "true", "a shard beyond the last passes"),
+    Fault(RUN, "«gate->chosen++ % asked->shards.total» == asked->shards.index;", "gate->chosen++ % 2", "shards have cases of each other"),
+    Fault(RUN, "if (!gate->case_count && «gate->chosen»)", "false", "a shard without a case fails"),
+    Fault(RUN, "    clean = «rg_texts_clean(name, true)»;", "strdup(name)", "a name that is listed is not known to a filter"),
+    Fault(PARSE, "if (!flag || «holds»)", "true", "a flag that is 0 holds"),
+    Fault(FLAGS, "is_folder ? «\"raingauge.xml\"» : \"\"", "\"\"", "a report is written over its folder"),
+    Fault(AGREE, "agreement->has_pictures = «rg_gate_pictures_write(agreement->folder, agreement->name,\n                                                             &a->picture, &b->picture, &c)»;", "true", "reports name pictures that are not there"),
+    Fault(AGREE, "if («!ok» && agreement->folder)", "true", "pictures that are the same are written"),
+    Fault(PICTURES, "for (int i = 0; ok && i < «2»; i++) {", "1", "B's picture is not written"),
+    Fault(CASES, "if («c->agreement.has_pictures»)", "false", "reports name no picture"),
+    Fault("harness/commands/comparing/outputs.c", "const size_t stem = «end && !strcmp(end, \".xml\")» ?", "false", "pictures lie in a folder with the report's ending"),
+    Fault(COMMAND, "today(), «adds_new»,", "false", "what nothing expects is not in the patch"),
+]
