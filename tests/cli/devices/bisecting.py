@@ -125,9 +125,9 @@ def check_names(runner):
         ran = runner.run(["bisect", "--good", "good", "--bad", name, "--run", "test {} = good", "--json"])
         if ran.returncode or json.loads(ran.stdout)["first_bad"] != [name]:
             problems.append("%r: exit status %d, %s%s" % (name, ran.returncode, ran.stdout, ran.stderr))
-        shown = runner.run(["bisect", "--good", "good", "--bad", name, "--dry-run", "--run", "printf '%s|' {} \"{}\" '{}' \"a{}\""])
+        shown = runner.run(["bisect", "--good", "good", "--bad", name, "--dry-run", "--run", "printf '%s|' {} \"{}\" '{}' \"a{}\" \\' {}"])
         spoken = subprocess.run(["sh", "-c", shown.stdout.split("\n")[1]], capture_output=True, text=True, check=False)
-        if spoken.stdout != "%s|%s|%s|a%s|" % (4 * (name,)):
+        if spoken.stdout != "%s|%s|%s|a%s|'|%s|" % (5 * (name,)):
             problems.append("%r: %s becomes %r" % (name, shown.stdout, spoken.stdout))
     with tempfile.TemporaryDirectory() as folder:
         write(folder, "list.txt", "# oldest first\n\n" + "".join("  %s  \r\n" % name for name in ["good"] + HOSTILE[:-1]))
@@ -142,7 +142,8 @@ def check_goes_on(runner):
     problems = []
     with tempfile.TemporaryDirectory() as folder:
         env = {"XDG_STATE_HOME": folder}
-        line = "echo {} >>%s/tried; test -e %s/go || test {} -ne 5 || { touch %s/waits; sleep 300; }; test {} -lt 6" % (folder, folder, folder)
+        line = "echo {} >>%s/tried; test -e %s/go || test {} -ne 5 || { trap 'touch %s/ended; exit' TERM; touch %s/waits; sleep 300 & wait; }; " \
+            "test {} -lt 6" % (folder, folder, folder, folder)
         args = ["bisect", "--good", "1", "--bad", "9", "--run", line, *"123456789"]
         process = runner.start(args, env=env)
         end = time.monotonic() + 60
@@ -150,7 +151,7 @@ def check_goes_on(runner):
             time.sleep(0.01)
         process.send_signal(signal.SIGINT)
         output, said = process.communicate(timeout=60)
-        if process.returncode != 130 or output.count("\n") != 2 or "goes on from 2 verdicts" not in said:
+        if not os.path.exists(os.path.join(folder, "ended")) or process.returncode != 130 or output.count("\n") != 2 or "goes on from 2 verdicts" not in said:
             problems.append("interrupted: exit status %d, %s%s" % (process.returncode, output, said))
         kept = os.listdir(os.path.join(folder, "raingauge"))
         write(folder, "go", "")
@@ -164,12 +165,15 @@ def check_goes_on(runner):
             problems.append("again: exit status %d, tried %s, %s%s" % (ran.returncode, tried, ran.stdout, ran.stderr))
         if os.path.exists(path):
             problems.append("the verdicts stay")
-        for damaged in (text.replace("good 0", "good 44"), text + "bad 3\n", text + text, text.replace("good", "well")):
+        for damaged in (text.replace("good 0", "good 44"), text + "bad 3\n", text + text, text.replace("good", "well"), text.replace(" 1\n", " 2\n")):
             write(folder, "raingauge/" + kept[0], damaged)
             ran = runner.run(args, env=env)
             if ran.returncode or "is damaged; the bisect begins anew" not in ran.stderr or ran.stdout.count("exit status") != 5:
                 problems.append("damaged: exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr))
         write(folder, "raingauge/" + kept[0], text)
+        ran = runner.run(args[:-1] + ["8.9", "9"], env=env)
+        if "goes on" in ran.stderr or "damaged" in ran.stderr:
+            problems.append("others: %s" % ran.stderr)
         ran = runner.run(args + ["--fresh"], env=env)
         if ran.returncode or "goes on" in ran.stderr:
             problems.append("fresh: %s" % ran.stderr)

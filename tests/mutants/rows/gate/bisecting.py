@@ -10,7 +10,7 @@ COMMAND = "harness/commands/comparing/bisect.c"
 
 ROWS = [
     Fault(SEARCH, "first + «(length - 1) / 2»;", "0", "a stretch is walked through one by one"),
-    Fault(SEARCH, "if («length > longest» ||", "!longest", "what is skipped in the middle is left one by one", lives="the first stretch is halved all the same, and finds the same"),
+    Fault(SEARCH, "if («length > longest» ||", "!longest", "what is skipped in the middle is left one by one"),
     Fault(SEARCH, "            search.bad = i;\n            «break;»", ";", "the last bad one is found"),
     Fault(SEARCH, "            search.good = i;\n            «search.left = 0;»", ";", "what lies before the last good one counts as left"),
     Fault(BLANKS, "if (quotes == SINGLE && «c == '\\''»)", "false", "a quote in a candidate ends the quotes"),
@@ -23,7 +23,7 @@ ROWS = [
     Fault(JUDGE, "            «kill(-child, SIGTERM);»", ";", "the command of an interrupted bisect runs on"),
     Fault(LIST, "    if («from > to»)", "false", "a list with the newest first is searched backwards"),
     Fault(LIST, "«!has_each_once(candidates)»", "false", "a candidate that stands there twice has two verdicts"),
-    Fault(KEPT, "|| «strcmp(text + used, b->candidates->names[at])»)", "false", "a verdict is taken for another candidate", lives="the hash in the file's name is of the candidates, and damage that changes a name alone is not tried"),
+    Fault(KEPT, "|| «strcmp(text + used, b->candidates->names[at])»)", "false", "a verdict is taken for another candidate"),
     Fault(KEPT, "judged.verdict == RG_JUDGED_NONE || «b->judged[at].verdict != RG_JUDGED_NONE»", "false", "a verdict that stands there twice is taken twice"),
     Fault(KEPT, "hash = «hash_text(bisect->candidates->names[i], hash)»;", "hash", "verdicts of other candidates are taken"),
     Fault(RUN, "    «rg_bisect_kept_remove(&r->kept);»", ";", "verdicts stay when a bisect is done"),
