@@ -20,6 +20,11 @@ enum rg_slot_kind {
     RG_SLOT_OUT_IMAGE,
 };
 
+static inline bool rg_slot_is_written(enum rg_slot_kind kind)
+{
+    return kind != RG_SLOT_IN && kind != RG_SLOT_IMAGE;
+}
+
 struct rg_slot_info {
     const char *name; // as the kernel calls it
     int slot;         // 1 to RG_MAX_SLOTS - 1, the binding in every API

@@ -170,6 +170,12 @@ int64_t rg_room_end(struct rg_device *device, bool *is_taken)
     return work->most_bytes - work->before_bytes;
 }
 
+void rg_device_watch(struct rg_device *device, const struct rg_watch *watch)
+{
+    rg_packing_destroy(device);
+    device->work->watch = watch;
+}
+
 enum rg_tier rg_tier_owed(const struct rg_device_info *a, const struct rg_device_info *b)
 {
     return a->tier > b->tier ? a->tier : b->tier;

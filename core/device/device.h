@@ -55,6 +55,10 @@ void rg_room_begin(struct rg_device *device, enum rg_room room);
 // the first; `is_taken` says whether all were made.
 int64_t rg_room_end(struct rg_device *device, bool *is_taken);
 
+// Has each run watched from here on; NULL: no longer. Buffers that pack draws are made anew, so
+// that they are no larger than the draws that follow want. `watch` lives until then.
+void rg_device_watch(struct rg_device *device, const struct rg_watch *watch);
+
 // The tier that pictures of two devices must hold, in either order: the looser of theirs, for what
 // one of them may differ by from cpu:reference it may differ by from the other.
 enum rg_tier rg_tier_owed(const struct rg_device_info *a, const struct rg_device_info *b);

@@ -48,11 +48,6 @@ static bool is_buffer(enum rg_slot_kind kind)
     return kind < RG_SLOT_IMAGE;
 }
 
-static bool is_written(enum rg_slot_kind kind)
-{
-    return kind != RG_SLOT_IN && kind != RG_SLOT_IMAGE;
-}
-
 static bool check_slot(const struct rg_pass *pass, const struct rg_slot_info *slot,
                        const struct rg_binding *bound)
 {
@@ -86,7 +81,7 @@ static bool check_aliases(const struct rg_kernel *kernel, const struct rg_run *r
             const struct rg_binding *a = &run->slots[kernel->slots[i].slot];
             const struct rg_binding *b = &run->slots[kernel->slots[j].slot];
             bool same = (a->buf && a->buf == b->buf) || (a->image && a->image == b->image);
-            require(i == j || !same || !is_written(kernel->slots[i].kind),
+            require(i == j || !same || !rg_slot_is_written(kernel->slots[i].kind),
                     "kernel '%s': slots '%s' and '%s' are one object, and it is written",
                     kernel->name, kernel->slots[i].name, kernel->slots[j].name);
         }
@@ -135,10 +130,16 @@ bool rg_dispatch(struct rg_pass *pass, const struct rg_run *run)
     struct rg_work *work = pass->device->work;
     if (work->room == RG_ROOM_COUNTED)
         return true;
+    const struct rg_watch *watch = work->watch;
     work->dispatches++;
+    if (watch)
+        watch->before(pass, run, watch->user);
     rg_doing_begin("running kernel", pass->kernel->name);
-    return work->tally ? rg_tally_run(work->tally, pass, run)
-                       : pass->device->backend->pass_run(pass, run);
+    const bool ok = work->tally ? rg_tally_run(work->tally, pass, run)
+                                : pass->device->backend->pass_run(pass, run);
+    if (watch)
+        watch->after(pass, run, watch->user);
+    return ok;
 }
 
 static int smaller(int64_t a, int b)

@@ -16,6 +16,14 @@ enum rg_room {
                      // is read is zeroes
 };
 
+// Who looks at each run that goes to a backend, before and after: after folding, with the passes
+// that pack a draw.
+struct rg_watch {
+    void (*before)(const struct rg_pass *pass, const struct rg_run *run, void *user);
+    void (*after)(const struct rg_pass *pass, const struct rg_run *run, void *user);
+    void *user;
+};
+
 struct rg_work {
     int64_t runs;                      // pass runs asked for
     int64_t dispatches;                // pass runs after folding
@@ -27,7 +35,8 @@ struct rg_work {
     int64_t before_bytes; // and what lived then
     int64_t watch_bytes;  // beyond which objects are counted, where they are watched
     enum rg_room room;
-    struct rg_tally *tally; // NULL: only this is counted
+    struct rg_tally *tally;       // NULL: only this is counted
+    const struct rg_watch *watch; // NULL: nobody looks
 };
 
 // A count of -1 is unknown: this device cannot have it exactly.

@@ -3,7 +3,7 @@
 #ifndef RG_HARNESS_FRAMES_DIGESTS_H
 #define RG_HARNESS_FRAMES_DIGESTS_H
 
-#include "core/techniques/stages/contents.h"
+#include "core/techniques/stages/dispatched.h"
 #include "harness/frames/subject.h"
 
 // So many frames of a subject, each simulated and drawn.
@@ -38,5 +38,18 @@ void rg_digests_free(struct rg_digests *digests);
 // contents are to be freed in either case.
 bool rg_digests_contents(const struct rg_digest_run *run, struct rg_device *device, int row,
                          struct rg_contents *contents, struct rg_state *state);
+
+// Runs once more, up to the stage before which so many have run, one less than its number, and
+// keeps each dispatch from the end of the stage before it to its own end. False, and one logged
+// line, on failure; to be freed in either case.
+bool rg_digests_dispatches(const struct rg_digest_run *run, struct rg_device *device,
+                           int stages_run, struct rg_dispatches *dispatches);
+// Runs one of them on a device (rg_dispatched_run).
+bool rg_digests_dispatch(struct rg_dispatched *dispatched, struct rg_device *device);
+
+// The code that a device gives its driver for a kernel, or would if its API took this kind: bytes
+// that the caller frees. NULL, and one logged line, on failure.
+void *rg_digests_code(struct rg_device *device, const struct rg_kernel *kernel,
+                      enum rg_code_kind kind, size_t *size);
 
 #endif

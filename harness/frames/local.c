@@ -186,4 +186,7 @@ const struct rg_session_ways rg_local_session = {
     .texture = texture,
     .take_digests = rg_recorder_take,
     .take_contents = rg_recorder_contents,
+    .take_dispatches = rg_recorder_dispatches,
+    .run_dispatched = rg_dispatched_run,
+    .take_code = rg_recorder_code,
 };

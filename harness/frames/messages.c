@@ -165,3 +165,61 @@ bool rg_take_layout(struct rg_message *message, struct rg_state *layout)
     layout->margin = rg_take_index(message, INT32_MAX);
     return !message->failed;
 }
+
+// --- dispatches ---
+
+static void put_contents(struct rg_message *message, const struct rg_contents *contents)
+{
+    RG_PUT(message, contents->desc);
+    rg_put_block(message, contents->bytes, (int64_t)contents->size);
+}
+
+static bool take_contents(struct rg_message *message, struct rg_contents *contents)
+{
+    int64_t size = 0;
+    rg_contents_free(contents);
+    if (RG_TAKE(message, contents->desc))
+        contents->bytes = rg_take_block(message, &size);
+    contents->size = (size_t)size;
+    return contents->bytes && !message->failed;
+}
+
+void rg_put_dispatched(struct rg_message *message, const struct rg_dispatched *d)
+{
+    rg_put_text(message, d->kernel->name);
+    rg_put_int(message, d->was_kept);
+    RG_PUT(message, d->params);
+    RG_PUT(message, d->origin);
+    RG_PUT(message, d->extent);
+    for (int i = 0; d->was_kept && i < d->kernel->slot_count; i++)
+        put_contents(message, &d->before[d->kernel->slots[i].slot]);
+}
+
+void rg_put_dispatched_after(struct rg_message *message, const struct rg_dispatched *d)
+{
+    for (int i = 0; d->was_kept && i < d->kernel->slot_count; i++)
+        if (rg_slot_is_written(d->kernel->slots[i].kind))
+            put_contents(message, &d->after[d->kernel->slots[i].slot]);
+}
+
+bool rg_take_dispatched(struct rg_message *message, struct rg_dispatched *d)
+{
+    const char *name = rg_take_text(message);
+    d->kernel = message->failed ? NULL : rg_kernel_find(name);
+    d->was_kept = rg_take_index(message, 2);
+    bool ok = d->kernel && RG_TAKE(message, d->params) && RG_TAKE(message, d->origin) &&
+              RG_TAKE(message, d->extent);
+    for (int i = 0; ok && d->was_kept && i < d->kernel->slot_count; i++)
+        ok = take_contents(message, &d->before[d->kernel->slots[i].slot]);
+    return ok || (!message->failed &&
+                  rg_error("a message between processes names no dispatch of a kernel"));
+}
+
+bool rg_take_dispatched_after(struct rg_message *message, struct rg_dispatched *d)
+{
+    bool ok = !message->failed;
+    for (int i = 0; ok && d->was_kept && i < d->kernel->slot_count; i++)
+        if (rg_slot_is_written(d->kernel->slots[i].kind))
+            ok = take_contents(message, &d->after[d->kernel->slots[i].slot]);
+    return ok;
+}

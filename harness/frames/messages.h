@@ -2,6 +2,7 @@
 #ifndef RG_HARNESS_FRAMES_MESSAGES_H
 #define RG_HARNESS_FRAMES_MESSAGES_H
 
+#include "core/techniques/stages/dispatched.h"
 #include "harness/frames/subject.h"
 #include "harness/devices/workers/message.h"
 
@@ -17,5 +18,12 @@ bool rg_take_account(struct rg_message *message, struct rg_account *account);
 // A state without its asset; no name where it is none.
 void rg_put_layout(struct rg_message *message, const struct rg_state *layout);
 bool rg_take_layout(struct rg_message *message, struct rg_state *layout);
+
+// What lay in its slots before goes one way, and what lies there after the other.
+void rg_put_dispatched(struct rg_message *message, const struct rg_dispatched *dispatched);
+void rg_put_dispatched_after(struct rg_message *message, const struct rg_dispatched *dispatched);
+// Zeroed before; freed by the caller in either case.
+bool rg_take_dispatched(struct rg_message *message, struct rg_dispatched *dispatched);
+bool rg_take_dispatched_after(struct rg_message *message, struct rg_dispatched *dispatched);
 
 #endif

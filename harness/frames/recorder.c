@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/alloc.h"
 #include "core/base/array.h"
 #include "core/base/log.h"
 
@@ -19,6 +20,9 @@ struct recorder {
     int wanted; // -1: none
     struct rg_contents *contents;
     struct rg_state *state;
+    // Where the dispatches of one stage are asked for: which stage, and where they go.
+    int watched; // its number from 1 on; 0: none
+    struct rg_dispatches *dispatches;
 };
 
 static bool add(struct rg_digests *digests, const struct rg_digest *digest)
@@ -79,6 +83,8 @@ static void after_stage(const struct rg_opened_stage *stage, void *user)
 {
     struct recorder *r = user;
     r->stages_run++;
+    if (r->watched)
+        return;
     for (int i = 0; r->ok && i < r->instance->asset_count; i++)
         record(r, stage, i);
 }
@@ -91,7 +97,7 @@ static bool run_recorded(const struct rg_digest_run *run, struct rg_device *devi
     r->instance =
         rg_instance_open(technique, device, subject->settings, subject->width, subject->height);
     r->ok = r->instance != NULL;
-    for (int i = 0; r->ok && i < r->instance->asset_count; i++)
+    for (int i = 0; r->ok && !r->watched && i < r->instance->asset_count; i++)
         record(r, NULL, i); // what opening has left
     if (r->instance) {
         r->instance->after_stage = after_stage;
@@ -120,6 +126,64 @@ bool rg_recorder_contents(const struct rg_digest_run *run, struct rg_device *dev
     return ok && (contents->bytes ||
                   rg_error("%s: a second run on %s has not come as far as the first; run again",
                            run->subject.technique->name, device->info.name));
+}
+
+// --- dispatches ---
+
+static bool is_watched(const struct recorder *r)
+{
+    return r->ok && r->stages_run == r->watched - 1;
+}
+
+static void before_dispatch(const struct rg_pass *pass, const struct rg_run *run, void *user)
+{
+    struct recorder *r = user;
+    struct rg_dispatches *all = r->dispatches;
+    if (!is_watched(r))
+        return;
+    r->ok = rg_array_fit(&all->rows, &all->room, all->count + 1, sizeof(*all->rows), "dispatches");
+    if (r->ok)
+        r->ok = rg_dispatched_before(pass, run, &all->rows[all->count++]);
+}
+
+static void after_dispatch(const struct rg_pass *pass, const struct rg_run *run, void *user)
+{
+    struct recorder *r = user;
+    (void)pass;
+    if (is_watched(r))
+        r->ok = rg_dispatched_after(run, &r->dispatches->rows[r->dispatches->count - 1]);
+}
+
+bool rg_recorder_dispatches(const struct rg_digest_run *run, struct rg_device *device,
+                            int stages_run, struct rg_dispatches *dispatches)
+{
+    struct rg_digests digests = {0};
+    struct recorder r = {
+        .digests = &digests, .wanted = -1, .watched = stages_run, .dispatches = dispatches};
+    const struct rg_watch watch = {before_dispatch, after_dispatch, &r};
+    rg_device_watch(device, &watch);
+    const bool ok = run_recorded(run, device, &r);
+    rg_device_watch(device, NULL);
+    rg_digests_free(&digests);
+    return ok;
+}
+
+void *rg_recorder_code(struct rg_device *device, const struct rg_kernel *kernel,
+                       enum rg_code_kind kind, size_t *size)
+{
+    struct rg_kernel_code code;
+    void *owned, *copy = NULL;
+    (void)device;
+    if (!rg_kernel_code(kernel, kind, &code, &owned))
+        return NULL;
+    if (!code.size)
+        rg_unsupported("kernel '%s': this build has no code of it for drivers; build raingauge "
+                       "with -Ddrivers=true",
+                       kernel->name);
+    else if ((copy = rg_alloc(1, code.size, kernel->name)))
+        memcpy(copy, code.bytes, *size = code.size);
+    free(owned);
+    return copy;
 }
 
 void rg_digests_free(struct rg_digests *digests)

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/base/array.h"
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "harness/frames/ways.h"
@@ -252,6 +253,46 @@ static bool take_contents(const struct rg_digest_run *run, struct rg_device *dev
     return finish(&reply, ok);
 }
 
+static bool take_dispatches(const struct rg_digest_run *run, struct rg_device *device,
+                            int stages_run, struct rg_dispatches *all)
+{
+    struct rg_message reply;
+    bool ok = call_for_run(run, device, RG_CALL_DISPATCHES, stages_run, &reply);
+    const int count = ok ? rg_take_index(&reply, INT32_MAX) : 0;
+    for (int i = 0; ok && i < count; i++) {
+        ok = rg_array_fit(&all->rows, &all->room, i + 1, sizeof(*all->rows), "dispatches");
+        if (!ok)
+            break;
+        struct rg_dispatched *row = &all->rows[all->count++];
+        *row = (struct rg_dispatched){0};
+        ok = rg_take_dispatched(&reply, row) && rg_take_dispatched_after(&reply, row);
+    }
+    return finish(&reply, ok);
+}
+
+static bool run_dispatched(struct rg_dispatched *dispatched, struct rg_device *device)
+{
+    struct rg_message request = {0}, reply;
+    rg_put_text(&request, device->info.name);
+    rg_put_dispatched(&request, dispatched);
+    const bool ok = rg_worker_call(rg_remote_worker(device), RG_CALL_DISPATCH, &request, &reply) &&
+                    rg_take_dispatched_after(&reply, dispatched);
+    rg_message_free(&request);
+    return finish(&reply, ok);
+}
+
+static void *take_code(struct rg_device *device, const struct rg_kernel *kernel,
+                       enum rg_code_kind kind, size_t *size)
+{
+    struct rg_message request = {0}, reply;
+    rg_put_text(&request, device->info.name);
+    rg_put_text(&request, kernel->name);
+    rg_put_int(&request, kind);
+    const bool ok = rg_worker_call(rg_remote_worker(device), RG_CALL_KERNEL_CODE, &request, &reply);
+    rg_message_free(&request);
+    return take_bytes(&reply, ok, 0, size);
+}
+
 const struct rg_session_ways rg_remote_session = {
     .open = open_remote,
     .close = close_remote,
@@ -270,4 +311,7 @@ const struct rg_session_ways rg_remote_session = {
     .texture = texture,
     .take_digests = take_digests,
     .take_contents = take_contents,
+    .take_dispatches = take_dispatches,
+    .run_dispatched = run_dispatched,
+    .take_code = take_code,
 };

@@ -176,3 +176,21 @@ bool rg_digests_contents(const struct rg_digest_run *run, struct rg_device *devi
     *state = (struct rg_state){0};
     return ways_of(device)->take_contents(run, device, row, contents, state);
 }
+
+bool rg_digests_dispatches(const struct rg_digest_run *run, struct rg_device *device,
+                           int stages_run, struct rg_dispatches *dispatches)
+{
+    *dispatches = (struct rg_dispatches){0};
+    return ways_of(device)->take_dispatches(run, device, stages_run, dispatches);
+}
+
+bool rg_digests_dispatch(struct rg_dispatched *dispatched, struct rg_device *device)
+{
+    return ways_of(device)->run_dispatched(dispatched, device);
+}
+
+void *rg_digests_code(struct rg_device *device, const struct rg_kernel *kernel,
+                      enum rg_code_kind kind, size_t *size)
+{
+    return ways_of(device)->take_code(device, kernel, kind, size);
+}

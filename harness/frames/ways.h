@@ -36,6 +36,11 @@ struct rg_session_ways {
                          struct rg_digests *digests);
     bool (*take_contents)(const struct rg_digest_run *run, struct rg_device *device, int row,
                           struct rg_contents *contents, struct rg_state *state);
+    bool (*take_dispatches)(const struct rg_digest_run *run, struct rg_device *device,
+                            int stages_run, struct rg_dispatches *dispatches);
+    bool (*run_dispatched)(struct rg_dispatched *dispatched, struct rg_device *device);
+    void *(*take_code)(struct rg_device *device, const struct rg_kernel *kernel,
+                       enum rg_code_kind kind, size_t *size);
 };
 extern const struct rg_session_ways rg_local_session, rg_remote_session;
 

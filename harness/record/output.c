@@ -12,9 +12,8 @@
 #include "core/image/files/disk.h"
 #include "core/image/files/temporary.h"
 
-static bool write_all(int fd, const char *text)
+static bool write_all(int fd, const char *text, size_t left)
 {
-    size_t left = strlen(text);
     while (left > 0) {
         ssize_t written = write(fd, text, left);
         if (written < 0 && errno == EINTR)
@@ -84,7 +83,8 @@ static bool begin(const char *folder, const struct rg_output_file *file, struct 
     if (!rg_temporary_make(pending->path, &pending->temporary, &why))
         return rg_error("%s: %s", pending->path, why.text);
     pending->is_open = true;
-    return write_all(pending->temporary.fd, file->text) ||
+    const size_t size = file->size ? file->size : strlen(file->text);
+    return write_all(pending->temporary.fd, file->text, size) ||
            rg_error("%s: cannot be written: %s; nothing was changed", pending->path,
                     strerror(errno));
 }
@@ -117,7 +117,7 @@ bool rg_output_write_set(const char *folder, const struct rg_output_file *files,
 
 bool rg_output_write(const char *folder, const char *name, const char *text)
 {
-    return rg_output_write_set(folder, &(struct rg_output_file){name, text}, 1);
+    return rg_output_write_set(folder, &(struct rg_output_file){name, text, 0}, 1);
 }
 
 bool rg_output_write_file(const char *path, const char *text)

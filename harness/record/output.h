@@ -3,13 +3,15 @@
 #define RG_HARNESS_RECORD_OUTPUT_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 struct rg_output_file {
     const char *name, *text;
+    size_t size; // in bytes; 0: the text ends with a zero
 };
 enum {
-    RG_MAX_OUTPUT_FILES = 8,
+    RG_MAX_OUTPUT_FILES = 48,
     RG_OUTPUT_TABLE_BYTES = 1 << 13, // of a table's files, at least
 };
 

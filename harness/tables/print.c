@@ -70,7 +70,7 @@ bool rg_result_write(const struct rg_result *result, const char *folder)
         texts[count] = print_text(result, count);
         snprintf(names[count], sizeof(names[count]), "%s.%s", result->table,
                  rg_result_formats[count]);
-        files[count] = (struct rg_output_file){names[count], texts[count]};
+        files[count] = (struct rg_output_file){.name = names[count], .text = texts[count]};
         ok = texts[count];
     }
     ok = ok && rg_output_write_set(folder, files, count);

@@ -42,6 +42,18 @@ bool rg_contents_read(const struct rg_asset *asset, struct rg_contents *contents
                         : rg_buf_read(asset->buf, 0, contents->bytes, (int64_t)contents->size);
 }
 
+bool rg_contents_write(const struct rg_contents *contents, struct rg_image *image)
+{
+    const unsigned char *texels = contents->bytes;
+    bool ok = true;
+    for (int level = 0; ok && level < contents->desc.levels; level++)
+        for (int layer = 0; ok && layer < contents->desc.layers; layer++) {
+            ok = rg_image_write(image, layer, level, texels);
+            texels += level_bytes(&contents->desc, level);
+        }
+    return ok;
+}
+
 void rg_contents_free(struct rg_contents *contents)
 {
     free(contents->bytes);

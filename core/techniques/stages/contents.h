@@ -14,6 +14,8 @@ struct rg_contents {
 // Reads an asset that has been made. False, and one logged line, on failure; to be freed in either
 // case.
 bool rg_contents_read(const struct rg_asset *asset, struct rg_contents *contents);
+// Writes what an image of the same description held. False, and one logged line, on failure.
+bool rg_contents_write(const struct rg_contents *contents, struct rg_image *image);
 void rg_contents_free(struct rg_contents *contents);
 
 // What identifies the contents; equal contents have equal ones.

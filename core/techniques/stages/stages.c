@@ -142,16 +142,11 @@ void rg_stages_free(struct rg_instance *instance)
 
 // --- running ---
 
-static bool is_written(enum rg_slot_kind kind)
-{
-    return kind != RG_SLOT_IN && kind != RG_SLOT_IMAGE;
-}
-
 static void note_written(struct rg_opened_stage *stage)
 {
     const struct rg_kernel *kernel = stage->pass->kernel;
     for (int i = 0; i < kernel->slot_count; i++)
-        if (is_written(kernel->slots[i].kind))
+        if (rg_slot_is_written(kernel->slots[i].kind))
             stage->slots[kernel->slots[i].slot]->is_defined = true;
 }
 
@@ -218,7 +213,8 @@ bool rg_stage_wrote(const struct rg_opened_stage *s, const struct rg_asset *asse
     for (int i = 0; i < kernel->slot_count; i++) {
         const struct rg_slot_info *slot = &kernel->slots[i];
         const struct rg_asset *bound = s->slots[slot->slot];
-        if (is_written(slot->kind) && bound->buf == asset->buf && bound->image == asset->image)
+        if (rg_slot_is_written(slot->kind) && bound->buf == asset->buf &&
+            bound->image == asset->image)
             return true;
     }
     if (asset->buf)

@@ -7,7 +7,10 @@
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
+#include "core/base/text/plain.h"
+#include "harness/compare/shrink/folder.h"
 #include "harness/compare/shrink/shrink.h"
+#include "harness/console/clock.h"
 
 struct shrink_options {
     struct rg_words sets;
@@ -44,6 +47,37 @@ static const struct rg_option options[] = {
     {RG_OPTION_END},
 };
 
+enum { KERNEL_SECONDS = 10 }; // for which the items of a kernel are made fewer
+
+// Finds the kernel behind it, and writes what there is, the case last.
+static bool write_found(const struct rg_case *found, const struct rg_blame *blame,
+                        const struct rg_devices *devices, const char *path)
+{
+    struct rg_device *device = devices->devices[0], *truth = devices->devices[1];
+    struct rg_culprit culprit;
+    char plain[RG_PATH_SIZE];
+    const double end_ms = rg_now_ms() + 1000.0 * KERNEL_SECONDS;
+    bool ok = rg_culprit_find(&found->run, blame, device, truth, end_ms, &culprit) &&
+              rg_case_write(found, blame->text, path);
+    if (ok && culprit.found)
+        ok = rg_kernel_folder_write(path, &culprit, blame->text, device, truth);
+    else if (ok)
+        rg_kernel_folder_remove(path);
+    snprintf(plain, sizeof(plain), "%s", path);
+    rg_plain(plain);
+    if (ok)
+        printf("the case is in %s\n", plain);
+    if (ok && culprit.found)
+        printf("%s alone, %lld of its %lld items, is in %s.kernel: cc run.c -lvulkan -o run && "
+               "./run\n",
+               culprit.due.kernel->name, (long long)culprit.items, (long long)culprit.of_items,
+               plain);
+    else if (ok)
+        printf("no kernel alone: %s\n", culprit.why_not);
+    rg_culprit_free(&culprit);
+    return ok;
+}
+
 static int shrink_on(const struct rg_devices *devices, const struct rg_subject *subject,
                      const struct shrink_options *o)
 {
@@ -54,10 +88,10 @@ static int shrink_on(const struct rg_devices *devices, const struct rg_subject *
     struct rg_case found;
     struct rg_blame blame;
     int tried, exit = RG_EXIT_FAIL;
-    if (rg_shrink_case(&request, &found, &blame, &tried) &&
-        rg_case_write(&found, blame.text, o->output)) {
-        printf("%s\n%d runs tried; the case is in %s\n", blame.text, tried, o->output);
-        exit = RG_EXIT_PASS;
+    if (rg_shrink_case(&request, &found, &blame, &tried)) {
+        printf("%s\n%d runs tried\n", blame.text, tried);
+        if (write_found(&found, &blame, devices, o->output))
+            exit = RG_EXIT_PASS;
     }
     rg_case_free(&found);
     return exit;

@@ -37,6 +37,9 @@ int rg_serving(const char *argument)
         [RG_CALL_TEXTURE] = rg_serve_texture,
         [RG_CALL_DIGESTS] = rg_serve_digests,
         [RG_CALL_CONTENTS] = rg_serve_contents,
+        [RG_CALL_DISPATCHES] = rg_serve_dispatches,
+        [RG_CALL_DISPATCH] = rg_serve_dispatch,
+        [RG_CALL_KERNEL_CODE] = rg_serve_kernel_code,
     };
     return rg_serve(argument, services);
 }

@@ -4,7 +4,6 @@
 #include "core/base/array.h"
 #include "core/base/log.h"
 #include "core/base/memory.h"
-#include "harness/frames/digests.h"
 #include "harness/frames/messages.h"
 #include "harness/frames/session.h"
 #include "harness/devices/serving/services.h"
@@ -224,50 +223,4 @@ bool rg_serve_texture(struct rg_message *request, struct rg_message *reply)
         RG_PUT(reply, first_level);
     }
     return true;
-}
-
-// --- digests ---
-
-// Takes what both calls are asked with; the caller frees the subject's settings.
-static struct rg_device *take_run(struct rg_message *request, struct rg_digest_run *run, int *row)
-{
-    struct rg_device *device = rg_served_device(rg_take_text(request));
-    *run = (struct rg_digest_run){0};
-    if (!device || !rg_take_subject(request, &run->subject))
-        return NULL;
-    run->frames = rg_take_index(request, INT32_MAX);
-    *row = rg_take_index(request, INT32_MAX);
-    return device;
-}
-
-bool rg_serve_digests(struct rg_message *request, struct rg_message *reply)
-{
-    struct rg_digest_run run;
-    struct rg_digests digests = {0};
-    int row;
-    struct rg_device *device = take_run(request, &run, &row);
-    const bool ok = device && rg_digests_take(&run, device, &digests);
-    if (ok)
-        rg_put_block(reply, digests.rows, digests.count * (int64_t)sizeof(*digests.rows));
-    rg_digests_free(&digests);
-    free((void *)run.subject.settings);
-    return ok;
-}
-
-bool rg_serve_contents(struct rg_message *request, struct rg_message *reply)
-{
-    struct rg_digest_run run;
-    struct rg_contents contents = {0};
-    struct rg_state state;
-    int row;
-    struct rg_device *device = take_run(request, &run, &row);
-    const bool ok = device && rg_digests_contents(&run, device, row, &contents, &state);
-    if (ok) {
-        RG_PUT(reply, contents.desc);
-        rg_put_layout(reply, &state);
-        rg_put_block(reply, contents.bytes, (int64_t)contents.size);
-    }
-    rg_contents_free(&contents);
-    free((void *)run.subject.settings);
-    return ok;
 }

@@ -27,6 +27,9 @@ const char *rg_call_doing(enum rg_call call)
         [RG_CALL_TEXTURE] = "telling of a texture",
         [RG_CALL_DIGESTS] = "digesting stages",
         [RG_CALL_CONTENTS] = "reading an asset",
+        [RG_CALL_DISPATCHES] = "keeping a stage's dispatches",
+        [RG_CALL_DISPATCH] = "running a kernel alone",
+        [RG_CALL_KERNEL_CODE] = "reading a kernel's code",
     };
     return doing[call];
 }

@@ -1,10 +1,13 @@
 """A driver that miscompiles a shader: blamed, shrunk to a case, and the case replayed."""
 import os
 import re
+import shutil
+import subprocess
 import tempfile
 
 import misbehaving
 
+MOST_LINES = 170  # of the program that runs a kernel alone
 SMALL = "--set environment_px=64 --set resolution_px=96 --size 96x96 "
 STAGE, RIGHT, WRONG = "flow_normals", "44ffe000", "44ff0000"  # 2047 and 2040
 
@@ -14,6 +17,11 @@ def miscompiling(runner, folder):
     env = misbehaving.shim(runner, folder, "vulkan", "none", "none", 0)
     size = os.path.getsize(os.path.join(runner.kernels, STAGE + ".spv"))
     return "vulkan@VK_DRIVER_FILES=%s;RG_MISCOMPILE=%d:%s:%s" % (env["VK_DRIVER_FILES"], size, RIGHT, WRONG)
+
+
+def variables(device):
+    """What a device's name sets in its driver's environment."""
+    return dict(pair.split("=", 1) for pair in device.split("@", 1)[1].split(";"))
 
 
 def check_blamed(runner):
@@ -61,6 +69,83 @@ def check_shrunk(runner):
     return problems
 
 
+def slots_of(folder):
+    """The slots of a kernel's folder, by number: type, bytes, file before, file expected."""
+    with open(os.path.join(folder, "kernel.txt"), encoding="utf-8") as file:
+        rows = re.findall(r"(?m)^slot (\d+) type (\d+) .* bytes (\d+) (\S+) (\S+) # ", file.read())
+    return {int(row[0]): (int(row[1]), int(row[2]), row[3], row[4]) for row in rows}
+
+
+def read(folder, name):
+    with open(os.path.join(folder, name), "rb") as file:
+        return file.read()
+
+
+def folder_problems(runner, folder):
+    """What is wrong with the files of a kernel's folder, which a program has not touched yet."""
+    problems, slots = [], slots_of(folder)
+    named = {name for slot in slots.values() for name in slot[2:] if name != "-"}
+    there = set(os.listdir(folder))
+    if there != named | {"README", "kernel.txt", "kernel.spv", "kernel.comp", "run.c"}:
+        problems.append("files: %s" % sorted(there))
+    if {at: slot[0] for at, slot in slots.items()} != {0: 6, 1: 7, 2: 7} or slots[1][3] != "-" or slots[2][3] == "-":
+        problems.append("slots: %s" % slots)
+    problems += ["%s: %d bytes" % (name, len(read(folder, name))) for slot in slots.values() for name in slot[2:]
+                 if name != "-" and len(read(folder, name)) != slot[1]]
+    before, due = read(folder, slots[2][2]), read(folder, slots[2][3])
+    changed = {i // 12 for i in range(0, len(due), 4) if before[i:i + 4] != due[i:i + 4]}
+    if len(changed) > 1:
+        problems.append("%d elements are due to change, of one item's" % len(changed))
+    if read(folder, "kernel.spv") != read(runner.kernels, STAGE + ".spv") or read(folder, "kernel.comp") != read(runner.kernels, STAGE + ".glsl"):
+        problems.append("the shader is another")
+    return problems
+
+
+def check_alone(runner):
+    """a kernel's folder, wherever it is copied, is built and run with Vulkan alone, and tells the two drivers apart"""
+    problems = []
+    with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as elsewhere:
+        device, path = miscompiling(runner, folder), os.path.join(folder, "a 'case'\n\x1b[2J;$(false).txt")
+        args = ["shrink", "flow", "--frame", "3", "--device", device + ",cpu:reference", "-o", path] + SMALL.split()
+        result = runner.run(args)
+        says = STAGE + r" alone, 1 of its \d+ items, is in .*\.kernel: cc run\.c -lvulkan -o run && \./run"
+        if result.returncode != 0 or result.stderr or "\x1b" in result.stdout or not re.search(says, result.stdout):
+            return ["exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr)]
+        problems += folder_problems(runner, path + ".kernel")
+        alone = shutil.copytree(path + ".kernel", os.path.join(elsewhere, "sent"))
+        with open(os.path.join(alone, "run.c"), encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        if len(lines) > MOST_LINES:
+            problems.append("run.c has %d lines" % len(lines))
+        built = subprocess.run("cc -std=c11 -Wall -Wextra -Werror run.c -lvulkan -o run".split(), cwd=alone,
+                               stderr=subprocess.PIPE, encoding="utf-8")
+        if built.returncode:
+            return problems + [built.stderr]
+
+        def run(args, env={}):
+            ran = subprocess.run(["./run"] + args, cwd=alone, env=runner.variables(env), stdout=subprocess.PIPE,
+                                 stderr=subprocess.PIPE, encoding="utf-8")
+            return ran.returncode, ran.stdout + ran.stderr
+
+        for args, env, status, says in (
+                ([], {}, 0, "it is the same\n"),
+                (["--device", "0"], {}, 0, "it is the same\n"),
+                ([], variables(device), 1, r"slot 2: byte \d+ is [0-9a-f]{2}, not [0-9a-f]{2} as in 02-normals\.expected\nit differs\n"),
+                (["--device", "15"], {}, 77, "there is no Vulkan device 15\n"),
+                ([], {"VK_DRIVER_FILES": "/nonexistent"}, 77, "there is no Vulkan device 0\n")):
+            got = run(args, env)
+            if got[0] != status or not re.fullmatch(says, got[1]):
+                problems.append("run %s %s: exit status %d, %s" % (args, env, *got))
+        with open(os.path.join(alone, "02-normals.expected"), "r+b") as file:
+            file.write(bytes(byte ^ 1 for byte in read(alone, "02-normals.before")[:1]))
+        if run([])[0] != 1:
+            problems.append("another first byte is not noticed")
+        os.truncate(os.path.join(alone, "01-blurred.before"), 4)
+        if run([]) != (2, "01-blurred.before: cannot be read\n"):
+            problems.append("a short file: %s" % (run([]),))
+    return problems
+
+
 def check_nothing_to_shrink(runner):
     """shrink of two devices that agree fails, and writes nothing"""
     with tempfile.TemporaryDirectory() as folder:
@@ -71,4 +156,4 @@ def check_nothing_to_shrink(runner):
         "exit status %d, made: %s, %s" % (result.returncode, made, result.stderr)]
 
 
-CHECKS = [check_blamed, check_shrunk, check_nothing_to_shrink]
+CHECKS = [check_blamed, check_shrunk, check_alone, check_nothing_to_shrink]

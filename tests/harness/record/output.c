@@ -52,7 +52,8 @@ static void expect_text(const char *name, const char *text)
 
 static bool write_three(const char *third)
 {
-    const struct rg_output_file set[] = {{"a.md", "new a"}, {"b.csv", "new b"}, {"c.json", third}};
+    const struct rg_output_file set[] = {
+        {"a.md", "new a", 0}, {"b.csv", "new b with more", 5}, {"c.json", third, 0}};
     messages = 0;
     return rg_output_write_set(folder, set, 3);
 }

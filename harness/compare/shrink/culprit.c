@@ -1,0 +1,152 @@
+#include "harness/compare/shrink/culprit.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/console/clock.h"
+
+struct pair {
+    struct rg_device *device, *truth;
+    struct rg_dispatched now; // what the device leaves; it borrows what lay there before
+    struct rg_dispatched *due;
+    double end_ms;
+    bool has_failed;
+};
+
+// Whether two leave the same in each slot that is written.
+static bool leaves_same(const struct rg_dispatched *a, const struct rg_dispatched *b)
+{
+    for (int i = 0; i < a->kernel->slot_count; i++) {
+        const int slot = a->kernel->slots[i].slot;
+        const struct rg_contents *p = &a->after[slot], *q = &b->after[slot];
+        if (p->size != q->size || (p->size && memcmp(p->bytes, q->bytes, p->size) != 0))
+            return false;
+    }
+    return true;
+}
+
+// Runs the dispatch on both devices; whether they differ.
+static bool differs(struct pair *p)
+{
+    memcpy(p->now.before, p->due->before, sizeof(p->now.before));
+    p->now.kernel = p->due->kernel;
+    p->now.was_kept = true;
+    memcpy(p->now.params, p->due->params, sizeof(p->now.params));
+    p->now.origin = p->due->origin;
+    p->now.extent = p->due->extent;
+    p->has_failed = p->has_failed || !rg_digests_dispatch(p->due, p->truth) ||
+                    !rg_digests_dispatch(&p->now, p->device);
+    return !p->has_failed && !leaves_same(&p->now, p->due);
+}
+
+static void forget(struct pair *p)
+{
+    memset(p->now.before, 0, sizeof(p->now.before)); // the other one's
+    rg_dispatched_free(&p->now);
+}
+
+// --- the fewest items ---
+
+// One axis: a half of the items after the other, as often as one of the two still differs.
+static void halve(struct pair *p, int *origin, int *extent)
+{
+    bool keeps = true;
+    while (keeps && *extent > 1 && !p->has_failed && rg_now_ms() < p->end_ms) {
+        const int first = *origin, whole = *extent, half = whole / 2;
+        *extent = half;
+        keeps = differs(p);
+        if (!keeps) {
+            *origin = first + half;
+            *extent = whole - half;
+            keeps = differs(p);
+        }
+        if (!keeps) {
+            *origin = first;
+            *extent = whole;
+        }
+    }
+}
+
+static int64_t items_of(const struct rg_dispatched *d)
+{
+    return (int64_t)d->extent.width * d->extent.height * d->extent.depth;
+}
+
+// Leaves what the truth does of the fewest.
+static void shrink_items(struct pair *p, struct rg_culprit *culprit)
+{
+    struct rg_extent *origin = &p->due->origin, *extent = &p->due->extent;
+    culprit->of_items = items_of(p->due);
+    halve(p, &origin->depth, &extent->depth);
+    halve(p, &origin->height, &extent->height);
+    halve(p, &origin->width, &extent->width);
+    culprit->items = items_of(p->due);
+    culprit->found = differs(p);
+}
+
+// --- finding ---
+
+static void tell_none(const struct rg_blame *blame, const struct rg_dispatches *all, bool is_drawn,
+                      struct rg_culprit *culprit)
+{
+    if (is_drawn)
+        snprintf(culprit->why_not, sizeof(culprit->why_not),
+                 "%s draws: %s; what differs is the drawing itself, which needs raingauge",
+                 blame->first.stage,
+                 all->count > 1 ? "the kernels that pack it leave what is expected"
+                                : "no kernel packs it");
+    else
+        snprintf(culprit->why_not, sizeof(culprit->why_not),
+                 "no kernel of stage %s leaves other bits alone: what differs is between kernels, "
+                 "such as their order, barriers or memory",
+                 blame->first.stage);
+}
+
+static bool find(struct pair *p, const struct rg_blame *blame, struct rg_dispatches *all,
+                 struct rg_culprit *culprit)
+{
+    bool is_drawn = false, is_other = false;
+    for (int i = 0; i < all->count && !is_other && !p->has_failed; i++) {
+        is_drawn = is_drawn || !all->rows[i].was_kept;
+        p->due = &all->rows[i];
+        is_other = p->due->was_kept && differs(p);
+    }
+    if (is_other) {
+        shrink_items(p, culprit);
+        culprit->due = *p->due;
+        *p->due = (struct rg_dispatched){0};
+    }
+    if (!p->has_failed && !culprit->found)
+        tell_none(blame, all, is_drawn, culprit);
+    return !p->has_failed;
+}
+
+bool rg_culprit_find(const struct rg_digest_run *run, const struct rg_blame *blame,
+                     struct rg_device *device, struct rg_device *truth, double end_ms,
+                     struct rg_culprit *culprit)
+{
+    struct rg_digest_run until = *run;
+    struct rg_dispatches all = {0};
+    struct pair p = {.device = device, .truth = truth, .end_ms = end_ms};
+    *culprit = (struct rg_culprit){0};
+    if (!*blame->first.stage) {
+        snprintf(culprit->why_not, sizeof(culprit->why_not),
+                 "%s differs before the first stage runs; what opening does is not kept",
+                 blame->first.asset);
+        return true;
+    }
+    if (blame->first.frame + 1 < run->frames)
+        until.frames = (int)blame->first.frame + 1;
+    const bool ok = rg_digests_dispatches(&until, device, blame->first.stages_run, &all) &&
+                    find(&p, blame, &all, culprit);
+    forget(&p);
+    rg_dispatches_free(&all);
+    return ok;
+}
+
+void rg_culprit_free(struct rg_culprit *culprit)
+{
+    rg_dispatched_free(&culprit->due);
+    *culprit = (struct rg_culprit){0};
+}

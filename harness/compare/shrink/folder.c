@@ -1,0 +1,271 @@
+#include "harness/compare/shrink/folder.h"
+
+#include <ctype.h>
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/base/alloc.h"
+#include "core/base/text/plain.h"
+#include "harness/record/output.h"
+
+// kernel.txt has numbers of Vulkan's, so that run.c need not know ours.
+enum { GROUP_ITEMS = 64 }; // of shaders/grid.glsl
+enum { SAMPLED_IMAGE = 1, STORED_IMAGE = 3, UNIFORM_BLOCK = 6, STORAGE_BUFFER = 7 };
+enum { COLOUR_ASPECT = 1, DEPTH_ASPECT = 2 };
+static const int vulkan_formats[RG_FORMAT_COUNT] = {
+    [RG_RGBA8] = 37, [RG_RGBA16F] = 97,   [RG_RGBA32F] = 109, [RG_R32F] = 100,
+    [RG_R16F] = 76,  [RG_RG11B10F] = 122, [RG_D32F] = 126,
+};
+
+extern const char rg_text_run[];
+
+struct folder {
+    char path[2048];
+    const struct rg_culprit *culprit;
+    int count;
+    struct rg_output_file files[RG_MAX_OUTPUT_FILES];
+    char names[RG_MAX_OUTPUT_FILES][64];
+    void *owned[RG_MAX_OUTPUT_FILES];
+};
+
+static void add(struct folder *f, const char *name, const void *bytes, size_t size, void *owned)
+{
+    const int at = f->count++;
+    snprintf(f->names[at], sizeof(f->names[at]), "%s", name);
+    f->files[at] = (struct rg_output_file){f->names[at], bytes, size};
+    f->owned[at] = owned;
+}
+
+// --- what it holds ---
+
+static bool add_code(struct folder *f, struct rg_device *device, enum rg_code_kind kind,
+                     const char *name, size_t *size)
+{
+    void *code = rg_digests_code(device, f->culprit->due.kernel, kind, size);
+    if (code)
+        add(f, name, code, *size, code);
+    return code;
+}
+
+// The uniform block at binding 0: the first item and the end, of four ints each, then the kernel's
+// parameters, padded as std140 has it.
+static bool add_block(struct folder *f, size_t *size)
+{
+    const struct rg_dispatched *d = &f->culprit->due;
+    const int at[8] = {d->origin.width,
+                       d->origin.height,
+                       d->origin.depth,
+                       0,
+                       d->origin.width + d->extent.width,
+                       d->origin.height + d->extent.height,
+                       d->origin.depth + d->extent.depth,
+                       0};
+    *size = (sizeof(at) + (size_t)d->kernel->params_size + 15) / 16 * 16;
+    char *block = rg_alloc(1, *size, "a kernel's parameters");
+    if (!block)
+        return false;
+    memcpy(block, at, sizeof(at));
+    memcpy(block + sizeof(at), d->params, (size_t)d->kernel->params_size);
+    add(f, "00-block.before", block, *size, block);
+    return true;
+}
+
+static void write_slot(FILE *out, const struct rg_slot_info *slot, const struct rg_contents *c,
+                       const char *before, const char *expected)
+{
+    const struct rg_image_desc *image = &c->desc;
+    const bool written = rg_slot_is_written(slot->kind), is_image = image->levels > 0;
+    fprintf(out,
+            "slot %d type %d format %d aspect %d texel %d size %d x %d layers %d levels %d bytes "
+            "%zu %s %s # %s, ",
+            slot->slot,
+            !is_image ? STORAGE_BUFFER
+            : written ? STORED_IMAGE
+                      : SAMPLED_IMAGE,
+            is_image ? vulkan_formats[image->format] : 0,
+            !is_image                  ? 0
+            : image->format == RG_D32F ? DEPTH_ASPECT
+                                       : COLOUR_ASPECT,
+            is_image ? rg_format_size(image->format) : 0, image->width, image->height,
+            image->layers, image->levels, c->size, before, expected, slot->name);
+    if (is_image)
+        fprintf(out, "an image of %s, ", rg_format_name(image->format));
+    else
+        fprintf(out, "%zu elements of %d bytes, ", c->size / (size_t)slot->element_size,
+                slot->element_size);
+    fprintf(out, "%s\n",
+            !written                                                      ? "read"
+            : slot->kind == RG_SLOT_INOUT || slot->kind == RG_SLOT_ATOMIC ? "read and written"
+                                                                          : "written");
+}
+
+static void add_slots(struct folder *f, FILE *manifest)
+{
+    const struct rg_dispatched *d = &f->culprit->due;
+    for (int i = 0; i < d->kernel->slot_count; i++) {
+        const struct rg_slot_info *slot = &d->kernel->slots[i];
+        const struct rg_contents *before = &d->before[slot->slot], *after = &d->after[slot->slot];
+        char name[64], expected[64] = "-";
+        snprintf(name, sizeof(name), "%02d-%.40s.before", slot->slot, slot->name);
+        add(f, name, before->bytes, before->size, NULL);
+        if (rg_slot_is_written(slot->kind)) {
+            snprintf(expected, sizeof(expected), "%02d-%.40s.expected", slot->slot, slot->name);
+            add(f, expected, after->bytes, after->size, NULL);
+        }
+        write_slot(manifest, slot, before, name, expected);
+    }
+}
+
+static void write_manifest(struct folder *f, FILE *out, size_t code_size, size_t block_size)
+{
+    const struct rg_dispatched *d = &f->culprit->due;
+    fprintf(
+        out,
+        "# One run of the compute shader %s, of %lld items of %lld: from (%d, %d, %d) on,\n"
+        "# %d x %d x %d. README says how to run it.\n"
+        "# code: bytes of kernel.spv; groups: of %d items along x.\n"
+        "code %zu groups %d %d %d\n"
+        "# slot: the binding, of set 0. type: 1 sampled image, 3 stored image, 6 uniform block,\n"
+        "# 7 storage buffer (VkDescriptorType). format: VkFormat; aspect: VkImageAspectFlagBits; "
+        "texel: its\n"
+        "# bytes. An image's file has all layers of level 0, then of level 1, rows without "
+        "padding.\n"
+        "# Last the files: what it holds before, and what is expected after the run.\n",
+        d->kernel->name, (long long)f->culprit->items, (long long)f->culprit->of_items,
+        d->origin.width, d->origin.height, d->origin.depth, d->extent.width, d->extent.height,
+        d->extent.depth, GROUP_ITEMS, code_size, (d->extent.width + GROUP_ITEMS - 1) / GROUP_ITEMS,
+        d->extent.height, d->extent.depth);
+    fprintf(out,
+            "slot 0 type %d format 0 aspect 0 texel 0 size 0 x 0 layers 0 levels 0 bytes %zu "
+            "00-block.before - # the first item and the end, 4 ints each, then the parameters\n",
+            UNIFORM_BLOCK, block_size);
+    add_slots(f, out);
+}
+
+static void write_readme(const struct folder *f, FILE *out, const char *note,
+                         const struct rg_device_info *device, const struct rg_device_info *truth)
+{
+    char names[2][RG_DEVICE_NAME_SIZE];
+    snprintf(names[0], sizeof(names[0]), "%s", device->name);
+    snprintf(names[1], sizeof(names[1]), "%s", truth->name);
+    rg_plain(names[0]);
+    rg_plain(names[1]);
+    fprintf(out,
+            "The compute shader %s leaves other bits on %s\n(%s, %s, %s)\nthan on %s, which is "
+            "held for the "
+            "truth. raingauge found it as\n\n    %s\n\n",
+            f->culprit->due.kernel->name, names[0], device->device, device->driver, device->api,
+            names[1], note);
+    fprintf(
+        out,
+        "Nothing of raingauge is needed to run it, but a C compiler and the Vulkan loader "
+        "with its headers:\n\n"
+        "    cc run.c -lvulkan -o run && ./run [--device N]\n\n"
+        "Devices count from 0, as `vulkaninfo --summary` lists them. Exit status: 0 it leaves what "
+        "is\n"
+        "expected, 1 it does not, and the first byte that differs is printed, 2 something failed,\n"
+        "77 there is no such device.\n\n"
+        "kernel.txt says what is bound where; kernel.comp is the shader's text, of which\n\n"
+        "    glslc -fshader-stage=compute --target-env=vulkan1.2 -O kernel.comp -o kernel.spv\n\n"
+        "makes kernel.spv.%s\n",
+        device->name[0] == 'o'
+            ? " kernel.cl is the same kernel in OpenCL C, which has its slots and "
+              "parameters as arguments."
+            : "");
+}
+
+// --- writing ---
+
+static bool fill(struct folder *f, const char *note, struct rg_device *device,
+                 const struct rg_device *truth)
+{
+    size_t code_size, size, block_size;
+    char *texts[2] = {NULL, NULL};
+    if (!add_code(f, device, RG_CODE_SPIRV, "kernel.spv", &code_size) ||
+        !add_code(f, device, RG_CODE_GLSL, "kernel.comp", &size) || !add_block(f, &block_size) ||
+        (!strncmp(device->info.name, "opencl", 6) &&
+         !add_code(f, device, RG_CODE_OPENCL, "kernel.cl", &size)))
+        return false;
+    bool ok = true;
+    for (int i = 0; ok && i < 2; i++) {
+        FILE *out = open_memstream(&texts[i], &size);
+        if (out && i == 0)
+            write_manifest(f, out, code_size, block_size);
+        else if (out)
+            write_readme(f, out, note, &device->info, &truth->info);
+        ok = (out && fclose(out) == 0) || rg_error("%s: no memory for its texts", f->path);
+        if (texts[i])
+            add(f, i == 0 ? "kernel.txt" : "README", texts[i], 0, texts[i]);
+    }
+    add(f, "run.c", rg_text_run, 0, NULL);
+    return ok;
+}
+
+// Whether a file is one that a folder of this kind may have.
+static bool is_known(const char *name)
+{
+    static const char *const all[] = {"kernel.spv", "kernel.comp", "kernel.cl",
+                                      "kernel.txt", "README",      "run.c"};
+    const char *point = strrchr(name, '.');
+    for (size_t i = 0; i < sizeof(all) / sizeof(*all); i++)
+        if (!strcmp(name, all[i]))
+            return true;
+    return isdigit((unsigned char)name[0]) && isdigit((unsigned char)name[1]) && name[2] == '-' &&
+           point && (!strcmp(point, ".before") || !strcmp(point, ".expected"));
+}
+
+// Removes what an earlier case has left there, and the folder with it where nothing stays.
+static void remove_stale(const struct folder *f)
+{
+    char path[sizeof(f->path) + 256];
+    DIR *folder = opendir(f->path);
+    for (struct dirent *entry = NULL; folder && (entry = readdir(folder));) {
+        bool stays = !is_known(entry->d_name);
+        for (int i = 0; i < f->count; i++)
+            stays = stays || !strcmp(entry->d_name, f->names[i]);
+        snprintf(path, sizeof(path), "%s/%s", f->path, entry->d_name);
+        if (!stays)
+            unlink(path);
+    }
+    if (folder)
+        closedir(folder);
+    if (!f->count)
+        rmdir(f->path);
+}
+
+static struct folder *open_folder(const char *path, const struct rg_culprit *culprit)
+{
+    struct folder *f = rg_alloc(1, sizeof(*f), "a kernel's folder");
+    if (!f)
+        return NULL;
+    f->culprit = culprit;
+    if (snprintf(f->path, sizeof(f->path), "%s.kernel", path) < (int)sizeof(f->path))
+        return f;
+    free(f);
+    return rg_error_null("%.80s...: its name is too long", path);
+}
+
+bool rg_kernel_folder_write(const char *path, const struct rg_culprit *culprit, const char *note,
+                            struct rg_device *device, const struct rg_device *truth)
+{
+    struct folder *f = open_folder(path, culprit);
+    const bool ok =
+        f && fill(f, note, device, truth) && rg_output_write_set(f->path, f->files, f->count);
+    if (ok)
+        remove_stale(f);
+    for (int i = 0; f && i < f->count; i++)
+        free(f->owned[i]);
+    free(f);
+    return ok;
+}
+
+void rg_kernel_folder_remove(const char *path)
+{
+    struct folder *f = open_folder(path, NULL);
+    if (f)
+        remove_stale(f);
+    free(f);
+}

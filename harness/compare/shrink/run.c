@@ -1,0 +1,169 @@
+// Runs the compute shader kernel.spv as kernel.txt says, and compares what it leaves with what is
+// expected. Exit status: 0 it is the same, 1 it differs, 2 something failed, 77 there is no such
+// device.
+// clang-format off
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <vulkan/vulkan.h>
+
+#define FAIL(status, ...) exit((fprintf(stderr, __VA_ARGS__), status))
+#define TRY(call) ((call) == VK_SUCCESS ? (void)0 : FAIL(2, "failed: %s\n", #call))
+#define INFO(Type, TYPE, ...) (&(Vk##Type){.sType = VK_STRUCTURE_TYPE_##TYPE, __VA_ARGS__})
+#define NEW(Type, TYPE, to, ...) TRY(vkCreate##Type(device, INFO(Type##CreateInfo, TYPE##_CREATE_INFO, __VA_ARGS__), NULL, to))
+#define EACH_SLOT (struct slot *s = slots; s < slots + count; s++)
+
+static struct slot { // a line of kernel.txt
+    unsigned at, type, format, aspect, texel, width, height, layers, levels, size;
+    char before[64], expected[64]; // files; "-": it is not written
+    unsigned char *bytes;          // of the buffer, which holds what an image does, too
+    VkBuffer buffer;
+    VkImage image;
+    VkImageView view;
+} slots[16];
+static unsigned count, groups[3], code_size;
+static VkPhysicalDeviceMemoryProperties memory;
+static VkDevice device;
+static VkQueue queue;
+static VkCommandBuffer commands;
+
+static void *read_file(const char *path, void *bytes, size_t size) {
+    FILE *file = fopen(path, "rb");
+    if (!file || !bytes || fread(bytes, 1, size, file) != size || fclose(file)) FAIL(2, "%s: cannot be read\n", path);
+    return bytes;
+}
+
+static void read_manifest(FILE *file) {
+    for (char line[512]; file && count < 16 && fgets(line, sizeof(line), file);) {
+        struct slot *s = &slots[count];
+        sscanf(line, "code %u groups %u %u %u", &code_size, &groups[0], &groups[1], &groups[2]);
+        count += sscanf(line, "slot %u type %u format %u aspect %u texel %u size %u x %u layers %u levels %u bytes %u %63s %63s",
+            &s->at, &s->type, &s->format, &s->aspect, &s->texel, &s->width, &s->height, &s->layers, &s->levels, &s->size,
+            s->before, s->expected) == 12;
+    }
+    if (!count || fclose(file)) FAIL(2, "kernel.txt: cannot be read; run this in its folder\n");
+}
+
+static void open_device(unsigned index) {
+    VkInstance instance;
+    VkPhysicalDevice all[16];
+    VkQueueFamilyProperties families[16];
+    VkCommandPool pool;
+    uint32_t found = 16, family = 0, family_count = 16;
+    VkApplicationInfo *app = INFO(ApplicationInfo, APPLICATION_INFO, .apiVersion = VK_API_VERSION_1_2);
+    if (vkCreateInstance(INFO(InstanceCreateInfo, INSTANCE_CREATE_INFO, .pApplicationInfo = app), NULL, &instance) ||
+        vkEnumeratePhysicalDevices(instance, &found, all) < 0 || index >= found) FAIL(77, "there is no Vulkan device %u\n", index);
+    vkGetPhysicalDeviceMemoryProperties(all[index], &memory);
+    vkGetPhysicalDeviceQueueFamilyProperties(all[index], &family_count, families);
+    while (family + 1 < family_count && !(families[family].queueFlags & VK_QUEUE_COMPUTE_BIT)) family++;
+    VkDeviceQueueCreateInfo *one = INFO(DeviceQueueCreateInfo, DEVICE_QUEUE_CREATE_INFO, .queueFamilyIndex = family, .queueCount = 1,
+        .pQueuePriorities = &(float){1});
+    TRY(vkCreateDevice(all[index], INFO(DeviceCreateInfo, DEVICE_CREATE_INFO, .queueCreateInfoCount = 1, .pQueueCreateInfos = one),
+        NULL, &device));
+    vkGetDeviceQueue(device, family, 0, &queue);
+    NEW(CommandPool, COMMAND_POOL, &pool, .queueFamilyIndex = family);
+    TRY(vkAllocateCommandBuffers(device, INFO(CommandBufferAllocateInfo, COMMAND_BUFFER_ALLOCATE_INFO, .commandPool = pool,
+        .commandBufferCount = 1), &commands));
+    TRY(vkBeginCommandBuffer(commands, INFO(CommandBufferBeginInfo, COMMAND_BUFFER_BEGIN_INFO, .flags = 1)));
+}
+
+static VkDeviceMemory allocate(VkMemoryRequirements needs, VkMemoryPropertyFlags wanted) {
+    VkDeviceMemory held;
+    uint32_t i = 0;
+    while (!(needs.memoryTypeBits >> i & 1) || wanted & ~memory.memoryTypes[i].propertyFlags) i++;
+    TRY(vkAllocateMemory(device, INFO(MemoryAllocateInfo, MEMORY_ALLOCATE_INFO, .allocationSize = needs.size, .memoryTypeIndex = i),
+        NULL, &held));
+    return held;
+}
+
+static void make_slot(struct slot *s) {
+    const int stored = s->type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    VkMemoryRequirements needs;
+    NEW(Buffer, BUFFER, &s->buffer, .size = s->size, .usage = 0x33); // copies both ways, a uniform block, storage
+    vkGetBufferMemoryRequirements(device, s->buffer, &needs);
+    VkDeviceMemory held = allocate(needs, 0x6); // that the host sees, and coherent
+    TRY(vkBindBufferMemory(device, s->buffer, held, 0));
+    TRY(vkMapMemory(device, held, 0, VK_WHOLE_SIZE, 0, (void **)&s->bytes));
+    read_file(s->before, s->bytes, s->size);
+    if (!s->format) return;
+    NEW(Image, IMAGE, &s->image, .imageType = VK_IMAGE_TYPE_2D, .format = s->format, .extent = {s->width, s->height, 1},
+        .mipLevels = s->levels, .arrayLayers = s->layers, .samples = 1, .usage = stored ? 0xb : 0x7); // copies; stored or sampled
+    vkGetImageMemoryRequirements(device, s->image, &needs);
+    TRY(vkBindImageMemory(device, s->image, allocate(needs, 0), 0));
+    NEW(ImageView, IMAGE_VIEW, &s->view, .image = s->image, .viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY, .format = s->format,
+        .subresourceRange = {s->aspect, 0, stored ? 1 : s->levels, 0, s->layers});
+}
+
+// Lets what follows, and the host, see what went before; a fresh image gets the layout that all may be done in.
+static void wait_for_all(const struct slot *fresh) {
+    VkImageSubresourceRange range = {fresh->aspect, 0, fresh->levels, 0, fresh->layers};
+    vkCmdPipelineBarrier(commands, 0x10000, 0x14000, 0, 1, // all commands; and the host
+        INFO(MemoryBarrier, MEMORY_BARRIER, .srcAccessMask = 0x10000, .dstAccessMask = 0x18000), 0, NULL, fresh->image != NULL,
+        INFO(ImageMemoryBarrier, IMAGE_MEMORY_BARRIER, .dstAccessMask = 0x18000, .newLayout = VK_IMAGE_LAYOUT_GENERAL,
+             .image = fresh->image, .subresourceRange = range));
+}
+
+static void copy(const struct slot *s, int back) { // between an image and its buffer, level by level
+    VkBufferImageCopy part = {.imageSubresource = {s->aspect, 0, 0, s->layers}};
+    for (unsigned level = 0, w = s->width, h = s->height; level < s->levels; level++, w = w / 2 + (w < 2), h = h / 2 + (h < 2)) {
+        part.imageSubresource.mipLevel = level;
+        part.imageExtent = (VkExtent3D){w, h, 1};
+        if (back) vkCmdCopyImageToBuffer(commands, s->image, VK_IMAGE_LAYOUT_GENERAL, s->buffer, 1, &part);
+        else vkCmdCopyBufferToImage(commands, s->buffer, s->image, VK_IMAGE_LAYOUT_GENERAL, 1, &part);
+        part.bufferOffset += (VkDeviceSize)w * h * s->layers * s->texel;
+    }
+}
+
+static void record_shader(void) {
+    VkDescriptorSetLayoutBinding bindings[16];
+    VkDescriptorPoolSize sizes[] = {{1, 16}, {3, 16}, {6, 16}, {7, 16}}; // of each type
+    VkDescriptorSetLayout set_layout; VkPipelineLayout layout; VkDescriptorPool pool; VkDescriptorSet set;
+    VkSampler sampler; VkShaderModule module; VkPipeline pipeline;
+    for (unsigned i = 0; i < count; i++)
+        bindings[i] = (VkDescriptorSetLayoutBinding){slots[i].at, slots[i].type, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
+    NEW(Sampler, SAMPLER, &sampler, .maxLod = VK_LOD_CLAMP_NONE);
+    NEW(DescriptorSetLayout, DESCRIPTOR_SET_LAYOUT, &set_layout, .bindingCount = count, .pBindings = bindings);
+    NEW(PipelineLayout, PIPELINE_LAYOUT, &layout, .setLayoutCount = 1, .pSetLayouts = &set_layout);
+    NEW(DescriptorPool, DESCRIPTOR_POOL, &pool, .maxSets = 1, .poolSizeCount = 4, .pPoolSizes = sizes);
+    NEW(ShaderModule, SHADER_MODULE, &module, .codeSize = code_size, .pCode = read_file("kernel.spv", malloc(code_size), code_size));
+    TRY(vkAllocateDescriptorSets(device, INFO(DescriptorSetAllocateInfo, DESCRIPTOR_SET_ALLOCATE_INFO, .descriptorPool = pool,
+        .descriptorSetCount = 1, .pSetLayouts = &set_layout), &set));
+    for EACH_SLOT
+        vkUpdateDescriptorSets(device, 1, INFO(WriteDescriptorSet, WRITE_DESCRIPTOR_SET, .dstSet = set, .dstBinding = s->at,
+            .descriptorCount = 1, .descriptorType = s->type, .pBufferInfo = &(VkDescriptorBufferInfo){s->buffer, 0, VK_WHOLE_SIZE},
+            .pImageInfo = &(VkDescriptorImageInfo){sampler, s->view, VK_IMAGE_LAYOUT_GENERAL}), 0, NULL);
+    TRY(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, INFO(ComputePipelineCreateInfo, COMPUTE_PIPELINE_CREATE_INFO,
+        .layout = layout, .stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, NULL, 0, VK_SHADER_STAGE_COMPUTE_BIT, module,
+        "main", NULL}), NULL, &pipeline));
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, NULL);
+    vkCmdDispatch(commands, groups[0], groups[1], groups[2]);
+}
+
+static int differs(const struct slot *s) {
+    unsigned char *due = read_file(s->expected, malloc(s->size), s->size);
+    for (unsigned i = 0; i < s->size; i++)
+        if (s->bytes[i] != due[i])
+            return printf("slot %u: byte %u is %02x, not %02x as in %s\n", s->at, i, s->bytes[i], due[i], s->expected);
+    return 0;
+}
+
+int main(int argc, char **argv) {
+    const struct slot none = {.image = VK_NULL_HANDLE};
+    int differing = 0;
+    read_manifest(fopen("kernel.txt", "r"));
+    open_device(argc == 3 && !strcmp(argv[1], "--device") ? (unsigned)atoi(argv[2]) : 0);
+    for EACH_SLOT make_slot(s);
+    for EACH_SLOT if (s->image) wait_for_all(s), copy(s, 0);
+    wait_for_all(&none);
+    record_shader();
+    wait_for_all(&none);
+    for EACH_SLOT if (s->image && *s->expected != '-') copy(s, 1);
+    wait_for_all(&none);
+    TRY(vkEndCommandBuffer(commands));
+    TRY(vkQueueSubmit(queue, 1, INFO(SubmitInfo, SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands), NULL));
+    TRY(vkQueueWaitIdle(queue));
+    for EACH_SLOT differing |= *s->expected != '-' && differs(s);
+    puts(differing ? "it differs" : "it is the same");
+    return differing;
+}
