@@ -19,6 +19,7 @@ struct rg_digest {
     int stages_run; // since the instance was opened, this one included
     char stage[RG_ASSET_NAME], asset[RG_ASSET_NAME];
     uint64_t hash;
+    int64_t weight; // of the run until then: items of its stages, and words of its assets
 };
 
 // Zeroed: none.

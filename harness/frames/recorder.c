@@ -15,6 +15,7 @@ struct recorder {
     uint64_t last[RG_MAX_ASSETS]; // by asset
     bool seen[RG_MAX_ASSETS];
     int stages_run;
+    int64_t weight; // as struct rg_digest has it
     bool ok;
     // Where one row's contents are asked for: which row, and where they go.
     int wanted; // -1: none
@@ -62,9 +63,12 @@ static void record(struct recorder *r, const struct rg_opened_stage *stage, int 
         return;
     r->ok = r->ok && rg_contents_read(asset, &now);
     const uint64_t hash = r->ok ? rg_contents_hash(&now) : 0;
+    r->weight += r->seen[at] ? 0 : (int64_t)now.size / 4;
     if (r->ok && (wrote || !r->seen[at] || hash != r->last[at])) {
-        struct rg_digest digest = {
-            .frame = r->instance->frame, .stages_run = r->stages_run, .hash = hash};
+        struct rg_digest digest = {.frame = r->instance->frame,
+                                   .stages_run = r->stages_run,
+                                   .hash = hash,
+                                   .weight = r->weight};
         strncat(digest.stage, stage ? stage->row.kernel : "", RG_ASSET_NAME - 1);
         strncat(digest.asset, asset->name, RG_ASSET_NAME - 1);
         if (r->digests->count == r->wanted) {
@@ -83,6 +87,7 @@ static void after_stage(const struct rg_opened_stage *stage, void *user)
 {
     struct recorder *r = user;
     r->stages_run++;
+    r->weight += (int64_t)stage->ran.width * stage->ran.height * stage->ran.depth;
     if (r->watched)
         return;
     for (int i = 0; r->ok && i < r->instance->asset_count; i++)

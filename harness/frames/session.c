@@ -186,6 +186,8 @@ bool rg_digests_dispatches(const struct rg_digest_run *run, struct rg_device *de
 
 bool rg_digests_dispatch(struct rg_dispatched *dispatched, struct rg_device *device)
 {
+    for (int i = 0; i < RG_MAX_SLOTS; i++) // of another kernel before it, perhaps
+        rg_contents_free(&dispatched->after[i]);
     return ways_of(device)->run_dispatched(dispatched, device);
 }
 

@@ -73,7 +73,6 @@ bool rg_dispatched_run(struct rg_dispatched *d, struct rg_device *device)
         const struct rg_slot_info *slot = &d->kernel->slots[i];
         ok = make_slot(device, slot, &d->before[slot->slot], &run.slots[slot->slot]);
     }
-    free_contents(d->after);
     ok = ok && rg_pass_run(pass, &run) && rg_dispatched_after(&run, d);
     rg_pass_destroy(pass);
     for (int i = 0; i < RG_MAX_SLOTS; i++) {

@@ -27,7 +27,8 @@ bool rg_dispatched_before(const struct rg_pass *pass, const struct rg_run *run,
                           struct rg_dispatched *dispatched);
 bool rg_dispatched_after(const struct rg_run *run, struct rg_dispatched *dispatched);
 
-// Runs it on a device, from what lay in its slots before, and sets what lies there after. False,
+// Runs it on a device, from what lay in its slots before, and sets what lies there after, which is
+// zeroed. False,
 // and one logged line, on failure.
 bool rg_dispatched_run(struct rg_dispatched *dispatched, struct rg_device *device);
 

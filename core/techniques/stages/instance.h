@@ -55,6 +55,7 @@ struct rg_opened_stage {
     struct rg_asset *slots[RG_MAX_SLOTS];
     struct rg_asset *over, *colour, *depth, *samples;
     struct rg_draw drawn; // how its last run drew
+    struct rg_extent ran; // and over how many items it was
 };
 
 // An asset that is part of the simulation's state: what `verify` compares byte by byte. `row` and

@@ -154,6 +154,7 @@ static bool run(struct rg_instance *instance, int at, struct rg_run *run)
 {
     struct rg_opened_stage *stage = &instance->stages[at];
     stage->drawn = run->draw ? *run->draw : (struct rg_draw){0};
+    stage->ran = run->extent;
     run->params = (const char *)stage->owner + stage->row.params;
     for (int i = 0; i < RG_MAX_SLOTS; i++)
         if (stage->slots[i])

@@ -1,6 +1,9 @@
 // raingauge shrink: the least with which two devices still differ in the same way, as a file.
 #include <stdio.h>
+#include <dirent.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "core/base/log.h"
 #include "core/base/memory.h"
@@ -78,22 +81,49 @@ static bool write_found(const struct rg_case *found, const struct rg_blame *blam
     return ok;
 }
 
+// A folder for files that are tried, which goes with all that is in it.
+static bool make_folder(char *folder, size_t size)
+{
+    const char *parent = getenv("TMPDIR");
+    snprintf(folder, size, "%s/raingauge-XXXXXX", parent && *parent ? parent : "/tmp");
+    return mkdtemp(folder) ||
+           rg_error("%s: cannot be made; set TMPDIR to a folder that takes files", folder);
+}
+
+static void remove_folder(const char *folder)
+{
+    char path[RG_PATH_SIZE];
+    DIR *open = opendir(folder);
+    for (struct dirent *entry = NULL; open && (entry = readdir(open));) {
+        snprintf(path, sizeof(path), "%.500s/%s", folder, entry->d_name);
+        unlink(path);
+    }
+    if (open)
+        closedir(open);
+    rmdir(folder);
+}
+
 static int shrink_on(const struct rg_devices *devices, const struct rg_subject *subject,
                      const struct shrink_options *o)
 {
+    char folder[512];
     const struct rg_shrink_request request = {.run = {*subject, o->frames < 1 ? 1 : o->frames},
                                               .device = devices->devices[0],
                                               .truth = devices->devices[1],
-                                              .seconds = o->seconds};
+                                              .seconds = o->seconds,
+                                              .folder = folder};
     struct rg_case found;
     struct rg_blame blame;
     int tried, exit = RG_EXIT_FAIL;
+    if (!make_folder(folder, sizeof(folder)))
+        return RG_EXIT_USAGE;
     if (rg_shrink_case(&request, &found, &blame, &tried)) {
         printf("%s\n%d runs tried\n", blame.text, tried);
         if (write_found(&found, &blame, devices, o->output))
             exit = RG_EXIT_PASS;
     }
     rg_case_free(&found);
+    remove_folder(folder);
     return exit;
 }
 

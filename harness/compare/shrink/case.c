@@ -8,6 +8,7 @@
 #include "core/base/log.h"
 #include "core/base/text/place.h"
 #include "harness/compare/gate/text/lines.h"
+#include "harness/compare/shrink/files.h"
 #include "harness/console/exit.h"
 #include "harness/record/output.h"
 
@@ -15,19 +16,40 @@ enum { TEXT_SIZE = 1 << 16 };
 
 // --- writing ---
 
-static void write_settings(FILE *out, const struct rg_subject *subject, const void *defaults)
+static void write_setting(FILE *out, const struct rg_param *param, const void *settings,
+                          void *defaults)
 {
-    const struct rg_param_table *table = subject->technique->params;
-    char value[RG_PATH_SIZE], initial[RG_PATH_SIZE];
-    for (int i = 0; i < table->count; i++) {
-        rg_params_text(&table->rows[i], subject->settings, value, sizeof(value));
-        rg_params_text(&table->rows[i], defaults, initial, sizeof(initial));
-        if (strcmp(value, initial) != 0)
-            fprintf(out, "set %s=%s\n", table->rows[i].name, value);
-    }
+    char value[RG_PATH_SIZE], initial[RG_PATH_SIZE], name[RG_FILE_NAME];
+    rg_params_text(param, settings, value, sizeof(value));
+    rg_params_text(param, defaults, initial, sizeof(initial));
+    if (!strcmp(value, initial))
+        return;
+    rg_file_sent_name(param, value, name);
+    if (param->kind == RG_PARAM_FILE && rg_file_is_own(value))
+        fprintf(out, "file %s=%s\n", param->name, name);
+    else
+        fprintf(out, "set %s=%s\n", param->name, value);
 }
 
-static void write_text(FILE *out, const struct rg_case *c, const void *defaults, const char *note)
+// All that are not at their default. A preset comes first, for it assigns others.
+static void write_settings(FILE *out, const struct rg_subject *subject, void *defaults)
+{
+    const struct rg_param_table *table = subject->technique->params;
+    const struct rg_param *preset = table->preset ? rg_params_find(table, table->preset) : NULL;
+    char assignment[RG_PATH_SIZE + 64];
+    if (preset) {
+        write_setting(out, preset, subject->settings, defaults);
+        const int used = snprintf(assignment, sizeof(assignment), "%s=", preset->name);
+        rg_params_text(preset, subject->settings, assignment + used,
+                       sizeof(assignment) - (size_t)used);
+        rg_params_set(table, defaults, assignment);
+    }
+    for (int i = 0; i < table->count; i++)
+        if (&table->rows[i] != preset)
+            write_setting(out, &table->rows[i], subject->settings, defaults);
+}
+
+static void write_text(FILE *out, const struct rg_case *c, void *defaults, const char *note)
 {
     const struct rg_subject *subject = &c->run.subject;
     fprintf(out, "# A difference between two devices: raingauge render --case FILE --device D\n");
@@ -49,7 +71,8 @@ bool rg_case_write(const struct rg_case *c, const char *note, const char *path)
     FILE *out = defaults ? open_memstream(&text, &size) : NULL;
     if (out)
         write_text(out, c, defaults, note);
-    const bool ok = out && fclose(out) == 0 && rg_output_write_file(path, text);
+    const bool ok = out && fclose(out) == 0 && rg_files_send(&c->run.subject, path) &&
+                    rg_output_write_file(path, text);
     free(text);
     free(defaults);
     return ok;
@@ -123,11 +146,13 @@ static bool read_line(const char *path, int64_t number, char *word, struct rg_ca
 {
     char place[RG_PATH_SIZE + 32];
     const char *rest = rg_line_cut(word);
-    if (!strcmp(word, "set") && c->run.subject.technique) {
+    const struct rg_technique *technique = c->run.subject.technique;
+    void *settings = (void *)(uintptr_t)c->run.subject.settings;
+    if (technique && (!strcmp(word, "set") || !strcmp(word, "file"))) {
         snprintf(place, sizeof(place), "%s: line %lld", path, (long long)number);
         rg_log_place(place);
-        const bool ok = rg_params_set(c->run.subject.technique->params,
-                                      (void *)(uintptr_t)c->run.subject.settings, rest);
+        const bool ok = *word == 's' ? rg_params_set(technique->params, settings, rest)
+                                     : rg_file_receive(technique, settings, rest, path);
         rg_log_place(NULL);
         return ok;
     }

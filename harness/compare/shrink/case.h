@@ -15,8 +15,9 @@ struct rg_case {
     char device[RG_CASE_NAME], truth[RG_CASE_NAME]; // that it was found with
 };
 
-// Writes it, with every parameter that is not at its default, and `note`, one line. False, and one
-// logged line, on failure; no part of a file is left.
+// Writes it, with every parameter that is not at its default, and `note`, one line; files of the
+// user's own that settings name are copied beside it (files.h). False, and one logged line, on
+// failure; no part of a file is left.
 bool rg_case_write(const struct rg_case *found, const char *note, const char *path);
 
 // Reads one. False, and one logged line with the file and the line, where it is none; rg_case_free

@@ -87,10 +87,36 @@ static void shrink_items(struct pair *p, struct rg_culprit *culprit)
 
 // --- finding ---
 
-static void tell_none(const struct rg_blame *blame, const struct rg_dispatches *all, bool is_drawn,
-                      struct rg_culprit *culprit)
+// Whether a kernel packs the items of a DRAW program.
+static bool is_packer(const struct rg_kernel *kernel)
 {
-    if (is_drawn)
+    const struct rg_kernel *const *all;
+    const int count = rg_kernel_all(&all);
+    bool packs = false;
+    for (int i = 0; !packs && i < count; i++)
+        packs = all[i]->draw && (!strcmp(all[i]->draw->count, kernel->name) ||
+                                 !strcmp(all[i]->draw->emit, kernel->name));
+    return packs;
+}
+
+// Whether a device has the kernels that pack.
+static bool has_packers(const struct rg_device *device)
+{
+    int i = 0;
+    while (rg_backends[i] && strcmp(rg_backends[i]->name, device->backend->name) != 0)
+        i++;
+    return rg_backends[i] && rg_backends[i]->packed;
+}
+
+static void tell_none(const struct pair *p, const struct rg_blame *blame,
+                      const struct rg_dispatches *all, bool is_drawn, struct rg_culprit *culprit)
+{
+    if (is_drawn && all->count > 1 && !has_packers(p->truth))
+        snprintf(culprit->why_not, sizeof(culprit->why_not),
+                 "%s draws, and %s has none of the kernels that pack it for %s; to try these, hold "
+                 "gl, vulkan or opencl for the truth",
+                 blame->first.stage, p->truth->info.name, p->device->info.name);
+    else if (is_drawn)
         snprintf(culprit->why_not, sizeof(culprit->why_not),
                  "%s draws: %s; what differs is the drawing itself, which needs raingauge",
                  blame->first.stage,
@@ -110,7 +136,8 @@ static bool find(struct pair *p, const struct rg_blame *blame, struct rg_dispatc
     for (int i = 0; i < all->count && !is_other && !p->has_failed; i++) {
         is_drawn = is_drawn || !all->rows[i].was_kept;
         p->due = &all->rows[i];
-        is_other = p->due->was_kept && differs(p);
+        is_other =
+            p->due->was_kept && (has_packers(p->truth) || !is_packer(p->due->kernel)) && differs(p);
     }
     if (is_other) {
         shrink_items(p, culprit);
@@ -118,7 +145,7 @@ static bool find(struct pair *p, const struct rg_blame *blame, struct rg_dispatc
         *p->due = (struct rg_dispatched){0};
     }
     if (!p->has_failed && !culprit->found)
-        tell_none(blame, all, is_drawn, culprit);
+        tell_none(p, blame, all, is_drawn, culprit);
     return !p->has_failed;
 }
 

@@ -6,154 +6,195 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/console/clock.h"
+#include "harness/compare/shrink/files.h"
+#include "harness/compare/shrink/search.h"
 
-enum { LEAST_PX = 16 };
+enum { LEAST_PX = 16, FLOAT_HALVES = 4 };
 
-struct search {
-    const struct rg_shrink_request *asked;
-    struct rg_digest_run best; // its settings are owned
-    struct rg_blame blame;     // of the best
-    double end_ms;
-    int tried;
-    bool is_over; // a device has failed
-};
-
-static void *copy_of(const struct search *s, const char *assignment)
+static int64_t weight(const struct rg_search *s)
 {
-    return rg_settings_copy(s->best.subject.technique, s->best.subject.settings, assignment);
+    return s->blame.first.weight;
 }
 
-static bool is_alike(const struct rg_blame *a, const struct rg_blame *b)
+static void *copy_of(const struct rg_search *s)
 {
-    return a->found && !a->is_alone && a->difference == b->difference &&
-           !strcmp(a->first.stage, b->first.stage) && !strcmp(a->first.asset, b->first.asset);
+    return rg_settings_copy(s->best.subject.technique, s->best.subject.settings, "");
 }
 
-// Takes a run for the best if the difference is still the same. It owns the run's settings.
-static bool attempt(struct search *s, struct rg_digest_run run)
-{
-    struct rg_blame blame = {0};
-    bool keeps = false;
-    if (run.subject.settings && !s->is_over && rg_now_ms() < s->end_ms) {
-        s->tried++;
-        // Settings that do not go together are refused, which is no failure of a device.
-        if (rg_blame_find(&run, s->asked->device, s->asked->truth, &blame))
-            keeps = is_alike(&blame, &s->blame);
-        else
-            s->is_over = rg_last_error_kind() != RG_ERROR_INPUT;
-    }
-    if (keeps) {
-        free((void *)(uintptr_t)s->best.subject.settings);
-        s->best = run;
-        s->blame = blame;
-    } else {
-        free((void *)(uintptr_t)run.subject.settings);
-    }
-    return keeps;
-}
+// --- frames and pixels ---
 
-static void shrink_frames(struct search *s)
+static void shrink_frames(struct rg_search *s)
 {
     struct rg_digest_run run = s->best;
     run.frames = s->blame.first.frame > 1 ? (int)s->blame.first.frame : 1;
-    run.subject.settings = copy_of(s, "");
-    attempt(s, run);
+    if (run.frames == s->best.frames)
+        return;
+    run.subject.settings = copy_of(s);
+    rg_search_try(s, run, weight(s));
 }
 
-static bool attempt_size(struct search *s, int width, int height)
+static bool try_size(struct rg_search *s, int width, int height)
 {
     struct rg_digest_run run = s->best;
     run.subject.width = width < run.subject.width ? width : run.subject.width;
     run.subject.height = height < run.subject.height ? height : run.subject.height;
     if (run.subject.width == s->best.subject.width && run.subject.height == s->best.subject.height)
         return false;
-    run.subject.settings = copy_of(s, "");
-    return attempt(s, run);
+    run.subject.settings = copy_of(s);
+    return rg_search_try(s, run, weight(s));
 }
 
-static void shrink_size(struct search *s)
+static void shrink_size(struct rg_search *s)
 {
-    if (attempt_size(s, LEAST_PX, LEAST_PX))
+    if (try_size(s, LEAST_PX, LEAST_PX))
         return;
     for (int axis = 0; axis < 2; axis++) // halves each side as often as that keeps it
-        while (attempt_size(s, axis ? s->best.subject.width : s->best.subject.width / 2,
-                            axis ? s->best.subject.height / 2 : s->best.subject.height))
+        while (try_size(s, axis ? s->best.subject.width : s->best.subject.width / 2,
+                        axis ? s->best.subject.height / 2 : s->best.subject.height))
             ;
 }
 
-static bool attempt_value(struct search *s, const struct rg_param *param, const char *value)
-{
-    char assignment[RG_PATH_SIZE + 64], now[RG_PATH_SIZE];
-    struct rg_digest_run run = s->best;
-    rg_params_text(param, s->best.subject.settings, now, sizeof(now));
-    if (!strcmp(now, value))
-        return false;
-    snprintf(assignment, sizeof(assignment), "%s=%s", param->name, value);
-    run.subject.settings = copy_of(s, assignment);
-    return attempt(s, run);
-}
+// --- numbers ---
 
-// Counts and sizes are integers; so are seeds, of which none is less than another.
-static bool is_count(const struct rg_param *param)
-{
-    return param->kind == RG_PARAM_INT && !strstr(param->name, "seed");
-}
-
-// The least value, or else halves of the way to it, as often as that keeps the difference.
-static void shrink_value(struct search *s, const struct rg_param *param)
+static double value_of(const struct rg_search *s, const struct rg_param *param)
 {
     char text[RG_PATH_SIZE];
     rg_params_text(param, s->best.subject.settings, text, sizeof(text));
-    if (strtod(text, NULL) <= param->min)
+    return strtod(text, NULL);
+}
+
+static bool try_number(struct rg_search *s, const struct rg_param *param, double value,
+                       int64_t most)
+{
+    char text[64];
+    snprintf(text, sizeof(text), param->kind == RG_PARAM_INT ? "%.0f" : "%.4g", value);
+    return rg_search_value(s, param, text, most);
+}
+
+// The least of an integer that keeps the difference and weighs less: its least value, or what is
+// found by halving the way to one that does not.
+static void shrink_count(struct rg_search *s, const struct rg_param *param)
+{
+    double low = param->min;
+    if (value_of(s, param) <= low || try_number(s, param, low, weight(s) - 1))
         return;
-    bool keeps = true;
-    for (double share = 0; keeps || share == 0; share = 0.5) {
-        rg_params_text(param, s->best.subject.settings, text, sizeof(text));
-        const double value = floor(param->min + (strtod(text, NULL) - param->min) * share);
-        snprintf(text, sizeof(text), "%.0f", value);
-        keeps = attempt_value(s, param, text);
-        if (value <= param->min && (keeps || share > 0))
-            break;
+    for (double high = value_of(s, param); high - low > 1;) {
+        const double middle = floor((low + high) / 2);
+        if (try_number(s, param, middle, weight(s) - 1))
+            high = middle;
+        else
+            low = middle;
     }
 }
 
-static void shrink_settings(struct search *s)
+// A real number that weighs less at its least value, or half as far from it, again and again.
+static void shrink_amount(struct rg_search *s, const struct rg_param *param)
+{
+    if (value_of(s, param) <= param->min || try_number(s, param, param->min, weight(s) - 1))
+        return;
+    for (int i = 0; i < FLOAT_HALVES; i++)
+        if (!try_number(s, param, param->min + (value_of(s, param) - param->min) / 2,
+                        weight(s) - 1))
+            return;
+}
+
+// Half as far from the default, as often as that keeps the difference.
+static void approach(struct rg_search *s, const struct rg_param *param)
+{
+    for (int i = 0; i < FLOAT_HALVES; i++) {
+        const double now = value_of(s, param), half = param->initial + (now - param->initial) / 2;
+        if (!try_number(s, param, param->kind == RG_PARAM_INT ? trunc(half) : half, weight(s)))
+            return;
+    }
+}
+
+// --- words ---
+
+static bool is_seed(const struct rg_param *param)
+{
+    return strstr(param->name, "seed") != NULL;
+}
+
+// The choice that weighs least.
+static void shrink_choice(struct rg_search *s, const struct rg_param *param)
+{
+    char choice[64];
+    for (const char *c = param->text; *c; c += strcspn(c, " "), c += *c == ' ') {
+        snprintf(choice, sizeof(choice), "%.*s", (int)strcspn(c, " "), c);
+        rg_search_value(s, param, choice, weight(s) - 1);
+    }
+}
+
+// A model or map that weighs less: none, or for a file of one's own fewer entries.
+static void shrink_file(struct rg_search *s, const struct rg_param *param)
+{
+    char value[RG_PATH_SIZE];
+    if (!rg_search_value(s, param, "", weight(s) - 1))
+        rg_search_value(s, param, "none", weight(s) - 1);
+    rg_params_text(param, s->best.subject.settings, value, sizeof(value));
+    if (rg_file_is_own(value))
+        rg_search_entries(s, param);
+}
+
+// --- all parameters ---
+
+// What the user has set and does not matter goes back to its default; numbers as far as they may.
+static void restore_defaults(struct rg_search *s)
 {
     const struct rg_param_table *table = s->best.subject.technique->params;
     void *defaults = rg_settings_create(s->best.subject.technique);
-    for (int i = 0; defaults && i < table->count; i++)
-        if (is_count(&table->rows[i]))
-            shrink_value(s, &table->rows[i]);
     for (int i = 0; defaults && i < table->count; i++) {
-        char initial[RG_PATH_SIZE];
-        rg_params_text(&table->rows[i], defaults, initial, sizeof(initial));
-        if (!is_count(&table->rows[i]))
-            attempt_value(s, &table->rows[i], initial);
+        const struct rg_param *param = &table->rows[i];
+        char initial[RG_PATH_SIZE], now[RG_PATH_SIZE];
+        rg_params_text(param, defaults, initial, sizeof(initial));
+        rg_params_text(param, s->best.subject.settings, now, sizeof(now));
+        if (!strcmp(initial, now) || rg_search_value(s, param, initial, weight(s)))
+            continue;
+        if (param->kind == RG_PARAM_INT || param->kind == RG_PARAM_FLOAT)
+            approach(s, param);
     }
     free(defaults);
+}
+
+static void shrink_kind(struct rg_search *s, enum rg_param_kind kind,
+                        void (*shrink)(struct rg_search *s, const struct rg_param *param))
+{
+    const struct rg_param_table *table = s->best.subject.technique->params;
+    for (int i = 0; i < table->count; i++) {
+        const struct rg_param *param = &table->rows[i];
+        const bool is_preset = table->preset && !strcmp(param->name, table->preset);
+        if (param->kind == kind && !is_seed(param) && !is_preset)
+            shrink(s, param);
+    }
+}
+
+static void search(struct rg_search *s)
+{
+    shrink_frames(s);
+    shrink_size(s);
+    shrink_kind(s, RG_PARAM_FILE, shrink_file);
+    restore_defaults(s);
+    shrink_kind(s, RG_PARAM_CHOICE, shrink_choice);
+    shrink_kind(s, RG_PARAM_INT, shrink_count);
+    shrink_kind(s, RG_PARAM_FLOAT, shrink_amount);
+    shrink_size(s);
+    shrink_frames(s);
 }
 
 bool rg_shrink_case(const struct rg_shrink_request *request, struct rg_case *found,
                     struct rg_blame *blame, int *tried)
 {
-    struct search s = {
-        .asked = request, .best = request->run, .end_ms = rg_now_ms() + 1000.0 * request->seconds};
+    struct rg_search s;
     *found = (struct rg_case){0};
-    s.best.subject.settings =
-        rg_settings_copy(request->run.subject.technique, request->run.subject.settings, "");
-    bool ok = s.best.subject.settings &&
-              rg_blame_find(&s.best, request->device, request->truth, &s.blame);
-    if (ok && (!s.blame.found || s.blame.is_alone))
-        ok = rg_error("shrink: %s leaves in every asset behind every stage what %s does; give "
-                      "another frame, size or setting",
-                      request->device->info.name, request->truth->info.name);
+    const bool ok = rg_search_begin(&s, request);
     if (ok) {
-        shrink_frames(&s);
-        shrink_size(&s);
-        shrink_settings(&s);
-        shrink_frames(&s);
+        rg_log_hold(true); // settings that are refused
+        search(&s);
+        rg_log_hold(false);
     }
+    rg_search_end(&s);
+    if (s.is_over)
+        rg_warning("shrink: %s; the least until then is taken", s.why);
     *blame = s.blame;
     *tried = s.tried;
     found->run = s.best;

@@ -7,13 +7,15 @@
 struct rg_shrink_request {
     struct rg_digest_run run;
     struct rg_device *device, *truth;
-    int seconds; // after which nothing more is tried
+    int seconds;        // after which nothing more is tried
+    const char *folder; // where files that have been made smaller are put
 };
 
-// Tries fewer frames, pixels, items and lights, and defaults of parameters, as long as the same
-// stage differs in the same asset and class. `found` gets the least, whose settings the caller
-// frees, and `blame` what it comes to; `tried`, how many were. False, and one logged line, where
-// nothing differs or a device fails.
+// Tries fewer frames and pixels, defaults of parameters, and what weighs less (struct rg_digest):
+// counts, choices, files with fewer entries and real numbers; as long as the same stage differs in
+// the same asset and class. `found` gets the least, whose settings the caller frees, and `blame`
+// what it comes to; `tried`, how many were. False, and one logged line, where nothing differs or a
+// device fails at once; one that fails later ends the search, which is one line too.
 bool rg_shrink_case(const struct rg_shrink_request *request, struct rg_case *found,
                     struct rg_blame *blame, int *tried);
 

@@ -12,11 +12,11 @@ SMALL = "--set environment_px=64 --set resolution_px=96 --size 96x96 "
 STAGE, RIGHT, WRONG = "flow_normals", "44ffe000", "44ff0000"  # 2047 and 2040
 
 
-def miscompiling(runner, folder):
+def miscompiling(runner, folder, stage=STAGE, right=RIGHT, wrong=WRONG):
     """The device vulkan with a driver that has another constant in one shader."""
     env = misbehaving.shim(runner, folder, "vulkan", "none", "none", 0)
-    size = os.path.getsize(os.path.join(runner.kernels, STAGE + ".spv"))
-    return "vulkan@VK_DRIVER_FILES=%s;RG_MISCOMPILE=%d:%s:%s" % (env["VK_DRIVER_FILES"], size, RIGHT, WRONG)
+    size = os.path.getsize(os.path.join(runner.kernels, stage + ".spv"))
+    return "vulkan@VK_DRIVER_FILES=%s;RG_MISCOMPILE=%d:%s:%s" % (env["VK_DRIVER_FILES"], size, right, wrong)
 
 
 def variables(device):
@@ -39,7 +39,8 @@ def check_shrunk(runner):
     problems = []
     with tempfile.TemporaryDirectory() as folder:
         device, path = miscompiling(runner, folder), os.path.join(folder, "case.txt")
-        args = ["shrink", "flow", "--frame", "3", "--device", device + ",cpu:reference", "-o", path] + SMALL.split()
+        args = ["shrink", "flow", "--frame", "3", "--seconds", "600", "--device", device + ",cpu:reference", "-o", path]
+        args += "--set environment_px=32 --set resolution_px=48 --set drops=40 --set slide_gain_mm_s=31 --size 48x48".split()
         result = runner.run(args)
         if result.returncode != 0 or result.stderr or "stage " + STAGE not in result.stdout:
             return ["exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr)]
@@ -47,9 +48,10 @@ def check_shrunk(runner):
             lines = file.read().splitlines()
         case = dict(line.split(" ", 1) for line in lines if not line.startswith(("#", "set ")))
         settings = dict(line[4:].split("=", 1) for line in lines if line.startswith("set "))
-        if len(lines) >= 40 or (case["size"], case["frames"], case["stage"]) != ("16x16", "1", STAGE):
+        if len(lines) >= 40 or (case["size"], case["frames"], case["stage"]) != ("1x1", "1", STAGE):
             problems.append("%d lines: %s" % (len(lines), case))
-        if int(settings["resolution_px"]) >= 96 or int(settings["environment_px"]) != 16 or "seed" in settings:
+        least = {"resolution_px": "16", "environment_px": "16", "model": "", "view": "pane"}
+        if {name: settings.get(name) for name in least} != least or {"seed", "slide_gain_mm_s", "fresnel_power"} & set(settings):
             problems.append("settings: %s" % settings)
         for other, status, says in ((device, 1, "other: .*, as was found"), ("cpu", 0, "same: cpu "), ("vulkan", 0, "same: vulkan ")):
             result = runner.run(["render", "--case", path, "--device", other])
@@ -57,7 +59,7 @@ def check_shrunk(runner):
                 problems.append("%s: exit status %d, %s%s" % (other, result.returncode, result.stdout, result.stderr))
         text = "\n".join(lines)
         for right, wrong, says in (
-                ("size 16x16", "size 16x", r"line 4: 'size' is no line of a case here"),
+                ("size 1x1", "size 1x", r"line 4: 'size' is no line of a case here"),
                 ("set environment_px", "set nonsense_px", r"line \d+: .*nonsense_px"),
                 ("asset normals", "", r"lacks its technique, size, asset or expected digest"),
                 ("technique flow", "technique nonsense", r"line 3: 'technique' is no line")):
@@ -106,7 +108,7 @@ def check_alone(runner):
     problems = []
     with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as elsewhere:
         device, path = miscompiling(runner, folder), os.path.join(folder, "a 'case'\n\x1b[2J;$(false).txt")
-        args = ["shrink", "flow", "--frame", "3", "--device", device + ",cpu:reference", "-o", path] + SMALL.split()
+        args = ["shrink", "flow", "--seconds", "1", "--device", device + ",cpu:reference", "-o", path] + SMALL.split()
         result = runner.run(args)
         says = STAGE + r" alone, 1 of its \d+ items, is in .*\.kernel: cc run\.c -lvulkan -o run && \./run"
         if result.returncode != 0 or result.stderr or "\x1b" in result.stdout or not re.search(says, result.stdout):
@@ -146,6 +148,47 @@ def check_alone(runner):
     return problems
 
 
+QUADS = "".join("v -1 -1 %d\nv 1 -1 %d\nv 1 1 %d\nv -1 1 %d\n" % (z, z, z, z) for z in (0, 1, -1))
+QUADS += "f 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12\n"
+
+
+def check_files(runner):
+    """a mesh of one's own is made smaller, goes with the case, and is replayed from there; of a draw it is the kernel that packs it"""
+    problems = []
+    with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as elsewhere:
+        device = miscompiling(runner, folder, "raster_mesh_emit", "43800000", "43810000")  # 256 and 258
+        mesh, path = os.path.join(folder, "a 'mesh'\n$(false).obj"), os.path.join(folder, "case.txt")
+        with open(mesh, "w", encoding="utf-8") as file:
+            file.write(QUADS)
+        args = ["shrink", "raster", "--frame", "1", "--size", "32x32", "--seconds", "600", "--set", "scene=mesh",
+                "--set", "model=" + mesh, "--device", device + ",gl", "-o", path]
+        result = runner.run(args, {"TMPDIR": elsewhere})
+        if result.returncode != 0 or result.stderr or "raster_mesh_emit alone, 1 of its 1 items" not in result.stdout:
+            return ["exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr)]
+        left = os.listdir(elsewhere)
+        sent = [shutil.copy(path, elsewhere), shutil.copytree(path + ".files", os.path.join(elsewhere, "case.txt.files"))]
+        text = read(sent[1], "model.obj").decode()
+        if left or sorted(line[0] for line in text.splitlines()) != ["f", "v", "v", "v", "v"]:
+            problems.append("%s, %s" % (left, text))
+        shutil.rmtree(path + ".files")
+        os.remove(mesh)
+        for other, status, says in ((device, 1, "other: .*, as was found"), ("gl", 0, "same: gl "), ("cpu", 0, "same: cpu ")):
+            result = runner.run(["render", "--case", sent[0], "--device", other])
+            if result.returncode != status or result.stderr or not re.match(says, result.stdout):
+                problems.append("%s: exit status %d, %s%s" % (other, result.returncode, result.stdout, result.stderr))
+        for name, says in (("model.obj", None), ("../model.obj", "names no file beside the case"), ("none.obj", "send the folder along")):
+            with open(sent[0], encoding="utf-8") as file:
+                case = file.read()
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(case.replace("file model=model.obj", "file model=" + name))
+            os.makedirs(path + ".files", exist_ok=True)
+            shutil.copy(os.path.join(sent[1], "model.obj"), path + ".files")
+            result = runner.run(["render", "--case", path, "--device", "cpu"])
+            if result.returncode != (2 if says else 0) or (says and not re.fullmatch("raingauge: .*line \\d+: .*%s.*\n" % says, result.stderr)):
+                problems.append("%s: exit status %d, %s" % (name, result.returncode, result.stderr))
+    return problems
+
+
 def check_nothing_to_shrink(runner):
     """shrink of two devices that agree fails, and writes nothing"""
     with tempfile.TemporaryDirectory() as folder:
@@ -156,4 +199,4 @@ def check_nothing_to_shrink(runner):
         "exit status %d, made: %s, %s" % (result.returncode, made, result.stderr)]
 
 
-CHECKS = [check_blamed, check_shrunk, check_alone, check_nothing_to_shrink]
+CHECKS = [check_blamed, check_shrunk, check_alone, check_files, check_nothing_to_shrink]

@@ -9,7 +9,8 @@ SNAPSHOT, CHECKS = ("harness/compare/verify/snapshot.c", "harness/compare/verify
 REPORT = "harness/compare/diff/report.c"
 CASE, SHRINK = "harness/compare/shrink/case.c", "harness/compare/shrink/shrink.c"
 CULPRIT, FOLDER, RUN = "harness/compare/shrink/culprit.c", "harness/compare/shrink/folder.c", "harness/compare/shrink/run.c"
-RECORDER, DISPATCHED = "harness/frames/recorder.c", "core/techniques/stages/dispatched.c"
+SEARCH, ENTRIES, FILES = "harness/compare/shrink/search.c", "harness/compare/shrink/entries.c", "harness/compare/shrink/files.c"
+RECORDER = "harness/frames/recorder.c"
 BLAME, DIFFERENCE = "harness/compare/blame/blame.c", "harness/compare/blame/difference.c"
 
 SHRINKING = ("command line, shrinking",)
@@ -71,18 +72,24 @@ ROWS = [
     Fault(DIFFERENCE, "for (int v = y > 0 ? y - 1 : 0; «v <= y + 1» && v < c->desc.height; v++)", "true", "an edge may lie anywhere below"),
     Fault(DIFFERENCE, "return size && «is_made_endless(a) != is_made_endless(b)»;", "is_endless(a, 32) != is_endless(b, 32)", "an integer is taken for a NaN"),
     Fault(SHRINK, "run.frames = «s->blame.first.frame > 1 ? (int)s->blame.first.frame : 1»;", "s->best.frames", "frames are not shrunk", tests=SHRINKING),
-    Fault(SHRINK, "if («attempt_size(s, LEAST_PX, LEAST_PX)»)", "true", "the picture is not shrunk", tests=SHRINKING),
-    Fault(SHRINK, "return «param->kind == RG_PARAM_INT» && !strstr", "false", "counts are not shrunk", tests=SHRINKING),
     Fault(CASE, "exit = «hash == c->expected» ? RG_EXIT_PASS", "true", "every device leaves what is expected", tests=SHRINKING),
     Fault(CASE, "while (row < digests.count && («digests.rows[row].stages_run != c->stages_run» ||", "false", "a case is judged behind the first stage that wrote the asset", tests=SHRINKING),
-    Fault(CASE, "if («strcmp(value, initial) != 0»)", "false", "a case tells no settings", tests=SHRINKING),
     Fault(CULPRIT, "return !p->has_failed && «!leaves_same(&p->now, p->due)»;", "true", "every kernel is the one", tests=SHRINKING),
     Fault(CULPRIT, "keeps = «differs(p)»;\n        if (!keeps) {\n            *origin = first + half;", "false", "the first half of the items is never kept", tests=SHRINKING),
     Fault(CULPRIT, "halve(p, &origin->width, &extent->width);", ";", "items along x stay as they are", tests=SHRINKING),
     Fault(RECORDER, "return r->ok && «r->stages_run == r->watched - 1»;", "r->stages_run < r->watched", "runs of other stages are kept", tests=SHRINKING),
     Fault(FOLDER, "d->origin.width «+ d->extent.width»,", "", "the block ends where it begins", tests=SHRINKING),
     Fault(FOLDER, "memcpy(block + sizeof(at), d->params, (size_t)d->kernel->params_size);", ";", "a kernel's parameters are all 0", tests=SHRINKING),
-
     Fault(RUN, "if (s->bytes[i] != due[i])", "if (i && s->bytes[i] != due[i])", "the program passes over the first byte", tests=SHRINKING),
     Fault(RUN, "count += sscanf", "count = sscanf", "one slot alone is bound", tests=SHRINKING),
+    Fault(SHRINK, "if («try_size(s, LEAST_PX, LEAST_PX)»)", "true", "the picture is not shrunk", tests=SHRINKING),
+    Fault(SHRINK, "shrink_kind(s, RG_PARAM_INT, shrink_count);", ";", "counts are not shrunk", tests=SHRINKING),
+    Fault(SHRINK, "restore_defaults(s);\n    shrink_kind", "shrink_kind", "what does not matter stays", tests=SHRINKING),
+    Fault(SHRINK, "shrink_kind(s, RG_PARAM_CHOICE, shrink_choice);", ";", "stages that do not matter stay", tests=SHRINKING),
+    Fault(SEARCH, "«now->rows[row].weight <= most_weight» &&", "true", "values that change nothing are taken", tests=SHRINKING),
+    Fault(SEARCH, "!strcmp(now->rows[row].stage, s->blame.first.stage)", "true", "another stage is as good", tests=SHRINKING),
+    Fault(ENTRIES, "if (!any || «!try_without(s, param, e, ending)»)", "true", "files stay as they are", tests=SHRINKING),
+    Fault(FILES, "strchr(name, '/')", "false", "a case reads files from anywhere", tests=SHRINKING),
+    Fault(CASE, "if (!strcmp(value, initial))\n        return;", "return;", "a case tells no settings", tests=SHRINKING),
+    Fault(CULPRIT, "packs = all[i]->draw &&", "packs = !all[i]->draw &&", "what packs is tried where it cannot run", tests=SHRINKING),
 ]

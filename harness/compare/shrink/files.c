@@ -1,0 +1,100 @@
+#include "harness/compare/shrink/files.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "core/base/alloc.h"
+#include "core/base/file.h"
+#include "harness/record/output.h"
+
+enum { MOST_FILES = 8 };
+
+bool rg_file_is_own(const char *value)
+{
+    struct stat st;
+    return strpbrk(value, "./") && !stat(value, &st) && S_ISREG(st.st_mode);
+}
+
+void rg_file_ending(const char *path, char *ending, size_t size)
+{
+    const char *slash = strrchr(path, '/');
+    const char *point = strrchr(slash ? slash : path, '.');
+    *ending = 0;
+    if (!point || !point[1] || strlen(point) >= size)
+        return;
+    for (const char *c = point + 1; *c; c++)
+        if (!isalnum((unsigned char)*c))
+            return;
+    snprintf(ending, size, "%s", point);
+}
+
+char *rg_file_load(const char *path, size_t *size)
+{
+    const char *why = "cannot be read";
+    FILE *file = rg_file_open(path, &why);
+    long end = file && !fseek(file, 0, SEEK_END) ? ftell(file) : -1;
+    char *bytes = end >= 0 && !fseek(file, 0, SEEK_SET) ? rg_alloc(1, (size_t)end + 1, path) : NULL;
+    *size = bytes ? fread(bytes, 1, (size_t)end, file) : 0;
+    if (file)
+        fclose(file);
+    if (bytes && *size == (size_t)end)
+        return bytes;
+    free(bytes);
+    return rg_error_null("%s: %s; name a file that can be read", path, why);
+}
+
+void rg_file_sent_name(const struct rg_param *param, const char *path, char name[RG_FILE_NAME])
+{
+    char ending[16];
+    rg_file_ending(path, ending, sizeof(ending));
+    snprintf(name, RG_FILE_NAME, "%.64s%s", param->name, ending);
+}
+
+static bool folder_of(const char *path, char *folder, size_t size)
+{
+    return snprintf(folder, size, "%s.files", path) < (int)size ||
+           rg_error("%.80s...: its name is too long", path);
+}
+
+bool rg_files_send(const struct rg_subject *subject, const char *path)
+{
+    const struct rg_param_table *table = subject->technique->params;
+    struct rg_output_file files[MOST_FILES];
+    char names[MOST_FILES][RG_FILE_NAME], folder[2048], value[RG_PATH_SIZE];
+    int count = 0;
+    bool ok = folder_of(path, folder, sizeof(folder));
+    for (int i = 0; ok && i < table->count && count < MOST_FILES; i++) {
+        const struct rg_param *param = &table->rows[i];
+        rg_params_text(param, subject->settings, value, sizeof(value));
+        if (param->kind != RG_PARAM_FILE || !rg_file_is_own(value))
+            continue;
+        rg_file_sent_name(param, value, names[count]);
+        files[count] = (struct rg_output_file){.name = names[count]};
+        ok = (files[count].text = rg_file_load(value, &files[count].size)) != NULL;
+        count += ok;
+    }
+    ok = ok && (!count || rg_output_write_set(folder, files, count));
+    for (int i = 0; i < count; i++)
+        free((void *)(uintptr_t)files[i].text);
+    return ok;
+}
+
+bool rg_file_receive(const struct rg_technique *technique, void *settings, const char *assignment,
+                     const char *path)
+{
+    char folder[2048], whole[3072];
+    const char *name = strchr(assignment, '=');
+    if (!folder_of(path, folder, sizeof(folder)))
+        return false;
+    if (!name || !name[1] || strchr(name, '/'))
+        return rg_error("'%s' names no file beside the case; write it as KEY=NAME", assignment);
+    snprintf(whole, sizeof(whole), "%.*s%s/%s", (int)(name + 1 - assignment), assignment, folder,
+             name + 1);
+    if (!rg_file_is_own(whole + (name + 1 - assignment)))
+        return rg_error("%s is not there; send the folder along with the case",
+                        whole + (name + 1 - assignment));
+    return rg_params_set(technique->params, settings, whole);
+}
