@@ -17,7 +17,7 @@ struct diff_options {
     char *background, *heatmap_prefix; // files
     double exposure;
     int64_t memory_bytes;
-    bool json;
+    bool mutants, json;
 };
 
 #define AT(field) offsetof(struct diff_options, field)
@@ -30,6 +30,9 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     RG_INCLUDE(rg_frame_option, AT(frames), "60"),
     RG_INCLUDE(rg_size_option, AT(size), NULL),
+    {RG_OPTION_FLAG, "mutants", .offset = AT(mutants),
+     .about = "of a pair that does not hold what it owes, says which of the mutants of `raingauge "
+              "verify` would pass with the tier that it holds"},
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
@@ -66,6 +69,7 @@ static int diff_devices(const struct diff_options *o, const struct rg_words *arg
         .frames = o->frames,
         .heatmap_prefix = o->heatmap_prefix,
         .exposure = o->exposure,
+        .mutants = o->mutants,
         .json = o->json,
     });
     free(settings);

@@ -9,6 +9,7 @@
 #include "core/base/log.h"
 #include "core/device/device.h"
 #include "harness/compare/blame/blame.h"
+#include "harness/compare/diff/accepts.h"
 #include "harness/compare/diff/report.h"
 #include "harness/console/exit.h"
 #include "harness/console/progress.h"
@@ -30,6 +31,7 @@ struct session {
     int compared;             // pairs
     int exit;                 // an enum rg_exit: what those that failed come to
     json_t *pairs, *failures; // with --json
+    struct rg_accepts accepts;
 };
 
 // Draws the same frame without rain. The rain mask is where a picture differs from it.
@@ -156,6 +158,12 @@ static int compare_pair(struct session *s, const struct shot *a, const struct sh
     if (pair && blame)
         json_object_set(pair, "blame", blame);
     json_decref(blame);
+    json_t *accepts = holds ? NULL
+                            : rg_accepts_tell(&s->accepts, s->asked->subject.technique, &c.tiers,
+                                              s->asked->mutants, s->pairs);
+    if (pair && accepts)
+        json_object_set(pair, "accepts", accepts);
+    json_decref(accepts);
     if (s->pairs)
         ok = json_array_append_new(s->pairs, pair) == 0;
     if (s->asked->heatmap_prefix)

@@ -14,7 +14,8 @@ struct rg_diff_devices_request {
     int frames;                 // simulated before the picture is drawn
     const char *heatmap_prefix; // NULL: none; else PREFIX-A-B-flip.png and -difference.png
     double exposure;
-    bool json; // instead of a table
+    bool mutants; // of a pair that fails: which models, a little off, the tier that holds accepts
+    bool json;    // instead of a table
 };
 
 // Renders on every device, compares every pair and prints it. Returns an enum rg_exit: pass when

@@ -1,5 +1,6 @@
 // Mutants: a comparison that accepts a model that is a little off proves nothing. Each is drawn on
-// one device and compared with the true model's image, at the loosest tier that verify accepts, T1.
+// one device and compared with the true model's image, at the loosest tier that verify accepts, T1,
+// or at one that is asked for.
 // They have a scene of their own, the proof's over the technique's defaults, whatever the user
 // sets: a mutant of a pane without drops would live. And they are young pictures: by step 1,000 a
 // drop that was missing at the start has run off the pane. Contrasts are mutants that bring their
@@ -26,9 +27,8 @@ int64_t rg_verify_mutant_work(const struct rg_verify *v)
 }
 
 struct verdicts {
-    int run, killed;
+    struct rg_mutants_told told;
     bool error;
-    char alive[400]; // what survived, separated by ", "
     char fault[400]; // of the list, the first; "": none
 };
 
@@ -65,7 +65,7 @@ static bool draw(struct rg_verify *v, const char *assignments, struct rg_picture
     return ok;
 }
 
-// Whether T1 notices the mutant: there is rain, and it is not the model's.
+// Whether the tier notices the mutant: there is rain, and it is not the model's.
 static bool is_rejected(const struct rg_picture *truth, const struct rg_picture *other,
                         const struct rg_picture *dry, struct verdicts *verdicts)
 {
@@ -75,7 +75,7 @@ static bool is_rejected(const struct rg_picture *truth, const struct rg_picture 
         verdicts->error = true;
         return false;
     }
-    bool rejected = !comparison.tiers.of[RG_T1].holds && comparison.tiers.mask_pixels;
+    bool rejected = !comparison.tiers.of[verdicts->told.tier].holds && comparison.tiers.mask_pixels;
     rg_comparison_destroy(&comparison);
     return rejected;
 }
@@ -84,14 +84,10 @@ static void judge(const char *about, const struct rg_picture *truth,
                   const struct rg_picture *mutated, const struct rg_picture *dry,
                   struct verdicts *verdicts)
 {
-    verdicts->run++;
-    if (is_rejected(truth, mutated, dry, verdicts)) {
-        verdicts->killed++;
-        return;
-    }
-    const size_t used = strlen(verdicts->alive);
-    snprintf(verdicts->alive + used, sizeof(verdicts->alive) - used, "%s%s", used ? ", " : "",
-             about);
+    struct rg_mutants_told *told = &verdicts->told;
+    told->run++;
+    if (!is_rejected(truth, mutated, dry, verdicts) && told->alive_count < RG_MUTANTS_TOLD)
+        told->alive[told->alive_count++] = about;
 }
 
 static void run_all(struct rg_verify *v, const struct rg_picture *truth,
@@ -140,17 +136,21 @@ static void run_contrast(const struct rg_verify *scene, const struct rg_contrast
 static void report(struct rg_verify *v, const struct verdicts *verdicts)
 {
     const char *technique = v->technique->name, *device = v->mutant_device->info.name;
+    const struct rg_mutants_told *told = &verdicts->told;
+    const int killed = told->run - told->alive_count;
+    char alive[400];
+    rg_mutants_text(told, alive, sizeof(alive));
     if (verdicts->error)
         rg_checks_add_error(v->checks, technique, "mutants", device);
     else if (*verdicts->fault)
         rg_checks_add(v->checks, technique, "mutants", device, RG_FAIL, "%s", verdicts->fault);
-    else if (verdicts->killed == verdicts->run && verdicts->run)
-        rg_checks_add(v->checks, technique, "mutants", device, RG_OK, "killed %d/%d",
-                      verdicts->killed, verdicts->run);
+    else if (killed == told->run && told->run)
+        rg_checks_add(v->checks, technique, "mutants", device, RG_OK, "killed %d/%d", killed,
+                      told->run);
     else
         rg_checks_add(v->checks, technique, "mutants", device, RG_FAIL,
-                      "killed %d/%d; T1 accepts: %s", verdicts->killed, verdicts->run,
-                      *verdicts->alive ? verdicts->alive : "there are none");
+                      "killed %d/%d; T1 accepts: %s", killed, told->run,
+                      *alive ? alive : "there are none");
 }
 
 // The proof's scene over the technique's defaults. NULL, and one logged line, on failure.
@@ -163,27 +163,51 @@ static void *scene_settings(const struct rg_technique *technique)
     return settings;
 }
 
-void rg_verify_mutants(struct rg_verify *verify)
+static void draw_all(const struct rg_verify *verify, struct verdicts *verdicts)
 {
     struct rg_verify scene = *verify;
     void *settings = scene_settings(verify->technique);
     scene.settings = settings;
     scene.width = scene.height = SCENE_PX;
-    struct verdicts verdicts = {0};
     struct rg_picture truth = {0}, dry = {0};
     // It stays open, so that what instances share on a device is made once.
     struct rg_session *first =
         settings ? rg_verify_run(&scene, scene.mutant_device, settings, 0) : NULL;
     if (first && draw(&scene, "", &truth) && draw_dry(&scene, &dry))
-        run_all(&scene, &truth, &dry, &verdicts);
+        run_all(&scene, &truth, &dry, verdicts);
     else
-        verdicts.error = true;
+        verdicts->error = true;
     for (const struct rg_contrast *c = scene.technique->proof->contrasts;
-         c && c->about && !verdicts.error; c++)
-        run_contrast(&scene, c, &verdicts);
-    report(&scene, &verdicts);
+         c && c->about && !verdicts->error; c++)
+        run_contrast(&scene, c, verdicts);
     rg_picture_destroy(&truth);
     rg_picture_destroy(&dry);
     rg_session_close(first);
     free(settings);
+}
+
+void rg_verify_mutants(struct rg_verify *verify)
+{
+    struct verdicts verdicts = {.told.tier = RG_T1};
+    draw_all(verify, &verdicts);
+    report(verify, &verdicts);
+}
+
+bool rg_verify_mutants_at(const struct rg_verify *verify, enum rg_tier tier,
+                          struct rg_mutants_told *told)
+{
+    struct verdicts verdicts = {.told.tier = tier};
+    draw_all(verify, &verdicts);
+    *told = verdicts.told;
+    if (!verdicts.error && *verdicts.fault)
+        return rg_error("%s", verdicts.fault);
+    return !verdicts.error;
+}
+
+void rg_mutants_text(const struct rg_mutants_told *told, char *text, size_t size)
+{
+    size_t used = 0;
+    *text = 0;
+    for (int i = 0; i < told->alive_count && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", told->alive[i]);
 }

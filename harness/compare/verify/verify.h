@@ -48,6 +48,19 @@ void rg_verify_devices(struct rg_verify *verify);
 // Whether the comparison of images notices a model that is a little off.
 void rg_verify_mutants(struct rg_verify *verify);
 
+// The same for those who ask which models that are a little off a tier would accept.
+enum { RG_MUTANTS_TOLD = 64 };
+struct rg_mutants_told {
+    enum rg_tier tier;
+    int run, alive_count;
+    const char *alive[RG_MUTANTS_TOLD]; // what the tier accepts, in words of the technique's proof
+};
+// Draws all on the mutant device. False, and one logged line, on failure.
+bool rg_verify_mutants_at(const struct rg_verify *verify, enum rg_tier tier,
+                          struct rg_mutants_told *told);
+// Those that live, in a line with commas; "" where none does.
+void rg_mutants_text(const struct rg_mutants_told *told, char *text, size_t size);
+
 // Which stage first leaves other bits in an asset than the reference, over poses, with one seed.
 void rg_verify_stages(struct rg_verify *verify);
 

@@ -1,4 +1,5 @@
 """A driver that miscompiles a shader: blamed, shrunk to a case, and the case replayed."""
+import json
 import os
 import re
 import shutil
@@ -25,12 +26,17 @@ def variables(device):
 
 
 def check_blamed(runner):
-    """diff blames the stage whose shader a driver has miscompiled, and no other"""
+    """diff blames the stage whose shader a driver has miscompiled, and no other, and says what would not notice it"""
     with tempfile.TemporaryDirectory() as folder:
         device = miscompiling(runner, folder)
-        result = runner.run(["diff", "flow", "--frame", "3", "--device", "cpu," + device] + SMALL.split())
+        args = ["diff", "flow", "--frame", "3", "--mutants", "--device", "cpu," + device]
+        result = runner.run(args + SMALL.split())
+        told = json.loads(runner.run(args + ["--json"] + SMALL.split()).stdout)["pairs"][0]["accepts"]
     found = re.findall(r"(?m)^  vulkan.*: frame (\d+), stage (\w+): (\w+)\[\d+\] is .*; other values$", result.stdout)
-    return [] if result.returncode == 1 and found == [("1", STAGE, "normals")] else [
+    cost = "  T2 would hold; of %d mutants it accepts %s\n" % (told["mutants"], ", ".join(told["accepted"]))
+    known = {"one drop fewer", "refraction 1 % weaker"} <= set(told["accepted"]) and told["mutants"] > len(told["accepted"])
+    good = result.returncode == 1 and found == [("1", STAGE, "normals")] and told["tier"] == "T2" and known and cost in result.stdout
+    return [] if good else ["told %s" % told,
         "exit status %d, %s\n%s%s" % (result.returncode, found, result.stdout, result.stderr)]
 
 
