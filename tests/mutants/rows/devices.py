@@ -17,7 +17,7 @@ ROWS = [
     Fault(GRID, "part.origin.height = «run->origin.height + done.height»;", "done.height", "folded rows forget where they begin"),
     Fault(GRID, "part.extent.width = smaller(max_width, «run->extent.width - done.width»);", "run->extent.width", "the last folded part is too wide"),
     Fault(GRID, "work->items += (int64_t)run->extent.width * run->extent.height «* run->extent.depth»;", "* 1", "layers of items are not counted"),
-    Fault(GRID, "require(i == j || «!same» || !is_written", "true", "a buffer may be written and read in one run"),
+    Fault(GRID, "require(i == j || «!same» || !rg_slot_is_written", "true", "a buffer may be written and read in one run"),
     Fault(GRID, "require(«bound->buf->device == pass->device»,", "true", "another device's buffer is taken"),
     Fault(OBJECTS, "device->work->live_bytes «-= image_bytes(&image->desc)»;", "-= 0", "memory of images that are gone counts"),
     Fault(OBJECTS, "image->device->work->bytes_read += «level_bytes(image, level)»;", "level_bytes(image, 0)", "each level is as large as the first"),
