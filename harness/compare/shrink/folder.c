@@ -145,6 +145,11 @@ static void write_manifest(struct folder *f, FILE *out, size_t code_size, size_t
     add_slots(f, out);
 }
 
+static bool takes_opencl(const struct rg_device_info *device)
+{
+    return !strncmp(device->name, "opencl", strlen("opencl"));
+}
+
 static void write_readme(const struct folder *f, FILE *out, const char *note,
                          const struct rg_device_info *device, const struct rg_device_info *truth)
 {
@@ -171,10 +176,9 @@ static void write_readme(const struct folder *f, FILE *out, const char *note,
         "kernel.txt says what is bound where; kernel.comp is the shader's text, of which\n\n"
         "    glslc -fshader-stage=compute --target-env=vulkan1.2 -O kernel.comp -o kernel.spv\n\n"
         "makes kernel.spv.%s\n",
-        device->name[0] == 'o'
-            ? " kernel.cl is the same kernel in OpenCL C, which has its slots and "
-              "parameters as arguments."
-            : "");
+        takes_opencl(device) ? " kernel.cl is the same kernel in OpenCL C, which has its slots and "
+                               "parameters as arguments."
+                             : "");
 }
 
 // --- writing ---
@@ -186,8 +190,7 @@ static bool fill(struct folder *f, const char *note, struct rg_device *device,
     char *texts[2] = {NULL, NULL};
     if (!add_code(f, device, RG_CODE_SPIRV, "kernel.spv", &code_size) ||
         !add_code(f, device, RG_CODE_GLSL, "kernel.comp", &size) || !add_block(f, &block_size) ||
-        (!strncmp(device->info.name, "opencl", 6) &&
-         !add_code(f, device, RG_CODE_OPENCL, "kernel.cl", &size)))
+        (takes_opencl(&device->info) && !add_code(f, device, RG_CODE_OPENCL, "kernel.cl", &size)))
         return false;
     bool ok = true;
     for (int i = 0; ok && i < 2; i++) {
