@@ -4,7 +4,8 @@
 #define RG_HARNESS_DEVICES_WORKERS_CALLS_H
 
 enum rg_call {
-    RG_CALL_HELLO, // do both speak of the same things (hello.h)? First for ever, in all builds
+    RG_CALL_HELLO, // do both speak of the same things (harness/devices/serving/hello.c)? First for
+                   // ever, in all builds
     // The device
     RG_CALL_LIST,     // a backend's devices
     RG_CALL_OPEN,     // the one device of this worker
