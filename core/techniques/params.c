@@ -85,9 +85,10 @@ static bool set_number(const struct rg_param *param, void *settings, const char 
     if (end == text || *end || !isfinite(value) || !whole)
         return rg_error("parameter '%s': '%s' is no %s", param->name, text,
                         param->kind == RG_PARAM_INT ? "whole number" : "number");
+    const char *unit = strcmp(param->unit, "1") ? param->unit : "";
     if (value < param->min || value > param->max)
-        return rg_error("parameter '%s': %s is out of range; %.10g to %.10g %s", param->name, text,
-                        param->min, param->max, strcmp(param->unit, "1") ? param->unit : "");
+        return rg_error("parameter '%s': %s is out of range; %.10g to %.10g%s%s", param->name, text,
+                        param->min, param->max, *unit ? " " : "", unit);
     if (param->kind == RG_PARAM_INT)
         *int_at(param, settings) = (int)value;
     else

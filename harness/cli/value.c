@@ -145,6 +145,8 @@ static bool set_choice(const struct rg_option *row, int *choice, const char *tex
 
 static bool set_text(const struct rg_option *row, char **copy, const char *text)
 {
+    if (!*text)
+        return rg_error("--%s '': is empty; write a value behind it, or leave it out", row->name);
     if (row->names == RG_NAMES_DEVICES && !rg_device_names_check(text))
         return false;
     free(*copy);

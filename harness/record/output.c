@@ -65,6 +65,16 @@ bool rg_output_file_can_be_written(const char *path, int64_t bytes)
            rg_error("%s: %s", path, why.text);
 }
 
+bool rg_output_can_be_replaced(const char *folder, const char *name)
+{
+    char path[2048];
+    struct rg_why why;
+    struct stat st;
+    if (snprintf(path, sizeof(path), "%s/%s", folder, name) >= (int)sizeof(path))
+        return rg_error("%.80s...: its name is too long", folder);
+    return lstat(path, &st) || rg_temporary_try(path, &why) || rg_error("%s: %s", path, why.text);
+}
+
 // A file that is written and not yet in its place.
 struct pending {
     char path[2048];

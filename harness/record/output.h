@@ -34,6 +34,9 @@ bool rg_output_can_be_written(const char *folder, int64_t bytes);
 // The same of a file of so many bytes, whose folder has to be there.
 bool rg_output_file_can_be_written(const char *path, int64_t bytes);
 
+// Whether what has this name in a folder can be replaced, such as no read-only file; nothing can.
+bool rg_output_can_be_replaced(const char *folder, const char *name);
+
 // Makes a folder for what is written next, if only its last part is missing. False, with one logged
 // line, where that fails.
 bool rg_output_folder(const char *folder);

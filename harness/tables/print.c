@@ -60,16 +60,34 @@ static char *print_text(const struct rg_result *result, int format)
     return ok ? text : NULL;
 }
 
+enum { FILE_NAME_SIZE = RG_NAME_SIZE + 8 };
+
+static void name_file(const char *table, int format, char name[FILE_NAME_SIZE])
+{
+    snprintf(name, FILE_NAME_SIZE, "%s.%s", table, rg_result_formats[format]);
+}
+
+bool rg_results_can_be_written(const struct rg_table *const tables[], int count, const char *folder)
+{
+    char name[FILE_NAME_SIZE];
+    bool ok = rg_output_can_be_written(folder, (int64_t)count * RG_OUTPUT_TABLE_BYTES);
+    for (int i = 0; i < count; i++)
+        for (int format = 0; ok && rg_result_formats[format]; format++) {
+            name_file(tables[i]->id, format, name);
+            ok = rg_output_can_be_replaced(folder, name);
+        }
+    return ok;
+}
+
 bool rg_result_write(const struct rg_result *result, const char *folder)
 {
     struct rg_output_file files[RG_MAX_OUTPUT_FILES];
-    char *texts[RG_MAX_OUTPUT_FILES], names[RG_MAX_OUTPUT_FILES][RG_NAME_SIZE + 8];
+    char *texts[RG_MAX_OUTPUT_FILES], names[RG_MAX_OUTPUT_FILES][FILE_NAME_SIZE];
     int count = 0;
     bool ok = true;
     for (; ok && rg_result_formats[count]; count++) {
         texts[count] = print_text(result, count);
-        snprintf(names[count], sizeof(names[count]), "%s.%s", result->table,
-                 rg_result_formats[count]);
+        name_file(result->table, count, names[count]);
         files[count] = (struct rg_output_file){.name = names[count], .text = texts[count]};
         ok = texts[count];
     }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "harness/record/result.h"
+#include "harness/tables/table.h"
 
 // "md", "csv", "json", "tex", NULL, and the places of some among them.
 extern const char *const rg_result_formats[];
@@ -23,6 +24,10 @@ int rg_result_finish(const struct rg_result *result, int format, const char *fol
 // What its cells come to alone.
 int rg_result_exit(const struct rg_result *result);
 
+// Whether the files of so many tables can be written into a folder, as is found out before any
+// work. False, and one logged line.
+bool rg_results_can_be_written(const struct rg_table *const tables[], int count,
+                               const char *folder);
 // Writes it into a folder in every format, as TABLE.FORMAT. False, and one logged line, on failure.
 bool rg_result_write(const struct rg_result *result, const char *folder);
 

@@ -77,7 +77,7 @@ COMMANDS = [
     Case("doctor --device " + 40 * "x", 2, UNKNOWN_DEVICE),
     Case("doctor --device ,", 2, r"--device ',': names no device"),
     Case("doctor --device cpu,,,", 2, r"--device 'cpu,,,': names no device beside a comma"),
-    Case("doctor --device=", 2, r"--device '': names no device at all"),
+    Case("doctor --device=", 2, r"--device '': is empty; write a value behind it, or leave it out"),
     Case("doctor cpu", 2, r"doctor: 'cpu' is one argument too many"),
     Case("doctor --device cpu", 0, None),
 
@@ -90,7 +90,38 @@ COMMANDS = [
     Case(RENDER + "--exposure= -o {tmp}/a.png", 2, r"--exposure : invalid numeric value"),
     Case(RENDER + "--device cpu,,, -o {tmp}/a.png", 2, r"--device cpu,,,: render draws on one device"),
 
+    # values that are empty
+    Case("diff flow --device cpu,cpu:reference --output=", 2, r"--output '': is empty"),
+    Case("shrink flow --device cpu,cpu:reference --output=", 2, r"--output '': is empty"),
+    Case("table --require=", 2, r"--require '': is empty"),
+    Case("table --variant=", 2, r"--variant '': is empty"),
+    Case("atlas --compare=", 2, r"--compare '': is empty"),
+    Case("render --case=", 2, r"--case '': is empty"),
+    Case("gate cpu cpu --junit=", 2, r"--junit '': is empty"),
+    Case("gate cpu cpu --fails=", 2, r"--fails '': is empty"),
+    Case("gate cpu cpu --margin=-1", 2, r"--margin -1: must be above 0, at most 100"),
+    Case("gate cpu cpu --budget=-1s", 2, r"--budget '-1s': is no time"),
+    Case("gate cpu, cpu", 2, r"names no device beside a comma"),
+    Case("shrink flow --device cpu,,, --size 8x8", 2, r"names no device beside a comma"),
+    Case("shrink flow --seconds=-1", 2, r"--seconds -1: must be 1 to 86400"),
+    Case("sweep flow --axis seed=1,,2", 2, r"--axis seed=1,,2: write it as NAME=VALUE,VALUE"),
+    Case("sweep flow --axis device=cpu,,", 2, r"names no device beside a comma"),
+    Case("sweep flow --axis drops=-1", 2, r"parameter 'drops': -1 is out of range; 0 to 100000$"),
+
     # what is no file: nothing waits for it
+    Case("gate cpu cpu --cells {data}/fifo.txt", 2, r"fifo\.txt: is not a regular file"),
+    Case("gate cpu cpu --expectations {data}/fifo.txt", 2, r"fifo\.txt: is not a regular file"),
+    Case("gate cpu cpu --fails {data}/socket.json", 2, r"socket\.json: is not a regular file"),
+    Case("gate cpu cpu --skips /dev/zero", 2, r"/dev/zero: is not a regular file"),
+    Case("gate cpu cpu --junit {data}/fifo.txt", 2, r"fifo\.txt: is not a regular file"),
+    Case("gate cpu cpu --github", 2, r"fifo\.txt: cannot be opened: is no file; \$GITHUB_STEP_SUMMARY must name a file",
+         {"GITHUB_STEP_SUMMARY": "{data}/fifo.txt"}),
+    Case("render --case {data}/fifo.txt", 2, r"fifo\.txt: is not a regular file"),
+    Case("render --case {data}/socket.json", 2, r"socket\.json: is not a regular file"),
+    Case("shrink flow --device nonsense,cpu -o {data}/fifo.txt", 2, r"fifo\.txt: is not a regular file"),
+    Case("shrink flow --device nonsense,cpu -o {tmp}/none/case.txt", 2, r"none/case\.txt: its folder is not there"),
+    Case("table stuppacher-2 --device nonsense -o {data}/fifos", 2, r"fifos/stuppacher-2\.tex: is not a regular file"),
+    Case("sweep flow --axis seed=1 --device nonsense -o {data}/fifos", 2, r"fifos/sweep-flow\.json: is not a regular file"),
     Case("diff {data}/fifo.png {data}/a.png", 2, r"fifo\.png: is not a regular file"),
     Case("diff {data}/fifo.tif {data}/a.png", 2, r"fifo\.tif: is not a regular file"),
     Case("table --from {data}/fifo.json", 2, r"fifo\.json: cannot be read: is not a regular file"),
@@ -401,7 +432,7 @@ def write_what_is_no_file(runner, data):
     """FIFOs that nobody writes, and a socket."""
     database = os.path.join(data, "fifos", "point_light_database", "txt")
     os.makedirs(database)
-    for name in ("fifo.png", "fifo.tif", "fifo.json", "fifo.ktx", "fifo.obj", "fifo.txt",
+    for name in ("fifo.png", "fifo.tif", "fifo.json", "fifo.ktx", "fifo.obj", "fifo.txt", "fifos/stuppacher-2.tex", "fifos/sweep-flow.json",
                  os.path.join(database, "dcam00_point_max.txt")):
         os.mkfifo(os.path.join(data, name))
     for name in os.listdir(runner.kernels):

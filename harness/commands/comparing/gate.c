@@ -204,7 +204,9 @@ static bool print(const struct gate_options *o, const struct rg_gate_outputs *ou
 static bool can_write(const struct gate_options *o, const struct rg_gate_outputs *outputs)
 {
     enum { REPORT_BYTES = 1 << 20 };
-    return (!*outputs->junit || rg_output_file_can_be_written(outputs->junit, REPORT_BYTES)) &&
+    const char *summary = o->github ? getenv("GITHUB_STEP_SUMMARY") : NULL;
+    return (!summary || rg_report_can_append(summary)) &&
+           (!*outputs->junit || rg_output_file_can_be_written(outputs->junit, REPORT_BYTES)) &&
            (!o->bmf || rg_output_file_can_be_written(o->bmf, REPORT_BYTES)) &&
            (!*outputs->pictures || rg_gate_pictures_can_be_written(outputs->pictures, 0));
 }

@@ -14,6 +14,7 @@
 #include "harness/compare/shrink/folder.h"
 #include "harness/compare/shrink/shrink.h"
 #include "harness/console/clock.h"
+#include "harness/record/output.h"
 
 struct shrink_options {
     struct rg_words sets;
@@ -129,9 +130,12 @@ static int shrink_on(const struct rg_devices *devices, const struct rg_subject *
 
 static int shrink(const void *values, const struct rg_words *arguments)
 {
+    enum { CASE_BYTES = 1 << 12 };
     const struct shrink_options *o = values;
     void *settings;
     rg_memory_allow(o->memory_bytes);
+    if (!rg_output_file_can_be_written(o->output, CASE_BYTES))
+        return RG_EXIT_USAGE;
     const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
     if (!technique)
         return RG_EXIT_USAGE;

@@ -148,7 +148,8 @@ static int run_grid(struct rg_grid *grid, const struct sweep_options *o,
         grid->table.width = o->size.width;
         grid->table.height = o->size.height;
         grid->table.check_frames = o->frame;
-        if (!o->output || rg_output_can_be_written(o->output, RG_OUTPUT_TABLE_BYTES))
+        const struct rg_table *const table = &grid->table;
+        if (!o->output || rg_results_can_be_written(&table, 1, o->output))
             exit = open_and_run(grid, o, names, set);
     }
     free(settings);

@@ -188,8 +188,9 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
     const struct rg_table *chosen[RG_MAX_WORDS];
     int count;
     double budget_s = 0;
-    if ((o->budget && !rg_duration_read(o->budget, "--budget", &budget_s)) || !choose(arguments, o, chosen, &count) ||
-        !have_rows(o->rows, chosen, count) || !take_sets(&o->sets, chosen, count))
+    if ((o->budget && !rg_duration_read(o->budget, "--budget", &budget_s)) ||
+        !choose(arguments, o, chosen, &count) || !have_rows(o->rows, chosen, count) ||
+        !take_sets(&o->sets, chosen, count))
         return RG_EXIT_USAGE;
     const struct rg_regenerate_options wanted = {.first_row = o->rows.first,
                                                  .last_row = o->rows.last,
@@ -203,7 +204,7 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
                                                  .print = print,
                                                  .user = o};
     struct rg_devices devices;
-    if (o->output && !rg_output_can_be_written(o->output, (int64_t)count * RG_OUTPUT_TABLE_BYTES))
+    if (o->output && !rg_results_can_be_written(chosen, count, o->output))
         return RG_EXIT_USAGE;
     int exit = rg_devices_open_asked(&o->devices, &devices);
     if (exit != RG_EXIT_PASS)

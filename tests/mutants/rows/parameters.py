@@ -10,6 +10,7 @@ THREADS = "harness/console/threads.c"
 
 LOG = "core/base/log.c"
 ROWS = [
+    Fault(VALUE, "if («!*text»)", "false", "an option's text may be empty"),
     Fault(LOG, "return «level == RG_LOG_INFO»;", "true", "each cell that meets an error prints it", tests=("log",)),
     Fault(LOG, "if («is_held»)", "false", "what is only counted logs errors", tests=("log",)),
     Fault(THREADS, "|| «threads <= THREADS_A_PROCESSOR * processors»)", "true", "a hundred thousand threads are made", tests=("command line, results",)),

@@ -1,7 +1,7 @@
 """Records: journals, stored results, numbers and names, what is written to disk."""
 from fault import Fault
 
-TESTS = ("named", "held", "rows", "journal", "output", "stored", "damaged", "sheets, cells", "sheets, json", "sheets, parts", "measure", "machine", "command line, tables", "command line, stored")
+TESTS = ("named", "held", "rows", "journal", "output", "stored", "damaged", "sheets, cells", "sheets, json", "sheets, parts", "measure", "machine", "command line, tables", "command line, stored", "command line, cases")
 
 TABLE = "harness/tables/measuring/measure.c"
 JOURNAL, STORED, NAMED = "harness/record/disk/journal.c", "harness/record/disk/stored.c", "harness/record/named.c"
@@ -12,6 +12,7 @@ HOLD, REGENERATE, CLOCK = "harness/record/disk/hold.c", "harness/tables/runs/reg
 TEMPORARY, FIELDS = "core/image/files/temporary.c", "harness/record/schema/fields.c"
 
 ROWS = [
+    Fault(OUTPUT, "return «lstat(path, &st)» || rg_temporary_try", "true", "what cannot be replaced is found out after the work"),
     Fault(JOURNAL, "journal->has_file = «has_same_head(&found, &journal->held)»;", "true", "a journal of another machine is taken over"),
     Fault(JOURNAL, "return «!strcmp(a->set, b->set)» && a->row_count", "true", "a row of other parameters is taken over"),
     Fault(JOURNAL, "if (!fresh && *j->folder)\n        read_file(j);", "if (*j->folder) read_file(j);", "a fresh run takes over the old one"),

@@ -196,18 +196,36 @@ bool rg_report_markdown(const struct rg_report *report, FILE *out, size_t room)
     return !page.is_broken || rg_error("a step's summary: no memory; close other programs");
 }
 
+// The file to append to, and its size: a FIFO or a device would be waited for. NULL, and one logged
+// line, where it is none.
+static FILE *open_summary(const char *path, struct stat *st)
+{
+    const int flags = O_WRONLY | O_APPEND | O_CREAT | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
+    const int fd = open(path, flags, 0666);
+    const bool is_file = fd >= 0 && !fstat(fd, st) && S_ISREG(st->st_mode);
+    FILE *out = is_file ? fdopen(fd, "a") : NULL;
+    if (out)
+        return out;
+    const char *why = (fd < 0 && errno != ENXIO) || is_file ? strerror(errno) : "is no file";
+    rg_error("%s: cannot be opened: %s; $GITHUB_STEP_SUMMARY must name a file", path, why);
+    if (fd >= 0)
+        close(fd);
+    return NULL;
+}
+
+bool rg_report_can_append(const char *path)
+{
+    struct stat st;
+    FILE *out = open_summary(path, &st);
+    return out && fclose(out) == 0;
+}
+
 bool rg_report_append_markdown(const struct rg_report *report, const char *path)
 {
-    const int fd = open(path, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
     struct stat st;
-    FILE *out = fd >= 0 && !fstat(fd, &st) ? fdopen(fd, "a") : NULL;
-    if (!out) {
-        const int error = errno;
-        if (fd >= 0)
-            close(fd);
-        return rg_error("%s: cannot be opened: %s; $GITHUB_STEP_SUMMARY must name a file", path,
-                        strerror(error));
-    }
+    FILE *out = open_summary(path, &st);
+    if (!out)
+        return false;
     const size_t room = st.st_size < RG_SUMMARY_LIMIT ? RG_SUMMARY_LIMIT - (size_t)st.st_size : 0;
     const bool is_made = rg_report_markdown(report, out, room);
     const bool is_held = !ferror(out);

@@ -133,6 +133,9 @@ bool rg_report_markdown(const struct rg_report *report, FILE *out, size_t room);
 // Appends the Markdown to the file of $GITHUB_STEP_SUMMARY, which the commands of a step share, as
 // far as GitHub's limit of RG_SUMMARY_LIMIT bytes leaves room.
 enum { RG_SUMMARY_LIMIT = 1024 * 1024 };
+// Waits for no FIFO or device: that is refused.
 bool rg_report_append_markdown(const struct rg_report *report, const char *path);
+// Whether it can, as is found out before any work; the file is made. False, and one logged line.
+bool rg_report_can_append(const char *path);
 
 #endif

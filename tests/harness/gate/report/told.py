@@ -1,6 +1,8 @@
 """Reports for the tests of their forms: cases with hostile texts, what becomes of these, and the program that tells them."""
 import dataclasses
 import math
+import resource
+import signal
 import subprocess
 import sys
 
@@ -99,10 +101,17 @@ def names(cases):
     return made
 
 
-def tell(form, cases, path="-", passport=b"cpu\n<passport>", status=0):
-    """What the program prints, in bytes."""
+def fill_disk():
+    """Files of what is started now take no byte, as on a full disk."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+
+
+def tell(form, cases, path="-", passport=b"cpu\n<passport>", status=0, is_full=False):
+    """What the program prints, in bytes; on a disk that is full."""
     fields = [passport] + [field for case in cases for field in case.fields()]
-    ran = subprocess.run([TELL, form, path], input=b"".join(field + b"\0" for field in fields), capture_output=True, check=False)
+    ran = subprocess.run([TELL, form, path], input=b"".join(field + b"\0" for field in fields), capture_output=True, check=False,
+                         preexec_fn=fill_disk if is_full else None)
     assert ran.returncode == status, (form, ran.returncode, ran.stderr[-2000:])
     return ran.stdout if status == 0 else ran.stderr
 
