@@ -5,6 +5,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/devices/devices.h"
@@ -16,6 +17,7 @@
 struct doctor_options {
     char *devices; // their names
     int timeout_s;
+    int64_t memory_bytes;
     bool json;
 };
 
@@ -25,6 +27,7 @@ static const struct rg_option options[] = {
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices), "all"),
     RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
+    RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
@@ -50,6 +53,19 @@ static bool take_names(struct rg_doctor_report *report, const char *names)
         add_name(report, name.name);
     }
     return true;
+}
+
+// One line on stderr for each backend whose driver fails while it lists its devices, of which none
+// can be examined then. Returns an enum rg_exit.
+static int complain_of_listing(const struct rg_device_list *list)
+{
+    int exit = RG_EXIT_PASS;
+    for (int i = 0; i < list->missing_count; i++)
+        if (list->missing[i].outcome != RG_UNSUPPORTED) {
+            rg_driver_error("%s", list->missing[i].why);
+            exit = RG_EXIT_FAIL;
+        }
+    return exit;
 }
 
 // A failure outweighs an absence: it is never hidden by one.
@@ -94,6 +110,7 @@ static void complain(const struct rg_doctor_report *report)
 
 static int run(struct rg_doctor_report *report, const struct doctor_options *o)
 {
+    rg_memory_allow(o->memory_bytes);
     rg_workers.timeout_s = o->timeout_s;
     rg_devices_list(&report->list);
     if (!take_names(report, o->devices) || !examine(report))
@@ -104,7 +121,9 @@ static int run(struct rg_doctor_report *report, const struct doctor_options *o)
     else
         rg_doctor_print_text(report);
     complain(report);
-    return verdict(report);
+    return rg_exit_worse(verdict(report), strcmp(o->devices, "all")
+                                              ? RG_EXIT_PASS
+                                              : complain_of_listing(&report->list));
 }
 
 static int doctor(const void *values, const struct rg_words *arguments)

@@ -7,6 +7,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
@@ -17,6 +18,7 @@
 
 struct list_options {
     int timeout_s;
+    int64_t memory_bytes;
     bool json;
 };
 
@@ -33,6 +35,7 @@ static const struct rg_option options[] = {
      .names = RG_NAMES_TECHNIQUE, .first = 2, .last = 2},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
+    RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
@@ -173,6 +176,7 @@ static int list(const void *values, const struct rg_words *arguments)
     if (!strcmp(what, "figures"))
         return print(list_figures(), what, about_fields, o->json);
     if (!strcmp(what, "devices")) {
+        rg_memory_allow(o->memory_bytes);
         rg_workers.timeout_s = o->timeout_s;
         int exit;
         print(list_devices(&exit), what, device_fields, o->json);

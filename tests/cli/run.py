@@ -14,6 +14,7 @@
            losses   runs that are killed, that lose their disk, folder or clock, and a second one beside one that measures
            long     what verify prints, tables that are counted, set in a row or begun anew, an atlas that is not kept
            misbehaving  drivers that crash, hang, lie about their end or lose their device
+           ways     the same, in all ways, of the commands that take longer
            gates    one device held against another
            baselines  a device held against what was kept of it
            reports  what gates tell, of names with any characters and of what is expected
@@ -63,6 +64,7 @@ SUITES = {
     "losses": lambda runner: runner.check_all(losses.CHECKS),
     "long": lambda runner: runner.check_all(results.LONG),
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
+    "ways": lambda runner: runner.check_all(misbehaving.THOROUGH),
     "gates": lambda runner: runner.check_all(gates.CHECKS),
     "baselines": lambda runner: runner.check_all(baselines.CHECKS),
     "reports": lambda runner: runner.check_all(reports.CHECKS),

@@ -109,7 +109,7 @@ static int run_on(struct rg_grid *grid, const struct rg_devices *devices,
         return rg_exit_of_error();
     rg_plan_print(&plan, devices, o->dry_run ? stdout : stderr);
     if (o->dry_run)
-        return RG_EXIT_PASS;
+        return plan.failed ? rg_exit_of_error() : RG_EXIT_PASS;
     const struct rg_table *const tables[] = {&grid->table};
     const struct rg_regenerate_options wanted = {.full = o->length.full,
                                                  .fresh = true,

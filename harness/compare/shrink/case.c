@@ -90,15 +90,16 @@ static bool take_number(const char *text, int least, int *number)
 
 static bool take_digest(const char *text, uint64_t *digest)
 {
-    char *end;
-    *digest = strtoull(text, &end, 16);
-    return strlen(text) == 16 && !*end;
+    *digest = strtoull(text, NULL, 16);
+    return strlen(text) == 16 && strspn(text, "0123456789abcdef") == 16;
 }
 
 static bool take_size(const char *text, struct rg_subject *subject)
 {
-    char rest;
-    return sscanf(text, "%d%*1[x]%d%c", &subject->width, &subject->height, &rest) == 2 &&
+    enum { DIGITS = 5 }; // so that they fit
+    int end = 0;
+    return strspn(text, "0123456789x") == strlen(text) && strcspn(text, "x") <= DIGITS &&
+           sscanf(text, "%dx%5d%n", &subject->width, &subject->height, &end) == 2 && !text[end] &&
            subject->width > 0 && subject->height > 0 && subject->width <= 16384 &&
            subject->height <= 16384;
 }
@@ -171,9 +172,10 @@ bool rg_case_read(const char *path, struct rg_case *c)
         if (!rg_line_is_empty(&lines.lines[i]))
             ok = read_line(path, i + 1, rg_line_skip(lines.lines[i].text), c);
     rg_lines_free(&lines);
-    if (ok && (!c->run.subject.settings || !c->run.subject.width || !*c->asset || !c->expected))
-        ok = rg_error("%s: lacks its technique, size, asset or expected digest; write one anew "
-                      "with `raingauge shrink`",
+    if (ok && (!c->run.subject.settings || !c->run.subject.width || !*c->asset || !c->expected ||
+               !c->difference || !*c->truth || !*c->device))
+        ok = rg_error("%s: lacks its technique, size, asset, class, expected digest or devices; "
+                      "write one anew with `raingauge shrink`",
                       path);
     return ok;
 }

@@ -103,6 +103,15 @@ static bool probe_device(const struct rg_table *table, const char *set, struct r
     return !last || probe_row(table, set, last, device, &probes[1]);
 }
 
+// A device that fails is measured like the others, which tells how it does. False where the input
+// is at fault, or no device is left.
+static bool leave_out(struct rg_plan *plan, int device)
+{
+    plan->device_s[device] = NAN;
+    plan->failed++;
+    return rg_last_error_kind() != RG_ERROR_INPUT && plan->failed < plan->devices;
+}
+
 bool rg_plan_make(const struct rg_table *table, const char *set, bool is_full, struct rg_kept *kept,
                   struct rg_plan *plan)
 {
@@ -112,10 +121,11 @@ bool rg_plan_make(const struct rg_table *table, const char *set, bool is_full, s
     *plan = (struct rg_plan){.rows = table->row_count, .devices = kept->devices->count};
     for (int d = 0; d < plan->devices; d++) {
         struct rg_device *device = kept->devices->devices[d];
-        if (!probe_device(table, set, device, probes))
-            return false;
-        add_rows(table, options, probes, d, plan);
         has_reference = has_reference || !strcmp(device->info.name, "cpu:reference");
+        if (probe_device(table, set, device, probes))
+            add_rows(table, options, probes, d, plan);
+        else if (!leave_out(plan, d))
+            return false;
     }
     if (has_reference)
         return true;
@@ -130,7 +140,7 @@ bool rg_plan_make(const struct rg_table *table, const char *set, bool is_full, s
 static void print_duration(double s, FILE *out)
 {
     char text[RG_DURATION_TEXT];
-    fputs(rg_duration_text(s, text), out);
+    fputs(isnan(s) ? "not known" : rg_duration_text(s, text), out);
 }
 
 void rg_plan_print(const struct rg_plan *plan, const struct rg_devices *devices, FILE *out)
@@ -139,7 +149,7 @@ void rg_plan_print(const struct rg_plan *plan, const struct rg_devices *devices,
     fprintf(out, "plan: %d rows on ", plan->rows);
     for (int d = 0; d < plan->devices; d++) {
         fprintf(out, "%s%s", d ? ", " : "", devices->devices[d]->info.name);
-        total += plan->device_s[d];
+        total += isnan(plan->device_s[d]) ? 0 : plan->device_s[d];
     }
     fprintf(out, ", %d cells; about ", plan->rows * plan->devices);
     print_duration(total, out);

@@ -6,6 +6,7 @@ import subprocess
 import tempfile
 
 import forms
+import misbehaving
 import results
 
 TESTS = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -122,6 +123,25 @@ def check_crash(runner):
     return problems
 
 
+WAYS = (("vulkan", "vkCreateComputePipelines", "hang", 1), ("gl", "glDispatchCompute", "fault", 3), ("gl", "glLinkProgram", "swell", 2),
+        ("opencl", "clEnqueueNDRangeKernel", "exit", 2), ("opencl", "clEnqueueNDRangeKernel", "lost", 2))
+
+
+def check_ways(runner):
+    """in whatever else way B's driver misbehaves, its cells end so, in one line"""
+    problems = []
+    for case in WAYS:
+        with Files(TORUS) as files:
+            env = misbehaving.shim(runner, files.folder.name, *case)
+            device = case[0] + "@" + ";".join("%s=%s" % pair for pair in env.items())
+            result = runner.run(["gate", case[0], device, "--cells", files.cells, "--json"] + misbehaving.bounds(case[2]))
+        found = set(endings(json.loads(result.stdout)).values()) if result.stdout else set()
+        outcome, said = misbehaving.HOW[case[2]]
+        if result.returncode != 1 or found != {outcome} or result.stderr.count("\n") != 1 or not re.search(said, result.stderr):
+            problems.append("%s: exit status %d, %s, %s" % (case, result.returncode, found, result.stderr))
+    return problems
+
+
 def check_miscompiled(runner):
     """a kernel in which one constant is another is found before anything is timed, and blamed on its stage"""
     with Files() as files:
@@ -175,4 +195,4 @@ def check_refused(runner):
     return problems
 
 
-CHECKS = [check_same, check_slower, check_builds, check_open, check_crash, check_miscompiled, check_gtest, check_refused]
+CHECKS = [check_same, check_slower, check_builds, check_open, check_crash, check_ways, check_miscompiled, check_gtest, check_refused]

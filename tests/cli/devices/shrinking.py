@@ -67,7 +67,7 @@ def check_shrunk(runner):
         for right, wrong, says in (
                 ("size 1x1", "size 1x", r"line 4: 'size' is no line of a case here"),
                 ("set environment_px", "set nonsense_px", r"line \d+: .*nonsense_px"),
-                ("asset normals", "", r"lacks its technique, size, asset or expected digest"),
+                ("asset normals", "", r"lacks its technique, size, asset, class, expected digest or devices"),
                 ("technique flow", "technique nonsense", r"line 3: 'technique' is no line")):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text.replace(right, wrong))

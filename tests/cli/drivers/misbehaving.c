@@ -20,6 +20,7 @@
 #include <CL/cl.h>
 #include <EGL/egl.h>
 #include <GL/gl.h>
+#include <GL/glext.h>
 #include <vulkan/vk_icd.h>
 #include <vulkan/vulkan.h>
 
@@ -83,6 +84,7 @@ static any_function (*real_eglGetProcAddress)(const char *);
 static void (*real_glLinkProgram)(GLuint);
 static void (*real_glDispatchCompute)(GLuint, GLuint, GLuint);
 static void (*real_glFinish)(void);
+static GLenum (*real_glGetError)(void);
 
 static VkResult hooked_vkEnumeratePhysicalDevices(VkInstance i, uint32_t *n, VkPhysicalDevice *d)
 {
@@ -177,6 +179,11 @@ static void hooked_glFinish(void)
         real_glFinish();
 }
 
+static GLenum hooked_glGetError(void)
+{
+    return misbehaves("glGetError") ? GL_CONTEXT_LOST : real_glGetError();
+}
+
 // clang-format off
 #define HOOK(function) {#function, (any_function)hooked_##function, (any_function *)(void *)&real_##function}
 // clang-format on
@@ -198,6 +205,7 @@ static any_function hook_of(const char *name, any_function real)
         HOOK(glLinkProgram),
         HOOK(glDispatchCompute),
         HOOK(glFinish),
+        HOOK(glGetError),
     };
     for (size_t i = 0; real && name && i < sizeof(hooks) / sizeof(hooks[0]); i++) {
         if (strcmp(hooks[i].name, name) != 0)

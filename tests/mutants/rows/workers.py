@@ -1,13 +1,14 @@
 """Workers: how they are asked, how they end, and what is made of it; names of devices."""
 from fault import Fault
 
-TESTS = ("workers that end", "messages", "names of devices", "sessions in workers", "subjects between processes", "log", "command line, misbehaving")
+TESTS = ("workers that end", "messages", "names of devices", "sessions in workers", "subjects between processes", "log", "command line, misbehaving", "command line, gates")
 
 W = "harness/devices/workers/"
 WORKER, CHANNEL, SERVE, MESSAGE, ENVIRONMENT, DEVICE = (
     W + name + ".c" for name in ("worker", "channel", "serve", "message", "environment", "device"))
 NAMES, DEVICES, REMOTE, LOG = ("harness/devices/names.c", "harness/devices/devices.c", "harness/frames/remote.c", "core/base/log.c")
 DIFF, MESSAGES = "harness/compare/diff/devices.c", "harness/frames/messages.c"
+PLAN, DOCTOR = "harness/tables/sweep/plan.c", "harness/commands/doctor.c"
 
 ROWS = [
     Fault(WORKER, "if («worker->life < RG_WORKER_LIVES»)", "true", "a worker is started without end"),
@@ -51,5 +52,8 @@ ROWS = [
     Fault(REMOTE, "if («bytes && due && *size != due»)", "false", "a picture may be of any size", lives="the worker is this program, and sends the size that is due"),
     Fault(LOG, "else if («rg_log_is_news(level, line)»)", "true", "one error is many lines"),
     Fault(DIFF, "if (rg_last_error_kind() == RG_ERROR_INPUT)\n        return false;", "return false;", "a device that fails ends the comparison of the others"),
+    Fault(PLAN, "else if («!leave_out(plan, d)»)", "true", "a device that fails ends a sweep of the others"),
+    Fault(PLAN, "return rg_last_error_kind() != RG_ERROR_INPUT && «plan->failed < plan->devices»;", "true", "a sweep of no device is planned", lives="what is measured then are failures, and it ends as such"),
+    Fault(DOCTOR, "exit = «RG_EXIT_FAIL»;\n        }", "RG_EXIT_PASS", "a backend that crashes while it is listed is no failure"),
     Fault(DIFF, "s->exit = rg_exit_worse(s->exit, rg_exit_of(outcome));", ";", "a device that failed passes"),
 ]

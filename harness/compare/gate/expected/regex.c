@@ -10,13 +10,18 @@
 #include "core/base/log.h"
 #include "harness/compare/gate/expected/inside.h"
 
-enum { MOST_BYTES = 16384 };
+// The C library writes counted repetitions out, takes memory for each pair of what may be left out,
+// and goes into groups by recursion: a few bytes could take all of it.
+enum { MOST_BYTES = 4096, MOST_ATOMS = 4096, MOST_DEPTH = 250 };
 
 struct translation {
     const char *place;
-    const char *at;   // what comes next
-    char *to;         // where it goes to: at most 6 bytes for each of the text's
-    bool is_repeated; // what stands last is a repetition, which a ? would make lazy
+    const char *at;               // what comes next
+    char *to;                     // where it goes to: at most 6 bytes for each of the text's
+    bool is_repeated;             // what stands last is a repetition, which a ? would make lazy
+    int depth;                    // of the group that it is in
+    double atoms[MOST_DEPTH + 1]; // of each group around, with counts written out
+    double last;                  // those of what stands last
 };
 
 static void put(struct translation *t, const char *text)
@@ -31,6 +36,53 @@ static bool refuse(const struct translation *t, const char *what)
     return rg_error("%s: regular expression: %s at '%.40s' is not known here; write it without "
                     "(docs/expectations.md)",
                     t->place, what, t->at);
+}
+
+static void add_atoms(struct translation *t, double atoms)
+{
+    t->last = atoms;
+    t->atoms[t->depth] += atoms;
+}
+
+static bool open_group(struct translation *t)
+{
+    if (t->depth == MOST_DEPTH)
+        return refuse(t, "so deep a group");
+    t->atoms[++t->depth] = 0;
+    return true;
+}
+
+static void close_group(struct translation *t)
+{
+    if (t->depth > 0) {
+        const double inside = t->atoms[t->depth--];
+        add_atoms(t, inside + 2); // and the group itself
+    }
+}
+
+// {3}, {3,} or {3,5} behind what stands last: it is there so many times.
+static bool take_count(struct translation *t)
+{
+    char *end;
+    const char *from = t->at + 1;
+    double most = strtod(from, &end);
+    if (*end == ',' && isdigit((unsigned char)end[1]))
+        most = strtod(end + 1, &end);
+    else
+        end += *end == ',';
+    const size_t length = (size_t)(end - t->at) + 1;
+    if (!isdigit((unsigned char)*from) || *end != '}' || strspn(from, "0123456789,") + 2 != length)
+        return refuse(t, "this count");
+    const double last = t->last * (most > 1 ? most : 1);
+    t->atoms[t->depth] += last - t->last;
+    t->last = last;
+    if (t->atoms[t->depth] > MOST_ATOMS)
+        return refuse(t, "a count that comes to so much");
+    memcpy(t->to, t->at, length);
+    t->to += length;
+    t->at += length;
+    t->is_repeated = true;
+    return true;
 }
 
 static bool take_escape(struct translation *t)
@@ -77,10 +129,16 @@ static bool take_other(struct translation *t)
             return refuse(t, "this group");
         t->at += 2;
     }
+    if (c == '(' && !open_group(t))
+        return false;
+    if (c == ')')
+        close_group(t);
+    else if (!strchr("(|*+?", c))
+        add_atoms(t, 1);
     const bool is_lazy = c == '?' && t->is_repeated;
     if (!is_lazy)
         *t->to++ = c;
-    t->is_repeated = !is_lazy && strchr("*+?}", c);
+    t->is_repeated = !is_lazy && strchr("*+?", c);
     t->at++;
     return true;
 }
@@ -90,9 +148,14 @@ static bool translate(struct translation *t)
     bool ok = true;
     while (ok && *t->at) {
         const bool is_one = *t->at == '\\' || *t->at == '[';
-        ok = *t->at == '\\' ? take_escape(t) : *t->at == '[' ? take_class(t) : take_other(t);
-        if (is_one)
+        ok = *t->at == '\\'  ? take_escape(t)
+             : *t->at == '[' ? take_class(t)
+             : *t->at == '{' ? take_count(t)
+                             : take_other(t);
+        if (is_one) {
             t->is_repeated = false;
+            add_atoms(t, 1);
+        }
     }
     *t->to = 0;
     return ok;

@@ -236,6 +236,9 @@ static void mesas_files_are_read_as_they_are(void **state)
 }
 
 // What Rust's regular expressions have and ours has not is refused, never taken for something else.
+#define FOUR(text) text text text text
+#define DEEP       FOUR(FOUR(FOUR(FOUR("(")))) "a" FOUR(FOUR(FOUR(FOUR(")"))))
+
 static void expressions_are_rusts_or_refused(void **state)
 {
     (void)state;
@@ -259,8 +262,11 @@ static void expressions_are_rusts_or_refused(void **state)
             fail_msg("%s: %s", rows[i].regex, rows[i].unmatched);
         rg_known_free(&expected);
     }
-    static const char *const refused[] = {"(?i)a",   "(?P<n>a)", "\\pL", "\\x41", "\\A", "[\\d]",
-                                          "[[:x:]]", "[a&&b]",   "[a",   "a\\",   "(a",  "a\\<"};
+    static const char *const refused[] = {"(?i)a", "(?P<n>a)", "\\pL", "\\x41", "\\A", "[\\d]",
+                                          "[[:x:]]", "[a&&b]", "[a", "a\\", "(a", "a\\<",
+                                          // what would take memory without end
+                                          "a{x}", "a{,3}", "((a{1,99}){1,99}){1,99}",
+                                          "((){1,99}){99}", DEEP};
     for (size_t i = 0; i < sizeof(refused) / sizeof(refused[0]); i++) {
         memset(&expected, 0, sizeof(expected));
         if (add(&expected, refused[i], RG_FORM_SKIPS) || expected.count || logged_lines != 1 ||

@@ -1,0 +1,61 @@
+// Files of expectations: ours, and Mesa's three. What is taken is asked about some cells, and a
+// patch of ours is written.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/compare/gate/expected/expected.h"
+#include "tests/fuzz/heard.h"
+
+enum { TODAY = 20780 }; // 2026-11-23
+
+static const struct rg_known_result results[] = {
+    {"streaks/rain", "vulkan", "Mesa 22.3.6", RG_FAIL, 12, 3},
+    {"flow/pane", "gl", "Mesa 22.3.6", RG_OK, 0, 0},
+    {"drops/pane", "vulkan@VK_DRIVER_FILES=new.json", "Mesa 25.0", RG_CRASH, NAN, NAN},
+};
+enum { RESULTS = sizeof(results) / sizeof(results[0]) };
+
+static void ask(const struct rg_known *known)
+{
+    for (int i = 0; i < RESULTS; i++) {
+        const int64_t row =
+            rg_known_row(known, results[i].cell, results[i].device, results[i].driver);
+        if (row < -1 || row >= known->count)
+            fuzz_complain("a row that is not there");
+        const enum rg_met met = rg_known_judge(known, row, &results[i], TODAY);
+        if ((met == RG_MET_NOTHING) != (row < 0) || !rg_met_name(met))
+            fuzz_complain("a verdict that cannot be");
+        rg_known_skips(known, row, TODAY);
+    }
+}
+
+static void patch(const struct rg_known *known)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    fuzz_listen();
+    if (!out || !rg_known_patch(known, 0, results, RESULTS, TODAY, true, out) || fclose(out))
+        fuzz_complain("taken, and no patch can be made");
+    fuzz_judge_lines(true, 0);
+    free(text);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    const char *path = fuzz_write("fuzz.txt", data, size);
+    for (int form = RG_FORM_OWN; form <= RG_FORM_SKIPS; form++) {
+        struct rg_known known = {.count = 0};
+        fuzz_listen();
+        const bool taken = rg_known_add(&known, path, (enum rg_known_form)form);
+        fuzz_judge_lines(taken, 0);
+        if (taken)
+            ask(&known);
+        if (taken && form == RG_FORM_OWN)
+            patch(&known);
+        rg_known_free(&known);
+    }
+    return 0;
+}
