@@ -1,5 +1,6 @@
 """What is lost when a run that measures is killed, or another begins beside it: nothing that was measured before."""
 import fcntl
+import itertools
 import json
 import os
 import re
@@ -227,5 +228,39 @@ def check_earlier(runner):
     return problems
 
 
-CHECKS = [check_harness_killed, check_worker_killed, check_both_killed, check_second, check_held, check_full,
+# Commands that write files, at work for longer than they are left alone.
+WRITING = {
+    "render": "render flow --frame 100000 -o {}/a.png",
+    "pictures": "render flow --frames 0-100000 --size 64x64 -o {}/%d.png",
+    "clip": "render flow --frames 0-100000 --size 64x64 -o {}/a.webm",
+    "diff": "diff flow --device cpu,cpu:reference --frame 100000 -o {}/heat",
+    "table": "table chin-grid --quick --device cpu -o {}/table",
+    "sweep": "sweep flow --axis seed=1,2..9 --size 64x64 --device cpu -o {}/sweep",
+    "figures": "figures creus-4.1 -o {}/figures",
+    "atlas": "atlas cartoon -o {}/atlas",
+    "gate": "gate cpu cpu:reference --junit {0}/junit.xml --bmf {0}/bmf.json",
+    "shrink": "shrink flow --device cpu,cpu:reference --frame 1000 -o {}/case.txt",
+}
+AT_WORK_S = 0.4
+
+
+def check_signals(runner):
+    """SIGINT and SIGTERM leave no temporary file of any command, and no worker"""
+    problems = []
+    for (name, command), number in itertools.product(WRITING.items(), (signal.SIGINT, signal.SIGTERM)):
+        with tempfile.TemporaryDirectory() as out:
+            process = runner.start(command.format(out).split(), {"XDG_STATE_HOME": out})
+            time.sleep(AT_WORK_S)
+            workers = workers_of(process.pid) if process.poll() is None else []
+            process.send_signal(number)
+            process.communicate(timeout=LIMIT_S)
+            left = [file for _, _, files in os.walk(out) for file in files if file.startswith(".") or ".tmp" in file]
+            if left or not wait_for(lambda: not any(map(runs, workers))):
+                problems.append("%s, %s: %s" % (name, number.name, left or "a worker is left"))
+            if process.returncode not in (0, 1, 128 + number, -number):
+                problems.append("%s, %s: exit status %d" % (name, number.name, process.returncode))
+    return problems
+
+
+CHECKS = [check_signals, check_harness_killed, check_worker_killed, check_both_killed, check_second, check_held, check_full,
           check_read_only_midway, check_read_only, check_earlier]

@@ -19,7 +19,7 @@ static char *text_of(const char *path)
 // Its text, from a file that it is written to.
 static char *write_case(const struct rg_case *found)
 {
-    const char *path = fuzz_write("written.txt", NULL, 0);
+    const char *path = fuzz_write("written.txt", (const uint8_t *)"", 0);
     fuzz_listen();
     if (!rg_case_write(found, "a note", path))
         fuzz_complain("taken, and cannot be written");
