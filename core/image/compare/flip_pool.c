@@ -16,10 +16,33 @@ static inline uint32_t fixed(float flip)
     return (uint32_t)(flip * 2147483648.0f);
 }
 
-// Of the pixels (in the mask, if any) whose value agrees with `prefix` above the digit at `shift`.
-// The first digit has no prefix and one bin more, for the value 1.
-static void count_digits(const float *map, const uint8_t *mask, int64_t pixels, uint32_t prefix,
-                         int shift, bool first, struct histogram *total)
+// What is looked for: the smallest value at which the running total, of counts or of values, passes
+// a target. Its digits are found from the first on.
+struct wanted {
+    bool by_sum;
+    uint64_t target, running; // the total below the digits that are known
+    uint32_t prefix;          // these digits
+    struct histogram digits;  // of the next one, of the pixels that agree so far
+};
+enum { MOST_WANTED = 4 };
+
+static inline void count_value(struct histogram *histogram, uint32_t digit, uint32_t value)
+{
+    histogram->count[digit]++;
+    histogram->sum[digit] += value;
+}
+
+static void add_histogram(struct histogram *total, const struct histogram *own)
+{
+    for (int b = 0; b < BINS; b++) {
+        total->count[b] += own->count[b];
+        total->sum[b] += own->sum[b];
+    }
+}
+
+// Of the first digit, of the pixels in the mask, if any. It has one bin more, for the value 1.
+static void count_first(const float *map, const uint8_t *mask, int64_t pixels,
+                        struct histogram *total)
 {
     memset(total, 0, sizeof(*total));
 #pragma omp parallel
@@ -28,40 +51,68 @@ static void count_digits(const float *map, const uint8_t *mask, int64_t pixels, 
         memset(&own, 0, sizeof(own));
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < pixels; i++) {
-            uint32_t value = fixed(map[i]);
-            if ((mask && !mask[i]) || (!first && value >> (shift + DIGIT_BITS) != prefix))
-                continue;
-            uint32_t digit = value >> shift;
-            if (!first)
-                digit &= BINS - 2;
-            own.count[digit]++;
-            own.sum[digit] += value;
+            const uint32_t value = fixed(map[i]);
+            if (!mask || mask[i])
+                count_value(&own, value >> FIRST_SHIFT, value);
         }
 #pragma omp critical
-        for (int b = 0; b < BINS; b++) {
-            total->count[b] += own.count[b];
-            total->sum[b] += own.sum[b];
-        }
+        add_histogram(total, &own);
     }
 }
 
-// The smallest value at which the running total (of counts, or of values) passes `target`.
-// `top` is the histogram of the first digit.
-static double select_value(const float *map, const uint8_t *mask, int64_t pixels,
-                           const struct histogram *top, bool by_sum, uint64_t target)
+// The digit at `shift` of what agrees with each of the wanted above it: in one walk, of which most
+// pixels drop out by their first digit.
+static void count_next(const float *map, const uint8_t *mask, int64_t pixels, int shift,
+                       struct wanted *wanted, int count)
 {
-    struct histogram digits = *top;
-    uint64_t running = 0;
-    uint32_t prefix = 0;
+    bool is_near[BINS] = {false};
+    for (int w = 0; w < count; w++) {
+        is_near[wanted[w].prefix >> (FIRST_SHIFT - shift - DIGIT_BITS)] = true;
+        memset(&wanted[w].digits, 0, sizeof(wanted[w].digits));
+    }
+#pragma omp parallel
+    {
+        struct histogram own[MOST_WANTED];
+        memset(own, 0, sizeof(own));
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < pixels; i++) {
+            const uint32_t value = fixed(map[i]);
+            if (!is_near[value >> FIRST_SHIFT] || (mask && !mask[i]))
+                continue;
+            for (int w = 0; w < count; w++)
+                if (value >> (shift + DIGIT_BITS) == wanted[w].prefix)
+                    count_value(&own[w], value >> shift & (BINS - 2), value);
+        }
+#pragma omp critical
+        for (int w = 0; w < count; w++)
+            add_histogram(&wanted[w].digits, &own[w]);
+    }
+}
+
+static void take_digit(struct wanted *wanted, int shift)
+{
+    const uint64_t *bins = wanted->by_sum ? wanted->digits.sum : wanted->digits.count;
+    uint32_t bin = 0;
+    while (bin < BINS - 1 && wanted->running + bins[bin] <= wanted->target)
+        wanted->running += bins[bin++];
+    wanted->prefix = shift == FIRST_SHIFT ? bin : wanted->prefix << DIGIT_BITS | bin;
+}
+
+// Finds the values of all that is wanted. `top` is the histogram of the first digit.
+static void select_values(const float *map, const uint8_t *mask, int64_t pixels,
+                          const struct histogram *top, struct wanted *wanted, int count,
+                          double *values)
+{
+    for (int w = 0; w < count; w++)
+        wanted[w].digits = *top;
     for (int shift = FIRST_SHIFT;; shift -= DIGIT_BITS) {
-        const uint64_t *bins = by_sum ? digits.sum : digits.count;
-        uint32_t bin = 0;
-        while (bin < BINS - 1 && running + bins[bin] <= target)
-            running += bins[bin++];
-        prefix = shift == FIRST_SHIFT ? bin : prefix << DIGIT_BITS | bin;
+        for (int w = 0; w < count; w++) {
+            take_digit(&wanted[w], shift);
+            values[w] = (double)((uint64_t)wanted[w].prefix << shift) / 2147483648.0;
+        }
         if (shift < DIGIT_BITS)
-            return (double)((uint64_t)prefix << shift) / 2147483648.0;
-        count_digits(map, mask, pixels, prefix, shift - DIGIT_BITS, false, &digits);
+            return;
+        count_next(map, mask, pixels, shift - DIGIT_BITS, wanted, count);
     }
 }
 
@@ -79,33 +130,46 @@ static uint64_t rank_p99(uint64_t count)
     return (count * 99 + 99) / 100 - 1;
 }
 
+static float largest(const float *map, int64_t pixels)
+{
+    float max = 0.0f;
+#pragma omp parallel for schedule(static) reduction(max : max)
+    for (int64_t i = 0; i < pixels; i++)
+        max = map[i] > max ? map[i] : max;
+    return max;
+}
+
 bool rg_flip_pool(const float *map, const uint8_t *mask, int64_t pixels, struct rg_flip *flip)
 {
     memset(flip, 0, sizeof(*flip));
     struct histogram top;
-    count_digits(map, NULL, pixels, 0, FIRST_SHIFT, true, &top);
+    count_first(map, NULL, pixels, &top);
     uint64_t count = add(top.count), sum = add(top.sum);
     if (sum == 0)
         return true;
-    float max = 0.0f;
-    for (int64_t i = 0; i < pixels; i++)
-        max = map[i] > max ? map[i] : max;
-    flip->max = (double)max;
+    struct wanted wanted[MOST_WANTED] = {{.target = rank_p99(count)},
+                                         {.by_sum = true, .target = sum / 2},
+                                         {.by_sum = true, .target = sum / 4},
+                                         {.by_sum = true, .target = sum / 4 * 3}};
+    double values[MOST_WANTED];
+    select_values(map, NULL, pixels, &top, wanted, MOST_WANTED, values);
+    flip->max = (double)largest(map, pixels);
     flip->mean = (double)sum / 2147483648.0 / (double)count;
-    flip->p99 = select_value(map, NULL, pixels, &top, false, rank_p99(count));
-    flip->weighted_median = select_value(map, NULL, pixels, &top, true, sum / 2);
-    flip->weighted_quartile_1 = select_value(map, NULL, pixels, &top, true, sum / 4);
-    flip->weighted_quartile_3 = select_value(map, NULL, pixels, &top, true, sum / 4 * 3);
+    flip->p99 = values[0];
+    flip->weighted_median = values[1];
+    flip->weighted_quartile_1 = values[2];
+    flip->weighted_quartile_3 = values[3];
     flip->mask_mean = flip->mean;
     flip->mask_p99 = flip->p99;
     if (!mask)
         return true;
     flip->mask_mean = flip->mask_p99 = 0;
-    count_digits(map, mask, pixels, 0, FIRST_SHIFT, true, &top);
+    count_first(map, mask, pixels, &top);
     count = add(top.count);
     if (count == 0)
         return true;
+    struct wanted in_mask = {.target = rank_p99(count)};
     flip->mask_mean = (double)add(top.sum) / 2147483648.0 / (double)count;
-    flip->mask_p99 = select_value(map, mask, pixels, &top, false, rank_p99(count));
+    select_values(map, mask, pixels, &top, &in_mask, 1, &flip->mask_p99);
     return true;
 }

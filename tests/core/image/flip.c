@@ -426,7 +426,7 @@ static void pooling_equals_sorting(void **state)
 {
     (void)state;
     enum { COUNT = 12345 };
-    static float map[COUNT], sorted[COUNT];
+    static float map[COUNT], sorted[COUNT], in_mask[COUNT];
     static uint8_t mask[COUNT];
     double sum = 0, running = 0, mask_sum = 0;
     int masked = 0;
@@ -434,12 +434,14 @@ static void pooling_equals_sorting(void **state)
         float u = (float)(rain_noise(i) >> 8) * 0x1p-24f;
         map[i] = i % 3 ? u * u * u : 0.0f;
         mask[i] = i % 7 == 0;
+        in_mask[masked] = map[i];
         masked += mask[i];
         mask_sum += mask[i] ? (double)map[i] : 0;
     }
     map[100] = 1.0f;
     memcpy(sorted, map, sizeof(map));
     qsort(sorted, COUNT, sizeof(float), ascending);
+    qsort(in_mask, (size_t)masked, sizeof(float), ascending);
     for (int i = 0; i < COUNT; i++)
         sum += (double)sorted[i];
     int quarter[3] = {0}; // ranks at which a quarter of the sum is passed, two, and three
@@ -457,6 +459,7 @@ static void pooling_equals_sorting(void **state)
     assert_true(fabs(flip.weighted_median - (double)sorted[quarter[1]]) < 1e-8);
     assert_true(fabs(flip.weighted_quartile_3 - (double)sorted[quarter[2]]) < 1e-8);
     assert_true(fabs(flip.mask_mean - mask_sum / masked) < 1e-9);
+    assert_true(fabs(flip.mask_p99 - (double)in_mask[(masked * 99 + 99) / 100 - 1]) < 1e-8);
 }
 
 int main(void)
