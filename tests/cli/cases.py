@@ -114,6 +114,8 @@ COMMANDS = [
     Case("gate cpu cpu --fails {data}/socket.json", 2, r"socket\.json: is not a regular file"),
     Case("gate cpu cpu --skips /dev/zero", 2, r"/dev/zero: is not a regular file"),
     Case("gate cpu cpu --junit {data}/fifo.txt", 2, r"fifo\.txt: is not a regular file"),
+    Case("gate --baseline {data}/fifo.json", 2, r"fifo\.json: cannot be read: is not a regular file"),
+    Case("baseline --device cpu -o {data}/fifo.txt", 2, r"fifo\.txt: is not a regular file"),
     Case("gate cpu cpu --github", 2, r"fifo\.txt: cannot be opened: is no file; \$GITHUB_STEP_SUMMARY must name a file",
          {"GITHUB_STEP_SUMMARY": "{data}/fifo.txt"}),
     Case("render --case {data}/fifo.txt", 2, r"fifo\.txt: is not a regular file"),
