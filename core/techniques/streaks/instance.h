@@ -31,6 +31,13 @@ struct streaks_map {
     struct rg_image *numbers; // RGBA8: of surfaces, of the same size; one texel if nobody asks
 };
 
+// Particles in their packets, which instances on a device whose rain is the same share.
+struct streaks_rain {
+    struct streaks_packets *packets;
+    int buffer_count;
+    struct rg_buf *particles[STREAKS_MAX_BUFFERS];
+};
+
 enum { STREAKS_SIZES = 512 };
 
 // The sizes of drops: one class, or STREAKS_SIZES that are equally frequent.
@@ -46,7 +53,7 @@ struct streaks {
     struct rg_instance base;
     struct streaks_settings settings;
     struct rg_rain_space space;
-    struct streaks_packets *packets;
+    const struct streaks_rain *rain;
     struct scenery *scene;
     struct streaks_textures *textures;
     struct scenery_lights *lights;
@@ -60,8 +67,6 @@ struct streaks {
     double fit_error;    // that fit=on found
     int first_stage;     // of enum streaks_pass, behind those of the scene
     bool rain_alone;     // nothing but rain is drawn, for the search of fit=on
-    int buffer_count;
-    struct rg_buf *particles[STREAKS_MAX_BUFFERS];
     // Assets whose buffers change: another buffer of particles for each draw, and lists that grow.
     struct rg_asset *particles_now, *blocks, *places;
     struct rg_fact *particles_told; // NULL: not yet

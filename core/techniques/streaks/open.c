@@ -136,7 +136,7 @@ static bool open_stages(struct streaks *s)
 static void tell_facts(struct streaks *s)
 {
     struct rg_instance *i = &s->base;
-    const struct streaks_packets_info *info = streaks_packets_info(s->packets);
+    const struct streaks_packets_info *info = streaks_packets_info(s->rain->packets);
     const struct streaks_settings *set = &s->settings;
     s->particles_told = rg_tell(i, "particles", 0);
     rg_tell(i, "total_particles", (double)info->total_particles);

@@ -32,6 +32,7 @@ static const struct rg_param rows[] = {
     {"select", RG_PARAM_CHOICE, AT(select), 0, 0, 1, "1", "packets by the bounding rectangles of view and culling radius, or by the convex hull of what both see", "rect hull"},
     {"cull", RG_PARAM_CHOICE, AT(exact), 0, 0, 1, "1", "particles with their packets alone, or also one by one at the culling radius", "packets exact"},
     {"blocks", RG_PARAM_CHOICE, AT(all_blocks), 0, 0, 1, "1", "of the packets: those blocks of 32 particles that can be seen are drawn, or all, as the thesis does", "seen all"},
+    {"sparse", RG_PARAM_INT, AT(sparse), 1, 1, 1024, "1", "of the blocks that would be drawn one in so many is, and the others are left out: less rain, for a quick look at how times go with other settings", NULL},
     {"order", RG_PARAM_CHOICE, AT(by_id), 0, 0, 1, "1", "particles are drawn packet by packet, or by their number, whatever their packets", "packet id"},
     {"memory_mb", RG_PARAM_INT, AT(memory_mb), 8192, 1, 1000000, "MB", "the most that particles may take", NULL},
     {"depth_map", RG_PARAM_CHOICE, AT(dynamic_map), 0, 0, 1, "1", "of the scene seen along the fall: drawn once for the whole rain space, or again and again around the observer", "static dynamic"},

@@ -16,7 +16,7 @@
 static bool run_over(struct streaks *s, enum streaks_pass pass, const struct streaks_draw *draw)
 {
     const struct rg_extent first = {0, 0, 0}, items = {draw->block_count * STREAKS_BLOCK, 1, 1};
-    s->particles_now->buf = s->particles[draw->buffer];
+    s->particles_now->buf = s->rain->particles[draw->buffer];
     return (s->selection.draw_count == 1 || streaks_write_blocks(s, draw)) &&
            rg_stage_over(&s->base, s->first_stage + (int)pass, first, items);
 }

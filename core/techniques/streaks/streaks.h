@@ -24,7 +24,7 @@ struct streaks_settings {
     int limits; // 0: rain everywhere
     int fit;    // whether height and radius are searched for
     double fit_error;
-    int scheme, packet_size, select, exact, all_blocks, by_id;
+    int scheme, packet_size, select, exact, all_blocks, sparse, by_id;
     int memory_mb;
     // what drops hit
     int dynamic_map, map_px, map_period;

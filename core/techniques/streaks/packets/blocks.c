@@ -23,6 +23,7 @@ static struct streaks_run run_of(const struct streaks_packets *p, const struct s
     const struct streaks_packet *bucket = &p->grid.buckets[p->grid.levels[place]];
     return (struct streaks_run){
         .slot = bucket->first,
+        .place = place,
         .count = bucket->count,
         .shift_x = (float)(2.0 * (place % p->grid.across) / p->grid.across),
         .shift_y = (float)(2.0 * (place / p->grid.across) / p->grid.down),
@@ -93,6 +94,24 @@ static void write_run(const struct streaks_run *run, const uint8_t *seen, uint32
         write_block(to, run->slot + i * STREAKS_BLOCK,
                     left < STREAKS_BLOCK ? ((uint32_t)1 << left) - 1 : UINT32_MAX, run);
         to += STREAKS_BLOCK_WORDS;
+    }
+}
+
+// Whether a block, counted through all buffers, is one of the few of a sparse rain. A bucket's
+// blocks stand at many places, each of which has others of them.
+static bool is_kept(int64_t block, int place, int sparse)
+{
+    return sparse <= 1 || (block + place) % sparse == 0;
+}
+
+// Leaves blocks out of those of a run that are seen.
+static void thin_out(struct streaks_run *run, int sparse, uint8_t *seen)
+{
+    const int64_t blocks = streaks_blocks_in(run);
+    run->block = 0;
+    for (int64_t i = 0; i < blocks; i++) {
+        seen[i] = seen[i] && is_kept(run->slot / STREAKS_BLOCK + i, run->place, sparse);
+        run->block += seen[i];
     }
 }
 
@@ -168,6 +187,8 @@ bool streaks_list_by_packet(const struct streaks_packets *p, const struct streak
         return false;
     uint8_t *seen = s->seen;
     cull(p, view, runs, count, seen);
+    for (int64_t i = 0; view->sparse > 1 && i < count; i++)
+        thin_out(&runs[i], view->sparse, seen + runs[i].first);
     if (!lay_out(p, s, runs, count))
         return false;
 #pragma omp parallel for schedule(dynamic, 8)
@@ -213,6 +234,8 @@ bool streaks_list_by_id(const struct streaks_packets *p, const struct streaks_vi
     memset(masks, 0, (size_t)count * sizeof(*masks));
     for (int i = 0; i < s->packets; i++)
         set_packet(p, &p->packets[s->selected[i]], masks);
+    for (int64_t i = 0; i < count; i++)
+        masks[i] = is_kept(i, 0, view->sparse) ? masks[i] : 0;
     int64_t blocks = 0;
     for (int64_t begin = 0; begin < count; begin += BUFFER_MASKS) {
         const int64_t before = blocks, end = begin + BUFFER_MASKS;

@@ -126,6 +126,9 @@ struct streaks_view {
     bool hull;
     bool apart; // particles of a block fall at different speeds, and are anywhere along the fall
     bool whole; // all blocks of the packets are listed, whether the frustum can see them or not
+    // Of those one in so many is listed, the same in each frame, and the others are left out; 0 and
+    // 1: none is. Packets and their particles are counted as if all were.
+    int sparse;
 };
 
 // Blocks of one buffer, one after the other.

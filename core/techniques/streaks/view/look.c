@@ -45,10 +45,11 @@ static bool select_packets(struct streaks *s, const double eye[3], double top_m)
         .hull = set->select,
         .apart = streaks_sizes_differ(s),
         .whole = set->all_blocks || set->keeps_state,
+        .sparse = set->sparse,
     };
     return rg_rain_view_corners(&s->space, &s->observer.camera, (double)desc->width / desc->height,
                                 view.corners) &&
-           streaks_select(s->packets, &view, &s->selection);
+           streaks_select(s->rain->packets, &view, &s->selection);
 }
 
 // --- the kernels' parameters ---

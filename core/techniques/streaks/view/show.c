@@ -83,16 +83,16 @@ static void show_spaces(const struct streaks *s)
 // All packets as outlines on the top plane, the selected ones bolder.
 static void show_packets(const struct streaks *s)
 {
-    const struct streaks_packets_info *info = streaks_packets_info(s->packets);
+    const struct streaks_packets_info *info = streaks_packets_info(s->rain->packets);
     const int most = 20000; // more are a blur
     int next = 0;
     for (int place = 0; place < info->places && info->places <= most; place++) {
         double r[4];
         const bool selected = next < s->selection.packets && s->selection.selected[next] == place;
         next += selected;
-        if (!streaks_packets_count(s->packets, place))
+        if (!streaks_packets_count(s->rain->packets, place))
             continue;
-        streaks_packets_rectangle(s->packets, place, r);
+        streaks_packets_rectangle(s->rain->packets, place, r);
         show_sheet(s, (double[]){r[0], r[1]}, (double[]){r[2], r[3]}, 0,
                    selected ? &bold_purple : &purple);
     }

@@ -144,7 +144,7 @@ static double realised_mm_h(const struct streaks *s)
     struct realised sum = {.s = s};
     const double volume =
         4 * s->space.half_x_m * s->space.half_y_m * s->settings.local_height_m * s->mean_density;
-    streaks_packets_each(s->packets, add_drop, &sum);
+    streaks_packets_each(s->rain->packets, add_drop, &sum);
     return sum.rain_m3_s / volume * 3600 * 1000;
 }
 

@@ -56,6 +56,45 @@ static void test_packets_do_not_show(void **state)
     free(dry);
 }
 
+// Instances whose particles and packets are the same share them, whatever else they are set to.
+static void test_rain_is_shared_by_what_it_holds(void **state)
+{
+    (void)state;
+    static const char *const alike[] = {"", "culling_radius_m=7 sparse=4", "geometry=off lights=0"};
+    static const char *const others[] = {"seed=2",           "packet_size=300", "packets=quad",
+                                         "local_height_m=9", "order=id",        "drops_m2_s=90",
+                                         "fall_speed_m_s=5", "rain_width_m=91", "memory_mb=100"};
+    struct streaks *first = rain_open(alike[0]);
+    for (size_t i = 1; i < sizeof(alike) / sizeof(alike[0]); i++) {
+        struct streaks *s = rain_open(alike[i]);
+        assert_ptr_equal(s->rain, first->rain);
+        rain_close(s);
+    }
+    for (size_t i = 0; i < sizeof(others) / sizeof(others[0]); i++) {
+        struct streaks *s = rain_open(others[i]);
+        assert_ptr_not_equal(s->rain, first->rain);
+        rain_close(s);
+    }
+    rain_close(first);
+}
+
+// Of a sparse rain one particle in so many is drawn, and all are told.
+static void test_sparse_rain_is_less_of_it(void **state)
+{
+    (void)state;
+    struct streaks *whole = rain_open("blocks=all"), *sparse = rain_open("blocks=all sparse=4");
+    for (int i = 0; i < 2; i++)
+        free(rain_read(i ? sparse : whole));
+    const struct rg_counter *of_whole = whole->base.counters, *of_sparse = sparse->base.counters;
+    assert_true(of_whole[STREAKS_PARTICLES].value > 1000);
+    assert_int_equal(of_sparse[STREAKS_PARTICLES].value, of_whole[STREAKS_PARTICLES].value);
+    const double share =
+        (double)of_whole[STREAKS_ITEMS].value / (double)of_sparse[STREAKS_ITEMS].value;
+    assert_true(share > 3.6 && share < 4.4);
+    rain_close(whole);
+    rain_close(sparse);
+}
+
 // The same rain in other particles: as much of it, elsewhere.
 static void test_grid_is_like_the_trees(void **state)
 {
@@ -263,6 +302,8 @@ int main(int argc, char **argv)
 {
     struct CMUnitTest tests[] = {
         cmocka_unit_test(test_packets_do_not_show),
+        cmocka_unit_test(test_rain_is_shared_by_what_it_holds),
+        cmocka_unit_test(test_sparse_rain_is_less_of_it),
         cmocka_unit_test(test_grid_is_like_the_trees),
         cmocka_unit_test(test_drops_stay_put),
         cmocka_unit_test(test_one_splash_a_hit),

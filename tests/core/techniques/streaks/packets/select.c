@@ -342,6 +342,60 @@ static void test_hull_knows_the_local_space(void **state)
     rg_density_destroy(map);
 }
 
+static bool lists(const struct streaks_selection *all, const uint32_t *block)
+{
+    for (int64_t i = 0; i < all->block_count; i++)
+        if (!memcmp(all->blocks + i * STREAKS_BLOCK_WORDS, block, 4 * STREAKS_BLOCK_WORDS))
+            return true;
+    return false;
+}
+
+// How many of the blocks there are where one in `sparse` is kept, each one of all.
+static int64_t count_kept(const struct streaks_packets *packets, int sparse)
+{
+    struct streaks_view view = rig_everywhere(&rig_space, 20);
+    struct streaks_selection all = {0}, kept = {0};
+    view.whole = true;
+    assert_true(streaks_select(packets, &view, &all));
+    view.sparse = sparse;
+    assert_true(streaks_select(packets, &view, &kept));
+    assert_int_equal(kept.packets, all.packets);
+    assert_int_equal(kept.particles, all.particles);
+    for (int64_t i = 0; i < kept.block_count; i++)
+        assert_true(lists(&all, kept.blocks + i * STREAKS_BLOCK_WORDS));
+    struct rig_particles drawn = rig_read(packets, &rig_space, &kept);
+    free(drawn.all);
+    const int64_t count = kept.block_count;
+    // What the view does not see is not kept either.
+    view.whole = false;
+    assert_true(streaks_select(packets, &view, &kept));
+    assert_true(kept.block_count <= count);
+    streaks_selection_release(&all);
+    streaks_selection_release(&kept);
+    return count;
+}
+
+// Of a sparse rain's blocks one in so many is listed, of large packets and of packets that have
+// fewer blocks than that.
+static void test_sparse_rain_is_one_block_in_so_many(void **state)
+{
+    (void)state;
+    static const int sizes[] = {100, 4000}, sparse[] = {3, 16};
+    struct rg_density *map = rig_map(MAP_SIDE, MAP_SIDE, texels);
+    for (int k = 0; k < 2 * 4 * 2; k++) {
+        struct streaks_packets_settings settings = rig_settings(&rig_space, map, 40000);
+        settings.scheme = rig_schemes[k / 4];
+        settings.by_id = k / 2 % 2;
+        settings.packet_size = sizes[k % 2];
+        struct streaks_packets *packets = rig_packets(&rig_space, map, &settings);
+        const double all = (double)count_kept(packets, 1);
+        for (int i = 0; i < 2; i++)
+            assert_true(fabs((double)count_kept(packets, sparse[i]) * sparse[i] / all - 1) < 0.1);
+        streaks_packets_destroy(packets);
+    }
+    rg_density_destroy(map);
+}
+
 static void test_wrong_views(void **state)
 {
     (void)state;
@@ -418,6 +472,7 @@ int main(void)
         cmocka_unit_test(test_hull_is_tight),
         cmocka_unit_test(test_looking_away),
         cmocka_unit_test(test_hull_knows_the_local_space),
+        cmocka_unit_test(test_sparse_rain_is_one_block_in_so_many),
         cmocka_unit_test(test_wrong_views),
         cmocka_unit_test(test_packets_across_buffers),
     };
