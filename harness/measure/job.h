@@ -28,6 +28,8 @@ struct rg_measure_options {
     double sample_ms;                // least duration of a sample
     double job_ms;                   // what a job's samples may take together
     double warm_up_ms;               // likewise its warm-up
+    int warm_up_frames;              // of which it has at least so many
+    double passes_ms;                // likewise the run in which passes are told apart
     // The samples are taken up to this share of all, so that a job can be visited again; 0: all.
     double share;
     void (*load)(void); // timed between rounds, to tell how the machine drifts; NULL: nothing is
@@ -38,7 +40,7 @@ struct rg_measure_options {
 // Preparing a job is these four in turn. Each returns false when it cannot go on, and has ended
 // its record.
 //
-// Opens it and draws its check frames.
+// Opens it, simulates its check frames, and draws the first and the last.
 bool rg_job_open(struct rg_job *job);
 // Compares its image, which must hold the tier that its device owes; by the rain mask where
 // `expected` has the background.

@@ -115,12 +115,12 @@ static void note_calibration(struct rounds *r)
     }
 }
 
-static void finish(struct rg_job *job)
+static void finish(struct rg_job *job, const struct rg_measure_options *options)
 {
     struct rg_record *record = job->record;
     if (record->outcome != RG_OK || record->sample_count < record->wanted_samples)
         return;
-    if (!rg_job_time_passes(job))
+    if (!rg_job_time_passes(job, options->passes_ms))
         rg_record_end_by_error(record);
     rg_record_settle(record);
 }
@@ -137,7 +137,7 @@ static void measure(struct rounds *r, const struct rg_measure_options *options)
             options->progress(round + 1, last, options->user);
     }
     for (int i = 0; i < r->count && !rg_interrupted(); i++)
-        finish(&r->jobs[r->order[i]]);
+        finish(&r->jobs[r->order[i]], options);
 }
 
 void rg_jobs_measure(struct rg_job *jobs, int count, const struct rg_measure_options *options)

@@ -18,9 +18,10 @@ void rg_jobs_measure(struct rg_job *jobs, int count, const struct rg_measure_opt
 double rg_jobs_expected_ms(const struct rg_job *jobs, int count,
                            const struct rg_measure_options *options);
 
-// Tells what each pass takes, in a run of its own that syncs after every pass. False on failure.
-bool rg_job_time_passes(struct rg_job *job);
+// Tells what each pass takes, in a run of its own that syncs after every pass, of up to ten frames:
+// it ends with the one in which it has taken so long. False on failure.
+bool rg_job_time_passes(struct rg_job *job, double passes_ms);
 // What that takes, in milliseconds, where a frame takes so long.
-double rg_passes_expected_ms(double frame_ms);
+double rg_passes_expected_ms(double frame_ms, double passes_ms);
 
 #endif

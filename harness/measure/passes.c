@@ -5,10 +5,13 @@
 #include "harness/console/clock.h"
 #include "harness/measure/measure.h"
 
-enum { MOST_FRAMES = 10, LEAST_FRAMES = 2 };
+enum { MOST_FRAMES = 10 };
 
-// The run ends with the frame in which it has taken so long.
-#define PASSES_MS 400
+// Of a run that may take no time one frame tells.
+static int least_frames(double passes_ms)
+{
+    return passes_ms > 0 ? 2 : 1;
+}
 
 // Where the time of a pass is kept.
 static struct rg_pass_time *pass_of(struct rg_record *record, const char *name)
@@ -31,13 +34,14 @@ static void add_stage(const char *kernel, double ms, void *user)
     pass_of(user, kernel)->ms += ms;
 }
 
-bool rg_job_time_passes(struct rg_job *job)
+// The run ends with the frame in which it has taken so long.
+bool rg_job_time_passes(struct rg_job *job, double passes_ms)
 {
     struct rg_record *record = job->record;
     const double start = rg_now_ms();
     bool ok = true;
     while (ok && record->pass_frames < MOST_FRAMES &&
-           (record->pass_frames < LEAST_FRAMES || rg_now_ms() - start < PASSES_MS)) {
+           (record->pass_frames < least_frames(passes_ms) || rg_now_ms() - start < passes_ms)) {
         ok = rg_job_be_ready(job, 1) && rg_session_stages(job->session, add_stage, record);
         record->pass_frames++;
     }
@@ -47,8 +51,8 @@ bool rg_job_time_passes(struct rg_job *job)
 }
 
 // A frame that waits after every stage takes longer than one that does not.
-double rg_passes_expected_ms(double frame_ms)
+double rg_passes_expected_ms(double frame_ms, double passes_ms)
 {
     const double ms = 1.5 * frame_ms;
-    return ms * fmin(fmax(ceil(PASSES_MS / ms), LEAST_FRAMES), MOST_FRAMES);
+    return ms * fmin(fmax(ceil(passes_ms / ms), least_frames(passes_ms)), MOST_FRAMES);
 }

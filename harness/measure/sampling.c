@@ -15,7 +15,8 @@ bool rg_sampling_has_run_up(double frame_ms)
 struct rg_sampling rg_sampling_of(double frame_ms, int window_frames,
                                   const struct rg_measure_options *o)
 {
-    struct rg_sampling s = {.has_run_up = rg_sampling_has_run_up(frame_ms)};
+    struct rg_sampling s = {.has_run_up = rg_sampling_has_run_up(frame_ms),
+                            .passes_ms = rg_passes_expected_ms(frame_ms, o->passes_ms)};
     const double most_frames = window_frames ? window_frames - 1 : 100000;
     s.frames_a_sample = (int)fmin(fmax(ceil(o->sample_ms / frame_ms), 1), most_frames);
     const double sample_ms = frame_ms * (s.frames_a_sample + s.has_run_up);
@@ -26,6 +27,5 @@ struct rg_sampling rg_sampling_of(double frame_ms, int window_frames,
 
 double rg_sampling_ms(const struct rg_sampling *s, double frame_ms)
 {
-    return s->samples * (s->frames_a_sample + s->has_run_up) * frame_ms +
-           rg_passes_expected_ms(frame_ms);
+    return s->samples * (s->frames_a_sample + s->has_run_up) * frame_ms + s->passes_ms;
 }

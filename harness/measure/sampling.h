@@ -10,6 +10,7 @@ struct rg_sampling {
     int frames_a_sample; // so that a sample lasts long enough to be timed well
     bool has_run_up;     // a frame that is not timed comes before each
     int samples;
+    double passes_ms; // the run behind them, in which passes are told apart, takes about so long
 };
 
 // Whether a frame that is not timed comes before a sample, so that what another job left in the

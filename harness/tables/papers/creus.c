@@ -11,7 +11,8 @@
 #define RAIN                                                                                       \
     .technique = "streaks", .hardware = "Intel Core 2 Duo 3 GHz with NVIDIA GeForce GTX 280",      \
     .width = 1280, .height = 720, .check_frames = 2,                                               \
-    .quick = "atlas=small city=small depth_map_px=2048"
+    .quick = "atlas=small city=small depth_map_px=2048", .smaller = {"sparse=16", "sparse=4"},     \
+    .shown = "sparse=1"
 #define TIMED                                                                                      \
     RAIN, .variants = {{"full", POINTS, "fps"},                                                    \
                        {"no_geometry", POINTS " geometry=off", "fps_no_geometry"}}

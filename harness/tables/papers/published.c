@@ -4,7 +4,21 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/base/alloc.h"
 #include "core/techniques/technique.h"
+
+char *rg_table_quick(const struct rg_table *table, int divisor)
+{
+    const char *quick = table->quick ? table->quick : "";
+    const char *smaller = divisor == 4   ? table->smaller[0]
+                          : divisor == 2 ? table->smaller[1]
+                                         : NULL;
+    const size_t size = strlen(quick) + (smaller ? strlen(smaller) : 0) + 2;
+    char *text = rg_alloc(1, size, table->id);
+    if (text)
+        snprintf(text, size, "%s%s%s", quick, *quick && smaller ? " " : "", smaller ? smaller : "");
+    return text;
+}
 
 bool rg_table_is_published(const struct rg_table *table)
 {

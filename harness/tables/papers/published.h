@@ -64,6 +64,13 @@ struct rg_table {
     bool is_of_textures;
     // What quick mode sets over rows and variants, for less work: "atlas=small"; NULL: nothing.
     const char *quick;
+    // What a budget sets over these for pictures of a fourth of the width and height, and of half:
+    // as much less to draw as there are fewer pixels to draw it on, so that shapes stay. NULL:
+    // nothing.
+    const char *smaller[2];
+    // What is set over these where a row's image is compared with the truth: all of what smaller
+    // pictures leave out. NULL: nothing.
+    const char *shown;
     int quick_rows; // so many rows, the first, has quick mode, unless others are named; 0: all
     // Counters of the technique that have a column: what they grow by in a frame, NULL after the
     // last.
@@ -79,6 +86,9 @@ struct rg_table {
     const char *note; // what a reader of the table must know, one line
 };
 
+// What quick mode sets where the width and height are divided by 4, 2 or 1; the caller frees it.
+// NULL, and one logged line, without memory.
+char *rg_table_quick(const struct rg_table *table, int divisor);
 bool rg_table_is_published(const struct rg_table *table);
 // The number in a row's column; NAN where the table has no such column.
 double rg_table_value(const struct rg_table *table, int row, const char *column);

@@ -1,6 +1,7 @@
 #include "harness/tables/runs/budget.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/log.h"
@@ -136,16 +137,31 @@ static void leave_out_rows(const struct rg_budget *b, int i, struct rg_result *r
         result->left_out[row] = !chosen[row];
 }
 
+// What the least of the tables behind one takes, which it must leave to them.
+static double least_behind_s(const struct rg_budget *b, int table)
+{
+    double s = 0;
+    for (int i = table + 1; i < b->count; i++)
+        if (b->choices[i].devices)
+            s += fmin(rg_budget_least_s(b, i), b->choices[i].expected_s);
+    return s * slowness(b);
+}
+
 bool rg_budget_next(struct rg_budget *b, int i, struct rg_result *result, FILE *out)
 {
     plan_again(b, i, out);
     const struct rg_budget_choice *c = &b->choices[i];
-    if (!c->devices)
+    free(b->quick);
+    b->quick = rg_table_quick(b->tables[i], rg_budget_divisor(c));
+    if (!c->devices || !b->quick)
         return false;
     const struct rg_table_part part = {.last_row = b->tables[i]->row_count - 1};
     b->table = *b->tables[i];
     b->table.width /= rg_budget_divisor(c);
     b->table.height /= rg_budget_divisor(c);
+    b->table.quick = b->quick;
+    if (!rg_budget_has_truth(b->tables[i], c->size))
+        b->table.truth = NULL;
     if (!c->all_works && b->table.works[0].name)
         b->table.works[1].name = NULL;
     choose_variants(b, i);
@@ -153,7 +169,7 @@ bool rg_budget_next(struct rg_budget *b, int i, struct rg_result *result, FILE *
     rg_table_begin(result, &b->table, &part, &b->chosen);
     leave_out_rows(b, i, result);
     result->budget_s = b->seconds;
-    result->budget_end_ms = b->start_ms + 1000 * b->seconds;
+    result->budget_end_ms = b->start_ms + 1000 * (b->seconds - least_behind_s(b, i));
     result->size_divisor = rg_budget_divisor(c);
     result->few_samples = !c->all_samples;
     return true;

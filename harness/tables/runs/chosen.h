@@ -22,6 +22,7 @@ struct rg_budget {
     struct rg_budget_choice choices[RG_BUDGET_TABLES];
     // Of the table that is measured now.
     struct rg_table table;
+    char *quick; // owned; of the table
     struct rg_devices chosen;
 };
 

@@ -103,6 +103,14 @@ bool rg_has_claims(const struct rg_table *table)
     return any;
 }
 
+bool rg_needs_truth(const struct rg_table *table)
+{
+    bool needs = false;
+    for (const struct rg_claim *claim = rg_claims; claim->table; claim++)
+        needs = needs || (is_about(claim, table) && claim->test == RG_CLAIM_FLATTENS);
+    return needs;
+}
+
 bool rg_needs_size(const struct rg_table *table)
 {
     bool needs = table->is_of_textures;

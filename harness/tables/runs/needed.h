@@ -14,7 +14,10 @@ int rg_quick_rows(const struct rg_table *table, bool rows[RG_TABLE_ROWS]);
 int rg_needed_variants(const struct rg_table *table, bool needed[RG_TABLE_VARIANTS]);
 // Whether claims are about it.
 bool rg_has_claims(const struct rg_table *table);
-// Whether a claim is about how fast its frames are, rather than how they compare.
+// Whether a claim is about how far its pictures are from the truth.
+bool rg_needs_truth(const struct rg_table *table);
+// Whether its size means something: a claim is about how fast its frames are, rather than how they
+// compare, or it is of textures.
 bool rg_needs_size(const struct rg_table *table);
 
 #endif

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "harness/tables/runs/needed.h"
+
 int rg_budget_kind_of(const struct rg_table *const tables[], int i)
 {
     for (int k = 0; k < i && !tables[i]->is_of_textures; k++)
@@ -9,6 +11,11 @@ int rg_budget_kind_of(const struct rg_table *const tables[], int i)
             tables[k]->width == tables[i]->width && !tables[k]->is_of_textures)
             return k;
     return i;
+}
+
+bool rg_budget_has_truth(const struct rg_table *table, enum rg_budget_size size)
+{
+    return table->truth && (size == RG_BUDGET_WHOLE || rg_needs_truth(table));
 }
 
 static int cells_a_device(const struct rg_budget_table *t, const struct rg_budget_choice *c)
@@ -30,7 +37,6 @@ double rg_budget_expect(const struct rg_budget_table *t, const struct rg_budget_
 
 enum stage {
     FIRST,   // a table, on the first device
-    DUE,     // pictures of the size that claims are about
     CLAIMED, // a table that claims are about, on one device more
     NEEDED,  // any other
     HALF,
@@ -67,9 +73,6 @@ static bool grow(const struct rg_budget_table *t, struct rg_budget_choice *c, en
     case LAST:
         c->devices |= device;
         return c->devices != before.devices;
-    case DUE:
-        c->size = t->due;
-        return c->size != before.size;
     case HALF:
         c->size = c->size < RG_BUDGET_HALF ? RG_BUDGET_HALF : c->size;
         return c->size != before.size;
@@ -105,6 +108,15 @@ static unsigned devices_of(const struct rg_budget_devices *devices, enum stage s
                            : devices->all & ~devices->last;
 }
 
+// Of the budget, so much is left for cells that take longer than they are expected to: else a
+// larger picture of one table would cost another all of it.
+#define RESERVE 0.2
+
+static bool is_of_least(enum stage stage)
+{
+    return stage <= NEEDED;
+}
+
 // The cheapest step that a stage still has; false where it has none.
 static bool find_step(const struct rg_budget_table *costs, int count, enum stage stage,
                       unsigned devices, const struct rg_budget_choice *choices, struct step *found)
@@ -136,8 +148,9 @@ double rg_budget_plan(const struct rg_budget_table *costs, int count,
     for (int i = 0; i < count; i++)
         choices[i] = (struct rg_budget_choice){.size = costs[i].smallest};
     for (enum stage stage = FIRST; stage < STAGES; stage++) {
+        const double most_s = is_of_least(stage) ? budget_s : (1 - RESERVE) * budget_s;
         while (find_step(costs, count, stage, devices_of(devices, stage), choices, &step) &&
-               planned_s + step.more_s <= budget_s) {
+               planned_s + step.more_s <= most_s) {
             planned_s += step.more_s;
             choices[step.table] = step.grown;
         }

@@ -14,8 +14,7 @@ struct rg_budget_table {
     int rows, variants, works;        // all that it has
     int needed_rows, needed_variants; // what its curves and its claims cannot do without
     bool has_claims;                  // some are about it
-    enum rg_budget_size smallest;     // below which its pictures show too little
-    enum rg_budget_size due;          // which its claims are about, or the smallest
+    enum rg_budget_size smallest;     // below which its pictures show too little for its claims
     struct rg_budget_cost {
         double few_s;      // a cell of the fewest samples
         double all_s;      // of all that quick mode takes
@@ -24,6 +23,10 @@ struct rg_budget_table {
     // Beside the cells, for the picture that those of a row, variant and work must show.
     double check_s[RG_BUDGET_SIZES];
 };
+
+// Whether errors of pictures are measured at a size: where they are whole, or claims are about
+// them.
+bool rg_budget_has_truth(const struct rg_table *table, enum rg_budget_size size);
 
 // What of a table is measured. Without devices it is left out.
 struct rg_budget_choice {
@@ -49,13 +52,14 @@ struct rg_budget_devices {
 int rg_budget_kind_of(const struct rg_table *const tables[], int table);
 
 // Chooses for each table, in stages. First come, on device `first` and in the smallest pictures,
-// the rows, variants and work that are needed, of each table; then the size that claims are about;
-// then the same on each device but those of `last`, of tables that claims are about before others;
-// then pictures of half the size, all samples, whole pictures, all rows, all variants, all works,
-// and the devices of `last`. Within a stage the cheapest table comes first, so that a large one
-// keeps no small one out. Where the rest of a stage is too dear, the next one has what time is
-// left. So a larger budget never measures less of a stage while it measures the same of those
-// before it. Returns what all of it is expected to take. `costs` and `choices` have `count`.
+// the rows, variants and work that are needed, of each table; then the same on each device but
+// those of `last`, of tables that claims are about before others; then pictures of half the size,
+// all samples, whole pictures, all rows, all variants, all works, and the devices of `last`. Behind
+// the first three a fifth of the budget is left over, for cells that take longer than expected.
+// Within a stage the cheapest table comes first, so that a large one keeps no small one out. Where
+// the rest of a stage is too dear, the next one has what time is left. So a larger budget never
+// measures less of a stage while it measures the same of those before it. Returns what all of it is
+// expected to take. `costs` and `choices` have `count`.
 double rg_budget_plan(const struct rg_budget_table *costs, int count,
                       const struct rg_budget_devices *devices, double budget_s,
                       struct rg_budget_choice *choices);

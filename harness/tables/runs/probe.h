@@ -2,20 +2,7 @@
 #ifndef RG_HARNESS_TABLES_RUNS_PROBE_H
 #define RG_HARNESS_TABLES_RUNS_PROBE_H
 
-#include "harness/devices/kept.h"
-#include "harness/measure/job.h"
-#include "harness/tables/runs/plan.h"
-
-// The frames of a table on a device by size; or both by what they are elsewhere.
-struct rg_frames {
-    double open_ms, frame_ms[RG_BUDGET_SIZES];
-};
-
-// What a technique takes on a device, by what it takes on cpu: found with its first table, for its
-// tables are alike in that. Zeroed before.
-struct rg_budget_kind {
-    struct rg_frames by_cpu[RG_MAX_DEVICES + 1]; // the last is of cpu:reference, which checks
-};
+#include "harness/tables/runs/look.h"
 
 // Opens the first and the last needed row of a table on cpu, and on devices of which nothing is
 // known the last, for two frames of the smallest picture, and the last at the next size as well;

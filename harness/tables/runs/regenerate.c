@@ -234,6 +234,8 @@ static int plan_and_regenerate(const struct rg_table *const tables[], int count,
     struct rg_budget *budget = rg_alloc(1, sizeof(*budget), "budget");
     const int exit =
         budget ? regenerate_within(tables, count, devices, options, budget) : RG_EXIT_FAIL;
+    if (budget)
+        free(budget->quick);
     free(budget);
     return exit;
 }

@@ -52,7 +52,7 @@ static void name_devices(const struct rg_budget *b, unsigned devices, char *text
 static double needed_s(const struct rg_budget *b, int i)
 {
     const struct rg_budget_choice needed = {.devices = b->bits.all & ~b->bits.last,
-                                            .size = b->costs[i].due};
+                                            .size = b->costs[i].smallest};
     return rg_budget_expect(&b->costs[i], &needed);
 }
 

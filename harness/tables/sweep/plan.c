@@ -6,33 +6,29 @@
 
 #include "core/base/log.h"
 #include "core/base/memory.h"
-#include "harness/console/clock.h"
 #include "harness/console/duration.h"
 #include "harness/console/progress.h"
-#include "harness/measure/expected.h"
 #include "harness/devices/workers/device.h"
+#include "harness/tables/measuring/cell.h"
 #include "harness/tables/measuring/measure.h"
 
 // --- a row, opened for a moment ---
 
 struct probe {
-    double open_ms, frame_ms, bytes;
+    struct rg_cell_frames frames;
+    double bytes;
 };
 
-// The second frame is the one that is timed: drivers compile in the first.
 static bool probe_settings(struct rg_device *device, const struct rg_subject *subject,
                            struct probe *probe)
 {
-    const double before = (double)rg_remote_held_bytes(device), start = rg_now_ms();
-    struct rg_session *session = rg_session_run(device, subject, 1);
+    const double before = (double)rg_remote_held_bytes(device);
+    struct rg_session *session = rg_cell_look(device, subject, &probe->frames);
     if (!session)
         return false;
-    const double opened = rg_now_ms();
-    const bool ok = rg_session_frames(session, 1, &probe->frame_ms);
-    probe->open_ms = opened - start;
     probe->bytes = fmax((double)rg_remote_held_bytes(device) - before, 0);
     rg_session_close(session);
-    return ok;
+    return true;
 }
 
 static bool probe_row(const struct rg_table *table, const char *set, int row,
@@ -62,31 +58,21 @@ static double between(double first, double last, int row, int rows)
                                  : first + (last - first) * share;
 }
 
-// Opening, the frames before the image is compared, warming up, samples with a frame before each,
-// and the passes told apart.
-static double cell_ms(double open_ms, double frame_ms, int check_frames,
-                      const struct rg_measure_options *o)
-{
-    const double sample_ms = fmax(o->sample_ms, frame_ms) + frame_ms;
-    const double samples =
-        fmin(fmax(floor(o->job_ms / sample_ms), o->least_samples), o->most_samples);
-    const double warm_up_ms = fmax(4 * frame_ms, fmin(20 * frame_ms, o->warm_up_ms));
-    return open_ms + check_frames * frame_ms + warm_up_ms + samples * sample_ms + 4 * frame_ms;
-}
-
 static void add_rows(const struct rg_table *table, const struct rg_measure_options *o,
                      const struct probe probes[2], int device, struct rg_plan *plan)
 {
-    const int frames = table->check_frames ? table->check_frames : RG_CHECK_FRAMES;
     for (int row = 0; row < plan->rows; row++) {
-        const double open_ms = between(probes[0].open_ms, probes[1].open_ms, row, plan->rows);
-        const double frame_ms = between(probes[0].frame_ms, probes[1].frame_ms, row, plan->rows);
+        const struct rg_cell_frames *first = &probes[0].frames, *last = &probes[1].frames;
+        const struct rg_cell_frames frames = {
+            between(first->open_ms, last->open_ms, row, plan->rows),
+            between(first->step_ms, last->step_ms, row, plan->rows),
+            between(first->frame_ms, last->frame_ms, row, plan->rows)};
         const double bytes = between(probes[0].bytes, probes[1].bytes, row, plan->rows);
         if (device < 0) {
-            plan->check_s += (open_ms + frames * frame_ms) / 1000;
+            plan->check_s += rg_cell_image_ms(table, &frames) / 1000;
             continue;
         }
-        plan->device_s[device] += cell_ms(open_ms, frame_ms, frames, o) / 1000;
+        plan->device_s[device] += rg_cell_ms(table, &frames, o) / 1000;
         plan->all_bytes += bytes;
     }
     if (device >= 0)

@@ -190,8 +190,12 @@ static void test_samples(void **state)
     const struct rg_technique *flow = rg_technique_find("flow");
     struct rg_technique slow = *flow;
     slow.step = step_slowly;
-    const struct rg_measure_options options = {
-        .most_samples = 40, .least_samples = 2, .sample_ms = 1, .job_ms = 200, .warm_up_ms = 1};
+    const struct rg_measure_options options = {.most_samples = 40,
+                                               .least_samples = 2,
+                                               .sample_ms = 1,
+                                               .job_ms = 200,
+                                               .warm_up_ms = 1,
+                                               .passes_ms = 400};
     void *settings = settings_of(CHEAP);
     struct rg_device *device = rg_device_open("cpu");
     struct rg_record records[2] = {0};

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/tables/runs/cell.h"
+#include "harness/tables/measuring/cell.h"
 #include "harness/tables/runs/needed.h"
 #include "harness/tables/runs/plan.h"
 #include "harness/tables/claims/claim.h"
@@ -27,8 +27,7 @@ static void make_costs(struct rg_budget_table costs[TABLES])
                                       .variants = 1 + i % 3,
                                       .needed_variants = 1,
                                       .works = 1 + i % 2,
-                                      .has_claims = i % 2 == 1,
-                                      .due = i == 2 ? RG_BUDGET_WHOLE : RG_BUDGET_FOURTH};
+                                      .has_claims = i % 2 == 1};
         for (int size = 0; size < RG_BUDGET_SIZES; size++) {
             t->check_s[size] = 0.1 * (i + 1) * (1 + size);
             for (int d = 0; d < DEVICES; d++) {
@@ -71,7 +70,7 @@ static void times_are_those_of_the_cells(void **state)
 }
 
 // How much there is of each stage, in their order.
-enum { STAGES = 11 };
+enum { STAGES = 10 };
 static void count_stages(const struct rg_budget_choice choices[TABLES], int counts[STAGES])
 {
     memset(counts, 0, STAGES * sizeof(*counts));
@@ -79,16 +78,15 @@ static void count_stages(const struct rg_budget_choice choices[TABLES], int coun
         const struct rg_budget_choice *c = &choices[i];
         const bool is_on_both = (c->devices & ~REFERENCE) == (ALL & ~REFERENCE);
         counts[0] += c->devices != 0;
-        counts[1] += i == 2 && c->size == RG_BUDGET_WHOLE;
-        counts[2] += i % 2 == 1 && is_on_both;
-        counts[3] += is_on_both;
-        counts[4] += c->size >= RG_BUDGET_HALF;
-        counts[5] += c->all_samples;
-        counts[6] += c->size == RG_BUDGET_WHOLE;
-        counts[7] += c->all_rows;
-        counts[8] += c->all_variants;
-        counts[9] += c->all_works;
-        counts[10] += (c->devices & REFERENCE) != 0;
+        counts[1] += i % 2 == 1 && is_on_both;
+        counts[2] += is_on_both;
+        counts[3] += c->size >= RG_BUDGET_HALF;
+        counts[4] += c->all_samples;
+        counts[5] += c->size == RG_BUDGET_WHOLE;
+        counts[6] += c->all_rows;
+        counts[7] += c->all_variants;
+        counts[8] += c->all_works;
+        counts[9] += (c->devices & REFERENCE) != 0;
     }
 }
 
@@ -198,31 +196,33 @@ static void what_is_too_dear_starves_no_other(void **state)
     assert_int_equal(choices[3].devices, ALL);
 }
 
-// Its size is what a claim is about, and there is no time for it: the table is there in smaller
-// pictures rather than not at all.
-static void a_size_gives_way_before_a_table_does(void **state)
+// Rows and devices that are needed may take all of the budget; what is more than that leaves a
+// fifth of it, for cells that take longer.
+static void a_fifth_is_left_for_what_takes_longer(void **state)
 {
     (void)state;
     struct rg_budget_table costs[TABLES];
     struct rg_budget_choice choices[TABLES];
     make_costs(costs);
-    for (int d = 0; d < DEVICES; d++)
-        costs[2].cells[d][RG_BUDGET_WHOLE].few_s = costs[2].cells[d][RG_BUDGET_WHOLE].all_s = 1e6;
-    rg_budget_plan(costs, TABLES, &devices, 1e5, choices);
-    assert_true(choices[2].devices & FIRST);
-    assert_int_equal(choices[2].size, RG_BUDGET_HALF);
-    // Where there is time, its size comes before a second device.
-    make_costs(costs);
-    double due_s = 0;
-    for (int i = 0; i < TABLES; i++)
-        due_s += least_s(&costs[i]);
-    const struct rg_budget_choice sized = {.devices = FIRST, .size = RG_BUDGET_WHOLE};
-    due_s += rg_budget_expect(&costs[2], &sized) - least_s(&costs[2]);
-    rg_budget_plan(costs, TABLES, &devices, due_s + 1e-6, choices);
+    double needed_s = 0, whole_s = 0;
     for (int i = 0; i < TABLES; i++) {
-        assert_int_equal(choices[i].devices, FIRST);
-        assert_int_equal(choices[i].size, i == 2 ? RG_BUDGET_WHOLE : RG_BUDGET_FOURTH);
+        const struct rg_budget_choice needed = {.devices = 3};
+        const struct rg_budget_choice whole = {ALL, RG_BUDGET_WHOLE, true, true, true, true, 0};
+        needed_s += rg_budget_expect(&costs[i], &needed);
+        whole_s += rg_budget_expect(&costs[i], &whole);
     }
+    rg_budget_plan(costs, TABLES, &devices, needed_s + 1e-6, choices);
+    for (int i = 0; i < TABLES; i++)
+        assert_true(choices[i].devices == 3 && choices[i].size == RG_BUDGET_FOURTH);
+    int more = 0;
+    for (double budget_s = needed_s; budget_s < 1.2 * whole_s; budget_s += 3) {
+        const double planned_s = rg_budget_plan(costs, TABLES, &devices, budget_s, choices);
+        assert_true(planned_s <= fmax(0.8 * budget_s, needed_s) + 1e-6);
+        more += planned_s > needed_s + 1e-6;
+    }
+    assert_true(more > 20);
+    assert_true(fabs(rg_budget_plan(costs, TABLES, &devices, whole_s / 0.79, choices) - whole_s) <
+                1e-6 * whole_s);
 }
 
 // Just enough for the second device of tables that claims are about leaves nothing for others,
@@ -235,7 +235,8 @@ static void what_claims_need_comes_first(void **state)
     make_costs(costs);
     double due_s = 1e-6;
     for (int i = 0; i < TABLES; i++) {
-        struct rg_budget_choice due = {.devices = i % 2 == 1 ? 3 : FIRST, .size = costs[i].due};
+        struct rg_budget_choice due = {.devices = i % 2 == 1 ? 3 : FIRST,
+                                       .size = costs[i].smallest};
         for (int size = 0; size < RG_BUDGET_SIZES && i % 2 == 0; size++)
             costs[i].cells[1][size].few_s = 0.01;
         due_s += rg_budget_expect(&costs[i], &due);
@@ -294,17 +295,34 @@ static void rows_of_curves_and_claims_are_needed(void **state)
 static void a_cell_takes_what_its_frames_take(void **state)
 {
     (void)state;
-    const struct rg_measure_options o = {
-        .most_samples = 15, .least_samples = 6, .sample_ms = 15, .job_ms = 1000, .warm_up_ms = 200};
-    const struct rg_table plain = {.check_frames = 10};
+    const struct rg_measure_options o = {.most_samples = 15,
+                                         .least_samples = 6,
+                                         .sample_ms = 15,
+                                         .job_ms = 1000,
+                                         .warm_up_ms = 200,
+                                         .warm_up_frames = 4,
+                                         .passes_ms = 400};
+    struct rg_measure_options few = o;
+    const struct rg_table plain = {.check_frames = 10}, alone = {.check_frames = 1};
     const struct rg_table window = {.check_frames = 10, .window_frames = 5};
-    // 10 + 1 + 4 of warm-up + 6 samples + 2 frames of 1.5 for the passes.
-    assert_true(fabs(rg_budget_cell_ms(&plain, 7, 500, &o) - (7 + 24 * 500)) < 1e-6);
-    // 10 + 1 + 10 + 4 + 15 samples of 15 + 1 frames + 10 frames of 1.5.
-    assert_true(fabs(rg_budget_cell_ms(&plain, 7, 1, &o) - (7 + 280)) < 1e-6);
-    // 14 frames in windows of 5: opened twice more, each with ten frames.
-    assert_true(fabs(rg_budget_cell_ms(&window, 7, 500, &o) - (7 + 24 * 500 + 2 * (7 + 5000))) <
+    const struct rg_cell_frames slow = {7, 3, 500}, fast = {7, 0.25, 1}, middling = {7, 3, 60};
+    few.warm_up_frames = 1;
+    few.passes_ms = 0;
+    // The first and the last of 10, the one that is counted, one of warm-up, 6 samples, and 2
+    // frames of 1.5 for the passes; 8 steps.
+    assert_true(fabs(rg_cell_ms(&plain, &slow, &o) - (7 + 8 * 3 + 13 * 500)) < 1e-6);
+    // One of 1.5 for the passes.
+    assert_true(fabs(rg_cell_ms(&plain, &slow, &few) - (7 + 8 * 3 + 11.5 * 500)) < 1e-6);
+    assert_true(fabs(rg_cell_ms(&alone, &slow, &o) - (7 + 12 * 500)) < 1e-6);
+    // 3 + 10 + 4 + 15 samples of 15 + 1 frames + 10 frames of 1.5.
+    assert_true(fabs(rg_cell_ms(&plain, &fast, &o) - (7 + 8 * 0.25 + 272)) < 1e-6);
+    // 3, 4 of warm-up in 200 ms, 8 samples and a frame before each, 5 frames of 1.5.
+    assert_true(fabs(rg_cell_ms(&plain, &middling, &o) - (7 + 8 * 3 + (3 + 4 + 16 + 7.5) * 60)) <
                 1e-6);
+    // 11 frames in windows of 5: opened twice more, each with nine steps and a frame.
+    assert_true(fabs(rg_cell_ms(&window, &slow, &o) -
+                     (7 + 8 * 3 + 13 * 500 + 2 * (7 + 9 * 3 + 500))) < 1e-6);
+    assert_true(fabs(rg_cell_image_ms(&plain, &slow) - (7 + 9 * 3 + 500)) < 1e-6);
 }
 
 int main(void)
@@ -315,7 +333,7 @@ int main(void)
         cmocka_unit_test(enough_is_everything),
         cmocka_unit_test(each_table_comes_before_more_of_another),
         cmocka_unit_test(what_is_too_dear_starves_no_other),
-        cmocka_unit_test(a_size_gives_way_before_a_table_does),
+        cmocka_unit_test(a_fifth_is_left_for_what_takes_longer),
         cmocka_unit_test(what_claims_need_comes_first),
         cmocka_unit_test(rows_of_curves_and_claims_are_needed),
         cmocka_unit_test(a_cell_takes_what_its_frames_take),

@@ -15,7 +15,7 @@
 #include "harness/tables/measuring/measure.h"
 #include "harness/tables/runs/budget.h"
 #include "harness/measure/sampling.h"
-#include "harness/tables/runs/cell.h"
+#include "harness/tables/measuring/cell.h"
 #include "harness/tables/runs/forecast.h"
 #include "tests/harness/measuring/fake.h"
 
@@ -24,7 +24,7 @@
 // --- a technique whose frames take what its settings say ---
 
 struct slow_settings {
-    double open_ms, fixed_ms, pixel_us;
+    double open_ms, step_ms, fixed_ms, pixel_us;
 };
 struct slow_instance {
     struct rg_instance pub;
@@ -34,11 +34,12 @@ struct slow_instance {
 #define AT(field) offsetof(struct slow_settings, field)
 static const struct rg_param params[] = {
     {"open_ms", RG_PARAM_FLOAT, AT(open_ms), 40, 0, 1e6, "ms", "of opening", NULL},
-    {"fixed_ms", RG_PARAM_FLOAT, AT(fixed_ms), 10, 0, 1e6, "ms", "of a frame", NULL},
+    {"step_ms", RG_PARAM_FLOAT, AT(step_ms), 1, 0, 1e6, "ms", "of simulating a frame", NULL},
+    {"fixed_ms", RG_PARAM_FLOAT, AT(fixed_ms), 10, 0, 1e6, "ms", "of drawing it", NULL},
     {"pixel_us", RG_PARAM_FLOAT, AT(pixel_us), 0.125, 0, 1e6, "us", "more of each pixel", NULL},
 };
 static const struct rg_param_table param_table = {
-    .technique = "slow", .rows = params, .count = 3, .settings_size = sizeof(struct slow_settings)};
+    .technique = "slow", .rows = params, .count = 4, .settings_size = sizeof(struct slow_settings)};
 
 // A device's item_ms is how many times as long it takes.
 static struct fake_device *fake_of(const struct rg_instance *instance)
@@ -58,7 +59,9 @@ static bool open_slow(struct rg_instance *instance)
 
 static bool step_slow(struct rg_instance *instance)
 {
+    const struct slow_instance *slow = (const struct slow_instance *)instance;
     instance->frame++;
+    fake_pass(slow->settings.step_ms * fake_of(instance)->item_ms);
     return true;
 }
 
@@ -139,8 +142,16 @@ static void end(struct rig *rig)
 static double frame_ms(enum rg_budget_size size)
 {
     const double pixels[] = {32768, 131072, 524288};
-    const double last_ms = 10 + 1.25e-4 * pixels[size], smallest_ms = 10 + 1.25e-4 * pixels[0];
-    return last_ms * (1 + (2 + 1.25e-4 * pixels[0]) / smallest_ms) / 2;
+    const double last_ms = 11 + 1.25e-4 * pixels[size], smallest_ms = 11 + 1.25e-4 * pixels[0];
+    return last_ms * (1 + (3 + 1.25e-4 * pixels[0]) / smallest_ms) / 2;
+}
+
+// Opened, and drawn after four steps, with rain on cpu:reference, which takes ten times as long,
+// and without on cpu.
+static double check_ms(enum rg_budget_size size)
+{
+    const double dry_share = (1 + 1.25e-4 * 32768) / (11 + 1.25e-4 * 32768);
+    return 10 * (40 + 4 + frame_ms(size)) + 40 + 4 + dry_share * frame_ms(size);
 }
 
 static void expect_cells(const struct rg_budget_table *costs)
@@ -148,12 +159,11 @@ static void expect_cells(const struct rg_budget_table *costs)
     static const double slowness[] = {1, 10, 3};
     for (int d = 0; d < 3; d++)
         for (enum rg_budget_size size = 0; size < RG_BUDGET_SIZES; size++) {
-            const double ms = frame_ms(size) * slowness[d], open_ms = 40 * slowness[d];
+            const struct rg_cell_frames f = {40 * slowness[d], slowness[d],
+                                             frame_ms(size) * slowness[d]};
             const struct rg_budget_cost *cell = &costs->cells[d][size];
-            assert_ms(cell->few_s * 1e3,
-                      rg_budget_cell_ms(&table, open_ms, ms, rg_table_few_samples()));
-            assert_ms(cell->all_s * 1e3,
-                      rg_budget_cell_ms(&table, open_ms, ms, rg_table_options(false)));
+            assert_ms(cell->few_s * 1e3, rg_cell_ms(&table, &f, rg_table_few_samples()));
+            assert_ms(cell->all_s * 1e3, rg_cell_ms(&table, &f, rg_table_options(false)));
         }
 }
 
@@ -169,18 +179,56 @@ static void what_a_table_takes_is_what_was_seen(void **state)
     assert_int_equal(costs.rows, 3);
     assert_int_equal(costs.needed_rows, 3);
     assert_int_equal(costs.smallest, RG_BUDGET_FOURTH);
-    assert_int_equal(costs.due, RG_BUDGET_FOURTH);
     expect_cells(&costs);
-    // Opened twice, drawn five times with rain and five times without, on cpu:reference.
-    const double dry_share = 1.25e-4 * 32768 / (10 + 1.25e-4 * 32768);
     for (enum rg_budget_size size = 0; size < RG_BUDGET_SIZES; size++)
-        assert_ms(costs.check_s[size] * 1e3, 2 * 400 + (1 + dry_share) * 5 * 10 * frame_ms(size));
+        assert_ms(costs.check_s[size] * 1e3, check_ms(size));
     // On cpu both ends, a larger picture and a dry one; on others a small and a larger one.
     assert_int_equal(opened, 4 + 2 + 2);
     opened = 0;
     assert_true(rg_budget_probe(&table, &rig.kept, false, &kind, &again));
-    assert_int_equal(opened, 4);
+    assert_int_equal(opened, 2); // both ends
     expect_cells(&again);
+    end(&rig);
+}
+
+// What smaller pictures set is what is opened; a truth, which is of all that a picture shows, is
+// looked at once a technique, and counts where pictures are whole.
+static void smaller_pictures_show_less(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_budget_kind kind = {0};
+    struct rg_budget_table costs, again;
+    struct rg_table smaller = table;
+    smaller.smaller[0] = "fixed_ms=1";
+    smaller.smaller[1] = "fixed_ms=4";
+    smaller.shown = "fixed_ms=7";
+    smaller.truth = "step_ms=20";
+    begin(&rig);
+    assert_true(rg_budget_probe(&smaller, &rig.kept, false, &kind, &costs));
+    // The ends, a larger picture, and one without rain; shown and the truth; two a device.
+    assert_int_equal(opened, 4 + 2 + 2 + 2);
+    assert_ms(kind.shown.frame_ms, 1 + 7 + 1.25e-4 * 32768);
+    assert_ms(kind.truth.frame_ms, 20 + 7 + 1.25e-4 * 32768);
+    // From a sixteenth of the pixels to a quarter it takes 3 ms and 98,304 pixels more.
+    const double small_ms = 2 + 1.25e-4 * 32768, a_pixel_ms = (3 + 1.25e-4 * 98304) / 98304;
+    const double reference_ms = 10 * (40 + 4), dry_ms = 40 + 4;
+    const double dry_share = (1 + 1.25e-4 * 32768) / small_ms;
+    for (enum rg_budget_size size = 0; size < RG_BUDGET_SIZES; size++) {
+        const double ms = small_ms + a_pixel_ms * ((32768 << 2 * size) - 32768);
+        const double due_ms = reference_ms + 10 * ms + dry_ms + dry_share * ms;
+        const double error_ms = (40 + 4 + kind.shown.frame_ms) + (40 + 80 + kind.truth.frame_ms);
+        if (size < RG_BUDGET_WHOLE)
+            assert_ms(costs.check_s[size] * 1e3, due_ms);
+        else
+            assert_true(costs.check_s[size] * 1e3 >= due_ms + error_ms);
+        assert_ms(
+            costs.cells[0][size].few_s * 1e3,
+            rg_cell_ms(&smaller, &(struct rg_cell_frames){40, 1, ms}, rg_table_few_samples()));
+    }
+    opened = 0;
+    assert_true(rg_budget_probe(&smaller, &rig.kept, false, &kind, &again));
+    assert_int_equal(opened, 2);
     end(&rig);
 }
 
@@ -238,25 +286,25 @@ static void a_forecast_is_of_all_devices(void **state)
     static const double slowness[] = {1, 10, 3};
     const struct rg_table *const tables[] = {&table, &table};
     const struct rg_measure_options *full = rg_table_options(true);
-    const double last_ms = 10 + 1.25e-4 * 524288, first_ms = 2 + 1.25e-4 * 524288;
-    const double mean_ms = (last_ms + first_ms) / 2, dry_share = 1.25e-4 * 524288 / last_ms;
-    double open_ms = 2 * 400 + (1 + dry_share) * 5 * 10 * mean_ms, sampling_ms = 0;
+    const double last_ms = 11 + 1.25e-4 * 524288, first_ms = 3 + 1.25e-4 * 524288;
+    const double mean_ms = (last_ms + first_ms) / 2;
+    const double dry_share = (1 + 1.25e-4 * 524288) / last_ms;
+    double open_ms = 10 * (40 + 4 + mean_ms) + 40 + 4 + dry_share * mean_ms, sampling_ms = 0;
     struct rg_cell_time times[2] = {{0, 0}, {0, 0}};
     struct rig rig;
     begin(&rig);
     rg_forecast(tables, 2, &rig.kept, true, times);
     for (int d = 0; d < 3; d++) {
-        const double ms = mean_ms * slowness[d];
-        const struct rg_sampling sampling = rg_sampling_of(ms, 0, full);
-        sampling_ms += rg_sampling_ms(&sampling, ms);
-        open_ms +=
-            rg_budget_cell_ms(&table, 40 * slowness[d], ms, full) - rg_sampling_ms(&sampling, ms);
+        const struct rg_cell_frames f = {40 * slowness[d], slowness[d], mean_ms * slowness[d]};
+        const struct rg_sampling sampling = rg_sampling_of(f.frame_ms, 0, full);
+        sampling_ms += rg_sampling_ms(&sampling, f.frame_ms);
+        open_ms += rg_cell_ms(&table, &f, full) - rg_sampling_ms(&sampling, f.frame_ms);
     }
     for (int i = 0; i < 2; i++) {
         assert_ms(times[i].open_ms, open_ms / 3);
         assert_ms(times[i].sampling_ms, sampling_ms / 3);
     }
-    assert_int_equal(opened, 5 + 3); // of the first both ends, a dry one, and on two other devices
+    assert_int_equal(opened, 5 + 2); // of the first both ends, a dry one, and on two other devices
     end(&rig);
     assert_true(rg_forecast_is_worth(1, true));
     assert_false(rg_forecast_is_worth(299, false));
@@ -299,7 +347,6 @@ static void begin_plan(struct plan *p, double seconds)
                                                       .needed_variants = 1,
                                                       .works = 1,
                                                       .smallest = RG_BUDGET_WHOLE,
-                                                      .due = RG_BUDGET_WHOLE,
                                                       .cells = {{[RG_BUDGET_WHOLE] = {4, 8}}}};
     }
     p->budget.planned_s =
@@ -349,7 +396,7 @@ static void a_plan_that_is_kept_is_not_made_anew(void **state)
     (void)state;
     for (double seconds = 12; seconds <= 24; seconds += 12) {
         struct plan p;
-        begin_plan(&p, 72.5);
+        begin_plan(&p, 91);
         run(&p, 0, 3, seconds);
         expect_next(&p, 1, true, false);
         expect_told(&p, NULL);
@@ -357,29 +404,54 @@ static void a_plan_that_is_kept_is_not_made_anew(void **state)
     }
 }
 
-// 30 s for 24: of 42.5 s that are left those behind it may take 34 by the plan, which is 24 of the
+// 40 s for 24: of 51 s that are left those behind it may take 30.6 by the plan, which is 24 of the
 // fewest, and not 12 more for all samples of one.
 static void cells_that_take_longer_have_the_rest_planned_anew(void **state)
 {
     (void)state;
     struct plan p;
-    begin_plan(&p, 72.5);
-    run(&p, 0, 3, 30);
-    expect_next(&p, 1, true, true);
-    expect_told(&p, "as cells take 1.25 times as long as they were to");
-    end_plan(&p);
-    // 40 s: of 32.5 s they may take 19.5, which is one table.
-    begin_plan(&p, 72.5);
+    begin_plan(&p, 91);
     run(&p, 0, 3, 40);
     expect_next(&p, 1, true, true);
+    expect_told(&p, "as cells take 1.67 times as long as they were to");
+    end_plan(&p);
+    // 60 s: of 31 s they may take 12.4, which is one table.
+    begin_plan(&p, 91);
+    run(&p, 0, 3, 60);
+    expect_next(&p, 1, true, true);
     expect_next(&p, 2, false, false);
-    expect_told(&p, "1.67 times");
+    expect_told(&p, "2.50 times");
     end_plan(&p);
     // No time at all.
-    begin_plan(&p, 72.5);
-    run(&p, 0, 3, 73);
+    begin_plan(&p, 91);
+    run(&p, 0, 3, 92);
     expect_next(&p, 1, false, false);
     end_plan(&p);
+}
+
+// A table ends in time for the least of those behind it, 12 s each, or as much longer as cells
+// take.
+static void what_comes_behind_has_its_least_left(void **state)
+{
+    (void)state;
+    static const struct {
+        double first_s;
+        double left_ms[2]; // to the end of the budget, when the first and the second table end
+    } cases[] = {{24, {24000, 12000}}, {36, {24000, 18000}}};
+    for (int i = 0; i < 2; i++) {
+        struct plan p;
+        begin_plan(&p, 91);
+        assert_true(rg_budget_next(&p.budget, 0, &p.result, p.out));
+        assert_ms(p.budget.start_ms + 91000 - p.result.budget_end_ms, cases[i].left_ms[0]);
+        rg_result_free(&p.result);
+        p.result = (struct rg_result){0};
+        run(&p, 0, 3, cases[i].first_s);
+        assert_true(rg_budget_next(&p.budget, 1, &p.result, p.out));
+        assert_ms(p.budget.start_ms + 91000 - p.result.budget_end_ms, cases[i].left_ms[1]);
+        rg_result_free(&p.result);
+        p.result = (struct rg_result){0};
+        end_plan(&p);
+    }
 }
 
 // A third of the rows that was to take 8 s and took 10 is as slow as the whole that takes 30.
@@ -387,14 +459,14 @@ static void rows_that_are_not_done_tell_nothing(void **state)
 {
     (void)state;
     struct plan p;
-    begin_plan(&p, 72.5);
+    begin_plan(&p, 91);
     run(&p, 0, 1, 10);
     assert_ms(p.budget.due_s, 8);
     assert_ms(p.budget.taken_s, 10);
-    expect_next(&p, 1, true, false); // 48 of 62.5 by 1.25
+    expect_next(&p, 1, true, false); // 48 of 81 by 1.25
     end_plan(&p);
     // Textures are no measure of how fast frames are.
-    begin_plan(&p, 72.5);
+    begin_plan(&p, 91);
     p.tables[0].is_of_textures = true;
     run(&p, 0, 3, 10);
     assert_ms(p.budget.due_s, 0);
@@ -439,11 +511,13 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_a_table_takes_is_what_was_seen),
+        cmocka_unit_test(smaller_pictures_show_less),
         cmocka_unit_test(a_device_that_fails_takes_nothing),
         cmocka_unit_test(textures_take_what_opening_them_takes),
         cmocka_unit_test(a_forecast_is_of_all_devices),
         cmocka_unit_test(a_plan_that_is_kept_is_not_made_anew),
         cmocka_unit_test(cells_that_take_longer_have_the_rest_planned_anew),
+        cmocka_unit_test(what_comes_behind_has_its_least_left),
         cmocka_unit_test(rows_that_are_not_done_tell_nothing),
         cmocka_unit_test(nothing_is_an_error),
     };

@@ -3,14 +3,15 @@ from fault import Fault
 
 TESTS = ("budget", "planner")
 
-PLAN, CELL, BUDGET, PROBE = ("harness/tables/runs/plan.c", "harness/tables/runs/cell.c", "harness/tables/runs/budget.c",
+PLAN, CELL, BUDGET, PROBE = ("harness/tables/runs/plan.c", "harness/tables/measuring/cell.c", "harness/tables/runs/budget.c",
                              "harness/tables/runs/probe.c")
+LOOK, NEEDED = "harness/tables/runs/look.c", "harness/tables/runs/needed.c"
 
 ROWS = [
     Fault(PLAN, "for (enum stage stage = «FIRST»; stage < STAGES; stage++) {", "CLAIMED", "a dear table of claims comes before cheap ones"),
-    Fault(PLAN, "«planned_s + step.more_s <= budget_s») {", "(planned_s + step.more_s <= budget_s || (stage = STAGES, false))", "the first step that is too dear ends the plan"),
+    Fault(PLAN, "«planned_s + step.more_s <= most_s») {", "(planned_s + step.more_s <= most_s || (stage = STAGES, false))", "the first step that is too dear ends the plan"),
     Fault(PLAN, "if («!c->devices && (!is_of_devices(stage) || stage == LAST)»)", "false", "tables that are left out are refined"),
-    Fault(PLAN, "case DUE:\n        «c->size = t->due;»", ";", "pictures are smaller than a claim is about"),
+    Fault(PLAN, "const double most_s = is_of_least(stage) ? budget_s : «(1 - RESERVE)» * budget_s;", "1", "nothing is left for cells that take longer", tests=("budget",)),
     Fault(PLAN, "if (!any || «step.more_s < found->more_s»)", "true", "the last table is chosen first"),
     Fault(PLAN, "planned_s += «step.more_s»;", "0", "a plan has no end"),
     Fault(PLAN, "case CLAIMED:\n        if («!t->has_claims»)", "false", "claims need nothing first"),
@@ -24,10 +25,18 @@ ROWS = [
     Fault(BUDGET, "if («b->tables[i]->is_of_textures»)\n        return;", "false", "textures tell how slow frames are", tests=("planner",)),
     Fault(BUDGET, "if («!b->measured»)", "false", "a budget in which nothing is measured passes", tests=("planner",)),
     Fault(BUDGET, "b->measured += «had > 0»;", "1", "a table without a row counts as measured", tests=("planner",)),
-    Fault(PROBE, "/ («pixels[smallest + 1] - pixels[smallest]»);", "1.0", "larger pictures take as long as smaller ones", tests=("planner",)),
+    Fault(LOOK, "/ («pixels[smallest + 1] - pixels[smallest]»);", "1.0", "larger pictures take as long as smaller ones", tests=("planner",)),
     Fault(PROBE, "p->of_cpu.frame_ms[size] *= «(1 + more) / 2»;", "1 + 0 * more", "every row takes as long as the last", tests=("planner",)),
-    Fault(PROBE, "(«1 + dry_share») * frames", "1 + 0 * dry_share", "a dry picture takes nothing", tests=("planner",)),
-    Fault(PROBE, "probe->open_ms = fmax(opened - start «- probe->frame_ms», 0);", "- 0", "the first frame counts as opening", tests=("planner",)),
-    Fault(PROBE, "if («!(ratio->frame_ms[RG_BUDGET_WHOLE] > 0)») {", "true", "every table looks at every device", tests=("planner",)),
+    Fault(PROBE, "dry.frame_ms *= «p->kind->dry_share»;", "0", "a dry picture takes nothing", tests=("planner",)),
+    Fault(CELL, "f->open_ms = fmax(opened - start «- f->frame_ms», 0);", "- 0", "the first frame counts as opening", tests=("planner",)),
+    Fault(LOOK, "if («!(ratio->frame_ms[RG_BUDGET_WHOLE] > 0)») {", "true", "every table looks at every device", tests=("planner",)),
     Fault(PROBE, "count += «!before || !now || strcmp(before, now) != 0»;", "1", "each level opens its texture", tests=("planner",)),
+    Fault(CELL, "fmax(frames - 2, 0) * «f->step_ms» +", "f->frame_ms", "frames that are simulated are drawn", tests=("budget",)),
+    Fault(CELL, "fmin(20, o->warm_up_ms / ms) / 2), «in_time»);", "20.0", "long frames warm up as often as short ones", tests=("budget",)),
+    Fault(BUDGET, "1000 * (b->seconds «- least_behind_s(b, i)»);", "- 0", "a table may take what those behind it need", tests=("planner",)),
+    Fault(BUDGET, "return s * «slowness(b)»;", "1", "slow cells leave the next tables too little", tests=("planner",)),
+    Fault(PROBE, "if (!table->truth || «kind->has_truth»)", "false", "each table looks at its truth", tests=("planner",)),
+    Fault(PROBE, "if («kind->is_known»)\n        return true;\n    if (!rg_look_row(p, p->cpu, p->rows[1], p->smallest, without, &dry))", "false", "each table looks at a dry picture", tests=("planner",)),
+    Fault(LOOK, "table.quick = «quick»;", "p->table->quick", "small pictures show as much as whole ones", tests=("planner",)),
+    Fault(PLAN, "return table->truth && («size == RG_BUDGET_WHOLE» || rg_needs_truth(table));", "true", "errors of small pictures are measured that no claim is about", tests=("planner",)),
 ]

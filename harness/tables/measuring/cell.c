@@ -1,0 +1,96 @@
+#include "harness/tables/measuring/cell.h"
+
+#include <math.h>
+
+#include "core/image/compare/compare.h"
+#include "harness/console/clock.h"
+#include "harness/measure/expected.h"
+#include "harness/measure/sampling.h"
+
+int rg_cell_check_frames(const struct rg_table *table)
+{
+    return table->check_frames ? table->check_frames : RG_CHECK_FRAMES;
+}
+
+double rg_cell_image_ms(const struct rg_table *table, const struct rg_cell_frames *f)
+{
+    return f->open_ms + (rg_cell_check_frames(table) - 1) * f->step_ms + f->frame_ms;
+}
+
+// Opening draws a frame, for drivers compile in it. The second is the one that is timed.
+struct rg_session *rg_cell_look(struct rg_device *device, const struct rg_subject *subject,
+                                struct rg_cell_frames *f)
+{
+    const double start = rg_now_ms();
+    struct rg_session *session = rg_session_run(device, subject, 1);
+    const double opened = rg_now_ms();
+    if (!session)
+        return NULL;
+    bool ok = rg_session_frames(session, 1, &f->frame_ms);
+    const double drawn = rg_now_ms();
+    ok = ok && rg_session_step(session) && rg_session_sync(session);
+    f->step_ms = rg_now_ms() - drawn;
+    f->open_ms = fmax(opened - start - f->frame_ms, 0);
+    if (ok)
+        return session;
+    rg_session_close(session);
+    return NULL;
+}
+
+// Frames of a window of which no more are left: its instance is opened anew.
+static double reopen_ms(const struct rg_table *table, const struct rg_cell_frames *f, double frames)
+{
+    if (!table->window_frames)
+        return 0;
+    return floor(frames / table->window_frames) * rg_cell_image_ms(table, f);
+}
+
+// Long frames end the warm-up as soon as its time is over, and short ones once they are alike.
+static double warm_up_frames(double ms, const struct rg_measure_options *o)
+{
+    const double in_time = floor(o->warm_up_ms / ms) + 1;
+    return fmin(fmax(o->warm_up_frames, fmin(20, o->warm_up_ms / ms) / 2), in_time);
+}
+
+// What is drawn before its image is compared are the first of its frames and the last.
+static double check_ms(const struct rg_table *table, const struct rg_cell_frames *f)
+{
+    const int frames = rg_cell_check_frames(table);
+    return f->open_ms + f->frame_ms + fmax(frames - 2, 0) * f->step_ms + (frames > 1) * f->frame_ms;
+}
+
+double rg_cell_ms(const struct rg_table *table, const struct rg_cell_frames *f,
+                  const struct rg_measure_options *o)
+{
+    const double ms = fmax(f->frame_ms, 1e-3);
+    const struct rg_sampling sampling = rg_sampling_of(ms, table->window_frames, o);
+    const double calibration = ms < o->sample_ms ? 4 : 0;
+    const double frames =
+        1 + warm_up_frames(ms, o) + calibration + rg_sampling_ms(&sampling, ms) / ms;
+    return check_ms(table, f) + frames * ms + reopen_ms(table, f, frames);
+}
+
+double rg_cell_compare_ms(void)
+{
+    enum { SIDE = 128 };
+    struct rg_picture a = {0}, b = {0}, dry = {0};
+    struct rg_comparison comparison = {0};
+    double ms = 0;
+    if (rg_picture_create(&a, SIDE, SIDE, 4, "probe") &&
+        rg_picture_create(&b, SIDE, SIDE, 4, "probe") &&
+        rg_picture_create(&dry, SIDE, SIDE, 4, "probe")) {
+        for (int i = 0; i < SIDE * SIDE * 4; i++) {
+            a.texels[i] = (float)(i % 7) / 7;
+            b.texels[i] = (float)(i % 5) / 5;
+            dry.texels[i] = 0;
+        }
+        const double start = rg_now_ms();
+        rg_compare(&a, "a", &b, "b", &dry, &(struct rg_compare_options){0}, &comparison);
+        ms = (rg_now_ms() - start) / (SIDE * SIDE);
+    }
+    rg_comparison_destroy(&comparison);
+    rg_picture_destroy(&a);
+    rg_picture_destroy(&b);
+    rg_picture_destroy(&dry);
+    return ms;
+}

@@ -1,0 +1,131 @@
+#include "harness/tables/runs/look.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "harness/tables/table.h"
+
+// --- what is opened ---
+
+// What is shared by the instances of a device is made when the first is opened, and lives as long
+// as one is kept.
+static bool probe_subject(struct rg_kept *kept, struct rg_device *device,
+                          const struct rg_subject *subject, struct rg_cell_frames *frames)
+{
+    struct rg_session *session = device ? rg_cell_look(device, subject, frames) : NULL;
+    if (session)
+        rg_kept_put(kept, session);
+    return session;
+}
+
+static const int divisors[] = {4, 2, 1};
+
+void *rg_look_settings(const struct rg_looking *p, int row, enum rg_budget_size size,
+                       const char *over)
+{
+    const struct rg_technique *technique = rg_technique_find(p->table->technique);
+    struct rg_table table = *p->table;
+    char *quick = rg_table_quick(&table, divisors[size]), *assignments = NULL;
+    void *defaults = rg_settings_create(technique), *of_row = NULL, *settings = NULL;
+    table.quick = quick;
+    if (quick)
+        assignments = rg_table_assignments(&p->result, &table, (struct rg_place){.row = row});
+    if (defaults && assignments)
+        of_row = rg_settings_copy(technique, defaults, assignments);
+    if (of_row)
+        settings = rg_settings_copy(technique, of_row, over);
+    free(of_row);
+    free(defaults);
+    free(assignments);
+    free(quick);
+    return settings;
+}
+
+bool rg_look_row(struct rg_looking *p, struct rg_device *device, int row, enum rg_budget_size size,
+                 const char *over, struct rg_cell_frames *frames)
+{
+    void *settings = rg_look_settings(p, row, size, over);
+    const struct rg_subject subject = {rg_technique_find(p->table->technique), settings,
+                                       p->table->width / divisors[size],
+                                       p->table->height / divisors[size]};
+    const bool ok = settings && probe_subject(p->kept, device, &subject, frames);
+    free(settings);
+    return ok;
+}
+
+void rg_look_extend(struct rg_frames *frames, enum rg_budget_size smallest, const double larger[])
+{
+    const double small_ms = frames->frame_ms[smallest];
+    for (int size = 0; size < RG_BUDGET_SIZES; size++)
+        frames->frame_ms[size] = small_ms * larger[size];
+}
+
+bool rg_look_device(struct rg_looking *p, struct rg_device *device, struct rg_frames *frames)
+{
+    static const double pixels[] = {1 / 16.0, 1 / 4.0, 1};
+    const enum rg_budget_size smallest = p->smallest;
+    struct rg_cell_frames small, next;
+    double a_pixel = 0, larger[RG_BUDGET_SIZES];
+    if (!rg_look_row(p, device, p->rows[1], smallest, "", &small))
+        return false;
+    *frames = (struct rg_frames){.open_ms = small.open_ms, .step_ms = small.step_ms};
+    if (smallest < RG_BUDGET_WHOLE) {
+        if (!rg_look_row(p, device, p->rows[1], smallest + 1, "", &next))
+            return false;
+        a_pixel =
+            fmax(next.frame_ms - small.frame_ms, 0) / (pixels[smallest + 1] - pixels[smallest]);
+        frames->open_ms = fmin(small.open_ms, next.open_ms);
+    }
+    for (int size = 0; size < RG_BUDGET_SIZES; size++)
+        larger[size] =
+            1 + a_pixel / fmax(small.frame_ms, 1e-3) * fmax(pixels[size] - pixels[smallest], 0);
+    frames->frame_ms[smallest] = small.frame_ms;
+    rg_look_extend(frames, smallest, larger);
+    return true;
+}
+
+// --- what a technique takes on other devices, by what it takes on cpu ---
+
+// The place of a device among those of a kind; cpu:reference, which checks, has the last.
+static struct rg_frames *of_kind(struct rg_budget_kind *kind, const struct rg_device *device,
+                                 const struct rg_kept *kept)
+{
+    for (int d = 0; d < kept->devices->count; d++)
+        if (kept->devices->devices[d] == device)
+            return &kind->by_cpu[d];
+    return &kind->by_cpu[RG_MAX_DEVICES];
+}
+
+static struct rg_frames ratio_of(const struct rg_frames *a, const struct rg_frames *b)
+{
+    struct rg_frames ratio = {.open_ms = a->open_ms / fmax(b->open_ms, 0.1),
+                              .step_ms = a->step_ms / fmax(b->step_ms, 1e-3)};
+    for (int size = 0; size < RG_BUDGET_SIZES; size++)
+        ratio.frame_ms[size] = a->frame_ms[size] / fmax(b->frame_ms[size], 1e-3);
+    return ratio;
+}
+
+static struct rg_frames scaled(const struct rg_frames *cpu, const struct rg_frames *ratio)
+{
+    struct rg_frames frames = {.open_ms = cpu->open_ms * ratio->open_ms,
+                               .step_ms = cpu->step_ms * ratio->step_ms};
+    for (int size = 0; size < RG_BUDGET_SIZES; size++)
+        frames.frame_ms[size] = cpu->frame_ms[size] * ratio->frame_ms[size];
+    return frames;
+}
+
+bool rg_look_frames(struct rg_looking *p, struct rg_device *device, struct rg_frames *frames)
+{
+    if (device == p->cpu) {
+        *frames = p->of_cpu;
+        return true;
+    }
+    struct rg_frames *ratio = of_kind(p->kind, device, p->kept), found;
+    if (!(ratio->frame_ms[RG_BUDGET_WHOLE] > 0)) {
+        if (!device || !rg_look_device(p, device, &found))
+            return false;
+        *ratio = ratio_of(&found, &p->last_of_cpu);
+    }
+    *frames = scaled(&p->of_cpu, ratio);
+    return true;
+}

@@ -1,0 +1,53 @@
+// Cells of a table, opened for a moment.
+#ifndef RG_HARNESS_TABLES_RUNS_LOOK_H
+#define RG_HARNESS_TABLES_RUNS_LOOK_H
+
+#include "harness/devices/kept.h"
+#include "harness/record/result.h"
+#include "harness/tables/measuring/cell.h"
+#include "harness/tables/runs/plan.h"
+
+// The frames of a table on a device by size; or both by what they are elsewhere.
+struct rg_frames {
+    double open_ms, step_ms, frame_ms[RG_BUDGET_SIZES];
+};
+
+// What a technique takes on a device, by what it takes on cpu: found with its first table, for its
+// tables are alike in that. Zeroed before.
+struct rg_budget_kind {
+    struct rg_frames by_cpu[RG_MAX_DEVICES + 1]; // the last is of cpu:reference, which checks
+    bool is_known;                               // what follows, which is found on cpu
+    double larger[RG_BUDGET_SIZES];     // so many times as long a frame takes as the smallest one
+    double dry_share;                   // and one without rain
+    bool has_truth;                     // what follows is known, too
+    struct rg_cell_frames shown, truth; // an image with all that it shows, and its truth
+};
+
+// A table, while its cells are probed.
+struct rg_looking {
+    const struct rg_table *table;
+    struct rg_kept *kept;
+    struct rg_result result;
+    enum rg_budget_size smallest;
+    int rows[2]; // the first and the last that are needed
+    struct rg_budget_kind *kind;
+    struct rg_device *cpu;
+    struct rg_frames of_cpu, last_of_cpu; // of both rows, and of the last
+};
+
+// The settings of a row at a size, with some over them; the caller frees them. NULL, and one logged
+// line, on failure.
+void *rg_look_settings(const struct rg_looking *looking, int row, enum rg_budget_size size,
+                       const char *over);
+// Opens a row with these, and keeps its instance. False, and one logged line, on failure.
+bool rg_look_row(struct rg_looking *looking, struct rg_device *device, int row,
+                 enum rg_budget_size size, const char *over, struct rg_cell_frames *frames);
+// The last row at the smallest size, and at the next, from which others follow by their pixels.
+bool rg_look_device(struct rg_looking *looking, struct rg_device *device, struct rg_frames *frames);
+// Fills in what frames of all sizes take: so many times as long as the smallest.
+void rg_look_extend(struct rg_frames *frames, enum rg_budget_size smallest, const double larger[]);
+// The frames of a device, where those of cpu are known: by the ratio that is known of its
+// technique, or found now.
+bool rg_look_frames(struct rg_looking *looking, struct rg_device *device, struct rg_frames *frames);
+
+#endif
