@@ -82,6 +82,7 @@ results: committed build
 	@$(BUILD)/harness/raingauge table $(WHAT) -o $(BUILD)/results
 	@python3 results/keep.py $(BUILD)/results $(RESULTS)
 	@python3 results/figures.py $(RESULTS)
+	@python3 results/walk.py $(BUILD)/harness/raingauge
 
 test: build $(ASAN)/build.ninja $(TSAN)/build.ninja
 	@echo "== building in $(ASAN)"

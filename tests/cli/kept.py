@@ -15,6 +15,7 @@ import forms
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 KEPT = os.path.join(ROOT, "results", "tables")
 KEEP = os.path.join(ROOT, "results", "keep.py")
+WALK = os.path.join(ROOT, "results", "walk.py")
 FORMS = ("csv", "json", "md")
 
 
@@ -56,6 +57,23 @@ def check_compact(runner):
         lines = text.split('"cells": [\n')[1].splitlines()[:-2]
         if [json.loads(line.rstrip(",")) for line in lines] != json.loads(text)["cells"]:
             problems.append(name + ": not a line a cell")
+    return problems
+
+
+def check_walk(runner):
+    """the README shows what table --from prints of the tables that are kept, and walk.py notices where it does not"""
+    with tempfile.TemporaryDirectory() as tmp:
+        page = os.path.join(tmp, "page.md")
+        def walk(*words):
+            return subprocess.run([sys.executable, "-B", WALK, *words], check=False, capture_output=True, text=True)
+        readme = read(ROOT, "README.md")
+        shown = [line for line in readme.splitlines() if re.match(r"    \$ raingauge table .*--from results/tables$", line)]
+        problems = [] if len(shown) == 2 else ["the README shows %s" % shown]
+        problems += [] if walk("--check", runner.raingauge).returncode == 0 else ["the README shows something else"]
+        pathlib.Path(page).write_text(readme.replace("    ### paper: six height maps", "    ### paper: five"), encoding="utf-8")
+        problems += [] if walk("--check", runner.raingauge, page).returncode == 1 else ["another page passes"]
+        if walk(runner.raingauge, page).returncode or read(page) != readme:
+            problems.append("the page is not made anew")
     return problems
 
 
@@ -131,4 +149,4 @@ def check_dirty_tree(runner):
     return problems
 
 
-CHECKS = [check_printed, check_compact, check_claims, check_lengths, check_dirty_tree]
+CHECKS = [check_printed, check_compact, check_walk, check_claims, check_lengths, check_dirty_tree]

@@ -1,0 +1,41 @@
+#!/usr/bin/env python3
+"""Keeps what the README shows of the tables that the repository keeps: it is what the program prints.
+
+    walk.py [--check] PROGRAM [PAGE]
+
+In a page an indented line `$ raingauge table ... --from results/tables` is followed by what that prints, up to a line
+that is not indented; it is printed anew. --check writes nothing, and exits 1 if a page shows anything else.
+"""
+import os
+import re
+import shlex
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+SHOWN = re.compile(r"^(    \$ raingauge (table [^\n|]*--from results/tables)\n)((?:    (?!\$ )[^\n]*\n|\n(?=\n*    [^$\s]))*)", re.M)
+
+
+def printed(program, words):
+    run = subprocess.run([program, *shlex.split(words)], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True)
+    return "".join("    " + line + "\n" if line else "\n" for line in run.stdout.rstrip("\n").split("\n"))
+
+
+def main():
+    words = [word for word in sys.argv[1:] if word != "--check"]
+    program, page = os.path.abspath(words[0]), words[1] if words[1:] else os.path.join(ROOT, "README.md")
+    with open(page, encoding="utf-8") as file:
+        text = file.read()
+    if not SHOWN.search(text):
+        sys.exit(f"{page}: shows nothing that table --from results/tables prints")
+    made = SHOWN.sub(lambda shown: shown[1] + printed(program, shown[2]), text)
+    if made == text:
+        return
+    if "--check" in sys.argv[1:]:
+        sys.exit(f"{page}: shows what the tables do not say; results/walk.py {words[0]} makes it anew")
+    with open(page, "w", encoding="utf-8") as file:
+        file.write(made)
+
+
+if __name__ == "__main__":
+    main()
