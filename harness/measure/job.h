@@ -33,7 +33,9 @@ struct rg_measure_options {
     // The samples are taken up to this share of all, so that a job can be visited again; 0: all.
     double share;
     void (*load)(void); // timed between rounds, to tell how the machine drifts; NULL: nothing is
-    void (*progress)(int done, int total, void *user); // NULL: none
+    // Told the share of what a call takes that is done, by what it is expected to take; NULL:
+    // nobody asks.
+    void (*progress)(double share, void *user);
     void *user;
 };
 

@@ -115,29 +115,65 @@ static void note_calibration(struct rounds *r)
     }
 }
 
+static bool is_whole(const struct rg_record *record)
+{
+    return record->outcome == RG_OK && record->sample_count >= record->wanted_samples;
+}
+
 static void finish(struct rg_job *job, const struct rg_measure_options *options)
 {
-    struct rg_record *record = job->record;
-    if (record->outcome != RG_OK || record->sample_count < record->wanted_samples)
+    if (!is_whole(job->record))
         return;
     if (!rg_job_time_passes(job, options->passes_ms))
-        rg_record_end_by_error(record);
-    rg_record_settle(record);
+        rg_record_end_by_error(job->record);
+    rg_record_settle(job->record);
+}
+
+static void tell(const struct rg_measure_options *options, double done_ms, double all_ms)
+{
+    if (options->progress)
+        options->progress(all_ms > 0 ? done_ms / all_ms : 1, options->user);
+}
+
+// What taking the job's samples up to so many of all rounds takes, and then telling its passes
+// apart.
+static double rounds_ms(const struct rg_job *job, int rounds, int all)
+{
+    const struct rg_record *record = job->record;
+    const int due = (int)((int64_t)rounds * record->wanted_samples / all) - record->sample_count;
+    const int frames = record->frames_a_sample + rg_sampling_has_run_up(job->warm_frame_ms);
+    return due > 0 ? due * frames * job->warm_frame_ms : 0;
+}
+
+static double passes_ms(const struct rg_job *job, const struct rg_measure_options *options)
+{
+    return rg_passes_expected_ms(job->warm_frame_ms, options->passes_ms);
 }
 
 static void measure(struct rounds *r, const struct rg_measure_options *options)
 {
     const int last = (int)ceil(r->all * (options->share > 0 ? options->share : 1) - 1e-9);
+    double samples_ms = 0, all_ms = 0, done_ms;
+    for (int i = 0; i < r->count; i++) {
+        const struct rg_job *job = &r->jobs[r->order[i]];
+        samples_ms += rounds_ms(job, last, r->all);
+        all_ms += last == r->all ? passes_ms(job, options) : 0;
+    }
+    all_ms += samples_ms;
     r->calibration = (struct rg_calibration){.load = options->load};
     rg_calibration_take(&r->calibration);
     for (int round = 0; round < last && !rg_interrupted(); round++) {
         if (do_round(r, round))
             note_calibration(r);
-        if (options->progress)
-            options->progress(round + 1, last, options->user);
+        tell(options, samples_ms * (round + 1) / last, all_ms);
     }
-    for (int i = 0; i < r->count && !rg_interrupted(); i++)
-        finish(&r->jobs[r->order[i]], options);
+    done_ms = samples_ms;
+    for (int i = 0; i < r->count && !rg_interrupted(); i++) {
+        struct rg_job *job = &r->jobs[r->order[i]];
+        done_ms += is_whole(job->record) ? passes_ms(job, options) : 0;
+        finish(job, options);
+        tell(options, done_ms, all_ms);
+    }
 }
 
 void rg_jobs_measure(struct rg_job *jobs, int count, const struct rg_measure_options *options)

@@ -45,11 +45,11 @@ static double reopen_ms(const struct rg_table *table, const struct rg_cell_frame
     return floor(frames / table->window_frames) * rg_cell_image_ms(table, f);
 }
 
-// Long frames end the warm-up as soon as its time is over, and short ones once they are alike.
+// Long frames end the warm-up as soon as its time is over, and short ones once they are alike, which
+// those are that come after the check frames.
 static double warm_up_frames(double ms, const struct rg_measure_options *o)
 {
-    const double in_time = floor(o->warm_up_ms / ms) + 1;
-    return fmin(fmax(o->warm_up_frames, fmin(20, o->warm_up_ms / ms) / 2), in_time);
+    return fmin(fmax(o->warm_up_frames, 1), floor(o->warm_up_ms / ms) + 1);
 }
 
 // What is drawn before its image is compared are the first of its frames and the last.

@@ -50,13 +50,13 @@ static void keep(struct measuring *m)
     m->kept_ms = rg_now_ms();
 }
 
-static void show_round(int done, int total, void *user)
+static void show_share(double share, void *user)
 {
     struct measuring *m = user;
-    const int64_t units = (int64_t)((double)m->now->units * m->share * done / total);
+    const int64_t units = (int64_t)((double)m->now->units * m->share * share);
     rg_progress_add(m->bar.progress, units - m->units);
     m->units = units;
-    if (done < total && rg_now_ms() - m->kept_ms > KEEP_EVERY_MS)
+    if (share < 1 && rg_now_ms() - m->kept_ms > KEEP_EVERY_MS)
         keep(m);
 }
 
@@ -71,7 +71,7 @@ static void prepare(struct measuring *m, int row)
             rg_batch_tell_texture(&m->batch, at);
         else if (at.device == 0)
             rg_batch_prepare(&m->batch, at, &m->options);
-        rg_progress_add(m->bar.progress, m->bar.open_units);
+        rg_progress_add(m->bar.progress, m->bar.rows[row].open_units);
     }
 }
 
@@ -99,7 +99,7 @@ static void leave_out(struct measuring *m, int row)
     struct rg_result *result = m->result;
     for (; row <= result->last_row; row++) {
         if (rg_result_wants(result, row))
-            rg_progress_grow(m->bar.progress, -rg_table_row_units(result, &m->bar));
+            rg_progress_grow(m->bar.progress, -rg_table_row_units(result, &m->bar, row));
         result->left_out[row - result->first_row] = true;
     }
 }
@@ -178,7 +178,10 @@ static void expect_samples(struct measuring *m, struct group *group, int visits)
         if (jobs[i].record->outcome == RG_OK)
             ms += (visits - 1) *
                   (jobs[i].record->create_ms + jobs[i].check_frames * jobs[i].warm_frame_ms);
-    const int64_t planned = m->bar.sampling_units * group->job_count;
+    int64_t planned = 0;
+    for (int row = group->first_row; row <= group->last_row; row++)
+        if (rg_result_wants(m->result, row) && !rg_journal_has(m->journal, row))
+            planned += m->bar.rows[row].sampling_units * rg_result_row_cells(m->result);
     group->units = unit_ms > 0 ? (int64_t)(ms / unit_ms) : planned;
     rg_progress_grow(m->bar.progress, group->units - planned);
 }
@@ -194,7 +197,7 @@ static void visit(struct measuring *m, struct group *group, int visits, int numb
                       group->first_row + 1, group->last_row + 1, number ? ", again" : "");
     if (!rg_interrupted() && group->job_count)
         rg_jobs_measure(m->batch.jobs + group->first_job, group->job_count, &m->options);
-    show_round(1, 1, m);
+    show_share(1, m);
     keep(m);
     close_jobs(m, group);
 }
@@ -242,7 +245,7 @@ bool rg_table_measure(struct rg_result *result, const struct rg_table *table, st
         .options = *(result->few_samples ? rg_table_few_samples() : rg_table_options(result->full)),
         .batch = {.result = result, .table = table, .kept = kept},
         .kept_ms = rg_now_ms()};
-    m.options.progress = show_round;
+    m.options.progress = show_share;
     m.options.user = &m;
     if (!bar)
         rg_progress_start(&own, rg_table_units(result, &m.bar, journal));

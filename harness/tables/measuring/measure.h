@@ -12,23 +12,26 @@ const struct rg_measure_options *rg_table_options(bool is_full);
 // How they are where a budget is short of time: quick, with the fewest samples.
 const struct rg_measure_options *rg_table_few_samples(void);
 
-// What a cell is expected to take, on average over the devices; 0: nobody knows.
+// What a cell of a row is expected to take, on average over the devices; 0: nobody knows.
 struct rg_cell_time {
     double open_ms, sampling_ms; // with what checks it; with the passes told apart
 };
 
-// A table's part of a bar, which may be over several tables: units of each cell.
+// A table's part of a bar, which may be over several tables: units of each cell of a row.
 struct rg_table_bar {
     struct rg_progress *progress;
-    int64_t open_units, sampling_units;
+    struct {
+        int64_t open_units, sampling_units;
+    } rows[RG_TABLE_ROWS];
 };
 
 // The length of a unit, in milliseconds, where it is known what cells take.
 #define RG_TABLE_UNIT_MS 1e-3
-// The part of a table whose cells are expected to take so long; of one of which nobody knows, each
+// The part of a table whose rows' cells are expected to take so long; NULL: nobody knows, and each
 // cell has the same units.
-struct rg_table_bar rg_table_bar_of(const struct rg_cell_time *time, struct rg_progress *progress);
-int64_t rg_table_row_units(const struct rg_result *result, const struct rg_table_bar *bar);
+struct rg_table_bar rg_table_bar_of(const struct rg_cell_time times[RG_TABLE_ROWS],
+                                    struct rg_progress *progress);
+int64_t rg_table_row_units(const struct rg_result *result, const struct rg_table_bar *bar, int row);
 // The units of what is to be measured of a table: rows that the journal (NULL: none) has are not.
 int64_t rg_table_units(const struct rg_result *result, const struct rg_table_bar *bar,
                        const struct rg_journal *journal);

@@ -3,15 +3,21 @@
 #define RG_HARNESS_TABLES_RUNS_FORECAST_H
 
 #include "harness/devices/kept.h"
-#include "harness/tables/papers/published.h"
 #include "harness/tables/measuring/measure.h"
+#include "harness/tables/papers/published.h"
 
 // Whether so many cells take so long that it is worth opening some of them first.
 bool rg_forecast_is_worth(int cells, bool full);
 
-// Opens a few cells of each table, and fills in what one is expected to take, on average over the
-// devices. Of what cannot be opened, cells end at once.
-void rg_forecast(const struct rg_table *const tables[], int count, struct rg_kept *kept, bool full,
-                 struct rg_cell_time *times);
+// What is asked for of a table, and what its rows' cells are expected to take.
+struct rg_forecast {
+    const struct rg_table *table;
+    bool rows[RG_TABLE_ROWS];
+    struct rg_cell_time times[RG_TABLE_ROWS]; // on average over the devices
+};
+
+// Opens the rows of each table on cpu, in its first variant and work, and one on other devices, and
+// fills in what their cells are expected to take. Of what cannot be opened, cells end at once.
+void rg_forecast(struct rg_forecast *forecasts, int count, struct rg_kept *kept, bool full);
 
 #endif

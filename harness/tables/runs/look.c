@@ -66,11 +66,11 @@ bool rg_look_device(struct rg_looking *p, struct rg_device *device, struct rg_fr
     const enum rg_budget_size smallest = p->smallest;
     struct rg_cell_frames small, next;
     double a_pixel = 0, larger[RG_BUDGET_SIZES];
-    if (!rg_look_row(p, device, p->rows[1], smallest, "", &small))
+    if (!rg_look_row(p, device, p->last, smallest, "", &small))
         return false;
     *frames = (struct rg_frames){.open_ms = small.open_ms, .step_ms = small.step_ms};
     if (smallest < RG_BUDGET_WHOLE) {
-        if (!rg_look_row(p, device, p->rows[1], smallest + 1, "", &next))
+        if (!rg_look_row(p, device, p->last, smallest + 1, "", &next))
             return false;
         a_pixel =
             fmax(next.frame_ms - small.frame_ms, 0) / (pixels[smallest + 1] - pixels[smallest]);
@@ -105,7 +105,7 @@ static struct rg_frames ratio_of(const struct rg_frames *a, const struct rg_fram
     return ratio;
 }
 
-static struct rg_frames scaled(const struct rg_frames *cpu, const struct rg_frames *ratio)
+struct rg_frames rg_look_scaled(const struct rg_frames *cpu, const struct rg_frames *ratio)
 {
     struct rg_frames frames = {.open_ms = cpu->open_ms * ratio->open_ms,
                                .step_ms = cpu->step_ms * ratio->step_ms};
@@ -114,18 +114,17 @@ static struct rg_frames scaled(const struct rg_frames *cpu, const struct rg_fram
     return frames;
 }
 
-bool rg_look_frames(struct rg_looking *p, struct rg_device *device, struct rg_frames *frames)
+bool rg_look_ratio(struct rg_looking *p, struct rg_device *device, struct rg_frames *ratio)
 {
-    if (device == p->cpu) {
-        *frames = p->of_cpu;
+    *ratio = (struct rg_frames){1, 1, {1, 1, 1}};
+    if (device == p->cpu)
         return true;
-    }
-    struct rg_frames *ratio = of_kind(p->kind, device, p->kept), found;
-    if (!(ratio->frame_ms[RG_BUDGET_WHOLE] > 0)) {
+    struct rg_frames *known = of_kind(p->kind, device, p->kept), found;
+    if (!(known->frame_ms[RG_BUDGET_WHOLE] > 0)) {
         if (!device || !rg_look_device(p, device, &found))
             return false;
-        *ratio = ratio_of(&found, &p->last_of_cpu);
+        *known = ratio_of(&found, &p->of_row[p->last]);
     }
-    *frames = scaled(&p->of_cpu, ratio);
+    *ratio = *known;
     return true;
 }

@@ -29,10 +29,11 @@ struct rg_looking {
     struct rg_kept *kept;
     struct rg_result result;
     enum rg_budget_size smallest;
-    int rows[2]; // the first and the last that are needed
+    bool rows[RG_TABLE_ROWS]; // that are looked at, on cpu
+    int first, last;          // of them
     struct rg_budget_kind *kind;
     struct rg_device *cpu;
-    struct rg_frames of_cpu, last_of_cpu; // of both rows, and of the last
+    struct rg_frames of_row[RG_TABLE_ROWS]; // on cpu
 };
 
 // The settings of a row at a size, with some over them; the caller frees them. NULL, and one logged
@@ -46,8 +47,9 @@ bool rg_look_row(struct rg_looking *looking, struct rg_device *device, int row,
 bool rg_look_device(struct rg_looking *looking, struct rg_device *device, struct rg_frames *frames);
 // Fills in what frames of all sizes take: so many times as long as the smallest.
 void rg_look_extend(struct rg_frames *frames, enum rg_budget_size smallest, const double larger[]);
-// The frames of a device, where those of cpu are known: by the ratio that is known of its
-// technique, or found now.
-bool rg_look_frames(struct rg_looking *looking, struct rg_device *device, struct rg_frames *frames);
+// How many times as long frames take on a device as on cpu: what is known of its technique, or
+// found now, by the last row.
+bool rg_look_ratio(struct rg_looking *looking, struct rg_device *device, struct rg_frames *ratio);
+struct rg_frames rg_look_scaled(const struct rg_frames *cpu, const struct rg_frames *ratio);
 
 #endif

@@ -5,19 +5,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/console/clock.h"
 #include "harness/measure/sampling.h"
 #include "harness/tables/measuring/measure.h"
 #include "harness/tables/runs/look.h"
 #include "harness/tables/runs/needed.h"
+#include "harness/tables/runs/textures.h"
 
-static void find_ends(const struct rg_table *table, int rows[2])
+// The first and the last of the rows that curves and claims need.
+static void choose_ends(const struct rg_table *table, bool rows[RG_TABLE_ROWS])
 {
     bool needed[RG_TABLE_ROWS];
+    int last = 0;
     rg_needed_rows(table, needed);
-    rows[0] = 0;
     for (int row = 0; row < table->row_count; row++)
-        rows[1] = needed[row] ? row : rows[1];
+        last = needed[row] ? row : last;
+    rows[0] = rows[last] = true;
 }
 
 static void name_costs(const struct rg_table *table, struct rg_budget_table *costs)
@@ -37,19 +39,18 @@ static void name_costs(const struct rg_table *table, struct rg_budget_table *cos
     costs->works += !costs->works;
 }
 
-// The last row on cpu. How a larger picture takes longer is known once a table of the technique was
-// looked at.
-static bool probe_last(struct rg_looking *p)
+// A row on cpu. How a larger picture takes longer is known once a row of the technique was looked
+// at.
+static bool probe_row(struct rg_looking *p, int row)
 {
-    struct rg_budget_kind *kind = p->kind;
-    struct rg_cell_frames last;
-    if (!kind->is_known)
-        return rg_look_device(p, p->cpu, &p->last_of_cpu);
-    if (!rg_look_row(p, p->cpu, p->rows[1], p->smallest, "", &last))
+    struct rg_cell_frames small;
+    if (!p->kind->is_known)
+        return rg_look_device(p, p->cpu, &p->of_row[row]);
+    if (!rg_look_row(p, p->cpu, row, p->smallest, "", &small))
         return false;
-    p->last_of_cpu = (struct rg_frames){.open_ms = last.open_ms, .step_ms = last.step_ms};
-    p->last_of_cpu.frame_ms[p->smallest] = last.frame_ms;
-    rg_look_extend(&p->last_of_cpu, p->smallest, kind->larger);
+    p->of_row[row] = (struct rg_frames){.open_ms = small.open_ms, .step_ms = small.step_ms};
+    p->of_row[row].frame_ms[p->smallest] = small.frame_ms;
+    rg_look_extend(&p->of_row[row], p->smallest, p->kind->larger);
     return true;
 }
 
@@ -58,36 +59,32 @@ static bool probe_last(struct rg_looking *p)
 static bool learn(struct rg_looking *p)
 {
     struct rg_budget_kind *kind = p->kind;
-    const double small_ms = fmax(p->last_of_cpu.frame_ms[p->smallest], 1e-3);
+    const double small_ms = fmax(p->of_row[p->last].frame_ms[p->smallest], 1e-3);
     const char *without = rg_technique_find(p->table->technique)->proof->dry;
     struct rg_cell_frames dry;
     if (kind->is_known)
         return true;
-    if (!rg_look_row(p, p->cpu, p->rows[1], p->smallest, without, &dry))
+    if (!rg_look_row(p, p->cpu, p->last, p->smallest, without, &dry))
         return false;
     for (int size = 0; size < RG_BUDGET_SIZES; size++)
-        kind->larger[size] = p->last_of_cpu.frame_ms[size] / small_ms;
+        kind->larger[size] = p->of_row[p->last].frame_ms[size] / small_ms;
     kind->dry_share = dry.frame_ms / small_ms;
     return kind->is_known = true;
 }
 
-// The first row differs from the last by the same factor at each size.
+// What instances share is made with the first, so that the last, which comes first, opens as late
+// as the others.
 static bool probe_cpu(struct rg_looking *p)
 {
-    struct rg_cell_frames first;
     p->cpu = rg_kept_device(p->kept, "cpu");
-    if (!p->cpu || !probe_last(p) || !learn(p))
-        return false;
-    p->of_cpu = p->last_of_cpu;
-    if (p->rows[0] == p->rows[1])
-        return true;
-    if (!rg_look_row(p, p->cpu, p->rows[0], p->smallest, "", &first))
-        return false;
-    const double more = first.frame_ms / fmax(p->last_of_cpu.frame_ms[p->smallest], 1e-3);
-    p->of_cpu.open_ms = fmin(p->of_cpu.open_ms, first.open_ms);
-    for (int size = 0; size < RG_BUDGET_SIZES; size++)
-        p->of_cpu.frame_ms[size] *= (1 + more) / 2;
-    return true;
+    bool ok = p->cpu && probe_row(p, p->last) && learn(p);
+    for (int row = p->first; ok && row < p->last; row++) {
+        if (!p->rows[row])
+            continue;
+        ok = probe_row(p, row);
+        p->of_row[p->last].open_ms = fmin(p->of_row[p->last].open_ms, p->of_row[row].open_ms);
+    }
+    return ok;
 }
 
 static struct rg_cell_frames at_size(const struct rg_frames *f, int size)
@@ -107,9 +104,9 @@ static bool learn_truth(struct rg_looking *p)
         return true;
     snprintf(over, sizeof(over), "%s %s", table->shown ? table->shown : "", table->truth);
     const bool is_shown = !table->shown || p->smallest == RG_BUDGET_WHOLE;
-    return kind->has_truth = (is_shown || rg_look_row(p, p->cpu, p->rows[0], p->smallest,
+    return kind->has_truth = (is_shown || rg_look_row(p, p->cpu, p->first, p->smallest,
                                                       table->shown, &kind->shown)) &&
-                             rg_look_row(p, p->cpu, p->rows[0], p->smallest, over, &kind->truth);
+                             rg_look_row(p, p->cpu, p->first, p->smallest, over, &kind->truth);
 }
 
 // What the error of a row's picture takes.
@@ -122,25 +119,17 @@ static double error_ms(const struct rg_looking *p, int size, double a_pixel_ms)
            a_pixel_ms * table->width * table->height / (1 << 2 * (2 - size));
 }
 
-// The picture that cells must show, which cpu:reference draws; the same without rain, and the truth
-// that it is compared with, which cpu does.
-static bool probe_check(struct rg_looking *p, struct rg_budget_table *costs)
+// The picture that a row's cells must show, which cpu:reference draws; the same without rain, and
+// the truth that it is compared with, which cpu does.
+static double check_ms(const struct rg_looking *p, int row, int size,
+                       const struct rg_frames *reference, double a_pixel_ms)
 {
-    const struct rg_table *table = p->table;
-    struct rg_frames of_reference;
-    if (!rg_look_frames(p, rg_kept_device(p->kept, "cpu:reference"), &of_reference) ||
-        !learn_truth(p))
-        return false;
-    const double a_pixel_ms = table->truth ? rg_cell_compare_ms() : 0;
-    for (int size = 0; size < RG_BUDGET_SIZES; size++) {
-        const struct rg_cell_frames expected = at_size(&of_reference, size);
-        struct rg_cell_frames dry = at_size(&p->of_cpu, size);
-        dry.frame_ms *= p->kind->dry_share;
-        costs->check_s[size] =
-            1e-3 * (rg_cell_image_ms(table, &expected) + rg_cell_image_ms(table, &dry) +
-                    error_ms(p, size, a_pixel_ms));
-    }
-    return true;
+    const struct rg_frames of_reference = rg_look_scaled(&p->of_row[row], reference);
+    const struct rg_cell_frames expected = at_size(&of_reference, size);
+    struct rg_cell_frames dry = at_size(&p->of_row[row], size);
+    dry.frame_ms *= p->kind->dry_share;
+    return rg_cell_image_ms(p->table, &expected) + rg_cell_image_ms(p->table, &dry) +
+           error_ms(p, size, a_pixel_ms);
 }
 
 static struct rg_budget_cost cost_of(const struct rg_looking *p, const struct rg_cell_frames *f)
@@ -153,69 +142,132 @@ static struct rg_budget_cost cost_of(const struct rg_looking *p, const struct rg
                                    1e-3 * rg_sampling_ms(&sampling, f->frame_ms)};
 }
 
-static void probe_cells(struct rg_looking *p, struct rg_budget_table *costs)
+// What is known of a table's devices, once its rows were looked at.
+struct known {
+    struct rg_frames reference, of[RG_MAX_DEVICES];
+    bool works[RG_MAX_DEVICES]; // what cannot be opened takes nothing
+    double a_pixel_ms;
+};
+
+static bool learn_devices(struct rg_looking *p, struct known *known)
 {
-    for (int d = 0; d < p->kept->devices->count; d++) {
-        struct rg_frames frames;
-        if (!rg_look_frames(p, p->kept->devices->devices[d], &frames))
-            continue;
-        for (int size = 0; size < RG_BUDGET_SIZES; size++) {
+    *known = (struct known){.a_pixel_ms = p->table->truth ? rg_cell_compare_ms() : 0};
+    if (!rg_look_ratio(p, rg_kept_device(p->kept, "cpu:reference"), &known->reference) ||
+        !learn_truth(p))
+        return false;
+    for (int d = 0; d < p->kept->devices->count; d++)
+        known->works[d] = rg_look_ratio(p, p->kept->devices->devices[d], &known->of[d]);
+    return true;
+}
+
+// What cells of a row take, at each size and on each device.
+static void add_row(const struct rg_looking *p, int row, const struct known *known,
+                    struct rg_budget_table *costs)
+{
+    for (int size = 0; size < RG_BUDGET_SIZES; size++) {
+        costs->check_s[size] += 1e-3 * check_ms(p, row, size, &known->reference, known->a_pixel_ms);
+        for (int d = 0; d < p->kept->devices->count; d++) {
+            const struct rg_frames frames = rg_look_scaled(&p->of_row[row], &known->of[d]);
             const struct rg_cell_frames f = at_size(&frames, size);
-            costs->cells[d][size] = cost_of(p, &f);
+            const struct rg_budget_cost cost = cost_of(p, &f);
+            struct rg_budget_cost *sum = &costs->cells[d][size];
+            sum->few_s += known->works[d] ? cost.few_s : 0;
+            sum->all_s += known->works[d] ? cost.all_s : 0;
+            sum->sampling_s += known->works[d] ? cost.sampling_s : 0;
         }
     }
 }
 
-// How many of a table's cells on a device open an instance: those that follow one with the same
-// settings have it open, and take nothing.
-static int openings(const struct rg_looking *p, const struct rg_budget_table *costs)
+// Costs are those of the row in the middle, by what it takes: the mean of all that were looked at.
+static void divide(struct rg_budget_table *costs, int rows)
 {
-    char *before = NULL;
-    int count = 0;
-    for (int row = 0; row < costs->rows; row++) {
-        for (int v = 0; v < costs->variants; v++) {
-            const struct rg_place at = {.row = row, .variant = v};
-            char *now = rg_table_assignments(&p->result, p->table, at);
-            count += !before || !now || strcmp(before, now) != 0;
-            free(before);
-            before = now;
+    for (int size = 0; size < RG_BUDGET_SIZES; size++) {
+        costs->check_s[size] /= rows;
+        for (int d = 0; d < RG_MAX_DEVICES; d++) {
+            costs->cells[d][size].few_s /= rows;
+            costs->cells[d][size].all_s /= rows;
+            costs->cells[d][size].sampling_s /= rows;
         }
     }
-    free(before);
-    return count;
 }
 
-// A texture's level takes nothing but opening what holds it.
-static void probe_textures(struct rg_looking *p, struct rg_budget_table *costs)
+// Begins looking at these rows of a table; NULL: at its ends.
+static void begin(struct rg_looking *p, const struct rg_table *table, struct rg_kept *kept,
+                  bool full, const bool *rows, struct rg_budget_kind *kind)
 {
-    const double share = (double)openings(p, costs) / (costs->rows * costs->variants);
-    for (int d = 0; d < p->kept->devices->count; d++) {
-        void *settings = rg_look_settings(p, p->rows[0], RG_BUDGET_WHOLE, "");
-        const struct rg_subject subject = {rg_technique_find(p->table->technique), settings,
-                                           p->table->width, p->table->height};
-        const double start = rg_now_ms();
-        const bool ok = settings && rg_kept_open(p->kept, p->kept->devices->devices[d], &subject);
-        const double a_cell_s = ok ? 1e-3 * share * (rg_now_ms() - start) : 0;
-        free(settings);
-        for (int size = 0; size < RG_BUDGET_SIZES; size++)
-            costs->cells[d][size] = (struct rg_budget_cost){a_cell_s, a_cell_s, 0};
+    const struct rg_table_part part = {.last_row = table->row_count - 1, .full = full};
+    *p = (struct rg_looking){.table = table, .kept = kept, .kind = kind, .first = -1};
+    if (rows)
+        memcpy(p->rows, rows, sizeof(p->rows));
+    else
+        choose_ends(table, p->rows);
+    for (int row = 0; row < table->row_count; row++) {
+        p->first = p->rows[row] && p->first < 0 ? row : p->first;
+        p->last = p->rows[row] ? row : p->last;
     }
+    rg_table_begin(&p->result, table, &part, kept->devices);
 }
 
 bool rg_budget_probe(const struct rg_table *table, struct rg_kept *kept, bool full,
                      struct rg_budget_kind *kind, struct rg_budget_table *costs)
 {
-    const struct rg_table_part part = {.last_row = table->row_count - 1, .full = full};
-    struct rg_looking p = {.table = table, .kept = kept, .kind = kind};
+    struct rg_looking p;
+    struct known known;
+    int rows = 0;
     name_costs(table, costs);
+    begin(&p, table, kept, full, NULL, kind);
     p.smallest = full ? RG_BUDGET_WHOLE : costs->smallest;
-    find_ends(table, p.rows);
-    rg_table_begin(&p.result, table, &part, kept->devices);
-    const bool ok = table->is_of_textures || (probe_cpu(&p) && probe_check(&p, costs));
+    const bool ok = table->is_of_textures || (probe_cpu(&p) && learn_devices(&p, &known));
     if (table->is_of_textures)
-        probe_textures(&p, costs);
-    else if (ok)
-        probe_cells(&p, costs);
+        rg_look_textures(&p, costs);
+    for (int row = 0; ok && !table->is_of_textures && row < table->row_count; row++) {
+        if (!p.rows[row])
+            continue;
+        add_row(&p, row, &known, costs);
+        rows++;
+    }
+    if (rows)
+        divide(costs, rows);
+    rg_result_free(&p.result);
+    return ok;
+}
+
+// On average over the devices.
+static struct rg_cell_time time_of(const struct rg_budget_table *costs, int devices)
+{
+    struct rg_cell_time time = {.open_ms = 1e3 * costs->check_s[RG_BUDGET_WHOLE]};
+    for (int d = 0; d < devices; d++) {
+        const struct rg_budget_cost *cost = &costs->cells[d][RG_BUDGET_WHOLE];
+        time.open_ms += 1e3 * (cost->all_s - cost->sampling_s);
+        time.sampling_ms += 1e3 * cost->sampling_s;
+    }
+    time.open_ms /= devices;
+    time.sampling_ms /= devices;
+    return time;
+}
+
+bool rg_budget_probe_rows(const struct rg_table *table, struct rg_kept *kept, bool full,
+                          const bool rows[RG_TABLE_ROWS], struct rg_budget_kind *kind,
+                          struct rg_cell_time times[RG_TABLE_ROWS])
+{
+    struct rg_looking p;
+    struct known known;
+    struct rg_budget_table costs = {0};
+    const int devices = kept->devices->count;
+    begin(&p, table, kept, full, rows, kind);
+    p.smallest = RG_BUDGET_WHOLE;
+    bool ok = p.first >= 0;
+    if (ok && table->is_of_textures)
+        rg_look_textures(&p, &costs);
+    else
+        ok = ok && probe_cpu(&p) && learn_devices(&p, &known);
+    for (int row = 0; ok && row < table->row_count; row++) {
+        if (!table->is_of_textures) {
+            costs = (struct rg_budget_table){0};
+            add_row(&p, p.rows[row] ? row : p.last, &known, &costs);
+        }
+        times[row] = time_of(&costs, devices);
+    }
     rg_result_free(&p.result);
     return ok;
 }

@@ -2,6 +2,7 @@
 #ifndef RG_HARNESS_TABLES_RUNS_PROBE_H
 #define RG_HARNESS_TABLES_RUNS_PROBE_H
 
+#include "harness/tables/measuring/measure.h"
 #include "harness/tables/runs/look.h"
 
 // Opens the first and the last needed row of a table on cpu, and on devices of which nothing is
@@ -12,6 +13,12 @@
 // cpu, cpu:reference or the truth does: then that is all cells of the table.
 bool rg_budget_probe(const struct rg_table *table, struct rg_kept *kept, bool full,
                      struct rg_budget_kind *kind, struct rg_budget_table *costs);
+
+// Opens rows of a table likewise, all of them on cpu, at their whole size, and fills in what cells
+// of each take on average over the devices.
+bool rg_budget_probe_rows(const struct rg_table *table, struct rg_kept *kept, bool full,
+                          const bool rows[RG_TABLE_ROWS], struct rg_budget_kind *kind,
+                          struct rg_cell_time times[RG_TABLE_ROWS]);
 
 // Expects of a table what another of its technique takes, where there is no time to look at it.
 void rg_budget_alike(const struct rg_table *table, const struct rg_budget_table *other,

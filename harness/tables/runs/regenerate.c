@@ -118,30 +118,34 @@ static int cells_of(const struct task *tasks, int count)
 
 // What cells of each table are expected to take. NULL where it is not worth finding out; the caller
 // frees it.
-static struct rg_cell_time *foresee(const struct task *tasks, int count, struct rg_kept *kept,
-                                    bool full)
+static struct rg_forecast *foresee(const struct task *tasks, int count, struct rg_kept *kept,
+                                   bool full)
 {
-    const struct rg_table *tables[RG_BUDGET_TABLES];
     if (count > RG_BUDGET_TABLES || !rg_forecast_is_worth(cells_of(tasks, count), full))
         return NULL;
-    for (int i = 0; i < count; i++)
-        tables[i] = tasks[i].table;
-    struct rg_cell_time *times = rg_alloc((size_t)count, sizeof(*times), "forecast");
-    if (times)
-        rg_forecast(tables, count, kept, full, times);
-    return times;
+    struct rg_forecast *forecasts = rg_alloc((size_t)count, sizeof(*forecasts), "forecast");
+    for (int i = 0; forecasts && i < count; i++) {
+        const struct rg_result *result = &tasks[i].result;
+        forecasts[i].table = tasks[i].table;
+        for (int row = result->first_row; row <= result->last_row; row++)
+            forecasts[i].rows[row] =
+                rg_result_wants(result, row) && !rg_journal_has(tasks[i].journal, row);
+    }
+    if (forecasts)
+        rg_forecast(forecasts, count, kept, full);
+    return forecasts;
 }
 
 // Begins the command's bar, of which each table has its part.
-static void begin_bar(struct task *tasks, int count, const struct rg_cell_time *times,
+static void begin_bar(struct task *tasks, int count, const struct rg_forecast *forecasts,
                       struct rg_progress *progress)
 {
     int64_t units = 0;
     for (int i = 0; i < count; i++) {
-        tasks[i].bar = rg_table_bar_of(times ? &times[i] : NULL, progress);
+        tasks[i].bar = rg_table_bar_of(forecasts ? forecasts[i].times : NULL, progress);
         units += rg_table_units(&tasks[i].result, &tasks[i].bar, tasks[i].journal);
     }
-    rg_progress_start_expected(progress, units, times ? RG_TABLE_UNIT_MS : 0);
+    rg_progress_start_expected(progress, units, forecasts ? RG_TABLE_UNIT_MS : 0);
 }
 
 // Journals go once all tables are written: where one is not, the same command begins with what they
@@ -177,9 +181,9 @@ static int run_tasks(struct task *tasks, int count, const struct rg_devices *dev
     struct rg_progress progress;
     int exit = RG_EXIT_PASS;
     rg_interrupt_watch();
-    struct rg_cell_time *times = foresee(tasks, count, &kept, o->full);
-    begin_bar(tasks, count, times, &progress);
-    free(times);
+    struct rg_forecast *forecasts = foresee(tasks, count, &kept, o->full);
+    begin_bar(tasks, count, forecasts, &progress);
+    free(forecasts);
     for (int i = 0; i < count && !rg_interrupted(); i++) {
         if (i)
             printf("\n");

@@ -119,6 +119,16 @@ static bool fake_image_clear(struct rg_image *image, const void *texel)
     return true;
 }
 
+static bool fake_image_read(struct rg_image *image, int layer, int level, void *texels)
+{
+    (void)layer;
+    (void)level;
+    uint16_t *halves = texels;
+    for (int i = 0; i < image->desc.width * image->desc.height * 4; i++)
+        halves[i] = fake_of(image->device)->shown;
+    return true;
+}
+
 static struct rg_pass *fake_pass_create(struct rg_device *device, const struct rg_kernel *kernel)
 {
     (void)device;
@@ -154,6 +164,7 @@ static const struct rg_backend fake_backend = {
     .image_create = fake_image_create,
     .image_destroy = fake_image_destroy,
     .image_clear = fake_image_clear,
+    .image_read = fake_image_read,
     .pass_create = fake_pass_create,
     .pass_destroy = fake_pass_destroy,
     .pass_run = fake_pass_run,

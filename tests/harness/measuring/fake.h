@@ -36,6 +36,7 @@ struct fake_device {
     int64_t waits, clock_reads, runs; // since it was opened
     double pending_ms;                // asked for, and not waited for
     const void *last;                 // the instance that stepped last
+    uint16_t shown;                   // each half of the images that are read
 };
 struct fake_device *fake_open(void);
 

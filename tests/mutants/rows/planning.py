@@ -1,7 +1,7 @@
 """Budgets of time: what cells are expected to take, what is chosen of tables, and when that is planned anew."""
 from fault import Fault
 
-TESTS = ("budget", "planner")
+TESTS = ("budget", "planner", "time left")
 
 PLAN, CELL, BUDGET, PROBE = ("harness/tables/runs/plan.c", "harness/tables/measuring/cell.c", "harness/tables/runs/budget.c",
                              "harness/tables/runs/probe.c")
@@ -26,17 +26,20 @@ ROWS = [
     Fault(BUDGET, "if («!b->measured»)", "false", "a budget in which nothing is measured passes", tests=("planner",)),
     Fault(BUDGET, "b->measured += «had > 0»;", "1", "a table without a row counts as measured", tests=("planner",)),
     Fault(LOOK, "/ («pixels[smallest + 1] - pixels[smallest]»);", "1.0", "larger pictures take as long as smaller ones", tests=("planner",)),
-    Fault(PROBE, "p->of_cpu.frame_ms[size] *= «(1 + more) / 2»;", "1 + 0 * more", "every row takes as long as the last", tests=("planner",)),
+    Fault(PROBE, "ok = «probe_row(p, row)»;", "(p->of_row[row] = p->of_row[p->last], true)", "every row takes as long as the last", tests=("planner",)),
     Fault(PROBE, "dry.frame_ms *= «p->kind->dry_share»;", "0", "a dry picture takes nothing", tests=("planner",)),
     Fault(CELL, "f->open_ms = fmax(opened - start «- f->frame_ms», 0);", "- 0", "the first frame counts as opening", tests=("planner",)),
-    Fault(LOOK, "if («!(ratio->frame_ms[RG_BUDGET_WHOLE] > 0)») {", "true", "every table looks at every device", tests=("planner",)),
-    Fault(PROBE, "count += «!before || !now || strcmp(before, now) != 0»;", "1", "each level opens its texture", tests=("planner",)),
+    Fault(LOOK, "if («!(known->frame_ms[RG_BUDGET_WHOLE] > 0)») {", "true", "every table looks at every device", tests=("planner",)),
+    Fault("harness/tables/runs/textures.c", "count += «!before || !now || strcmp(before, now) != 0»;", "1", "each level opens its texture", tests=("planner",)),
     Fault(CELL, "fmax(frames - 2, 0) * «f->step_ms» +", "f->frame_ms", "frames that are simulated are drawn", tests=("budget",)),
-    Fault(CELL, "fmin(20, o->warm_up_ms / ms) / 2), «in_time»);", "20.0", "long frames warm up as often as short ones", tests=("budget",)),
+    Fault(CELL, "return fmin(fmax(o->warm_up_frames, 1), «floor(o->warm_up_ms / ms) + 1»);", "20.0", "long frames warm up as often as short ones", tests=("budget",)),
     Fault(BUDGET, "1000 * (b->seconds «- least_behind_s(b, i)»);", "- 0", "a table may take what those behind it need", tests=("planner",)),
     Fault(BUDGET, "return s * «slowness(b)»;", "1", "slow cells leave the next tables too little", tests=("planner",)),
     Fault(PROBE, "if (!table->truth || «kind->has_truth»)", "false", "each table looks at its truth", tests=("planner",)),
-    Fault(PROBE, "if («kind->is_known»)\n        return true;\n    if (!rg_look_row(p, p->cpu, p->rows[1], p->smallest, without, &dry))", "false", "each table looks at a dry picture", tests=("planner",)),
+    Fault(PROBE, "if («kind->is_known»)\n        return true;\n    if (!rg_look_row(p, p->cpu, p->last, p->smallest, without, &dry))", "false", "each table looks at a dry picture", tests=("planner",)),
     Fault(LOOK, "table.quick = «quick»;", "p->table->quick", "small pictures show as much as whole ones", tests=("planner",)),
     Fault(PLAN, "return table->truth && («size == RG_BUDGET_WHOLE» || rg_needs_truth(table));", "true", "errors of small pictures are measured that no claim is about", tests=("planner",)),
+    Fault("harness/measure/measure.c", "all_ms += last == r->all ? «passes_ms(job, options)» : 0;", "0", "what telling passes apart takes is not told", tests=("time left",)),
+    Fault(PROBE, "add_row(&p, p.rows[row] ? «row» : p.last, &known, &costs);", "p.last", "each row is expected to take what the last one does", tests=("planner", "time left")),
+    Fault("harness/tables/measuring/measure.c", "group->units = unit_ms > 0 ? «(int64_t)(ms / unit_ms)» : planned;", "planned / 3", "what open jobs take is told wrongly", tests=("time left",)),
 ]

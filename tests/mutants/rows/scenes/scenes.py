@@ -8,6 +8,7 @@ CAMERA, MATRIX, LIGHTS = "core/scene/camera.c", "core/scene/matrix.c", "core/sce
 DENSITY, SPACE, SPECTRUM = "core/scene/density.c", "core/scene/rain_space.c", "core/scene/spectrum.c"
 BLUR, CUBE, KTX, LOAD = ("core/scene/environment/blur.c", "core/scene/environment/cube.c", "core/scene/environment/ktx.c",
                          "core/scene/environment/environment.c")
+BLOCKS, RAIN = "core/techniques/streaks/packets/blocks.c", "core/techniques/streaks/particles.c"
 GRID, DETAIL, LOOK = "core/techniques/streaks/packets/grid.c", "core/techniques/flow/detail.c", "core/techniques/streaks/view/look.c"
 EDGES, FACES, MESH = "core/scene/mesh/edges.c", "core/scene/mesh/faces.c", "core/scene/mesh/mesh.c"
 WIND, MOTION = "core/techniques/cartoon/rain/wind.c", ("cartoon rain, motion and lists, cpu_reference",)
@@ -83,4 +84,8 @@ ROWS = [
     Fault(MESH, "if («indices[i] >= (uint32_t)vertex_count»)", "indices[i] > (uint32_t)vertex_count", "a face may name a vertex behind the last"),
     Fault(MESH, "mesh->high[c] = «value > mesh->high[c] ? value : mesh->high[c]»;", "value", "a mesh ends at its last vertex"),
     Fault(MESH, "vector[i] = «u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3]»;", "u[(i + 2) % 3] * v[(i + 1) % 3] - u[(i + 1) % 3] * v[(i + 2) % 3]", "normals look inwards"),
+    Fault(BLOCKS, "return sparse <= 1 || «(block + place) % sparse == 0»;", "block < place", "sparse rain is not one block in so many", tests=("rain packets, selection",)),
+    Fault(BLOCKS, "masks[i] = is_kept(i, 0, «view->sparse») ? masks[i] : 0;", "1", "sparse rain by number is whole", tests=("rain packets, selection",)),
+    Fault(RAIN, "p->local_height_m, «p->packet_size», (int)p->scheme", "0", "rains of other packets are taken for the same", tests=("streaks, cpu",)),
+    Fault(RAIN, "(int)p->scheme, «p->by_id»,", "0", "rains in another order are taken for the same", tests=("streaks, cpu",)),
 ]

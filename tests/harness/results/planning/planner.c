@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "core/techniques/proof.h"
 #include "harness/console/clock.h"
 #include "harness/tables/measuring/measure.h"
 #include "harness/tables/runs/budget.h"
@@ -18,80 +17,9 @@
 #include "harness/tables/measuring/cell.h"
 #include "harness/tables/runs/forecast.h"
 #include "tests/harness/measuring/fake.h"
+#include "tests/harness/results/planning/slow.h"
 
 #define assert_ms(value, ms) assert_near(value, ms, 1e-6)
-
-// --- a technique whose frames take what its settings say ---
-
-struct slow_settings {
-    double open_ms, step_ms, fixed_ms, pixel_us;
-};
-struct slow_instance {
-    struct rg_instance pub;
-    struct slow_settings settings;
-};
-
-#define AT(field) offsetof(struct slow_settings, field)
-static const struct rg_param params[] = {
-    {"open_ms", RG_PARAM_FLOAT, AT(open_ms), 40, 0, 1e6, "ms", "of opening", NULL},
-    {"step_ms", RG_PARAM_FLOAT, AT(step_ms), 1, 0, 1e6, "ms", "of simulating a frame", NULL},
-    {"fixed_ms", RG_PARAM_FLOAT, AT(fixed_ms), 10, 0, 1e6, "ms", "of drawing it", NULL},
-    {"pixel_us", RG_PARAM_FLOAT, AT(pixel_us), 0.125, 0, 1e6, "us", "more of each pixel", NULL},
-};
-static const struct rg_param_table param_table = {
-    .technique = "slow", .rows = params, .count = 4, .settings_size = sizeof(struct slow_settings)};
-
-// A device's item_ms is how many times as long it takes.
-static struct fake_device *fake_of(const struct rg_instance *instance)
-{
-    return (struct fake_device *)instance->device;
-}
-
-static int opened;
-
-static bool open_slow(struct rg_instance *instance)
-{
-    const struct slow_instance *slow = (const struct slow_instance *)instance;
-    opened++;
-    fake_pass(slow->settings.open_ms * fake_of(instance)->item_ms);
-    return true;
-}
-
-static bool step_slow(struct rg_instance *instance)
-{
-    const struct slow_instance *slow = (const struct slow_instance *)instance;
-    instance->frame++;
-    fake_pass(slow->settings.step_ms * fake_of(instance)->item_ms);
-    return true;
-}
-
-static bool draw_slow(struct rg_instance *instance)
-{
-    const struct slow_settings *s = &((const struct slow_instance *)instance)->settings;
-    const double pixels = (double)instance->target->desc.width * instance->target->desc.height;
-    fake_pass((s->fixed_ms + 1e-3 * s->pixel_us * pixels) * fake_of(instance)->item_ms);
-    return true;
-}
-
-static const struct rg_proof proof = {.dry = "fixed_ms=0"};
-static const struct rg_technique slow_technique = {
-    .name = "slow",
-    .params = &param_table,
-    .proof = &proof,
-    .size = sizeof(struct slow_instance),
-    .settings = offsetof(struct slow_instance, settings),
-    .open = open_slow,
-    .step = step_slow,
-    .draw = draw_slow,
-};
-
-// In place of the build's own list.
-const struct rg_technique *const rg_techniques[] = {&slow_technique, NULL};
-const struct rg_technique *rg_technique_find(const char *name)
-{
-    assert_string_equal(name, "slow");
-    return &slow_technique;
-}
 
 // --- tables of it ---
 
@@ -109,41 +37,12 @@ static const struct rg_table table = {.id = "slow-1",
                                       .rows = rows,
                                       .note = "a note"};
 
-struct rig {
-    struct fake_device *fakes[3];
-    struct rg_devices devices;
-    struct rg_kept kept;
-};
-
-// cpu, cpu:reference, which takes ten times as long, and gl, which takes three times as long.
-static void begin(struct rig *rig)
-{
-    static const char *const names[] = {"cpu", "cpu:reference", "gl"};
-    static const double slowness[] = {1, 10, 3};
-    *rig = (struct rig){.devices = {.count = 3}};
-    for (int d = 0; d < 3; d++) {
-        rig->fakes[d] = fake_open();
-        rig->fakes[d]->item_ms = slowness[d];
-        rg_text_copy(rig->fakes[d]->pub.info.name, RG_NAME_SIZE, names[d]);
-        rig->devices.devices[d] = &rig->fakes[d]->pub;
-    }
-    rig->kept.devices = &rig->devices;
-    opened = 0;
-}
-
-static void end(struct rig *rig)
-{
-    assert_true(rg_kept_free(&rig->kept));
-    for (int d = 0; d < 3; d++)
-        assert_true(rg_device_close(&rig->fakes[d]->pub));
-}
-
-// The last row's frame, and the middle of both ends by how they differ in the smallest pictures.
-static double frame_ms(enum rg_budget_size size)
+// A frame of the first and of the last row, which differ by the same factor at each size.
+static double frame_ms(int row, enum rg_budget_size size)
 {
     const double pixels[] = {32768, 131072, 524288};
     const double last_ms = 11 + 1.25e-4 * pixels[size], smallest_ms = 11 + 1.25e-4 * pixels[0];
-    return last_ms * (1 + (3 + 1.25e-4 * pixels[0]) / smallest_ms) / 2;
+    return row ? last_ms : (3 + 1.25e-4 * pixels[0]) * last_ms / smallest_ms;
 }
 
 // Opened, and drawn after four steps, with rain on cpu:reference, which takes ten times as long,
@@ -151,7 +50,8 @@ static double frame_ms(enum rg_budget_size size)
 static double check_ms(enum rg_budget_size size)
 {
     const double dry_share = (1 + 1.25e-4 * 32768) / (11 + 1.25e-4 * 32768);
-    return 10 * (40 + 4 + frame_ms(size)) + 40 + 4 + dry_share * frame_ms(size);
+    const double ms = (frame_ms(0, size) + frame_ms(1, size)) / 2;
+    return 10 * (40 + 4 + ms) + 40 + 4 + dry_share * ms;
 }
 
 static void expect_cells(const struct rg_budget_table *costs)
@@ -159,11 +59,15 @@ static void expect_cells(const struct rg_budget_table *costs)
     static const double slowness[] = {1, 10, 3};
     for (int d = 0; d < 3; d++)
         for (enum rg_budget_size size = 0; size < RG_BUDGET_SIZES; size++) {
-            const struct rg_cell_frames f = {40 * slowness[d], slowness[d],
-                                             frame_ms(size) * slowness[d]};
-            const struct rg_budget_cost *cell = &costs->cells[d][size];
-            assert_ms(cell->few_s * 1e3, rg_cell_ms(&table, &f, rg_table_few_samples()));
-            assert_ms(cell->all_s * 1e3, rg_cell_ms(&table, &f, rg_table_options(false)));
+            double few_ms = 0, all_ms = 0;
+            for (int row = 0; row < 2; row++) {
+                const struct rg_cell_frames f = {40 * slowness[d], slowness[d],
+                                                 frame_ms(row, size) * slowness[d]};
+                few_ms += rg_cell_ms(&table, &f, rg_table_few_samples()) / 2;
+                all_ms += rg_cell_ms(&table, &f, rg_table_options(false)) / 2;
+            }
+            assert_ms(costs->cells[d][size].few_s * 1e3, few_ms);
+            assert_ms(costs->cells[d][size].all_s * 1e3, all_ms);
         }
 }
 
@@ -171,10 +75,10 @@ static void expect_cells(const struct rg_budget_table *costs)
 static void what_a_table_takes_is_what_was_seen(void **state)
 {
     (void)state;
-    struct rig rig;
+    struct slow_rig rig;
     struct rg_budget_kind kind = {0};
     struct rg_budget_table costs, again;
-    begin(&rig);
+    slow_begin(&rig);
     assert_true(rg_budget_probe(&table, &rig.kept, false, &kind, &costs));
     assert_int_equal(costs.rows, 3);
     assert_int_equal(costs.needed_rows, 3);
@@ -183,12 +87,12 @@ static void what_a_table_takes_is_what_was_seen(void **state)
     for (enum rg_budget_size size = 0; size < RG_BUDGET_SIZES; size++)
         assert_ms(costs.check_s[size] * 1e3, check_ms(size));
     // On cpu both ends, a larger picture and a dry one; on others a small and a larger one.
-    assert_int_equal(opened, 4 + 2 + 2);
-    opened = 0;
+    assert_int_equal(slow_opened, 4 + 2 + 2);
+    slow_opened = 0;
     assert_true(rg_budget_probe(&table, &rig.kept, false, &kind, &again));
-    assert_int_equal(opened, 2); // both ends
+    assert_int_equal(slow_opened, 2); // both ends
     expect_cells(&again);
-    end(&rig);
+    slow_end(&rig);
 }
 
 // What smaller pictures set is what is opened; a truth, which is of all that a picture shows, is
@@ -196,7 +100,7 @@ static void what_a_table_takes_is_what_was_seen(void **state)
 static void smaller_pictures_show_less(void **state)
 {
     (void)state;
-    struct rig rig;
+    struct slow_rig rig;
     struct rg_budget_kind kind = {0};
     struct rg_budget_table costs, again;
     struct rg_table smaller = table;
@@ -204,10 +108,10 @@ static void smaller_pictures_show_less(void **state)
     smaller.smaller[1] = "fixed_ms=4";
     smaller.shown = "fixed_ms=7";
     smaller.truth = "step_ms=20";
-    begin(&rig);
+    slow_begin(&rig);
     assert_true(rg_budget_probe(&smaller, &rig.kept, false, &kind, &costs));
     // The ends, a larger picture, and one without rain; shown and the truth; two a device.
-    assert_int_equal(opened, 4 + 2 + 2 + 2);
+    assert_int_equal(slow_opened, 4 + 2 + 2 + 2);
     assert_ms(kind.shown.frame_ms, 1 + 7 + 1.25e-4 * 32768);
     assert_ms(kind.truth.frame_ms, 20 + 7 + 1.25e-4 * 32768);
     // From a sixteenth of the pixels to a quarter it takes 3 ms and 98,304 pixels more.
@@ -226,22 +130,22 @@ static void smaller_pictures_show_less(void **state)
             costs.cells[0][size].few_s * 1e3,
             rg_cell_ms(&smaller, &(struct rg_cell_frames){40, 1, ms}, rg_table_few_samples()));
     }
-    opened = 0;
+    slow_opened = 0;
     assert_true(rg_budget_probe(&smaller, &rig.kept, false, &kind, &again));
-    assert_int_equal(opened, 2);
-    end(&rig);
+    assert_int_equal(slow_opened, 2);
+    slow_end(&rig);
 }
 
 // A small picture is not made smaller, and a device that fails takes nothing.
 static void a_device_that_fails_takes_nothing(void **state)
 {
     (void)state;
-    struct rig rig;
+    struct slow_rig rig;
     struct rg_budget_kind kind = {0};
     struct rg_budget_table costs;
     struct rg_table small = table;
     small.width = 256;
-    begin(&rig);
+    slow_begin(&rig);
     rig.fakes[2]->waits_left = 0;
     assert_true(rg_budget_probe(&small, &rig.kept, false, &kind, &costs));
     assert_int_equal(costs.smallest, RG_BUDGET_WHOLE);
@@ -251,7 +155,7 @@ static void a_device_that_fails_takes_nothing(void **state)
     rig.fakes[0]->waits_left = 0;
     assert_false(rg_budget_probe(&small, &rig.kept, false, &kind, &costs));
     rig.fakes[0]->waits_left = -1;
-    end(&rig);
+    slow_end(&rig);
 }
 
 // Levels of a texture take what opening it takes, once for those with the same settings.
@@ -261,51 +165,55 @@ static void textures_take_what_opening_them_takes(void **state)
     static const struct rg_table_row levels[] = {
         {"", {0}, "a"}, {"", {1}, "a"}, {"fixed_ms=1", {0}, "a"}, {"fixed_ms=1", {1}, "a"}};
     static const double due_ms[] = {40, 400, 120};
-    struct rig rig;
+    struct slow_rig rig;
     struct rg_budget_kind kind = {0};
     struct rg_budget_table costs;
     struct rg_table textures = table;
     textures.rows = levels;
     textures.row_count = 4;
     textures.is_of_textures = true;
-    begin(&rig);
+    slow_begin(&rig);
     assert_true(rg_budget_probe(&textures, &rig.kept, false, &kind, &costs));
-    assert_int_equal(opened, 3);
+    assert_int_equal(slow_opened, 3);
     for (int d = 0; d < 3; d++) {
         const struct rg_budget_choice c = {.devices = 1u << d, .size = RG_BUDGET_WHOLE};
         assert_ms(rg_budget_expect(&costs, &c) * 1e3, 2 * due_ms[d]);
     }
-    end(&rig);
+    slow_end(&rig);
 }
 
 // A cell takes what it does on the average device, with its share of what the row is checked by. In
-// full mode it is opened as it will be measured.
-static void a_forecast_is_of_all_devices(void **state)
+// full mode each row is opened as it will be measured.
+static void a_forecast_is_of_each_row(void **state)
 {
     (void)state;
-    static const double slowness[] = {1, 10, 3};
-    const struct rg_table *const tables[] = {&table, &table};
+    static const double slowness[] = {1, 10, 3}, fixed_ms[] = {2, 4, 10};
     const struct rg_measure_options *full = rg_table_options(true);
-    const double last_ms = 11 + 1.25e-4 * 524288, first_ms = 3 + 1.25e-4 * 524288;
-    const double mean_ms = (last_ms + first_ms) / 2;
-    const double dry_share = (1 + 1.25e-4 * 524288) / last_ms;
-    double open_ms = 10 * (40 + 4 + mean_ms) + 40 + 4 + dry_share * mean_ms, sampling_ms = 0;
-    struct rg_cell_time times[2] = {{0, 0}, {0, 0}};
-    struct rig rig;
-    begin(&rig);
-    rg_forecast(tables, 2, &rig.kept, true, times);
-    for (int d = 0; d < 3; d++) {
-        const struct rg_cell_frames f = {40 * slowness[d], slowness[d], mean_ms * slowness[d]};
-        const struct rg_sampling sampling = rg_sampling_of(f.frame_ms, 0, full);
-        sampling_ms += rg_sampling_ms(&sampling, f.frame_ms);
-        open_ms += rg_cell_ms(&table, &f, full) - rg_sampling_ms(&sampling, f.frame_ms);
+    const double pixels_ms = 1.25e-4 * 524288, dry_share = (1 + pixels_ms) / (11 + pixels_ms);
+    struct rg_forecast forecasts[2] = {{.table = &table, .rows = {true, true, true}},
+                                       {.table = &table, .rows = {true, false, true}}};
+    struct slow_rig rig;
+    slow_begin(&rig);
+    rg_forecast(forecasts, 2, &rig.kept, true);
+    for (int row = 0; row < 3; row++) {
+        const double ms = 1 + fixed_ms[row] + pixels_ms;
+        double open_ms = 10 * (40 + 4 + ms) + 40 + 4 + dry_share * ms, sampling_ms = 0;
+        for (int d = 0; d < 3; d++) {
+            const struct rg_cell_frames f = {40 * slowness[d], slowness[d], ms * slowness[d]};
+            const struct rg_sampling sampling = rg_sampling_of(f.frame_ms, 0, full);
+            sampling_ms += rg_sampling_ms(&sampling, f.frame_ms);
+            open_ms += rg_cell_ms(&table, &f, full) - rg_sampling_ms(&sampling, f.frame_ms);
+        }
+        for (int i = 0; i < 2; i++) {
+            if (!forecasts[i].rows[row])
+                continue;
+            assert_ms(forecasts[i].times[row].open_ms, open_ms / 3);
+            assert_ms(forecasts[i].times[row].sampling_ms, sampling_ms / 3);
+        }
     }
-    for (int i = 0; i < 2; i++) {
-        assert_ms(times[i].open_ms, open_ms / 3);
-        assert_ms(times[i].sampling_ms, sampling_ms / 3);
-    }
-    assert_int_equal(opened, 5 + 2); // of the first both ends, a dry one, and on two other devices
-    end(&rig);
+    // Of the first table each row, a dry one, and one on two other devices; of the second two rows.
+    assert_int_equal(slow_opened, 3 + 1 + 2 + 2);
+    slow_end(&rig);
     assert_true(rg_forecast_is_worth(1, true));
     assert_false(rg_forecast_is_worth(299, false));
 }
@@ -316,7 +224,7 @@ enum { TABLES = 3 };
 
 // Three tables of three rows on one device, a cell 4 s, of all samples 8 s: all of it takes 72 s.
 struct plan {
-    struct rig rig;
+    struct slow_rig rig;
     struct rg_table tables[TABLES];
     const struct rg_table *of[TABLES];
     struct rg_budget budget;
@@ -329,7 +237,7 @@ struct plan {
 static void begin_plan(struct plan *p, double seconds)
 {
     memset(p, 0, sizeof(*p));
-    begin(&p->rig);
+    slow_begin(&p->rig);
     p->rig.devices.count = 1;
     p->out = open_memstream(&p->told, &p->size);
     p->budget = (struct rg_budget){.tables = p->of,
@@ -387,7 +295,7 @@ static void end_plan(struct plan *p)
     fclose(p->out);
     free(p->told);
     p->rig.devices.count = 3;
-    end(&p->rig);
+    slow_end(&p->rig);
 }
 
 // What takes as long as it was to, or less, changes nothing.
@@ -514,7 +422,7 @@ int main(void)
         cmocka_unit_test(smaller_pictures_show_less),
         cmocka_unit_test(a_device_that_fails_takes_nothing),
         cmocka_unit_test(textures_take_what_opening_them_takes),
-        cmocka_unit_test(a_forecast_is_of_all_devices),
+        cmocka_unit_test(a_forecast_is_of_each_row),
         cmocka_unit_test(a_plan_that_is_kept_is_not_made_anew),
         cmocka_unit_test(cells_that_take_longer_have_the_rest_planned_anew),
         cmocka_unit_test(what_comes_behind_has_its_least_left),

@@ -1,0 +1,160 @@
+// How long it still takes, as a command tells it while it measures tables of uneven rows in full,
+// by a clock that only their frames move: once a tenth is done within 20 % of what it takes then.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+#include "harness/console/clock.h"
+#include "harness/tables/runs/regenerate.h"
+#include "tests/harness/results/planning/slow.h"
+
+enum { MOST_ROWS = 40, MOST_LINES = 32 };
+
+// --- what is told ---
+
+static struct {
+    int count;
+    struct {
+        double at_ms, low_ms, high_ms; // when it was told, and what its digits stand for
+        char text[128];
+    } lines[MOST_LINES];
+} told;
+
+static void hear(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)user;
+    double value, unit_ms;
+    char unit[8];
+    if (!strstr(line, " left; now: ") || sscanf(line, "about %lf %7s", &value, unit) != 2)
+        return;
+    assert_true(told.count < MOST_LINES);
+    unit_ms = !strcmp(unit, "h") ? 3.6e6 : !strcmp(unit, "min") ? 6e4 : 1e3;
+    const double half = strchr(line, '.') && strchr(line, '.') < strstr(line, unit) ? 0.05 : 0.5;
+    told.lines[told.count].at_ms = rg_now_ms();
+    told.lines[told.count].low_ms = (value - half) * unit_ms;
+    told.lines[told.count].high_ms = (value + half) * unit_ms;
+    snprintf(told.lines[told.count++].text, sizeof(told.lines[0].text), "%s", line);
+}
+
+// --- tables ---
+
+// Rows whose frames take so long, and their settings as text.
+struct uneven {
+    char sets[MOST_ROWS][64];
+    struct rg_table_row rows[MOST_ROWS];
+    struct rg_table table;
+};
+
+static void make(struct uneven *u, const char *id, int rows, double (*ms_of)(int row, int rows))
+{
+    *u = (struct uneven){.table = {.technique = "slow",
+                                   .columns = {"fixed_ms"},
+                                   .key_count = 1,
+                                   .variants = {{"full", "", NULL}},
+                                   .width = 256,
+                                   .height = 256,
+                                   .check_frames = 5,
+                                   .row_count = rows,
+                                   .rows = u->rows,
+                                   .note = "a note"}};
+    u->table.id = id;
+    for (int row = 0; row < rows; row++) {
+        snprintf(u->sets[row], sizeof(u->sets[row]), "fixed_ms=%.3f", ms_of(row, rows));
+        u->rows[row] = (struct rg_table_row){u->sets[row], {ms_of(row, rows)}, NULL};
+    }
+}
+
+static double growing(int row, int rows)
+{
+    return 2 * pow(150, row / (rows - 1.0));
+}
+
+static double falling(int row, int rows)
+{
+    return growing(rows - 1 - row, rows);
+}
+
+static double alike(int row, int rows)
+{
+    return 5 + 0.01 * row / rows;
+}
+
+// As where each camera's last row is the whole rain.
+static double with_peaks(int row, int rows)
+{
+    return (row + 1) % (rows / 2) ? 20 + row : 400;
+}
+
+// --- a command ---
+
+static int print(const struct rg_result *result, const void *user)
+{
+    (void)user;
+    for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);)
+        assert_int_equal(rg_result_at(result, at)->outcome, RG_OK);
+    return 0;
+}
+
+static void check(const struct rg_table *const tables[], int count)
+{
+    char folder[] = "/tmp/raingauge-left-XXXXXX";
+    struct slow_rig rig;
+    assert_non_null(mkdtemp(folder));
+    told.count = 0;
+    slow_begin(&rig);
+    rg_log_listen(hear, NULL);
+    const struct rg_regenerate_options options = {
+        .full = true, .fresh = true, .folder = folder, .print = print};
+    assert_int_equal(rg_tables_regenerate(tables, count, &rig.devices, &options), 0);
+    rg_log_listen(NULL, NULL);
+    const double end_ms = rg_now_ms();
+    slow_end(&rig);
+    assert_true(told.count >= 7);
+    for (int i = 0; i < told.count; i++) {
+        const double left_ms = end_ms - told.lines[i].at_ms;
+        if (told.lines[i].low_ms > 1.2 * left_ms || told.lines[i].high_ms < 0.8 * left_ms)
+            fail_msg("'%s', and it took %.0f s", told.lines[i].text, left_ms / 1000);
+    }
+    char command[64];
+    snprintf(command, sizeof(command), "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
+static void what_is_left_is_told_within_a_fifth(void **state)
+{
+    (void)state;
+    static double (*const shapes[])(int, int) = {growing, falling, alike, with_peaks};
+    static struct uneven u[4];
+    for (int i = 0; i < 4; i++) {
+        make(&u[0], "slow-1", 18, shapes[i]);
+        check((const struct rg_table *const[]){&u[0].table}, 1);
+    }
+    // Light tables first, and heavy ones last, or the other way round.
+    for (int turn = 0; turn < 2; turn++) {
+        make(&u[turn ? 3 : 0], "slow-1", 40, alike);
+        make(&u[1], "slow-2", 12, growing);
+        make(&u[2], "slow-3", 6, falling);
+        make(&u[turn ? 0 : 3], "slow-4", 18, with_peaks);
+        check((const struct rg_table *const[]){&u[0].table, &u[1].table, &u[2].table, &u[3].table},
+              4);
+    }
+}
+
+int main(void)
+{
+    setenv("RG_LONG_S", "1", 1);
+    if (isatty(STDERR_FILENO) && !freopen("/dev/null", "w", stderr))
+        return 1;
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_left_is_told_within_a_fifth)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,116 @@
+#include "tests/harness/results/planning/slow.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "core/base/log.h"
+#include "core/techniques/proof.h"
+#include "harness/record/record.h"
+
+// --- a technique whose frames take what its settings say ---
+
+struct slow_settings {
+    double open_ms, step_ms, fixed_ms, pixel_us;
+};
+struct slow_instance {
+    struct rg_instance pub;
+    struct slow_settings settings;
+};
+
+#define AT(field) offsetof(struct slow_settings, field)
+static const struct rg_param params[] = {
+    {"open_ms", RG_PARAM_FLOAT, AT(open_ms), 40, 0, 1e6, "ms", "of opening", NULL},
+    {"step_ms", RG_PARAM_FLOAT, AT(step_ms), 1, 0, 1e6, "ms", "of simulating a frame", NULL},
+    {"fixed_ms", RG_PARAM_FLOAT, AT(fixed_ms), 10, 0, 1e6, "ms", "of drawing it", NULL},
+    {"pixel_us", RG_PARAM_FLOAT, AT(pixel_us), 0.125, 0, 1e6, "us", "more of each pixel", NULL},
+};
+static const struct rg_param_table param_table = {
+    .technique = "slow", .rows = params, .count = 4, .settings_size = sizeof(struct slow_settings)};
+
+// A device's item_ms is how many times as long it takes.
+static struct fake_device *fake_of(const struct rg_instance *instance)
+{
+    return (struct fake_device *)instance->device;
+}
+
+// A frame that waits after every stage takes longer.
+static double slowness(const struct rg_instance *instance)
+{
+    return fake_of(instance)->item_ms * (instance->after_stage ? 1.5 : 1);
+}
+
+int slow_opened;
+
+static bool open_slow(struct rg_instance *instance)
+{
+    const struct slow_instance *slow = (const struct slow_instance *)instance;
+    slow_opened++;
+    fake_pass(slow->settings.open_ms * fake_of(instance)->item_ms);
+    return true;
+}
+
+static bool step_slow(struct rg_instance *instance)
+{
+    const struct slow_instance *slow = (const struct slow_instance *)instance;
+    instance->frame++;
+    fake_pass(slow->settings.step_ms * slowness(instance));
+    return true;
+}
+
+static bool draw_slow(struct rg_instance *instance)
+{
+    const struct slow_settings *s = &((const struct slow_instance *)instance)->settings;
+    const double pixels = (double)instance->target->desc.width * instance->target->desc.height;
+    fake_of(instance)->shown = s->fixed_ms > 0 ? 0x3c00 : 0; // 1, or nothing without rain
+    fake_pass((s->fixed_ms + 1e-3 * s->pixel_us * pixels) * slowness(instance));
+    return true;
+}
+
+static const struct rg_proof proof = {.dry = "fixed_ms=0"};
+static const struct rg_technique slow_technique = {
+    .name = "slow",
+    .params = &param_table,
+    .proof = &proof,
+    .size = sizeof(struct slow_instance),
+    .settings = offsetof(struct slow_instance, settings),
+    .open = open_slow,
+    .step = step_slow,
+    .draw = draw_slow,
+};
+
+// In place of the build's own list.
+const struct rg_technique *const rg_techniques[] = {&slow_technique, NULL};
+const struct rg_technique *rg_technique_find(const char *name)
+{
+    assert_string_equal(name, "slow");
+    return &slow_technique;
+}
+
+// --- devices ---
+
+void slow_begin(struct slow_rig *rig)
+{
+    static const char *const names[] = {"cpu", "cpu:reference", "gl"};
+    static const double slowness[] = {1, 10, 3};
+    *rig = (struct slow_rig){.devices = {.count = 3}};
+    for (int d = 0; d < 3; d++) {
+        rig->fakes[d] = fake_open();
+        rig->fakes[d]->item_ms = slowness[d];
+        rg_text_copy(rig->fakes[d]->pub.info.name, RG_NAME_SIZE, names[d]);
+        rig->devices.devices[d] = &rig->fakes[d]->pub;
+    }
+    rig->kept.devices = &rig->devices;
+    slow_opened = 0;
+}
+
+void slow_end(struct slow_rig *rig)
+{
+    assert_true(rg_kept_free(&rig->kept));
+    for (int d = 0; d < 3; d++)
+        assert_true(rg_device_close(&rig->fakes[d]->pub));
+}
