@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
+#include "core/base/doing.h"
 #include "core/scene/atlas/levels.h"
 #include "core/scene/atlas/splash.h"
 #include "core/scene/atlas/streak.h"
@@ -94,8 +95,11 @@ static bool fill(struct rg_atlas *atlas, const struct rg_lobes *lobes,
     for (int set = 0; set < STREAK_SETS; set++) {
         failed += !make_streaks(atlas, set, lobes);
 #pragma omp critical
-        if (progress)
-            progress->tell(progress->user, ++done, STREAK_SETS);
+        {
+            rg_doing_begin("tracing the streak atlas", "");
+            if (progress)
+                progress->tell(progress->user, ++done, STREAK_SETS);
+        }
     }
     return !failed && rg_atlas_finish(atlas);
 }

@@ -10,8 +10,8 @@ struct rg_gate_outputs {
 };
 
 // By --junit and --output, which may be NULL, and googletest's flags. Pictures go where they are
-// asked for, or beside the file of JUnit: FILE.xml has FILE-pictures/. False, and one logged line,
-// where a path is too long or a form is not had.
+// asked for, or beside the file of JUnit: FILE.xml has the folder FILE-pictures. False, and one
+// logged line, where a path is too long or a form is not had.
 bool rg_gate_outputs_settle(const char *junit, const char *pictures,
                             const struct rg_gtest_asked *gtest, struct rg_gate_outputs *outputs);
 
