@@ -1,9 +1,10 @@
 # raingauge: `make tables` regenerates the papers' tables, `make test` runs every test. Both install
 # what Debian packages are missing, build, say what they do, and can be run again at no cost.
 # `make results` replaces the tables that the repository keeps; `make thorough` runs the tests that
-# take too long for every change; `make mutants` tries the tests themselves, with faults.
+# take too long for every change; `make mutants` tries the tests themselves, with faults, and `make gate-selftest` the gate, with
+# builds that are the same and that are slower.
 .POSIX:
-.PHONY: all setup build tables committed results test thorough mutants clean format
+.PHONY: all setup build tables committed results test thorough mutants gate-selftest clean format
 
 BUILD = build
 ASAN = build-asan
@@ -104,6 +105,10 @@ thorough: build
 mutants: build
 	@echo "== trying the tests with faults in host code and kernels, one at a time"
 	@python3 tests/mutants/mutants.py $(BUILD) $(WHAT)
+
+gate-selftest: build
+	@echo "== gating what is the same, and what does 5 % more, while another process is busy; an hour or two"
+	@python3 tests/harness/gate/selftest.py $(BUILD) --keep $(BUILD)/selftest
 
 format:
 	@git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i

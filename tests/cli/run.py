@@ -49,6 +49,7 @@ import misbehaving
 import pages
 import reports
 import results
+import resuming
 import shrinking
 from runner import Runner
 
@@ -61,7 +62,7 @@ SUITES = {
     "results": lambda runner: runner.check_all(results.CHECKS),
     "clips": lambda runner: runner.check_all(clips.CHECKS),
     "stored": lambda runner: runner.check_all(results.STORED),
-    "losses": lambda runner: runner.check_all(losses.CHECKS),
+    "losses": lambda runner: runner.check_all(losses.CHECKS + resuming.CHECKS),
     "long": lambda runner: runner.check_all(results.LONG),
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
     "ways": lambda runner: runner.check_all(misbehaving.THOROUGH),

@@ -17,6 +17,7 @@
 #include "harness/compare/gate/run/gate.h"
 #include "harness/console/duration.h"
 #include "harness/devices/workers/worker.h"
+#include "harness/record/disk/hold.h"
 #include "harness/record/output.h"
 
 struct gate_options {
@@ -33,7 +34,7 @@ struct gate_options {
     struct rg_gtest_asked gtest;
     int timeout_s;
     int64_t memory_bytes;
-    bool pictures_only, github, json;
+    bool pictures_only, fresh, github, json;
 };
 
 #define AT(field) offsetof(struct gate_options, field)
@@ -83,9 +84,13 @@ static const struct rg_option options[] = {
      .offset = AT(skips), .names = RG_NAMES_FILE},
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "DIR",
-     .about = "writes pictures that differ, A's and B's and heat maps, which reports then name; "
-              "with --junit FILE they go to FILE's folder, into FILE-pictures",
+     .about =
+         "writes pictures that differ, A's and B's and heat maps, which reports then name, and "
+         "what every launch told; after Ctrl-C the same command goes on. With --junit FILE "
+         "pictures go to FILE's folder, into FILE-pictures",
      .offset = AT(pictures), .letter = 'o', .names = RG_NAMES_FOLDER},
+    {RG_OPTION_FLAG, "fresh", .about = "begins anew, whatever the folder of -o keeps",
+     .offset = AT(fresh)},
     {RG_OPTION_TEXT, "junit", .argument = "FILE", .about = "writes JUnit's XML (docs/ci.md)",
      .offset = AT(junit), .names = RG_NAMES_FILE},
     {RG_OPTION_TEXT, "bmf", .argument = "FILE", .about = "writes Bencher's metric format",
@@ -221,6 +226,24 @@ static int run_either(const struct gate_options *o, const struct gate_input *in,
                : rg_gate_run(request, gate);
 }
 
+// The same in a folder that no other raingauge writes into meanwhile.
+static int run_held(const struct gate_options *o, const struct gate_input *in,
+                    struct rg_gate_request *request, struct rg_gate *gate)
+{
+    struct rg_hold hold = {.fd = -1};
+    request->folder = o->pictures;
+    request->fresh = o->fresh;
+    if (o->pictures && !rg_hold_folder(o->pictures, &hold)) {
+        rg_error("%s: another raingauge writes into it; wait until it has ended, or name another "
+                 "folder",
+                 o->pictures);
+        return RG_EXIT_USAGE;
+    }
+    const int exit = run_either(o, in, request, gate);
+    rg_hold_release(&hold);
+    return exit;
+}
+
 static int run(const struct gate_options *o, const struct gate_input *in)
 {
     struct rg_gate gate = {.case_count = 0};
@@ -238,7 +261,7 @@ static int run(const struct gate_options *o, const struct gate_input *in)
         can_write(o, &outputs)) {
         outputs.prints_gtest |= request.shards.total > 1;
         request.pictures = *outputs.pictures ? outputs.pictures : NULL;
-        exit = run_either(o, in, &request, &gate);
+        exit = run_held(o, in, &request, &gate);
         if (exit != RG_EXIT_USAGE && exit < RG_EXIT_SIGNALLED &&
             !print(o, &outputs, &in->known, &gate))
             exit = rg_exit_worse(exit, RG_EXIT_FAIL);

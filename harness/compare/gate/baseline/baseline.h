@@ -3,17 +3,13 @@
 #ifndef RG_HARNESS_COMPARE_GATE_BASELINE_BASELINE_H
 #define RG_HARNESS_COMPARE_GATE_BASELINE_BASELINE_H
 
+#include "harness/compare/gate/cells/digest.h"
 #include "harness/compare/gate/decide/decide.h"
 #include "harness/compare/gate/run/alike.h"
 #include "harness/compare/gate/run/slot.h"
 #include "harness/measure/yardsticks.h"
 
-enum { RG_BASELINE_FORMAT = 1, RG_DIGEST_SIZE = 17, RG_BASELINE_LAUNCHES = RG_SHIFT_SAMPLES };
-
-// XXH3 in 16 hexadecimal digits.
-void rg_digest_of(const void *bytes, size_t size, char digest[RG_DIGEST_SIZE]);
-// Of all that a cell is: technique, size, frames and every parameter, those by default too.
-void rg_digest_of_cell(const struct rg_gate_cell *cell, char digest[RG_DIGEST_SIZE]);
+enum { RG_BASELINE_FORMAT = 1, RG_BASELINE_LAUNCHES = RG_SHIFT_SAMPLES };
 
 // Times of launches that count, in the order in which they were taken.
 struct rg_launches {

@@ -10,11 +10,14 @@
 #include "harness/compare/gate/report/gtest.h"
 #include "harness/compare/gate/report/texts.h"
 #include "harness/compare/gate/run/agree.h"
+#include "harness/compare/gate/cells/digest.h"
 #include "harness/compare/gate/run/cases.h"
+#include "harness/compare/gate/run/kept.h"
 #include "harness/compare/gate/run/times.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
+#include "harness/record/output.h"
 #include "harness/record/passport/passport.h"
 
 char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
@@ -48,7 +51,9 @@ struct run {
     struct rg_side sides[RG_SIDES];
     struct rg_timed_cell *timed;
     int timed_count;
+    const char **timed_names; // of their cases
     int first_case;
+    struct rg_kept_times *kept; // NULL: nothing is
 };
 
 // --- cells are chosen ---
@@ -83,7 +88,8 @@ static bool make_room(struct run *r)
     r->gate->cases = rg_alloc(cases, sizeof(*r->gate->cases), "gate");
     r->timed = rg_alloc(cells, sizeof(*r->timed), "gate");
     r->gate->results = rg_alloc(cases, sizeof(*r->gate->results), "gate");
-    return r->gate->cases && r->timed && r->gate->results;
+    r->timed_names = rg_alloc(cells, sizeof(*r->timed_names), "gate");
+    return r->gate->cases && r->timed && r->timed_names && r->gate->results;
 }
 
 static bool choose(struct run *r)
@@ -165,6 +171,7 @@ static void compare(struct run *r, struct rg_gate_case *c)
     c->is_compared = there && !c->is_skipped;
     if (c->is_compared && c->agreement.outcome == RG_OK && !r->asked->pictures_only) {
         c->timed = r->timed_count;
+        r->timed_names[r->timed_count] = c->name;
         r->timed[r->timed_count++] = (struct rg_timed_cell){.cell = c->cell};
         c->is_timed = true;
     }
@@ -199,11 +206,55 @@ static bool time_all(struct run *r)
         .sides = r->sides,
         .cells = r->timed,
         .end_ms = r->asked->budget_s > 0 ? rg_now_ms() + 1e3 * r->asked->budget_s : 0};
-    const struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over, &times,
-                                          NULL};
+    struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over, &times,
+                                    NULL};
+    const struct rg_quad_source fresh = source;
+    if (r->kept)
+        source = rg_kept_times_source(r->kept, &fresh, r->timed_names);
     rule.margin = r->asked->margin;
     rule.error /= r->asked->pairs->count;
     return rg_gate_measure(r->gate, r->first_case, &rule, &source, r->timed);
+}
+
+// --- what is kept of it ---
+
+// All that decides the times.
+static json_t *key_of(const struct run *r)
+{
+    json_t *cells = json_object(), *pairs = json_array();
+    for (int64_t i = 0; i < r->asked->cells->count; i++) {
+        char digest[RG_DIGEST_SIZE];
+        rg_digest_of_cell(&r->asked->cells->cells[i], digest);
+        json_object_set_new(cells, r->asked->cells->cells[i].name, json_string(digest));
+    }
+    for (int i = 0; i < r->asked->pairs->count; i++)
+        json_array_append_new(pairs, json_pack("[s, s]", r->asked->pairs->all[i].names[RG_SIDE_A],
+                                               r->asked->pairs->all[i].names[RG_SIDE_B]));
+    return json_pack("{s:o, s:o, s:o, s:f}", "cells", cells, "pairs", pairs, "passport",
+                     rg_passport_json(r->infos, r->info_count), "margin", r->asked->margin);
+}
+
+static bool open_kept(struct run *r)
+{
+    if (!r->asked->folder || r->asked->pictures_only)
+        return true;
+    r->kept = rg_kept_times_open(r->asked->folder, key_of(r), r->asked->fresh);
+    const int count = r->kept ? rg_kept_times_count(r->kept) : 0;
+    if (count)
+        rg_info("%s: has times of %d launches of a gate that was interrupted, which goes on",
+                r->asked->folder, count);
+    return r->kept;
+}
+
+// What every launch told stays beside the pictures once the gate is over.
+static bool close_kept(struct run *r, bool is_done)
+{
+    char *csv = r->kept && is_done ? rg_kept_times_csv(r->kept) : NULL;
+    const bool ok =
+        !r->kept || !is_done || (csv && rg_output_write(r->asked->folder, "launches.csv", csv));
+    free(csv);
+    rg_kept_times_close(r->kept, is_done && ok);
+    return ok;
 }
 
 // --- what came of it ---
@@ -259,11 +310,15 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
     rg_interrupt_watch();
     if (!have_names(&r))
         return RG_EXIT_USAGE;
-    bool ok = make_room(&r) && set_passport(&r);
+    bool ok = make_room(&r) && set_passport(&r) && open_kept(&r);
     for (int pair = 0; ok && pair < request->pairs->count && !rg_interrupted(); pair++)
         ok = run_pair(&r, pair);
     ok = ok && (rg_interrupted() || rg_gate_report(request, gate));
+    ok = close_kept(&r, ok && !rg_interrupted()) && ok;
     free(r.timed);
+    free(r.timed_names);
+    if (rg_interrupted() && r.asked->folder)
+        rg_info("gate: interrupted; the same command goes on");
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
     return ok ? rg_gate_exit(gate) : RG_EXIT_FAIL;

@@ -19,6 +19,8 @@ struct rg_gate_request {
     const char *filter;            // of googletest, for names of cases; NULL: all
     struct rg_gtest_shards shards; // of what it lets through
     const char *pictures;          // a folder for those that differ, which is made; NULL: none
+    const char *folder;            // where times are kept, which is there; NULL: nowhere
+    bool fresh;                    // what is kept there is not gone on with
     // Told of each case before it is begun and when it has ended; NULL: nobody asks. A case that is
     // timed ends with all others.
     void (*tell)(const struct rg_report_case *told, void *user);

@@ -1,0 +1,83 @@
+"""A gate keeps what each launch told in its folder: one that is killed goes on, and nothing wrong is gone on with."""
+import csv
+import fcntl
+import json
+import os
+
+from gates import Files
+from losses import wait_for
+
+
+def kept_launches(folder):
+    """What a gate has kept, as text, by case and launch; none: nothing."""
+    try:
+        with open(os.path.join(folder, "gate.journal")) as file:
+            rows = json.load(file)["rows"]
+    except FileNotFoundError:
+        return {}
+    return {(case, launch[0]): launch[1:4] for case, launches in rows.items() for launch in launches}
+
+
+def told_launches(folder):
+    with open(os.path.join(folder, "launches.csv"), newline="") as file:
+        return {(row["case"], int(row["launch"])): [float(row[name]) for name in ("log_ratio", "a_ms", "b_ms")] for row in csv.DictReader(file)}
+
+
+def left_by_a_kill(runner, files, folder):
+    """Kills a gate once it has kept some launches, which are returned."""
+    process = runner.start(["gate", "cpu", "cpu", "--cells", files.cells, "-o", folder])
+    wait_for(lambda: len(kept_launches(folder)) >= 4 or process.poll() is not None)
+    process.kill()
+    process.communicate()
+    return kept_launches(folder)
+
+
+def check_killed(runner):
+    """a gate that is killed goes on with all launches but the one that was under way"""
+    with Files() as files:
+        folder = files.path("out")
+        left = left_by_a_kill(runner, files, folder)
+        again = runner.run(["gate", "cpu", "cpu", "--cells", files.cells, "-o", folder, "--budget", "1s"])
+        told = told_launches(folder)
+        names = sorted(os.listdir(folder))
+    problems = [] if len(left) >= 4 else ["%d launches were kept" % len(left)]
+    if again.returncode not in (0, 3) or "has times of %d launches of a gate that was interrupted" % len(left) not in again.stderr:
+        problems.append("exit status %d, %s" % (again.returncode, again.stderr))
+    problems += ["launch %s is another" % (key,) for key, values in left.items()
+                 if any(abs(a - b) > 1e-8 * abs(a) for a, b in zip(values, told.get(key, [0, 0, 0])))]
+    return problems + (["left: %s" % names] if names != ["launches.csv"] else [])
+
+
+def check_kept(runner):
+    """what another gate kept, or what was damaged, is no part of this one; a full disk takes nothing away; one gate holds a folder"""
+    problems = []
+    with Files() as files:
+        folder = files.path("out")
+        left_by_a_kill(runner, files, folder)
+        path = os.path.join(folder, "gate.journal")
+        with open(path) as file:
+            whole = file.read()
+        args = ["gate", "cpu", "cpu", "--cells", files.cells, "-o", folder, "--budget", "0.5s"]
+        full = runner.run(args, limit=100)
+        with open(path) as file:
+            after = file.read()
+        if after != whole or full.stderr.count("gate.journal") != 1:
+            problems.append("full disk: %s, %s" % (full.stderr, "kept" if after == whole else "lost"))
+        for name, text, more, says in (("damaged", whole.replace("0.", "1.", 1), [], "is damaged or no journal"),
+                                       ("of another margin", whole, ["--margin", "7"], "is of another build, machine, choice"),
+                                       ("to be begun anew", whole, ["--fresh"], None)):
+            with open(path, "w") as file:
+                file.write(text)
+            result = runner.run(args + more)
+            if result.returncode not in (0, 3) or (says not in result.stderr if says else "launches" in result.stderr):
+                problems.append("%s: exit status %d, %s" % (name, result.returncode, result.stderr))
+        holder = os.open(folder, os.O_RDONLY)
+        fcntl.flock(holder, fcntl.LOCK_EX)
+        result = runner.run(args)
+        os.close(holder)
+        if result.returncode != 2 or "another raingauge writes into it" not in result.stderr or result.stderr.count("\n") != 1:
+            problems.append("held: exit status %d, %s" % (result.returncode, result.stderr))
+    return problems
+
+
+CHECKS = [check_killed, check_kept]

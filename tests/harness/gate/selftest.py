@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+"""Holds the gate against what it promises, with real processes: a build that is the same as itself must pass, and one that does
+5 % more must be found. Another process is busy on one of the cores all the while.
+
+selftest.py BUILD [--device D,...] [--same N] [--planted N] [--extra PERCENT] [--idle] [--keep DIR]
+
+Runs `raingauge gate D D` until it has made --same verdicts (300), of all built-in cells in turn, over the devices that are named
+(cpu,gl,vulkan). Then it plants real work beside each frame, as much as takes --extra (5) percent of a frame as it was found, and
+runs the gate on what does it (BUILD/tests/harness/gate/slower) until there are --planted (59) verdicts. --idle leaves the cores alone.
+--keep writes what each run found into a folder, as the gate's JSON. Prints both directions, the share that was left open, seconds
+a cell and the power at 2, 3 and 5 %. The exit status is 1 where more than one of 300 that are the same was told apart, or one that
+was planted was not found.
+"""
+import argparse
+import json
+import os
+import pathlib
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+
+MOST_WRONG_SHARE = 1 / 300
+
+
+def options():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build")
+    parser.add_argument("--device", default="cpu,gl,vulkan")
+    parser.add_argument("--same", type=int, default=300)
+    parser.add_argument("--planted", type=int, default=59)
+    parser.add_argument("--extra", type=float, default=5)
+    parser.add_argument("--idle", action="store_true")
+    parser.add_argument("--keep")
+    return parser.parse_args()
+
+
+class Gates:
+    """Runs gates, and counts their verdicts."""
+
+    def __init__(self, asked):
+        self.build = pathlib.Path(asked.build).resolve()
+        self.raingauge = str(self.build / "harness" / "raingauge")
+        self.slower = str(self.build / "tests" / "harness" / "gate" / "slower" / "raingauge-slower")
+        self.keep = asked.keep
+        self.runs = 0
+
+    def cells(self):
+        """The lines of the built-in cells."""
+        source = pathlib.Path(__file__).resolve().parents[3] / "harness" / "compare" / "gate" / "cells" / "cells.txt"
+        return [line for line in source.read_text().splitlines() if line.strip() and not line.startswith("#")]
+
+    def run(self, a, b, cells=None):
+        """The cases of one gate, by the cells' names."""
+        command = [self.raingauge, "gate", a, b, "--json"]
+        with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
+            if cells:
+                file.write("\n".join(cells) + "\n")
+                file.flush()
+                command += ["--cells", file.name]
+            result = subprocess.run(command, capture_output=True, text=True, check=False)
+        if not result.stdout:
+            sys.exit("%s: exit status %d, %s" % (" ".join(command), result.returncode, result.stderr))
+        report = json.loads(result.stdout)
+        self.runs += 1
+        if self.keep:
+            pathlib.Path(self.keep).mkdir(exist_ok=True)
+            pathlib.Path(self.keep, "%03d.json" % self.runs).write_text(result.stdout)
+        return {case["name"].split(".", 1)[0]: case for case in report["gated"]}
+
+    def loop_ns(self):
+        """What one loop of the extra work takes, of processor time."""
+        loops = 400_000_000
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        subprocess.run([str(self.build / "tests" / "harness" / "gate" / "slower" / "loops"), str(loops)], check=True)
+        return (resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before) * 1e9 / loops
+
+
+class Tally:
+    """Verdicts of one kind of run."""
+
+    def __init__(self, name):
+        self.name, self.cases = name, []
+
+    def add(self, device, cases):
+        for cell, case in cases.items():
+            self.cases.append((device, case))
+            print("%s  %-8s %-16s %-12s ratio %s  %.1f s" % (time.strftime("%H:%M:%S"), device, cell, case["ending"],
+                                                             case["ratio"] and case["ratio"]["value"], case["seconds"]), flush=True)
+
+    def count(self, ending):
+        return sum(case["ending"] == ending for _, case in self.cases)
+
+    def median(self, device, value):
+        values = sorted(v for d, case in self.cases if d == device for v in [value(case)] if v is not None)
+        return values[len(values) // 2] if values else float("nan")
+
+    def tell(self):
+        endings = sorted({case["ending"] for _, case in self.cases})
+        print("%s: %d verdicts: %s" % (self.name, len(self.cases), ", ".join("%d %s" % (self.count(e), e) for e in endings)))
+        for device in dict.fromkeys(d for d, _ in self.cases):
+            mine = [case for d, case in self.cases if d == device]
+            print("  %-8s %d verdicts, %.1f s a cell in median, %.1f in all; a launch scatters by %.1f %% in median; %d left open; ratio %.4f" % (
+                device, len(mine), self.median(device, lambda c: c["seconds"]), sum(c["seconds"] for c in mine) / len(mine),
+                self.median(device, scatter), sum(c["ending"] == "inconclusive" for c in mine),
+                self.median(device, lambda c: c["ratio"]["value"])))
+            print("           of changes it would have found, in mean: %s" % ", ".join(
+                "%d %% with %.0f %%" % (change, sum(power(c, change) for c in mine) / len(mine)) for change in (2, 3, 5)))
+
+
+def scatter(case):
+    found = re.search(r"scatters by ([\d.]+) %", case["details"])
+    return float(found[1]) if found else None
+
+
+def power(case, change):
+    found = re.search(r"\b%d %% with (\d+) %%" % change, case["details"])
+    return float(found[1]) if found else 0.0
+
+
+def plan(devices, count, cells):
+    """How many runs of all cells each device gets: half of the verdicts are the first device's."""
+    runs = -(-count // cells)
+    others = max(1, runs // (2 * len(devices) - 2)) if len(devices) > 1 else 0
+    return {device: runs - others * (len(devices) - 1) if i == 0 else others for i, device in enumerate(devices)}
+
+
+def run_same(gates, devices, count, tally):
+    for device, runs in plan(devices, count, len(gates.cells())).items():
+        for _ in range(runs):
+            tally.add(device, gates.run(device, device))
+
+
+def run_planted(gates, devices, count, extra, same, tally):
+    loop_ns = gates.loop_ns()
+    cells = gates.cells()
+    for device, runs in plan(devices, count, len(cells)).items():
+        for _ in range(runs):
+            for line in cells:
+                name = line.split()[0]
+                frames = sorted(case["baseline_ms"] for d, case in same.cases if d == device and case["name"].startswith(name + "."))
+                loops = round(extra / 100 * frames[len(frames) // 2] * 1e6 / loop_ns)
+                slower = "%s@RG_PROGRAM=%s;RG_EXTRA_LOOPS=%d" % (device, gates.slower, loops)
+                tally.add(device, gates.run(device, slower, [line]))
+
+
+def main():
+    asked = options()
+    gates, devices = Gates(asked), asked.device.split(",")
+    same, planted = Tally("the same"), Tally("%g %% more" % asked.extra)
+    busy = None if asked.idle else subprocess.Popen([sys.executable, "-c", "while True: pass"])
+    try:
+        run_same(gates, devices, asked.same, same)
+        run_planted(gates, devices, asked.planted, asked.extra, same, planted)
+    finally:
+        if busy:
+            busy.kill()
+    same.tell()
+    planted.tell()
+    wrong = same.count("regressed") + same.count("improved")
+    bad = wrong > max(1, MOST_WRONG_SHARE * len(same.cases)) or planted.count("regressed") < len(planted.cases)
+    bad = bad or any(case["ending"] not in ("pass", "inconclusive", "regressed", "improved") for _, case in same.cases)
+    print("%s: %d of %d that are the same were told apart; %d of %d that were planted were found" % (
+        "failed" if bad else "passed", wrong, len(same.cases), planted.count("regressed"), len(planted.cases)))
+    return int(bad)
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("GOMP_SPINCOUNT", "8000")
+    sys.exit(main())
