@@ -12,13 +12,11 @@
 #include "harness/cli/shared.h"
 #include "harness/compare/gate/baseline/against.h"
 #include "harness/commands/comparing/outputs.h"
-#include "harness/compare/gate/pictures/pictures.h"
 #include "harness/compare/gate/report/gtest.h"
 #include "harness/compare/gate/run/gate.h"
 #include "harness/console/duration.h"
 #include "harness/devices/workers/worker.h"
 #include "harness/record/disk/hold.h"
-#include "harness/record/output.h"
 
 struct gate_options {
     char *against;            // another build; NULL: two devices are named, or a baseline
@@ -160,61 +158,7 @@ static int list_cases(const struct gate_options *o, const struct gate_input *in)
     return ok ? RG_EXIT_PASS : RG_EXIT_FAIL;
 }
 
-// What would make the files of expected failures true; the first gets failures that are new.
-static bool print_patches(const struct rg_known *known, const struct rg_gate *gate)
-{
-    bool ok = true, adds_new = true;
-    for (int file = 0; ok && file < known->file_count; file++) {
-        const enum rg_known_form form = known->files[file].form;
-        if (form != RG_FORM_OWN && form != RG_FORM_FAILS)
-            continue;
-        ok = rg_known_patch(known, file, gate->results, gate->result_count, today(), adds_new,
-                            stdout);
-        adds_new = false;
-    }
-    return ok;
-}
-
-static bool print_text(const struct rg_known *known, const struct rg_gate *gate)
-{
-    fputs(gate->note ? gate->note : "", stdout);
-    return rg_report_text(&gate->report, stdout) && print_patches(known, gate);
-}
-
-static bool print_github(const struct rg_report *report)
-{
-    const char *summary = getenv("GITHUB_STEP_SUMMARY");
-    return rg_report_annotations(report, stdout) &&
-           (!summary || rg_report_append_markdown(report, summary));
-}
-
-static bool print(const struct gate_options *o, const struct rg_gate_outputs *outputs,
-                  const struct rg_known *known, const struct rg_gate *gate)
-{
-    const struct rg_report *report = &gate->report;
-    bool ok = true;
-    if (*outputs->junit)
-        ok = rg_report_write(report, rg_report_junit, outputs->junit);
-    if (o->bmf)
-        ok = rg_report_write(report, rg_report_bmf, o->bmf) && ok;
-    if (o->json)
-        return rg_report_json(report, stdout) && ok;
-    ok = (outputs->prints_gtest ? rg_gtest_print(report, stdout) : print_text(known, gate)) && ok;
-    return (!o->github || print_github(report)) && ok;
-}
-
 // --- the command ---
-
-// Whether all can be written, as is found out before any work.
-static bool can_write(const struct gate_options *o, const struct rg_gate_outputs *outputs)
-{
-    enum { REPORT_BYTES = 1 << 20 };
-    const char *summary = o->github ? getenv("GITHUB_STEP_SUMMARY") : NULL;
-    return (!summary || rg_report_can_append(summary)) &&
-           (!*outputs->junit || rg_output_file_can_be_written(outputs->junit, REPORT_BYTES)) &&
-           (!o->bmf || rg_output_file_can_be_written(o->bmf, REPORT_BYTES)) &&
-           (!*outputs->pictures || rg_gate_pictures_can_be_written(outputs->pictures, 0));
-}
 
 static int run_either(const struct gate_options *o, const struct gate_input *in,
                       struct rg_gate_request *request, struct rg_gate *gate)
@@ -247,7 +191,8 @@ static int run_held(const struct gate_options *o, const struct gate_input *in,
 static int run(const struct gate_options *o, const struct gate_input *in)
 {
     struct rg_gate gate = {.case_count = 0};
-    struct rg_gate_outputs outputs = {.prints_gtest = false};
+    struct rg_gate_outputs outputs = {
+        .bmf = o->bmf, .github = o->github, .json = o->json, .today = today()};
     struct rg_gate_request request = {.pairs = &in->pairs,
                                       .cells = &in->cells,
                                       .known = &in->known,
@@ -258,12 +203,12 @@ static int run(const struct gate_options *o, const struct gate_input *in)
     if (rg_gtest_shards(&request.shards) &&
         rg_gate_outputs_settle(o->junit, o->pictures, &o->gtest, &outputs) &&
         (!o->budget || rg_duration_read(o->budget, "--budget", &request.budget_s)) &&
-        can_write(o, &outputs)) {
+        rg_gate_outputs_can_be_written(&outputs)) {
         outputs.prints_gtest |= request.shards.total > 1;
         request.pictures = *outputs.pictures ? outputs.pictures : NULL;
         exit = run_held(o, in, &request, &gate);
         if (exit != RG_EXIT_USAGE && exit < RG_EXIT_SIGNALLED &&
-            !print(o, &outputs, &in->known, &gate))
+            !rg_gate_outputs_print(&outputs, &in->known, &gate))
             exit = rg_exit_worse(exit, RG_EXIT_FAIL);
     }
     rg_gate_free(&gate);

@@ -1,9 +1,12 @@
 #include "harness/commands/comparing/outputs.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/log.h"
+#include "harness/compare/gate/pictures/pictures.h"
+#include "harness/record/output.h"
 
 bool rg_gate_outputs_settle(const char *junit, const char *pictures,
                             const struct rg_gtest_asked *gtest, struct rg_gate_outputs *outputs)
@@ -25,4 +28,61 @@ bool rg_gate_outputs_settle(const char *junit, const char *pictures,
     else if (length)
         snprintf(outputs->pictures, PATH_MAX, "%.*s-pictures", (int)stem, file);
     return true;
+}
+
+bool rg_gate_outputs_can_be_written(const struct rg_gate_outputs *outputs)
+{
+    enum { REPORT_BYTES = 1 << 20 };
+    const char *summary = outputs->github ? getenv("GITHUB_STEP_SUMMARY") : NULL;
+    return (!summary || rg_report_can_append(summary)) &&
+           (!*outputs->junit || rg_output_file_can_be_written(outputs->junit, REPORT_BYTES)) &&
+           (!outputs->bmf || rg_output_file_can_be_written(outputs->bmf, REPORT_BYTES)) &&
+           (!*outputs->pictures || rg_gate_pictures_can_be_written(outputs->pictures, 0));
+}
+
+// --- printing ---
+
+// What would make the files of expected failures true; the first gets failures that are new.
+static bool print_patches(const struct rg_known *known, const struct rg_gate *gate, int today)
+{
+    bool ok = true, adds_new = true;
+    for (int file = 0; ok && file < known->file_count; file++) {
+        const enum rg_known_form form = known->files[file].form;
+        if (form != RG_FORM_OWN && form != RG_FORM_FAILS)
+            continue;
+        ok =
+            rg_known_patch(known, file, gate->results, gate->result_count, today, adds_new, stdout);
+        adds_new = false;
+    }
+    return ok;
+}
+
+static bool print_text(const struct rg_known *known, const struct rg_gate *gate, int today)
+{
+    fputs(gate->note ? gate->note : "", stdout);
+    return rg_report_text(&gate->report, stdout) && print_patches(known, gate, today);
+}
+
+static bool print_github(const struct rg_report *report)
+{
+    const char *summary = getenv("GITHUB_STEP_SUMMARY");
+    return rg_report_annotations(report, stdout) &&
+           (!summary || rg_report_append_markdown(report, summary));
+}
+
+bool rg_gate_outputs_print(const struct rg_gate_outputs *outputs, const struct rg_known *known,
+                           const struct rg_gate *gate)
+{
+    const struct rg_report *report = &gate->report;
+    bool ok = true;
+    if (*outputs->junit)
+        ok = rg_report_write(report, rg_report_junit, outputs->junit);
+    if (outputs->bmf)
+        ok = rg_report_write(report, rg_report_bmf, outputs->bmf) && ok;
+    if (outputs->json)
+        return rg_report_json(report, stdout) && ok;
+    ok = (outputs->prints_gtest ? rg_gtest_print(report, stdout)
+                                : print_text(known, gate, outputs->today)) &&
+         ok;
+    return (!outputs->github || print_github(report)) && ok;
 }

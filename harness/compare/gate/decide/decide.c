@@ -174,9 +174,9 @@ void rg_gate_conclude(const struct rg_gate_rule *rule, const struct rg_interval 
                       struct rg_gate_decision *d)
 {
     d->ratio = exp(of->median);
-    d->smallest = expm1(seen_from(rule, d->error, exceeded_with(0.05)));
-    if (isnan(of->low))
+    if (isnan(of->low)) // too few: nothing could be seen
         return;
+    d->smallest = expm1(seen_from(rule, d->error, exceeded_with(0.05)));
     d->low = exp(of->low);
     d->high = exp(of->high);
     if (!d->is_coarse)
@@ -207,6 +207,8 @@ double rg_gate_power(const struct rg_gate_rule *rule, const struct rg_gate_decis
                      double change)
 {
     const double error = d->error, least = seen_from(rule, error, 0);
+    if (!isfinite(d->smallest))
+        return 0;
     if (!(error > 0))
         return log1p(change) > least;
     return above((least - log1p(change)) / error);

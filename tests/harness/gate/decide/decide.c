@@ -175,6 +175,11 @@ static void test_what_could_be_seen(void **state)
         logs[i] *= 0.001;
     d = rg_gate_decide(&rule, logs, 64);
     assert_near(d.smallest, expm1(log1p(0.005) + 1.644854 * error * 0.001), 1e-8);
+    // Of too few for an interval nothing could be seen, however alike they are.
+    d = rg_gate_decide(&rule, logs, 4);
+    assert_true(isinf(d.smallest));
+    assert_true(rg_gate_power(&rule, &d, 0.05) == 0);
+    assert_int_equal(d.verdict, RG_TWO_INCONCLUSIVE);
 }
 
 // --- noise whose truth is known ---

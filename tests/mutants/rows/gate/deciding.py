@@ -17,6 +17,7 @@ ROWS = [
     Fault(DECIDE, "if (high < -excluded(rule) && «median < -worth(rule)»)", "true", "what is small and sure is an improvement"),
     Fault(DECIDE, "return «low > -margin» && high < margin", "true", "what may be faster by more than the margin passes"),
     Fault(DECIDE, "low > -margin && «high < margin» ?", "true", "what may be slower by more than the margin passes"),
+    Fault(DECIDE, "if («!isfinite(d->smallest)»)\n        return 0;", "false", "one launch would have found any change"),
     Fault(DECIDE, "while («count >= LEAST_LINKED» && link_of(logs, count)", "true", "two launches are taken for linked", lives="of fewer than eight the bound by chance is above what a correlation reaches"),
     Fault(DECIDE, "&& «link_of(logs, count) > fmax(LINKED, BY_CHANCE / sqrt(count))»)", "false", "linked launches are counted one by one"),
     Fault(DECIDE, "return ties > «COARSE» * count;", "0.5", "a coarse timer decides"),
