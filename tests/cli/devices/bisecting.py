@@ -188,7 +188,7 @@ def check_refused(runner):
                        (["--run", "{}", "--good", "a", "--bad", "a"], "both 'a'"), (["--run", "true", "--json"], "leave out"),
                        (["--run", "{}", "--good", "a", "--bad", "x", "a", "b"], "--bad 'x' is not among"),
                        (["--run", "{}", "--good", "a", "--bad", "b", "a", "b", "a"], "'a' is there twice"),
-                       (["--run", "{}", "--good", "a", "--bad", "b\n"], "control character"), (["--run", "{}", "--good", "a", "--bad", ""], "no name"),
+                       (["--run", "{}", "--good", "a", "--bad", "b\n"], "control character"), (["--run", "{}", "--good", "a", "--bad", ""], "--bad '': is empty"),
                        (["--run", "{}", "--good", "a", "--bad", "b", "--list", "/nonexistent"], "/nonexistent"),
                        (["--run", "{}", "--good", "a", "--bad", "b", "--list", "/dev/null"], "/dev/null"),
                        (["--run", "{}", "--budget", "soon"], "--budget 'soon'"), (["--run", "{}", "--tries", "0"], "--tries 0")):

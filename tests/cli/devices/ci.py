@@ -16,6 +16,10 @@ THIRD = TORUS.replace("raster/torus", "raster/third")
 KNOWN = os.path.join(runners.TESTS, os.pardir, "results", "expectations.txt")
 
 
+FOLDER = "gate-results"  # of the examples
+TIMES = FOLDER + "/launches.csv"
+
+
 def lint(path):
     ran = subprocess.run(["xmllint", "--noout", "--schema", SCHEMA, path], capture_output=True, text=True, check=False)
     return [ran.stderr] if ran.returncode else []
@@ -37,12 +41,13 @@ def ends_in_xml(path):
 def check_gitlab(runner):
     """docs/ci/gitlab-ci.yml: what is not decided is a warning, a crash fails, and the report that it names is JUnit's"""
     problems = []
-    for new, status, ends in ((runner.misbehaver, "warning", ["skipped"]), (runner.crasher, "failed", ["error"]), ("/nonexistent", "warning", ["skipped"])):
+    for new, status, ends, more in ((runner.misbehaver, "warning", ["skipped"], [TIMES]), (runner.crasher, "failed", ["error"], []),
+                                    ("/nonexistent", "warning", ["skipped"], [])):
         with tempfile.TemporaryDirectory() as folder:
             drivers(runner, folder, new)
             found, log, kept, junit = runners.gitlab(runner, folder, BUDGET="0.1s")
             problems += lint(junit)
-            if (found, ends_in_xml(junit)) != (status, ends) or kept != ["gate.xml"]:
+            if (found, ends_in_xml(junit)) != (status, ends) or kept != ["gate.xml"] + more:
                 problems.append("%s: %s, %s, %s" % (new, found, kept, log))
     return problems
 
@@ -50,14 +55,14 @@ def check_gitlab(runner):
 def check_github(runner):
     """docs/ci/github.yml: annotations, a summary and files for the upload, whether the gate passes or not"""
     problems = []
-    for new, status, command, head in ((runner.misbehaver, "success", ["warning", "notice"], "1 case, 1 inconclusive"),
-                                       (runner.crasher, "failure", ["error"], "1 case, 1 crash"),
-                                       ("/nonexistent", "success", ["notice"], "1 case, 1 unsupported")):
+    for new, status, command, head, more in ((runner.misbehaver, "success", ["warning", "notice"], "1 case, 1 inconclusive", [FOLDER]),
+                                             (runner.crasher, "failure", ["error"], "1 case, 1 crash", []),
+                                             ("/nonexistent", "success", ["notice"], "1 case, 1 unsupported", [])):
         with tempfile.TemporaryDirectory() as folder:
             drivers(runner, folder, new)
             found, log, summary, uploaded = runners.github(runner, folder, BUDGET="0.1s")
             if found != status or [row[0] for row in runners.annotations(log)] != command or not summary.startswith(
-                    "## raingauge gate: %s\n" % head) or uploaded != ["gate.xml", "gate.json"]:
+                    "## raingauge gate: %s\n" % head) or uploaded != ["gate.xml", "gate.json"] + more:
                 problems.append("%s: %s, %s, %s, %s" % (new, found, uploaded, log, summary))
     return problems
 

@@ -250,8 +250,8 @@ static bool open_kept(struct run *r)
 static bool close_kept(struct run *r, bool is_done)
 {
     char *csv = r->kept && is_done ? rg_kept_times_csv(r->kept) : NULL;
-    const bool ok =
-        !r->kept || !is_done || (csv && rg_output_write(r->asked->folder, "launches.csv", csv));
+    const bool ok = !r->kept || !is_done ||
+                    (csv && (!*csv || rg_output_write(r->asked->folder, "launches.csv", csv)));
     free(csv);
     rg_kept_times_close(r->kept, is_done && ok);
     return ok;

@@ -236,7 +236,8 @@ char *rg_kept_times_csv(const struct rg_kept_times *kept)
     FILE *file = open_memstream(&text, &size);
     if (!file)
         return NULL;
-    fprintf(file, "case,launch,log_ratio,a_ms,b_ms,disturbed\n");
+    if (json_object_size(rows_of(kept)))
+        fprintf(file, "case,launch,log_ratio,a_ms,b_ms,disturbed\n");
     json_object_foreach(rows_of(kept), name, row)
     {
         json_array_foreach(row, i, launch)

@@ -26,7 +26,8 @@ struct rg_quad_source rg_kept_times_source(struct rg_kept_times *kept,
                                            const struct rg_quad_source *source,
                                            const char *const *names);
 
-// What was kept as CSV, a line a launch of a row, which the caller frees. NULL without memory.
+// What was kept as CSV, a line a launch of a row, which the caller frees; "" where nothing was.
+// NULL without memory.
 char *rg_kept_times_csv(const struct rg_kept_times *kept);
 
 // Writes what is kept, and lets it go. `is_done`: the gate is over, and its document is removed.
