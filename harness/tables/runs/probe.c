@@ -252,8 +252,9 @@ bool rg_budget_probe_rows(const struct rg_table *table, struct rg_kept *kept, bo
 {
     struct rg_looking p;
     struct known known;
-    struct rg_budget_table costs = {0};
+    struct rg_budget_table costs;
     const int devices = kept->devices->count;
+    name_costs(table, &costs);
     begin(&p, table, kept, full, rows, kind);
     p.smallest = RG_BUDGET_WHOLE;
     bool ok = p.first >= 0;

@@ -16,7 +16,7 @@
 enum { LONGEST = 11 };
 
 // Searches where `first_bad` and all behind it are bad, and the bits of `skipped` cannot be judged.
-static struct rg_search search(int count, int first_bad, unsigned skipped, int *judged)
+static struct rg_search search(int count, int first_bad, uint64_t skipped, int *judged)
 {
     enum rg_judgement verdicts[64] = {[0] = RG_JUDGED_GOOD};
     verdicts[count - 1] = RG_JUDGED_BAD;

@@ -294,6 +294,7 @@ static void end_plan(struct plan *p)
 {
     fclose(p->out);
     free(p->told);
+    free(p->budget.quick);
     p->rig.devices.count = 3;
     slow_end(&p->rig);
 }
