@@ -62,7 +62,7 @@ const char *fuzz_write(const char *name, const uint8_t *data, size_t size)
         unlink(path);
     snprintf(path, sizeof(path), "%s/%s", folder, name);
     FILE *file = fopen(path, "wb");
-    if (!file || fwrite(data, 1, size, file) != size || fclose(file))
+    if (!file || (size && fwrite(data, 1, size, file) != size) || fclose(file))
         abort();
     return path;
 }
