@@ -240,7 +240,7 @@ static bool have_one_length(const struct rg_stored *stored, const struct table_o
 {
     for (int i = 0; o->claims && i < stored->count; i++) {
         for (int k = 0; k < i; k++) {
-            char here[64], before[64];
+            char here[RG_CLAIMS_LENGTH], before[RG_CLAIMS_LENGTH];
             const char *table = stored->results[i].table;
             if (strcmp(table, stored->results[k].table) != 0 || !is_named(ids, table))
                 continue;

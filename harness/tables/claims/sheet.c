@@ -14,10 +14,11 @@ enum { TABLE, SECTION, CLAIM, BEFORE };
 void rg_claims_length(const struct rg_result *result, char *text, size_t size)
 {
     const char *length = result->full ? "full" : "quick";
-    if (result->size_divisor > 1)
-        snprintf(text, size, "%s, with 1/%d of the width and height", length, result->size_divisor);
-    else
-        snprintf(text, size, "%s", length);
+    const char *set = result->full ? "" : result->quick;
+    int used = snprintf(text, size, "%s%s%s%s", length, *set ? " (" : "", set, *set ? ")" : "");
+    if (result->size_divisor > 1 && used < (int)size)
+        snprintf(text + used, size - (size_t)used, ", with 1/%d of the width and height",
+                 result->size_divisor);
 }
 
 bool rg_claims_add(struct rg_claim_outcomes *o, const struct rg_result *result)

@@ -5,11 +5,14 @@
 #include "harness/console/sheet.h"
 #include "harness/tables/claims/claim.h"
 
+enum { RG_CLAIMS_LENGTH = RG_TITLE_SIZE + 64 };
+
 // A claim's verdict on one device.
 struct rg_claim_outcome {
     const struct rg_claim *claim;
     char device[RG_NAME_SIZE];
-    char length[64]; // of what was judged: "full", or "quick, with 1/4 of the width and height"
+    // Of what was judged: "full", or "quick (atlas=small), with 1/4 of the width and height".
+    char length[RG_CLAIMS_LENGTH];
     struct rg_judgement judgement;
 };
 
@@ -19,7 +22,8 @@ struct rg_claim_outcomes {
     struct rg_claim_outcome *outcomes; // owned; all of a claim follow each other
 };
 
-// "full", "quick", or either with the share that pictures have of the table's width and height.
+// "full", "quick" with what that sets, or either with the share that pictures have of the table's
+// width and height.
 void rg_claims_length(const struct rg_result *result, char *text, size_t size);
 
 // Adds the outcomes of the claims about a result's table. The outcomes are zeroed before the first.
