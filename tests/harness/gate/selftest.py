@@ -4,12 +4,12 @@
 
 selftest.py BUILD [--device D,...] [--same N] [--planted N] [--extra PERCENT] [--idle] [--keep DIR]
 
-Runs `raingauge gate D D` until it has made --same verdicts (300), of all built-in cells in turn, over the devices that are named
-(cpu,gl,vulkan). Then it plants real work beside each frame, as much as takes --extra (5) percent of a frame as it was found, and
-runs the gate on what does it (BUILD/tests/harness/gate/slower) until there are --planted (59) verdicts. --idle leaves the cores alone.
---keep writes what each run found into a folder, as the gate's JSON. Prints both directions, the share that was left open, seconds
-a cell and the power at 2, 3 and 5 %. The exit status is 1 where more than one of 300 that are the same was told apart, or one that
-was planted was not found.
+Runs `raingauge gate D D` until it has made --same verdicts (300), of all built-in cells in turn, over the devices that are named. By
+default these have one thread each, for with more a busy core keeps every frame waiting (docs/ci.md). Then it plants real work beside
+each frame, as much as takes --extra (5) percent of a frame as it was found, and runs the gate on what does it
+(BUILD/tests/harness/gate/slower) until there are --planted (59) verdicts. --idle leaves the cores alone. --keep writes what each run
+found into a folder, as the gate's JSON. Prints both directions, the share that was left open, seconds a cell and the power at 2, 3
+and 5 %. The exit status is 1 where more than one of 300 that are the same was told apart, or one that was planted was not found.
 """
 import argparse
 import json
@@ -28,7 +28,7 @@ MOST_WRONG_SHARE = 1 / 300
 def options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build")
-    parser.add_argument("--device", default="cpu,gl,vulkan")
+    parser.add_argument("--device", default="cpu@OMP_NUM_THREADS=1,gl@LP_NUM_THREADS=1,vulkan@LP_NUM_THREADS=1")
     parser.add_argument("--same", type=int, default=300)
     parser.add_argument("--planted", type=int, default=59)
     parser.add_argument("--extra", type=float, default=5)
@@ -87,7 +87,7 @@ class Tally:
     def add(self, device, cases):
         for cell, case in cases.items():
             self.cases.append((device, case))
-            print("%s  %-8s %-16s %-12s ratio %s  %.1f s" % (time.strftime("%H:%M:%S"), device, cell, case["ending"],
+            print("%s  %-24s %-16s %-12s ratio %s  %.1f s" % (time.strftime("%H:%M:%S"), device, cell, case["ending"],
                                                              case["ratio"] and case["ratio"]["value"], case["seconds"]), flush=True)
 
     def count(self, ending):
@@ -102,7 +102,7 @@ class Tally:
         print("%s: %d verdicts: %s" % (self.name, len(self.cases), ", ".join("%d %s" % (self.count(e), e) for e in endings)))
         for device in dict.fromkeys(d for d, _ in self.cases):
             mine = [case for d, case in self.cases if d == device]
-            print("  %-8s %d verdicts, %.1f s a cell in median, %.1f in all; a launch scatters by %.1f %% in median; %d left open; ratio %.4f" % (
+            print("  %-24s %d verdicts, %.1f s a cell in median, %.1f in all; a launch scatters by %.1f %% in median; %d left open; ratio %.4f" % (
                 device, len(mine), self.median(device, lambda c: c["seconds"]), sum(c["seconds"] for c in mine) / len(mine),
                 self.median(device, scatter), sum(c["ending"] == "inconclusive" for c in mine),
                 self.median(device, lambda c: c["ratio"]["value"])))
@@ -142,7 +142,7 @@ def run_planted(gates, devices, count, extra, same, tally):
                 name = line.split()[0]
                 frames = sorted(case["baseline_ms"] for d, case in same.cases if d == device and case["name"].startswith(name + "."))
                 loops = round(extra / 100 * frames[len(frames) // 2] * 1e6 / loop_ns)
-                slower = "%s@RG_PROGRAM=%s;RG_EXTRA_LOOPS=%d" % (device, gates.slower, loops)
+                slower = "%s%sRG_PROGRAM=%s;RG_EXTRA_LOOPS=%d" % (device, ";" if "@" in device else "@", gates.slower, loops)
                 tally.add(device, gates.run(device, slower, [line]))
 
 
