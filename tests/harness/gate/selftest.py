@@ -133,17 +133,29 @@ def run_same(gates, devices, count, tally):
             tally.add(device, gates.run(device, device))
 
 
+def frame_ms(same, device, cell):
+    times = sorted(case["baseline_ms"] for d, case in same.cases if d == device and case["name"].startswith(cell + "."))
+    return times[len(times) // 2]
+
+
+def slower(gates, device, loops):
+    return "%s%sRG_PROGRAM=%s;RG_EXTRA_LOOPS=%d" % (device, ";" if "@" in device else "@", gates.slower, loops)
+
+
+def loop_ns(gates, device, line, frame):
+    """What one loop of the extra work takes beside frames, by a gate on twice the work."""
+    loops = round(frame * 1e6 / gates.loop_ns())
+    return frame * 1e6 * (gates.run(device, slower(gates, device, loops), [line])[line.split()[0]]["ratio"]["value"] - 1) / loops
+
+
 def run_planted(gates, devices, count, extra, same, tally):
-    loop_ns = gates.loop_ns()
     cells = gates.cells()
     for device, runs in plan(devices, count, len(cells)).items():
+        a_loop_ns = loop_ns(gates, device, cells[0], frame_ms(same, device, cells[0].split()[0]))
         for _ in range(runs):
             for line in cells:
-                name = line.split()[0]
-                frames = sorted(case["baseline_ms"] for d, case in same.cases if d == device and case["name"].startswith(name + "."))
-                loops = round(extra / 100 * frames[len(frames) // 2] * 1e6 / loop_ns)
-                slower = "%s%sRG_PROGRAM=%s;RG_EXTRA_LOOPS=%d" % (device, ";" if "@" in device else "@", gates.slower, loops)
-                tally.add(device, gates.run(device, slower, [line]))
+                loops = round(extra / 100 * frame_ms(same, device, line.split()[0]) * 1e6 / a_loop_ns)
+                tally.add(device, gates.run(device, slower(gates, device, loops), [line]))
 
 
 def main():
