@@ -10,19 +10,9 @@
 #include <cmocka.h>
 
 #include "harness/compare/gate/decide/course.h"
+#include "tests/harness/gate/decide/chance.h"
 
 enum { MOST_ROWS = 4 };
-
-static uint64_t state_of_chance = 1;
-
-// A uniform number from 0 on, below 1 (splitmix64).
-static double uniform(void)
-{
-    uint64_t z = state_of_chance += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
 
 // Times of rows whose B takes so many times as long as A.
 struct script {
