@@ -106,6 +106,7 @@ struct gl_device {
     GLuint timestamp;   // query
     struct gl_queries queries;
     char fault[256]; // the driver's first message since the last gl_check, "" for none
+    bool is_lost;    // it said that the context is lost, so that nothing more is said
 };
 
 struct gl_buf {

@@ -46,8 +46,12 @@ void gl_debug_begin(struct gl_device *device)
 static bool report(struct gl_device *device, GLenum code, const char *call, const char *kind,
                    const char *name)
 {
-    rg_driver_error("%s '%s': %s failed on %s with %s%s%s", kind, name, call, device->pub.info.name,
-                    error_name(code), device->fault[0] ? ": " : "", device->fault);
+    // Every call of a lost context fails: one line says why, and more would hide it.
+    if (!device->is_lost)
+        rg_driver_error("%s '%s': %s failed on %s with %s%s%s", kind, name, call,
+                        device->pub.info.name, error_name(code), device->fault[0] ? ": " : "",
+                        device->fault);
+    device->is_lost = device->is_lost || code == GL_CONTEXT_LOST;
     device->fault[0] = 0;
     return false;
 }
