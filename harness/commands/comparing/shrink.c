@@ -115,13 +115,14 @@ static int shrink_on(const struct rg_devices *devices, const struct rg_subject *
                                               .folder = folder};
     struct rg_case found;
     struct rg_blame blame;
-    int tried, exit = RG_EXIT_FAIL;
+    int tried;
     if (!make_folder(folder, sizeof(folder)))
         return RG_EXIT_USAGE;
-    if (rg_shrink_case(&request, &found, &blame, &tried)) {
+    int exit = rg_shrink_case(&request, &found, &blame, &tried);
+    if (exit == RG_EXIT_PASS) {
         printf("%s\n%d runs tried\n", blame.text, tried);
-        if (write_found(&found, &blame, devices, o->output))
-            exit = RG_EXIT_PASS;
+        if (!write_found(&found, &blame, devices, o->output))
+            exit = RG_EXIT_FAIL;
     }
     rg_case_free(&found);
     remove_folder(folder);

@@ -27,7 +27,8 @@ bool rg_search_begin(struct rg_search *s, const struct rg_shrink_request *asked)
     s->best.subject.settings = rg_settings_copy(subject->technique, subject->settings, "");
     bool ok =
         s->best.subject.settings && rg_blame_find(&s->best, asked->device, asked->truth, &s->blame);
-    if (ok && (!s->blame.found || s->blame.is_alone))
+    s->has_none = ok && (!s->blame.found || s->blame.is_alone);
+    if (s->has_none)
         ok = rg_error("shrink: %s leaves in every asset behind every stage what %s does; give "
                       "another frame, size or setting",
                       asked->device->info.name, asked->truth->info.name);

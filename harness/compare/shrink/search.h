@@ -13,8 +13,9 @@ struct rg_search {
     struct rg_session *held[2]; // of the best, so that what instances share is made once
     double end_ms;
     int tried;
-    int files;    // that have been made
-    bool is_over; // a device has failed
+    int files;     // that have been made
+    bool is_over;  // a device has failed
+    bool has_none; // nothing differs that could be reduced
     char why[300];
 };
 

@@ -8,6 +8,7 @@
 #include "core/base/log.h"
 #include "harness/compare/shrink/files.h"
 #include "harness/compare/shrink/search.h"
+#include "harness/console/exit.h"
 
 enum { LEAST_PX = 16, FLOAT_HALVES = 4 };
 
@@ -181,8 +182,8 @@ static void search(struct rg_search *s)
     shrink_frames(s);
 }
 
-bool rg_shrink_case(const struct rg_shrink_request *request, struct rg_case *found,
-                    struct rg_blame *blame, int *tried)
+int rg_shrink_case(const struct rg_shrink_request *request, struct rg_case *found,
+                   struct rg_blame *blame, int *tried)
 {
     struct rg_search s;
     *found = (struct rg_case){0};
@@ -206,5 +207,5 @@ bool rg_shrink_case(const struct rg_shrink_request *request, struct rg_case *fou
     snprintf(found->asset, sizeof(found->asset), "%s", s.blame.first.asset);
     snprintf(found->device, sizeof(found->device), "%s", request->device->info.name);
     snprintf(found->truth, sizeof(found->truth), "%s", request->truth->info.name);
-    return ok;
+    return ok ? RG_EXIT_PASS : s.has_none ? RG_EXIT_FAIL : rg_exit_of_error();
 }

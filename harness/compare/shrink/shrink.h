@@ -14,9 +14,10 @@ struct rg_shrink_request {
 // Tries fewer frames and pixels, defaults of parameters, and what weighs less (struct rg_digest):
 // counts, choices, files with fewer entries and real numbers; as long as the same stage differs in
 // the same asset and class. `found` gets the least, whose settings the caller frees, and `blame`
-// what it comes to; `tried`, how many were. False, and one logged line, where nothing differs or a
-// device fails at once; one that fails later ends the search, which is one line too.
-bool rg_shrink_case(const struct rg_shrink_request *request, struct rg_case *found,
-                    struct rg_blame *blame, int *tried);
+// what it comes to; `tried`, how many were. Returns an exit status, after one logged line where it
+// is not RG_EXIT_PASS: RG_EXIT_FAIL where nothing differs, that of the error where a device fails
+// at once; one that fails later ends the search, which is one line too.
+int rg_shrink_case(const struct rg_shrink_request *request, struct rg_case *found,
+                   struct rg_blame *blame, int *tried);
 
 #endif

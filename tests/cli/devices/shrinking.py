@@ -196,13 +196,15 @@ def check_files(runner):
 
 
 def check_nothing_to_shrink(runner):
-    """shrink of two devices that agree fails, and writes nothing"""
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "case.txt")
-        result = runner.run(["shrink", "flow", "--frame", "1", "--device", "cpu,cpu:reference", "-o", path] + SMALL.split())
-        made = os.path.exists(path)
-    return [] if result.returncode == 1 and not made and "leaves in every asset" in result.stderr else [
-        "exit status %d, made: %s, %s" % (result.returncode, made, result.stderr)]
+    """shrink of two devices that agree fails, of what has no room is refused, and neither writes anything"""
+    problems = []
+    for options, status, says in ((SMALL, 1, "leaves in every asset"), (SMALL + " --memory 1M", 2, "of --memory are left")):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "case.txt")
+            result = runner.run(["shrink", "flow", "--frame", "1", "--device", "cpu,cpu:reference", "-o", path] + options.split())
+            if result.returncode != status or os.path.exists(path) or says not in result.stderr or result.stderr.count("\n") != 1:
+                problems.append("%s: exit status %d, %s" % (options, result.returncode, result.stderr))
+    return problems
 
 
 CHECKS = [check_blamed, check_shrunk, check_alone, check_files, check_nothing_to_shrink]
