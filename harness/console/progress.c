@@ -119,15 +119,24 @@ bool rg_progress_is_long(const struct rg_progress *p, double now_ms, double long
     return rg_progress_all_ms(p, now_ms) > long_ms && now_ms - p->first_ms >= long_ms / 10;
 }
 
+bool rg_progress_is_off(const struct rg_progress *p, double now_ms)
+{
+    const double all_ms = rg_progress_all_ms(p, now_ms);
+    return now_ms - p->start_ms >= 2 * p->told_after_ms &&
+           (all_ms > 2 * p->told_ms || 2 * all_ms < p->told_ms);
+}
+
 static void tell_if_long(struct rg_progress *p)
 {
     const double now_ms = rg_now_ms();
     if (p->first_ms <= 0) {
         p->first_ms = now_ms;
         p->first_done = p->done;
-    } else if (!p->is_told && rg_progress_is_long(p, now_ms, rg_long_s() * 1e3)) {
-        p->is_told = true;
-        tell_all(p, rg_progress_all_ms(p, now_ms));
+    } else if (p->told_ms > 0 ? rg_progress_is_off(p, now_ms)
+                              : rg_progress_is_long(p, now_ms, rg_long_s() * 1e3)) {
+        p->told_ms = rg_progress_all_ms(p, now_ms);
+        p->told_after_ms = now_ms - p->start_ms;
+        tell_all(p, p->told_ms);
     }
 }
 

@@ -1,6 +1,7 @@
 // A progress bar with the time left, on stderr, where that is a terminal. In a pipe what lasts long
-// is told in one line, once the first units show how long; where what units take was expected
-// beforehand, it is told at once, and with every tenth how long the rest takes.
+// is told in one line, once the first units show how long, and again where that was off by more than
+// half; where what units take was expected beforehand, it is told at once, and with every tenth how
+// long the rest takes.
 #ifndef RG_HARNESS_CONSOLE_PROGRESS_H
 #define RG_HARNESS_CONSOLE_PROGRESS_H
 
@@ -13,8 +14,10 @@ struct rg_progress {
     double start_ms, drawn_ms;
     double first_ms;         // when the first units were done; 0: they are not
     int64_t first_done;      // how many they were
-    bool is_told;            // how long it takes
+    double told_ms;          // how long all of it takes, as was told last; 0: it was not
+    double told_after_ms;    // when that was, from the start
     double expected_unit_ms; // what a unit was to take; 0: nobody knows
+    bool is_told;            // what was expected
     int told_tenths;
     char label[64];
 };
@@ -39,6 +42,9 @@ double rg_progress_all_ms(const struct rg_progress *progress, double now_ms);
 double rg_progress_unit_ms(const struct rg_progress *progress, double now_ms);
 // Whether all of it takes longer than `long_ms`, and a tenth of `long_ms` shows it.
 bool rg_progress_is_long(const struct rg_progress *progress, double now_ms, double long_ms);
+// Whether it takes more than twice as long as was told, or less than half, which is worth a line
+// where twice the time has passed since the start.
+bool rg_progress_is_off(const struct rg_progress *progress, double now_ms);
 // How long has been told otherwise: no bar of this process tells it.
 void rg_progress_told(void);
 // Wipes the bar away until more is done, for others to print.

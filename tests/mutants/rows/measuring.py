@@ -13,7 +13,9 @@ SAMPLING = "harness/measure/sampling.c"
 ROWS = [
     Fault(PROGRESS, "p->first_ms «- p->start_ms» +", "- 0", "the first units of a bar are told wrongly", tests=("progress",)),
     Fault(PROGRESS, "(double)(p->total «- p->first_done»)", "- 0", "the first units of a bar are told twice", tests=("progress",)),
-    Fault(PROGRESS, "} else if («!p->is_told» && rg_progress_is_long", "true", "how long is told again and again", tests=("progress",)),
+    Fault(PROGRESS, "} else if («p->told_ms > 0» ? rg_progress_is_off", "false", "how long is told again and again", tests=("progress",)),
+    Fault(PROGRESS, "return «now_ms - p->start_ms >= 2 * p->told_after_ms» &&", "true", "what is off is told again and again", tests=("progress",)),
+    Fault(PROGRESS, "|| «2 * all_ms < p->told_ms»);", "false", "what was told too long stays so", tests=("progress",)),
     Fault(PROGRESS, "return «rg_progress_all_ms(p, now_ms) > long_ms» &&", "true", "what is short is told as well", tests=("progress",)),
     Fault(SESSION, "*wall_ms = «rg_now_ms() - start_ms»;", "0", "frames take no time"),
     Fault(SESSION, "ok = ok && «wait_for_all(session)»;", "true", "frames are not waited for"),
