@@ -1,5 +1,6 @@
-// What a frame costs through a worker, against the same in this process: taken in turn, so that the
-// machine's drift meets both. It is no test, for nothing is asserted on time (docs/performance.md).
+// What the harness adds to a frame: the technique called in a bare loop, against a session in this
+// process, and one in a worker. They are taken in turn, so that the machine's drift meets all. It is
+// no test, for nothing is asserted on time (docs/performance.md).
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,48 +13,71 @@
 #include "harness/frames/session.h"
 #include "harness/record/stats.h"
 
-enum { ROUNDS = 200, WAYS = 2 };
+enum { ROUNDS = 400 };
+enum way { BARE, HERE, WORKER, WAYS };
 
-struct times {
-    double told_ms[ROUNDS], around_ms[ROUNDS]; // a frame, by the session and by our own clock
+struct timed {
+    struct rg_instance *bare;
+    struct rg_session *sessions[WAYS]; // none of BARE
+    double told_ms[WAYS][ROUNDS], around_ms[WAYS][ROUNDS]; // a frame, as measured and by our clock
 };
 
-static bool take(struct rg_session *session, int frames, double *told_ms, double *around_ms)
+static bool run_bare(struct rg_instance *bare, int frames)
 {
-    const double start_ms = rg_now_ms();
-    const bool ok = rg_session_frames(session, frames, told_ms);
-    *around_ms = (rg_now_ms() - start_ms) / frames;
-    *told_ms /= frames;
-    return ok;
-}
-
-// Frames a call.
-static void print(struct times times[WAYS], int frames)
-{
-    double told[ROUNDS], around[ROUNDS];
-    for (int i = 0; i < ROUNDS; i++) {
-        told[i] = times[1].told_ms[i] / times[0].told_ms[i];
-        around[i] = times[1].around_ms[i] / times[0].around_ms[i];
-    }
-    printf("%2d frames a call: %.3f ms a frame in this process; through a worker %+.2f %% as "
-           "measured, "
-           "%+.2f %% as waited for\n",
-           frames, rg_median(times[0].told_ms, ROUNDS).median,
-           100 * (rg_median(told, ROUNDS).median - 1),
-           100 * (rg_median(around, ROUNDS).median - 1));
-}
-
-static bool compare(struct rg_session *sessions[WAYS], int frames)
-{
-    static struct times times[WAYS];
     bool ok = true;
-    for (int i = 0; ok && i < ROUNDS; i++)
-        for (int w = 0; ok && w < WAYS; w++)
-            ok = take(sessions[(i + w) % WAYS], frames, &times[(i + w) % WAYS].told_ms[i],
-                      &times[(i + w) % WAYS].around_ms[i]);
-    if (ok)
-        print(times, frames);
+    for (int i = 0; ok && i < frames; i++)
+        ok = bare->technique->step(bare) && bare->technique->draw(bare);
+    return ok && rg_device_sync(bare->device);
+}
+
+static bool take(struct timed *timed, enum way way, int round, int frames)
+{
+    double told_ms;
+    const double start_ms = rg_now_ms();
+    const bool ok = way == BARE ? run_bare(timed->bare, frames)
+                                : rg_session_frames(timed->sessions[way], frames, &told_ms);
+    const double around_ms = rg_now_ms() - start_ms;
+    timed->around_ms[way][round] = around_ms / frames;
+    timed->told_ms[way][round] = (way == BARE ? around_ms : told_ms) / frames;
     return ok;
+}
+
+static double percent_more(const double *more, const double *than)
+{
+    double ratios[ROUNDS];
+    for (int i = 0; i < ROUNDS; i++)
+        ratios[i] = more[i] / than[i];
+    return 100 * (rg_median(ratios, ROUNDS).median - 1);
+}
+
+static bool compare(struct timed *timed, int frames)
+{
+    bool ok = true;
+    for (int round = 0; ok && round < ROUNDS; round++)
+        for (int i = 0; ok && i < WAYS; i++)
+            ok = take(timed, (enum way)((round + i) % WAYS), round, frames);
+    if (!ok)
+        return false;
+    const double *bare = timed->told_ms[BARE];
+    double sorted[ROUNDS];
+    memcpy(sorted, bare, sizeof(sorted));
+    printf("%2d frames a call: %.3f ms a frame in a bare loop; a session %+.2f %%; through a worker "
+           "%+.2f %% as measured, %+.2f %% as waited for\n",
+           frames, rg_median(sorted, ROUNDS).median, percent_more(timed->told_ms[HERE], bare),
+           percent_more(timed->told_ms[WORKER], bare),
+           percent_more(timed->around_ms[WORKER], bare));
+    return true;
+}
+
+static bool open_all(struct timed *timed, struct rg_device *devices[2],
+                     const struct rg_subject *subject)
+{
+    timed->bare = rg_instance_open(subject->technique, devices[0], subject->settings,
+                                   subject->width, subject->height);
+    timed->sessions[HERE] = rg_session_run(devices[0], subject, 5);
+    timed->sessions[WORKER] = rg_session_run(devices[1], subject, 5);
+    return timed->bare && timed->sessions[HERE] && timed->sessions[WORKER] &&
+           run_bare(timed->bare, 5);
 }
 
 int main(int argc, char **argv)
@@ -66,21 +90,20 @@ int main(int argc, char **argv)
         return execv("/proc/self/exe", argv);
     }
     rg_workers.program = "/proc/self/exe";
-    struct rg_device *devices[WAYS] = {rg_device_open(name), rg_devices_open_one(name)};
+    static struct timed timed;
+    struct rg_device *devices[2] = {rg_device_open(name), rg_devices_open_one(name)};
     const struct rg_technique *technique = rg_technique_find("flow");
     void *defaults = rg_settings_create(technique);
     void *settings = rg_settings_copy(technique, defaults, "environment_px=64 resolution_px=64");
     free(defaults);
-    const struct rg_subject subject = {technique, settings, 128, 128};
-    struct rg_session *sessions[WAYS] = {NULL, NULL};
-    bool ok = devices[0] && devices[1] && settings;
-    for (int w = 0; ok && w < WAYS; w++)
-        ok = (sessions[w] = rg_session_run(devices[w], &subject, 5)) != NULL;
-    ok = ok && compare(sessions, 1) && compare(sessions, 10);
-    for (int w = 0; w < WAYS; w++) {
-        rg_session_close(sessions[w]);
-        rg_device_close(devices[w]);
-    }
+    const struct rg_subject subject = {technique, settings, 96, 96};
+    const bool ok = devices[0] && devices[1] && settings && open_all(&timed, devices, &subject) &&
+                    compare(&timed, 1) && compare(&timed, 10);
+    rg_instance_close(timed.bare);
+    for (int way = HERE; way < WAYS; way++)
+        rg_session_close(timed.sessions[way]);
+    for (int i = 0; i < 2; i++)
+        rg_device_close(devices[i]);
     free(settings);
     return !ok;
 }
