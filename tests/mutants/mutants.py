@@ -23,7 +23,7 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]
 LEAST_SHARE = 0.95
-LONGEST_S = 240  # that a test may take; one that takes longer has noticed
+LEAST_LIMIT_S, TIMES_AS_LONG = 240, 4  # what a test may take, by what it took without a fault; one that takes longer has noticed
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(HERE))
@@ -125,14 +125,14 @@ def build_copy(copy, modules, wanted):
 # --- trying ---
 
 
-def notices(test, number, cache):
-    """Whether a test fails with a fault. What it leaves running ends with it."""
+def notices(test, number, cache, limit_s=None):
+    """Whether a test fails with a fault, or takes longer than it may. What it leaves running ends with it."""
     env = dict(os.environ, **test["env"], GOMP_SPINCOUNT="0", XDG_CACHE_HOME=str(cache), RG_MUTANT=str(number))
     with tempfile.TemporaryFile() as told:
         run = subprocess.Popen(test["cmd"], cwd=test["workdir"], env=env, stdin=subprocess.DEVNULL, stdout=told,
                                stderr=subprocess.STDOUT, start_new_session=True)
         try:
-            code = run.wait(timeout=LONGEST_S)
+            code = run.wait(timeout=limit_s)
         except subprocess.TimeoutExpired:
             code = -1
         try:
@@ -145,9 +145,14 @@ def notices(test, number, cache):
 
 
 def try_unchanged(tests, cache):
+    """What each test may take, in seconds."""
+    limits_s = {}
     for name, test in tests.items():
+        start = time.monotonic()
         if notices(test, 0, cache):
             sys.exit(f"mutants.py: {name} fails on the source as it is")
+        limits_s[name] = max(LEAST_LIMIT_S, TIMES_AS_LONG * (time.monotonic() - start))
+    return limits_s
 
 
 class Found:
@@ -165,13 +170,13 @@ class Found:
         self.path.write_text(json.dumps(self.rows, indent=1), encoding="utf-8")
 
 
-def try_fault(number, row, module, tests, found, scratch):
+def try_fault(number, row, module, tests, limits_s, found, scratch):
     """The test that notices a fault, or None."""
     order = found.first(row) + list(row.tests) + list(module.TESTS)
     with tempfile.TemporaryDirectory(dir=scratch) as own:
         cache = own if getattr(module, "OWN_CACHE", False) else scratch / "cache"
         for name in dict.fromkeys(name for name in order if name in tests):
-            if notices(tests[name], number, cache):
+            if notices(tests[name], number, cache, limits_s[name]):
                 found.put(row, name)
                 return name
     return None
@@ -184,13 +189,13 @@ def try_host(modules, wanted, scratch):
     copy_source(scratch / "source", faults)
     (scratch / "cache").mkdir(exist_ok=True)
     tests = build_copy(scratch / "source", modules, wanted)
-    try_unchanged(tests, scratch / "cache")
+    limits_s = try_unchanged(tests, scratch / "cache")
     found, counts, unexplained = Found(scratch / "found.json"), {}, 0
     for number, area, row in faults:
         if area not in wanted:
             continue
         start = time.monotonic()
-        name = try_fault(number, row, modules[area], tests, found, scratch)
+        name = try_fault(number, row, modules[area], tests, limits_s, found, scratch)
         seconds = time.monotonic() - start
         lived = f"LIVED: {row.lives or 'no reason is known'}"
         print(f"{area:10} {row.about}  [{row.file}]  {'noticed by ' + name if name else lived}  ({seconds:.1f} s)",
