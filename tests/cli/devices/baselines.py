@@ -152,13 +152,14 @@ def check_changes(runner):
 
 
 def check_miscompiled(runner):
-    """a kernel with another constant is found by its picture, which cpu:reference draws anew, and blamed on its stage"""
+    """a kernel with another constant is found by its picture, which cpu:reference draws anew, kept beside it, and blamed on its stage"""
     with Files() as files:
         path, _ = make(runner, files, "--pictures", device="gl,cpu")
         kernels = files.path("kernels")
         os.mkdir(kernels)
         runner.kernels_with(kernels, "flow_normals.glsl", results.RIGHT, results.TURNED)
-        result = gate(runner, files, path, env={"RG_KERNEL_DIR": kernels})
+        result = gate(runner, files, path, "-o", files.path("pictures"), env={"RG_KERNEL_DIR": kernels})
+        kept = sorted(re.sub("^.*-", "", name) for name in os.listdir(files.path("pictures")) if name.startswith("flow_pane"))
         found = {case["name"]: case for case in json.loads(result.stdout)["gated"]}
         known = files.path("known.txt", "fail flow/*\n  device gl\n  outcome fail\n  reason turned\n  since 2026-11-01\n"
                            "  until 2099-01-01\n")
@@ -171,6 +172,8 @@ def check_miscompiled(runner):
     if result.returncode != 1 or {n: c["ending"] for n, c in found.items()} != {
             "raster/torus.gl": "pass", "flow/pane.gl": "differs", "raster/torus.cpu": "pass", "flow/pane.cpu": "pass"}:
         problems.append("exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr))
+    if kept != ["a.png", "b.png", "difference.png", "flip.png"]:
+        problems.append("pictures: %s" % kept)
     if "stage flow_normals" not in found["flow/pane.gl"]["details"] or "picture differs" not in found["flow/pane.gl"]["message"]:
         problems.append("%s" % found["flow/pane.gl"])
     if expected.returncode or "expected failure" not in endings(json.loads(expected.stdout)).values():
