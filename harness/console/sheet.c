@@ -89,9 +89,8 @@ int rg_sheet_width(const struct rg_sheet *sheet)
 }
 
 // The cell, in the terminal's colours where it is painted; its spaces are not.
-static void print_md_cell(FILE *out, const struct rg_sheet *sheet, int width, const char *text)
+static void print_md_cell(FILE *out, const char *code, int width, const char *text)
 {
-    const char *code = sheet->paint ? sheet->paint(text) : NULL;
     const int length = (int)strlen(text);
     if (code)
         fprintf(out, "%*s%s%s\033[0m |", width - length + 1, "", code, text);
@@ -102,8 +101,11 @@ static void print_md_cell(FILE *out, const struct rg_sheet *sheet, int width, co
 static void print_md_row(FILE *out, const struct rg_sheet *sheet, const int *widths, int row)
 {
     fprintf(out, "|");
-    for (int c = 0; c < sheet->column_count; c++)
-        print_md_cell(out, sheet, widths[c], row < 0 ? sheet->columns[c] : sheet->cells[row][c]);
+    for (int c = 0; c < sheet->column_count; c++) {
+        const char *text = row < 0 ? sheet->columns[c] : sheet->cells[row][c];
+        const bool is_painted = row >= 0 && sheet->paint; // a heading "error" is none
+        print_md_cell(out, is_painted ? sheet->paint(text) : NULL, widths[c], text);
+    }
     fprintf(out, "\n");
 }
 

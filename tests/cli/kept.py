@@ -4,11 +4,13 @@ import io
 import json
 import os
 import pathlib
+import pty
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 
 import forms
 
@@ -74,6 +76,43 @@ def check_walk(runner):
         problems += [] if walk("--check", runner.raingauge, page).returncode == 1 else ["another page passes"]
         if walk(runner.raingauge, page).returncode or read(page) != readme:
             problems.append("the page is not made anew")
+    return problems
+
+
+def on_a_terminal(runner, args, env):
+    """What a command prints on a terminal."""
+    ours, its = pty.openpty()
+    told = []
+
+    def listen():
+        try:
+            while piece := os.read(ours, 65536):
+                told.append(piece)
+        except OSError:  # the terminal's other end is closed
+            pass
+
+    listener = threading.Thread(target=listen)
+    listener.start()
+    runner.run(args, env, stdout=its)
+    os.close(its)
+    listener.join()
+    os.close(ours)
+    return b"".join(told).decode().replace("\r\n", "\n")
+
+
+def check_colours(runner):
+    """on a terminal what is faster than print, or is reproduced, is green; headings are plain, and all is where the terminal or the user wants none"""
+    args = ["table", "stuppacher-2", "--from", KEPT]
+    plain = runner.run(args).stdout
+    shown = on_a_terminal(runner, args, {"TERM": "xterm", "NO_COLOR": None})
+    cells = re.findall(r"\x1b\[(\d+)m(.*?)\x1b\[0m", shown)
+    problems = [] if cells and re.sub(r"\x1b\[\d+m", "", shown) == plain else ["on a terminal: %r" % shown]
+    due = [("32", cell) for cell in re.findall(r"[\d.]+ +[1-9][\d.]*x|(?<!not )reproduced", plain)]
+    if sorted(cell for cell in cells if cell[1] not in ("not reproduced", "undecided")) != sorted(due):
+        problems.append("painted: %s, due: %s" % (cells, due))
+    for env in ({"TERM": "xterm", "NO_COLOR": "1"}, {"TERM": "dumb", "NO_COLOR": None}):
+        if on_a_terminal(runner, args, env) != plain:
+            problems.append("%s: it has colours" % env)
     return problems
 
 
@@ -149,4 +188,4 @@ def check_dirty_tree(runner):
     return problems
 
 
-CHECKS = [check_printed, check_compact, check_walk, check_claims, check_lengths, check_dirty_tree]
+CHECKS = [check_printed, check_compact, check_walk, check_colours, check_claims, check_lengths, check_dirty_tree]
