@@ -37,4 +37,6 @@ class Fault:
         sign = operator[1]
         if new.startswith(sign + " "):
             return f"{sign} (rg_mutant({number}) ? ({new[len(sign):]}) : ({otherwise[len(sign):]}))"
-        return f"+ (rg_mutant({number}) ? (0 {new}) : (0 {otherwise}))"  # of + and -
+        if sign not in "+-":
+            raise ValueError(f"{self.file}: {self.around}: of {sign} only the right side can be another; take both sides")
+        return f"+ (rg_mutant({number}) ? (0 {new}) : (0 {otherwise}))"

@@ -56,7 +56,7 @@ ROWS = [
     Fault(CHECKS, "if («rg_last_error_kind() == RG_ERROR_INPUT»)", "false", "the user's error is a device's"),
     Fault(BLAME, "if («p->hash != q->hash» || p->stages_run", "false", "a stage's contents are not compared"),
     Fault(BLAME, "return a->count == b->count ? -1 : «count»;", "-1", "a run of fewer stages is the same"),
-    Fault(BLAME, "blame->x = (int)(byte % layer / texel «% width»);", "", "a texel's column is told as its number"),
+    Fault(BLAME, "blame->x = «(int)(byte % layer / texel % width)»;", "(int)(byte % layer / texel)", "a texel's column is told as its number"),
     Fault(BLAME, "blame->y = (int)(byte % layer / texel / «width»);", "1", "a texel's row is told as its number"),
     Fault(BLAME, "(int)d->frame «+ 1» : run->frames", "- 1", "a second run ends before what is asked for"),
     Fault(BLAME, "if (part.frames == run->frames)\n            break;", "break;", "only the first frame is blamed"),

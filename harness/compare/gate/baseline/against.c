@@ -179,10 +179,8 @@ static void compare(struct run *r, int number)
 {
     struct rg_gate_case *c = &r->gate->cases[number];
     const double start_ms = rg_now_ms();
-    c->agreement = (struct rg_agreement){.folder = r->asked->request->pictures,
-                                         .name = c->name,
-                                         .pixels = NAN,
-                                         .difference = NAN};
+    c->agreement = (struct rg_agreement){
+        .folder = r->asked->request->pictures, .name = c->name, .pixels = NAN, .difference = NAN};
     struct rg_device *device = launch_for(r, c, number);
     rg_gate_case_expect(c, r->asked->request, device);
     if (device && !c->is_skipped)
