@@ -126,7 +126,8 @@ def build_copy(copy, modules, wanted):
 
 
 def notices(test, number, cache, limit_s=None):
-    """Whether a test fails with a fault, or takes longer than it may. What it leaves running ends with it."""
+    """What a test says that fails with a fault, or that takes longer than it may; "" where it passes. What it leaves
+    running ends with it."""
     env = dict(os.environ, **test["env"], GOMP_SPINCOUNT="0", XDG_CACHE_HOME=str(cache), RG_MUTANT=str(number))
     with tempfile.TemporaryFile() as told:
         run = subprocess.Popen(test["cmd"], cwd=test["workdir"], env=env, stdin=subprocess.DEVNULL, stdout=told,
@@ -141,7 +142,8 @@ def notices(test, number, cache, limit_s=None):
             pass
         run.wait()
         told.seek(0)
-        return code != 0 or b"\nnot ok" in told.read()
+        text = told.read().decode(errors="replace")
+        return "exit status %d\n%s" % (code, text) if code != 0 or "\nnot ok" in text else ""
 
 
 def try_unchanged(tests, cache):
@@ -149,8 +151,8 @@ def try_unchanged(tests, cache):
     limits_s = {}
     for name, test in tests.items():
         start = time.monotonic()
-        if notices(test, 0, cache):
-            sys.exit(f"mutants.py: {name} fails on the source as it is")
+        if said := notices(test, 0, cache):
+            sys.exit(f"mutants.py: {name} fails on the source as it is, {said}")
         limits_s[name] = max(LEAST_LIMIT_S, TIMES_AS_LONG * (time.monotonic() - start))
     return limits_s
 
