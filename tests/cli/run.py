@@ -30,6 +30,7 @@
 Prints TAP, for meson.
 """
 import os
+import signal
 import sys
 
 sys.dont_write_bytecode = True  # the sources' folder stays as it is
@@ -81,6 +82,8 @@ SUITES = {
 
 
 def main():
+    # What a shell starts in the background ignores SIGINT, and so would the commands that are interrupted.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     runner = Runner(*sys.argv[2:8])
     SUITES[sys.argv[1]](runner)
     return runner.finish()
