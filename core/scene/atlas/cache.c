@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/base/cache.h"
 #include "core/base/log.h"
 #include "core/scene/atlas/levels.h"
 #include "core/scene/atlas/sample.h"
@@ -41,41 +42,11 @@ static bool because(char why[256], const char *format, ...)
 
 // --- paths ---
 
-static bool folder_path(char folder[RG_ATLAS_PATH_SIZE], char why[256])
-{
-    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-    int length;
-    if (cache && cache[0] == '/')
-        length = snprintf(folder, RG_ATLAS_PATH_SIZE, "%s/raingauge", cache);
-    else if (home && home[0] == '/')
-        length = snprintf(folder, RG_ATLAS_PATH_SIZE, "%s/.cache/raingauge", home);
-    else
-        return because(why, "neither XDG_CACHE_HOME nor HOME names a folder; set one");
-    return length < RG_ATLAS_PATH_SIZE - 64 ||
-           because(why, "the path of the cache is too long; set XDG_CACHE_HOME to a shorter one");
-}
-
 bool rg_atlas_cache_path(enum rg_atlas_size size, char path[RG_ATLAS_PATH_SIZE], char why[256])
 {
     static const char *const names[] = {"streaks-full.atlas", "streaks-small.atlas",
                                         "streaks-cave.atlas", "streaks-cave-small.atlas"};
-    if (!folder_path(path, why))
-        return false;
-    const size_t length = strlen(path);
-    snprintf(path + length, RG_ATLAS_PATH_SIZE - length, "/%s", names[size]);
-    return true;
-}
-
-// Makes the folders of a path, the last name left out.
-static bool make_folders(const char *path, char why[256])
-{
-    char part[RG_ATLAS_PATH_SIZE];
-    for (const char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
-        snprintf(part, sizeof(part), "%.*s", (int)(slash - path), path);
-        if (mkdir(part, 0700) && errno != EEXIST && errno != EROFS && errno != EACCES)
-            return because(why, "%s: %s", part, strerror(errno));
-    }
-    return true;
+    return rg_cache_path(names[size], path, RG_ATLAS_PATH_SIZE, why);
 }
 
 // --- reading a file ---
@@ -179,7 +150,7 @@ static bool write_all(FILE *file, const struct rg_atlas *atlas)
 bool rg_atlas_cache_write(const struct rg_atlas *atlas, char why[256])
 {
     char path[RG_ATLAS_PATH_SIZE], temporary[RG_ATLAS_PATH_SIZE + 16];
-    if (!rg_atlas_cache_path(atlas->size, path, why) || !make_folders(path, why))
+    if (!rg_atlas_cache_path(atlas->size, path, why) || !rg_cache_make_folders(path, why))
         return false;
     snprintf(temporary, sizeof(temporary), "%s.XXXXXX", path);
     const int fd = mkstemp(temporary);

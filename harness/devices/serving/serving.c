@@ -1,5 +1,6 @@
 #include "harness/devices/serving/serving.h"
 
+#include "harness/devices/serving/caches.h"
 #include "harness/devices/serving/services.h"
 
 static bool serve_close(struct rg_message *request, struct rg_message *reply)
@@ -41,5 +42,6 @@ int rg_serving(const char *argument)
         [RG_CALL_DISPATCH] = rg_serve_dispatch,
         [RG_CALL_KERNEL_CODE] = rg_serve_kernel_code,
     };
+    rg_caches_part();
     return rg_serve(argument, services);
 }

@@ -216,5 +216,19 @@ def check_environments(runner):
         "%s, exit status %d, %s" % (found, result.returncode, result.stderr)]
 
 
+def check_caches(runner):
+    """code that a driver kept for one width of vectors is not run for another"""
+    kept = []
+    with tempfile.TemporaryDirectory() as folder:
+        for device in ("gl@LP_NATIVE_VECTOR_WIDTH=128", "vulkan@LP_NATIVE_VECTOR_WIDTH=256", "gl"):
+            path = os.path.join(folder, "a.png")
+            result = runner.run(("render raster --frame 1 --size 32x32 --device %s -o %s" % (device, path)).split(),
+                                {"XDG_CACHE_HOME": folder, "MESA_SHADER_CACHE_DIR": None, "MESA_SHADER_CACHE_DISABLE": None})
+            kept.append((result.returncode, sorted(os.path.relpath(root, folder) for root, folders, files in os.walk(folder)
+                                                   if os.path.basename(root) == "mesa_shader_cache")))
+    narrow, wide, plain = ["raingauge/llvmpipe-%d-bits/mesa_shader_cache" % bits for bits in (128, 256)] + ["mesa_shader_cache"]
+    return [] if kept == [(0, [narrow]), (0, [narrow, wide]), (0, sorted([narrow, wide, plain]))] else ["%s" % kept]
+
+
 THOROUGH = [check_all_ways]
-CHECKS = [check_comparisons, check_commands, check_alone, check_listed, check_required, check_environments]
+CHECKS = [check_comparisons, check_commands, check_alone, check_listed, check_required, check_environments, check_caches]

@@ -8,6 +8,7 @@ WORKER, CHANNEL, SERVE, MESSAGE, ENVIRONMENT, DEVICE = (
     W + name + ".c" for name in ("worker", "channel", "serve", "message", "environment", "device"))
 NAMES, DEVICES, REMOTE, LOG = ("harness/devices/names.c", "harness/devices/devices.c", "harness/frames/remote.c", "core/base/log.c")
 DIFF, MESSAGES = "harness/compare/diff/devices.c", "harness/frames/messages.c"
+CACHES = "harness/devices/serving/caches.c"
 PLAN, DOCTOR = "harness/tables/sweep/plan.c", "harness/commands/doctor.c"
 
 ROWS = [
@@ -56,4 +57,7 @@ ROWS = [
     Fault(PLAN, "return rg_last_error_kind() != RG_ERROR_INPUT && «plan->failed < plan->devices»;", "true", "a sweep of no device is planned", lives="what is measured then are failures, and it ends as such"),
     Fault(DOCTOR, "exit = «RG_EXIT_FAIL»;\n        }", "RG_EXIT_PASS", "a backend that crashes while it is listed is no failure"),
     Fault(DIFF, "s->exit = rg_exit_worse(s->exit, rg_exit_of(outcome));", ";", "a device that failed passes"),
+    Fault(CACHES, "if («!width» || getenv", "true", "code of one width of vectors runs as another's"),
+    Fault(CACHES, "\"llvmpipe-%d-bits/\", «width_of(width)»", "0", "all widths that are set share a cache"),
+    Fault(CACHES, "rg_cache_path(name, path, sizeof(path), why) && «rg_cache_make_folders(path, why)»", "true", "a driver's cache has no folder"),
 ]
