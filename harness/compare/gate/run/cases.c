@@ -118,11 +118,12 @@ static void put_code(const struct rg_gate_case *c, char *text, size_t size)
         snprintf(handed, sizeof(handed), "compiled passes %08x and %08x, %lld bytes",
                  (unsigned)(a->passes.hash >> 32), (unsigned)(b->passes.hash >> 32),
                  (long long)b->passes.bytes);
+    const char *advice = b->passes.bytes
+                             ? ": it is the same code, so look at threads, clocks and memory"
+                             : ", so look at the driver's settings, threads, clocks and memory";
     snprintf(text, size, "%s program, %s libraries; %s%s", program ? "the same" : "another",
              libraries ? "the same" : "other", handed,
-             is_found && program && libraries && passes
-                 ? ": it is the same code, so look at threads, clocks and memory"
-                 : "");
+             is_found && program && libraries && passes ? advice : "");
 }
 
 static void put_decision(const struct rg_gate_case *c, char *text, size_t size)
