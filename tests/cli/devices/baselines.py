@@ -8,7 +8,12 @@ import subprocess
 
 import forms
 import results
+
 from gates import SCHEMA, TORUS, Files, endings
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+KEPT = os.path.join(ROOT, "results", "baseline.json")
+CELLS = os.path.join(ROOT, "harness", "compare", "gate", "cells", "cells.txt")
 
 PANE = "flow/pane flow 64x48 2 view=pane resolution_px=64\n"
 CPU = ["--device", "cpu"]
@@ -350,5 +355,18 @@ def check_absent(runner):
     return problems
 
 
+def check_kept(runner):
+    """what the built-in cells draw, leave and count on cpu, gl and vulkan is what the repository's baseline has of them"""
+    result = runner.run(["gate", "--baseline", KEPT, "--pictures", "--json"])
+    report = json.loads(result.stdout)
+    found = {case["name"]: case for case in report["gated"]}
+    told = ["%s: %s, %s" % (name, case["ending"], case["message"]) for name, case in found.items() if case["ending"] != "pass" or case["message"]]
+    missing = [name for line in open(CELLS, encoding="utf-8") if line.strip() and not line.startswith("#")
+               for device in ("cpu", "gl", "vulkan") for name in ["%s.%s" % (line.split()[0], device)] if name not in found]
+    if result.returncode or told or missing:
+        return ["exit status %d, %s, missing: %s, %s" % (result.returncode, told, missing, result.stderr)]
+    return []
+
+
 CHECKS = [check_same, check_timed, check_changes, check_miscompiled, check_advice, check_refused, check_update, check_forms,
-          check_absent]
+          check_absent, check_kept]

@@ -2,16 +2,17 @@
 """Holds the gate against what it promises, with real processes: a build that is the same as itself must pass, and one that does
 5 % more must be found. Another process is busy on one of the cores all the while.
 
-selftest.py BUILD [--device D,...] [--same N] [--planted N] [--extra PERCENT] [--idle] [--keep DIR]
+selftest.py BUILD [--device D,...] [--same N] [--planted N] [--extra PERCENT] [--idle] [--keep DIR] [--traces FILE]
 
 Runs `raingauge gate D D` until it has made --same verdicts (300), of all built-in cells in turn, over the devices that are named. By
 default these have one thread each, for with more a busy core keeps every frame waiting (docs/ci.md). Then it plants real work beside
 each frame, as much as takes --extra (5) percent of a frame as it was found, and runs the gate on what does it
 (BUILD/tests/harness/gate/slower) until there are --planted (59) verdicts. --idle leaves the cores alone. --keep writes what each run
-found into a folder, as the gate's JSON. Prints both directions, the share that was left open, seconds a cell and the power at 2, 3
+found into a folder, as the gate's JSON. --traces writes all launches, for decide/traces.c to decide on again. Prints both directions, the share that was left open, seconds a cell and the power at 2, 3
 and 5 %. The exit status is 1 where more than one of 300 that are the same was told apart, or one that was planted was not found.
 """
 import argparse
+import csv
 import json
 import os
 import pathlib
@@ -34,6 +35,7 @@ def options():
     parser.add_argument("--extra", type=float, default=5)
     parser.add_argument("--idle", action="store_true")
     parser.add_argument("--keep")
+    parser.add_argument("--traces")
     return parser.parse_args()
 
 
@@ -46,6 +48,7 @@ class Gates:
         self.slower = str(self.build / "tests" / "harness" / "gate" / "slower" / "raingauge-slower")
         self.keep = asked.keep
         self.runs = 0
+        self.traces = open(asked.traces, "w") if asked.traces else None
 
     def cells(self):
         """The lines of the built-in cells."""
@@ -55,20 +58,31 @@ class Gates:
     def run(self, a, b, cells=None):
         """The cases of one gate, by the cells' names."""
         command = [self.raingauge, "gate", a, b, "--json"]
-        with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
+        with tempfile.TemporaryDirectory() as folder:
             if cells:
-                file.write("\n".join(cells) + "\n")
-                file.flush()
-                command += ["--cells", file.name]
-            result = subprocess.run(command, capture_output=True, text=True, check=False)
-        if not result.stdout:
-            sys.exit("%s: exit status %d, %s" % (" ".join(command), result.returncode, result.stderr))
-        report = json.loads(result.stdout)
+                path = pathlib.Path(folder, "cells.txt")
+                path.write_text("\n".join(cells) + "\n")
+                command += ["--cells", str(path)]
+            result = subprocess.run(command + ["-o", folder], capture_output=True, text=True, check=False)
+            if not result.stdout:
+                sys.exit("%s: exit status %d, %s" % (" ".join(command), result.returncode, result.stderr))
+            report = json.loads(result.stdout)
+            if self.traces:
+                self.write_trace(a, b, report, pathlib.Path(folder, "launches.csv"))
         self.runs += 1
         if self.keep:
             pathlib.Path(self.keep).mkdir(exist_ok=True)
             pathlib.Path(self.keep, "%03d.json" % self.runs).write_text(result.stdout)
         return {case["name"].split(".", 1)[0]: case for case in report["gated"]}
+
+    def write_trace(self, a, b, report, path):
+        """A line for the gate, and one for each of its cases."""
+        with open(path, newline="") as file:
+            rows = list(csv.DictReader(file))
+        print("gate %s %s" % (a, "same" if a == b else "planted"), file=self.traces)
+        for case in report["gated"]:
+            logs = ["x" if row["disturbed"] == "1" else "%.6f" % float(row["log_ratio"]) for row in rows if row["case"] == case["name"]]
+            print(case["name"].split(".", 1)[0], case["ending"], *logs, file=self.traces)
 
     def loop_ns(self):
         """What one loop of the extra work takes, of processor time."""

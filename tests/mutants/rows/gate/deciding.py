@@ -1,7 +1,7 @@
 """Verdicts on two things that were timed in turn, and the course that leads to them."""
 from fault import Fault
 
-TESTS = ("verdicts of two", "verdicts apart", "course of a gate")
+TESTS = ("verdicts of two", "verdicts apart", "course of a gate", "verdicts on traces")
 
 DECIDE, COURSE = "harness/compare/gate/decide/decide.c", "harness/compare/gate/decide/course.c"
 KEPT = "harness/compare/gate/run/kept.c"
