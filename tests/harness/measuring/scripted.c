@@ -505,7 +505,7 @@ static void test_interrupted(void **state)
     options.user = &share;
     measure(&bench, &options);
     assert_true(rg_interrupted());
-    assert_true(share > 0 && share < 1);
+    assert_true(share > 0 && share < 0.5); // all rounds are 6/11 of the run, and not all were taken
     for (int i = 0; i < 2; i++) {
         assert_true(bench.records[i].sample_count < bench.jobs[i].record->wanted_samples);
         assert_int_equal(bench.records[i].pass_frames, 0);
