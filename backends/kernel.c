@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/base/file.h"
+#include "core/base/files/file.h"
 #include "core/base/log.h"
 
 const struct rg_slot_info rg_drawn_slots[RG_DRAWN_SLOTS] = {

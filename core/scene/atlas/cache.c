@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/base/cache.h"
+#include "core/base/files/cache.h"
 #include "core/base/log.h"
 #include "core/scene/atlas/levels.h"
 #include "core/scene/atlas/sample.h"

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 
 #include "core/base/alloc.h"
-#include "core/base/file.h"
+#include "core/base/files/file.h"
 #include "harness/record/output.h"
 
 enum { MOST_FILES = 8 };

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/base/cache.h"
+#include "core/base/files/cache.h"
 
 // As Mesa reads it: what is no number is 0.
 static int width_of(const char *text)

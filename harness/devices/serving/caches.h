@@ -3,10 +3,9 @@
 #define RG_HARNESS_DEVICES_SERVING_CACHES_H
 
 // Gives Mesa's cache a folder of its own where LP_NATIVE_VECTOR_WIDTH is set. Mesa keeps the
-// machine code of llvmpipe by shader and processor (lp_disk_cache_create in its lp_screen.c), and
-// not by this width: so a process runs what another one compiled for another width, and the two are
-// equally fast. Nothing changes where MESA_SHADER_CACHE_DIR is set, or no folder can be made. To be
-// called before a driver is loaded.
+// machine code of llvmpipe by shader and processor, and not by this width: so a process runs what
+// another one compiled for another width, and the two are equally fast. Nothing changes where
+// MESA_SHADER_CACHE_DIR is set, or no folder can be made. To be called before a driver is loaded.
 void rg_caches_part(void);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/base/file.h"
+#include "core/base/files/file.h"
 #include "harness/record/disk/seal.h"
 
 // The largest result has some megabytes.

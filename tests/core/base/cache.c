@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/base/cache.h"
+#include "core/base/files/cache.h"
 
 static void a_path_is_in_the_users_cache(void **state)
 {

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/base/file.h"
+#include "core/base/files/file.h"
 
 // A reader of words, one after the other. `line` is for messages.
 struct reader {

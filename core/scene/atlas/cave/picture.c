@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "core/base/file.h"
+#include "core/base/files/file.h"
 #include "core/image/files/format.h"
 #include "core/scene/atlas/levels.h"
 

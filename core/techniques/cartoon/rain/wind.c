@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/base/file.h"
+#include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "core/techniques/cartoon/rain/settings.h"
 #include "kernels/cartoon/rain/params.h"

@@ -7,7 +7,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/array.h"
-#include "core/base/file.h"
+#include "core/base/files/file.h"
 #include "core/base/log.h"
 
 enum { MOST_BYTES = 64 << 20 };

@@ -1,6 +1,6 @@
 // Files that are read.
-#ifndef RG_CORE_BASE_FILE_H
-#define RG_CORE_BASE_FILE_H
+#ifndef RG_CORE_BASE_FILES_FILE_H
+#define RG_CORE_BASE_FILES_FILE_H
 
 #include <stdio.h>
 

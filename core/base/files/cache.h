@@ -1,6 +1,6 @@
 // The user's cache: $XDG_CACHE_HOME/raingauge, or ~/.cache/raingauge.
-#ifndef RG_CORE_BASE_CACHE_H
-#define RG_CORE_BASE_CACHE_H
+#ifndef RG_CORE_BASE_FILES_CACHE_H
+#define RG_CORE_BASE_FILES_CACHE_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-#include "core/base/cache.h"
+#include "core/base/files/cache.h"
 
 #include <errno.h>
 #include <limits.h>
