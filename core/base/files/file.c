@@ -16,14 +16,25 @@ static const char *judge(int fd)
                                  : "is not a regular file";
 }
 
-FILE *rg_file_open(const char *path, const char **why)
+// Opens a descriptor of a regular file, and closes all else.
+static FILE *stream(int fd, const char *mode, const char **why)
 {
-    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     *why = judge(fd);
-    FILE *file = *why ? NULL : fdopen(fd, "rb");
-    if (!file && fd >= 0)
-        close(fd);
+    FILE *file = *why ? NULL : fdopen(fd, mode);
     if (!file && !*why)
         *why = strerror(errno);
+    if (!file && fd >= 0)
+        close(fd);
     return file;
+}
+
+FILE *rg_file_open(const char *path, const char **why)
+{
+    return stream(open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC), "rb", why);
+}
+
+FILE *rg_file_append(const char *path, const char **why)
+{
+    const int flags = O_WRONLY | O_APPEND | O_CREAT | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
+    return stream(open(path, flags, 0666), "a", why);
 }

@@ -1,12 +1,11 @@
 // GitHub's workflow commands, and Markdown for a step's summary.
 // https://docs.github.com/actions/reference/workflow-commands-for-github-actions
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
+#include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "harness/compare/gate/report/report.h"
 #include "harness/compare/gate/report/texts.h"
@@ -196,20 +195,17 @@ bool rg_report_markdown(const struct rg_report *report, FILE *out, size_t room)
     return !page.is_broken || rg_error("a step's summary: no memory; close other programs");
 }
 
-// The file to append to, and its size: a FIFO or a device would be waited for. NULL, and one logged
-// line, where it is none.
+// The file to append to, and its size. NULL, and one logged line, where it is none.
 static FILE *open_summary(const char *path, struct stat *st)
 {
-    const int flags = O_WRONLY | O_APPEND | O_CREAT | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
-    const int fd = open(path, flags, 0666);
-    const bool is_file = fd >= 0 && !fstat(fd, st) && S_ISREG(st->st_mode);
-    FILE *out = is_file ? fdopen(fd, "a") : NULL;
-    if (out)
+    const char *why;
+    FILE *out = rg_file_append(path, &why);
+    if (out && !fstat(fileno(out), st))
         return out;
-    const char *why = (fd < 0 && errno != ENXIO) || is_file ? strerror(errno) : "is no file";
-    rg_error("%s: cannot be opened: %s; $GITHUB_STEP_SUMMARY must name a file", path, why);
-    if (fd >= 0)
-        close(fd);
+    rg_error("%s: cannot be opened: %s; $GITHUB_STEP_SUMMARY must name a file", path,
+             out ? strerror(errno) : why);
+    if (out)
+        fclose(out);
     return NULL;
 }
 

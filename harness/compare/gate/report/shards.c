@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "harness/compare/gate/report/gtest.h"
 
@@ -20,15 +21,17 @@ static bool read_number(const char *variable, int *number)
                     text);
 }
 
-// The file by which a runner knows that shards are understood: it need only be there.
+// The file by which a runner knows that shards are understood: it need only be there, so that what
+// it holds already stays.
 static bool tell_runner(void)
 {
-    const char *path = getenv("GTEST_SHARD_STATUS_FILE");
-    FILE *file = path && *path ? fopen(path, "w") : NULL;
-    if (!path || !*path || (file && fclose(file) == 0))
+    const char *path = getenv("GTEST_SHARD_STATUS_FILE"), *why;
+    if (!path || !*path)
         return true;
-    return rg_error("%s: cannot be written: %s; $GTEST_SHARD_STATUS_FILE names a file", path,
-                    strerror(errno));
+    FILE *file = rg_file_append(path, &why);
+    return (file && fclose(file) == 0) ||
+           rg_error("%s: cannot be written: %s; $GTEST_SHARD_STATUS_FILE names a file", path,
+                    file ? strerror(errno) : why);
 }
 
 bool rg_gtest_shards(struct rg_gtest_shards *shards)

@@ -67,7 +67,7 @@ def test_files_are_whole_or_as_before():
         error = tell("summary", [Case(b"a")], os.path.join(folder, "summary.md"), status=1, is_full=True).decode()
         assert "summary.md: cannot be written" in error and error.count("\n") == 1, error
     error = tell("summary", [Case(b"a")], "/dev/full", status=1).decode()
-    assert "/dev/full: cannot be opened: is no file" in error and error.count("\n") == 1, error
+    assert "/dev/full: cannot be opened: is not a regular file" in error and error.count("\n") == 1, error
 
 
 def summary(cases, before):

@@ -8,7 +8,7 @@ RUN, AGREE, CASES = (f"harness/compare/gate/run/{name}.c" for name in ("gate", "
 PICTURES, OUTPUTS = "harness/compare/gate/pictures/pictures.c", "harness/commands/comparing/outputs.c"
 
 ROWS = [
-    Fault(SHARDS, "file = «path && *path» ? fopen", "false", "no runner is told that shards are understood"),
+    Fault(SHARDS, "if («!path || !*path»)", "true", "no runner is told that shards are understood"),
     Fault(SHARDS, "    if («!has_total || !has_index»)", "false", "half of a shard is taken for all of it"),
     Fault(SHARDS, "&& «value >= 0» && value", "true", "shards are counted below 0"),
     Fault(SHARDS, "(«shards->index < shards->total» ||", "true", "a shard beyond the last passes"),
