@@ -236,12 +236,25 @@ static int find_pairs(const struct gate_options *o, const struct rg_words *sides
     return RG_EXIT_USAGE;
 }
 
+// A gate that is to compare times must not pass for want of them.
+static bool has_times(const struct gate_options *o, const struct rg_baseline *baseline)
+{
+    bool any = o->pictures_only || o->gtest.list;
+    for (int i = 0; !any && i < baseline->count; i++)
+        any = baseline->rows[i].launches.count > 0 &&
+              rg_baseline_asks(o->devices, baseline->rows[i].device);
+    return any || rg_error("%s: has no times of what is asked; give --pictures, or make it anew "
+                           "without that",
+                           o->baseline);
+}
+
 static bool read_input(const struct gate_options *o, struct gate_input *in)
 {
     return rg_gate_cells_read(o->cells, &in->cells) && read_known(o, &in->known) &&
            (!o->baseline || (rg_baseline_read(&in->baseline, o->baseline) &&
                              rg_baseline_fits(&in->baseline, o->baseline, &in->cells,
-                                              o->cells ? o->cells : "built-in cells", o->devices)));
+                                              o->cells ? o->cells : "built-in cells", o->devices) &&
+                             has_times(o, &in->baseline)));
 }
 
 static int gate(const void *values, const struct rg_words *arguments)

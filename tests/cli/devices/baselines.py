@@ -355,6 +355,16 @@ def check_absent(runner):
     return problems
 
 
+def check_untimed(runner):
+    """a gate that is to compare times is refused by a baseline without them, and nothing is compared"""
+    with Files(TORUS) as files:
+        path, _ = make(runner, files, "--pictures")
+        result = runner.run(["gate", "--baseline", path, "--cells", files.cells, "--budget", "1s"])
+    said = re.fullmatch(r"raingauge: .*baseline\.json: has no times of what is asked; give --pictures, or make it anew .*\n", result.stderr)
+    return [] if result.returncode == 2 and said and not result.stdout else [
+        "exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr)]
+
+
 def check_kept(runner):
     """what the built-in cells draw, leave and count on cpu, gl and vulkan is what the repository's baseline has of them"""
     result = runner.run(["gate", "--baseline", KEPT, "--pictures", "--json"])
@@ -369,4 +379,4 @@ def check_kept(runner):
 
 
 CHECKS = [check_same, check_timed, check_changes, check_miscompiled, check_advice, check_refused, check_update, check_forms,
-          check_absent, check_kept]
+          check_absent, check_untimed, check_kept]

@@ -103,8 +103,8 @@ void rg_against_compare(const struct rg_gate_cell *cell, struct rg_device *devic
     const bool holds = has_its_picture(cell, device, before, &now, &picture, truth, agreement);
     if (!did_run(before->outcome))
         say(agreement,
-            "the baseline has it as %s, and nothing else to hold it against; `raingauge baseline "
-            "--update` has it anew",
+            "the baseline has it as %s, and no states, counters or times to hold it against; "
+            "`raingauge baseline --update` has it anew",
             rg_outcome_name(before->outcome));
     else if (holds && has_its_states(before, &now, agreement) &&
              rg_alike_counters(&before->counters, &now.counters, agreement))
