@@ -166,16 +166,17 @@ static bool read_line(const char *path, int64_t number, char *word, struct rg_ca
 bool rg_case_read(const char *path, struct rg_case *c)
 {
     struct rg_lines lines;
-    *c = (struct rg_case){0};
+    *c = (struct rg_case){.run = {.frames = -1}, .stages_run = -1};
     bool ok = rg_lines_read(path, &lines);
     for (int64_t i = 0; ok && i < lines.count; i++)
         if (!rg_line_is_empty(&lines.lines[i]))
             ok = read_line(path, i + 1, rg_line_skip(lines.lines[i].text), c);
     rg_lines_free(&lines);
-    if (ok && (!c->run.subject.settings || !c->run.subject.width || !*c->asset || !c->expected ||
-               !c->difference || !*c->truth || !*c->device))
-        ok = rg_error("%s: lacks its technique, size, asset, class, expected digest or devices; "
-                      "write one anew with `raingauge shrink`",
+    if (ok && (!c->run.subject.settings || !c->run.subject.width || c->run.frames < 0 ||
+               c->stages_run < 0 || !*c->stage || !*c->asset || !c->expected || !c->difference ||
+               !*c->truth || !*c->device))
+        ok = rg_error("%s: lacks its technique, size, frames, stage, what it is behind, asset, "
+                      "class, expected digest or devices; write one anew with `raingauge shrink`",
                       path);
     return ok;
 }
