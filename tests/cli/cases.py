@@ -118,6 +118,7 @@ COMMANDS = [
     Case("baseline --device cpu -o {data}/fifo.txt", 2, r"fifo\.txt: is not a regular file"),
     Case("gate cpu cpu --github", 2, r"fifo\.txt: cannot be opened: is not a regular file; \$GITHUB_STEP_SUMMARY must name a file",
          {"GITHUB_STEP_SUMMARY": "{data}/fifo.txt"}),
+    Case("gate cpu cpu --pictures --junit {tmp}/a.out --bmf {tmp}/a.out", 2, r"a\.out: would be overwritten with a report, and is named as '.*a\.out' as well; name another"),
     Case("gate cpu cpu --pictures", 2, r"fifo\.txt: cannot be written: is not a regular file; \$GTEST_SHARD_STATUS_FILE names a file",
          {"GTEST_SHARD_STATUS_FILE": "{data}/fifo.txt"}),
     Case("render --case {data}/fifo.txt", 2, r"fifo\.txt: is not a regular file"),
