@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -104,12 +103,17 @@ static const struct rg_option options[] = {
 
 // --- what is read ---
 
-// The files of the three forms of options, and the skips.
+// The files of expectations of a form.
+static const struct rg_words *files_of(const struct gate_options *o, int form)
+{
+    return form == RG_FORM_SKIPS ? &o->skips : &o->known[form];
+}
+
 static bool read_known(const struct gate_options *o, struct rg_known *known)
 {
     bool ok = true;
     for (int form = RG_FORM_OWN; form <= RG_FORM_SKIPS; form++) {
-        const struct rg_words *files = form == RG_FORM_SKIPS ? &o->skips : &o->known[form];
+        const struct rg_words *files = files_of(o, form);
         for (int i = 0; ok && i < files->count; i++)
             ok = rg_known_add(known, files->items[i], (enum rg_known_form)form);
     }
@@ -159,35 +163,15 @@ static int list_cases(const struct gate_options *o, const struct gate_input *in)
     return ok ? RG_EXIT_PASS : RG_EXIT_FAIL;
 }
 
-// --- what is written ---
-
-static bool is_same_file(const char *a, const char *b)
+// Whether no report replaces a file that the gate reads.
+static bool spares_inputs(const struct gate_options *o, const struct rg_gate_outputs *outputs)
 {
-    struct stat of_a, of_b;
-    return !strcmp(a, b) || (!stat(a, &of_a) && !stat(b, &of_b) && of_a.st_dev == of_b.st_dev &&
-                             of_a.st_ino == of_b.st_ino);
-}
-
-static bool spares(const char *output, const char *file)
-{
-    return !output || !*output || !file || !is_same_file(output, file) ||
-           rg_error("%s: would be overwritten with a report, and is named as '%s' as well; name "
-                    "another file for the report",
-                    output, file);
-}
-
-// Whether no report replaces a file that the gate reads, or another report.
-static bool reports_spare(const struct gate_options *o, const struct rg_gate_outputs *outputs)
-{
-    const char *reports[] = {outputs->junit, outputs->bmf};
-    bool ok = spares(outputs->junit, outputs->bmf);
-    for (int i = 0; ok && i < 2; i++) {
-        ok = spares(reports[i], o->cells) && spares(reports[i], o->baseline);
-        for (int form = RG_FORM_OWN; ok && form <= RG_FORM_SKIPS; form++) {
-            const struct rg_words *files = form == RG_FORM_SKIPS ? &o->skips : &o->known[form];
-            for (int k = 0; ok && k < files->count; k++)
-                ok = spares(reports[i], files->items[k]);
-        }
+    bool ok =
+        rg_gate_outputs_spare(outputs, o->cells) && rg_gate_outputs_spare(outputs, o->baseline);
+    for (int form = RG_FORM_OWN; ok && form <= RG_FORM_SKIPS; form++) {
+        const struct rg_words *files = files_of(o, form);
+        for (int i = 0; ok && i < files->count; i++)
+            ok = rg_gate_outputs_spare(outputs, files->items[i]);
     }
     return ok;
 }
@@ -236,7 +220,7 @@ static int run(const struct gate_options *o, const struct gate_input *in)
     int exit = RG_EXIT_USAGE;
     if (rg_gtest_shards(&request.shards) &&
         rg_gate_outputs_settle(o->junit, o->pictures, &o->gtest, &outputs) &&
-        reports_spare(o, &outputs) &&
+        spares_inputs(o, &outputs) &&
         (!o->budget || rg_duration_read(o->budget, "--budget", &request.budget_s)) &&
         rg_gate_outputs_can_be_written(&outputs)) {
         outputs.prints_gtest |= request.shards.total > 1;

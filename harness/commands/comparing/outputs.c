@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "core/base/log.h"
 #include "harness/compare/gate/pictures/pictures.h"
@@ -30,11 +31,32 @@ bool rg_gate_outputs_settle(const char *junit, const char *pictures,
     return true;
 }
 
+// A link is the file that it leads to.
+static bool is_same_file(const char *a, const char *b)
+{
+    struct stat of_a, of_b;
+    return !strcmp(a, b) || (!stat(a, &of_a) && !stat(b, &of_b) && of_a.st_dev == of_b.st_dev &&
+                             of_a.st_ino == of_b.st_ino);
+}
+
+static bool spares(const char *report, const char *file)
+{
+    return !report || !*report || !file || !is_same_file(report, file) ||
+           rg_error("%s: would be overwritten with a report, and is named as '%s' as well; name "
+                    "another file for the report",
+                    report, file);
+}
+
+bool rg_gate_outputs_spare(const struct rg_gate_outputs *outputs, const char *file)
+{
+    return spares(outputs->junit, file) && spares(outputs->bmf, file);
+}
+
 bool rg_gate_outputs_can_be_written(const struct rg_gate_outputs *outputs)
 {
     enum { REPORT_BYTES = 1 << 20 };
     const char *summary = outputs->github ? getenv("GITHUB_STEP_SUMMARY") : NULL;
-    return (!summary || rg_report_can_append(summary)) &&
+    return spares(outputs->junit, outputs->bmf) && (!summary || rg_report_can_append(summary)) &&
            (!*outputs->junit || rg_output_file_can_be_written(outputs->junit, REPORT_BYTES)) &&
            (!outputs->bmf || rg_output_file_can_be_written(outputs->bmf, REPORT_BYTES)) &&
            (!*outputs->pictures || rg_gate_pictures_can_be_written(outputs->pictures, 0));

@@ -19,7 +19,11 @@ struct rg_gate_outputs {
 bool rg_gate_outputs_settle(const char *junit, const char *pictures,
                             const struct rg_gtest_asked *gtest, struct rg_gate_outputs *outputs);
 
-// Whether all can be written, as is found out before any work. False, and one logged line.
+// Whether no report would replace this file, which is read; NULL: none. False, and one logged line.
+bool rg_gate_outputs_spare(const struct rg_gate_outputs *outputs, const char *file);
+
+// Whether all can be written, each into a file of its own, as is found out before any work. False,
+// and one logged line.
 bool rg_gate_outputs_can_be_written(const struct rg_gate_outputs *outputs);
 
 // Writes and prints what a gate found, and for people the patches that would make the files of

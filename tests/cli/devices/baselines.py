@@ -365,6 +365,25 @@ def check_untimed(runner):
         "exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr)]
 
 
+def check_spared(runner):
+    """no report of a gate replaces a file that it reads, by whatever name, and what is there stays"""
+    problems = []
+    with Files(TORUS) as files:
+        path, _ = make(runner, files, "--pictures")
+        known, skips, link = files.path("known.txt", "# none\n"), files.path("skips.txt", "# none\n"), files.path("link")
+        os.symlink(path, link)
+        read = ["--baseline", path, "--cells", files.cells, "--expectations", known, "--skips", skips, "--pictures"]
+        for option, report in (("--junit", path), ("--bmf", path), ("--bmf", link), ("--junit", files.cells), ("--bmf", known), ("--junit", skips)):
+            with open(report, "rb") as file:
+                before = file.read()
+            result = runner.run(["gate", option, report] + read)
+            with open(report, "rb") as file:
+                stays = file.read() == before
+            if result.returncode != 2 or not stays or not re.fullmatch("raingauge: .*: would be overwritten with a report, .*\n", result.stderr):
+                problems.append("%s %s: exit status %d, stays %s, %s" % (option, report, result.returncode, stays, result.stderr))
+    return problems
+
+
 def check_kept(runner):
     """what the built-in cells draw, leave and count on cpu, gl and vulkan is what the repository's baseline has of them"""
     result = runner.run(["gate", "--baseline", KEPT, "--pictures", "--json"])
@@ -379,4 +398,4 @@ def check_kept(runner):
 
 
 CHECKS = [check_same, check_timed, check_changes, check_miscompiled, check_advice, check_refused, check_update, check_forms,
-          check_absent, check_untimed, check_kept]
+          check_absent, check_untimed, check_spared, check_kept]

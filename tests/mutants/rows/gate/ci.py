@@ -23,4 +23,5 @@ ROWS = [
     Fault(CASES, "if («c->agreement.has_pictures»)", "false", "reports name no picture"),
     Fault("harness/commands/comparing/outputs.c", "const size_t stem = «end && !strcmp(end, \".xml\")» ?", "false", "pictures lie in a folder with the report's ending"),
     Fault(OUTPUTS, "«adds_new»,", "false", "what nothing expects is not in the patch"),
+    Fault(OUTPUTS, "return !report || !*report || «!file || !is_same_file(report, file)» ||", "true", "a report replaces a file that is read", tests=("command line, baselines",)),
 ]
