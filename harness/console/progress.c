@@ -67,8 +67,8 @@ void rg_progress_start_expected(struct rg_progress *p, int64_t total, double uni
         rg_log_listen(print_above, p);
         draw(p);
     } else if ((double)total * unit_ms > rg_long_s() * 1e3) {
-        p->is_told = true;
-        tell_all(p, (double)total * unit_ms);
+        p->told_ms = (double)total * unit_ms;
+        tell_all(p, p->told_ms);
     }
 }
 
@@ -145,7 +145,7 @@ static void tell_left(struct rg_progress *p)
 {
     char text[RG_DURATION_TEXT];
     const int tenths = p->total > 0 ? (int)(10 * p->done / p->total) : 10;
-    if (!p->is_told || tenths <= p->told_tenths || tenths > 9)
+    if (p->told_ms <= 0 || tenths <= p->told_tenths || tenths > 9)
         return;
     p->told_tenths = tenths;
     const double left_ms = (double)(p->total - p->done) * rg_progress_unit_ms(p, rg_now_ms());

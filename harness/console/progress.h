@@ -1,7 +1,7 @@
 // A progress bar with the time left, on stderr, where that is a terminal. In a pipe what lasts long
-// is told in one line, once the first units show how long, and again where that was off by more than
-// half; where what units take was expected beforehand, it is told at once, and with every tenth how
-// long the rest takes.
+// is told in one line, once the first units show how long, and again where that was off by more
+// than half; where what units take was expected beforehand, it is told at once, and with every
+// tenth how long the rest takes.
 #ifndef RG_HARNESS_CONSOLE_PROGRESS_H
 #define RG_HARNESS_CONSOLE_PROGRESS_H
 
@@ -17,7 +17,6 @@ struct rg_progress {
     double told_ms;          // how long all of it takes, as was told last; 0: it was not
     double told_after_ms;    // when that was, from the start
     double expected_unit_ms; // what a unit was to take; 0: nobody knows
-    bool is_told;            // what was expected
     int told_tenths;
     char label[64];
 };

@@ -136,11 +136,12 @@ def notices(test, number, cache, limit_s=None):
             code = run.wait(timeout=limit_s)
         except subprocess.TimeoutExpired:
             code = -1
-        try:
-            os.killpg(run.pid, signal.SIGKILL)
-        except ProcessLookupError:
-            pass
-        run.wait()
+        finally:  # also where this tool is ended
+            try:
+                os.killpg(run.pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+            run.wait()
         told.seek(0)
         text = told.read().decode(errors="replace")
         return "exit status %d\n%s" % (code, text) if code != 0 or "\nnot ok" in text else ""
@@ -261,4 +262,5 @@ def main():
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
     main()

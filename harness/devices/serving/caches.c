@@ -9,7 +9,7 @@
 // As Mesa reads it: what is no number is 0.
 static int width_of(const char *text)
 {
-    const long bits = strtol(text, NULL, 10);
+    const long bits = strtol(text, NULL, 0);
     return bits > 0 && bits <= 4096 ? (int)bits : 0;
 }
 

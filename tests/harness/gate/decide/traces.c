@@ -99,10 +99,10 @@ static bool is_over(void *user)
     return gate->over && gate->launches >= gate->over;
 }
 
-// All gates have the error of one with six cells, as those had whose launches these are.
+// By the rule for as many rows as it had then.
 static void decide(struct gate *gate, struct rg_gate_row *found)
 {
-    struct rg_gate_rule rule = rg_gate_rule_of(gate->rows);
+    const struct rg_gate_rule rule = rg_gate_rule_of(gate->rows);
     const struct rg_quad_source source = {launch, take, is_over, gate, NULL};
     gate->launches = 0;
     for (int row = 0; row < gate->rows; row++)
