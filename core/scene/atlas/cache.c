@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/base/files/cache.h"
+#include "core/base/files/user.h"
 #include "core/base/log.h"
 #include "core/scene/atlas/levels.h"
 #include "core/scene/atlas/sample.h"
@@ -46,7 +46,7 @@ bool rg_atlas_cache_path(enum rg_atlas_size size, char path[RG_ATLAS_PATH_SIZE],
 {
     static const char *const names[] = {"streaks-full.atlas", "streaks-small.atlas",
                                         "streaks-cave.atlas", "streaks-cave-small.atlas"};
-    return rg_cache_path(names[size], path, RG_ATLAS_PATH_SIZE, why);
+    return rg_user_path(RG_USER_CACHE, names[size], path, RG_ATLAS_PATH_SIZE, why);
 }
 
 // --- reading a file ---
@@ -150,7 +150,7 @@ static bool write_all(FILE *file, const struct rg_atlas *atlas)
 bool rg_atlas_cache_write(const struct rg_atlas *atlas, char why[256])
 {
     char path[RG_ATLAS_PATH_SIZE], temporary[RG_ATLAS_PATH_SIZE + 16];
-    if (!rg_atlas_cache_path(atlas->size, path, why) || !rg_cache_make_folders(path, why))
+    if (!rg_atlas_cache_path(atlas->size, path, why) || !rg_user_make_folders(path, why))
         return false;
     snprintf(temporary, sizeof(temporary), "%s.XXXXXX", path);
     const int fd = mkstemp(temporary);

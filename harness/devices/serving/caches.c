@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/base/files/cache.h"
+#include "core/base/files/user.h"
 
 // As Mesa reads it: what is no number is 0.
 static int width_of(const char *text)
@@ -21,6 +21,7 @@ void rg_caches_part(void)
         return;
     snprintf(name, sizeof(name), "llvmpipe-%d-bits/", width_of(width));
     // Its last name is empty, so that the folder itself is made.
-    if (rg_cache_path(name, path, sizeof(path), why) && rg_cache_make_folders(path, why))
+    if (rg_user_path(RG_USER_CACHE, name, path, sizeof(path), why) &&
+        rg_user_make_folders(path, why))
         setenv("MESA_SHADER_CACHE_DIR", path, 0);
 }

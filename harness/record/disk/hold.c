@@ -2,12 +2,12 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "core/base/files/user.h"
 
 bool rg_hold_folder(const char *folder, struct rg_hold *hold)
 {
@@ -31,27 +31,13 @@ void rg_hold_release(struct rg_hold *hold)
     *hold = (struct rg_hold){.fd = -1};
 }
 
-// Makes the folders that a folder lies in. What fails here is told by the writing that follows.
-static void make_parents(char *folder)
-{
-    for (char *end = strchr(folder + 1, '/'); end; end = strchr(end + 1, '/')) {
-        *end = 0;
-        mkdir(folder, 0777);
-        *end = '/';
-    }
-}
-
 void rg_state_folder(char *folder, size_t size)
 {
-    const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
-    int length = 0;
-    *folder = 0;
-    if (state && *state == '/')
-        length = snprintf(folder, size, "%s/raingauge", state);
-    else if (home && *home == '/')
-        length = snprintf(folder, size, "%s/.local/state/raingauge", home);
-    if (length >= (int)size)
+    char why[256]; // what fails here is told by the writing that follows
+    if (!rg_user_path(RG_USER_STATE, "", folder, size, why)) {
         *folder = 0;
-    if (*folder)
-        make_parents(folder);
+        return;
+    }
+    folder[strlen(folder) - 1] = 0; // its slash: who writes there makes the last one
+    rg_user_make_folders(folder, why);
 }

@@ -3,6 +3,7 @@ from fault import Fault
 
 TESTS = ("named", "held", "rows", "journal", "output", "stored", "damaged", "sheets, cells", "sheets, json", "sheets, parts", "measure", "machine", "command line, tables", "command line, stored", "command line, cases")
 
+USER = "core/base/files/user.c"
 TABLE = "harness/tables/measuring/measure.c"
 JOURNAL, STORED, NAMED = "harness/record/disk/journal.c", "harness/record/disk/stored.c", "harness/record/named.c"
 DOCUMENT, KEY = "harness/record/disk/document.c", "harness/record/passport/key.c"
@@ -29,8 +30,9 @@ ROWS = [
     Fault(JOURNAL, "*record = *rg_result_at(&journal->held, «at»);", "(struct rg_place){.work = at.work, .variant = at.variant}", "every row is taken over as the first"),
     Fault(FIELDS, "memcpy(text, json_string_value(value), length + 1);\n    «rg_plain(text);»", ";", "a stored text steers the terminal"),
     Fault(DOCUMENT, "if («sealed == RG_SEAL_WHOLE» ||", "sealed != RG_SEAL_ABSENT", "a wrong checksum is taken for a right one"),
-    Fault(HOLD, "if (state && «*state == '/'»)", "true", "a relative state folder is followed"),
-    Fault(HOLD, "if (length >= (int)size)\n        *folder = 0;", ";", "a state folder that is too long is cut"),
+    Fault(USER, "if (named && «named[0] == '/'»)", "true", "a relative folder of the user's is followed", tests=("user",)),
+    Fault(USER, "return «(size_t)length < size» ||", "true", "a folder of the user's that is too long is cut", tests=("user",)),
+    Fault(USER, "[RG_USER_STATE] = {«\"XDG_STATE_HOME\"», ", "\"XDG_CACHE_HOME\"", "what goes on later lies where caches are cleaned", tests=("user",)),
     Fault(HOLD, "return «!is_taken»;", "true", "two runs write into a folder at once", tests=("command line, losses",)),
     Fault(REGENERATE, "if («!is_ours» && options->folder)", "false", "a second run into a folder goes on", tests=("command line, losses",)),
     Fault(REGENERATE, "for (int i = 0; «keeps» && i < made; i++)", "true", "a run whose state folder another holds keeps rows there", tests=("command line, losses",)),
