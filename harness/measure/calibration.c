@@ -7,6 +7,10 @@
 
 enum { STEPS = 400000, WORDS = 1 << 18 }; // 2 MiB
 
+// A virtual machine can stand still for longer than the load takes, which says nothing of its
+// speed.
+enum { LOADS = 3 };
+
 // Each step waits for the one before it, so that no level of vectors and no reordering changes
 // what the load is.
 static uint64_t chain(uint64_t x)
@@ -40,9 +44,13 @@ void rg_calibration_take(struct rg_calibration *calibration)
 {
     if (!calibration->load || calibration->count > RG_MAX_SAMPLES)
         return;
-    const double start = rg_now_ms();
-    calibration->load();
-    calibration->ms[calibration->count++] = rg_now_ms() - start;
+    double ms[LOADS];
+    for (int i = 0; i < LOADS; i++) {
+        const double start = rg_now_ms();
+        calibration->load();
+        ms[i] = rg_now_ms() - start;
+    }
+    calibration->ms[calibration->count++] = rg_median(ms, LOADS).median;
 }
 
 static double median_from(const struct rg_calibration *calibration, int first, int count)

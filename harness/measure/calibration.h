@@ -14,7 +14,7 @@ struct rg_calibration {
     double ms[RG_MAX_SAMPLES + 1];
 };
 
-// Runs the load, and keeps its time. Nothing where there is no load, or no room.
+// Runs the load three times, and keeps their median. Nothing where there is no load, or no room.
 void rg_calibration_take(struct rg_calibration *calibration);
 // What the load took at the beginning and in the end: the medians of the first and the last third
 // of its times; both 0 without any.

@@ -18,6 +18,8 @@ static void calibrate(struct rg_job *job, const struct rg_measure_options *optio
         return;
     if (ms < options->sample_ms && rg_job_be_ready(job, 4))
         ms = fmin(rg_job_time(job, 2), rg_job_time(job, 2));
+    if (rg_interrupted()) // so that fewer frames were run than were asked for
+        return;
     const struct rg_sampling sampling = rg_sampling_of(ms, job->window_frames, options);
     job->record->frames_a_sample = sampling.frames_a_sample;
     job->record->wanted_samples = sampling.samples;
@@ -47,6 +49,8 @@ static void take_sample(struct rg_job *job)
         rg_job_time(job, 1);
     const bool has_begun = is_last && rg_session_time(job->session, &begin);
     const double ms = rg_job_time(job, record->frames_a_sample);
+    if (rg_interrupted()) // so that it may have fewer frames
+        return;
     if (has_begun && rg_session_time(job->session, &end))
         record->api_over_wall = (double)(end - begin) * 1e-6 / (ms * record->frames_a_sample);
     record->samples_ms[record->sample_count++] = ms;
@@ -81,6 +85,8 @@ static void begin(struct rounds *r, struct rg_job *jobs, int count,
         if (record->outcome != RG_OK || rg_interrupted())
             continue;
         calibrate(&jobs[i], options);
+        if (!record->wanted_samples)
+            continue;
         r->is_begun[i] = record->sample_count > 0;
         r->order[r->count++] = i;
         r->all = record->wanted_samples > r->all ? record->wanted_samples : r->all;

@@ -216,12 +216,14 @@ static void test_window_is_not_timed(void **state)
     end(&bench);
 }
 
-// A machine that gets slower from round to round, but for one that was disturbed.
+// A machine that gets slower from round to round, but for one that was disturbed, and stands still
+// once in each.
+enum { LOADS_A_TIME = 3 };
 static int loads;
 static void run_load(void)
 {
-    loads++;
-    fake_pass(loads == 2 ? 500 : 10 + loads);
+    const int time = loads / LOADS_A_TIME + 1, of_time = loads++ % LOADS_A_TIME;
+    fake_pass(time == 2 || of_time == 1 ? 500 : 10 + time);
 }
 
 // The load is run before the first round and behind each: nine times of eight rounds. The first
@@ -239,7 +241,7 @@ static void test_calibration(void **state)
     options.load = run_load;
     loads = 0;
     measure(&bench, &options);
-    assert_int_equal(loads, 9);
+    assert_int_equal(loads, 9 * LOADS_A_TIME);
     for (int i = 0; i < 2; i++) {
         assert_ms(bench.records[i].calibration_begin_ms, 13);
         assert_ms(bench.records[i].calibration_end_ms, 18);
@@ -367,7 +369,7 @@ static void test_visits(void **state)
     begin(&bench);
     add(&bench, &often, 2);
     add(&bench, &seldom, 2);
-    loads = 2;
+    loads = 2 * LOADS_A_TIME;
     for (int visit = 0; visit < 3; visit++) {
         const int loads_before = loads;
         options.share = (visit + 1) / 3.0;
@@ -376,8 +378,8 @@ static void test_visits(void **state)
             measure(&bench, &options);
         else
             rg_jobs_measure(bench.jobs, 2, &options);
-        assert_int_equal(loads - loads_before,
-                         5); // before the first round, and behind each of four
+        // Before the first round, and behind each of four.
+        assert_int_equal(loads - loads_before, 5 * LOADS_A_TIME);
         assert_int_equal(count_of('('), visit ? 2 : 0);
         assert_int_equal(count_of('t'), visit == 2 ? 4 : 0);
         for (int i = 0; i < 2; i++) {
@@ -515,6 +517,27 @@ static void test_interrupted(void **state)
     rg_interrupt_watch();
 }
 
+// Wherever it comes, no sample has fewer frames than it says, and how a job is sampled is settled by
+// whole runs alone.
+static void test_interrupted_samples(void **state)
+{
+    (void)state;
+    for (int at = 3; at < 60; at++) {
+        const struct fake_script script = {.letter = 'A', .draw_ms = 4, .interrupt_at = at};
+        struct bench bench;
+        begin(&bench);
+        add(&bench, &script, 1);
+        measure(&bench, &plain);
+        const struct rg_record *record = &bench.records[0];
+        if (record->wanted_samples)
+            assert_int_equal(record->frames_a_sample, 5); // 20 ms
+        for (int i = 0; i < record->sample_count; i++)
+            assert_ms(record->samples_ms[i], 4);
+        end(&bench);
+        rg_interrupt_watch();
+    }
+}
+
 // A device that is lost ends its own job, in whatever it does then.
 static void test_lost(void **state)
 {
@@ -560,6 +583,7 @@ int main(void)
         cmocka_unit_test(test_api_clock),
         cmocka_unit_test(test_passes),
         cmocka_unit_test(test_interrupted),
+        cmocka_unit_test(test_interrupted_samples),
         cmocka_unit_test(test_lost),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
