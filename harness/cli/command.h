@@ -14,6 +14,8 @@ struct rg_command {
     // `options` is that struct, `arguments` what is no option: no more of them than the table's
     // operands have places for. Returns an enum rg_exit.
     int (*run)(const void *options, const struct rg_words *arguments);
+    // The exit status of bad usage; NULL: RG_EXIT_USAGE.
+    int (*refused)(void);
 };
 
 // Runs a command with its options and arguments; argv[0] is the command's name. Or prints its help

@@ -102,6 +102,15 @@ static bool take_option(struct line *line, int number)
     return ok;
 }
 
+// Whether a file can have what the arguments name.
+static bool has_list(const struct line *line)
+{
+    for (int i = 0; i < line->count; i++)
+        if (line->rows[i].name && !strcmp(line->rows[i].name, "list"))
+            return true;
+    return false;
+}
+
 static bool take_arguments(struct line *line)
 {
     int places = 0;
@@ -114,7 +123,8 @@ static bool take_arguments(struct line *line)
     const char *word;
     while ((word = poptGetArg(line->context))) {
         if (line->arguments.count == RG_MAX_WORDS)
-            return rg_error("'%s': more than %d arguments", word, RG_MAX_WORDS);
+            return rg_error("'%s': more than %d arguments; name fewer%s", word, RG_MAX_WORDS,
+                            has_list(line) ? ", or a file of them by --list" : "");
         if (line->arguments.count == places)
             return rg_error("%s: '%s' is one argument too many; `raingauge %s --help` prints the "
                             "usage",
@@ -179,7 +189,9 @@ int rg_command_run(const struct rg_command *command, int argc, const char **argv
     }
     make_table(&line, table);
     line.context = poptGetContext("raingauge", count, words, table, 0);
-    const int exit = set_defaults(&line) ? run(&line) : RG_EXIT_FAIL;
+    int exit = set_defaults(&line) ? run(&line) : RG_EXIT_FAIL;
+    if (exit == RG_EXIT_USAGE && command->refused)
+        exit = command->refused();
     poptFreeContext(line.context);
     for (int i = 0; i < line.count; i++)
         rg_option_free(&line.rows[i], line.values);

@@ -8,6 +8,7 @@
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/compare/bisect/bisect.h"
+#include "harness/compare/bisect/git.h"
 #include "harness/console/duration.h"
 #include "harness/console/interrupt.h"
 
@@ -65,23 +66,13 @@ static const struct rg_option options[] = {
 
 // --- inside `git bisect run` ---
 
-// git takes 1 to 127 for bad, but 125 for skip, and ends above that.
-static int git_status(enum rg_judgement verdict)
-{
-    return verdict == RG_JUDGED_GOOD   ? RG_EXIT_PASS
-           : verdict == RG_JUDGED_BAD  ? RG_EXIT_FAIL
-           : verdict == RG_JUDGED_SKIP ? RG_EXIT_GIT_SKIP
-           : rg_interrupted()          ? RG_EXIT_SIGNALLED + rg_interrupt_signal()
-                                       : RG_EXIT_SIGNALLED;
-}
-
 static int judge_for_git(const struct rg_judging *judging)
 {
     rg_interrupt_watch();
     const struct rg_judged judged = rg_judge(judging, NULL, NULL);
     rg_info("%s (exit status %d, %d %s)", rg_judgement_name(judged.verdict), judged.status,
             judged.tries, judged.tries == 1 ? "try" : "tries");
-    return git_status(judged.verdict);
+    return rg_git_status(judged.verdict);
 }
 
 // --- a list ---
@@ -97,6 +88,14 @@ static int print_lines(const struct rg_candidates *candidates, const struct rg_j
         free(line);
     }
     return ok ? RG_EXIT_PASS : RG_EXIT_FAIL;
+}
+
+static bool all_fit(const struct rg_candidates *candidates, const struct rg_judging *judging)
+{
+    for (int64_t i = 0; i < candidates->count; i++)
+        if (!rg_judging_fits(judging, candidates->names[i], candidates->names[0]))
+            return false;
+    return true;
 }
 
 static int search(const struct bisect_options *o, const struct rg_candidates *candidates,
@@ -123,7 +122,7 @@ static int bisect_list(const struct bisect_options *o, const struct rg_words *ar
     for (int i = 0; ok && i < arguments->count; i++)
         ok = rg_candidates_add(arguments->items[i], &candidates);
     int exit = RG_EXIT_USAGE;
-    if (ok && rg_candidates_between(o->good, o->bad, &candidates))
+    if (ok && rg_candidates_between(o->good, o->bad, &candidates) && all_fit(&candidates, judging))
         exit = o->dry_run ? print_lines(&candidates, judging) : search(o, &candidates, judging);
     rg_candidates_free(&candidates);
     return exit;
@@ -171,4 +170,5 @@ const struct rg_command rg_command_bisect = {
     .options = options,
     .options_size = sizeof(struct bisect_options),
     .run = bisect,
+    .refused = rg_git_status_of_usage,
 };

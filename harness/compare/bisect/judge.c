@@ -93,6 +93,18 @@ char *rg_judging_line(const struct rg_judging *judging, const char *candidate, c
     return rg_blanks_fill(judging->line, &(struct rg_blanks){candidate, good, budget});
 }
 
+bool rg_judging_fits(const struct rg_judging *judging, const char *candidate, const char *good)
+{
+    enum { MOST_BYTES = 128 << 10 }; // of Linux, with the zero behind it: execve(2)
+    char *line = rg_judging_line(judging, candidate, good, judging->tries - 1);
+    const bool ok = line && (strlen(line) < MOST_BYTES ||
+                             rg_error("bisect: the command of '%.40s...' has more than %d bytes; "
+                                      "put it into a script",
+                                      candidate, MOST_BYTES - 1));
+    free(line);
+    return ok;
+}
+
 static int try_once(const struct rg_judging *judging, const char *candidate, const char *good,
                     int number)
 {

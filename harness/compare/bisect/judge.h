@@ -42,6 +42,10 @@ struct rg_judged {
 char *rg_judging_line(const struct rg_judging *judging, const char *candidate, const char *good,
                       int number);
 
+// Whether the system takes a candidate's line for an argument; else one line is logged. It is found
+// out before anything is judged.
+bool rg_judging_fits(const struct rg_judging *judging, const char *candidate, const char *good);
+
 // Judges a candidate; NULLs where it has no name. Its verdict is stop, too, and one line is logged,
 // where the shell cannot be started. A signal that asks raingauge to end
 // (harness/console/interrupt.h) ends the command first.

@@ -83,6 +83,25 @@ def check_git(runner):
     return [] if found and ran.returncode == 0 else ["exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr)]
 
 
+def check_git_stops(runner):
+    """where git bisects, what is misspelt ends its search, and is bad usage elsewhere"""
+    problems = []
+    with tempfile.TemporaryDirectory() as folder:
+        def git(*args):
+            subprocess.run(["git", "-c", "user.name=n", "-c", "user.email=e", "-C", folder, *args], capture_output=True,
+                           env=runner.variables({"HOME": folder}), check=True)
+
+        git("init", "-q", "-b", "main")
+        git("commit", "-q", "--allow-empty", "-m", "one")
+        for command, status in ((("status",), 2), (("bisect", "start"), 128), (("bisect", "reset"), 2)):
+            git(*command)
+            for args in (["--runn", "true"], ["--run", "true", "--good", "a"], ["--run", "true", "--budget", "soon"], ["--run", "true", "--json"]):
+                ran = runner.run(["bisect"] + args, env={"GIT_DIR": os.path.join(folder, ".git")})
+                if ran.returncode != status or ran.stdout or ran.stderr.count("\n") != 1:
+                    problems.append("%s, %s: exit status %d, %s%s" % (command, args, ran.returncode, ran.stdout, ran.stderr))
+    return problems
+
+
 def check_statuses(runner):
     """inside git bisect run each exit status of a command becomes git's, and what is inconclusive is tried with twice the time"""
     problems = []
@@ -130,7 +149,7 @@ def check_names(runner):
         if spoken.stdout != "%s|%s|%s|a%s|'|%s|" % (5 * (name,)):
             problems.append("%r: %s becomes %r" % (name, shown.stdout, spoken.stdout))
     with tempfile.TemporaryDirectory() as folder:
-        write(folder, "list.txt", "# oldest first\n\n" + "".join("  %s  \r\n" % name for name in ["good"] + HOSTILE[:-1]))
+        write(folder, "list.txt", "\ufeff%s\r\n# oldest first\n\n" % "good" + "".join("  %s  \r\n" % name for name in HOSTILE[:-1]))
         ran = runner.run(["bisect", "--list", os.path.join(folder, "list.txt"), "--good", "good", "--bad", "~", "--json", "--run", "test {} = good"])
         if ran.returncode or json.loads(ran.stdout)["first_bad"] != HOSTILE[:1]:
             problems.append("list: exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr))
@@ -191,11 +210,13 @@ def check_refused(runner):
                        (["--run", "{}", "--good", "a", "--bad", "b\n"], "control character"), (["--run", "{}", "--good", "a", "--bad", ""], "--bad '': is empty"),
                        (["--run", "{}", "--good", "a", "--bad", "b", "--list", "/nonexistent"], "/nonexistent"),
                        (["--run", "{}", "--good", "a", "--bad", "b", "--list", "/dev/null"], "/dev/null"),
+                       (["--run", "{} " + 130000 * "x", "--good", "a", "--bad", "b" + 2000 * "x"], "has more than 131071 bytes; put it into a script"),
+                       (["--run", "{}", "--good", "a", "--bad", "b"] + 65 * ["c"], "more than 64 arguments; name fewer, or a file of them by --list"),
                        (["--run", "{}", "--budget", "soon"], "--budget 'soon'"), (["--run", "{}", "--tries", "0"], "--tries 0")):
-        ran = runner.run(["bisect"] + args)
+        ran = runner.run(["bisect"] + args, env={"GIT_DIR": "/nonexistent"})
         if ran.returncode != 2 or ran.stdout or ran.stderr.count("\n") != 1 or says not in ran.stderr:
             problems.append("%s: exit status %d, %s%s" % (args, ran.returncode, ran.stdout, ran.stderr))
     return problems
 
 
-CHECKS = [check_builds, check_git, check_statuses, check_lists, check_names, check_goes_on, check_refused]
+CHECKS = [check_builds, check_git, check_git_stops, check_statuses, check_lists, check_names, check_goes_on, check_refused]

@@ -67,6 +67,15 @@ static bool add_line(struct rg_lines *lines, size_t at)
     return true;
 }
 
+// Some editors begin a text with a byte order mark, which is no part of its first line.
+static void skip_mark(struct rg_lines *lines)
+{
+    static const char mark[] = "\xef\xbb\xbf";
+    const size_t length = sizeof(mark) - 1;
+    if (lines->count && lines->size >= length && !memcmp(lines->texts, mark, length))
+        lines->lines[0].text += length;
+}
+
 static bool split(struct rg_lines *lines)
 {
     for (size_t at = 0; at < lines->size;) {
@@ -74,6 +83,7 @@ static bool split(struct rg_lines *lines)
             return false;
         at += lines->lines[lines->count - 1].length;
     }
+    skip_mark(lines);
     return true;
 }
 

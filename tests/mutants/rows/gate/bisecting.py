@@ -6,7 +6,7 @@ TESTS = ("bisect", "command line, bisects")
 BISECT = "harness/compare/bisect/"
 SEARCH, BLANKS, JUDGE = BISECT + "search.c", BISECT + "blanks.c", BISECT + "judge.c"
 LIST, KEPT, RUN = BISECT + "list.c", BISECT + "kept.c", BISECT + "bisect.c"
-COMMAND = "harness/commands/comparing/bisect.c"
+COMMAND, GIT = "harness/commands/comparing/bisect.c", BISECT + "git.c"
 
 ROWS = [
     Fault(SEARCH, "first + «(length - 1) / 2»;", "0", "a stretch is walked through one by one"),
@@ -28,5 +28,8 @@ ROWS = [
     Fault(KEPT, "hash = «hash_text(bisect->candidates->names[i], hash)»;", "hash", "verdicts of other candidates are taken"),
     Fault(RUN, "    «rg_bisect_kept_remove(&r->kept);»", ";", "verdicts stay when a bisect is done"),
     Fault(RUN, "b->fresh ? «0» : rg_bisect", "rg_bisect_kept_take(&r->kept, b)", "--fresh takes verdicts"),
-    Fault(COMMAND, ": verdict == RG_JUDGED_SKIP ? «RG_EXIT_GIT_SKIP»", "1", "git takes what was skipped for bad"),
+    Fault(GIT, ": verdict == RG_JUDGED_SKIP ? «RG_EXIT_GIT_SKIP»", "1", "git takes what was skipped for bad"),
+    Fault(GIT, "return «git_is_bisecting()» ?", "false", "git takes a misspelt option for bad"),
+    Fault(GIT, "return «git_is_bisecting()» ?", "true", "a misspelt option ends with 128 everywhere"),
+    Fault(COMMAND, "«all_fit(&candidates, judging)»", "true", "a command that is too long is found out behind the ends"),
 ]
