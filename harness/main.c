@@ -1,4 +1,5 @@
 // raingauge: the instrument by which rain on a screen is measured.
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,11 +21,21 @@ static void print_usage(void)
     printf("\n`raingauge COMMAND --help` prints a command's options.\n");
 }
 
+// A file that is opened where a standard stream was closed would take what is printed. So each such
+// stream is open, in a mode in which using it fails.
+static void open_standard_streams(void)
+{
+    static const int modes[] = {O_WRONLY, O_RDONLY, O_RDONLY};
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+        if (fcntl(fd, F_GETFD) < 0)
+            open("/dev/null", modes[fd]); // it takes the lowest descriptor that is free
+}
+
 // A full disk may be noticed at the last write alone.
 static int finish(int exit)
 {
     if ((fflush(stdout) || ferror(stdout)) && exit == RG_EXIT_PASS) {
-        rg_error("standard output: cannot be written; is the disk full?");
+        rg_error("standard output: cannot be written; is it closed, or the disk full?");
         exit = RG_EXIT_USAGE;
     }
     return exit;
@@ -62,6 +73,7 @@ int main(int argc, char **argv)
 {
     if (argc == 3 && !strcmp(argv[1], RG_WORKER_ARGUMENT))
         return serve(argv[2]);
+    open_standard_streams();
     rg_threads_settle(argv);
     rg_workers.program = "/proc/self/exe";
     rg_workers.hello = rg_serving_hello();

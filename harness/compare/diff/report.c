@@ -199,7 +199,7 @@ bool rg_pairs_print_json(json_t *pairs, json_t *failures)
     bool good = all && json_dumpf(all, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0;
     printf("\n");
     json_decref(all);
-    return good || rg_error("standard output: cannot be written; is the disk full?");
+    return good || rg_error("standard output: cannot be written; is it closed, or the disk full?");
 }
 
 // PREFIX-name.png, which the caller frees. NULL, and one logged line, without memory.
