@@ -52,7 +52,8 @@ static const struct rg_option options[] = {
      .about =
          "replays a case of `raingauge shrink` instead: says whether the device leaves what is "
          "expected, and writes no picture",
-     .offset = AT(replayed), .names = RG_NAMES_FILE, .excludes = "set frame frames size output"},
+     .offset = AT(replayed), .names = RG_NAMES_FILE,
+     .excludes = "set frame frames size output fps exposure json"},
     RG_GROUP("Devices"),
     {RG_OPTION_TEXT, "device", .argument = "D",
      .about = "the device to use; `raingauge list devices` prints the names", .offset = AT(device),

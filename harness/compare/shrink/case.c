@@ -49,6 +49,12 @@ static void write_settings(FILE *out, const struct rg_subject *subject, void *de
             write_setting(out, &table->rows[i], subject->settings, defaults);
 }
 
+// What was written before the first stage has none.
+static const char *stage_name(const char *stage)
+{
+    return *stage ? stage : "-";
+}
+
 static void write_text(FILE *out, const struct rg_case *c, void *defaults, const char *note)
 {
     const struct rg_subject *subject = &c->run.subject;
@@ -57,8 +63,8 @@ static void write_text(FILE *out, const struct rg_case *c, void *defaults, const
     fprintf(out, "technique %s\nsize %dx%d\nframes %d\n", subject->technique->name, subject->width,
             subject->height, c->run.frames);
     write_settings(out, subject, defaults);
-    fprintf(out, "behind %d\nstage %s\nasset %s\nclass %s\n", c->stages_run,
-            *c->stage ? c->stage : "-", c->asset, rg_difference_name(c->difference));
+    fprintf(out, "behind %d\nstage %s\nasset %s\nclass %s\n", c->stages_run, stage_name(c->stage),
+            c->asset, rg_difference_name(c->difference));
     fprintf(out, "expected %016" PRIx64 "\nfound %016" PRIx64 "\n", c->expected, c->found);
     fprintf(out, "truth %s\ndevice %s\n", c->truth, c->device);
 }
@@ -143,7 +149,25 @@ static bool take_line(const char *word, const char *rest, struct rg_case *c)
     return !strcmp(word, "device") && take_text(rest, c->device, sizeof(c->device));
 }
 
-static bool read_line(const char *path, int64_t number, char *word, struct rg_case *c)
+// Whether a word of a line comes for the first time, where it may come only once; `seen` has a bit
+// for each that came.
+static bool comes_once(const char *word, unsigned *seen)
+{
+    static const char *const words[] = {"technique", "size",  "frames", "behind",
+                                        "stage",     "asset", "class",  "found",
+                                        "expected",  "truth", "device"};
+    for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++) {
+        if (strcmp(word, words[i]) != 0)
+            continue;
+        if (*seen >> i & 1)
+            return false;
+        *seen |= 1U << i;
+    }
+    return true;
+}
+
+static bool read_line(const char *path, int64_t number, char *word, unsigned *seen,
+                      struct rg_case *c)
 {
     char place[RG_PATH_SIZE + 32];
     const char *rest = rg_line_cut(word);
@@ -157,8 +181,11 @@ static bool read_line(const char *path, int64_t number, char *word, struct rg_ca
         rg_log_place(NULL);
         return ok;
     }
+    if (!comes_once(word, seen))
+        return rg_error("%s: line %lld: '%s' is there twice; leave one out", path,
+                        (long long)number, word);
     return take_line(word, rest, c) ||
-           rg_error("%s: line %lld: '%s' is no line of a case here; write one anew with "
+           rg_error("%s: line %lld: '%.60s' is no line of a case here; write one anew with "
                     "`raingauge shrink`",
                     path, (long long)number, word);
 }
@@ -166,11 +193,12 @@ static bool read_line(const char *path, int64_t number, char *word, struct rg_ca
 bool rg_case_read(const char *path, struct rg_case *c)
 {
     struct rg_lines lines;
+    unsigned seen = 0;
     *c = (struct rg_case){.run = {.frames = -1}, .stages_run = -1};
     bool ok = rg_lines_read(path, &lines);
     for (int64_t i = 0; ok && i < lines.count; i++)
         if (!rg_line_is_empty(&lines.lines[i]))
-            ok = read_line(path, i + 1, rg_line_skip(lines.lines[i].text), c);
+            ok = read_line(path, i + 1, rg_line_skip(lines.lines[i].text), &seen, c);
     rg_lines_free(&lines);
     if (ok && (!c->run.subject.settings || !c->run.subject.width || c->run.frames < 0 ||
                c->stages_run < 0 || !*c->stage || !*c->asset || !c->expected || !c->difference ||
@@ -204,6 +232,11 @@ int rg_case_replay(const struct rg_case *c, struct rg_device *device)
     if (row == digests.count) {
         printf("other: %s leaves no %s behind stage %d\n", device->info.name, c->asset,
                c->stages_run);
+    } else if (strcmp(stage_name(digests.rows[row].stage), c->stage) != 0) {
+        rg_error("the case: behind %d is stage '%s' here, and not '%s'; write one anew with "
+                 "`raingauge shrink`",
+                 c->stages_run, stage_name(digests.rows[row].stage), c->stage);
+        exit = RG_EXIT_USAGE;
     } else {
         const uint64_t hash = digests.rows[row].hash;
         exit = hash == c->expected ? RG_EXIT_PASS : RG_EXIT_FAIL;

@@ -70,6 +70,8 @@ def check_shrunk(runner):
                 ("asset normals", "", r"lacks its technique, size, .*asset, class, expected digest or devices"),
                 ("behind ", "# ", r"lacks its .*what it is behind"),
                 ("frames ", "# ", r"lacks its .*frames"),
+                ("frames ", "frames 1\nframes ", r"line \d+: 'frames' is there twice"),
+                ("stage %s" % STAGE, "stage flow_water", r"behind \d+ is stage '%s' here, and not 'flow_water'" % STAGE),
                 ("technique flow", "technique nonsense", r"line 3: 'technique' is no line")):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text.replace(right, wrong))
