@@ -52,15 +52,36 @@ static const struct rg_option options[] = {
 
 // --- before and after ---
 
-// Whether FILE can be written, and what stands there is a baseline: that is found out before any
-// work.
-static bool read_old(const char *path, struct rg_baseline *old, bool *is_there)
+// FILE as it was before any work.
+struct before {
+    bool is_there;
+    struct stat st; // where it is
+    struct rg_baseline baseline;
+};
+
+// Whether FILE can be written, and what stands there is a baseline.
+static bool look_before(const char *path, struct before *before)
 {
     enum { BYTES = 1 << 20 };
-    struct stat st;
-    *is_there = !stat(path, &st);
+    before->is_there = !stat(path, &before->st);
     return rg_output_file_can_be_written(path, BYTES) &&
-           (!*is_there || rg_baseline_read(old, path));
+           (!before->is_there || rg_baseline_read(&before->baseline, path));
+}
+
+// What another has written meanwhile was never shown, and must not be lost.
+static bool is_as_before(const char *path, const struct before *before)
+{
+    struct stat now;
+    const bool is_there = !stat(path, &now);
+    const struct stat *was = &before->st;
+    const bool same =
+        is_there == before->is_there &&
+        (!is_there || (now.st_dev == was->st_dev && now.st_ino == was->st_ino &&
+                       now.st_size == was->st_size && now.st_mtim.tv_sec == was->st_mtim.tv_sec &&
+                       now.st_mtim.tv_nsec == was->st_mtim.tv_nsec));
+    return same || rg_error("%s: was written by another meanwhile, and stays so; run this again to "
+                            "see what changes",
+                            path);
 }
 
 // By how much launches of a device scatter, in median of its cells: of a machine that does other
@@ -113,12 +134,13 @@ static int write_it(const struct baseline_options *o, const struct rg_baseline *
     return RG_EXIT_PASS;
 }
 
-static int keep(const struct baseline_options *o, const struct rg_baseline *old, bool is_there,
+static int keep(const struct baseline_options *o, const struct before *before,
                 const struct rg_baseline *made)
 {
     print_keys(made);
     const int failures = print_failures(made);
-    const int changes = is_there ? rg_baseline_print_changes(old, made, stdout) : 0;
+    const bool is_there = before->is_there;
+    const int changes = is_there ? rg_baseline_print_changes(&before->baseline, made, stdout) : 0;
     if (is_there && !changes) {
         printf("%s: nothing changes\n", o->output);
         return failures;
@@ -128,13 +150,15 @@ static int keep(const struct baseline_options *o, const struct rg_baseline *old,
                changes == 1 ? "" : "s");
         return RG_EXIT_FAIL;
     }
+    if (!is_as_before(o->output, before))
+        return RG_EXIT_FAIL;
     return rg_exit_worse(write_it(o, made), failures);
 }
 
 // --- the command ---
 
 static int make(const struct baseline_options *o, const struct rg_gate_cells *cells,
-                const struct rg_baseline *old, bool is_there)
+                const struct before *before)
 {
     const struct rg_baseline_request request = {.cells = cells,
                                                 .launches = o->pictures_only ? 0 : o->launches};
@@ -142,8 +166,9 @@ static int make(const struct baseline_options *o, const struct rg_gate_cells *ce
     struct rg_devices devices;
     int exit = rg_devices_open_asked(&o->devices, &devices);
     if (exit == RG_EXIT_PASS) {
+        const int left_out = rg_devices_exit(&devices); // what fell has no row
         if (rg_baseline_make(&request, &devices, &made))
-            exit = keep(o, old, is_there, &made);
+            exit = rg_exit_worse(keep(o, before, &made), left_out);
         else
             exit = rg_interrupted() ? RG_EXIT_SIGNALLED + rg_interrupt_signal() : RG_EXIT_FAIL;
     }
@@ -155,17 +180,16 @@ static int baseline(const void *values, const struct rg_words *arguments)
 {
     const struct baseline_options *o = values;
     struct rg_gate_cells cells = {.count = 0};
-    struct rg_baseline old = {.count = 0};
-    bool is_there;
+    struct before before = {.is_there = false};
     int exit = RG_EXIT_USAGE;
     (void)arguments;
     rg_memory_allow(o->memory_bytes);
     if (!o->output)
         rg_error("baseline: name the file to write, as in `raingauge baseline -o "
                  "results/baseline.json`");
-    else if (rg_gate_cells_read(o->cells, &cells) && read_old(o->output, &old, &is_there))
-        exit = make(o, &cells, &old, is_there);
-    rg_baseline_free(&old);
+    else if (rg_gate_cells_read(o->cells, &cells) && look_before(o->output, &before))
+        exit = make(o, &cells, &before);
+    rg_baseline_free(&before.baseline);
     rg_gate_cells_free(&cells);
     return exit;
 }

@@ -258,7 +258,7 @@ def check_refused(runner):
         twice = change(path, lambda d: d["baseline"].append(d["baseline"][0]), files.path("twice.json"))
         problems += refuse(runner, ["gate", "--baseline", twice, "--cells", files.cells], "stands there twice")
         problems += refuse(runner, ["gate", "--baseline", files.path("none.json"), "--cells", files.cells], "none.json: ")
-        problems += refuse(runner, ["gate", "--baseline", path, "--cells", files.cells, "cpu"], "or a file by --baseline")
+        problems += refuse(runner, ["gate", "--baseline", path, "--cells", files.cells, "cpu"], "--baseline has pairs of its own")
         problems += refuse(runner, ["gate", "--baseline", path, "--cells", files.cells, "--device", "gl"], "has no such device")
         problems += refuse(runner, ["gate", "cpu", "cpu", "--device", "cpu"], "--device is of --against and --baseline")
         problems += refuse(runner, ["baseline", "--device", "cpu"], "name the file to write")
@@ -319,6 +319,24 @@ def check_update(runner):
     return problems
 
 
+def check_meanwhile(runner):
+    """what another writes while a baseline is made stays, for nobody was shown what would change of it"""
+    problems = []
+    with Files(TORUS) as files:
+        path, _ = make(runner, files, "--pictures")
+        written, worker = files.path("written.json"), files.path("worker.sh", '#!/bin/sh\ncp "$WRITTEN" "$TO"\nexec "%s" "$@"\n' % runner.raingauge)
+        os.rename(path, written)
+        os.chmod(worker, 0o755)
+        args = ["baseline", "--device", "cpu@RG_PROGRAM=" + worker, "--pictures", "--cells", files.cells, "-o", path]
+        for more in ([], ["--update"]):
+            result = runner.run(args + more, {"WRITTEN": written, "TO": path})
+            with open(path) as file, open(written) as other:
+                stays = file.read() == other.read()
+            if result.returncode != 1 or not stays or "was written by another meanwhile" not in result.stderr:
+                problems.append("%s: exit status %d, stays %s, %s" % (more, result.returncode, stays, result.stderr))
+    return problems
+
+
 def check_forms(runner):
     """the forms for CI are of a baseline's gate too: JUnit, Bencher's, googletest's, GitHub's"""
     problems = []
@@ -347,7 +365,11 @@ def check_absent(runner):
         path, _ = make(runner, files, "--pictures", device="cpu,vulkan")
         absent = gate(runner, files, path, env={"VK_DRIVER_FILES": "/nonexistent"})
         fallen = gate(runner, files, path, env=runner.crashing_vulkan(files.folder.name))
+        kept = runner.run(["baseline", "--pictures", "--cells", files.cells, "-o", files.path("kept.json")],
+                          env=runner.crashing_vulkan(files.folder.name))
     problems = []
+    if kept.returncode != 1 or kept.stderr.count("\n") != 1 or "on 4 devices" not in kept.stdout:
+        problems.append("made: exit status %d, %s%s" % (kept.returncode, kept.stdout, kept.stderr))
     if absent.returncode or endings(json.loads(absent.stdout)) != {"raster/torus.cpu": "pass", "raster/torus.vulkan": "unsupported"}:
         problems.append("exit status %d, %s" % (absent.returncode, absent.stdout))
     if fallen.returncode != 1 or endings(json.loads(fallen.stdout)) != {"raster/torus.cpu": "pass", "raster/torus.vulkan": "crash"}:
@@ -397,5 +419,5 @@ def check_kept(runner):
     return []
 
 
-CHECKS = [check_same, check_timed, check_changes, check_miscompiled, check_advice, check_refused, check_update, check_forms,
+CHECKS = [check_same, check_timed, check_changes, check_miscompiled, check_advice, check_refused, check_update, check_meanwhile, check_forms,
           check_absent, check_untimed, check_spared, check_kept]

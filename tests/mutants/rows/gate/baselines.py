@@ -31,6 +31,7 @@ ROWS = [
     Fault(MAKE, "    «row->outcome = agreement.outcome;»\n", ";", "a picture that is wrong makes a baseline as one that is right"),
     Fault(TAKE, "rg_digest_of(words, «size», state->digest);", "0", "a state's digest is of nothing"),
     Fault(COMMAND, "if (is_there && «!o->update») {", "false", "a baseline is written over without being asked to"),
-    Fault(COMMAND, "«(!*is_there || rg_baseline_read(old, path))»;", "true", "what is no baseline is written over"),
+    Fault(COMMAND, "«(!before->is_there || rg_baseline_read(&before->baseline, path))»;", "true", "what is no baseline is written over"),
+    Fault(COMMAND, "if («!is_as_before(o->output, before)»)", "false", "what another wrote meanwhile is written over"),
     Fault("harness/commands/comparing/gate.c", "bool any = «o->pictures_only || o->gtest.list»;", "true", "a gate passes for want of times"),
 ]
