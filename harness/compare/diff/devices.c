@@ -55,7 +55,7 @@ static void note_failure(struct session *s, const char *device, enum rg_outcome 
                                                      rg_outcome_name(outcome), "detail", why));
 }
 
-// Draws on a device. False where the user's input is refused, as every other device would.
+// Draws on a device. False where the first refuses the user's input, as every other would.
 static bool take_picture(struct session *s, struct rg_device *device)
 {
     const struct rg_diff_devices_request *r = s->asked;
@@ -66,7 +66,7 @@ static bool take_picture(struct session *s, struct rg_device *device)
         s->shot_count++;
         return true;
     }
-    if (rg_last_error_kind() == RG_ERROR_INPUT)
+    if (rg_last_error_kind() == RG_ERROR_INPUT && !s->shot_count)
         return false;
     note_failure(s, device->info.name, rg_outcome_of_error(), rg_last_error());
     return true;

@@ -221,8 +221,12 @@ static void check_laws(const struct rg_verify *v, struct row *row, const struct 
         struct tally *tally = &row->tallies[LAWS + i];
         char detail[256] = "";
         count_run(tally, c);
-        if (!rg_session_obeys(session, &v->technique->proof->laws[i], detail, sizeof(detail)))
+        if (rg_session_obeys(session, &v->technique->proof->laws[i], detail, sizeof(detail)))
+            continue;
+        if (rg_session_lives(session))
             blame(tally, c, "%s", detail);
+        else
+            note_error(tally); // its driver fell while the law read from it
     }
 }
 

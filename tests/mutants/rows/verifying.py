@@ -28,7 +28,7 @@ ROWS = [
     Fault(DEVICES, "else if («row->tier == RG_T0»)\n        check_t0", "false", "an image that owes T0 is judged by the tier's rule"),
     Fault(DEVICES, "const struct rg_verdict *verdict = &comparison.tiers.of[«tier»];", "RG_T2", "every image is judged by T2"),
     Fault(DEVICES, "if («!verdict->holds»)", "false", "a tier that does not hold passes"),
-    Fault(DEVICES, "if («!rg_session_obeys(session, &v->technique->proof->laws[i], detail, sizeof(detail))»)", "false", "laws are not asked"),
+    Fault(DEVICES, "if («rg_session_obeys(session, &v->technique->proof->laws[i], detail, sizeof(detail))»)", "true", "laws are not asked"),
     Fault(DEVICES, "while (count < MAX_LAWS && v->technique->proof->laws[count].name)\n        count++;", ";", "a technique's laws are not counted"),
     Fault(DEVICES, "if (session && «rg_session_draw(session)» && rg_snapshot_take", "true", "the image is that before the last draw"),
     Fault(DEVICES, "if (!c->with_dry || «memcmp(c->dry.texels, c->expected_picture.texels, bytes)»)", "true", "an image without rain proves something"),
