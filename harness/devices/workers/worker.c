@@ -21,7 +21,7 @@
 #include "harness/devices/workers/held.h"
 #include "harness/devices/workers/inside.h"
 
-// A program that is asked whether it is a raingauge gets so long.
+// A program that is asked whether it is a raingauge gets so long, or --timeout where that is less.
 enum { LOOK_MS = 100, END_MS = 5000, HELLO_MS = 20000 };
 
 // What a process may hold beside what it was allowed to take (core/base/memory.h): the program, its
@@ -325,8 +325,10 @@ static bool send(struct rg_worker *worker, enum rg_call call, const struct rg_me
 static bool is_greeted(struct rg_worker *worker)
 {
     struct rg_message reply = {0};
+    const int timeout_s = rg_workers.timeout_s;
+    const int patience_ms = timeout_s < HELLO_MS / 1000 ? timeout_s * 1000 : HELLO_MS;
     const bool same = send(worker, RG_CALL_HELLO, NULL) &&
-                      rg_channel_receive(&worker->channel, &reply, HELLO_MS) == RG_ARRIVED &&
+                      rg_channel_receive(&worker->channel, &reply, patience_ms) == RG_ARRIVED &&
                       rg_take_index(&reply, 2) && !rg_take_int(&reply) && !rg_take_int(&reply) &&
                       !strcmp(rg_take_text(&reply), rg_workers.hello);
     rg_message_free(&reply);
