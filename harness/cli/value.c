@@ -36,6 +36,8 @@ static bool set_int(const struct rg_option *row, int *number, const char *text, 
     if (errno || value < INT_MIN || value > INT_MAX)
         return refuse_number(row, text, POPT_ERROR_OVERFLOW, command);
     *number = (int)value;
+    if (row->least == row->most && value != row->least)
+        return rg_error("--%s %s: must be %.10g", row->name, text, row->least);
     if (value < row->least || value > row->most)
         return rg_error("--%s %s: must be %.10g to %.10g", row->name, text, row->least, row->most);
     return true;

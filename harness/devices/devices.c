@@ -182,19 +182,17 @@ int rg_devices_open(const char *names, struct rg_devices *devices)
     return exit;
 }
 
-// "gl" is there when a device of that backend is.
-static bool is_of(const struct rg_device *device, const char *name)
+bool rg_device_is_of(const char *device, const char *name)
 {
-    const size_t length = strcspn(device->info.name, ":@");
-    return !strcmp(device->info.name, name) ||
-           (strlen(name) == length && !strncmp(device->info.name, name, length));
+    const size_t length = strcspn(device, ":@");
+    return !strcmp(device, name) || (strlen(name) == length && !strncmp(device, name, length));
 }
 
 static bool is_there(const struct rg_devices *devices, const char *name)
 {
     const char *why = "it is not among --device";
     for (int i = 0; i < devices->count; i++)
-        if (is_of(devices->devices[i], name))
+        if (rg_device_is_of(devices->devices[i]->info.name, name))
             return true;
     for (int i = 0; i < devices->absent_count; i++)
         if (!strcmp(devices->absent[i].name, name))

@@ -41,6 +41,8 @@ struct rg_devices_asked {
 int rg_devices_open_asked(const struct rg_devices_asked *asked, struct rg_devices *devices);
 // Whether what is required is among the devices; else one line is logged for each that is not.
 bool rg_devices_have(const struct rg_devices *devices, const char *require);
+// Whether a device is of a name of --require: its own, or its backend's.
+bool rg_device_is_of(const char *device, const char *name);
 // Of what was left out, an enum rg_exit: fail where a driver failed.
 int rg_devices_exit(const struct rg_devices *devices);
 // Closes them; false on a leak.

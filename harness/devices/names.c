@@ -51,12 +51,16 @@ static bool read_environment(struct rg_device_name *name)
     for (from = from ? from + 1 : ""; *from; *to++ = 0) {
         const char *value = copy_key(from, &to);
         if (!value)
-            return rg_error("device '%s': '%s' is no KEY=value", name->name, from);
+            return rg_error("device '%s': '%.60s' does not set a variable; write it as KEY=value, "
+                            "KEY of letters, digits and _",
+                            name->name, from);
         from = copy_value(value, &to);
     }
     *to = 0;
     const bool is_told = !strchr(name->name, '@') || to > name->environment;
-    return is_told || rg_error("device '%s': no KEY=value follows its '@'", name->name);
+    return is_told ||
+           rg_error("device '%s': no KEY=value follows its '@'; write one, or leave it out",
+                    name->name);
 }
 
 // Where a list of names is amiss at its beginning, "" where it is not.

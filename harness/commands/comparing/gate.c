@@ -19,18 +19,17 @@
 #include "harness/record/disk/hold.h"
 
 struct gate_options {
-    char *against;            // another build; NULL: two devices are named, or a baseline
-    char *baseline;           // a file; NULL: two sides run
-    char *devices;            // of both builds, or of the baseline
-    char *cells;              // a file; NULL: those that are built in
-    double margin_percent;    // 0: not given
-    char *budget;             // "2m"; NULL: none
-    struct rg_words known[3]; // files of expectations, of Mesa's fails, of Mesa's flakes
-    struct rg_words skips;    // of Mesa's skips
-    char *junit, *bmf;        // files; NULL: none
-    char *pictures;           // a folder for those that differ; NULL: beside the file of JUnit
+    char *against;                   // another build; NULL: two devices are named, or a baseline
+    char *baseline;                  // a file; NULL: two sides run
+    struct rg_devices_asked devices; // of both builds, or of the baseline
+    char *cells;                     // a file; NULL: those that are built in
+    double margin_percent;           // 0: not given
+    char *budget;                    // "2m"; NULL: none
+    struct rg_words known[3];        // files of expectations, of Mesa's fails, of Mesa's flakes
+    struct rg_words skips;           // of Mesa's skips
+    char *junit, *bmf;               // files; NULL: none
+    char *pictures; // a folder for those that differ; NULL: beside the file of JUnit
     struct rg_gtest_asked gtest;
-    int timeout_s;
     int64_t memory_bytes;
     bool pictures_only, fresh, github, json;
 };
@@ -50,7 +49,8 @@ static const struct rg_option options[] = {
     {RG_OPTION_TEXT, "baseline", .argument = "FILE",
      .about = "instead of A and B: devices are held against what `raingauge baseline -o` wrote",
      .offset = AT(baseline), .names = RG_NAMES_FILE, .excludes = "against"},
-    RG_INCLUDE(rg_devices_option, AT(devices), NULL),
+    RG_INCLUDE(rg_devices_option, AT(devices.names), NULL),
+    RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     {RG_OPTION_TEXT, "cells", .argument = "FILE",
      .about =
          "the cells to run, one a line (docs/expectations.md); without it those that are built "
@@ -67,7 +67,6 @@ static const struct rg_option options[] = {
      .about = "begins no launch behind so much time, as 90s or 4m; what is not decided by then is "
               "inconclusive",
      .offset = AT(budget)},
-    RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("What is known"),
     {RG_OPTION_TEXTS, "expectations", .argument = "FILE",
@@ -155,7 +154,7 @@ static int list_cases(const struct gate_options *o, const struct gate_input *in)
     for (int i = 0; ok && i < in->pairs.count; i++)
         ok = add_names(&in->cells, in->pairs.all[i].names[RG_SIDE_B], &report);
     for (int i = 0; ok && i < in->baseline.device_count; i++)
-        ok = !rg_baseline_asks(o->devices, in->baseline.devices[i].name) ||
+        ok = !rg_baseline_asks(o->devices.names, in->baseline.devices[i].name) ||
              add_names(&in->cells, in->baseline.devices[i].name, &report);
     if (ok)
         rg_gtest_list(stdout, &report, o->gtest.filter ? o->gtest.filter : "*");
@@ -183,9 +182,9 @@ static int run_either(const struct gate_options *o, const struct gate_input *in,
 {
     const double margin = o->baseline ? rg_gate_rule_apart(1).margin : rg_gate_rule_of(1).margin;
     request->margin = o->margin_percent > 0 ? o->margin_percent / 100 : margin;
-    return o->baseline
-               ? rg_against_run(&(struct rg_against){request, &in->baseline, o->devices}, gate)
-               : rg_gate_run(request, gate);
+    return o->baseline ? rg_against_run(
+                             &(struct rg_against){request, &in->baseline, o->devices.names}, gate)
+                       : rg_gate_run(request, gate);
 }
 
 // The same in a folder that no other raingauge writes into meanwhile.
@@ -214,6 +213,7 @@ static int run(const struct gate_options *o, const struct gate_input *in)
     struct rg_gate_request request = {.pairs = &in->pairs,
                                       .cells = &in->cells,
                                       .known = &in->known,
+                                      .require = o->devices.require,
                                       .today = today(),
                                       .pictures_only = o->pictures_only,
                                       .filter = o->gtest.filter};
@@ -226,8 +226,7 @@ static int run(const struct gate_options *o, const struct gate_input *in)
         outputs.prints_gtest |= request.shards.total > 1;
         request.pictures = *outputs.pictures ? outputs.pictures : NULL;
         exit = run_held(o, in, &request, &gate);
-        if (exit != RG_EXIT_USAGE && exit < RG_EXIT_SIGNALLED &&
-            !rg_gate_outputs_print(&outputs, &in->known, &gate))
+        if (gate.is_told && !rg_gate_outputs_print(&outputs, &in->known, &gate))
             exit = rg_exit_worse(exit, RG_EXIT_FAIL);
     }
     rg_gate_free(&gate);
@@ -240,13 +239,18 @@ static int find_pairs(const struct gate_options *o, const struct rg_words *sides
                       struct rg_gate_pairs *pairs)
 {
     if (o->against && !sides->count)
-        return rg_gate_pairs_of_builds(o->against, o->devices ? o->devices : "all", pairs);
+        return rg_gate_pairs_of_builds(o->against, o->devices.names ? o->devices.names : "all",
+                                       pairs);
     if (o->baseline && !sides->count)
         return RG_EXIT_PASS;
     *pairs = (struct rg_gate_pairs){.count = 1};
-    if (o->devices && !o->against && !o->baseline)
+    if (sides->count && (o->against || o->baseline))
+        rg_error("gate: '%s' is a device of a pair, and --%s has pairs of its own; name devices "
+                 "by --device",
+                 sides->items[0], o->against ? "against" : "baseline");
+    else if (o->devices.names && !o->against && !o->baseline)
         rg_error("gate: --device is of --against and --baseline; name two devices alone");
-    else if (o->against || o->baseline || sides->count != 2)
+    else if (sides->count != 2)
         rg_error("gate: name two devices, the one that B is held against first, as in `raingauge "
                  "gate cpu cpu@OMP_NUM_THREADS=1`, or another build by --against, or a file by "
                  "--baseline");
@@ -261,7 +265,7 @@ static bool has_times(const struct gate_options *o, const struct rg_baseline *ba
     bool any = o->pictures_only || o->gtest.list;
     for (int i = 0; !any && i < baseline->count; i++)
         any = baseline->rows[i].launches.count > 0 &&
-              rg_baseline_asks(o->devices, baseline->rows[i].device);
+              rg_baseline_asks(o->devices.names, baseline->rows[i].device);
     return any || rg_error("%s: has no times of what is asked; give --pictures, or make it anew "
                            "without that",
                            o->baseline);
@@ -270,10 +274,11 @@ static bool has_times(const struct gate_options *o, const struct rg_baseline *ba
 static bool read_input(const struct gate_options *o, struct gate_input *in)
 {
     return rg_gate_cells_read(o->cells, &in->cells) && read_known(o, &in->known) &&
-           (!o->baseline || (rg_baseline_read(&in->baseline, o->baseline) &&
-                             rg_baseline_fits(&in->baseline, o->baseline, &in->cells,
-                                              o->cells ? o->cells : "built-in cells", o->devices) &&
-                             has_times(o, &in->baseline)));
+           (!o->baseline ||
+            (rg_baseline_read(&in->baseline, o->baseline) &&
+             rg_baseline_fits(&in->baseline, o->baseline, &in->cells,
+                              o->cells ? o->cells : "built-in cells", o->devices.names) &&
+             has_times(o, &in->baseline)));
 }
 
 static int gate(const void *values, const struct rg_words *arguments)
@@ -281,12 +286,12 @@ static int gate(const void *values, const struct rg_words *arguments)
     const struct gate_options *o = values;
     struct gate_input in = {.pairs = {.count = 0}};
     rg_memory_allow(o->memory_bytes);
-    rg_workers.timeout_s = o->timeout_s;
+    rg_workers.timeout_s = o->devices.timeout_s;
     int exit = find_pairs(o, arguments, &in.pairs);
     if (exit == RG_EXIT_PASS && !read_input(o, &in))
         exit = RG_EXIT_USAGE;
     if (exit == RG_EXIT_PASS)
-        exit = o->gtest.list ? list_cases(o, &in) : run(o, &in);
+        exit = rg_exit_worse(o->gtest.list ? list_cases(o, &in) : run(o, &in), in.pairs.left_out);
     rg_baseline_free(&in.baseline);
     rg_known_free(&in.known);
     rg_gate_cells_free(&in.cells);
@@ -295,9 +300,8 @@ static int gate(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_gate = {
     .name = "gate",
-    .usage = "{A B | {--against BINARY | --baseline FILE} [--device D,...|all]} [--cells FILE] "
-             "[--margin PERCENT] "
-             "[--budget TIME] [--pictures] [--expectations "
+    .usage = "{A B | {--against BINARY | --baseline FILE} [--device D,...|all]} [--require D,...] "
+             "[--cells FILE] [--margin PERCENT] [--budget TIME] [--pictures] [--expectations "
              "FILE]... [--junit FILE] [--bmf FILE] [--github] [--json]",
     .about =
         "tells whether device B is worse than A, or than a baseline: other pictures, states or "

@@ -52,10 +52,17 @@ bool rg_gate_outputs_spare(const struct rg_gate_outputs *outputs, const char *fi
     return spares(outputs->junit, file) && spares(outputs->bmf, file);
 }
 
+// The file of GitHub's summary, NULL without one.
+static const char *summary_path(void)
+{
+    const char *path = getenv("GITHUB_STEP_SUMMARY");
+    return path && *path ? path : NULL;
+}
+
 bool rg_gate_outputs_can_be_written(const struct rg_gate_outputs *outputs)
 {
     enum { REPORT_BYTES = 1 << 20 };
-    const char *summary = outputs->github ? getenv("GITHUB_STEP_SUMMARY") : NULL;
+    const char *summary = outputs->github ? summary_path() : NULL;
     return spares(outputs->junit, outputs->bmf) && (!summary || rg_report_can_append(summary)) &&
            (!*outputs->junit || rg_output_file_can_be_written(outputs->junit, REPORT_BYTES)) &&
            (!outputs->bmf || rg_output_file_can_be_written(outputs->bmf, REPORT_BYTES)) &&
@@ -87,7 +94,7 @@ static bool print_text(const struct rg_known *known, const struct rg_gate *gate,
 
 static bool print_github(const struct rg_report *report)
 {
-    const char *summary = getenv("GITHUB_STEP_SUMMARY");
+    const char *summary = summary_path();
     return rg_report_annotations(report, stdout) &&
            (!summary || rg_report_append_markdown(report, summary));
 }

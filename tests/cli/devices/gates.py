@@ -96,6 +96,17 @@ def check_builds(runner):
     return problems
 
 
+def check_fallen(runner):
+    """a driver that falls while devices are listed fails a gate of builds, and every other device is held against its own"""
+    with Files(TORUS) as files:
+        result = runner.run(["gate", "--against", runner.slower, "--pictures", "--cells", files.cells, "--json"],
+                            env=runner.crashing_vulkan(files.folder.name))
+        report = json.loads(result.stdout) if result.stdout else {"gated": []}
+    wanted = {"raster/torus." + device: "pass" for device in ("cpu", "cpu:reference", "gl", "opencl")}
+    return [] if result.returncode == 1 and endings(report) == wanted and result.stderr.count("\n") == 1 else [
+        "exit status %d, %s, %s" % (result.returncode, endings(report), result.stderr)]
+
+
 def check_open(runner):
     """what is not decided when the time is over is inconclusive, with a status of its own"""
     with Files() as files:
@@ -177,6 +188,46 @@ def check_gtest(runner):
     return problems
 
 
+def check_required(runner):
+    """a device that is missing skips its cells, and fails the gate, with no report, where --require names it"""
+    problems = []
+    with Files(TORUS) as files:
+        path, env = files.path("baseline.json"), {"VK_DRIVER_FILES": "/nonexistent"}
+        runner.run(["baseline", "--device", "cpu,vulkan", "--pictures", "--cells", files.cells, "-o", path])
+        pair, apart = ["gate", "vulkan", "cpu", "--pictures"], ["gate", "--baseline", path, "--pictures"]
+        for args, require, status in ((apart, None, 0), (apart, "cpu", 0), (apart, "cpu,vulkan", 1), (apart, "opencl", 1),
+                                      (pair, None, 77), (pair, "cpu", 77), (pair, "vulkan", 1)):
+            junit = files.path("junit.xml", "before")
+            result = runner.run(args + ["--cells", files.cells, "--junit", junit] + (["--require", require] if require else []), env)
+            with open(junit) as file:
+                is_told = file.read() != "before"
+            said = "--require %s: " % (require or "none").split(",")[-1] in result.stderr
+            if result.returncode != status or is_told == (status == 1) or said != (status == 1):
+                problems.append("%s --require %s: exit status %d, %s%s" % (args, require, result.returncode, result.stdout, result.stderr))
+    return problems
+
+
+def check_no_rain(runner):
+    """a cell whose picture is the same without rain is an error of the cell's, against a device and against a baseline"""
+    problems = []
+    with Files("dry shower 64x36 1 geometry=off opacity=0\n") as files:
+        for args in (["cpu", "cpu"], ["cpu", "gl"]):
+            result = runner.run(["gate", *args, "--pictures", "--cells", files.cells, "--json"])
+            case = json.loads(result.stdout)["gated"][0]
+            if result.returncode != 1 or case["ending"] != "error" or "the same without rain" not in case["message"]:
+                problems.append("%s: exit status %d, %s" % (args, result.returncode, case))
+    return problems
+
+
+def check_beside(runner):
+    """another build in the current folder is named by its file's name alone"""
+    with Files(TORUS) as files:
+        os.symlink(runner.slower, files.path("rg"))
+        result = subprocess.run([runner.raingauge, "gate", "--against", "rg", "--device", "cpu", "--pictures", "--cells", files.cells],
+                                cwd=files.folder.name, env=runner.variables({}), capture_output=True, text=True, timeout=120, check=False)
+    return [] if result.returncode == 0 and not result.stderr else ["exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr)]
+
+
 def check_refused(runner):
     """bad input is refused in one line, before anything is measured"""
     problems = []
@@ -184,7 +235,10 @@ def check_refused(runner):
         bad = files.path("bad.txt", "flow/pane flow 64x48 2 no_such_key=1\n")
         for args, says in ((["cpu"], "name two devices"), (["--against", "none"], "--against 'none'"),
                            (["--against", "/bin/true", "--device", "cpu"], "RG_PROGRAM=/bin/true is no raingauge"),
-                           (["cpu", "cpu", "--against", runner.slower], "name two devices"), (["cpu", "cpu", "--device", "cpu"], "--device"), (["cpu", "none"], "none"), (["cpu", "cpu", "--cells", bad], "bad.txt:1: "),
+                           (["cpu", "cpu", "--against", runner.slower], "--against has pairs of its own; name devices by --device"),
+                           (["cpu", "cpu", "--device", "cpu"], "--device"), (["cpu", "none"], "none"), (["cpu", "cpu", "--cells", bad], "bad.txt:1: "),
+                           (["cpu@=x", "cpu"], "'=x' does not set a variable; write it as KEY=value"),
+                           (["cpu", "cpu", "--gtest_repeat", "2"], "--gtest_repeat 2: must be 1\n"),
                            (["cpu", "cpu", "--budget", "soon"], "--budget 'soon': is no time"),
                            (["cpu", "cpu", "--margin", "0"], "--margin"),
                            (["cpu", "cpu", "--expectations", files.path("none.txt")], "none.txt"),
@@ -195,4 +249,5 @@ def check_refused(runner):
     return problems
 
 
-CHECKS = [check_same, check_slower, check_builds, check_open, check_crash, check_ways, check_miscompiled, check_gtest, check_refused]
+CHECKS = [check_same, check_slower, check_builds, check_fallen, check_open, check_crash, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
+          check_refused]

@@ -78,14 +78,14 @@ static void what_is_no_such_form_is_refused(void **state)
         {"cpu,", "beside a comma"},
         {"cpu,,gl", "beside"},
         {"gl@", "no KEY=value"},
-        {"gl@A", "'A' is no KEY=value"},
-        {"gl@=1", "'=1' is no"},
-        {"gl@1A=2", "'1A=2' is no"},
-        {"gl@A B=2", "is no KEY=value"},
-        {"gl@A=1;B", "'B' is"},
+        {"gl@A", "'A' does not set a variable"},
+        {"gl@=1", "'=1' does not"},
+        {"gl@1A=2", "'1A=2' does not"},
+        {"gl@A B=2", "does not set a variable"},
+        {"gl@A=1;B", "'B' does not"},
         {"gl@A=\"1", "is not closed"},
         {long_name, "at most 255"},
-        {"gl@A=1;;B=2", "is no KEY=value"},
+        {"gl@A=1;;B=2", "does not set a variable"},
     };
     for (size_t i = 0; i < sizeof(refused) / sizeof(refused[0]); i++) {
         *logged = 0;

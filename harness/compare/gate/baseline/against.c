@@ -103,17 +103,26 @@ static bool choose(struct run *r)
 
 // --- keys ---
 
+// Launches each device once. What is required must be there.
+static bool look_at_sides(struct run *r)
+{
+    struct rg_side_seen seen[RG_MAX_DEVICES];
+    int count = 0;
+    for (int side = 0; side < r->side_count && !rg_interrupted(); side++) {
+        seen[count++] = rg_side_look(&r->sides[side], &r->infos[side]);
+        rg_side_close(&r->sides[side]);
+    }
+    return rg_interrupted() || rg_sides_have(seen, count, r->asked->request->require);
+}
+
 // Of each device that there is, so that it is known which times can be held against each other.
 static bool find_keys(struct run *r)
 {
     struct rg_device_info there[RG_MAX_DEVICES];
     int count = 0;
-    for (int side = 0; side < r->side_count && !rg_interrupted(); side++) {
-        if (!rg_side_launch(&r->sides[side]))
-            continue;
-        there[count++] = r->infos[side] = r->sides[side].device->info;
-        rg_side_close(&r->sides[side]);
-    }
+    for (int side = 0; side < r->side_count; side++)
+        if (*r->infos[side].name)
+            there[count++] = r->infos[side];
     json_t *passport = rg_passport_json(there, count);
     for (int side = 0; side < r->side_count; side++) {
         const struct rg_baseline_device *was =
@@ -281,7 +290,7 @@ int rg_against_run(const struct rg_against *against, struct rg_gate *gate)
 {
     struct run r = {.asked = against, .gate = gate};
     rg_interrupt_watch();
-    bool ok = choose(&r) && find_keys(&r) && note_keys(&r);
+    bool ok = choose(&r) && look_at_sides(&r) && find_keys(&r) && note_keys(&r);
     for (int i = 0; ok && i < gate->case_count && !rg_interrupted(); i++)
         compare(&r, i);
     ok = ok && time_all(&r) && (rg_interrupted() || rg_gate_report(against->request, gate));

@@ -17,8 +17,10 @@ static bool read_number(const char *variable, int *number)
     const long value = strtol(text, &end, 10);
     *number = (int)value;
     return (end != text && !*end && value >= 0 && value <= INT_MAX) ||
-           rg_error("%s '%s': is no whole number; unset it, or count shards with it", variable,
-                    text);
+           rg_error(
+               "%s '%.40s': must be a whole number from 0 to %d; unset it, or count shards with "
+               "it",
+               variable, text, INT_MAX);
 }
 
 // The file by which a runner knows that shards are understood: it need only be there, so that what

@@ -40,6 +40,17 @@ bool rg_agreement_blame(const struct rg_gate_cell *cell, struct rg_device *devic
     return ok;
 }
 
+// A cell without rain would pass whatever a device makes of rain. That is the cell's fault, and no
+// difference.
+static bool shows_nothing(struct rg_agreement *agreement)
+{
+    agreement->outcome = RG_ERROR;
+    snprintf(agreement->message, RG_AGREEMENT_TEXT,
+             "the picture is the same without rain, so that nothing is compared; give the cell "
+             "another frame, size or setting");
+    return false;
+}
+
 bool rg_alike_pictures(const struct rg_gate_cell *cell, struct rg_device *device, enum rg_tier owed,
                        const struct rg_drawn *a, const struct rg_drawn *b,
                        struct rg_agreement *agreement)
@@ -53,6 +64,8 @@ bool rg_alike_pictures(const struct rg_gate_cell *cell, struct rg_device *device
                          &(struct rg_compare_options){0}, &c);
     if (!ok) {
         rg_agreement_fails(agreement, a->name);
+    } else if (!c.tiers.mask_pixels && !c.metrics.differing_values) {
+        ok = shows_nothing(agreement);
     } else {
         agreement->pixels = (double)c.metrics.differing_pixels;
         agreement->difference = c.tiers.max_codes;

@@ -142,22 +142,26 @@ static void end_pair(struct run *r)
         rg_side_close(&r->sides[side]);
 }
 
-// Whether all names are such that a device could have them. A side that is not there otherwise ends
-// its cases.
-static bool have_names(struct run *r)
+// Launches each side once. Names must be such that a device could have them, and what is required
+// must be there; another side that is not ends its cases. Returns an enum rg_exit.
+static int look_at_sides(struct run *r)
 {
-    bool ok = true;
-    for (int pair = 0; ok && pair < r->asked->pairs->count; pair++) {
+    struct rg_side_seen seen[RG_SIDES * RG_MAX_DEVICES];
+    int count = 0;
+    bool are_names = true;
+    for (int pair = 0; are_names && pair < r->asked->pairs->count; pair++) {
         begin_pair(r, pair);
-        for (int side = 0; ok && side < RG_SIDES; side++) {
-            if (rg_side_launch(&r->sides[side]))
-                r->infos[r->info_count++] = r->sides[side].device->info;
-            else
-                ok = rg_last_error_kind() != RG_ERROR_INPUT;
+        for (int side = 0; are_names && side < RG_SIDES; side++) {
+            seen[count] = rg_side_look(&r->sides[side], &r->infos[r->info_count]);
+            r->info_count += seen[count].is_open;
+            are_names = seen[count++].is_name;
         }
         end_pair(r);
     }
-    return ok;
+    if (!are_names)
+        return RG_EXIT_USAGE;
+    const bool ok = rg_interrupted() || rg_sides_have(seen, count, r->asked->require);
+    return ok ? RG_EXIT_PASS : RG_EXIT_FAIL;
 }
 
 static void compare(struct run *r, struct rg_gate_case *c)
@@ -272,6 +276,7 @@ bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
         if (asked->tell)
             asked->tell(&told, asked->user);
     }
+    gate->is_told = ok;
     return ok;
 }
 
@@ -308,8 +313,9 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
 {
     struct run r = {.asked = request, .gate = gate};
     rg_interrupt_watch();
-    if (!have_names(&r))
-        return RG_EXIT_USAGE;
+    const int exit = look_at_sides(&r);
+    if (exit != RG_EXIT_PASS)
+        return exit;
     bool ok = make_room(&r) && set_passport(&r) && open_kept(&r);
     for (int pair = 0; ok && pair < request->pairs->count && !rg_interrupted(); pair++)
         ok = run_pair(&r, pair);

@@ -14,6 +14,7 @@
 struct rg_gate {
     int chosen; // cases that the filter lets through, of which the shard has some
     struct rg_report report;
+    bool is_told; // the report is whole
     int case_count;
     struct rg_gate_case *cases; // harness/compare/gate/run/cases.h
     int64_t result_count;

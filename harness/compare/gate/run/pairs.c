@@ -1,5 +1,6 @@
 #include "harness/compare/gate/run/pairs.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,12 +43,14 @@ static int add_listed(const char *program, struct rg_gate_pairs *pairs)
     if (!list)
         return RG_EXIT_FAIL;
     rg_devices_list(list);
-    int exit = rg_devices_complain(list);
-    for (int i = 0; i < list->count && exit != RG_EXIT_USAGE; i++)
-        if (!add(program, list->infos[i].name, pairs))
-            exit = RG_EXIT_USAGE;
+    pairs->left_out = rg_devices_complain(list);
+    bool ok = true;
+    for (int i = 0; ok && i < list->count; i++)
+        ok = add(program, list->infos[i].name, pairs);
     free(list);
-    return pairs->count || exit != RG_EXIT_PASS ? exit : RG_EXIT_UNSUPPORTED;
+    if (!ok)
+        return RG_EXIT_USAGE;
+    return pairs->count ? RG_EXIT_PASS : rg_exit_worse(RG_EXIT_UNSUPPORTED, pairs->left_out);
 }
 
 static int add_named(const char *program, const char *names, struct rg_gate_pairs *pairs)
@@ -68,5 +71,13 @@ int rg_gate_pairs_of_builds(const char *program, const char *names, struct rg_ga
                  program);
         return RG_EXIT_USAGE;
     }
-    return strcmp(names, "all") ? add_named(program, names, pairs) : add_listed(program, pairs);
+    // A file is meant. Without a slash it would be looked for along PATH.
+    char path[PATH_MAX];
+    const int length =
+        snprintf(path, sizeof(path), "%s%s", strchr(program, '/') ? "" : "./", program);
+    if (length >= PATH_MAX) {
+        rg_error("--against: its path is too long; choose a shorter one");
+        return RG_EXIT_USAGE;
+    }
+    return strcmp(names, "all") ? add_named(path, names, pairs) : add_listed(path, pairs);
 }

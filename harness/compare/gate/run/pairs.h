@@ -11,6 +11,7 @@ struct rg_gate_pair {
 struct rg_gate_pairs {
     int count;
     struct rg_gate_pair all[RG_MAX_DEVICES];
+    int left_out; // an enum rg_exit, of devices whose drivers fell while they were listed
 };
 
 // Two devices. False, and one logged line, where a name is none.

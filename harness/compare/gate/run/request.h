@@ -12,6 +12,7 @@ struct rg_gate_request {
     const struct rg_gate_pairs *pairs; // one after the other
     const struct rg_gate_cells *cells;
     const struct rg_known *known;  // what is expected to go wrong
+    const char *require;           // names of devices or of backends that must be there; NULL: none
     int today;                     // harness/compare/gate/text/date.h
     double margin;                 // 0.05 for 5 %
     double budget_s;               // no launch is begun behind it; 0: there is none

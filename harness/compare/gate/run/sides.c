@@ -1,5 +1,8 @@
 #include "harness/compare/gate/run/sides.h"
 
+#include "core/base/log.h"
+#include "harness/devices/names.h"
+
 bool rg_side_launch(struct rg_side *side)
 {
     rg_side_close(side);
@@ -11,4 +14,40 @@ void rg_side_close(struct rg_side *side)
 {
     rg_device_close(side->device);
     side->device = NULL;
+}
+
+struct rg_side_seen rg_side_look(struct rg_side *side, struct rg_device_info *info)
+{
+    struct rg_side_seen seen = {side->name, true, true, rg_side_launch(side)};
+    if (seen.is_open) {
+        *info = side->device->info;
+        return seen;
+    }
+    seen.is_name = rg_last_error_kind() != RG_ERROR_INPUT;
+    seen.is_there = rg_outcome_of_error() != RG_UNSUPPORTED;
+    return seen;
+}
+
+// A device that is there beside one of the same API that is not does not make up for it: the two
+// are held against each other.
+static bool is_there(const struct rg_side_seen *seen, int count, const char *name)
+{
+    bool any = false;
+    for (int i = 0; i < count; i++) {
+        if (!rg_device_is_of(seen[i].name, name))
+            continue;
+        if (!seen[i].is_there)
+            return rg_driver_error("--require %s: '%s' is not there", name, seen[i].name);
+        any = true;
+    }
+    return any || rg_driver_error("--require %s: it is not among the devices of this gate", name);
+}
+
+bool rg_sides_have(const struct rg_side_seen *seen, int count, const char *require)
+{
+    struct rg_device_name name;
+    bool all = true;
+    while (all && require && *require)
+        all = rg_device_name_read(&require, &name) && is_there(seen, count, name.name);
+    return all;
 }

@@ -18,4 +18,17 @@ struct rg_side {
 bool rg_side_launch(struct rg_side *side);
 void rg_side_close(struct rg_side *side);
 
+// What came of a first launch.
+struct rg_side_seen {
+    const char *name; // not owned
+    bool is_name;     // such that a device could have it
+    bool is_there;    // on this machine, though its driver may fail: that ends its cases
+    bool is_open;
+};
+// Launches a side, of which `info` is then told.
+struct rg_side_seen rg_side_look(struct rg_side *side, struct rg_device_info *info);
+// Whether all that `require` names, NULL: nothing, is among them and is there; else one line is
+// logged.
+bool rg_sides_have(const struct rg_side_seen *seen, int count, const char *require);
+
 #endif

@@ -4,7 +4,8 @@ from fault import Fault
 TESTS = ("command line, ci", "command line, reports")
 
 SHARDS, PARSE, FLAGS = "harness/compare/gate/report/shards.c", "harness/cli/parse.c", "harness/commands/comparing/gtest.c"
-RUN, AGREE, CASES = (f"harness/compare/gate/run/{name}.c" for name in ("gate", "alike", "cases"))
+RUN, AGREE, CASES, SIDES = (f"harness/compare/gate/run/{name}.c" for name in ("gate", "alike", "cases", "sides"))
+COMMAND = "harness/commands/comparing/gate.c"
 PICTURES, OUTPUTS = "harness/compare/gate/pictures/pictures.c", "harness/commands/comparing/outputs.c"
 
 ROWS = [
@@ -24,4 +25,7 @@ ROWS = [
     Fault("harness/commands/comparing/outputs.c", "const size_t stem = «end && !strcmp(end, \".xml\")» ?", "false", "pictures lie in a folder with the report's ending"),
     Fault(OUTPUTS, "«adds_new»,", "false", "what nothing expects is not in the patch"),
     Fault(OUTPUTS, "return !report || !*report || «!file || !is_same_file(report, file)» ||", "true", "a report replaces a file that is read", tests=("command line, baselines",)),
+    Fault(AGREE, "} else if («!c.tiers.mask_pixels && !c.metrics.differing_values») {", "false", "a cell without rain is a difference", tests=("command line, gates",)),
+    Fault(SIDES, "if («!seen[i].is_there»)", "false", "a device that is missing and required skips its cells", tests=("command line, gates",)),
+    Fault(COMMAND, "if («gate.is_told» && ", "true", "a gate that fails early leaves an empty report", tests=("command line, gates",)),
 ]
