@@ -60,16 +60,16 @@ build: setup $(BUILD)/build.ninja
 	@echo "== building in $(BUILD)"
 	@ninja -C $(BUILD)
 
-# What was measured by this build before is printed again.
+# What was measured by this build before, within the same time, is printed again.
 tables: build
-	@if test -e $(TABLES)/done && \
+	@if test "$$(cat $(TABLES)/done 2>/dev/null)" = "$(BUDGET)" && \
 	  test -z "$$(find $(BUILD)/harness $(BUILD)/backends $(BUILD)/kernels -type f -newer $(TABLES)/done)"; then \
 	  echo "== the tables in $(TABLES) are of this build; rm -r $(TABLES) has them measured anew"; \
 	  $(BUILD)/harness/raingauge table --claims --from $(TABLES); \
 	else \
 	  echo "== regenerating the tables on every device, within $(BUDGET), into $(TABLES)"; \
 	  rm -rf $(TABLES); \
-	  $(BUILD)/harness/raingauge table --budget $(BUDGET) --claims -o $(TABLES) && touch $(TABLES)/done; \
+	  $(BUILD)/harness/raingauge table --budget $(BUDGET) --claims -o $(TABLES) && echo "$(BUDGET)" >$(TABLES)/done; \
 	fi
 
 # A record names the commit that it was measured with.

@@ -135,7 +135,7 @@ bool rg_result_is_of_print(const struct rg_result *result, int work)
 int rg_result_printed_work(const struct rg_result *result)
 {
     for (int i = 0; i < result->work_count; i++)
-        if (!*result->works[i].saves && strcmp(result->works[i].name, "queries") != 0)
+        if (!strcmp(result->works[i].name, "paper"))
             return i;
     return result->work_count ? -1 : 0;
 }

@@ -68,6 +68,7 @@ COMMANDS = [
 
     # bisect; tests/cli/devices/bisecting.py has more
     Case("bisect --help", 0, None),
+    Case("table raster-1 --claims", 2, r"--claims: the paper claims nothing of table 'raster-1'; leave it out"),
     Case("bisect", 2, r"bisect: --run names the command that judges"),
     Case("bisect --run false", 1, r"bad \(exit status 1, 1 try\)"),
 

@@ -338,6 +338,14 @@ def check_full_stdout(runner):
 TWO_TABLES = "table stuppacher-2 raster-1 --rows 1-1 --device cpu "
 
 
+def check_claims_alone(runner):
+    """measured tables leave nothing before their claims, and an empty line between two tables"""
+    claims = runner.run((TWO_TABLES + "--claims --format csv").split())
+    tables = runner.run((TWO_TABLES + "--format csv").split())
+    found = claims.stdout.splitlines()[:1], tables.stdout.count("\n\n"), tables.stdout[:1] == "\n"
+    return [] if found == (["table,section,claim,cpu"], 1, False) else ["%s, %s" % (found, claims.stderr)]
+
+
 def interrupt(runner, args, env):
     """Runs two tables and interrupts the second; what was printed, the exit status, the messages."""
     process = runner.start(args.split(), env)
@@ -625,7 +633,7 @@ def check_threads(runner):
 
 CHECKS = [check_textures, check_forms, check_table_json, check_table_files, check_render_json, check_diff_json, check_full_stdout,
           check_full_disk, check_long, check_threads]
-STORED = [check_interrupted, check_stored]
+STORED = [check_claims_alone, check_interrupted, check_stored]
 
 
 # --- what takes long and leads sanitizers nowhere else: verify's mutants have a scene of their own ---

@@ -34,6 +34,7 @@ struct table_options {
     bool fresh, claims, wide, json;
     int64_t memory_bytes;
     struct rg_claim_outcomes *outcomes; // what --claims prints in the end
+    int *printed;                       // tables so far, between which an empty line stands
 };
 
 #define AT(field) offsetof(struct table_options, field)
@@ -106,6 +107,9 @@ static int form_of(const struct table_options *o)
 static int print(const struct rg_result *result, const void *user)
 {
     const struct table_options *o = user;
+    struct rg_place first = rg_result_start(result);
+    if (!o->claims && rg_result_next(result, &first) && (*o->printed)++)
+        printf("\n");
     if (!o->claims)
         return rg_result_finish(result, form_of(o), o->output);
     const bool is_whole = rg_result_first_missing(result) > result->last_row;
@@ -183,6 +187,20 @@ static bool have_rows(struct rg_range rows, const struct rg_table *const chosen[
                     longest->row_count);
 }
 
+// With --claims nothing is measured of which there are none.
+static bool have_claims(const struct table_options *o, const struct rg_table *const chosen[],
+                        int count)
+{
+    bool any = !o->claims;
+    for (const struct rg_claim *claim = rg_claims; !any && claim->table; claim++)
+        for (int i = 0; !any && i < count; i++)
+            any = !strcmp(claim->table, chosen[i]->id);
+    return any ||
+           rg_error("--claims: the paper claims nothing of table '%s'; leave it out, or name "
+                    "another table",
+                    chosen[0]->id);
+}
+
 static int measure(const struct table_options *o, const struct rg_words *arguments)
 {
     const struct rg_table *chosen[RG_MAX_WORDS];
@@ -204,7 +222,8 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
                                                  .print = print,
                                                  .user = o};
     struct rg_devices devices;
-    if (o->output && !rg_results_can_be_written(chosen, count, o->output))
+    if (!have_claims(o, chosen, count) ||
+        (o->output && !rg_results_can_be_written(chosen, count, o->output)))
         return RG_EXIT_USAGE;
     int exit = rg_devices_open_asked(&o->devices, &devices);
     if (exit != RG_EXIT_PASS)
@@ -233,8 +252,7 @@ static bool keep(struct rg_result *result, const struct table_options *o)
            (!o->variant || rg_result_keep_variant(result, o->variant));
 }
 
-// Verdicts on a table are of one length and size. False, and one logged line, where it is there in
-// two.
+// Verdicts on a table are of one measurement. False, and one logged line, where there are two.
 static bool have_one_length(const struct rg_stored *stored, const struct table_options *o,
                             const struct rg_words *ids)
 {
@@ -250,6 +268,9 @@ static bool have_one_length(const struct rg_stored *stored, const struct table_o
                 return rg_error("%s: holds table '%s' measured %s, and %s, which no verdict mixes; "
                                 "name the file of one of them",
                                 o->from, table, before, here);
+            return rg_error("%s: holds table '%s' twice, as results do that lie beside a journal; "
+                            "name the file of one of them",
+                            o->from, table);
         }
     }
     return true;
@@ -265,8 +286,7 @@ static int print_stored(struct rg_stored *stored, const struct table_options *o,
         struct rg_result *result = &stored->results[i];
         if (!is_named(ids, result->table) || !keep(result, o))
             continue;
-        if (printed++ && !o->claims)
-            printf("\n");
+        printed++;
         exit = rg_exit_worse(exit, print(result, o));
     }
     if (printed)
@@ -311,7 +331,9 @@ static int table(const void *values, const struct rg_words *arguments)
         rg_error("--claims --format json: choose md, csv or tex");
         return RG_EXIT_USAGE;
     }
+    int printed = 0;
     o.outcomes = &outcomes;
+    o.printed = &printed;
     rg_memory_allow(o.memory_bytes);
     if (!rg_sets_join(&o.sets, &o.set))
         return RG_EXIT_USAGE;

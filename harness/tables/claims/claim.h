@@ -35,7 +35,12 @@ struct rg_claim {
     int first, last; // rows
     int knee;        // a row
     double least, most;
+    const char *part; // that part of the paper's words, in ours; NULL: all of them
 };
+
+enum { RG_CLAIM_TITLE = 160 };
+// "\"25% slower\", at least": the paper's own words in quotation marks, and nothing else in them.
+void rg_claim_title(const struct rg_claim *claim, char title[RG_CLAIM_TITLE]);
 
 // All claims, by table; the last has no table.
 extern const struct rg_claim rg_claims[];

@@ -67,13 +67,14 @@ static void add_rows(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
     for (int i = 0; i < o->count; i++) {
         const struct rg_claim_outcome *outcome = &o->outcomes[i];
         const struct rg_claim *claim = outcome->claim;
+        char title[RG_CLAIM_TITLE];
         if (!i || claim != o->outcomes[i - 1].claim) {
             if (!(cells = rg_sheet_row(sheet)))
                 return;
             snprintf(cells[TABLE], RG_SHEET_CELL, "%s", claim->table);
             snprintf(cells[SECTION], RG_SHEET_CELL, "%s", claim->where);
-            snprintf(cells[CLAIM], RG_SHEET_CELL, claim->source == RG_CLAIM_SAID ? "\"%s\"" : "%s",
-                     claim->words);
+            rg_claim_title(claim, title);
+            snprintf(cells[CLAIM], RG_SHEET_CELL, "%s", title);
         }
         snprintf(cells[column_of(sheet, outcome->device)], RG_SHEET_CELL, "%s",
                  rg_claim_verdict_text(outcome->judgement.verdict));
@@ -149,16 +150,17 @@ static void add_notes(const struct rg_claim_outcomes *o, bool all_reasons, struc
         const struct rg_claim_outcome *outcome = &o->outcomes[i];
         const struct rg_claim *claim = outcome->claim;
         const struct rg_judgement *j = &outcome->judgement;
-        char p[32], devices[256];
+        char p[32], devices[256], title[RG_CLAIM_TITLE];
+        rg_claim_title(claim, title);
         print_probability(j, p, sizeof(p));
         name_alike(o, i, devices, sizeof(devices));
         if ((all_reasons || j->verdict != RG_CLAIM_REPRODUCED) && *devices)
-            rg_sheet_note(sheet, "%s, \"%s\", %s on %s%s: %s.", claim->table, claim->words,
+            rg_sheet_note(sheet, "%s, %s, %s on %s%s: %s.", claim->table, title,
                           rg_claim_verdict_text(j->verdict), devices, p, j->why);
         const bool is_first = !i || o->outcomes[i - 1].claim != claim;
         if (is_first && j->print_contradicts)
-            rg_sheet_note(sheet, "%s, \"%s\": the paper's own table contradicts it.", claim->table,
-                          claim->words);
+            rg_sheet_note(sheet, "%s, %s: the paper's own table contradicts it.", claim->table,
+                          title);
     }
 }
 

@@ -184,11 +184,8 @@ static int run_tasks(struct task *tasks, int count, const struct rg_devices *dev
     struct rg_forecast *forecasts = foresee(tasks, count, &kept, o->full);
     begin_bar(tasks, count, forecasts, &progress);
     free(forecasts);
-    for (int i = 0; i < count && !rg_interrupted(); i++) {
-        if (i)
-            printf("\n");
+    for (int i = 0; i < count && !rg_interrupted(); i++)
         exit = rg_exit_worse(exit, run_task(&tasks[i], &kept, o));
-    }
     rg_progress_end(&progress);
     if (rg_interrupted())
         exit = rg_exit_worse(exit, RG_EXIT_SIGNALLED + rg_interrupt_signal());

@@ -57,9 +57,9 @@ static void print_claims(const struct rg_result *result, FILE *out)
     for (const struct rg_claim *claim = rg_claims; claim->table; claim++) {
         if (strcmp(claim->table, result->table) != 0)
             continue;
-        const int length = fprintf(
-            out, claim->source == RG_CLAIM_SAID ? "- \"%s\" (%s): " : "- %s (%s): ", claim->words,
-            claim->where);
+        char title[RG_CLAIM_TITLE];
+        rg_claim_title(claim, title);
+        const int length = fprintf(out, "- %s (%s): ", title, claim->where);
         if (length + verdicts_length(claim, result) > RG_BRIEF_WIDTH)
             fprintf(out, "\n  ");
         print_verdicts(claim, result, rg_has_colours(out), out);
@@ -198,7 +198,7 @@ static void add_growth(struct notes *notes, const struct rg_result *result)
         const struct rg_trend trend = rg_trend_of(result, of);
         if (trend.verdict != RG_TREND_GROWTH || used >= sizeof(text))
             continue;
-        axis = rg_trend_axis(rg_result_at(result, of));
+        axis = trend.axis;
         snprintf(power, sizeof(power), "%.2f", -trend.slope);
         snprintf(low, sizeof(low), "%.2f", -trend.slope_high);
         snprintf(high, sizeof(high), "%.2f", -trend.slope_low);

@@ -76,8 +76,7 @@ static void note_growth(const struct rg_result *result, struct rg_sheet *sheet, 
                  -s->slope_low);
     name_kind(result, of, kind, sizeof(kind));
     rg_sheet_note(sheet, "Growth on %s%s: the time of a frame goes with %s to the power %.2f%s.",
-                  result->devices[of.device].name, kind,
-                  rg_trend_axis(rg_result_at(result, of))->name, -s->slope, interval);
+                  result->devices[of.device].name, kind, s->axis->name, -s->slope, interval);
 }
 
 // "; it goes with size to the power -0.98 (95 %: -1.02 to -0.94), published -1.04 (0.08 either
@@ -100,7 +99,7 @@ static void note_trend(const struct rg_result *result, struct rg_sheet *sheet, s
     if (s.verdict >= RG_TREND_GROWTH)
         return;
     if (s.has_slope)
-        print_slopes(rg_trend_axis(rg_result_at(result, of))->name, &s, slopes, sizeof(slopes));
+        print_slopes(s.axis->name, &s, slopes, sizeof(slopes));
     if (s.pairs_undecided)
         snprintf(unsettled, sizeof(unsettled), "; the samples do not settle %d", s.pairs_undecided);
     name_kind(result, of, kind, sizeof(kind));

@@ -180,6 +180,7 @@ struct rg_trend rg_trend_of(const struct rg_result *result, struct rg_place of)
         return (struct rg_trend){.verdict = RG_TREND_OTHER_WORK};
     if (!collect(result, of, &rows))
         return trend;
+    trend.axis = rows.count ? rg_trend_axis(rows.records[0]) : NULL;
     if (!*result->hardware) {
         find_slopes(&trend, &rows);
         trend.verdict = trend.has_slope ? RG_TREND_GROWTH : RG_TREND_UNKNOWN;

@@ -19,6 +19,7 @@ const char *rg_trend_text(enum rg_trend_verdict verdict);
 
 struct rg_trend {
     enum rg_trend_verdict verdict;
+    const struct rg_named *axis;   // of the first row that takes part; NULL: there is none
     int pairs;                     // of rows whose published numbers differ by more than rounding
     int pairs_in_order;            // so many of them stand in the published order, by their medians
     int pairs_undecided;           // of so many the samples do not settle the order

@@ -38,7 +38,7 @@ ROWS = [
     Fault("harness/record/record.c", "ratio = «fmax(*due / *found, *found / *due)»;", "*due / *found", "more particles than in print are the same work"),
     Fault("harness/record/record.c", "return «ratio > SAME_COUNT»;", "false", "other work is judged"),
     Fault(HEARING, "if («can_miss(c, row)»)\n                continue;\n            return end_without", "true", "a claim's first row may be missing"),
-    Fault("harness/record/result.c", "if («!*result->works[i].saves» && strcmp", "true", "our own work is held for the printed one"),
+    Fault("harness/record/result.c", "if («!strcmp(result->works[i].name, \"paper\")»)", "true", "our own work is held for the printed one"),
     Fault(ORDER, "below += x < high[j] ? 1 : x > high[j] ? 0 : «0.5»;", "1", "a tie counts as below"),
     Fault(ORDER, "now[u] * i / «(i + j)» : 0;", "(i + j + 1)", "probabilities of orders do not add up to 1"),
     Fault(ORDER, "for (int u = m * n; «u >= pairs»; u--)", "u > pairs", "a probability leaves out its own outcome"),

@@ -170,9 +170,27 @@ static void test_drift(void **state)
     rg_result_free(&rig.result);
 }
 
+// A budget may leave out the row that a choice of rows begins with.
+static void test_first_row_left_out(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_sheet sheet;
+    sheet_measure(&rig, &sheet_axis_table, (double[]){40, 1, 20, 1, 10, 1});
+    free(rig.result.rows[0]);
+    rig.result.rows[0] = NULL;
+    rig.result.left_out[0] = true;
+    assert_string_equal(rg_trend_of(&rig.result, (struct rg_place){0}).axis->name, "radius_m");
+    rg_result_sheet(&rig.result, &sheet);
+    assert_true(sheet_has_note(&sheet, "it goes with radius_m to the power"));
+    rg_sheet_free(&sheet);
+    rg_result_free(&rig.result);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_first_row_left_out),
         cmocka_unit_test(test_order_of_names),  cmocka_unit_test(test_groups),
         cmocka_unit_test(test_unsettled_order), cmocka_unit_test(test_slope_along_axis),
         cmocka_unit_test(test_other_work),      cmocka_unit_test(test_few_samples),
