@@ -136,7 +136,7 @@ def check_completed_words(runner):
         "verify --device=cpu,cp": ["cpu,cpu", "cpu,cpu:reference"],
         "verify flow r": ["raster"],
         "table ": tables,
-        "table creus-5.1 stu": ["stuppacher-1", "stuppacher-2"],
+        "table creus-5.1 stu": ["stuppacher-1", "stuppacher-2", "stuppacher-drops"],
         "figures creus-4.1": [name for name in listed(runner, "figures") if name.startswith("creus-4.1")],
         "table --format ": ["md", "csv", "json", "tex"],
         "table -o ": ["devices", "drivers"],

@@ -66,3 +66,29 @@ const struct rg_table rg_table_stuppacher_2 = {
     .note = "Full frames of a box of six mirror panes, each with a height map of this size, in a "
             "512x512 view (the paper does not say), the same seeded drops at every resolution.",
 };
+
+// The number of drops, of which the paper says that it does not matter (section 6).
+#define MIRROR "move=paper panes=mirror resolution_px=512 "
+static const struct rg_table_row drops[] = {
+    {MIRROR "drops=10 rain_drops_s=4", {10}, NULL},
+    {MIRROR "drops=100 rain_drops_s=38", {100}, NULL},
+    {MIRROR "drops=1000 rain_drops_s=375", {1000}, NULL},
+    {MIRROR "drops=4000 rain_drops_s=1500", {4000}, NULL},
+};
+
+const struct rg_table rg_table_stuppacher_drops = {
+    .id = "stuppacher-drops",
+    .technique = "flow",
+    .about = "frame rate by the number of drops, a mirror (Stuppacher & Supan, section 6)",
+    .columns = {"drops"},
+    .key_count = 1,
+    .variants = {{"full", "", NULL}},
+    .works = {{"paper", "", "", .reading = SIX_MAPS}, OURS},
+    .width = 512,
+    .height = 512,
+    .row_count = 4,
+    .rows = drops,
+    .note =
+        "Nothing of this is in print but the sentence. Full frames as in stuppacher-2, with 512 "
+        "texels; the drops of each pane at the start, and three eighths as many more a second.",
+};
