@@ -152,12 +152,14 @@ static int open_all(struct rg_devices *devices)
                           : rg_exit_worse(RG_EXIT_UNSUPPORTED, rg_devices_exit(devices));
 }
 
+// One that is unsupported is noted, and the others are opened all the same: what is required may be
+// among them.
 static int open_named(const char *names, struct rg_devices *devices)
 {
     struct rg_device_name name;
     const char *rest = names;
     do {
-        if (devices->count == RG_MAX_DEVICES) {
+        if (devices->count + devices->absent_count == RG_MAX_DEVICES) {
             rg_error("--device: more than %d names", RG_MAX_DEVICES);
             return RG_EXIT_USAGE;
         }
@@ -166,20 +168,14 @@ static int open_named(const char *names, struct rg_devices *devices)
         struct rg_device *device = rg_workers.program
                                        ? rg_remote_open(NULL, name.name, name.environment)
                                        : rg_device_open(name.name);
-        if (!device)
+        if (device)
+            devices->devices[devices->count++] = device;
+        else if (rg_outcome_of_error() == RG_UNSUPPORTED)
+            leave_out(devices, name.name, RG_UNSUPPORTED, rg_last_error());
+        else
             return rg_exit_of_error();
-        devices->devices[devices->count++] = device;
     } while (*rest);
-    return RG_EXIT_PASS;
-}
-
-int rg_devices_open(const char *names, struct rg_devices *devices)
-{
-    *devices = (struct rg_devices){0};
-    int exit = !strcmp(names, "all") ? open_all(devices) : open_named(names, devices);
-    if (exit != RG_EXIT_PASS)
-        rg_devices_close(devices);
-    return exit;
+    return devices->absent_count ? RG_EXIT_UNSUPPORTED : RG_EXIT_PASS;
 }
 
 bool rg_device_is_of(const char *device, const char *name)
@@ -195,7 +191,7 @@ static bool is_there(const struct rg_devices *devices, const char *name)
         if (rg_device_is_of(devices->devices[i]->info.name, name))
             return true;
     for (int i = 0; i < devices->absent_count; i++)
-        if (!strcmp(devices->absent[i].name, name))
+        if (rg_device_is_of(devices->absent[i].name, name))
             why = devices->absent[i].why;
     return rg_driver_error("--require %s: %s", name, why);
 }
@@ -209,14 +205,27 @@ bool rg_devices_have(const struct rg_devices *devices, const char *require)
     return all;
 }
 
+static int open_required(const char *names, const char *require, struct rg_devices *devices)
+{
+    *devices = (struct rg_devices){0};
+    int exit = !strcmp(names, "all") ? open_all(devices) : open_named(names, devices);
+    const bool all_were_tried = exit == RG_EXIT_PASS || exit == RG_EXIT_UNSUPPORTED;
+    if (all_were_tried && !rg_devices_have(devices, require))
+        exit = RG_EXIT_FAIL;
+    if (exit != RG_EXIT_PASS)
+        rg_devices_close(devices);
+    return exit;
+}
+
+int rg_devices_open(const char *names, struct rg_devices *devices)
+{
+    return open_required(names, NULL, devices);
+}
+
 int rg_devices_open_asked(const struct rg_devices_asked *asked, struct rg_devices *devices)
 {
     rg_workers.timeout_s = asked->timeout_s;
-    const int exit = rg_devices_open(asked->names, devices);
-    if (exit != RG_EXIT_PASS || rg_devices_have(devices, asked->require))
-        return exit;
-    rg_devices_close(devices);
-    return RG_EXIT_FAIL;
+    return open_required(asked->names, asked->require, devices);
 }
 
 int rg_devices_exit(const struct rg_devices *devices)

@@ -11,13 +11,14 @@ void rg_devices_list(struct rg_device_list *list);
 // Returns an enum rg_exit: fail where a driver failed.
 int rg_devices_complain(const struct rg_device_list *list);
 
-// Opens a device by name, in a worker of its own (harness/devices/workers/device.h). A name may have an
-// environment (harness/devices/names.h). NULL, and one logged line, on failure.
+// Opens a device by name, in a worker of its own (harness/devices/workers/device.h). A name may
+// have an environment (harness/devices/names.h). NULL, and one logged line, on failure.
 struct rg_device *rg_devices_open_one(const char *name);
 
 // The devices that `names` holds: "all", or names separated by commas. Opened, in order. A name
-// that is unknown is bad usage, a driver that is absent unsupported, one that fails a failure; when
-// the list is "all", what is absent or fails is left out, with its line. Returns an enum rg_exit.
+// that is unknown is bad usage, a driver that is absent unsupported, one that fails a failure; the
+// others are opened beside one that is absent, and closed. When the list is "all", what is absent
+// or fails is left out, with its line. Returns an enum rg_exit.
 struct rg_devices {
     int count;
     struct rg_device *devices[RG_MAX_DEVICES];

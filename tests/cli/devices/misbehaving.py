@@ -190,13 +190,14 @@ def check_listed(runner):
 def check_required(runner):
     """--require fails a command where a device is missing that it names, and changes nothing where it is there"""
     problems = []
-    for device, status in (("cpu,gl", 0), ("vulkan", 1), ("opencl", 0)):
-        with tempfile.TemporaryDirectory() as folder:
-            env = {"VK_DRIVER_FILES": "/nonexistent"}
-            result = runner.run(COMMANDS["diff"].split() + ["--require", device], env)
-        said = "--require vulkan: vulkan: no" in result.stderr
-        if result.returncode != status or said != (status == 1):
-            problems.append("--require %s: exit status %d, %s" % (device, result.returncode, result.stderr))
+    for named, required, status in (("all", "cpu,gl", 0), ("all", "vulkan", 1), ("all", "opencl", 0),
+                                    ("cpu,vulkan", "vulkan", 1), ("vulkan,cpu", "cpu", 77), ("cpu,gl", "vulkan", 1),
+                                    ("cpu,vulkan", None, 77)):
+        args = COMMANDS["diff"].split() + ["--device", named] + (["--require", required] if required else [])
+        result = runner.run(args, {"VK_DRIVER_FILES": "/nonexistent"})
+        said = re.search("--require vulkan: (it is not among --device|.*no Vulkan driver)", result.stderr)
+        if result.returncode != status or bool(said) != (status == 1):
+            problems.append("--device %s --require %s: exit status %d, %s" % (named, required, result.returncode, result.stderr))
     return problems
 
 

@@ -46,7 +46,7 @@ ROWS = [
     Fault(NAMES, "for (; *from && («quoted» || *from != ';'); from++) {", "false", "a semicolon in quotes ends a value"),
     Fault(NAMES, "else if (quoted && «from[1] == '\"'»)", "false", "two quotes mean none"),
     Fault(NAMES, "return quoted ? «NULL» : name;", "name", "a quote may stay open"),
-    Fault(DEVICES, "if (exit != RG_EXIT_PASS || «rg_devices_have(devices, asked->require)»)", "true", "what is required may be missing"),
+    Fault(DEVICES, "if («all_were_tried && !rg_devices_have(devices, require)»)", "false", "what is required may be missing"),
     Fault(DEVICES, "note_failure(list, rg_backends[b], RG_ERROR, \"no memory for its worker\");", ";", "a backend without a worker is not missed", lives="there is no memory for a few bytes"),
     Fault(REMOTE, "if («rg_worker_has(worker_of(session), session->life)»)", "true", "what is gone with its worker is closed, with a line"),
     Fault(REMOTE, "bool ok = «rg_worker_still_has(worker_of(session), session->life)»;", "true", "a session of another life is asked"),
