@@ -79,6 +79,8 @@ int main(int argc, char **argv)
     rg_workers.hello = rg_serving_hello();
     // A write past a file-size limit then fails with EFBIG and is reported, instead of killing us.
     signal(SIGXFSZ, SIG_IGN);
+    // Who ignores it has no child to wait for, and whoever started us may have passed that on.
+    signal(SIGCHLD, SIG_DFL);
     if (argc > 1)
         return finish(run(argc, argv));
     rg_error("no command; `raingauge --help` lists them");

@@ -3,6 +3,7 @@ import concurrent.futures
 import json
 import os
 import re
+import subprocess
 import tempfile
 
 import forms
@@ -201,6 +202,17 @@ def check_required(runner):
     return problems
 
 
+def check_ignored_ends(runner):
+    """whoever starts raingauge may ignore the ends of children: how a driver ended is told all the same"""
+    with tempfile.TemporaryDirectory() as folder:
+        args = ["sh", "-c", "trap '' CHLD; exec \"$@\"", "sh", runner.raingauge] + COMMANDS["diff"].split()
+        env = shim(runner, folder, "vulkan", "vkQueueSubmit", "abort", 0)
+        result = subprocess.run(args, env=runner.variables(env), stdin=subprocess.DEVNULL, timeout=300,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
+    well = re.search("vulkan.*" + HOW["abort"][1], result.stderr) and result.returncode == 1
+    return [] if well else ["exit status %d, %s" % (result.returncode, result.stderr)]
+
+
 def check_environments(runner):
     """two settings and two drivers of one API stand side by side, told apart by their names"""
     with tempfile.TemporaryDirectory() as folder:
@@ -232,4 +244,4 @@ def check_caches(runner):
 
 
 THOROUGH = [check_all_ways]
-CHECKS = [check_comparisons, check_commands, check_alone, check_listed, check_required, check_environments, check_caches]
+CHECKS = [check_comparisons, check_commands, check_alone, check_listed, check_required, check_ignored_ends, check_environments, check_caches]

@@ -278,6 +278,19 @@ static void a_worker_that_is_killed_while_it_waits_crashed(void **state)
     assert_int_equal(result, 8);
 }
 
+// Then the kernel keeps no status of a process that has ended, and there is nothing to wait for.
+static void an_end_is_seen_where_sigchld_is_ignored(void **state)
+{
+    int64_t result = 0;
+    signal(SIGCHLD, SIG_IGN);
+    assert_int_equal(ask(*state, RG_CALL_STEP, 4, &result), RG_OK);
+    assert_int_equal(ask(*state, RG_CALL_SYNC, SIGKILL, NULL), RG_CRASH);
+    assert_int_equal(ask(*state, RG_CALL_STEP, 4, &result), RG_OK);
+    rg_worker_destroy(*state);
+    signal(SIGCHLD, SIG_DFL);
+    *state = NULL;
+}
+
 static bool tells(struct rg_worker *worker, const char *variable, const char *value)
 {
     struct rg_message request = {0}, reply;
@@ -384,6 +397,7 @@ int main(int argc, char **argv)
         WITH_WORKER(the_end_is_seen_though_its_child_holds_the_channel),
         WITH_WORKER(it_lives_three_times),
         WITH_WORKER(a_worker_that_is_killed_while_it_waits_crashed),
+        WITH_WORKER(an_end_is_seen_where_sigchld_is_ignored),
         cmocka_unit_test(its_environment_stands_over_the_harness_s),
         cmocka_unit_test(another_build_is_asked_where_its_messages_are_the_same),
         cmocka_unit_test(another_build_with_other_messages_is_turned_away),
