@@ -95,6 +95,10 @@ struct rg_device *rg_device_open(const char *name)
     rg_doing_begin("opening device", name);
     struct rg_work *work = rg_alloc(1, sizeof(*work), name);
     struct rg_device *device = work ? backend->create(index) : NULL;
+    if (device && !rg_limits_are_sound(&device->info)) {
+        backend->destroy(device);
+        device = NULL;
+    }
     if (!device) {
         free(work);
         return NULL;

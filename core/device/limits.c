@@ -3,6 +3,15 @@
 #include "core/base/log.h"
 #include "core/device/work.h"
 
+bool rg_limits_are_sound(const struct rg_device_info *info)
+{
+    const int *groups = info->limits.max_groups, items = info->limits.group_items;
+    return (groups[0] > 0 && groups[1] > 0 && groups[2] > 0 && items > 0) ||
+           rg_driver_error("device '%s': its driver tells of %d, %d and %d work groups in x, y and "
+                           "z, of %d items; at least 1 of each",
+                           info->name, groups[0], groups[1], groups[2], items);
+}
+
 bool rg_limits_allow_object(const struct rg_device *device, const char *noun, const char *name)
 {
     const int most = device->info.limits.max_objects;

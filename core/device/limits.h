@@ -5,6 +5,9 @@
 
 #include "backends/backend.h"
 
+// Whether what a driver tells of itself can be: a device has room for work groups and items. Else
+// its driver is wrong, with one line.
+bool rg_limits_are_sound(const struct rg_device_info *info);
 // One more buffer or image (`noun`) beside those that live.
 bool rg_limits_allow_object(const struct rg_device *device, const char *noun, const char *name);
 bool rg_limits_allow_buf(const struct rg_device_info *info, int64_t size, const char *name);

@@ -25,6 +25,7 @@ HOW = {
     "hang": ("timeout", r"its driver did not come back within 10 s"),
     "swell": ("crash", r"it took more than 2048 MiB of memory and was ended"),
     "lost": ("error", r"DEVICE_LOST|CONTEXT_LOST|OUT_OF_RESOURCES"),
+    "none": ("error", r"its driver tells of 0, 0 and 0 work groups"),
 }
 
 
@@ -54,6 +55,7 @@ def found_well(command, report):
 # Device, function, how, calls that go well before: each way on each API, in opening or in running.
 CASES = [
     ("vulkan", "vkEnumeratePhysicalDevices", "abort", 0),
+    ("vulkan", "vkGetPhysicalDeviceProperties2", "none", 0),
     ("vulkan", "vkCreateDevice", "fault", 0),
     ("vulkan", "vkCreateComputePipelines", "hang", 1),
     ("vulkan", "vkQueueSubmit", "exit", 0),

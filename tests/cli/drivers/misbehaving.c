@@ -1,11 +1,11 @@
 // A driver that misbehaves, for each API: one function of it aborts, faults, ends the process,
-// hangs, takes memory without end, or reports that the device is lost.
+// hangs, takes memory without end, or reports that the device is lost or has no room for work.
 //
 // RG_MISBEHAVE=FUNCTION:HOW:CALLS names which function does so, how (abort, fault, exit, hang,
-// swell, lost), and how many calls go well before. All else goes to the real driver. For Vulkan
-// this library is a driver of its own in front of lavapipe, which the loader finds by a manifest
-// (VK_DRIVER_FILES), and may change a constant of a shader; for EGL, OpenGL and OpenCL it is loaded
-// before others (LD_PRELOAD).
+// swell, lost, none), and how many calls go well before. All else goes to the real driver. For
+// Vulkan this library is a driver of its own in front of lavapipe, which the loader finds by a
+// manifest (VK_DRIVER_FILES), and may change a constant of a shader; for EGL, OpenGL and OpenCL it
+// is loaded before others (LD_PRELOAD).
 #define _GNU_SOURCE // RTLD_NEXT, dlvsym
 #include <dlfcn.h>
 #include <stdbool.h>
@@ -73,6 +73,7 @@ typedef void (*any_function)(void);
 
 // Each has the real function once it was asked for.
 static PFN_vkEnumeratePhysicalDevices real_vkEnumeratePhysicalDevices;
+static PFN_vkGetPhysicalDeviceProperties2 real_vkGetPhysicalDeviceProperties2;
 static PFN_vkCreateDevice real_vkCreateDevice;
 static PFN_vkCreateComputePipelines real_vkCreateComputePipelines;
 static PFN_vkCreateShaderModule real_vkCreateShaderModule;
@@ -90,6 +91,14 @@ static VkResult hooked_vkEnumeratePhysicalDevices(VkInstance i, uint32_t *n, VkP
 {
     return misbehaves("vkEnumeratePhysicalDevices") ? VK_ERROR_INITIALIZATION_FAILED
                                                     : real_vkEnumeratePhysicalDevices(i, n, d);
+}
+
+static void hooked_vkGetPhysicalDeviceProperties2(VkPhysicalDevice p,
+                                                  VkPhysicalDeviceProperties2 *all)
+{
+    real_vkGetPhysicalDeviceProperties2(p, all);
+    for (int i = 0; i < 3 && misbehaves("vkGetPhysicalDeviceProperties2"); i++)
+        all->properties.limits.maxComputeWorkGroupCount[i] = 0;
 }
 
 static VkResult hooked_vkCreateDevice(VkPhysicalDevice p, const VkDeviceCreateInfo *info,
@@ -194,6 +203,7 @@ static any_function hook_of(const char *name, any_function real)
         any_function hooked, *real;
     } hooks[] = {
         HOOK(vkEnumeratePhysicalDevices),
+        HOOK(vkGetPhysicalDeviceProperties2),
         HOOK(vkCreateDevice),
         HOOK(vkCreateComputePipelines),
         HOOK(vkCreateShaderModule),

@@ -9,6 +9,7 @@
 
 #include "core/base/log.h"
 #include "core/device/device.h"
+#include "core/device/limits.h"
 #include "kernels/probe/copy_params.h"
 
 enum { WIDTH = 21, HEIGHT = 5, DEPTH = 3 };
@@ -100,6 +101,28 @@ static void ignore(enum rg_log_level level, const char *line, void *user)
     (void)user;
 }
 
+// A device without room for a work group, or for an item in one, would be asked for ever.
+static void test_no_room_for_work(void **state)
+{
+    (void)state;
+    struct rg_device *device = rg_device_open("cpu");
+    assert_non_null(device);
+    struct rg_device_info info = device->info;
+    int *const numbers[] = {&info.limits.max_groups[0], &info.limits.max_groups[1],
+                            &info.limits.max_groups[2], &info.limits.group_items};
+    assert_true(rg_limits_are_sound(&info));
+    rg_log_listen(ignore, NULL);
+    for (int i = 0; i < 4; i++) {
+        const int right = *numbers[i];
+        for (*numbers[i] = 0; *numbers[i] > -2; --*numbers[i])
+            assert_false(rg_limits_are_sound(&info));
+        assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
+        *numbers[i] = right;
+    }
+    rg_log_listen(NULL, NULL);
+    assert_true(rg_device_close(device));
+}
+
 // By index from 0 on, and nothing behind the last of a backend's devices.
 static void test_names(void **state)
 {
@@ -166,8 +189,9 @@ static void test_room(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_parts), cmocka_unit_test(test_bytes), cmocka_unit_test(test_names),
-        cmocka_unit_test(test_tiers), cmocka_unit_test(test_room),
+        cmocka_unit_test(test_parts), cmocka_unit_test(test_bytes),
+        cmocka_unit_test(test_names), cmocka_unit_test(test_tiers),
+        cmocka_unit_test(test_room),  cmocka_unit_test(test_no_room_for_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,6 +31,7 @@ ROWS = [
     Fault(MEMORY, "setenv(variable, text, «1»);", "0", "other processes learn the first limit alone"),
     Fault(OBJECTS, "«work->live_bytes - work->before_bytes + bytes > work->watch_bytes»)", "false", "what is large is taken before it is counted"),
     Fault(TECHNIQUE, "return «rg_memory_allows(bytes)» ||", "true", "what was counted is opened, however much it is"),
+    Fault(LIMITS, "«groups[1] > 0» &&", "true", "a device may have no work groups"),
     Fault(LIMITS, "return «size <= most» ||\n           rg_unsupported(\"buffer", "true", "a buffer may be of any size"),
     Fault(LIMITS, "if (desc->width > most->max_px || «desc->height > most->max_px» ||", "false", "an image may be of any height"),
     Fault(LIMITS, "if («++*member_of(count, slot->kind) > allowed»)", "false", "a kernel may have any number of slots"),
