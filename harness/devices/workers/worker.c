@@ -2,11 +2,13 @@
 #include "harness/devices/workers/worker.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,6 +25,10 @@
 
 // A program that is asked whether it is a raingauge gets so long, or --timeout where that is less.
 enum { LOOK_MS = 100, END_MS = 5000, HELLO_MS = 20000 };
+
+// Of what a process prints its last line is told. It lies in memory that is not counted as the
+// process's, so that more than this is dropped.
+enum { MOST_PRINTED = 1 << 20 };
 
 // What a process may hold beside what it was allowed to take (core/base/memory.h): the program, its
 // driver, and what that compiles.
@@ -113,6 +119,7 @@ static bool start(struct rg_worker *worker, char *why, size_t size)
     char **environment = rg_environment_with(worker->environment);
     int error = rg_channel_create(&worker->channel, &theirs);
     worker->printed = printed < 0 ? NULL : fdopen(printed, "w+");
+    fcntl(printed, F_SETFL, O_APPEND); // goes on at the end, wherever that has come to be
     if (!error && (!worker->printed || !environment))
         error = ENOMEM;
     snprintf(argument, sizeof(argument), RG_WORKER_CHANNEL, (long)getpid(),
@@ -212,6 +219,15 @@ static bool is_dead(const struct rg_worker *worker)
            info.si_pid == worker->process;
 }
 
+static void drop_much_printed(const struct rg_worker *worker)
+{
+    struct stat printed;
+    const int file = fileno(worker->printed);
+    if (!fstat(file, &printed) && printed.st_size > MOST_PRINTED && ftruncate(file, 0))
+        rg_warning("device '%s': what it prints cannot be dropped: %s", worker->name,
+                   strerror(errno));
+}
+
 static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
                              enum verdict *verdict)
 {
@@ -219,6 +235,7 @@ static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
     uint64_t seen = 0;
     double since_ms = rg_now_ms();
     for (;;) {
+        drop_much_printed(worker);
         const enum rg_arrival arrival = rg_channel_receive(&worker->channel, reply, LOOK_MS);
         if (arrival != RG_NOT_YET)
             return arrival;

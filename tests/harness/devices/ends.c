@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -83,6 +84,22 @@ static bool swell(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
+// Returns once what was printed is gone, and ends then with a last line.
+static bool print_much(struct rg_message *request, struct rg_message *reply)
+{
+    static char much[2 << 20];
+    struct stat printed;
+    (void)request;
+    (void)reply;
+    memset(much, 'x', sizeof(much));
+    fwrite(much, 1, sizeof(much), stderr);
+    do
+        usleep(1000);
+    while (!fstat(STDERR_FILENO, &printed) && printed.st_size >= (off_t)sizeof(much));
+    fprintf(stderr, "and out\n");
+    _exit(1);
+}
+
 // Its own process holds the channel's descriptors when it ends.
 static bool leave_a_child(struct rg_message *request, struct rg_message *reply)
 {
@@ -120,7 +137,7 @@ static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {
     [RG_CALL_STEP] = double_it,     [RG_CALL_READ] = send_many,     [RG_CALL_DRAW] = refuse,
     [RG_CALL_SYNC] = end,           [RG_CALL_TIME] = hang,          [RG_CALL_COUNT] = swell,
     [RG_CALL_OPEN] = leave_a_child, [RG_CALL_TELL] = tell_variable, [RG_CALL_LIST] = tell_process,
-    [RG_CALL_HELLO] = greet,
+    [RG_CALL_PROBE] = print_much,   [RG_CALL_HELLO] = greet,
 };
 
 // --- in the harness ---
@@ -242,6 +259,13 @@ static void what_takes_too_much_memory_is_ended(void **state)
     assert_int_equal(ask(*state, RG_CALL_COUNT, 0, NULL), RG_CRASH);
     assert_string_equal(logged, "device 'toy': it took more than 512 MiB of memory and was ended "
                                 "while counting a frame's work\n");
+}
+
+static void what_is_printed_without_end_is_dropped(void **state)
+{
+    assert_int_equal(ask(*state, RG_CALL_PROBE, 0, NULL), RG_CRASH);
+    assert_non_null(strstr(logged, "ended the process with status 1"));
+    assert_non_null(strstr(logged, ": and out\n"));
 }
 
 static void the_end_is_seen_though_its_child_holds_the_channel(void **state)
@@ -394,6 +418,7 @@ int main(int argc, char **argv)
         WITH_WORKER(an_exit_is_no_success),
         WITH_WORKER(a_hang_is_ended),
         WITH_WORKER(what_takes_too_much_memory_is_ended),
+        WITH_WORKER(what_is_printed_without_end_is_dropped),
         WITH_WORKER(the_end_is_seen_though_its_child_holds_the_channel),
         WITH_WORKER(it_lives_three_times),
         WITH_WORKER(a_worker_that_is_killed_while_it_waits_crashed),

@@ -19,6 +19,8 @@ ROWS = [
     Fault(WORKER, "*verdict != BY_ITSELF || «is_dead(worker)»", "false", "an end is not seen while another process holds the channel"),
     Fault(WORKER, "if («rg_now_ms() - since_ms > 1000.0 * rg_workers.timeout_s»)", "false", "a hang lasts for ever"),
     Fault(WORKER, "else if («rg_held_bytes(worker->process) > worker->memory_bytes»)", "false", "memory has no limit"),
+    Fault(WORKER, "drop_much_printed(worker);", ";", "what a driver prints has no end"),
+    Fault(WORKER, "fcntl(printed, F_SETFL, «O_APPEND»);", "0", "what is printed after much was dropped is not found"),
     Fault(WORKER, "else if («WIFSIGNALED(status)»)", "false", "a signal is told as a status"),
     Fault(WORKER, "return «ok» && !reply->failed;", "true", "a call that failed succeeds"),
     Fault(WORKER, "if (verdict != BY_ITSELF)\n        kill(worker->process, SIGKILL);", ";", "who hangs is not killed, and waited for until it is"),
