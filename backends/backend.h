@@ -122,7 +122,7 @@ struct rg_draw {
     enum rg_blend blend;
     enum rg_depth_mode depth_mode;
     enum rg_cull cull;
-    int x0, y0, x1, y1; // scissor: x0 <= x < x1, y0 <= y < y1; all 0: the whole target
+    int x0, y0, x1, y1;     // scissor: x0 <= x < x1, y0 <= y < y1; all 0: the whole target
     struct rg_buf *samples; // uints, by item: grow by its visible samples. NULL: not counted
     // 0: fragments count. Else the API's own occlusion queries do, each of so many items from a
     // multiple of that on, itself a multiple of 32; `samples` is then by query, and is set.
@@ -177,7 +177,8 @@ struct rg_backend {
 
     // Opens the device at `index` of the list. NULL and one logged line on failure.
     struct rg_device *(*create)(int index);
-    void (*destroy)(struct rg_device *device);
+    // False, and one logged line, where the driver did not come to its end well.
+    bool (*destroy)(struct rg_device *device);
 
     // Contents are undefined until written. `size` is at most limits.max_buffer_bytes.
     struct rg_buf *(*buf_create)(struct rg_device *device, size_t size, const char *name);

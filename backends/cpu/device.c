@@ -130,10 +130,11 @@ static struct rg_device *cpu_create(int index)
     return &device->pub;
 }
 
-static void cpu_destroy(struct rg_device *device)
+static bool cpu_destroy(struct rg_device *device)
 {
     cpu_bins_destroy(((struct cpu_device *)device)->bins);
     free(device);
+    return true;
 }
 
 const struct rg_backend rg_backend_cpu = {

@@ -108,7 +108,7 @@ static bool open_at(int index, struct gl_egl *egl)
                            search.why[0] ? search.why : "its driver opens no more");
 }
 
-static void gl_destroy(struct rg_device *device)
+static bool gl_destroy(struct rg_device *device)
 {
     struct gl_device *gl = (struct gl_device *)device;
     if (gl_use(gl)) {
@@ -118,6 +118,7 @@ static void gl_destroy(struct rg_device *device)
     }
     gl_egl_close(&gl->egl);
     free(gl);
+    return true;
 }
 
 static struct rg_device *gl_create(int index)

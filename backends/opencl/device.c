@@ -73,7 +73,7 @@ static int kernel_count(void)
     return rg_kernel_all(&all);
 }
 
-static void opencl_destroy(struct rg_device *device)
+static bool opencl_destroy(struct rg_device *device)
 {
     struct opencl_device *opencl = (struct opencl_device *)device;
     opencl_bins_destroy(opencl);
@@ -86,6 +86,7 @@ static void opencl_destroy(struct rg_device *device)
     if (opencl->context)
         clReleaseContext(opencl->context);
     free(opencl);
+    return true;
 }
 
 static bool open_queue(struct opencl_device *device)

@@ -108,7 +108,7 @@ static bool create_shared_objects(struct vk_device *device)
            vk_batches_create(device);
 }
 
-static void vk_destroy(struct rg_device *device)
+static bool vk_destroy(struct rg_device *device)
 {
     struct vk_device *vk = (struct vk_device *)device;
     if (vk->handle) {
@@ -121,6 +121,7 @@ static void vk_destroy(struct rg_device *device)
     }
     vk_instance_close(&vk->instance);
     free(vk);
+    return true;
 }
 
 static struct rg_device *vk_create(int index)

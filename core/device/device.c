@@ -122,8 +122,7 @@ bool rg_device_close(struct rg_device *device)
                  device->info.name, (long long)w->live_buffers, (long long)w->live_images,
                  (long long)w->live_passes);
     free(device->work);
-    device->backend->destroy(device);
-    return clean && shared_clean;
+    return device->backend->destroy(device) && clean && shared_clean;
 }
 
 const struct rg_work *rg_device_work(const struct rg_device *device)

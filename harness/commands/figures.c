@@ -81,7 +81,7 @@ static int figures_command(const void *values, const struct rg_words *arguments)
             exit =
                 rg_interrupted() ? RG_EXIT_SIGNALLED + rg_interrupt_signal() : rg_exit_of_error();
     }
-    rg_devices_close(&devices);
+    exit = rg_devices_end(&devices, exit);
     return exit;
 }
 

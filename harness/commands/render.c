@@ -172,7 +172,7 @@ static int replay(const struct render_options *o)
             &(struct rg_devices_asked){.names = o->device, .timeout_s = o->timeout_s}, &devices);
     if (exit == RG_EXIT_PASS)
         exit = rg_case_replay(&found, devices.devices[0]);
-    rg_devices_close(&devices);
+    exit = rg_devices_end(&devices, exit);
     rg_case_free(&found);
     return exit;
 }
@@ -199,7 +199,7 @@ static int render(const void *values, const struct rg_words *arguments)
         &(struct rg_devices_asked){.names = o->device, .timeout_s = o->timeout_s}, &devices);
     if (exit == RG_EXIT_PASS)
         exit = render_on(devices.devices[0], technique, settings, o);
-    rg_devices_close(&devices);
+    exit = rg_devices_end(&devices, exit);
     free(settings);
     return exit;
 }

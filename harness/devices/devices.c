@@ -245,3 +245,8 @@ bool rg_devices_close(struct rg_devices *devices)
     devices->count = 0;
     return clean;
 }
+
+int rg_devices_end(struct rg_devices *devices, int exit)
+{
+    return rg_devices_close(devices) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
+}

@@ -46,7 +46,9 @@ bool rg_devices_have(const struct rg_devices *devices, const char *require);
 bool rg_device_is_of(const char *device, const char *name);
 // Of what was left out, an enum rg_exit: fail where a driver failed.
 int rg_devices_exit(const struct rg_devices *devices);
-// Closes them; false on a leak.
+// Closes them; false on a leak, or where a driver crashes meanwhile.
 bool rg_devices_close(struct rg_devices *devices);
+// The same at the end of a command that came to `exit`: what it comes to then, an enum rg_exit.
+int rg_devices_end(struct rg_devices *devices, int exit);
 
 #endif

@@ -164,11 +164,13 @@ static int make(const struct baseline_options *o, const struct rg_gate_cells *ce
                                                 .launches = o->pictures_only ? 0 : o->launches};
     struct rg_baseline made = {.count = 0};
     struct rg_devices devices;
+    bool clean = true;
     int exit = rg_devices_open_asked(&o->devices, &devices);
     if (exit == RG_EXIT_PASS) {
         const int left_out = rg_devices_exit(&devices); // what fell has no row
-        if (rg_baseline_make(&request, &devices, &made))
-            exit = rg_exit_worse(keep(o, before, &made), left_out);
+        if (rg_baseline_make(&request, &devices, &made, &clean))
+            exit = rg_exit_worse(rg_exit_worse(keep(o, before, &made), left_out),
+                                 clean ? RG_EXIT_PASS : RG_EXIT_FAIL);
         else
             exit = rg_interrupted() ? RG_EXIT_SIGNALLED + rg_interrupt_signal() : RG_EXIT_FAIL;
     }

@@ -149,7 +149,7 @@ static int shrink(const void *values, const struct rg_words *arguments)
     } else if (exit == RG_EXIT_PASS) {
         exit = shrink_on(&devices, &subject, o);
     }
-    rg_devices_close(&devices);
+    exit = rg_devices_end(&devices, exit);
     free(settings);
     return exit;
 }

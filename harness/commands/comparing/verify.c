@@ -166,11 +166,8 @@ static int verify(const void *values, const struct rg_words *arguments)
     rg_memory_allow(o->memory_bytes);
     if (choose_all(arguments, &o->sets, subjects, &count)) {
         exit = rg_devices_open_asked(&o->devices, &devices);
-        if (exit == RG_EXIT_PASS) {
-            exit = verify_on(o, &devices, subjects, count);
-            if (!rg_devices_close(&devices))
-                exit = rg_exit_worse(exit, RG_EXIT_FAIL);
-        }
+        if (exit == RG_EXIT_PASS)
+            exit = rg_devices_end(&devices, verify_on(o, &devices, subjects, count));
     }
     for (int i = 0; i < count; i++)
         free(subjects[i].settings);

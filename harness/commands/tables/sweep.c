@@ -132,7 +132,7 @@ static int open_and_run(struct rg_grid *grid, const struct sweep_options *o, cha
     if (exit != RG_EXIT_PASS)
         return exit;
     exit = rg_exit_worse(run_on(grid, &devices, o, set), rg_devices_exit(&devices));
-    rg_devices_close(&devices);
+    exit = rg_devices_end(&devices, exit);
     return exit;
 }
 

@@ -234,7 +234,7 @@ int rg_diff_devices(const struct rg_diff_devices_request *request)
     json_decref(s->pairs);
     json_decref(s->failures);
     rg_picture_destroy(&s->background);
-    rg_devices_close(&devices);
+    exit = rg_devices_end(&devices, exit);
     free(s);
     return exit;
 }

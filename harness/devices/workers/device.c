@@ -22,12 +22,13 @@ static bool sync_remote(struct rg_device *device)
     return true;
 }
 
-static void destroy_remote(struct rg_device *device)
+static bool destroy_remote(struct rg_device *device)
 {
     struct remote *remote = (struct remote *)device;
-    rg_worker_retire(remote->worker);
-    rg_worker_destroy(remote->worker);
+    const bool is_closed = rg_worker_retire(remote->worker);
+    const bool has_ended = rg_worker_destroy(remote->worker);
     free(remote);
+    return is_closed && has_ended;
 }
 
 // Asks for the device. Its name is as the driver's list has it, before an environment.

@@ -172,29 +172,32 @@ static int end_process(struct rg_worker *worker)
     return status;
 }
 
-// A process that was asked to close its device has nothing more to do but to end.
-static void end(struct rg_worker *worker)
+// A process that was asked to close its device has nothing more to do but to end. False, with one
+// logged line, where it does not do so well.
+static bool end(struct rg_worker *worker)
 {
     char last[200];
     rg_channel_close(&worker->channel);
     const int status = end_process(worker);
     rg_program_last_line(worker->printed, last, sizeof(last));
-    if (worker->is_closed && status)
+    const bool well =
+        !worker->is_closed || !status ||
         rg_crash_error("device '%s': its process ended with status %d when all was done%s",
                        worker->name, WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
                        last);
     forget_process(worker);
+    return well;
 }
 
-void rg_worker_destroy(struct rg_worker *worker)
+bool rg_worker_destroy(struct rg_worker *worker)
 {
     if (!worker)
-        return;
-    if (worker->process)
-        end(worker);
+        return true;
+    const bool well = !worker->process || end(worker);
     free(worker->name);
     free(worker->environment);
     free(worker);
+    return well;
 }
 
 // --- watching it ---
@@ -417,7 +420,9 @@ bool rg_worker_ask(struct rg_worker *worker, enum rg_call call, const struct rg_
     return ok;
 }
 
-void rg_worker_retire(struct rg_worker *worker)
+bool rg_worker_retire(struct rg_worker *worker)
 {
-    worker->is_closed = worker->process && rg_worker_ask(worker, RG_CALL_CLOSE, NULL);
+    const bool was_alive = worker->process;
+    worker->is_closed = was_alive && rg_worker_ask(worker, RG_CALL_CLOSE, NULL);
+    return worker->is_closed || !was_alive;
 }

@@ -38,10 +38,12 @@ struct rg_worker;
 // harness's own, each ended by a zero, the last by two; NULL: none. Both are copied. NULL, and one
 // logged line, without memory.
 struct rg_worker *rg_worker_create(const char *name, const char *environment);
-// Has a worker that lives close its device, which logs what is left on it.
-void rg_worker_retire(struct rg_worker *worker);
-// Ends it, at once where it does not end by itself.
-void rg_worker_destroy(struct rg_worker *worker); // NULL is accepted
+// Has a worker that lives close its device, which logs what is left on it. False, with a logged
+// line, where something is, or where it ends meanwhile.
+bool rg_worker_retire(struct rg_worker *worker);
+// Ends it, at once where it does not end by itself. False, with one logged line, where it had
+// closed its device and ended as a driver does that crashes. NULL is accepted.
+bool rg_worker_destroy(struct rg_worker *worker);
 
 // Its process; 0: none lives.
 pid_t rg_worker_process(const struct rg_worker *worker);

@@ -215,6 +215,30 @@ def check_ignored_ends(runner):
     return [] if well else ["exit status %d, %s" % (result.returncode, result.stderr)]
 
 
+def problems_closing(runner, command):
+    """What is wrong with how a command ends whose device crashes once all is done and it is closed."""
+    with tempfile.TemporaryDirectory() as folder:
+        cells, made = (os.path.join(folder, name) for name in ("cells.txt", "made.png"))
+        with open(cells, "w") as file:
+            file.write("raster/torus raster 64x48 2 scene=mesh model=torus faces=300\n")
+        env = dict(shim(runner, folder, "vulkan", "vkDestroyDevice", "abort", 0), XDG_STATE_HOME=folder)
+        result = runner.run(command.format(cells=cells, made=made).split(), env)
+        is_made = "{made}" not in command or os.path.exists(made)
+    crashed = re.search("vulkan.*" + HOW["abort"][1], result.stderr)
+    return [] if result.returncode == 1 and crashed and result.stdout and is_made else [
+        "%s: exit status %d, %s%s" % (command, result.returncode, result.stdout, result.stderr)]
+
+
+def check_closing(runner):
+    """a driver that crashes while its device is closed fails a command, and takes nothing of what was done"""
+    commands = [COMMANDS[name] + " --device cpu,vulkan" for name in ("diff", "table")] + [
+        "render raster --frame 1 --size 32x32 --device vulkan --json -o {made}",
+        "sweep raster --axis billboards=20000 --quick --json --size 32x32 --device cpu,vulkan",
+        "baseline --pictures --cells {cells} --device vulkan -o {made}",
+        "gate cpu vulkan --pictures --cells {cells}"]
+    return side_by_side(lambda command: problems_closing(runner, command), commands)
+
+
 def check_environments(runner):
     """two settings and two drivers of one API stand side by side, told apart by their names"""
     with tempfile.TemporaryDirectory() as folder:
@@ -246,4 +270,4 @@ def check_caches(runner):
 
 
 THOROUGH = [check_all_ways]
-CHECKS = [check_comparisons, check_commands, check_alone, check_listed, check_required, check_ignored_ends, check_environments, check_caches]
+CHECKS = [check_comparisons, check_commands, check_alone, check_listed, check_required, check_ignored_ends, check_closing, check_environments, check_caches]

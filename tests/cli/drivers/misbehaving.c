@@ -75,6 +75,7 @@ typedef void (*any_function)(void);
 static PFN_vkEnumeratePhysicalDevices real_vkEnumeratePhysicalDevices;
 static PFN_vkGetPhysicalDeviceProperties2 real_vkGetPhysicalDeviceProperties2;
 static PFN_vkCreateDevice real_vkCreateDevice;
+static PFN_vkDestroyDevice real_vkDestroyDevice;
 static PFN_vkCreateComputePipelines real_vkCreateComputePipelines;
 static PFN_vkCreateShaderModule real_vkCreateShaderModule;
 static PFN_vkQueueSubmit real_vkQueueSubmit;
@@ -105,6 +106,12 @@ static VkResult hooked_vkCreateDevice(VkPhysicalDevice p, const VkDeviceCreateIn
                                       const VkAllocationCallbacks *a, VkDevice *d)
 {
     return misbehaves("vkCreateDevice") ? VK_ERROR_DEVICE_LOST : real_vkCreateDevice(p, info, a, d);
+}
+
+static void hooked_vkDestroyDevice(VkDevice d, const VkAllocationCallbacks *a)
+{
+    if (!misbehaves("vkDestroyDevice"))
+        real_vkDestroyDevice(d, a);
 }
 
 static VkResult hooked_vkCreateComputePipelines(VkDevice d, VkPipelineCache c, uint32_t n,
@@ -205,6 +212,7 @@ static any_function hook_of(const char *name, any_function real)
         HOOK(vkEnumeratePhysicalDevices),
         HOOK(vkGetPhysicalDeviceProperties2),
         HOOK(vkCreateDevice),
+        HOOK(vkDestroyDevice),
         HOOK(vkCreateComputePipelines),
         HOOK(vkCreateShaderModule),
         HOOK(vkQueueSubmit),

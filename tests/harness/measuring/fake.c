@@ -70,9 +70,10 @@ static bool fake_time(struct rg_device *device, int64_t *time_ns)
     return true;
 }
 
-static void fake_destroy(struct rg_device *device)
+static bool fake_destroy(struct rg_device *device)
 {
     free(device);
+    return true;
 }
 
 static struct rg_buf *fake_buf_create(struct rg_device *device, size_t size, const char *name)

@@ -273,17 +273,20 @@ static void free_lot(struct lot *lot)
     free(lot->before);
 }
 
-static void end(struct run *r)
+// False where a device was closed badly, once.
+static bool end(struct run *r)
 {
+    bool clean = rg_truth_close(&r->truth);
     for (int side = 0; side < r->side_count; side++) {
         rg_side_close(&r->sides[side]);
+        clean = clean && !r->sides[side].was_closed_badly;
         json_decref(r->parts[side]);
     }
-    rg_truth_close(&r->truth);
     free_lot(&r->gated);
     free_lot(&r->advisory);
     free(r->rows);
     free(r->side_of);
+    return clean;
 }
 
 int rg_against_run(const struct rg_against *against, struct rg_gate *gate)
@@ -294,7 +297,7 @@ int rg_against_run(const struct rg_against *against, struct rg_gate *gate)
     for (int i = 0; ok && i < gate->case_count && !rg_interrupted(); i++)
         compare(&r, i);
     ok = ok && time_all(&r) && (rg_interrupted() || rg_gate_report(against->request, gate));
-    end(&r);
+    ok = end(&r) && ok;
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
     return ok ? rg_gate_exit(gate) : RG_EXIT_FAIL;

@@ -15,6 +15,7 @@ struct make {
     const struct rg_baseline_request *asked;
     struct rg_baseline *made;
     struct rg_side sides[RG_MAX_DEVICES];
+    bool clean;                  // no device was closed badly
     struct rg_timed_cell *cells; // of those rows that are timed
     int *side_of;
     struct rg_baseline_row **rows; // likewise
@@ -69,7 +70,7 @@ static bool take_all(struct make *m, const struct rg_devices *devices, struct rg
             rg_picture_destroy(&picture);
             rg_progress_add(bar, 1);
         }
-    rg_truth_close(&truth);
+    m->clean = rg_truth_close(&truth) && m->clean;
     return ok;
 }
 
@@ -147,26 +148,29 @@ static bool take_times(struct make *m, struct rg_progress *bar)
     times.cells = m->cells;
     times.side_of = m->side_of;
     ok = ok && time_all(m, &times, bar);
-    for (int i = 0; i < m->made->device_count; i++)
+    for (int i = 0; i < m->made->device_count; i++) {
         rg_side_close(&m->sides[i]);
+        m->clean = m->clean && !m->sides[i].was_closed_badly;
+    }
     rg_yardsticks_close(&room);
     return ok;
 }
 
 bool rg_baseline_make(const struct rg_baseline_request *request, struct rg_devices *devices,
-                      struct rg_baseline *baseline)
+                      struct rg_baseline *baseline, bool *clean)
 {
-    struct make m = {.asked = request, .made = baseline};
+    struct make m = {.asked = request, .made = baseline, .clean = true};
     struct rg_progress bar;
     const int64_t rows = request->cells->count * devices->count;
     rg_interrupt_watch();
     rg_progress_start(&bar, rows * (1 + request->launches));
     bool ok = set_devices(baseline, devices) && take_all(&m, devices, &bar);
-    rg_devices_close(devices);
+    m.clean = rg_devices_close(devices) && m.clean;
     ok = ok && (!request->launches || take_times(&m, &bar));
     rg_progress_end(&bar);
     free(m.rows);
     free(m.side_of);
     free(m.cells);
+    *clean = m.clean;
     return ok && !rg_interrupted();
 }

@@ -13,9 +13,10 @@ struct rg_baseline_request {
 };
 
 // Runs all cells on all devices, which it closes, into a zeroed baseline. False, and one logged
-// line, where it cannot be made, or the user interrupts.
+// line, where it cannot be made, or the user interrupts. `clean` is false where a device was closed
+// badly, which takes nothing from the baseline.
 bool rg_baseline_make(const struct rg_baseline_request *request, struct rg_devices *devices,
-                      struct rg_baseline *baseline);
+                      struct rg_baseline *baseline, bool *clean);
 
 // Prints what is another in `now` than in `then`, a line a cell. Returns how many lines that were.
 // Times are another where a gate of the same cells would find it.

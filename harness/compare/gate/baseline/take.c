@@ -102,10 +102,11 @@ bool rg_truth_holds(struct rg_truth *truth, const struct rg_gate_cell *cell,
     return holds;
 }
 
-void rg_truth_close(struct rg_truth *truth)
+bool rg_truth_close(struct rg_truth *truth)
 {
-    rg_device_close(truth->device);
+    const bool clean = rg_device_close(truth->device);
     truth->device = NULL;
+    return clean;
 }
 
 // --- times ---

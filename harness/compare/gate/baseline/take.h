@@ -23,7 +23,8 @@ bool rg_truth_open(struct rg_truth *truth);
 bool rg_truth_holds(struct rg_truth *truth, const struct rg_gate_cell *cell,
                     const struct rg_device *device, const struct rg_picture *picture,
                     struct rg_agreement *agreement);
-void rg_truth_close(struct rg_truth *truth);
+// False as rg_device_close is.
+bool rg_truth_close(struct rg_truth *truth);
 
 // --- times ---
 

@@ -327,6 +327,8 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
         rg_info("gate: interrupted; the same command goes on");
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
+    for (int side = 0; side < RG_SIDES; side++)
+        ok = ok && !r.sides[side].was_closed_badly;
     return ok ? rg_gate_exit(gate) : RG_EXIT_FAIL;
 }
 

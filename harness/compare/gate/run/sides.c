@@ -12,7 +12,7 @@ bool rg_side_launch(struct rg_side *side)
 
 void rg_side_close(struct rg_side *side)
 {
-    rg_device_close(side->device);
+    side->was_closed_badly = !rg_device_close(side->device) || side->was_closed_badly;
     side->device = NULL;
 }
 

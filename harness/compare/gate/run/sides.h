@@ -11,6 +11,7 @@ enum { RG_SIDE_A, RG_SIDE_B, RG_SIDES };
 struct rg_side {
     const char *name;         // as --device takes one device; not owned
     struct rg_device *device; // NULL: not open
+    bool was_closed_badly;    // once: something was left on it, or its driver crashed
 };
 
 // Closes the device, if one is open, and opens it again: its worker is another process then. False,
