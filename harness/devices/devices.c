@@ -22,16 +22,23 @@ static void note_failure(struct rg_device_list *list, const struct rg_backend *b
              backend->package ? backend->package : "");
 }
 
+// Nothing is believed of a list that is damaged.
 static void take_list(struct rg_message *reply, int backend, struct rg_device_list *list)
 {
-    const int count = rg_take_index(reply, RG_MAX_DEVICES + 1 - list->count);
+    const int before = list->count;
+    const int count = rg_take_index(reply, RG_MAX_DEVICES + 1 - before);
     for (int i = 0; i < count; i++) {
         list->backends[list->count] = rg_backends[backend];
         list->backend_index[list->count] = i;
-        if (RG_TAKE(reply, list->infos[list->count]))
+        if (rg_take_device_info(reply, &list->infos[list->count]))
             list->count++;
     }
     const char *why = rg_take_text(reply);
+    if (reply->failed) {
+        list->count = before;
+        note_failure(list, rg_backends[backend], RG_ERROR, rg_last_error());
+        return;
+    }
     if (count)
         return;
     struct rg_missing *missing = &list->missing[list->missing_count++];

@@ -174,14 +174,42 @@ static void put_contents(struct rg_message *message, const struct rg_contents *c
     rg_put_block(message, contents->bytes, (int64_t)contents->size);
 }
 
-static bool take_contents(struct rg_message *message, struct rg_contents *contents)
+static bool is_image(const struct rg_image_desc *d)
+{
+    return (unsigned)d->format < RG_FORMAT_COUNT && d->format != RG_FORMAT_NONE && d->levels > 0 &&
+           d->levels <= RG_MAX_LEVELS && d->width > 0 && d->height > 0 && d->layers > 0;
+}
+
+bool rg_take_image_desc(struct rg_message *message, struct rg_image_desc *desc)
+{
+    if (!RG_TAKE(message, *desc) || (desc->levels && !is_image(desc)))
+        return rg_message_fail(message);
+    if (!desc->levels)
+        *desc = (struct rg_image_desc){0};
+    return true;
+}
+
+// Its sides may be such that an int64_t does not hold their product.
+static bool is_of_size(const struct rg_image_desc *desc, int64_t size)
+{
+    return (double)desc->width * desc->height * desc->layers <= (double)size &&
+           rg_contents_size(desc) == (size_t)size;
+}
+
+bool rg_take_contents_bytes(struct rg_message *message, struct rg_contents *contents)
 {
     int64_t size = 0;
-    rg_contents_free(contents);
-    if (RG_TAKE(message, contents->desc))
-        contents->bytes = rg_take_block(message, &size);
+    contents->bytes = rg_take_block(message, &size);
     contents->size = (size_t)size;
-    return contents->bytes && !message->failed;
+    return contents->bytes && (!contents->desc.levels || is_of_size(&contents->desc, size) ||
+                               rg_message_fail(message));
+}
+
+static bool take_contents(struct rg_message *message, struct rg_contents *contents)
+{
+    rg_contents_free(contents);
+    return rg_take_image_desc(message, &contents->desc) &&
+           rg_take_contents_bytes(message, contents);
 }
 
 void rg_put_dispatched(struct rg_message *message, const struct rg_dispatched *d)

@@ -19,6 +19,11 @@ bool rg_take_account(struct rg_message *message, struct rg_account *account);
 void rg_put_layout(struct rg_message *message, const struct rg_state *layout);
 bool rg_take_layout(struct rg_message *message, struct rg_state *layout);
 
+// What an image is; a buffer has no levels.
+bool rg_take_image_desc(struct rg_message *message, struct rg_image_desc *desc);
+// The bytes of what `contents->desc` describes, which was taken before.
+bool rg_take_contents_bytes(struct rg_message *message, struct rg_contents *contents);
+
 // What lay in its slots before goes one way, and what lies there after the other.
 void rg_put_dispatched(struct rg_message *message, const struct rg_dispatched *dispatched);
 void rg_put_dispatched_after(struct rg_message *message, const struct rg_dispatched *dispatched);

@@ -1,4 +1,5 @@
 // A session whose instance lives in a worker (harness/devices/serving/sessions.c serves its calls).
+#include <limits.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -208,8 +209,8 @@ static bool texture(const struct rg_session *session, const char *name, struct r
     struct rg_message request = {0}, reply;
     rg_put_text(&request, name);
     const bool ok = call(session, RG_CALL_TEXTURE, &request, &reply);
-    const bool found =
-        ok && rg_take_index(&reply, 2) && RG_TAKE(&reply, *desc) && RG_TAKE(&reply, *first_level);
+    const bool found = ok && rg_take_index(&reply, 2) && rg_take_image_desc(&reply, desc) &&
+                       RG_TAKE(&reply, *first_level);
     return finish(&reply, ok) && found;
 }
 
@@ -235,6 +236,11 @@ static bool take_digests(const struct rg_digest_run *run, struct rg_device *devi
     int64_t size = 0;
     bool ok = call_for_run(run, device, RG_CALL_DIGESTS, 0, &reply);
     digests->rows = ok ? rg_take_block(&reply, &size) : NULL;
+    if (size % (int64_t)sizeof(*digests->rows) ||
+        size / (int64_t)sizeof(*digests->rows) > INT_MAX) {
+        rg_message_fail(&reply);
+        size = 0;
+    }
     digests->room = digests->count = (int)(size / (int64_t)sizeof(*digests->rows));
     for (int i = 0; i < digests->count; i++)
         digests->rows[i].stage[RG_ASSET_NAME - 1] = digests->rows[i].asset[RG_ASSET_NAME - 1] = 0;
@@ -245,11 +251,9 @@ static bool take_contents(const struct rg_digest_run *run, struct rg_device *dev
                           struct rg_contents *contents, struct rg_state *state)
 {
     struct rg_message reply;
-    int64_t size = 0;
-    bool ok = call_for_run(run, device, RG_CALL_CONTENTS, row, &reply) &&
-              RG_TAKE(&reply, contents->desc) && rg_take_layout(&reply, state);
-    contents->bytes = ok ? rg_take_block(&reply, &size) : NULL;
-    contents->size = (size_t)size;
+    const bool ok = call_for_run(run, device, RG_CALL_CONTENTS, row, &reply) &&
+                    rg_take_image_desc(&reply, &contents->desc) && rg_take_layout(&reply, state) &&
+                    rg_take_contents_bytes(&reply, contents);
     return finish(&reply, ok);
 }
 

@@ -27,13 +27,20 @@ static bool read_image(struct rg_image *image, unsigned char *bytes)
     return true;
 }
 
+size_t rg_contents_size(const struct rg_image_desc *desc)
+{
+    size_t size = 0;
+    for (int level = 0; level < desc->levels; level++)
+        size += level_bytes(desc, level) * (size_t)desc->layers;
+    return size;
+}
+
 bool rg_contents_read(const struct rg_asset *asset, struct rg_contents *contents)
 {
     *contents = (struct rg_contents){.size = asset->buf ? asset->buf->size : 0};
     if (asset->image) {
         contents->desc = asset->image->desc;
-        for (int level = 0; level < contents->desc.levels; level++)
-            contents->size += level_bytes(&contents->desc, level) * (size_t)contents->desc.layers;
+        contents->size = rg_contents_size(&contents->desc);
     }
     contents->bytes = rg_alloc(contents->size / 4 + 1, 4, asset->name); // whole words are compared
     if (!contents->bytes)

@@ -11,6 +11,9 @@ struct rg_contents {
     void *bytes; // owned. Of an image: level 0 of all layers, then level 1, rows without padding
 };
 
+// The bytes of an image's contents.
+size_t rg_contents_size(const struct rg_image_desc *desc);
+
 // Reads an asset that has been made. False, and one logged line, on failure; to be freed in either
 // case.
 bool rg_contents_read(const struct rg_asset *asset, struct rg_contents *contents);

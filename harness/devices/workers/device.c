@@ -31,6 +31,23 @@ static bool destroy_remote(struct rg_device *device)
     return is_closed && has_ended;
 }
 
+static void end_text(char *text, size_t size)
+{
+    text[size - 1] = 0;
+}
+
+bool rg_take_device_info(struct rg_message *message, struct rg_device_info *info)
+{
+    if (!RG_TAKE(message, *info))
+        return false;
+    end_text(info->name, sizeof(info->name));
+    end_text(info->device, sizeof(info->device));
+    end_text(info->driver, sizeof(info->driver));
+    end_text(info->api, sizeof(info->api));
+    end_text(info->limits.no_draws, sizeof(info->limits.no_draws));
+    return (unsigned)info->tier < RG_TIER_COUNT || rg_message_fail(message);
+}
+
 // Asks for the device. Its name is as the driver's list has it, before an environment.
 static bool ask_for(struct remote *remote, const char *name, const char *environment)
 {
@@ -40,9 +57,9 @@ static bool ask_for(struct remote *remote, const char *name, const char *environ
     snprintf(own, sizeof(own), "%.*s", (int)plain, name);
     rg_put_text(&request, own);
     bool ok = rg_worker_call(remote->worker, RG_CALL_OPEN, &request, &reply) &&
-              RG_TAKE(&reply, remote->pub.info);
+              rg_take_device_info(&reply, &remote->pub.info);
     const int backend = ok ? rg_take_index(&reply, RG_MAX_BACKENDS) : 0;
-    ok = ok && !reply.failed && rg_backends[backend];
+    ok = ok && !reply.failed && (rg_backends[backend] || rg_message_fail(&reply));
     rg_message_free(&request);
     rg_message_free(&reply);
     if (!ok)
@@ -53,7 +70,6 @@ static bool ask_for(struct remote *remote, const char *name, const char *environ
                                           .sync = sync_remote,
                                           .destroy = destroy_remote};
     char *told = remote->pub.info.name;
-    told[RG_DEVICE_NAME_SIZE - 1] = 0;
     if (environment && *environment)
         snprintf(told + strlen(told), RG_DEVICE_NAME_SIZE - strlen(told), "%s", name + plain);
     return true;

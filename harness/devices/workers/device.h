@@ -13,6 +13,9 @@
 struct rg_device *rg_remote_open(struct rg_worker *worker, const char *name,
                                  const char *environment);
 
+// What a worker tells of its device, with texts that end; false where it cannot be.
+bool rg_take_device_info(struct rg_message *message, struct rg_device_info *info);
+
 // The memory that the process holds in which a device lives.
 int64_t rg_remote_held_bytes(const struct rg_device *device);
 

@@ -12,6 +12,8 @@ void rg_message_free(struct rg_message *message)
     *message = (struct rg_message){0};
 }
 
+enum { WORD_BYTES = 4 };
+
 // --- putting ---
 
 void rg_put(struct rg_message *message, const void *bytes, int64_t size)
@@ -44,7 +46,7 @@ void rg_put_text(struct rg_message *message, const char *text)
 
 // --- taking ---
 
-static bool fail(struct rg_message *message)
+bool rg_message_fail(struct rg_message *message)
 {
     if (!message->failed)
         rg_driver_error(
@@ -56,7 +58,7 @@ static bool fail(struct rg_message *message)
 bool rg_take(struct rg_message *message, void *bytes, int64_t size)
 {
     if (message->failed || size < 0 || size > message->size - message->at)
-        return fail(message);
+        return rg_message_fail(message);
     memcpy(bytes, message->bytes + message->at, (size_t)size);
     message->at += size;
     return true;
@@ -74,7 +76,7 @@ int rg_take_index(struct rg_message *message, int end)
     const int64_t index = rg_take_int(message);
     if (index >= 0 && index < end)
         return (int)index;
-    fail(message);
+    rg_message_fail(message);
     return 0;
 }
 
@@ -83,7 +85,7 @@ static const char *take_place(struct rg_message *message, int64_t *size)
 {
     *size = rg_take_int(message);
     if (message->failed || *size < 0 || *size > message->size - message->at) {
-        fail(message);
+        rg_message_fail(message);
         return NULL;
     }
     const char *place = message->bytes + message->at;
@@ -98,7 +100,7 @@ const char *rg_take_text(struct rg_message *message)
     if (text && size > 0 && !text[size - 1])
         return text;
     if (text)
-        fail(message);
+        rg_message_fail(message);
     return "";
 }
 
@@ -127,10 +129,12 @@ const char *rg_take_name(struct rg_message *message)
 void *rg_take_block(struct rg_message *message, int64_t *size)
 {
     const char *place = take_place(message, size);
-    void *block = place ? malloc((size_t)*size + 1) : NULL;
-    if (block)
+    char *block = place ? malloc((size_t)*size + WORD_BYTES) : NULL;
+    if (block) {
         memcpy(block, place, (size_t)*size);
-    else if (place) {
+        memset(block + *size, 0, WORD_BYTES); // where whole words are compared
+    }
+    if (place && !block) {
         message->failed = true;
         rg_error("a message between processes: no memory for %lld bytes", (long long)*size);
     }

@@ -39,7 +39,9 @@ int rg_take_index(struct rg_message *message, int end);
 const char *rg_take_text(struct rg_message *message);
 // The same text for as long as this process lives: names that structs point to.
 const char *rg_take_name(struct rg_message *message);
-// A block, which the caller frees; one of no bytes is no NULL.
+// A block, which the caller frees, with a word of zeros behind it; one of no bytes is no NULL.
 void *rg_take_block(struct rg_message *message, int64_t *size);
+// For those who find that what they took cannot be: the message has failed. False.
+bool rg_message_fail(struct rg_message *message);
 
 #endif

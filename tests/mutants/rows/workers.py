@@ -1,7 +1,7 @@
 """Workers: how they are asked, how they end, and what is made of it; names of devices."""
 from fault import Fault
 
-TESTS = ("workers that end", "messages", "names of devices", "sessions in workers", "subjects between processes", "log", "command line, misbehaving", "command line, gates")
+TESTS = ("workers that end", "damaged replies", "messages", "names of devices", "sessions in workers", "subjects between processes", "log", "command line, misbehaving", "command line, gates")
 
 W = "harness/devices/workers/"
 WORKER, CHANNEL, SERVE, MESSAGE, ENVIRONMENT, DEVICE = (
@@ -33,6 +33,9 @@ ROWS = [
     Fault(MESSAGES, "if (!message->failed && !param && «!is_usual»)", "true", "what a build does not know is refused though it is as usual"),
     Fault(MESSAGES, "const bool is_number = «param->kind == RG_PARAM_FLOAT»;", "false", "a number with a fraction is rounded on its way"),
     Fault(MESSAGES, "|| «!(value >= param->min && value <= param->max)»)", "false", "a number on its way has no range"),
+    Fault(MESSAGES, "«(double)desc->width * desc->height * desc->layers <= (double)size» &&", "true", "sides whose product is no number are multiplied", lives="it wraps, and comes to no size that a reply has"),
+    Fault(MESSAGES, "«rg_contents_size(desc) == (size_t)size»;", "true", "an image may have bytes of another"),
+    Fault(MESSAGES, "«d->levels <= RG_MAX_LEVELS» &&", "true", "an image may have any number of levels"),
     Fault(SERVE, "prctl(PR_SET_PDEATHSIG, SIGKILL);", ";", "a worker outlives a harness that is killed"),
     Fault(SERVE, "rg_put_int(&reply, «rg_last_error_kind()»);", "RG_ERROR_INPUT", "every error of a worker is the user's"),
     Fault(SERVE, "rg_doing_share(channel.doing.bytes);", ";", "nobody sees what a worker does"),
@@ -43,6 +46,9 @@ ROWS = [
     Fault(MESSAGE, "if (text && size > 0 && «!text[size - 1]»)", "true", "a text has no end"),
     Fault(MESSAGE, "if (index >= 0 && «index < end»)", "true", "an index is out of its range"),
     Fault(ENVIRONMENT, "if («!has_key_of(variables, *v)»)", "true", "a variable stands twice, and the old one counts where the last does"),
+    Fault(DEVICE, "return «(unsigned)info->tier < RG_TIER_COUNT» ||", "true", "a device may be of any tier"),
+    Fault(DEVICE, "text[size - 1] = 0;", ";", "a device's texts have no end"),
+    Fault(DEVICES, "if («reply->failed») {", "false", "a damaged list is one of a backend without devices"),
     Fault(DEVICE, "if («environment && *environment»)\n        snprintf(told", "false", "a device's name does not tell its environment"),
     Fault(NAMES, "for (; *name && («quoted» || *name != ','); name++)", "false", "a comma in quotes ends a name"),
     Fault(NAMES, "for (; *from && («quoted» || *from != ';'); from++) {", "false", "a semicolon in quotes ends a value"),

@@ -1,0 +1,273 @@
+// What a worker sends over which a driver has written is refused in one line, and what is taken can
+// be used.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "harness/devices/devices.h"
+#include "harness/devices/workers/device.h"
+#include "harness/devices/workers/serve.h"
+#include "harness/frames/digests.h"
+#include "harness/frames/session.h"
+
+// --- in the worker ---
+
+// What is wrong with what it sends, which the tests say by a variable.
+enum damage {
+    NOTHING,
+    ENDLESS_TEXTS,
+    NO_TIER,
+    NO_END,
+    TOO_MANY,
+    NO_FORMAT,
+    LEVELS,
+    LAYERS,
+    WIDE,
+    BYTES,
+    HALF_A_ROW
+};
+
+static enum damage damage(void)
+{
+    return (enum damage)atoi(getenv("RG_TEST_DAMAGE"));
+}
+
+static void put_info(struct rg_message *reply)
+{
+    struct rg_device_info info = {.name = "toy", .device = "Toy", .tier = RG_T1};
+    if (damage() == ENDLESS_TEXTS) {
+        memset(info.name, 'n', sizeof(info.name));
+        memset(info.device, 'd', sizeof(info.device));
+        memset(info.driver, 'v', sizeof(info.driver));
+        memset(info.api, 'a', sizeof(info.api));
+    }
+    const int no_tier = RG_TIER_COUNT;
+    if (damage() == NO_TIER)
+        memcpy(&info.tier, &no_tier, sizeof(info.tier));
+    RG_PUT(reply, info);
+}
+
+static bool list(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    rg_put_int(reply, damage() == TOO_MANY ? INT_MAX : 1);
+    put_info(reply);
+    if (damage() != NO_END)
+        rg_put_text(reply, "");
+    return true;
+}
+
+static bool open(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    put_info(reply);
+    if (damage() != NO_END)
+        rg_put_int(reply, 0);
+    return true;
+}
+
+static bool close_it(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    (void)reply;
+    return true;
+}
+
+enum { WIDTH = 3, HEIGHT = 5, TEXELS = WIDTH * HEIGHT + 1 * 2 };
+enum { ONE_LEVEL_MORE = TEXELS + RG_MAX_LEVELS - 1 }; // than an image has at most
+
+// An image of halves with two levels.
+static bool contents(struct rg_message *request, struct rg_message *reply)
+{
+    static const uint16_t texels[ONE_LEVEL_MORE];
+    int64_t bytes = 2 * TEXELS;
+    struct rg_image_desc desc = {RG_R16F, WIDTH, HEIGHT, 1, 2};
+    const int no_format = RG_FORMAT_COUNT;
+    (void)request;
+    if (damage() == NO_FORMAT)
+        memcpy(&desc.format, &no_format, sizeof(desc.format));
+    if (damage() == LEVELS) {
+        desc.levels = RG_MAX_LEVELS + 1;
+        bytes = sizeof(texels);
+    }
+    desc.layers = damage() == LAYERS ? -1 : desc.layers;
+    if (damage() == WIDE)
+        desc.width = desc.height = desc.layers = INT_MAX;
+    RG_PUT(reply, desc);
+    rg_put_text(reply, ""); // no state
+    for (int i = 0; i < 3; i++)
+        rg_put_int(reply, 0);
+    rg_put_block(reply, texels, damage() == BYTES ? bytes - 1 : bytes);
+    return true;
+}
+
+static bool digests(struct rg_message *request, struct rg_message *reply)
+{
+    const struct rg_digest row = {.frame = 1};
+    (void)request;
+    rg_put_block(reply, &row, damage() == HALF_A_ROW ? sizeof(row) / 2 : sizeof(row));
+    return true;
+}
+
+static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {
+    [RG_CALL_LIST] = list,         [RG_CALL_OPEN] = open,       [RG_CALL_CLOSE] = close_it,
+    [RG_CALL_CONTENTS] = contents, [RG_CALL_DIGESTS] = digests,
+};
+
+// --- in the harness ---
+
+static int lines;
+
+static void count_line(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)line;
+    (void)user;
+    lines++;
+}
+
+static void set_damage(enum damage damage)
+{
+    const char digits[] = {(char)('0' + damage / 10), (char)('0' + damage % 10), 0};
+    setenv("RG_TEST_DAMAGE", digits, 1);
+    lines = 0;
+}
+
+static int backend_count(void)
+{
+    int count = 0;
+    while (rg_backends[count])
+        count++;
+    return count;
+}
+
+static void a_damaged_list_is_a_failure_of_its_backend(void **state)
+{
+    static const enum damage all[] = {NO_TIER, NO_END, TOO_MANY};
+    static struct rg_device_list list;
+    (void)state;
+    set_damage(NOTHING);
+    rg_devices_list(&list);
+    assert_int_equal(list.count, backend_count());
+    assert_int_equal(list.missing_count, 0);
+    for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); i++) {
+        set_damage(all[i]);
+        rg_devices_list(&list);
+        assert_int_equal(list.count, 0);
+        assert_int_equal(list.missing_count, backend_count());
+        for (int b = 0; b < list.missing_count; b++) {
+            assert_int_equal(list.missing[b].outcome, RG_ERROR);
+            assert_non_null(strstr(list.missing[b].why, "is damaged"));
+        }
+    }
+}
+
+static void a_device_that_cannot_be_is_not_opened(void **state)
+{
+    static const enum damage all[] = {NO_TIER, NO_END};
+    (void)state;
+    for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); i++) {
+        set_damage(all[i]);
+        assert_null(rg_devices_open_one("toy"));
+        assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
+        assert_int_equal(lines, 1);
+    }
+}
+
+static void texts_of_a_device_end(void **state)
+{
+    static struct rg_device_list list;
+    (void)state;
+    set_damage(ENDLESS_TEXTS);
+    struct rg_device *device = rg_devices_open_one("toy");
+    assert_non_null(device);
+    rg_devices_list(&list);
+    assert_int_equal(list.count, backend_count());
+    for (int i = 0; i < 2; i++) {
+        const struct rg_device_info *info = i ? &list.infos[0] : &device->info;
+        assert_int_equal(strnlen(info->name, sizeof(info->name)), sizeof(info->name) - 1);
+        assert_int_equal(strnlen(info->device, sizeof(info->device)), sizeof(info->device) - 1);
+        assert_int_equal(strnlen(info->driver, sizeof(info->driver)), sizeof(info->driver) - 1);
+        assert_int_equal(strnlen(info->api, sizeof(info->api)), sizeof(info->api) - 1);
+    }
+    assert_true(rg_device_close(device));
+}
+
+// Opens the device as long as it does no harm; the result is that of the taking.
+static bool take_contents(enum damage damage)
+{
+    const struct rg_technique *technique = rg_technique_find("raster");
+    void *settings = rg_settings_create(technique);
+    const struct rg_digest_run run = {{technique, settings, 8, 8}, 1};
+    struct rg_contents contents = {0};
+    struct rg_state state;
+    set_damage(damage);
+    struct rg_device *device = rg_devices_open_one("toy");
+    assert_non_null(device);
+    const bool ok = rg_digests_contents(&run, device, 0, &contents, &state);
+    if (ok) {
+        const uint16_t behind = 0;
+        assert_int_equal(contents.size, 2 * TEXELS);
+        // Whole words of it are compared.
+        assert_memory_equal((char *)contents.bytes + contents.size, &behind, sizeof(behind));
+    }
+    rg_contents_free(&contents);
+    assert_true(rg_device_close(device));
+    free(settings);
+    return ok;
+}
+
+static void contents_are_what_is_said_of_them(void **state)
+{
+    (void)state;
+    assert_true(take_contents(NOTHING));
+    assert_int_equal(lines, 0);
+    for (enum damage damage = NO_FORMAT; damage <= BYTES; damage++) {
+        if (take_contents(damage))
+            fail_msg("damage %d is taken", (int)damage);
+        assert_int_equal(lines, 1);
+    }
+}
+
+static void digests_are_whole_rows(void **state)
+{
+    const struct rg_technique *technique = rg_technique_find("raster");
+    void *settings = rg_settings_create(technique);
+    const struct rg_digest_run run = {{technique, settings, 8, 8}, 1};
+    (void)state;
+    for (int half = 0; half < 2; half++) {
+        struct rg_digests taken = {0};
+        set_damage(half ? HALF_A_ROW : NOTHING);
+        struct rg_device *device = rg_devices_open_one("toy");
+        assert_non_null(device);
+        assert_int_equal(rg_digests_take(&run, device, &taken), !half);
+        assert_int_equal(taken.count, !half);
+        assert_int_equal(lines, half);
+        rg_digests_free(&taken);
+        assert_true(rg_device_close(device));
+    }
+    free(settings);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 3 && !strcmp(argv[1], RG_WORKER_ARGUMENT))
+        return rg_serve(argv[2], services);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_damaged_list_is_a_failure_of_its_backend),
+        cmocka_unit_test(a_device_that_cannot_be_is_not_opened),
+        cmocka_unit_test(texts_of_a_device_end),
+        cmocka_unit_test(contents_are_what_is_said_of_them),
+        cmocka_unit_test(digests_are_whole_rows),
+    };
+    rg_workers.program = "/proc/self/exe";
+    rg_log_listen(count_line, NULL);
+    return cmocka_run_group_tests_name("damage", tests, NULL, NULL);
+}
