@@ -387,6 +387,21 @@ def check_interrupted(runner):
     return problems
 
 
+def replaces_stored(runner, out, tmp):
+    """What is wrong with a part of what is stored, written where it is stored, by any of the folder's names."""
+    problems = []
+    os.symlink(out, tmp + "/link")
+    os.symlink(out + "/raster-1.json", tmp + "/link.json")
+    before = {name: os.stat(os.path.join(out, name)).st_ino for name in os.listdir(out)}
+    for source, folder in ((out, out), (out, tmp + "/link"), (tmp + "/link", out + "/."), (out + "/raster-1.json", out), (tmp + "/link.json", out)):
+        done = runner.run(["table", "raster-1", "--rows", "1-1", "--from", source, "-o", folder])
+        said = r"raingauge: .*: holds what --from reads, which would be replaced; name another folder with -o, or leave it out\n"
+        if done.returncode != 2 or done.stdout or not re.fullmatch(said, done.stderr):
+            problems.append("--from %s -o %s: exit status %d, stderr: %s" % (source, folder, done.returncode, done.stderr))
+    after = {name: os.stat(os.path.join(out, name)).st_ino for name in os.listdir(out)}
+    return problems + ["what was stored is replaced"] * (after != before)
+
+
 def check_stored(runner):
     """table --from prints what was measured as it was printed then, in every format, and opens no device"""
     problems = []
@@ -404,6 +419,7 @@ def check_stored(runner):
                 one = runner.run(["table", table, "--from", out + "/%s.json" % table, "--format", form], env)
                 if one.returncode or one.stdout != written or (form == "md" and written.strip() not in printed):
                     problems.append("%s, %s:\n%s" % (table, form, one.stdout))
+        problems += replaces_stored(runner, out, tmp)
         both = runner.run(["table", "--from", out, "--json", "-o", tmp + "/again"], env)
         with open(tmp + "/both.json", "w") as file:
             file.write(both.stdout)

@@ -38,3 +38,10 @@ FILE *rg_file_append(const char *path, const char **why)
     const int flags = O_WRONLY | O_APPEND | O_CREAT | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
     return stream(open(path, flags, 0666), "a", why);
 }
+
+bool rg_file_is_same(const char *a, const char *b)
+{
+    struct stat of_a, of_b;
+    return !strcmp(a, b) || (!stat(a, &of_a) && !stat(b, &of_b) && of_a.st_dev == of_b.st_dev &&
+                             of_a.st_ino == of_b.st_ino);
+}

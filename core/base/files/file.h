@@ -1,7 +1,8 @@
-// Files that are read, and files that are appended to.
+// Files that are read, files that are appended to, and which of two names are one file's.
 #ifndef RG_CORE_BASE_FILES_FILE_H
 #define RG_CORE_BASE_FILES_FILE_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 // Opens a regular file to read. NULL for all else: a FIFO, a device or a socket would be waited for
@@ -10,5 +11,8 @@ FILE *rg_file_open(const char *path, const char **why);
 
 // The same to append to, behind all that is there; it is made where it is not.
 FILE *rg_file_append(const char *path, const char **why);
+
+// Whether two paths are one file or folder. A link is what it leads to.
+bool rg_file_is_same(const char *a, const char *b);
 
 #endif

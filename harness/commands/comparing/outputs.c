@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "harness/compare/gate/pictures/pictures.h"
 #include "harness/record/output.h"
@@ -31,17 +31,9 @@ bool rg_gate_outputs_settle(const char *junit, const char *pictures,
     return true;
 }
 
-// A link is the file that it leads to.
-static bool is_same_file(const char *a, const char *b)
-{
-    struct stat of_a, of_b;
-    return !strcmp(a, b) || (!stat(a, &of_a) && !stat(b, &of_b) && of_a.st_dev == of_b.st_dev &&
-                             of_a.st_ino == of_b.st_ino);
-}
-
 static bool spares(const char *report, const char *file)
 {
-    return !report || !*report || !file || !is_same_file(report, file) ||
+    return !report || !*report || !file || !rg_file_is_same(report, file) ||
            rg_error("%s: would be overwritten with a report, and is named as '%s' as well; name "
                     "another file for the report",
                     report, file);

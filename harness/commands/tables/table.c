@@ -3,7 +3,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "harness/cli/command.h"
@@ -236,6 +238,23 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
 
 // --- results that lie on disk ---
 
+// Whether -o leaves what --from reads as it is: in its place a part would be all that is left of
+// it. False, and one logged line.
+static bool spares_stored(const struct table_options *o)
+{
+    char folder[PATH_MAX];
+    struct stat st;
+    if (!o->output || !realpath(o->from, folder) || stat(folder, &st))
+        return true; // what is not there is told where it is read
+    char *slash = S_ISDIR(st.st_mode) ? NULL : strrchr(folder, '/');
+    if (slash)
+        slash[slash == folder] = 0;
+    return !rg_file_is_same(folder, o->output) ||
+           rg_error("%s: holds what --from reads, which would be replaced; name another folder "
+                    "with -o, or leave it out",
+                    o->output);
+}
+
 static bool is_named(const struct rg_words *ids, const char *table)
 {
     bool found = !ids->count;
@@ -302,6 +321,8 @@ static int print_tables(const struct table_options *o, const struct rg_words *ar
     struct rg_stored stored = {0};
     if (!o->from)
         return measure(o, arguments);
+    if (!spares_stored(o))
+        return RG_EXIT_USAGE;
     const int exit =
         rg_stored_read(&stored, o->from) ? print_stored(&stored, o, arguments) : RG_EXIT_USAGE;
     rg_stored_free(&stored);

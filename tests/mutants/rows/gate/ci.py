@@ -24,7 +24,7 @@ ROWS = [
     Fault(CASES, "if («c->agreement.has_pictures»)", "false", "reports name no picture"),
     Fault("harness/commands/comparing/outputs.c", "const size_t stem = «end && !strcmp(end, \".xml\")» ?", "false", "pictures lie in a folder with the report's ending"),
     Fault(OUTPUTS, "«adds_new»,", "false", "what nothing expects is not in the patch"),
-    Fault(OUTPUTS, "return !report || !*report || «!file || !is_same_file(report, file)» ||", "true", "a report replaces a file that is read", tests=("command line, baselines",)),
+    Fault(OUTPUTS, "return !report || !*report || «!file || !rg_file_is_same(report, file)» ||", "true", "a report replaces a file that is read", tests=("command line, baselines",)),
     Fault(AGREE, "} else if («!c.tiers.mask_pixels && !c.metrics.differing_values») {", "false", "a cell without rain is a difference", tests=("command line, gates",)),
     Fault(SIDES, "if («!seen[i].is_there»)", "false", "a device that is missing and required skips its cells", tests=("command line, gates",)),
     Fault(COMMAND, "if («gate.is_told» && ", "true", "a gate that fails early leaves an empty report", tests=("command line, gates",)),
