@@ -109,15 +109,24 @@ int rg_result_exit(const struct rg_result *result)
     return rg_exit_of_all(counts);
 }
 
+// Whether all that was printed is where it was to go. False, and one logged line for all tables.
+static bool is_printed(bool was_lost)
+{
+    return (!fflush(stdout) && !ferror(stdout)) ||
+           (!was_lost &&
+            rg_error("standard output: cannot be written; is it closed, or the disk full?"));
+}
+
 int rg_result_finish(const struct rg_result *result, int format, const char *folder)
 {
     struct rg_place at = rg_result_start(result);
     int exit = rg_result_exit(result);
-    if (rg_result_next(result, &at) && !rg_result_print(result, format, stdout))
-        exit = RG_EXIT_FAIL;
-    fflush(stdout);
     const bool is_whole = rg_result_first_missing(result) > result->last_row;
+    const bool was_lost = ferror(stdout);
+    // Before it is printed: SIGPIPE ends raingauge once nobody reads that.
     if (is_whole && folder && !rg_result_write(result, folder))
         exit = rg_exit_worse(exit, RG_EXIT_USAGE);
-    return exit;
+    if (rg_result_next(result, &at) && !rg_result_print(result, format, stdout))
+        exit = rg_exit_worse(exit, RG_EXIT_FAIL);
+    return is_printed(was_lost) ? exit : rg_exit_worse(exit, RG_EXIT_USAGE);
 }

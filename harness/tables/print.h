@@ -17,9 +17,10 @@ enum { RG_RESULT_WIDE = -1 };
 // without memory.
 bool rg_result_print(const struct rg_result *result, int format, FILE *out);
 
-// Prints what there is of it to stdout, and writes it into a folder (NULL: none) where it is whole.
+// Writes it into a folder (NULL: none) where it is whole, and prints what there is of it to stdout.
 // Returns the exit status that its cells come to; an error against the truth that could not be
-// found counts as a failure.
+// found counts as a failure. RG_EXIT_USAGE, and one logged line, where a file or stdout could not
+// be written.
 int rg_result_finish(const struct rg_result *result, int format, const char *folder);
 // What its cells come to alone.
 int rg_result_exit(const struct rg_result *result);

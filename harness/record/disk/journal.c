@@ -183,8 +183,14 @@ void rg_journal_add(struct rg_journal *j, const struct rg_result *result, int fi
 {
     for (int row = first; j && row <= last; row++)
         hold_row(j, result, row);
-    // Nothing is lost once all rows are measured and printed.
-    if (!j || j->is_broken || (!j->is_followed && is_whole(result)))
+    // Once all rows are measured they are printed, and kept where that fails.
+    if (j && (j->is_followed || !is_whole(result)))
+        rg_journal_keep(j);
+}
+
+void rg_journal_keep(struct rg_journal *j)
+{
+    if (!j || j->is_broken)
         return;
     j->is_broken = !write_file(j);
     j->has_file = j->has_file || !j->is_broken; // what was written before stays

@@ -29,6 +29,8 @@ bool rg_journal_take(const struct rg_journal *journal, struct rg_result *result,
 // have passed by the next run.
 void rg_journal_add(struct rg_journal *journal, const struct rg_result *result, int first,
                     int last);
+// Writes what it holds, as is done anyway but for the last rows of a table that no other follows.
+void rg_journal_keep(struct rg_journal *journal);
 // Where its file is, if one has been written or read; else NULL.
 const char *rg_journal_path(const struct rg_journal *journal);
 // Removes its file: the table, and all that follow it, are done.

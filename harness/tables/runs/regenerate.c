@@ -19,7 +19,7 @@ struct task {
     struct rg_result result;
     struct rg_journal *journal;
     struct rg_table_bar bar; // its part of the command's; without a progress it has its own
-    bool is_lost;            // its files could not be written
+    bool is_lost;            // its files, or what it prints, could not be written
 };
 
 static void tell_resumed(const struct task *task)
@@ -64,6 +64,8 @@ static int run_task(struct task *task, struct rg_kept *kept,
         return RG_EXIT_PASS; // the budget ended before it
     int exit = options->print(&task->result, options->user);
     task->is_lost = exit == RG_EXIT_USAGE;
+    if (task->is_lost)
+        rg_journal_keep(task->journal);
     if (rg_interrupted()) {
         tell_interrupted(task);
         exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
@@ -148,8 +150,8 @@ static void begin_bar(struct task *tasks, int count, const struct rg_forecast *f
     rg_progress_start_expected(progress, units, forecasts ? RG_TABLE_UNIT_MS : 0);
 }
 
-// Journals go once all tables are written: where one is not, the same command begins with what they
-// have, of those before it too.
+// Journals go once all tables are written and printed: where one is not, the same command begins
+// with what they have, of those before it too.
 static bool keeps_journals(const struct task *tasks, int count)
 {
     bool any_is_lost = false, has_file = false;
@@ -158,7 +160,7 @@ static bool keeps_journals(const struct task *tasks, int count)
         has_file = has_file || rg_journal_path(tasks[i].journal);
     }
     if (any_is_lost && has_file && !rg_interrupted())
-        rg_info("once files can be written, the same command goes on with what was measured");
+        rg_info("once all can be written, the same command goes on with what was measured");
     return any_is_lost || rg_interrupted();
 }
 

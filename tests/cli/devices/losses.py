@@ -161,7 +161,7 @@ def lost_midway(runner, lose, restore):
         _, messages = process.communicate(timeout=LIMIT_S)
         restore(out)
         told = (r"(raingauge: .*%s.*: cannot be written: .*\n){1,2}"
-                r"raingauge: once files can be written, the same command goes on with what was measured\n" % SECOND)
+                r"raingauge: once all can be written, the same command goes on with what was measured\n" % SECOND)
         problems = []
         if process.returncode != 2 or not re.fullmatch(told, messages):
             problems.append("exit status %d, %s" % (process.returncode, messages))
@@ -180,6 +180,42 @@ def check_full(runner):
 def check_read_only_midway(runner):
     """nor is anything lost where the folder turns read-only in mid-run"""
     return lost_midway(runner, lambda process, out: os.chmod(out, 0o500), lambda out: os.chmod(out, 0o700))
+
+
+ROW = "table %s --rows 1-1 --work paper --device cpu " % FIRST
+
+
+def check_unprinted(runner):
+    """what was measured and cannot be printed is kept, the last table too, and the same command goes on with it"""
+    problems = []
+    told = (r"raingauge: standard output: cannot be written; .*\n"
+            r"raingauge: once all can be written, the same command goes on with what was measured\n")
+    again = r"raingauge: %s: 1 of 1 rows are those of a run that was interrupted, .*\n"
+    for tables in ([FIRST], [FIRST, SECOND]):
+        with tempfile.TemporaryDirectory() as state:
+            args = ROW.replace(FIRST, " ".join(tables)).split()
+            with open("/dev/full", "w") as full:
+                lost = runner.run(args, {"XDG_STATE_HOME": state}, stdout=full)
+            held = sorted(os.listdir(state + "/raingauge"))
+            if lost.returncode != 2 or not re.fullmatch(told, lost.stderr) or held != sorted(t + "-quick.journal" for t in tables):
+                problems.append("exit status %d, held %s, %s" % (lost.returncode, held, lost.stderr))
+            found = runner.run(args, {"XDG_STATE_HOME": state})
+            if found.returncode or not re.fullmatch("".join(again % t for t in tables), found.stderr) or os.listdir(state + "/raingauge"):
+                problems.append("again: exit status %d, %s" % (found.returncode, found.stderr))
+    return problems
+
+
+def check_unread(runner):
+    """the files of a table are there though nobody reads what it prints, which ends it"""
+    with tempfile.TemporaryDirectory() as out:
+        ours, its = os.pipe()
+        os.close(ours)
+        done = runner.run(ROW.split() + ["-o", out], stdout=its)
+        os.close(its)
+        left = sorted(os.listdir(out))
+    if done.returncode != -signal.SIGPIPE or left != [FIRST + form for form in (".csv", ".json", ".md", ".tex")]:
+        return ["exit status %d, left %s, %s" % (done.returncode, left, done.stderr)]
+    return []
 
 
 def check_read_only(runner):
@@ -247,4 +283,4 @@ def check_signals(runner):
 
 
 CHECKS = [check_signals, check_harness_killed, check_both_killed, check_second, check_held, check_full,
-          check_read_only_midway, check_read_only, check_earlier]
+          check_read_only_midway, check_read_only, check_unprinted, check_unread, check_earlier]
