@@ -35,7 +35,7 @@ static void open_standard_streams(void)
 static int finish(int exit)
 {
     if ((fflush(stdout) || ferror(stdout)) && exit == RG_EXIT_PASS) {
-        rg_error("standard output: cannot be written; is it closed, or the disk full?");
+        rg_stdout_error();
         exit = RG_EXIT_USAGE;
     }
     return exit;

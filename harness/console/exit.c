@@ -43,3 +43,8 @@ int rg_exit_worse(int a, int b)
             return order[i];
     return RG_EXIT_PASS;
 }
+
+bool rg_stdout_error(void)
+{
+    return rg_error("standard output: cannot be written; is it closed, or the disk full?");
+}

@@ -25,6 +25,9 @@ int rg_exit_of_all(const int counts[RG_OUTCOME_COUNT]);
 // Of work that the last error (core/base/log.h) ended: bad usage where that is the user's.
 int rg_exit_of_error(void);
 
+// Says that what is printed is lost, in one line, and returns false, as rg_error does.
+bool rg_stdout_error(void);
+
 // Of two parts of a command. Bad usage outweighs a failure, a failure what proves nothing, and an
 // interruption all.
 int rg_exit_worse(int a, int b);

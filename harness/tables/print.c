@@ -112,9 +112,7 @@ int rg_result_exit(const struct rg_result *result)
 // Whether all that was printed is where it was to go. False, and one logged line for all tables.
 static bool is_printed(bool was_lost)
 {
-    return (!fflush(stdout) && !ferror(stdout)) ||
-           (!was_lost &&
-            rg_error("standard output: cannot be written; is it closed, or the disk full?"));
+    return (!fflush(stdout) && !ferror(stdout)) || (!was_lost && rg_stdout_error());
 }
 
 int rg_result_finish(const struct rg_result *result, int format, const char *folder)
