@@ -44,23 +44,38 @@ bool rg_caged_find(const char *program, char *path, size_t size)
     return false;
 }
 
-// False when it had to be killed.
-static bool wait_for_end(pid_t child, int alive, int timeout_s, int *status)
+static int64_t now_ms(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
-    const time_t deadline = now.tv_sec + timeout_s;
-    int ended = 0;
-    while (ended == 0 && now.tv_sec <= deadline) {
-        ended = poll(&(struct pollfd){.fd = alive, .events = POLLIN}, 1, 200);
-        ended = ended < 0 && errno == EINTR ? 0 : ended;
-        clock_gettime(CLOCK_MONOTONIC, &now);
+    return now.tv_sec * 1000LL + now.tv_nsec / 1000000;
+}
+
+static bool is_over(pid_t child, int *status)
+{
+    const pid_t ended = waitpid(child, status, WNOHANG);
+    return ended == child || (ended < 0 && errno != EINTR);
+}
+
+// False when it had to be killed. Its end of `alive` closes when it ends; one that closes it and
+// goes on has as long as any other.
+static bool wait_for_end(pid_t child, int alive, int timeout_s, int *status)
+{
+    enum { LOOK_MS = 200, BEHIND_CLOSE_US = 100 };
+    const int64_t deadline_ms = now_ms() + 1000LL * timeout_s;
+    bool is_closed = false;
+    while (now_ms() <= deadline_ms) {
+        if (is_closed)
+            usleep(BEHIND_CLOSE_US);
+        else
+            is_closed = poll(&(struct pollfd){.fd = alive, .events = POLLIN}, 1, LOOK_MS) > 0;
+        if (is_closed && is_over(child, status))
+            return true;
     }
-    if (ended <= 0)
-        kill(child, SIGKILL);
+    kill(child, SIGKILL);
     while (waitpid(child, status, 0) < 0 && errno == EINTR)
         continue;
-    return ended > 0;
+    return false;
 }
 
 int rg_caged_run(const char *const args[], int file, int timeout_s, struct rg_caged *caged)

@@ -168,6 +168,21 @@ static void a_caged_program_has_no_environment(void **state)
     close(file);
 }
 
+// Nobody waits longer for a program that says that it has ended, and has not.
+static void a_caged_program_that_feigns_its_end_is_killed(void **state)
+{
+    (void)state;
+    struct rg_caged caged;
+    const int file = open("/dev/null", O_RDONLY);
+    const char *const args[] = {"/bin/sh", "-c", "exec 4>&-; exec sleep 20", NULL};
+    assert_int_equal(RG_CAGE_ALIVE, 4);
+    assert_int_equal(rg_caged_run(args, file, 1, &caged), 0);
+    assert_false(caged.ended);
+    assert_int_equal(WTERMSIG(caged.status), SIGKILL);
+    close(caged.reply);
+    close(file);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -175,6 +190,7 @@ int main(void)
         cmocka_unit_test(without_a_cage_all_of_it_works),
         cmocka_unit_test(limits_hold),
         cmocka_unit_test(a_caged_program_has_no_environment),
+        cmocka_unit_test(a_caged_program_that_feigns_its_end_is_killed),
     };
     return cmocka_run_group_tests_name("cage", tests, NULL, NULL);
 }
