@@ -145,10 +145,11 @@ static int render_on(struct rg_device *device, const struct rg_technique *techni
     struct rg_session *session = draw(device, &drawn, o->frame, o->exposure);
     if (!session)
         return rg_interrupted() ? RG_EXIT_SIGNALLED + rg_interrupt_signal() : rg_exit_of_error();
-    rg_session_tell(session, &drawn.account);
-    (o->json ? rg_drawn_print_json : rg_drawn_print_text)(&drawn);
+    const bool told = rg_session_tell(session, &drawn.account);
+    if (told)
+        (o->json ? rg_drawn_print_json : rg_drawn_print_text)(&drawn);
     rg_session_close(session);
-    return RG_EXIT_PASS;
+    return told ? RG_EXIT_PASS : rg_exit_of_error();
 }
 
 static bool names_one_device(const char *names)

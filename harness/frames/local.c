@@ -119,7 +119,7 @@ static void *read_picture(struct rg_session *session, size_t *size)
     return rg_frame_read(session->instance, size);
 }
 
-static void tell(const struct rg_session *session, struct rg_account *account)
+static bool tell(const struct rg_session *session, struct rg_account *account)
 {
     const struct rg_instance *instance = session->instance;
     *account = (struct rg_account){.frame = instance->frame,
@@ -127,6 +127,7 @@ static void tell(const struct rg_session *session, struct rg_account *account)
                                    .fact_count = instance->fact_count};
     memcpy(account->counters, instance->counters, sizeof(account->counters));
     memcpy(account->facts, instance->facts, sizeof(account->facts));
+    return true;
 }
 
 static void *read_state(struct rg_session *session, int index, struct rg_state *layout,

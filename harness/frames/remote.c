@@ -174,12 +174,14 @@ static void *read_picture(struct rg_session *session, size_t *size)
 }
 
 // Of a session that has gone nothing is told.
-static void tell(const struct rg_session *session, struct rg_account *account)
+static bool tell(const struct rg_session *session, struct rg_account *account)
 {
     struct rg_message reply;
     const bool ok = call(session, RG_CALL_TELL, NULL, &reply) && rg_take_account(&reply, account);
-    if (!finish(&reply, ok))
+    const bool told = finish(&reply, ok);
+    if (!told)
         *account = (struct rg_account){0};
+    return told;
 }
 
 static void *read_state(struct rg_session *session, int index, struct rg_state *layout,

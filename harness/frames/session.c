@@ -125,9 +125,9 @@ bool rg_session_read_picture(struct rg_session *session, struct rg_picture *pict
 
 // --- its state, and what it tells of itself ---
 
-void rg_session_tell(const struct rg_session *session, struct rg_account *account)
+bool rg_session_tell(const struct rg_session *session, struct rg_account *account)
 {
-    session->ways->tell(session, account);
+    return session->ways->tell(session, account);
 }
 
 int rg_session_state_count(const struct rg_session *session)

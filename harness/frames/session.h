@@ -67,7 +67,8 @@ bool rg_session_read_picture(struct rg_session *session, struct rg_picture *pict
 
 // --- its state, and what it tells of itself ---
 
-void rg_session_tell(const struct rg_session *session, struct rg_account *account);
+// False, with one logged line and nothing told, where it has gone with its worker.
+bool rg_session_tell(const struct rg_session *session, struct rg_account *account);
 
 // The number of the state's buffers, and the words of one, which the caller frees. `layout` gets
 // its name and rows, and no asset.

@@ -25,7 +25,7 @@ struct rg_session_ways {
     bool (*time)(struct rg_session *session, int64_t *time_ns);
     bool (*code)(struct rg_session *session, struct rg_session_code *code);
     void *(*read)(struct rg_session *session, size_t *size);
-    void (*tell)(const struct rg_session *session, struct rg_account *account);
+    bool (*tell)(const struct rg_session *session, struct rg_account *account);
     void *(*read_state)(struct rg_session *session, int index, struct rg_state *layout,
                         size_t *size);
     bool (*obeys)(const struct rg_session *session, const struct rg_law *law, char *detail,

@@ -23,8 +23,8 @@ static bool is_in_window(const struct rg_job *job, int frames)
     struct rg_account told;
     if (!job->window_frames)
         return true;
-    rg_session_tell(job->session, &told);
-    return told.frame + frames <= job->check_frames + job->window_frames;
+    return rg_session_tell(job->session, &told) &&
+           told.frame + frames <= job->check_frames + job->window_frames;
 }
 
 bool rg_job_be_ready(struct rg_job *job, int frames)
@@ -50,14 +50,16 @@ static bool open_session(struct rg_job *job)
     return true;
 }
 
-static void keep_told(struct rg_record *record, const struct rg_session *session)
+static bool keep_told(struct rg_record *record, const struct rg_session *session)
 {
     struct rg_account told;
-    rg_session_tell(session, &told);
+    if (!rg_session_tell(session, &told))
+        return rg_record_end_by_error(record);
     record->counter_count = told.counter_count;
     record->fact_count = told.fact_count;
     rg_counters_copy(record->counters, told.counters, told.counter_count);
     rg_facts_copy(record->facts, told.facts, told.fact_count);
+    return true;
 }
 
 // The frames up to the last but one are simulated and not drawn, as those are that the expected
@@ -80,8 +82,7 @@ bool rg_job_open(struct rg_job *job)
     job->warm_frame_ms = job->record->first_frame_ms;
     if (job->check_frames > 1)
         job->warm_frame_ms = rg_job_time(job, 1);
-    keep_told(job->record, job->session);
-    return job->record->outcome == RG_OK;
+    return job->record->outcome == RG_OK && keep_told(job->record, job->session);
 }
 
 // Whether an image that is not identical holds the tier that its device owes.
@@ -136,28 +137,29 @@ static int64_t count_of(const struct rg_account *account, const char *name)
 }
 
 // What the counters that are asked for grew by since then.
-static void keep_counted(struct rg_job *job, const struct rg_account *before)
+static bool keep_counted(struct rg_job *job, const struct rg_account *before)
 {
     struct rg_record *record = job->record;
     struct rg_account now;
-    rg_session_tell(job->session, &now);
+    if (!rg_session_tell(job->session, &now))
+        return rg_record_end_by_error(record);
     record->counted_count = 0;
     for (const char *const *name = job->counted; name && *name; name++) {
         struct rg_count *count = &record->counted[record->counted_count++];
         rg_text_copy(count->name, sizeof(count->name), *name);
         count->value = count_of(&now, *name) - count_of(before, *name);
     }
+    return true;
 }
 
 bool rg_job_count(struct rg_job *job)
 {
     struct rg_account before;
-    rg_session_tell(job->session, &before);
-    job->record->has_tally = rg_session_count(job->session, &job->record->tally);
+    job->record->has_tally = rg_session_tell(job->session, &before) &&
+                             rg_session_count(job->session, &job->record->tally);
     if (!job->record->has_tally)
         return rg_record_end_by_error(job->record);
-    keep_counted(job, &before);
-    return true;
+    return keep_counted(job, &before);
 }
 
 // Until two frames in a row take the same time to 10 %: drivers go on compiling for a while. The

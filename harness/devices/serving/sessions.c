@@ -172,9 +172,8 @@ bool rg_serve_tell(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_session *session = take_session(request);
     struct rg_account account;
-    if (!session)
+    if (!session || !rg_session_tell(session, &account))
         return false;
-    rg_session_tell(session, &account);
     rg_put_account(reply, &account);
     return true;
 }

@@ -9,13 +9,16 @@
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "core/base/log.h"
 #include "harness/devices/devices.h"
 #include "harness/devices/workers/device.h"
 #include "harness/devices/workers/serve.h"
 #include "harness/frames/digests.h"
+#include "harness/frames/messages.h"
 #include "harness/frames/session.h"
+#include "harness/measure/job.h"
 
 // --- in the worker ---
 
@@ -73,7 +76,7 @@ static bool open(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
-static bool close_it(struct rg_message *request, struct rg_message *reply)
+static bool nod(struct rg_message *request, struct rg_message *reply)
 {
     (void)request;
     (void)reply;
@@ -116,8 +119,48 @@ static bool digests(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
+static bool open_session(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    rg_put_int(reply, 0); // its number
+    rg_put_int(reply, 0); // without a state
+    return true;
+}
+
+static bool run_frames(struct rg_message *request, struct rg_message *reply)
+{
+    const double wall_ms = 1;
+    (void)request;
+    RG_PUT(reply, wall_ms);
+    return true;
+}
+
+static bool count(struct rg_message *request, struct rg_message *reply)
+{
+    const struct rg_tally tally = {.runs = 1};
+    (void)request;
+    RG_PUT(reply, tally);
+    return true;
+}
+
+// So often it goes well.
+static bool tell(struct rg_message *request, struct rg_message *reply)
+{
+    static int calls;
+    const struct rg_account account = {.frame = 1};
+    (void)request;
+    if (calls++ == atoi(getenv("RG_TEST_TOLD")))
+        _exit(3);
+    rg_put_account(reply, &account);
+    return true;
+}
+
 static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {
-    [RG_CALL_LIST] = list,         [RG_CALL_OPEN] = open,       [RG_CALL_CLOSE] = close_it,
+    [RG_CALL_LIST] = list,         [RG_CALL_OPEN] = open,
+    [RG_CALL_CLOSE] = nod,         [RG_CALL_SESSION_OPEN] = open_session,
+    [RG_CALL_SESSION_CLOSE] = nod, [RG_CALL_STEP] = nod,
+    [RG_CALL_SYNC] = nod,          [RG_CALL_FRAMES] = run_frames,
+    [RG_CALL_COUNT] = count,       [RG_CALL_TELL] = tell,
     [RG_CALL_CONTENTS] = contents, [RG_CALL_DIGESTS] = digests,
 };
 
@@ -256,6 +299,32 @@ static void digests_are_whole_rows(void **state)
     free(settings);
 }
 
+// A worker that ends while it tells of a session leaves no record that is well and counts nothing.
+static void what_is_not_told_ends_a_record(void **state)
+{
+    const struct rg_technique *technique = rg_technique_find("raster");
+    void *settings = rg_settings_create(technique);
+    (void)state;
+    set_damage(NOTHING);
+    for (int told = 0; told < 4; told++) { // as it is opened, before and behind what is counted
+        struct rg_record record = {0};
+        setenv("RG_TEST_TOLD", (const char *const[]){"0", "1", "2", "3"}[told], 1);
+        struct rg_device *device = rg_devices_open_one("toy");
+        assert_non_null(device);
+        struct rg_job job = {.subject = {technique, settings, 8, 8},
+                             .device = device,
+                             .check_frames = 2,
+                             .record = &record};
+        const bool is_open = rg_job_open(&job);
+        assert_int_equal(is_open, told > 0);
+        assert_int_equal(is_open && rg_job_count(&job), told == 3);
+        assert_int_equal(record.outcome, told == 3 ? RG_OK : RG_CRASH);
+        rg_job_close(&job);
+        assert_true(rg_device_close(device));
+    }
+    free(settings);
+}
+
 int main(int argc, char **argv)
 {
     if (argc == 3 && !strcmp(argv[1], RG_WORKER_ARGUMENT))
@@ -266,6 +335,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(texts_of_a_device_end),
         cmocka_unit_test(contents_are_what_is_said_of_them),
         cmocka_unit_test(digests_are_whole_rows),
+        cmocka_unit_test(what_is_not_told_ends_a_record),
     };
     rg_workers.program = "/proc/self/exe";
     rg_log_listen(count_line, NULL);

@@ -149,7 +149,7 @@ static void accounts_and_counts_are_the_same(void **state)
     struct rg_account accounts[2];
     for (int i = 0; i < 2; i++) {
         assert_true(rg_session_count(pair.sessions[i], &tallies[i]));
-        rg_session_tell(pair.sessions[i], &accounts[i]);
+        assert_true(rg_session_tell(pair.sessions[i], &accounts[i]));
     }
     assert_memory_equal(&tallies[LOCAL], &tallies[REMOTE], sizeof(tallies[LOCAL]));
     assert_true(tallies[LOCAL].runs > 0);
@@ -304,7 +304,7 @@ static void a_session_ends_with_its_worker(void **state)
     assert_non_null(strstr(logged, "device 'cpu': its driver crashed (Killed)"));
     assert_false(rg_session_draw(session));
     assert_int_equal(rg_outcome_of_error(), RG_CRASH);
-    rg_session_tell(session, &account);
+    assert_false(rg_session_tell(session, &account));
     assert_int_equal(account.frame, 0);
     assert_int_equal(rg_worker_life(worker), 1); // no call of a session that is gone starts another
 
@@ -313,7 +313,7 @@ static void a_session_ends_with_its_worker(void **state)
     assert_int_equal(rg_worker_life(worker), 2);
     assert_false(rg_session_step(session)); // it has gone, though another has its number
     assert_true(rg_session_step(next));
-    rg_session_tell(next, &account);
+    assert_true(rg_session_tell(next, &account));
     assert_int_equal(account.frame, 3);
     *logged = 0;
     rg_session_close(session);

@@ -32,7 +32,7 @@ ROWS = [
     Fault(JOB, "rg_session_run(job->device, &job->subject, «job->check_frames»);", "0", "a window begins at frame 0"),
     Fault(JOB, "if (!job->session || !«rg_session_sync(job->session)»)", "true", "what opening left running is in the first frame"),
     Fault(JOB, "job->record->create_ms = «rg_now_ms() - start»;", "0", "opening takes no time"),
-    Fault(JOB, "«job->warm_frame_ms = rg_job_time(job, 1);»\n    keep_told", "", "the check frames do not begin the warm-up"),
+    Fault(JOB, "«job->warm_frame_ms = rg_job_time(job, 1);»\n    return", "", "the check frames do not begin the warm-up"),
     Fault(JOB, "const int frames = job->check_frames «- 2»;", "- 1", "the image is that of a frame too late"),
     Fault(JOB, "(ok && («frames < 1 || rg_session_sync(job->session)»))", "true", "what is simulated is in the time of the last check frame"),
     Fault(JOB, "i <= «MAX_WARM_UP_FRAMES» && job", "0", "the warm-up is left out"),

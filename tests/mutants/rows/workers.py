@@ -36,6 +36,7 @@ ROWS = [
     Fault(MESSAGES, "«(double)desc->width * desc->height * desc->layers <= (double)size» &&", "true", "sides whose product is no number are multiplied", lives="it wraps, and comes to no size that a reply has"),
     Fault(MESSAGES, "«rg_contents_size(desc) == (size_t)size»;", "true", "an image may have bytes of another"),
     Fault(MESSAGES, "«d->levels <= RG_MAX_LEVELS» &&", "true", "an image may have any number of levels"),
+    Fault("harness/measure/job.c", "if («!rg_session_tell(session, &told)»)", "!rg_session_tell(session, &told) && false", "a record is well of which nothing was told"),
     Fault(SERVE, "prctl(PR_SET_PDEATHSIG, SIGKILL);", ";", "a worker outlives a harness that is killed"),
     Fault(SERVE, "rg_put_int(&reply, «rg_last_error_kind()»);", "RG_ERROR_INPUT", "every error of a worker is the user's"),
     Fault(SERVE, "rg_doing_share(channel.doing.bytes);", ";", "nobody sees what a worker does"),

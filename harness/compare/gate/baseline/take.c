@@ -49,7 +49,8 @@ static bool take_states(struct rg_session *session, struct rg_baseline_row *row)
 static bool take_work(struct rg_session *session, struct rg_baseline_row *row)
 {
     struct rg_account told;
-    rg_session_tell(session, &told);
+    if (!rg_session_tell(session, &told))
+        return false;
     row->counters.count = told.counter_count;
     rg_counters_copy(row->counters.counters, told.counters, told.counter_count);
     return rg_session_count(session, &row->work);

@@ -84,7 +84,8 @@ static bool have_alike_counters(struct pair *p)
     struct rg_counters counts[RG_SIDES];
     for (int side = 0; side < RG_SIDES; side++) {
         struct rg_account told;
-        rg_session_tell(p->sessions[side], &told);
+        if (!rg_session_tell(p->sessions[side], &told))
+            return fail_by_error(p, side);
         counts[side].count = told.counter_count;
         rg_counters_copy(counts[side].counters, told.counters, told.counter_count);
     }
