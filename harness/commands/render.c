@@ -1,9 +1,11 @@
 // raingauge render: one frame of a technique as an image file, or several as a clip or as numbered
 // image files.
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "core/image/clip/clip.h"
@@ -13,6 +15,7 @@
 #include "harness/cli/subject.h"
 #include "harness/commands/drawn.h"
 #include "harness/compare/shrink/case.h"
+#include "harness/compare/shrink/files.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/devices.h"
 #include "harness/devices/names.h"
@@ -105,12 +108,27 @@ static bool check_output(const struct render_options *o)
     return true;
 }
 
+// Whether no picture or clip replaces a file that settings name. False, and one logged line.
+static bool spares_files(const struct rg_drawn *drawn)
+{
+    char path[PATH_MAX], value[RG_PATH_SIZE];
+    const struct rg_sequence *s = drawn->sequence;
+    if (!s || rg_clip_is_named(drawn->path))
+        return rg_files_spared_by(&drawn->subject, drawn->path);
+    bool spared = true;
+    for (int at = 0; spared && rg_file_own_next(&drawn->subject, &at, value);)
+        for (int frame = s->first; spared && frame <= s->last; frame++)
+            spared = rg_numbered_path(drawn->path, frame, path, sizeof(path)) &&
+                     rg_file_spares(path, value);
+    return spared;
+}
+
 // Draws what is asked for and writes it: the session, or NULL where it failed.
 static struct rg_session *draw(struct rg_device *device, const struct rg_drawn *drawn, int frame,
                                double exposure)
 {
     const struct rg_subject *subject = &drawn->subject;
-    if (!rg_pictures_fit(subject->width, subject->height, 1))
+    if (!spares_files(drawn) || !rg_pictures_fit(subject->width, subject->height, 1))
         return NULL;
     if (drawn->sequence)
         return rg_sequence_run(drawn->sequence, device);

@@ -2,6 +2,7 @@
 import collections
 import os
 import re
+import shutil
 import socket
 import tempfile
 
@@ -108,6 +109,21 @@ COMMANDS = [
     Case("sweep flow --axis seed=1,,2", 2, r"--axis seed=1,,2: write it as NAME=VALUE,VALUE"),
     Case("sweep flow --axis device=cpu,,", 2, r"names no device beside a comma"),
     Case("sweep flow --axis drops=-1", 2, r"parameter 'drops': -1 is out of range; 0 to 100000$"),
+
+    # what is written replaces nothing that is read
+    Case("diff {data}/in-flip.png {data}/b.png -o {data}/in", 2, r"in-flip\.png: would be overwritten, and is read as '.*/in-flip\.png'; name another with -o"),
+    Case("diff {data}/b.png {data}/in-difference.png -o {data}/in", 2, r"in-difference\.png: would be overwritten, and is read as"),
+    Case("diff {data}/a.png {data}/b.png --background {data}/in-flip.png -o {data}/in", 2, r"in-flip\.png: would be overwritten"),
+    Case("diff {data}/a.png {data}/b.png -o {data}/link", 2, r"link-flip\.png: would be overwritten, and is read as '.*/a\.png'"),
+    Case(PANE.replace("render", "diff") + "--device cpu,cpu:reference --set background={data}/in-cpu-cpu_reference-flip.png -o {data}/in", 2,
+         r"in-cpu-cpu_reference-flip\.png: would be overwritten"),
+    Case(PANE + "--set background={data}/a.png -o {data}/a.png", 2, r"a\.png: would be overwritten, and is read as '.*/a\.png'; name another with -o"),
+    Case(PANE + "--set background={data}/a.png -o {data}/link-flip.png", 2, r"link-flip\.png: would be overwritten"),
+    Case(PANE.replace("--frame 1", "--frames 1-2") + "--set background={data}/in2.png -o {data}/in%d.png", 2, r"in2\.png: would be overwritten"),
+    Case(PANE.replace("--frame 1", "--frames 0-1") + "--set background={data}/in2.png -o {tmp}/in%d.png", 0, None, made=("in0.png", "in1.png")),
+    Case("shrink drops --device nonsense,cpu --set background={data}/a.png -o {data}/a.png", 2, r"a\.png: would be overwritten, and is read as"),
+    Case("shrink drops --device nonsense,cpu --set background={data}/in.files/a.png -o {data}/in", 2,
+         r"in\.files: would be overwritten, and is read from '.*/in\.files/a\.png'; name another case with -o"),
 
     # what is no file: nothing waits for it
     Case("gate cpu cpu --cells {data}/fifo.txt", 2, r"fifo\.txt: is not a regular file"),
@@ -456,6 +472,10 @@ def write_inputs(runner, data):
         with open(os.path.join(data, whole), "rb") as source, open(os.path.join(data, half), "wb") as file:
             content = source.read()
             file.write(content[:len(content) // 2])
+    os.mkdir(os.path.join(data, "in.files"))
+    for name in ("in-flip.png", "in-difference.png", "in-cpu-cpu_reference-flip.png", "in2.png", "in.files/a.png"):
+        shutil.copy(os.path.join(data, "a.png"), os.path.join(data, name))
+    os.symlink(os.path.join(data, "a.png"), os.path.join(data, "link-flip.png"))
     packaged = "/usr/share/open3d-gui/resources/crossroads_skybox.ktx"
     start = open(packaged, "rb").read(4096) if os.path.exists(packaged) else b"\xabKTX 11\xbb\r\n\x1a\n" + bytes(52)
     for name, content in (("short.ktx", start[:20]), ("half.ktx", start), ("short.exr", b"\x76\x2f\x31\x01\x02")):

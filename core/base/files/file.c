@@ -2,9 +2,13 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "core/base/log.h"
 
 static const char *judge(int fd)
 {
@@ -44,4 +48,23 @@ bool rg_file_is_same(const char *a, const char *b)
     struct stat of_a, of_b;
     return !strcmp(a, b) || (!stat(a, &of_a) && !stat(b, &of_b) && of_a.st_dev == of_b.st_dev &&
                              of_a.st_ino == of_b.st_ino);
+}
+
+bool rg_file_spares(const char *path, const char *read)
+{
+    return !read || !rg_file_is_same(path, read) ||
+           rg_error("%s: would be overwritten, and is read as '%s'; name another with -o", path,
+                    read);
+}
+
+bool rg_file_is_in(const char *path, const char *folder)
+{
+    char found[PATH_MAX];
+    struct stat st;
+    if (!realpath(path, found) || stat(found, &st))
+        return false;
+    char *slash = S_ISDIR(st.st_mode) ? NULL : strrchr(found, '/');
+    if (slash)
+        slash[slash == found] = 0;
+    return rg_file_is_same(found, folder);
 }

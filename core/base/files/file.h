@@ -14,5 +14,11 @@ FILE *rg_file_append(const char *path, const char **why);
 
 // Whether two paths are one file or folder. A link is what it leads to.
 bool rg_file_is_same(const char *a, const char *b);
+// Whether a file that is written would not replace one that is read; NULL: none is. False, and one
+// logged line.
+bool rg_file_spares(const char *path, const char *read);
+
+// Whether a path is this folder, or a file that lies in it.
+bool rg_file_is_in(const char *path, const char *folder);
 
 #endif

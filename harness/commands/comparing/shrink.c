@@ -11,6 +11,7 @@
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
 #include "core/base/text/plain.h"
+#include "harness/compare/shrink/files.h"
 #include "harness/compare/shrink/folder.h"
 #include "harness/compare/shrink/shrink.h"
 #include "harness/console/clock.h"
@@ -141,8 +142,10 @@ static int shrink(const void *values, const struct rg_words *arguments)
     if (!technique)
         return RG_EXIT_USAGE;
     const struct rg_subject subject = {technique, settings, o->size.width, o->size.height};
-    struct rg_devices devices;
-    int exit = rg_devices_open_asked(&o->devices, &devices);
+    struct rg_devices devices = {0};
+    int exit = rg_files_spared_by_case(&subject, o->output)
+                   ? rg_devices_open_asked(&o->devices, &devices)
+                   : RG_EXIT_USAGE;
     if (exit == RG_EXIT_PASS && devices.count != 2) {
         rg_error("--device %s: shrink takes two devices, the one in doubt first", o->devices.names);
         exit = RG_EXIT_USAGE;

@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "core/base/files/file.h"
 #include "core/base/log.h"
@@ -242,14 +241,7 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
 // it. False, and one logged line.
 static bool spares_stored(const struct table_options *o)
 {
-    char folder[PATH_MAX];
-    struct stat st;
-    if (!o->output || !realpath(o->from, folder) || stat(folder, &st))
-        return true; // what is not there is told where it is read
-    char *slash = S_ISDIR(st.st_mode) ? NULL : strrchr(folder, '/');
-    if (slash)
-        slash[slash == folder] = 0;
-    return !rg_file_is_same(folder, o->output) ||
+    return !o->output || !rg_file_is_in(o->from, o->output) ||
            rg_error("%s: holds what --from reads, which would be replaced; name another folder "
                     "with -o, or leave it out",
                     o->output);

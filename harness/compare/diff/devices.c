@@ -11,10 +11,13 @@
 #include "harness/compare/blame/blame.h"
 #include "harness/compare/diff/accepts.h"
 #include "harness/compare/diff/report.h"
+#include "harness/compare/shrink/files.h"
 #include "harness/console/exit.h"
 #include "harness/console/progress.h"
 #include "harness/devices/devices.h"
 #include "harness/frames/frame.h"
+
+enum { HEATMAP_PREFIX = 2500 };
 
 struct shot {
     struct rg_device *device;
@@ -90,17 +93,37 @@ static bool take_pictures(struct session *s, const struct rg_devices *devices)
 
 // "cpu:reference" and "gl" become PREFIX-cpu_reference-gl: what may steer a shell or name a folder
 // is left out.
-static bool write_heatmaps(const struct session *s, const struct shot *a, const struct shot *b,
-                           const struct rg_comparison *comparison)
+static void name_heatmaps(const struct session *s, const struct rg_device_info *a,
+                          const struct rg_device_info *b, char prefix[HEATMAP_PREFIX])
 {
-    char prefix[2500];
     int base = (int)strlen(s->asked->heatmap_prefix);
-    snprintf(prefix, sizeof(prefix), "%.1900s-%s-%s", s->asked->heatmap_prefix, a->info->name,
-             b->info->name);
+    snprintf(prefix, HEATMAP_PREFIX, "%.1900s-%s-%s", s->asked->heatmap_prefix, a->name, b->name);
     for (char *c = prefix + base; c < prefix + strlen(prefix); c++)
         if (!isalnum((unsigned char)*c) && !strchr("-.=", *c))
             *c = '_';
+}
+
+static bool write_heatmaps(const struct session *s, const struct shot *a, const struct shot *b,
+                           const struct rg_comparison *comparison)
+{
+    char prefix[HEATMAP_PREFIX];
+    name_heatmaps(s, a->info, b->info, prefix);
     return rg_pair_heatmaps(prefix, &a->picture, &b->picture, comparison);
+}
+
+// Whether the heat maps of no pair replace a file that settings name. False, and one logged line.
+static bool spare_files(const struct session *s, const struct rg_devices *devices)
+{
+    char prefix[HEATMAP_PREFIX], value[RG_PATH_SIZE];
+    bool spared = true;
+    for (int at = 0;
+         s->asked->heatmap_prefix && spared && rg_file_own_next(&s->asked->subject, &at, value);)
+        for (int i = 0; i < devices->count; i++)
+            for (int j = i + 1; spared && j < devices->count; j++) {
+                name_heatmaps(s, &devices->devices[i]->info, &devices->devices[j]->info, prefix);
+                spared = rg_pair_heatmaps_spare(prefix, value);
+            }
+    return spared;
 }
 
 static void print_pair(const struct shot *a, const struct shot *b, const struct rg_comparison *c,
@@ -222,7 +245,8 @@ int rg_diff_devices(const struct rg_diff_devices_request *request)
     if (exit == RG_EXIT_PASS && devices.count < 2) {
         rg_error("--device %s: a comparison takes two devices", request->devices->names);
         exit = RG_EXIT_USAGE;
-    } else if (exit == RG_EXIT_PASS && !has_room(request, devices.count)) {
+    } else if (exit == RG_EXIT_PASS &&
+               !(spare_files(s, &devices) && has_room(request, devices.count))) {
         exit = RG_EXIT_USAGE;
     } else if (exit == RG_EXIT_PASS) {
         exit = take_pictures(s, &devices) ? compare_all(s) : rg_exit_of_error();

@@ -22,7 +22,10 @@ int rg_diff_files(const struct rg_diff_request *request)
     struct rg_comparison comparison = {0};
     struct rg_compare_options options = request->options;
     options.hdr_flip = true;
-    bool good = rg_pair_heatmaps_can_be_written(request->heatmap_prefix, 0) &&
+    bool good = rg_pair_heatmaps_spare(request->heatmap_prefix, request->a) &&
+                rg_pair_heatmaps_spare(request->heatmap_prefix, request->b) &&
+                rg_pair_heatmaps_spare(request->heatmap_prefix, request->background) &&
+                rg_pair_heatmaps_can_be_written(request->heatmap_prefix, 0) &&
                 rg_pictures_read(paths, pictures, request->background ? 3 : 2) &&
                 rg_compare(&pictures[0], request->a, &pictures[1], request->b,
                            request->background ? &pictures[2] : NULL, &options, &comparison);

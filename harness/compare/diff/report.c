@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
+#include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "core/base/text/plain.h"
 #include "core/image/compare/heatmap.h"
@@ -218,6 +219,18 @@ bool rg_pair_heatmaps_can_be_written(const char *prefix, int64_t pixels)
     const bool good = !prefix || (path && rg_picture_can_be_written(path, pixels));
     free(path);
     return good;
+}
+
+bool rg_pair_heatmaps_spare(const char *prefix, const char *read)
+{
+    static const char *const names[] = {"flip", "difference"};
+    bool spared = true;
+    for (int i = 0; spared && prefix && i < 2; i++) {
+        char *path = heatmap_path(prefix, names[i]);
+        spared = path && rg_file_spares(path, read);
+        free(path);
+    }
+    return spared;
 }
 
 // Draws `values` and writes them as PREFIX-name.png.

@@ -21,6 +21,9 @@ bool rg_pairs_print_json(json_t *pairs, json_t *failures);
 // Whether heat maps of so many pixels together can be written there, as is found out before any
 // work; a prefix of NULL asks for none. False, and one logged line.
 bool rg_pair_heatmaps_can_be_written(const char *prefix, int64_t pixels);
+// Whether none of them would replace a file that is read; NULL: none is. False, and one logged
+// line.
+bool rg_pair_heatmaps_spare(const char *prefix, const char *read);
 // Writes PREFIX-flip.png and PREFIX-difference.png. False, and one logged line, on failure.
 bool rg_pair_heatmaps(const char *prefix, const struct rg_picture *a, const struct rg_picture *b,
                       const struct rg_comparison *comparison);

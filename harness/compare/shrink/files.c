@@ -8,6 +8,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/files/file.h"
+#include "core/base/log.h"
 #include "harness/record/output.h"
 
 enum { MOST_FILES = 8 };
@@ -16,6 +17,49 @@ bool rg_file_is_own(const char *value)
 {
     struct stat st;
     return strpbrk(value, "./") && !stat(value, &st) && S_ISREG(st.st_mode);
+}
+
+const struct rg_param *rg_file_own_next(const struct rg_subject *subject, int *at,
+                                        char value[RG_PATH_SIZE])
+{
+    const struct rg_param_table *table = subject->technique->params;
+    while (*at < table->count) {
+        const struct rg_param *param = &table->rows[(*at)++];
+        if (param->kind != RG_PARAM_FILE)
+            continue;
+        rg_params_text(param, subject->settings, value, RG_PATH_SIZE);
+        if (rg_file_is_own(value))
+            return param;
+    }
+    return NULL;
+}
+
+bool rg_files_spared_by(const struct rg_subject *subject, const char *output)
+{
+    char value[RG_PATH_SIZE];
+    bool spared = true;
+    for (int at = 0; spared && rg_file_own_next(subject, &at, value);)
+        spared = rg_file_spares(output, value);
+    return spared;
+}
+
+static bool is_spared_by_folder(const char *value, const char *path, const char *ending)
+{
+    char folder[RG_PATH_SIZE + 16];
+    snprintf(folder, sizeof(folder), "%.*s%s", RG_PATH_SIZE, path, ending);
+    return !rg_file_is_in(value, folder) ||
+           rg_error("%s: would be overwritten, and is read from '%s'; name another case with -o",
+                    folder, value);
+}
+
+bool rg_files_spared_by_case(const struct rg_subject *subject, const char *path)
+{
+    char value[RG_PATH_SIZE];
+    bool spared = rg_files_spared_by(subject, path);
+    for (int at = 0; spared && rg_file_own_next(subject, &at, value);)
+        spared = is_spared_by_folder(value, path, ".files") &&
+                 is_spared_by_folder(value, path, ".kernel");
+    return spared;
 }
 
 void rg_file_ending(const char *path, char *ending, size_t size)
@@ -61,16 +105,12 @@ static bool folder_of(const char *path, char *folder, size_t size)
 
 bool rg_files_send(const struct rg_subject *subject, const char *path)
 {
-    const struct rg_param_table *table = subject->technique->params;
+    const struct rg_param *param;
     struct rg_output_file files[MOST_FILES];
     char names[MOST_FILES][RG_FILE_NAME], folder[2048], value[RG_PATH_SIZE];
     int count = 0;
     bool ok = folder_of(path, folder, sizeof(folder));
-    for (int i = 0; ok && i < table->count && count < MOST_FILES; i++) {
-        const struct rg_param *param = &table->rows[i];
-        rg_params_text(param, subject->settings, value, sizeof(value));
-        if (param->kind != RG_PARAM_FILE || !rg_file_is_own(value))
-            continue;
+    for (int at = 0; ok && count < MOST_FILES && (param = rg_file_own_next(subject, &at, value));) {
         rg_file_sent_name(param, value, names[count]);
         files[count] = (struct rg_output_file){.name = names[count]};
         ok = (files[count].text = rg_file_load(value, &files[count].size)) != NULL;

@@ -12,6 +12,15 @@ void rg_file_ending(const char *path, char *ending, size_t size);
 // failure.
 char *rg_file_load(const char *path, size_t *size);
 
+// The next parameter that names such a file, from the place `at` in the technique's table on, which
+// is moved behind it; `value` gets the file. NULL: there is none.
+const struct rg_param *rg_file_own_next(const struct rg_subject *subject, int *at,
+                                        char value[RG_PATH_SIZE]);
+// Whether what is written there replaces none of them. False, and one logged line.
+bool rg_files_spared_by(const struct rg_subject *subject, const char *output);
+// The same of a case, of its folder of files and of its kernel's.
+bool rg_files_spared_by_case(const struct rg_subject *subject, const char *path);
+
 enum { RG_FILE_NAME = 96 };
 // What the file of a parameter is called beside a case: "lights_file.json".
 void rg_file_sent_name(const struct rg_param *param, const char *path, char name[RG_FILE_NAME]);
