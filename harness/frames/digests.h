@@ -29,7 +29,8 @@ struct rg_digests {
     struct rg_digest *rows; // owned
 };
 
-// Runs and records. False, and one logged line, on failure; to be freed in either case.
+// Runs and records; frames are left out once raingauge is interrupted. False, and one logged line,
+// on failure; to be freed in either case.
 bool rg_digests_take(const struct rg_digest_run *run, struct rg_device *device,
                      struct rg_digests *digests);
 void rg_digests_free(struct rg_digests *digests);

@@ -7,6 +7,7 @@
 #include "core/base/alloc.h"
 #include "core/base/array.h"
 #include "core/base/log.h"
+#include "harness/console/interrupt.h"
 
 // A run that is recorded.
 struct recorder {
@@ -108,7 +109,9 @@ static bool run_recorded(const struct rg_digest_run *run, struct rg_device *devi
         r->instance->after_stage = after_stage;
         r->instance->user = r;
     }
-    for (int i = 0; r->ok && i < run->frames; i++)
+    // What is asked for of one row or stage is brought also once raingauge is to end.
+    const bool may_end = r->wanted < 0 && !r->watched;
+    for (int i = 0; r->ok && i < run->frames && !(may_end && rg_interrupted()); i++)
         r->ok = technique->step(r->instance) && technique->draw(r->instance) && r->ok;
     rg_instance_close(r->instance);
     return r->ok;

@@ -15,6 +15,7 @@
 #include "harness/compare/shrink/folder.h"
 #include "harness/compare/shrink/shrink.h"
 #include "harness/console/clock.h"
+#include "harness/console/interrupt.h"
 #include "harness/record/output.h"
 
 struct shrink_options {
@@ -117,17 +118,18 @@ static int shrink_on(const struct rg_devices *devices, const struct rg_subject *
     struct rg_case found;
     struct rg_blame blame;
     int tried;
+    rg_interrupt_watch(); // so that the folder goes whatever ends the search
     if (!make_folder(folder, sizeof(folder)))
         return RG_EXIT_USAGE;
     int exit = rg_shrink_case(&request, &found, &blame, &tried);
-    if (exit == RG_EXIT_PASS) {
+    if (exit == RG_EXIT_PASS && !rg_interrupted()) {
         printf("%s\n%d runs tried\n", blame.text, tried);
         if (!write_found(&found, &blame, devices, o->output))
             exit = RG_EXIT_FAIL;
     }
     rg_case_free(&found);
     remove_folder(folder);
-    return exit;
+    return rg_interrupted() ? RG_EXIT_SIGNALLED + rg_interrupt_signal() : exit;
 }
 
 static int shrink(const void *values, const struct rg_words *arguments)

@@ -33,7 +33,7 @@ bool rg_blame_row(const struct rg_digest_run *run, struct rg_device *device,
                   const struct rg_digests *expected, struct rg_blame *blame);
 
 // Runs both until they differ, for one frame, then twice as many, up to all. False, with one logged
-// line, on failure.
+// line, on failure, and without one where raingauge is interrupted.
 bool rg_blame_find(const struct rg_digest_run *run, struct rg_device *device,
                    struct rg_device *truth, struct rg_blame *blame);
 

@@ -265,20 +265,22 @@ AT_WORK_S = 0.4
 
 
 def check_signals(runner):
-    """SIGINT and SIGTERM leave no temporary file of any command, and no worker"""
+    """SIGINT and SIGTERM leave no temporary file and no folder of any command, and no worker"""
     problems = []
     for (name, command), number in itertools.product(WRITING.items(), (signal.SIGINT, signal.SIGTERM)):
-        with tempfile.TemporaryDirectory() as out:
-            process = runner.start(command.format(out).split(), {"XDG_STATE_HOME": out})
+        with tempfile.TemporaryDirectory() as out, tempfile.TemporaryDirectory() as tried:
+            process = runner.start(command.format(out).split(), {"XDG_STATE_HOME": out, "TMPDIR": tried})
             time.sleep(AT_WORK_S)
             workers = workers_of(process.pid) if process.poll() is None else []
             process.send_signal(number)
-            process.communicate(timeout=LIMIT_S)
+            _, messages = process.communicate(timeout=LIMIT_S)
             left = [file for _, _, files in os.walk(out) for file in files if file.startswith(".") or ".tmp" in file]
+            left += os.listdir(tried)
             if left or not wait_for(lambda: not any(map(runs, workers))):
                 problems.append("%s, %s: %s" % (name, number.name, left or "a worker is left"))
-            if process.returncode not in (0, 1, 128 + number, -number):
-                problems.append("%s, %s: exit status %d" % (name, number.name, process.returncode))
+            wanted = (0, 1, 128 + number, -number) if name != "shrink" else (128 + number,)
+            if process.returncode not in wanted or (name == "shrink" and messages):
+                problems.append("%s, %s: exit status %d, %s" % (name, number.name, process.returncode, messages))
     return problems
 
 
