@@ -1,7 +1,9 @@
 #include "harness/commands/drawn.h"
 
+#include <limits.h>
 #include <stdio.h>
 
+#include "core/base/text/plain.h"
 #include "core/image/clip/clip.h"
 #include "harness/record/named.h"
 #include "harness/record/passport/passport.h"
@@ -33,9 +35,9 @@ void rg_drawn_print_json(const struct rg_drawn *d)
     rg_facts_copy(facts, a->facts, a->fact_count);
     rg_counters_copy(counters, a->counters, a->counter_count);
     json_t *json = json_pack(
-        "{sisosssssisisIsosososo}", "format", 1, "file", rg_json_text(d->path), "technique",
-        d->subject.technique->name, "device", d->on->name, "width", d->subject.width, "height",
-        d->subject.height, "frame", (json_int_t)a->frame, "settings",
+        "{sisosssosisisIsosososo}", "format", 1, "file", rg_json_text(d->path), "technique",
+        d->subject.technique->name, "device", rg_json_text(d->on->name), "width", d->subject.width,
+        "height", d->subject.height, "frame", (json_int_t)a->frame, "settings",
         settings_json(d->subject.technique, d->subject.settings), "facts",
         rg_named_json(facts, a->fact_count), "counters", rg_counts_json(counters, a->counter_count),
         "passport", rg_passport_json(d->on, 1));
@@ -61,11 +63,13 @@ static void frames_text(const struct rg_drawn *d, char *text, size_t size)
 void rg_drawn_print_text(const struct rg_drawn *d)
 {
     struct rg_named told[RG_MAX_FACTS];
-    char facts[RG_FACTS_TEXT], frames[64];
+    char facts[RG_FACTS_TEXT], frames[64], line[PATH_MAX + 2 * RG_FACTS_TEXT];
     rg_facts_copy(told, d->account.facts, d->account.fact_count);
     rg_named_text(told, d->account.fact_count, NULL, facts, sizeof(facts));
     frames_text(d, frames, sizeof(frames));
-    printf("%s: %s, %s, %dx%d, on %s (%s)%s%s\n", d->path, d->subject.technique->name, frames,
-           d->subject.width, d->subject.height, d->on->name, d->on->device, *facts ? "; " : "",
-           facts);
+    snprintf(line, sizeof(line), "%s: %s, %s, %dx%d, on %s (%s)%s%s", d->path,
+             d->subject.technique->name, frames, d->subject.width, d->subject.height, d->on->name,
+             d->on->device, *facts ? "; " : "", facts);
+    rg_plain(line);
+    printf("%s\n", line);
 }

@@ -13,6 +13,7 @@
 #include "harness/cli/subject.h"
 #include "harness/devices/devices.h"
 #include "harness/frames/figures/figures.h"
+#include "harness/record/named.h"
 #include "harness/tables/papers/papers.h"
 #include "harness/devices/workers/worker.h"
 
@@ -41,6 +42,14 @@ static const struct rg_option options[] = {
     {RG_OPTION_END},
 };
 
+// Prints a text, which may be a driver's, and nothing that steers a terminal.
+static void print_plain(int width, const char *text, const char *end)
+{
+    char plain[1024];
+    rg_text_copy(plain, sizeof(plain), text);
+    printf("%-*s%s", width, plain, end);
+}
+
 // Every listing is an array of objects; without --json, its fields are printed as columns.
 static void print_text(const json_t *rows, const char *const *fields)
 {
@@ -57,8 +66,9 @@ static void print_text(const json_t *rows, const char *const *fields)
     json_array_foreach(rows, i, row)
     {
         for (int f = 0; fields[f]; f++)
-            printf("%-*s%s", fields[f + 1] ? widths[f] : 0,
-                   json_string_value(json_object_get(row, fields[f])), fields[f + 1] ? "  " : "\n");
+            print_plain(fields[f + 1] ? widths[f] : 0,
+                        json_string_value(json_object_get(row, fields[f])),
+                        fields[f + 1] ? "  " : "\n");
     }
 }
 
@@ -102,9 +112,11 @@ static json_t *list_devices(int *exit)
         return rows;
     rg_devices_list(list);
     for (int i = 0; i < list->count; i++)
-        json_array_append_new(rows, json_pack("{ssssssss}", "name", list->infos[i].name, "api",
-                                              list->infos[i].api, "device", list->infos[i].device,
-                                              "driver", list->infos[i].driver));
+        json_array_append_new(rows,
+                              json_pack("{sosososo}", "name", rg_json_text(list->infos[i].name),
+                                        "api", rg_json_text(list->infos[i].api), "device",
+                                        rg_json_text(list->infos[i].device), "driver",
+                                        rg_json_text(list->infos[i].driver)));
     *exit = rg_devices_complain(list);
     free(list);
     return rows;

@@ -251,6 +251,28 @@ def check_render_json(runner):
     return problems
 
 
+FOREIGN = os.fsdecode(b"cpu@N=\xff\x1b[2J")  # no UTF-8, and what clears a terminal
+
+
+def check_foreign(runner):
+    """a device's name that is no UTF-8 has question marks in every machine form, and steers no terminal"""
+    problems, marked = [], "cpu@N=?\x1b[2J"
+    with tempfile.TemporaryDirectory() as tmp:
+        for args, named in ((RENDER + "-o %s/a.png" % tmp, lambda told: [told["device"], told["passport"]["devices"][0]["name"]]),
+                            (STAGES.replace("--device cpu ", ""), lambda told: [check["device"] for check in told["checks"]]),
+                            (DIFF.replace("--device cpu,cpu:reference ", ""), lambda told: [told["pairs"][0]["b"]]),
+                            (TABLE.replace("--device cpu ", ""), lambda told: [cell["device"] for cell in told["cells"]])):
+            both = "cpu:reference," if args.startswith("diff") else ""
+            done = runner.run(args.split() + ["--json", "--device", both + FOREIGN])
+            names = {name.replace("?[2J", "\x1b[2J") for name in named(json.loads(done.stdout or "null"))} if done.stdout.strip() else None
+            if done.returncode or done.stderr or names != {marked}:
+                problems.append("%s: exit status %d, named %s, %s" % (args, done.returncode, names, done.stderr))
+        text = runner.run(RENDER.split() + ["-o", tmp + "/a.png", "--device", FOREIGN.replace(os.fsdecode(b"\xff"), "y")])
+        if text.returncode or "on cpu@N=y?[2J (" not in text.stdout:
+            problems.append("text: %r %s" % (text.stdout, text.stderr))
+    return problems
+
+
 def check_table_files(runner):
     """table -o writes what table prints: csv of equal lines, balanced tex, an md table of equal columns"""
     problems = []
@@ -647,7 +669,7 @@ def check_threads(runner):
     return problems
 
 
-CHECKS = [check_textures, check_forms, check_table_json, check_table_files, check_render_json, check_diff_json, check_full_stdout,
+CHECKS = [check_textures, check_forms, check_table_json, check_table_files, check_render_json, check_diff_json, check_foreign, check_full_stdout,
           check_full_disk, check_long, check_threads]
 STORED = [check_claims_alone, check_interrupted, check_stored]
 

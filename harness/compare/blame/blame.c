@@ -6,6 +6,7 @@
 #include "backends/kernel.h"
 #include "core/base/log.h"
 #include "harness/console/interrupt.h"
+#include "harness/record/named.h"
 
 int rg_blame_first(const struct rg_digests *a, const struct rg_digests *b)
 {
@@ -147,12 +148,12 @@ json_t *rg_blame_json(const struct rg_blame *b)
     char hash[20], expected[20];
     snprintf(hash, sizeof(hash), "%016llx", (unsigned long long)b->first.hash);
     snprintf(expected, sizeof(expected), "%016llx", (unsigned long long)b->expected);
-    json_t *json = json_pack("{s:b, s:I, s:i, s:s, s:s, s:s, s:s, s:s, s:I, s:I, s:s}", "alone",
+    json_t *json = json_pack("{s:b, s:I, s:i, s:s, s:s, s:s, s:s, s:s, s:I, s:I, s:o}", "alone",
                              b->is_alone, "frame", (json_int_t)b->first.frame, "stages_run",
                              b->first.stages_run, "stage", b->first.stage, "asset", b->first.asset,
                              "class", rg_difference_name(b->difference), "digest", hash, "expected",
                              expected, "differing", (json_int_t)b->differing, "words",
-                             (json_int_t)b->words, "text", b->text);
+                             (json_int_t)b->words, "text", rg_json_text(b->text));
     if (json && b->is_image)
         json_object_set_new(json, "texel", json_pack("[iiii]", b->x, b->y, b->layer, b->level));
     else if (json)

@@ -7,6 +7,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/base/text/plain.h"
 #include "core/device/device.h"
 #include "harness/compare/blame/blame.h"
 #include "harness/compare/diff/accepts.h"
@@ -16,6 +17,7 @@
 #include "harness/console/progress.h"
 #include "harness/devices/devices.h"
 #include "harness/frames/frame.h"
+#include "harness/record/named.h"
 
 enum { HEATMAP_PREFIX = 2500 };
 
@@ -54,8 +56,9 @@ static void note_failure(struct session *s, const char *device, enum rg_outcome 
     if (outcome != RG_UNSUPPORTED)
         s->exit = rg_exit_worse(s->exit, rg_exit_of(outcome));
     if (s->failures)
-        json_array_append_new(s->failures, json_pack("{ssssss}", "device", device, "status",
-                                                     rg_outcome_name(outcome), "detail", why));
+        json_array_append_new(s->failures,
+                              json_pack("{sossso}", "device", rg_json_text(device), "status",
+                                        rg_outcome_name(outcome), "detail", rg_json_text(why)));
 }
 
 // Draws on a device. False where the first refuses the user's input, as every other would.
@@ -131,6 +134,7 @@ static void print_pair(const struct shot *a, const struct shot *b, const struct 
 {
     char pair[2 * RG_DEVICE_NAME_SIZE + 2];
     snprintf(pair, sizeof(pair), "%s, %s", a->info->name, b->info->name);
+    rg_plain(pair);
     printf("%-30s %-5s %-5s %10lld %6d/255 %8lld %9.6f %8.4g\n", pair, holds ? "ok" : "fail",
            c->tier, (long long)c->metrics.differing_values, c->tiers.max_codes,
            (long long)c->tiers.mask_pixels, c->flip.mean, c->metrics.psnr_db);
@@ -165,6 +169,14 @@ static json_t *blame_pair(struct session *s, const struct shot *a, const struct 
     return NULL;
 }
 
+static json_t *pair_json(const struct shot *a, const struct shot *b, const struct rg_comparison *c)
+{
+    char names[2][RG_DEVICE_NAME_SIZE];
+    rg_text_copy(names[0], RG_DEVICE_NAME_SIZE, a->info->name);
+    rg_text_copy(names[1], RG_DEVICE_NAME_SIZE, b->info->name);
+    return rg_pair_json(names[0], names[1], c);
+}
+
 static int compare_pair(struct session *s, const struct shot *a, const struct shot *b)
 {
     struct rg_comparison c;
@@ -174,7 +186,7 @@ static int compare_pair(struct session *s, const struct shot *a, const struct sh
     s->compared++;
     const bool holds = c.tiers.of[rg_tier_owed(a->info, b->info)].holds;
     bool ok = true;
-    json_t *pair = s->pairs ? rg_pair_json(a->info->name, b->info->name, &c) : NULL;
+    json_t *pair = s->pairs ? pair_json(a, b, &c) : NULL;
     if (!s->pairs)
         print_pair(a, b, &c, holds);
     json_t *blame = holds ? NULL : blame_pair(s, a, b);

@@ -9,6 +9,7 @@
 #include "core/base/array.h"
 #include "core/base/log.h"
 #include "harness/console/exit.h"
+#include "harness/record/named.h"
 
 void rg_checks_add(struct rg_checks *checks, const char *technique, const char *check,
                    const char *device, enum rg_outcome status, const char *format, ...)
@@ -43,9 +44,10 @@ static void print_json(const struct rg_checks *checks)
     json_t *rows = json_array();
     for (int i = 0; i < checks->count; i++) {
         const struct rg_check *row = &checks->rows[i];
-        json_array_append_new(rows, json_pack("{ssssssssss}", "technique", row->technique, "check",
-                                              row->check, "device", row->device, "status",
-                                              rg_outcome_name(row->status), "detail", row->detail));
+        json_array_append_new(rows, json_pack("{sssssossso}", "technique", row->technique, "check",
+                                              row->check, "device", rg_json_text(row->device),
+                                              "status", rg_outcome_name(row->status), "detail",
+                                              rg_json_text(row->detail)));
     }
     json_t *root = json_pack("{siso}", "format", 1, "checks", rows);
     json_dumpf(root, stdout, JSON_INDENT(2));

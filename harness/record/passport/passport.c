@@ -59,9 +59,9 @@ static json_t *build(void)
 
 json_t *rg_passport_device(const struct rg_device_info *info)
 {
-    return json_pack("{sssosososb}", "name", info->name, "api", rg_json_text(info->api), "device",
-                     rg_json_text(info->device), "driver", rg_json_text(info->driver), "software",
-                     info->software);
+    return json_pack("{sososososb}", "name", rg_json_text(info->name), "api",
+                     rg_json_text(info->api), "device", rg_json_text(info->device), "driver",
+                     rg_json_text(info->driver), "software", info->software);
 }
 
 json_t *rg_passport_json(const struct rg_device_info *infos, int count)

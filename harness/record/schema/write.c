@@ -65,9 +65,9 @@ static json_t *error_json(const struct rg_truth_error *error)
 static json_t *cell_json(const struct rg_result *result, struct rg_place at)
 {
     const struct rg_record *record = rg_result_at(result, at);
-    json_t *json = json_pack("{sosisossss}", "row", rg_named_json(record->row, record->row_count),
+    json_t *json = json_pack("{sosisososs}", "row", rg_named_json(record->row, record->row_count),
                              "row_number", at.row + 1, "set", rg_json_text(record->set), "device",
-                             record->device.name, "variant", record->variant);
+                             rg_json_text(record->device.name), "variant", record->variant);
     if (*record->work)
         json_object_set_new(json, "work", json_string(record->work));
     json_object_set_new(json, "status", json_string(rg_outcome_name(record->outcome)));

@@ -200,8 +200,8 @@ static json_t *trend_json(const struct rg_result *result, struct rg_place of)
     const bool known = s.verdict < RG_TREND_UNKNOWN;
     const double slope = known && !s.has_slope ? NAN : s.slope;
     const double published = known && !s.has_slope ? NAN : s.published_slope;
-    json_t *json = json_pack("{ssss}", "device", result->devices[of.device].name, "variant",
-                             result->variants[of.variant]);
+    json_t *json = json_pack("{soss}", "device", rg_json_text(result->devices[of.device].name),
+                             "variant", result->variants[of.variant]);
     if (result->work_count)
         json_object_set_new(json, "work", json_string(result->works[of.work].name));
     if (s.has_slope) {
