@@ -11,6 +11,7 @@
 
 #include "core/base/files/user.h"
 #include "core/base/log.h"
+#include "core/image/files/temporary.h"
 #include "core/scene/atlas/levels.h"
 #include "core/scene/atlas/sample.h"
 
@@ -149,20 +150,18 @@ static bool write_all(FILE *file, const struct rg_atlas *atlas)
 
 bool rg_atlas_cache_write(const struct rg_atlas *atlas, char why[256])
 {
-    char path[RG_ATLAS_PATH_SIZE], temporary[RG_ATLAS_PATH_SIZE + 16];
+    char path[RG_ATLAS_PATH_SIZE];
+    struct rg_temporary temporary;
+    struct rg_why error;
     if (!rg_atlas_cache_path(atlas->size, path, why) || !rg_user_make_folders(path, why))
         return false;
-    snprintf(temporary, sizeof(temporary), "%s.XXXXXX", path);
-    const int fd = mkstemp(temporary);
-    if (fd < 0)
-        return because(why, "%.200s: %s", path, strerror(errno));
-    FILE *file = fdopen(fd, "wb");
+    if (!rg_temporary_make(path, &temporary, &error))
+        return because(why, "%.200s: %s", path, error.text);
+    FILE *file = fopen(temporary.path, "wb");
     bool good = file && write_all(file, atlas);
-    good = (file ? fclose(file) : close(fd)) == 0 && good;
-    good = good && rename(temporary, path) == 0;
-    if (good)
-        return true;
-    because(why, "%.200s: %s", path, strerror(errno));
-    unlink(temporary);
-    return false;
+    good = file && fclose(file) == 0 && good;
+    if (!good)
+        rg_why_set(&error, "%s", strerror(errno));
+    return rg_temporary_end(&temporary, good, &error) ||
+           because(why, "%.200s: %s", path, error.text);
 }

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
@@ -212,6 +213,41 @@ static void test_full_disk(void **state)
     rg_atlas_destroy(atlas);
 }
 
+static int files_beside(void)
+{
+    char name[RG_ATLAS_PATH_SIZE];
+    int count = 0;
+    snprintf(name, sizeof(name), "%s/raingauge", folder);
+    DIR *open = opendir(name);
+    assert_non_null(open);
+    for (const struct dirent *entry; (entry = readdir(open));)
+        count += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
+    closedir(open);
+    return count;
+}
+
+// What ends a process while it writes leaves nothing beside what was there.
+static void test_killed(void **state)
+{
+    (void)state;
+    write_atlas(8);
+    struct rg_atlas *atlas = make(9);
+    const pid_t writer = fork();
+    assert_true(writer >= 0);
+    if (!writer) {
+        const struct rlimit none = {0, 0}, small = {1000000, 1000000};
+        signal(SIGXFSZ, SIG_DFL);
+        _exit(setrlimit(RLIMIT_CORE, &none) || setrlimit(RLIMIT_FSIZE, &small) ||
+              rg_atlas_cache_write(atlas, why));
+    }
+    int status;
+    assert_int_equal(waitpid(writer, &status, 0), writer);
+    assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ);
+    assert_int_equal(files_beside(), 1);
+    expect_state(RG_ATLAS_SOUND);
+    rg_atlas_destroy(atlas);
+}
+
 static void test_where(void **state)
 {
     (void)state;
@@ -279,10 +315,15 @@ static void test_unpacked_database(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip),      cmocka_unit_test(test_flipped_bits),
-        cmocka_unit_test(test_wrong_lengths),   cmocka_unit_test(test_other_things),
-        cmocka_unit_test(test_full_disk),       cmocka_unit_test(test_where),
-        cmocka_unit_test(test_writers_at_once), cmocka_unit_test(test_unpacked_database),
+        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_flipped_bits),
+        cmocka_unit_test(test_wrong_lengths),
+        cmocka_unit_test(test_other_things),
+        cmocka_unit_test(test_full_disk),
+        cmocka_unit_test(test_where),
+        cmocka_unit_test(test_killed),
+        cmocka_unit_test(test_writers_at_once),
+        cmocka_unit_test(test_unpacked_database),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
