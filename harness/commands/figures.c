@@ -7,6 +7,7 @@
 #include "harness/cli/shared.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/devices.h"
+#include "harness/devices/names.h"
 #include "harness/frames/figures/figures.h"
 
 struct figures_options {
@@ -64,7 +65,7 @@ static int figures_command(const void *values, const struct rg_words *arguments)
     const int count = choose(arguments, figures);
     struct rg_devices devices;
     rg_memory_allow(o->memory_bytes);
-    if (!count)
+    if (!count || !rg_device_names_one(o->device, "figures"))
         return RG_EXIT_USAGE;
     int exit = rg_devices_open_asked(
         &(struct rg_devices_asked){.names = o->device, .timeout_s = o->timeout_s}, &devices);

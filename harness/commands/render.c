@@ -170,17 +170,6 @@ static int render_on(struct rg_device *device, const struct rg_technique *techni
     return told ? RG_EXIT_PASS : rg_exit_of_error();
 }
 
-static bool names_one_device(const char *names)
-{
-    struct rg_device_name name;
-    const char *rest = names;
-    if (!rg_device_name_read(&rest, &name))
-        return false;
-    return (strcmp(names, "all") != 0 && !*rest) ||
-           rg_error("--device %s: render draws on one device; `raingauge diff` compares several",
-                    names);
-}
-
 static int replay(const struct render_options *o)
 {
     struct rg_case found;
@@ -201,7 +190,7 @@ static int render(const void *values, const struct rg_words *arguments)
     const struct render_options *o = values;
     void *settings;
     rg_memory_allow(o->memory_bytes);
-    if (!names_one_device(o->device) || !check_output(o))
+    if (!rg_device_names_one(o->device, "render") || !check_output(o))
         return RG_EXIT_USAGE;
     if (o->replayed && !arguments->count)
         return replay(o);

@@ -107,6 +107,17 @@ bool rg_device_names_check(const char *names)
     return true;
 }
 
+bool rg_device_names_one(const char *names, const char *command)
+{
+    struct rg_device_name name;
+    const char *rest = names;
+    if (!rg_device_name_read(&rest, &name))
+        return false;
+    return (strcmp(names, "all") != 0 && !*rest) ||
+           rg_error("--device %s: %s draws on one device; `raingauge diff` compares several", names,
+                    command);
+}
+
 // Writes a value between double quotes, two for each of its own; at most `size` bytes.
 static size_t quote_value(const char *value, char *to, size_t size)
 {

@@ -19,6 +19,9 @@ struct rg_device_name {
 // Whether all names are such forms; else one line has been logged.
 bool rg_device_names_check(const char *names);
 
+// Whether it is the name of one device, on which a command draws. False, and one logged line.
+bool rg_device_names_one(const char *names, const char *command);
+
 // Reads the first of several names, which commas separate, and moves `*names` behind it and the
 // comma. False, and one logged line, where it is empty, too long or no such form.
 bool rg_device_name_read(const char **names, struct rg_device_name *name);

@@ -92,6 +92,9 @@ COMMANDS = [
     Case(RENDER + "--exposure= -o {tmp}/a.png", 2, r"--exposure : invalid numeric value"),
     Case(RENDER + "--device cpu,,, -o {tmp}/a.png", 2, r"--device cpu,,,: render draws on one device"),
 
+    Case("figures creus-4.1 --device cpu,cpu:reference -o {tmp}/a", 2, r"--device cpu,cpu:reference: figures draws on one device; `raingauge diff`"),
+    Case("figures creus-4.1 --device all -o {tmp}/a", 2, r"--device all: figures draws on one device"),
+
     # values that are empty
     Case("diff flow --device cpu,cpu:reference --output=", 2, r"--output '': is empty"),
     Case("shrink flow --device cpu,cpu:reference --output=", 2, r"--output '': is empty"),
