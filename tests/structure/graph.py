@@ -14,6 +14,7 @@ order.py which way includes go.
 """
 import argparse
 import os
+import re
 import sys
 
 sys.dont_write_bytecode = True  # the sources' folder stays as it is
@@ -21,7 +22,7 @@ sys.dont_write_bytecode = True  # the sources' folder stays as it is
 import draw
 from order import Order
 from rooms import LIMIT, rooms
-from tree import Tree, circles
+from tree import Tree, circles, files
 
 HERE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
@@ -40,12 +41,25 @@ def unrooted(tree):
             for path, name, target in tree.includes if target not in (name, name + ".in")]
 
 
+def absent(tree):
+    """What lists of files in the builds' descriptions name and is not there: a build that is seldom made would rot."""
+    lines = []
+    for path in ["meson.build"] + files(tree.root, re.compile(r"^meson\.build$")):
+        folder = os.path.dirname(path)
+        with open(os.path.join(tree.root, path), encoding="utf-8") as file:
+            text = re.sub(r"#[^\n]*", "", file.read())
+        names = [name for inner in re.findall(r"\bfiles\(([^()]*)\)", text) for name in re.findall(r"'([^']+)'", inner)]
+        names = [name for name in names if not re.match(r"\.\w", name)]  # an ending, behind a variable
+        lines += [f"{path}: {name}: is not there" for name in names if not os.path.exists(os.path.join(tree.root, folder, name))]
+    return lines
+
+
 def wrong(tree, order):
     """All that the structure must not be, a line each."""
     lines = circle_lines(tree.uses()) + circle_lines(draw.folder_graph(tree))
     lines += [f"{path} includes {target}: {why}" for path, target, why in order.upwards()]
     lines += [f"{path} uses {name}: only {folder} may" for path, name, folder in order.torn()]
-    lines += unrooted(tree) + order.stale()
+    lines += unrooted(tree) + order.stale() + absent(tree)
     lines += [f"{folder}: {len(names)} rooms, more than {LIMIT}: {' '.join(names)}"
               for folder, (_, names) in sorted(rooms(tree).items()) if len(names) > LIMIT]
     return lines
@@ -60,8 +74,8 @@ def print_counts(tree, order):
     print(f"circles of folders {len(circles(draw.folder_graph(tree)))}")
     print(f"rooms a folder, at most {LIMIT}; the largest, with their files:")
     largest = sorted(rooms(tree).items(), key=lambda row: (-len(row[1][1]), row[0]))
-    for folder, (files, names) in largest[:8]:
-        print(f"  {folder:<28} {len(names):3} {files:4}")
+    for folder, (sources, names) in largest[:8]:
+        print(f"  {folder:<28} {len(names):3} {sources:4}")
 
 
 def main():
