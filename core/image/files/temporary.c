@@ -3,6 +3,8 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,6 +41,54 @@ static void name_beside(const char *target, int attempt, char *name, size_t size
              (long)getpid(), attempt);
 }
 
+// --- names that go with the process ---
+
+// Files that have a name while they are written. NULL: a free place.
+static _Atomic(const struct rg_temporary *) named[MAX_NAMES];
+static pid_t owner; // a process that is forked meanwhile leaves them alone
+
+static void end_without(int number)
+{
+    for (int i = 0; i < MAX_NAMES && getpid() == owner; i++) {
+        const struct rg_temporary *t = atomic_load(&named[i]);
+        if (t)
+            unlink(t->path);
+    }
+    signal(number, SIG_DFL);
+    raise(number); // it comes when this ends
+}
+
+// Signals that are ignored, or that a command notes, stay so.
+static void watch(int number)
+{
+    struct sigaction action;
+    if (sigaction(number, NULL, &action) || action.sa_handler != SIG_DFL)
+        return;
+    action = (struct sigaction){.sa_handler = end_without};
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, NULL);
+}
+
+static void remember(const struct rg_temporary *t)
+{
+    owner = getpid();
+    for (int i = 0; i < MAX_NAMES; i++) {
+        const struct rg_temporary *none = NULL;
+        if (atomic_compare_exchange_strong(&named[i], &none, t))
+            break;
+    }
+    watch(SIGINT);
+    watch(SIGTERM);
+}
+
+static void forget(const struct rg_temporary *t)
+{
+    for (int i = 0; i < MAX_NAMES; i++) {
+        const struct rg_temporary *it = t;
+        atomic_compare_exchange_strong(&named[i], &it, NULL);
+    }
+}
+
 // --- making it ---
 
 static bool is_unknown_here(int error)
@@ -72,7 +122,10 @@ static int open_named(struct rg_temporary *t)
         if (t->fd < 0 && errno != EEXIST)
             break;
     }
-    return t->fd < 0 ? errno : 0;
+    if (t->fd < 0)
+        return errno;
+    remember(t);
+    return 0;
 }
 
 bool rg_temporary_make(const char *path, struct rg_temporary *temporary, struct rg_why *why)
@@ -123,6 +176,8 @@ bool rg_temporary_end(struct rg_temporary *temporary, bool written, struct rg_wh
         rg_why_set(why, "cannot be put in place: %s", strerror(errno));
     if (!placed && temporary->is_named)
         unlink(temporary->path);
+    if (temporary->is_named)
+        forget(temporary);
     close(temporary->fd);
     return placed;
 }

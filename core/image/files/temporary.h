@@ -1,8 +1,9 @@
 // The file that a result is written to before it is whole.
 //
 // It has no name while it is written, where the file system knows such files: whatever ends the
-// program leaves nothing behind. A link is followed, as a shell's redirection does, and what stands
-// there read-only is refused.
+// program leaves nothing behind. Where it has one, SIGINT and SIGTERM remove it: a temporary stays
+// where it is in memory until it ends. A link is followed, as a shell's redirection does, and what
+// stands there read-only is refused.
 #ifndef RG_CORE_IMAGE_FILES_TEMPORARY_H
 #define RG_CORE_IMAGE_FILES_TEMPORARY_H
 

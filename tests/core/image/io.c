@@ -1,4 +1,5 @@
 // Picture files: round trips, and one line for everything that can be wrong with them.
+#define _GNU_SOURCE // unshare
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,7 +10,9 @@
 #include <fcntl.h>
 #include <png.h>
 #include <signal.h>
+#include <sched.h>
 #include <stdio.h>
+#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -427,6 +430,39 @@ static void write_signed_cmyk(const char *name)
     write_bytes(name, file, sizeof(file));
 }
 
+// Without /proc a file has a name while it is written.
+static bool hide_proc(void)
+{
+    return !unshare(CLONE_NEWUSER | CLONE_NEWNS) && !mount("none", "/proc", "tmpfs", 0, NULL);
+}
+
+// Such a file goes with the signals that ask to end.
+static void a_signal_takes_the_name(void **state)
+{
+    (void)state;
+    static const int signals[] = {SIGINT, SIGTERM};
+    for (int i = 0; i < 2; i++) {
+        int status = 0;
+        const pid_t child = fork();
+        if (child == 0) {
+            struct rg_why why;
+            struct rg_temporary temporary;
+            signal(signals[i], SIG_DFL);
+            if (!hide_proc())
+                _exit(77);
+            if (rg_temporary_make(path_of("new.png"), &temporary, &why) && temporary.is_named &&
+                files_in_folder() == 1)
+                raise(signals[i]);
+            _exit(1);
+        }
+        assert_int_equal(waitpid(child, &status, 0), child);
+        if (WIFEXITED(status) && WEXITSTATUS(status) == 77)
+            skip(); // no file system may be mounted here
+        assert_true(WIFSIGNALED(status) && WTERMSIG(status) == signals[i]);
+        assert_int_equal(files_in_folder(), 0);
+    }
+}
+
 // Whatever ends the program while it writes, nothing is left, and what was there stays.
 static void a_signal_leaves_nothing(void **state)
 {
@@ -561,6 +597,7 @@ int main(void)
         cmocka_unit_test(what_cannot_be_written_leaves_nothing),
         cmocka_unit_test(a_full_disk_leaves_the_old_file),
         cmocka_unit_test(a_signal_leaves_nothing),
+        cmocka_unit_test(a_signal_takes_the_name),
         cmocka_unit_test(a_link_is_followed),
         cmocka_unit_test(a_full_disk_is_noticed_at_the_close),
         cmocka_unit_test(a_crash_of_the_library_is_one_line),
