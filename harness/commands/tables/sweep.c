@@ -144,7 +144,8 @@ static int run_grid(struct rg_grid *grid, const struct sweep_options *o,
     int exit = RG_EXIT_USAGE;
     const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
     if (technique && read_axes(&o->axes, grid, &names) && rg_grid_make(grid, technique) &&
-        rg_sets_join(&o->sets, &set)) {
+        rg_sets_join(&o->sets, &set) &&
+        rg_grid_keeps_axes(grid, technique, o->sets.items, o->sets.count)) {
         grid->table.width = o->size.width;
         grid->table.height = o->size.height;
         grid->table.check_frames = o->frame;

@@ -108,3 +108,52 @@ bool rg_grid_make(struct rg_grid *grid, const struct rg_technique *technique)
         ok = make_row(grid, technique, row);
     return ok;
 }
+
+// The axis that differs in two settings; NULL where none does.
+static const struct rg_axis *differing_axis(const struct rg_grid *grid,
+                                            const struct rg_technique *technique,
+                                            const void *settings, const void *others)
+{
+    char text[RG_PATH_SIZE], other[RG_PATH_SIZE];
+    for (int i = 0; i < grid->axis_count; i++) {
+        rg_params_text(param_of(technique, &grid->axes[i]), settings, text, sizeof(text));
+        rg_params_text(param_of(technique, &grid->axes[i]), others, other, sizeof(other));
+        if (strcmp(text, other) != 0)
+            return &grid->axes[i];
+    }
+    return NULL;
+}
+
+// Sets are over a row's own settings, and one may stand for others, as a preset does.
+static bool keeps_row(const struct rg_grid *grid, const struct rg_technique *technique,
+                      const void *settings, const char *const *sets, int count)
+{
+    for (int i = 0; i < count; i++) {
+        void *changed = rg_settings_copy(technique, settings, sets[i]);
+        const struct rg_axis *axis =
+            changed ? differing_axis(grid, technique, settings, changed) : NULL;
+        const bool ok = changed && !axis;
+        free(changed);
+        if (axis)
+            return rg_error("--axis %s: --set %s would give all its rows one value; leave one of "
+                            "the two out",
+                            axis->name, sets[i]);
+        if (!ok)
+            return false;
+    }
+    return true;
+}
+
+bool rg_grid_keeps_axes(const struct rg_grid *grid, const struct rg_technique *technique,
+                        const char *const *sets, int count)
+{
+    void *defaults = rg_settings_create(technique);
+    bool ok = defaults;
+    for (int row = 0; ok && row < grid->table.row_count; row++) {
+        void *settings = rg_settings_copy(technique, defaults, grid->sets[row]);
+        ok = settings && keeps_row(grid, technique, settings, sets, count);
+        free(settings);
+    }
+    free(defaults);
+    return ok;
+}

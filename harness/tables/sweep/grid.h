@@ -20,5 +20,10 @@ struct rg_grid {
 // be settings that the technique takes. False, and one logged line, where there are too many, or
 // one is refused.
 bool rg_grid_make(struct rg_grid *grid, const struct rg_technique *technique);
+// Whether each row of a grid that is made keeps its values of the axes under these "key=value",
+// which are over all rows. False, and one logged line, where one changes an axis, by itself or as a
+// preset.
+bool rg_grid_keeps_axes(const struct rg_grid *grid, const struct rg_technique *technique,
+                        const char *const *sets, int count);
 
 #endif
