@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/techniques/technique.h"
 #include "harness/console/colour.h"
 #include "harness/console/sheet.h"
 #include "harness/tables/sheet/below.h"
@@ -47,6 +48,14 @@ static bool tells_rows_apart(const struct rg_result *result, struct rg_place of,
     return differs || (!value && (*first->row[0].text || result->first_row == result->last_row));
 }
 
+// The unit of a parameter; NULL: it is none.
+static const char *unit_of(const struct rg_result *result, const char *name)
+{
+    const struct rg_technique *technique = rg_technique_find(result->technique);
+    const struct rg_param *param = technique ? rg_params_find(technique->params, name) : NULL;
+    return param ? param->unit : NULL;
+}
+
 static void add_row_columns(const struct rg_result *result, struct rg_place of,
                             struct rg_sheet *sheet, struct columns *at)
 {
@@ -56,7 +65,8 @@ static void add_row_columns(const struct rg_result *result, struct rg_place of,
         char heading[RG_SHEET_CELL];
         if (!tells_rows_apart(result, of, i))
             continue;
-        rg_digits_heading(first->row[i].name, heading, sizeof(heading));
+        rg_digits_heading(first->row[i].name, unit_of(result, first->row[i].name), heading,
+                          sizeof(heading));
         at->row[i] = rg_sheet_column(sheet, "%s", heading);
         any = true;
     }

@@ -184,16 +184,25 @@ static void numbers_have_two_or_three_digits(void **state)
 static void headings_have_units(void **state)
 {
     (void)state;
-    static const char *const cases[][2] = {{"culling_radius_m", "culling radius, m"},
-                                           {"cell_mm", "cell, mm"},
-                                           {"texture_px", "texture, px"},
-                                           {"particles_per_s", "particles, 1/s"},
-                                           {"lights", "lights"},
-                                           {"s", "s"}};
+    static const char *const cases[][3] = {{"culling_radius_m", NULL, "culling radius, m"},
+                                           {"cell_mm", NULL, "cell, mm"},
+                                           {"texture_px", NULL, "texture, px"},
+                                           {"particles_per_s", NULL, "particles, 1/s"},
+                                           {"lights", NULL, "lights"},
+                                           {"s", NULL, "s"},
+                                           {"drops_m2_s", "1/(m2 s)", "drops, 1/(m2 s)"},
+                                           {"fall_speed_m_s", "m/s", "fall speed, m/s"},
+                                           {"rain_drops_s", "1/s", "rain drops, 1/s"},
+                                           {"drag_1_m", "1/m", "drag, 1/m"},
+                                           {"spin_deg", "deg/frame", "spin, deg/frame"},
+                                           {"spin_yaw_deg_s", "deg/s", "spin yaw, deg/s"},
+                                           {"memory_mb", "MB", "memory, MB"},
+                                           {"move_threshold", "height", "move threshold, height"},
+                                           {"rays_px", "1", "rays px"}};
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         char text[64];
-        rg_digits_heading(cases[i][0], text, sizeof(text));
-        assert_string_equal(text, cases[i][1]);
+        rg_digits_heading(cases[i][0], cases[i][1], text, sizeof(text));
+        assert_string_equal(text, cases[i][2]);
     }
 }
 
