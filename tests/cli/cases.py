@@ -404,6 +404,8 @@ TABLES = [
     Case("sweep flow --axis seed=1,2..9 --axis drops=1,2..9", 2, r"--axis: 81 rows are more than 64; leave some values out"),
     Case("sweep flow --axis seed=1 --axis device=cpu --axis device=gl", 2, r"--axis device: stands twice; name all devices at once"),
     Case("sweep flow --axis seed=1 --axis device=nonsense", 2, UNKNOWN_DEVICE),
+    Case("sweep flow --axis seed=1,2 --dry-run --set environment=" + 1012 * "a", 2, r"--set: 1024 bytes in all; a table takes at most 1023"),
+    Case("table stuppacher-2 --device cpu --set environment=" + 1012 * "a", 2, r"--set: 1024 bytes in all; a table takes at most 1023"),
     Case("sweep flow --axis drops=10,100 --set drops=5 --dry-run", 2, r"--axis drops: --set drops=5 would give .*; leave one of the two out"),
     Case("sweep streaks --axis splash_fade=0,0.25 --set seed=2 --set look=thesis --dry-run", 2, r"--axis splash_fade: --set look=thesis would give"),
     Case("table --budget soon", 2, r"--budget 'soon': is no time; write it as 90s, 4m or 1h"),

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "harness/record/record.h"
 
 bool rg_sets_join(const struct rg_words *words, char **text)
 {
@@ -18,5 +19,12 @@ bool rg_sets_join(const struct rg_words *words, char **text)
     FILE *out = open_memstream(text, &size);
     for (int i = 0; out && i < words->count; i++)
         fprintf(out, "%s%s", i ? " " : "", words->items[i]);
-    return (out && fclose(out) == 0) || rg_error("--set: no memory");
+    if (!out || fclose(out) != 0)
+        return rg_error("--set: no memory");
+    // A record holds no more, and one that was cut would name other settings.
+    if (size < RG_SET_SIZE)
+        return true;
+    free(*text);
+    *text = NULL;
+    return rg_error("--set: %zu bytes in all; a table takes at most %d", size, RG_SET_SIZE - 1);
 }

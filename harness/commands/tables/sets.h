@@ -5,7 +5,8 @@
 #include "harness/cli/option.h"
 
 // The words as one text with spaces between them, which the caller frees; NULL without any. False,
-// and one logged line, where one has a space of its own, or without memory.
+// and one logged line, where one has a space of its own, all are more than a record holds, or
+// without memory.
 bool rg_sets_join(const struct rg_words *words, char **text);
 
 #endif
