@@ -34,12 +34,27 @@ static bool is_same_number(const struct rg_named *a, const struct rg_named *b)
     return *a->text || *b->text ? !strcmp(a->text, b->text) : a->number == b->number;
 }
 
-// Whether a value tells a row from others. Choices beside a name say again what that says.
+// Whether no two rows have the same first value, as where it is their name.
+static bool first_value_tells_all(const struct rg_result *result, struct rg_place of)
+{
+    struct rg_place other = of;
+    for (of.row = result->first_row; of.row <= result->last_row; of.row++)
+        for (other.row = result->first_row; other.row < of.row; other.row++)
+            if (rg_result_has(result, of.row) && rg_result_has(result, other.row) &&
+                is_same_number(&rg_result_at(result, of)->row[0],
+                               &rg_result_at(result, other)->row[0]))
+                return false;
+    return true;
+}
+
+// Whether a value tells a row from others. Choices beside the name of a paper's row say again what
+// that says; a sweep's rows have other choices under one name.
 static bool tells_rows_apart(const struct rg_result *result, struct rg_place of, int value)
 {
     const struct rg_record *first = first_of(result, of);
     bool differs = false;
-    if (value && *first->row[0].text && *first->row[value].text)
+    if (value && *first->row[0].text && *first->row[value].text &&
+        first_value_tells_all(result, of))
         return false;
     for (of.row = result->first_row; of.row <= result->last_row; of.row++)
         differs =

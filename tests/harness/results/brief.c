@@ -149,6 +149,24 @@ static void claims_and_five_lines_stand_below(void **state)
     rg_result_free(&result);
 }
 
+// Of two axes of choices each has its column.
+static void choices_tell_rows_apart(void **state)
+{
+    (void)state;
+    static const char *const times[] = {"day", "day", "night", "night"};
+    struct rg_result result;
+    make(&result);
+    for (struct rg_place at = rg_result_start(&result); rg_result_next(&result, &at);) {
+        struct rg_record *record = rg_result_at(&result, at);
+        rg_named_set_text(&record->row[0], "time", times[at.row]);
+        rg_named_set_text(&record->row[1], "geometry", at.row % 2 ? "off" : "on");
+        record->row_count = 2;
+    }
+    expect(print(&result), "|  time | geometry |");
+    expect(print(&result), "| night |      off |");
+    rg_result_free(&result);
+}
+
 static void changed_settings_have_no_ratio(void **state)
 {
     (void)state;
@@ -213,6 +231,7 @@ int main(void)
         cmocka_unit_test(curves_are_those_of_print),
         cmocka_unit_test(lines_are_short),
         cmocka_unit_test(claims_and_five_lines_stand_below),
+        cmocka_unit_test(choices_tell_rows_apart),
         cmocka_unit_test(changed_settings_have_no_ratio),
         cmocka_unit_test(numbers_have_two_or_three_digits),
         cmocka_unit_test(headings_have_units),
