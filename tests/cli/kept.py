@@ -101,19 +101,33 @@ def on_a_terminal(runner, args, env):
 
 
 def check_colours(runner):
-    """on a terminal what is faster than print, or is reproduced, is green; headings are plain, and all is where the terminal or the user wants none"""
+    """on a terminal what is faster than print, or is reproduced, is green, but not what is faster than our own; headings are plain, and all is where the terminal or the user wants none"""
     args = ["table", "stuppacher-2", "--from", KEPT]
     plain = runner.run(args).stdout
     shown = on_a_terminal(runner, args, {"TERM": "xterm", "NO_COLOR": None})
     cells = re.findall(r"\x1b\[(\d+)m(.*?)\x1b\[0m", shown)
     problems = [] if cells and re.sub(r"\x1b\[\d+m", "", shown) == plain else ["on a terminal: %r" % shown]
-    due = [("32", cell) for cell in re.findall(r"[\d.]+ +[1-9][\d.]*x|(?<!not )reproduced", plain)]
+    due = [("32", cell) for cell in re.findall(r"[\d.]+ +[1-9][\d.]*x|(?<!not )reproduced", re.sub(r"### ours, times paper\n\n(\|.*\n)+", "", plain))]
     if sorted(cell for cell in cells if cell[1] not in ("not reproduced", "undecided")) != sorted(due):
         problems.append("painted: %s, due: %s" % (cells, due))
     for env in ({"TERM": "xterm", "NO_COLOR": "1"}, {"TERM": "dumb", "NO_COLOR": None}):
         if on_a_terminal(runner, args, env) != plain:
             problems.append("%s: it has colours" % env)
     return problems
+
+
+def check_failed_colours(runner):
+    """on a terminal cells that failed, in whichever way, are red, and those that are not supported yellow"""
+    due = {"fail": "31", "error": "31", "crash": "31", "timeout": "31", "unsupported": "33"}
+    record = json.loads(read(KEPT, "stuppacher-2.json"))
+    for cell, status in zip(record["cells"], due):
+        cell.update(status=status, detail="so it ended")
+    with tempfile.TemporaryDirectory() as tmp:
+        with open(tmp + "/record.json", "w", encoding="utf-8") as file:
+            json.dump(record, file)
+        shown = on_a_terminal(runner, ["table", "--from", tmp + "/record.json"], {"TERM": "xterm", "NO_COLOR": None})
+    painted = {cell: colour for colour, cell in re.findall(r"\x1b\[(\d+)m(.*?)\x1b\[0m", shown) if cell in due}
+    return [] if painted == due else ["painted: %s in %r" % (painted, shown)]
 
 
 def check_claims(runner):
@@ -188,4 +202,4 @@ def check_dirty_tree(runner):
     return problems
 
 
-CHECKS = [check_printed, check_compact, check_walk, check_colours, check_claims, check_lengths, check_dirty_tree]
+CHECKS = [check_printed, check_compact, check_walk, check_colours, check_failed_colours, check_claims, check_lengths, check_dirty_tree]

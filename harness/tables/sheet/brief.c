@@ -250,13 +250,23 @@ static void add_row(const struct rg_result *result, struct rg_place of, const st
 
 // --- a table ---
 
-static const char *paint(const char *cell)
+// What failed or is other work.
+static const char *paint_amiss(const char *cell)
+{
+    enum rg_outcome outcome;
+    if (strstr(cell, "other"))
+        return RG_YELLOW;
+    if (!rg_outcome_find(cell, &outcome) || outcome == RG_OK)
+        return NULL;
+    return outcome == RG_UNSUPPORTED ? RG_YELLOW : RG_RED;
+}
+
+// The same, and what reaches print: cells say how many times that they are.
+static const char *paint_of_print(const char *cell)
 {
     const char *times = strchr(cell, ' ');
-    if (strstr(cell, "other") || !strcmp(cell, "unsupported"))
-        return RG_YELLOW;
-    if (!strcmp(cell, "fail") || !strcmp(cell, "error") || !strcmp(cell, "crash"))
-        return RG_RED;
+    if (paint_amiss(cell))
+        return paint_amiss(cell);
     if (!times || cell[strlen(cell) - 1] != 'x')
         return NULL;
     return times[strspn(times, " ")] == '0' ? NULL : RG_GREEN;
@@ -298,7 +308,8 @@ static bool print_table(const struct rg_result *result, struct rg_place of, FILE
     }
     name_table(result, of, title, sizeof(title));
     sheet.title = title;
-    sheet.paint = rg_has_colours(out) ? paint : NULL;
+    if (rg_has_colours(out))
+        sheet.paint = rg_result_is_of_print(result, of.work) ? paint_of_print : paint_amiss;
     rg_sheet_print_md(&sheet, out);
     rg_sheet_free(&sheet);
     fprintf(out, "\n");
