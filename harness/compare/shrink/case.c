@@ -149,24 +149,22 @@ static bool take_line(const char *word, const char *rest, struct rg_case *c)
     return !strcmp(word, "device") && take_text(rest, c->device, sizeof(c->device));
 }
 
-// Whether a word of a line comes for the first time, where it may come only once; `seen` has a bit
-// for each that came.
-static bool comes_once(const char *word, unsigned *seen)
+// The words of lines that came, each of which comes once; they lie in the file's lines.
+struct seen {
+    int count;
+    const char *words[16]; // more than there are: one that is unknown is the last that is read
+};
+
+static bool comes_once(const char *word, struct seen *seen)
 {
-    static const char *const words[] = {"technique", "size",  "frames", "behind",
-                                        "stage",     "asset", "class",  "found",
-                                        "expected",  "truth", "device"};
-    for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++) {
-        if (strcmp(word, words[i]) != 0)
-            continue;
-        if (*seen >> i & 1)
+    for (int i = 0; i < seen->count; i++)
+        if (!strcmp(word, seen->words[i]))
             return false;
-        *seen |= 1U << i;
-    }
+    seen->words[seen->count++] = word;
     return true;
 }
 
-static bool read_line(const char *path, int64_t number, char *word, unsigned *seen,
+static bool read_line(const char *path, int64_t number, char *word, struct seen *seen,
                       struct rg_case *c)
 {
     char place[RG_PATH_SIZE + 32];
@@ -193,7 +191,7 @@ static bool read_line(const char *path, int64_t number, char *word, unsigned *se
 bool rg_case_read(const char *path, struct rg_case *c)
 {
     struct rg_lines lines;
-    unsigned seen = 0;
+    struct seen seen = {.count = 0};
     *c = (struct rg_case){.run = {.frames = -1}, .stages_run = -1};
     bool ok = rg_lines_read(path, &lines);
     for (int64_t i = 0; ok && i < lines.count; i++)
