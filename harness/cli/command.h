@@ -14,7 +14,7 @@ struct rg_command {
     // `options` is that struct, `arguments` what is no option: no more of them than the table's
     // operands have places for. Returns an enum rg_exit.
     int (*run)(const void *options, const struct rg_words *arguments);
-    // The exit status of bad usage; NULL: RG_EXIT_USAGE.
+    // The exit status where the table refuses something; NULL: RG_EXIT_USAGE.
     int (*refused)(void);
 };
 

@@ -170,9 +170,10 @@ static int run(struct line *line)
     const enum parsed parsed = parse(line);
     if (parsed == RUN)
         return line->command->run(line->values, &line->arguments);
-    if (parsed == HELP)
-        rg_command_print_help(line->command);
-    return parsed == HELP ? RG_EXIT_PASS : RG_EXIT_USAGE;
+    if (parsed == REFUSED)
+        return line->command->refused ? line->command->refused() : RG_EXIT_USAGE;
+    rg_command_print_help(line->command);
+    return RG_EXIT_PASS;
 }
 
 int rg_command_run(const struct rg_command *command, int argc, const char **argv)
@@ -189,9 +190,7 @@ int rg_command_run(const struct rg_command *command, int argc, const char **argv
     }
     make_table(&line, table);
     line.context = poptGetContext("raingauge", count, words, table, 0);
-    int exit = set_defaults(&line) ? run(&line) : RG_EXIT_FAIL;
-    if (exit == RG_EXIT_USAGE && command->refused)
-        exit = command->refused();
+    const int exit = set_defaults(&line) ? run(&line) : RG_EXIT_FAIL;
     poptFreeContext(line.context);
     for (int i = 0; i < line.count; i++)
         rg_option_free(&line.rows[i], line.values);

@@ -121,9 +121,10 @@ static int bisect_list(const struct bisect_options *o, const struct rg_words *ar
     bool ok = !o->list || rg_candidates_read(o->list, &candidates);
     for (int i = 0; ok && i < arguments->count; i++)
         ok = rg_candidates_add(arguments->items[i], &candidates);
-    int exit = RG_EXIT_USAGE;
-    if (ok && rg_candidates_between(o->good, o->bad, &candidates) && all_fit(&candidates, judging))
-        exit = o->dry_run ? print_lines(&candidates, judging) : search(o, &candidates, judging);
+    ok = ok && rg_candidates_between(o->good, o->bad, &candidates) && all_fit(&candidates, judging);
+    const int exit = !ok          ? rg_git_status_of_usage()
+                     : o->dry_run ? print_lines(&candidates, judging)
+                                  : search(o, &candidates, judging);
     rg_candidates_free(&candidates);
     return exit;
 }
@@ -158,7 +159,7 @@ static int bisect(const void *values, const struct rg_words *arguments)
         .line = o->line, .tries = o->tries, .crash_is_bad = o->crash == CRASH_BAD};
     if (!check(o, arguments, &judging.prints_here) ||
         !rg_duration_read(o->budget, "--budget", &judging.budget_s))
-        return RG_EXIT_USAGE;
+        return rg_git_status_of_usage();
     return judging.prints_here ? judge_for_git(&judging) : bisect_list(o, arguments, &judging);
 }
 

@@ -99,6 +99,9 @@ def check_git_stops(runner):
                 ran = runner.run(["bisect"] + args, env={"GIT_DIR": os.path.join(folder, ".git")})
                 if ran.returncode != status or ran.stdout or ran.stderr.count("\n") != 1:
                     problems.append("%s, %s: exit status %d, %s%s" % (command, args, ran.returncode, ran.stdout, ran.stderr))
+            stopped = runner.run(["bisect", "--good", "a", "--bad", "b", "--run", "exit 2; {}"], env={"GIT_DIR": os.path.join(folder, ".git")})
+            if stopped.returncode != 2:
+                problems.append("%s: a list's command that judges nothing: exit status %d" % (command, stopped.returncode))
     return problems
 
 
