@@ -132,8 +132,7 @@ static int open_and_run(struct rg_grid *grid, const struct sweep_options *o, cha
     if (exit != RG_EXIT_PASS)
         return exit;
     exit = rg_exit_worse(run_on(grid, &devices, o, set), rg_devices_exit(&devices));
-    exit = rg_devices_end(&devices, exit);
-    return exit;
+    return rg_devices_end(&devices, exit);
 }
 
 static int run_grid(struct rg_grid *grid, const struct sweep_options *o,

@@ -231,8 +231,7 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
         return exit;
     exit = rg_exit_worse(rg_tables_regenerate(chosen, count, &devices, &wanted),
                          rg_devices_exit(&devices));
-    exit = rg_devices_end(&devices, exit);
-    return exit;
+    return rg_devices_end(&devices, exit);
 }
 
 // --- results that lie on disk ---
