@@ -436,31 +436,52 @@ static bool hide_proc(void)
     return !unshare(CLONE_NEWUSER | CLONE_NEWNS) && !mount("none", "/proc", "tmpfs", 0, NULL);
 }
 
+// How a child ends that works so and then raises a signal; with 1 where it does not come to that.
+static int status_of(void (*work)(int), int number)
+{
+    int status = 0;
+    const pid_t child = fork();
+    if (child == 0) {
+        signal(number, SIG_DFL);
+        work(number);
+        _exit(1);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    return status;
+}
+
+static void end_with_a_name(int number)
+{
+    struct rg_why why;
+    struct rg_temporary temporary;
+    if (!hide_proc())
+        _exit(77);
+    if (rg_temporary_make(path_of("new.png"), &temporary, &why) && temporary.is_named &&
+        files_in_folder() == 1)
+        raise(number);
+}
+
 // Such a file goes with the signals that ask to end.
 static void a_signal_takes_the_name(void **state)
 {
     (void)state;
     static const int signals[] = {SIGINT, SIGTERM};
     for (int i = 0; i < 2; i++) {
-        int status = 0;
-        const pid_t child = fork();
-        if (child == 0) {
-            struct rg_why why;
-            struct rg_temporary temporary;
-            signal(signals[i], SIG_DFL);
-            if (!hide_proc())
-                _exit(77);
-            if (rg_temporary_make(path_of("new.png"), &temporary, &why) && temporary.is_named &&
-                files_in_folder() == 1)
-                raise(signals[i]);
-            _exit(1);
-        }
-        assert_int_equal(waitpid(child, &status, 0), child);
+        const int status = status_of(end_with_a_name, signals[i]);
         if (WIFEXITED(status) && WEXITSTATUS(status) == 77)
             skip(); // no file system may be mounted here
         assert_true(WIFSIGNALED(status) && WTERMSIG(status) == signals[i]);
         assert_int_equal(files_in_folder(), 0);
     }
+}
+
+static void end_within(int number)
+{
+    struct rg_why why;
+    struct rg_temporary temporary;
+    if (rg_temporary_make(path_of("kept.png"), &temporary, &why) &&
+        write(temporary.fd, "new", 3) == 3)
+        raise(number);
 }
 
 // Whatever ends the program while it writes, nothing is left, and what was there stays.
@@ -470,19 +491,7 @@ static void a_signal_leaves_nothing(void **state)
     static const int signals[] = {SIGINT, SIGTERM, SIGKILL};
     write_bytes("kept.png", "old", 3);
     for (int i = 0; i < 3; i++) {
-        int status = 0;
-        const pid_t child = fork();
-        if (child == 0) {
-            struct rg_why why;
-            struct rg_temporary temporary;
-            signal(signals[i], SIG_DFL);
-            if (rg_temporary_make(path_of("kept.png"), &temporary, &why) &&
-                write(temporary.fd, "new", 3) == 3)
-                raise(signals[i]);
-            _exit(1);
-        }
-        assert_int_equal(waitpid(child, &status, 0), child);
-        assert_true(WIFSIGNALED(status));
+        assert_true(WIFSIGNALED(status_of(end_within, signals[i])));
         assert_int_equal(files_in_folder(), 1);
     }
     unlink(path_of("kept.png"));
