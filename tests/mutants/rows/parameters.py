@@ -41,7 +41,7 @@ ROWS = [
     Fault(PARSE, "if («line->arguments.count == places»)", "false", "arguments that are too many are ignored"),
     Fault(PARSE, "if («line->given[j]» && rg_has_word", "false", "options that exclude each other are taken"),
     Fault(PARSE, "if («value < -1» && !refuse(line, value))", "false", "an unknown option is ignored"),
-    Fault(PARSE, "return parsed == HELP ? «RG_EXIT_PASS» : RG_EXIT_USAGE;", "RG_EXIT_USAGE", "asking for help fails"),
+    Fault(PARSE, "rg_command_print_help(line->command);\n    return «RG_EXIT_PASS»;", "RG_EXIT_USAGE", "asking for help fails"),
     Fault(OPTION, "rows[count].offset «+= offset»;", "+= 0", "options that commands share lie at the beginning"),
     Fault(OPTION, "rows[count].initial = «initial ? initial : table->initial»;", "table->initial", "a command has no default of its own"),
 ]
