@@ -15,7 +15,6 @@
 #include "harness/cli/subject.h"
 #include "harness/commands/drawn.h"
 #include "harness/compare/shrink/case.h"
-#include "harness/compare/shrink/files.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/devices.h"
 #include "harness/devices/names.h"

@@ -31,4 +31,15 @@ struct rg_session_code {
     } passes;          // what the driver's compiler has made of them
 };
 
+// --- files of the user's own that its settings name ---
+
+// Whether a value of a parameter names a file of the user's own, and not a model or a map.
+bool rg_file_is_own(const char *value);
+// The next parameter that names such a file, from the place `at` in the technique's table on, which
+// is moved behind it; `value` gets the file. NULL: there is none.
+const struct rg_param *rg_file_own_next(const struct rg_subject *subject, int *at,
+                                        char value[RG_PATH_SIZE]);
+// Whether what is written there replaces none of them. False, and one logged line.
+bool rg_files_spared_by(const struct rg_subject *subject, const char *output);
+
 #endif

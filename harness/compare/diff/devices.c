@@ -12,7 +12,6 @@
 #include "harness/compare/blame/blame.h"
 #include "harness/compare/diff/accepts.h"
 #include "harness/compare/diff/report.h"
-#include "harness/compare/shrink/files.h"
 #include "harness/console/exit.h"
 #include "harness/console/progress.h"
 #include "harness/devices/devices.h"

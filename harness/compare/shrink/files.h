@@ -4,21 +4,14 @@
 
 #include "harness/frames/subject.h"
 
-// Whether a value of a parameter names a file of the user's own, and not a model or a map.
-bool rg_file_is_own(const char *value);
 // ".json": its ending, or "" where that has other characters than letters and digits.
 void rg_file_ending(const char *path, char *ending, size_t size);
 // Its bytes, with a zero behind them, which the caller frees. NULL, and one logged line, on
 // failure.
 char *rg_file_load(const char *path, size_t *size);
 
-// The next parameter that names such a file, from the place `at` in the technique's table on, which
-// is moved behind it; `value` gets the file. NULL: there is none.
-const struct rg_param *rg_file_own_next(const struct rg_subject *subject, int *at,
-                                        char value[RG_PATH_SIZE]);
-// Whether what is written there replaces none of them. False, and one logged line.
-bool rg_files_spared_by(const struct rg_subject *subject, const char *output);
-// The same of a case, of its folder of files and of its kernel's.
+// Whether a case that is written there, its folder of files and its kernel's replace none of them.
+// False, and one logged line.
 bool rg_files_spared_by_case(const struct rg_subject *subject, const char *path);
 
 enum { RG_FILE_NAME = 96 };
