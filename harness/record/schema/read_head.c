@@ -165,10 +165,10 @@ static bool read_changed(struct rg_reader *r, const json_t *document, struct rg_
            rg_field_text(r, document, "changed", result->changed, sizeof(result->changed));
 }
 
-// The rows that a budget left out, which count from 1.
-static bool read_left_out(struct rg_reader *r, const json_t *budget, struct rg_result *result)
+// The rows that a budget or quick mode left out, which count from 1.
+static bool read_left_out(struct rg_reader *r, const json_t *of, struct rg_result *result)
 {
-    const json_t *rows = rg_field(r, budget, "left_out", JSON_ARRAY);
+    const json_t *rows = rg_field(r, of, "left_out", JSON_ARRAY);
     for (size_t i = 0; i < json_array_size(rows); i++) {
         const json_int_t row = json_integer_value(json_array_get(rows, i)) - 1;
         if (row < result->first_row || row > result->last_row)
@@ -178,10 +178,11 @@ static bool read_left_out(struct rg_reader *r, const json_t *budget, struct rg_r
     return rows != NULL;
 }
 
-static bool read_budget(struct rg_reader *r, const json_t *document, struct rg_result *result)
+// What was chosen of the rows; records that were kept before quick mode told have neither.
+static bool read_choice(struct rg_reader *r, const json_t *document, struct rg_result *result)
 {
     if (!json_object_get(document, "budget"))
-        return true;
+        return !json_object_get(document, "left_out") || read_left_out(r, document, result);
     const json_t *budget = rg_field(r, document, "budget", JSON_OBJECT);
     rg_reader_enter(r, "budget");
     const bool ok = budget && rg_field_number(r, budget, "seconds", &result->budget_s) &&
@@ -196,7 +197,7 @@ bool rg_read_head(struct rg_reader *r, const json_t *document, struct rg_result 
 {
     return read_format(r, document) && read_names(r, document, result) &&
            read_changed(r, document, result) && read_numbers(r, document, result) &&
-           read_budget(r, document, result) && read_variants(r, document, result) &&
+           read_choice(r, document, result) && read_variants(r, document, result) &&
            read_works(r, document, result) && read_devices(r, document, result) &&
            read_missing(r, document, result);
 }

@@ -146,15 +146,30 @@ static json_t *head_json(const struct rg_result *result)
                      "quick", text_or_null(result->quick), "note", rg_json_text(result->note));
 }
 
-// What a budget chose: the rows that it leaves out count from 1.
-static json_t *budget_json(const struct rg_result *result)
+static bool leaves_out(const struct rg_result *result)
+{
+    bool any = false;
+    for (int row = result->first_row; row <= result->last_row; row++)
+        any = any || !rg_result_wants(result, row);
+    return any;
+}
+
+// The rows that a budget or quick mode leaves out, which count from 1.
+static json_t *left_out_json(const struct rg_result *result)
 {
     json_t *rows = json_array();
     for (int row = result->first_row; row <= result->last_row; row++)
         if (!rg_result_wants(result, row))
             json_array_append_new(rows, json_integer(row + 1));
+    return rows;
+}
+
+// What a budget chose.
+static json_t *budget_json(const struct rg_result *result)
+{
     return json_pack("{sfsisbso}", "seconds", result->budget_s, "size_divisor",
-                     result->size_divisor, "few_samples", result->few_samples, "left_out", rows);
+                     result->size_divisor, "few_samples", result->few_samples, "left_out",
+                     left_out_json(result));
 }
 
 json_t *rg_result_json(const struct rg_result *result)
@@ -164,6 +179,8 @@ json_t *rg_result_json(const struct rg_result *result)
         json_object_set_new(json, "works", works_json(result));
     if (result->budget_s > 0)
         json_object_set_new(json, "budget", budget_json(result));
+    else if (leaves_out(result))
+        json_object_set_new(json, "left_out", left_out_json(result));
     if (*result->changed)
         json_object_set_new(json, "changed", rg_json_text(result->changed));
     json_object_set(json, "passport", result->passport);

@@ -71,7 +71,8 @@ struct rg_table {
     // What is set over these where a row's image is compared with the truth: all of what smaller
     // pictures leave out. NULL: nothing.
     const char *shown;
-    int quick_rows; // so many rows, the first, has quick mode, unless others are named; 0: all
+    // So many rows, the first, has quick mode, and those that claims are about; 0: all.
+    int quick_rows;
     // Counters of the technique that have a column: what they grow by in a frame, NULL after the
     // last.
     const char *counted[RG_TABLE_COUNTED + 1];

@@ -11,6 +11,7 @@
 #include "harness/record/disk/hold.h"
 #include "harness/tables/runs/budget.h"
 #include "harness/tables/runs/forecast.h"
+#include "harness/tables/runs/needed.h"
 #include "harness/tables/measuring/measure.h"
 
 // One table of the command.
@@ -25,15 +26,16 @@ struct task {
 static void tell_resumed(const struct task *task)
 {
     const struct rg_result *result = &task->result;
-    int rows = 0, parts = 0;
+    int rows = 0, parts = 0, wanted = 0;
     for (int row = result->first_row; row <= result->last_row; row++) {
+        wanted += rg_result_wants(result, row);
         rows += rg_journal_has(task->journal, row);
         parts += rg_journal_has_part(task->journal, row);
     }
     if (rows || parts)
         rg_info("%s: %d of %d rows are those of a run that was interrupted, and %d have some of "
                 "their samples; --fresh measures them anew",
-                result->table, rows, result->last_row - result->first_row + 1, parts);
+                result->table, rows, wanted, parts);
 }
 
 static void tell_interrupted(const struct task *task)
@@ -73,13 +75,20 @@ static int run_task(struct task *task, struct rg_kept *kept,
     return exit;
 }
 
-// The rows that are asked for, as far as the table has them; of rows that nobody names quick mode
-// may have the first alone.
+// Quick mode chooses rows where nobody names any.
+static bool is_short(const struct rg_table *table, const struct rg_regenerate_options *o)
+{
+    return !o->full && !o->last_row && table->quick_rows;
+}
+
+// The rows that are asked for, as far as the table has them.
 static struct rg_table_part part_of(const struct rg_table *table,
                                     const struct rg_regenerate_options *o)
 {
-    const bool is_short = !o->full && !o->last_row && table->quick_rows;
-    const int rows = is_short ? table->quick_rows : table->row_count;
+    bool chosen[RG_TABLE_ROWS];
+    int rows = table->row_count;
+    for (rg_quick_rows(table, chosen); is_short(table, o) && !chosen[rows - 1]; rows--)
+        ;
     return (struct rg_table_part){.first_row = o->first_row ? o->first_row - 1 : 0,
                                   .last_row =
                                       (o->last_row && o->last_row < rows ? o->last_row : rows) - 1,
@@ -87,6 +96,14 @@ static struct rg_table_part part_of(const struct rg_table *table,
                                   .work = o->work,
                                   .variant = o->variant,
                                   .set = o->set};
+}
+
+static void leave_out_rows(const struct rg_table *table, struct rg_result *result)
+{
+    bool chosen[RG_TABLE_ROWS];
+    rg_quick_rows(table, chosen);
+    for (int row = result->first_row; row <= result->last_row; row++)
+        result->left_out[row - result->first_row] = !chosen[row];
 }
 
 // Begins the tables that have some of the rows that are asked for. All journals are read before one
@@ -101,7 +118,10 @@ static int make_tasks(const struct rg_regenerate_options *o, const struct rg_dev
         if (part.first_row > part.last_row)
             continue;
         tasks[made].table = tables[i];
-        rg_table_begin(&tasks[made++].result, tables[i], &part, devices);
+        rg_table_begin(&tasks[made].result, tables[i], &part, devices);
+        if (is_short(tables[i], o))
+            leave_out_rows(tables[i], &tasks[made].result);
+        made++;
     }
     for (int i = 0; keeps && i < made; i++)
         tasks[i].journal = rg_journal_open(&tasks[i].result, o->folder, o->fresh, i < made - 1);
@@ -113,7 +133,7 @@ static int cells_of(const struct task *tasks, int count)
     int cells = 0;
     for (int i = 0; i < count; i++)
         for (int row = tasks[i].result.first_row; row <= tasks[i].result.last_row; row++)
-            if (!rg_journal_has(tasks[i].journal, row))
+            if (rg_result_wants(&tasks[i].result, row) && !rg_journal_has(tasks[i].journal, row))
                 cells += rg_result_row_cells(&tasks[i].result);
     return cells;
 }

@@ -239,7 +239,8 @@ static void note_interruption(const struct rg_result *result, struct rg_sheet *s
         const int last = end_of_gap(result, row);
         rg_sheet_note(sheet, "Rows %d to %d are missing: %s.", row + 1, last + 1,
                       rg_result_wants(result, row) ? "the run was interrupted"
-                                                   : "a budget leaves them out");
+                      : result->budget_s > 0       ? "a budget leaves them out"
+                                                   : "quick mode leaves them out");
         row = last;
     }
 }

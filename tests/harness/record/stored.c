@@ -91,6 +91,28 @@ static void test_budget(void **state)
     rg_result_free(&found);
 }
 
+// So does what quick mode chose, where there is no budget.
+static void test_quick_choice(void **state)
+{
+    (void)state;
+    char why[RG_WHY_SIZE];
+    struct rg_result made = make_result(), found = {0};
+    made.full = false;
+    made.left_out[1] = true;
+    json_t *document = rg_result_json(&made);
+    if (!rg_result_from_json(document, "file", &found, why))
+        fail_msg("%s", why);
+    assert_true(!found.left_out[0] && found.left_out[1] && !found.left_out[2]);
+    assert_int_equal(rg_result_first_missing(&found), 4);
+    rg_result_free(&found);
+    json_array_append_new(json_object_get(document, "left_out"), json_integer(99));
+    assert_false(rg_result_from_json(document, "file", &found, why));
+    assert_non_null(strstr(why, "left_out"));
+    json_decref(document);
+    rg_result_free(&made);
+    rg_result_free(&found);
+}
+
 // --- what is refused ---
 
 static json_t *document_of_test(void)
@@ -223,9 +245,8 @@ static void test_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_budget),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_round_trip),   cmocka_unit_test(test_budget),
+        cmocka_unit_test(test_quick_choice), cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_files),
     };
     snprintf(path, sizeof(path), "/tmp/raingauge-test-stored-%d.json", (int)getpid());
