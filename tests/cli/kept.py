@@ -142,14 +142,34 @@ def check_claims(runner):
     about = [row["table"] for row in csv.DictReader(io.StringIO(alone.stdout))]
     if set(about) != {"stuppacher-2"} or len(about) != [row["table"] for row in rows].count("stuppacher-2"):
         problems.append("of one table: %s" % about)
-    noted = [set(re.findall(r'", ((?:not )?reproduced|undecided|other work) on [^:]*?, p (?:<|0|1)', runner.run(asked).stdout))
-             for asked in (["table", "--claims", "--from", KEPT], ["table", "--claims", "--wide", "--from", KEPT])]
-    if noted != [{"not reproduced", "undecided"}, {"reproduced", "not reproduced", "undecided"}]:
+    wide = runner.run(["table", "--claims", "--wide", "--from", KEPT]).stdout
+    noted = set(re.findall(r', ((?:not )?reproduced|undecided|other work) on [^:]*?, p (?:<|0|1)', wide))
+    if noted != {"reproduced", "not reproduced", "undecided"}:
         problems.append("verdicts that have a reason and a probability: %s" % noted)
+    return problems + page_problems(runner, rows) + refused_form(runner)
+
+
+# How the page of one screen says a verdict.
+MARKS = {"reproduced": "yes", "not reproduced": "no", "undecided": "open", "other work": "other", "": ""}
+
+
+def page_problems(runner, rows):
+    """The page says what the wide one does, in as many lines and columns as a screen has."""
+    page = runner.run(["table", "--claims", "--from", KEPT]).stdout
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in page.splitlines() if line.startswith("|")]
+    due = [[row["table"], row["claim"]] + [MARKS[verdict] for verdict in list(row.values())[3:]] for row in rows]
+    widest = max(len(line) for line in page.splitlines() if line.startswith("|"))
+    problems = ["the page: %s, due: %s" % (cells[2:], due)] if cells[2:] != due else []
+    if widest > 110 or page.count("\n") > 60 or " on cpu" in page:
+        problems.append("%d columns, %d lines:\n%s" % (widest, page.count("\n"), page))
+    return problems
+
+
+def refused_form(runner):
     refused = runner.run(["table", "--claims", "--from", KEPT, "--format", "json"])
     if refused.returncode != 2 or "choose md, csv or tex" not in refused.stderr:
-        problems.append("as JSON: %s" % refused.stderr)
-    return problems
+        return ["as JSON: %s" % refused.stderr]
+    return []
 
 
 def check_lengths(runner):

@@ -118,7 +118,7 @@ def check_no_rain(runner):
             del record["changed"]  # else claims would be about other work
             with open(tmp + "/claims.json", "w", encoding="utf-8") as file:
                 json.dump(record, file)
-            claims = runner.run(["table", "--claims", "--from", tmp + "/claims.json"]).stdout
+            claims = runner.run(["table", "--claims", "--wide", "--from", tmp + "/claims.json"]).stdout
         if "has no number: its image is the same without rain" not in claims or "| reproduced" in claims or "not reproduced" in claims:
             problems.append("claims of %s:\n%s" % (table, claims))
     return problems
@@ -142,7 +142,7 @@ def check_brief(runner):
         problems.append("wide:\n" + wide)
     if "\033" in brief or "\033[3" not in shown or re.sub(r"\033\[\d+m", "", shown) != brief or plain != [brief, brief]:
         problems.append("on a terminal: %r\n%r" % (shown, plain))
-    if "\033[3" not in claims or "reproduced" not in re.sub(r"\033\[\d+m", "", claims):
+    if "\033[32myes\033[0m" not in claims or "\033[31mno\033[0m" not in claims or "reproduced" not in re.sub(r"\033\[\d+m", "", claims):
         problems.append("claims on a terminal: %r" % claims)
     return problems + ["--wide is taken with another form: %s" % refused] * (refused != 2)
 

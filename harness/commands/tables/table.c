@@ -321,10 +321,10 @@ static int print_tables(const struct table_options *o, const struct rg_words *ar
 }
 
 // The verdicts, in the format that is asked for. False, and one logged line, without memory.
-static bool print_claims(const struct rg_claim_outcomes *outcomes, int format, bool all_reasons)
+static bool print_claims(const struct rg_claim_outcomes *outcomes, int format, bool wide)
 {
     struct rg_sheet sheet = {0};
-    rg_claims_sheet(outcomes, all_reasons, &sheet);
+    rg_claims_sheet(outcomes, wide || format == RG_RESULT_CSV || format == RG_RESULT_TEX, &sheet);
     if (format == RG_RESULT_CSV)
         rg_sheet_print_csv(&sheet, stdout);
     else if (format == RG_RESULT_TEX)

@@ -20,6 +20,8 @@ enum rg_claim_test {
     RG_CLAIM_EXPONENT, // frame rates go with the axis to a power from `least` to `most`
     RG_CLAIM_FASTER,   // in each row `variant` is at least `least` times as fast as `other`
     RG_CLAIM_RATE,     // in each row the frame rate is at least `least`
+    RG_CLAIM_OPTIMUM,  // the fastest of rows `first` to `last` is one of `knee` to `until`
+    RG_CLAIM_CROSSES,  // `variant` is slower than `other` before row `knee`, and faster from there
     RG_CLAIM_FLATTENS, // from row `first` to `knee` the error falls at least `least` times as far
                        // as from there to row `last`
 };
@@ -34,6 +36,7 @@ struct rg_claim {
     enum rg_claim_test test;
     int first, last; // rows
     int knee;        // a row
+    int until;       // a row behind it; 0: the knee itself
     double least, most;
     const char *part; // that part of the paper's words, in ours; NULL: all of them
 };
@@ -60,6 +63,7 @@ struct rg_judgement {
     // claim does not hold, and that it holds. NAN where there are no samples.
     double against, in_favour;
     bool print_contradicts; // the paper's own numbers do not bear it out
+    int rows, rows_claimed; // those that are there and do what was printed, of the claim's
     char why[256];          // one sentence
 };
 

@@ -154,6 +154,58 @@ static struct rg_judgement judge_faster(struct hearing *h)
     return judge_parts(h, &parts);
 }
 
+// Before the crossing the second variant is faster, and from there the first. Where print has both
+// alike, it says neither.
+static struct rg_judgement judge_crosses(struct hearing *h)
+{
+    struct parts parts = no_parts;
+    for (int i = 0; i < h->count; i++) {
+        const struct rg_record *a = rg_hearing_row(h, h->rows[i]),
+                               *b = rg_hearing_row_of(h, h->rows[i], h->other);
+        const bool is_crossed = h->rows[i] >= h->claim->knee;
+        const double printed[] = {rg_record_published_fps(a), rg_record_published_fps(b)};
+        if (isfinite(printed[0]) && !rg_margin_orders(printed[0], printed[1]) &&
+            !rg_margin_orders(printed[1], printed[0]))
+            continue;
+        add_part(&parts, is_crossed ? a : b, is_crossed ? b : a, faster_at_all);
+    }
+    return judge_parts(h, &parts);
+}
+
+static bool is_within(const struct rg_claim *c, int row)
+{
+    return row >= c->knee && row <= (c->until ? c->until : c->knee);
+}
+
+// Whether the row is faster than each that is not within.
+static struct parts beats_others(const struct hearing *h, int row)
+{
+    struct parts parts = no_parts;
+    for (int i = 0; i < h->count; i++)
+        if (!is_within(h->claim, h->rows[i]))
+            add_part(&parts, rg_hearing_row(h, row), rg_hearing_row(h, h->rows[i]), faster_at_all);
+    return parts;
+}
+
+// One of the rows within is faster than all others: whichever is surest, chosen out of so many. It
+// is not so where, of each of them, some other is faster.
+static struct rg_judgement judge_optimum(struct hearing *h)
+{
+    struct parts best = no_parts;
+    double in_favour = 0;
+    int within = 0;
+    for (int i = 0; i < h->count; i++) {
+        if (!is_within(h->claim, h->rows[i]))
+            continue;
+        const struct parts one = beats_others(h, h->rows[i]);
+        in_favour = fmax(in_favour, one.in_favour);
+        best = !within++ || one.against < best.against ? one : best;
+    }
+    best.against = fmin(1, best.against * within);
+    best.in_favour = in_favour;
+    return judge_parts(h, &best);
+}
+
 // Of frame rates themselves, the samples on either side of what is due decide.
 static struct rg_judgement judge_rate(struct hearing *h)
 {
@@ -231,6 +283,10 @@ static struct rg_judgement judge(struct hearing *h)
         return judge_faster(h);
     case RG_CLAIM_RATE:
         return judge_rate(h);
+    case RG_CLAIM_OPTIMUM:
+        return judge_optimum(h);
+    case RG_CLAIM_CROSSES:
+        return judge_crosses(h);
     case RG_CLAIM_FLATTENS:
         return judge_flattens(h);
     }
@@ -243,6 +299,5 @@ struct rg_judgement rg_claim_judge(const struct rg_claim *claim, const struct rg
     struct hearing h = {.claim = claim, .result = result, .at = {.device = device}};
     if (!rg_hearing_begin(&h))
         return h.judgement;
-    h.judgement.print_contradicts = rg_hearing_print_contradicts(&h);
     return judge(&h);
 }

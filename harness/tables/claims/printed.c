@@ -37,6 +37,31 @@ static bool print_is_faster(const struct hearing *h)
     return faster;
 }
 
+static bool print_crosses(const struct hearing *h)
+{
+    bool crosses = true;
+    for (int i = 0; i < h->count; i++) {
+        const double a = printed_fps(h, h->rows[i], h->at.variant),
+                     b = printed_fps(h, h->rows[i], h->other);
+        crosses &= h->rows[i] < h->claim->knee ? !rg_margin_orders(a, b) : !rg_margin_orders(b, a);
+    }
+    return crosses;
+}
+
+static bool print_has_optimum(const struct hearing *h)
+{
+    const int until = h->claim->until ? h->claim->until : h->claim->knee;
+    double within = 0, others = 0;
+    for (int i = 0; i < h->count; i++) {
+        const double fps = printed_fps(h, h->rows[i], h->at.variant);
+        if (h->rows[i] >= h->claim->knee && h->rows[i] <= until)
+            within = fmax(within, fps);
+        else
+            others = fmax(others, fps);
+    }
+    return within >= others;
+}
+
 bool rg_hearing_print_contradicts(const struct hearing *h)
 {
     const struct rg_claim *c = h->claim;
@@ -54,6 +79,10 @@ bool rg_hearing_print_contradicts(const struct hearing *h)
         return print_apart(h) < c->least;
     case RG_CLAIM_FASTER:
         return !print_is_faster(h);
+    case RG_CLAIM_CROSSES:
+        return !print_crosses(h);
+    case RG_CLAIM_OPTIMUM:
+        return !print_has_optimum(h);
     default:
         return false;
     }

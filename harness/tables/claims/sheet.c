@@ -8,8 +8,8 @@
 #include "core/base/array.h"
 #include "harness/console/colour.h"
 
-// Before the devices' columns.
-enum { TABLE, SECTION, CLAIM, BEFORE };
+// How the page says a verdict, and what its notes say that this is.
+static const char *const marks[RG_CLAIM_VERDICTS] = {"yes", "no", "open", "other"};
 
 void rg_claims_length(const struct rg_result *result, char *text, size_t size)
 {
@@ -43,42 +43,70 @@ void rg_claims_free(struct rg_claim_outcomes *outcomes)
     *outcomes = (struct rg_claim_outcomes){0};
 }
 
+// "reference" for "cpu:reference", where a page is to be no wider than a screen.
+static const char *short_name(const char *device)
+{
+    return strcmp(device, "cpu:reference") ? device : "reference";
+}
+
 // The column of a device, which is added where there is none.
 static int column_of(struct rg_sheet *sheet, const char *device)
 {
-    for (int i = BEFORE; i < sheet->column_count; i++)
+    for (int i = 0; i < sheet->column_count; i++)
         if (!strcmp(sheet->columns[i], device))
             return i;
     return rg_sheet_column(sheet, "%s", device);
 }
 
-static void add_columns(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
+static void add_columns(const struct rg_claim_outcomes *o, bool wide, struct rg_sheet *sheet)
 {
     rg_sheet_column(sheet, "table");
-    rg_sheet_column(sheet, "section");
+    if (wide)
+        rg_sheet_column(sheet, "section");
     rg_sheet_column(sheet, "claim");
     for (int i = 0; i < o->count; i++)
-        column_of(sheet, o->outcomes[i].device);
+        column_of(sheet, wide ? o->outcomes[i].device : short_name(o->outcomes[i].device));
 }
 
-static void add_rows(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
+static void add_claim(const struct rg_claim *claim, bool wide, char (*cells)[RG_SHEET_CELL])
+{
+    char title[RG_CLAIM_TITLE];
+    int column = 0;
+    rg_claim_title(claim, title);
+    snprintf(cells[column++], RG_SHEET_CELL, "%s", claim->table);
+    if (wide)
+        snprintf(cells[column++], RG_SHEET_CELL, "%s", claim->where);
+    snprintf(cells[column], RG_SHEET_CELL, "%s", title);
+}
+
+static void add_rows(const struct rg_claim_outcomes *o, bool wide, struct rg_sheet *sheet)
 {
     char(*cells)[RG_SHEET_CELL] = NULL;
     for (int i = 0; i < o->count; i++) {
         const struct rg_claim_outcome *outcome = &o->outcomes[i];
-        const struct rg_claim *claim = outcome->claim;
-        char title[RG_CLAIM_TITLE];
-        if (!i || claim != o->outcomes[i - 1].claim) {
+        const enum rg_claim_verdict verdict = outcome->judgement.verdict;
+        if (!i || outcome->claim != o->outcomes[i - 1].claim) {
             if (!(cells = rg_sheet_row(sheet)))
                 return;
-            snprintf(cells[TABLE], RG_SHEET_CELL, "%s", claim->table);
-            snprintf(cells[SECTION], RG_SHEET_CELL, "%s", claim->where);
-            rg_claim_title(claim, title);
-            snprintf(cells[CLAIM], RG_SHEET_CELL, "%s", title);
+            add_claim(outcome->claim, wide, cells);
         }
-        snprintf(cells[column_of(sheet, outcome->device)], RG_SHEET_CELL, "%s",
-                 rg_claim_verdict_text(outcome->judgement.verdict));
+        const char *device = wide ? outcome->device : short_name(outcome->device);
+        snprintf(cells[column_of(sheet, device)], RG_SHEET_CELL, "%s",
+                 wide ? rg_claim_verdict_text(verdict) : marks[verdict]);
     }
+}
+
+// What the marks mean, and where the reasons are.
+static void add_legend(struct rg_sheet *sheet)
+{
+    rg_sheet_note(sheet, "%s: %s; %s: %s; %s: %s; %s: %s.", marks[RG_CLAIM_REPRODUCED],
+                  rg_claim_verdict_text(RG_CLAIM_REPRODUCED), marks[RG_CLAIM_NOT_REPRODUCED],
+                  rg_claim_verdict_text(RG_CLAIM_NOT_REPRODUCED), marks[RG_CLAIM_UNDECIDED],
+                  rg_claim_verdict_text(RG_CLAIM_UNDECIDED), marks[RG_CLAIM_OTHER_WORK],
+                  rg_claim_verdict_text(RG_CLAIM_OTHER_WORK));
+    rg_sheet_note(sheet,
+                  "`--wide` has the section of each claim, the reason of each verdict and the "
+                  "probability behind it.");
 }
 
 // ", p 0.004": the probability behind a verdict; "" where none is.
@@ -144,7 +172,41 @@ static void add_lengths(const struct rg_claim_outcomes *o, struct rg_sheet *shee
     }
 }
 
-static void add_notes(const struct rg_claim_outcomes *o, bool all_reasons, struct rg_sheet *sheet)
+// Claims that were judged by fewer rows than they are about.
+static void add_fewer_rows(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
+{
+    const struct rg_claim *told = NULL;
+    char text[1024] = "";
+    size_t used = 0;
+    for (int i = 0; i < o->count; i++) {
+        const struct rg_claim *claim = o->outcomes[i].claim;
+        const struct rg_judgement *j = &o->outcomes[i].judgement;
+        if (claim == told || j->verdict >= RG_CLAIM_UNDECIDED || j->rows == j->rows_claimed ||
+            used >= sizeof(text))
+            continue;
+        char title[RG_CLAIM_TITLE];
+        rg_claim_title(claim, title);
+        used += (size_t)snprintf(text + used, sizeof(text) - used, "%s%s, %s, by %d of %d",
+                                 used ? "; " : "", claim->table, title, j->rows, j->rows_claimed);
+        told = claim;
+    }
+    if (*text)
+        rg_sheet_note(sheet, "Judged by some of the rows: %s.", text);
+}
+
+static void add_contradictions(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
+{
+    for (int i = 0; i < o->count; i++) {
+        const struct rg_claim *claim = o->outcomes[i].claim;
+        char title[RG_CLAIM_TITLE];
+        rg_claim_title(claim, title);
+        if ((!i || o->outcomes[i - 1].claim != claim) && o->outcomes[i].judgement.print_contradicts)
+            rg_sheet_note(sheet, "%s, %s: the paper's own table contradicts it.", claim->table,
+                          title);
+    }
+}
+
+static void add_reasons(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
 {
     for (int i = 0; i < o->count; i++) {
         const struct rg_claim_outcome *outcome = &o->outcomes[i];
@@ -154,13 +216,9 @@ static void add_notes(const struct rg_claim_outcomes *o, bool all_reasons, struc
         rg_claim_title(claim, title);
         print_probability(j, p, sizeof(p));
         name_alike(o, i, devices, sizeof(devices));
-        if ((all_reasons || j->verdict != RG_CLAIM_REPRODUCED) && *devices)
+        if (*devices)
             rg_sheet_note(sheet, "%s, %s, %s on %s%s: %s.", claim->table, title,
                           rg_claim_verdict_text(j->verdict), devices, p, j->why);
-        const bool is_first = !i || o->outcomes[i - 1].claim != claim;
-        if (is_first && j->print_contradicts)
-            rg_sheet_note(sheet, "%s, %s: the paper's own table contradicts it.", claim->table,
-                          title);
     }
 }
 
@@ -169,18 +227,24 @@ static const char *paint(const char *cell)
 {
     static const char *const colours[RG_CLAIM_VERDICTS] = {RG_GREEN, RG_RED, RG_YELLOW, RG_YELLOW};
     for (int i = 0; i < RG_CLAIM_VERDICTS; i++)
-        if (!strcmp(cell, rg_claim_verdict_text((enum rg_claim_verdict)i)))
+        if (!strcmp(cell, marks[i]) ||
+            !strcmp(cell, rg_claim_verdict_text((enum rg_claim_verdict)i)))
             return colours[i];
     return NULL;
 }
 
-void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, bool all_reasons,
-                     struct rg_sheet *sheet)
+void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, bool wide, struct rg_sheet *sheet)
 {
     sheet->title = "claims";
+    sheet->width_step = wide ? 0 : 1;
     sheet->paint = rg_has_colours(stdout) ? paint : NULL;
-    add_columns(outcomes, sheet);
-    add_rows(outcomes, sheet);
+    add_columns(outcomes, wide, sheet);
+    add_rows(outcomes, wide, sheet);
+    if (!wide)
+        add_legend(sheet);
     add_lengths(outcomes, sheet);
-    add_notes(outcomes, all_reasons, sheet);
+    add_fewer_rows(outcomes, sheet);
+    if (wide)
+        add_reasons(outcomes, sheet);
+    add_contradictions(outcomes, sheet);
 }

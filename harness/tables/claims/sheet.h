@@ -32,9 +32,9 @@ bool rg_claims_add(struct rg_claim_outcomes *outcomes, const struct rg_result *r
 void rg_claims_free(struct rg_claim_outcomes *outcomes);
 
 // A row each claim, a column each device, and below how long what was judged was measured, by
-// table, and the reasons of what is not borne out, or with `all_reasons` of every verdict, each
-// with the probability behind it. The sheet is zeroed before, and the caller frees it.
-void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, bool all_reasons,
-                     struct rg_sheet *sheet);
+// table, which claims were judged by some of their rows, and which the paper's own table
+// contradicts. `wide`: verdicts in words, with the section and with the reason and the probability
+// of each; else a page of one screen. The sheet is zeroed before, and the caller frees it.
+void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, bool wide, struct rg_sheet *sheet);
 
 #endif

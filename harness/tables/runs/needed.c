@@ -47,6 +47,7 @@ static void need_claims(const struct rg_table *table, bool needed[RG_TABLE_ROWS]
         need(needed, claim->first);
         need(needed, last_of(claim, table));
         need(needed, claim->knee);
+        need(needed, claim->until);
     }
     for (const struct rg_claim *claim = rg_claims; claim->table; claim++)
         if (is_about(claim, table) && claim->test != RG_CLAIM_RATIO)

@@ -51,15 +51,28 @@ static int verdicts_length(const struct rg_claim *claim, const struct rg_result 
     return (int)size;
 }
 
+// ", by 2 of 5 rows" of a claim that some device has decided so.
+static void name_fewer_rows(const struct rg_claim *claim, const struct rg_result *result,
+                            char *text, size_t size)
+{
+    *text = 0;
+    for (int d = 0; d < result->device_count && !*text; d++) {
+        const struct rg_judgement j = rg_claim_judge(claim, result, d);
+        if (j.verdict < RG_CLAIM_UNDECIDED && j.rows < j.rows_claimed)
+            snprintf(text, size, ", by %d of %d rows", j.rows, j.rows_claimed);
+    }
+}
+
 static void print_claims(const struct rg_result *result, FILE *out)
 {
     bool any = false;
     for (const struct rg_claim *claim = rg_claims; claim->table; claim++) {
         if (strcmp(claim->table, result->table) != 0)
             continue;
-        char title[RG_CLAIM_TITLE];
+        char title[RG_CLAIM_TITLE], fewer[48];
+        name_fewer_rows(claim, result, fewer, sizeof(fewer));
         rg_claim_title(claim, title);
-        const int length = fprintf(out, "- %s (%s): ", title, claim->where);
+        const int length = fprintf(out, "- %s (%s%s): ", title, claim->where, fewer);
         if (length + verdicts_length(claim, result) > RG_BRIEF_WIDTH)
             fprintf(out, "\n  ");
         print_verdicts(claim, result, rg_has_colours(out), out);

@@ -108,7 +108,7 @@ FALLING, TURNED, LEVEL = [10, 11, 12.1, 13.3, 14.6], [10, 11, 10, 13.3, 14.6], [
 
 def check_falls(raingauge):
     """rows that get slower do, rows of which one does not do not, and what noise hides is left open"""
-    made, words = Made(raingauge, "feng-2"), "also varies"
+    made, words = Made(raingauge, "feng-2"), "varies with ... system"
     return (settled(made.count(words, by_row(FALLING), 0.02), YES) + settled(made.count(words, by_row(TURNED), 0.02), NO) +
             hidden(made.count(words, by_row(FALLING), 0.5), [NO]) + hidden(made.count(words, by_row(TURNED), 1), [YES]) +
             open_truth(made, words, by_row(LEVEL), 0.02))
@@ -157,12 +157,30 @@ def check_size(raingauge):
 
 def check_variants(raingauge):
     """one variant that is faster in all rows, one that is not in the last, and both alike"""
-    made, words = Made(raingauge, "creus-5.6"), "from four lights on"
-    of = lambda last: lambda row, variant: 10 if variant == "no_geometry" else 9.3 if row < 6 else last
+    made, words = Made(raingauge, "ye-1"), "generated much faster"
+    of = lambda last: lambda row, variant: 10 if variant == "traditional" else 9.3 if row < 2 else last
     level = lambda row, variant: 10
     return (settled(made.count(words, of(9.3), 0.02), YES) + settled(made.count(words, of(10.7), 0.02), NO) +
             hidden(made.count(words, of(9.3), 0.5), [NO]) + hidden(made.count(words, of(10.7), 0.7), [YES]) +
             open_truth(made, words, level, 0.02, [NO]))
+
+
+def check_crossing(raingauge):
+    """one variant that is faster from a row on and slower before it, one that is slower again in the last, and both alike"""
+    made, words = Made(raingauge, "creus-5.6"), "with geometry faster"
+    of = lambda last: lambda row, variant: 10 if variant == "no_geometry" else 10.7 if row < 4 else 9.3 if row < 6 else last
+    level = lambda row, variant: 10
+    return (settled(made.count(words, of(9.3), 0.02), YES) + settled(made.count(words, of(10.7), 0.02), NO) +
+            hidden(made.count(words, of(9.3), 0.5), [NO]) + open_truth(made, words, level, 0.02, [NO]))
+
+
+def check_optimum(raingauge):
+    """a row that is faster than all others, one that another is faster than, and all alike"""
+    made, words = Made(raingauge, "creus-5.5"), "packets of 1,000"
+    of = lambda third: lambda row, variant: {2: 9.3, 3: third}.get(row, 10)
+    level = lambda row, variant: 10
+    return (settled(made.count(words, of(10), 0.02), YES) + settled(made.count(words, of(8.6), 0.02), NO) +
+            hidden(made.count(words, of(10), 0.5), [NO]) + open_truth(made, words, level, 0.02, [NO]))
 
 
 def check_knee(raingauge):
@@ -180,7 +198,7 @@ def check_few(raingauge):
     made = Made(raingauge, "feng-2")
     problems = []
     for samples, verdict in ((5, OPEN), (15, YES)):
-        counts = made.count("also varies", by_row(FALLING), 1e-3, samples)
+        counts = made.count("varies with ... system", by_row(FALLING), 1e-3, samples)
         if counts[verdict] != TRIALS:
             problems.append("%d samples: %s" % (samples, counts))
         intervals = {row["ms, 95 %"] != "" for row in csv.DictReader(io.StringIO(made.run("--format", "csv")))}
@@ -218,7 +236,7 @@ def check_slope(raingauge):
     return problems
 
 
-CHECKS = (check_falls, check_order, check_ratio, check_rate, check_size, check_variants, check_knee, check_few, check_slope)
+CHECKS = (check_falls, check_order, check_ratio, check_rate, check_size, check_variants, check_crossing, check_optimum, check_knee, check_few, check_slope)
 
 
 def main(raingauge):
