@@ -153,8 +153,12 @@ static bool name_cell(const struct rg_result *result, const struct rg_table *tab
     char *assignments = rg_table_assignments(result, table, at);
     if (!assignments)
         return false;
+    const bool fits = strlen(assignments) < sizeof(record->set);
     rg_text_copy(record->set, sizeof(record->set), assignments);
     free(assignments);
+    if (!fits)
+        return rg_error("table '%s': the settings of a row take more than %d bytes; set less",
+                        table->id, RG_SET_SIZE - 1);
     memcpy(record->technique, result->technique, sizeof(record->technique));
     memcpy(record->variant, result->variants[at.variant], sizeof(record->variant));
     memcpy(record->work, result->works[at.work].name, sizeof(record->work));

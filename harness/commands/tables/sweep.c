@@ -40,7 +40,8 @@ static const struct rg_option options[] = {
      .first = 1, .last = 1},
     {RG_OPTION_TEXTS, "axis", .argument = "KEY=VALUES",
      .about = "a parameter and its values: 5,10,40; or 5,10..40 in equal steps. Given again, each "
-              "value of one meets each of the other. device=cpu,gl names the devices",
+              "value of one meets each of the other. device=cpu,gl names the devices, which else "
+              "--device does (cpu alone without either)",
      .offset = AT(axes), .names = RG_NAMES_PARAMETER},
     RG_INCLUDE(rg_settings_option, AT(sets), NULL),
     RG_INCLUDE(rg_size_option, AT(size), "1280x720"),
@@ -49,7 +50,7 @@ static const struct rg_option options[] = {
     {RG_OPTION_FLAG, "dry-run", .about = "prints the plan, and measures nothing",
      .offset = AT(dry_run)},
     RG_GROUP("Devices"),
-    RG_INCLUDE(rg_devices_option, AT(devices.names), "cpu"),
+    RG_INCLUDE(rg_devices_option, AT(devices.names), NULL),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
@@ -126,8 +127,11 @@ static int open_and_run(struct rg_grid *grid, const struct sweep_options *o, cha
 {
     struct rg_devices devices;
     struct rg_devices_asked asked = o->devices;
-    if (names)
-        asked.names = names;
+    if (names && asked.names) {
+        rg_error("--axis device: --device names devices too; leave one of the two out");
+        return RG_EXIT_USAGE;
+    }
+    asked.names = names ? names : asked.names ? asked.names : "cpu";
     int exit = rg_devices_open_asked(&asked, &devices);
     if (exit != RG_EXIT_PASS)
         return exit;

@@ -44,7 +44,7 @@ static bool is_of_errors(const struct hearing *h)
     return h->claim->test == RG_CLAIM_FLATTENS;
 }
 
-static bool has_row(const struct hearing *h, int row)
+bool rg_hearing_has_row(const struct hearing *h, int row)
 {
     return row > h->result->first_row && row <= h->result->last_row + 1 &&
            rg_result_has(h->result, row - 1);
@@ -52,7 +52,7 @@ static bool has_row(const struct hearing *h, int row)
 
 static bool has_number(const struct hearing *h, int row, int variant)
 {
-    if (!has_row(h, row))
+    if (!rg_hearing_has_row(h, row))
         return false;
     const struct rg_record *r = rg_hearing_row_of(h, row, variant);
     return is_of_errors(h) ? r->truth_error.outcome == RG_OK && *h->result->truth
@@ -70,7 +70,7 @@ static int fewest_samples(const struct hearing *h, int row)
 // The record of a row that was measured and failed, of either variant; NULL where there is none.
 static const struct rg_record *failed(const struct hearing *h, int row)
 {
-    const struct rg_record *r = has_row(h, row) ? rg_hearing_row(h, row) : NULL;
+    const struct rg_record *r = rg_hearing_has_row(h, row) ? rg_hearing_row(h, row) : NULL;
     if (r && r->outcome == RG_OK && h->other >= 0)
         r = rg_hearing_row_of(h, row, h->other);
     return r && r->outcome != RG_OK ? r : NULL;
@@ -99,8 +99,7 @@ static bool can_miss(const struct rg_claim *c, int row)
     return is_of_each_row(c) || (row != c->first && row != c->last && row != c->knee);
 }
 
-// From one of the claim's rows to the next: of a ratio there are two.
-static int step_of(const struct rg_claim *c)
+int rg_hearing_step(const struct rg_claim *c)
 {
     return c->test == RG_CLAIM_RATIO ? c->last - c->first : 1;
 }
@@ -110,7 +109,7 @@ static int step_of(const struct rg_claim *c)
 static bool hear_rows(struct hearing *h)
 {
     const struct rg_claim *c = h->claim;
-    const int step = step_of(c);
+    const int step = rg_hearing_step(c);
     for (int row = c->first; step > 0 ? row <= c->last : row >= c->last; row += step) {
         if (!has_number(h, row, h->at.variant) ||
             (h->other >= 0 && !has_number(h, row, h->other))) {
@@ -140,22 +139,6 @@ static bool hear_rows(struct hearing *h)
     return h->count > 0 || end_without_number(h, c->first);
 }
 
-// What is printed stands in the rows that are there, however they were measured.
-static void take_print(struct hearing *h)
-{
-    const struct rg_claim *c = h->claim;
-    const int step = step_of(c);
-    if (h->at.variant < 0 || (c->other && h->other < 0) || !has_row(h, c->first) ||
-        !has_row(h, c->last))
-        return;
-    struct hearing printed = *h;
-    printed.at.work = h->at.work < 0 ? 0 : h->at.work;
-    for (int row = c->first; step > 0 ? row <= c->last : row >= c->last; row += step)
-        if (has_row(h, row))
-            printed.rows[printed.count++] = row;
-    h->judgement.print_contradicts = rg_hearing_print_contradicts(&printed);
-}
-
 static void find(struct hearing *h)
 {
     const struct rg_claim *c = h->claim;
@@ -163,14 +146,13 @@ static void find(struct hearing *h)
     h->at.variant = variant_of(h->result, c->variant);
     h->other = variant_of(h->result, c->other);
     h->judgement.against = h->judgement.in_favour = NAN;
-    h->judgement.rows_claimed = 1 + (c->last - c->first) / step_of(c);
+    h->judgement.rows_claimed = 1 + (c->last - c->first) / rg_hearing_step(c);
 }
 
 bool rg_hearing_begin(struct hearing *h)
 {
     const struct rg_claim *claim = h->claim;
     find(h);
-    take_print(h);
     if (*h->result->changed) {
         rg_hearing_end(h, RG_CLAIM_OTHER_WORK, "settings were changed: %.100s", h->result->changed);
         return false;

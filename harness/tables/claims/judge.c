@@ -297,7 +297,9 @@ struct rg_judgement rg_claim_judge(const struct rg_claim *claim, const struct rg
                                    int device)
 {
     struct hearing h = {.claim = claim, .result = result, .at = {.device = device}};
-    if (!rg_hearing_begin(&h))
+    const bool goes_on = rg_hearing_begin(&h);
+    h.judgement.print_contradicts = rg_hearing_print_contradicts(&h);
+    if (!goes_on)
         return h.judgement;
     return judge(&h);
 }

@@ -62,17 +62,32 @@ static bool print_has_optimum(const struct hearing *h)
     return within >= others;
 }
 
-bool rg_hearing_print_contradicts(const struct hearing *h)
+// Takes all rows that are there, since what is printed of them does not depend on how they were
+// measured. False where an end or a variant is missing.
+static bool take_rows(struct hearing *h)
 {
     const struct rg_claim *c = h->claim;
-    const double first = printed_fps(h, c->first, h->at.variant);
-    if (!isfinite(first))
+    const int step = rg_hearing_step(c);
+    if (h->at.variant < 0 || (c->other && h->other < 0) || !rg_hearing_has_row(h, c->first) ||
+        !rg_hearing_has_row(h, c->last))
         return false;
+    h->at.work = h->at.work < 0 ? 0 : h->at.work;
+    h->count = 0;
+    for (int row = c->first; step > 0 ? row <= c->last : row >= c->last; row += step)
+        if (rg_hearing_has_row(h, row))
+            h->rows[h->count++] = row;
+    return isfinite(printed_fps(h, c->first, h->at.variant));
+}
+
+static bool contradicts(const struct hearing *h)
+{
+    const struct rg_claim *c = h->claim;
     switch (c->test) {
     case RG_CLAIM_FALLS:
         return !print_falls(h);
     case RG_CLAIM_RATIO:
-        return first < c->least * printed_fps(h, c->last, h->at.variant);
+        return printed_fps(h, c->first, h->at.variant) <
+               c->least * printed_fps(h, c->last, h->at.variant);
     case RG_CLAIM_ALIKE:
         return print_apart(h) > c->most;
     case RG_CLAIM_APART:
@@ -86,6 +101,12 @@ bool rg_hearing_print_contradicts(const struct hearing *h)
     default:
         return false;
     }
+}
+
+bool rg_hearing_print_contradicts(const struct hearing *h)
+{
+    struct hearing printed = *h;
+    return take_rows(&printed) && contradicts(&printed);
 }
 
 // Of what differs most in print, where a claim is about all its rows.

@@ -37,7 +37,8 @@ const struct rg_table rg_table_stuppacher_1 = {
     .rows = rows_1,
     .note = "Full frames in a 512x512 view (the paper does not say). The dragon, the buddha and "
             "Planck's bust are not free to ship: other models with the published numbers of faces "
-            "stand in for them; the inputs above name them.",
+            "stand in for them; the inputs above name them. A reading with one height map, as "
+            "stuppacher-2 has it, shows no model, and is left out.",
 };
 
 // Table 2: frame rates with different texture resolutions, a mirror.

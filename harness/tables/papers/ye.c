@@ -37,7 +37,7 @@ const struct rg_table rg_table_ye_1 = {
     .rows = particles,
     .note =
         "Nothing of this is in print: the paper says that its improvements make rain \"much "
-        "faster\", each of them, and gives no number. traditional is its section II, improved its "
+        "faster\", and gives no number. traditional is its section II, improved its "
         "section III; between them stand the traditional system with one improvement each: place "
         "and speed alone (state), line segments, the test of a point, uniform motion, promotion, "
         "and layers of depth, which are there for the eye and not for speed. heap is the "

@@ -28,6 +28,11 @@ static bool add_columns(struct rg_grid *grid, const struct rg_technique *techniq
         for (int k = 0; k < i; k++)
             if (!strcmp(grid->axes[k].name, axis->name))
                 return rg_error("--axis %s: stands twice; name all its values at once", axis->name);
+        // What stands behind a preset changes it, and what stands before it would be as if it were
+        // not there.
+        if (i && technique->params->preset && !strcmp(axis->name, technique->params->preset))
+            return rg_error("--axis %s: stands for other parameters; name it before --axis %s",
+                            axis->name, grid->axes[0].name);
         if (has_column(technique, axis))
             table->columns[table->key_count++] = axis->name;
         else if (table->names)
