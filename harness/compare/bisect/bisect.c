@@ -124,7 +124,9 @@ static int run(struct run *r)
         exit = halve(r);
     if (b->end != RG_BISECT_STOPPED)
         rg_bisect_kept_remove(&r->kept);
-    else if (rg_interrupted()) {
+    else if (b->order_count)
+        keep(r); // the command that ended may have written into candidates that are judged
+    if (b->end == RG_BISECT_STOPPED && rg_interrupted()) {
         exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
         rg_info("interrupted; the same command goes on from %lld verdicts",
                 (long long)b->order_count);

@@ -75,3 +75,19 @@ bool rg_document_unseal(const char *path, json_t *document, bool is_sealed, char
                    "again");
     return false;
 }
+
+json_t *rg_document_read(const char *path, const char *mend, char why[RG_WHY_SIZE])
+{
+    size_t size, at = 0;
+    char *text = rg_document_load(path, &size, mend, why);
+    json_t *document = text ? rg_document_next(path, text, size, &at, mend, why) : NULL;
+    bool ok = document && rg_document_unseal(path, document, true, why);
+    free(text);
+    if (ok && at < size) {
+        snprintf(why, RG_WHY_SIZE, "%.200s: has more behind its end; %s", path, mend);
+        ok = false;
+    }
+    if (!ok)
+        json_decref(document);
+    return ok ? document : NULL;
+}

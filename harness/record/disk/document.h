@@ -19,4 +19,8 @@ json_t *rg_document_next(const char *path, const char *text, size_t size, size_t
 // the document `is_sealed`: results that were printed carry none, and what is kept does.
 bool rg_document_unseal(const char *path, json_t *document, bool is_sealed, char why[RG_WHY_SIZE]);
 
+// The one sealed document of a file; the caller releases it. NULL where the file holds none, or
+// something behind it.
+json_t *rg_document_read(const char *path, const char *mend, char why[RG_WHY_SIZE]);
+
 #endif

@@ -106,12 +106,8 @@ void rg_stored_free(struct rg_stored *stored)
 
 bool rg_stored_read_one(const char *path, struct rg_result *result, char why[RG_WHY_SIZE])
 {
-    size_t size, at = 0;
-    char *text = rg_document_load(path, &size, mend, why);
-    json_t *document = text ? rg_document_next(path, text, size, &at, mend, why) : NULL;
-    const bool ok = document && rg_document_unseal(path, document, true, why) &&
-                    rg_result_from_json(document, path, result, why);
+    json_t *document = rg_document_read(path, mend, why);
+    const bool ok = document && rg_result_from_json(document, path, result, why);
     json_decref(document);
-    free(text);
     return ok;
 }

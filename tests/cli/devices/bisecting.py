@@ -187,15 +187,19 @@ def check_goes_on(runner):
             problems.append("again: exit status %d, tried %s, %s%s" % (ran.returncode, tried, ran.stdout, ran.stderr))
         if os.path.exists(path):
             problems.append("the verdicts stay")
-        for damaged in (text.replace("good 0", "good 44"), text + "bad 3\n", text + text, text.replace("good", "well"), text.replace(" 1\n", " 2\n")):
+        for damaged in (text.replace('"good"', '"skip"'), text + "bad 3\n", text + text, text[:-9], text.replace('"at":8', '"at":7'), ""):
             write(folder, "raingauge/" + kept[0], damaged)
             ran = runner.run(args, env=env)
-            if ran.returncode or "is damaged; the bisect begins anew" not in ran.stderr or ran.stdout.count("exit status") != 5:
+            if ran.returncode or "; the bisect begins anew\n" not in ran.stderr or ran.stdout.count("exit status") != 5:
                 problems.append("damaged: exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr))
         write(folder, "raingauge/" + kept[0], text)
         ran = runner.run(args[:-1] + ["8.9", "9"], env=env)
-        if "goes on" in ran.stderr or "damaged" in ran.stderr:
+        if "goes on" in ran.stderr or "anew" in ran.stderr:
             problems.append("others: %s" % ran.stderr)
+        write(folder, "raingauge/" + kept[0], text)
+        ran = runner.run(args, env={**env, "LP_NUM_THREADS": "1"})
+        if ran.returncode or "is of another raingauge, machine or environment; the bisect begins anew" not in ran.stderr:
+            problems.append("another environment: %s" % ran.stderr)
         ran = runner.run(args + ["--fresh"], env=env)
         if ran.returncode or "goes on" in ran.stderr:
             problems.append("fresh: %s" % ran.stderr)

@@ -1,7 +1,7 @@
 """Bisects: which candidate is judged next, what a command's exit status says, how it is called, and what is kept."""
 from fault import Fault
 
-TESTS = ("bisect", "command line, bisects")
+TESTS = ("bisect", "bisect, kept", "command line, bisects")
 
 BISECT = "harness/compare/bisect/"
 SEARCH, BLANKS, JUDGE = BISECT + "search.c", BISECT + "blanks.c", BISECT + "judge.c"
@@ -23,9 +23,12 @@ ROWS = [
     Fault(JUDGE, "            «kill(-child, SIGTERM);»", ";", "the command of an interrupted bisect runs on"),
     Fault(LIST, "    if («from > to»)", "false", "a list with the newest first is searched backwards"),
     Fault(LIST, "«!has_each_once(candidates)»", "false", "a candidate that stands there twice has two verdicts"),
-    Fault(KEPT, "|| «strcmp(text + used, b->candidates->names[at])»)", "false", "a verdict is taken for another candidate"),
-    Fault(KEPT, "judged.verdict == RG_JUDGED_NONE || «b->judged[at].verdict != RG_JUDGED_NONE»", "false", "a verdict that stands there twice is taken twice"),
-    Fault(KEPT, "hash = «hash_text(bisect->candidates->names[i], hash)»;", "hash", "verdicts of other candidates are taken"),
+    Fault(KEPT, "«!json_equal(json_object_get(document, \"key\"), key)»)", "false", "verdicts of another raingauge or machine are taken"),
+    Fault(KEPT, "at >= b->candidates->count || «b->judged[at].verdict != RG_JUDGED_NONE»)", "false", "a verdict that stands there twice is taken twice"),
+    Fault(KEPT, "if («!can_be(&judged, b->judging)»)", "false", "a verdict that cannot be is taken"),
+    Fault(KEPT, "if («strcmp(stamp, now) != 0»)", "false", "a candidate that was built anew keeps its verdict"),
+    Fault(KEPT, "if (!ok || «b->judged[0].verdict == RG_JUDGED_NONE»)", "false", "verdicts outlive the good end that they were held against"),
+    Fault(KEPT, "hash = «hash_text(bisect->candidates->names[i], hash)»;", "hash", "bisects of other candidates have one file"),
     Fault(RUN, "    «rg_bisect_kept_remove(&r->kept);»", ";", "verdicts stay when a bisect is done"),
     Fault(RUN, "b->fresh ? «0» : rg_bisect", "rg_bisect_kept_take(&r->kept, b)", "--fresh takes verdicts"),
     Fault(GIT, ": verdict == RG_JUDGED_SKIP ? «RG_EXIT_GIT_SKIP»", "1", "git takes what was skipped for bad"),
