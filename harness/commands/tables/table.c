@@ -120,6 +120,28 @@ static int print(const struct rg_result *result, const void *user)
     return exit;
 }
 
+// The verdicts, in the format that is asked for. An enum rg_exit.
+static int print_claims(const void *user)
+{
+    const struct table_options *o = user;
+    struct rg_sheet sheet = {0};
+    if (!o->outcomes->count)
+        return RG_EXIT_PASS;
+    const bool wide = o->wide || o->format == RG_RESULT_CSV || o->format == RG_RESULT_TEX;
+    rg_claims_sheet(o->outcomes, wide, &sheet);
+    if (o->format == RG_RESULT_CSV)
+        rg_sheet_print_csv(&sheet, stdout);
+    else if (o->format == RG_RESULT_TEX)
+        rg_sheet_print_tex(&sheet, stdout);
+    else
+        rg_sheet_print_md(&sheet, stdout);
+    rg_sheet_free(&sheet);
+    if (!fflush(stdout) && !ferror(stdout))
+        return sheet.incomplete ? RG_EXIT_FAIL : RG_EXIT_PASS;
+    rg_stdout_error();
+    return RG_EXIT_USAGE;
+}
+
 // --- tables that are measured ---
 
 static bool has_variant(const struct rg_table *table, const char *wanted)
@@ -221,6 +243,7 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
                                                  .budget_s = budget_s,
                                                  .folder = o->output,
                                                  .print = print,
+                                                 .print_end = print_claims,
                                                  .user = o};
     struct rg_devices devices;
     if (!have_claims(o, chosen, count) ||
@@ -317,22 +340,7 @@ static int print_tables(const struct table_options *o, const struct rg_words *ar
     const int exit =
         rg_stored_read(&stored, o->from) ? print_stored(&stored, o, arguments) : RG_EXIT_USAGE;
     rg_stored_free(&stored);
-    return exit;
-}
-
-// The verdicts, in the format that is asked for. False, and one logged line, without memory.
-static bool print_claims(const struct rg_claim_outcomes *outcomes, int format, bool wide)
-{
-    struct rg_sheet sheet = {0};
-    rg_claims_sheet(outcomes, wide || format == RG_RESULT_CSV || format == RG_RESULT_TEX, &sheet);
-    if (format == RG_RESULT_CSV)
-        rg_sheet_print_csv(&sheet, stdout);
-    else if (format == RG_RESULT_TEX)
-        rg_sheet_print_tex(&sheet, stdout);
-    else
-        rg_sheet_print_md(&sheet, stdout);
-    rg_sheet_free(&sheet);
-    return !sheet.incomplete;
+    return rg_exit_worse(exit, print_claims(o));
 }
 
 static int table(const void *values, const struct rg_words *arguments)
@@ -349,10 +357,8 @@ static int table(const void *values, const struct rg_words *arguments)
     rg_memory_allow(o.memory_bytes);
     if (!rg_sets_join(&o.sets, &o.set))
         return RG_EXIT_USAGE;
-    int exit = print_tables(&o, arguments);
+    const int exit = print_tables(&o, arguments);
     free(o.set);
-    if (outcomes.count && !print_claims(&outcomes, o.format, o.wide))
-        exit = RG_EXIT_FAIL;
     rg_claims_free(&outcomes);
     return exit;
 }

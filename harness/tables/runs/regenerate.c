@@ -184,6 +184,22 @@ static bool keeps_journals(const struct task *tasks, int count)
     return any_is_lost || rg_interrupted();
 }
 
+static int print_end(const struct rg_regenerate_options *options)
+{
+    return options->print_end ? options->print_end(options->user) : RG_EXIT_PASS;
+}
+
+// What stands behind the tables is of all of them: where it is lost, so is what each was to tell.
+static int finish_tasks(struct task *tasks, int count, const struct rg_regenerate_options *options)
+{
+    const int exit = print_end(options);
+    for (int i = 0; exit == RG_EXIT_USAGE && i < count; i++) {
+        tasks[i].is_lost = true;
+        rg_journal_keep(tasks[i].journal);
+    }
+    return exit;
+}
+
 static void end_tasks(struct task *tasks, int count)
 {
     const bool are_kept = keeps_journals(tasks, count);
@@ -211,6 +227,7 @@ static int run_tasks(struct task *tasks, int count, const struct rg_devices *dev
     rg_progress_end(&progress);
     if (rg_interrupted())
         exit = rg_exit_worse(exit, RG_EXIT_SIGNALLED + rg_interrupt_signal());
+    exit = rg_exit_worse(exit, finish_tasks(tasks, count, o));
     end_tasks(tasks, count);
     return rg_kept_free(&kept) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
 }
@@ -247,6 +264,7 @@ static int regenerate_within(const struct rg_table *const tables[], int count,
         exit = rg_exit_worse(exit, RG_EXIT_NOTHING);
     if (rg_interrupted())
         exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
+    exit = rg_exit_worse(exit, print_end(options));
     return rg_kept_free(&kept) && ok ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
 }
 

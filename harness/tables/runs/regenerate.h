@@ -14,6 +14,8 @@ struct rg_regenerate_options {
     // Prints what there is of a table, which may be interrupted, and returns how that ended
     // (harness/console/exit.h).
     int (*print)(const struct rg_result *result, const void *user);
+    // Prints what stands behind all tables, before their journals go; NULL: nothing does.
+    int (*print_end)(const void *user);
     const void *user;
 };
 

@@ -191,16 +191,17 @@ def check_unprinted(runner):
     told = (r"raingauge: standard output: cannot be written; .*\n"
             r"raingauge: once all can be written, the same command goes on with what was measured\n")
     again = r"raingauge: %s: 1 of 1 rows are those of a run that was interrupted, .*\n"
-    for tables in ([FIRST], [FIRST, SECOND]):
+    for tables, more in (([FIRST], ""), ([FIRST, SECOND], ""), ([FIRST], "--claims"), ([FIRST, SECOND], "--claims --wide")):
         with tempfile.TemporaryDirectory() as state:
-            args = ROW.replace(FIRST, " ".join(tables)).split()
+            args = ROW.replace(FIRST, " ".join(tables)).split() + more.split()
             with open("/dev/full", "w") as full:
                 lost = runner.run(args, {"XDG_STATE_HOME": state}, stdout=full)
             held = sorted(os.listdir(state + "/raingauge"))
             if lost.returncode != 2 or not re.fullmatch(told, lost.stderr) or held != sorted(t + "-quick.journal" for t in tables):
                 problems.append("exit status %d, held %s, %s" % (lost.returncode, held, lost.stderr))
             found = runner.run(args, {"XDG_STATE_HOME": state})
-            if found.returncode or not re.fullmatch("".join(again % t for t in tables), found.stderr) or os.listdir(state + "/raingauge"):
+            if found.returncode or not found.stdout or not re.fullmatch("".join(again % t for t in tables), found.stderr) or \
+                    os.listdir(state + "/raingauge"):
                 problems.append("again: exit status %d, %s" % (found.returncode, found.stderr))
     return problems
 

@@ -36,6 +36,7 @@ ROWS = [
     Fault(HOLD, "return «!is_taken»;", "true", "two runs write into a folder at once", tests=("command line, losses",)),
     Fault(REGENERATE, "if («!is_ours» && options->folder)", "false", "a second run into a folder goes on", tests=("command line, losses",)),
     Fault(REGENERATE, "for (int i = 0; «keeps» && i < made; i++)", "true", "a run whose state folder another holds keeps rows there", tests=("command line, losses",)),
+    Fault(REGENERATE, "«exit == RG_EXIT_USAGE» && i < count; i++)", "false", "what was measured is lost where the claims cannot be printed", tests=("command line, losses",)),
     Fault(REGENERATE, "return «any_is_lost || rg_interrupted()»;", "rg_interrupted()", "what was measured is lost where the results cannot be written", tests=("command line, losses",)),
     Fault(CLOCK, "clock_gettime(«CLOCK_MONOTONIC», &now);", "CLOCK_REALTIME", "times are taken by a clock that can be set back", tests=("command line, losses",)),
     Fault(DOCUMENT, "*at += strspn(text + *at, \" \\t\\r\\n\");", "", "line ends behind a document are taken for another"),
