@@ -2,8 +2,10 @@
 
 #include <stdlib.h>
 
+#include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "harness/console/exit.h"
+#include "harness/record/disk/journal.h"
 #include "harness/record/output.h"
 #include "harness/record/schema/schema.h"
 #include "harness/tables/sheet/brief.h"
@@ -77,6 +79,28 @@ bool rg_results_can_be_written(const struct rg_table *const tables[], int count,
             ok = rg_output_can_be_replaced(folder, name);
         }
     return ok;
+}
+
+static bool spares(const char *folder, const char *name, const char *read)
+{
+    char path[2048]; // what does not fit is refused where it is to be written
+    return snprintf(path, sizeof(path), "%s/%s", folder, name) >= (int)sizeof(path) ||
+           rg_file_spares(path, read);
+}
+
+bool rg_result_spares(const struct rg_table *table, const char *folder, const char *read)
+{
+    char name[RG_JOURNAL_NAME_SIZE];
+    bool spared = true;
+    for (int format = 0; spared && rg_result_formats[format]; format++) {
+        name_file(table->id, format, name);
+        spared = spares(folder, name, read);
+    }
+    for (int full = 0; spared && full < 2; full++) {
+        rg_journal_name(table->id, full, name);
+        spared = spares(folder, name, read);
+    }
+    return spared;
 }
 
 bool rg_result_write(const struct rg_result *result, const char *folder)

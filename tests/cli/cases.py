@@ -396,6 +396,13 @@ TABLES = [
     Case("table --variant nonsense --device cpu", 2, r"--variant nonsense: no table times such a thing"),
     Case("table stuppacher-1 --work reading --device cpu", 2, r"--work reading: table 'stuppacher-1' has no such work"),
     Case("table --set drops=1 --from {data}", 2, r"--from and --set: choose one"),
+    Case("table stuppacher-2 --device nonsense --set environment={data}/stuppacher-2.md -o {data}", 2,
+         r"stuppacher-2\.md: would be overwritten, and is read as '.*/stuppacher-2\.md'; name another with -o"),
+    Case("table stuppacher-2 --device nonsense --set environment={data}/a.png -o {data}", 2, r"stuppacher-2\.tex: would be overwritten, and is read as '.*/a\.png'"),
+    Case("table stuppacher-2 --device nonsense --set environment={data}/b.png -o {data}", 2, UNKNOWN_DEVICE),
+    Case("sweep drops --axis background={data}/a.png,{data}/sweep-drops.csv --device nonsense -o {data}", 2, r"sweep-drops\.csv: would be overwritten"),
+    Case("sweep drops --axis seed=1 --set background={data}/sweep-drops-quick.journal --device nonsense -o {data}", 2,
+         r"sweep-drops-quick\.journal: would be overwritten"),
     Case("sweep flow", 2, r"--axis: none is of a parameter; name one, as in --axis seed=1,2\.\.5"),
     Case("sweep", 2, r"no technique named; `raingauge list techniques` prints them"),
     Case("sweep flow --axis seed", 2, r"--axis seed: write it as NAME=VALUE,VALUE or NAME=5,10\.\.40"),
@@ -483,9 +490,11 @@ def write_inputs(runner, data):
             content = source.read()
             file.write(content[:len(content) // 2])
     os.mkdir(os.path.join(data, "in.files"))
-    for name in ("in-flip.png", "in-difference.png", "in-cpu-cpu_reference-flip.png", "in2.png", "in.files/a.png"):
+    for name in ("in-flip.png", "in-difference.png", "in-cpu-cpu_reference-flip.png", "in2.png", "in.files/a.png",
+                 "stuppacher-2.md", "sweep-drops.csv", "sweep-drops-quick.journal"):
         shutil.copy(os.path.join(data, "a.png"), os.path.join(data, name))
-    os.symlink(os.path.join(data, "a.png"), os.path.join(data, "link-flip.png"))
+    for link in ("link-flip.png", "stuppacher-2.tex"):
+        os.symlink(os.path.join(data, "a.png"), os.path.join(data, link))
     packaged = "/usr/share/open3d-gui/resources/crossroads_skybox.ktx"
     start = open(packaged, "rb").read(4096) if os.path.exists(packaged) else b"\xabKTX 11\xbb\r\n\x1a\n" + bytes(52)
     for name, content in (("short.ktx", start[:20]), ("half.ktx", start), ("short.exr", b"\x76\x2f\x31\x01\x02")):

@@ -9,6 +9,7 @@
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
+#include "harness/commands/tables/inputs.h"
 #include "harness/commands/tables/sets.h"
 #include "harness/console/exit.h"
 #include "harness/devices/names.h"
@@ -153,7 +154,8 @@ static int run_grid(struct rg_grid *grid, const struct sweep_options *o,
         grid->table.height = o->size.height;
         grid->table.check_frames = o->frame;
         const struct rg_table *const table = &grid->table;
-        if (!o->output || rg_results_can_be_written(&table, 1, o->output))
+        if (rg_inputs_are_spared(&table, 1, set, o->output) &&
+            (!o->output || rg_results_can_be_written(&table, 1, o->output)))
             exit = open_and_run(grid, o, names, set);
     }
     free(settings);

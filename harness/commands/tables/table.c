@@ -10,6 +10,7 @@
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
+#include "harness/commands/tables/inputs.h"
 #include "harness/commands/tables/sets.h"
 #include "harness/console/duration.h"
 #include "harness/console/exit.h"
@@ -246,7 +247,7 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
                                                  .print_end = print_claims,
                                                  .user = o};
     struct rg_devices devices;
-    if (!have_claims(o, chosen, count) ||
+    if (!have_claims(o, chosen, count) || !rg_inputs_are_spared(chosen, count, o->set, o->output) ||
         (o->output && !rg_results_can_be_written(chosen, count, o->output)))
         return RG_EXIT_USAGE;
     int exit = rg_devices_open_asked(&o->devices, &devices);

@@ -14,8 +14,8 @@
 #include "harness/record/disk/stored.h"
 
 struct rg_journal {
-    char folder[1536], name[128], path[2048]; // no folder: there is none to be had
-    struct rg_result held;                    // the rows that are whole, or begun
+    char folder[1536], name[RG_JOURNAL_NAME_SIZE], path[2048]; // no folder: there is none to be had
+    struct rg_result held;                                     // the rows that are whole, or begun
     bool has_file, is_followed;
     bool is_broken; // it could not be written, which one logged line said
 };
@@ -64,6 +64,11 @@ static void read_file(struct rg_journal *journal)
     rg_result_free(&found);
 }
 
+void rg_journal_name(const char *table, bool full, char name[RG_JOURNAL_NAME_SIZE])
+{
+    snprintf(name, RG_JOURNAL_NAME_SIZE, "%s-%s.journal", table, full ? "full" : "quick");
+}
+
 struct rg_journal *rg_journal_open(const struct rg_result *result, const char *folder, bool fresh,
                                    bool is_followed)
 {
@@ -75,8 +80,7 @@ struct rg_journal *rg_journal_open(const struct rg_result *result, const char *f
         rg_state_folder(j->folder, sizeof(j->folder));
     else if (strlen(folder) < sizeof(j->folder))
         memcpy(j->folder, folder, strlen(folder) + 1);
-    snprintf(j->name, sizeof(j->name), "%s-%s.journal", result->table,
-             result->full ? "full" : "quick");
+    rg_journal_name(result->table, result->full, j->name);
     snprintf(j->path, sizeof(j->path), "%s/%s", j->folder, j->name);
     j->held = head_of(result);
     json_incref(j->held.passport);

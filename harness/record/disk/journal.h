@@ -12,6 +12,10 @@
 
 #include "harness/record/result.h"
 
+// The name of a table's journal in its folder.
+enum { RG_JOURNAL_NAME_SIZE = 128 };
+void rg_journal_name(const char *table, bool full, char name[RG_JOURNAL_NAME_SIZE]);
+
 // Reads the journal of a result that was begun and has no row yet. `folder`: of the results, or
 // NULL. `fresh`: what is there is not read. `is_followed`: other tables come after this one, so
 // that its last row is kept as well. NULL, with one logged line, when there is no folder or no
