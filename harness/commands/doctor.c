@@ -88,12 +88,34 @@ static void describe(struct rg_doctor_report *report)
     report->warnings = rg_doctor_warnings(&report->list);
 }
 
+// Whether a name is that of a device which was listed a moment ago.
+static bool was_listed(const struct rg_device_list *list, const char *name)
+{
+    bool found = false;
+    for (int i = 0; !found && i < list->count; i++)
+        found = !strcmp(list->infos[i].name, name);
+    return found;
+}
+
+// A device that was listed and is gone once it is opened, as one whose driver is just being
+// replaced, or that a GPU's reset took, fails; the others are examined all the same.
+static void tell_gone(struct rg_examination *examination)
+{
+    char why[sizeof(examination->why)];
+    snprintf(why, sizeof(why), "was listed, and is gone now: %.450s", examination->why);
+    memcpy(examination->why, why, sizeof(why));
+    examination->is_unknown = false;
+}
+
 // Examines; false when a name is unknown.
 static bool examine(struct rg_doctor_report *report)
 {
     for (int i = 0; i < report->count; i++) {
-        rg_doctor_examine(&report->examinations[i]);
-        if (report->examinations[i].is_unknown)
+        struct rg_examination *examination = &report->examinations[i];
+        rg_doctor_examine(examination);
+        if (examination->is_unknown && was_listed(&report->list, examination->info.name))
+            tell_gone(examination);
+        if (examination->is_unknown)
             return false;
     }
     return true;

@@ -239,6 +239,25 @@ def check_closing(runner):
     return side_by_side(lambda command: problems_closing(runner, command), commands)
 
 
+def check_gone(runner):
+    """a device that is listed and gone once it is opened is an error of its own, and every other is examined and compared"""
+    def problems_gone(command):
+        with tempfile.TemporaryDirectory() as folder:
+            env = shim(runner, folder, "vulkan", "none", "none", 0)
+            first = os.path.join(folder, "first.json")
+            with open(first, "w") as file:
+                json.dump({"file_format_version": "1.0.0", "ICD": {"library_path": "libvulkan_lvp.so", "api_version": "1.1.0"}}, file)
+            env.update(VK_DRIVER_FILES=first + ":" + env["VK_DRIVER_FILES"], RG_VANISH=os.path.join(folder, "asked") + ":1")
+            result = runner.run(COMMANDS[command].split() + ["--device", "all"], env)
+        report = json.loads(result.stdout) if result.stdout else {"devices": [], "pairs": []}
+        whys = [device["why"] for device in report.get("devices", []) if device["name"] == "vulkan:1" and device["status"] == "error"]
+        told = re.fullmatch("raingauge: device 'vulkan:1': vulkan has no such device; .*\n", result.stderr)
+        kept = found_well(command, report)
+        well = kept == OTHERS and result.returncode == 1 and told and (command != "doctor" or whys and "was listed, and is gone now: device" in whys[0])
+        return [] if well else ["%s: kept %s, %s, exit status %d, %s" % (command, sorted(kept), whys, result.returncode, result.stderr)]
+    return side_by_side(problems_gone, ["doctor", "diff"])
+
+
 def check_environments(runner):
     """two settings and two drivers of one API stand side by side, told apart by their names"""
     with tempfile.TemporaryDirectory() as folder:
@@ -270,4 +289,4 @@ def check_caches(runner):
 
 
 THOROUGH = [check_all_ways]
-CHECKS = [check_comparisons, check_commands, check_alone, check_listed, check_required, check_ignored_ends, check_closing, check_environments, check_caches]
+CHECKS = [check_comparisons, check_commands, check_alone, check_listed, check_required, check_ignored_ends, check_closing, check_gone, check_environments, check_caches]

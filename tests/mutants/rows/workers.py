@@ -66,6 +66,7 @@ ROWS = [
     Fault(DIFF, "if (rg_last_error_kind() == RG_ERROR_INPUT && !s->shot_count)\n        return false;", "return false;", "a device that fails ends the comparison of the others"),
     Fault(PLAN, "else if («!leave_out(plan, d)»)", "true", "a device that fails ends a sweep of the others"),
     Fault(PLAN, "return rg_last_error_kind() != RG_ERROR_INPUT && «plan->failed < plan->devices»;", "true", "a sweep of no device is planned", lives="what is measured then are failures, and it ends as such"),
+    Fault(DOCTOR, "if (examination->is_unknown && «was_listed(&report->list, examination->info.name)»)", "false", "a device that is gone takes the report along"),
     Fault(DOCTOR, "exit = «RG_EXIT_FAIL»;\n        }", "RG_EXIT_PASS", "a backend that crashes while it is listed is no failure"),
     Fault(DIFF, "s->exit = rg_exit_worse(s->exit, rg_exit_of(outcome));", ";", "a device that failed passes"),
     Fault(CACHES, "if («!width» || getenv", "true", "code of one width of vectors runs as another's"),
