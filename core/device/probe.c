@@ -265,7 +265,6 @@ static bool probe_list(struct rg_device *device, struct rg_device *reference, bo
     struct bench tried, trusted = {0};
     bool ok = bench_init(&tried, device, kernel) && bench_init(&trusted, reference, kernel);
     for (int i = 0; ok && i < (builtin ? RG_PROBE_BUILTIN_COUNT : RG_PROBE_OP_COUNT); i++) {
-        results[i] = (struct rg_probe_result){.name = list[i].name, .builtin = builtin};
         draw_all(&list[i], &work->drawn);
         ok = bench_run(&tried, i, &work->drawn, work->got) && expect(&trusted, i, builtin, work);
         if (ok)
@@ -276,10 +275,20 @@ static bool probe_list(struct rg_device *device, struct rg_device *reference, bo
     return ok;
 }
 
+void rg_probe_name(struct rg_probe_result results[RG_PROBE_COUNT])
+{
+    for (int i = 0; i < RG_PROBE_OP_COUNT; i++)
+        results[i] = (struct rg_probe_result){.name = ops[i].name};
+    for (int i = 0; i < RG_PROBE_BUILTIN_COUNT; i++)
+        results[RG_PROBE_OP_COUNT + i] =
+            (struct rg_probe_result){.name = builtins[i].name, .builtin = true};
+}
+
 bool rg_probe_run(struct rg_device *device, struct rg_probe_result results[RG_PROBE_COUNT])
 {
     struct rg_device *reference = rg_device_open("cpu:reference");
     struct workspace *work = rg_alloc(1, sizeof(*work), "probe");
+    rg_probe_name(results);
     bool ok = reference && work && probe_list(device, reference, false, work, results) &&
               probe_list(device, reference, true, work, results + RG_PROBE_OP_COUNT);
     free(work);

@@ -25,6 +25,9 @@ struct rg_probe_result {
     uint32_t largest_ulps; // distance in neighbouring floats, or of integers
 };
 
+// Gives results their names and kinds, and zeros.
+void rg_probe_name(struct rg_probe_result results[RG_PROBE_COUNT]);
+
 // Runs every operation of kernels/probe/list.h on seeded inputs and compares the bits. Plain
 // operations are held against C on the host; builtins, and what the dialect composes of plain
 // operations, against cpu:reference. False, and one logged line, when one of the devices failed.

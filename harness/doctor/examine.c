@@ -6,6 +6,7 @@
 #include "harness/devices/devices.h"
 #include "harness/doctor/report.h"
 #include "harness/devices/workers/device.h"
+#include "harness/measure/messages.h"
 
 int rg_examination_failures(const struct rg_examination *examination)
 {
@@ -35,36 +36,39 @@ static struct rg_device *open_device(struct rg_examination *examination)
     return device;
 }
 
-// Asks the device's worker for a result of one struct.
-static bool ask(struct rg_worker *worker, enum rg_call call, void *result, size_t size)
+static bool probe(struct rg_worker *worker, struct rg_probe_result results[RG_PROBE_COUNT])
 {
     struct rg_message reply;
-    const bool ok = rg_worker_call(worker, call, NULL, &reply) &&
-                    rg_take(&reply, result, (int64_t)size) && !reply.failed;
+    const bool ok =
+        rg_worker_call(worker, RG_CALL_PROBE, NULL, &reply) && rg_take_probe(&reply, results);
     rg_message_free(&reply);
     return ok;
 }
 
-static bool probe(struct rg_worker *worker, struct rg_probe_result results[RG_PROBE_COUNT])
+static bool audit(struct rg_worker *worker, struct rg_timer_audit *timer)
 {
     struct rg_message reply;
-    const bool ok = rg_worker_call(worker, RG_CALL_PROBE, NULL, &reply);
-    for (int i = 0; ok && i < RG_PROBE_COUNT; i++) {
-        const char *name = rg_take_name(&reply);
-        RG_TAKE(&reply, results[i]);
-        results[i].name = name;
-    }
-    const bool whole = ok && !reply.failed;
+    const bool ok =
+        rg_worker_call(worker, RG_CALL_AUDIT, NULL, &reply) && rg_take_audit(&reply, timer);
     rg_message_free(&reply);
-    return whole;
+    return ok;
+}
+
+static bool measure(struct rg_worker *worker, struct rg_ceilings *ceilings)
+{
+    struct rg_message reply;
+    const bool ok = rg_worker_call(worker, RG_CALL_CEILINGS, NULL, &reply) &&
+                    rg_take_ceilings(&reply, ceilings);
+    rg_message_free(&reply);
+    return ok;
 }
 
 // Each step begins only where those before it came to their end.
 static bool examine(struct rg_examination *e, struct rg_worker *worker)
 {
     e->probed = probe(worker, e->probe);
-    e->audited = e->probed && ask(worker, RG_CALL_AUDIT, &e->timer, sizeof(e->timer));
-    e->measured = e->audited && ask(worker, RG_CALL_CEILINGS, &e->ceilings, sizeof(e->ceilings));
+    e->audited = e->probed && audit(worker, &e->timer);
+    e->measured = e->audited && measure(worker, &e->ceilings);
     return e->measured;
 }
 

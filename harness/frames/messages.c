@@ -148,6 +148,26 @@ bool rg_take_account(struct rg_message *message, struct rg_account *account)
     return !message->failed;
 }
 
+enum { COUNTS = sizeof(struct rg_tally) / sizeof(int64_t) };
+
+void rg_put_tally(struct rg_message *message, const struct rg_tally *tally)
+{
+    RG_PUT(message, *tally);
+}
+
+bool rg_take_tally(struct rg_message *message, struct rg_tally *tally)
+{
+    int64_t counts[COUNTS];
+    _Static_assert(sizeof(counts) == sizeof(*tally), "a tally has counts alone");
+    if (!RG_TAKE(message, counts))
+        return false;
+    for (int i = 0; i < COUNTS; i++)
+        if (counts[i] < -1)
+            return rg_message_fail(message);
+    memcpy(tally, counts, sizeof(counts));
+    return true;
+}
+
 void rg_put_layout(struct rg_message *message, const struct rg_state *layout)
 {
     rg_put_text(message, layout->name ? layout->name : "");

@@ -15,6 +15,10 @@ bool rg_take_subject(struct rg_message *message, struct rg_subject *subject);
 void rg_put_account(struct rg_message *message, const struct rg_account *account);
 bool rg_take_account(struct rg_message *message, struct rg_account *account);
 
+// Counts, of which -1 is one that is unknown.
+void rg_put_tally(struct rg_message *message, const struct rg_tally *tally);
+bool rg_take_tally(struct rg_message *message, struct rg_tally *tally);
+
 // A state without its asset; no name where it is none.
 void rg_put_layout(struct rg_message *message, const struct rg_state *layout);
 bool rg_take_layout(struct rg_message *message, struct rg_state *layout);

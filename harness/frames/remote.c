@@ -93,12 +93,14 @@ static bool wait_for_all(struct rg_session *session)
     return ask(session, RG_CALL_SYNC);
 }
 
+static const double most_ms = 1e18; // far beyond any time, and far from infinity
+
 static bool run_frames(struct rg_session *session, int frames, double *wall_ms)
 {
     struct rg_message request = {0}, reply;
-    double ms = 0;
     rg_put_int(&request, frames);
-    const bool ok = call(session, RG_CALL_FRAMES, &request, &reply) && RG_TAKE(&reply, ms);
+    const bool ok = call(session, RG_CALL_FRAMES, &request, &reply);
+    const double ms = ok ? rg_take_number(&reply, 0, most_ms) : 0;
     if (wall_ms)
         *wall_ms = ms;
     return finish(&reply, ok);
@@ -107,7 +109,7 @@ static bool run_frames(struct rg_session *session, int frames, double *wall_ms)
 static bool count(struct rg_session *session, struct rg_tally *tally)
 {
     struct rg_message reply;
-    const bool ok = call(session, RG_CALL_COUNT, NULL, &reply) && RG_TAKE(&reply, *tally);
+    const bool ok = call(session, RG_CALL_COUNT, NULL, &reply) && rg_take_tally(&reply, tally);
     return finish(&reply, ok);
 }
 
@@ -118,9 +120,9 @@ static bool time_stages(struct rg_session *session,
     const bool ok = call(session, RG_CALL_STAGES, NULL, &reply);
     const int64_t stages = ok ? rg_take_int(&reply) : 0;
     for (int64_t i = 0; i < stages && !reply.failed; i++) {
-        double ms = 0;
         const char *kernel = rg_take_name(&reply);
-        if (RG_TAKE(&reply, ms))
+        const double ms = rg_take_number(&reply, 0, most_ms);
+        if (!reply.failed)
             tell(kernel, ms, user);
     }
     return finish(&reply, ok);
@@ -211,8 +213,9 @@ static bool texture(const struct rg_session *session, const char *name, struct r
     struct rg_message request = {0}, reply;
     rg_put_text(&request, name);
     const bool ok = call(session, RG_CALL_TEXTURE, &request, &reply);
-    const bool found = ok && rg_take_index(&reply, 2) && rg_take_image_desc(&reply, desc) &&
-                       RG_TAKE(&reply, *first_level);
+    const bool found = ok && rg_take_index(&reply, 2) && rg_take_image_desc(&reply, desc);
+    if (found)
+        *first_level = rg_take_index(&reply, RG_MAX_LEVELS);
     return finish(&reply, ok) && found;
 }
 
@@ -244,8 +247,12 @@ static bool take_digests(const struct rg_digest_run *run, struct rg_device *devi
         size = 0;
     }
     digests->room = digests->count = (int)(size / (int64_t)sizeof(*digests->rows));
-    for (int i = 0; i < digests->count; i++)
-        digests->rows[i].stage[RG_ASSET_NAME - 1] = digests->rows[i].asset[RG_ASSET_NAME - 1] = 0;
+    for (int i = 0; i < digests->count; i++) {
+        struct rg_digest *row = &digests->rows[i];
+        row->stage[RG_ASSET_NAME - 1] = row->asset[RG_ASSET_NAME - 1] = 0;
+        if (row->frame < 0 || row->stages_run < 0 || row->weight < 0)
+            rg_message_fail(&reply);
+    }
     return finish(&reply, ok);
 }
 

@@ -4,9 +4,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "core/device/probe.h"
-#include "harness/measure/ceilings.h"
-#include "harness/measure/timer_audit.h"
+#include "harness/measure/messages.h"
 #include "harness/devices/serving/services.h"
 
 static struct rg_device *device;
@@ -65,10 +63,7 @@ bool rg_serve_probe(struct rg_message *request, struct rg_message *reply)
     (void)request;
     if (!rg_probe_run(device, results))
         return false;
-    for (int i = 0; i < RG_PROBE_COUNT; i++) {
-        rg_put_text(reply, results[i].name);
-        RG_PUT(reply, results[i]);
-    }
+    rg_put_probe(reply, results);
     return true;
 }
 
@@ -78,7 +73,7 @@ bool rg_serve_audit(struct rg_message *request, struct rg_message *reply)
     (void)request;
     if (!rg_timer_audit(device, &audit))
         return false;
-    RG_PUT(reply, audit);
+    rg_put_audit(reply, &audit);
     return true;
 }
 
@@ -88,6 +83,6 @@ bool rg_serve_ceilings(struct rg_message *request, struct rg_message *reply)
     (void)request;
     if (!rg_ceilings_measure(device, &ceilings))
         return false;
-    RG_PUT(reply, ceilings);
+    rg_put_ceilings(reply, &ceilings);
     return true;
 }

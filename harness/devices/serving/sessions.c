@@ -104,7 +104,7 @@ bool rg_serve_count(struct rg_message *request, struct rg_message *reply)
     struct rg_tally tally;
     if (!session || !rg_session_count(session, &tally))
         return false;
-    RG_PUT(reply, tally);
+    rg_put_tally(reply, &tally);
     return true;
 }
 
@@ -219,7 +219,7 @@ bool rg_serve_texture(struct rg_message *request, struct rg_message *reply)
     rg_put_int(reply, found);
     if (found) {
         RG_PUT(reply, desc);
-        RG_PUT(reply, first_level);
+        rg_put_int(reply, first_level);
     }
     return true;
 }

@@ -36,6 +36,34 @@ static void end_text(char *text, size_t size)
     text[size - 1] = 0;
 }
 
+// A byte that is neither 0 nor 1 is no bool, and must not be read as one.
+static bool is_bool(const bool *value)
+{
+    unsigned char byte;
+    memcpy(&byte, value, sizeof(byte));
+    return byte <= 1;
+}
+
+static bool are_slots(const struct rg_slot_limits *slots)
+{
+    return slots->buffers >= 0 && slots->images >= 0 && slots->out_images >= 0;
+}
+
+static bool are_limits(const struct rg_limits *l)
+{
+    bool ok = is_bool(&l->has_clock) && is_bool(&l->has_queries) && l->max_objects >= 0 &&
+              l->max_buffer_bytes >= 0 && l->max_image_px >= 0 && l->max_image_layers >= 0 &&
+              l->group_items >= 0 && are_slots(&l->slot_count) && are_slots(&l->slot_end);
+    for (int i = 0; i < 3; i++)
+        ok = ok && l->max_groups[i] >= 0;
+    for (int i = 0; i < RG_FORMAT_COUNT; i++) {
+        const struct rg_format_limits *format = &l->formats[i];
+        ok = ok && format->max_px >= 0 && format->max_layers >= 0 && format->max_levels >= 0 &&
+             format->max_bytes >= 0;
+    }
+    return ok;
+}
+
 bool rg_take_device_info(struct rg_message *message, struct rg_device_info *info)
 {
     if (!RG_TAKE(message, *info))
@@ -45,7 +73,9 @@ bool rg_take_device_info(struct rg_message *message, struct rg_device_info *info
     end_text(info->driver, sizeof(info->driver));
     end_text(info->api, sizeof(info->api));
     end_text(info->limits.no_draws, sizeof(info->limits.no_draws));
-    return (unsigned)info->tier < RG_TIER_COUNT || rg_message_fail(message);
+    return ((unsigned)info->tier < RG_TIER_COUNT && is_bool(&info->software) &&
+            are_limits(&info->limits)) ||
+           rg_message_fail(message);
 }
 
 // Asks for the device. Its name is as the driver's list has it, before an environment.

@@ -80,6 +80,15 @@ int rg_take_index(struct rg_message *message, int end)
     return 0;
 }
 
+double rg_take_number(struct rg_message *message, double least, double most)
+{
+    double number = least;
+    if (RG_TAKE(message, number) && number >= least && number <= most)
+        return number;
+    rg_message_fail(message);
+    return least;
+}
+
 // Where a block lies in the message; NULL where it does not.
 static const char *take_place(struct rg_message *message, int64_t *size)
 {

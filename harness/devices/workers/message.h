@@ -35,6 +35,8 @@ bool rg_take(struct rg_message *message, void *bytes, int64_t size);
 int64_t rg_take_int(struct rg_message *message);
 // A number from 0 to `end` - 1; else the message has failed.
 int rg_take_index(struct rg_message *message, int end);
+// A number from `least` to `most`, which no NaN is; else the message has failed, and it is `least`.
+double rg_take_number(struct rg_message *message, double least, double most);
 // A text of the message, which lives as long; "" where it has failed.
 const char *rg_take_text(struct rg_message *message);
 // The same text for as long as this process lives: names that structs point to.

@@ -1,13 +1,13 @@
 """Workers: how they are asked, how they end, and what is made of it; names of devices."""
 from fault import Fault
 
-TESTS = ("workers that end", "damaged replies", "messages", "names of devices", "sessions in workers", "subjects between processes", "log", "command line, misbehaving", "command line, gates")
+TESTS = ("workers that end", "damaged replies", "damaged findings", "messages", "names of devices", "sessions in workers", "subjects between processes", "log", "command line, misbehaving", "command line, gates")
 
 W = "harness/devices/workers/"
 WORKER, CHANNEL, SERVE, MESSAGE, ENVIRONMENT, DEVICE = (
     W + name + ".c" for name in ("worker", "channel", "serve", "message", "environment", "device"))
 NAMES, DEVICES, REMOTE, LOG = ("harness/devices/names.c", "harness/devices/devices.c", "harness/frames/remote.c", "core/base/log.c")
-DIFF, MESSAGES = "harness/compare/diff/devices.c", "harness/frames/messages.c"
+DIFF, MESSAGES, FINDINGS = "harness/compare/diff/devices.c", "harness/frames/messages.c", "harness/measure/messages.c"
 CACHES = "harness/devices/serving/caches.c"
 PLAN, DOCTOR = "harness/tables/sweep/plan.c", "harness/commands/doctor.c"
 
@@ -47,7 +47,13 @@ ROWS = [
     Fault(MESSAGE, "if (text && size > 0 && «!text[size - 1]»)", "true", "a text has no end"),
     Fault(MESSAGE, "if (index >= 0 && «index < end»)", "true", "an index is out of its range"),
     Fault(ENVIRONMENT, "if («!has_key_of(variables, *v)»)", "true", "a variable stands twice, and the old one counts where the last does"),
-    Fault(DEVICE, "return «(unsigned)info->tier < RG_TIER_COUNT» ||", "true", "a device may be of any tier"),
+    Fault(DEVICE, "return («(unsigned)info->tier < RG_TIER_COUNT» && is_bool", "true", "a device may be of any tier"),
+    Fault(DEVICE, "return «byte <= 1»;", "byte + 1", "a byte that is no bool is read as one"),
+    Fault(DEVICE, "«are_limits(&info->limits)») ||", "true", "a device has limits below 0"),
+    Fault(MESSAGE, "&& number >= least «&& number <= most»)", "", "a time may be infinite"),
+    Fault(FINDINGS, "«(ulps && !result->different)»)", "false", "results are apart where none differs"),
+    Fault(FINDINGS, "audit->trusted = audit->has_timer && «rg_timer_is_trusted(audit->ratio)»;", "true", "a timer is trusted whatever its ratio"),
+    Fault(MESSAGES, "if («counts[i] < -1»)", "false", "a count may be any number"),
     Fault(DEVICE, "text[size - 1] = 0;", ";", "a device's texts have no end"),
     Fault(DEVICES, "if («reply->failed») {", "false", "a damaged list is one of a backend without devices"),
     Fault(DEVICE, "if («environment && *environment»)\n        snprintf(told", "false", "a device's name does not tell its environment"),
