@@ -34,11 +34,10 @@ static void open_standard_streams(void)
 // A full disk may be noticed at the last write alone.
 static int finish(int exit)
 {
-    if ((fflush(stdout) || ferror(stdout)) && exit == RG_EXIT_PASS) {
-        rg_stdout_error();
-        exit = RG_EXIT_USAGE;
-    }
-    return exit;
+    if (!fflush(stdout) && !ferror(stdout))
+        return exit;
+    rg_stdout_error(); // once: a command may have said so
+    return rg_exit_worse(exit, RG_EXIT_USAGE);
 }
 
 static int run(int argc, char **argv)
