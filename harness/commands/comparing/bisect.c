@@ -98,18 +98,32 @@ static bool all_fit(const struct rg_candidates *candidates, const struct rg_judg
     return true;
 }
 
+// Whether all of it was printed. False, and one logged line.
+static bool is_printed(void)
+{
+    return (!fflush(stdout) && !ferror(stdout)) || rg_stdout_error();
+}
+
+static bool print_text(const struct rg_bisect *bisect)
+{
+    rg_bisect_print_end(bisect);
+    return is_printed();
+}
+
+static bool print_json(const struct rg_bisect *bisect)
+{
+    return rg_bisect_print_json(bisect, stdout) && is_printed();
+}
+
 static int search(const struct bisect_options *o, const struct rg_candidates *candidates,
                   const struct rg_judging *judging)
 {
     struct rg_bisect bisect = {.candidates = candidates,
                                .judging = judging,
                                .fresh = o->fresh,
-                               .tell = o->json ? NULL : rg_bisect_print_verdict};
-    int exit = rg_bisect_run(&bisect);
-    if (!o->json)
-        rg_bisect_print_end(&bisect);
-    else if (bisect.judged && bisect.order && !rg_bisect_print_json(&bisect, stdout))
-        exit = rg_exit_worse(exit, RG_EXIT_FAIL);
+                               .tell = o->json ? NULL : rg_bisect_print_verdict,
+                               .tell_end = o->json ? print_json : print_text};
+    const int exit = rg_bisect_run(&bisect);
     rg_bisect_free(&bisect);
     return exit;
 }

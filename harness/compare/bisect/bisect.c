@@ -113,6 +113,27 @@ static void take_kept(struct run *r)
         b->tell(b, b->order[i]);
 }
 
+// Verdicts go once it is told what they came to. Those that stay are written again, for the command
+// that ended may have written into candidates that are judged.
+static int end(struct run *r, int exit)
+{
+    const struct rg_bisect *b = r->bisect;
+    const bool is_told = !b->tell_end || b->tell_end(b);
+    if (is_told && b->end != RG_BISECT_STOPPED)
+        rg_bisect_kept_remove(&r->kept);
+    else if (b->order_count)
+        keep(r);
+    if (b->end == RG_BISECT_STOPPED && rg_interrupted()) {
+        exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
+        rg_info("interrupted; the same command goes on from %lld verdicts",
+                (long long)b->order_count);
+    } else if (!is_told && b->order_count && r->keeps) {
+        rg_info("once it can be told, the same command goes on from %lld verdicts",
+                (long long)b->order_count);
+    }
+    return is_told ? exit : rg_exit_worse(exit, RG_EXIT_USAGE);
+}
+
 static int run(struct run *r)
 {
     struct rg_bisect *b = r->bisect;
@@ -122,16 +143,7 @@ static int run(struct run *r)
         exit = judge_end(r, b->candidates->count - 1, RG_JUDGED_BAD);
     if (exit == RG_EXIT_PASS)
         exit = halve(r);
-    if (b->end != RG_BISECT_STOPPED)
-        rg_bisect_kept_remove(&r->kept);
-    else if (b->order_count)
-        keep(r); // the command that ended may have written into candidates that are judged
-    if (b->end == RG_BISECT_STOPPED && rg_interrupted()) {
-        exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
-        rg_info("interrupted; the same command goes on from %lld verdicts",
-                (long long)b->order_count);
-    }
-    return exit;
+    return end(r, exit);
 }
 
 int rg_bisect_run(struct rg_bisect *bisect)

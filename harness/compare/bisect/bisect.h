@@ -23,6 +23,9 @@ struct rg_bisect {
     const struct rg_judging *judging;
     bool fresh; // verdicts of an interrupted bisect are not taken
     void (*tell)(const struct rg_bisect *bisect, int64_t judged); // of a verdict; NULL: nobody asks
+    // Tells what it came to, whatever that is; false where that is lost, and one line is logged.
+    // NULL: nobody asks.
+    bool (*tell_end)(const struct rg_bisect *bisect);
     // What it leaves behind.
     struct rg_judged *judged; // one a candidate
     enum rg_bisect_end end;
@@ -31,10 +34,10 @@ struct rg_bisect {
 };
 
 // Runs it. Each verdict is kept as it comes, in raingauge's folder of the user's state, so that the
-// same bisect goes on after an interruption; the file goes when it has ended. Returns an enum
-// rg_exit: pass where one is found, inconclusive among several, fail where an end is none, nothing
-// measured where an end cannot be judged, usage where the command is wrong. The caller calls
-// rg_bisect_free in any case.
+// same bisect goes on after an interruption; the file goes when it has ended and that was told.
+// Returns an enum rg_exit: pass where one is found, inconclusive among several, fail where an end
+// is none, nothing measured where an end cannot be judged, usage where the command is wrong or the
+// end could not be told. The caller calls rg_bisect_free in any case.
 int rg_bisect_run(struct rg_bisect *bisect);
 void rg_bisect_free(struct rg_bisect *bisect);
 

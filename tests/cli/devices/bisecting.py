@@ -1,6 +1,7 @@
 """bisect: the first of several drivers that is bad, alone and inside git bisect run; its verdicts, what it keeps, what it refuses."""
 import json
 import os
+import re
 import signal
 import subprocess
 import tempfile
@@ -206,6 +207,25 @@ def check_goes_on(runner):
     return problems
 
 
+def check_unprinted(runner):
+    """what a bisect came to and cannot print is kept, and the same command goes on with it"""
+    problems = []
+    told = r"(raingauge: \d candidates? left, .*\n)*raingauge: standard output: .*\nraingauge: once it can be told, the same command goes on from 5 verdicts\n"
+    for more in ([], ["--json"]):
+        with tempfile.TemporaryDirectory() as folder:
+            args = ["bisect", "--good", "1", "--bad", "9", "--run", "echo {} >>%s/tried; test {} -lt 6" % folder, *more, *"123456789"]
+            with open("/dev/full", "w") as full:
+                lost = runner.run(args, {"XDG_STATE_HOME": folder}, stdout=full)
+            if lost.returncode != 2 or not re.fullmatch(told, lost.stderr):
+                problems.append("exit status %d, %s" % (lost.returncode, lost.stderr))
+            found = runner.run(args, {"XDG_STATE_HOME": folder})
+            with open(os.path.join(folder, "tried")) as file:
+                tried = file.read().split()
+            if found.returncode or len(tried) != 5 or "6" not in found.stdout or os.listdir(os.path.join(folder, "raingauge")):
+                problems.append("again: exit status %d, tried %s, %s%s" % (found.returncode, tried, found.stdout, found.stderr))
+    return problems
+
+
 def check_refused(runner):
     """what cannot be a bisect is refused in one line"""
     problems = []
@@ -226,4 +246,4 @@ def check_refused(runner):
     return problems
 
 
-CHECKS = [check_builds, check_git, check_git_stops, check_statuses, check_lists, check_names, check_goes_on, check_refused]
+CHECKS = [check_builds, check_git, check_git_stops, check_statuses, check_lists, check_names, check_goes_on, check_unprinted, check_refused]

@@ -30,6 +30,7 @@ ROWS = [
     Fault(KEPT, "if (!ok || «b->judged[0].verdict == RG_JUDGED_NONE»)", "false", "verdicts outlive the good end that they were held against"),
     Fault(KEPT, "hash = «hash_text(bisect->candidates->names[i], hash)»;", "hash", "bisects of other candidates have one file"),
     Fault(RUN, "    «rg_bisect_kept_remove(&r->kept);»", ";", "verdicts stay when a bisect is done"),
+    Fault(RUN, "if («is_told» && b->end != RG_BISECT_STOPPED)", "true", "what a bisect came to is lost where it cannot be printed"),
     Fault(RUN, "b->fresh ? «0» : rg_bisect", "rg_bisect_kept_take(&r->kept, b)", "--fresh takes verdicts"),
     Fault(GIT, ": verdict == RG_JUDGED_SKIP ? «RG_EXIT_GIT_SKIP»", "1", "git takes what was skipped for bad"),
     Fault(GIT, "return «git_is_bisecting()» ?", "false", "git takes a misspelt option for bad"),
