@@ -2,8 +2,9 @@
 
 const struct rg_option rg_timeout_option[] = {
     {RG_OPTION_INT, "timeout", .argument = "S",
-     .about = "seconds after which a device that does not answer is given up", .least = 1,
-     .most = 86400, .initial = "120"},
+     .about =
+         "seconds after which a device, or the encoder of a clip, that does nothing is given up",
+     .least = 1, .most = 86400, .initial = "120"},
     {RG_OPTION_END},
 };
 

@@ -9,6 +9,7 @@
 #include "harness/console/progress.h"
 #include "harness/frames/frame.h"
 #include "harness/frames/numbered.h"
+#include "harness/devices/workers/worker.h"
 
 struct run {
     const struct rg_sequence *sequence;
@@ -34,6 +35,7 @@ static bool open_place(struct run *run)
                                                                 .fps = s->fps,
                                                                 .frames = frames,
                                                                 .exposure = (float)s->exposure,
+                                                                .patience_s = rg_workers.timeout_s,
                                                                 .stop = rg_interrupted});
     return run->clip != NULL;
 }

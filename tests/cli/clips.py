@@ -239,6 +239,20 @@ def check_failing_encoder(runner):
     return problems
 
 
+def check_hanging_encoder(runner):
+    """a vpxenc that takes nothing, codes nothing or stops is ended and told in one line; one that is slow and goes on is waited for"""
+    problems = []
+    slow = "for i in 1 2 3 4 5 6; do sleep 0.4; echo webm >&3; done; cat > /dev/null"
+    for script in ("exec sleep 1000", "cat > /dev/null; exec sleep 1000", "exec <&-; exec sleep 1000", "kill -STOP $$", slow):
+        with tempfile.TemporaryDirectory() as tmp, tempfile.TemporaryDirectory() as fake:
+            result = runner.run((FRAMES + "--timeout 2 -o %s/a.webm" % tmp).split(), with_encoder(fake, script))
+            told = re.fullmatch(r"raingauge: .*/a\.webm: vpxenc did nothing for 2 s and was ended; nothing was written; .*\n", result.stderr)
+            ended_well = script == slow and result.returncode == 0 and not result.stderr
+            if not ended_well and (script == slow or result.returncode != 1 or os.listdir(tmp) or not told):
+                problems.append("%s: exit status %d, %s, stderr: %s" % (script, result.returncode, os.listdir(tmp), result.stderr))
+    return problems
+
+
 def children(process):
     """The processes that a process has started and not waited for."""
     found = []
@@ -305,4 +319,4 @@ def check_interrupted_series(runner):
     return ["exit status %d, %s, stderr: %s" % (status, names, messages)]
 
 
-CHECKS = [check_clip, check_same_bytes, check_series, check_failing_encoder, check_interrupted_clip, check_interrupted_series]
+CHECKS = [check_clip, check_same_bytes, check_series, check_failing_encoder, check_hanging_encoder, check_interrupted_clip, check_interrupted_series]

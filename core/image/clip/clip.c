@@ -91,6 +91,14 @@ static int64_t least_bytes(const struct rg_clip_options *options)
     return (int64_t)options->width * options->height * options->frames / 100;
 }
 
+// A frame of 1280x720 has half a minute more, one of 3840x2160 four.
+static double patience_of(const struct rg_clip_options *options)
+{
+    const double slowest_s_a_byte = 2e-5;
+    const double frame_bytes = (double)rg_yuv_bytes(options->width, options->height);
+    return options->patience_s ? options->patience_s + frame_bytes * slowest_s_a_byte : 0;
+}
+
 struct rg_clip *rg_clip_open(const char *path, const struct rg_clip_options *options)
 {
     struct rg_why why;
@@ -101,7 +109,8 @@ struct rg_clip *rg_clip_open(const char *path, const struct rg_clip_options *opt
         return NULL;
     *clip = (struct rg_clip){.path = path, .options = *options};
     clip->yuv = rg_alloc(rg_yuv_bytes(options->width, options->height), 1, path);
-    if (rg_encoder_start(&clip->encoder, path, options->stop) && clip->yuv && feed_header(clip))
+    if (rg_encoder_start(&clip->encoder, path, patience_of(options), options->stop) && clip->yuv &&
+        feed_header(clip))
         return clip;
     rg_clip_close(clip);
     return NULL;

@@ -10,10 +10,13 @@
 #include "core/image/picture.h"
 
 struct rg_clip_options {
-    int width, height;  // of every picture, in pixels
-    int fps;            // frames a second
-    int64_t frames;     // of the clip, as far as is known: the disk must have room for them
-    float exposure;     // linear colours are multiplied by this, clamped and sRGB-encoded
+    int width, height; // of every picture, in pixels
+    int fps;           // frames a second
+    int64_t frames;    // of the clip, as far as is known: the disk must have room for them
+    float exposure;    // linear colours are multiplied by this, clamped and sRGB-encoded
+    // vpxenc is ended where it has neither taken nor coded anything for so long, and for as long
+    // again as its slowest coding of such a frame may take; 0: never.
+    int patience_s;
     bool (*stop)(void); // asked while vpxenc is waited for: true gives up, and nothing is logged
 };
 

@@ -70,25 +70,51 @@ static bool start(struct rg_encoder *e)
     return rg_driver_error("%s: vpxenc could not be started: %s", e->name, strerror(error));
 }
 
-bool rg_encoder_start(struct rg_encoder *e, const char *name, bool (*stop)(void))
+bool rg_encoder_start(struct rg_encoder *e, const char *name, double patience_s, bool (*stop)(void))
 {
-    *e = (struct rg_encoder){.name = name, .stop = stop, .feed = -1, .coded = -1};
+    *e = (struct rg_encoder){
+        .name = name, .patience_s = patience_s, .stop = stop, .feed = -1, .coded = -1};
     return make_room(e) && start(e);
 }
 
 // --- while it runs ---
 
-static bool stopped(const struct rg_encoder *e)
+static double now_s(void)
 {
-    return e->stop && e->stop();
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
-// Waits for the encoder's end; false: told to stop.
+// Whether it hangs, which one logged line says: what it has coded is seen by the size of its file.
+static bool hangs(struct rg_encoder *e)
+{
+    struct stat st;
+    if (!e->patience_s)
+        return false;
+    if (fstat(e->coded, &st) == 0 && st.st_size != e->coded_bytes) {
+        e->coded_bytes = st.st_size;
+        e->since_s = now_s();
+    }
+    return now_s() - e->since_s > e->patience_s &&
+           !rg_timeout_error(
+               "%s: vpxenc did nothing for %.0f s and was ended; nothing was written; "
+               "--timeout gives it longer",
+               e->name, e->patience_s);
+}
+
+// Whether it is no longer waited for.
+static bool given_up(struct rg_encoder *e)
+{
+    return (e->stop && e->stop()) || hangs(e);
+}
+
+// Waits for the encoder's end; false: told to stop, or it hangs.
 static bool wait_for_end(struct rg_encoder *e, int *status)
 {
     const struct timespec pause = {0, 2000000};
     while (waitpid(e->process, status, WNOHANG) == 0) {
-        if (stopped(e))
+        if (given_up(e))
             return false;
         nanosleep(&pause, NULL);
     }
@@ -116,8 +142,9 @@ static bool tell_end(const struct rg_encoder *e, int status)
 
 bool rg_encoder_feed(struct rg_encoder *e, const void *data, size_t bytes)
 {
+    e->since_s = now_s();
     for (const char *at = data; bytes > 0;) {
-        if (stopped(e))
+        if (given_up(e))
             return false;
         struct pollfd ready = {.fd = e->feed, .events = POLLOUT};
         if (poll(&ready, 1, WAIT_MS) <= 0)
@@ -129,6 +156,7 @@ bool rg_encoder_feed(struct rg_encoder *e, const void *data, size_t bytes)
             int status = 0;
             return wait_for_end(e, &status) && tell_end(e, status);
         }
+        e->since_s = now_s();
         at += sent;
         bytes -= (size_t)sent;
     }
@@ -147,6 +175,7 @@ bool rg_encoder_finish(struct rg_encoder *e, int64_t *file_bytes)
 {
     int status = 0;
     struct stat st;
+    e->since_s = now_s();
     shutdown(e->feed, SHUT_WR);
     if (!wait_for_end(e, &status))
         return false;

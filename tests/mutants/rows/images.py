@@ -39,6 +39,8 @@ ROWS = [
     Fault(UNPACK, "if («!decode->unpack_and_convert_fn»)", "false", "an EXR of one channel of floats is unpacked from nowhere"),
     Fault(IO, "bad += «texels[i] - texels[i] != 0.0f»;", "texels[i] != texels[i]", "infinite values are not warned of"),
     Fault(IO, "(long long)(first / picture->channels % «picture->width»)", "picture->height", "a warning's x is counted by the height"),
+    Fault("core/image/clip/encoder.c", "«st.st_size != e->coded_bytes»)", "false", "a slow encoder is given up", tests=("command line, clips",)),
+    Fault("core/image/clip/encoder.c", "now_s() - e->since_s > «e->patience_s» &&", "1e9", "an encoder that hangs is waited for", tests=("command line, clips",)),
     Fault(YUV, "const int x = left + («i & 1» && left + 1 < width);", "i & 2", "a block of a clip reads one column"),
     Fault(YUV, "*cb++ = chroma(«sums.blue», BLUE, sums, 4);", "sums.red", "both chromas of a clip are red's"),
     Fault(YUV, "(int64_t)count * RGB_CODES * «2» * (ALL - weight)", "1", "a clip's colours are twice as strong"),
