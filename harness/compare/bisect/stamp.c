@@ -44,7 +44,7 @@ static uint64_t stamp_of(const char *path)
 
 uint64_t rg_candidate_stamp(const char *name)
 {
-    static const char between[] = "@=;,\"";
+    static const char between[] = "@=;,:\""; // a colon: of lists, as VK_DRIVER_FILES takes
     uint64_t stamp = stamp_of(name);
     if (stamp)
         return stamp;

@@ -151,6 +151,24 @@ static void a_folder_is_what_lies_in_it(void **state)
     assert_int_equal(rg_candidate_stamp("HEAD~3"), 0);
 }
 
+// In whatever place of a candidate a file stands, it counts.
+static void all_files_of_a_name_count(void **state)
+{
+    struct rig *r = *state;
+    static const char *const forms[] = {"%s", "gl@A=%s", "gl@A=1;B=\"%s\"", "gl@A=/none.json:%s",
+                                        "gl@A=%s:/none.json"};
+    for (size_t i = 0; i < sizeof(forms) / sizeof(forms[0]); i++) {
+        char name[256];
+        const char *end = strstr(forms[i], "%s");
+        snprintf(name, sizeof(name), "%.*s%s%s", (int)(end - forms[i]), forms[i], r->file, end + 2);
+        write_text(r->file, "{}");
+        const uint64_t before = rg_candidate_stamp(name);
+        assert_true(before != 0);
+        write_text(r->file, "{   }");
+        assert_true(before != rg_candidate_stamp(name));
+    }
+}
+
 // --- what is no record of this bisect ---
 
 static json_t *load(const struct rig *r)
@@ -273,6 +291,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(verdicts_come_back, setup, teardown),
         cmocka_unit_test_setup_teardown(what_has_changed_is_judged_anew, setup, teardown),
         cmocka_unit_test_setup_teardown(a_folder_is_what_lies_in_it, setup, teardown),
+        cmocka_unit_test_setup_teardown(all_files_of_a_name_count, setup, teardown),
         cmocka_unit_test_setup_teardown(other_keys_are_begun_anew, setup, teardown),
         cmocka_unit_test_setup_teardown(impossible_verdicts_are_begun_anew, setup, teardown),
         cmocka_unit_test_setup_teardown(damaged_files_are_begun_anew, setup, teardown),
