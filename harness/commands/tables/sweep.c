@@ -29,7 +29,7 @@ struct sweep_options {
     char *output;
     int format;
     int64_t memory_bytes;
-    bool dry_run, wide, json;
+    bool dry_run, fresh, wide, json;
 };
 
 #define AT(field) offsetof(struct sweep_options, field)
@@ -50,6 +50,8 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_length_options, AT(length), NULL),
     {RG_OPTION_FLAG, "dry-run", .about = "prints the plan, and measures nothing",
      .offset = AT(dry_run)},
+    {RG_OPTION_FLAG, "fresh", .about = "takes nothing from a run that was interrupted",
+     .offset = AT(fresh)},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), NULL),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
@@ -114,7 +116,7 @@ static int run_on(struct rg_grid *grid, const struct rg_devices *devices,
         return plan.failed ? rg_exit_of_error() : RG_EXIT_PASS;
     const struct rg_table *const tables[] = {&grid->table};
     const struct rg_regenerate_options wanted = {.full = o->length.full,
-                                                 .fresh = true,
+                                                 .fresh = o->fresh,
                                                  .set = set,
                                                  .folder = o->output,
                                                  .print = print,
@@ -177,7 +179,7 @@ static int sweep(const void *values, const struct rg_words *arguments)
 const struct rg_command rg_command_sweep = {
     .name = "sweep",
     .usage = "TECHNIQUE --axis KEY=VALUES [--axis KEY=VALUES]... [--set KEY=VALUE]... [--size WxH] "
-             "[--frame N] [--device D,...|all] [--quick|--full] [--dry-run] [--wide] "
+             "[--frame N] [--device D,...|all] [--quick|--full] [--dry-run] [--fresh] [--wide] "
              "[--format F|--json] [-o DIR]",
     .about = "measures a table of one's own: each value of a parameter on each device",
     .options = options,

@@ -90,6 +90,22 @@ static bool make_row(struct rg_grid *grid, const struct rg_technique *technique,
     return ok;
 }
 
+// The note names the axes, so that what is kept of a sweep is told from what is of others.
+static void write_note(struct rg_grid *grid)
+{
+    FILE *out = fmemopen(grid->note, sizeof(grid->note) - 1, "w");
+    for (int i = 0; out && i < grid->axis_count; i++) {
+        const struct rg_axis *axis = &grid->axes[i];
+        fprintf(out, "%s%s=", i ? " and " : "A sweep: a row for each combination of ", axis->name);
+        for (int k = 0; k < axis->count; k++)
+            fprintf(out, "%s%s", k ? "," : "", axis->values[k]);
+    }
+    if (out) {
+        fprintf(out, ", in their order.");
+        fclose(out); // what does not fit is cut
+    }
+}
+
 bool rg_grid_make(struct rg_grid *grid, const struct rg_technique *technique)
 {
     int64_t rows = 1;
@@ -106,8 +122,8 @@ bool rg_grid_make(struct rg_grid *grid, const struct rg_technique *technique)
                                     .variants = {{"full", "", NULL}},
                                     .row_count = (int)rows,
                                     .rows = grid->rows,
-                                    .note = "A sweep: a row for each combination of the axes' "
-                                            "values, in their order."};
+                                    .note = grid->note};
+    write_note(grid);
     bool ok = add_columns(grid, technique);
     for (int row = 0; ok && row < rows; row++)
         ok = make_row(grid, technique, row);

@@ -2,7 +2,7 @@
 #ifndef RG_HARNESS_TABLES_SWEEP_GRID_H
 #define RG_HARNESS_TABLES_SWEEP_GRID_H
 
-#include "harness/record/record.h"
+#include "harness/record/result.h"
 #include "harness/tables/sweep/axis.h"
 
 enum { RG_GRID_AXES = 8 };
@@ -11,7 +11,7 @@ struct rg_grid {
     int axis_count;
     struct rg_axis axes[RG_GRID_AXES]; // the first goes slowest
     // What the table points to, and the table.
-    char id[RG_NAME_SIZE], sets[RG_TABLE_ROWS][RG_SET_SIZE];
+    char id[RG_NAME_SIZE], note[RG_NOTE_SIZE], sets[RG_TABLE_ROWS][RG_SET_SIZE];
     struct rg_table_row rows[RG_TABLE_ROWS];
     struct rg_table table;
 };

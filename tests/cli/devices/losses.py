@@ -206,6 +206,24 @@ def check_unprinted(runner):
     return problems
 
 
+def check_sweep_unprinted(runner):
+    """a sweep that cannot be printed goes on with its rows, unless they are of other axes or it is to be fresh"""
+    problems = []
+    sweep = "sweep flow --axis resolution_px=%s --set environment=sky --set environment_px=16 --size 32x32 --device cpu --quick"
+    resumed = "2 of 2 rows are those of a run that was interrupted"
+    for axes, more, goes_on in (("32,64", "", True), ("32,48", "", False), ("32,64", " --fresh", False), ("32,64", " --frame 3", False)):
+        with tempfile.TemporaryDirectory() as state:
+            with open("/dev/full", "w") as full:
+                lost = runner.run((sweep % "32,64").split(), {"XDG_STATE_HOME": state}, stdout=full)
+            if lost.returncode != 2 or "the same command goes on" not in lost.stderr:
+                problems.append("exit status %d, %s" % (lost.returncode, lost.stderr))
+            again = runner.run((sweep % axes + more).split(), {"XDG_STATE_HOME": state})
+            left = os.listdir(state + "/raingauge")
+            if again.returncode or (resumed in again.stderr) != goes_on or (goes_on and left) or not re.search("combination of resolution_px=" + axes, again.stdout):
+                problems.append("%s%s: exit status %d, left %s, %s%s" % (axes, more, again.returncode, left, again.stderr, again.stdout))
+    return problems
+
+
 def check_unread(runner):
     """the files of a table are there though nobody reads what it prints, which ends it"""
     with tempfile.TemporaryDirectory() as out:
@@ -286,4 +304,4 @@ def check_signals(runner):
 
 
 CHECKS = [check_signals, check_harness_killed, check_both_killed, check_second, check_held, check_full,
-          check_read_only_midway, check_read_only, check_unprinted, check_unread, check_earlier]
+          check_read_only_midway, check_read_only, check_unprinted, check_sweep_unprinted, check_unread, check_earlier]
