@@ -134,6 +134,24 @@ def check_crash(runner):
     return problems
 
 
+def check_falling(runner):
+    """a side that cannot be started any more fails the gate, whatever was measured by then, and is held against what is expected"""
+    problems = []
+    expected = "fail raster/*\n  outcome error\n  reason it stops\n  since 2026-01-01\n  until 9999-12-31\n"
+    with Files(TORUS) as files:
+        count, known = files.path("count"), files.path("known.txt", expected)
+        other = files.path("other.sh", "#!/bin/sh\necho >> %s\ntest $(wc -l < %s) -gt 5 && exit 1\nexec %s \"$@\"\n" % (count, count, runner.raingauge))
+        os.chmod(other, 0o700)
+        for more, status, ending, says in (([], 1, "error", "is no raingauge that this one can ask"),
+                                           (["--expectations", known], 0, "expected failure", "expected: ")):
+            files.path("count", "")
+            result = runner.run(["gate", "--against", other, "--device", "cpu", "--cells", files.cells, "--json"] + more)
+            case = json.loads(result.stdout)["gated"][0]
+            if result.returncode != status or case["ending"] != ending or says not in case["message"]:
+                problems.append("%s: exit status %d, %s: %s" % (more, result.returncode, case["ending"], case["message"]))
+    return problems
+
+
 WAYS = (("vulkan", "vkCreateComputePipelines", "hang", 1), ("gl", "glDispatchCompute", "fault", 3), ("gl", "glLinkProgram", "swell", 2),
         ("opencl", "clEnqueueNDRangeKernel", "exit", 2), ("opencl", "clEnqueueNDRangeKernel", "lost", 2))
 
@@ -249,5 +267,5 @@ def check_refused(runner):
     return problems
 
 
-CHECKS = [check_same, check_slower, check_builds, check_fallen, check_open, check_crash, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
+CHECKS = [check_same, check_slower, check_builds, check_fallen, check_open, check_crash, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
           check_refused]

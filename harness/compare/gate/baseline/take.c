@@ -164,10 +164,8 @@ bool rg_lone_take(int row, bool b_first, struct rg_quads *quads, void *user)
                                      ? rg_session_run(side->device, &subject, timed->cell->frames)
                                      : NULL;
     const bool ok = session && time_it(timed, session, quads);
-    if (!ok) {
-        timed->outcome = rg_outcome_of_error();
-        snprintf(timed->why, sizeof(timed->why), "%s", rg_last_error());
-    }
+    if (!ok)
+        rg_timed_cell_fails(timed);
     rg_session_close(session);
     timed->seconds += (rg_now_ms() - start_ms) / 1000;
     return ok && !rg_interrupted();

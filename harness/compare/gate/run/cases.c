@@ -34,6 +34,13 @@ static enum rg_ending ending_of_outcome(enum rg_outcome outcome)
     return endings[outcome];
 }
 
+// Whether it agreed, and then something kept it from being timed to the end.
+static bool broke_off(const struct rg_gate_case *c)
+{
+    return c->agreement.outcome == RG_OK && c->is_timed && c->row.end == RG_END_BROKEN &&
+           c->times.outcome != RG_OK;
+}
+
 static enum rg_ending ending_of_times(const struct rg_gate_case *c)
 {
     static const enum rg_ending endings[] = {
@@ -42,7 +49,7 @@ static enum rg_ending ending_of_times(const struct rg_gate_case *c)
         [RG_TWO_REGRESSED] = RG_ENDING_REGRESSED,
         [RG_TWO_IMPROVED] = RG_ENDING_IMPROVED,
     };
-    if (c->row.end == RG_END_BROKEN && c->times.outcome != RG_OK)
+    if (broke_off(c))
         return ending_of_outcome(c->times.outcome);
     if (!c->row.decision.units)
         return RG_ENDING_NOTHING_MEASURED;
@@ -100,7 +107,7 @@ static void put_times(const struct rg_gate_case *c, enum rg_ending ending, char 
         snprintf(text, size, "a frame takes %.1f %% %s (%.1f to %.1f %%), %.3g ms before",
                  fabs(percent), percent > 0 ? "longer" : "less", 100 * (d->low - 1),
                  100 * (d->high - 1), c->row.a_ms.median);
-    else if (c->times.outcome != RG_OK)
+    else if (broke_off(c))
         snprintf(text, size, "%s", c->times.why);
 }
 
@@ -198,12 +205,13 @@ static void put_pictures(struct rg_gate_case *c, const char *folder, struct rg_r
 void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *request,
                        struct rg_report_case *told, struct rg_known_result *result)
 {
-    *result = (struct rg_known_result){.cell = c->cell->name,
-                                       .device = rg_gate_case_device(c),
-                                       .driver = c->driver,
-                                       .outcome = c->agreement.outcome,
-                                       .pixels = c->agreement.pixels,
-                                       .difference = c->agreement.difference};
+    *result =
+        (struct rg_known_result){.cell = c->cell->name,
+                                 .device = rg_gate_case_device(c),
+                                 .driver = c->driver,
+                                 .outcome = broke_off(c) ? c->times.outcome : c->agreement.outcome,
+                                 .pixels = c->agreement.pixels,
+                                 .difference = c->agreement.difference};
     const enum rg_met met =
         c->is_skipped ? RG_MET_SKIPPED
                       : rg_known_judge(request->known, c->expectation, result, request->today);

@@ -209,6 +209,7 @@ static bool time_all(struct run *r)
     struct rg_gate_times times = {
         .sides = r->sides,
         .cells = r->timed,
+        .cell_count = r->timed_count,
         .end_ms = r->asked->budget_s > 0 ? rg_now_ms() + 1e3 * r->asked->budget_s : 0};
     struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over, &times,
                                     NULL};

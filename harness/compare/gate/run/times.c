@@ -20,22 +20,26 @@ bool rg_times_are_over(void *user)
     return rg_interrupted() || (t->end_ms > 0 && rg_now_ms() >= t->end_ms);
 }
 
+bool rg_timed_cell_fails(struct rg_timed_cell *timed)
+{
+    const enum rg_outcome outcome = rg_outcome_of_error();
+    timed->outcome = outcome == RG_UNSUPPORTED ? RG_ERROR : outcome;
+    snprintf(timed->why, sizeof(timed->why), "%s", rg_last_error());
+    return false;
+}
+
 bool rg_times_launch(int number, void *user)
 {
     struct rg_gate_times *t = user;
     const int first = number & 1; // neither is always the one that finds the machine idle
-    t->has_failed = !rg_side_launch(&t->sides[first]) || !rg_side_launch(&t->sides[!first]);
-    return !t->has_failed;
+    if (rg_side_launch(&t->sides[first]) && rg_side_launch(&t->sides[!first]))
+        return true;
+    for (int i = 0; i < t->cell_count; i++)
+        rg_timed_cell_fails(&t->cells[i]);
+    return false;
 }
 
 // --- a cell's quad ---
-
-static bool fail(struct rg_timed_cell *timed)
-{
-    timed->outcome = rg_outcome_of_error();
-    snprintf(timed->why, sizeof(timed->why), "%s", rg_last_error());
-    return false;
-}
 
 // Frames that are not timed, for drivers compile in the first. By both sides' mean is settled how
 // many are timed, the same on both: as a ratio, so that neither a slow one takes for ever nor a
@@ -102,7 +106,7 @@ bool rg_times_take(int row, bool b_first, struct rg_quads *quads, void *user)
         ok = sessions[side] != NULL;
     }
     ok = (ok && warm_up(timed, sessions) && time_quads(timed, sessions, b_first, quads)) ||
-         fail(timed);
+         rg_timed_cell_fails(timed);
     for (int side = 0; side < RG_SIDES; side++)
         rg_session_close(sessions[side]);
     timed->seconds += (rg_now_ms() - start_ms) / 1000;

@@ -15,12 +15,15 @@ struct rg_timed_cell {
     char why[256];
     double seconds; // that it took
 };
+// Ends a cell by what the last error comes to. It ran before, so that what is not there any more is
+// an error, and nothing that is unsupported. False.
+bool rg_timed_cell_fails(struct rg_timed_cell *timed);
 
 struct rg_gate_times {
     struct rg_side *sides;       // RG_SIDES, which the launches open
     struct rg_timed_cell *cells; // one a row
+    int cell_count;              // all of them end where a side cannot be launched
     double end_ms;               // by rg_now_ms, when no launch is begun any more; 0: never
-    bool has_failed;             // a side could not be launched
 };
 
 // The functions of a struct rg_quad_source; `user` is a struct rg_gate_times. What disturbs them
