@@ -23,9 +23,9 @@ def told_launches(folder):
         return {(row["case"], int(row["launch"])): [float(row[name]) for name in ("log_ratio", "a_ms", "b_ms")] for row in csv.DictReader(file)}
 
 
-def left_by_a_kill(runner, files, folder):
+def left_by_a_kill(runner, files, folder, sides=("cpu", "cpu")):
     """Kills a gate once it has kept some launches, which are returned."""
-    process = runner.start(["gate", "cpu", "cpu", "--cells", files.cells, "-o", folder])
+    process = runner.start(["gate", *sides, "--cells", files.cells, "-o", folder])
     wait_for(lambda: len(kept_launches(folder)) >= 4 or process.poll() is not None)
     process.kill()
     process.communicate()
@@ -82,4 +82,27 @@ def check_kept(runner):
     return problems
 
 
-CHECKS = [check_killed, check_kept]
+def check_built_anew(runner):
+    """times of a build that has the same path and is another one now are not gone on with"""
+    problems = []
+    with Files() as files:
+        folder, path, other = files.path("out"), files.path("out/gate.journal"), files.path("other")
+        sides = ["--against", other, "--device", "cpu"]
+        os.symlink(runner.raingauge, other)
+        left = left_by_a_kill(runner, files, folder, sides)
+        for program, is_kept in ((runner.raingauge, True), (runner.slower, False)):
+            with open(path) as file:
+                whole = file.read()
+            os.remove(other)
+            os.symlink(program, other)
+            result = runner.run(["gate", *sides, "--cells", files.cells, "-o", folder, "--budget", "0.5s"])
+            told = told_launches(folder)
+            same = [key for key, values in left.items() if all(abs(a - b) <= 1e-8 * abs(a) for a, b in zip(values, told.get(key, [0, 0, 0])))]
+            if result.returncode not in (0, 3) or ("was timed with other code" in result.stderr) == is_kept or len(same) != is_kept * len(left):
+                problems.append("%s: exit status %d, %d of %d are the same, %s" % (program, result.returncode, len(same), len(left), result.stderr))
+            with open(path, "w") as file:
+                file.write(whole)
+    return problems
+
+
+CHECKS = [check_killed, check_kept, check_built_anew]

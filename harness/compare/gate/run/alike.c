@@ -1,5 +1,6 @@
 #include "harness/compare/gate/run/alike.h"
 
+#include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,6 +10,18 @@
 #include "harness/compare/blame/blame.h"
 #include "harness/compare/gate/pictures/pictures.h"
 #include "harness/frames/frame.h"
+
+void rg_agreement_code(const struct rg_agreement *agreement, char code[RG_AGREEMENT_CODE])
+{
+    size_t used = 0;
+    *code = 0;
+    for (int side = 0; agreement->has_code && side < RG_SIDES; side++) {
+        const struct rg_session_code *of = &agreement->code[side];
+        used += (size_t)snprintf(code + used, RG_AGREEMENT_CODE - used,
+                                 "%s%s %016" PRIx64 " %016" PRIx64, side ? ", " : "", of->program,
+                                 of->libraries, of->passes.hash);
+    }
+}
 
 bool rg_agreement_differs(struct rg_agreement *agreement, const char *format, ...)
 {

@@ -19,16 +19,19 @@ struct rg_agreement {
     char message[RG_AGREEMENT_TEXT]; // why, one line; where they agree what is to be known of it,
                                      // or ""
     char details[RG_AGREEMENT_TEXT]; // the first stage that left other bits; ""
-    // Which code ran on both sides; of one that ran alone, nothing is held against it.
     // Where pictures that differ are written (harness/compare/gate/pictures/), and under which
     // name; NULL: nowhere. Whether they have been.
     const char *folder, *name;
     bool has_pictures;
-    bool has_code;
+    bool has_code; // which code ran on both sides; not of one that ran alone
     struct rg_session_code code[RG_SIDES];
     double pixels,
         difference; // that differ, and the most a channel of them does; NAN: not compared
 };
+
+enum { RG_AGREEMENT_CODE = 512 };
+// Which code ran on both sides as a text, the same where the code is.
+void rg_agreement_code(const struct rg_agreement *agreement, char code[RG_AGREEMENT_CODE]);
 
 // Ends it: they do not agree. False.
 bool rg_agreement_differs(struct rg_agreement *agreement, const char *format, ...)

@@ -201,6 +201,15 @@ bool rg_gate_measure(struct rg_gate *gate, int first, const struct rg_gate_rule 
     return ok;
 }
 
+static void expect_code(struct rg_kept_times *kept, const struct rg_gate_case *c)
+{
+    char code[RG_AGREEMENT_CODE];
+    if (!c->is_timed)
+        return;
+    rg_agreement_code(&c->agreement, code);
+    rg_kept_times_expect(kept, c->name, code);
+}
+
 static bool time_all(struct run *r)
 {
     if (!r->timed_count || rg_interrupted())
@@ -214,6 +223,8 @@ static bool time_all(struct run *r)
     struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over, &times,
                                     NULL};
     const struct rg_quad_source fresh = source;
+    for (int i = r->first_case; r->kept && i < r->gate->case_count; i++)
+        expect_code(r->kept, &r->gate->cases[i]);
     if (r->kept)
         source = rg_kept_times_source(r->kept, &fresh, r->timed_names);
     rule.margin = r->asked->margin;

@@ -15,11 +15,12 @@
 
 #define JOURNAL "gate.journal"
 
-enum { FORMAT = 1 };
+enum { FORMAT = 2 };
 
 struct rg_kept_times {
     char *folder, path[2048];
-    json_t *document;           // format, key, and "rows": an object of arrays of launches, by name
+    json_t *document;           // format, key, "codes": which code a row ran, by its name, and
+                                // "rows": an object of arrays of launches, by name
     int had;                    // launches that were there
     bool is_changed, is_broken; // it could not be written, which one logged line said
     // Of the source that is kept now.
@@ -39,7 +40,8 @@ static json_t *rows_of(const struct rg_kept_times *kept)
 static bool begin_anew(struct rg_kept_times *kept, json_t *key)
 {
     json_decref(kept->document);
-    kept->document = json_pack("{s:i, s:O, s:{}}", "format", FORMAT, "key", key, "rows");
+    kept->document =
+        json_pack("{s:i, s:O, s:{}, s:{}}", "format", FORMAT, "key", key, "codes", "rows");
     kept->had = 0;
     return kept->document;
 }
@@ -71,7 +73,9 @@ static int count_launches(json_t *document)
             count++;
         }
     }
-    return json_is_object(json_object_get(document, "rows")) ? count : -1;
+    const bool is_whole = json_is_object(json_object_get(document, "rows")) &&
+                          json_is_object(json_object_get(document, "codes"));
+    return is_whole ? count : -1;
 }
 
 static json_t *read_document(const char *path, char why[RG_WHY_SIZE])
@@ -133,6 +137,18 @@ struct rg_kept_times *rg_kept_times_open(const char *folder, json_t *key, bool f
 int rg_kept_times_count(const struct rg_kept_times *kept)
 {
     return kept->had;
+}
+
+void rg_kept_times_expect(struct rg_kept_times *kept, const char *name, const char *code)
+{
+    json_t *codes = json_object_get(kept->document, "codes");
+    const char *was = json_string_value(json_object_get(codes, name));
+    if (was && !strcmp(was, code))
+        return;
+    json_object_set_new(codes, name, json_string(code));
+    if (!json_object_del(rows_of(kept), name))
+        rg_info("%s: what is kept of %s was timed with other code; its times are taken anew",
+                kept->path, name);
 }
 
 // What cannot be written is told once, and the gate goes on without.

@@ -5,7 +5,8 @@
 // follows from times in a course follows again when they come from there, for what a course draws
 // depends on the number of the launch alone. A document of other sides, cells, drivers, margin or
 // another program is no part of this gate, and neither is a damaged one: the gate begins anew, and
-// says so.
+// says so. A driver or another build that was built anew meanwhile has the same name, path and
+// version, so that each row has which code it ran.
 #ifndef RG_HARNESS_COMPARE_GATE_RUN_KEPT_H
 #define RG_HARNESS_COMPARE_GATE_RUN_KEPT_H
 
@@ -18,6 +19,9 @@
 struct rg_kept_times *rg_kept_times_open(const char *folder, json_t *key, bool fresh);
 // How many launches it had of all rows together.
 int rg_kept_times_count(const struct rg_kept_times *kept);
+// Says which code runs a row now, before its source is asked for. Times that other code took are no
+// part of this gate, and are dropped; one line says so.
+void rg_kept_times_expect(struct rg_kept_times *kept, const char *name, const char *code);
 
 // A source that gives what is kept first, and then what `source` gives, and keeps it. `names`: of
 // the rows, unique in all gates of the folder. Both outlive what is returned, which lasts until

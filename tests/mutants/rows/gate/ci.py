@@ -21,6 +21,8 @@ ROWS = [
     Fault(AGREE, "agreement->has_pictures = «rg_gate_pictures_write(agreement->folder, agreement->name,\n                                                             &a->picture, &b->picture, &c)»;", "true", "reports name pictures that are not there"),
     Fault(AGREE, "if («!ok» && agreement->folder)", "true", "pictures that are the same are written"),
     Fault(PICTURES, "for (int i = 0; ok && i < «2»; i++) {", "1", "B's picture is not written"),
+    Fault(CASES, "if («broke_off(c)»)\n        return ending_of_outcome", "false", "a side that does not start any more leaves it open", tests=("command line, gates",)),
+    Fault(CASES, ".outcome = «broke_off(c)» ?", "false", "a cell that broke off while it was timed passed, to the expectations", tests=("command line, gates",)),
     Fault(CASES, "if («c->agreement.has_pictures»)", "false", "reports name no picture"),
     Fault("harness/commands/comparing/outputs.c", "const size_t stem = «end && !strcmp(end, \".xml\")» ?", "false", "pictures lie in a folder with the report's ending"),
     Fault(OUTPUTS, "«adds_new»,", "false", "what nothing expects is not in the patch"),
