@@ -227,7 +227,7 @@ static int run(const struct gate_options *o, const struct gate_input *in)
         request.pictures = *outputs.pictures ? outputs.pictures : NULL;
         exit = run_held(o, in, &request, &gate);
         if (gate.is_told && !rg_gate_outputs_print(&outputs, &in->known, &gate))
-            exit = rg_exit_worse(exit, RG_EXIT_FAIL);
+            exit = rg_exit_worse(exit, RG_EXIT_USAGE); // a full disk is no regression
     }
     rg_gate_free(&gate);
     return exit;

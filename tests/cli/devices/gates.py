@@ -246,6 +246,22 @@ def check_beside(runner):
     return [] if result.returncode == 0 and not result.stderr else ["exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr)]
 
 
+def check_unwritten(runner):
+    """a report that cannot be written ends the gate as what it prints does, so that no bisect takes a full disk for a regression"""
+    problems = []
+    with Files(TORUS) as files:
+        junit = files.path("junit.xml", "before")
+        for more, name, status in ((["--pictures", "--junit", junit], "junit.xml", 2),
+                                   (["--budget", "0.5s", "-o", files.path("out")], "launches.csv", 2)):
+            result = runner.run(["gate", "cpu", "cpu", "--cells", files.cells] + more, limit=100)
+            if result.returncode != status or name + ": cannot be written: " not in result.stderr or "raster/torus.cpu" not in result.stdout:
+                problems.append("%s: exit status %d, %s%s" % (more, result.returncode, result.stdout, result.stderr))
+        with open(junit) as file:
+            if file.read() != "before":
+                problems.append("what was in junit.xml is lost")
+    return problems
+
+
 def check_refused(runner):
     """bad input is refused in one line, before anything is measured"""
     problems = []
@@ -268,4 +284,4 @@ def check_refused(runner):
 
 
 CHECKS = [check_same, check_slower, check_builds, check_fallen, check_open, check_crash, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
-          check_refused]
+          check_unwritten, check_refused]

@@ -332,7 +332,7 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
     for (int pair = 0; ok && pair < request->pairs->count && !rg_interrupted(); pair++)
         ok = run_pair(&r, pair);
     ok = ok && (rg_interrupted() || rg_gate_report(request, gate));
-    ok = close_kept(&r, ok && !rg_interrupted()) && ok;
+    const bool is_kept = close_kept(&r, ok && !rg_interrupted());
     free(r.timed);
     free(r.timed_names);
     if (rg_interrupted() && r.asked->folder)
@@ -341,7 +341,8 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
     for (int side = 0; side < RG_SIDES; side++)
         ok = ok && !r.sides[side].was_closed_badly;
-    return ok ? rg_gate_exit(gate) : RG_EXIT_FAIL;
+    const int found = ok ? rg_gate_exit(gate) : RG_EXIT_FAIL;
+    return is_kept ? found : rg_exit_worse(found, RG_EXIT_USAGE);
 }
 
 void rg_gate_free(struct rg_gate *gate)
