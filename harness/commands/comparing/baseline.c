@@ -189,7 +189,8 @@ static int baseline(const void *values, const struct rg_words *arguments)
     if (!o->output)
         rg_error("baseline: name the file to write, as in `raingauge baseline -o "
                  "results/baseline.json`");
-    else if (rg_gate_cells_read(o->cells, &cells) && look_before(o->output, &before))
+    else if (rg_sides_are_apart(o->devices.names) && rg_gate_cells_read(o->cells, &cells) &&
+             look_before(o->output, &before))
         exit = make(o, &cells, &before);
     rg_baseline_free(&before.baseline);
     rg_gate_cells_free(&cells);

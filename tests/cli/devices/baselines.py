@@ -263,6 +263,8 @@ def check_refused(runner):
         problems += refuse(runner, ["gate", "cpu", "cpu", "--device", "cpu"], "--device is of --against and --baseline")
         problems += refuse(runner, ["baseline", "--device", "cpu"], "name the file to write")
         problems += refuse(runner, ["baseline", "--device", "cpu", "-o", files.path("none/b.json")], "none/b.json")
+        problems += refuse(runner, ["baseline", "--device", "cpu,cpu", "--pictures", "--cells", files.cells, "-o", files.path("two.json")],
+                           "--device: 'cpu' stands there twice")
         more = files.path("more.txt", TORUS + PANE + "new raster 32x32 1\n")
         problems += refuse(runner, ["gate", "--baseline", path, "--cells", more], "has no cell 'new' of ")
         fewer = files.path("fewer.txt", TORUS)

@@ -268,6 +268,7 @@ def check_refused(runner):
     with Files() as files:
         bad = files.path("bad.txt", "flow/pane flow 64x48 2 no_such_key=1\n")
         for args, says in ((["cpu"], "name two devices"), (["--against", "none"], "--against 'none'"),
+                           (["--against", runner.slower, "--device", "cpu,cpu"], "--device: 'cpu' stands there twice; name it once"),
                            (["--against", "/bin/true", "--device", "cpu"], "RG_PROGRAM=/bin/true is no raingauge"),
                            (["cpu", "cpu", "--against", runner.slower], "--against has pairs of its own; name devices by --device"),
                            (["cpu", "cpu", "--device", "cpu"], "--device"), (["cpu", "none"], "none"), (["cpu", "cpu", "--cells", bad], "bad.txt:1: "),

@@ -10,6 +10,7 @@
 #include "core/base/log.h"
 #include "harness/console/exit.h"
 #include "harness/devices/names.h"
+#include "harness/compare/gate/run/sides.h"
 #include "harness/devices/workers/worker.h"
 
 static bool copy_name(const char *from, char to[RG_DEVICE_NAME_SIZE])
@@ -56,6 +57,8 @@ static int add_listed(const char *program, struct rg_gate_pairs *pairs)
 static int add_named(const char *program, const char *names, struct rg_gate_pairs *pairs)
 {
     struct rg_device_name name;
+    if (!rg_sides_are_apart(names))
+        return RG_EXIT_USAGE;
     do
         if (!rg_device_name_read(&names, &name) || !add(program, name.name, pairs))
             return RG_EXIT_USAGE;

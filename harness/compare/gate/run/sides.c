@@ -1,5 +1,7 @@
 #include "harness/compare/gate/run/sides.h"
 
+#include <string.h>
+
 #include "core/base/log.h"
 #include "harness/devices/names.h"
 
@@ -41,6 +43,21 @@ static bool is_there(const struct rg_side_seen *seen, int count, const char *nam
         any = true;
     }
     return any || rg_driver_error("--require %s: it is not among the devices of this gate", name);
+}
+
+bool rg_sides_are_apart(const char *names)
+{
+    struct rg_device_name name, other;
+    while (*names) {
+        if (!rg_device_name_read(&names, &name))
+            return false;
+        for (const char *rest = names; *rest;)
+            if (!rg_device_name_read(&rest, &other))
+                return false;
+            else if (!strcmp(name.name, other.name))
+                return rg_error("--device: '%s' stands there twice; name it once", name.name);
+    }
+    return true;
 }
 
 bool rg_sides_have(const struct rg_side_seen *seen, int count, const char *require)

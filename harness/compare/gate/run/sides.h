@@ -32,4 +32,8 @@ struct rg_side_seen rg_side_look(struct rg_side *side, struct rg_device_info *in
 // logged.
 bool rg_sides_have(const struct rg_side_seen *seen, int count, const char *require);
 
+// Whether a list of names has each once: cells of a device that stands there twice would share a
+// name. False, and one logged line, also where one is no name.
+bool rg_sides_are_apart(const char *names);
+
 #endif

@@ -28,6 +28,7 @@ ROWS = [
     Fault(OUTPUTS, "«adds_new»,", "false", "what nothing expects is not in the patch"),
     Fault(OUTPUTS, "return !report || !*report || «!file || !rg_file_is_same(report, file)» ||", "true", "a report replaces a file that is read", tests=("command line, baselines",)),
     Fault(AGREE, "} else if («!c.tiers.mask_pixels && !c.metrics.differing_values») {", "false", "a cell without rain is a difference", tests=("command line, gates",)),
+    Fault(SIDES, "else if («!strcmp(name.name, other.name)»)", "false", "cells of a device that is named twice share a name", tests=("command line, gates",)),
     Fault(SIDES, "if («!seen[i].is_there»)", "false", "a device that is missing and required skips its cells", tests=("command line, gates",)),
     Fault(COMMAND, "exit = rg_exit_worse(exit, «RG_EXIT_USAGE»); // a full disk", "RG_EXIT_FAIL", "a full disk is a regression", tests=("command line, gates",)),
     Fault(RUN, "return «is_kept» ? found", "true", "launches that are lost are not told of", tests=("command line, gates",)),
