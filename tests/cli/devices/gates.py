@@ -116,6 +116,19 @@ def check_open(runner):
     return ["exit status %d, %s" % (result.returncode, result.stdout)] if bad else []
 
 
+def check_shared(runner):
+    """devices of two builds share the budget: one that takes more leaves less to the next, which is left open then"""
+    with Files(TORUS) as files:
+        slow = files.path("slow.sh", "#!/bin/sh\nsleep 0.6\nexec %s \"$@\"\n" % runner.raingauge)
+        os.chmod(slow, 0o700)
+        result = runner.run(["gate", "--against", slow, "--device", "cpu,cpu:reference", "--cells", files.cells, "--budget", "0.5s", "--json"])
+    cases = json.loads(result.stdout)["gated"]
+    launches = [re.sub(" launches?, .*", "", case["details"].split("\n")[0]) for case in cases]
+    if result.returncode != 3 or [case["ending"] for case in cases] != ["inconclusive"] * 2 or launches[0] != "1" or cases[1]["ratio"]["value"] is not None:
+        return ["exit status %d, %s, %s" % (result.returncode, [case["message"] for case in cases], launches)]
+    return []
+
+
 def check_crash(runner):
     """a driver that falls ends its own cells, and what is expected of it is no failure"""
     problems = []
@@ -284,5 +297,5 @@ def check_refused(runner):
     return problems
 
 
-CHECKS = [check_same, check_slower, check_builds, check_fallen, check_open, check_crash, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
+CHECKS = [check_same, check_slower, check_builds, check_fallen, check_open, check_shared, check_crash, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
           check_unwritten, check_refused]

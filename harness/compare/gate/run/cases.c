@@ -51,7 +51,7 @@ static enum rg_ending ending_of_times(const struct rg_gate_case *c)
     };
     if (broke_off(c))
         return ending_of_outcome(c->times.outcome);
-    if (!c->row.decision.units)
+    if (!c->row.decision.units && c->row.end != RG_END_OVER)
         return RG_ENDING_NOTHING_MEASURED;
     return endings[c->row.decision.verdict];
 }

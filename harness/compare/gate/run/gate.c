@@ -53,6 +53,7 @@ struct run {
     int timed_count;
     const char **timed_names; // of their cases
     int first_case;
+    double left_ms;             // of the budget, for this pair and those behind it
     struct rg_kept_times *kept; // NULL: nothing is
 };
 
@@ -215,11 +216,13 @@ static bool time_all(struct run *r)
     if (!r->timed_count || rg_interrupted())
         return true;
     struct rg_gate_rule rule = rg_gate_rule_of(r->timed_count);
+    const int64_t pairs = r->asked->pairs->count - (r->pair - r->asked->pairs->all);
+    const double start_ms = rg_now_ms();
     struct rg_gate_times times = {
         .sides = r->sides,
         .cells = r->timed,
         .cell_count = r->timed_count,
-        .end_ms = r->asked->budget_s > 0 ? rg_now_ms() + 1e3 * r->asked->budget_s : 0};
+        .end_ms = r->asked->budget_s > 0 ? start_ms + fmax(r->left_ms, 0) / (double)pairs : 0};
     struct rg_quad_source source = {rg_times_launch, rg_times_take, rg_times_are_over, &times,
                                     NULL};
     const struct rg_quad_source fresh = source;
@@ -229,7 +232,9 @@ static bool time_all(struct run *r)
         source = rg_kept_times_source(r->kept, &fresh, r->timed_names);
     rule.margin = r->asked->margin;
     rule.error /= r->asked->pairs->count;
-    return rg_gate_measure(r->gate, r->first_case, &rule, &source, r->timed);
+    const bool ok = rg_gate_measure(r->gate, r->first_case, &rule, &source, r->timed);
+    r->left_ms -= rg_now_ms() - start_ms;
+    return ok;
 }
 
 // --- what is kept of it ---
@@ -323,7 +328,7 @@ static bool run_pair(struct run *r, int pair)
 
 int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
 {
-    struct run r = {.asked = request, .gate = gate};
+    struct run r = {.asked = request, .gate = gate, .left_ms = 1e3 * request->budget_s};
     rg_interrupt_watch();
     const int exit = look_at_sides(&r);
     if (exit != RG_EXIT_PASS)

@@ -11,11 +11,11 @@
 struct rg_gate_request {
     const struct rg_gate_pairs *pairs; // one after the other
     const struct rg_gate_cells *cells;
-    const struct rg_known *known;  // what is expected to go wrong
-    const char *require;           // names of devices or of backends that must be there; NULL: none
-    int today;                     // harness/compare/gate/text/date.h
-    double margin;                 // 0.05 for 5 %
-    double budget_s;               // no launch is begun behind it; 0: there is none
+    const struct rg_known *known; // what is expected to go wrong
+    const char *require;          // names of devices or of backends that must be there; NULL: none
+    int today;                    // harness/compare/gate/text/date.h
+    double margin;                // 0.05 for 5 %
+    double budget_s; // for times; no launch is begun behind it, which pairs share; 0: there is none
     bool pictures_only;            // nothing is timed
     const char *filter;            // of googletest, for names of cases; NULL: all
     struct rg_gtest_shards shards; // of what it lets through
