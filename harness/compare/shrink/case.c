@@ -9,7 +9,6 @@
 #include "core/base/text/place.h"
 #include "harness/compare/gate/text/lines.h"
 #include "harness/compare/shrink/files.h"
-#include "harness/console/exit.h"
 #include "harness/record/output.h"
 
 enum { TEXT_SIZE = 1 << 16 };
@@ -211,37 +210,4 @@ void rg_case_free(struct rg_case *c)
 {
     free((void *)(uintptr_t)c->run.subject.settings);
     *c = (struct rg_case){0};
-}
-
-// --- replaying ---
-
-int rg_case_replay(const struct rg_case *c, struct rg_device *device)
-{
-    struct rg_digests digests = {0};
-    int exit = RG_EXIT_FAIL;
-    if (!rg_digests_take(&c->run, device, &digests)) {
-        rg_digests_free(&digests);
-        return rg_exit_of_error();
-    }
-    int row = 0;
-    while (row < digests.count && (digests.rows[row].stages_run != c->stages_run ||
-                                   strcmp(digests.rows[row].asset, c->asset) != 0))
-        row++;
-    if (row == digests.count) {
-        printf("other: %s leaves no %s behind stage %d\n", device->info.name, c->asset,
-               c->stages_run);
-    } else if (strcmp(stage_name(digests.rows[row].stage), c->stage) != 0) {
-        rg_error("the case: behind %d is stage '%s' here, and not '%s'; write one anew with "
-                 "`raingauge shrink`",
-                 c->stages_run, stage_name(digests.rows[row].stage), c->stage);
-        exit = RG_EXIT_USAGE;
-    } else {
-        const uint64_t hash = digests.rows[row].hash;
-        exit = hash == c->expected ? RG_EXIT_PASS : RG_EXIT_FAIL;
-        printf("%s: %s leaves %016" PRIx64 " in %s behind stage %s; expected %016" PRIx64 "%s\n",
-               exit == RG_EXIT_PASS ? "same" : "other", device->info.name, hash, c->asset, c->stage,
-               c->expected, hash == c->found && hash != c->expected ? ", as was found" : "");
-    }
-    rg_digests_free(&digests);
-    return exit;
 }

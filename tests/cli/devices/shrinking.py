@@ -72,6 +72,8 @@ def check_shrunk(runner):
                 ("frames ", "# ", r"lacks its .*frames"),
                 ("frames ", "frames 1\nframes ", r"line \d+: 'frames' is there twice"),
                 ("stage %s" % STAGE, "stage flow_water", r"behind \d+ is stage '%s' here, and not 'flow_water'" % STAGE),
+                ("behind ", "behind 9", r"there are fewer than 9\d+ stages here; write one anew"),
+                ("asset normals", "asset nonsense", r"there is no asset 'nonsense' here; write one anew"),
                 ("technique flow", "technique nonsense", r"line 3: 'technique' is no line")):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text.replace(right, wrong))
