@@ -105,4 +105,35 @@ def check_built_anew(runner):
     return problems
 
 
-CHECKS = [check_killed, check_kept, check_built_anew]
+def check_baseline(runner):
+    """a gate against a baseline that is killed goes on too, and not against another baseline"""
+    problems = []
+    with Files() as files:
+        folder, was, path = files.path("out"), files.path("baseline.json"), files.path("out/gate.journal")
+        make = ["baseline", "--device", "cpu", "--launches", "8", "--cells", files.cells, "-o", was]
+        runner.run(make)
+        sides = ["--baseline", was, "--margin", "0.01"]  # so that no look but the last decides
+        left = left_by_a_kill(runner, files, folder, sides)
+        if len(left) < 4:
+            return ["%d launches were kept" % len(left)]
+        with open(path) as file:
+            whole = file.read()
+        for is_kept in (True, False):
+            result = runner.run(["gate", *sides, "--cells", files.cells, "-o", folder, "--budget", "1s"])
+            with open(os.path.join(folder, "launches.csv"), newline="") as file:
+                rows = list(csv.DictReader(file))
+            told = {(row["case"], int(row["launch"])): row for row in rows}
+            same = [key for key, values in left.items() if key in told and abs(values[2] - float(told[key]["b_ms"])) <= 1e-8 * values[2]]
+            if result.returncode not in (0, 1, 3) or len(same) != is_kept * len(left) or len(told) <= len(left) or os.path.exists(path):
+                problems.append("%s: exit status %d, %d of %d are the same, %d in the end, %s"
+                                % (is_kept, result.returncode, len(same), len(left), len(told), result.stderr))
+            if any(row["log_ratio"] or row["a_ms"] for row in rows):
+                problems.append("a ratio of what is not there: %s" % rows[0])
+            with open(path, "w") as file:
+                file.write(whole)
+            os.remove(was)
+            runner.run(make)  # with other times
+    return problems
+
+
+CHECKS = [check_killed, check_kept, check_built_anew, check_baseline]

@@ -9,7 +9,9 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/compare/gate/baseline/compare.h"
+#include "harness/compare/gate/cells/digest.h"
 #include "harness/compare/gate/run/cases.h"
+#include "harness/compare/gate/run/keep.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
@@ -22,6 +24,7 @@ struct lot {
     struct rg_timed_cell *cells;
     int *side_of, *case_of;
     struct rg_gate_sample *before;
+    const char **names; // of their cases
 };
 
 struct run {
@@ -32,10 +35,12 @@ struct run {
     int side_count;
     struct rg_side sides[RG_MAX_DEVICES];
     struct rg_device_info infos[RG_MAX_DEVICES]; // of those that were there
+    json_t *passport;                            // of these
     json_t *parts[RG_MAX_DEVICES];               // of their keys; NULL: they were not
     bool same_key[RG_MAX_DEVICES];
     struct rg_truth truth;
     struct lot gated, advisory;
+    struct rg_kept_times *kept; // of what is gated; NULL: nothing is
     struct rg_launches yardsticks[RG_YARDSTICKS];
     double end_ms;
 };
@@ -82,7 +87,8 @@ static bool make_lot(struct lot *lot, size_t count)
     lot->side_of = rg_alloc(count, sizeof(*lot->side_of), "gate");
     lot->case_of = rg_alloc(count, sizeof(*lot->case_of), "gate");
     lot->before = rg_alloc(count, sizeof(*lot->before), "gate");
-    return lot->cells && lot->side_of && lot->case_of && lot->before;
+    lot->names = rg_alloc(count, sizeof(*lot->names), "gate");
+    return lot->cells && lot->side_of && lot->case_of && lot->before && lot->names;
 }
 
 static bool choose(struct run *r)
@@ -134,9 +140,8 @@ static bool find_keys(struct run *r)
         r->same_key[side] = json_equal(r->parts[side], was->parts);
         json_decref(device);
     }
-    const bool ok = rg_gate_set_passport(r->gate, passport);
-    json_decref(passport);
-    return ok;
+    r->passport = passport;
+    return rg_gate_set_passport(r->gate, passport);
 }
 
 // What is printed of the keys, a line a device.
@@ -221,10 +226,18 @@ static struct rg_lone_times times_of(struct run *r, struct lot *lot, struct rg_y
 static bool time_gated(struct run *r, struct rg_yardstick_room *room)
 {
     struct rg_lone_times times = times_of(r, &r->gated, room);
-    const struct rg_quad_source source = {rg_lone_launch, rg_lone_take, rg_lone_are_over, &times,
-                                          r->gated.before};
+    struct rg_quad_source source = {rg_lone_launch, rg_lone_take, rg_lone_are_over, &times,
+                                    r->gated.before};
+    const struct rg_quad_source fresh = source;
     struct rg_gate_rule rule = rg_gate_rule_apart(r->gated.count);
     rule.margin = r->asked->request->margin;
+    for (int i = 0; i < r->gated.count; i++) {
+        const struct rg_gate_case *c = &r->gate->cases[r->gated.case_of[i]];
+        r->gated.names[i] = c->name;
+        rg_keep_expect(r->kept, c);
+    }
+    if (r->kept)
+        source = rg_kept_times_source(r->kept, &fresh, r->gated.names);
     return !r->gated.count || rg_gate_measure(r->gate, 0, &rule, &source, r->gated.cells);
 }
 
@@ -263,6 +276,24 @@ static bool time_all(struct run *r)
     return ok;
 }
 
+// --- what is kept of it ---
+
+// All that decides the times that are gated: those of the baseline too.
+static json_t *key_of(const struct run *r)
+{
+    json_t *was = json_object();
+    for (int i = 0; i < r->gate->case_count; i++) {
+        const struct rg_baseline_row *row = r->rows[i];
+        char launches[RG_DIGEST_SIZE];
+        rg_digest_of(row->launches.ms, (size_t)row->launches.count * sizeof(*row->launches.ms),
+                     launches);
+        json_object_set_new(was, r->gate->cases[i].name,
+                            json_pack("[s, s]", row->settings, launches));
+    }
+    return json_pack("{s:o, s:O, s:f}", "baseline", was, "passport", r->passport, "margin",
+                     r->asked->request->margin);
+}
+
 // --- all of it ---
 
 static void free_lot(struct lot *lot)
@@ -271,6 +302,7 @@ static void free_lot(struct lot *lot)
     free(lot->side_of);
     free(lot->case_of);
     free(lot->before);
+    free(lot->names);
 }
 
 // False where a device was closed badly, once.
@@ -282,6 +314,7 @@ static bool end(struct run *r)
         clean = clean && !r->sides[side].was_closed_badly;
         json_decref(r->parts[side]);
     }
+    json_decref(r->passport);
     free_lot(&r->gated);
     free_lot(&r->advisory);
     free(r->rows);
@@ -293,12 +326,15 @@ int rg_against_run(const struct rg_against *against, struct rg_gate *gate)
 {
     struct run r = {.asked = against, .gate = gate};
     rg_interrupt_watch();
-    bool ok = choose(&r) && look_at_sides(&r) && find_keys(&r) && note_keys(&r);
+    bool ok = choose(&r) && look_at_sides(&r) && find_keys(&r) && note_keys(&r) &&
+              rg_keep_open(against->request, key_of(&r), &r.kept);
     for (int i = 0; ok && i < gate->case_count && !rg_interrupted(); i++)
         compare(&r, i);
     ok = ok && time_all(&r) && (rg_interrupted() || rg_gate_report(against->request, gate));
+    const bool is_kept = rg_keep_close(against->request, r.kept, ok && !rg_interrupted());
     ok = end(&r) && ok;
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
-    return ok ? rg_gate_exit(gate) : RG_EXIT_FAIL;
+    const int found = ok ? rg_gate_exit(gate) : RG_EXIT_FAIL;
+    return is_kept ? found : rg_exit_worse(found, RG_EXIT_USAGE);
 }

@@ -31,6 +31,7 @@ struct rg_baseline_row {
     } states[RG_MAX_STATE];
     struct rg_counters counters; // of all frames
     struct rg_tally work;        // of the frame behind them
+    struct rg_session_code code; // that ran now; a file has none
     // Without an outcome OK, nothing of what follows.
     struct rg_slot slot;         // that was timed; zeroed: none was
     struct rg_launches launches; // of a frame

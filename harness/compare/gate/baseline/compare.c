@@ -100,6 +100,7 @@ void rg_against_compare(const struct rg_gate_cell *cell, struct rg_device *devic
         compare_ends(before, &now, agreement);
         return;
     }
+    agreement->code[RG_SIDE_B] = now.code;
     const bool holds = has_its_picture(cell, device, before, &now, &picture, truth, agreement);
     if (!did_run(before->outcome))
         say(agreement,

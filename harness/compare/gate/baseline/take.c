@@ -67,7 +67,7 @@ void rg_baseline_take(const struct rg_gate_cell *cell, struct rg_device *device,
     *picture = (struct rg_picture){0};
     struct rg_session *session = rg_session_run(device, &subject, cell->frames);
     if (!session || !take_picture(session, row, picture) || !take_states(session, row) ||
-        !take_work(session, row)) {
+        !take_work(session, row) || !rg_session_code(session, &row->code)) {
         row->outcome = rg_outcome_of_error();
         rg_text_copy(row->why, sizeof(row->why), rg_last_error());
         rg_picture_destroy(picture);

@@ -15,7 +15,7 @@ void rg_agreement_code(const struct rg_agreement *agreement, char code[RG_AGREEM
 {
     size_t used = 0;
     *code = 0;
-    for (int side = 0; agreement->has_code && side < RG_SIDES; side++) {
+    for (int side = 0; side < RG_SIDES; side++) {
         const struct rg_session_code *of = &agreement->code[side];
         used += (size_t)snprintf(code + used, RG_AGREEMENT_CODE - used,
                                  "%s%s %016" PRIx64 " %016" PRIx64, side ? ", " : "", of->program,

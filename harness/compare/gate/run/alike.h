@@ -23,14 +23,14 @@ struct rg_agreement {
     // name; NULL: nowhere. Whether they have been.
     const char *folder, *name;
     bool has_pictures;
-    bool has_code; // which code ran on both sides; not of one that ran alone
-    struct rg_session_code code[RG_SIDES];
+    bool has_code; // which code ran on both sides, which are held against each other
+    struct rg_session_code code[RG_SIDES]; // of one that ran alone, B's
     double pixels,
         difference; // that differ, and the most a channel of them does; NAN: not compared
 };
 
 enum { RG_AGREEMENT_CODE = 512 };
-// Which code ran on both sides as a text, the same where the code is.
+// Which code ran as a text, the same where the code is.
 void rg_agreement_code(const struct rg_agreement *agreement, char code[RG_AGREEMENT_CODE]);
 
 // Ends it: they do not agree. False.

@@ -12,12 +12,11 @@
 #include "harness/compare/gate/run/agree.h"
 #include "harness/compare/gate/cells/digest.h"
 #include "harness/compare/gate/run/cases.h"
-#include "harness/compare/gate/run/kept.h"
+#include "harness/compare/gate/run/keep.h"
 #include "harness/compare/gate/run/times.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
-#include "harness/record/output.h"
 #include "harness/record/passport/passport.h"
 
 char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
@@ -202,15 +201,6 @@ bool rg_gate_measure(struct rg_gate *gate, int first, const struct rg_gate_rule 
     return ok;
 }
 
-static void expect_code(struct rg_kept_times *kept, const struct rg_gate_case *c)
-{
-    char code[RG_AGREEMENT_CODE];
-    if (!c->is_timed)
-        return;
-    rg_agreement_code(&c->agreement, code);
-    rg_kept_times_expect(kept, c->name, code);
-}
-
 static bool time_all(struct run *r)
 {
     if (!r->timed_count || rg_interrupted())
@@ -227,7 +217,7 @@ static bool time_all(struct run *r)
                                     NULL};
     const struct rg_quad_source fresh = source;
     for (int i = r->first_case; r->kept && i < r->gate->case_count; i++)
-        expect_code(r->kept, &r->gate->cases[i]);
+        rg_keep_expect(r->kept, &r->gate->cases[i]);
     if (r->kept)
         source = rg_kept_times_source(r->kept, &fresh, r->timed_names);
     rule.margin = r->asked->margin;
@@ -253,29 +243,6 @@ static json_t *key_of(const struct run *r)
                                                r->asked->pairs->all[i].names[RG_SIDE_B]));
     return json_pack("{s:o, s:o, s:o, s:f}", "cells", cells, "pairs", pairs, "passport",
                      rg_passport_json(r->infos, r->info_count), "margin", r->asked->margin);
-}
-
-static bool open_kept(struct run *r)
-{
-    if (!r->asked->folder || r->asked->pictures_only)
-        return true;
-    r->kept = rg_kept_times_open(r->asked->folder, key_of(r), r->asked->fresh);
-    const int count = r->kept ? rg_kept_times_count(r->kept) : 0;
-    if (count)
-        rg_info("%s: has times of %d launches of a gate that was interrupted, which goes on",
-                r->asked->folder, count);
-    return r->kept;
-}
-
-// What every launch told stays beside the pictures once the gate is over.
-static bool close_kept(struct run *r, bool is_done)
-{
-    char *csv = r->kept && is_done ? rg_kept_times_csv(r->kept) : NULL;
-    const bool ok = !r->kept || !is_done ||
-                    (csv && (!*csv || rg_output_write(r->asked->folder, "launches.csv", csv)));
-    free(csv);
-    rg_kept_times_close(r->kept, is_done && ok);
-    return ok;
 }
 
 // --- what came of it ---
@@ -333,15 +300,13 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
     const int exit = look_at_sides(&r);
     if (exit != RG_EXIT_PASS)
         return exit;
-    bool ok = make_room(&r) && set_passport(&r) && open_kept(&r);
+    bool ok = make_room(&r) && set_passport(&r) && rg_keep_open(request, key_of(&r), &r.kept);
     for (int pair = 0; ok && pair < request->pairs->count && !rg_interrupted(); pair++)
         ok = run_pair(&r, pair);
     ok = ok && (rg_interrupted() || rg_gate_report(request, gate));
-    const bool is_kept = close_kept(&r, ok && !rg_interrupted());
+    const bool is_kept = rg_keep_close(request, r.kept, ok && !rg_interrupted());
     free(r.timed);
     free(r.timed_names);
-    if (rg_interrupted() && r.asked->folder)
-        rg_info("gate: interrupted; the same command goes on");
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
     for (int side = 0; side < RG_SIDES; side++)

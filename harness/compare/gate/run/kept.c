@@ -53,7 +53,7 @@ static bool is_launch(const json_t *launch)
     for (size_t i = 1; ok && i < 4; i++)
         ok = json_is_number(json_array_get(launch, i));
     return ok && json_integer_value(json_array_get(launch, 0)) >= 0 &&
-           json_number_value(json_array_get(launch, 2)) > 0 &&
+           json_number_value(json_array_get(launch, 2)) >= 0 &&
            json_number_value(json_array_get(launch, 3)) > 0;
 }
 
@@ -238,10 +238,26 @@ struct rg_quad_source rg_kept_times_source(struct rg_kept_times *kept,
     kept->names = names;
     kept->failed = false;
     return (struct rg_quad_source){
-        .launch = launch, .take = take, .is_over = is_over, .user = kept};
+        .launch = launch, .take = take, .is_over = is_over, .user = kept, .before = source->before};
 }
 
 // --- the end ---
+
+// Of B alone, which is held against a baseline, there is no ratio and no time of A.
+static void put_launch(const char *name, const json_t *launch, FILE *file)
+{
+    const double a_ms = json_number_value(json_array_get(launch, 2));
+    fprintf(file, "\"");
+    for (const char *c = name; *c; c++)
+        fprintf(file, *c == '"' ? "\"\"" : "%c", *c);
+    fprintf(file, "\",%" JSON_INTEGER_FORMAT ",", json_integer_value(json_array_get(launch, 0)));
+    if (a_ms > 0)
+        fprintf(file, "%.9g,%.9g", json_number_value(json_array_get(launch, 1)), a_ms);
+    else
+        fprintf(file, ",");
+    fprintf(file, ",%.9g,%d\n", json_number_value(json_array_get(launch, 3)),
+            json_is_true(json_array_get(launch, 4)));
+}
 
 char *rg_kept_times_csv(const struct rg_kept_times *kept)
 {
@@ -258,15 +274,7 @@ char *rg_kept_times_csv(const struct rg_kept_times *kept)
     {
         json_array_foreach(row, i, launch)
         {
-            fprintf(file, "\"");
-            for (const char *c = name; *c; c++)
-                fprintf(file, *c == '"' ? "\"\"" : "%c", *c);
-            fprintf(file, "\",%" JSON_INTEGER_FORMAT ",%.9g,%.9g,%.9g,%d\n",
-                    json_integer_value(json_array_get(launch, 0)),
-                    json_number_value(json_array_get(launch, 1)),
-                    json_number_value(json_array_get(launch, 2)),
-                    json_number_value(json_array_get(launch, 3)),
-                    json_is_true(json_array_get(launch, 4)));
+            put_launch(name, launch, file);
         }
     }
     if (fclose(file) == 0)

@@ -1,0 +1,42 @@
+#include "harness/compare/gate/run/keep.h"
+
+#include <stdlib.h>
+
+#include "core/base/log.h"
+#include "harness/console/interrupt.h"
+#include "harness/record/output.h"
+
+bool rg_keep_open(const struct rg_gate_request *asked, json_t *key, struct rg_kept_times **kept)
+{
+    if (!asked->folder || asked->pictures_only) {
+        json_decref(key);
+        return true;
+    }
+    *kept = rg_kept_times_open(asked->folder, key, asked->fresh);
+    const int count = *kept ? rg_kept_times_count(*kept) : 0;
+    if (count)
+        rg_info("%s: has times of %d launches of a gate that was interrupted, which goes on",
+                asked->folder, count);
+    return *kept;
+}
+
+void rg_keep_expect(struct rg_kept_times *kept, const struct rg_gate_case *c)
+{
+    char code[RG_AGREEMENT_CODE];
+    if (!kept || !c->is_timed)
+        return;
+    rg_agreement_code(&c->agreement, code);
+    rg_kept_times_expect(kept, c->name, code);
+}
+
+bool rg_keep_close(const struct rg_gate_request *asked, struct rg_kept_times *kept, bool is_done)
+{
+    char *csv = kept && is_done ? rg_kept_times_csv(kept) : NULL;
+    const bool ok = !kept || !is_done ||
+                    (csv && (!*csv || rg_output_write(asked->folder, "launches.csv", csv)));
+    free(csv);
+    rg_kept_times_close(kept, is_done && ok);
+    if (rg_interrupted() && asked->folder)
+        rg_info("gate: interrupted; the same command goes on");
+    return ok;
+}
