@@ -208,11 +208,18 @@ static void mesas_files_are_read_as_they_are(void **state)
     struct rg_known expected = {.count = 0};
     assert_true(add(&expected,
                     "# fails\r\n\r\nstreaks.a,Fail\r\nstreaks.b [x] y,Crash\r\nstreaks.c,Pass\r\n"
-                    "streaks.d,Timeout,1.5\r\nstreaks.s,Fail\r\nstreaks.e,Flake",
+                    "streaks.d,Timeout,1.5\r\nstreaks.s,Fail\r\nstreaks.e,Flake\r\n"
+                    "streaks.g,KnownFlake\r\nstreaks.h,ExpectedFail\r\n"
+                    "streaks.i,UnexpectedImprovement(Fail)\r\n"
+                    "streaks.k,UnexpectedImprovement(Skip)",
                     RG_FORM_FAILS));
     assert_true(add(&expected, "# flakes\n^streaks\\.f\\d+$\nodd.*copy\n", RG_FORM_FLAKES));
     assert_true(add(&expected, "streaks.s\n(?:raster|drops)\\.[a-c]+?$\n", RG_FORM_SKIPS));
     static const struct judged rows[] = {
+        {{"streaks.g", VK, RG_CRASH, 0, 0}, "2026-11-30", RG_MET_FLAKY},
+        {{"streaks.h", VK, RG_FAIL, 0, 0}, "2026-11-30", RG_MET_EXPECTED},
+        {{"streaks.i", VK, RG_FAIL, 0, 0}, "2026-11-30", RG_MET_EXPECTED},
+        {{"streaks.k", VK, RG_FAIL, 0, 0}, "2026-11-30", RG_MET_NOTHING},
         {{"streaks.a", "gl", "", RG_FAIL, 5, 5}, "2026-12-31", RG_MET_EXPECTED},
         {{"streaks.a", "gl", "", RG_ERROR, 5, 5}, "2026-12-31", RG_MET_EXPECTED},
         {{"streaks.a", "gl", "", RG_CRASH, 5, 5}, "2026-12-31", RG_MET_DIFFERENT},
