@@ -78,6 +78,16 @@ def check_slower(runner):
     return problems
 
 
+def check_quarantined(runner):
+    """what is in quarantine is measured, and a regression is told, though it fails nothing"""
+    with Files(TORUS) as files:
+        known = files.path("known.txt", "flake *\n  reason it comes and goes\n  since 2026-01-01\n  until 9999-12-31\n")
+        result = runner.run(["gate", "cpu", "cpu@RG_PROGRAM=%s;%s" % (runner.slower, EXTRA), "--cells", files.cells, "--expectations", known, "--json"])
+    case = json.loads(result.stdout)["gated"][0]
+    good = result.returncode == 0 and case["ending"] == "flake" and re.match(r"flaky: a frame takes \d.* % longer \(", case["message"])
+    return [] if good else ["exit status %d, %s: %s" % (result.returncode, case["ending"], case["message"])]
+
+
 def check_builds(runner):
     """another build is held against this one on each device that is named, and what it does more is found"""
     problems = []
@@ -297,5 +307,5 @@ def check_refused(runner):
     return problems
 
 
-CHECKS = [check_same, check_slower, check_builds, check_fallen, check_open, check_shared, check_crash, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
+CHECKS = [check_same, check_slower, check_quarantined, check_builds, check_fallen, check_open, check_shared, check_crash, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
           check_unwritten, check_refused]

@@ -96,8 +96,10 @@ static const char *why_open(const struct rg_gate_case *c)
     }
 }
 
-static void put_times(const struct rg_gate_case *c, enum rg_ending ending, char *text, size_t size)
+// What its times tell, whatever is expected of it: what is in quarantine is measured to be seen.
+static void put_times(const struct rg_gate_case *c, char *text, size_t size)
 {
+    const enum rg_ending ending = ending_of_times(c);
     const struct rg_gate_decision *d = &c->row.decision;
     const double percent = 100 * (d->ratio - 1);
     if (ending == RG_ENDING_INCONCLUSIVE)
@@ -164,13 +166,12 @@ static void put_details(const struct rg_gate_case *c, char *text, size_t size)
     put_code(c, text + used + !!used, size - used - !!used);
 }
 
-static void put_message(const struct rg_gate_case *c, enum rg_met met, enum rg_ending ending,
-                        char *text, size_t size)
+static void put_message(const struct rg_gate_case *c, enum rg_met met, char *text, size_t size)
 {
     char own[RG_AGREEMENT_TEXT + 360], times[300] = "";
     const char *device = c->agreement.device, *said = c->agreement.message;
     if (c->agreement.outcome == RG_OK && c->is_timed)
-        put_times(c, ending, times, sizeof(times));
+        put_times(c, times, sizeof(times));
     snprintf(own, sizeof(own), "%s%s%s%s%s", device ? device : "", device ? ": " : "", said,
              *said && *times ? "; " : "", times);
     snprintf(text, size, "%s%s%s", met == RG_MET_NOTHING ? "" : rg_met_name(met),
@@ -216,7 +217,7 @@ void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *req
         c->is_skipped ? RG_MET_SKIPPED
                       : rg_known_judge(request->known, c->expectation, result, request->today);
     const enum rg_ending ending = ending_of(c, met);
-    put_message(c, met, ending, c->message, sizeof(c->message));
+    put_message(c, met, c->message, sizeof(c->message));
     put_details(c, c->details, sizeof(c->details));
     *told = (struct rg_report_case){.name = c->name,
                                     .technique = c->cell->technique->name,
