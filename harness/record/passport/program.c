@@ -1,6 +1,7 @@
 #define _GNU_SOURCE // dl_iterate_phdr
 #include "harness/record/passport/program.h"
 
+#include <inttypes.h>
 #include <link.h>
 #include <stdio.h>
 #include <string.h>
@@ -27,12 +28,28 @@ static void read_notes(const char *notes, size_t size, char id[RG_PROGRAM_ID_SIZ
     }
 }
 
+// Of code, which is the same wherever it is loaded.
+static void read_code(const struct dl_phdr_info *info, char id[RG_PROGRAM_ID_SIZE])
+{
+    uint64_t hash = 0;
+    for (int i = 0; i < info->dlpi_phnum; i++) {
+        const ElfW(Phdr) *segment = &info->dlpi_phdr[i];
+        if (segment->p_type == PT_LOAD && segment->p_flags == (PF_R | PF_X))
+            hash = XXH3_64bits_withSeed((const char *)(info->dlpi_addr + segment->p_vaddr),
+                                        segment->p_filesz, hash);
+    }
+    snprintf(id, RG_PROGRAM_ID_SIZE, "%016" PRIx64, hash);
+}
+
 static void read_object(const struct dl_phdr_info *info, char id[RG_PROGRAM_ID_SIZE])
 {
+    *id = 0;
     for (int i = 0; i < info->dlpi_phnum; i++)
         if (info->dlpi_phdr[i].p_type == PT_NOTE)
             read_notes((const char *)(info->dlpi_addr + info->dlpi_phdr[i].p_vaddr),
                        info->dlpi_phdr[i].p_memsz, id);
+    if (!*id)
+        read_code(info, id);
 }
 
 // The program is the first that is told of.

@@ -88,6 +88,21 @@ def check_quarantined(runner):
     return [] if good else ["exit status %d, %s: %s" % (result.returncode, case["ending"], case["message"])]
 
 
+def check_without_ids(runner):
+    """libraries that have no build id are told apart by their code"""
+    problems = []
+    with Files(TORUS) as files:
+        for name, value in (("one", 1), ("two", 2), ("again", 1)):
+            source = files.path(name + ".c", "int rg_test(void) { return %d; }\n" % value)
+            subprocess.run(["cc", "-shared", "-fPIC", "-Wl,--build-id=none", source, "-o", files.path(name + ".so")], check=True)
+        for other, says in (("two", "the same program, other libraries"), ("again", "the same program, the same libraries")):
+            devices = ["cpu@LD_PRELOAD=" + files.path(name + ".so") for name in ("one", other)]
+            result = runner.run(["gate", *devices, "--cells", files.cells, "--pictures"])
+            if result.returncode or says not in result.stdout:
+                problems.append("%s: exit status %d, %s%s" % (other, result.returncode, result.stdout, result.stderr))
+    return problems
+
+
 def check_builds(runner):
     """another build is held against this one on each device that is named, and what it does more is found"""
     problems = []
@@ -307,5 +322,5 @@ def check_refused(runner):
     return problems
 
 
-CHECKS = [check_same, check_slower, check_quarantined, check_builds, check_fallen, check_open, check_shared, check_crash, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
+CHECKS = [check_same, check_slower, check_quarantined, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
           check_unwritten, check_refused]

@@ -33,5 +33,6 @@ ROWS = [
     Fault(COMMAND, "exit = rg_exit_worse(exit, «RG_EXIT_USAGE»); // a full disk", "RG_EXIT_FAIL", "a full disk is a regression", tests=("command line, gates",)),
     Fault(RUN, "return «is_kept» ? found", "true", "launches that are lost are not told of", tests=("command line, gates",)),
     Fault(RUN, "    «r->left_ms -= rg_now_ms() - start_ms;»", ";", "each device of two builds has half of the budget that others have taken", tests=("command line, gates",)),
+    Fault("harness/record/passport/program.c", "    if («!*id»)\n", "false", "libraries without a build id are all the same", tests=("command line, gates",)),
     Fault(COMMAND, "if («gate.is_told» && ", "true", "a gate that fails early leaves an empty report", tests=("command line, gates",)),
 ]
