@@ -79,6 +79,7 @@ def check_names(runner):
 # --- expectations ---
 
 FIELDS = "  device gl@*\n  reason a test\n  since 2019-01-01\n  until %s\n"
+KNOWN_NAME = "what is known.txt"  # with blanks, for patch
 LATE, PAST = "2099-12-31", "2020-01-01"
 
 
@@ -107,10 +108,10 @@ def check_expectations(runner):
         with open(os.path.join(folder, "cells.txt"), "w") as file:
             file.write(QUICK)
         for text, status, ending, says, has_patch in rows:
-            path = os.path.join(folder, "known.txt")
+            path = os.path.join(folder, KNOWN_NAME)
             with open(path, "w") as file:
                 file.write(text)
-            found, endings, told = gate(runner, folder, ["--expectations", "known.txt"])
+            found, endings, told = gate(runner, folder, ["--expectations", KNOWN_NAME])
             wanted = {"flow/pane": ending, "raster/torus": "unexpected pass" if text.startswith("fail *") else "pass"}
             patch = told[told.index("--- "):] if "--- " in told else ""
             if (found, endings) != (status, wanted) or says not in told or bool(patch) != has_patch:
@@ -118,7 +119,7 @@ def check_expectations(runner):
             if not patch:
                 continue
             applied = subprocess.run(["patch", "-p0", "-s"], cwd=folder, input=patch, capture_output=True, text=True, check=False)
-            found, endings, told = gate(runner, folder, ["--expectations", "known.txt"])
+            found, endings, told = gate(runner, folder, ["--expectations", KNOWN_NAME])
             now = ("differs", 1) if text.startswith("skip") else ("expected failure", 0)  # a skip that goes lets its cell run
             if applied.returncode or (endings["flow/pane"], found) != now:
                 problems.append("%s: patched: exit status %d, %s\n%s%s" % (text, found, endings, applied.stdout, told))

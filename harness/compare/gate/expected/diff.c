@@ -83,7 +83,9 @@ bool rg_lines_diff(const struct rg_lines *lines, const struct rg_line_edit *edit
 {
     if (!count)
         return true;
-    fprintf(out, "--- %s\n+++ %s\n", lines->name, lines->name);
+    // patch takes a name's end for its first blank, if there is no tab.
+    const char *end = strchr(lines->name, ' ') ? "\t" : "";
+    fprintf(out, "--- %s%s\n+++ %s%s\n", lines->name, end, lines->name, end);
     int64_t moved = 0;
     for (int64_t i = 0, n; i < count; i += n) {
         n = in_hunk(edits + i, count - i);
