@@ -26,8 +26,8 @@ static bool is_of(const char *pattern, const char *text)
     return !pattern || rg_glob(pattern, text);
 }
 
-static bool holds(const struct rg_known *expected, const struct rg_expectation *row,
-                  const char *cell, const char *device, const char *driver)
+bool rg_known_holds(const struct rg_known *expected, const struct rg_expectation *row,
+                    const char *cell, const char *device, const char *driver)
 {
     if (row->regex)
         return !regexec(row->regex, cell, 0, NULL, 0);
@@ -44,7 +44,7 @@ int64_t rg_known_row(const struct rg_known *expected, const char *cell, const ch
     for (int64_t i = 0; i < expected->count; i++) {
         const struct rg_expectation *row = &expected->rows[i];
         if ((found < 0 || row->kind < expected->rows[found].kind) &&
-            holds(expected, row, cell, device, driver))
+            rg_known_holds(expected, row, cell, device, driver))
             found = i;
     }
     return found;

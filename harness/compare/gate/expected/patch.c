@@ -72,13 +72,23 @@ static void count_result(struct summary *s, const struct rg_known_result *result
     widen(&s->difference, result->difference);
 }
 
+// Whether a row expects to fail what another before it expected, and what is fixed: once that one
+// is gone, this one would be what is not true.
+static bool is_fixed_behind(const struct patch *p, int64_t row, int64_t result)
+{
+    const struct rg_expectation *r = &p->expected->rows[row];
+    const struct rg_known_result *of = &p->results[result];
+    return p->met[result] == RG_MET_FIXED && p->rows[result] < row && r->kind == RG_EXPECT_FAIL &&
+           rg_known_holds(p->expected, r, of->cell, of->device, of->driver);
+}
+
 // Of result `only`, or of all with -1.
 static struct summary sum_up(const struct patch *p, int64_t row, int64_t only)
 {
     const struct rg_expectation *r = &p->expected->rows[row];
     struct summary s = {.pixels = r->pixels, .difference = r->difference};
     for (int64_t i = 0; i < p->count; i++)
-        if (p->rows[i] == row && (only < 0 || i == only))
+        if ((p->rows[i] == row || is_fixed_behind(p, row, i)) && (only < 0 || i == only))
             count_result(&s, &p->results[i], p->met[i]);
     return s;
 }

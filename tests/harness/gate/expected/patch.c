@@ -113,6 +113,16 @@ static void what_is_fixed_goes(void **state)
            RG_FORM_OWN, results, 1, "2026-01-15",
            "# head\n" ROW("a", "1", "2026-02-01") "\n" ROW("c", "3", "2026-02-01"));
     expect(ROW("b", "2", "2026-02-01"), RG_FORM_OWN, results, 1, "2027-01-15", "");
+    // Of all that expect it, and of one that expects others too the part that is fixed.
+    expect(ROW("b", "2", "2026-02-01") ROW("[b]", "1", "2026-02-01") ROW("b*", "2", "2026-02-01"),
+           RG_FORM_OWN, results, 1, "2026-01-15", ROW("[b]", "1", "2026-02-01"));
+    expect("b,Fail\nc,Fail\nb,Crash\n", RG_FORM_FAILS, results, 1, "2026-01-15", "c,Fail\n");
+    static const struct rg_known_result both[] = {{"b", "gl", "M", RG_OK, 0, 0},
+                                                  {"b2", "gl", "M", RG_FAIL, 2, 1}};
+    expect(ROW("b", "2", "2026-02-01") ROW("b*", "2", "2026-02-01"), RG_FORM_OWN, both, 2,
+           "2026-01-15",
+           "fail b2\n  device     gl\n  outcome    fail\n  pixels     2\n  reason     r\n"
+           "  since      2026-01-01\n  until      2026-02-01\n");
 }
 
 static void what_fails_otherwise_gets_the_new_evidence(void **state)

@@ -43,6 +43,7 @@ ROWS = [
     Fault(PATCH, "return p->rows[i] < 0 && «rg_met_fails(p->met[i], p->results[i].outcome)»;", "true", "cells that pass are added as failures"),
     Fault(PATCH, "else if («is_unended»)", "false", "a last line without an end is lost"),
     Fault(DIFF, "const char *end = «strchr(lines->name, ' ')» ?", "false", "a name with blanks is no file to patch", tests=("command line, reports",)),
+    Fault(PATCH, "if ((p->rows[i] == row || «is_fixed_behind(p, row, i)») &&", "false", "what stood twice is fixed once", tests=("patches of expectations",)),
     Fault(DIFF, "*moved += «added»;", "0", "later hunks name the old file's lines", lives="patch(1) finds a hunk by its text, and takes its line in the new file for nothing"),
     Fault(DIFF, "while (n < count && edits[n].line - edits[n - 1].line <= «2 * CONTEXT»)", "0", "hunks overlap"),
     Fault(WRITE, "fputc(«(unsigned char)*c < ' ' || *c == blank || *c == 127» ? '?' : *c, out);", "false", "a name breaks the line that it stands in"),
