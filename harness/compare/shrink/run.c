@@ -151,8 +151,9 @@ static int differs(const struct slot *s) {
 int main(int argc, char **argv) {
     const struct slot none = {.image = VK_NULL_HANDLE};
     int differing = 0;
+    if (argc > 1 && (argc != 3 || strcmp(argv[1], "--device") || argv[2][strspn(argv[2], "0123456789")])) FAIL(2, "./run [--device N]\n");
     read_manifest(fopen("kernel.txt", "r"));
-    open_device(argc == 3 && !strcmp(argv[1], "--device") ? (unsigned)atoi(argv[2]) : 0);
+    open_device(argc == 3 ? (unsigned)atoi(argv[2]) : 0);
     for EACH_SLOT make_slot(s);
     for EACH_SLOT if (s->image) wait_for_all(s), copy(s, 0);
     wait_for_all(&none);

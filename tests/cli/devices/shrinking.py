@@ -146,6 +146,8 @@ def check_alone(runner):
                 (["--device", "0"], {}, 0, "it is the same\n"),
                 ([], variables(device), 1, r"slot 2: byte \d+ is [0-9a-f]{2}, not [0-9a-f]{2} as in 02-normals\.expected\nit differs\n"),
                 (["--device", "15"], {}, 77, "there is no Vulkan device 15\n"),
+                (["--device", "one"], {}, 2, r"\./run \[--device N\]\n"),
+                (["--devices"], {}, 2, r"\./run \[--device N\]\n"),
                 ([], {"VK_DRIVER_FILES": "/nonexistent"}, 77, "there is no Vulkan device 0\n")):
             got = run(args, env)
             if got[0] != status or not re.fullmatch(says, got[1]):
