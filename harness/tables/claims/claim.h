@@ -21,6 +21,7 @@ enum rg_claim_test {
     RG_CLAIM_FASTER,   // in each row `variant` is at least `least` times as fast as `other`
     RG_CLAIM_RATE,     // in each row the frame rate is at least `least`
     RG_CLAIM_OPTIMUM,  // the fastest of rows `first` to `last` is one of `knee` to `until`
+    RG_CLAIM_SLOWEST,  // row `knee` is slower than each other of rows `first` to `last`
     RG_CLAIM_CROSSES,  // `variant` is slower than `other` before row `knee`, and faster from there
     RG_CLAIM_FLATTENS, // from row `first` to `knee` the error falls at least `least` times as far
                        // as from there to row `last`
@@ -63,7 +64,7 @@ struct rg_judgement {
     // claim does not hold, and that it holds. NAN where there are no samples.
     double against, in_favour;
     bool print_contradicts; // the paper's own numbers do not bear it out
-    int rows, rows_claimed; // those that are there and do what was printed, of the claim's
+    int rows, rows_needed; // those that it was judged by, of the claim's
     char why[256];          // one sentence
 };
 

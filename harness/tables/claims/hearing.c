@@ -31,6 +31,8 @@ const struct rg_record *rg_hearing_row(const struct hearing *h, int row)
 
 // --- what must be there ---
 
+enum { ERROR_ROWS = 3 }; // of a knee: the first, itself, and the last
+
 static int variant_of(const struct rg_result *result, const char *name)
 {
     for (int i = 0; name && i < result->variant_count; i++)
@@ -44,7 +46,7 @@ static bool is_of_errors(const struct hearing *h)
     return h->claim->test == RG_CLAIM_FLATTENS;
 }
 
-bool rg_hearing_has_row(const struct hearing *h, int row)
+static bool has_row(const struct hearing *h, int row)
 {
     return row > h->result->first_row && row <= h->result->last_row + 1 &&
            rg_result_has(h->result, row - 1);
@@ -52,7 +54,7 @@ bool rg_hearing_has_row(const struct hearing *h, int row)
 
 static bool has_number(const struct hearing *h, int row, int variant)
 {
-    if (!rg_hearing_has_row(h, row))
+    if (!has_row(h, row))
         return false;
     const struct rg_record *r = rg_hearing_row_of(h, row, variant);
     return is_of_errors(h) ? r->truth_error.outcome == RG_OK && *h->result->truth
@@ -70,7 +72,7 @@ static int fewest_samples(const struct hearing *h, int row)
 // The record of a row that was measured and failed, of either variant; NULL where there is none.
 static const struct rg_record *failed(const struct hearing *h, int row)
 {
-    const struct rg_record *r = rg_hearing_has_row(h, row) ? rg_hearing_row(h, row) : NULL;
+    const struct rg_record *r = has_row(h, row) ? rg_hearing_row(h, row) : NULL;
     if (r && r->outcome == RG_OK && h->other >= 0)
         r = rg_hearing_row_of(h, row, h->other);
     return r && r->outcome != RG_OK ? r : NULL;
@@ -82,6 +84,9 @@ static bool end_without_number(struct hearing *h, int row)
     const struct rg_record *r = failed(h, row);
     if (r)
         rg_hearing_end(h, RG_CLAIM_UNDECIDED, "row %d has no number: %.180s", row, r->detail);
+    else if (is_of_errors(h) && has_row(h, row))
+        rg_hearing_end(h, RG_CLAIM_UNDECIDED, "row %d has no error: %.180s", row,
+                       rg_hearing_row(h, row)->truth_error.detail);
     else
         rg_hearing_end(h, RG_CLAIM_UNDECIDED, "row %d is not measured", row);
     return false;
@@ -113,12 +118,14 @@ static bool hear_rows(struct hearing *h)
     for (int row = c->first; step > 0 ? row <= c->last : row >= c->last; row += step) {
         if (!has_number(h, row, h->at.variant) ||
             (h->other >= 0 && !has_number(h, row, h->other))) {
+            h->missing++;
             if (can_miss(c, row))
                 continue;
             return end_without_number(h, row);
         }
         const int fewest = fewest_samples(h, row);
         if (fewest < RG_LEAST_SAMPLES && !is_of_errors(h)) {
+            h->missing++;
             if (can_miss(c, row))
                 continue;
             rg_hearing_end(h, RG_CLAIM_UNDECIDED, "row %d has %d samples, and 6 are needed", row,
@@ -135,7 +142,7 @@ static bool hear_rows(struct hearing *h)
         }
         h->rows[h->count++] = row;
     }
-    h->judgement.rows = h->count;
+    h->judgement.rows = is_of_errors(h) ? ERROR_ROWS : h->count;
     return h->count > 0 || end_without_number(h, c->first);
 }
 
@@ -146,7 +153,8 @@ static void find(struct hearing *h)
     h->at.variant = variant_of(h->result, c->variant);
     h->other = variant_of(h->result, c->other);
     h->judgement.against = h->judgement.in_favour = NAN;
-    h->judgement.rows_claimed = 1 + (c->last - c->first) / rg_hearing_step(c);
+    h->judgement.rows_needed =
+        is_of_errors(h) ? ERROR_ROWS : 1 + (c->last - c->first) / rg_hearing_step(c);
 }
 
 bool rg_hearing_begin(struct hearing *h)

@@ -11,6 +11,7 @@ struct hearing {
     struct rg_place at;
     int other;                       // the second variant's index
     int count, rows[RG_RESULT_ROWS]; // those that are measured, from 1
+    int missing;                     // that have no number, or too few samples
     struct rg_judgement judgement;
 };
 
@@ -22,12 +23,10 @@ struct rg_judgement rg_hearing_end(struct hearing *h, enum rg_claim_verdict verd
 // A row's record, of the variant that the claim is about, or of another.
 const struct rg_record *rg_hearing_row(const struct hearing *h, int row);
 const struct rg_record *rg_hearing_row_of(const struct hearing *h, int row, int variant);
-// Whether there is such a row, however it was measured.
-bool rg_hearing_has_row(const struct hearing *h, int row);
 // From one of the claim's rows to the next: of a ratio there are two.
 int rg_hearing_step(const struct rg_claim *claim);
-// Whether the paper's own numbers, of all rows that are there, speak against the claim, which need
-// not go on. Where it prints none, they do not.
+// Whether the paper's own numbers speak against the claim, whatever was measured of its rows. Where
+// it prints none, they do not.
 bool rg_hearing_print_contradicts(const struct hearing *h);
 
 // How far a ratio that the claim reads off its table can be from that of the rows' own rates, as a

@@ -74,14 +74,15 @@ static void add_part(struct parts *parts, const struct rg_record *faster,
 
 static struct rg_judgement judge_parts(struct hearing *h, const struct parts *parts)
 {
+    if (!parts->count)
+        return rg_hearing_end(h, RG_CLAIM_UNDECIDED, "no two rows are there to compare");
     h->judgement.against = parts->against;
     h->judgement.in_favour = fmin(1, parts->in_favour * parts->count);
-    if (parts->count && h->judgement.against <= ERROR_SHARE)
+    if (h->judgement.against <= ERROR_SHARE)
         return rg_hearing_end(h, RG_CLAIM_REPRODUCED, "least sure: %s", parts->least_sure);
-    if (parts->count && h->judgement.in_favour <= ERROR_SHARE)
+    if (h->judgement.in_favour <= ERROR_SHARE)
         return rg_hearing_end(h, RG_CLAIM_NOT_REPRODUCED, "%s", parts->most_wrong);
-    return rg_hearing_end(h, RG_CLAIM_UNDECIDED, "the samples do not settle %s",
-                          parts->count ? parts->least_sure : "anything");
+    return rg_hearing_end(h, RG_CLAIM_UNDECIDED, "the samples do not settle %s", parts->least_sure);
 }
 
 // --- the tests ---
@@ -134,14 +135,15 @@ static struct rg_judgement judge_alike(struct hearing *h, double apart)
 // The opposite of alike.
 static struct rg_judgement judge_apart(struct hearing *h)
 {
-    struct rg_judgement j = judge_alike(h, h->claim->least);
-    const double against = j.against;
-    j.against = j.in_favour;
-    j.in_favour = against;
-    if (j.verdict < RG_CLAIM_UNDECIDED)
-        j.verdict =
-            j.verdict == RG_CLAIM_REPRODUCED ? RG_CLAIM_NOT_REPRODUCED : RG_CLAIM_REPRODUCED;
-    return j;
+    judge_alike(h, h->claim->least);
+    struct rg_judgement *j = &h->judgement;
+    const double against = j->against;
+    j->against = j->in_favour;
+    j->in_favour = against;
+    if (j->verdict < RG_CLAIM_UNDECIDED)
+        j->verdict =
+            j->verdict == RG_CLAIM_REPRODUCED ? RG_CLAIM_NOT_REPRODUCED : RG_CLAIM_REPRODUCED;
+    return *j;
 }
 
 static struct rg_judgement judge_faster(struct hearing *h)
@@ -163,12 +165,20 @@ static struct rg_judgement judge_crosses(struct hearing *h)
         const struct rg_record *a = rg_hearing_row(h, h->rows[i]),
                                *b = rg_hearing_row_of(h, h->rows[i], h->other);
         const bool is_crossed = h->rows[i] >= h->claim->knee;
-        const double printed[] = {rg_record_published_fps(a), rg_record_published_fps(b)};
-        if (isfinite(printed[0]) && !rg_margin_orders(printed[0], printed[1]) &&
-            !rg_margin_orders(printed[1], printed[0]))
+        if (rg_record_published_fps(a) == rg_record_published_fps(b))
             continue;
         add_part(&parts, is_crossed ? a : b, is_crossed ? b : a, faster_at_all);
     }
+    return judge_parts(h, &parts);
+}
+
+static struct rg_judgement judge_slowest(struct hearing *h)
+{
+    struct parts parts = no_parts;
+    for (int i = 0; i < h->count; i++)
+        if (h->rows[i] != h->claim->knee)
+            add_part(&parts, rg_hearing_row(h, h->rows[i]), rg_hearing_row(h, h->claim->knee),
+                     faster_at_all);
     return judge_parts(h, &parts);
 }
 
@@ -192,17 +202,18 @@ static struct parts beats_others(const struct hearing *h, int row)
 static struct rg_judgement judge_optimum(struct hearing *h)
 {
     struct parts best = no_parts;
-    double in_favour = 0;
+    struct parts beaten = {.in_favour = -1};
     int within = 0;
     for (int i = 0; i < h->count; i++) {
         if (!is_within(h->claim, h->rows[i]))
             continue;
         const struct parts one = beats_others(h, h->rows[i]);
-        in_favour = fmax(in_favour, one.in_favour);
+        beaten = one.in_favour > beaten.in_favour ? one : beaten;
         best = !within++ || one.against < best.against ? one : best;
     }
     best.against = fmin(1, best.against * within);
-    best.in_favour = in_favour;
+    best.in_favour = beaten.in_favour;
+    memcpy(best.most_wrong, beaten.most_wrong, sizeof(best.most_wrong));
     return judge_parts(h, &best);
 }
 
@@ -285,12 +296,30 @@ static struct rg_judgement judge(struct hearing *h)
         return judge_rate(h);
     case RG_CLAIM_OPTIMUM:
         return judge_optimum(h);
+    case RG_CLAIM_SLOWEST:
+        return judge_slowest(h);
     case RG_CLAIM_CROSSES:
         return judge_crosses(h);
     case RG_CLAIM_FLATTENS:
         return judge_flattens(h);
     }
     return h->judgement;
+}
+
+// What each row must bear out no part of the rows bears out, and that no two are apart no part of
+// them says: others may be missing that say otherwise.
+static struct rg_judgement hold_back(struct hearing *h)
+{
+    const enum rg_claim_test test = h->claim->test;
+    const bool is_of_some =
+        test == RG_CLAIM_RATIO || test == RG_CLAIM_EXPONENT || test == RG_CLAIM_FLATTENS;
+    const enum rg_claim_verdict needs_all =
+        test == RG_CLAIM_APART ? RG_CLAIM_NOT_REPRODUCED : RG_CLAIM_REPRODUCED;
+    if (is_of_some || !h->missing || h->judgement.verdict != needs_all)
+        return h->judgement;
+    return rg_hearing_end(h, RG_CLAIM_UNDECIDED, "it %s in the %d of %d rows that are there",
+                          test == RG_CLAIM_APART ? "does not hold" : "holds", h->count,
+                          h->judgement.rows_needed);
 }
 
 struct rg_judgement rg_claim_judge(const struct rg_claim *claim, const struct rg_result *result,
@@ -301,5 +330,6 @@ struct rg_judgement rg_claim_judge(const struct rg_claim *claim, const struct rg
     h.judgement.print_contradicts = rg_hearing_print_contradicts(&h);
     if (!goes_on)
         return h.judgement;
-    return judge(&h);
+    judge(&h);
+    return hold_back(&h);
 }

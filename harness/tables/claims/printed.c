@@ -1,12 +1,22 @@
 // Whether a paper's own table bears out what it claims.
 #include <math.h>
+#include <string.h>
 
 #include "harness/tables/claims/hearing.h"
 #include "harness/tables/claims/margin.h"
+#include "harness/tables/papers/papers.h"
 
+// Of the table, where there is one: rows that are not measured are printed all the same.
 static double printed_fps(const struct hearing *h, int row, int variant)
 {
-    return rg_record_published_fps(rg_hearing_row_of(h, row, variant));
+    const struct rg_table *table = rg_table_find(h->claim->table);
+    const char *name = h->result->variants[variant];
+    for (int v = 0; table && table->variants[v].name; v++)
+        if (!strcmp(table->variants[v].name, name))
+            return rg_table_published_fps(table, row - 1, v);
+    return rg_result_has(h->result, row - 1)
+               ? rg_record_published_fps(rg_hearing_row_of(h, row, variant))
+               : NAN;
 }
 
 static bool print_falls(const struct hearing *h)
@@ -43,9 +53,19 @@ static bool print_crosses(const struct hearing *h)
     for (int i = 0; i < h->count; i++) {
         const double a = printed_fps(h, h->rows[i], h->at.variant),
                      b = printed_fps(h, h->rows[i], h->other);
-        crosses &= h->rows[i] < h->claim->knee ? !rg_margin_orders(a, b) : !rg_margin_orders(b, a);
+        crosses &= h->rows[i] < h->claim->knee ? a <= b : a >= b;
     }
     return crosses;
+}
+
+static bool print_has_slowest(const struct hearing *h)
+{
+    const double slowest = printed_fps(h, h->claim->knee, h->at.variant);
+    bool is_slowest = true;
+    for (int i = 0; i < h->count; i++)
+        is_slowest &=
+            h->rows[i] == h->claim->knee || slowest < printed_fps(h, h->rows[i], h->at.variant);
+    return is_slowest;
 }
 
 static bool print_has_optimum(const struct hearing *h)
@@ -62,21 +82,18 @@ static bool print_has_optimum(const struct hearing *h)
     return within >= others;
 }
 
-// Takes all rows that are there, since what is printed of them does not depend on how they were
-// measured. False where an end or a variant is missing.
+// Takes all rows. False where a variant is missing, or nothing is printed.
 static bool take_rows(struct hearing *h)
 {
     const struct rg_claim *c = h->claim;
     const int step = rg_hearing_step(c);
-    if (h->at.variant < 0 || (c->other && h->other < 0) || !rg_hearing_has_row(h, c->first) ||
-        !rg_hearing_has_row(h, c->last))
-        return false;
-    h->at.work = h->at.work < 0 ? 0 : h->at.work;
+    bool all = h->at.variant >= 0 && (!c->other || h->other >= 0);
     h->count = 0;
-    for (int row = c->first; step > 0 ? row <= c->last : row >= c->last; row += step)
-        if (rg_hearing_has_row(h, row))
-            h->rows[h->count++] = row;
-    return isfinite(printed_fps(h, c->first, h->at.variant));
+    for (int row = c->first; all && (step > 0 ? row <= c->last : row >= c->last); row += step) {
+        all = isfinite(printed_fps(h, row, h->at.variant));
+        h->rows[h->count++] = row;
+    }
+    return all;
 }
 
 static bool contradicts(const struct hearing *h)
@@ -96,6 +113,8 @@ static bool contradicts(const struct hearing *h)
         return !print_is_faster(h);
     case RG_CLAIM_CROSSES:
         return !print_crosses(h);
+    case RG_CLAIM_SLOWEST:
+        return !print_has_slowest(h);
     case RG_CLAIM_OPTIMUM:
         return !print_has_optimum(h);
     default:

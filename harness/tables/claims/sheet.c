@@ -181,13 +181,13 @@ static void add_fewer_rows(const struct rg_claim_outcomes *o, struct rg_sheet *s
     for (int i = 0; i < o->count; i++) {
         const struct rg_claim *claim = o->outcomes[i].claim;
         const struct rg_judgement *j = &o->outcomes[i].judgement;
-        if (claim == told || j->verdict >= RG_CLAIM_UNDECIDED || j->rows == j->rows_claimed ||
+        if (claim == told || j->verdict >= RG_CLAIM_UNDECIDED || j->rows == j->rows_needed ||
             used >= sizeof(text))
             continue;
         char title[RG_CLAIM_TITLE];
         rg_claim_title(claim, title);
         used += (size_t)snprintf(text + used, sizeof(text) - used, "%s%s, %s, by %d of %d",
-                                 used ? "; " : "", claim->table, title, j->rows, j->rows_claimed);
+                                 used ? "; " : "", claim->table, title, j->rows, j->rows_needed);
         told = claim;
     }
     if (*text)

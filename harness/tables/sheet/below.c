@@ -58,8 +58,8 @@ static void name_fewer_rows(const struct rg_claim *claim, const struct rg_result
     *text = 0;
     for (int d = 0; d < result->device_count && !*text; d++) {
         const struct rg_judgement j = rg_claim_judge(claim, result, d);
-        if (j.verdict < RG_CLAIM_UNDECIDED && j.rows < j.rows_claimed)
-            snprintf(text, size, ", by %d of %d rows", j.rows, j.rows_claimed);
+        if (j.verdict < RG_CLAIM_UNDECIDED && j.rows < j.rows_needed)
+            snprintf(text, size, ", by %d of %d rows", j.rows, j.rows_needed);
     }
 }
 

@@ -344,8 +344,8 @@ static void test_few_samples(void **state)
     (void)state;
     static const double far[ROWS] = {1, 10, 100, 1000, 10000};
     static const enum rg_claim_test tests[] = {
-        RG_CLAIM_FALLS, RG_CLAIM_ORDER,  RG_CLAIM_RATIO,    RG_CLAIM_ALIKE,  RG_CLAIM_APART,
-        RG_CLAIM_RATE,  RG_CLAIM_FASTER, RG_CLAIM_EXPONENT, RG_CLAIM_OPTIMUM};
+        RG_CLAIM_FALLS, RG_CLAIM_ORDER,  RG_CLAIM_RATIO,    RG_CLAIM_ALIKE,   RG_CLAIM_APART,
+        RG_CLAIM_RATE,  RG_CLAIM_FASTER, RG_CLAIM_EXPONENT, RG_CLAIM_OPTIMUM, RG_CLAIM_SLOWEST};
     for (size_t i = 0; i < sizeof(tests) / sizeof(tests[0]); i++) {
         struct rg_claim claim = claim_of(tests[i]);
         struct rg_result result;
@@ -460,6 +460,12 @@ static void test_variants_rates_and_powers(void **state)
     static const double falling[ROWS] = {12, 11, 9, 9, 9};
     crosses.knee = 3;
     EXPECT(crosses, falling, 0.05, RG_CLAIM_UNDECIDED, 1); // print has both alike, and says neither
+    struct rg_claim slowest = claim_of(RG_CLAIM_SLOWEST);
+    static const double peak[ROWS] = {10, 11, 14, 11, 12};
+    slowest.knee = 3;
+    EXPECT(slowest, peak, 0.05, RG_CLAIM_REPRODUCED, 0.99);
+    EXPECT(slowest, rising, 0.05, RG_CLAIM_NOT_REPRODUCED, 0.99);
+    EXPECT(slowest, level, 0.05, RG_CLAIM_UNDECIDED, 0.95);
     struct rg_claim power = claim_of(RG_CLAIM_EXPONENT);
     static const double square[ROWS] = {10, 40, 90, 160, 250};
     power.least = -2.2;
@@ -488,11 +494,27 @@ static void test_rows_that_are_missing_or_other_work(void **state)
     const struct rg_claim falls = claim_of(RG_CLAIM_FALLS);
     make_result(&result, rising, level, 0.01, &x);
     assert_int_equal(rg_claim_judge(&falls, &result, 0).rows, ROWS);
+    struct rg_claim power = claim_of(RG_CLAIM_EXPONENT), rate = claim_of(RG_CLAIM_RATE),
+                    apart = claim_of(RG_CLAIM_APART);
+    power.least = -99;
+    rate.least = apart.least = 99; // neither holds
+    power.most = 99;
+    assert_int_equal(rg_claim_judge(&apart, &result, 0).verdict, RG_CLAIM_NOT_REPRODUCED);
     rg_result_drop_row(&result, 2);
-    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_REPRODUCED);
+    // What each row must bear out, some do not; that one does not, any of them says.
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_UNDECIDED);
+    assert_int_equal(rg_claim_judge(&rate, &result, 0).verdict, RG_CLAIM_NOT_REPRODUCED);
+    assert_int_equal(rg_claim_judge(&apart, &result, 0).verdict, RG_CLAIM_UNDECIDED);
+    assert_int_equal(rg_claim_judge(&power, &result, 0).verdict, RG_CLAIM_REPRODUCED);
+    rate.least = 1;
+    assert_int_equal(rg_claim_judge(&rate, &result, 0).verdict, RG_CLAIM_UNDECIDED);
     assert_int_equal(rg_claim_judge(&falls, &result, 0).rows, ROWS - 1);
-    assert_int_equal(rg_claim_judge(&falls, &result, 0).rows_claimed, ROWS);
-    // A row between is left out, however slow it is; one that the claim needs is not.
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).rows_needed, ROWS);
+    rg_result_free(&result);
+    // A row between that is other work is left out, however slow it is; one that the claim needs
+    // is not.
+    make_result(&result, rising, level, 0.01, &x);
+    assert_int_equal(rg_claim_judge(&falls, &result, 0).verdict, RG_CLAIM_REPRODUCED);
     struct rg_record *between = rg_result_at(&result, (struct rg_place){.row = 3});
     for (int i = 0; i < between->sample_count; i++)
         between->samples_ms[i] *= 100;
@@ -548,6 +570,20 @@ static void test_a_knee_and_print(void **state)
     assert_true(rg_claim_judge(&apart, &result, 0).print_contradicts);
     apart.least = 1.02;
     assert_false(rg_claim_judge(&apart, &result, 0).print_contradicts);
+    struct rg_claim optimum = claim_of(RG_CLAIM_OPTIMUM), slowest = claim_of(RG_CLAIM_SLOWEST);
+    optimum.knee = 1; // print falls by 1 from row to row
+    slowest.knee = ROWS;
+    assert_false(rg_claim_judge(&optimum, &result, 0).print_contradicts);
+    assert_false(rg_claim_judge(&slowest, &result, 0).print_contradicts);
+    optimum.knee = 2;
+    slowest.knee = 2;
+    assert_true(rg_claim_judge(&optimum, &result, 0).print_contradicts);
+    assert_true(rg_claim_judge(&slowest, &result, 0).print_contradicts);
+    struct rg_claim crosses = claim_of(RG_CLAIM_CROSSES);
+    crosses.knee = 3;
+    assert_false(rg_claim_judge(&crosses, &result, 0).print_contradicts); // it is alike throughout
+    rg_result_at(&result, (struct rg_place){.row = 2, .variant = 1})->published[0].number = 200;
+    assert_true(rg_claim_judge(&crosses, &result, 0).print_contradicts);
     rg_result_free(&result);
 }
 
@@ -561,6 +597,9 @@ static void test_claims_are_about_tables(void **state)
         assert_non_null(table);
         assert_in_range(claim->first, 1, table->row_count);
         assert_in_range(claim->last, 1, table->row_count);
+        assert_true(claim->test != RG_CLAIM_RATIO || claim->first != claim->last);
+        assert_true(!claim->knee || (claim->knee >= claim->first && claim->knee <= claim->last));
+        assert_true(!claim->until || (claim->until > claim->knee && claim->until <= claim->last));
         for (int i = 0; table->variants[i].name; i++) {
             has |= !strcmp(table->variants[i].name, claim->variant);
             has_other |= claim->other && !strcmp(table->variants[i].name, claim->other);
@@ -638,8 +677,8 @@ static void test_print_bears_out_claims(void **state)
         }
         rg_result_free(&result);
     }
-    assert_int_equal(judged, 22);
-    assert_int_equal(borne_out, 17);
+    assert_int_equal(judged, 23);
+    assert_int_equal(borne_out, 18);
 }
 
 int main(void)

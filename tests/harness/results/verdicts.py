@@ -42,6 +42,13 @@ class Made:
             if "particles" in cell["published"]:
                 cell["facts"]["particles"] = cell["published"]["particles"]
 
+    def extend(self, rows):
+        """Has so many rows, those that were not measured like the last that was."""
+        last = max(cell["row_number"] for cell in self.record["cells"])
+        self.record["cells"] += [dict(copy.deepcopy(cell), row_number=row) for row in range(last + 1, rows + 1)
+                                 for cell in self.record["cells"] if cell["row_number"] == last]
+        self.record["rows"] = [1, rows]
+
     def times(self, ms_of, noise, samples, seed):
         """Sets samples about the median `ms_of(row, variant)`."""
         chance = random.Random(seed)
@@ -116,7 +123,7 @@ def check_falls(raingauge):
 
 def check_order(raingauge):
     """rows in the order of print are, others are not, and what noise hides is left open; rows that print has equal are in none"""
-    made, words = Made(raingauge, "stuppacher-1"), "models ... influence"
+    made, words = Made(raingauge, "stuppacher-1"), "rates by model"
     ordered, turned = [10, 13, 13.1, 12.5, 11], [10, 13, 13.1, 12.5, 9]  # Buddha and the dragon are equal in print
     return (settled(made.count(words, by_row(ordered), 0.005), YES) + settled(made.count(words, by_row(turned), 0.02), NO) +
             hidden(made.count(words, by_row(ordered), 0.5), [NO]) + hidden(made.count(words, by_row(turned), 1), [YES]) +
@@ -156,22 +163,35 @@ def check_size(raingauge):
 
 
 def check_variants(raingauge):
-    """one variant that is faster in all rows, one that is not in the last, and both alike"""
+    """one variant that is a fifth faster in all rows, one that is not in the last, and both just so; rows that are missing bear out nothing"""
     made, words = Made(raingauge, "ye-1"), "generated much faster"
-    of = lambda last: lambda row, variant: 10 if variant == "traditional" else 9.3 if row < 2 else last
-    level = lambda row, variant: 10
-    return (settled(made.count(words, of(9.3), 0.02), YES) + settled(made.count(words, of(10.7), 0.02), NO) +
-            hidden(made.count(words, of(9.3), 0.5), [NO]) + hidden(made.count(words, of(10.7), 0.7), [YES]) +
+    of = lambda last: lambda row, variant: 10 if variant == "traditional" else 7.75 if row < 2 else last
+    level = lambda row, variant: 10 if variant == "traditional" else 10 / 1.2
+    some = made.count(words, of(7.75), 0.02)
+    missing = [] if some[OPEN] == TRIALS else ["two of five rows: %s" % some]
+    made.extend(5)
+    return (missing + settled(made.count(words, of(7.75), 0.02), YES) + settled(made.count(words, of(8.92), 0.02), NO) +
+            hidden(made.count(words, of(7.75), 0.5), [NO]) + hidden(made.count(words, of(8.92), 0.7), [YES]) +
             open_truth(made, words, level, 0.02, [NO]))
 
 
 def check_crossing(raingauge):
-    """one variant that is faster from a row on and slower before it, one that is slower again in the last, and both alike"""
+    """one variant that is faster from a row on and slower before it, one that is slower again in the first of these or in the last, and both alike"""
     made, words = Made(raingauge, "creus-5.6"), "with geometry faster"
-    of = lambda last: lambda row, variant: 10 if variant == "no_geometry" else 10.7 if row < 4 else 9.3 if row < 6 else last
+    of = lambda first, last: lambda row, variant: 10 if variant == "no_geometry" else {4: first, 5: 9.3, 6: last}.get(row, 10.7)
     level = lambda row, variant: 10
-    return (settled(made.count(words, of(9.3), 0.02), YES) + settled(made.count(words, of(10.7), 0.02), NO) +
-            hidden(made.count(words, of(9.3), 0.5), [NO]) + open_truth(made, words, level, 0.02, [NO]))
+    return (settled(made.count(words, of(9.3, 9.3), 0.02), YES) + settled(made.count(words, of(9.3, 10.7), 0.02), NO) +
+            settled(made.count(words, of(10.7, 9.3), 0.02), NO) + hidden(made.count(words, of(9.3, 9.3), 0.5), [NO]) +
+            open_truth(made, words, level, 0.02, [NO]))
+
+
+def check_slowest(raingauge):
+    """a row that is slower than all others, one that another is slower than, and all alike"""
+    made, words = Made(raingauge, "creus-5.5"), "the first row"
+    of = lambda first: lambda row, variant: {1: first, 4: 10.7}.get(row, 10)
+    level = lambda row, variant: 10
+    return (settled(made.count(words, of(11.5), 0.02), YES) + settled(made.count(words, of(10), 0.02), NO) +
+            hidden(made.count(words, of(11.5), 0.5), [NO]) + open_truth(made, words, level, 0.02, [NO]))
 
 
 def check_optimum(raingauge):
@@ -236,7 +256,7 @@ def check_slope(raingauge):
     return problems
 
 
-CHECKS = (check_falls, check_order, check_ratio, check_rate, check_size, check_variants, check_crossing, check_optimum, check_knee, check_few, check_slope)
+CHECKS = (check_falls, check_order, check_ratio, check_rate, check_size, check_variants, check_crossing, check_slowest, check_optimum, check_knee, check_few, check_slope)
 
 
 def main(raingauge):
