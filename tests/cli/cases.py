@@ -8,6 +8,8 @@ import tempfile
 
 from runner import NO_DRIVERS
 
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
 # args: one string, split at spaces; {tmp} is an empty folder of the case's own, {data} the inputs.
 # exit: the status. error: what the one line on stderr must match; several lines: a tuple; None: stderr is empty.
 # env: variables for the command. limit: largest file in bytes that may be written, as on a full disk.
@@ -70,6 +72,8 @@ COMMANDS = [
 
     # bisect; tests/cli/devices/bisecting.py has more
     Case("bisect --help", 0, None),
+    Case("table raster-1 --claims --from %s/results/tables" % ROOT, 2, r"--claims: the paper claims nothing of table 'raster-1'; leave it out"),
+    Case("sweep flow --axis distance_mm=-1e308,1e308..1.7e308", 2, r"--axis .*: 1\.7e308 does not come after -1e308 and 1e308"),
     Case("table raster-1 --claims", 2, r"--claims: the paper claims nothing of table 'raster-1'; leave it out"),
     Case("bisect", 2, r"bisect: --run names the command that judges"),
     Case("bisect --run false", 1, r"bad \(exit status 1, 1 try\)"),

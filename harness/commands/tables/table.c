@@ -211,6 +211,13 @@ static bool have_rows(struct rg_range rows, const struct rg_table *const chosen[
                     longest->row_count);
 }
 
+static bool refuse_claims(const char *table)
+{
+    return rg_error("--claims: the paper claims nothing of table '%s'; leave it out, or name "
+                    "another table",
+                    table);
+}
+
 // With --claims nothing is measured of which there are none.
 static bool have_claims(const struct table_options *o, const struct rg_table *const chosen[],
                         int count)
@@ -219,10 +226,7 @@ static bool have_claims(const struct table_options *o, const struct rg_table *co
     for (const struct rg_claim *claim = rg_claims; !any && claim->table; claim++)
         for (int i = 0; !any && i < count; i++)
             any = !strcmp(claim->table, chosen[i]->id);
-    return any ||
-           rg_error("--claims: the paper claims nothing of table '%s'; leave it out, or name "
-                    "another table",
-                    chosen[0]->id);
+    return any || refuse_claims(chosen[0]->id);
 }
 
 static int measure(const struct table_options *o, const struct rg_words *arguments)
@@ -323,8 +327,12 @@ static int print_stored(struct rg_stored *stored, const struct table_options *o,
         printed++;
         exit = rg_exit_worse(exit, print(result, o));
     }
-    if (printed)
+    if (printed && (!o->claims || o->outcomes->count || exit != RG_EXIT_PASS))
         return exit;
+    if (printed) {
+        refuse_claims(ids->count ? ids->items[0] : stored->results[0].table);
+        return RG_EXIT_USAGE;
+    }
     rg_error("%s: holds nothing of the tables, rows and works that are asked for; without them "
              "`raingauge table --from` prints what it holds",
              o->from);

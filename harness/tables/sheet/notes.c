@@ -15,7 +15,7 @@ static void name_kind(const struct rg_result *result, struct rg_place at, char *
     *text = 0;
     if (result->work_count)
         used = (size_t)snprintf(text, size, ", %s", result->works[at.work].name);
-    if (result->variant_count > 1)
+    if (result->variant_count > 1 && used < size)
         snprintf(text + used, size - used, ", %s", result->variants[at.variant]);
 }
 
@@ -116,7 +116,7 @@ static void name_spread(const struct rg_result *result, const struct rg_spread *
 {
     const int used = snprintf(text, size, "%s%.*f to %.*f, by %.0f %%", what, decimals,
                               s->least_fps, decimals, s->most_fps, 100 * s->share);
-    if (result->variant_count > 1)
+    if (result->variant_count > 1 && used < (int)size)
         snprintf(text + used, size - (size_t)used, ", over the rows of a variant by up to %.0f %%",
                  100 * s->of_a_variant);
 }

@@ -38,7 +38,7 @@ static bool add_range(struct rg_axis *axis, const char *text, const char *from, 
         !read_number(second, &a) || !read_number(last, &b))
         return rg_error("--axis %s: a range goes on from a number before it, as in 5,10..40", text);
     const double step = a - before, steps = step != 0 ? floor((b - a) / step + 1e-9) : -1;
-    if (steps < 0)
+    if (!(steps >= 0)) // nor is it a number where the step has no end
         return rg_error("--axis %s: %s does not come after %s and %s", text, last,
                         axis->values[axis->count - 1], second);
     for (double i = 0; i <= steps; i++) {

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <string.h>
 
 #include "harness/record/schema/schema.h"
 #include "harness/tables/sheet/trend.h"
@@ -134,6 +135,29 @@ static void test_spread(void **state)
     rg_result_free(&rig.result);
 }
 
+// Names and rates that are longer than what holds them are cut, and nothing is written behind it:
+// a record from elsewhere may have such.
+static void test_long_names_and_rates(void **state)
+{
+    (void)state;
+    struct rig rig;
+    struct rg_sheet sheet;
+    sheet_measure(&rig, &sheet_styles_table, (double[]){1e303, 1e302, 60, 110, 1e301, 50, 60, 110});
+    for (struct rg_place at = rg_result_start(&rig.result); rg_result_next(&rig.result, &at);) {
+        struct rg_record *record = rg_result_at(&rig.result, at);
+        record->row_count = RG_MAX_VALUES;
+        for (int i = 0; i < RG_MAX_VALUES; i++) {
+            memset(&record->row[i], 0, sizeof(record->row[i]));
+            memset(record->row[i].name, 'k', sizeof(record->row[i].name) - 1);
+            memset(record->row[i].text, 't', sizeof(record->row[i].text) - 1);
+        }
+    }
+    rg_result_sheet(&rig.result, &sheet);
+    assert_true(sheet_has_note(&sheet, "Spread of fps on cpu, paper: 50.0 to 1000000"));
+    rg_sheet_free(&sheet);
+    rg_result_free(&rig.result);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -141,6 +165,7 @@ int main(void)
         cmocka_unit_test(test_spread),
         cmocka_unit_test(test_growth),
         cmocka_unit_test(test_growth_of_few_rows),
+        cmocka_unit_test(test_long_names_and_rates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
