@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Keeps what the README shows of the tables that the repository keeps: it is what the program prints.
+"""Keeps what the README and docs/tables.md show of the tables that the repository keeps: it is what the program prints.
 
     walk.py [--check] PROGRAM [PAGE]
 
@@ -13,6 +13,7 @@ import subprocess
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+PAGES = [os.path.join(ROOT, "README.md"), os.path.join(ROOT, "docs", "tables.md")]
 SHOWN = re.compile(r"^(    \$ raingauge (table [^\n|]*--from results/tables)\n)((?:    (?!\$ )[^\n]*\n|\n(?=\n*    [^$\s]))*)", re.M)
 
 
@@ -21,9 +22,7 @@ def printed(program, words):
     return "".join("    " + line + "\n" if line else "\n" for line in run.stdout.rstrip("\n").split("\n"))
 
 
-def main():
-    words = [word for word in sys.argv[1:] if word != "--check"]
-    program, page = os.path.abspath(words[0]), words[1] if words[1:] else os.path.join(ROOT, "README.md")
+def renew(program, page, only_checks):
     with open(page, encoding="utf-8") as file:
         text = file.read()
     if not SHOWN.search(text):
@@ -31,10 +30,16 @@ def main():
     made = SHOWN.sub(lambda shown: shown[1] + printed(program, shown[2]), text)
     if made == text:
         return
-    if "--check" in sys.argv[1:]:
-        sys.exit(f"{page}: shows what the tables do not say; results/walk.py {words[0]} makes it anew")
+    if only_checks:
+        sys.exit(f"{page}: shows what the tables do not say; results/walk.py {program} makes it anew")
     with open(page, "w", encoding="utf-8") as file:
         file.write(made)
+
+
+def main():
+    words = [word for word in sys.argv[1:] if word != "--check"]
+    for page in words[1:] or PAGES:
+        renew(os.path.abspath(words[0]), page, "--check" in sys.argv[1:])
 
 
 if __name__ == "__main__":

@@ -63,7 +63,7 @@ def check_compact(runner):
 
 
 def check_walk(runner):
-    """the README shows what table --from prints of the tables that are kept, and walk.py notices where it does not"""
+    """the README and docs/tables.md show what table --from prints of the tables that are kept, and walk.py notices where one does not"""
     with tempfile.TemporaryDirectory() as tmp:
         page = os.path.join(tmp, "page.md")
         def walk(*words):
