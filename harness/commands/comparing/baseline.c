@@ -127,15 +127,16 @@ static int print_failures(const struct rg_baseline *made)
 static int write_it(const struct baseline_options *o, const struct rg_baseline *made)
 {
     if (!rg_baseline_write(made, o->output))
-        return RG_EXIT_FAIL;
+        return RG_EXIT_USAGE; // a full disk is no regression
     printf("%s: %lld cells on %d device%s\n", o->output,
            (long long)(made->count / made->device_count), made->device_count,
            made->device_count == 1 ? "" : "s");
     return RG_EXIT_PASS;
 }
 
+// `left_out`: an enum rg_exit, of devices that fell while they were opened, and have no row.
 static int keep(const struct baseline_options *o, const struct before *before,
-                const struct rg_baseline *made)
+                const struct rg_baseline *made, int left_out)
 {
     print_keys(made);
     const int failures = print_failures(made);
@@ -149,6 +150,12 @@ static int keep(const struct baseline_options *o, const struct before *before,
         printf("%s: %d change%s; it is as it was: --update writes them\n", o->output, changes,
                changes == 1 ? "" : "s");
         return RG_EXIT_FAIL;
+    }
+    if (is_there && left_out != RG_EXIT_PASS) {
+        rg_error("%s: stays as it is, for it would lose what it has of the device whose driver "
+                 "fell; leave that out with --device",
+                 o->output);
+        return left_out;
     }
     if (!is_as_before(o->output, before))
         return RG_EXIT_FAIL;
@@ -167,9 +174,9 @@ static int make(const struct baseline_options *o, const struct rg_gate_cells *ce
     bool clean = true;
     int exit = rg_devices_open_asked(&o->devices, &devices);
     if (exit == RG_EXIT_PASS) {
-        const int left_out = rg_devices_exit(&devices); // what fell has no row
+        const int left_out = rg_devices_exit(&devices);
         if (rg_baseline_make(&request, &devices, &made, &clean))
-            exit = rg_exit_worse(rg_exit_worse(keep(o, before, &made), left_out),
+            exit = rg_exit_worse(rg_exit_worse(keep(o, before, &made, left_out), left_out),
                                  clean ? RG_EXIT_PASS : RG_EXIT_FAIL);
         else
             exit = rg_interrupted() ? RG_EXIT_SIGNALLED + rg_interrupt_signal() : RG_EXIT_FAIL;

@@ -253,7 +253,7 @@ int rg_diff_devices(const struct rg_diff_devices_request *request)
     }
     struct rg_devices devices;
     int exit = rg_devices_open_asked(request->devices, &devices);
-    if (exit == RG_EXIT_PASS && devices.count < 2) {
+    if (exit == RG_EXIT_PASS && devices.count < 2 && rg_devices_exit(&devices) == RG_EXIT_PASS) {
         rg_error("--device %s: a comparison takes two devices", request->devices->names);
         exit = RG_EXIT_USAGE;
     } else if (exit == RG_EXIT_PASS &&

@@ -17,7 +17,8 @@ struct rg_journal {
     char folder[1536], name[RG_JOURNAL_NAME_SIZE], path[2048]; // no folder: there is none to be had
     struct rg_result held;                                     // the rows that are whole, or begun
     bool has_file, is_followed;
-    bool is_broken; // it could not be written, which one logged line said
+    bool is_of_others; // the file there is another run's
+    bool is_broken;    // it could not be written, which one logged line said
 };
 
 // --- reading ---
@@ -57,6 +58,7 @@ static void read_file(struct rg_journal *journal)
         memcpy(journal->held.rows, found.rows, sizeof(found.rows));
         memset(found.rows, 0, sizeof(found.rows));
     } else {
+        journal->is_of_others = true;
         rg_info("%s: is of another build, machine, choice of devices or of rows; the table begins "
                 "anew",
                 journal->path);
@@ -87,6 +89,11 @@ struct rg_journal *rg_journal_open(const struct rg_result *result, const char *f
     if (!fresh && *j->folder)
         read_file(j);
     return j;
+}
+
+bool rg_journal_is_of_others(const struct rg_journal *journal)
+{
+    return journal && journal->is_of_others;
 }
 
 static bool holds(const struct rg_journal *journal, int row)

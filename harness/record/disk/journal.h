@@ -23,6 +23,9 @@ void rg_journal_name(const char *table, bool full, char name[RG_JOURNAL_NAME_SIZ
 struct rg_journal *rg_journal_open(const struct rg_result *result, const char *folder, bool fresh,
                                    bool is_followed);
 
+// Whether the file there is another run's, which the first row that is kept replaces.
+bool rg_journal_is_of_others(const struct rg_journal *journal);
+
 // Whether it has a whole row, or some samples of each of its cells.
 bool rg_journal_has(const struct rg_journal *journal, int row);
 bool rg_journal_has_part(const struct rg_journal *journal, int row);

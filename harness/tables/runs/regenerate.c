@@ -128,6 +128,20 @@ static int make_tasks(const struct rg_regenerate_options *o, const struct rg_dev
     return made;
 }
 
+// Where a driver fell while its device was opened, what is there may have been measured on it, too:
+// the same command would go on with that once the driver is well. False, with one logged line,
+// where it would be replaced.
+static bool spare_journals(const struct task *tasks, int count, const struct rg_devices *devices)
+{
+    for (int i = 0; i < count && rg_devices_exit(devices) != RG_EXIT_PASS; i++)
+        if (rg_journal_is_of_others(tasks[i].journal))
+            return rg_error("%s: a driver fell while its device was opened, so that what a run "
+                            "before has measured would be replaced; go on once it is well, name "
+                            "the devices that are with --device, or begin anew with --fresh",
+                            tasks[i].result.table);
+    return true;
+}
+
 static int cells_of(const struct task *tasks, int count)
 {
     int cells = 0;
@@ -200,15 +214,20 @@ static int finish_tasks(struct task *tasks, int count, const struct rg_regenerat
     return exit;
 }
 
-static void end_tasks(struct task *tasks, int count)
+static void forget_tasks(struct task *tasks, int count)
 {
-    const bool are_kept = keeps_journals(tasks, count);
     for (int i = 0; i < count; i++) {
-        if (!are_kept)
-            rg_journal_remove(tasks[i].journal);
         rg_result_free(&tasks[i].result);
         rg_journal_close(tasks[i].journal);
     }
+}
+
+static void end_tasks(struct task *tasks, int count)
+{
+    const bool are_kept = keeps_journals(tasks, count);
+    for (int i = 0; i < count && !are_kept; i++)
+        rg_journal_remove(tasks[i].journal);
+    forget_tasks(tasks, count);
 }
 
 // When a table fails, the others are still measured and written.
@@ -289,7 +308,11 @@ static int regenerate(const struct rg_table *const tables[], int count,
         return plan_and_regenerate(tables, count, devices, options);
     struct task *tasks = rg_alloc((size_t)count, sizeof(*tasks), "tables");
     const int made = tasks ? make_tasks(options, devices, tables, count, keeps, tasks) : 0;
-    const int exit = tasks ? run_tasks(tasks, made, devices, options) : RG_EXIT_FAIL;
+    int exit = RG_EXIT_FAIL;
+    if (tasks && spare_journals(tasks, made, devices))
+        exit = run_tasks(tasks, made, devices, options);
+    else
+        forget_tasks(tasks, made);
     free(tasks);
     return exit;
 }

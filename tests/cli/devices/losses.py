@@ -9,6 +9,8 @@ import signal
 import tempfile
 import time
 
+import misbehaving
+
 # Once the first table is measured, all of it is in its journal, for as long as the second takes.
 FIRST, SECOND, ROWS = "stuppacher-2", "chin-grid", 2
 TABLES = "table %s %s --quick --device cpu --work paper --rows 1-%d -o " % (FIRST, SECOND, ROWS)
@@ -103,6 +105,23 @@ def check_harness_killed(runner):
 def check_both_killed(runner):
     """nor is a row lost where both are killed"""
     return killed(runner, True)
+
+
+def check_fallen(runner):
+    """a driver that falls while it is opened has no journal of another choice of devices begun anew"""
+    with tempfile.TemporaryDirectory() as out, tempfile.TemporaryDirectory() as folder:
+        process, _ = begin(runner, out)
+        process.kill()
+        process.communicate(timeout=LIMIT_S)
+        with open(os.path.join(out, JOURNAL)) as file:
+            before = file.read()
+        env = misbehaving.shim(runner, folder, "vulkan", "vkCreateDevice", "fault", 0)
+        result = runner.run((TABLES.replace("--device cpu", "--device all") + out).split(), env)
+        with open(os.path.join(out, JOURNAL)) as file:
+            stays = file.read() == before
+        if result.returncode != 1 or result.stdout or not stays or "%s: a driver fell while its device was opened" % FIRST not in result.stderr:
+            return ["exit status %d, stays %s, %s" % (result.returncode, stays, result.stderr)]
+        return goes_on(runner, out, rows_of(os.path.join(out, JOURNAL)))
 
 
 def check_second(runner):
@@ -303,5 +322,5 @@ def check_signals(runner):
     return problems
 
 
-CHECKS = [check_signals, check_harness_killed, check_both_killed, check_second, check_held, check_full,
+CHECKS = [check_signals, check_harness_killed, check_both_killed, check_fallen, check_second, check_held, check_full,
           check_read_only_midway, check_read_only, check_unprinted, check_sweep_unprinted, check_unread, check_earlier]

@@ -258,6 +258,17 @@ def check_gone(runner):
     return side_by_side(problems_gone, ["doctor", "diff"])
 
 
+def check_named(runner):
+    """a driver that crashes while a device that was named is opened ends the command before anything is done"""
+    def problems_named(command):
+        with tempfile.TemporaryDirectory() as folder:
+            env = shim(runner, folder, "vulkan", "vkCreateDevice", "fault", 0)
+            result = runner.run(COMMANDS[command].split() + ["--device", "cpu,vulkan,cpu:reference"], env)
+        well = result.returncode == 1 and not result.stdout and result.stderr.count("\n") == 1 and re.search(HOW["fault"][1], result.stderr)
+        return [] if well else ["%s: exit status %d, %s, %s" % (command, result.returncode, result.stdout, result.stderr)]
+    return side_by_side(problems_named, ["diff", "table", "verify"])
+
+
 def check_environments(runner):
     """two settings and two drivers of one API stand side by side, told apart by their names"""
     with tempfile.TemporaryDirectory() as folder:
@@ -289,4 +300,4 @@ def check_caches(runner):
 
 
 THOROUGH = [check_all_ways]
-CHECKS = [check_comparisons, check_commands, check_alone, check_listed, check_required, check_ignored_ends, check_closing, check_gone, check_environments, check_caches]
+CHECKS = [check_comparisons, check_commands, check_alone, check_listed, check_required, check_ignored_ends, check_closing, check_gone, check_named, check_environments, check_caches]
