@@ -7,6 +7,8 @@
 #include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "harness/compare/gate/pictures/pictures.h"
+#include "harness/compare/gate/run/keep.h"
+#include "harness/compare/gate/run/kept.h"
 #include "harness/record/output.h"
 
 bool rg_gate_outputs_settle(const char *junit, const char *pictures,
@@ -39,9 +41,23 @@ static bool spares(const char *report, const char *file)
                     report, file);
 }
 
+// What the gate keeps in its folder.
+static bool spares_kept(const char *folder, const char *file)
+{
+    static const char *const names[] = {RG_GATE_JOURNAL, RG_GATE_LAUNCHES};
+    bool ok = true;
+    for (int i = 0; ok && *folder && i < 2; i++) {
+        char path[PATH_MAX + 32];
+        snprintf(path, sizeof(path), "%s/%s", folder, names[i]);
+        ok = spares(path, file);
+    }
+    return ok;
+}
+
 bool rg_gate_outputs_spare(const struct rg_gate_outputs *outputs, const char *file)
 {
-    return spares(outputs->junit, file) && spares(outputs->bmf, file);
+    return spares(outputs->junit, file) && spares(outputs->bmf, file) &&
+           spares_kept(outputs->pictures, file);
 }
 
 // The file of GitHub's summary, NULL without one.

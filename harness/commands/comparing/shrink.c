@@ -125,7 +125,7 @@ static int shrink_on(const struct rg_devices *devices, const struct rg_subject *
     if (exit == RG_EXIT_PASS && !rg_interrupted()) {
         printf("%s\n%d runs tried\n", blame.text, tried);
         if (!write_found(&found, &blame, devices, o->output))
-            exit = RG_EXIT_FAIL;
+            exit = RG_EXIT_USAGE; // a full disk says nothing of the devices
     }
     rg_case_free(&found);
     remove_folder(folder);
@@ -148,6 +148,8 @@ static int shrink(const void *values, const struct rg_words *arguments)
     int exit = rg_files_spared_by_case(&subject, o->output)
                    ? rg_devices_open_asked(&o->devices, &devices)
                    : RG_EXIT_USAGE;
+    if (exit == RG_EXIT_PASS)
+        exit = rg_devices_exit(&devices);
     if (exit == RG_EXIT_PASS && devices.count != 2) {
         rg_error("--device %s: shrink takes two devices, the one in doubt first", o->devices.names);
         exit = RG_EXIT_USAGE;

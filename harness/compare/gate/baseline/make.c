@@ -129,8 +129,10 @@ static bool time_all(struct make *m, struct rg_lone_times *times, struct rg_prog
     for (int i = 0; i < m->timed_count; i++) {
         m->rows[i]->slot = m->cells[i].slot;
         m->rows[i]->outcome = m->cells[i].outcome;
-        if (m->cells[i].outcome != RG_OK)
-            rg_text_copy(m->rows[i]->why, sizeof(m->rows[i]->why), m->cells[i].why);
+        if (m->cells[i].outcome == RG_OK)
+            continue;
+        m->rows[i]->launches.count = 0; // a part of them is no time
+        rg_text_copy(m->rows[i]->why, sizeof(m->rows[i]->why), m->cells[i].why);
     }
     return !rg_interrupted();
 }

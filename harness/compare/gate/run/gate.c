@@ -241,8 +241,11 @@ static json_t *key_of(const struct run *r)
     for (int i = 0; i < r->asked->pairs->count; i++)
         json_array_append_new(pairs, json_pack("[s, s]", r->asked->pairs->all[i].names[RG_SIDE_A],
                                                r->asked->pairs->all[i].names[RG_SIDE_B]));
-    return json_pack("{s:o, s:o, s:o, s:f}", "cells", cells, "pairs", pairs, "passport",
-                     rg_passport_json(r->infos, r->info_count), "margin", r->asked->margin);
+    const struct rg_gtest_shards *shards = &r->asked->shards; // one may share another's folder
+    return json_pack("{s:o, s:o, s:o, s:f, s:s, s:i, s:i}", "cells", cells, "pairs", pairs,
+                     "passport", rg_passport_json(r->infos, r->info_count), "margin",
+                     r->asked->margin, "filter", r->asked->filter ? r->asked->filter : "", "shard",
+                     shards->index, "shards", shards->total);
 }
 
 // --- what came of it ---

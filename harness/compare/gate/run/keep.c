@@ -1,6 +1,10 @@
 #include "harness/compare/gate/run/keep.h"
 
+#include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "core/base/log.h"
 #include "harness/console/interrupt.h"
@@ -29,11 +33,21 @@ void rg_keep_expect(struct rg_kept_times *kept, const struct rg_gate_case *c)
     rg_kept_times_expect(kept, c->name, code);
 }
 
+// Without a launch there is no file, and one that a gate before has left is none of this gate's.
+static bool write_launches(const char *folder, const char *csv)
+{
+    char path[4096];
+    if (*csv)
+        return rg_output_write(folder, RG_GATE_LAUNCHES, csv);
+    snprintf(path, sizeof(path), "%s/" RG_GATE_LAUNCHES, folder);
+    return !unlink(path) || errno == ENOENT ||
+           rg_error("%s: cannot be removed: %s", path, strerror(errno));
+}
+
 bool rg_keep_close(const struct rg_gate_request *asked, struct rg_kept_times *kept, bool is_done)
 {
     char *csv = kept && is_done ? rg_kept_times_csv(kept) : NULL;
-    const bool ok = !kept || !is_done ||
-                    (csv && (!*csv || rg_output_write(asked->folder, "launches.csv", csv)));
+    const bool ok = !kept || !is_done || (csv && write_launches(asked->folder, csv));
     free(csv);
     rg_kept_times_close(kept, is_done && ok);
     if (rg_interrupted() && asked->folder)

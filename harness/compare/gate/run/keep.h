@@ -5,6 +5,8 @@
 #include "harness/compare/gate/run/cases.h"
 #include "harness/compare/gate/run/kept.h"
 
+#define RG_GATE_LAUNCHES "launches.csv"
+
 // Opens what the folder of a request keeps; `kept` is NULL where it has none, or nothing is timed.
 // `key` as in rg_kept_times_open. False, and one logged line, without memory.
 bool rg_keep_open(const struct rg_gate_request *asked, json_t *key, struct rg_kept_times **kept);

@@ -13,8 +13,6 @@
 #include "harness/record/disk/seal.h"
 #include "harness/record/output.h"
 
-#define JOURNAL "gate.journal"
-
 enum { FORMAT = 2 };
 
 struct rg_kept_times {
@@ -78,26 +76,13 @@ static int count_launches(json_t *document)
     return is_whole ? count : -1;
 }
 
-static json_t *read_document(const char *path, char why[RG_WHY_SIZE])
-{
-    static const char mend[] = "remove it, and the gate begins anew";
-    size_t size, at = 0;
-    char *text = rg_document_load(path, &size, mend, why);
-    json_t *document = text ? rg_document_next(path, text, size, &at, mend, why) : NULL;
-    free(text);
-    if (document && rg_document_unseal(path, document, true, why))
-        return document;
-    json_decref(document);
-    return NULL;
-}
-
 // Takes over the document of the folder, where it is this gate's.
 static void read_kept(struct rg_kept_times *kept, const json_t *key)
 {
     char why[RG_WHY_SIZE];
     if (access(kept->path, F_OK))
         return;
-    json_t *found = read_document(kept->path, why);
+    json_t *found = rg_document_read(kept->path, "remove it, and the gate begins anew", why);
     const int count = found ? count_launches(found) : -1;
     if (!found || count < 0) {
         rg_warning("%s: is damaged or no journal; the gate begins anew", kept->path);
@@ -119,7 +104,7 @@ struct rg_kept_times *rg_kept_times_open(const char *folder, json_t *key, bool f
     struct rg_kept_times *kept = rg_alloc(1, sizeof(*kept), "gate");
     const bool ok = kept && (kept->folder = strdup(folder)) && begin_anew(kept, key);
     if (ok) {
-        snprintf(kept->path, sizeof(kept->path), "%s/" JOURNAL, folder);
+        snprintf(kept->path, sizeof(kept->path), "%s/" RG_GATE_JOURNAL, folder);
         if (!fresh)
             read_kept(kept, key);
     }
@@ -158,7 +143,7 @@ static void save(struct rg_kept_times *kept)
         return;
     char *text =
         rg_seal(kept->document) ? json_dumps(kept->document, RG_JSON_FLAGS | JSON_COMPACT) : NULL;
-    kept->is_broken = !text || !rg_output_write(kept->folder, JOURNAL, text);
+    kept->is_broken = !text || !rg_output_write(kept->folder, RG_GATE_JOURNAL, text);
     kept->is_changed = false;
     free(text);
 }

@@ -14,6 +14,8 @@
 
 #include "harness/compare/gate/decide/course.h"
 
+#define RG_GATE_JOURNAL "gate.journal"
+
 // Reads what the folder has, unless it is to be `fresh`. `key`: all that decides the times, whose
 // reference is taken. NULL, and one logged line, without memory.
 struct rg_kept_times *rg_kept_times_open(const char *folder, json_t *key, bool fresh);

@@ -9,6 +9,7 @@ COMMAND = "harness/commands/comparing/gate.c"
 PICTURES, OUTPUTS = "harness/compare/gate/pictures/pictures.c", "harness/commands/comparing/outputs.c"
 
 ROWS = [
+    Fault(OUTPUTS, "«spares_kept(outputs->pictures, file)»;", "true", "a gate's journal replaces its cells", tests=("command line, baselines",)),
     Fault(SHARDS, "if («!path || !*path»)", "true", "no runner is told that shards are understood"),
     Fault(SHARDS, "    if («!has_total || !has_index»)", "false", "half of a shard is taken for all of it"),
     Fault(SHARDS, "&& «value >= 0» && value", "true", "shards are counted below 0"),
