@@ -322,5 +322,16 @@ def check_refused(runner):
     return problems
 
 
+def check_room(runner):
+    """pictures that do not fit into the memory that is left are not compared, and the other cells are"""
+    with Files("large raster 1024x1024 1 billboards=10\nsmall raster 32x32 1 billboards=10\n") as files:
+        result = runner.run(["gate", "cpu", "cpu", "--pictures", "--memory", "95M", "--json", "--cells", files.cells])
+    report = json.loads(result.stdout)
+    said = [case["message"] for case in report["gated"] if case["name"] == "large.cpu"]
+    if result.returncode != 1 or endings(report) != {"large.cpu": "error", "small.cpu": "pass"} or "a comparison of 1024x1024 pixels needs" not in said[0]:
+        return ["exit status %d, %s, %s, %s" % (result.returncode, endings(report), said, result.stderr)]
+    return []
+
+
 CHECKS = [check_same, check_slower, check_quarantined, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
-          check_unwritten, check_refused]
+          check_unwritten, check_refused, check_room]

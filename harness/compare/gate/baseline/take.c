@@ -93,6 +93,8 @@ bool rg_truth_holds(struct rg_truth *truth, const struct rg_gate_cell *cell,
     const struct rg_subject subject = subject_of(cell);
     struct rg_drawn due = {truth_name, {0}};
     const struct rg_drawn drawn = {device->info.name, *picture};
+    if (!rg_alike_has_room(cell, agreement))
+        return false;
     if (!rg_truth_open(truth) ||
         !rg_frame_draw(truth->device, &subject, cell->frames, &due.picture))
         return rg_agreement_fails(agreement, truth_name);

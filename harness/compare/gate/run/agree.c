@@ -37,7 +37,7 @@ static bool fail_by_error(struct pair *p, int side)
 static bool have_alike_pictures(struct pair *p)
 {
     struct rg_drawn drawn[RG_SIDES] = {{p->sides[0].name, {0}}, {p->sides[1].name, {0}}};
-    bool ok = true;
+    bool ok = rg_alike_has_room(p->cell, p->found);
     for (int side = 0; ok && side < RG_SIDES; side++)
         ok = rg_session_read_picture(p->sessions[side], &drawn[side].picture) ||
              fail_by_error(p, side);

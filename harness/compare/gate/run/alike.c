@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "core/image/compare/compare.h"
 #include "harness/compare/blame/blame.h"
 #include "harness/compare/gate/pictures/pictures.h"
@@ -62,6 +63,18 @@ static bool shows_nothing(struct rg_agreement *agreement)
              "the picture is the same without rain, so that nothing is compared; give the cell "
              "another frame, size or setting");
     return false;
+}
+
+bool rg_alike_has_room(const struct rg_gate_cell *cell, struct rg_agreement *agreement)
+{
+    enum { PICTURES = 5 }; // three, what a worker draws the third into, and planes of as much
+    char begin[64];
+    const int64_t bytes = rg_pictures_bytes(cell->width, cell->height, PICTURES);
+    if (rg_memory_allows(bytes))
+        return true;
+    snprintf(begin, sizeof(begin), "a comparison of %dx%d pixels", cell->width, cell->height);
+    rg_memory_refuse(begin, bytes, "a cell with a smaller picture");
+    return rg_agreement_fails(agreement, NULL);
 }
 
 bool rg_alike_pictures(const struct rg_gate_cell *cell, struct rg_device *device, enum rg_tier owed,

@@ -49,6 +49,8 @@ struct rg_drawn {
     const char *name; // of the device
     struct rg_picture picture;
 };
+// Whether there is room for both, for one without rain, and to compare them.
+bool rg_alike_has_room(const struct rg_gate_cell *cell, struct rg_agreement *agreement);
 // Compares b with a by the tier that they owe each other; the picture without rain, which says
 // where it rains, is drawn on `device`, which is a's. Each of these functions returns whether they
 // are alike, and has else ended the agreement.
