@@ -52,7 +52,8 @@ static void take_sample(struct rg_job *job)
     if (rg_interrupted()) // so that it may have fewer frames
         return;
     if (has_begun && rg_session_time(job->session, &end))
-        record->api_over_wall = (double)(end - begin) * 1e-6 / (ms * record->frames_a_sample);
+        record->api_over_wall =
+            ((double)end - (double)begin) * 1e-6 / (ms * record->frames_a_sample);
     record->samples_ms[record->sample_count++] = ms;
 }
 

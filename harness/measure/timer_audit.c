@@ -108,7 +108,7 @@ static bool audit_timer(struct load *load, struct rg_timer_audit *audit)
         if (audit->has_timer)
             audit->has_timer = rg_device_time(load->device, &end);
         walls_ms[i] = wall_ns * 1e-6;
-        apis_ms[i] = (double)(end - start) * 1e-6;
+        apis_ms[i] = ((double)end - (double)start) * 1e-6;
         ratios[i] = apis_ms[i] / walls_ms[i];
     }
     audit->wall_ms = rg_median(walls_ms, REPETITIONS).median;

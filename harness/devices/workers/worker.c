@@ -346,6 +346,16 @@ static bool send(struct rg_worker *worker, enum rg_call call, const struct rg_me
 
 // --- coming to life ---
 
+// Whether there is a message within the patience, which a signal does not end.
+static bool hears(struct rg_worker *worker, struct rg_message *reply, int patience_ms)
+{
+    const double end_ms = rg_now_ms() + patience_ms;
+    enum rg_arrival arrival = RG_NOT_YET;
+    while (arrival == RG_NOT_YET && rg_now_ms() < end_ms)
+        arrival = rg_channel_receive(&worker->channel, reply, LOOK_MS);
+    return arrival == RG_ARRIVED;
+}
+
 // Whether a process of another program has the same messages as this one. What it says otherwise
 // cannot be understood.
 static bool is_greeted(struct rg_worker *worker)
@@ -353,8 +363,7 @@ static bool is_greeted(struct rg_worker *worker)
     struct rg_message reply = {0};
     const int timeout_s = rg_workers.timeout_s;
     const int patience_ms = timeout_s < HELLO_MS / 1000 ? timeout_s * 1000 : HELLO_MS;
-    const bool same = send(worker, RG_CALL_HELLO, NULL) &&
-                      rg_channel_receive(&worker->channel, &reply, patience_ms) == RG_ARRIVED &&
+    const bool same = send(worker, RG_CALL_HELLO, NULL) && hears(worker, &reply, patience_ms) &&
                       rg_take_index(&reply, 2) && !rg_take_int(&reply) && !rg_take_int(&reply) &&
                       !strcmp(rg_take_text(&reply), rg_workers.hello);
     rg_message_free(&reply);

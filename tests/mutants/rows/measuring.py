@@ -87,7 +87,7 @@ ROWS = [
     Fault(AUDIT, "return «ratio >= lowest_ratio» &&", "true", "a timer that tells too little is trusted"),
     Fault(AUDIT, "*wall_ns = «again_ns < *wall_ns ? again_ns : *wall_ns»;", "*wall_ns", "the audit's load is made from a run that compiles"),
     Fault(AUDIT, "if (wall_ns >= «load_ns» ||", "load_ns / 10", "the audit's load is too short"),
-    Fault(AUDIT, "apis_ms[i] = (double)(end - start) * «1e-6»;", "1e-3", "the API's nanoseconds are taken for microseconds"),
+    Fault(AUDIT, "apis_ms[i] = ((double)end - (double)start) * «1e-6»;", "1e-3", "the API's nanoseconds are taken for microseconds"),
     Fault(AUDIT, "audit->dispatch_us = rg_median(samples_ns, REPETITIONS).median * 1e-3 / «DISPATCHES»;", "1", "a dispatch has the time of a hundred"),
     Fault(CEILINGS, "*best_ms = «fmin(*best_ms, (rg_now_ms() - start_ms) / batch)»;", "(rg_now_ms() - start_ms) / batch", "the last run of a ceiling counts, not the best"),
     Fault(CEILINGS, "if (!«rg_device_sync(device)»)\n            return false;", "true", "a ceiling's runs are not waited for"),
