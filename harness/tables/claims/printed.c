@@ -82,18 +82,18 @@ static bool print_has_optimum(const struct hearing *h)
     return within >= others;
 }
 
-// Takes all rows. False where a variant is missing, or nothing is printed.
+// Takes all rows that print has. False where a variant is missing, or nothing is printed.
 static bool take_rows(struct hearing *h)
 {
     const struct rg_claim *c = h->claim;
     const int step = rg_hearing_step(c);
-    bool all = h->at.variant >= 0 && (!c->other || h->other >= 0);
     h->count = 0;
-    for (int row = c->first; all && (step > 0 ? row <= c->last : row >= c->last); row += step) {
-        all = isfinite(printed_fps(h, row, h->at.variant));
-        h->rows[h->count++] = row;
-    }
-    return all;
+    if (h->at.variant < 0 || (c->other && h->other < 0))
+        return false;
+    for (int row = c->first; step > 0 ? row <= c->last : row >= c->last; row += step)
+        if (isfinite(printed_fps(h, row, h->at.variant)))
+            h->rows[h->count++] = row;
+    return h->count > 0;
 }
 
 static bool contradicts(const struct hearing *h)

@@ -165,7 +165,7 @@ def check_goes_on(runner):
     problems = []
     with tempfile.TemporaryDirectory() as folder:
         env = {"XDG_STATE_HOME": folder}
-        line = "echo {} >>%s/tried; test -e %s/go || test {} -ne 5 || { trap 'touch %s/ended; exit' TERM; touch %s/waits; sleep 300 & wait; }; " \
+        line = "echo {} >>%s/tried; test -e %s/go || test {} -ne 5 || { trap 'touch %s/ended; exit' TERM; sleep 300 & touch %s/waits; wait; }; " \
             "test {} -lt 6" % (folder, folder, folder, folder)
         args = ["bisect", "--good", "1", "--bad", "9", "--run", line, *"123456789"]
         process = runner.start(args, env=env)

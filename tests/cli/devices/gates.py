@@ -324,7 +324,7 @@ def check_refused(runner):
 
 def check_room(runner):
     """pictures that do not fit into the memory that is left are not compared, and the other cells are"""
-    with Files("large raster 1024x1024 1 billboards=10\nsmall raster 32x32 1 billboards=10\n") as files:
+    with Files("large raster 1024x1024 1 billboards=10\nsmall raster 64x48 2 scene=mesh model=torus faces=200\n") as files:
         result = runner.run(["gate", "cpu", "cpu", "--pictures", "--memory", "95M", "--json", "--cells", files.cells])
     report = json.loads(result.stdout)
     said = [case["message"] for case in report["gated"] if case["name"] == "large.cpu"]
