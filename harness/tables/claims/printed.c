@@ -125,6 +125,8 @@ static bool contradicts(const struct hearing *h)
 bool rg_hearing_print_contradicts(const struct hearing *h)
 {
     struct hearing printed = *h;
+    if (printed.at.work < 0)
+        printed.at.work = 0; // each work has the same beside it in print
     return take_rows(&printed) && contradicts(&printed);
 }
 
