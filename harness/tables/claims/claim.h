@@ -64,7 +64,7 @@ struct rg_judgement {
     // claim does not hold, and that it holds. NAN where there are no samples.
     double against, in_favour;
     bool print_contradicts; // the paper's own numbers do not bear it out
-    int rows, rows_needed; // those that it was judged by, of the claim's
+    int rows, rows_needed;  // those that it was judged by, of the claim's
     char why[256];          // one sentence
 };
 
