@@ -5,8 +5,9 @@
 
 In a page the lines between `<!-- figures: TABLE[:ROW,...] ... -->` and `<!-- end of figures -->` are a table of
 milliseconds a frame: a line a row and variant, a column a device, of what was printed alone. ROW counts from 1; without
-any all rows stand there. With `printed` behind the names there is a column of what the paper printed. --check writes
-nothing, and exits 1 if a page says anything else than its tables.
+any all rows stand there. With `printed` behind the names there is a column of what the paper printed. `passes: TABLE:ROW,...`
+has a line a pass and a column a row, of whole frames on cpu. --check writes nothing, and exits 1 if a page says anything
+else than its tables.
 """
 import json
 import os
@@ -15,7 +16,7 @@ import statistics
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-BLOCK = re.compile(r"(<!-- figures: ([^\n]*?) -->\n)(.*?)(<!-- end of figures -->)", re.S)
+BLOCK = re.compile(r"(<!-- (figures|passes): ([^\n]*?) -->\n)(.*?)(<!-- end of figures -->)", re.S)
 DEVICES = ["cpu", "opencl", "gl", "vulkan", "cpu:reference"]
 
 
@@ -64,8 +65,25 @@ def markdown(folder, asked):
     return "\n".join(out + ["", ""])
 
 
+def passes(folder, asked):
+    """Milliseconds of each pass in the run that waits for each, in the order in which they run."""
+    table, _, rows = asked.partition(":")
+    with open(os.path.join(folder, table + ".json"), encoding="utf-8") as file:
+        cells = [cell for cell in json.load(file)["cells"] if cell["device"] == "cpu" and cell["variant"] == "full" and
+                 cell.get("work", "paper") == "paper" and str(cell["row_number"]) in rows.split(",")]
+    if len(cells) != len(rows.split(",")):
+        raise ValueError(f"{table}: {folder} has not all of rows {rows} of it")
+    taken = [cell["measured"]["passes_ms"] for cell in cells]
+    names = list(dict.fromkeys(name for row in taken for name in row))
+    out = ["", "| pass | " + " | ".join(line_name(table, cell) for cell in cells) + " |", "|---" + "|---:" * len(cells) + "|"]
+    for name in names:
+        out.append("| " + " | ".join([name] + [f"{row[name]:.2f}" if name in row else "" for row in taken]) + " |")
+    return "\n".join(out + ["", ""])
+
+
 def rewrite(folder, text):
-    return BLOCK.sub(lambda block: block[1] + markdown(folder, block[2]) + block[4], text)
+    make = {"figures": markdown, "passes": passes}
+    return BLOCK.sub(lambda block: block[1] + make[block[2]](folder, block[3]) + block[5], text)
 
 
 def main():

@@ -19,10 +19,19 @@ DUE = """before
 <!-- end of figures -->
 behind
 """
+PASSES = """<!-- passes: rain:2,1 -->
+
+| pass | rain, radius_m 10 | rain, radius_m 20 |
+|---|---:|---:|
+| move | 0.50 | 1.00 |
+| draw |  | 2.35 |
+
+<!-- end of figures -->
+"""
 
 
 def cell(row, device, samples, **more):
-    measured = {"measured": {"samples_ms": samples}} if samples else {"status": "fail"}
+    measured = {"measured": {"samples_ms": samples, "passes_ms": {"move": row / 2, **({"draw": 2.345} if row == 2 else {})}}} if samples else {"status": "fail"}
     return {"row": {"radius_m": 10 * row}, "row_number": row, "device": device, "variant": "full", "status": "ok",
             "published": {"fps": 25}, **measured, **more}
 
@@ -55,6 +64,16 @@ def main():
         assert run("--check", folder, page) == 0
         with open(page, "w", encoding="utf-8") as file:
             file.write(PAGE.replace("rain:2", "rain:3"))
+        assert run(folder, page) != 0, "a row that no table has is passed over"
+        with open(page, "w", encoding="utf-8") as file:
+            file.write(PASSES.replace("0.50", "0.60"))
+        assert run("--check", folder, page) == 1, "other passes are taken for these"
+        assert run(folder, page) == 0
+        with open(page, encoding="utf-8") as file:
+            text = file.read()
+        assert text == PASSES, text
+        with open(page, "w", encoding="utf-8") as file:
+            file.write(PASSES.replace("rain:2,1", "rain:2,3"))
         assert run(folder, page) != 0, "a row that no table has is passed over"
         with open(page, "w", encoding="utf-8") as file:
             file.write("no figures\n")

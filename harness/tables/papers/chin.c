@@ -38,7 +38,7 @@ const struct rg_table rg_table_chin_timing = {
         "A frame is one step and its picture: the height map, a pixel a cell, with the drops over "
         "it, as in the paper's figure 2; timed are the 41st to the 60th, over and over, for water "
         "gathers. The paper does not say how many drops there were at 14.8 ms, and how many at "
-        "31.8. In the full rain, 1500 drops a second, the pane has 600 to 700 in these steps, and "
+        "31.8. In the full rain, 1500 drops a second, the pane has some 410 in these steps, and "
         "waters meet in each; light_rain, 120 a second, leaves most of the pane dry. The paper "
         "calls its program real-time, 30 frames "
         "a second on one thread; OMP_NUM_THREADS=1 measures cpu so.",
