@@ -395,8 +395,7 @@ static void test_a_knee_and_print(void **state)
     slowest.knee = ROWS;
     assert_false(rg_claim_judge(&optimum, &result, 0).print_contradicts);
     assert_false(rg_claim_judge(&slowest, &result, 0).print_contradicts);
-    optimum.knee = 2;
-    slowest.knee = 2;
+    optimum.knee = slowest.knee = 3;
     assert_true(rg_claim_judge(&optimum, &result, 0).print_contradicts);
     assert_true(rg_claim_judge(&slowest, &result, 0).print_contradicts);
     struct rg_claim crosses = claim_of(RG_CLAIM_CROSSES);
