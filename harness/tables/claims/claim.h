@@ -42,6 +42,9 @@ struct rg_claim {
     const char *part; // that part of the paper's words, in ours; NULL: all of them
 };
 
+// Whether each row stands for itself, so that those that are measured can be judged.
+bool rg_claim_is_of_each_row(const struct rg_claim *claim);
+
 enum { RG_CLAIM_TITLE = 160 };
 // "\"25% slower\", at least": the paper's own words in quotation marks, and nothing else in them.
 void rg_claim_title(const struct rg_claim *claim, char title[RG_CLAIM_TITLE]);

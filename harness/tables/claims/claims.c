@@ -99,6 +99,11 @@ const struct rg_claim rg_claims[] = {
 };
 // clang-format on
 
+bool rg_claim_is_of_each_row(const struct rg_claim *claim)
+{
+    return claim->test == RG_CLAIM_FASTER || claim->test == RG_CLAIM_RATE;
+}
+
 void rg_claim_title(const struct rg_claim *claim, char title[RG_CLAIM_TITLE])
 {
     const char *quote = claim->source == RG_CLAIM_SAID ? "\"" : "";

@@ -92,16 +92,10 @@ static bool end_without_number(struct hearing *h, int row)
     return false;
 }
 
-// Whether each row stands for itself, so that those that are measured suffice.
-static bool is_of_each_row(const struct rg_claim *c)
-{
-    return c->test == RG_CLAIM_FASTER || c->test == RG_CLAIM_RATE;
-}
-
 // Whether a claim can do without a row: those between the first and the last, but for a knee.
 static bool can_miss(const struct rg_claim *c, int row)
 {
-    return is_of_each_row(c) || (row != c->first && row != c->last && row != c->knee);
+    return rg_claim_is_of_each_row(c) || (row != c->first && row != c->last && row != c->knee);
 }
 
 int rg_hearing_step(const struct rg_claim *c)

@@ -33,9 +33,8 @@ static int quick_rows_of(const struct rg_table *table)
 // The last row that a claim needs: where each row stands for itself, those of quick mode suffice.
 static int last_of(const struct rg_claim *claim, const struct rg_table *table)
 {
-    const bool is_of_each_row = claim->test == RG_CLAIM_FASTER || claim->test == RG_CLAIM_RATE;
     const int rows = quick_rows_of(table);
-    return is_of_each_row && claim->last > rows ? rows : claim->last;
+    return rg_claim_is_of_each_row(claim) && claim->last > rows ? rows : claim->last;
 }
 
 // What claims end without, and of those that are about a curve, not about two rows, its middle.

@@ -5,8 +5,10 @@ import json
 import os
 import re
 import subprocess
+import tempfile
 
 import forms
+import misbehaving
 import results
 
 from gates import SCHEMA, TORUS, Files, endings
@@ -321,6 +323,21 @@ def check_update(runner):
     return problems
 
 
+def check_fallen(runner):
+    """an update in which a driver falls while its device is opened leaves the file as it was"""
+    with Files() as files, tempfile.TemporaryDirectory() as folder:
+        path, _ = make(runner, files, "--pictures", device="cpu,vulkan")
+        with open(path) as file:
+            before = file.read()
+        env = misbehaving.shim(runner, folder, "vulkan", "vkCreateDevice", "fault", 0)
+        result = runner.run(["baseline", "--pictures", "--cells", files.cells, "-o", path, "--update"], env)
+        with open(path) as file:
+            stays = file.read() == before
+    if result.returncode != 1 or not stays or "stays as it is, for it would lose what it has of the device whose driver fell" not in result.stderr:
+        return ["exit status %d, stays %s, %s%s" % (result.returncode, stays, result.stdout, result.stderr)]
+    return []
+
+
 def check_meanwhile(runner):
     """what another writes while a baseline is made stays, for nobody was shown what would change of it"""
     problems = []
@@ -424,5 +441,5 @@ def check_kept(runner):
     return []
 
 
-CHECKS = [check_same, check_timed, check_changes, check_miscompiled, check_advice, check_refused, check_update, check_meanwhile, check_forms,
+CHECKS = [check_same, check_timed, check_changes, check_miscompiled, check_advice, check_refused, check_update, check_fallen, check_meanwhile, check_forms,
           check_absent, check_untimed, check_spared, check_kept]

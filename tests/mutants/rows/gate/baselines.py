@@ -22,6 +22,7 @@ ROWS = [
     Fault(COMPARE, "«rg_alike_counters(&before->counters, &now.counters, agreement)»)", "true", "counters are not looked at"),
     Fault(COMPARE, "        «rg_alike_work(&before->work, &now.work, agreement);»", ";", "the work of a frame is not looked at"),
     Fault(COMPARE, "row->decision.ratio / «slower»;", "1", "yardsticks are told and do not count"),
+    Fault(COMMAND, "if (is_there && «left_out != RG_EXIT_PASS»)", "false", "an update drops the rows of a device that fell", tests=("command line, baselines",)),
     Fault(ALIKE, "if («rg_memory_allows(bytes)»)", "true", "pictures are compared whatever they take", tests=("command line, gates",)),
     Fault(ALIKE, "if («one->value != other->value»)", "false", "counters that differ are alike"),
     Fault(AGAINST, "c->is_timed = «r->same_key[r->side_of[number]]»;", "true", "times under another key fail the gate"),
