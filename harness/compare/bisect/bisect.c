@@ -7,6 +7,7 @@
 #include "core/base/log.h"
 #include "harness/compare/bisect/kept.h"
 #include "harness/compare/bisect/search.h"
+#include "harness/compare/bisect/stamp.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 
@@ -37,6 +38,14 @@ static bool stop(struct run *r, int64_t at, int status)
     return false;
 }
 
+// What a candidate is on disk once its command has ended, and the good end: each command may hold
+// its candidate against that, and write there what it caches.
+static void stamp(struct rg_bisect *b, int64_t at)
+{
+    b->judged[at].stamp = rg_candidate_stamp(b->candidates->names[at]);
+    b->judged[0].stamp = rg_candidate_stamp(b->candidates->names[0]);
+}
+
 // Judges a candidate, unless that was done. False where the command can judge none.
 static bool judge(struct run *r, int64_t at)
 {
@@ -49,6 +58,7 @@ static bool judge(struct run *r, int64_t at)
         return stop(r, at, judged.status);
     b->judged[at] = judged;
     b->order[b->order_count++] = at;
+    stamp(b, at);
     r->verdicts[at] = judged.verdict;
     keep(r);
     if (b->tell)
@@ -113,16 +123,18 @@ static void take_kept(struct run *r)
         b->tell(b, b->order[i]);
 }
 
-// Verdicts go once it is told what they came to. Those that stay are written again, for the command
-// that ended may have written into candidates that are judged.
+// Verdicts go once it is told what they came to. Those that stay are written again, with the good
+// end as the command that ended has left it.
 static int end(struct run *r, int exit)
 {
-    const struct rg_bisect *b = r->bisect;
+    struct rg_bisect *b = r->bisect;
     const bool is_told = !b->tell_end || b->tell_end(b);
     if (is_told && b->end != RG_BISECT_STOPPED)
         rg_bisect_kept_remove(&r->kept);
-    else if (b->order_count)
+    else if (b->order_count) {
+        stamp(b, 0);
         keep(r);
+    }
     if (b->end == RG_BISECT_STOPPED && rg_interrupted()) {
         exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
         rg_info("interrupted; the same command goes on from %lld verdicts",

@@ -3,6 +3,7 @@
 #define RG_HARNESS_COMPARE_BISECT_JUDGE_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 enum rg_judgement {
     RG_JUDGED_NONE, // not judged yet
@@ -35,6 +36,7 @@ struct rg_judged {
     int status;                // of the last try: 128 and the number of a signal that ended it
     int tries;
     double seconds;
+    uint64_t stamp; // what the candidate was on disk once it was judged (stamp.h)
 };
 
 // The line of a try, counted from 0, with its blanks filled, which the caller frees. NULL, and one

@@ -64,9 +64,9 @@ static json_t *key_of(const struct rg_bisect *b)
                      j->crash_is_bad, "candidates", names);
 }
 
-static void stamp_text(const char *candidate, char text[STAMP_SIZE])
+static void stamp_text(uint64_t stamp, char text[STAMP_SIZE])
 {
-    snprintf(text, STAMP_SIZE, "%016" PRIx64, rg_candidate_stamp(candidate));
+    snprintf(text, STAMP_SIZE, "%016" PRIx64, stamp);
 }
 
 // --- reading ---
@@ -104,7 +104,8 @@ static bool take_verdict(json_t *verdict, struct rg_bisect *b)
     judged.verdict = verdict_named(word);
     if (!can_be(&judged, b->judging))
         return false;
-    stamp_text(b->candidates->names[at], now);
+    judged.stamp = rg_candidate_stamp(b->candidates->names[at]);
+    stamp_text(judged.stamp, now);
     if (strcmp(stamp, now) != 0) {
         rg_info("%s: has changed since it was judged; it is judged anew", b->candidates->names[at]);
         return true;
@@ -170,7 +171,7 @@ static json_t *verdicts_of(const struct rg_bisect *b)
         const int64_t at = b->order[i];
         const struct rg_judged *judged = &b->judged[at];
         char stamp[STAMP_SIZE];
-        stamp_text(b->candidates->names[at], stamp);
+        stamp_text(judged->stamp, stamp);
         json_array_append_new(all, json_pack("{sI ss si si so ss}", "at", (json_int_t)at, "verdict",
                                              rg_judgement_name(judged->verdict), "status",
                                              judged->status, "tries", judged->tries, "seconds",

@@ -83,14 +83,16 @@ static void forget(struct rig *r)
 // The three verdicts of an interrupted bisect.
 static void keep(struct rig *r)
 {
-    static const struct rg_judged all[COUNT] = {{RG_JUDGED_GOOD, 0, 1, 0.25},
-                                                {RG_JUDGED_SKIP, 3, 3, 12.5},
+    static const struct rg_judged all[COUNT] = {{RG_JUDGED_GOOD, 0, 1, 0.25, 0},
+                                                {RG_JUDGED_SKIP, 3, 3, 12.5, 0},
                                                 {.verdict = RG_JUDGED_NONE},
-                                                {RG_JUDGED_BAD, 1, 2, 1}};
+                                                {RG_JUDGED_BAD, 1, 2, 1, 0}};
     static const int64_t order[] = {0, 3, 1};
     memcpy(r->judged, all, sizeof(all));
     memcpy(r->order, order, sizeof(order));
     r->bisect.order_count = 3;
+    for (int i = 0; i < 3; i++)
+        r->judged[order[i]].stamp = rg_candidate_stamp(r->names[order[i]]);
     assert_true(rg_bisect_kept_write(&r->kept, &r->bisect));
     forget(r);
 }
@@ -122,7 +124,10 @@ static void what_has_changed_is_judged_anew(void **state)
 {
     struct rig *r = *state;
     keep(r);
+    // Also where others are judged, and kept, after that.
+    assert_int_equal(take(r), 3);
     write_text(r->file, "{ }");
+    assert_true(rg_bisect_kept_write(&r->kept, &r->bisect));
     assert_int_equal(take(r), 2);
     assert_int_equal(r->judged[1].verdict, RG_JUDGED_NONE);
     assert_int_equal(r->judged[3].verdict, RG_JUDGED_BAD);
