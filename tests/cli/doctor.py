@@ -118,4 +118,13 @@ def check_wrong_arithmetic(runner):
     return problems
 
 
-CHECKS = [check_devices, check_passport, check_missing, check_warnings, check_crash, check_wrong_arithmetic]
+def check_full(runner):
+    """a report that does not fit on standard output is an error of its own, also of a device that is not supported"""
+    with open("/dev/full", "w") as full:
+        result = runner.run("doctor --device vulkan".split(), NO_DRIVERS, stdout=full)
+    if result.returncode != 2 or not re.fullmatch(r"raingauge: .*no Vulkan driver.*\nraingauge: standard output: .*\n", result.stderr):
+        return ["exit status %d, stderr: %s" % (result.returncode, result.stderr)]
+    return []
+
+
+CHECKS = [check_devices, check_passport, check_missing, check_warnings, check_crash, check_wrong_arithmetic, check_full]
