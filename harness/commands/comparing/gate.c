@@ -14,6 +14,7 @@
 #include "harness/commands/comparing/outputs.h"
 #include "harness/compare/gate/report/gtest.h"
 #include "harness/compare/gate/run/gate.h"
+#include "harness/compare/gate/run/strays.h"
 #include "harness/console/duration.h"
 #include "harness/devices/workers/worker.h"
 #include "harness/record/disk/hold.h"
@@ -273,12 +274,14 @@ static bool has_times(const struct gate_options *o, const struct rg_baseline *ba
 
 static bool read_input(const struct gate_options *o, struct gate_input *in)
 {
-    return rg_gate_cells_read(o->cells, &in->cells) && read_known(o, &in->known) &&
-           (!o->baseline ||
-            (rg_baseline_read(&in->baseline, o->baseline) &&
-             rg_baseline_fits(&in->baseline, o->baseline, &in->cells,
-                              o->cells ? o->cells : "built-in cells", o->devices.names) &&
-             has_times(o, &in->baseline)));
+    const bool is_read = rg_gate_cells_read(o->cells, &in->cells) && read_known(o, &in->known);
+    if (is_read && !o->gtest.list)
+        rg_gate_warn_of_strays(&in->known, &in->cells);
+    return is_read && (!o->baseline || (rg_baseline_read(&in->baseline, o->baseline) &&
+                                        rg_baseline_fits(&in->baseline, o->baseline, &in->cells,
+                                                         o->cells ? o->cells : "built-in cells",
+                                                         o->devices.names) &&
+                                        has_times(o, &in->baseline)));
 }
 
 static int gate(const void *values, const struct rg_words *arguments)

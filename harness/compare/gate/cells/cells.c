@@ -66,6 +66,30 @@ static bool take_frames(struct rg_gate_cell *cell, const char *text)
            rg_error("frames '%.80s': write a whole number of 0 to %d", text, MAX_FRAMES);
 }
 
+// Whether a word of `rest` sets the key that `assignment` begins with.
+static bool sets_key_of(const char *rest, const char *assignment)
+{
+    const size_t length = strcspn(assignment, "= ");
+    for (; *rest; rest += strcspn(rest, " "), rest += strspn(rest, " "))
+        if (strcspn(rest, "= ") == length && !strncmp(rest, assignment, length))
+            return true;
+    return false;
+}
+
+// Of a key that stands twice the last would hold, and a reader of the line would trust the first.
+static bool has_keys_once(const char *assignments)
+{
+    const char *next;
+    for (const char *one = assignments + strspn(assignments, " "); *one; one = next) {
+        next = one + strcspn(one, " ");
+        next += strspn(next, " ");
+        if (sets_key_of(next, one))
+            return rg_error("parameter '%.*s' stands twice; take one out", (int)strcspn(one, "= "),
+                            one);
+    }
+    return true;
+}
+
 static bool take_settings(struct rg_gate_cell *cell, const char *assignments)
 {
     cell->settings = rg_settings_create(cell->technique);
@@ -75,9 +99,10 @@ static bool take_settings(struct rg_gate_cell *cell, const char *assignments)
     for (char *c = cell->assignments; c && *c; c++)
         if (*c == '\t')
             *c = ' ';
-    return cell->assignments
-               ? rg_params_set_all(cell->technique->params, cell->settings, cell->assignments)
-               : rg_error("no memory");
+    if (!cell->assignments)
+        return rg_error("no memory");
+    return rg_params_set_all(cell->technique->params, cell->settings, cell->assignments) &&
+           has_keys_once(cell->assignments);
 }
 
 static bool take_fields(struct rg_gate_cell *cell, char *text)

@@ -87,6 +87,7 @@ static void what_is_wrong_is_said_with_its_line(void **state)
         {"a raster 8x8 1 sed=1", "my.txt:1: parameter 'sed': raster has none"},
         {"a raster 8x8 1 seed=x", "my.txt:1: parameter 'seed': 'x' is no whole number"},
         {"a raster 8x8 1 seed", "my.txt:1: parameter 'seed': write it as"},
+        {"a raster 8x8 1 seed=1 billboards=2 \tseed=1", "my.txt:1: parameter 'seed' stands twice"},
         {"a raster 8x8 1\nb raster 8x8 1\na raster 8x8 1", "my.txt:3: name 'a': line 1 has it"},
         {"a raster 8x8 1\na\x01 raster 8x8 1", "my.txt:2: control character 0x01 in column 2"},
         {"a raster 8x8 1\rb", "my.txt:1: control character 0x0d"},

@@ -11,7 +11,9 @@
 #include <math.h>
 
 #include "core/base/log.h"
+#include "harness/compare/gate/cells/cells.h"
 #include "harness/compare/gate/expected/expected.h"
+#include "harness/compare/gate/run/strays.h"
 #include "harness/compare/gate/text/date.h"
 #include "harness/compare/gate/text/glob.h"
 
@@ -379,6 +381,39 @@ static void large_files_are_read(void **state)
     assert_false(rg_glob(name, "nnnnnnnnnnnnnnnnnnnnnnnn"));
 }
 
+// Two cells, and files whose patterns are of one, both or none.
+static void an_expectation_of_no_cell_is_told(void **state)
+{
+    (void)state;
+    static const char cells_text[] = "streaks/rain raster 8x8 1\nflow/pane raster 8x8 1\n";
+    static const struct {
+        const char *text;
+        enum rg_known_form form;
+        int strays;
+        const char *said;
+    } rows[] = {
+        {"skip streaks/rain" REST "skip *" REST "skip flow/?ane" REST, RG_FORM_OWN, 0, ""},
+        {"skip streaks/rian" REST, RG_FORM_OWN, 1, "my.txt:1: 'streaks/rian' is of no cell"},
+        {"skip *" REST "skip a" REST "skip b*" REST "skip c" REST, RG_FORM_OWN, 3,
+         "my.txt:5: 'a' is of no cell of this gate, and 2 more"},
+        {"streaks/rian,Fail", RG_FORM_FAILS, 0, ""},
+        {"streaks/rian", RG_FORM_SKIPS, 0, ""},
+    };
+    struct rg_gate_cells cells;
+    assert_true(rg_gate_cells_of("cells.txt", cells_text, strlen(cells_text), &cells));
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        struct rg_known expected = {.count = 0};
+        assert_true(add(&expected, "skip flow/*" REST, RG_FORM_OWN));
+        assert_true(add(&expected, rows[i].text, rows[i].form));
+        assert_int_equal(rg_gate_warn_of_strays(&expected, &cells), rows[i].strays);
+        assert_int_equal(logged_lines, rows[i].strays > 0);
+        if (strncmp(logged, rows[i].said, strlen(rows[i].said)) != 0)
+            fail_msg("row %zu said: %s", i, logged);
+        rg_known_free(&expected);
+    }
+    rg_gate_cells_free(&cells);
+}
+
 int main(void)
 {
     rg_log_listen(listen, NULL);
@@ -392,6 +427,7 @@ int main(void)
         cmocka_unit_test(what_is_wrong_is_said_with_its_line),
         cmocka_unit_test(an_empty_file_expects_nothing),
         cmocka_unit_test(large_files_are_read),
+        cmocka_unit_test(an_expectation_of_no_cell_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@ TESTS = ("command line, ci", "command line, reports")
 
 SHARDS, PARSE, FLAGS = "harness/compare/gate/report/shards.c", "harness/cli/parse.c", "harness/commands/comparing/gtest.c"
 RUN, AGREE, CASES, SIDES = (f"harness/compare/gate/run/{name}.c" for name in ("gate", "alike", "cases", "sides"))
+STRAYS, CELLS = "harness/compare/gate/run/strays.c", "harness/compare/gate/cells/cells.c"
 COMMAND = "harness/commands/comparing/gate.c"
 PICTURES, OUTPUTS = "harness/compare/gate/pictures/pictures.c", "harness/commands/comparing/outputs.c"
 
@@ -35,5 +36,10 @@ ROWS = [
     Fault(RUN, "return «is_kept» ? found", "true", "launches that are lost are not told of", tests=("command line, gates",)),
     Fault(RUN, "    «r->left_ms -= rg_now_ms() - start_ms;»", ";", "each device of two builds has half of the budget that others have taken", tests=("command line, gates",)),
     Fault("harness/record/passport/program.c", "    if («!*id»)\n", "false", "libraries without a build id are all the same", tests=("command line, gates",)),
+    Fault(STRAYS, "        any = «rg_glob(row->cell, cells->cells[i].name)»;", "true", "an expectation of no cell is silent", tests=("expectations", "command line, reports")),
+    Fault(STRAYS, "        if («row->file != file» ||", "false", "expectations of no cell are told of each file", tests=("expectations",)),
+    Fault(STRAYS, "if («known->files[file].form == RG_FORM_OWN»)", "true", "Mesa's lists of other suites are complained about", tests=("expectations",)),
+    Fault(COMMAND, "if («is_read && !o->gtest.list»)", "false", "nobody is told of an expectation of no cell", tests=("command line, reports",)),
+    Fault(CELLS, "           «has_keys_once(cell->assignments)»;", "true", "of a parameter that stands twice the last holds", tests=("gate cells",)),
     Fault(COMMAND, "if («gate.is_told» && ", "true", "a gate that fails early leaves an empty report", tests=("command line, gates",)),
 ]

@@ -1,0 +1,14 @@
+// Expectations of cells that there are none of.
+#ifndef RG_HARNESS_COMPARE_GATE_RUN_STRAYS_H
+#define RG_HARNESS_COMPARE_GATE_RUN_STRAYS_H
+
+#include "harness/compare/gate/cells/cells.h"
+#include "harness/compare/gate/expected/expected.h"
+
+// Logs a warning "FILE:LINE: ..." for the first expectation of each file whose pattern is of no
+// cell: its name is mistyped, or what it was of is gone, and it would be silent about that for
+// ever. Mesa's files are not looked at, for they are of other suites as well. Returns how many
+// expectations there are of that kind.
+int64_t rg_gate_warn_of_strays(const struct rg_known *known, const struct rg_gate_cells *cells);
+
+#endif
