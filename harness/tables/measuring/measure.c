@@ -62,8 +62,44 @@ static void show_share(double share, void *user)
 
 // --- rows are opened ---
 
+// What the cell with this number, from 1, has of a row's units.
+static int64_t share_of(int64_t units, int64_t cell, const struct rg_result *result)
+{
+    const int64_t cells = rg_result_row_cells(result);
+    return units * cell / cells - units * (cell - 1) / cells;
+}
+
+// What samples of jobs take, and what opening these again for further visits does.
+static double samples_ms(const struct measuring *m, const struct rg_job *jobs, int count,
+                         int visits)
+{
+    double ms = rg_jobs_expected_ms(jobs, count, &m->options);
+    for (int i = 0; i < count; i++)
+        if (jobs[i].record->outcome == RG_OK)
+            ms += (visits - 1) *
+                  (jobs[i].record->create_ms + jobs[i].check_frames * jobs[i].warm_frame_ms);
+    return ms;
+}
+
+// What a row took to open, and what its samples will take, tells of the rows that are left.
+static void learn(struct measuring *m, int row, int64_t shown, double ms, int first_job)
+{
+    const struct rg_job *jobs = m->batch.jobs + first_job;
+    const double sampling_ms = samples_ms(m, jobs, m->batch.job_count - first_job, 1);
+    rg_table_bar_correct(&m->bar, shown, ms);
+    rg_table_bar_learn(&m->bar, RG_BAR_OPENING,
+                       rg_table_row_units(m->result, &m->bar, row, RG_BAR_OPENING), ms);
+    rg_table_bar_learn(&m->bar, RG_BAR_SAMPLING,
+                       rg_table_row_units(m->result, &m->bar, row, RG_BAR_SAMPLING), sampling_ms);
+}
+
 static void prepare(struct measuring *m, int row)
 {
+    const int64_t units = rg_table_row_units(m->result, &m->bar, row, RG_BAR_OPENING);
+    const int64_t shown = rg_table_bar_begin(&m->bar, RG_BAR_OPENING, units);
+    const double start_ms = rg_now_ms();
+    const int first_job = m->batch.job_count;
+    int64_t cells = 0;
     rg_progress_label(m->bar.progress, "%s, row %d", m->table->id, row + 1);
     for (struct rg_place at = rg_result_start_row(row);
          rg_result_next_in_row(m->result, &at) && !rg_interrupted();) {
@@ -71,8 +107,10 @@ static void prepare(struct measuring *m, int row)
             rg_batch_tell_texture(&m->batch, at);
         else if (at.device == 0)
             rg_batch_prepare(&m->batch, at, &m->options);
-        rg_progress_add(m->bar.progress, m->bar.rows[row].open_units);
+        rg_progress_add(m->bar.progress, share_of(shown, ++cells, m->result));
     }
+    if (!rg_interrupted())
+        learn(m, row, shown, rg_now_ms() - start_ms, first_job);
 }
 
 // Takes a row that an earlier run measured. False where it has to be measured now; a part of it may
@@ -98,8 +136,11 @@ static void leave_out(struct measuring *m, int row)
 {
     struct rg_result *result = m->result;
     for (; row <= result->last_row; row++) {
-        if (rg_result_wants(result, row))
-            rg_progress_grow(m->bar.progress, -rg_table_row_units(result, &m->bar, row));
+        for (int part = 0; part < RG_BAR_PARTS && rg_result_wants(result, row); part++) {
+            const int64_t units = rg_table_row_units(result, &m->bar, row, (enum rg_bar_part)part);
+            rg_progress_grow(m->bar.progress,
+                             -rg_table_bar_begin(&m->bar, (enum rg_bar_part)part, units));
+        }
         result->left_out[row - result->first_row] = true;
     }
 }
@@ -167,23 +208,18 @@ static void close_jobs(struct measuring *m, const struct group *group)
     }
 }
 
-// Once its jobs are open it is known what its samples take, and what opening them again for other
-// visits does.
+// Once its jobs are open it is known what its samples take.
 static void expect_samples(struct measuring *m, struct group *group, int visits)
 {
     const double unit_ms = rg_progress_unit_ms(m->bar.progress, rg_now_ms());
-    const struct rg_job *jobs = m->batch.jobs + group->first_job;
-    double ms = rg_jobs_expected_ms(jobs, group->job_count, &m->options);
-    for (int i = 0; i < group->job_count; i++)
-        if (jobs[i].record->outcome == RG_OK)
-            ms += (visits - 1) *
-                  (jobs[i].record->create_ms + jobs[i].check_frames * jobs[i].warm_frame_ms);
+    const double ms = samples_ms(m, m->batch.jobs + group->first_job, group->job_count, visits);
     int64_t planned = 0;
     for (int row = group->first_row; row <= group->last_row; row++)
         if (rg_result_wants(m->result, row) && !rg_journal_has(m->journal, row))
-            planned += m->bar.rows[row].sampling_units * rg_result_row_cells(m->result);
-    group->units = unit_ms > 0 ? (int64_t)(ms / unit_ms) : planned;
-    rg_progress_grow(m->bar.progress, group->units - planned);
+            planned += rg_table_row_units(m->result, &m->bar, row, RG_BAR_SAMPLING);
+    const int64_t shown = rg_table_bar_begin(&m->bar, RG_BAR_SAMPLING, planned);
+    group->units = unit_ms > 0 ? (int64_t)(ms / unit_ms) : shown;
+    rg_progress_grow(m->bar.progress, group->units - shown);
 }
 
 // Takes the samples of a group up to a visit's share of all.
@@ -236,19 +272,20 @@ bool rg_table_measure(struct rg_result *result, const struct rg_table *table, st
                       struct rg_journal *journal, const struct rg_table_bar *bar)
 {
     struct rg_progress own;
+    struct rg_table_learned learned = {0};
     struct measuring m = {
         .result = result,
         .table = table,
         .kept = kept,
         .journal = journal,
-        .bar = bar ? *bar : rg_table_bar_of(NULL, &own),
+        .bar = bar ? *bar : rg_table_bar_of(NULL, &own, &learned),
         .options = *(result->few_samples ? rg_table_few_samples() : rg_table_options(result->full)),
         .batch = {.result = result, .table = table, .kept = kept},
         .kept_ms = rg_now_ms()};
     m.options.progress = show_share;
     m.options.user = &m;
     if (!bar)
-        rg_progress_start(&own, rg_table_units(result, &m.bar, journal));
+        rg_progress_start(&own, rg_table_bar_add(&m.bar, result, journal));
     const bool ok = measure(&m);
     if (!bar)
         rg_progress_end(&own);

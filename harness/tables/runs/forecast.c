@@ -16,14 +16,14 @@ bool rg_forecast_is_worth(int cells, bool full)
     return full || cells >= MANY_CELLS;
 }
 
-void rg_forecast(struct rg_forecast *forecasts, int count, struct rg_kept *kept, bool full)
+void rg_forecast(struct rg_forecast *forecasts, int count, struct rg_kept *kept)
 {
     const struct rg_table *tables[RG_BUDGET_TABLES];
     struct rg_budget_kind *kinds = rg_alloc((size_t)count, sizeof(*kinds), "forecast");
     for (int i = 0; i < count; i++)
         tables[i] = forecasts[i].table;
     for (int i = 0; kinds && i < count && !rg_interrupted(); i++)
-        rg_budget_probe_rows(tables[i], kept, full, forecasts[i].rows,
+        rg_budget_probe_rows(tables[i], kept, &forecasts[i].part, forecasts[i].rows,
                              &kinds[rg_budget_kind_of(tables, i)], forecasts[i].times);
     free(kinds);
 }

@@ -12,12 +12,14 @@ bool rg_forecast_is_worth(int cells, bool full);
 // What is asked for of a table, and what its rows' cells are expected to take.
 struct rg_forecast {
     const struct rg_table *table;
-    bool rows[RG_TABLE_ROWS];
-    struct rg_cell_time times[RG_TABLE_ROWS]; // on average over the devices
+    struct rg_table_part part;
+    bool rows[RG_TABLE_ROWS];                 // of it, that are not there yet
+    struct rg_cell_time times[RG_TABLE_ROWS]; // on average over works and devices
 };
 
-// Opens the rows of each table on cpu, in its first variant and work, and one on other devices, and
-// fills in what their cells are expected to take. Of what cannot be opened, cells end at once.
-void rg_forecast(struct rg_forecast *forecasts, int count, struct rg_kept *kept, bool full);
+// Opens the rows of each table on cpu, in its first variant and work, and one in each work and on
+// other devices, and fills in what their cells are expected to take. Of what cannot be opened,
+// cells end at once.
+void rg_forecast(struct rg_forecast *forecasts, int count, struct rg_kept *kept);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "harness/tables/table.h"
 
@@ -29,7 +30,8 @@ void *rg_look_settings(const struct rg_looking *p, int row, enum rg_budget_size 
     void *defaults = rg_settings_create(technique), *of_row = NULL, *settings = NULL;
     table.quick = quick;
     if (quick)
-        assignments = rg_table_assignments(&p->result, &table, (struct rg_place){.row = row});
+        assignments = rg_table_assignments(&p->result, &table,
+                                           (struct rg_place){.row = row, .work = p->work});
     if (defaults && assignments)
         of_row = rg_settings_copy(technique, defaults, assignments);
     if (of_row)
@@ -127,4 +129,57 @@ bool rg_look_ratio(struct rg_looking *p, struct rg_device *device, struct rg_fra
     }
     *ratio = *known;
     return true;
+}
+
+// --- other works ---
+
+static const char *set_of(const struct rg_looking *p, int work)
+{
+    return rg_table_work_at(&p->result, p->table, (struct rg_place){.work = work})->set;
+}
+
+static struct rg_work_frames *find_work(struct rg_budget_kind *kind, const char *set,
+                                        const char *first_set)
+{
+    for (int i = 0; i < kind->work_count; i++)
+        if (!strcmp(kind->works[i].set, set) && !strcmp(kind->works[i].first_set, first_set))
+            return &kind->works[i];
+    return NULL;
+}
+
+// What is known of a work is forgotten where there are more than there is room for.
+static struct rg_work_frames *add_work(struct rg_budget_kind *kind, const char *set,
+                                       const char *first_set)
+{
+    const int last = RG_RESULT_WORKS - 1;
+    struct rg_work_frames *work = &kind->works[kind->work_count < last ? kind->work_count : last];
+    kind->work_count += kind->work_count < RG_RESULT_WORKS;
+    *work = (struct rg_work_frames){.set = set, .first_set = first_set};
+    return work;
+}
+
+const struct rg_work_frames *rg_look_work(struct rg_looking *p, int work,
+                                          const struct rg_frames of[RG_MAX_DEVICES],
+                                          const bool is_there[RG_MAX_DEVICES])
+{
+    const char *set = set_of(p, work), *first_set = set_of(p, 0);
+    struct rg_work_frames *found = find_work(p->kind, set, first_set);
+    if (found)
+        return found;
+    found = add_work(p->kind, set, first_set);
+    p->work = work;
+    for (int d = 0; d < p->kept->devices->count; d++) {
+        struct rg_cell_frames f;
+        if (!is_there[d] ||
+            !rg_look_row(p, p->kept->devices->devices[d], p->last, p->smallest, "", &f))
+            continue;
+        const struct rg_frames first = rg_look_scaled(&p->of_row[p->last], &of[d]);
+        struct rg_frames own = {.open_ms = f.open_ms, .step_ms = f.step_ms};
+        for (int size = 0; size < RG_BUDGET_SIZES; size++)
+            own.frame_ms[size] = f.frame_ms;
+        found->by_first[d] = ratio_of(&own, &first);
+        found->is_there[d] = true;
+    }
+    p->work = 0;
+    return found;
 }

@@ -21,6 +21,13 @@ struct rg_budget_kind {
     double dry_share;                   // and one without rain
     bool has_truth;                     // what follows is known, too
     struct rg_cell_frames shown, truth; // an image with all that it shows, and its truth
+    // Works beside the first of a table, by their settings: what they take by what that takes.
+    struct rg_work_frames {
+        const char *set, *first_set;
+        bool is_there[RG_MAX_DEVICES]; // what a device cannot do takes nothing
+        struct rg_frames by_first[RG_MAX_DEVICES];
+    } works[RG_RESULT_WORKS];
+    int work_count;
 };
 
 // A table, while its cells are probed.
@@ -31,6 +38,7 @@ struct rg_looking {
     enum rg_budget_size smallest;
     bool rows[RG_TABLE_ROWS]; // that are looked at, on cpu
     int first, last;          // of them
+    int work;                 // of the result, that is looked at
     struct rg_budget_kind *kind;
     struct rg_device *cpu;
     struct rg_frames of_row[RG_TABLE_ROWS]; // on cpu
@@ -51,5 +59,10 @@ void rg_look_extend(struct rg_frames *frames, enum rg_budget_size smallest, cons
 // found now, by the last row.
 bool rg_look_ratio(struct rg_looking *looking, struct rg_device *device, struct rg_frames *ratio);
 struct rg_frames rg_look_scaled(const struct rg_frames *cpu, const struct rg_frames *ratio);
+// What a work of the result that is not its first takes by what the first does, which is `of` on
+// each device: what is known of its technique, or found now, by the last row.
+const struct rg_work_frames *rg_look_work(struct rg_looking *looking, int work,
+                                          const struct rg_frames of[RG_MAX_DEVICES],
+                                          const bool is_there[RG_MAX_DEVICES]);
 
 #endif

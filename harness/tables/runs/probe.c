@@ -147,6 +147,9 @@ struct known {
     struct rg_frames reference, of[RG_MAX_DEVICES];
     bool works[RG_MAX_DEVICES]; // what cannot be opened takes nothing
     double a_pixel_ms;
+    // Works beside the first that are looked at.
+    const struct rg_work_frames *others[RG_RESULT_WORKS];
+    int other_count;
 };
 
 static bool learn_devices(struct rg_looking *p, struct known *known)
@@ -160,21 +163,46 @@ static bool learn_devices(struct rg_looking *p, struct known *known)
     return true;
 }
 
+// A frame of another work can take a hundred times as long, as where each drop asks the device a
+// question.
+static void learn_works(struct rg_looking *p, struct known *known)
+{
+    while (known->other_count + 1 < p->result.work_count) {
+        const int work = known->other_count + 1;
+        known->others[known->other_count++] = rg_look_work(p, work, known->of, known->works);
+    }
+}
+
+static void add_cost(struct rg_budget_cost *sum, struct rg_budget_cost cost, int works)
+{
+    sum->few_s += cost.few_s / works;
+    sum->all_s += cost.all_s / works;
+    sum->sampling_s += cost.sampling_s / works;
+}
+
+// What cells of a row take on a device, on average over the works that are looked at.
+static void add_device(const struct rg_looking *p, int row, const struct known *known, int device,
+                       enum rg_budget_size size, struct rg_budget_cost *sum)
+{
+    const struct rg_frames first = rg_look_scaled(&p->of_row[row], &known->of[device]);
+    for (int work = 0; work <= known->other_count; work++) {
+        const struct rg_work_frames *other = work ? known->others[work - 1] : NULL;
+        const struct rg_frames frames =
+            other ? rg_look_scaled(&first, &other->by_first[device]) : first;
+        const struct rg_cell_frames f = at_size(&frames, size);
+        if (other ? other->is_there[device] : known->works[device])
+            add_cost(sum, cost_of(p, &f), known->other_count + 1);
+    }
+}
+
 // What cells of a row take, at each size and on each device.
 static void add_row(const struct rg_looking *p, int row, const struct known *known,
                     struct rg_budget_table *costs)
 {
     for (int size = 0; size < RG_BUDGET_SIZES; size++) {
         costs->check_s[size] += 1e-3 * check_ms(p, row, size, &known->reference, known->a_pixel_ms);
-        for (int d = 0; d < p->kept->devices->count; d++) {
-            const struct rg_frames frames = rg_look_scaled(&p->of_row[row], &known->of[d]);
-            const struct rg_cell_frames f = at_size(&frames, size);
-            const struct rg_budget_cost cost = cost_of(p, &f);
-            struct rg_budget_cost *sum = &costs->cells[d][size];
-            sum->few_s += known->works[d] ? cost.few_s : 0;
-            sum->all_s += known->works[d] ? cost.all_s : 0;
-            sum->sampling_s += known->works[d] ? cost.sampling_s : 0;
-        }
+        for (int d = 0; d < p->kept->devices->count; d++)
+            add_device(p, row, known, d, size, &costs->cells[d][size]);
     }
 }
 
@@ -193,9 +221,8 @@ static void divide(struct rg_budget_table *costs, int rows)
 
 // Begins looking at these rows of a table; NULL: at its ends.
 static void begin(struct rg_looking *p, const struct rg_table *table, struct rg_kept *kept,
-                  bool full, const bool *rows, struct rg_budget_kind *kind)
+                  const struct rg_table_part *part, const bool *rows, struct rg_budget_kind *kind)
 {
-    const struct rg_table_part part = {.last_row = table->row_count - 1, .full = full};
     *p = (struct rg_looking){.table = table, .kept = kept, .kind = kind, .first = -1};
     if (rows)
         memcpy(p->rows, rows, sizeof(p->rows));
@@ -205,17 +232,18 @@ static void begin(struct rg_looking *p, const struct rg_table *table, struct rg_
         p->first = p->rows[row] && p->first < 0 ? row : p->first;
         p->last = p->rows[row] ? row : p->last;
     }
-    rg_table_begin(&p->result, table, &part, kept->devices);
+    rg_table_begin(&p->result, table, part, kept->devices);
 }
 
 bool rg_budget_probe(const struct rg_table *table, struct rg_kept *kept, bool full,
                      struct rg_budget_kind *kind, struct rg_budget_table *costs)
 {
+    const struct rg_table_part all = {.last_row = table->row_count - 1, .full = full};
     struct rg_looking p;
     struct known known;
     int rows = 0;
     name_costs(table, costs);
-    begin(&p, table, kept, full, NULL, kind);
+    begin(&p, table, kept, &all, NULL, kind);
     p.smallest = full ? RG_BUDGET_WHOLE : costs->smallest;
     const bool ok = table->is_of_textures || (probe_cpu(&p) && learn_devices(&p, &known));
     if (table->is_of_textures)
@@ -246,22 +274,24 @@ static struct rg_cell_time time_of(const struct rg_budget_table *costs, int devi
     return time;
 }
 
-bool rg_budget_probe_rows(const struct rg_table *table, struct rg_kept *kept, bool full,
-                          const bool rows[RG_TABLE_ROWS], struct rg_budget_kind *kind,
-                          struct rg_cell_time times[RG_TABLE_ROWS])
+bool rg_budget_probe_rows(const struct rg_table *table, struct rg_kept *kept,
+                          const struct rg_table_part *part, const bool rows[RG_TABLE_ROWS],
+                          struct rg_budget_kind *kind, struct rg_cell_time times[RG_TABLE_ROWS])
 {
     struct rg_looking p;
     struct known known;
     struct rg_budget_table costs;
     const int devices = kept->devices->count;
     name_costs(table, &costs);
-    begin(&p, table, kept, full, rows, kind);
+    begin(&p, table, kept, part, rows, kind);
     p.smallest = RG_BUDGET_WHOLE;
     bool ok = p.first >= 0;
     if (ok && table->is_of_textures)
         rg_look_textures(&p, &costs);
     else
         ok = ok && probe_cpu(&p) && learn_devices(&p, &known);
+    if (ok && !table->is_of_textures)
+        learn_works(&p, &known);
     for (int row = 0; ok && row < table->row_count; row++) {
         if (!table->is_of_textures) {
             costs = (struct rg_budget_table){0};

@@ -14,11 +14,12 @@
 bool rg_budget_probe(const struct rg_table *table, struct rg_kept *kept, bool full,
                      struct rg_budget_kind *kind, struct rg_budget_table *costs);
 
-// Opens rows of a table likewise, all of them on cpu, at their whole size, and fills in what cells
-// of each take on average over the devices.
-bool rg_budget_probe_rows(const struct rg_table *table, struct rg_kept *kept, bool full,
-                          const bool rows[RG_TABLE_ROWS], struct rg_budget_kind *kind,
-                          struct rg_cell_time times[RG_TABLE_ROWS]);
+// Opens rows of a part of a table likewise, all of them on cpu and the last in each of its works on
+// each device, at their whole size, and fills in what cells of each take on average over works and
+// devices.
+bool rg_budget_probe_rows(const struct rg_table *table, struct rg_kept *kept,
+                          const struct rg_table_part *part, const bool rows[RG_TABLE_ROWS],
+                          struct rg_budget_kind *kind, struct rg_cell_time times[RG_TABLE_ROWS]);
 
 // Expects of a table what another of its technique takes, where there is no time to look at it.
 void rg_budget_alike(const struct rg_table *table, const struct rg_budget_table *other,

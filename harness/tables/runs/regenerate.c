@@ -19,8 +19,9 @@ struct task {
     const struct rg_table *table;
     struct rg_result result;
     struct rg_journal *journal;
-    struct rg_table_bar bar; // its part of the command's; without a progress it has its own
-    bool is_lost;            // its files, or what it prints, could not be written
+    struct rg_table_bar bar;         // its part of the command's; without a progress it has its own
+    struct rg_table_learned learned; // of its technique, where it is the first of it
+    bool is_lost;                    // its files, or what it prints, could not be written
 };
 
 static void tell_resumed(const struct task *task)
@@ -155,31 +156,41 @@ static int cells_of(const struct task *tasks, int count)
 // What cells of each table are expected to take. NULL where it is not worth finding out; the caller
 // frees it.
 static struct rg_forecast *foresee(const struct task *tasks, int count, struct rg_kept *kept,
-                                   bool full)
+                                   const struct rg_regenerate_options *o)
 {
-    if (count > RG_BUDGET_TABLES || !rg_forecast_is_worth(cells_of(tasks, count), full))
+    if (count > RG_BUDGET_TABLES || !rg_forecast_is_worth(cells_of(tasks, count), o->full))
         return NULL;
     struct rg_forecast *forecasts = rg_alloc((size_t)count, sizeof(*forecasts), "forecast");
     for (int i = 0; forecasts && i < count; i++) {
         const struct rg_result *result = &tasks[i].result;
         forecasts[i].table = tasks[i].table;
+        forecasts[i].part = part_of(tasks[i].table, o);
         for (int row = result->first_row; row <= result->last_row; row++)
             forecasts[i].rows[row] =
                 rg_result_wants(result, row) && !rg_journal_has(tasks[i].journal, row);
     }
     if (forecasts)
-        rg_forecast(forecasts, count, kept, full);
+        rg_forecast(forecasts, count, kept);
     return forecasts;
 }
 
-// Begins the command's bar, of which each table has its part.
+// Begins the command's bar, of which each table has its part. What one tells of its technique holds
+// for the others of it.
 static void begin_bar(struct task *tasks, int count, const struct rg_forecast *forecasts,
                       struct rg_progress *progress)
 {
+    const struct rg_table *tables[RG_BUDGET_TABLES] = {NULL};
     int64_t units = 0;
     for (int i = 0; i < count; i++) {
-        tasks[i].bar = rg_table_bar_of(forecasts ? forecasts[i].times : NULL, progress);
-        units += rg_table_units(&tasks[i].result, &tasks[i].bar, tasks[i].journal);
+        struct rg_table_bar *bar = &tasks[i].bar;
+        int kind = i;
+        if (forecasts) {
+            tables[i] = tasks[i].table;
+            kind = rg_budget_kind_of(tables, i);
+        }
+        *bar =
+            rg_table_bar_of(forecasts ? forecasts[i].times : NULL, progress, &tasks[kind].learned);
+        units += rg_table_bar_add(bar, &tasks[i].result, tasks[i].journal);
     }
     rg_progress_start_expected(progress, units, forecasts ? RG_TABLE_UNIT_MS : 0);
 }
@@ -238,7 +249,7 @@ static int run_tasks(struct task *tasks, int count, const struct rg_devices *dev
     struct rg_progress progress;
     int exit = RG_EXIT_PASS;
     rg_interrupt_watch();
-    struct rg_forecast *forecasts = foresee(tasks, count, &kept, o->full);
+    struct rg_forecast *forecasts = foresee(tasks, count, &kept, o);
     begin_bar(tasks, count, forecasts, &progress);
     free(forecasts);
     for (int i = 0; i < count && !rg_interrupted(); i++)

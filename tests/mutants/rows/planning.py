@@ -5,7 +5,7 @@ TESTS = ("budget", "planner", "time left")
 
 PLAN, CELL, BUDGET, PROBE = ("harness/tables/runs/plan.c", "harness/tables/measuring/cell.c", "harness/tables/runs/budget.c",
                              "harness/tables/runs/probe.c")
-LOOK, NEEDED = "harness/tables/runs/look.c", "harness/tables/runs/needed.c"
+LOOK, NEEDED, BAR = "harness/tables/runs/look.c", "harness/tables/runs/needed.c", "harness/tables/measuring/bar.c"
 
 ROWS = [
     Fault(PLAN, "for (enum stage stage = «FIRST»; stage < STAGES; stage++) {", "CLAIMED", "a dear table of claims comes before cheap ones"),
@@ -40,6 +40,13 @@ ROWS = [
     Fault(LOOK, "table.quick = «quick»;", "p->table->quick", "small pictures show as much as whole ones", tests=("planner",)),
     Fault(PLAN, "return table->truth && («size == RG_BUDGET_WHOLE» || rg_needs_truth(table));", "true", "errors of small pictures are measured that no claim is about", tests=("planner",)),
     Fault("harness/measure/measure.c", "all_ms += last == r->all ? «passes_ms(job, options)» : 0;", "0", "what telling passes apart takes is not told", tests=("time left",)),
+    Fault(LOOK, "    if («found»)\n        return found;", "false", "each table looks at its other works", tests=("planner",)),
+    Fault(LOOK, ".work = «p->work»}", "0", "other works are expected to take what the first does", tests=("planner",)),
+    Fault(PROBE, "other ? rg_look_scaled(&first, «&other->by_first[device]») : first", "&known->of[0]", "a work takes what a device does", tests=("planner",)),
+    Fault(BAR, "return planned > 0 ? «learned->parts[part].taken / planned» : 1;", "1", "rows that were opened tell nothing of those that are left", tests=("time left",)),
+    Fault(BAR, "rg_progress_add(bar->progress, «more»);", "0", "a row that took longer counts as due", tests=("time left",)),
+    Fault("harness/tables/runs/regenerate.c", "&tasks[«kind»].learned", "i", "each table learns for itself", tests=("time left",)),
+    Fault("harness/tables/runs/regenerate.c", "forecasts[i].part = «part_of(tasks[i].table, o)»;", "(struct rg_table_part){.last_row = tasks[i].table->row_count - 1}", "full mode is expected to take what quick mode does", tests=("time left",)),
     Fault(PROBE, "add_row(&p, p.rows[row] ? «row» : p.last, &known, &costs);", "p.last", "each row is expected to take what the last one does", tests=("planner", "time left")),
-    Fault("harness/tables/measuring/measure.c", "group->units = unit_ms > 0 ? «(int64_t)(ms / unit_ms)» : planned;", "planned / 3", "what open jobs take is told wrongly", tests=("time left",)),
+    Fault("harness/tables/measuring/measure.c", "group->units = unit_ms > 0 ? «(int64_t)(ms / unit_ms)» : shown;", "shown / 3", "what open jobs take is told wrongly", tests=("time left",)),
 ]

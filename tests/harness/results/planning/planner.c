@@ -190,11 +190,12 @@ static void a_forecast_is_of_each_row(void **state)
     static const double slowness[] = {1, 10, 3}, fixed_ms[] = {2, 4, 10};
     const struct rg_measure_options *full = rg_table_options(true);
     const double pixels_ms = 1.25e-4 * 524288, dry_share = (1 + pixels_ms) / (11 + pixels_ms);
-    struct rg_forecast forecasts[2] = {{.table = &table, .rows = {true, true, true}},
-                                       {.table = &table, .rows = {true, false, true}}};
+    const struct rg_table_part all = {.last_row = 2, .full = true};
+    struct rg_forecast forecasts[2] = {{.table = &table, .part = all, .rows = {true, true, true}},
+                                       {.table = &table, .part = all, .rows = {true, false, true}}};
     struct slow_rig rig;
     slow_begin(&rig);
-    rg_forecast(forecasts, 2, &rig.kept, true);
+    rg_forecast(forecasts, 2, &rig.kept);
     for (int row = 0; row < 3; row++) {
         const double ms = 1 + fixed_ms[row] + pixels_ms;
         double open_ms = 10 * (40 + 4 + ms) + 40 + 4 + dry_share * ms, sampling_ms = 0;
@@ -216,6 +217,39 @@ static void a_forecast_is_of_each_row(void **state)
     slow_end(&rig);
     assert_true(rg_forecast_is_worth(1, true));
     assert_false(rg_forecast_is_worth(299, false));
+}
+
+// A work that takes longer is looked at on each device, once for tables whose works are the same; a
+// cell takes what it does on average over the works that are asked for.
+static void a_forecast_is_of_each_work(void **state)
+{
+    (void)state;
+    const struct rg_table_part all = {.last_row = 2, .full = true};
+    const struct rg_table_part one = {.last_row = 2, .full = true, .work = "ours"};
+    struct rg_table worked = table;
+    worked.works[0] = (struct rg_table_work){.name = "paper", .set = "", .saves = ""};
+    worked.works[1] = (struct rg_table_work){.name = "ours", .set = "fixed_ms=90", .saves = ""};
+    struct rg_forecast f[4] = {{.table = &table, .part = all, .rows = {true, true, true}},
+                               {.table = &worked, .part = all, .rows = {true, true, true}},
+                               {.table = &worked, .part = all, .rows = {true, true, true}},
+                               {.table = &worked, .part = one, .rows = {true, true, true}}};
+    struct slow_rig rig;
+    slow_begin(&rig);
+    rg_forecast(f, 1, &rig.kept);
+    const int first_opened = slow_opened;
+    rg_forecast(f + 1, 2, &rig.kept);
+    // The dry row and two devices for the technique, three rows a table, and the work on three.
+    assert_int_equal(first_opened, 3 + 1 + 2);
+    assert_int_equal(slow_opened - first_opened, 3 + 1 + 2 + 3 + 3);
+    rg_forecast(f + 3, 1, &rig.kept);
+    const int last = 2;
+    const double first_ms = f[0].times[last].sampling_ms, both_ms = f[1].times[last].sampling_ms;
+    const double ours_ms = f[3].times[last].sampling_ms;
+    assert_true(ours_ms > first_ms);
+    assert_ms(both_ms, (first_ms + ours_ms) / 2);
+    for (int row = 0; row <= last; row++)
+        assert_ms(f[2].times[row].sampling_ms, f[1].times[row].sampling_ms);
+    slow_end(&rig);
 }
 
 // --- planning anew ---
@@ -424,6 +458,7 @@ int main(void)
         cmocka_unit_test(a_device_that_fails_takes_nothing),
         cmocka_unit_test(textures_take_what_opening_them_takes),
         cmocka_unit_test(a_forecast_is_of_each_row),
+        cmocka_unit_test(a_forecast_is_of_each_work),
         cmocka_unit_test(a_plan_that_is_kept_is_not_made_anew),
         cmocka_unit_test(cells_that_take_longer_have_the_rest_planned_anew),
         cmocka_unit_test(what_comes_behind_has_its_least_left),

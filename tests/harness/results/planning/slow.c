@@ -15,7 +15,7 @@
 // --- a technique whose frames take what its settings say ---
 
 struct slow_settings {
-    double open_ms, step_ms, fixed_ms, pixel_us;
+    double open_ms, step_ms, fixed_ms, late_ms, pixel_us;
 };
 struct slow_instance {
     struct rg_instance pub;
@@ -27,10 +27,11 @@ static const struct rg_param params[] = {
     {"open_ms", RG_PARAM_FLOAT, AT(open_ms), 40, 0, 1e6, "ms", "of opening", NULL},
     {"step_ms", RG_PARAM_FLOAT, AT(step_ms), 1, 0, 1e6, "ms", "of simulating a frame", NULL},
     {"fixed_ms", RG_PARAM_FLOAT, AT(fixed_ms), 10, 0, 1e6, "ms", "of drawing it", NULL},
+    {"late_ms", RG_PARAM_FLOAT, AT(late_ms), 0, 0, 1e6, "ms", "more of it once rain fell", NULL},
     {"pixel_us", RG_PARAM_FLOAT, AT(pixel_us), 0.125, 0, 1e6, "us", "more of each pixel", NULL},
 };
 static const struct rg_param_table param_table = {
-    .technique = "slow", .rows = params, .count = 4, .settings_size = sizeof(struct slow_settings)};
+    .technique = "slow", .rows = params, .count = 5, .settings_size = sizeof(struct slow_settings)};
 
 // A device's item_ms is how many times as long it takes.
 static struct fake_device *fake_of(const struct rg_instance *instance)
@@ -42,6 +43,14 @@ static struct fake_device *fake_of(const struct rg_instance *instance)
 static double slowness(const struct rg_instance *instance)
 {
     return fake_of(instance)->item_ms * (instance->after_stage ? 1.5 : 1);
+}
+
+// What rain takes that has built up: more than anyone sees who looks at the first frames.
+static double late_ms(const struct rg_instance *instance)
+{
+    enum { BUILT_UP_FRAME = 3 };
+    const struct slow_settings *s = &((const struct slow_instance *)instance)->settings;
+    return instance->frame >= BUILT_UP_FRAME ? s->late_ms : 0;
 }
 
 int slow_opened;
@@ -58,7 +67,7 @@ static bool step_slow(struct rg_instance *instance)
 {
     const struct slow_instance *slow = (const struct slow_instance *)instance;
     instance->frame++;
-    fake_pass(slow->settings.step_ms * slowness(instance));
+    fake_pass((slow->settings.step_ms + late_ms(instance)) * slowness(instance));
     return true;
 }
 
@@ -67,7 +76,7 @@ static bool draw_slow(struct rg_instance *instance)
     const struct slow_settings *s = &((const struct slow_instance *)instance)->settings;
     const double pixels = (double)instance->target->desc.width * instance->target->desc.height;
     fake_of(instance)->shown = s->fixed_ms > 0 ? 0x3c00 : 0; // 1, or nothing without rain
-    fake_pass((s->fixed_ms + 1e-3 * s->pixel_us * pixels) * slowness(instance));
+    fake_pass((s->fixed_ms + late_ms(instance) + 1e-3 * s->pixel_us * pixels) * slowness(instance));
     return true;
 }
 
