@@ -35,7 +35,7 @@ ROWS = [
     Fault(JUDGE, "first - knee >= «h->claim->least * (knee - last)» && first > knee;", "knee - last", "a knee need not be one"),
     Fault(JUDGE, "best.against = fmin(1, best.against «* within»);", "* 1", "the best of many is chosen for nothing", lives="with one row within there is nothing to choose from, and of two the factor is within what the tests' counts allow"),
     Fault(JUDGE, "beaten = «one.in_favour > beaten.in_favour» ? one : beaten;", "one.in_favour < beaten.in_favour", "an optimum is always within, or never"),
-    Fault(JUDGE, "add_part(&parts, «is_crossed ? a : b, is_crossed ? b : a», faster_at_all);", "a, b", "curves that do not cross do"),
+    Fault(JUDGE, "const bool is_crossed = «h->rows[i] >= h->claim->knee»;", "true", "curves that do not cross do"),
     Fault(PRINTED, "return «within >= others»;", "within > 0", "a table whose optimum is elsewhere does not contradict"),
     Fault(HEARING, "is_of_errors(h) ? ERROR_ROWS : «h->count»;", "h->judgement.rows_needed", "a claim is never judged by fewer rows"),
     Fault(JUDGE, "if (is_of_some || «!h->missing» ||", "true", "some rows bear out what each must"),

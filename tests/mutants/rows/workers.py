@@ -50,7 +50,7 @@ ROWS = [
     Fault(DEVICE, "return («(unsigned)info->tier < RG_TIER_COUNT» && is_bool", "true", "a device may be of any tier"),
     Fault(DEVICE, "return «byte <= 1»;", "byte + 1", "a byte that is no bool is read as one"),
     Fault(DEVICE, "«are_limits(&info->limits)») ||", "true", "a device has limits below 0"),
-    Fault(MESSAGE, "&& number >= least «&& number <= most»)", "", "a time may be infinite"),
+    Fault(MESSAGE, "&& «number >= least && number <= most»)", "number >= least", "a time may be infinite"),
     Fault(FINDINGS, "«(ulps && !result->different)»)", "false", "results are apart where none differs"),
     Fault(FINDINGS, "audit->trusted = audit->has_timer && «rg_timer_is_trusted(audit->ratio)»;", "true", "a timer is trusted whatever its ratio"),
     Fault(MESSAGES, "if («counts[i] < -1»)", "false", "a count may be any number"),
