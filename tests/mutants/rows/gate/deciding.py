@@ -49,7 +49,7 @@ ROWS = [
     Fault(KEPT, "} else if («!json_equal(json_object_get(found, \"key\"), key)» ||", "false", "what another gate kept is gone on with", tests=("command line, losses",)),
     Fault(KEPT, "if (!found || «count < 0») {", "false", "a journal that is none is gone on with", tests=("command line, losses",), lives="its checksum tells one that was damaged before"),
     Fault(KEPT, "if («was && !strcmp(was, code)»)\n", "was != NULL", "times that other code took are gone on with", tests=("command line, losses",)),
-    Fault(KEPT, ".before = «source->before»", "NULL", "times that are kept are held against none of the baseline's", tests=("command line, losses",)),
+    Fault(KEPT, ".before = «source->before»", "NULL", "times that are kept are held against none of the baseline's", tests=("command line, baselines",)),
     Fault(KEPT, "    add(kept, row, quads);\n    return true;", "return true;", "a launch is not kept", tests=("command line, losses",)),
     Fault(KEPT, "if («json_integer_value(json_array_get(launch, 0)) == kept->launch»)", "true", "each launch is the first that was kept", tests=("command line, losses",)),
 ]
