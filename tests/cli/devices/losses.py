@@ -322,5 +322,25 @@ def check_signals(runner):
     return problems
 
 
-CHECKS = [check_signals, check_harness_killed, check_both_killed, check_fallen, check_second, check_held, check_full,
+def check_signal_at_hang(runner):
+    """SIGINT ends a command whose driver does not come back, long before --timeout"""
+    problems = []
+    away = "raingauge: device 'vulkan': its driver does not come back; raingauge ends without it\n"
+    for command, said in (("diff flow --size 64x64 --frame 1", ""), ("table raster-1 --rows 2-2 --quick -o {}/tables", away)):
+        with tempfile.TemporaryDirectory() as out:
+            env = dict(misbehaving.shim(runner, out, "vulkan", "vkCreateComputePipelines", "hang", 1), XDG_STATE_HOME=out, RG_HANGS=os.path.join(out, "hangs"))
+            process = runner.start(command.format(out).split() + ["--device", "cpu,vulkan", "--timeout", "86400"], env)
+            wait_for(lambda: os.path.exists(env["RG_HANGS"]) or process.poll() is not None)
+            workers = workers_of(process.pid)
+            process.send_signal(signal.SIGINT)
+            _, messages = process.communicate(timeout=LIMIT_S)
+            if process.returncode != -signal.SIGINT or messages != said:
+                problems.append("%s: exit status %d, %s" % (command, process.returncode, messages))
+            left = [file for _, _, files in os.walk(out) for file in files if ".tmp" in file]
+            if left or not wait_for(lambda: not any(map(runs, workers))):
+                problems.append("%s: %s" % (command, left or "a worker is left"))
+    return problems
+
+
+CHECKS = [check_signals, check_signal_at_hang, check_harness_killed, check_both_killed, check_fallen, check_second, check_held, check_full,
           check_read_only_midway, check_read_only, check_unprinted, check_sweep_unprinted, check_unread, check_earlier]

@@ -2,10 +2,10 @@
 // hangs, takes memory without end, or reports that the device is lost or has no room for work.
 //
 // RG_MISBEHAVE=FUNCTION:HOW:CALLS names which function does so, how (abort, fault, exit, hang,
-// swell, lost, none), and how many calls go well before. All else goes to the real driver. For
-// Vulkan this library is a driver of its own in front of lavapipe, which the loader finds by a
-// manifest (VK_DRIVER_FILES), and may change a constant of a shader; for EGL, OpenGL and OpenCL it
-// is loaded before others (LD_PRELOAD).
+// swell, lost, none), and how many calls go well before. RG_HANGS=FILE has a file made when it
+// hangs. All else goes to the real driver. For Vulkan this library is a driver of its own in front
+// of lavapipe, which the loader finds by a manifest (VK_DRIVER_FILES), and may change a constant of
+// a shader; for EGL, OpenGL and OpenCL it is loaded before others (LD_PRELOAD).
 #define _GNU_SOURCE // RTLD_NEXT, dlvsym
 #include <dlfcn.h>
 #include <stdbool.h>
@@ -43,6 +43,16 @@ static void fault(void)
     *nowhere = 1;
 }
 
+static void hang(void)
+{
+    const char *path = getenv("RG_HANGS");
+    FILE *file = path ? fopen(path, "w") : NULL;
+    if (file)
+        fclose(file);
+    for (;;)
+        pause();
+}
+
 // Whether this call is to report that the device is lost; it does not come back where it ends
 // otherwise.
 static bool misbehaves(const char *function)
@@ -62,8 +72,8 @@ static bool misbehaves(const char *function)
         _exit(0);
     if (!strcmp(how, "swell"))
         swell();
-    while (!strcmp(how, "hang"))
-        pause();
+    if (!strcmp(how, "hang"))
+        hang();
     return true;
 }
 
