@@ -4,8 +4,16 @@
 
 #include "harness/console/clock.h"
 #include "harness/measure/measure.h"
+#include "harness/record/stats.h"
 
-enum { MOST_FRAMES = 10 };
+enum { MOST_FRAMES = 40 };
+
+// What each pass of the record has taken in each frame.
+struct times {
+    struct rg_record *record;
+    int frame;
+    double ms[RG_MAX_PASS_TIMES][MOST_FRAMES];
+};
 
 // Of a run that may take no time one frame tells.
 static int least_frames(double passes_ms)
@@ -13,40 +21,43 @@ static int least_frames(double passes_ms)
     return passes_ms > 0 ? 2 : 1;
 }
 
-// Where the time of a pass is kept.
-static struct rg_pass_time *pass_of(struct rg_record *record, const char *name)
+// The place of a pass.
+static int pass_of(struct rg_record *record, const char *name)
 {
     for (int i = 0; i < record->pass_count; i++)
         if (!strncmp(record->passes[i].name, name, RG_NAME_SIZE - 1))
-            return &record->passes[i];
+            return i;
     if (record->pass_count == RG_MAX_PASS_TIMES)
-        return &record->passes[RG_MAX_PASS_TIMES - 1];
+        return RG_MAX_PASS_TIMES - 1;
     if (record->pass_count == RG_MAX_PASS_TIMES - 1)
         name = "other";
-    struct rg_pass_time *pass = &record->passes[record->pass_count++];
+    struct rg_pass_time *pass = &record->passes[record->pass_count];
     *pass = (struct rg_pass_time){.ms = 0};
     rg_text_copy(pass->name, sizeof(pass->name), name);
-    return pass;
+    return record->pass_count++;
 }
 
 static void add_stage(const char *kernel, double ms, void *user)
 {
-    pass_of(user, kernel)->ms += ms;
+    struct times *times = user;
+    times->ms[pass_of(times->record, kernel)][times->frame] += ms;
 }
 
-// The run ends with the frame in which it has taken so long.
+// The run ends with the frame in which it has taken so long. A pass takes its median over the
+// frames, for what disturbs the machine in one of them would be told as the pass's.
 bool rg_job_time_passes(struct rg_job *job, double passes_ms)
 {
     struct rg_record *record = job->record;
+    struct times times = {.record = record};
     const double start = rg_now_ms();
     bool ok = true;
     while (ok && record->pass_frames < MOST_FRAMES &&
            (record->pass_frames < least_frames(passes_ms) || rg_now_ms() - start < passes_ms)) {
-        ok = rg_job_be_ready(job, 1) && rg_session_stages(job->session, add_stage, record);
-        record->pass_frames++;
+        times.frame = record->pass_frames++;
+        ok = rg_job_be_ready(job, 1) && rg_session_stages(job->session, add_stage, &times);
     }
     for (int i = 0; i < record->pass_count; i++)
-        record->passes[i].ms /= record->pass_frames;
+        record->passes[i].ms = rg_median(times.ms[i], record->pass_frames).median;
     return ok;
 }
 

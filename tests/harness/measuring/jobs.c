@@ -212,7 +212,7 @@ static void test_samples(void **state)
         assert_int_equal(records[i].outcome, RG_OK);
         assert_int_equal(records[i].sample_count, jobs[i].record->wanted_samples);
         assert_in_range(records[i].sample_count, 2, 40);
-        assert_in_range(records[i].pass_frames, 2, 10);
+        assert_in_range(records[i].pass_frames, 2, 40);
         rg_job_close(&jobs[i]);
     }
     assert_true(records[1].sample_count <= 5); // of 40 ms, with the frame before it

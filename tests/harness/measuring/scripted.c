@@ -463,7 +463,7 @@ static void test_passes(void **state)
     static const struct {
         double frame_ms;
         int frames;
-    } cases[] = {{5, 10}, {39, 10}, {150, 3}, {500, 2}};
+    } cases[] = {{5, 40}, {39, 11}, {150, 3}, {500, 2}};
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         const struct fake_script script = {
             .letter = 'A', .step_ms = 2, .draw_ms = cases[i].frame_ms - 2};
@@ -482,6 +482,23 @@ static void test_passes(void **state)
         assert_ms(job->record->passes[1].ms, script.draw_ms);
         end(&bench);
     }
+}
+
+// Frames that something else disturbs are not told as what a pass takes.
+static void test_disturbed_passes(void **state)
+{
+    (void)state;
+    static const double frames_ms[] = {2, 2, 2, 2, 50, 50, 50, 50};
+    const struct fake_script script = {
+        .letter = 'A', .step_ms = 2, .draw_ms = 2, .frames_ms = frames_ms, .frame_count = 8};
+    struct bench bench;
+    begin(&bench);
+    struct rg_job *job = add(&bench, &script, 1);
+    assert_true(rg_job_open(job));
+    assert_true(rg_job_time_passes(job, 400));
+    assert_int_equal(job->record->pass_frames, 40);
+    assert_ms(job->record->passes[1].ms, 2);
+    end(&bench);
 }
 
 // --- what ends early ---
@@ -582,6 +599,7 @@ int main(void)
         cmocka_unit_test(test_expected),
         cmocka_unit_test(test_api_clock),
         cmocka_unit_test(test_passes),
+        cmocka_unit_test(test_disturbed_passes),
         cmocka_unit_test(test_interrupted),
         cmocka_unit_test(test_interrupted_samples),
         cmocka_unit_test(test_lost),

@@ -314,8 +314,8 @@ static void a_cell_takes_what_its_frames_take(void **state)
     // One of 1.5 for the passes.
     assert_true(fabs(rg_cell_ms(&plain, &slow, &few) - (7 + 8 * 3 + 11.5 * 500)) < 1e-6);
     assert_true(fabs(rg_cell_ms(&alone, &slow, &o) - (7 + 12 * 500)) < 1e-6);
-    // 3 + 4 + 4 + 15 samples of 15 + 1 frames + 10 frames of 1.5.
-    assert_true(fabs(rg_cell_ms(&plain, &fast, &o) - (7 + 8 * 0.25 + 266)) < 1e-6);
+    // 3 + 4 + 4 + 15 samples of 15 + 1 frames + 40 frames of 1.5.
+    assert_true(fabs(rg_cell_ms(&plain, &fast, &o) - (7 + 8 * 0.25 + 311)) < 1e-6);
     // 3, 4 of warm-up in 200 ms, 8 samples and a frame before each, 5 frames of 1.5.
     assert_true(fabs(rg_cell_ms(&plain, &middling, &o) - (7 + 8 * 3 + (3 + 4 + 16 + 7.5) * 60)) <
                 1e-6);
