@@ -6,6 +6,7 @@
 
 #include "core/base/array.h"
 #include "core/base/log.h"
+#include "core/base/text/wrap.h"
 
 int rg_sheet_column(struct rg_sheet *sheet, const char *format, ...)
 {
@@ -109,6 +110,16 @@ static void print_md_row(FILE *out, const struct rg_sheet *sheet, const int *wid
     fprintf(out, "\n");
 }
 
+static void print_md_note(FILE *out, const char *note, int width)
+{
+    const char *next;
+    for (const char *line = note; *line; line = next) {
+        const int length = width ? rg_wrap(line, width - 2, &next) : (int)strlen(line);
+        next = width ? next : line + length;
+        fprintf(out, "%s%.*s\n", line == note ? "- " : "  ", length, line);
+    }
+}
+
 void rg_sheet_print_md(const struct rg_sheet *sheet, FILE *out)
 {
     int widths[RG_SHEET_COLUMNS];
@@ -127,7 +138,7 @@ void rg_sheet_print_md(const struct rg_sheet *sheet, FILE *out)
         print_md_row(out, sheet, widths, r);
     fprintf(out, sheet->note_count || !sheet->level ? "\n" : "");
     for (int n = 0; n < sheet->note_count; n++)
-        fprintf(out, "- %s\n", sheet->notes[n]);
+        print_md_note(out, sheet->notes[n], sheet->note_width);
 }
 
 // --- CSV: RFC 4180 ---

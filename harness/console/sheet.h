@@ -8,6 +8,9 @@
 
 enum { RG_SHEET_COLUMNS = 32, RG_SHEET_CELL = 256 };
 
+// Columns of a page that a terminal shows whole.
+enum { RG_PAGE_WIDTH = 110 };
+
 struct rg_sheet {
     const char *title;
     int column_count;
@@ -21,6 +24,7 @@ struct rg_sheet {
     bool incomplete; // a row, column or note was lost, for which there is one logged line
     int level;       // of its heading in Markdown; 0: 2
     int width_step;  // a column's width steps by so many characters; 0: 8
+    int note_width;  // lines of notes in Markdown are no wider; 0: a note is one line
     // The terminal's code that a cell's text is painted with, or NULL: none. NULL: nothing is.
     const char *(*paint)(const char *cell);
 };

@@ -196,14 +196,20 @@ static void add_fewer_rows(const struct rg_claim_outcomes *o, struct rg_sheet *s
 
 static void add_contradictions(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
 {
+    char text[1024] = "";
+    size_t used = 0;
     for (int i = 0; i < o->count; i++) {
         const struct rg_claim *claim = o->outcomes[i].claim;
+        const bool is_told = i && o->outcomes[i - 1].claim == claim;
+        if (is_told || !o->outcomes[i].judgement.print_contradicts || used >= sizeof(text))
+            continue;
         char title[RG_CLAIM_TITLE];
         rg_claim_title(claim, title);
-        if ((!i || o->outcomes[i - 1].claim != claim) && o->outcomes[i].judgement.print_contradicts)
-            rg_sheet_note(sheet, "%s, %s: the paper's own table contradicts it.", claim->table,
-                          title);
+        used += (size_t)snprintf(text + used, sizeof(text) - used, "%s%s, %s", used ? "; " : "",
+                                 claim->table, title);
     }
+    if (*text)
+        rg_sheet_note(sheet, "The paper's own table contradicts: %s.", text);
 }
 
 static void add_reasons(const struct rg_claim_outcomes *o, struct rg_sheet *sheet)
@@ -237,6 +243,7 @@ void rg_claims_sheet(const struct rg_claim_outcomes *outcomes, bool wide, struct
 {
     sheet->title = "claims";
     sheet->width_step = wide ? 0 : 1;
+    sheet->note_width = wide ? 0 : RG_PAGE_WIDTH;
     sheet->paint = rg_has_colours(stdout) ? paint : NULL;
     add_columns(outcomes, wide, sheet);
     add_rows(outcomes, wide, sheet);

@@ -71,10 +71,10 @@ const struct rg_table rg_table_stuppacher_2 = {
 // The number of drops, of which the paper says that it does not matter (section 6).
 #define MIRROR "move=paper panes=mirror resolution_px=512 "
 static const struct rg_table_row drops[] = {
-    {MIRROR "drops=10 rain_drops_s=4", {10}, NULL},
-    {MIRROR "drops=100 rain_drops_s=38", {100}, NULL},
-    {MIRROR "drops=1000 rain_drops_s=375", {1000}, NULL},
-    {MIRROR "drops=4000 rain_drops_s=1500", {4000}, NULL},
+    {MIRROR "drops=10", {10}, NULL},
+    {MIRROR "drops=100", {100}, NULL},
+    {MIRROR "drops=1000", {1000}, NULL},
+    {MIRROR "drops=4000", {4000}, NULL},
 };
 
 const struct rg_table rg_table_stuppacher_drops = {
@@ -91,5 +91,5 @@ const struct rg_table rg_table_stuppacher_drops = {
     .rows = drops,
     .note =
         "Nothing of this is in print but the sentence. Full frames as in stuppacher-2, with 512 "
-        "texels; the drops of each pane at the start, and three eighths as many more a second.",
+        "texels; the drops of each pane at the start. As many more fall in every row.",
 };

@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/text/wrap.h"
 #include "harness/console/colour.h"
+#include "harness/console/sheet.h"
 #include "harness/tables/claims/claim.h"
 #include "harness/tables/sheet/digits.h"
 #include "harness/tables/sheet/trend.h"
@@ -72,9 +74,9 @@ static void print_claims(const struct rg_result *result, FILE *out)
         char title[RG_CLAIM_TITLE], fewer[48];
         name_fewer_rows(claim, result, fewer, sizeof(fewer));
         rg_claim_title(claim, title);
-        const int length = fprintf(out, "- %s (%s%s): ", title, claim->where, fewer);
-        if (length + verdicts_length(claim, result) > RG_BRIEF_WIDTH)
-            fprintf(out, "\n  ");
+        const int length = fprintf(out, "- %s (%s%s):", title, claim->where, fewer);
+        const bool fits = length + 1 + verdicts_length(claim, result) <= RG_PAGE_WIDTH;
+        fprintf(out, fits ? " " : "\n  ");
         print_verdicts(claim, result, rg_has_colours(out), out);
         fprintf(out, "\n");
         any = true;
@@ -105,23 +107,16 @@ static void print_line(struct notes *notes, const char *text, int length, bool i
 static void add(struct notes *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));
 static void add(struct notes *notes, const char *format, ...)
 {
-    enum { ROOM = RG_BRIEF_WIDTH - 2 };
+    enum { ROOM = RG_PAGE_WIDTH - 2 };
     char text[2 * RG_NOTE_SIZE];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof(text), format, arguments);
     va_end(arguments);
-    const char *rest = text;
-    for (bool is_first = true; *rest; is_first = false) {
-        int length = (int)strlen(rest);
-        if (length > ROOM) {
-            length = ROOM;
-            while (length > 1 && rest[length] != ' ')
-                length--;
-        }
-        print_line(notes, rest, length, is_first);
-        rest += length;
-        rest += strspn(rest, " ");
+    const char *next;
+    for (const char *line = text; *line; line = next) {
+        const int length = rg_wrap(line, ROOM, &next);
+        print_line(notes, line, length, line == text);
     }
 }
 
@@ -199,8 +194,8 @@ static void add_method(struct notes *notes, const struct rg_result *result)
         result->full ? "" : result->quick, drift);
 }
 
-// "Time grows with the drops to the power: cpu 0.98 (0.95 to 1.01), gl 1.02", of tables of no
-// paper.
+// "The time of a frame of work paper goes with drops to the power: cpu 0.98 (0.95 to 1.01), gl
+// 1.02", of tables of no paper; of their first work, where they have several.
 static void add_growth(struct notes *notes, const struct rg_result *result)
 {
     char text[512] = "", power[32], low[32], high[32];
@@ -209,7 +204,7 @@ static void add_growth(struct notes *notes, const struct rg_result *result)
     for (struct rg_place of = rg_result_start_row(result->first_row);
          rg_result_next_in_row(result, &of);) {
         const struct rg_trend trend = rg_trend_of(result, of);
-        if (trend.verdict != RG_TREND_GROWTH || used >= sizeof(text))
+        if (of.work || trend.verdict != RG_TREND_GROWTH || used >= sizeof(text))
             continue;
         axis = trend.axis;
         snprintf(power, sizeof(power), "%.2f", -trend.slope);
@@ -224,7 +219,9 @@ static void add_growth(struct notes *notes, const struct rg_result *result)
             interval ? ")" : "");
     }
     if (axis)
-        add(notes, "The time of a frame goes with %s to the power: %s.", axis->name, text);
+        add(notes, "The time of a frame%s%s goes with %s to the power: %s.",
+            result->work_count > 1 ? " of work " : "",
+            result->work_count > 1 ? result->works[0].name : "", axis->name, text);
 }
 
 void rg_brief_below(const struct rg_result *result, FILE *out)

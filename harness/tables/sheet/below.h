@@ -6,9 +6,6 @@
 
 #include "harness/record/result.h"
 
-// Lines are no wider than this, if the names of rows and devices let them.
-enum { RG_BRIEF_WIDTH = 110 };
-
 // Prints the claims, and notes of five lines at most.
 void rg_brief_below(const struct rg_result *result, FILE *out);
 

@@ -302,7 +302,7 @@ static bool print_table(const struct rg_result *result, struct rg_place of, FILE
     char title[RG_TITLE_SIZE + 3 * RG_NAME_SIZE];
     int optional = OPTIONAL;
     make_sheet(result, of, optional, &sheet);
-    while (rg_sheet_width(&sheet) > RG_BRIEF_WIDTH && optional > 0 && !sheet.incomplete) {
+    while (rg_sheet_width(&sheet) > RG_PAGE_WIDTH && optional > 0 && !sheet.incomplete) {
         rg_sheet_free(&sheet);
         make_sheet(result, of, --optional, &sheet);
     }

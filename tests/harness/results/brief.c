@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "harness/record/schema/schema.h"
+#include "harness/console/sheet.h"
 #include "harness/tables/sheet/below.h"
 #include "harness/tables/sheet/brief.h"
 #include "harness/tables/sheet/digits.h"
@@ -125,7 +126,7 @@ static void lines_are_short(void **state)
         width = *c == '\n' ? 0 : width + ((*c & 0xc0) != 0x80);
         widest = width > widest ? width : widest;
     }
-    assert_in_range(widest, 90, RG_BRIEF_WIDTH);
+    assert_in_range(widest, 90, RG_PAGE_WIDTH);
     rg_result_free(&result);
 }
 
