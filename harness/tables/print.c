@@ -1,6 +1,7 @@
 #include "harness/tables/print.h"
 
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "core/base/files/file.h"
 #include "core/base/log.h"
@@ -103,8 +104,31 @@ bool rg_result_spares(const struct rg_table *table, const char *folder, const ch
     return spared;
 }
 
+static bool has_number(const struct rg_result *result)
+{
+    bool any = false;
+    for (struct rg_place at = rg_result_start(result); !any && rg_result_next(result, &at);)
+        any = rg_result_at(result, at)->outcome == RG_OK;
+    return any;
+}
+
+// Where nothing was measured, what was measured before is not replaced.
+static bool keeps_what_is_there(const struct rg_result *result, const char *folder)
+{
+    char name[FILE_NAME_SIZE], path[2048];
+    name_file(result->table, RG_RESULT_JSON, name);
+    if (has_number(result) ||
+        snprintf(path, sizeof(path), "%s/%s", folder, name) >= (int)sizeof(path) ||
+        access(path, F_OK))
+        return false;
+    rg_warning("%s: is kept, for no cell of %s was measured now", path, result->table);
+    return true;
+}
+
 bool rg_result_write(const struct rg_result *result, const char *folder)
 {
+    if (keeps_what_is_there(result, folder))
+        return true;
     struct rg_output_file files[RG_MAX_OUTPUT_FILES];
     char *texts[RG_MAX_OUTPUT_FILES], names[RG_MAX_OUTPUT_FILES][FILE_NAME_SIZE];
     int count = 0;

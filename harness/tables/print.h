@@ -32,7 +32,8 @@ bool rg_results_can_be_written(const struct rg_table *const tables[], int count,
 // Whether none of a table's files in a folder, its journals among them, replaces one that is read.
 // False, and one logged line.
 bool rg_result_spares(const struct rg_table *table, const char *folder, const char *read);
-// Writes it into a folder in every format, as TABLE.FORMAT. False, and one logged line, on failure.
+// Writes it into a folder in every format, as TABLE.FORMAT; where it has no number, what is there
+// is kept, and one line says so. False, and one logged line, on failure.
 bool rg_result_write(const struct rg_result *result, const char *folder);
 
 #endif

@@ -158,7 +158,7 @@ def check_held(runner):
         folder = os.open(state + "/raingauge", os.O_RDONLY)
         fcntl.flock(folder, fcntl.LOCK_EX)
         for says in (r"raingauge: .*/raingauge: another raingauge that measures keeps its rows there; this one keeps none: .*\n",
-                     r"raingauge: .*stuppacher-2-quick\.journal: is damaged .*\n"):
+                     r"raingauge: .*stuppacher-2-quick\.journal: cannot be gone on with .*\n"):
             result = runner.run("table stuppacher-2 --rows 1-1 --device cpu".split(), {"XDG_STATE_HOME": state})
             if result.returncode or not re.fullmatch(says, result.stderr):
                 problems.append("exit status %d, %s" % (result.returncode, result.stderr))
@@ -342,5 +342,21 @@ def check_signal_at_hang(runner):
     return problems
 
 
-CHECKS = [check_signals, check_signal_at_hang, check_harness_killed, check_both_killed, check_fallen, check_second, check_held, check_full,
+def check_nothing_measured(runner):
+    """a table of which no cell can be measured replaces none that was"""
+    command = ["table", "raster-1", "--rows", "2-2", "--quick", "--device", "cpu", "-o"]
+    with tempfile.TemporaryDirectory() as out:
+        first = runner.run(command + [out])
+        whole = {name: open(os.path.join(out, name)).read() for name in os.listdir(out)}
+        again = runner.run(command + [out, "--memory", "1M"])
+        after = {name: open(os.path.join(out, name)).read() for name in os.listdir(out)}
+        fresh = runner.run(command + [os.path.join(out, "new"), "--memory", "1M"])
+        told = os.path.exists(os.path.join(out, "new", "raster-1.json"))
+    problems = [] if first.returncode == 0 and len(whole) == 4 else ["first: exit status %d, %s" % (first.returncode, first.stderr)]
+    if again.returncode != 1 or after != whole or "is kept, for no cell of raster-1 was measured now" not in again.stderr:
+        problems.append("again: exit status %d, %s, %s" % (again.returncode, after == whole, again.stderr))
+    return problems if fresh.returncode == 1 and told else problems + ["fresh: exit status %d, %s" % (fresh.returncode, fresh.stderr)]
+
+
+CHECKS = [check_nothing_measured, check_signals, check_signal_at_hang, check_harness_killed, check_both_killed, check_fallen, check_second, check_held, check_full,
           check_read_only_midway, check_read_only, check_unprinted, check_sweep_unprinted, check_unread, check_earlier]
