@@ -10,6 +10,12 @@
 
 enum { THREADS_A_PROCESSOR = 4 };
 
+long rg_threads_most(void)
+{
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    return THREADS_A_PROCESSOR * (processors < 1 ? 1 : processors);
+}
+
 static const char count_name[] = "OMP_NUM_THREADS", stderr_name[] = "RG_STDERR";
 
 // libgomp's threads spin for tens of milliseconds before they sleep, and on a busy machine keep
@@ -30,14 +36,14 @@ static bool limit_threads(void)
     const char *given = getenv(count_name);
     char *end, most[24];
     const long threads = given ? strtol(given, &end, 10) : 1;
-    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
     if (given && (end == given || threads < 1))
         return !unsetenv(count_name);
-    if (processors < 1 || threads <= THREADS_A_PROCESSOR * processors)
+    if (threads <= rg_threads_most())
         return false;
     rg_warning("%s=%.40s: more than %d threads on each of %ld processors; %ld are used", count_name,
-               given, THREADS_A_PROCESSOR, processors, THREADS_A_PROCESSOR * processors);
-    snprintf(most, sizeof(most), "%ld", THREADS_A_PROCESSOR * processors);
+               given, THREADS_A_PROCESSOR, rg_threads_most() / THREADS_A_PROCESSOR,
+               rg_threads_most());
+    snprintf(most, sizeof(most), "%ld", rg_threads_most());
     return !setenv(count_name, most, 1);
 }
 

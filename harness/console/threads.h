@@ -2,6 +2,9 @@
 #ifndef RG_HARNESS_CONSOLE_THREADS_H
 #define RG_HARNESS_CONSOLE_THREADS_H
 
+// As many as raingauge lets be asked for: four a processor.
+long rg_threads_most(void);
+
 // Makes the variables that libgomp reads sound, and starts raingauge again with them where one has
 // changed, for libgomp reads them once, when it is loaded. Threads are at most four a processor,
 // with one warning where more are asked for. What libgomp complains of it says once.

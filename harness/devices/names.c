@@ -2,9 +2,12 @@
 
 #include <ctype.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/log.h"
+#include "harness/console/threads.h"
+#include "harness/devices/workers/environment.h"
 
 // The end of a name: a comma outside of quotes, or the end of all. NULL: a quote does not end.
 static const char *find_end(const char *name)
@@ -42,6 +45,19 @@ static const char *copy_key(const char *from, char **to)
     memcpy(*to, from, length + 1);
     *to += length + 1;
     return from + length + 1;
+}
+
+// What is set for all devices is mended (harness/console/threads.h). A device's own is in its name
+// and in every record, so that it has to be what runs.
+static bool has_sound_threads(const struct rg_device_name *name)
+{
+    const char *given = rg_environment_find(name->environment, "OMP_NUM_THREADS");
+    char *end;
+    const long threads = given ? strtol(given, &end, 10) : 1;
+    return (threads >= 1 && threads <= rg_threads_most()) ||
+           rg_error("device '%s': OMP_NUM_THREADS is no number from 1 to %ld, four a processor; "
+                    "write one",
+                    name->name, rg_threads_most());
 }
 
 static bool read_environment(struct rg_device_name *name)
@@ -88,7 +104,7 @@ static bool read_name(const char *names, const char **rest, struct rg_device_nam
     memset(name, 0, sizeof(*name));
     memcpy(name->name, *rest, length);
     *rest = *end ? end + 1 : end;
-    return read_environment(name);
+    return read_environment(name) && has_sound_threads(name);
 }
 
 bool rg_device_name_read(const char **names, struct rg_device_name *name)

@@ -86,6 +86,9 @@ static void what_is_no_such_form_is_refused(void **state)
         {"gl@A=\"1", "is not closed"},
         {long_name, "at most 255"},
         {"gl@A=1;;B=2", "does not set a variable"},
+        {"cpu@OMP_NUM_THREADS=0", "OMP_NUM_THREADS is no number from 1"},
+        {"cpu@A=1;OMP_NUM_THREADS=abc", "OMP_NUM_THREADS is no number from 1"},
+        {"cpu@OMP_NUM_THREADS=100000", "OMP_NUM_THREADS is no number from 1"},
     };
     for (size_t i = 0; i < sizeof(refused) / sizeof(refused[0]); i++) {
         *logged = 0;
