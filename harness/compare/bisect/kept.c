@@ -139,8 +139,13 @@ static bool take_verdicts(json_t *document, struct rg_bisect *b)
 static void take_document(json_t *document, const char *path, struct rg_bisect *bisect)
 {
     json_t *key = key_of(bisect);
-    if (json_integer_value(json_object_get(document, "format")) != FORMAT ||
-        !json_equal(json_object_get(document, "key"), key))
+    const json_t *format = json_object_get(document, "format");
+    if (json_is_integer(format) && json_integer_value(format) != FORMAT)
+        rg_info("%s: has format %" JSON_INTEGER_FORMAT
+                " of a bisect's journal, and this is %d; the "
+                "bisect begins anew",
+                path, json_integer_value(format), FORMAT);
+    else if (!json_equal(json_object_get(document, "key"), key))
         rg_info("%s: is of another raingauge, machine or environment; the bisect begins anew",
                 path);
     else if (!take_verdicts(document, bisect))

@@ -4,6 +4,7 @@ import fcntl
 import json
 import os
 
+from baselines import change
 from gates import Files
 from losses import wait_for
 
@@ -73,6 +74,12 @@ def check_kept(runner):
             result = runner.run(args + more)
             if result.returncode not in (0, 3) or (says not in result.stderr if says else "launches" in result.stderr):
                 problems.append("%s: exit status %d, %s" % (name, result.returncode, result.stderr))
+        with open(path, "w") as file:
+            file.write(whole)
+        change(path, lambda document: document.update(format=99, rows=[]))
+        result = runner.run(args)
+        if result.returncode not in (0, 3) or "has format 99 of a gate's journal" not in result.stderr:
+            problems.append("of another format: exit status %d, %s" % (result.returncode, result.stderr))
         holder = os.open(folder, os.O_RDONLY)
         fcntl.flock(holder, fcntl.LOCK_EX)
         result = runner.run(args)

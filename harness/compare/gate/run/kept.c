@@ -83,11 +83,15 @@ static void read_kept(struct rg_kept_times *kept, const json_t *key)
     if (access(kept->path, F_OK))
         return;
     json_t *found = rg_document_read(kept->path, "remove it, and the gate begins anew", why);
+    const json_t *format = json_object_get(found, "format");
     const int count = found ? count_launches(found) : -1;
-    if (!found || count < 0) {
+    if (json_is_integer(format) && json_integer_value(format) != FORMAT) {
+        rg_info("%s: has format %" JSON_INTEGER_FORMAT " of a gate's journal, and this is %d; the "
+                "gate begins anew",
+                kept->path, json_integer_value(format), FORMAT);
+    } else if (!found || count < 0) {
         rg_warning("%s: is damaged or no journal; the gate begins anew", kept->path);
-    } else if (!json_equal(json_object_get(found, "key"), key) ||
-               json_integer_value(json_object_get(found, "format")) != FORMAT) {
+    } else if (!json_equal(json_object_get(found, "key"), key)) {
         rg_info("%s: is of another build, machine, choice of devices or of cells; the gate begins "
                 "anew",
                 kept->path);
