@@ -1,5 +1,6 @@
 #define _GNU_SOURCE // RLIMIT_AS, syscall
 #include <errno.h>
+#include <fcntl.h>
 #include <linux/audit.h>
 #include <linux/capability.h>
 #include <linux/filter.h>
@@ -69,35 +70,61 @@ static bool drop_capabilities(void)
 
 // --- system calls ---
 
-// Memory, the descriptors that are there, the time, locks and signals of its own, what a thread
-// that is there already does when it begins, the end.
+// Memory, the descriptors that are there, the time, locks and how its own signals are taken, what a
+// thread that is there already does when it begins, the end.
 static const unsigned int allowed[] = {
-    SYS_read,          SYS_readv,          SYS_pread64,
-    SYS_pwrite64,      SYS_write,          SYS_writev,
-    SYS_lseek,         SYS_fstat,
+    SYS_read,         SYS_readv,
+    SYS_pread64,      SYS_pwrite64,
+    SYS_write,        SYS_writev,
+    SYS_lseek,        SYS_fstat,
     SYS_newfstatat, // what fstat is on many systems
-    SYS_ftruncate,     SYS_fcntl,          SYS_dup,
-    SYS_close,         SYS_mmap,           SYS_mprotect,
-    SYS_mremap,        SYS_munmap,         SYS_madvise,
-    SYS_brk,           SYS_futex,          SYS_getrandom,
-    SYS_clock_gettime, SYS_sched_yield,    SYS_sched_getaffinity,
-    SYS_getpid,        SYS_gettid,         SYS_tgkill,
-    SYS_rt_sigaction,  SYS_rt_sigprocmask, SYS_rt_sigreturn,
-    SYS_sigaltstack,   SYS_rseq,           SYS_set_robust_list,
-    SYS_exit,          SYS_exit_group,
+    SYS_ftruncate,    SYS_dup,
+    SYS_close,        SYS_mmap,
+    SYS_mprotect,     SYS_mremap,
+    SYS_munmap,       SYS_madvise,
+    SYS_brk,          SYS_futex,
+    SYS_getrandom,    SYS_clock_gettime,
+    SYS_sched_yield,  SYS_sched_getaffinity,
+    SYS_getpid,       SYS_gettid,
+    SYS_rt_sigaction, SYS_rt_sigprocmask,
+    SYS_rt_sigreturn, SYS_sigaltstack,
+    SYS_rseq,         SYS_set_robust_list,
+    SYS_exit,         SYS_exit_group,
 };
+// All that is asked of a descriptor. With F_SETOWN, F_SETSIG and O_ASYNC the kernel would send any
+// signal to any process of the user.
+static const unsigned int asked[] = {F_GETFD, F_SETFD, F_GETFL, F_DUPFD, F_DUPFD_CLOEXEC};
 enum {
     COUNT = sizeof(allowed) / sizeof(allowed[0]),
-    LENGTH = COUNT + 10, // the program below
+    ASKED = sizeof(asked) / sizeof(asked[0]),
+    LENGTH = COUNT + (4 + ASKED) + (4 + 1) + 12, // the program below
 };
 
 // Calls that are not allowed fail as not permitted: libraries then say what they could not do.
 #define REFUSE (SECCOMP_RET_ERRNO | (EPERM & SECCOMP_RET_DATA))
 #define LOAD(field)                                                                                \
     (struct sock_filter) BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, field))
+#define ARGUMENT(i) ((unsigned int)offsetof(struct seccomp_data, args[i])) // its lower half
 #define JUMP(test, value, yes, no)                                                                 \
     (struct sock_filter) BPF_JUMP(BPF_JMP | (test) | BPF_K, (value), (yes), (no))
 #define RETURN(value) (struct sock_filter) BPF_STMT(BPF_RET | BPF_K, (value))
+
+#ifdef ARCHITECTURE
+// A call that is allowed with some values of an argument only, of which the kernel, too, takes the
+// lower half alone. Returns how long that is; the number of another call stays loaded.
+static int allow_with(struct sock_filter *program, unsigned int call, unsigned int argument_at,
+                      const unsigned int *values, int count)
+{
+    int n = 0;
+    program[n++] = JUMP(BPF_JEQ, call, 0, (unsigned char)(count + 3));
+    program[n++] = (struct sock_filter)BPF_STMT(BPF_LD | BPF_W | BPF_ABS, argument_at);
+    for (int i = 0; i < count; i++)
+        program[n++] = JUMP(BPF_JEQ, values[i], (unsigned char)(count - i), 0);
+    program[n++] = RETURN(REFUSE);
+    program[n++] = RETURN(SECCOMP_RET_ALLOW);
+    return n;
+}
+#endif
 
 bool rg_cage_shut(void)
 {
@@ -110,9 +137,15 @@ bool rg_cage_shut(void)
     // Memory is never made executable: args[2] is the protection of both calls.
     program[n++] = LOAD(nr);
     program[n++] = JUMP(BPF_JEQ, SYS_mmap, 1, 0);
-    program[n++] = JUMP(BPF_JEQ, SYS_mprotect, 0, 2);
+    program[n++] = JUMP(BPF_JEQ, SYS_mprotect, 0, 4);
     program[n++] = LOAD(args[2]);
-    program[n++] = JUMP(BPF_JSET, PROT_EXEC, COUNT, COUNT + 1);
+    program[n++] = JUMP(BPF_JSET, PROT_EXEC, 0, 1);
+    program[n++] = RETURN(REFUSE);
+    program[n++] = RETURN(SECCOMP_RET_ALLOW);
+    // abort sends itself a signal, and nothing is sent to others.
+    const unsigned int own = (unsigned int)getpid();
+    n += allow_with(program + n, SYS_tgkill, ARGUMENT(0), &own, 1);
+    n += allow_with(program + n, SYS_fcntl, ARGUMENT(1), asked, ASKED);
     for (int i = 0; i < COUNT; i++)
         program[n++] = JUMP(BPF_JEQ, allowed[i], (unsigned char)(COUNT - i), 0);
     program[n++] = RETURN(REFUSE);

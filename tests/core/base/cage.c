@@ -19,6 +19,8 @@
 
 #include "core/base/cage/cage.h"
 
+static pid_t parent; // a caged program cannot ask for it
+
 // Each returns whether the call went through. They use nothing but system calls.
 static bool opens_a_file(void)
 {
@@ -52,7 +54,33 @@ static bool removes_a_file(void)
 
 static bool kills_its_parent(void)
 {
-    return !kill(getppid(), 0);
+    return !kill(parent, 0);
+}
+
+static bool kills_a_thread_of_its_parent(void)
+{
+    return !syscall(SYS_tgkill, parent, parent, 0);
+}
+
+// What becomes readable or writable there sends it a signal, SIGKILL if F_SETSIG says so.
+static bool has_its_parent_killed(void)
+{
+    return !fcntl(RG_CAGE_REPLY, F_SETOWN, parent);
+}
+
+static bool chooses_the_signal(void)
+{
+    return !fcntl(RG_CAGE_REPLY, F_SETSIG, SIGKILL);
+}
+
+static bool signals_itself(void)
+{
+    return !syscall(SYS_tgkill, getpid(), gettid(), 0);
+}
+
+static bool copies_a_descriptor(void)
+{
+    return fcntl(RG_CAGE_FILE, F_GETFL) >= 0 && fcntl(RG_CAGE_FILE, F_DUPFD_CLOEXEC, 0) >= 0;
 }
 
 static bool makes_memory_executable(void)
@@ -91,16 +119,22 @@ static const struct {
     {"starts a program", starts_a_program, false},
     {"removes a file", removes_a_file, false},
     {"signals its parent", kills_its_parent, false},
+    {"signals a thread of its parent", kills_a_thread_of_its_parent, false},
+    {"has its parent signalled for a descriptor", has_its_parent_killed, false},
+    {"chooses the signal of a descriptor", chooses_the_signal, false},
     {"makes memory executable", makes_memory_executable, false},
     {"traces", traces, false},
     {"takes memory", takes_memory, true},
     {"reads and writes what it was given", reads_and_writes, true},
+    {"signals itself", signals_itself, true},
+    {"asks for a descriptor's flags and copies it", copies_a_descriptor, true},
 };
 
 // The exit status of a child that acts: 0 it could, 1 it could not, 2 no cage.
 static int act_in_a_child(size_t i, bool shut)
 {
     int status = 0;
+    parent = getpid();
     const pid_t child = fork();
     if (child == 0) {
         const int zero = open("/dev/zero", O_RDONLY), null = open("/dev/null", O_WRONLY);
