@@ -1,15 +1,12 @@
 #include "core/scene/light_file.h"
 
-#include <errno.h>
 #include <jansson.h>
 #include <math.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "core/base/files/file.h"
 #include "core/base/log.h"
 
-// A parsed file takes some twenty times its size, and sixteen lights take a few kilobytes.
-#define MOST_BYTES     (1 << 18)
 #define FARTHEST_M     100000.0
 #define STRONGEST      1e6 // a colour, and an intensity
 #define WIDEST_DEG     80.0
@@ -223,16 +220,14 @@ static bool read_all(json_t *root, const char *path, struct rg_lights *lights)
 
 bool rg_light_file_read(const char *path, struct rg_lights *lights)
 {
-    struct stat st;
-    if (stat(path, &st))
-        return rg_error("%s: %s; name a file of lights (docs/lights.md)", path, strerror(errno));
-    if (!S_ISREG(st.st_mode))
-        return rg_error("%s: no file; name a file of lights (docs/lights.md)", path);
-    if (st.st_size > MOST_BYTES)
-        return rg_error("%s: has %lld bytes; %d are the most, and %d lights", path,
-                        (long long)st.st_size, MOST_BYTES, SCENERY_MAX_LIGHTS);
+    const char *why;
+    FILE *file = rg_file_open_small(path, &why); // parsed it takes some twenty times its size
+    if (!file)
+        return rg_error("%s: %s; name a file of at most %d lights (docs/lights.md)", path, why,
+                        SCENERY_MAX_LIGHTS);
     json_error_t error;
-    json_t *root = json_load_file(path, JSON_REJECT_DUPLICATES, &error);
+    json_t *root = json_loadf(file, JSON_REJECT_DUPLICATES, &error);
+    fclose(file);
     if (!root)
         return rg_error("%s:%d:%d: %s; write JSON as docs/lights.md shows", path, error.line,
                         error.column, error.text);

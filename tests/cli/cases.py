@@ -162,7 +162,7 @@ COMMANDS = [
     Case(RENDER + "--set environment=/dev/zero.ktx -o {tmp}/a.png", 2, r"zero\.ktx: "),
     Case(RENDER + "--set model={data}/fifo.obj -o {tmp}/a.png", 2, r"fifo\.obj: is not a regular file"),
     Case(RAIN + "--set density_map={data}/fifo.png -o {tmp}/a.png", 2, r"fifo\.png: is not a regular file"),
-    Case(RAIN + "--set lights_file={data}/fifo.json -o {tmp}/a.png", 2, r"fifo\.json: no file; name a file of lights"),
+    Case(RAIN + "--set lights_file={data}/fifo.json -o {tmp}/a.png", 2, r"fifo\.json: is not a regular file; name a file of at most 16 lights"),
     Case("render cartoon --size 32x32 --frame 1 --set wind=script --set wind_script={data}/fifo.txt -o {tmp}/a.png", 2,
          r"fifo\.txt: is not a regular file; name a file of winds"),
 

@@ -10,6 +10,8 @@
 
 #include "core/base/log.h"
 
+#define SMALL_BYTES (1 << 18)
+
 static const char *judge(int fd)
 {
     struct stat st;
@@ -35,6 +37,19 @@ static FILE *stream(int fd, const char *mode, const char **why)
 FILE *rg_file_open(const char *path, const char **why)
 {
     return stream(open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC), "rb", why);
+}
+
+FILE *rg_file_open_small(const char *path, const char **why)
+{
+    struct stat st;
+    FILE *file = rg_file_open(path, why);
+    if (file && !fstat(fileno(file), &st) && st.st_size <= SMALL_BYTES)
+        return file;
+    if (file) {
+        *why = "has more than 256 KiB";
+        fclose(file);
+    }
+    return NULL;
 }
 
 FILE *rg_file_append(const char *path, const char **why)

@@ -9,6 +9,10 @@
 // without end. `why` is then what is wrong, without the file's name.
 FILE *rg_file_open(const char *path, const char **why);
 
+// The same of what users write by hand. A file of more than 256 KiB is refused as well, so that no
+// parser reads one of gigabytes to its end, or keeps many times its size.
+FILE *rg_file_open_small(const char *path, const char **why);
+
 // The same to append to, behind all that is there; it is made where it is not.
 FILE *rg_file_append(const char *path, const char **why);
 

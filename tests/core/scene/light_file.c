@@ -179,7 +179,7 @@ static void files_are_of_256_kib_at_most(void **state)
     text[MOST + 1] = 0;
     assert_false(read_text(text, &lights));
     assert_non_null(
-        strstr(rg_last_error(), "has 262145 bytes; 262144 are the most, and 16 lights"));
+        strstr(rg_last_error(), "has more than 256 KiB; name a file of at most 16 lights"));
     free(text);
 }
 

@@ -64,7 +64,7 @@ bool cartoon_wind_read(const char *path, struct cartoon_wind_script *script)
     if (!path[0])
         return rg_error("wind_script: wind=script reads a file; name one (docs/cartoon.md)");
     const char *why;
-    FILE *in = rg_file_open(path, &why);
+    FILE *in = rg_file_open_small(path, &why);
     if (!in)
         return rg_error("%s: %s; name a file of winds (docs/cartoon.md)", path, why);
     for (int line = 1; ok && fgets(text, sizeof(text), in); line++)

@@ -12,6 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "core/base/log.h"
 #include "tests/core/techniques/cartoon/rain/rig.h"
 
 #define SIZE_PX 96
@@ -430,6 +431,24 @@ static void wind_scripts_are_checked(void **state)
     unlink(path);
 }
 
+// A comment of any length is passed over, in a file that is short.
+static void a_long_wind_script_is_refused(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/raingauge-wind-XXXXXX";
+    const int file = mkstemp(path);
+    struct cartoon_wind_script script;
+    assert_true(file >= 0);
+    put_script(path, "1 2 3\n#");
+    assert_int_equal(ftruncate(file, 256 << 10), 0);
+    assert_true(cartoon_wind_read(path, &script) && script.count == 1);
+    assert_int_equal(ftruncate(file, (256 << 10) + 1), 0);
+    assert_false(cartoon_wind_read(path, &script));
+    assert_non_null(strstr(rg_last_error(), "has more than 256 KiB; name a file of winds"));
+    close(file);
+    unlink(path);
+}
+
 // Gusts stay within their share, change smoothly, and are the same for a seed and a time.
 static void wind_blows_by_chance(void **state)
 {
@@ -470,6 +489,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(presets_stand_for_settings),
         cmocka_unit_test(wind_goes_by_its_script),
         cmocka_unit_test(wind_scripts_are_checked),
+        cmocka_unit_test(a_long_wind_script_is_refused),
         cmocka_unit_test(wind_blows_by_chance),
     };
     device = rg_device_open(argc > 1 ? argv[1] : "cpu");
