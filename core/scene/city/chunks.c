@@ -97,10 +97,9 @@ static bool reorder(struct city_faces *f, const struct key *keys)
 {
     const size_t count = (size_t)f->face_count, size = SCENERY_FACE_WORDS * sizeof(float);
     float *corners = rg_alloc(count, size, "scene");
-    uint32_t *surface_of = rg_alloc(count, sizeof(*surface_of), "scene");
-    if (!corners || !surface_of) {
+    uint32_t *surface_of = corners ? rg_alloc(count, sizeof(*surface_of), "scene") : NULL;
+    if (!surface_of) {
         free(corners);
-        free(surface_of);
         return false;
     }
     for (size_t i = 0; i < count; i++) {

@@ -24,10 +24,9 @@ static bool make_room(struct arrays *a, const struct rg_mesh *mesh)
 {
     a->vertices = mesh->vertex_count + GROUND_SIDES + 1;
     a->faces = mesh->face_count + GROUND_SIDES;
-    a->positions = rg_alloc((size_t)a->vertices, 3 * sizeof(float), mesh->name);
-    a->normals = rg_alloc((size_t)a->vertices, 3 * sizeof(float), mesh->name);
-    a->indices = rg_alloc((size_t)a->faces, 3 * sizeof(uint32_t), mesh->name);
-    return a->positions && a->normals && a->indices;
+    return (a->positions = rg_alloc((size_t)a->vertices, 3 * sizeof(float), mesh->name)) &&
+           (a->normals = rg_alloc((size_t)a->vertices, 3 * sizeof(float), mesh->name)) &&
+           (a->indices = rg_alloc((size_t)a->faces, 3 * sizeof(uint32_t), mesh->name));
 }
 
 static void free_arrays(struct arrays *a)
@@ -89,12 +88,13 @@ static struct diorama *on_ground(const struct rg_mesh *mesh)
         put_ground(&a, mesh);
         d->mesh =
             rg_mesh_create(mesh->name, a.vertices, a.faces, a.positions, a.normals, a.indices);
-        d->materials = rg_alloc((size_t)a.faces, sizeof(*d->materials), mesh->name);
+        d->materials =
+            d->mesh ? rg_alloc((size_t)a.faces, sizeof(*d->materials), mesh->name) : NULL;
         for (int i = mesh->face_count; d->materials && i < a.faces; i++)
             d->materials[i] = PAINT_LAWN;
     }
     free_arrays(&a);
-    if (has_room && d->mesh && d->materials)
+    if (has_room && d->materials)
         return d;
     diorama_destroy(d);
     return NULL;

@@ -141,11 +141,10 @@ bool rg_mesh_edges(const struct rg_mesh *mesh, struct rg_edges *edges)
     const size_t faces = (size_t)mesh->face_count;
     struct work w = {.mesh = mesh};
     *edges = (struct rg_edges){0};
-    edges->words = rg_alloc(3 * faces, RG_EDGE_WORDS * sizeof(float), "edges");
-    w.places = rg_alloc(3 * faces, sizeof(*w.places), "edges");
-    w.normals = rg_alloc(3 * faces, sizeof(*w.normals), "edges");
-    w.sides = rg_alloc(3 * faces, sizeof(*w.sides), "edges");
-    const bool ok = edges->words && w.places && w.normals && w.sides;
+    const bool ok = (edges->words = rg_alloc(3 * faces, RG_EDGE_WORDS * sizeof(float), "edges")) &&
+                    (w.places = rg_alloc(3 * faces, sizeof(*w.places), "edges")) &&
+                    (w.normals = rg_alloc(3 * faces, sizeof(*w.normals), "edges")) &&
+                    (w.sides = rg_alloc(3 * faces, sizeof(*w.sides), "edges"));
     if (ok) {
         const struct meshopt_Stream positions = {mesh->positions, 12, 12};
         meshopt_generateShadowIndexBufferMulti(w.places, mesh->indices, 3 * faces,

@@ -204,14 +204,13 @@ static bool begin_refinement(struct refinement *r, const struct rg_mesh *mesh, i
         .vertex_count = mesh->vertex_count,
         .face_count = mesh->face_count,
         .wanted = faces,
-        .positions = rg_alloc(most, 3 * sizeof(float), mesh->name),
-        .normals = rg_alloc(most, 3 * sizeof(float), mesh->name),
-        .indices = rg_alloc((size_t)faces, 3 * sizeof(uint32_t), mesh->name),
-        .sides = rg_alloc((size_t)faces, 3 * sizeof(struct side), mesh->name),
-        .edges = rg_alloc((size_t)faces, 3 * sizeof(struct edge), mesh->name),
-        .taken = rg_alloc((size_t)faces, sizeof(bool), mesh->name),
     };
-    if (!r->positions || !r->normals || !r->indices || !r->sides || !r->edges || !r->taken)
+    if (!(r->positions = rg_alloc(most, 3 * sizeof(float), mesh->name)) ||
+        !(r->normals = rg_alloc(most, 3 * sizeof(float), mesh->name)) ||
+        !(r->indices = rg_alloc((size_t)faces, 3 * sizeof(uint32_t), mesh->name)) ||
+        !(r->sides = rg_alloc((size_t)faces, 3 * sizeof(struct side), mesh->name)) ||
+        !(r->edges = rg_alloc((size_t)faces, 3 * sizeof(struct edge), mesh->name)) ||
+        !(r->taken = rg_alloc((size_t)faces, sizeof(bool), mesh->name)))
         return false;
     memcpy(r->positions, mesh->positions, (size_t)mesh->vertex_count * 3 * sizeof(float));
     memcpy(r->normals, mesh->normals, (size_t)mesh->vertex_count * 3 * sizeof(float));

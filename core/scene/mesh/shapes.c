@@ -56,10 +56,11 @@ static struct rg_mesh *bend(const char *name, int patches, int columns, int rows
     const int patch_vertices = (columns + 1) * (rows + 1), faces = patches * columns * rows * 2;
     const size_t vertices = (size_t)patches * (size_t)patch_vertices;
     float *positions = rg_alloc(vertices, 3 * sizeof(float), name);
-    float *normals = rg_alloc(vertices, 3 * sizeof(float), name);
-    uint32_t *indices = rg_alloc((size_t)faces, 3 * sizeof(uint32_t), name), *next = indices;
+    float *normals = positions ? rg_alloc(vertices, 3 * sizeof(float), name) : NULL;
+    uint32_t *indices = normals ? rg_alloc((size_t)faces, 3 * sizeof(uint32_t), name) : NULL;
+    uint32_t *next = indices;
     struct rg_mesh *mesh = NULL;
-    for (size_t i = 0; positions && normals && i < vertices; i++) {
+    for (size_t i = 0; normals && i < vertices; i++) {
         const int place = (int)i % patch_vertices;
         const int x = place % (columns + 1), y = place / (columns + 1);
         point((int)i / patch_vertices, (double)(2 * x - columns) / columns,
@@ -70,7 +71,7 @@ static struct rg_mesh *bend(const char *name, int patches, int columns, int rows
         add_cell(next, (uint32_t)(patch * patch_vertices + y * (columns + 1) + x),
                  (uint32_t)columns + 1);
     }
-    if (positions && normals && indices)
+    if (indices)
         mesh = rg_mesh_create(name, (int)vertices, faces, positions, normals, indices);
     free(positions);
     free(normals);

@@ -154,9 +154,10 @@ static bool read_panes(const struct flow *flow, struct panes *panes)
     const int64_t length = (int64_t)flow->pane_count * flow_map_length(n);
     float *maps = rg_alloc((size_t)length, sizeof(*maps), "flow's water");
     *panes = (struct panes){n, flow->pane_count,
-                            rg_alloc((size_t)flow->pane_count * (size_t)n * (size_t)n,
-                                     sizeof(*panes->droplets), "flow's water")};
-    const bool ok = maps && panes->droplets && rg_buf_read(flow->water->buf, 0, maps, length * 4);
+                            maps ? rg_alloc((size_t)flow->pane_count * (size_t)n * (size_t)n,
+                                            sizeof(*panes->droplets), "flow's water")
+                                 : NULL};
+    const bool ok = panes->droplets && rg_buf_read(flow->water->buf, 0, maps, length * 4);
     for (int i = 0; ok && i < panes->count * n * n; i++)
         panes->droplets[i] = llrintf(maps[flow_pane_index(n, i / (n * n), i % n, i / n % n)] *
                                      FLOW_DROPLETS_PER_UNIT);

@@ -14,10 +14,9 @@
 static bool make_room(int vertices, int faces, struct raster_mesh *shape)
 {
     *shape = (struct raster_mesh){.vertex_count = vertices, .face_count = faces};
-    shape->positions = rg_alloc((size_t)vertices, 3 * sizeof(float), "positions");
-    shape->normals = rg_alloc((size_t)vertices, sizeof(uint32_t), "normals");
-    shape->indices = rg_alloc((size_t)faces, 3 * sizeof(uint32_t), "indices");
-    return shape->positions && shape->normals && shape->indices;
+    return (shape->positions = rg_alloc((size_t)vertices, 3 * sizeof(float), "positions")) &&
+           (shape->normals = rg_alloc((size_t)vertices, sizeof(uint32_t), "normals")) &&
+           (shape->indices = rg_alloc((size_t)faces, 3 * sizeof(uint32_t), "indices"));
 }
 
 void raster_mesh_free(struct raster_mesh *shape)

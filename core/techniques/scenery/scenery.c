@@ -52,10 +52,9 @@ static bool make_blocks(struct scenery *s)
     s->cull.faces = f;
     s->cull.box_count = city->box_count;
     s->cull.boxes = city->boxes;
-    s->seen = rg_alloc((size_t)f->chunk_count, sizeof(*s->seen), "scene");
-    s->block_words = rg_alloc((size_t)blocks, 2 * sizeof(*s->block_words), "scene");
-    s->blocks = rg_add_room(s->instance, "scene.blocks", 2 * (int64_t)blocks);
-    return s->seen && s->block_words && s->blocks;
+    return (s->seen = rg_alloc((size_t)f->chunk_count, sizeof(*s->seen), "scene")) &&
+           (s->block_words = rg_alloc((size_t)blocks, 2 * sizeof(*s->block_words), "scene")) &&
+           (s->blocks = rg_add_room(s->instance, "scene.blocks", 2 * (int64_t)blocks));
 }
 
 static void lend(struct scenery *s)

@@ -55,9 +55,9 @@ struct city_painter *city_painter_create(const struct city_settings *settings)
     p->settings = *settings;
     p->size = size;
     p->fine = rg_alloc(texels, sizeof(float), "painter");
-    p->cloud = rg_alloc(texels, sizeof(float), "painter");
-    p->stain = rg_alloc(texels, sizeof(float), "painter");
-    if (!p->fine || !p->cloud || !p->stain) {
+    p->cloud = p->fine ? rg_alloc(texels, sizeof(float), "painter") : NULL;
+    p->stain = p->cloud ? rg_alloc(texels, sizeof(float), "painter") : NULL;
+    if (!p->stain) {
         city_painter_destroy(p);
         return NULL;
     }

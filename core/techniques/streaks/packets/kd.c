@@ -148,11 +148,13 @@ bool streaks_kd_build(struct streaks_packets *packets, int64_t count)
 {
     struct kd kd = {packets, {NULL, NULL}};
     const int64_t leaves = streaks_kd_leaves(count, packets->settings.packet_size);
-    for (int i = 0; i < 2; i++)
-        kd.ids[i] = rg_alloc((size_t)count, sizeof(uint32_t), "rain: particles' numbers");
-    packets->nodes = rg_alloc((size_t)(2 * leaves), sizeof(*packets->nodes), "rain: a tree");
-    packets->packets = rg_alloc((size_t)leaves, sizeof(*packets->packets), "rain: packets");
-    const bool good = kd.ids[0] && kd.ids[1] && packets->nodes && packets->packets;
+    static const char what[] = "rain: particles' numbers";
+    const bool good =
+        (kd.ids[0] = rg_alloc((size_t)count, sizeof(uint32_t), what)) &&
+        (kd.ids[1] = rg_alloc((size_t)count, sizeof(uint32_t), what)) &&
+        (packets->nodes =
+             rg_alloc((size_t)(2 * leaves), sizeof(*packets->nodes), "rain: a tree")) &&
+        (packets->packets = rg_alloc((size_t)leaves, sizeof(*packets->packets), "rain: packets"));
     if (good) {
         for (int64_t i = 0; i < count; i++)
             kd.ids[0][i] = (uint32_t)i;

@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "core/base/memory.h"
+#include "core/scene/mesh/edges.h"
 #include "core/scene/mesh/models.h"
 
 // --- in memory ---
@@ -294,6 +296,24 @@ static void test_numbers_that_are_refused(void **state)
     rg_mesh_destroy(torus);
 }
 
+// Several pieces are more than is allowed, and the first alone is told.
+static void test_no_memory_is_one_line(void **state)
+{
+    (void)state;
+    struct rg_mesh *torus = rg_mesh_load("torus");
+    const struct rg_mesh large = {.face_count = RG_MESH_MAX_FACES}; // its arrays are not looked at
+    struct rg_edges edges;
+    rg_memory_allow((int64_t)100 << 20);
+    expect_count_refused(torus, RG_MESH_MAX_FACES, "of --memory are left");
+    listen_now();
+    assert_false(rg_mesh_edges(&large, &edges));
+    rg_log_listen(NULL, NULL);
+    rg_edges_free(&edges);
+    assert_int_equal(lines.count, 1);
+    rg_memory_allow((int64_t)64 << 30);
+    rg_mesh_destroy(torus);
+}
+
 // --- packages ---
 
 static void expect_model(const char *name, const char *label, int vertices, int faces)
@@ -396,6 +416,7 @@ int main(void)
         cmocka_unit_test(test_refinement_of_an_open_surface),
         cmocka_unit_test(test_refinement_beside_a_line),
         cmocka_unit_test(test_numbers_that_are_refused),
+        cmocka_unit_test(test_no_memory_is_one_line),
         cmocka_unit_test(test_packaged_models),
         cmocka_unit_test(test_packaged_models_are_upright),
         cmocka_unit_test(test_stand_ins_have_the_published_counts),
