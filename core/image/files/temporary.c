@@ -15,9 +15,11 @@ enum { MAX_NAMES = 100 };
 
 // --- where it goes ---
 
-static bool find_target(const char *path, char target[PATH_MAX], struct rg_why *why)
+// Sets `mode` to that of a file that is there, its type included, and else to 0.
+static bool find_target(const char *path, char target[PATH_MAX], mode_t *mode, struct rg_why *why)
 {
     struct stat st;
+    *mode = 0;
     if (snprintf(target, PATH_MAX, "%s", path) >= PATH_MAX)
         return rg_why_set(why, "the path is too long; choose a shorter one");
     if (lstat(path, &st))
@@ -28,6 +30,7 @@ static bool find_target(const char *path, char target[PATH_MAX], struct rg_why *
     if (!S_ISREG(st.st_mode))
         return rg_why_set(why, S_ISDIR(st.st_mode) ? "is a folder; name a file in it"
                                                    : "is not a regular file; name another");
+    *mode = st.st_mode;
     return !access(target, W_OK) ||
            rg_why_set(why, "cannot be written: %s; name another file, or make it writable",
                       strerror(errno));
@@ -91,6 +94,12 @@ static void forget(const struct rg_temporary *t)
 
 // --- making it ---
 
+// What will have another file's mode is nobody else's before it has it.
+static mode_t first_mode(const struct rg_temporary *t)
+{
+    return t->mode ? S_IRUSR | S_IWUSR : 0666;
+}
+
 static bool is_unknown_here(int error)
 {
     return error == EOPNOTSUPP || error == EISDIR || error == EINVAL;
@@ -102,7 +111,7 @@ static int open_nameless(struct rg_temporary *t)
     const char *slash = strrchr(t->target, '/');
     snprintf(folder, sizeof(folder), "%.*s", slash ? (int)(slash - t->target) + 1 : 1,
              slash ? t->target : ".");
-    t->fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+    t->fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, first_mode(t));
     if (t->fd < 0)
         return errno;
     snprintf(t->path, sizeof(t->path), "/proc/self/fd/%d", t->fd);
@@ -118,7 +127,7 @@ static int open_named(struct rg_temporary *t)
     t->fd = -1;
     for (int attempt = 0; t->fd < 0 && attempt < MAX_NAMES; attempt++) {
         name_beside(t->target, attempt, t->path, sizeof(t->path));
-        t->fd = open(t->path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        t->fd = open(t->path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, first_mode(t));
         if (t->fd < 0 && errno != EEXIST)
             break;
     }
@@ -131,7 +140,7 @@ static int open_named(struct rg_temporary *t)
 bool rg_temporary_make(const char *path, struct rg_temporary *temporary, struct rg_why *why)
 {
     temporary->is_named = false;
-    if (!find_target(path, temporary->target, why))
+    if (!find_target(path, temporary->target, &temporary->mode, why))
         return false;
     int error = open_nameless(temporary);
     if (is_unknown_here(error))
@@ -151,6 +160,8 @@ bool rg_temporary_make(const char *path, struct rg_temporary *temporary, struct 
 // Only a file that is there already needs a name for a moment: a link replaces none.
 static bool put_in_place(const struct rg_temporary *t)
 {
+    if (t->mode) // fails where a file system has no modes: all files are alike there
+        fchmod(t->fd, t->mode & 0777);
     if (t->is_named)
         return !rename(t->path, t->target);
     if (!linkat(AT_FDCWD, t->path, AT_FDCWD, t->target, AT_SYMLINK_FOLLOW))

@@ -3,13 +3,15 @@
 // It has no name while it is written, where the file system knows such files: whatever ends the
 // program leaves nothing behind. Where it has one, SIGINT and SIGTERM remove it: a temporary stays
 // where it is in memory until it ends. A link is followed, as a shell's redirection does, and what
-// stands there read-only is refused.
+// stands there read-only is refused. What replaces a file has its mode, and until then is read by
+// nobody else.
 #ifndef RG_CORE_IMAGE_FILES_TEMPORARY_H
 #define RG_CORE_IMAGE_FILES_TEMPORARY_H
 
 #include <limits.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <sys/types.h>
 
 #include "core/image/files/why.h"
 
@@ -17,6 +19,7 @@ struct rg_temporary {
     char path[PATH_MAX];   // to write it by
     char target[PATH_MAX]; // where it goes
     int fd;                // the same file
+    mode_t mode;           // of the file that it replaces, its type included; 0: there is none
     bool is_named;
 };
 

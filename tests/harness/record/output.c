@@ -78,6 +78,24 @@ static void a_set_is_written(void **state)
     expect_text("c.json", "new c");
 }
 
+// What others may not read they do not read once it is written anew, whatever the mask says.
+static void what_is_replaced_keeps_its_mode(void **state)
+{
+    (void)state;
+    static const mode_t modes[] = {0600, 0640, 0666, 0755};
+    struct stat st;
+    char path[128];
+    snprintf(path, sizeof(path), "%s/a.md", folder);
+    for (size_t i = 0; i < sizeof(modes) / sizeof(modes[0]); i++) {
+        assert_true(rg_output_write(folder, "a.md", "old a"));
+        assert_int_equal(chmod(path, modes[i]), 0);
+        assert_true(rg_output_write(folder, "a.md", "new a"));
+        assert_int_equal(stat(path, &st), 0);
+        assert_int_equal(st.st_mode & 07777, modes[i]);
+        expect_text("a.md", "new a");
+    }
+}
+
 // The third does not fit: neither the first nor the second changes.
 static void a_full_disk_changes_none(void **state)
 {
@@ -136,6 +154,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_set_is_written, make, clear),
+        cmocka_unit_test_setup_teardown(what_is_replaced_keeps_its_mode, make, clear),
         cmocka_unit_test_setup_teardown(a_full_disk_changes_none, make, clear),
         cmocka_unit_test_setup_teardown(a_name_that_is_taken_changes_none, make, clear),
     };
