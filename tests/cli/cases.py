@@ -200,6 +200,7 @@ COMMANDS = [
     Case("figures nonsense", 2, r"figure 'nonsense': unknown; `raingauge list figures` prints them"),
     Case("figures creus-4.4 -o {tmp}/none/out", 2, r"none/out: its folder is not there; make it first"),
     Case("figures creus-4.4 --device nonsense", 2, UNKNOWN_DEVICE),
+    Case("figures creus-4.1 --size 64x36 --memory 1M -o {tmp}/out", 2, r"streaks of 64x36 on cpu needs .* MiB, and 1\.0 MiB of --memory are left"),
 
     # atlas
     Case("atlas nonsense", 2, r"technique 'nonsense': unknown; `raingauge list techniques`"),

@@ -51,7 +51,7 @@ static bool set_file(const struct rg_figure_run *run, const struct rg_figure *fi
     snprintf(name, sizeof(name), "%s%s", figure->id, figure->ending);
     if (!find_path(run, figure, figure->ending, path) ||
         !(figure->text ? rg_output_write(run->folder, name, figure->text)
-                       : write_greys(path, figure)))
+                       : rg_output_folder(run->folder) && write_greys(path, figure)))
         return false;
     snprintf(assignment, sizeof(assignment), "%s=%s", figure->parameter, path);
     return rg_params_set(technique->params, settings, assignment);
@@ -112,7 +112,8 @@ static bool write_page(const struct rg_figure_run *run)
 
 // --- all of them ---
 
-// Draws and writes one, and closes the one before, so that what figures share is made once.
+// Draws and writes one, into a folder that is made once there is a picture for it, and closes the
+// one before, so that what figures share is made once.
 static bool next(const struct rg_figure_run *run, const struct rg_figure *figure,
                  struct rg_session **last)
 {
@@ -120,7 +121,8 @@ static bool next(const struct rg_figure_run *run, const struct rg_figure *figure
     struct rg_session *session = find_path(run, figure, ".png", path) ? draw(run, figure) : NULL;
     rg_session_close(*last);
     *last = session;
-    return session && rg_frame_write(session, path, exposure_of(figure));
+    return session && rg_output_folder(run->folder) &&
+           rg_frame_write(session, path, exposure_of(figure));
 }
 
 static bool has_room(const struct rg_figure_run *run)
@@ -133,7 +135,7 @@ bool rg_figures_draw(const struct rg_figure_run *run)
 {
     struct rg_progress progress;
     struct rg_session *last = NULL;
-    bool good = has_room(run) && rg_output_folder(run->folder);
+    bool good = has_room(run);
     rg_interrupt_watch();
     rg_progress_start(&progress, run->count);
     for (int i = 0; good && !rg_interrupted() && i < run->count; i++) {
