@@ -261,7 +261,8 @@ static int atlas_command(const void *values, const struct rg_words *arguments)
     if (arguments->count)
         return make_textures(o, arguments->items[0]);
     struct found found;
-    if (!can_be_kept(o, o->length.quick ? SMALL_BYTES : FULL_BYTES) || !find(o, &found))
+    if (!can_be_kept(o, o->length.quick ? SMALL_BYTES : FULL_BYTES) ||
+        (o->compare && !rg_cave_has_pictures(o->compare)) || !find(o, &found))
         return RG_EXIT_USAGE;
     const bool good = (!o->output || rg_atlas_export(found.atlas, o->output)) &&
                       (!o->compare || compare(o, found.atlas));

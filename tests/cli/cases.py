@@ -215,6 +215,7 @@ COMMANDS = [
     Case("atlas --from /nonexistent", 2, r"/nonexistent/point_light_database/txt/dcam00_point_max\.txt: No such file .*; name the folder"),
     Case("atlas --compare", 2, r"--compare: .*`raingauge atlas --help`"),
     Case("atlas --quick --compare /nonexistent", 2, r"/nonexistent: No such file or directory; name a folder with pictures of the database"),
+    Case("atlas --quick --from {tmp} --compare {data}/fifo.png", 2, r"fifo\.png: Not a directory; name a folder with pictures of the database"),
     Case("atlas --quick --compare {tmp}", 2, r"no picture of the database, such as cv0_v10_h90_osc1\.png, is in it; name another folder"),
     Case("atlas cartoon --compare {tmp}", 2, r"atlas cartoon: --from, --compare, --quick and --full are about the streak atlas"),
     Case("atlas --quick --from {data}/a.png", 2, r"a\.png/point_light_database/txt/dcam00_point_max\.txt: Not a directory"),

@@ -159,3 +159,13 @@ bool rg_cave_compare(const char *folder, const struct rg_atlas *atlas,
     free(files.items);
     return good;
 }
+
+bool rg_cave_has_pictures(const char *folder)
+{
+    struct rg_cave_files files;
+    struct rg_cave_why why;
+    if (!rg_cave_find(folder, &files, &why))
+        return rg_error("%s", why.text);
+    free(files.items);
+    return true;
+}

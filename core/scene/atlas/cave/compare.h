@@ -34,4 +34,8 @@ bool rg_cave_compare(const char *folder, const struct rg_atlas *atlas,
                      const struct rg_atlas_progress *progress,
                      struct rg_cave_comparison *comparison);
 
+// Whether a folder has pictures of the database, as is found out before an atlas is made for them.
+// False, and one logged line, where it has none or cannot be read.
+bool rg_cave_has_pictures(const char *folder);
+
 #endif
