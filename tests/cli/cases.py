@@ -48,6 +48,8 @@ COMMANDS = [
     Case("--help", 0, None),
     Case("--version", 0, None),
     Case("nonsense", 2, r"command 'nonsense': unknown; `raingauge --help` lists them"),
+    Case("worker x", 2, r"worker 'x': raingauge starts its workers itself; `raingauge --help`"),
+    Case("worker 1:0", 2, r"worker '1:0': raingauge starts its workers itself"),
     Case("list --nonsense", 2, r"--nonsense: unknown option; `raingauge list --help`"),
     Case("render --help", 0, None),
     Case("doctor --help", 0, None),

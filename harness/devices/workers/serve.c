@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/workers/channel.h"
 #include "harness/devices/workers/inside.h"
@@ -56,16 +57,18 @@ static bool serve_one(struct rg_channel *channel, rg_service *const services[],
     return sent;
 }
 
-// The harness's death is this process's; no core of it is kept, for its memory is a driver's.
-static void become_a_worker(pid_t harness)
+// The harness's death is this process's; no core of it is kept, for its memory is a driver's. False
+// where another process started it.
+static bool become_a_worker(pid_t harness)
 {
     const struct rlimit none = {0, 0};
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != harness)
-        _exit(1); // it has ended before this was set
+        return false; // or it has ended before this was set
     setrlimit(RLIMIT_CORE, &none);
     signal(SIGXFSZ, SIG_IGN);
     rg_interrupt_watch();
+    return true;
 }
 
 int rg_serve(const char *argument, rg_service *const services[RG_CALL_COUNT_OF_CALLS])
@@ -75,11 +78,14 @@ int rg_serve(const char *argument, rg_service *const services[RG_CALL_COUNT_OF_C
     int doing_id = 0;
     struct rg_message request;
     enum rg_call call = RG_CALL_OPEN;
-    if (sscanf(argument, RG_WORKER_CHANNEL, &harness, &doing_id) != 2)
-        return 1;
-    become_a_worker((pid_t)harness);
-    if (!rg_channel_join(&channel, RG_WORKER_SOCKET, doing_id))
-        return 1;
+    if (sscanf(argument, RG_WORKER_CHANNEL, &harness, &doing_id) != 2 ||
+        !become_a_worker((pid_t)harness) ||
+        !rg_channel_join(&channel, RG_WORKER_SOCKET, doing_id)) {
+        rg_error("worker '%s': raingauge starts its workers itself; `raingauge --help` lists what "
+                 "there is to start",
+                 argument);
+        return RG_EXIT_USAGE;
+    }
     rg_log_listen(keep_line, NULL);
     rg_doing_share(channel.doing.bytes);
     bool goes_on = true;
