@@ -2,9 +2,11 @@
 import csv
 import io
 import json
+import math
 import os
 import pty
 import re
+import shutil
 import signal
 import struct
 import subprocess
@@ -341,6 +343,37 @@ def check_diff_json(runner):
     return problems
 
 
+def write_tiff(path, texels):
+    """A row of grey floats: the header, the row, and the fields that say what it is."""
+    row = struct.pack("<%df" % len(texels), *texels)
+    fields = [(256, len(texels)), (257, 1), (258, 32), (259, 1), (262, 1), (273, 8), (277, 1), (278, 1), (279, len(row)), (339, 3)]
+    with open(path, "wb") as file:
+        file.write(struct.pack("<2sHI", b"II", 42, 8 + len(row)) + row + struct.pack("<H", len(fields)))
+        file.write(b"".join(struct.pack("<HHII", tag, 4, 1, value) for tag, value in fields) + bytes(4))
+
+
+def check_diff_not_finite(runner):
+    """diff --json has a record of pictures with a NaN, whichever is the true one, and names a file that is not UTF-8"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        whole, broken, foreign = ("%s/%s.tif" % (tmp, name) for name in ("a", "b", os.fsdecode(b"c\xff")))
+        write_tiff(whole, [0.5] * 64)
+        write_tiff(broken, [0.5] * 63 + [math.nan])
+        shutil.copy(whole, foreign)
+        for pair in ((whole, broken), (broken, whole)):
+            done = runner.run(["diff", *pair, "--json"])
+            report = json.loads(done.stdout or '{"pairs": []}')
+            problems += forms.problems("diff", report) if report["pairs"] else ["no pair: " + done.stderr]
+            found = [(told["relative_mean"], told["linear"]["nonfinite_mismatches"]) for told in report["pairs"]]
+            if done.returncode != 1 or found != [(0, 1)]:
+                problems.append("exit status %d, %s" % (done.returncode, found))
+        done = subprocess.run([runner.raingauge, "diff", whole, foreign, "--json"], env=runner.variables({}), stdin=subprocess.DEVNULL,
+                              capture_output=True, encoding="utf-8", errors="replace", timeout=60, check=False)
+    if done.returncode != 2 or done.stdout or not re.search(r"c\S*\.tif' is not UTF-8; give", done.stderr) or "a.tif" in done.stderr:
+        problems.append("exit status %d, %s%s" % (done.returncode, done.stdout, done.stderr))
+    return problems
+
+
 def check_full_stdout(runner):
     """results that do not fit on standard output are an error, and nothing else is written to where it was closed"""
     problems = []
@@ -669,8 +702,8 @@ def check_threads(runner):
     return problems
 
 
-CHECKS = [check_textures, check_forms, check_table_json, check_table_files, check_render_json, check_diff_json, check_foreign, check_full_stdout,
-          check_full_disk, check_long, check_threads]
+CHECKS = [check_textures, check_forms, check_table_json, check_table_files, check_render_json, check_diff_json, check_diff_not_finite, check_foreign,
+          check_full_stdout, check_full_disk, check_long, check_threads]
 STORED = [check_claims_alone, check_interrupted, check_stored]
 
 

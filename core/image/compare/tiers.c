@@ -161,7 +161,7 @@ static void relative_row(const struct pictures *p, int y, double sums[2], double
             difference += fabs((double)a[c] - (double)b[c]);
             size += va > vb ? va : vb;
         }
-        if (!isfinite(size) || size == 0)
+        if (!isfinite(difference) || size == 0) // the larger of a NaN and a number can be either
             continue;
         sums[0] += difference;
         sums[1] += size;

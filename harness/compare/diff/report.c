@@ -110,7 +110,7 @@ void rg_pair_print(const char *a, const char *b, const struct rg_comparison *c)
     print_flip(&c->hdr_flip.flip);
 }
 
-// JSON has no infinity: null stands for it.
+// JSON has neither infinity nor NaN: null stands for them.
 static json_t *number(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
@@ -123,14 +123,15 @@ static json_t *verdict_json(const struct rg_verdict *verdict)
 
 static json_t *tiers_json(const struct rg_tiers *t)
 {
-    return json_pack("{s:o, s:o, s:o, s:b, s:f, s:f, s:I, s:f, s:f, s:o, s:f, s:f, s:f}", "t0",
+    return json_pack("{s:o, s:o, s:o, s:b, s:o, s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:o}", "t0",
                      verdict_json(&t->of[RG_T0]), "t1", verdict_json(&t->of[RG_T1]), "t2",
                      verdict_json(&t->of[RG_T2]), "mask_is_whole", t->mask_is_whole,
-                     "above_one_fraction", t->above_one_fraction, "bias_codes", t->bias_codes,
-                     "coverage_mismatches", (json_int_t)t->coverage_mismatches, "matched_a",
-                     t->matched_a, "matched_b", t->matched_b, "energy_ratio",
-                     number(t->energy_ratio), "tile_max_codes", t->tile_max_codes, "relative_mean",
-                     t->relative_mean, "relative_max", t->relative_max);
+                     "above_one_fraction", number(t->above_one_fraction), "bias_codes",
+                     number(t->bias_codes), "coverage_mismatches",
+                     (json_int_t)t->coverage_mismatches, "matched_a", number(t->matched_a),
+                     "matched_b", number(t->matched_b), "energy_ratio", number(t->energy_ratio),
+                     "tile_max_codes", number(t->tile_max_codes), "relative_mean",
+                     number(t->relative_mean), "relative_max", number(t->relative_max));
 }
 
 static json_t *metrics_json(const struct rg_metrics *m)
@@ -163,32 +164,45 @@ static json_t *hdr_flip_json(const struct rg_comparison *c)
     const struct rg_flip *f = &c->hdr_flip.flip;
     if (!c->has_hdr_flip)
         return json_null();
-    return json_pack("{s:f, s:f, s:i, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "start_exposure",
-                     c->hdr_flip.start_exposure, "stop_exposure", c->hdr_flip.stop_exposure,
-                     "exposures", c->hdr_flip.exposures, "mean", f->mean, "weighted_median",
-                     f->weighted_median, "weighted_quartile_1", f->weighted_quartile_1,
-                     "weighted_quartile_3", f->weighted_quartile_3, "p99", f->p99, "max", f->max,
-                     "mask_mean", f->mask_mean, "mask_p99", f->mask_p99);
+    return json_pack("{s:o, s:o, s:i, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "start_exposure",
+                     number(c->hdr_flip.start_exposure), "stop_exposure",
+                     number(c->hdr_flip.stop_exposure), "exposures", c->hdr_flip.exposures, "mean",
+                     number(f->mean), "weighted_median", number(f->weighted_median),
+                     "weighted_quartile_1", number(f->weighted_quartile_1), "weighted_quartile_3",
+                     number(f->weighted_quartile_3), "p99", number(f->p99), "max", number(f->max),
+                     "mask_mean", number(f->mask_mean), "mask_p99", number(f->mask_p99));
+}
+
+static bool is_utf8(const char *name)
+{
+    json_t *json = json_string(name);
+    const bool is = json != NULL;
+    json_decref(json);
+    return is || rg_error("diff --json: '%s' is not UTF-8; give the file another name", name);
 }
 
 json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *c)
 {
     const struct rg_flip *f = &c->flip;
+    if (!is_utf8(a) || !is_utf8(b))
+        return NULL;
     json_t *pair = json_pack(
-        "{s:s, s:s, s:s, s:i, s:I, s:I, s:f, s:o, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:o, "
+        "{s:s, s:s, s:s, s:i, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:o, s:o, "
         "s:o}",
         "a", a, "b", b, "tier", c->tier, "max", c->tiers.max_codes, "differing",
         (json_int_t)c->metrics.differing_values, "mask", (json_int_t)c->tiers.mask_pixels,
-        "flip_mean", f->mean, "psnr", number(c->metrics.psnr_db), "flip_weighted_median",
-        f->weighted_median, "flip_p99", f->p99, "flip_max", f->max, "flip_mask_mean", f->mask_mean,
-        "flip_mask_p99", f->mask_p99, "exposure", (double)c->exposure, "pixels_per_degree",
-        (double)c->pixels_per_degree, "relative_mean", c->tiers.relative_mean, "tiers",
-        tiers_json(&c->tiers), "linear", metrics_json(&c->metrics));
+        "flip_mean", number(f->mean), "psnr", number(c->metrics.psnr_db), "flip_weighted_median",
+        number(f->weighted_median), "flip_p99", number(f->p99), "flip_max", number(f->max),
+        "flip_mask_mean", number(f->mask_mean), "flip_mask_p99", number(f->mask_p99), "exposure",
+        (double)c->exposure, "pixels_per_degree", (double)c->pixels_per_degree, "relative_mean",
+        number(c->tiers.relative_mean), "tiers", tiers_json(&c->tiers), "linear",
+        metrics_json(&c->metrics));
     if (!pair)
-        return rg_error_null("diff --json: '%s' or '%s' is not UTF-8; give the file another name",
+        return rg_error_null("diff --json: no memory for the figures of '%s' and '%s'; close other "
+                             "programs",
                              a, b);
-    json_object_set_new(pair, "flip_weighted_quartile_1", json_real(f->weighted_quartile_1));
-    json_object_set_new(pair, "flip_weighted_quartile_3", json_real(f->weighted_quartile_3));
+    json_object_set_new(pair, "flip_weighted_quartile_1", number(f->weighted_quartile_1));
+    json_object_set_new(pair, "flip_weighted_quartile_3", number(f->weighted_quartile_3));
     json_object_set_new(pair, "codes", codes_json(c));
     json_object_set_new(pair, "hdr_flip", hdr_flip_json(c));
     return pair;

@@ -214,6 +214,23 @@ static void nan_in_one_picture_fails(void **state)
     assert_holds(&t, false, false, false);
 }
 
+// The true picture or the other: a value that is not finite in either is left out of the mean.
+static void values_that_are_not_finite_are_left_out(void **state)
+{
+    (void)state;
+    const float wrong[] = {NAN, INFINITY, -INFINITY};
+    struct rg_comparison c;
+    for (int i = 0; i < 6; i++) {
+        rain_draw(&mutant, honest_rain);
+        mutant.texels[0] = wrong[i / 2];
+        const struct rg_picture *a = i % 2 ? &mutant : &honest, *b = i % 2 ? &honest : &mutant;
+        assert_true(rg_compare(a, "a", b, "b", NULL, &(struct rg_compare_options){0}, &c));
+        assert_true(c.tiers.relative_mean == 0 && c.tiers.relative_max == 0);
+        assert_int_equal(c.metrics.nonfinite_mismatches, 1);
+        rg_comparison_destroy(&c);
+    }
+}
+
 // Rain so dim that it is black when encoded is in no mask; the exposure brings it back.
 static void exposure_reveals_dim_rain(void **state)
 {
@@ -254,6 +271,7 @@ int main(void)
         cmocka_unit_test(no_rain_fails_every_tier),
         cmocka_unit_test(without_background_the_mask_is_whole),
         cmocka_unit_test(nan_in_one_picture_fails),
+        cmocka_unit_test(values_that_are_not_finite_are_left_out),
         cmocka_unit_test(exposure_reveals_dim_rain),
     };
     return cmocka_run_group_tests_name("agreement tiers", tests, make_pictures, destroy_pictures);

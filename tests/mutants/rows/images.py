@@ -54,6 +54,7 @@ ROWS = [
     Fault(METRICS, "m->max_x = row->max_index «/ channels»;", "/ 1", "the largest difference's x counts channels"),
     Fault(METRICS, "worst = «d > worst ? d : worst»;", "d", "a pixel's worst is its last channel's"),
     Fault(METRICS, "} else if («!(isnan(a[i]) && isnan(b[i]))» && a[i] != b[i]) {", "true", "two NaN are a mismatch"),
+    Fault(TIERS, "if («!isfinite(difference)» || size == 0)", "!isfinite(size)", "a NaN in the true picture is in the mean"),
     Fault(TIERS, "distance(p->a + at * 4, p->background + at * 4) > MASK_CODES ||\n                   «distance(p->b + at * 4, p->background + at * 4) > MASK_CODES»", "false", "the rain mask has the first picture's rain alone"),
     Fault(TIERS, "int rg = r > g ? r : g;\n    return «rg > b ? rg : b»;", "rg", "blue is left out of differences"),
     Fault(TIERS, "for (int ny = y - 1; ny <= «y + 1»; ny++)", "y", "a streak is not looked for a pixel below"),
