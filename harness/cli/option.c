@@ -10,26 +10,32 @@ static const struct rg_option help_rows[] = {
     {RG_OPTION_END},
 };
 
-static int add_rows(const struct rg_option *table, size_t offset, const char *initial,
+// `includer` is the row that includes the table: what it says goes before what the table's rows do.
+static int add_rows(const struct rg_option *table, const struct rg_option *includer,
                     struct rg_option *rows, int count)
 {
+    int arguments = includer->arguments;
     for (; table->kind; table++) {
-        if (table->kind == RG_OPTION_INCLUDE) {
-            count = add_rows(table->included, offset + table->offset, table->initial, rows, count);
+        struct rg_option row = *table;
+        if (row.kind == RG_OPTION_GROUP)
+            arguments = row.arguments;
+        row.arguments = arguments;
+        row.offset += includer->offset;
+        if (row.kind == RG_OPTION_INCLUDE) {
+            count = add_rows(row.included, &row, rows, count);
             continue;
         }
         assert(count < RG_MAX_OPTION_ROWS);
-        rows[count] = *table;
-        rows[count].offset += offset;
-        rows[count].initial = initial ? initial : table->initial;
-        count++;
+        row.initial = includer->initial ? includer->initial : row.initial;
+        rows[count++] = row;
     }
     return count;
 }
 
 int rg_option_rows(const struct rg_option *table, struct rg_option *rows)
 {
-    return add_rows(help_rows, 0, NULL, rows, add_rows(table, 0, NULL, rows, 0));
+    const struct rg_option command = {0};
+    return add_rows(help_rows, &command, rows, add_rows(table, &command, rows, 0));
 }
 
 const char *rg_option_argument(const struct rg_option *row, char text[RG_ARGUMENT_SIZE])

@@ -63,12 +63,19 @@ struct rg_option {
     int first, last;      // of operands: where it may stand among them, from 1; last 0: anywhere
                           // from the first on
     const char *excludes; // names of options that cannot be given with it, with spaces between them
+    int arguments;        // of a group: its options go with so many arguments alone; 0: any number
     const struct rg_option *included;
 };
 
 #define RG_GROUP(title)                                                                            \
     {                                                                                              \
         RG_OPTION_GROUP, .about = (title)                                                          \
+    }
+// A heading of options that a command uses where it has so many arguments, and refuses where it has
+// another number of them.
+#define RG_GROUP_OF(count, title)                                                                  \
+    {                                                                                              \
+        RG_OPTION_GROUP, .about = (title), .arguments = (count)                                    \
     }
 // Takes the rows of a shared table; `default_value` is what they are without being given, NULL for
 // nothing.
@@ -92,7 +99,8 @@ struct rg_range {
 };
 
 // The rows of a table with what it includes in its place, and --help after them; offsets count from
-// the command's struct. `rows` has room for RG_MAX_OPTION_ROWS. Returns how many there are.
+// the command's struct, and each row has its group's number of arguments. `rows` has room for
+// RG_MAX_OPTION_ROWS. Returns how many there are.
 int rg_option_rows(const struct rg_option *table, struct rg_option *rows);
 
 // What stands for a row's value, "md|csv|json|tex" where it is chosen; "" if it takes none.

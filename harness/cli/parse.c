@@ -144,6 +144,30 @@ static bool check_exclusions(const struct line *line)
     return true;
 }
 
+// What stands for the arguments that an option goes with.
+static const char *arguments_of(const struct line *line, const struct rg_option *option)
+{
+    for (int i = 0; i < line->count; i++)
+        if (line->rows[i].kind == RG_OPTION_OPERAND && line->rows[i].arguments == option->arguments)
+            return line->rows[i].argument;
+    return "";
+}
+
+// An option that goes with another number of arguments than there are would be ignored.
+static bool check_belonging(const struct line *line)
+{
+    const int count = line->arguments.count;
+    for (int i = 0; i < line->count; i++) {
+        const struct rg_option *row = &line->rows[i];
+        if (line->given[i] && row->arguments && row->arguments != count)
+            return rg_error("--%s: belongs to `%s %s`, and %d argument%s given; leave it out, or "
+                            "write that",
+                            row->name, line->command->name, arguments_of(line, row), count,
+                            count == 1 ? " is" : "s are");
+    }
+    return true;
+}
+
 static bool refuse(const struct line *line, int code)
 {
     return rg_error("%s: %s; `raingauge %s --help` prints the options",
@@ -162,7 +186,7 @@ static enum parsed parse(struct line *line)
     }
     if (value < -1 && !refuse(line, value))
         return REFUSED;
-    return check_exclusions(line) && take_arguments(line) ? RUN : REFUSED;
+    return check_exclusions(line) && take_arguments(line) && check_belonging(line) ? RUN : REFUSED;
 }
 
 static int run(struct line *line)

@@ -93,7 +93,10 @@ COMMANDS = [
     # diff: what is given and not used
     Case("diff flow --device cpu,,cpu:reference", 2, r"--device 'cpu,,cpu:reference': names no device beside a comma"),
     Case("diff flow --device ,cpu,cpu:reference", 2, r"names no device beside a comma"),
-    Case("diff flow --device cpu,cpu:reference --background {data}/a.png", 2, r"--background .*: belongs to two files; leave it out"),
+    Case("diff flow --device cpu,cpu:reference --background {data}/a.png", 2, r"--background: belongs to `diff A B`, and 1 argument is given; leave it out"),
+    *[Case("diff {data}/a.png {data}/a.png " + option, 2, r"%s: belongs to `diff TECHNIQUE`, and 2 arguments are given; leave it out" % option.split()[0])
+      for option in ("--require nonsense", "--timeout 5", "--set nonsense=1", "--device cpu", "--frame 5", "--size 8x8", "--mutants")],
+    Case("diff {data}/a.png {data}/a.png --memory 1G --exposure 2", 0, None),
     Case(RENDER.replace("--frame 1", "--frame -2147483648") + "-o {tmp}/a.png", 2, r"--frame -2147483648: must be 0 to"),
     Case(RENDER.replace("--frame 1", "--frame=") + "-o {tmp}/a.png", 2, r"--frame : invalid numeric value"),
     Case(RENDER + "--exposure= -o {tmp}/a.png", 2, r"--exposure : invalid numeric value"),

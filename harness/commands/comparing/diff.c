@@ -23,7 +23,7 @@ struct diff_options {
 #define AT(field) offsetof(struct diff_options, field)
 
 static const struct rg_option options[] = {
-    RG_GROUP("What to compare: a technique on devices"),
+    RG_GROUP_OF(1, "What to compare: a technique on devices"),
     {RG_OPTION_OPERAND, .argument = "TECHNIQUE",
      .about = "one frame of it, on every pair of devices; `raingauge list techniques` prints them",
      .names = RG_NAMES_TECHNIQUE, .first = 1, .last = 1},
@@ -35,14 +35,15 @@ static const struct rg_option options[] = {
               "verify` would pass with the tier that it holds"},
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
-    RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
-    RG_GROUP("What to compare: two files"),
+    RG_GROUP_OF(2, "What to compare: two files"),
     // The operand has no last place, so that a wrong number of arguments comes to the line below.
     {RG_OPTION_OPERAND, .argument = "A B", .about = "picture files of one size; A is the true one",
      .names = RG_NAMES_FILE, .first = 1},
     {RG_OPTION_TEXT, "background", .argument = "FILE",
      .about = "the picture without rain: differences are gated where it rains",
      .offset = AT(background), .names = RG_NAMES_FILE},
+    RG_GROUP("Either"),
+    RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
     RG_GROUP("Output"),
     {RG_OPTION_TEXT, "output", .argument = "PREFIX",
      .about = "writes heat maps into files whose names begin so", .offset = AT(heatmap_prefix),
@@ -55,11 +56,6 @@ static const struct rg_option options[] = {
 static int diff_devices(const struct diff_options *o, const struct rg_words *arguments)
 {
     void *settings;
-    if (o->background) {
-        rg_error("--background %s: belongs to two files; leave it out, or name them",
-                 o->background);
-        return RG_EXIT_USAGE;
-    }
     const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
     if (!technique)
         return RG_EXIT_USAGE;

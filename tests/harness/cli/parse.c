@@ -23,11 +23,18 @@ struct sample_options {
     double factor, exposure;
     char *devices, *output;
     struct rg_length length;
+    int depth;
+    bool is_swapped, has_more;
 };
 
 #define AT(field) offsetof(struct sample_options, field)
 
 static const char *const formats[] = {"md", "csv", "tex", NULL};
+
+static const struct rg_option depth_option[] = {
+    {RG_OPTION_INT, "depth", .argument = "N", .about = "of a pair", .most = 9, .initial = "1"},
+    {RG_OPTION_END},
+};
 
 static const struct rg_option options[] = {
     RG_GROUP("Things"),
@@ -52,6 +59,12 @@ static const struct rg_option options[] = {
     {RG_OPTION_TEXT, "output", .argument = "FILE", .about = "a file", .offset = AT(output),
      .letter = 'o'},
     RG_INCLUDE(rg_length_options, AT(length), NULL),
+    RG_GROUP_OF(2, "Pairs"),
+    {RG_OPTION_OPERAND, .argument = "THIS THAT", .about = "a pair", .first = 1, .last = 2},
+    {RG_OPTION_FLAG, "swap", .about = "swaps a pair", .offset = AT(is_swapped)},
+    RG_INCLUDE(depth_option, AT(depth), NULL),
+    RG_GROUP("More"),
+    {RG_OPTION_FLAG, "more", .about = "more", .offset = AT(has_more)},
     {RG_OPTION_END},
 };
 
@@ -214,6 +227,23 @@ static void what_is_wrong_is_refused_in_one_line(void **state)
                                     "--help` prints the usage");
 }
 
+// Included or not, and up to the next heading.
+static void what_a_number_of_arguments_leaves_unused_is_refused(void **state)
+{
+    (void)state;
+    const char *const values = "512x512 0-0 -1--1 60 1 1 -1 0 1 cpu none 00";
+    char pair[128], one[128];
+    snprintf(pair, sizeof(pair), "%s 'a' 'b'", values);
+    snprintf(one, sizeof(one), "%s 'a'", values);
+    expect_run("a b --swap --depth 3 --more", pair);
+    expect_run("a --more", one);
+    expect_run("a --swap=0", one);
+    expect_refusal("--swap", "--swap: belongs to `sample THIS THAT`, and 0 arguments are given; "
+                             "leave it out, or write that");
+    expect_refusal("a --depth 3", "--depth: belongs to `sample THIS THAT`, and 1 argument is "
+                                  "given; leave it out, or write that");
+}
+
 static void there_is_room_for_so_many_words(void **state)
 {
     (void)state;
@@ -233,6 +263,7 @@ int main(void)
         cmocka_unit_test(arguments_stand_anywhere_and_the_last_value_counts),
         cmocka_unit_test(asking_for_help_is_no_error),
         cmocka_unit_test(what_is_wrong_is_refused_in_one_line),
+        cmocka_unit_test(what_a_number_of_arguments_leaves_unused_is_refused),
         cmocka_unit_test(there_is_room_for_so_many_words),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

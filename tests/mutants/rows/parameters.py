@@ -40,8 +40,10 @@ ROWS = [
     Fault(PARSE, "ok = !row->initial || «rg_option_set(row, line->values, row->initial, line->command->name)»;", "true", "options have no defaults"),
     Fault(PARSE, "if («line->arguments.count == places»)", "false", "arguments that are too many are ignored"),
     Fault(PARSE, "if («line->given[j]» && rg_has_word", "false", "options that exclude each other are taken"),
+    Fault(PARSE, "if (line->given[i] && «row->arguments && row->arguments != count»)", "false", "options of other arguments are ignored"),
+    Fault(OPTION, "if (row.kind == RG_OPTION_GROUP)\n            «arguments = row.arguments;»", ";", "a heading has no number of arguments"),
     Fault(PARSE, "if («value < -1» && !refuse(line, value))", "false", "an unknown option is ignored"),
     Fault(PARSE, "rg_command_print_help(line->command);\n    return «RG_EXIT_PASS»;", "RG_EXIT_USAGE", "asking for help fails"),
-    Fault(OPTION, "rows[count].offset «+= offset»;", "+= 0", "options that commands share lie at the beginning"),
-    Fault(OPTION, "rows[count].initial = «initial ? initial : table->initial»;", "table->initial", "a command has no default of its own"),
+    Fault(OPTION, "row.offset «+= includer->offset»;", "+= 0", "options that commands share lie at the beginning"),
+    Fault(OPTION, "row.initial = «includer->initial ? includer->initial : row.initial»;", "row.initial", "a command has no default of its own"),
 ]
