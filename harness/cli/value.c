@@ -149,7 +149,9 @@ static bool set_text(const struct rg_option *row, char **copy, const char *text)
 {
     if (!*text)
         return rg_error("--%s '': is empty; write a value behind it, or leave it out", row->name);
-    if (row->names == RG_NAMES_DEVICES && !rg_device_names_check(text))
+    char option[64];
+    snprintf(option, sizeof(option), "--%s", row->name);
+    if (row->names == RG_NAMES_DEVICES && !rg_device_names_check(option, text))
         return false;
     free(*copy);
     return (*copy = strdup(text)) || rg_error("--%s %s: no memory for it", row->name, text);

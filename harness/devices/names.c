@@ -60,16 +60,28 @@ static bool has_sound_threads(const struct rg_device_name *name)
                     name->name, rg_threads_most());
 }
 
+// Whether one of the variables up to `last` sets the same one as that does.
+static bool is_set_before(const char *environment, const char *last)
+{
+    const size_t length = strcspn(last, "=") + 1;
+    while (environment < last && strncmp(environment, last, length) != 0)
+        environment += strlen(environment) + 1;
+    return environment < last;
+}
+
 static bool read_environment(struct rg_device_name *name)
 {
     const char *from = strchr(name->name, '@');
     char *to = name->environment;
     for (from = from ? from + 1 : ""; *from; *to++ = 0) {
-        const char *value = copy_key(from, &to);
+        const char *const variable = to, *value = copy_key(from, &to);
         if (!value)
             return rg_error("device '%s': '%.60s' does not set a variable; write it as KEY=value, "
                             "KEY of letters, digits and _",
                             name->name, from);
+        if (is_set_before(name->environment, variable))
+            return rg_error("device '%s': sets %.*s twice; choose one value", name->name,
+                            (int)(value - from - 1), from);
         from = copy_value(value, &to);
     }
     *to = 0;
@@ -91,12 +103,13 @@ static const char *fault_of(const char *names, const char *end)
                : "";
 }
 
-// Reads the first of `rest`, a part of `names`, which messages quote.
-static bool read_name(const char *names, const char **rest, struct rg_device_name *name)
+// Reads the first of `rest`, a part of `names`, which messages quote with what they were given to.
+static bool read_name(const char *given_to, const char *names, const char **rest,
+                      struct rg_device_name *name)
 {
     const char *end = find_end(*rest), *fault = fault_of(*rest, end);
     if (*fault)
-        return rg_error("--device '%s': %s", names, fault);
+        return rg_error("%s '%s': %s", given_to, names, fault);
     const size_t length = (size_t)(end - *rest);
     if (length >= sizeof(name->name))
         return rg_error("device '%.60s...': a name has at most %d characters", *rest,
@@ -109,15 +122,15 @@ static bool read_name(const char *names, const char **rest, struct rg_device_nam
 
 bool rg_device_name_read(const char **names, struct rg_device_name *name)
 {
-    return read_name(*names, names, name);
+    return read_name("devices", *names, names, name);
 }
 
-bool rg_device_names_check(const char *names)
+bool rg_device_names_check(const char *given_to, const char *names)
 {
     struct rg_device_name name;
     const char *rest = names;
     do
-        if (!read_name(names, &rest, &name))
+        if (!read_name(given_to, names, &rest, &name))
             return false;
     while (*rest);
     return true;
@@ -127,7 +140,7 @@ bool rg_device_names_one(const char *names, const char *command)
 {
     struct rg_device_name name;
     const char *rest = names;
-    if (!rg_device_name_read(&rest, &name))
+    if (!read_name("--device", names, &rest, &name))
         return false;
     return (strcmp(names, "all") != 0 && !*rest) ||
            rg_error("--device %s: %s draws on one device; `raingauge diff` compares several", names,

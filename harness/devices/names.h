@@ -3,7 +3,7 @@
 // A name may have an environment: "vulkan@VK_DRIVER_FILES=old.json;LP_NUM_THREADS=1". Its worker is
 // started with these variables over raingauge's own, so that two drivers of one API, or one driver
 // in two settings, stand side by side. A value that holds a comma, a semicolon or a double quote is
-// put in double quotes; within them two double quotes mean one.
+// put in double quotes; within them two double quotes mean one. No variable stands there twice.
 #ifndef RG_HARNESS_DEVICES_NAMES_H
 #define RG_HARNESS_DEVICES_NAMES_H
 
@@ -16,8 +16,9 @@ struct rg_device_name {
     char environment[RG_DEVICE_NAME_SIZE + 2]; // "KEY=value", each ended by a zero, the last by two
 };
 
-// Whether all names are such forms; else one line has been logged.
-bool rg_device_names_check(const char *names);
+// Whether all names are such forms; else one line has been logged, which says what they were given
+// to: "--require".
+bool rg_device_names_check(const char *given_to, const char *names);
 
 // Whether it is the name of one device, on which a command draws. False, and one logged line.
 bool rg_device_names_one(const char *names, const char *command);

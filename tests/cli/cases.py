@@ -97,6 +97,10 @@ COMMANDS = [
     *[Case("diff {data}/a.png {data}/a.png " + option, 2, r"%s: belongs to `diff TECHNIQUE`, and 2 arguments are given; leave it out" % option.split()[0])
       for option in ("--require nonsense", "--timeout 5", "--set nonsense=1", "--device cpu", "--frame 5", "--size 8x8", "--mutants")],
     Case("diff {data}/a.png {data}/a.png --memory 1G --exposure 2", 0, None),
+    Case("diff flow --require cpu,,", 2, r"--require 'cpu,,': names no device beside a comma"),
+    Case("sweep flow --axis device=cpu,,", 2, r"--axis device 'cpu,,': names no device beside a comma"),
+    Case("diff flow --device cpu@A=x;A=y,cpu", 2, r"device 'cpu@A=x;A=y': sets A twice; choose one value"),
+    Case("gate cpu@A=x;A=y cpu", 2, r"device 'cpu@A=x;A=y': sets A twice; choose one value"),
     Case(RENDER.replace("--frame 1", "--frame -2147483648") + "-o {tmp}/a.png", 2, r"--frame -2147483648: must be 0 to"),
     Case(RENDER.replace("--frame 1", "--frame=") + "-o {tmp}/a.png", 2, r"--frame : invalid numeric value"),
     Case(RENDER + "--exposure= -o {tmp}/a.png", 2, r"--exposure : invalid numeric value"),
@@ -120,7 +124,6 @@ COMMANDS = [
     Case("shrink flow --device cpu,,, --size 8x8", 2, r"names no device beside a comma"),
     Case("shrink flow --seconds=-1", 2, r"--seconds -1: must be 1 to 86400"),
     Case("sweep flow --axis seed=1,,2", 2, r"--axis seed=1,,2: write it as NAME=VALUE,VALUE"),
-    Case("sweep flow --axis device=cpu,,", 2, r"names no device beside a comma"),
     Case("sweep flow --axis drops=-1", 2, r"parameter 'drops': -1 is out of range; 0 to 100000$"),
 
     # what is written replaces nothing that is read

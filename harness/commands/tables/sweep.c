@@ -93,7 +93,7 @@ static bool read_axes(const struct rg_words *words, struct rg_grid *grid, char *
         }
         if (*devices)
             return rg_error("--axis device: stands twice; name all devices at once");
-        if (!rg_device_names_check(text + strlen(DEVICE_AXIS)))
+        if (!rg_device_names_check("--axis device", text + strlen(DEVICE_AXIS)))
             return false;
         if (!(*devices = strdup(text + strlen(DEVICE_AXIS))))
             return rg_error("--axis device: no memory");

@@ -34,7 +34,7 @@ static void check(const char *names, int count, const char *const expected[][2])
 {
     struct rg_device_name name;
     const char *rest = names;
-    assert_true(rg_device_names_check(names));
+    assert_true(rg_device_names_check("--device", names));
     for (int i = 0; i < count; i++) {
         assert_true(rg_device_name_read(&rest, &name));
         assert_string_equal(name.name, expected[i][0]);
@@ -52,6 +52,8 @@ static void names_are_read_one_after_the_other(void **state)
     check(
         "vulkan,vulkan@LP_NUM_THREADS=1", 2,
         (const char *const[][2]){{"vulkan", ""}, {"vulkan@LP_NUM_THREADS=1", "LP_NUM_THREADS=1|"}});
+    check("gl@AB=A=1;A=2;B=3", 1,
+          (const char *const[][2]){{"gl@AB=A=1;A=2;B=3", "AB=A=1|A=2|B=3|"}});
     check("gl@A=1;B_2=x y;C=,vulkan@D=a=b", 2,
           (const char *const[][2]){{"gl@A=1;B_2=x y;C=", "A=1|B_2=x y|C=|"},
                                    {"vulkan@D=a=b", "D=a=b|"}});
@@ -89,10 +91,13 @@ static void what_is_no_such_form_is_refused(void **state)
         {"cpu@OMP_NUM_THREADS=0", "OMP_NUM_THREADS is no number from 1"},
         {"cpu@A=1;OMP_NUM_THREADS=abc", "OMP_NUM_THREADS is no number from 1"},
         {"cpu@OMP_NUM_THREADS=100000", "OMP_NUM_THREADS is no number from 1"},
+        {"gl@A=1;A=2", "device 'gl@A=1;A=2': sets A twice"},
+        {"gl@AB=1;A=2;B=3;AB=1", "sets AB twice"},
+        {"cpu,,", "--require 'cpu,,': names no device beside a comma"},
     };
     for (size_t i = 0; i < sizeof(refused) / sizeof(refused[0]); i++) {
         *logged = 0;
-        assert_false(rg_device_names_check(refused[i][0]));
+        assert_false(rg_device_names_check("--require", refused[i][0]));
         if (!strstr(logged, refused[i][1]))
             fail_msg("%s: %s", refused[i][0], logged);
     }

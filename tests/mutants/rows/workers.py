@@ -57,6 +57,7 @@ ROWS = [
     Fault(DEVICE, "text[size - 1] = 0;", ";", "a device's texts have no end"),
     Fault(DEVICES, "if («reply->failed») {", "false", "a damaged list is one of a backend without devices"),
     Fault(DEVICE, "if («environment && *environment»)\n        snprintf(told", "false", "a device's name does not tell its environment"),
+    Fault(NAMES, "if («is_set_before(name->environment, variable)»)", "false", "a variable may stand twice in a name"),
     Fault(NAMES, "for (; *name && («quoted» || *name != ','); name++)", "false", "a comma in quotes ends a name"),
     Fault(NAMES, "for (; *from && («quoted» || *from != ';'); from++) {", "false", "a semicolon in quotes ends a value"),
     Fault(NAMES, "else if (quoted && «from[1] == '\"'»)", "false", "two quotes mean none"),
