@@ -1,5 +1,6 @@
 #include "core/base/memory.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -63,13 +64,29 @@ static int64_t less_a_tenth(int64_t bytes)
 
 // --- what is allowed ---
 
+// The bytes that the variable names; 0: it is not set, or says something else, which is told.
+static int64_t chosen_bytes(void)
+{
+    const char *text = getenv(variable);
+    char *end;
+    if (!text || !*text)
+        return 0;
+    errno = 0;
+    const long long bytes = strtoll(text, &end, 10);
+    if (!errno && end != text && !*end && bytes > 0)
+        return bytes;
+    rg_warning("%s=%.40s: is no whole number of bytes above 0, and is ignored; write it as "
+               "1000000000, or give --memory 1G",
+               variable, text);
+    return 0;
+}
+
 static void find_limit(void)
 {
-    const char *chosen = getenv(variable);
-    const int64_t available = rg_memory_available();
+    const int64_t chosen = chosen_bytes(), available = rg_memory_available();
     memory.is_known = true;
-    memory.is_chosen = chosen && atoll(chosen) > 0;
-    memory.limit_bytes = memory.is_chosen ? atoll(chosen)
+    memory.is_chosen = chosen > 0;
+    memory.limit_bytes = memory.is_chosen ? chosen
                          : available      ? less_a_tenth(available)
                                           : INT64_MAX;
 }

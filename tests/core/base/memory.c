@@ -15,11 +15,23 @@
 
 #define MIB ((int64_t)1 << 20)
 
-// It runs first, before a limit has been chosen.
+static int warnings;
+
+static void count_warnings(enum rg_log_level level, const char *line, void *user)
+{
+    (void)user;
+    warnings += level == RG_LOG_WARNING && strstr(line, "RG_MEMORY_BYTES=1e9: is no whole number");
+}
+
+// It runs first, before a limit has been chosen: the variable says what is no number, which is
+// ignored and told once.
 static void without_a_choice_a_tenth_of_what_is_free_is_kept(void **state)
 {
     (void)state;
+    rg_log_listen(count_warnings, NULL);
     const int64_t available = rg_memory_available(), left = rg_memory_left();
+    rg_log_listen(NULL, NULL);
+    assert_int_equal(warnings, 1);
     assert_true(available > 0);
     // Others take and give meanwhile.
     assert_true(left > available / 2 && left < available * 95 / 100);
@@ -89,7 +101,7 @@ static void large_pieces_of_the_host_are_refused(void **state)
 
 int main(void)
 {
-    unsetenv("RG_MEMORY_BYTES");
+    setenv("RG_MEMORY_BYTES", "1e9", 1);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(without_a_choice_a_tenth_of_what_is_free_is_kept),
         cmocka_unit_test(what_is_taken_counts_until_it_is_given_back),

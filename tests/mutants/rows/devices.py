@@ -26,6 +26,7 @@ ROWS = [
     Fault(OBJECTS, "give(device, «image_bytes(&image->desc)»);", "0", "an image that is gone gives nothing back"),
     Fault(OBJECTS, "work->most_bytes = «work->most_bytes > work->live_bytes» ?", "false", "what lives now is taken for the most that lived"),
     Fault(MEMORY, "return bytes «- bytes / 10»;", "- 0", "no margin is left of what is free"),
+    Fault(MEMORY, "end != text && «!*end» && bytes > 0", "true", "a limit of 1e9 bytes is one of 1"),
     Fault(MEMORY, "memory.taken_bytes «+= bytes»;", "+= 0", "what is taken is not counted"),
     Fault(MEMORY, "«memory.is_chosen» ? 0 : less_a_tenth", "false", "the user cannot allow more than is free"),
     Fault(MEMORY, "setenv(variable, text, «1»);", "0", "other processes learn the first limit alone"),
