@@ -109,6 +109,10 @@ COMMANDS = [
     Case("figures creus-4.1 --device cpu,cpu:reference -o {tmp}/a", 2, r"--device cpu,cpu:reference: figures draws on one device; `raingauge diff`"),
     Case("figures creus-4.1 --device all -o {tmp}/a", 2, r"--device all: figures draws on one device"),
 
+    # verify: stages of no frame
+    Case("verify raster --stages --frame 0 --device cpu", 2, r"--frame 0: --stages compares what the stages of frames leave, at least of 1"),
+    Case("verify raster --stages --frame 1 --size 32x32 --device cpu", 0, None),
+
     # a variable that says nothing of use
     *[Case("render raster --frame 0 --size 32x32 -o {tmp}/a.png", 0, r"warning: RG_MEMORY_BYTES=%s: is no whole number of bytes above 0, and is ignored; " % text,
            {"RG_MEMORY_BYTES": text}, made=("a.png",)) for text in ("abc", "1G", "0", "-5", "99999999999999999999")],

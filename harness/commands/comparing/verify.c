@@ -157,6 +157,13 @@ static int verify_on(const struct verify_options *o, const struct rg_devices *de
     return exit;
 }
 
+// Stages run in frames: without one there is nothing to compare, and that would pass.
+static bool check_frames(const struct verify_options *o)
+{
+    return !o->stages || o->steps != 0 ||
+           rg_error("--frame 0: --stages compares what the stages of frames leave, at least of 1");
+}
+
 static int verify(const void *values, const struct rg_words *arguments)
 {
     const struct verify_options *o = values;
@@ -164,7 +171,7 @@ static int verify(const void *values, const struct rg_words *arguments)
     struct rg_devices devices;
     int count = 0, exit = RG_EXIT_USAGE;
     rg_memory_allow(o->memory_bytes);
-    if (choose_all(arguments, &o->sets, subjects, &count)) {
+    if (check_frames(o) && choose_all(arguments, &o->sets, subjects, &count)) {
         exit = rg_devices_open_asked(&o->devices, &devices);
         if (exit == RG_EXIT_PASS)
             exit = rg_devices_end(&devices, verify_on(o, &devices, subjects, count));
