@@ -115,6 +115,8 @@ def check_no_rain(runner):
             done = runner.run(["table", table, "--rows", "1-1", "--device", "cpu,cpu:reference", "-o", tmp] + sets)
             record = json.loads(open("%s/%s.json" % (tmp, table), encoding="utf-8").read())
             cells = {(cell["device"], cell["status"], "measured" in cell) for cell in record["cells"]}
+            if done.closing != "raingauge: 0 of {0} cells measured on 2 devices; {0} failed\n".format(len(record["cells"])):
+                problems.append("%s: %s" % (table, done.closing))
             if done.returncode != 1 or cells != {("cpu", "fail", False), ("cpu:reference", "fail", False)} or "without rain" not in done.stdout:
                 problems.append("%s: exit status %d, %s\n%s" % (table, done.returncode, cells, done.stdout))
             del record["changed"]  # else claims would be about other work
@@ -169,8 +171,9 @@ def check_sweep(runner):
         brief = open(tmp + "/sweep-flow.md", encoding="utf-8").read()
     report = json.loads(run.stdout)
     problems += forms.problems("table", report)
-    if run.returncode or again != run.stdout or made != ["sweep-flow." + form for form in FORMATS] or not re.fullmatch(plan, run.stderr):
-        problems.append("exit status %d, made %s, %s" % (run.returncode, made, run.stderr))
+    if run.returncode or again != run.stdout or made != ["sweep-flow." + form for form in FORMATS] or not re.fullmatch(plan, run.stderr) or \
+            run.closing != "raingauge: 12 cells measured on 2 devices\n" or dry.closing:
+        problems.append("exit status %d, made %s, %s%s" % (run.returncode, made, run.stderr, run.closing))
     rows = [(px, panes) for px in (32, 64, 96) for panes in ("mirror", "glass")]
     wanted = [({"resolution_px": px, "panes": panes}, device) for px, panes in rows for device in ("cpu", "cpu:reference")]
     if [(cell["row"], cell["device"]) for cell in report["cells"]] != wanted:

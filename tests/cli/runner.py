@@ -16,6 +16,8 @@ NO_DRIVERS = {
     "__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent",
 }
 
+# With what table and sweep end.
+CLOSING = re.compile(r"^raingauge: (?:\d+ of )?\d+ cells? measured on \d+ devices?(?:; [^;\n]*)?\n", re.M)
 
 PR_CAPBSET_DROP, CAP_DAC_OVERRIDE = 24, 1
 
@@ -50,7 +52,8 @@ class Runner:
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
 
     def run(self, args, env={}, limit=None, stdout=subprocess.PIPE, obeys_modes=False):
-        """A command with these variables, which can write files of up to `limit` bytes; root's own obeys the modes of files."""
+        """A command with these variables, which can write files of up to `limit` bytes; root's own obeys the modes of files.
+        The line with which tables end is `closing`, and not in `stderr`."""
 
         def restrict():
             if limit is not None:
@@ -58,9 +61,12 @@ class Runner:
             if obeys_modes:
                 obey_modes()
 
-        return subprocess.run([self.raingauge] + args, env=self.variables(env), preexec_fn=restrict, timeout=300,
-                              stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE,
-                              encoding="utf-8")
+        result = subprocess.run([self.raingauge] + args, env=self.variables(env), preexec_fn=restrict, timeout=300,
+                                stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE,
+                                encoding="utf-8")
+        result.closing = "".join(CLOSING.findall(result.stderr))
+        result.stderr = CLOSING.sub("", result.stderr)
+        return result
 
     def report(self, name, problems):
         self.count += 1

@@ -10,6 +10,7 @@
 #include "harness/console/interrupt.h"
 #include "harness/record/disk/hold.h"
 #include "harness/tables/runs/budget.h"
+#include "harness/tables/runs/closing.h"
 #include "harness/tables/runs/forecast.h"
 #include "harness/tables/runs/needed.h"
 #include "harness/tables/measuring/measure.h"
@@ -54,7 +55,7 @@ static void tell_interrupted(const struct task *task)
 }
 
 static int run_task(struct task *task, struct rg_kept *kept,
-                    const struct rg_regenerate_options *options)
+                    const struct rg_regenerate_options *options, struct rg_closing *closing)
 {
     tell_resumed(task);
     const struct rg_table_bar *bar = task->bar.progress ? &task->bar : NULL;
@@ -65,6 +66,7 @@ static int run_task(struct task *task, struct rg_kept *kept,
     struct rg_place any = rg_result_start(&task->result);
     if (!rg_interrupted() && !rg_result_next(&task->result, &any))
         return RG_EXIT_PASS; // the budget ended before it
+    rg_closing_add(closing, &task->result);
     int exit = options->print(&task->result, options->user);
     task->is_lost = exit == RG_EXIT_USAGE;
     if (task->is_lost)
@@ -233,9 +235,12 @@ static void forget_tasks(struct task *tasks, int count)
     }
 }
 
-static void end_tasks(struct task *tasks, int count)
+// What is kept for another run has a line of its own.
+static void end_tasks(struct task *tasks, int count, const struct rg_closing *closing, int devices)
 {
     const bool are_kept = keeps_journals(tasks, count);
+    if (!are_kept)
+        rg_closing_tell(closing, devices);
     for (int i = 0; i < count && !are_kept; i++)
         rg_journal_remove(tasks[i].journal);
     forget_tasks(tasks, count);
@@ -247,18 +252,19 @@ static int run_tasks(struct task *tasks, int count, const struct rg_devices *dev
 {
     struct rg_kept kept = {.devices = devices};
     struct rg_progress progress;
+    struct rg_closing closing = {0};
     int exit = RG_EXIT_PASS;
     rg_interrupt_watch();
     struct rg_forecast *forecasts = foresee(tasks, count, &kept, o);
     begin_bar(tasks, count, forecasts, &progress);
     free(forecasts);
     for (int i = 0; i < count && !rg_interrupted(); i++)
-        exit = rg_exit_worse(exit, run_task(&tasks[i], &kept, o));
+        exit = rg_exit_worse(exit, run_task(&tasks[i], &kept, o, &closing));
     rg_progress_end(&progress);
     if (rg_interrupted())
         exit = rg_exit_worse(exit, RG_EXIT_SIGNALLED + rg_interrupt_signal());
     exit = rg_exit_worse(exit, finish_tasks(tasks, count, o));
-    end_tasks(tasks, count);
+    end_tasks(tasks, count, &closing, devices->count);
     return rg_kept_free(&kept) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
 }
 
@@ -266,14 +272,14 @@ static int run_tasks(struct task *tasks, int count, const struct rg_devices *dev
 
 // Measures a table as the budget has it. There is no journal: the next run plans anew.
 static int run_within(struct rg_budget *budget, int i, struct rg_kept *kept,
-                      const struct rg_regenerate_options *options)
+                      const struct rg_regenerate_options *options, struct rg_closing *closing)
 {
     const double start_ms = rg_now_ms();
     struct task task = {.table = &budget->table};
     if (!rg_budget_next(budget, i, &task.result, stderr))
         return RG_EXIT_PASS;
     kept->devices = &budget->chosen;
-    const int exit = run_task(&task, kept, options);
+    const int exit = run_task(&task, kept, options, closing);
     kept->devices = budget->devices;
     rg_budget_done(budget, i, &task.result, start_ms);
     rg_result_free(&task.result);
@@ -285,16 +291,19 @@ static int regenerate_within(const struct rg_table *const tables[], int count,
                              const struct rg_regenerate_options *options, struct rg_budget *budget)
 {
     struct rg_kept kept = {.devices = devices};
+    struct rg_closing closing = {0};
     int exit = RG_EXIT_PASS;
     rg_interrupt_watch();
     const bool ok = rg_budget_begin(budget, tables, count, &kept, options->budget_s, stderr);
     for (int i = 0; ok && i < count && !rg_interrupted(); i++)
-        exit = rg_exit_worse(exit, run_within(budget, i, &kept, options));
+        exit = rg_exit_worse(exit, run_within(budget, i, &kept, options, &closing));
     if (ok && !rg_interrupted() && !rg_budget_end(budget, stderr))
         exit = rg_exit_worse(exit, RG_EXIT_NOTHING);
     if (rg_interrupted())
         exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
     exit = rg_exit_worse(exit, print_end(options));
+    if (ok && !rg_interrupted())
+        rg_closing_tell(&closing, devices->count);
     return rg_kept_free(&kept) && ok ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
 }
 

@@ -34,6 +34,8 @@ ROWS = [
     Fault(USER, "return «(size_t)length < size» ||", "true", "a folder of the user's that is too long is cut", tests=("user",)),
     Fault(USER, "const char *variable = «folders[folder].variable»;", "folders[RG_USER_CACHE].variable", "what goes on later lies where caches are cleaned", tests=("user",)),
     Fault(HOLD, "return «!is_taken»;", "true", "two runs write into a folder at once", tests=("command line, losses",)),
+    Fault(REGENERATE, "if («!are_kept»)\n        rg_closing_tell", "false", "tables end without a word", tests=("command line, long",)),
+    Fault("harness/tables/runs/closing.c", "closing->failed += «outcome != RG_OK && outcome != RG_UNSUPPORTED»;", "0", "cells that failed count as measured", tests=("command line, long",)),
     Fault(REGENERATE, "if («!is_ours» && options->folder)", "false", "a second run into a folder goes on", tests=("command line, losses",)),
     Fault(REGENERATE, "for (int i = 0; «keeps» && i < made; i++)", "true", "a run whose state folder another holds keeps rows there", tests=("command line, losses",)),
     Fault("harness/commands/tables/inputs.c", "table->rows[row].set, «set»);", "NULL", "a table's files replace one that --set names", tests=("command line, tables",)),
