@@ -130,6 +130,23 @@ def check_failed_colours(runner):
     return [] if painted == due else ["painted: %s in %r" % (painted, shown)]
 
 
+def row_name(row):
+    """What reasons call a row: its values, each with its name but for a first one that is a text."""
+    words = ["%s %s" % (name, value if isinstance(value, str) else "%.10g" % value) for name, value in row.items()]
+    first = next(iter(row.values()))
+    return ", ".join([first] + words[1:] if isinstance(first, str) else words)
+
+
+def reason_problems(wide):
+    """Reasons that name no row of their table in full, or tell a rate as a power of ten."""
+    problems = []
+    for table, reason in re.findall(r"(?m)^- ([a-z0-9.-]+), (.* fps.*)$", wide):
+        rows = {row_name(cell["row"]) for cell in json.loads(read(KEPT, table + ".json"))["cells"]}
+        if not any(name in reason for name in rows) or re.search(r"\de[+]\d", reason):
+            problems.append("%s: %s" % (table, reason))
+    return problems
+
+
 def check_claims(runner):
     """table --claims judges what papers claim of the tables that are kept, each on its devices, and one alone; --wide has every reason"""
     printed = runner.run(["table", "--claims", "--from", KEPT, "--format", "csv"])
@@ -146,7 +163,7 @@ def check_claims(runner):
     noted = set(re.findall(r', ((?:not )?reproduced|undecided|other work) on [^:]*?, p (?:<|0|1)', wide))
     if noted != {"reproduced", "not reproduced", "undecided"}:
         problems.append("verdicts that have a reason and a probability: %s" % noted)
-    return problems + page_problems(runner, rows) + refused_form(runner)
+    return problems + reason_problems(wide) + page_problems(runner, rows) + refused_form(runner)
 
 
 # How the page of one screen says a verdict.

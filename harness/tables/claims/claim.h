@@ -61,14 +61,16 @@ enum rg_claim_verdict {
 };
 const char *rg_claim_verdict_text(enum rg_claim_verdict verdict);
 
+enum { RG_REASON_SIZE = 512 }; // the names of two rows fit
+
 struct rg_judgement {
     enum rg_claim_verdict verdict;
     // Probabilities of samples as far from the opposite as these, were the opposite true: that the
     // claim does not hold, and that it holds. NAN where there are no samples.
     double against, in_favour;
-    bool print_contradicts; // the paper's own numbers do not bear it out
-    int rows, rows_needed;  // those that it was judged by, of the claim's
-    char why[256];          // one sentence
+    bool print_contradicts;   // the paper's own numbers do not bear it out
+    int rows, rows_needed;    // those that it was judged by, of the claim's
+    char why[RG_REASON_SIZE]; // one sentence
 };
 
 // Judges a claim by the result of its table, on one of its devices. A verdict is given where the

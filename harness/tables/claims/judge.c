@@ -8,6 +8,9 @@
 
 // Half of the 5 % is for either side.
 #define ERROR_SHARE 0.025
+
+enum { ROW_SIZE = 160, ABOUT_SIZE = 448 };
+
 const char *rg_claim_verdict_text(enum rg_claim_verdict verdict)
 {
     static const char *const texts[RG_CLAIM_VERDICTS] = {"reproduced", "not reproduced",
@@ -22,13 +25,13 @@ const char *rg_claim_verdict_text(enum rg_claim_verdict verdict)
 struct parts {
     int count;
     double against, in_favour;
-    char least_sure[160], most_wrong[160]; // what they are about
+    char least_sure[ABOUT_SIZE], most_wrong[ABOUT_SIZE]; // what they are about
 };
 
 static const struct parts no_parts = {.in_favour = 1};
 
 static void add_probabilities(struct parts *parts, double against, double in_favour,
-                              const char about[160])
+                              const char about[ABOUT_SIZE])
 {
     if (!parts->count || against > parts->against) {
         parts->against = against;
@@ -49,19 +52,31 @@ struct bound {
 
 static const struct bound faster_at_all = {1, 1};
 
+// Frames a second in so many digits, or more: not as a power of ten.
+static const char *fps_text(double fps, int digits, char text[24])
+{
+    if (fps < 999)
+        snprintf(text, 24, "%.*g", digits, fps);
+    else
+        snprintf(text, 24, "%.0f", fps);
+    return text;
+}
+
 // `faster` is to be so many times as fast as `slower`.
 static void add_part(struct parts *parts, const struct rg_record *faster,
                      const struct rg_record *slower, struct bound bound)
 {
-    char name[2][40], about[160];
+    char name[2][ROW_SIZE], about[ABOUT_SIZE], fps[2][24];
     rg_record_row_name(faster, name[0], sizeof(name[0]));
     rg_record_row_name(slower, name[1], sizeof(name[1]));
+    fps_text(rg_record_fps(faster), 4, fps[0]);
+    fps_text(rg_record_fps(slower), 4, fps[1]);
     if (!strcmp(name[0], name[1])) // of two variants
-        snprintf(about, sizeof(about), "%s, %.30s against %.30s: %.4g to %.4g fps", name[0],
-                 faster->variant, slower->variant, rg_record_fps(faster), rg_record_fps(slower));
+        snprintf(about, sizeof(about), "%s, %s against %s: %s to %s fps", name[0], faster->variant,
+                 slower->variant, fps[0], fps[1]);
     else
-        snprintf(about, sizeof(about), "%s against %s: %.4g to %.4g fps", name[0], name[1],
-                 rg_record_fps(faster), rg_record_fps(slower));
+        snprintf(about, sizeof(about), "%s against %s: %s to %s fps", name[0], name[1], fps[0],
+                 fps[1]);
     const double drift = rg_record_drift(faster, slower);
     const double against =
         rg_order_probability(faster->samples_ms, faster->sample_count, bound.holds * drift,
@@ -224,10 +239,11 @@ static struct rg_judgement judge_rate(struct hearing *h)
     const double due_ms = 1000 / h->claim->least;
     for (int i = 0; i < h->count; i++) {
         const struct rg_record *r = rg_hearing_row(h, h->rows[i]);
-        char name[60], about[160];
+        char name[ROW_SIZE], about[ABOUT_SIZE], fps[2][24];
         rg_record_row_name(r, name, sizeof(name));
-        snprintf(about, sizeof(about), "%s: %.3g to %.3g fps, due are %.3g", name,
-                 1000 / r->frame_ms.high, 1000 / r->frame_ms.low, h->claim->least);
+        snprintf(about, sizeof(about), "%s: %s to %s fps, due are %.3g", name,
+                 fps_text(1000 / r->frame_ms.high, 3, fps[0]),
+                 fps_text(1000 / r->frame_ms.low, 3, fps[1]), h->claim->least);
         add_probabilities(&parts, rg_sign_probability(r->samples_ms, r->sample_count, due_ms, 1),
                           rg_sign_probability(r->samples_ms, r->sample_count, due_ms, -1), about);
     }
