@@ -70,7 +70,8 @@ static void test_samples(void **state)
     rg_result_free(&result);
 }
 
-// A file may be read by whom any other that the user writes may be, and is whole or not there.
+// A new file may be read by whom any other that the user writes may be, and one that is replaced by
+// whom it could be; it is whole or not there.
 static void test_files(void **state)
 {
     (void)state;
@@ -80,16 +81,23 @@ static void test_files(void **state)
     const mode_t masks[] = {022, 077, 0};
     for (int i = 0; i < 3; i++) {
         const mode_t mask = umask(masks[i]);
-        assert_true(rg_output_write(folder, "a.txt", i ? "again" : "first"));
-        umask(mask);
         snprintf(path, sizeof(path), "%s/a.txt", folder);
+        assert_true(rg_output_write(folder, "a.txt", "first"));
+        assert_true(!i || rg_output_write(folder, "a.txt", "again"));
+        umask(mask);
         assert_int_equal(stat(path, &found), 0);
         assert_int_equal(found.st_mode & 0777, 0666 & ~masks[i]);
         FILE *file = fopen(path, "r");
         assert_non_null(fgets(text, sizeof(text), file));
         fclose(file);
         assert_string_equal(text, i ? "again" : "first");
+        assert_int_equal(unlink(path), 0);
     }
+    assert_true(rg_output_write(folder, "a.txt", "first"));
+    assert_int_equal(chmod(path, 0600), 0);
+    assert_true(rg_output_write(folder, "a.txt", "again"));
+    assert_int_equal(stat(path, &found), 0);
+    assert_int_equal(found.st_mode & 0777, 0600);
     assert_int_equal(unlink(path), 0);
     assert_int_equal(rmdir(folder), 0); // nothing else is left in it
 }

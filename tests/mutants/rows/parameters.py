@@ -13,7 +13,7 @@ ROWS = [
     Fault(VALUE, "if («!*text»)", "false", "an option's text may be empty"),
     Fault(LOG, "return «level == RG_LOG_INFO»;", "true", "each cell that meets an error prints it", tests=("log",)),
     Fault(LOG, "if («is_held»)", "false", "what is only counted logs errors", tests=("log",)),
-    Fault(THREADS, "|| «threads <= THREADS_A_PROCESSOR * processors»)", "true", "a hundred thousand threads are made", tests=("command line, results",)),
+    Fault(THREADS, "if («threads <= rg_threads_most()»)", "true", "a hundred thousand threads are made", tests=("command line, results",)),
     Fault(THREADS, "return «!unsetenv(count_name)»;", "false", "each process complains of a wrong number of threads", tests=("command line, results",)),
     Fault(THREADS, "«dup2(nothing, STDERR_FILENO)»;", "0", "libgomp complains twice", tests=("command line, results",)),
     Fault(PARAMS, "*double_at(param, settings) = param->initial;", "*double_at(param, settings) = (int)param->initial;", "defaults are whole numbers"),

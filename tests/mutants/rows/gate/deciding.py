@@ -46,7 +46,7 @@ ROWS = [
     Fault(SHIFT, ".high = k ? differences[«pairs - k»] : NAN,", "pairs - k - 1", "the upper end is one pair too low", tests=("verdicts apart",)),
     Fault(COURSE, "return «s->source->before»\n", "NULL", "times that were taken earlier are not looked at", tests=("verdicts apart",)),
     Fault(COURSE, "sample.logs[i] = «exp(sample.logs[i])»;", "sample.logs[i]", "the time before is told as a logarithm", tests=("verdicts apart",)),
-    Fault(KEPT, "} else if («!json_equal(json_object_get(found, \"key\"), key)» ||", "false", "what another gate kept is gone on with", tests=("command line, losses",)),
+    Fault(KEPT, "} else if («!json_equal(json_object_get(found, \"key\"), key)») {", "false", "what another gate kept is gone on with", tests=("command line, losses",)),
     Fault(KEPT, "if (!found || «count < 0») {", "false", "a journal that is none is gone on with", tests=("command line, losses",), lives="its checksum tells one that was damaged before"),
     Fault(KEPT, "if («was && !strcmp(was, code)»)\n", "was != NULL", "times that other code took are gone on with", tests=("command line, losses",)),
     Fault(KEPT, ".before = «source->before»", "NULL", "times that are kept are held against none of the baseline's", tests=("command line, baselines",)),
