@@ -172,8 +172,31 @@ def check_crash(runner):
     return problems
 
 
+def check_sides(runner):
+    """what is expected of B is not met by a failure of A, whether the two are compared or timed, and no patch blames B for it"""
+    problems = []
+    with Files(TORUS) as files:
+        known = files.path("known.txt", "fail *\n  device vulkan*\n  outcome crash\n  reason it falls\n  since 2026-11-01\n  until 9999-12-31\n")
+        fails, empty = files.path("fails.txt", "raster/torus,Crash\n"), files.path("empty.txt", "")
+        # Two launches compare, and the device's driver falls from the one after so many on.
+        count = files.path("count")
+        env = misbehaving.shim(runner, files.folder.name, "vulkan", "vkQueueSubmit", "abort", 0)
+        other = files.path("other.sh", "#!/bin/sh\necho >> %s\ntest $(wc -l < %s) -gt ${RG_TEST_GOOD} && export RG_MISBEHAVE=%s\nexec %s \"$@\"\n" % (
+            count, count, env["RG_MISBEHAVE"], runner.raingauge))
+        os.chmod(other, 0o700)
+        for good, more in ((0, ["--expectations", known]), (0, ["--fails", fails]), (0, ["--expectations", empty]), (4, ["--expectations", known])):
+            device = "vulkan@RG_PROGRAM=%s;RG_TEST_GOOD=%d;VK_DRIVER_FILES=%s" % (other, good, env["VK_DRIVER_FILES"])
+            for a, b, is_met in ((device, "vulkan", False), ("vulkan", device, empty not in more)):
+                files.path("count", "")
+                result = runner.run(["gate", a, b, "--cells", files.cells] + more)
+                is_told, is_patched = "expected failure" in result.stdout, "--- " in result.stdout
+                if result.returncode != (0 if is_met else 1) or is_told != is_met or is_patched != (a == "vulkan" and not is_met) or "crash" not in result.stdout + result.stderr:
+                    problems.append("%s, %s, %s: exit status %d, %s%s" % (a, b, more, result.returncode, result.stdout, result.stderr))
+    return problems
+
+
 def check_falling(runner):
-    """a side that cannot be started any more fails the gate, whatever was measured by then, and is held against what is expected"""
+    """a side that cannot be started any more fails the gate, whatever was measured by then and is expected of the other"""
     problems = []
     expected = "fail raster/*\n  outcome error\n  reason it stops\n  since 2026-01-01\n  until 9999-12-31\n"
     with Files(TORUS) as files:
@@ -181,7 +204,7 @@ def check_falling(runner):
         other = files.path("other.sh", "#!/bin/sh\necho >> %s\ntest $(wc -l < %s) -gt 5 && exit 1\nexec %s \"$@\"\n" % (count, count, runner.raingauge))
         os.chmod(other, 0o700)
         for more, status, ending, says in (([], 1, "error", "is no raingauge that this one can ask"),
-                                           (["--expectations", known], 0, "expected failure", "expected: ")):
+                                           (["--expectations", known], 1, "error", "is no raingauge that this one can ask")):
             files.path("count", "")
             result = runner.run(["gate", "--against", other, "--device", "cpu", "--cells", files.cells, "--json"] + more)
             case = json.loads(result.stdout)["gated"][0]
@@ -333,5 +356,5 @@ def check_room(runner):
     return []
 
 
-CHECKS = [check_same, check_slower, check_quarantined, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
+CHECKS = [check_same, check_slower, check_quarantined, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_sides, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
           check_unwritten, check_refused, check_room]

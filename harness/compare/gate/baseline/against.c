@@ -183,7 +183,8 @@ static struct rg_device *launch_for(struct run *r, struct rg_gate_case *c, int n
 static void add_to(struct lot *lot, const struct run *r, int number)
 {
     const struct rg_gate_case *c = &r->gate->cases[number];
-    lot->cells[lot->count] = (struct rg_timed_cell){.cell = c->cell, .slot = r->rows[number]->slot};
+    lot->cells[lot->count] =
+        (struct rg_timed_cell){.cell = c->cell, .slot = r->rows[number]->slot, .side = RG_SIDE_B};
     lot->side_of[lot->count] = r->side_of[number];
     lot->case_of[lot->count] = number;
     lot->before[lot->count++] = rg_baseline_sample(&r->rows[number]->launches);

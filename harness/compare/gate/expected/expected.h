@@ -68,6 +68,7 @@ struct rg_known_result {
     enum rg_outcome outcome;
     double pixels;     // that differ; NAN: not measured
     double difference; // the largest of a channel; NAN: not measured
+    bool is_foreign;   // what failed is not this device's driver: nothing is expected of that
 };
 
 // How a result meets what is expected.

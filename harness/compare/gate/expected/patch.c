@@ -62,7 +62,7 @@ static void count_result(struct summary *s, const struct rg_known_result *result
     s->fixed += met == RG_MET_FIXED;
     s->wrong += met == RG_MET_DIFFERENT || met == RG_MET_EXPIRED;
     s->has_expired = s->has_expired || met == RG_MET_EXPIRED;
-    if (result->outcome == RG_OK || result->outcome == RG_UNSUPPORTED)
+    if (result->outcome == RG_OK || result->outcome == RG_UNSUPPORTED || result->is_foreign)
         return;
     s->failing++;
     s->outcomes |= 1U << result->outcome;
@@ -217,7 +217,8 @@ static void mend_mesa(struct patch *p, int64_t index, const struct summary *s)
 
 static bool is_new(const struct patch *p, int64_t i)
 {
-    return p->rows[i] < 0 && rg_met_fails(p->met[i], p->results[i].outcome);
+    return p->rows[i] < 0 && !p->results[i].is_foreign &&
+           rg_met_fails(p->met[i], p->results[i].outcome);
 }
 
 static void print_new_of_form(struct patch *p, enum rg_known_form form, int64_t i, FILE *out)

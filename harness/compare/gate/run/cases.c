@@ -203,6 +203,19 @@ static void put_pictures(struct rg_gate_case *c, const char *folder, struct rg_r
     told->attachment_count = c->paths ? RG_GATE_PICTURES : 0;
 }
 
+// Whether what failed is another than the device that the case is of: the side that it is held
+// against, or the truth.
+static bool is_foreign(const struct rg_gate_case *c)
+{
+    const char *device = c->agreement.device, *own = rg_gate_case_device(c);
+    if (broke_off(c))
+        return c->times.side != RG_SIDE_B;
+    if (!device)
+        return false;
+    // Both sides may have one name, and then lie apart.
+    return c->device_count == RG_SIDES ? device != own : strcmp(device, own) != 0;
+}
+
 void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *request,
                        struct rg_report_case *told, struct rg_known_result *result)
 {
@@ -212,7 +225,8 @@ void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *req
                                  .driver = c->driver,
                                  .outcome = broke_off(c) ? c->times.outcome : c->agreement.outcome,
                                  .pixels = c->agreement.pixels,
-                                 .difference = c->agreement.difference};
+                                 .difference = c->agreement.difference,
+                                 .is_foreign = is_foreign(c)};
     const enum rg_met met =
         c->is_skipped ? RG_MET_SKIPPED
                       : rg_known_judge(request->known, c->expectation, result, request->today);

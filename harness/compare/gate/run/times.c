@@ -32,10 +32,13 @@ bool rg_times_launch(int number, void *user)
 {
     struct rg_gate_times *t = user;
     const int first = number & 1; // neither is always the one that finds the machine idle
-    if (rg_side_launch(&t->sides[first]) && rg_side_launch(&t->sides[!first]))
+    int side = first;
+    if (rg_side_launch(&t->sides[side]) && rg_side_launch(&t->sides[side = !first]))
         return true;
-    for (int i = 0; i < t->cell_count; i++)
+    for (int i = 0; i < t->cell_count; i++) {
+        t->cells[i].side = side;
         rg_timed_cell_fails(&t->cells[i]);
+    }
     return false;
 }
 
@@ -49,6 +52,7 @@ static bool warm_up(struct rg_timed_cell *timed, struct rg_session *sessions[RG_
     double product = 1;
     for (int side = 0; side < RG_SIDES; side++) {
         double frame_ms;
+        timed->side = side;
         if (!rg_slot_warm_up(sessions[side], &frame_ms))
             return false;
         product *= frame_ms;
@@ -64,7 +68,7 @@ static bool time_quad(struct rg_timed_cell *timed, struct rg_session *sessions[R
     const int order[4] = {b_first, !b_first, !b_first, b_first};
     int taken[RG_SIDES] = {0, 0};
     for (int i = 0; i < 4; i++) {
-        const int side = order[i];
+        const int side = timed->side = order[i];
         if (!rg_slot_time(sessions[side], &timed->slot, &times_ms[side][taken[side]++]))
             return false;
     }
@@ -101,7 +105,7 @@ bool rg_times_take(int row, bool b_first, struct rg_quads *quads, void *user)
     const double start_ms = rg_now_ms();
     bool ok = true;
     for (int i = 0; ok && i < RG_SIDES; i++) {
-        const int side = i ^ b_first;
+        const int side = timed->side = i ^ b_first;
         sessions[side] = rg_session_run(t->sides[side].device, &subject, cell->frames);
         ok = sessions[side] != NULL;
     }

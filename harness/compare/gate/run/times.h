@@ -11,6 +11,7 @@
 struct rg_timed_cell {
     const struct rg_gate_cell *cell;
     struct rg_slot slot;     // the same on both sides
+    int side;                // whose turn it is, or was when it ended
     enum rg_outcome outcome; // why nothing more can be had of it; OK: it can
     char why[256];
     double seconds; // that it took

@@ -97,17 +97,36 @@ static void expect(const char *text, enum rg_known_form form, const struct rg_kn
 static void what_is_true_stays(void **state)
 {
     (void)state;
-    static const struct rg_known_result results[] = {{"a", "gl", "M", RG_FAIL, 15, 1},
-                                                     {"b", "gl", "M", RG_OK, 0, 0},
-                                                     {"c", "gl", "M", RG_UNSUPPORTED, NAN, NAN}};
+    static const struct rg_known_result results[] = {
+        {"a", "gl", "M", RG_FAIL, 15, 1, false},
+        {"b", "gl", "M", RG_OK, 0, 0, false},
+        {"c", "gl", "M", RG_UNSUPPORTED, NAN, NAN, false}};
     static const char text[] = ROW("a", "10..20", "2026-02-01");
     expect(text, RG_FORM_OWN, results, 3, "2026-02-01", text);
+}
+
+// What failed is not the device that the file would blame.
+static void what_fails_elsewhere_stands_in_no_file(void **state)
+{
+    (void)state;
+    static const struct rg_known_result results[] = {{"a", "gl", "M", RG_CRASH, NAN, NAN, true},
+                                                     {"b", "gl", "M", RG_FAIL, 1, 1, false},
+                                                     {"c", "gl", "M", RG_CRASH, NAN, NAN, true}};
+    expect("", RG_FORM_OWN, results, 1, "2026-01-15", "");
+    expect("", RG_FORM_FAILS, results, 1, "2026-01-15", "");
+    expect("fail [abc]\n  outcome fail\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n",
+           RG_FORM_OWN, results, 1, "2026-01-15",
+           "fail [abc]\n  outcome fail\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n");
+    // A row that fails otherwise here takes nothing of what failed there.
+    expect("fail *\n  outcome timeout\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n",
+           RG_FORM_OWN, results, 3, "2026-01-15",
+           "fail *\n  outcome    fail\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n");
 }
 
 static void what_is_fixed_goes(void **state)
 {
     (void)state;
-    static const struct rg_known_result results[] = {{"b", "gl", "M", RG_OK, 0, 0}};
+    static const struct rg_known_result results[] = {{"b", "gl", "M", RG_OK, 0, 0, false}};
     expect("# head\n" ROW("a", "1", "2026-02-01") "\n" ROW("b", "2", "2026-02-01") "\n" ROW(
                "c", "3", "2026-02-01"),
            RG_FORM_OWN, results, 1, "2026-01-15",
@@ -117,8 +136,8 @@ static void what_is_fixed_goes(void **state)
     expect(ROW("b", "2", "2026-02-01") ROW("[b]", "1", "2026-02-01") ROW("b*", "2", "2026-02-01"),
            RG_FORM_OWN, results, 1, "2026-01-15", ROW("[b]", "1", "2026-02-01"));
     expect("b,Fail\nc,Fail\nb,Crash\n", RG_FORM_FAILS, results, 1, "2026-01-15", "c,Fail\n");
-    static const struct rg_known_result both[] = {{"b", "gl", "M", RG_OK, 0, 0},
-                                                  {"b2", "gl", "M", RG_FAIL, 2, 1}};
+    static const struct rg_known_result both[] = {{"b", "gl", "M", RG_OK, 0, 0, false},
+                                                  {"b2", "gl", "M", RG_FAIL, 2, 1, false}};
     expect(ROW("b", "2", "2026-02-01") ROW("b*", "2", "2026-02-01"), RG_FORM_OWN, both, 2,
            "2026-01-15",
            "fail b2\n  device     gl\n  outcome    fail\n  pixels     2\n  reason     r\n"
@@ -128,8 +147,8 @@ static void what_is_fixed_goes(void **state)
 static void what_fails_otherwise_gets_the_new_evidence(void **state)
 {
     (void)state;
-    static const struct rg_known_result results[] = {{"a1", "gl", "M", RG_FAIL, 25, 1},
-                                                     {"a2", "gl", "M", RG_FAIL, 5, 1}};
+    static const struct rg_known_result results[] = {{"a1", "gl", "M", RG_FAIL, 25, 1, false},
+                                                     {"a2", "gl", "M", RG_FAIL, 5, 1, false}};
     expect(ROW("a*", "10..20", "2026-02-01"), RG_FORM_OWN, results, 1, "2026-01-15",
            "fail a*\n  outcome fail\n  pixels     10..25\n  # why\n  reason r\n  since "
            "2026-01-01\n  until 2026-02-01\n");
@@ -139,7 +158,7 @@ static void what_fails_otherwise_gets_the_new_evidence(void **state)
     expect(ROW("a*", "10..20", "2026-02-01"), RG_FORM_OWN, results + 1, 1, "2026-01-15",
            "fail a*\n  outcome fail\n  pixels     5..20\n  # why\n  reason r\n  since "
            "2026-01-01\n  until 2026-02-01\n");
-    static const struct rg_known_result crashes[] = {{"a1", "gl", "M", RG_CRASH, NAN, NAN}};
+    static const struct rg_known_result crashes[] = {{"a1", "gl", "M", RG_CRASH, NAN, NAN, false}};
     expect(ROW("a*", "10..20", "2026-02-01"), RG_FORM_OWN, crashes, 1, "2026-01-15",
            "fail a*\n  outcome    crash\n  pixels 10..20\n  # why\n  reason r\n  since "
            "2026-01-01\n  until 2026-02-01\n");
@@ -148,13 +167,13 @@ static void what_fails_otherwise_gets_the_new_evidence(void **state)
 static void what_has_expired_gets_ninety_days(void **state)
 {
     (void)state;
-    static const struct rg_known_result results[] = {{"a", "gl", "M", RG_FAIL, 15, 1}};
+    static const struct rg_known_result results[] = {{"a", "gl", "M", RG_FAIL, 15, 1, false}};
     expect(ROW("a", "10..20", "2026-02-01"), RG_FORM_OWN, results, 1, "2026-02-02",
            "fail a\n  outcome fail\n  pixels 10..20\n  # why\n  reason r\n  since 2026-01-01\n"
            "  until      2026-05-03\n");
     static const char rest[] = "skip a\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n";
     expect(rest, RG_FORM_OWN, results, 0, "2026-02-02", rest); // no result: nothing is known of it
-    static const struct rg_known_result passes[] = {{"a", "gl", "M", RG_OK, 0, 0}};
+    static const struct rg_known_result passes[] = {{"a", "gl", "M", RG_OK, 0, 0, false}};
     expect(rest, RG_FORM_OWN, passes, 1, "2026-02-02", "");
     expect("flake a\n  reason r\n  since 2026-01-01\n  until 2026-02-01", RG_FORM_OWN, passes, 1,
            "2026-02-02", "");
@@ -164,9 +183,10 @@ static void what_has_expired_gets_ninety_days(void **state)
 static void a_pattern_that_is_fixed_in_part_is_split(void **state)
 {
     (void)state;
-    static const struct rg_known_result results[] = {{"a1", "gl", "M 1", RG_FAIL, 15, 1},
-                                                     {"a2", "gl", "M 1", RG_OK, 0, 0},
-                                                     {"a3", "vulkan", "M 1", RG_FAIL, 35, 1}};
+    static const struct rg_known_result results[] = {
+        {"a1", "gl", "M 1", RG_FAIL, 15, 1, false},
+        {"a2", "gl", "M 1", RG_OK, 0, 0, false},
+        {"a3", "vulkan", "M 1", RG_FAIL, 35, 1, false}};
     expect("#\n\n" ROW("a*", "10..20", "2026-02-01"), RG_FORM_OWN, results, 3, "2026-01-15",
            "#\n\nfail a1\n  device     gl\n  outcome    fail\n  pixels     10..20\n  reason     "
            "r\n  since      2026-01-01\n  until      2026-02-01\n"
@@ -181,8 +201,8 @@ static void a_pattern_that_is_fixed_in_part_is_split(void **state)
 static void what_is_new_is_added(void **state)
 {
     (void)state;
-    static const struct rg_known_result results[] = {{"a", "gl", "M", RG_FAIL, 15, 0.25},
-                                                     {"b", "gl", "M", RG_CRASH, NAN, NAN}};
+    static const struct rg_known_result results[] = {{"a", "gl", "M", RG_FAIL, 15, 0.25, false},
+                                                     {"b", "gl", "M", RG_CRASH, NAN, NAN, false}};
     static const char added[] =
         NEW("a", "  outcome    fail\n  pixels     15\n  difference 0.25\n") "\n" NEW(
             "b", "  outcome    crash\n");
@@ -191,8 +211,8 @@ static void what_is_new_is_added(void **state)
     snprintf(text, sizeof(text), "# head\n\n%s", added);
     expect("# head", RG_FORM_OWN, results, 2, "2026-01-15", text); // its last line gets an end
     // The last row goes, and others come in its place.
-    static const struct rg_known_result both[] = {{"c", "gl", "M", RG_OK, 0, 0},
-                                                  {"b", "gl", "M", RG_CRASH, NAN, NAN}};
+    static const struct rg_known_result both[] = {{"c", "gl", "M", RG_OK, 0, 0, false},
+                                                  {"b", "gl", "M", RG_CRASH, NAN, NAN, false}};
     expect(ROW("c", "1", "2026-02-01"), RG_FORM_OWN, both, 2, "2026-01-15",
            "\n" NEW("b", "  outcome    crash\n"));
 }
@@ -201,11 +221,13 @@ static void what_is_new_is_added(void **state)
 static void long_files_and_foreign_line_ends_are_kept(void **state)
 {
     (void)state;
-    static const struct rg_known_result results[] = {
-        {"t.0", "gl", "M", RG_OK, 0, 0},       {"t.7", "gl", "M", RG_CRASH, 0, 0},
-        {"t.14", "gl", "M", RG_FAIL, 5, 0},    {"t.20", "gl", "M", RG_OK, 0, 0},
-        {"t.39", "gl", "M", RG_TIMEOUT, 0, 0}, {"new,comma", "gl", "M", RG_FAIL, 0, 0},
-        {"new", "gl", "M", RG_ERROR, 0, 0}};
+    static const struct rg_known_result results[] = {{"t.0", "gl", "M", RG_OK, 0, 0, false},
+                                                     {"t.7", "gl", "M", RG_CRASH, 0, 0, false},
+                                                     {"t.14", "gl", "M", RG_FAIL, 5, 0, false},
+                                                     {"t.20", "gl", "M", RG_OK, 0, 0, false},
+                                                     {"t.39", "gl", "M", RG_TIMEOUT, 0, 0, false},
+                                                     {"new,comma", "gl", "M", RG_FAIL, 0, 0, false},
+                                                     {"new", "gl", "M", RG_ERROR, 0, 0, false}};
     char text[4096] = "", wanted[4096] = "";
     for (int i = 0; i < 40; i++) {
         char line[64];
@@ -246,7 +268,7 @@ static void hostile_names_are_matched_by_what_is_written(void **state)
     memset(cell, 'n', sizeof(cell) - 1);
     memcpy(cell, "a b\n<\"'&\x01\t\x7f", 11);
     cell[sizeof(cell) - 1] = 0;
-    const struct rg_known_result results[] = {{cell, "d\nreason x", "", RG_FAIL, 1, NAN}};
+    const struct rg_known_result results[] = {{cell, "d\nreason x", "", RG_FAIL, 1, NAN, false}};
     char *text = patched("", RG_FORM_OWN, results, 1, "2026-01-15");
     struct rg_known known = {.count = 0};
     assert_true(rg_known_add(&known, name, RG_FORM_OWN));
@@ -276,6 +298,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_true_stays),
+        cmocka_unit_test(what_fails_elsewhere_stands_in_no_file),
         cmocka_unit_test(what_is_fixed_goes),
         cmocka_unit_test(what_fails_otherwise_gets_the_new_evidence),
         cmocka_unit_test(what_has_expired_gets_ninety_days),
