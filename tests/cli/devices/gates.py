@@ -195,8 +195,29 @@ def check_sides(runner):
     return problems
 
 
+def check_ours(runner):
+    """what raingauge cannot do for want of a file, of memory or of rain is no failure of a driver that could be expected, also against a baseline"""
+    problems = []
+    bad = "a/file raster 64x48 1 scene=mesh model=%s\nb/dry shower 64x36 1 geometry=off opacity=0\nc/large raster 1024x1024 1 billboards=10\n"
+    with Files() as files:
+        model, path = files.path("model.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), files.path("baseline.json")
+        cells = files.path("bad.txt", bad % model)
+        more = ["--cells", cells, "--pictures"]
+        runner.run(["baseline", "--device", "cpu", "-o", path] + more)
+        os.remove(model)
+        fails = files.path("fails.txt", "a/file,Fail\nb/dry,Fail\nc/large,Fail\n")
+        flakes, empty = files.path("flakes.txt", "a\nb\nc\n"), files.path("empty.txt", "")
+        for args, wanted in ((["cpu", "cpu"], {"error"}), (["--baseline", path], {"error"})):
+            for known in (["--fails", fails], ["--flakes", flakes], ["--expectations", empty]):
+                result = runner.run(["gate"] + args + more + ["--memory", "95M"] + known)
+                told = re.findall(r"^(\S.*?)  +[abc]/\w+\.cpu", result.stdout, re.M)
+                if result.returncode != 1 or len(told) != 3 or set(told) != wanted or "--- " in result.stdout:
+                    problems.append("%s, %s: exit status %d, %s%s" % (args, known, result.returncode, result.stdout, result.stderr))
+    return problems
+
+
 def check_falling(runner):
-    """a side that cannot be started any more fails the gate, whatever was measured by then and is expected of the other"""
+    """a side that cannot be started any more fails the gate, whatever was measured by then, and is no failure of a driver that could be expected"""
     problems = []
     expected = "fail raster/*\n  outcome error\n  reason it stops\n  since 2026-01-01\n  until 9999-12-31\n"
     with Files(TORUS) as files:
@@ -206,7 +227,7 @@ def check_falling(runner):
         for more, status, ending, says in (([], 1, "error", "is no raingauge that this one can ask"),
                                            (["--expectations", known], 1, "error", "is no raingauge that this one can ask")):
             files.path("count", "")
-            result = runner.run(["gate", "--against", other, "--device", "cpu", "--cells", files.cells, "--json"] + more)
+            result = runner.run(["gate", "cpu", "cpu@RG_PROGRAM=" + other, "--cells", files.cells, "--json"] + more)
             case = json.loads(result.stdout)["gated"][0]
             if result.returncode != status or case["ending"] != ending or says not in case["message"]:
                 problems.append("%s: exit status %d, %s: %s" % (more, result.returncode, case["ending"], case["message"]))
@@ -356,5 +377,5 @@ def check_room(runner):
     return []
 
 
-CHECKS = [check_same, check_slower, check_quarantined, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_sides, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
+CHECKS = [check_same, check_slower, check_quarantined, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
           check_unwritten, check_refused, check_room]

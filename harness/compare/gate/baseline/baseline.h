@@ -22,6 +22,7 @@ struct rg_baseline_row {
     char cell[RG_GATE_NAME_SIZE], technique[RG_NAME_SIZE], settings[RG_DIGEST_SIZE];
     char device[RG_DEVICE_NAME_SIZE];
     enum rg_outcome outcome; // fail: its picture was not that of cpu:reference
+    bool is_ours;            // as of struct rg_agreement; not kept
     char why[RG_AGREEMENT_TEXT];
     // Without an outcome OK or fail, nothing of what follows.
     char picture[RG_DIGEST_SIZE]; // its texels as the device had them

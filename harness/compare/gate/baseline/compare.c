@@ -74,6 +74,7 @@ static void compare_ends(const struct rg_baseline_row *before, const struct rg_b
         return;
     }
     agreement->outcome = now->outcome;
+    agreement->is_ours = now->is_ours;
     snprintf(agreement->message, RG_AGREEMENT_TEXT, "%.600s%s", now->why, as);
 }
 
@@ -125,6 +126,7 @@ void rg_against_advise(const struct rg_gate_row *row, const struct rg_timed_cell
     size_t used = 0;
     if (timed->outcome != RG_OK) {
         agreement->outcome = timed->outcome;
+        agreement->is_ours = timed->is_ours;
         snprintf(agreement->message, RG_AGREEMENT_TEXT, "%s", timed->why);
         return;
     }

@@ -69,6 +69,7 @@ void rg_baseline_take(const struct rg_gate_cell *cell, struct rg_device *device,
     if (!session || !take_picture(session, row, picture) || !take_states(session, row) ||
         !take_work(session, row) || !rg_session_code(session, &row->code)) {
         row->outcome = rg_outcome_of_error();
+        row->is_ours = rg_last_error_kind() == RG_ERROR_INPUT;
         rg_text_copy(row->why, sizeof(row->why), rg_last_error());
         rg_picture_destroy(picture);
     }

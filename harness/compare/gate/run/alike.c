@@ -37,6 +37,7 @@ bool rg_agreement_differs(struct rg_agreement *agreement, const char *format, ..
 bool rg_agreement_fails(struct rg_agreement *agreement, const char *device)
 {
     agreement->outcome = rg_outcome_of_error();
+    agreement->is_ours = rg_last_error_kind() == RG_ERROR_INPUT;
     agreement->device = device;
     snprintf(agreement->message, RG_AGREEMENT_TEXT, "%s", rg_last_error());
     return false;
@@ -59,6 +60,7 @@ bool rg_agreement_blame(const struct rg_gate_cell *cell, struct rg_device *devic
 static bool shows_nothing(struct rg_agreement *agreement)
 {
     agreement->outcome = RG_ERROR;
+    agreement->is_ours = true;
     snprintf(agreement->message, RG_AGREEMENT_TEXT,
              "the picture is the same without rain, so that nothing is compared; give the cell "
              "another frame, size or setting");

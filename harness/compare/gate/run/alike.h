@@ -15,6 +15,7 @@ enum { RG_AGREEMENT_TEXT = 640 };
 
 struct rg_agreement {
     enum rg_outcome outcome; // OK: they agree; fail: they do not; else what kept it from being seen
+    bool is_ours;            // what kept it was input, memory or the cell itself, and no driver
     const char *device;      // the side that it is about, where one alone failed; NULL: both
     char message[RG_AGREEMENT_TEXT]; // why, one line; where they agree what is to be known of it,
                                      // or ""

@@ -203,15 +203,15 @@ static void put_pictures(struct rg_gate_case *c, const char *folder, struct rg_r
     told->attachment_count = c->paths ? RG_GATE_PICTURES : 0;
 }
 
-// Whether what failed is another than the device that the case is of: the side that it is held
-// against, or the truth.
+// Whether what failed is no driver of the device that the case is of: the side that it is held
+// against did, or the truth, or raingauge itself by what it was given.
 static bool is_foreign(const struct rg_gate_case *c)
 {
     const char *device = c->agreement.device, *own = rg_gate_case_device(c);
     if (broke_off(c))
-        return c->times.side != RG_SIDE_B;
-    if (!device)
-        return false;
+        return c->times.is_ours || c->times.side != RG_SIDE_B;
+    if (c->agreement.is_ours || !device)
+        return c->agreement.is_ours;
     // Both sides may have one name, and then lie apart.
     return c->device_count == RG_SIDES ? device != own : strcmp(device, own) != 0;
 }

@@ -109,12 +109,8 @@ static bool launch_for(struct run *r, struct rg_gate_case *c)
     for (int side = 0; side < RG_SIDES; side++) {
         if (r->sides[side].device || rg_side_launch(&r->sides[side]))
             continue;
-        c->agreement = (struct rg_agreement){.outcome = rg_outcome_of_error(),
-                                             .device = r->sides[side].name,
-                                             .pixels = NAN,
-                                             .difference = NAN};
-        snprintf(c->agreement.message, RG_AGREEMENT_TEXT, "%s", rg_last_error());
-        return false;
+        c->agreement = (struct rg_agreement){.pixels = NAN, .difference = NAN};
+        return rg_agreement_fails(&c->agreement, r->sides[side].name);
     }
     return true;
 }

@@ -24,6 +24,7 @@ bool rg_timed_cell_fails(struct rg_timed_cell *timed)
 {
     const enum rg_outcome outcome = rg_outcome_of_error();
     timed->outcome = outcome == RG_UNSUPPORTED ? RG_ERROR : outcome;
+    timed->is_ours = rg_last_error_kind() == RG_ERROR_INPUT;
     snprintf(timed->why, sizeof(timed->why), "%s", rg_last_error());
     return false;
 }

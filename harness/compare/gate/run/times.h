@@ -13,6 +13,7 @@ struct rg_timed_cell {
     struct rg_slot slot;     // the same on both sides
     int side;                // whose turn it is, or was when it ended
     enum rg_outcome outcome; // why nothing more can be had of it; OK: it can
+    bool is_ours;            // as of struct rg_agreement
     char why[256];
     double seconds; // that it took
 };

@@ -11,6 +11,11 @@ PICTURES, OUTPUTS = "harness/compare/gate/pictures/pictures.c", "harness/command
 
 ROWS = [
     Fault(OUTPUTS, "«spares_kept(outputs->pictures, file)»;", "true", "a gate's journal replaces its cells", tests=("command line, baselines",)),
+    Fault(CASES, "return «c->times.is_ours» || c->times.side != RG_SIDE_B;", "false", "a side that is no raingauge is expected to fail", tests=("command line, gates",)),
+    Fault(CASES, "c->times.is_ours || «c->times.side != RG_SIDE_B»;", "false", "A's crash while it is timed is what was expected of B", tests=("command line, gates",)),
+    Fault(CASES, "«device != own» : strcmp", "false", "A's crash is what was expected of B", tests=("command line, gates",)),
+    Fault(AGREE, "agreement->is_ours = «rg_last_error_kind() == RG_ERROR_INPUT»;", "false", "a file that is missing is an expected failure", tests=("command line, gates",)),
+    Fault(AGREE, "agreement->is_ours = «true»;", "false", "a cell without rain is an expected failure", tests=("command line, gates",)),
     Fault(SHARDS, "if («!path || !*path»)", "true", "no runner is told that shards are understood"),
     Fault(SHARDS, "    if («!has_total || !has_index»)", "false", "half of a shard is taken for all of it"),
     Fault(SHARDS, "&& «value >= 0» && value", "true", "shards are counted below 0"),
