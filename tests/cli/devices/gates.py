@@ -88,6 +88,24 @@ def check_quarantined(runner):
     return [] if good else ["exit status %d, %s: %s" % (result.returncode, case["ending"], case["message"])]
 
 
+def check_expired(runner):
+    """what has expired fails, also where it is faster or left open; a device that is not there leaves it as it is"""
+    problems = []
+    with Files(TORUS) as files:
+        slower = "cpu@RG_PROGRAM=%s;%s" % (runner.slower, EXTRA)
+        for sides, budget, kinds, status, ending in (([slower, "cpu"], [], ("flake", "skip"), 1, "unexpected pass"),
+                                                     (["cpu", "cpu"], ["--budget", "0.05s"], ("flake", "skip"), 1, "unexpected pass"),
+                                                     (["cpu", slower], [], ("flake",), 1, "regressed"),
+                                                     (["cpu", "vulkan@VK_DRIVER_FILES=/nonexistent"], [], ("flake", "skip"), 77, "unsupported")):
+            for kind in kinds:
+                known = files.path("known.txt", kind + " *\n  reason it was so\n  since 2026-01-01\n  until 2026-02-01\n")
+                result = runner.run(["gate", *sides, "--cells", files.cells, "--expectations", known, "--json"] + budget)
+                case = json.loads(result.stdout)["gated"][0]
+                if result.returncode != status or case["ending"] != ending or case["message"].startswith("expired") != (status == 1):
+                    problems.append("%s, %s: exit status %d, %s: %s" % (sides, kind, result.returncode, case["ending"], case["message"]))
+    return problems
+
+
 def check_without_ids(runner):
     """libraries that have no build id are told apart by their code"""
     problems = []
@@ -377,5 +395,5 @@ def check_room(runner):
     return []
 
 
-CHECKS = [check_same, check_slower, check_quarantined, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
+CHECKS = [check_same, check_slower, check_quarantined, check_expired, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
           check_unwritten, check_refused, check_room]

@@ -79,12 +79,14 @@ enum rg_met rg_known_judge(const struct rg_known *expected, int64_t index,
         return RG_MET_NOTHING;
     const struct rg_expectation *row = &expected->rows[index];
     const bool is_over = today > row->until;
-    if (row->kind == RG_EXPECT_SKIP)
-        return is_over ? RG_MET_EXPIRED : RG_MET_SKIPPED;
+    if (row->kind == RG_EXPECT_SKIP && !is_over)
+        return RG_MET_SKIPPED;
     if (result->outcome == RG_UNSUPPORTED) // it neither passed nor failed
         return RG_MET_NOTHING;
     if (result->is_foreign) // of the device nothing is known
         return RG_MET_NOTHING;
+    if (row->kind == RG_EXPECT_SKIP)
+        return RG_MET_EXPIRED;
     if (row->kind == RG_EXPECT_FAIL && result->outcome == RG_OK)
         return RG_MET_FIXED;
     if (is_over)

@@ -61,6 +61,7 @@ static enum rg_ending ending_of(const struct rg_gate_case *c, enum rg_met met)
     const enum rg_ending own = c->agreement.outcome == RG_OK && c->is_timed
                                    ? ending_of_times(c)
                                    : ending_of_outcome(c->agreement.outcome);
+    const enum rg_ending_kind kind = rg_ending_kind(own);
     switch (met) {
     case RG_MET_SKIPPED:
         return RG_ENDING_SKIPPED;
@@ -71,8 +72,8 @@ static enum rg_ending ending_of(const struct rg_gate_case *c, enum rg_met met)
     case RG_MET_FIXED:
         return RG_ENDING_UNEXPECTED_PASS;
     case RG_MET_DIFFERENT:
-    case RG_MET_EXPIRED:
-        return own == RG_ENDING_PASS ? RG_ENDING_UNEXPECTED_PASS : own;
+    case RG_MET_EXPIRED: // fails, also where it is faster, or its times leave it open
+        return kind == RG_KIND_FAILURE || kind == RG_KIND_ERROR ? own : RG_ENDING_UNEXPECTED_PASS;
     default:
         return own;
     }

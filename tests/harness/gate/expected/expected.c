@@ -174,6 +174,9 @@ static void results_meet_what_is_expected(void **state)
         {{"streaks/a", VK, RG_FAIL, 20, 0.01, true}, "2027-01-01", RG_MET_NOTHING},
         {{"streaks/slow", VK, RG_FAIL, 0, 0, false}, "2026-12-31", RG_MET_SKIPPED},
         {{"streaks/slow", VK, RG_FAIL, 0, 0, false}, "2027-01-01", RG_MET_EXPIRED},
+        {{"streaks/slow", VK, RG_OK, 0, 0, false}, "2027-01-01", RG_MET_EXPIRED},
+        {{"streaks/slow", VK, RG_UNSUPPORTED, 0, 0, false}, "2026-12-31", RG_MET_SKIPPED},
+        {{"streaks/slow", VK, RG_UNSUPPORTED, 0, 0, false}, "2027-01-01", RG_MET_NOTHING},
     };
     judge(&expected, rows, sizeof(rows) / sizeof(rows[0]));
     const int64_t slow = rg_known_row(&expected, "a/slow", "gl", "");

@@ -16,6 +16,7 @@ ROWS = [
     Fault(CASES, "«device != own» : strcmp", "false", "A's crash is what was expected of B", tests=("command line, gates",)),
     Fault(AGREE, "agreement->is_ours = «rg_last_error_kind() == RG_ERROR_INPUT»;", "false", "a file that is missing is an expected failure", tests=("command line, gates",)),
     Fault(AGREE, "agreement->is_ours = «true»;", "false", "a cell without rain is an expected failure", tests=("command line, gates",)),
+    Fault(CASES, "return «kind == RG_KIND_FAILURE || kind == RG_KIND_ERROR» ? own", "own != RG_ENDING_PASS", "what has expired and is faster passes", tests=("command line, gates",)),
     Fault(SHARDS, "if («!path || !*path»)", "true", "no runner is told that shards are understood"),
     Fault(SHARDS, "    if («!has_total || !has_index»)", "false", "half of a shard is taken for all of it"),
     Fault(SHARDS, "&& «value >= 0» && value", "true", "shards are counted below 0"),

@@ -40,6 +40,7 @@ ROWS = [
     Fault(PATCH, "else if («s->fixed»)", "false", "a row stays whole for cells that pass"),
     Fault(PATCH, "return «s->has_expired»;", "false", "what has expired stays so"),
     Fault(PATCH, "return «e->least < old->least» || e->most > old->most;", "false", "an envelope does not grow downwards"),
+    Fault(JUDGE, "if (row->kind == RG_EXPECT_SKIP && «!is_over»)", "true", "a skip holds for ever"),
     Fault(JUDGE, "if («result->is_foreign») // of", "false", "a failure of another is what was expected of a device"),
     Fault(PATCH, "return p->rows[i] < 0 && «!p->results[i].is_foreign» &&", "true", "a device is blamed for a failure of another"),
     Fault(PATCH, "result->outcome == RG_UNSUPPORTED || «result->is_foreign»)", "false", "a row gets what failed on another device"),
