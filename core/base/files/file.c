@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -58,11 +59,29 @@ FILE *rg_file_append(const char *path, const char **why)
     return stream(open(path, flags, 0666), "a", why);
 }
 
-bool rg_file_is_same(const char *a, const char *b)
+static bool lead_to_one(const char *a, const char *b)
 {
     struct stat of_a, of_b;
-    return !strcmp(a, b) || (!stat(a, &of_a) && !stat(b, &of_b) && of_a.st_dev == of_b.st_dev &&
-                             of_a.st_ino == of_b.st_ino);
+    return !stat(a, &of_a) && !stat(b, &of_b) && of_a.st_dev == of_b.st_dev &&
+           of_a.st_ino == of_b.st_ino;
+}
+
+// The folder in which a path lies, and returns its name there. NULL where it is too long.
+static const char *split(const char *path, char folder[PATH_MAX])
+{
+    const char *slash = strrchr(path, '/');
+    const int length = slash ? (int)(slash - path) + 1 : 0;
+    return snprintf(folder, PATH_MAX, "%.*s.", length, path) < PATH_MAX ? path + length : NULL;
+}
+
+bool rg_file_is_same(const char *a, const char *b)
+{
+    char folder_a[PATH_MAX], folder_b[PATH_MAX];
+    if (!strcmp(a, b) || lead_to_one(a, b))
+        return true;
+    // What is not there has no inode, but its folder has.
+    const char *name_a = split(a, folder_a), *name_b = split(b, folder_b);
+    return name_a && name_b && !strcmp(name_a, name_b) && lead_to_one(folder_a, folder_b);
 }
 
 bool rg_file_spares(const char *path, const char *read)

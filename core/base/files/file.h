@@ -16,7 +16,8 @@ FILE *rg_file_open_small(const char *path, const char **why);
 // The same to append to, behind all that is there; it is made where it is not.
 FILE *rg_file_append(const char *path, const char **why);
 
-// Whether two paths are one file or folder. A link is what it leads to.
+// Whether two paths are one file or folder, also one that neither has made yet. A link is what it
+// leads to.
 bool rg_file_is_same(const char *a, const char *b);
 // Whether a file that is written would not replace one that is read; NULL: none is. False, and one
 // logged line.

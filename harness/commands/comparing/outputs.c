@@ -54,24 +54,27 @@ static bool spares_kept(const char *folder, const char *file)
     return ok;
 }
 
+// The file of GitHub's summary, NULL without one.
+static const char *summary_path(const struct rg_gate_outputs *outputs)
+{
+    const char *path = outputs->github ? getenv("GITHUB_STEP_SUMMARY") : NULL;
+    return path && *path ? path : NULL;
+}
+
+// The summary is appended to, which harms a file that is read or written as much.
 bool rg_gate_outputs_spare(const struct rg_gate_outputs *outputs, const char *file)
 {
     return spares(outputs->junit, file) && spares(outputs->bmf, file) &&
-           spares_kept(outputs->pictures, file);
-}
-
-// The file of GitHub's summary, NULL without one.
-static const char *summary_path(void)
-{
-    const char *path = getenv("GITHUB_STEP_SUMMARY");
-    return path && *path ? path : NULL;
+           spares(summary_path(outputs), file) && spares_kept(outputs->pictures, file);
 }
 
 bool rg_gate_outputs_can_be_written(const struct rg_gate_outputs *outputs)
 {
     enum { REPORT_BYTES = 1 << 20 };
-    const char *summary = outputs->github ? summary_path() : NULL;
-    return spares(outputs->junit, outputs->bmf) && (!summary || rg_report_can_append(summary)) &&
+    const char *summary = summary_path(outputs);
+    return spares(outputs->junit, outputs->bmf) && spares(summary, outputs->bmf) &&
+           (!*outputs->junit || spares(summary, outputs->junit)) &&
+           spares_kept(outputs->pictures, summary) && (!summary || rg_report_can_append(summary)) &&
            (!*outputs->junit || rg_output_file_can_be_written(outputs->junit, REPORT_BYTES)) &&
            (!outputs->bmf || rg_output_file_can_be_written(outputs->bmf, REPORT_BYTES)) &&
            (!*outputs->pictures || rg_gate_pictures_can_be_written(outputs->pictures, 0));
@@ -100,9 +103,9 @@ static bool print_text(const struct rg_known *known, const struct rg_gate *gate,
     return rg_report_text(&gate->report, stdout) && print_patches(known, gate, today);
 }
 
-static bool print_github(const struct rg_report *report)
+static bool print_github(const struct rg_gate_outputs *outputs, const struct rg_report *report)
 {
-    const char *summary = summary_path();
+    const char *summary = summary_path(outputs);
     return rg_report_annotations(report, stdout) &&
            (!summary || rg_report_append_markdown(report, summary));
 }
@@ -121,5 +124,5 @@ bool rg_gate_outputs_print(const struct rg_gate_outputs *outputs, const struct r
     ok = (outputs->prints_gtest ? rg_gtest_print(report, stdout)
                                 : print_text(known, gate, outputs->today)) &&
          ok;
-    return (!outputs->github || print_github(report)) && ok;
+    return (!outputs->github || print_github(outputs, report)) && ok;
 }

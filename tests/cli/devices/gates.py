@@ -362,6 +362,28 @@ def check_unwritten(runner):
     return problems
 
 
+def check_apart(runner):
+    """two reports, GitHub's summary among them, have a file each, whether it is there yet and however it is named; nor is the summary a file that is read"""
+    problems = []
+    with Files(TORUS) as files:
+        a, other = files.path("a"), os.path.join(files.folder.name, "..", os.path.basename(files.folder.name), "a")
+        link, cells = files.path("link"), os.path.join(files.folder.name, ".", "cells.txt")
+        os.symlink(files.folder.name, link)
+        os.mkdir(files.path("apart"))
+        rows = [(["--junit", one, "--bmf", two], None) for one in (a, other) for two in (a, other, os.path.join(link, "a"))]
+        rows += [([option, a, "--github"], other) for option in ("--junit", "--bmf")] + [(["--github"], cells)]
+        rows += [(["--github", "-o", files.folder.name], files.path("launches.csv"))]
+        for more, summary in rows:
+            result = runner.run(["gate", "cpu", "cpu", "--pictures", "--cells", files.cells] + more, {"GITHUB_STEP_SUMMARY": summary})
+            if result.returncode != 2 or result.stderr.count("\n") != 1 or "would be overwritten with a report" not in result.stderr or os.path.exists(a):
+                problems.append("%s, %s: exit status %d, %s%s" % (more, summary, result.returncode, result.stdout, result.stderr))
+        result = runner.run(["gate", "cpu", "cpu", "--pictures", "--cells", files.cells, "--junit", a, "--bmf", files.path("apart/a")],
+                            {"GITHUB_STEP_SUMMARY": cells})
+        if result.returncode or result.stderr or not os.path.getsize(a):
+            problems.append("apart: exit status %d, %s" % (result.returncode, result.stderr))
+    return problems
+
+
 def check_refused(runner):
     """bad input is refused in one line, before anything is measured"""
     problems = []
@@ -396,4 +418,4 @@ def check_room(runner):
 
 
 CHECKS = [check_same, check_slower, check_quarantined, check_expired, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
-          check_unwritten, check_refused, check_room]
+          check_unwritten, check_apart, check_refused, check_room]

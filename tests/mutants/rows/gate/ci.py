@@ -6,6 +6,7 @@ TESTS = ("command line, ci", "command line, reports")
 SHARDS, PARSE, FLAGS = "harness/compare/gate/report/shards.c", "harness/cli/parse.c", "harness/commands/comparing/gtest.c"
 RUN, AGREE, CASES, SIDES = (f"harness/compare/gate/run/{name}.c" for name in ("gate", "alike", "cases", "sides"))
 STRAYS, CELLS = "harness/compare/gate/run/strays.c", "harness/compare/gate/cells/cells.c"
+FILE = "core/base/files/file.c"
 COMMAND = "harness/commands/comparing/gate.c"
 PICTURES, OUTPUTS = "harness/compare/gate/pictures/pictures.c", "harness/commands/comparing/outputs.c"
 
@@ -17,6 +18,10 @@ ROWS = [
     Fault(AGREE, "agreement->is_ours = «rg_last_error_kind() == RG_ERROR_INPUT»;", "false", "a file that is missing is an expected failure", tests=("command line, gates",)),
     Fault(AGREE, "agreement->is_ours = «true»;", "false", "a cell without rain is an expected failure", tests=("command line, gates",)),
     Fault(CASES, "return «kind == RG_KIND_FAILURE || kind == RG_KIND_ERROR» ? own", "own != RG_ENDING_PASS", "what has expired and is faster passes", tests=("command line, gates",)),
+    Fault(FILE, "return name_a && name_b && «!strcmp(name_a, name_b)» && lead", "false", "a report replaces another whose file was not there yet", tests=("command line, gates",)),
+    Fault(FILE, "&& «lead_to_one(folder_a, folder_b)»;", "true", "files of one name in two folders are one", tests=("command line, gates",)),
+    Fault(OUTPUTS, "«spares(summary_path(outputs), file)» &&", "true", "a summary is appended to the cells", tests=("command line, gates",)),
+    Fault(OUTPUTS, "«spares(summary, outputs->bmf)» &&", "true", "a summary is appended to a report", tests=("command line, gates",)),
     Fault(SHARDS, "if («!path || !*path»)", "true", "no runner is told that shards are understood"),
     Fault(SHARDS, "    if («!has_total || !has_index»)", "false", "half of a shard is taken for all of it"),
     Fault(SHARDS, "&& «value >= 0» && value", "true", "shards are counted below 0"),
