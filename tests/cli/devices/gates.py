@@ -190,6 +190,27 @@ def check_crash(runner):
     return problems
 
 
+def check_strange(runner):
+    """what is expected of a device or a driver that a gate does not have is told in a line; the patterns of the pages hold"""
+    problems = []
+    root = os.path.dirname(TESTS)
+    with Files(TORUS) as files:
+        path = files.path("baseline.json")
+        runner.run(["baseline", "--device", "vulkan", "--pictures", "--cells", files.cells, "-o", path])
+        driver = json.loads(runner.run(["doctor", "--json"]).stdout)
+        driver = next(device["driver"] for device in driver["devices"] if device["name"] == "vulkan")
+        with open(os.path.join(root, "docs", "expectations.md")) as page, open(os.path.join(root, "results", "expectations.txt")) as own:
+            shown = [re.search(r"^(?:#| )  +driver +(\S.*)$", text.read(), re.M)[1].replace("22.3", re.search(r"Mesa (\d+\.\d+)", driver)[1]) for text in (page, own)]
+        for args in (["cpu", "vulkan"], ["--baseline", path]):
+            for device, name, of in (("vulkan*", shown[0], None), ("vulkan*", shown[1], None), ("vulkan*", "Mesa 22.3.*", "'Mesa 22.3.*' is of no driver"),
+                                     ("vulcan*", "*", "'vulcan*' is of no device")):
+                known = files.path("known.txt", "flake *\n  device %s\n  driver %s\n  reason r\n  since 2026-01-01\n  until 9999-12-31\n" % (device, name))
+                result = runner.run(["gate", *args, "--pictures", "--cells", files.cells, "--expectations", known])
+                if result.returncode or (of or "") not in result.stderr or result.stderr.count("\n") != bool(of) or ("\nflake " in "\n" + result.stdout) == bool(of):
+                    problems.append("%s, %s, %s: exit status %d, %s%s" % (args, device, name, result.returncode, result.stdout, result.stderr))
+    return problems
+
+
 def check_sides(runner):
     """what is expected of B is not met by a failure of A, whether the two are compared or timed, and no patch blames B for it"""
     problems = []
@@ -417,5 +438,5 @@ def check_room(runner):
     return []
 
 
-CHECKS = [check_same, check_slower, check_quarantined, check_expired, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
+CHECKS = [check_same, check_slower, check_quarantined, check_expired, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_strange, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
           check_unwritten, check_apart, check_refused, check_room]

@@ -12,6 +12,7 @@
 #include "harness/compare/gate/cells/digest.h"
 #include "harness/compare/gate/run/cases.h"
 #include "harness/compare/gate/run/keep.h"
+#include "harness/compare/gate/run/strays.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
@@ -112,13 +113,21 @@ static bool choose(struct run *r)
 // Launches each device once. What is required must be there.
 static bool look_at_sides(struct run *r)
 {
+    const struct rg_gate_request *request = r->asked->request;
     struct rg_side_seen seen[RG_MAX_DEVICES];
+    struct rg_gate_target targets[RG_MAX_DEVICES];
     int count = 0;
     for (int side = 0; side < r->side_count && !rg_interrupted(); side++) {
-        seen[count++] = rg_side_look(&r->sides[side], &r->infos[side]);
+        const struct rg_side_seen *saw = &seen[count];
+        seen[count] = rg_side_look(&r->sides[side], &r->infos[side]);
+        targets[count++] =
+            (struct rg_gate_target){saw->name, saw->is_open ? r->infos[side].driver : NULL};
         rg_side_close(&r->sides[side]);
     }
-    return rg_interrupted() || rg_sides_have(seen, count, r->asked->request->require);
+    if (rg_interrupted())
+        return true;
+    rg_gate_warn_of_strange(request->known, request->cells, targets, count);
+    return rg_sides_have(seen, count, request->require);
 }
 
 // Of each device that there is, so that it is known which times can be held against each other.

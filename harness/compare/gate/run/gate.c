@@ -13,6 +13,7 @@
 #include "harness/compare/gate/cells/digest.h"
 #include "harness/compare/gate/run/cases.h"
 #include "harness/compare/gate/run/keep.h"
+#include "harness/compare/gate/run/strays.h"
 #include "harness/compare/gate/run/times.h"
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
@@ -143,19 +144,25 @@ static void end_pair(struct run *r)
 static int look_at_sides(struct run *r)
 {
     struct rg_side_seen seen[RG_SIDES * RG_MAX_DEVICES];
+    struct rg_gate_target targets[RG_MAX_DEVICES];
     int count = 0;
     bool are_names = true;
     for (int pair = 0; are_names && pair < r->asked->pairs->count; pair++) {
         begin_pair(r, pair);
         for (int side = 0; are_names && side < RG_SIDES; side++) {
-            seen[count] = rg_side_look(&r->sides[side], &r->infos[r->info_count]);
+            struct rg_device_info *info = &r->infos[r->info_count];
+            seen[count] = rg_side_look(&r->sides[side], info);
             r->info_count += seen[count].is_open;
+            if (side == RG_SIDE_B)
+                targets[pair] = (struct rg_gate_target){seen[count].name,
+                                                        seen[count].is_open ? info->driver : NULL};
             are_names = seen[count++].is_name;
         }
         end_pair(r);
     }
     if (!are_names)
         return RG_EXIT_USAGE;
+    rg_gate_warn_of_strange(r->asked->known, r->asked->cells, targets, r->asked->pairs->count);
     const bool ok = rg_interrupted() || rg_sides_have(seen, count, r->asked->require);
     return ok ? RG_EXIT_PASS : RG_EXIT_FAIL;
 }

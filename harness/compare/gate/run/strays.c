@@ -13,33 +13,84 @@ static bool is_of_none(const struct rg_expectation *row, const struct rg_gate_ce
     return !any;
 }
 
-static int64_t warn_of_file(const struct rg_known *known, int file,
-                            const struct rg_gate_cells *cells)
+// The field by which an expectation is of none of these; -1: it may be of one.
+static int strange_field(const struct rg_expectation *row, const struct rg_gate_target *targets,
+                         int count)
+{
+    const char *device = row->values[RG_FIELD_DEVICE], *driver = row->values[RG_FIELD_DRIVER];
+    bool any = false;
+    for (int i = 0; i < count; i++) {
+        if (device && !rg_glob(device, targets[i].device))
+            continue;
+        if (!driver || !targets[i].driver || rg_glob(driver, targets[i].driver))
+            return -1;
+        any = true;
+    }
+    return any ? RG_FIELD_DRIVER : RG_FIELD_DEVICE;
+}
+
+// What is looked for.
+struct search {
+    const struct rg_known *known;
+    const struct rg_gate_cells *cells;
+    const struct rg_gate_target *targets; // NULL: cells alone
+    int target_count;
+};
+
+// The pattern of an expectation that nothing has, and what it is of; NULL: there is none.
+static const char *stray_of(const struct search *s, const struct rg_expectation *row,
+                            const char **of)
+{
+    const bool is_stray = is_of_none(row, s->cells);
+    *of = "cell";
+    if (!s->targets || is_stray)
+        return is_stray && !s->targets ? row->cell : NULL;
+    const int field = strange_field(row, s->targets, s->target_count);
+    *of = field == RG_FIELD_DRIVER ? "driver" : "device";
+    return field < 0 ? NULL : row->values[field];
+}
+
+static int64_t warn_of_file(const struct search *s, int file)
 {
     const struct rg_expectation *first = NULL;
+    const char *pattern = NULL, *of = NULL, *found, *found_of;
     int64_t count = 0;
-    for (int64_t i = 0; i < known->count; i++) {
-        const struct rg_expectation *row = &known->rows[i];
-        if (row->file != file || !is_of_none(row, cells))
+    for (int64_t i = 0; i < s->known->count; i++) {
+        const struct rg_expectation *row = &s->known->rows[i];
+        if (row->file != file || !(found = stray_of(s, row, &found_of)))
             continue;
-        first = first ? first : row;
-        count++;
+        if (!count++) {
+            first = row;
+            pattern = found;
+            of = found_of;
+        }
     }
     char more[64] = "";
     if (count > 1)
         snprintf(more, sizeof(more), ", and %" PRId64 " more of this file", count - 1);
     if (first)
-        rg_warning("%s:%" PRId64 ": '%.80s' is of no cell of this gate%s; mend the pattern, or "
+        rg_warning("%s:%" PRId64 ": '%.80s' is of no %s of this gate%s; mend the pattern, or "
                    "take the expectation out",
-                   known->files[file].lines.name, first->line + 1, first->cell, more);
+                   s->known->files[file].lines.name, first->line + 1, pattern, of, more);
+    return count;
+}
+
+static int64_t warn_of_files(const struct search *s)
+{
+    int64_t count = 0;
+    for (int file = 0; file < s->known->file_count; file++)
+        if (s->known->files[file].form == RG_FORM_OWN)
+            count += warn_of_file(s, file);
     return count;
 }
 
 int64_t rg_gate_warn_of_strays(const struct rg_known *known, const struct rg_gate_cells *cells)
 {
-    int64_t count = 0;
-    for (int file = 0; file < known->file_count; file++)
-        if (known->files[file].form == RG_FORM_OWN)
-            count += warn_of_file(known, file, cells);
-    return count;
+    return warn_of_files(&(struct search){.known = known, .cells = cells});
+}
+
+int64_t rg_gate_warn_of_strange(const struct rg_known *known, const struct rg_gate_cells *cells,
+                                const struct rg_gate_target *targets, int count)
+{
+    return warn_of_files(&(struct search){known, cells, targets, count});
 }

@@ -1,4 +1,4 @@
-// Expectations of cells that there are none of.
+// Expectations of cells, devices and drivers that there are none of.
 #ifndef RG_HARNESS_COMPARE_GATE_RUN_STRAYS_H
 #define RG_HARNESS_COMPARE_GATE_RUN_STRAYS_H
 
@@ -10,5 +10,14 @@
 // ever. Mesa's files are not looked at, for they are of other suites as well. Returns how many
 // expectations there are of that kind.
 int64_t rg_gate_warn_of_strays(const struct rg_known *known, const struct rg_gate_cells *cells);
+
+// A device that cells are held to what is expected of.
+struct rg_gate_target {
+    const char *device, *driver; // driver NULL: it is not there, and has none
+};
+// The same of the expectations whose cell is here, and whose device none of these is, or whose
+// driver none of those has that are such a device and are there.
+int64_t rg_gate_warn_of_strange(const struct rg_known *known, const struct rg_gate_cells *cells,
+                                const struct rg_gate_target *targets, int count);
 
 #endif

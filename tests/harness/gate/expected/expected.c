@@ -426,6 +426,46 @@ static void an_expectation_of_no_cell_is_told(void **state)
     rg_gate_cells_free(&cells);
 }
 
+#define DRIVER "skip *\n device vulkan*\n driver "
+#define VALUES "\n reason r\n since 2026-01-01\n until 2026-02-01\n"
+
+// Three devices, of which one is not there.
+static void an_expectation_of_no_device_or_driver_is_told(void **state)
+{
+    (void)state;
+    static const char cells_text[] = "streaks/rain raster 8x8 1\n";
+    static const struct rg_gate_target targets[] = {
+        {"vulkan@A=b", "llvmpipe Mesa 22.3.6 (LLVM)"}, {"gl", "Mesa 23.0"}, {"opencl", NULL}};
+    static const struct {
+        const char *text;
+        enum rg_known_form form;
+        int strays;
+        const char *said;
+    } rows[] = {
+        {"skip *" REST "skip *\n device gl" REST DRIVER "*Mesa 22.3.*" VALUES, RG_FORM_OWN, 0, ""},
+        {DRIVER "Mesa 22.3.*" VALUES, RG_FORM_OWN, 1, "my.txt:1: 'Mesa 22.3.*' is of no driver"},
+        {"skip *" REST DRIVER "*Mesa 23*" VALUES, RG_FORM_OWN, 1, "my.txt:5: '*Mesa 23*' is of no"},
+        {"skip *\n device vulkan" REST DRIVER "x" VALUES, RG_FORM_OWN, 2,
+         "my.txt:1: 'vulkan' is of no device of this gate, and 1 more"},
+        {"skip *\n device cpu\n driver x" REST, RG_FORM_OWN, 1, "my.txt:1: 'cpu' is of no device"},
+        {"skip *\n device opencl\n driver x" REST, RG_FORM_OWN, 0, ""}, // who knows
+        {"skip a\n device cpu" REST, RG_FORM_OWN, 0, ""},               // told before
+        {"streaks/rian,Fail", RG_FORM_FAILS, 0, ""},
+    };
+    struct rg_gate_cells cells;
+    assert_true(rg_gate_cells_of("cells.txt", cells_text, strlen(cells_text), &cells));
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        struct rg_known expected = {.count = 0};
+        assert_true(add(&expected, rows[i].text, rows[i].form));
+        assert_int_equal(rg_gate_warn_of_strange(&expected, &cells, targets, 3), rows[i].strays);
+        assert_int_equal(logged_lines, rows[i].strays > 0);
+        if (strncmp(logged, rows[i].said, strlen(rows[i].said)) != 0)
+            fail_msg("row %zu said: %s", i, logged);
+        rg_known_free(&expected);
+    }
+    rg_gate_cells_free(&cells);
+}
+
 int main(void)
 {
     rg_log_listen(listen, NULL);
@@ -440,6 +480,7 @@ int main(void)
         cmocka_unit_test(an_empty_file_expects_nothing),
         cmocka_unit_test(large_files_are_read),
         cmocka_unit_test(an_expectation_of_no_cell_is_told),
+        cmocka_unit_test(an_expectation_of_no_device_or_driver_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
