@@ -334,7 +334,7 @@ def check_required(runner):
         path, env = files.path("baseline.json"), {"VK_DRIVER_FILES": "/nonexistent"}
         runner.run(["baseline", "--device", "cpu,vulkan", "--pictures", "--cells", files.cells, "-o", path])
         pair, apart = ["gate", "vulkan", "cpu", "--pictures"], ["gate", "--baseline", path, "--pictures"]
-        for args, require, status in ((apart, None, 0), (apart, "cpu", 0), (apart, "cpu,vulkan", 1), (apart, "opencl", 1),
+        for args, require, status in ((apart + ["--device", "cpu"], None, 0), (apart, "cpu,vulkan", 1), (apart, "opencl", 1),
                                       (pair, None, 77), (pair, "cpu", 77), (pair, "vulkan", 1)):
             junit = files.path("junit.xml", "before")
             result = runner.run(args + ["--cells", files.cells, "--junit", junit] + (["--require", require] if require else []), env)
@@ -343,6 +343,24 @@ def check_required(runner):
             said = "--require %s: " % (require or "none").split(",")[-1] in result.stderr
             if result.returncode != status or is_told == (status == 1) or said != (status == 1):
                 problems.append("%s --require %s: exit status %d, %s%s" % (args, require, result.returncode, result.stdout, result.stderr))
+    return problems
+
+
+def check_missing(runner):
+    """a device of a baseline that ran and is not there any more fails its cells, with a report, unless --device leaves it out, whatever is expected of its pictures"""
+    problems = []
+    with Files(TORUS) as files:
+        path, env = files.path("baseline.json"), {"VK_DRIVER_FILES": "/nonexistent"}
+        runner.run(["baseline", "--device", "cpu,vulkan", "--pictures", "--cells", files.cells, "-o", path])
+        known = files.path("known.txt", "fail *\n  device vulkan\n  outcome fail\n  reason r\n  since 2026-01-01\n  until 9999-12-31\n")
+        both = {"raster/torus.cpu": "pass", "raster/torus.vulkan": "differs"}
+        for more, status, wanted in (([], 1, both), (["--require", "cpu"], 1, both), (["--device", "cpu,vulkan"], 1, both), (["--device", "cpu"], 0, {"raster/torus.cpu": "pass"}),
+                                     (["--expectations", known], 1, both)):
+            result = runner.run(["gate", "--baseline", path, "--pictures", "--cells", files.cells, "--json"] + more, env)
+            report = json.loads(result.stdout)
+            said = [case["message"] for case in report["gated"] if "it ran when the baseline was made: " in case["message"]]
+            if result.returncode != status or endings(report) != wanted or len(said) != ("raster/torus.vulkan" in wanted):
+                problems.append("%s: exit status %d, %s%s" % (more, result.returncode, endings(report), result.stderr))
     return problems
 
 
@@ -438,5 +456,5 @@ def check_room(runner):
     return []
 
 
-CHECKS = [check_same, check_slower, check_quarantined, check_expired, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_strange, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_no_rain, check_beside,
+CHECKS = [check_same, check_slower, check_quarantined, check_expired, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_strange, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_missing, check_no_rain, check_beside,
           check_unwritten, check_apart, check_refused, check_room]

@@ -56,6 +56,8 @@ def github(runner, folder, **variables):
             status = "success" if ran.returncode == 0 else "failure"
         elif step.get("uses", "").startswith("actions/upload-artifact") and (status == "success" or step.get("if") == "always()"):
             uploaded += [name for name in step["with"]["path"].split() if os.path.exists(os.path.join(folder, name))]
+    if not os.path.exists(summary):
+        return status, log, "", uploaded
     with open(summary) as file:
         return status, log, file.read(), uploaded
 

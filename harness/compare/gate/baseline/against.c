@@ -184,8 +184,11 @@ static struct rg_device *launch_for(struct run *r, struct rg_gate_case *c, int n
     for (int other = 0; other < r->side_count; other++)
         if (&r->sides[other] != side)
             rg_side_close(&r->sides[other]);
-    if (!side->device && !rg_side_launch(side))
+    if (!side->device && !rg_side_launch(side)) {
         rg_agreement_fails(&c->agreement, side->name);
+        rg_against_end(r->rows[number], &c->agreement);
+        c->agreement.is_ours |= c->agreement.outcome == RG_FAIL; // no driver drew what is expected
+    }
     return side->device;
 }
 

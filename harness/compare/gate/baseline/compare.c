@@ -64,18 +64,24 @@ static bool did_run(enum rg_outcome outcome)
     return outcome == RG_OK || outcome == RG_FAIL;
 }
 
+void rg_against_end(const struct rg_baseline_row *before, struct rg_agreement *agreement)
+{
+    char why[RG_AGREEMENT_TEXT];
+    if (agreement->outcome != RG_UNSUPPORTED || !did_run(before->outcome))
+        return;
+    memcpy(why, agreement->message, sizeof(why));
+    rg_agreement_differs(agreement, "it ran when the baseline was made: %.500s", why);
+}
+
 // What did not run has nothing that could be held against what did.
 static void compare_ends(const struct rg_baseline_row *before, const struct rg_baseline_row *now,
                          struct rg_agreement *agreement)
 {
     const char *as = before->outcome == now->outcome ? ", as in the baseline" : "";
-    if (now->outcome == RG_UNSUPPORTED && did_run(before->outcome)) {
-        rg_agreement_differs(agreement, "it ran when the baseline was made: %.500s", now->why);
-        return;
-    }
     agreement->outcome = now->outcome;
     agreement->is_ours = now->is_ours;
     snprintf(agreement->message, RG_AGREEMENT_TEXT, "%.600s%s", now->why, as);
+    rg_against_end(before, agreement);
 }
 
 // The baseline has no stages, but cpu:reference can be asked now. Where it `holds` the same picture

@@ -4,6 +4,10 @@
 
 #include "harness/compare/gate/baseline/take.h"
 
+// Makes of what is unsupported now, a device that is not there or a cell that it cannot run, a
+// difference, where it ran when the baseline was made.
+void rg_against_end(const struct rg_baseline_row *before, struct rg_agreement *agreement);
+
 // Runs a cell, and ends the agreement where it is not what it was: states, counters and the work of
 // a frame exactly; a picture of another digest must be that of cpu:reference, drawn now, by the
 // tier that the device owes. Where it agrees the message says what is to be known of it.

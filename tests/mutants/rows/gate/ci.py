@@ -6,7 +6,7 @@ TESTS = ("command line, ci", "command line, reports")
 SHARDS, PARSE, FLAGS = "harness/compare/gate/report/shards.c", "harness/cli/parse.c", "harness/commands/comparing/gtest.c"
 RUN, AGREE, CASES, SIDES = (f"harness/compare/gate/run/{name}.c" for name in ("gate", "alike", "cases", "sides"))
 STRAYS, CELLS = "harness/compare/gate/run/strays.c", "harness/compare/gate/cells/cells.c"
-FILE = "core/base/files/file.c"
+FILE, AGAINST = "core/base/files/file.c", "harness/compare/gate/baseline/against.c"
 COMMAND = "harness/commands/comparing/gate.c"
 PICTURES, OUTPUTS = "harness/compare/gate/pictures/pictures.c", "harness/commands/comparing/outputs.c"
 
@@ -22,6 +22,7 @@ ROWS = [
     Fault(FILE, "&& «lead_to_one(folder_a, folder_b)»;", "true", "files of one name in two folders are one", tests=("command line, gates",)),
     Fault(OUTPUTS, "«spares(summary_path(outputs), file)» &&", "true", "a summary is appended to the cells", tests=("command line, gates",)),
     Fault(OUTPUTS, "«spares(summary, outputs->bmf)» &&", "true", "a summary is appended to a report", tests=("command line, gates",)),
+    Fault(AGAINST, "c->agreement.is_ours |= «c->agreement.outcome == RG_FAIL»;", "false", "a driver that does not load is a picture that was expected to differ", tests=("command line, gates",)),
     Fault(SHARDS, "if («!path || !*path»)", "true", "no runner is told that shards are understood"),
     Fault(SHARDS, "    if («!has_total || !has_index»)", "false", "half of a shard is taken for all of it"),
     Fault(SHARDS, "&& «value >= 0» && value", "true", "shards are counted below 0"),
