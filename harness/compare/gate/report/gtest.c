@@ -57,7 +57,7 @@ bool rg_gtest_matches(const char *filter, const char *name)
 static bool is_plain(char c)
 {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           (c && strchr("_=@,+", c));
+           (c && strchr("_=@+", c));
 }
 
 void rg_gtest_name(const char *name, char made[RG_GTEST_NAME])
