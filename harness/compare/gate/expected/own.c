@@ -29,9 +29,12 @@ static bool read_outcomes(const char *place, char *value, unsigned *outcomes)
     return true;
 }
 
+// As people write numbers: strtod takes hexadecimal ones, blanks and words too.
 static bool read_number(const char *text, double *number)
 {
     char *end;
+    if (text[strspn(text, "0123456789.eE+-")])
+        return false;
     *number = strtod(text, &end);
     return end != text && !*end && isfinite(*number) && *number >= 0;
 }

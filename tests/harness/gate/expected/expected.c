@@ -320,6 +320,8 @@ static void what_is_wrong_is_said_with_its_line(void **state)
         {"fail a\n outcome ok" REST, RG_FORM_OWN, "my.txt:2: outcome 'ok'"},
         {"fail a\n outcome fail\n pixels 3..2" REST, RG_FORM_OWN, "my.txt:3: pixels '3..2'"},
         {"fail a\n outcome fail\n pixels -1" REST, RG_FORM_OWN, "my.txt:3: pixels '-1'"},
+        {"fail a\n outcome fail\n pixels 0x10" REST, RG_FORM_OWN, "my.txt:3: pixels '0x10'"},
+        {"fail a\n outcome fail\n pixels 1.. 2" REST, RG_FORM_OWN, "my.txt:3: pixels '1.. 2'"},
         {"fail a\n outcome fail\n difference nan" REST, RG_FORM_OWN, "my.txt:3: difference 'nan'"},
         {"fail a\n outcome fail\n pixels 1..2x" REST, RG_FORM_OWN, "my.txt:3: pixels '1..2x'"},
         {"#\nfail a" REST, RG_FORM_OWN, "my.txt:2: fail a: no field 'outcome'"},
