@@ -11,9 +11,9 @@
 enum { TODAY = 20780 }; // 2026-11-23
 
 static const struct rg_known_result results[] = {
-    {"streaks/rain", "vulkan", "Mesa 22.3.6", RG_FAIL, 12, 3},
-    {"flow/pane", "gl", "Mesa 22.3.6", RG_OK, 0, 0},
-    {"drops/pane", "vulkan@VK_DRIVER_FILES=new.json", "Mesa 25.0", RG_CRASH, NAN, NAN},
+    {"streaks/rain", "vulkan", "Mesa 22.3.6", RG_FAIL, 12, 3, false},
+    {"flow/pane", "gl", "Mesa 22.3.6", RG_OK, 0, 0, false},
+    {"drops/pane", "vulkan@VK_DRIVER_FILES=new.json", "Mesa 25.0", RG_CRASH, NAN, NAN, false},
 };
 enum { RESULTS = sizeof(results) / sizeof(results[0]) };
 
