@@ -148,36 +148,48 @@ static bool take_line(const char *word, const char *rest, struct rg_case *c)
     return !strcmp(word, "device") && take_text(rest, c->device, sizeof(c->device));
 }
 
-// The words of lines that came, each of which comes once; they lie in the file's lines.
+// The words of lines that came, or the keys of settings, each of which comes once; they lie in the
+// file's lines.
 struct seen {
     int count;
-    const char *words[16]; // more than there are: one that is unknown is the last that is read
+    const char *words[256]; // more than there are: one that is unknown is the last that is read
 };
 
 static bool comes_once(const char *word, struct seen *seen)
 {
+    const size_t length = strcspn(word, "=");
     for (int i = 0; i < seen->count; i++)
-        if (!strcmp(word, seen->words[i]))
+        if (length == strcspn(seen->words[i], "=") && !strncmp(word, seen->words[i], length))
             return false;
     seen->words[seen->count++] = word;
     return true;
 }
 
-static bool read_line(const char *path, int64_t number, char *word, struct seen *seen,
-                      struct rg_case *c)
+// A setting, "set KEY=VALUE" or "file KEY=NAME".
+static bool read_setting(const char *path, int64_t number, bool is_file, const char *text,
+                         struct seen *keys, struct rg_case *c)
 {
     char place[RG_PATH_SIZE + 32];
-    const char *rest = rg_line_cut(word);
     const struct rg_technique *technique = c->run.subject.technique;
     void *settings = (void *)(uintptr_t)c->run.subject.settings;
-    if (technique && (!strcmp(word, "set") || !strcmp(word, "file"))) {
-        snprintf(place, sizeof(place), "%s: line %lld", path, (long long)number);
-        rg_log_place(place);
-        const bool ok = *word == 's' ? rg_params_set(technique->params, settings, rest)
-                                     : rg_file_receive(technique, settings, rest, path);
-        rg_log_place(NULL);
-        return ok;
-    }
+    if (!comes_once(text, keys))
+        return rg_error("%s: line %lld: '%.*s' is set twice; leave one out", path,
+                        (long long)number, (int)strcspn(text, "="), text);
+    snprintf(place, sizeof(place), "%s: line %lld", path, (long long)number);
+    rg_log_place(place);
+    const bool ok = is_file ? rg_file_receive(technique, settings, text, path)
+                            : rg_params_set(technique->params, settings, text);
+    rg_log_place(NULL);
+    return ok;
+}
+
+static bool read_line(const char *path, int64_t number, char *word, struct seen *seen,
+                      struct seen *keys, struct rg_case *c)
+{
+    const char *rest = rg_line_cut(word);
+    const bool is_file = !strcmp(word, "file");
+    if (c->run.subject.technique && (is_file || !strcmp(word, "set")))
+        return read_setting(path, number, is_file, rest, keys, c);
     if (!comes_once(word, seen))
         return rg_error("%s: line %lld: '%s' is there twice; leave one out", path,
                         (long long)number, word);
@@ -190,12 +202,12 @@ static bool read_line(const char *path, int64_t number, char *word, struct seen 
 bool rg_case_read(const char *path, struct rg_case *c)
 {
     struct rg_lines lines;
-    struct seen seen = {.count = 0};
+    struct seen seen = {.count = 0}, keys = {.count = 0};
     *c = (struct rg_case){.run = {.frames = -1}, .stages_run = -1};
     bool ok = rg_lines_read(path, &lines);
     for (int64_t i = 0; ok && i < lines.count; i++)
         if (!rg_line_is_empty(&lines.lines[i]))
-            ok = read_line(path, i + 1, rg_line_skip(lines.lines[i].text), &seen, c);
+            ok = read_line(path, i + 1, rg_line_skip(lines.lines[i].text), &seen, &keys, c);
     rg_lines_free(&lines);
     if (ok && (!c->run.subject.settings || !c->run.subject.width || c->run.frames < 0 ||
                c->stages_run < 0 || !*c->stage || !*c->asset || !c->expected || !c->difference ||

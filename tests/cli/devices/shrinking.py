@@ -71,6 +71,7 @@ def check_shrunk(runner):
                 ("behind ", "# ", r"lacks its .*what it is behind"),
                 ("frames ", "# ", r"lacks its .*frames"),
                 ("frames ", "frames 1\nframes ", r"line \d+: 'frames' is there twice"),
+                ("set view=pane", "set view=pane\nset view=box", r"line \d+: 'view' is set twice; leave one out"),
                 ("stage %s" % STAGE, "stage flow_water", r"behind \d+ is stage '%s' here, and not 'flow_water'" % STAGE),
                 ("behind ", "behind 9", r"there are fewer than 9\d+ stages here; write one anew"),
                 ("asset normals", "asset nonsense", r"there is no asset 'nonsense' here; write one anew"),

@@ -92,6 +92,7 @@ ROWS = [
     Fault(SEARCH, "!strcmp(now->rows[row].stage, s->blame.first.stage)", "true", "another stage is as good", tests=SHRINKING),
     Fault(ENTRIES, "if (!any || «!try_without(s, param, e, ending)»)", "true", "files stay as they are", tests=SHRINKING),
     Fault(FILES, "strchr(name, '/')", "NULL", "a case reads files from anywhere", tests=SHRINKING),
+    Fault(CASE, "if («!comes_once(text, keys)»)", "false", "the last of two settings of a case counts", tests=("command line, shrinking",)),
     Fault(CASE, "if (!strcmp(value, initial))\n        return;", "return;", "a case tells no settings", tests=SHRINKING),
     Fault(CULPRIT, "«!is_packer(p->due->kernel)») && differs(p)", "true", "what packs is tried where it cannot run", tests=SHRINKING),
     Fault("harness/compare/diff/accepts.c", "«!tiers->of[tier].holds»)\n        tier++", "tiers->of[tier].holds", "a tier that fails would hold", tests=SHRINKING),
