@@ -97,19 +97,28 @@ static const char *why_open(const struct rg_gate_case *c)
     }
 }
 
+// A change with its interval. A word says which way it went, so that less has no sign; only an end
+// of the interval that lies on the other side has one.
+static void put_change(const struct rg_gate_decision *d, double before_ms, char *text, size_t size)
+{
+    const bool is_less = d->ratio < 1;
+    const double sign = is_less ? -100 : 100;
+    const double ends[] = {sign * (d->low - 1), sign * (d->high - 1)};
+    snprintf(text, size, "a frame takes %.1f %% %s (%.1f to %.1f %%), %.3g ms before",
+             sign * (d->ratio - 1), is_less ? "less" : "longer", ends[is_less], ends[!is_less],
+             before_ms);
+}
+
 // What its times tell, whatever is expected of it: what is in quarantine is measured to be seen.
 static void put_times(const struct rg_gate_case *c, char *text, size_t size)
 {
     const enum rg_ending ending = ending_of_times(c);
     const struct rg_gate_decision *d = &c->row.decision;
-    const double percent = 100 * (d->ratio - 1);
     if (ending == RG_ENDING_INCONCLUSIVE)
         snprintf(text, size, "%s%s", why_open(c),
                  d->is_coarse ? "; the clock is too coarse for so short a time" : "");
     else if (ending == RG_ENDING_REGRESSED || ending == RG_ENDING_IMPROVED)
-        snprintf(text, size, "a frame takes %.1f %% %s (%.1f to %.1f %%), %.3g ms before",
-                 fabs(percent), percent > 0 ? "longer" : "less", 100 * (d->low - 1),
-                 100 * (d->high - 1), c->row.a_ms.median);
+        put_change(d, c->row.a_ms.median, text, size);
     else if (broke_off(c))
         snprintf(text, size, "%s", c->times.why);
 }
