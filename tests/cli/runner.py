@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 
 # Variables that change what raingauge or a driver does; tests set what they mean to. Which fault it has is `make mutants`' own.
-CHANGES = re.compile(r"^(RG_(?!MUTANT$)|LP_|OMP_|GOMP_|POCL_|VK_|MESA_|GALLIUM|GALLIVM|LIBGL_|EGL_|__EGL_|OCL_|LD_)")
+CHANGES = re.compile(r"^(RG_(?!MUTANT$)|LP_|OMP_|GOMP_|POCL_|VK_|MESA_|GALLIUM|GALLIVM|LIBGL_|EGL_|__EGL_|OCL_|LD_|GTEST_)")
 NO_DRIVERS = {
     "VK_DRIVER_FILES": "/nonexistent",
     "OCL_ICD_VENDORS": "/nonexistent",

@@ -286,8 +286,10 @@ static bool read_input(const struct gate_options *o, struct gate_input *in)
 
 static int gate(const void *values, const struct rg_words *arguments)
 {
-    const struct gate_options *o = values;
+    struct gate_options asked = *(const struct gate_options *)values;
+    const struct gate_options *o = &asked;
     struct gate_input in = {.pairs = {.count = 0}};
+    rg_gtest_inherit(&asked.gtest);
     rg_memory_allow(o->memory_bytes);
     rg_workers.timeout_s = o->devices.timeout_s;
     int exit = find_pairs(o, arguments, &in.pairs);

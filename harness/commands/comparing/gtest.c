@@ -1,7 +1,9 @@
 #include "harness/commands/comparing/gtest.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "core/base/log.h"
 
@@ -34,8 +36,37 @@ const struct rg_option rg_gtest_options[] = {
     {RG_OPTION_FLAG, "gtest_break_on_failure", .about = NOTHING, .offset = AT(breaks)},
     {RG_OPTION_FLAG, "gtest_throw_on_failure", .about = NOTHING, .offset = AT(throws)},
     {RG_OPTION_FLAG, "gtest_fail_fast", .about = NOTHING, .offset = AT(fails_fast)},
+    {RG_OPTION_TEXT, "gtest_stack_trace_depth", .argument = "N", .about = NOTHING,
+     .offset = AT(trace_depth)},
+    {RG_OPTION_FLAG, "gtest_recreate_environments_when_repeating", .about = NOTHING,
+     .offset = AT(recreates)},
     {RG_OPTION_END},
 };
+
+static void inherit(const char *variable, char **text)
+{
+    char *value = *text ? NULL : getenv(variable);
+    if (value && *value)
+        *text = value;
+}
+
+void rg_gtest_inherit(struct rg_gtest_asked *asked)
+{
+    inherit("GTEST_FILTER", &asked->filter);
+    inherit("GTEST_OUTPUT", &asked->output);
+}
+
+// Makes the folders of a path that ends in a slash. Where one cannot be made, the report that is
+// written there says why.
+static void make_folders(const char *path)
+{
+    char part[PATH_MAX];
+    for (const char *slash = strchr(path, '/'); slash; slash = strchr(slash + 1, '/')) {
+        snprintf(part, sizeof(part), "%.*s", (int)(slash - path), path);
+        if (*part)
+            mkdir(part, 0777);
+    }
+}
 
 bool rg_gtest_output(const struct rg_gtest_asked *asked, char path[PATH_MAX])
 {
@@ -47,7 +78,10 @@ bool rg_gtest_output(const struct rg_gtest_asked *asked, char path[PATH_MAX])
         return true;
     if (strcmp(asks, "xml") && !*file)
         return rg_error("--gtest_output %s: write it as xml:FILE; --json prints JSON", asks);
-    return snprintf(path, PATH_MAX, "%s%s", *file ? file : "test_detail.xml",
-                    is_folder ? "raingauge.xml" : "") < PATH_MAX ||
-           rg_error("--gtest_output: its path is too long");
+    if (snprintf(path, PATH_MAX, "%s%s", *file ? file : "test_detail.xml",
+                 is_folder ? "raingauge.xml" : "") >= PATH_MAX)
+        return rg_error("--gtest_output: its path is too long");
+    if (is_folder)
+        make_folders(file);
+    return true;
 }

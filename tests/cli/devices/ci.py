@@ -140,18 +140,32 @@ def check_gtest_flags(runner):
     problems = []
     flags = ("--gtest_color=no --gtest_print_time=0 --gtest_brief=1 --gtest_shuffle --gtest_random_seed=7 --gtest_repeat=1 --gtest_fail_fast=false "
              "--gtest_also_run_disabled_tests --gtest_catch_exceptions=0 --gtest_break_on_failure=0 --gtest_throw_on_failure=1 "
-             "--gtest_death_test_style=fast --gtest_print_utf8=yes").split()
+             "--gtest_death_test_style=fast --gtest_print_utf8=yes --gtest_stack_trace_depth=100 --gtest_recreate_environments_when_repeating=0").split()
     with Files() as files:
         os.mkdir(files.path("reports"))
         args = ["gate", "cpu", "cpu", "--cells", files.cells, "--pictures"]
-        for output, path in ((files.path("a.xml"), "a.xml"), (files.path("reports") + "/", "reports/raingauge.xml")):
+        for output, path in ((files.path("a.xml"), "a.xml"), (files.path("reports") + "/", "reports/raingauge.xml"),
+                             (files.path("new/deep") + "/", "new/deep/raingauge.xml")):
             ran = runner.run(args + flags + ["--gtest_output=xml:" + output])
             if ran.returncode or ran.stderr or "[==========] 2 tests ran." not in ran.stdout or ends_in_xml(files.path(path)) != 2 * ["pass"]:
                 problems.append("exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr))
         ran = runner.run(args + ["--gtest_list_tests=0", "--gtest_filter=flow*"])
         if ran.returncode or "1 test ran" not in ran.stdout:
             problems.append("=0: exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr))
-        for more, says in ((["--gtest_repeat=2"], "--gtest_repeat 2"), (["--gtest_output=json:x"], "--gtest_output json:x"),
+        env, path = {"GTEST_FILTER": "flow*", "GTEST_OUTPUT": "xml:" + files.path("env.xml")}, files.path("env.xml")
+        for more, tests in (([], 1), (["--gtest_filter=*"], 2), (["--gtest_output=xml:" + files.path("b.xml")], 1), (["--junit", files.path("c.xml")], 1)):
+            ran = runner.run(args + more, env)
+            is_own = len(more) == 0 or "filter" in more[0]
+            if ran.returncode or "%d test%s ran" % (tests, "s"[:tests - 1]) not in ran.stdout or os.path.exists(path) != is_own:
+                problems.append("environment, %s: exit status %d, %s%s" % (more, ran.returncode, ran.stdout, ran.stderr))
+            if os.path.exists(path):
+                os.remove(path)
+        if len(runners.listed(runner.run(args + ["--gtest_list_tests"], {"GTEST_FILTER": "flow*"}).stdout)) != 1:
+            problems.append("the list has what the environment's filter leaves out")
+        ran = runner.run(args, {"GTEST_FILTER": "", "GTEST_OUTPUT": ""})
+        if ran.returncode or "[" in ran.stdout:
+            problems.append("empty variables: %s" % ran.stdout)
+        for more, says in ((["--gtest_output=xml:" + files.cells + "/"], "cells.txt/raingauge.xml: cannot be written: Not a directory"), (["--gtest_repeat=2"], "--gtest_repeat 2"), (["--gtest_output=json:x"], "--gtest_output json:x"),
                            (["--gtest_output=xml:a", "--junit", "b"], "choose one"), (["--gtest_shuffle=maybe"], "--gtest_shuffle"),
                            (["--gtest_shuffle="], "--gtest_shuffle"), (["--gtest_stream_result_to=x:1"], "--gtest_stream_result_to")):
             ran = runner.run(args + more)

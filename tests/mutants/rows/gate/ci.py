@@ -31,6 +31,8 @@ ROWS = [
     Fault(RUN, "if (!gate->case_count && «gate->chosen»)", "false", "a shard without a case fails"),
     Fault(RUN, "    clean = «rg_texts_clean(name, true)»;", "strdup(name)", "a name that is listed is not known to a filter"),
     Fault(PARSE, "if (!flag || «holds»)", "true", "a flag that is 0 holds"),
+    Fault(FLAGS, "char *value = «*text» ? NULL", "false", "the environment goes before a flag"),
+    Fault(FLAGS, "if («is_folder»)", "false", "a report's folder is not made"),
     Fault(FLAGS, "is_folder ? «\"raingauge.xml\"» : \"\"", "\"\"", "a report is written over its folder"),
     Fault(AGREE, "agreement->has_pictures = «rg_gate_pictures_write(agreement->folder, agreement->name,\n                                                             &a->picture, &b->picture, &c)»;", "true", "reports name pictures that are not there"),
     Fault(AGREE, "if («!ok» && agreement->folder)", "true", "pictures that are the same are written"),
