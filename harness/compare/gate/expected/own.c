@@ -113,6 +113,20 @@ static bool begin(const char *place, struct rg_known *expected, char *text, int6
     return row;
 }
 
+// Whether it has no evidence of pictures where none are compared.
+static bool has_pictures(const char *name, const struct rg_expectation *row)
+{
+    static const int evidence[] = {RG_FIELD_PIXELS, RG_FIELD_DIFFERENCE};
+    const bool are_compared = !row->values[RG_FIELD_OUTCOME] || row->outcomes & 1U << RG_FAIL;
+    for (int i = 0; i < 2 && !are_compared; i++)
+        if (row->values[evidence[i]])
+            return rg_error("%s:%lld: '%s' is of outcome fail alone, and that is none of those "
+                            "expected; take it out, or add the outcome",
+                            name, (long long)row->at[evidence[i]] + 1,
+                            rg_known_fields[evidence[i]]);
+    return true;
+}
+
 // What must be there, once all fields of a row have been read.
 static bool is_whole(const char *name, const struct rg_expectation *row)
 {
@@ -150,6 +164,7 @@ bool rg_known_read_own(struct rg_known *expected)
              take_line(expected, place, first, i, lines->lines[i].text);
     }
     for (int64_t i = first; i < expected->count && ok; i++)
-        ok = is_whole(lines->name, &expected->rows[i]);
+        ok = is_whole(lines->name, &expected->rows[i]) &&
+             has_pictures(lines->name, &expected->rows[i]);
     return ok;
 }

@@ -93,6 +93,15 @@ static struct summary sum_up(const struct patch *p, int64_t row, int64_t only)
     return s;
 }
 
+// Whether a field is evidence of pictures in a row none of whose new outcomes compares them: such
+// a row would be refused.
+static bool is_idle(const struct rg_expectation *row, const struct summary *s, int field)
+{
+    const unsigned old = row->kind == RG_EXPECT_FLAKE || !s->outcomes ? row->outcomes : 0;
+    return (field == RG_FIELD_PIXELS || field == RG_FIELD_DIFFERENCE) &&
+           !((s->outcomes | old) & 1U << RG_FAIL);
+}
+
 // What a field is to say; false where it stays as it is.
 static bool new_value(const struct patch *p, const struct rg_expectation *row,
                       const struct summary *s, int field, char *text, size_t size)
@@ -136,8 +145,10 @@ static void edit_fields(struct patch *p, const struct rg_expectation *row, const
     char value[256];
     for (int64_t line = row->line; line < row->line + row->line_count; line++)
         for (int field = 0; field < RG_FIELD_COUNT; field++)
-            if (row->values[field] && row->at[field] == line &&
-                new_value(p, row, s, field, value, sizeof(value)))
+            if (row->values[field] && row->at[field] == line && is_idle(row, s, field))
+                take_out(p, line, 1);
+            else if (row->values[field] && row->at[field] == line &&
+                     new_value(p, row, s, field, value, sizeof(value)))
                 edit(p, line, field_line(p, field, value));
 }
 
@@ -154,7 +165,7 @@ static void print_narrowed(const struct patch *p, int64_t index, int64_t result,
                           : field == RG_FIELD_OUTCOME ? outcomes
                                                       : row->values[field];
         const bool is_new = new_value(p, row, &s, field, value, sizeof(value));
-        if (old && (row->values[field] || field == RG_FIELD_DEVICE))
+        if (old && !is_idle(row, &s, field) && (row->values[field] || field == RG_FIELD_DEVICE))
             rg_known_write_field(out, field, is_new ? value : old, p->end);
     }
 }

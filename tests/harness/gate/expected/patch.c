@@ -160,7 +160,7 @@ static void what_fails_otherwise_gets_the_new_evidence(void **state)
            "2026-01-01\n  until 2026-02-01\n");
     static const struct rg_known_result crashes[] = {{"a1", "gl", "M", RG_CRASH, NAN, NAN, false}};
     expect(ROW("a*", "10..20", "2026-02-01"), RG_FORM_OWN, crashes, 1, "2026-01-15",
-           "fail a*\n  outcome    crash\n  pixels 10..20\n  # why\n  reason r\n  since "
+           "fail a*\n  outcome    crash\n  # why\n  reason r\n  since "
            "2026-01-01\n  until 2026-02-01\n");
 }
 

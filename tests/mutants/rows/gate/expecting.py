@@ -37,6 +37,8 @@ ROWS = [
     Fault(JUDGE, "if ((found < 0 || «row->kind < expected->rows[found].kind») &&", "false", "a failure that stands first hides a skip"),
     Fault(JUDGE, "is_of(row->values[RG_FIELD_DEVICE], device) &&\n           «is_of(row->values[RG_FIELD_DRIVER], driver)»;", "true", "an expectation is of all drivers"),
     Fault(JUDGE, "return met == RG_MET_FIXED || met == RG_MET_DIFFERENT || «met == RG_MET_EXPIRED»;", "false", "a gate passes with what has expired"),
+    Fault(OWN, "i < 2 && «!are_compared»; i++)", "false", "evidence of pictures stands beside outcomes that have none"),
+    Fault(PATCH, "row->at[field] == line && «is_idle(row, s, field)»)", "false", "a patch writes what is refused"),
     Fault(PATCH, "else if («s->fixed»)", "false", "a row stays whole for cells that pass"),
     Fault(PATCH, "return «s->has_expired»;", "false", "what has expired stays so"),
     Fault(PATCH, "return «e->least < old->least» || e->most > old->most;", "false", "an envelope does not grow downwards"),
