@@ -51,6 +51,11 @@ class Runner:
                                 preexec_fn=obey_modes if obeys_modes else None,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
 
+    @staticmethod
+    def rest_of(messages):
+        """What a command said, without the line with which tables end."""
+        return CLOSING.sub("", messages)
+
     def run(self, args, env={}, limit=None, stdout=subprocess.PIPE, obeys_modes=False):
         """A command with these variables, which can write files of up to `limit` bytes; root's own obeys the modes of files.
         The line with which tables end is `closing`, and not in `stderr`."""
@@ -65,7 +70,7 @@ class Runner:
                                 stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE,
                                 encoding="utf-8")
         result.closing = "".join(CLOSING.findall(result.stderr))
-        result.stderr = CLOSING.sub("", result.stderr)
+        result.stderr = self.rest_of(result.stderr)
         return result
 
     def report(self, name, problems):

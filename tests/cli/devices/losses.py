@@ -140,7 +140,7 @@ def check_second(runner):
         if second.returncode != 2 or second.stdout or not same or not re.fullmatch(
                 r"raingauge: .*: another raingauge measures into it; wait until it has ended, or name another folder\n", second.stderr):
             problems.append("second: exit status %d, %s%s" % (second.returncode, second.stdout, second.stderr))
-        if first.returncode or messages or any(len(rows_of(os.path.join(out, table + ".json"))) != ROWS for table in (FIRST, SECOND)):
+        if first.returncode or runner.rest_of(messages) or any(len(rows_of(os.path.join(out, table + ".json"))) != ROWS for table in (FIRST, SECOND)):
             problems.append("first: exit status %d, %s" % (first.returncode, messages))
         third = runner.run((TABLES + out).split())
         if third.returncode or third.stderr:
