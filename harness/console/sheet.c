@@ -1,5 +1,6 @@
 #include "harness/console/sheet.h"
 
+#include <limits.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -114,8 +115,7 @@ static void print_md_note(FILE *out, const char *note, int width)
 {
     const char *next;
     for (const char *line = note; *line; line = next) {
-        const int length = width ? rg_wrap(line, width - 2, &next) : (int)strlen(line);
-        next = width ? next : line + length;
+        const int length = rg_wrap(line, width ? width - 2 : INT_MAX, &next);
         fprintf(out, "%s%.*s\n", line == note ? "- " : "  ", length, line);
     }
 }

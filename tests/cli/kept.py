@@ -175,7 +175,7 @@ def page_problems(runner, rows):
     page = runner.run(["table", "--claims", "--from", KEPT]).stdout
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in page.splitlines() if line.startswith("|")]
     due = [[row["table"], row["claim"]] + [MARKS[verdict] for verdict in list(row.values())[3:]] for row in rows]
-    widest = max(len(line) for line in page.splitlines() if line.startswith("|"))
+    widest = max(len(line) for line in page.splitlines())
     problems = ["the page: %s, due: %s" % (cells[2:], due)] if cells[2:] != due else []
     if widest > 110 or page.count("\n") > 60 or " on cpu" in page:
         problems.append("%d columns, %d lines:\n%s" % (widest, page.count("\n"), page))
