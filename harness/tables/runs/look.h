@@ -60,7 +60,8 @@ void rg_look_extend(struct rg_frames *frames, enum rg_budget_size smallest, cons
 bool rg_look_ratio(struct rg_looking *looking, struct rg_device *device, struct rg_frames *ratio);
 struct rg_frames rg_look_scaled(const struct rg_frames *cpu, const struct rg_frames *ratio);
 // What a work of the result that is not its first takes by what the first does, which is `of` on
-// each device: what is known of its technique, or found now, by the last row.
+// each device: what is known of its technique, or found now, by the last row. It holds until
+// another work is asked for.
 const struct rg_work_frames *rg_look_work(struct rg_looking *looking, int work,
                                           const struct rg_frames of[RG_MAX_DEVICES],
                                           const bool is_there[RG_MAX_DEVICES]);

@@ -148,7 +148,7 @@ struct known {
     bool works[RG_MAX_DEVICES]; // what cannot be opened takes nothing
     double a_pixel_ms;
     // Works beside the first that are looked at.
-    const struct rg_work_frames *others[RG_RESULT_WORKS];
+    struct rg_work_frames others[RG_RESULT_WORKS];
     int other_count;
 };
 
@@ -169,7 +169,7 @@ static void learn_works(struct rg_looking *p, struct known *known)
 {
     while (known->other_count + 1 < p->result.work_count) {
         const int work = known->other_count + 1;
-        known->others[known->other_count++] = rg_look_work(p, work, known->of, known->works);
+        known->others[known->other_count++] = *rg_look_work(p, work, known->of, known->works);
     }
 }
 
@@ -186,7 +186,7 @@ static void add_device(const struct rg_looking *p, int row, const struct known *
 {
     const struct rg_frames first = rg_look_scaled(&p->of_row[row], &known->of[device]);
     for (int work = 0; work <= known->other_count; work++) {
-        const struct rg_work_frames *other = work ? known->others[work - 1] : NULL;
+        const struct rg_work_frames *other = work ? &known->others[work - 1] : NULL;
         const struct rg_frames frames =
             other ? rg_look_scaled(&first, &other->by_first[device]) : first;
         const struct rg_cell_frames f = at_size(&frames, size);

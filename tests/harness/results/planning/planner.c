@@ -252,6 +252,38 @@ static void a_forecast_is_of_each_work(void **state)
     slow_end(&rig);
 }
 
+// Works of more settings than are remembered: what is forgotten is looked at again, and none is
+// taken for another.
+static void a_forecast_tells_many_works_apart(void **state)
+{
+    (void)state;
+    static const char *const sets[] = {"fixed_ms=20", "fixed_ms=90", "fixed_ms=300",
+                                       "fixed_ms=30", "fixed_ms=70", "fixed_ms=500"};
+    static const char *const names[] = {"reading", "ours", "queries"};
+    const struct rg_table_part all = {.last_row = 2, .full = true};
+    struct rg_table worked[2];
+    struct rg_forecast both[2], alone[2];
+    struct slow_rig rig;
+    for (int t = 0; t < 2; t++) {
+        worked[t] = table;
+        worked[t].works[0] = (struct rg_table_work){.name = "paper", .set = "", .saves = ""};
+        for (int w = 0; w < 3; w++)
+            worked[t].works[w + 1] =
+                (struct rg_table_work){.name = names[w], .set = sets[3 * t + w], .saves = ""};
+        both[t] = alone[t] =
+            (struct rg_forecast){.table = &worked[t], .part = all, .rows = {true, true, true}};
+    }
+    slow_begin(&rig);
+    rg_forecast(both, 2, &rig.kept);
+    for (int t = 0; t < 2; t++)
+        rg_forecast(&alone[t], 1, &rig.kept);
+    slow_end(&rig);
+    for (int t = 0; t < 2; t++)
+        for (int row = 0; row < 3; row++)
+            assert_ms(both[t].times[row].sampling_ms, alone[t].times[row].sampling_ms);
+    assert_true(both[1].times[2].sampling_ms > both[0].times[2].sampling_ms);
+}
+
 // --- planning anew ---
 
 enum { TABLES = 3 };
@@ -459,6 +491,7 @@ int main(void)
         cmocka_unit_test(textures_take_what_opening_them_takes),
         cmocka_unit_test(a_forecast_is_of_each_row),
         cmocka_unit_test(a_forecast_is_of_each_work),
+        cmocka_unit_test(a_forecast_tells_many_works_apart),
         cmocka_unit_test(a_plan_that_is_kept_is_not_made_anew),
         cmocka_unit_test(cells_that_take_longer_have_the_rest_planned_anew),
         cmocka_unit_test(what_comes_behind_has_its_least_left),
