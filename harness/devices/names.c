@@ -52,9 +52,9 @@ static const char *copy_key(const char *from, char **to)
 static bool has_sound_threads(const struct rg_device_name *name)
 {
     const char *given = rg_environment_find(name->environment, "OMP_NUM_THREADS");
-    char *end;
+    char *end; // of the first number of what may be a list
     const long threads = given ? strtol(given, &end, 10) : 1;
-    return (threads >= 1 && threads <= rg_threads_most()) ||
+    return !given || (threads >= 1 && threads <= rg_threads_most() && (!*end || *end == ',')) ||
            rg_error("device '%s': OMP_NUM_THREADS is no number from 1 to %ld, four a processor; "
                     "write one",
                     name->name, rg_threads_most());

@@ -50,7 +50,7 @@ static void read_file(struct rg_journal *journal)
     if (access(journal->path, F_OK))
         return;
     if (!rg_stored_read_one(journal->path, &found, why)) {
-        rg_warning("%s: cannot be gone on with (%s); the table begins anew", journal->path, why);
+        rg_warning("%s; the table begins anew", why);
         return;
     }
     journal->has_file = has_same_head(&found, &journal->held);

@@ -106,7 +106,7 @@ void rg_stored_free(struct rg_stored *stored)
 
 bool rg_stored_read_one(const char *path, struct rg_result *result, char why[RG_WHY_SIZE])
 {
-    json_t *document = rg_document_read(path, mend, why);
+    json_t *document = rg_document_read(path, "remove it", why);
     const bool ok = document && rg_result_from_json(document, path, result, why);
     json_decref(document);
     return ok;

@@ -90,6 +90,7 @@ static void what_is_no_such_form_is_refused(void **state)
         {"gl@A=1;;B=2", "does not set a variable"},
         {"cpu@OMP_NUM_THREADS=0", "OMP_NUM_THREADS is no number from 1"},
         {"cpu@A=1;OMP_NUM_THREADS=abc", "OMP_NUM_THREADS is no number from 1"},
+        {"cpu@OMP_NUM_THREADS=2x", "OMP_NUM_THREADS is no number from 1"},
         {"cpu@OMP_NUM_THREADS=100000", "OMP_NUM_THREADS is no number from 1"},
         {"gl@A=1;A=2", "device 'gl@A=1;A=2': sets A twice"},
         {"gl@AB=1;A=2;B=3;AB=1", "sets AB twice"},
