@@ -155,8 +155,8 @@ static int cells_of(const struct task *tasks, int count)
     return cells;
 }
 
-// What cells of each table are expected to take. NULL where it is not worth finding out; the caller
-// frees it.
+// What cells of each table are expected to take. NULL where it is not worth finding out, or an
+// interruption ended that: what was found by then is not all of it. The caller frees it.
 static struct rg_forecast *foresee(const struct task *tasks, int count, struct rg_kept *kept,
                                    const struct rg_regenerate_options *o)
 {
@@ -173,7 +173,10 @@ static struct rg_forecast *foresee(const struct task *tasks, int count, struct r
     }
     if (forecasts)
         rg_forecast(forecasts, count, kept);
-    return forecasts;
+    if (!rg_interrupted())
+        return forecasts;
+    free(forecasts);
+    return NULL;
 }
 
 // Begins the command's bar, of which each table has its part. What one tells of its technique holds

@@ -45,6 +45,7 @@ ROWS = [
     Fault(PROBE, "other ? rg_look_scaled(&first, «&other->by_first[device]») : first", "&known->of[0]", "a work takes what a device does", tests=("planner",)),
     Fault(BAR, "return planned > 0 ? «learned->parts[part].taken / planned» : 1;", "1", "rows that were opened tell nothing of those that are left", tests=("time left",)),
     Fault(BAR, "rg_progress_add(bar->progress, «more»);", "0", "a row that took longer counts as due", tests=("time left",)),
+    Fault("harness/tables/runs/regenerate.c", "    if («!rg_interrupted()»)\n        return forecasts;", "true", "what an interrupted forecast had found is told as all", tests=("time left",)),
     Fault("harness/tables/runs/regenerate.c", "&tasks[«kind»].learned", "i", "each table learns for itself", tests=("time left",)),
     Fault("harness/tables/runs/regenerate.c", "forecasts[i].part = «part_of(tasks[i].table, o)»;", "(struct rg_table_part){.last_row = tasks[i].table->row_count - 1}", "full mode is expected to take what quick mode does", tests=("time left",)),
     Fault(PROBE, "add_row(&p, p.rows[row] ? «row» : p.last, &known, &costs);", "p.last", "each row is expected to take what the last one does", tests=("planner", "time left")),

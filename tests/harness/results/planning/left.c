@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +23,7 @@ enum { MOST_ROWS = 40, MOST_LINES = 32 };
 // --- what is told ---
 
 static struct {
-    int count;
+    int count, in_all; // lines of what is left, and of how long all takes
     struct {
         double at_ms, low_ms, high_ms; // when it was told, and what its digits stand for
         char text[128];
@@ -35,6 +36,7 @@ static void hear(enum rg_log_level level, const char *line, void *user)
     (void)user;
     double value, unit_ms;
     char unit[8];
+    told.in_all += strstr(line, " in all") != NULL;
     if (!strstr(line, " left; now: ") || sscanf(line, "about %lf %7s", &value, unit) != 2)
         return;
     assert_true(told.count < MOST_LINES);
@@ -105,21 +107,32 @@ static int print(const struct rg_result *result, const void *user)
     return 0;
 }
 
-// Lines that are told once the table `from` is opened are held against what it took then.
-static void check(const struct rg_table *const tables[], int count, const char *from)
+// Measures them, of which the instance with this number is interrupted (0: none), hears what is
+// told, and returns when it ended. `exit` is due.
+static double run(const struct rg_table *const tables[], int count, int interrupted, int exit)
 {
-    char folder[] = "/tmp/raingauge-left-XXXXXX";
+    char folder[] = "/tmp/raingauge-left-XXXXXX", command[64];
     struct slow_rig rig;
     assert_non_null(mkdtemp(folder));
-    told.count = 0;
+    told.count = told.in_all = 0;
     slow_begin(&rig);
+    slow_interrupted = interrupted;
     rg_log_listen(hear, NULL);
     const struct rg_regenerate_options options = {
         .full = true, .fresh = true, .folder = folder, .print = print};
-    assert_int_equal(rg_tables_regenerate(tables, count, &rig.devices, &options), 0);
+    assert_int_equal(rg_tables_regenerate(tables, count, &rig.devices, &options), exit);
     rg_log_listen(NULL, NULL);
     const double end_ms = rg_now_ms();
     slow_end(&rig);
+    snprintf(command, sizeof(command), "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+    return end_ms;
+}
+
+// Lines that are told once the table `from` is opened are held against what it took then.
+static void check(const struct rg_table *const tables[], int count, const char *from)
+{
+    const double end_ms = run(tables, count, 0, 0);
     assert_true(told.count >= 7);
     bool is_opened = false;
     for (int i = 0; i < told.count; i++) {
@@ -131,9 +144,6 @@ static void check(const struct rg_table *const tables[], int count, const char *
             fail_msg("'%s', and it took %.0f s", told.lines[i].text, left_ms / 1000);
     }
     assert_true(is_opened);
-    char command[64];
-    snprintf(command, sizeof(command), "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
 }
 
 static void what_is_left_is_told_within_a_fifth(void **state)
@@ -176,6 +186,19 @@ static void what_is_left_follows_from_what_was_opened(void **state)
     }
 }
 
+// What a forecast had found when it was interrupted is a part of it, and is told nobody.
+static void an_interrupted_forecast_is_not_told(void **state)
+{
+    (void)state;
+    static struct uneven u;
+    const struct rg_table *const tables[] = {&u.table};
+    make(&u, "slow-1", 18, alike);
+    run(tables, 1, 0, 0);
+    assert_int_equal(told.in_all, 1);
+    run(tables, 1, 5, 128 + SIGINT); // of the 21 that the forecast opens
+    assert_int_equal(told.in_all, 0);
+}
+
 int main(void)
 {
     setenv("RG_LONG_S", "1", 1);
@@ -184,6 +207,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_left_is_told_within_a_fifth),
         cmocka_unit_test(what_is_left_follows_from_what_was_opened),
+        cmocka_unit_test(an_interrupted_forecast_is_not_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

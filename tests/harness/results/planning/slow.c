@@ -3,6 +3,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <signal.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -53,12 +54,13 @@ static double late_ms(const struct rg_instance *instance)
     return instance->frame >= BUILT_UP_FRAME ? s->late_ms : 0;
 }
 
-int slow_opened;
+int slow_opened, slow_interrupted;
 
 static bool open_slow(struct rg_instance *instance)
 {
     const struct slow_instance *slow = (const struct slow_instance *)instance;
-    slow_opened++;
+    if (++slow_opened == slow_interrupted)
+        raise(SIGINT);
     fake_pass(slow->settings.open_ms * fake_of(instance)->item_ms);
     return true;
 }
@@ -114,7 +116,7 @@ void slow_begin(struct slow_rig *rig)
         rig->devices.devices[d] = &rig->fakes[d]->pub;
     }
     rig->kept.devices = &rig->devices;
-    slow_opened = 0;
+    slow_opened = slow_interrupted = 0;
 }
 
 void slow_end(struct slow_rig *rig)

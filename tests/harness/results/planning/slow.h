@@ -8,6 +8,8 @@
 #include "tests/harness/measuring/fake.h"
 
 extern int slow_opened; // instances, since the rig was begun
+// The one of them that is interrupted, as by Ctrl-C; 0: none.
+extern int slow_interrupted;
 
 // cpu, cpu:reference, which takes ten times as long, and gl, which takes three times as long.
 struct slow_rig {
