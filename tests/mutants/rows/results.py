@@ -10,7 +10,7 @@ TREND, COSTS, PREPARE, BEGIN = ("harness/tables/sheet/trend.c", "harness/tables/
                                 "harness/tables/measuring/prepare.c", "harness/tables/begin.c")
 
 ROWS = [
-    Fault(JUDGE, "enum { ROW_SIZE = «160», ABOUT_SIZE", "40", "reasons cut the names of rows", tests=("command line, kept",)),
+    Fault(JUDGE, "rg_record_row_name(r, name, «sizeof(name)»);", "40", "reasons cut the names of rows", tests=("command line, kept",)),
     Fault(JUDGE, "if («fps < 999»)", "true", "rates are told as powers of ten", tests=("command line, kept",)),
     Fault(JUDGE, "if (!parts->count || «against > parts->against») {", "against < parts->against", "a claim is as sure as its surest part"),
     Fault(JUDGE, "h->judgement.in_favour = fmin(1, parts->in_favour «* parts->count»);", "* 1", "the number of parts is not corrected for"),
