@@ -8,8 +8,9 @@
 
 // A page that both processes map. It is only ever written by the one that does something.
 struct rg_doing {
-    _Atomic uint64_t count; // of what was begun: it stands still while a driver hangs
-    char what[120];         // "running pass 'flow_blur'"; may be torn while it is written
+    _Atomic uint64_t count;      // of what was begun: it stands still while a driver hangs
+    char what[120];              // "running pass 'flow_blur'"; may be torn while it is written
+    _Atomic int64_t taken_bytes; // of memory (core/base/memory.h), after the last call
 };
 
 // From now on rg_doing_begin writes there; NULL: nowhere. The page outlives all such calls.

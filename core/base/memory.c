@@ -88,7 +88,7 @@ static void find_limit(void)
     memory.is_chosen = chosen > 0;
     memory.limit_bytes = memory.is_chosen ? chosen
                          : available      ? less_a_tenth(available)
-                                          : INT64_MAX;
+                                          : INT64_MAX / 2; // to which other sizes are added
 }
 
 void rg_memory_allow(int64_t bytes)
@@ -116,10 +116,10 @@ int64_t rg_memory_left(void)
     return available && available < left ? available : left;
 }
 
-int64_t rg_memory_grant(void)
+int64_t rg_memory_grant(int64_t theirs)
 {
-    const int64_t left = left_of_limit();
-    return !memory.is_chosen ? 0 : left > 0 ? left : 1;
+    const int64_t granted = left_of_limit() + theirs;
+    return !memory.is_chosen ? 0 : granted > 0 ? granted : 1;
 }
 
 bool rg_memory_allows(int64_t bytes)
@@ -136,13 +136,23 @@ bool rg_memory_take(int64_t bytes)
 {
     if (!rg_memory_allows(bytes))
         return false;
-    memory.taken_bytes += bytes;
+    rg_memory_count(bytes);
     return true;
 }
 
 void rg_memory_give(int64_t bytes)
 {
-    memory.taken_bytes -= bytes;
+    rg_memory_count(-bytes);
+}
+
+void rg_memory_count(int64_t bytes)
+{
+    memory.taken_bytes += bytes;
+}
+
+int64_t rg_memory_taken(void)
+{
+    return memory.taken_bytes;
 }
 
 // --- what is said of it ---

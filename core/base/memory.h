@@ -1,7 +1,8 @@
 // How much memory may be taken: what large things ask before they take it.
 //
-// Devices that run on the CPU count their buffers and images here, as long as they live. What is
-// taken on the host and is gone soon asks without being counted.
+// Devices that run on the CPU count their buffers and images here, as long as they live, and what
+// processes have taken that work for this one is counted with it. What is taken on the host and is
+// gone soon asks without being counted.
 #ifndef RG_CORE_BASE_MEMORY_H
 #define RG_CORE_BASE_MEMORY_H
 
@@ -18,9 +19,10 @@ int64_t rg_memory_available(void);
 // by the environment variable RG_MEMORY_BYTES. Until then it is what is available, less a tenth.
 void rg_memory_allow(int64_t bytes);
 
-// What a process may take that works for this one, in bytes: what is left, where the user has
-// chosen how much that is; 0 where it is to find out by itself.
-int64_t rg_memory_grant(void);
+// What a process may take in all that works for this one and has taken `theirs` of what is counted
+// here, in bytes: that and what is left, where the user has chosen how much there is; 0 where it is
+// to find out by itself.
+int64_t rg_memory_grant(int64_t theirs);
 
 // Bytes that may still be taken: 0 or more.
 int64_t rg_memory_left(void);
@@ -31,6 +33,10 @@ bool rg_memory_allows_piece(int64_t bytes);
 // Takes them, or false: then nothing is taken. What was taken is given back with rg_memory_give.
 bool rg_memory_take(int64_t bytes);
 void rg_memory_give(int64_t bytes);
+// Counts what another process took, below 0 what it gave back: nobody is asked.
+void rg_memory_count(int64_t bytes);
+// What is counted, in bytes.
+int64_t rg_memory_taken(void);
 
 // "5.2 GiB", "37 MiB", "64 KiB"
 const char *rg_memory_text(int64_t bytes, char text[RG_MEMORY_TEXT]);

@@ -6,7 +6,6 @@
 
 #include "core/base/array.h"
 #include "core/base/log.h"
-#include "core/base/memory.h"
 #include "harness/frames/ways.h"
 #include "harness/frames/messages.h"
 #include "harness/devices/workers/device.h"
@@ -57,7 +56,7 @@ static bool open_remote(struct rg_session *session, const struct rg_subject *sub
     struct rg_message request = {0}, reply;
     struct rg_worker *worker = worker_of(session);
     rg_put_text(&request, session->device->info.name);
-    rg_put_int(&request, rg_memory_grant());
+    rg_put_int(&request, rg_worker_grant(worker));
     rg_put_subject(&request, subject);
     bool ok = rg_worker_call(worker, RG_CALL_SESSION_OPEN, &request, &reply);
     if (ok) {

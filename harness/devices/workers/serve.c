@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/workers/channel.h"
@@ -46,12 +47,14 @@ static bool send_reply(struct rg_channel *channel, bool ok, const struct rg_mess
 static bool serve_one(struct rg_channel *channel, rg_service *const services[],
                       struct rg_message *request, enum rg_call *call)
 {
+    struct rg_doing *const doing = channel->doing.bytes;
     struct rg_message result = {0};
     *call = (enum rg_call)rg_take_index(request, RG_CALL_COUNT_OF_CALLS);
     rg_doing_begin(rg_call_doing(*call), "");
     const bool ok = !request->failed &&
                     (services[*call] || rg_error("a worker does not serve this call")) &&
                     services[*call](request, &result) && !request->failed && !result.failed;
+    atomic_store(&doing->taken_bytes, rg_memory_taken());
     const bool sent = send_reply(channel, ok, &result);
     rg_message_free(&result);
     return sent;

@@ -47,6 +47,7 @@ struct rg_worker {
     bool is_interrupted;  // it was told so
     bool is_closed;       // its device was
     int64_t memory_bytes; // that its process may hold
+    int64_t taken_bytes;  // of them counted here (core/base/memory.h)
     int life;
     enum rg_outcome end; // how its process ended last
 };
@@ -97,8 +98,19 @@ bool rg_worker_still_has(const struct rg_worker *worker, int life)
 
 // --- its process ---
 
+// What a worker has taken counts for the harness, so that others get less. It may have scribbled
+// over the page: it counts as no more than it may hold.
+static void count_taken(struct rg_worker *worker, int64_t bytes)
+{
+    const int64_t most = worker->memory_bytes;
+    const int64_t taken = bytes < 0 ? 0 : bytes > most ? most : bytes;
+    rg_memory_count(taken - worker->taken_bytes);
+    worker->taken_bytes = taken;
+}
+
 static void forget_process(struct rg_worker *worker)
 {
+    count_taken(worker, 0);
     worker->process = 0;
     worker->is_interrupted = worker->is_closed = false;
     rg_channel_close(&worker->channel);
@@ -111,6 +123,20 @@ static void forget_process(struct rg_worker *worker)
 static const char *program_of(const struct rg_worker *worker)
 {
     return rg_environment_find(worker->environment, RG_WORKER_PROGRAM);
+}
+
+// A worker that goes on may hold more once others hold less.
+static void limit_memory(struct rg_worker *worker)
+{
+    worker->memory_bytes = rg_workers.memory_bytes
+                               ? rg_workers.memory_bytes
+                               : rg_memory_left() + worker->taken_bytes + OWN_BYTES;
+}
+
+int64_t rg_worker_grant(struct rg_worker *worker)
+{
+    limit_memory(worker);
+    return rg_memory_grant(worker->taken_bytes);
 }
 
 // False, with the reason in `why`, or one logged line where it is the user's, on failure.
@@ -137,8 +163,7 @@ static bool start(struct rg_worker *worker, char *why, size_t size)
     if (theirs >= 0)
         close(theirs);
     if (!error) {
-        worker->memory_bytes =
-            rg_workers.memory_bytes ? rg_workers.memory_bytes : rg_memory_left() + OWN_BYTES;
+        limit_memory(worker);
         worker->life++;
         return true;
     }
@@ -426,6 +451,8 @@ enum rg_outcome rg_worker_try(struct rg_worker *worker, enum rg_call call,
         return worker->end;
     if (!send(worker, call, request) || watch(worker, reply, &verdict) == RG_ENDED)
         return bury(worker, verdict, why, why_size);
+    const struct rg_doing *doing = worker->channel.doing.bytes;
+    count_taken(worker, atomic_load(&doing->taken_bytes));
     return open_reply(worker, reply) ? RG_OK : rg_outcome_of_error();
 }
 

@@ -54,6 +54,9 @@ bool rg_worker_has(const struct rg_worker *worker, int life);
 // The same; where it does not, one line has been logged.
 bool rg_worker_still_has(const struct rg_worker *worker, int life);
 
+// What the worker may take in all (rg_memory_grant), as others have left it by now.
+int64_t rg_worker_grant(struct rg_worker *worker);
+
 // Asks for a call and waits for the reply. What the worker logged meanwhile is logged here. False,
 // with one logged line, where the call failed, or the worker ended: the error then is a crash or a
 // timeout. `reply` is to be freed in either case.

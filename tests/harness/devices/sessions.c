@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "core/base/memory.h"
 #include "harness/devices/devices.h"
 #include "harness/frames/digests.h"
 #include "harness/frames/session.h"
@@ -339,6 +340,42 @@ static void devices_have_an_environment(void **state)
     assert_null(rg_devices_open_one("cpu@RG_CPU_LEVEL=v99"));
 }
 
+// What one has taken the other cannot, until it is given back or its process has ended. It runs
+// last: nothing takes back a choice of how much there is.
+static void workers_share_what_the_user_allows(void **state)
+{
+    (void)state;
+    struct pair pair = open_flow(0);
+    const int64_t before = rg_memory_taken();
+    rg_session_close(pair.sessions[REMOTE]);
+    rg_session_close(pair.sessions[LOCAL]);
+    const int64_t idle = rg_memory_taken();
+    const int64_t one = (before - idle) / 2;
+    assert_true(one > 1 << 16);
+    rg_memory_allow(idle + 2 * one + one / 2);
+    struct rg_device *other = rg_devices_open_one("cpu:reference");
+    pair.sessions[REMOTE] = rg_session_open(pair.devices[REMOTE], &pair.subject);
+    struct rg_session *second = rg_session_open(pair.devices[REMOTE], &pair.subject);
+    assert_non_null(pair.sessions[REMOTE]);
+    assert_non_null(second);
+    assert_int_equal(rg_memory_taken(), idle + 2 * one);
+    *logged = 0;
+    assert_null(rg_session_open(other, &pair.subject));
+    assert_int_equal(rg_last_error_kind(), RG_ERROR_INPUT);
+    assert_non_null(strstr(logged, " of --memory are left"));
+    assert_null(rg_session_open(pair.devices[LOCAL], &pair.subject)); // nor can this process
+
+    kill(rg_worker_process(rg_remote_worker(pair.devices[REMOTE])), SIGKILL);
+    assert_false(rg_session_step(pair.sessions[REMOTE]));
+    assert_int_equal(rg_memory_taken(), idle);
+    pair.sessions[LOCAL] = rg_session_open(other, &pair.subject);
+    assert_non_null(pair.sessions[LOCAL]);
+    rg_session_close(second);
+    close_pair(&pair);
+    assert_int_equal(rg_memory_taken(), 0);
+    assert_true(rg_device_close(other));
+}
+
 int main(int argc, char **argv)
 {
     if (argc == 3 && !strcmp(argv[1], RG_WORKER_ARGUMENT))
@@ -355,6 +392,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(what_the_worker_refuses_is_refused_here),
         cmocka_unit_test(a_session_ends_with_its_worker),
         cmocka_unit_test(devices_have_an_environment),
+        cmocka_unit_test(workers_share_what_the_user_allows),
     };
     rg_log_listen(keep, NULL);
     return cmocka_run_group_tests_name("sessions in workers", tests, NULL, NULL);
