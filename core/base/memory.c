@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/text/cgroup.h"
 #include "core/base/log.h"
 
 // Below this, what is available is not looked up: that takes tens of microseconds.
@@ -22,11 +23,18 @@ static struct {
 
 // --- what the machine has ---
 
+static FILE *open_in(const char *place, const char *name)
+{
+    char path[RG_CGROUP_PATH + 40];
+    snprintf(path, sizeof(path), "%s/%s", place, name);
+    return fopen(path, "r");
+}
+
 // The number in a file that holds one; -1: there is none.
-static int64_t number_in(const char *path)
+static int64_t number_in(const char *place, const char *name)
 {
     long long number = -1;
-    FILE *file = fopen(path, "r");
+    FILE *file = open_in(place, name);
     if (file && fscanf(file, "%lld", &number) != 1)
         number = -1;
     if (file)
@@ -34,27 +42,50 @@ static int64_t number_in(const char *path)
     return number;
 }
 
-static int64_t available_to_all(void)
+// The number behind a word at the beginning of a line; 0: there is none.
+static int64_t number_behind(const char *place, const char *name, const char *word)
 {
     char line[128];
-    long long kib = 0;
-    FILE *file = fopen("/proc/meminfo", "r");
+    long long number = 0;
+    const size_t length = strlen(word);
+    FILE *file = open_in(place, name);
     while (file && fgets(line, sizeof(line), file))
-        if (sscanf(line, "MemAvailable: %lld", &kib) == 1)
+        if (!strncmp(line, word, length) && sscanf(line + length, "%lld", &number) == 1)
             break;
     if (file)
         fclose(file);
-    return kib * 1024;
+    return number;
+}
+
+// What a group leaves, where that is less than in *least_bytes.
+static void take_least(const char *place, bool is_v2, void *user)
+{
+    int64_t *least_bytes = user;
+    const int64_t most = number_in(place, is_v2 ? "memory.max" : "memory.limit_in_bytes");
+    const int64_t now = number_in(place, is_v2 ? "memory.current" : "memory.usage_in_bytes");
+    if (most < 0 || now < 0)
+        return; // "max", or no such group
+    const int64_t dropped =
+        number_behind(place, "memory.stat", is_v2 ? "inactive_file " : "total_inactive_file ");
+    const int64_t held = now > dropped ? now - dropped : 0;
+    const int64_t left = most > held ? most - held : 1; // 0 were unknown
+    if (left < *least_bytes)
+        *least_bytes = left;
+}
+
+int64_t rg_memory_available_under(const char *root)
+{
+    char place[RG_CGROUP_PATH];
+    snprintf(place, sizeof(place), "%s/proc", root);
+    int64_t bytes = number_behind(place, "meminfo", "MemAvailable:") * 1024;
+    if (bytes > 0)
+        rg_cgroups_visit(root, "memory", take_least, &bytes);
+    return bytes;
 }
 
 int64_t rg_memory_available(void)
 {
-    const int64_t all = available_to_all();
-    const int64_t most = number_in("/sys/fs/cgroup/memory.max");
-    const int64_t now = number_in("/sys/fs/cgroup/memory.current");
-    if (most < 0 || now < 0 || most - now > all)
-        return all;
-    return most > now ? most - now : 0;
+    return rg_memory_available_under("");
 }
 
 static int64_t less_a_tenth(int64_t bytes)

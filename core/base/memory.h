@@ -11,9 +11,12 @@
 
 enum { RG_MEMORY_TEXT = 24 };
 
-// Bytes that this machine can give without swapping (MemAvailable), or that the process's control
-// group still allows, where that is less. 0: unknown.
+// Bytes that this machine can give without swapping (MemAvailable), or that the control groups
+// around the process still allow, where that is less: their limit less what is held in them, but
+// for files that the kernel drops first. 0: unknown.
 int64_t rg_memory_available(void);
+// The same of Linux' files below `root`.
+int64_t rg_memory_available_under(const char *root);
 
 // Allows so many bytes, where that is above 0, also to the processes that are started from here on,
 // by the environment variable RG_MEMORY_BYTES. Until then it is what is available, less a tenth.

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/utsname.h>
 
+#include "core/base/text/cgroup.h"
 #include "core/base/text/words.h"
 
 enum { LINE_SIZE = 8192, MAX_PATH = 1024 };
@@ -92,18 +93,18 @@ int rg_cpu_list_count(const char *list)
 // --- the cgroup's share of CPU time ---
 
 // CPUs that a pair of files, or one file with a pair, grants; 0: no limit.
-static double quota_in(const char *root, const char *folder, bool v2)
+static double quota_in(const char *folder, bool is_v2)
 {
     char path[MAX_PATH + 32];
     long long quota_us = -1, period_us = 0;
-    snprintf(path, sizeof(path), "%s/%s", folder, v2 ? "cpu.max" : "cpu.cfs_quota_us");
-    FILE *file = open_under(root, path);
-    if (!file || fscanf(file, v2 ? "%lld %lld" : "%lld", &quota_us, &period_us) < 1)
+    snprintf(path, sizeof(path), "%s/%s", folder, is_v2 ? "cpu.max" : "cpu.cfs_quota_us");
+    FILE *file = fopen(path, "r");
+    if (!file || fscanf(file, is_v2 ? "%lld %lld" : "%lld", &quota_us, &period_us) < 1)
         quota_us = -1; // "max"
     if (file)
         fclose(file);
     snprintf(path, sizeof(path), "%s/cpu.cfs_period_us", folder);
-    if (!v2 && (file = open_under(root, path))) {
+    if (!is_v2 && (file = fopen(path, "r"))) {
         if (fscanf(file, "%lld", &period_us) != 1)
             period_us = 0;
         fclose(file);
@@ -111,49 +112,13 @@ static double quota_in(const char *root, const char *folder, bool v2)
     return quota_us > 0 && period_us > 0 ? (double)quota_us / (double)period_us : 0;
 }
 
-// The smallest quota of a group and those around it. Inside a container the group's path may be the
-// host's and lead nowhere; the mount point itself is then our group.
-static void take_quota(struct rg_machine *machine, const char *root, const char *mount,
-                       const char *group, bool v2)
+// The tightest holds.
+static void take_quota(const char *folder, bool is_v2, void *user)
 {
-    char folder[MAX_PATH];
-    const size_t mount_length = strlen(mount);
-    if ((size_t)snprintf(folder, sizeof(folder), "%s%s", mount, group) >= sizeof(folder))
-        return;
-    for (;;) {
-        double quota = quota_in(root, folder, v2);
-        if (quota > 0 && (machine->quota_cpus == 0 || quota < machine->quota_cpus))
-            machine->quota_cpus = quota;
-        if (strlen(folder) <= mount_length)
-            return;
-        *strrchr(folder, '/') = 0;
-    }
-}
-
-// A line of /proc/self/cgroup is ID:CONTROLLERS:PATH; version 2 has no controllers.
-static void read_quota(struct rg_machine *machine, const char *root)
-{
-    FILE *file = open_under(root, "/proc/self/cgroup");
-    char line[LINE_SIZE];
-    while (file && fgets(line, sizeof(line), file)) {
-        line[strcspn(line, "\n")] = 0;
-        char *controllers = strchr(line, ':');
-        char *group = controllers ? strchr(controllers + 1, ':') : NULL;
-        if (!group || group[1] != '/')
-            continue;
-        *controllers++ = *group++ = 0;
-        for (char *c = controllers; *c; c++)
-            *c = *c == ',' ? ' ' : *c;
-        if (!*controllers) {
-            take_quota(machine, root, "/sys/fs/cgroup", group, true);
-            take_quota(machine, root, "/sys/fs/cgroup/unified", group, true);
-        } else if (rg_has_word(controllers, "cpu")) {
-            take_quota(machine, root, "/sys/fs/cgroup/cpu", group, false);
-            take_quota(machine, root, "/sys/fs/cgroup/cpu,cpuacct", group, false);
-        }
-    }
-    if (file)
-        fclose(file);
+    struct rg_machine *machine = user;
+    const double quota = quota_in(folder, is_v2);
+    if (quota > 0 && (machine->quota_cpus == 0 || quota < machine->quota_cpus))
+        machine->quota_cpus = quota;
 }
 
 // --- clocks ---
@@ -229,7 +194,7 @@ void rg_machine_read(struct rg_machine *machine, const char *root)
     read_value(root, "/proc/self/status", "Cpus_allowed_list", machine->cores_list,
                sizeof(machine->cores_list));
     machine->cores_allowed = rg_cpu_list_count(machine->cores_list);
-    read_quota(machine, root);
+    rg_cgroups_visit(root, "cpu", take_quota, machine);
     read_clocks(machine, root);
     machine->gpu_nodes =
         count_files(root, "/dev/dri/renderD*") + count_files(root, "/dev/nvidia[0-9]*");

@@ -12,6 +12,7 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "core/base/memory.h"
+#include "tests/core/root.h"
 
 #define MIB ((int64_t)1 << 20)
 
@@ -99,6 +100,52 @@ static void large_pieces_of_the_host_are_refused(void **state)
         strstr(rg_last_error(), "a map needs 101 MiB, and 100 MiB of --memory are left"));
 }
 
+static int64_t available(void)
+{
+    return rg_memory_available_under(root);
+}
+
+// The least that a group around this process leaves holds, and files that are dropped are no loss.
+static void what_groups_of_version_2_leave_is_what_is_free(void **state)
+{
+    (void)state;
+    assert_int_equal(available(), 0); // no such files: unknown
+    put("/proc/meminfo", "MemTotal: 4096 kB\nMemFree: 1 kB\nMemAvailable:    3072 kB\n");
+    assert_int_equal(available(), 3 * MIB);
+    put("/proc/self/cgroup", "0::/outer/inner\n");
+    put("/sys/fs/cgroup/outer/inner/memory.max", "max\n");
+    put("/sys/fs/cgroup/outer/inner/memory.current", "1048576\n");
+    assert_int_equal(available(), 3 * MIB);
+    put("/sys/fs/cgroup/outer/memory.max", "3145728\n");
+    put("/sys/fs/cgroup/outer/memory.current", "2097152\n");
+    assert_int_equal(available(), MIB);
+    put("/sys/fs/cgroup/outer/memory.stat", "anon 5\ninactive_file 524288\nactive_file 7\n");
+    assert_int_equal(available(), 3 * MIB / 2);
+    put("/sys/fs/cgroup/outer/inner/memory.max", "2097152\n");
+    assert_int_equal(available(), MIB);
+    put("/sys/fs/cgroup/outer/inner/memory.max", "1048576\n");
+    assert_int_equal(available(), 1); // nothing, which is known
+}
+
+static void what_groups_of_version_1_leave_is_what_is_free(void **state)
+{
+    (void)state;
+    put("/proc/meminfo", "MemAvailable: 3072 kB\n");
+    put("/proc/self/cgroup", "4:cpu:/elsewhere\n3:hugetlb,memory:/docker/abc\n");
+    put("/sys/fs/cgroup/memory/docker/abc/memory.limit_in_bytes", "9223372036854771712\n");
+    put("/sys/fs/cgroup/memory/docker/abc/memory.usage_in_bytes", "1048576\n");
+    assert_int_equal(available(), 3 * MIB);
+    put("/sys/fs/cgroup/memory/docker/abc/memory.limit_in_bytes", "3145728\n");
+    assert_int_equal(available(), 2 * MIB);
+    put("/sys/fs/cgroup/memory/docker/abc/memory.stat",
+        "inactive_file 7\ntotal_inactive_file 524288\n");
+    assert_int_equal(available(), 5 * MIB / 2);
+    put("/sys/fs/cgroup/hugetlb,memory/memory.limit_in_bytes",
+        "2097152\n"); // mounted by both names
+    put("/sys/fs/cgroup/hugetlb,memory/memory.usage_in_bytes", "1048576\n");
+    assert_int_equal(available(), MIB);
+}
+
 int main(void)
 {
     setenv("RG_MEMORY_BYTES", "1e9", 1);
@@ -108,6 +155,10 @@ int main(void)
         cmocka_unit_test(a_choice_outweighs_what_is_free),
         cmocka_unit_test(a_refusal_has_the_numbers),
         cmocka_unit_test(large_pieces_of_the_host_are_refused),
+        cmocka_unit_test_setup_teardown(what_groups_of_version_2_leave_is_what_is_free, make_root,
+                                        remove_root),
+        cmocka_unit_test_setup_teardown(what_groups_of_version_1_leave_is_what_is_free, make_root,
+                                        remove_root),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
