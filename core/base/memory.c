@@ -132,11 +132,17 @@ void rg_memory_allow(int64_t bytes)
     find_limit();
 }
 
-static int64_t left_of_limit(void)
+int64_t rg_memory_limit(void)
 {
     if (!memory.is_known)
         find_limit();
-    return memory.limit_bytes > memory.taken_bytes ? memory.limit_bytes - memory.taken_bytes : 0;
+    return memory.limit_bytes;
+}
+
+static int64_t left_of_limit(void)
+{
+    const int64_t limit = rg_memory_limit();
+    return limit > memory.taken_bytes ? limit - memory.taken_bytes : 0;
 }
 
 // What others have taken meanwhile counts as well, unless the user has chosen.

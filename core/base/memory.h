@@ -27,6 +27,8 @@ void rg_memory_allow(int64_t bytes);
 // to find out by itself.
 int64_t rg_memory_grant(int64_t theirs);
 
+// Bytes that may be taken in all: by the user's choice, or of what was free at first.
+int64_t rg_memory_limit(void);
 // Bytes that may still be taken: 0 or more.
 int64_t rg_memory_left(void);
 // Whether so many may be taken at once. Cheap for less than a MiB.

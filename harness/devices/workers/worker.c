@@ -98,6 +98,9 @@ bool rg_worker_still_has(const struct rg_worker *worker, int life)
 
 // --- its process ---
 
+// What is counted of all workers, in bytes.
+static int64_t taken_by_all;
+
 // What a worker has taken counts for the harness, so that others get less. It may have scribbled
 // over the page: it counts as no more than it may hold.
 static void count_taken(struct rg_worker *worker, int64_t bytes)
@@ -105,6 +108,7 @@ static void count_taken(struct rg_worker *worker, int64_t bytes)
     const int64_t most = worker->memory_bytes;
     const int64_t taken = bytes < 0 ? 0 : bytes > most ? most : bytes;
     rg_memory_count(taken - worker->taken_bytes);
+    taken_by_all += taken - worker->taken_bytes;
     worker->taken_bytes = taken;
 }
 
@@ -125,12 +129,13 @@ static const char *program_of(const struct rg_worker *worker)
     return rg_environment_find(worker->environment, RG_WORKER_PROGRAM);
 }
 
-// A worker that goes on may hold more once others hold less.
+// A worker that goes on may hold more once others hold less. What the harness has taken for
+// pictures is no less for it: they pass through the worker's memory.
 static void limit_memory(struct rg_worker *worker)
 {
-    worker->memory_bytes = rg_workers.memory_bytes
-                               ? rg_workers.memory_bytes
-                               : rg_memory_left() + worker->taken_bytes + OWN_BYTES;
+    const int64_t others = taken_by_all - worker->taken_bytes;
+    worker->memory_bytes =
+        rg_workers.memory_bytes ? rg_workers.memory_bytes : rg_memory_limit() - others + OWN_BYTES;
 }
 
 int64_t rg_worker_grant(struct rg_worker *worker)

@@ -21,7 +21,6 @@ ROWS = [
     Fault(WORKER, "else if («rg_held_bytes(worker->process) > worker->memory_bytes»)", "false", "memory has no limit"),
     Fault(WORKER, "rg_memory_count(«taken - worker->taken_bytes»);", "0", "what workers take is theirs alone"),
     Fault(WORKER, "count_taken(worker, 0);", ";", "what a worker took counts after its end"),
-    Fault(WORKER, "rg_memory_left() + «worker->taken_bytes» + OWN_BYTES", "0", "a worker may hold less for what it holds", lives="a GiB more than is allowed hides it"),
     Fault(SERVE, "atomic_store(&doing->taken_bytes, «rg_memory_taken()»);", "0", "a worker does not tell what it took"),
     Fault("core/base/memory.c", "left_of_limit() «+ theirs»;", "+ 0 * theirs", "a worker is left less for what it took"),
     Fault(WORKER, "drop_much_printed(worker);", ";", "what a driver prints has no end"),
