@@ -15,6 +15,7 @@ const struct rg_measure_options *rg_table_few_samples(void);
 // What a cell of a row is expected to take, on average over the devices; 0: nobody knows.
 struct rg_cell_time {
     double open_ms, sampling_ms; // with what checks it; with the passes told apart
+    double reference_ms;         // both of cpu:reference alone; 0: it is none of the devices
 };
 
 enum rg_bar_part { RG_BAR_OPENING, RG_BAR_SAMPLING, RG_BAR_PARTS };

@@ -261,16 +261,19 @@ bool rg_budget_probe(const struct rg_table *table, struct rg_kept *kept, bool fu
 }
 
 // On average over the devices.
-static struct rg_cell_time time_of(const struct rg_budget_table *costs, int devices)
+static struct rg_cell_time time_of(const struct rg_budget_table *costs,
+                                   const struct rg_devices *devices)
 {
     struct rg_cell_time time = {.open_ms = 1e3 * costs->check_s[RG_BUDGET_WHOLE]};
-    for (int d = 0; d < devices; d++) {
+    for (int d = 0; d < devices->count; d++) {
         const struct rg_budget_cost *cost = &costs->cells[d][RG_BUDGET_WHOLE];
         time.open_ms += 1e3 * (cost->all_s - cost->sampling_s);
         time.sampling_ms += 1e3 * cost->sampling_s;
+        if (!strcmp(devices->devices[d]->info.name, "cpu:reference"))
+            time.reference_ms = 1e3 * cost->all_s;
     }
-    time.open_ms /= devices;
-    time.sampling_ms /= devices;
+    time.open_ms /= devices->count;
+    time.sampling_ms /= devices->count;
     return time;
 }
 
@@ -281,7 +284,6 @@ bool rg_budget_probe_rows(const struct rg_table *table, struct rg_kept *kept,
     struct rg_looking p;
     struct known known;
     struct rg_budget_table costs;
-    const int devices = kept->devices->count;
     name_costs(table, &costs);
     begin(&p, table, kept, part, rows, kind);
     p.smallest = RG_BUDGET_WHOLE;
@@ -297,7 +299,7 @@ bool rg_budget_probe_rows(const struct rg_table *table, struct rg_kept *kept,
             costs = (struct rg_budget_table){0};
             add_row(&p, p.rows[row] ? row : p.last, &known, &costs);
         }
-        times[row] = time_of(&costs, devices);
+        times[row] = time_of(&costs, kept->devices);
     }
     rg_result_free(&p.result);
     return ok;

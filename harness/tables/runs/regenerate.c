@@ -6,6 +6,7 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/console/clock.h"
+#include "harness/console/duration.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/record/disk/hold.h"
@@ -200,6 +201,25 @@ static void begin_bar(struct task *tasks, int count, const struct rg_forecast *f
     rg_progress_start_expected(progress, units, forecasts ? RG_TABLE_UNIT_MS : 0);
 }
 
+// The plain loops of cpu:reference take most of the time of many tables, and few readers want their
+// speed: what they take is told where it is long.
+static void tell_reference(const struct task *tasks, int count, const struct rg_forecast *forecasts,
+                           int devices)
+{
+    char text[RG_DURATION_TEXT];
+    double s = 0;
+    for (int i = 0; forecasts && devices > 1 && i < count; i++) {
+        const struct rg_result *result = &tasks[i].result;
+        for (int row = result->first_row; row <= result->last_row; row++)
+            if (rg_result_wants(result, row) && !rg_journal_has(tasks[i].journal, row))
+                s += 1e-3 * forecasts[i].times[row].reference_ms * rg_result_row_cells(result) /
+                     devices;
+    }
+    if (s > rg_long_s())
+        rg_info("about %s of it are cpu:reference's alone; --device names others",
+                rg_duration_text(s, text));
+}
+
 // Journals go once all tables are written and printed: where one is not, the same command begins
 // with what they have, of those before it too.
 static bool keeps_journals(const struct task *tasks, int count)
@@ -260,6 +280,7 @@ static int run_tasks(struct task *tasks, int count, const struct rg_devices *dev
     rg_interrupt_watch();
     struct rg_forecast *forecasts = foresee(tasks, count, &kept, o);
     begin_bar(tasks, count, forecasts, &progress);
+    tell_reference(tasks, count, forecasts, devices->count);
     free(forecasts);
     for (int i = 0; i < count && !rg_interrupted(); i++)
         exit = rg_exit_worse(exit, run_task(&tasks[i], &kept, o, &closing));

@@ -15,6 +15,8 @@
 
 #include "core/base/log.h"
 #include "harness/console/clock.h"
+#include "harness/tables/measuring/cell.h"
+#include "harness/tables/measuring/measure.h"
 #include "harness/tables/runs/regenerate.h"
 #include "tests/harness/results/planning/slow.h"
 
@@ -23,7 +25,8 @@ enum { MOST_ROWS = 40, MOST_LINES = 32 };
 // --- what is told ---
 
 static struct {
-    int count, in_all; // lines of what is left, and of how long all takes
+    int count, in_all;     // lines of what is left, and of how long all takes
+    double all, reference; // what those tell, and those of cpu:reference; in seconds, 0: none does
     struct {
         double at_ms, low_ms, high_ms; // when it was told, and what its digits stand for
         char text[128];
@@ -36,11 +39,18 @@ static void hear(enum rg_log_level level, const char *line, void *user)
     (void)user;
     double value, unit_ms;
     char unit[8];
-    told.in_all += strstr(line, " in all") != NULL;
-    if (!strstr(line, " left; now: ") || sscanf(line, "about %lf %7s", &value, unit) != 2)
+    if (sscanf(line, "about %lf %7s", &value, unit) != 2)
+        return;
+    unit_ms = !strcmp(unit, "h") ? 3.6e6 : !strcmp(unit, "min") ? 6e4 : 1e3;
+    if (strstr(line, " in all")) {
+        told.in_all++;
+        told.all = value * unit_ms * 1e-3;
+    }
+    if (strstr(line, " of it are cpu:reference's alone; "))
+        told.reference = value * unit_ms * 1e-3;
+    if (!strstr(line, " left; now: "))
         return;
     assert_true(told.count < MOST_LINES);
-    unit_ms = !strcmp(unit, "h") ? 3.6e6 : !strcmp(unit, "min") ? 6e4 : 1e3;
     const double half = strchr(line, '.') && strchr(line, '.') < strstr(line, unit) ? 0.05 : 0.5;
     told.lines[told.count].at_ms = rg_now_ms();
     told.lines[told.count].low_ms = (value - half) * unit_ms;
@@ -115,6 +125,7 @@ static double run(const struct rg_table *const tables[], int count, int interrup
     struct slow_rig rig;
     assert_non_null(mkdtemp(folder));
     told.count = told.in_all = 0;
+    told.all = told.reference = 0;
     slow_begin(&rig);
     slow_interrupted = interrupted;
     rg_log_listen(hear, NULL);
@@ -186,6 +197,24 @@ static void what_is_left_follows_from_what_was_opened(void **state)
     }
 }
 
+// Ten times what cpu takes for each cell; what checks the rows is no cell of it.
+static void what_the_reference_takes_is_told_apart(void **state)
+{
+    (void)state;
+    static struct uneven u;
+    const struct rg_table *const tables[] = {&u.table};
+    double due_s = 0;
+    make(&u, "slow-1", 18, alike);
+    for (int row = 0; row < 18; row++) {
+        const double frame_ms = 1 + alike(row, 18) + 1.25e-4 * 256 * 256;
+        const struct rg_cell_frames frames = {400, 10, 10 * frame_ms};
+        due_s += 1e-3 * rg_cell_ms(&u.table, &frames, rg_table_options(true));
+    }
+    run(tables, 1, 0, 0);
+    assert_true(fabs(told.reference - due_s) < 1); // two digits
+    assert_true(told.reference < told.all);
+}
+
 // What a forecast had found when it was interrupted is a part of it, and is told nobody.
 static void an_interrupted_forecast_is_not_told(void **state)
 {
@@ -207,6 +236,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_left_is_told_within_a_fifth),
         cmocka_unit_test(what_is_left_follows_from_what_was_opened),
+        cmocka_unit_test(what_the_reference_takes_is_told_apart),
         cmocka_unit_test(an_interrupted_forecast_is_not_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

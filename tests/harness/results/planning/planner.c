@@ -198,6 +198,8 @@ static void a_forecast_is_of_each_row(void **state)
     rg_forecast(forecasts, 2, &rig.kept);
     for (int row = 0; row < 3; row++) {
         const double ms = 1 + fixed_ms[row] + pixels_ms;
+        const struct rg_cell_frames reference = {400, 10, 10 * ms};
+        const double reference_ms = rg_cell_ms(&table, &reference, full);
         double open_ms = 10 * (40 + 4 + ms) + 40 + 4 + dry_share * ms, sampling_ms = 0;
         for (int d = 0; d < 3; d++) {
             const struct rg_cell_frames f = {40 * slowness[d], slowness[d], ms * slowness[d]};
@@ -210,6 +212,7 @@ static void a_forecast_is_of_each_row(void **state)
                 continue;
             assert_ms(forecasts[i].times[row].open_ms, open_ms / 3);
             assert_ms(forecasts[i].times[row].sampling_ms, sampling_ms / 3);
+            assert_ms(forecasts[i].times[row].reference_ms, reference_ms);
         }
     }
     // Of the first table each row, a dry one, and one on two other devices; of the second two rows.
