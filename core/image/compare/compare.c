@@ -85,10 +85,8 @@ static bool compute_beside(const struct rg_picture *a, const struct rg_picture *
 
 static const char *tier_name(const struct rg_tiers *tiers)
 {
-    for (int i = 0; i < RG_TIER_COUNT; i++)
-        if (tiers->of[i].holds)
-            return rg_tier_name((enum rg_tier)i);
-    return "none";
+    const int tier = rg_tiers_strictest(tiers);
+    return tier < RG_TIER_COUNT ? rg_tier_name((enum rg_tier)tier) : "none";
 }
 
 bool rg_compare(const struct rg_picture *a, const char *name_a, const struct rg_picture *b,

@@ -138,6 +138,12 @@ bool rg_tiers_compute(const struct rg_picture *a, const struct rg_picture *b,
                       const uint8_t *background_codes, const struct rg_metrics *metrics,
                       uint8_t *mask, struct rg_tiers *tiers);
 
+// The strictest tier that two pictures hold; RG_TIER_COUNT: none.
+int rg_tiers_strictest(const struct rg_tiers *tiers);
+// The same in words: "T2 would hold", or "no tier would hold: " and why T2 does not.
+enum { RG_TIERS_TEXT = 160 };
+void rg_tiers_text(const struct rg_tiers *tiers, char text[RG_TIERS_TEXT]);
+
 // Whether a picture has any pixel of rain before its background: of an empty mask nothing can be
 // said.
 bool rg_shows_rain(const uint8_t *codes, const uint8_t *background_codes, int64_t pixels);

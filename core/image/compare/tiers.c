@@ -310,3 +310,20 @@ bool rg_shows_rain(const uint8_t *codes, const uint8_t *background_codes, int64_
         shows = distance(codes + i * 4, background_codes + i * 4) > MASK_CODES;
     return shows;
 }
+
+int rg_tiers_strictest(const struct rg_tiers *tiers)
+{
+    int tier = 0;
+    while (tier < RG_TIER_COUNT && !tiers->of[tier].holds)
+        tier++;
+    return tier;
+}
+
+void rg_tiers_text(const struct rg_tiers *tiers, char text[RG_TIERS_TEXT])
+{
+    const int tier = rg_tiers_strictest(tiers);
+    if (tier < RG_TIER_COUNT)
+        snprintf(text, RG_TIERS_TEXT, "%s would hold", rg_tier_name((enum rg_tier)tier));
+    else
+        snprintf(text, RG_TIERS_TEXT, "no tier would hold: %s", tiers->of[RG_T2].why);
+}

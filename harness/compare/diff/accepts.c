@@ -22,10 +22,11 @@ static bool draw_mutants(struct rg_accepts *accepts, const struct rg_technique *
     return rg_device_close(verify.mutant_device) && accepts->is_known[tier];
 }
 
-static void print_line(const char *tier, const struct rg_mutants_told *told)
+static void print_line(const struct rg_tiers *tiers, const struct rg_mutants_told *told)
 {
-    char alive[2000];
-    printf("  %s would hold", tier);
+    char alive[2000], holds[RG_TIERS_TEXT];
+    rg_tiers_text(tiers, holds);
+    printf("  %s", holds);
     if (told) {
         rg_mutants_text(told, alive, sizeof(alive));
         printf("; of %d mutants it accepts %s%s", told->run, told->alive_count ? "" : "none",
@@ -50,19 +51,13 @@ static json_t *json_of(const char *tier, const struct rg_mutants_told *told)
 json_t *rg_accepts_tell(struct rg_accepts *accepts, const struct rg_technique *technique,
                         const struct rg_tiers *tiers, bool wanted, bool as_json)
 {
-    int tier = 0;
-    while (tier < RG_TIER_COUNT && !tiers->of[tier].holds)
-        tier++;
-    if (tier == RG_TIER_COUNT) {
-        if (!as_json)
-            printf("  no tier would hold: %s\n", tiers->of[RG_T2].why);
-        return as_json ? json_of("none", NULL) : NULL;
-    }
-    if (wanted && !draw_mutants(accepts, technique, (enum rg_tier)tier))
+    const int tier = rg_tiers_strictest(tiers);
+    const bool is_any = tier < RG_TIER_COUNT;
+    if (is_any && wanted && !draw_mutants(accepts, technique, (enum rg_tier)tier))
         return NULL;
-    const struct rg_mutants_told *told = wanted ? &accepts->of[tier] : NULL;
+    const struct rg_mutants_told *told = is_any && wanted ? &accepts->of[tier] : NULL;
     if (as_json)
-        return json_of(rg_tier_name((enum rg_tier)tier), told);
-    print_line(rg_tier_name((enum rg_tier)tier), told);
+        return json_of(is_any ? rg_tier_name((enum rg_tier)tier) : "none", told);
+    print_line(tiers, told);
     return NULL;
 }

@@ -307,12 +307,39 @@ def check_miscompiled(runner):
     problems = []
     if result.returncode != 1 or found["flow/pane"]["ending"] != "differs" or found["raster/torus"]["ending"] == "differs":
         problems.append("exit status %d, %s" % (result.returncode, endings(report)))
+    if "; no tier would hold: " not in found["flow/pane"]["message"] or "raingauge diff" in found["flow/pane"]["details"]:
+        problems.append("what would hold: %s" % found["flow/pane"])
     if "stage flow_normals" not in found["flow/pane"]["details"] or found["flow/pane"]["ratio"]["value"] is not None:
         problems.append("%s" % found["flow/pane"])
     for cell, is_same in (("raster/torus", True), ("flow/pane", False)):
         passes = re.search(r"the same program, the same libraries; compiled passes (\w{8}) and (\w{8}), ", found[cell]["details"])
         if not passes or (passes[1] == passes[2]) != is_same:
             problems.append("code of %s: %s" % (cell, found[cell]["details"]))
+    return problems
+
+
+def check_cost(runner):
+    """where pictures differ the tier is told that would hold, and a command that says the same, and which mutants live then; against a baseline too"""
+    problems = []
+    with Files("flow/box flow 96x96 3 environment_px=64 resolution_px=96\n") as files:
+        kernels, path = files.path("it's of $HOME"), files.path("baseline.json")
+        os.mkdir(kernels)
+        variables = runner.kernels_with(kernels, "flow_normals.glsl", "* 2047.0f + 2048.5f", "* 2040.0f + 2048.5f")
+        runner.run(["baseline", "--device", "gl", "--pictures", "--cells", files.cells, "-o", path])
+        for args, env in ((["gl", "gl@RG_KERNEL_DIR=" + kernels], {}), (["--baseline", path], variables)):
+            result = runner.run(["gate", *args, "--pictures", "--cells", files.cells, "--json"], env)
+            case = json.loads(result.stdout)["gated"][0]
+            tier = re.fullmatch(r"the picture differs: (\d+) values differ; (T\d) would hold", case["message"])
+            command = re.search(r"(?m)^which mutants (T\d) would let live: (raingauge diff .*)$", case["details"])
+            if result.returncode != 1 or not tier or not command or tier[2] != command[1]:
+                problems.append("%s: exit status %d, %s\n%s" % (args, result.returncode, case["message"], case["details"]))
+                continue
+            env = runner.variables({"PATH": os.path.dirname(runner.raingauge) + ":" + os.environ["PATH"], **env})
+            mutants = "" if "--baseline" in args else "; of \\d+ mutants it accepts "
+            ran = subprocess.run(["sh", "-c", command[2] if mutants else command[2].replace(" --mutants", "")], env=env, capture_output=True, text=True, timeout=240, check=False)
+            if ran.returncode != 1 or ran.stderr or not re.search(r" fail +%s +%s .*\n(  .*\n)*  %s would hold%s" % (
+                    tier[2], tier[1], tier[2], mutants), ran.stdout):
+                problems.append("%s: exit status %d, %s%s" % (command[2], ran.returncode, ran.stdout, ran.stderr))
     return problems
 
 
@@ -459,5 +486,5 @@ def check_room(runner):
     return []
 
 
-CHECKS = [check_same, check_slower, check_quarantined, check_expired, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_strange, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_gtest, check_required, check_missing, check_no_rain, check_beside,
+CHECKS = [check_same, check_slower, check_quarantined, check_expired, check_without_ids, check_builds, check_fallen, check_open, check_shared, check_crash, check_strange, check_sides, check_ours, check_falling, check_ways, check_miscompiled, check_cost, check_gtest, check_required, check_missing, check_no_rain, check_beside,
           check_unwritten, check_apart, check_refused, check_room]

@@ -95,6 +95,6 @@ ROWS = [
     Fault(CASE, "if («!comes_once(text, keys)»)", "false", "the last of two settings of a case counts", tests=("command line, shrinking",)),
     Fault(CASE, "if (!strcmp(value, initial))\n        return;", "return;", "a case tells no settings", tests=SHRINKING),
     Fault(CULPRIT, "«!is_packer(p->due->kernel)») && differs(p)", "true", "what packs is tried where it cannot run", tests=SHRINKING),
-    Fault("harness/compare/diff/accepts.c", "«!tiers->of[tier].holds»)\n        tier++", "tiers->of[tier].holds", "a tier that fails would hold", tests=SHRINKING),
+    Fault("core/image/compare/tiers.c", "«!tiers->of[tier].holds»)\n        tier++", "tiers->of[tier].holds", "a tier that fails would hold", tests=SHRINKING),
     Fault("harness/compare/diff/accepts.c", "rg_verify_mutants_at(&verify, «tier», &accepts->of[tier])", "RG_T1", "mutants are told of T1, whichever tier holds", tests=SHRINKING),
 ]

@@ -67,6 +67,18 @@ static bool shows_nothing(struct rg_agreement *agreement)
     return false;
 }
 
+// What a looser expectation would have to be is told with it.
+static bool picture_differs(const struct rg_tiers *tiers, enum rg_tier owed, const char *truth,
+                            struct rg_agreement *agreement)
+{
+    char holds[RG_TIERS_TEXT];
+    rg_tiers_text(tiers, holds);
+    agreement->truth = truth;
+    agreement->would_hold = rg_tiers_strictest(tiers);
+    return rg_agreement_differs(agreement, "the picture differs: %s; %s", tiers->of[owed].why,
+                                holds);
+}
+
 bool rg_alike_has_room(const struct rg_gate_cell *cell, struct rg_agreement *agreement)
 {
     enum { PICTURES = 5 }; // three, what a worker draws the third into, and planes of as much
@@ -97,8 +109,7 @@ bool rg_alike_pictures(const struct rg_gate_cell *cell, struct rg_device *device
     } else {
         agreement->pixels = (double)c.metrics.differing_pixels;
         agreement->difference = c.tiers.max_codes;
-        ok = c.tiers.of[owed].holds ||
-             rg_agreement_differs(agreement, "the picture differs: %s", c.tiers.of[owed].why);
+        ok = c.tiers.of[owed].holds || picture_differs(&c.tiers, owed, a->name, agreement);
         if (!ok && agreement->folder)
             agreement->has_pictures = rg_gate_pictures_write(agreement->folder, agreement->name,
                                                              &a->picture, &b->picture, &c);

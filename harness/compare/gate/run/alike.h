@@ -24,6 +24,10 @@ struct rg_agreement {
     // name; NULL: nowhere. Whether they have been.
     const char *folder, *name;
     bool has_pictures;
+    // Where pictures differ: the device that drew what is held for the truth, which is not owned
+    // and outlives the gate, and the strictest tier that would hold, RG_TIER_COUNT: none.
+    const char *truth;
+    int would_hold;
     bool has_code; // which code ran on both sides, which are held against each other
     struct rg_session_code code[RG_SIDES]; // of one that ran alone, B's
     double pixels,
@@ -47,7 +51,7 @@ bool rg_agreement_blame(const struct rg_gate_cell *cell, struct rg_device *devic
 
 // A picture of a cell, and whose it is.
 struct rg_drawn {
-    const char *name; // of the device
+    const char *name; // of the device; a's outlives the agreement
     struct rg_picture picture;
 };
 // Whether there is room for both, for one without rain, and to compare them.

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
+#include "harness/compare/gate/cells/again.h"
 
 const char *rg_gate_case_device(const struct rg_gate_case *c)
 {
@@ -124,7 +125,7 @@ static void put_times(const struct rg_gate_case *c, char *text, size_t size)
 }
 
 // Which code ran on both sides. It explains a verdict, and never makes one.
-static void put_code(const struct rg_gate_case *c, char *text, size_t size)
+static void put_code(const struct rg_gate_case *c, FILE *out)
 {
     const struct rg_session_code *a = &c->agreement.code[RG_SIDE_A];
     const struct rg_session_code *b = &c->agreement.code[RG_SIDE_B];
@@ -140,40 +141,58 @@ static void put_code(const struct rg_gate_case *c, char *text, size_t size)
     const char *advice = b->passes.bytes
                              ? ": it is the same code, so look at threads, clocks and memory"
                              : ", so look at the driver's settings, threads, clocks and memory";
-    snprintf(text, size, "%s program, %s libraries; %s%s", program ? "the same" : "another",
-             libraries ? "the same" : "other", handed,
-             is_found && program && libraries && passes ? advice : "");
+    fprintf(out, "%s program, %s libraries; %s%s\n", program ? "the same" : "another",
+            libraries ? "the same" : "other", handed,
+            is_found && program && libraries && passes ? advice : "");
 }
 
-static void put_decision(const struct rg_gate_case *c, char *text, size_t size)
+static void put_decision(const struct rg_gate_case *c, FILE *out)
 {
     const struct rg_gate_decision *d = &c->row.decision;
     const double paired[] = {0.02, 0.03, 0.05}, apart[] = {0.1, 0.15, 0.2};
     const double *changes = c->rule.is_apart ? apart : paired;
-    int length = snprintf(text, size,
-                          "%d launches%s, %d disturbed; a launch scatters by %.1f %%; shift %.4f\n"
-                          "a change would be found:",
-                          c->row.launches,
-                          d->is_grouped ? ", counted in groups, for they follow each other" : "",
-                          c->row.disturbed, 100 * expm1(d->spread), d->shift);
+    fprintf(out,
+            "%d launches%s, %d disturbed; a launch scatters by %.1f %%; shift %.4f\n"
+            "a change would be found:",
+            c->row.launches, d->is_grouped ? ", counted in groups, for they follow each other" : "",
+            c->row.disturbed, 100 * expm1(d->spread), d->shift);
     for (int i = 0; i < 3; i++)
-        length +=
-            snprintf(text + length, size - (size_t)length, "%s %.0f %% with %.0f %%", i ? "," : "",
-                     100 * changes[i], 100 * rg_gate_power(&c->rule, d, changes[i]));
+        fprintf(out, "%s %.0f %% with %.0f %%", i ? "," : "", 100 * changes[i],
+                100 * rg_gate_power(&c->rule, d, changes[i]));
+    fputc('\n', out);
 }
 
-static void put_details(const struct rg_gate_case *c, char *text, size_t size)
+// What it would cost to let a picture pass that differs: mutants that nobody would notice.
+static void put_again(const struct rg_gate_case *c, FILE *out)
 {
-    if (c->is_timed && c->row.decision.units)
-        put_decision(c, text, size);
-    else
-        snprintf(text, size, "%s", c->agreement.details);
-    const size_t used = strlen(text);
-    if (!c->agreement.has_code || used + 1 >= size)
+    const struct rg_agreement *agreement = &c->agreement;
+    if (!agreement->truth || agreement->would_hold == RG_TIER_COUNT)
         return;
-    if (used)
-        text[used] = '\n';
-    put_code(c, text + used + !!used, size - used - !!used);
+    fprintf(out,
+            "which mutants %s would let live: ", rg_tier_name((enum rg_tier)agreement->would_hold));
+    rg_gate_cell_again(out, c->cell, agreement->truth, rg_gate_case_device(c));
+    fputc('\n', out);
+}
+
+// NULL without memory.
+static char *make_details(const struct rg_gate_case *c)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
+    if (c->is_timed && c->row.decision.units)
+        put_decision(c, out);
+    else if (*c->agreement.details)
+        fprintf(out, "%s\n", c->agreement.details);
+    put_again(c, out);
+    if (c->agreement.has_code)
+        put_code(c, out);
+    if (fclose(out) || !size)
+        return text;
+    text[size - 1] = 0; // the last line needs no end
+    return text;
 }
 
 static void put_message(const struct rg_gate_case *c, enum rg_met met, char *text, size_t size)
@@ -242,7 +261,7 @@ void rg_gate_case_tell(struct rg_gate_case *c, const struct rg_gate_request *req
                       : rg_known_judge(request->known, c->expectation, result, request->today);
     const enum rg_ending ending = ending_of(c, met);
     put_message(c, met, c->message, sizeof(c->message));
-    put_details(c, c->details, sizeof(c->details));
+    c->details = make_details(c);
     *told = (struct rg_report_case){.name = c->name,
                                     .technique = c->cell->technique->name,
                                     .devices = c->devices,

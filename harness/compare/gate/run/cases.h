@@ -24,7 +24,8 @@ struct rg_gate_case {
     struct rg_gate_row row;
     struct rg_timed_cell times;
     // What its case of a report points to.
-    char message[RG_AGREEMENT_TEXT + 400], details[RG_AGREEMENT_TEXT + 400];
+    char message[RG_AGREEMENT_TEXT + 400];
+    char *details; // owned by the gate
     const char *pictures[RG_GATE_PICTURES];
     char (*paths)[PATH_MAX]; // of pictures that were written; owned by the gate
 };

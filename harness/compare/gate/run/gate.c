@@ -326,6 +326,7 @@ void rg_gate_free(struct rg_gate *gate)
     rg_report_free(&gate->report);
     for (int i = 0; i < gate->case_count; i++) {
         free(gate->cases[i].name);
+        free(gate->cases[i].details);
         free(gate->cases[i].paths);
     }
     free(gate->cases);

@@ -5,7 +5,8 @@ TESTS = ("command line, ci", "command line, reports")
 
 SHARDS, PARSE, FLAGS = "harness/compare/gate/report/shards.c", "harness/cli/parse.c", "harness/commands/comparing/gtest.c"
 RUN, AGREE, CASES, SIDES = (f"harness/compare/gate/run/{name}.c" for name in ("gate", "alike", "cases", "sides"))
-STRAYS, CELLS = "harness/compare/gate/run/strays.c", "harness/compare/gate/cells/cells.c"
+STRAYS = "harness/compare/gate/run/strays.c"
+CELLS, AGAIN = (f"harness/compare/gate/cells/{name}.c" for name in ("cells", "again"))
 FILE, AGAINST = "core/base/files/file.c", "harness/compare/gate/baseline/against.c"
 COMMAND = "harness/commands/comparing/gate.c"
 PICTURES, OUTPUTS = "harness/compare/gate/pictures/pictures.c", "harness/commands/comparing/outputs.c"
@@ -36,6 +37,11 @@ ROWS = [
     Fault(FLAGS, "is_folder ? «\"raingauge.xml\"» : \"\"", "\"\"", "a report is written over its folder"),
     Fault(AGREE, "agreement->has_pictures = «rg_gate_pictures_write(agreement->folder, agreement->name,\n                                                             &a->picture, &b->picture, &c)»;", "true", "reports name pictures that are not there"),
     Fault(AGREE, "if («!ok» && agreement->folder)", "true", "pictures that are the same are written"),
+    Fault(AGREE, "agreement->would_hold = «rg_tiers_strictest(tiers)»;", "RG_TIER_COUNT", "no command says what a tier that would hold costs", tests=("command line, gates",)),
+    Fault(CASES, "rg_gate_cell_again(out, c->cell, «agreement->truth», rg_gate_case_device(c));", "c->devices[0]", "a baseline's device is compared with itself again", tests=("command line, gates",)),
+    Fault(AGAIN, "        if («text[i] == '\\''»)", "0", "a quote in a device's name ends the shell's", tests=("command line, gates",)),
+    Fault(AGAIN, "    fprintf(out, \"raingauge diff %s --size %dx%d --frame %d\", cell->technique->name, cell->width,\n            cell->height, «cell->frames»);", "60", "another frame is compared again", tests=("command line, gates",)),
+    Fault(AGAIN, "        «put_word(out, word, length);»", "(void)word;", "a cell is compared again without its settings", tests=("command line, gates",)),
     Fault(PICTURES, "for (int i = 0; ok && i < «2»; i++) {", "1", "B's picture is not written"),
     Fault(CASES, "if («broke_off(c)»)\n        return ending_of_outcome", "false", "a side that does not start any more leaves it open", tests=("command line, gates",)),
     Fault(CASES, ".outcome = «broke_off(c)» ?", "false", "a cell that broke off while it was timed passed, to the expectations", tests=("command line, gates",)),
