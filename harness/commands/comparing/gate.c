@@ -206,6 +206,18 @@ static int run_held(const struct gate_options *o, const struct gate_input *in,
     return exit;
 }
 
+// What one device alone ran may be expected of others too.
+static struct rg_gate_left left_of(const struct gate_options *o, const struct gate_input *in)
+{
+    struct rg_gate_left left = {0};
+    for (int i = 0; i < in->baseline.device_count; i++)
+        if (!rg_baseline_asks(o->devices.names, in->baseline.devices[i].name))
+            left.names[left.count++] = in->baseline.devices[i].name;
+    if (o->against)
+        rg_gate_pairs_left(&in->pairs, &left);
+    return left;
+}
+
 static int run(const struct gate_options *o, const struct gate_input *in)
 {
     struct rg_gate gate = {.case_count = 0};
@@ -215,6 +227,7 @@ static int run(const struct gate_options *o, const struct gate_input *in)
                                       .cells = &in->cells,
                                       .known = &in->known,
                                       .require = o->devices.require,
+                                      .left = left_of(o, in),
                                       .today = today(),
                                       .pictures_only = o->pictures_only,
                                       .filter = o->gtest.filter};

@@ -126,6 +126,29 @@ def check_expectations(runner):
     return problems
 
 
+def check_unseen(runner):
+    """a patch leaves expected what was expected of devices that are not there, or were not asked for; a part of the cells has no patch"""
+    problems = []
+    with Files(TORUS) as files:
+        path, gone = files.path("baseline.json"), {"VK_DRIVER_FILES": "/nonexistent"}
+        runner.run(["baseline", "--device", "cpu,vulkan", "--pictures", "--cells", files.cells, "-o", path])
+        apart, builds = ["--baseline", path], ["--against", runner.slower]
+        for args, env, left in ((apart, {}, []), (apart + ["--device", "cpu"], {}, ["vulkan"]), (apart, gone, ["vulkan"]),
+                                (builds + ["--device", "cpu,vulkan"], gone, ["cpu:reference", "gl", "opencl", "vulkan"]),
+                                (builds + ["--device", "cpu,gl@NOTE=1"], {}, ["cpu:reference", "opencl", "vulkan"]),
+                                (["cpu", "cpu"], {}, []), (apart + ["--gtest_filter=*"], {}, None)):
+            known = files.path("known.txt", "fail raster/*\n  driver ?*\n  outcome fail\n  reason r\n  since 2026-01-01\n  until 9999-12-31\n")
+            result = subprocess.run([runner.raingauge, "gate", *args, "--pictures", "--cells", files.cells, "--expectations", "known.txt"], cwd=files.folder.name,
+                                    env=runner.variables(env), capture_output=True, text=True, timeout=240, check=False)
+            patch = result.stdout[result.stdout.index("--- "):] if "--- " in result.stdout else ""
+            subprocess.run(["patch", "-p0", "-s"], cwd=files.folder.name, input=patch, capture_output=True, text=True, check=bool(patch))
+            with open(known) as file:
+                text = file.read()
+            if result.returncode != 1 or bool(patch) != (left is not None) or sorted(re.findall(r"^  device +(.*)$", text, re.M)) != (left or []):
+                problems.append("%s, %s: exit status %d, %s%s" % (args, env, result.returncode, result.stdout, result.stderr))
+    return problems
+
+
 def check_own(runner):
     """results/expectations.txt can be read, and the example in its head is one, of a cell that is not run here"""
     with open(KNOWN) as file:
@@ -142,4 +165,4 @@ def check_own(runner):
     return problems if example.startswith("fail ") else problems + [example]
 
 
-CHECKS = [check_names, check_expectations, check_own]
+CHECKS = [check_names, check_expectations, check_unseen, check_own]

@@ -97,11 +97,10 @@ static bool choose(struct run *r)
     const struct rg_baseline *baseline = r->asked->baseline;
     const size_t count = (size_t)baseline->count;
     r->gate->cases = rg_alloc(count, sizeof(*r->gate->cases), "gate");
-    r->gate->results = rg_alloc(count, sizeof(*r->gate->results), "gate");
     r->rows = rg_alloc(count, sizeof(const struct rg_baseline_row *), "gate");
     r->side_of = rg_alloc(count, sizeof(*r->side_of), "gate");
-    bool ok = r->gate->cases && r->gate->results && r->rows && r->side_of &&
-              make_lot(&r->gated, count) && make_lot(&r->advisory, count);
+    bool ok = r->gate->cases && r->rows && r->side_of && make_lot(&r->gated, count) &&
+              make_lot(&r->advisory, count);
     for (size_t i = 0; ok && i < count; i++)
         if (rg_baseline_asks(r->asked->devices, baseline->rows[i].device))
             ok = add_case(r, &baseline->rows[i]);

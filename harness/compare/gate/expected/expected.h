@@ -64,7 +64,8 @@ struct rg_known {
 struct rg_known_result {
     const char *cell;   // "streaks/rain-128"
     const char *device; // "vulkan", "vulkan@VK_DRIVER_FILES=old.json"
-    const char *driver; // as the passport has it: "Mesa 22.3.6"
+    const char *driver; // as the passport has it: "Mesa 22.3.6"; NULL: it was not to run here, or
+                        // could not, so that nothing is known of it, and the outcome unsupported
     enum rg_outcome outcome;
     double pixels;     // that differ; NAN: not measured
     double difference; // the largest of a channel; NAN: not measured
@@ -108,9 +109,10 @@ bool rg_met_fails(enum rg_met met, enum rg_outcome outcome);
 
 // Prints what would make a file true of these results, as a unified diff that patch(1) applies with
 // -p0; nothing where it is true. Rows that are fixed go; rows that fail otherwise get the new
-// evidence; what has expired gets 90 days, or goes if it is a skip or has passed. With
-// `adds_new`, failures that nothing expects are added at the end. False, and one logged line,
-// without memory or where `out` cannot be written.
+// evidence; what has expired gets 90 days, or goes if it is a skip or has passed. What a row
+// expects of cells of which nothing is known stays expected. With `adds_new`, failures that nothing
+// expects are added at the end. False, and one logged line, without memory or where `out` cannot be
+// written.
 bool rg_known_patch(const struct rg_known *expected, int file,
                     const struct rg_known_result *results, int64_t count, int today, bool adds_new,
                     FILE *out);

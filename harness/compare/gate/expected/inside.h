@@ -15,7 +15,7 @@ struct rg_expectation *rg_known_new(struct rg_known *expected, enum rg_known_kin
 bool rg_known_read_own(struct rg_known *expected);
 bool rg_known_read_mesa(struct rg_known *expected, enum rg_known_form form);
 
-// Whether an expectation is of a cell on a device with a driver.
+// Whether an expectation is of a cell on a device with a driver; NULL: that may be any.
 bool rg_known_holds(const struct rg_known *expected, const struct rg_expectation *row,
                     const char *cell, const char *device, const char *driver);
 

@@ -34,7 +34,7 @@ bool rg_known_holds(const struct rg_known *expected, const struct rg_expectation
     if (expected->files[row->file].form == RG_FORM_FAILS)
         return !strcmp(row->cell, cell);
     return rg_glob(row->cell, cell) && is_of(row->values[RG_FIELD_DEVICE], device) &&
-           is_of(row->values[RG_FIELD_DRIVER], driver);
+           (!driver || is_of(row->values[RG_FIELD_DRIVER], driver));
 }
 
 int64_t rg_known_row(const struct rg_known *expected, const char *cell, const char *device,

@@ -46,6 +46,7 @@ static void take_out(struct patch *p, int64_t line, int64_t count)
 // Of the results that a row holds for.
 struct summary {
     int64_t fixed, failing, wrong; // wrong: differ or have expired
+    int64_t unknown;               // neither passed nor failed, or did not run
     bool has_expired;
     unsigned outcomes;
     struct rg_envelope pixels, difference;
@@ -61,6 +62,7 @@ static void count_result(struct summary *s, const struct rg_known_result *result
 {
     s->fixed += met == RG_MET_FIXED;
     s->wrong += met == RG_MET_DIFFERENT || met == RG_MET_EXPIRED;
+    s->unknown += met == RG_MET_NOTHING || !result->driver;
     s->has_expired = s->has_expired || met == RG_MET_EXPIRED;
     if (result->outcome == RG_OK || result->outcome == RG_UNSUPPORTED || result->is_foreign)
         return;
@@ -82,14 +84,26 @@ static bool is_fixed_behind(const struct patch *p, int64_t row, int64_t result)
            rg_known_holds(p->expected, r, of->cell, of->device, of->driver);
 }
 
-// Of result `only`, or of all with -1.
+// Whether a row may be the one that holds for a result: which one does is not known of a driver
+// without a name.
+static bool is_of_row(const struct patch *p, int64_t row, int64_t result)
+{
+    const struct rg_known_result *of = &p->results[result];
+    return p->rows[result] == row ||
+           (!of->driver &&
+            rg_known_holds(p->expected, &p->expected->rows[row], of->cell, of->device, of->driver));
+}
+
+// Of result `only`, or of all with -1. Of what nothing is known of, what was expected still is.
 static struct summary sum_up(const struct patch *p, int64_t row, int64_t only)
 {
     const struct rg_expectation *r = &p->expected->rows[row];
     struct summary s = {.pixels = r->pixels, .difference = r->difference};
     for (int64_t i = 0; i < p->count; i++)
-        if ((p->rows[i] == row || is_fixed_behind(p, row, i)) && (only < 0 || i == only))
+        if ((is_of_row(p, row, i) || is_fixed_behind(p, row, i)) && (only < 0 || i == only))
             count_result(&s, &p->results[i], p->met[i]);
+    if (s.unknown)
+        s.outcomes |= r->outcomes;
     return s;
 }
 
@@ -170,7 +184,15 @@ static void print_narrowed(const struct patch *p, int64_t index, int64_t result,
     }
 }
 
-// Some of the cells of a row pass and some do not: a row each for these.
+// Whether a result needs a row of its own where not all that a row expects still is.
+static bool stays(const struct patch *p, int64_t row, int64_t result)
+{
+    const bool has_passed = p->met[result] == RG_MET_FIXED || (p->met[result] == RG_MET_EXPIRED &&
+                                                               p->results[result].outcome == RG_OK);
+    return is_of_row(p, row, result) && !has_passed;
+}
+
+// Some of the cells of a row pass, and others do not, or are not known to: a row each for these.
 static void split(struct patch *p, int64_t index)
 {
     const struct rg_expectation *row = &p->expected->rows[index];
@@ -183,7 +205,7 @@ static void split(struct patch *p, int64_t index)
     }
     const char *between = "";
     for (int64_t i = 0; i < p->count; i++) {
-        if (p->rows[i] != index || p->met[i] == RG_MET_FIXED || p->met[i] == RG_MET_NOTHING)
+        if (!stays(p, index, i))
             continue;
         fputs(between, out);
         print_narrowed(p, index, i, out);
@@ -206,18 +228,22 @@ static void drop(struct patch *p, const struct rg_expectation *row)
 static void mend_own(struct patch *p, int64_t index, const struct summary *s)
 {
     const struct rg_expectation *row = &p->expected->rows[index];
-    if (row->kind == RG_EXPECT_SKIP ? s->has_expired : !s->failing && s->fixed + s->has_expired)
+    const bool is_over = !s->failing && s->fixed + s->has_expired;
+    if (row->kind == RG_EXPECT_SKIP ? s->has_expired : is_over && !s->unknown)
         drop(p, row);
-    else if (s->fixed)
+    else if (s->fixed || is_over)
         split(p, index);
     else
         edit_fields(p, row, s);
 }
 
-// A line has one status: where a test passes here and fails there, none is true.
+// A line has one status: where a test passes here and fails there, none is true, and where nothing
+// is known of it there, the line may be.
 static void mend_mesa(struct patch *p, int64_t index, const struct summary *s)
 {
     const struct rg_expectation *row = &p->expected->rows[index];
+    if (s->unknown)
+        return;
     if (s->fixed && !s->failing)
         drop(p, row);
     else if (s->wrong && !s->fixed)

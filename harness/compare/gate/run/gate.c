@@ -88,9 +88,8 @@ static bool make_room(struct run *r)
     const size_t cases = cells * (size_t)r->asked->pairs->count;
     r->gate->cases = rg_alloc(cases, sizeof(*r->gate->cases), "gate");
     r->timed = rg_alloc(cells, sizeof(*r->timed), "gate");
-    r->gate->results = rg_alloc(cases, sizeof(*r->gate->results), "gate");
     r->timed_names = rg_alloc(cells, sizeof(*r->timed_names), "gate");
-    return r->gate->cases && r->timed && r->timed_names && r->gate->results;
+    return r->gate->cases && r->timed && r->timed_names;
 }
 
 static bool choose(struct run *r)
@@ -253,15 +252,38 @@ static json_t *key_of(const struct run *r)
 
 // --- what came of it ---
 
+// Of a cell that did not run on a device.
+static struct rg_known_result unknown(const char *cell, const char *device)
+{
+    return (struct rg_known_result){.cell = cell,
+                                    .device = device,
+                                    .outcome = RG_UNSUPPORTED,
+                                    .pixels = NAN,
+                                    .difference = NAN};
+}
+
+static bool make_results(const struct rg_gate_request *asked, struct rg_gate *gate)
+{
+    const int64_t left = asked->left.count * asked->cells->count;
+    const size_t count = (size_t)(gate->case_count + left);
+    gate->results = rg_alloc(count ? count : 1, sizeof(*gate->results), "gate");
+    for (int64_t i = 0; gate->results && i < left; i++)
+        gate->results[gate->result_count++] =
+            unknown(asked->cells->cells[i / asked->left.count].name,
+                    asked->left.names[i % asked->left.count]);
+    return gate->results;
+}
+
 bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
 {
-    bool ok = true;
+    bool ok = make_results(asked, gate);
     for (int i = 0; ok && i < gate->case_count; i++) {
         struct rg_report_case told;
         struct rg_gate_case *c = &gate->cases[i];
-        struct rg_known_result *result = &gate->results[gate->result_count];
+        struct rg_known_result *result = &gate->results[gate->result_count++];
         rg_gate_case_tell(c, asked, &told, result);
-        gate->result_count += c->is_compared;
+        if (!c->is_compared && !c->is_skipped)
+            *result = unknown(c->cell->name, rg_gate_case_device(c));
         ok = rg_report_add(&gate->report, &told);
         if (asked->tell)
             asked->tell(&told, asked->user);

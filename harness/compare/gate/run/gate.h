@@ -18,7 +18,7 @@ struct rg_gate {
     int case_count;
     struct rg_gate_case *cases; // harness/compare/gate/run/cases.h
     int64_t result_count;
-    struct rg_known_result *results; // one a case that ran, for rg_known_patch
+    struct rg_known_result *results; // for rg_known_patch: one a case, and a cell of what was left
     char *note;                      // what is printed for people above the report; owned
 };
 
@@ -44,7 +44,7 @@ bool rg_gate_set_passport(struct rg_gate *gate, const json_t *passport);
 // rows' cells.
 bool rg_gate_measure(struct rg_gate *gate, int first, const struct rg_gate_rule *rule,
                      const struct rg_quad_source *source, const struct rg_timed_cell *timed);
-// Makes the report of all cases.
+// Makes the report of all cases, and the results.
 bool rg_gate_report(const struct rg_gate_request *request, struct rg_gate *gate);
 
 #endif

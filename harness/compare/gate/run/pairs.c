@@ -84,3 +84,24 @@ int rg_gate_pairs_of_builds(const char *program, const char *names, struct rg_ga
     }
     return strcmp(names, "all") ? add_named(path, names, pairs) : add_listed(path, pairs);
 }
+
+// --- what is left ---
+
+static bool is_held(const struct rg_gate_pairs *pairs, const char *name)
+{
+    const size_t length = strlen(name);
+    bool any = false;
+    for (int i = 0; !any && i < pairs->count; i++) {
+        const char *held = pairs->all[i].names[RG_SIDE_B];
+        any = strcspn(held, "@") == length && !strncmp(held, name, length);
+    }
+    return any;
+}
+
+void rg_gate_pairs_left(const struct rg_gate_pairs *pairs, struct rg_gate_left *left)
+{
+    const char *name = "cpu:reference";
+    for (int i = 0; name; name = rg_backends[i] ? rg_backends[i]->name : NULL, i++)
+        if (!is_held(pairs, name))
+            left->names[left->count++] = name;
+}

@@ -22,4 +22,13 @@ bool rg_gate_pair_of(const char *a, const char *b, struct rg_gate_pair *pair);
 // with "all" unsupported or fail where there is no device.
 int rg_gate_pairs_of_builds(const char *program, const char *names, struct rg_gate_pairs *pairs);
 
+// Devices that a gate could be of, and is not. Names are not owned.
+struct rg_gate_left {
+    int count;
+    const char *names[RG_MAX_DEVICES];
+};
+// Of one of two builds, as far as they are known without a look at drivers, which may have been
+// left out for that they hang: cpu:reference, and the first device of each backend.
+void rg_gate_pairs_left(const struct rg_gate_pairs *pairs, struct rg_gate_left *left);
+
 #endif

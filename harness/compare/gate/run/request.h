@@ -13,8 +13,10 @@ struct rg_gate_request {
     const struct rg_gate_cells *cells;
     const struct rg_known *known; // what is expected to go wrong
     const char *require;          // names of devices or of backends that must be there; NULL: none
-    int today;                    // harness/compare/gate/text/date.h
-    double margin;                // 0.05 for 5 %
+    // Devices that it could be of and that it was not asked for: what is expected of them stays.
+    struct rg_gate_left left;
+    int today;       // harness/compare/gate/text/date.h
+    double margin;   // 0.05 for 5 %
     double budget_s; // for times; no launch is begun behind it, which pairs share; 0: there is none
     bool pictures_only;            // nothing is timed
     const char *filter;            // of googletest, for names of cases; NULL: all

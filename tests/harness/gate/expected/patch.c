@@ -117,9 +117,13 @@ static void what_fails_elsewhere_stands_in_no_file(void **state)
     expect("fail [abc]\n  outcome fail\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n",
            RG_FORM_OWN, results, 1, "2026-01-15",
            "fail [abc]\n  outcome fail\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n");
-    // A row that fails otherwise here takes nothing of what failed there.
+    // A row that fails otherwise here takes nothing of what failed there, and loses nothing by it.
     expect("fail *\n  outcome timeout\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n",
            RG_FORM_OWN, results, 3, "2026-01-15",
+           "fail *\n  outcome    fail timeout\n  reason r\n  since 2026-01-01\n"
+           "  until 2026-02-01\n");
+    expect("fail *\n  outcome timeout\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n",
+           RG_FORM_OWN, results + 1, 1, "2026-01-15",
            "fail *\n  outcome    fail\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n");
 }
 
@@ -192,6 +196,73 @@ static void a_pattern_that_is_fixed_in_part_is_split(void **state)
            "r\n  since      2026-01-01\n  until      2026-02-01\n"
            "\nfail a3\n  device     vulkan\n  outcome    fail\n  pixels     10..35\n  reason     "
            "r\n  since      2026-01-01\n  until      2026-02-01\n");
+}
+
+#define APART(cell, device, driver, pixels)                                                        \
+    "fail " cell "\n  device     " device "\n" driver "  outcome    fail\n  pixels     " pixels    \
+    "\n  reason     r\n  since      2026-01-01\n  until      2026-02-01\n"
+
+// Unsupported, failed by another side, of a device that is not there or was not asked for.
+static void what_nothing_is_known_of_stays_expected(void **state)
+{
+    (void)state;
+    static const struct rg_known_result results[] = {
+        {"a1", "gl", "M 1", RG_OK, 0, 0, false},
+        {"a2", "gl", "M 1", RG_UNSUPPORTED, NAN, NAN, false},
+        {"a3", "gl", "M 1", RG_CRASH, NAN, NAN, true},
+        {"a1", "vulkan", NULL, RG_UNSUPPORTED, NAN, NAN, false},
+        {"a4", "gl", "M 1", RG_FAIL, 25, 1, false},
+        {"b", "gl", "M 1", RG_OK, 0, 0, false}};
+    expect(ROW("a*", "10..20", "2026-02-01"), RG_FORM_OWN, results, 6, "2026-01-15",
+           APART("a2", "gl", "", "10..20") "\n" APART("a3", "gl", "", "10..20") "\n" APART(
+               "a1", "vulkan", "", "10..20") "\n" APART("a4", "gl", "", "10..25"));
+    // Also where nothing fails any more, of what is known.
+    expect(ROW("a*", "10..20", "2026-02-01"), RG_FORM_OWN, results, 2, "2026-01-15",
+           APART("a2", "gl", "", "10..20"));
+    expect(ROW("a1", "10..20", "2026-02-01"), RG_FORM_OWN, results, 4, "2026-01-15",
+           APART("a1", "vulkan", "", "10..20"));
+    // Nothing else has the name: it goes.
+    expect(ROW("b", "10..20", "2026-02-01"), RG_FORM_OWN, results + 5, 1, "2026-01-15", "");
+    // Of a driver that was not asked for its name any one may be meant.
+    expect("fail a*\n  driver M*\n  outcome fail\n  reason r\n  since 2026-01-01\n"
+           "  until 2026-02-01\n",
+           RG_FORM_OWN, results, 4, "2026-01-15",
+           "fail a2\n  device     gl\n  driver     M*\n  outcome    fail\n  reason     r\n"
+           "  since      2026-01-01\n  until      2026-02-01\n\n"
+           "fail a3\n  device     gl\n  driver     M*\n  outcome    fail\n  reason     r\n"
+           "  since      2026-01-01\n  until      2026-02-01\n\n"
+           "fail a1\n  device     vulkan\n  driver     M*\n  outcome    fail\n  reason     r\n"
+           "  since      2026-01-01\n  until      2026-02-01\n");
+}
+
+// The same of what is in quarantine and has expired, and of Mesa's lines, which have no devices.
+static void other_rows_keep_what_nothing_is_known_of(void **state)
+{
+    (void)state;
+    static const struct rg_known_result results[] = {
+        {"a1", "gl", "M 1", RG_OK, 0, 0, false},
+        {"a1", "vulkan", NULL, RG_UNSUPPORTED, NAN, NAN, false},
+        {"a2", "gl", "M 1", RG_CRASH, 0, 0, false},
+        {"a2", "vulkan", NULL, RG_UNSUPPORTED, NAN, NAN, false}};
+    expect("flake a1\n  reason r\n  since 2026-01-01\n  until 2026-02-01\n", RG_FORM_OWN, results,
+           2, "2026-02-02",
+           "flake a1\n  device     vulkan\n  reason     r\n  since      2026-01-01\n"
+           "  until      2026-02-01\n");
+    // Nobody knows which of two drivers the device has.
+    static const char *const rows[] = {"fail a1\n  device g*\n  outcome fail\n  reason r\n",
+                                       "fail a1\n  driver M 1\n  outcome fail\n  reason r\n",
+                                       "fail a1\n  driver M 2\n  outcome fail\n  reason r\n"};
+    char text[1024] = "";
+    for (int i = 0; i < 3; i++)
+        snprintf(text + strlen(text), sizeof(text) - strlen(text),
+                 "%s  since 2026-01-01\n  until 2026-02-01\n", rows[i]);
+    expect(text, RG_FORM_OWN, results, 2, "2026-01-15",
+           "fail a1\n  device     vulkan\n  driver     M 1\n  outcome    fail\n  reason     r\n"
+           "  since      2026-01-01\n  until      2026-02-01\n"
+           "fail a1\n  driver M 2\n  outcome fail\n  reason r\n  since 2026-01-01\n"
+           "  until 2026-02-01\n");
+    expect("a1,Fail\na2,Timeout\n", RG_FORM_FAILS, results, 4, "2026-01-15",
+           "a1,Fail\na2,Timeout\n");
 }
 
 #define NEW(cell, rest)                                                                            \
@@ -303,6 +374,8 @@ int main(void)
         cmocka_unit_test(what_fails_otherwise_gets_the_new_evidence),
         cmocka_unit_test(what_has_expired_gets_ninety_days),
         cmocka_unit_test(a_pattern_that_is_fixed_in_part_is_split),
+        cmocka_unit_test(what_nothing_is_known_of_stays_expected),
+        cmocka_unit_test(other_rows_keep_what_nothing_is_known_of),
         cmocka_unit_test(what_is_new_is_added),
         cmocka_unit_test(long_files_and_foreign_line_ends_are_kept),
         cmocka_unit_test(hostile_names_are_matched_by_what_is_written),
