@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import tempfile
+import xml.etree.ElementTree
 
 import forms
 import misbehaving
@@ -358,21 +359,35 @@ def check_gtest(runner):
 
 
 def check_required(runner):
-    """a device that is missing skips its cells, and fails the gate, with no report, where --require names it"""
+    """a device that is missing skips its cells, and fails the gate where --require names it: each such is an error of every report"""
     problems = []
     with Files(TORUS) as files:
         path, env = files.path("baseline.json"), {"VK_DRIVER_FILES": "/nonexistent"}
         runner.run(["baseline", "--device", "cpu,vulkan", "--pictures", "--cells", files.cells, "-o", path])
         pair, apart = ["gate", "vulkan", "cpu", "--pictures"], ["gate", "--baseline", path, "--pictures"]
-        for args, require, status in ((apart + ["--device", "cpu"], None, 0), (apart, "cpu,vulkan", 1), (apart, "opencl", 1),
-                                      (pair, None, 77), (pair, "cpu", 77), (pair, "vulkan", 1)):
-            junit = files.path("junit.xml", "before")
-            result = runner.run(args + ["--cells", files.cells, "--junit", junit] + (["--require", require] if require else []), env)
-            with open(junit) as file:
-                is_told = file.read() != "before"
-            said = "--require %s: " % (require or "none").split(",")[-1] in result.stderr
-            if result.returncode != status or is_told == (status == 1) or said != (status == 1):
-                problems.append("%s --require %s: exit status %d, %s%s" % (args, require, result.returncode, result.stdout, result.stderr))
+        for args, require, missing, status in ((apart + ["--device", "cpu"], None, [], 0), (apart, "cpu,vulkan", ["vulkan"], 1), (apart, "opencl", ["opencl"], 1),
+                                               (pair, None, [], 77), (pair, "cpu", [], 77), (pair, "vulkan", ["vulkan"], 1), (pair, "gl,vulkan,cpu", ["gl", "vulkan"], 1),
+                                               (["gate", "--against", runner.slower, "--device", "cpu,vulkan", "--pictures"], "vulkan", ["vulkan"], 1)):
+            junit, bmf = files.path("junit.xml", "before"), files.path("bmf.json", "before")
+            more = ["--require", require] if require else []
+            result = runner.run(args + ["--cells", files.cells, "--json", "--junit", junit, "--bmf", bmf] + more, env)
+            report = json.loads(result.stdout)
+            problems += forms.problems("gate", report)
+            cases = xml.etree.ElementTree.parse(junit).getroot().findall(".//testcase")
+            names = [(case.get("name"), error.get("message")) for case in cases for error in case.findall("error")]
+            lint = subprocess.run(["xmllint", "--noout", "--schema", SCHEMA, junit], capture_output=True, text=True, check=False)
+            with open(bmf) as file:
+                measured = json.load(file)
+            wanted = ["required." + name for name in missing]
+            said = all("--require %s: " % name in text and "--require %s: " % name in result.stderr for name, (_, text) in zip(missing, names))
+            if result.returncode != status or [name for name, _ in names] != wanted or not said or lint.returncode or measured or (
+                    missing and endings(report) != dict.fromkeys(wanted, "error")):
+                problems.append("%s --require %s: exit status %d, %s, %s%s%s" % (args, require, result.returncode, names, lint.stderr, result.stdout, result.stderr))
+        files.path("junit.xml", "before")
+        result = runner.run(["gate", "nonsense", "cpu", "--pictures", "--cells", files.cells, "--junit", files.path("junit.xml")])
+        with open(files.path("junit.xml")) as file:
+            if result.returncode != 2 or file.read() != "before":
+                problems.append("a name that is none: exit status %d, or a report" % result.returncode)
     return problems
 
 

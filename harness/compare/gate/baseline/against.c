@@ -126,7 +126,7 @@ static bool look_at_sides(struct run *r)
     if (rg_interrupted())
         return true;
     rg_gate_warn_of_strange(request->known, request->cells, targets, count);
-    return rg_sides_have(seen, count, request->require);
+    return rg_sides_have(seen, count, request->require, &r->gate->report);
 }
 
 // Of each device that there is, so that it is known which times can be held against each other.
@@ -338,8 +338,10 @@ int rg_against_run(const struct rg_against *against, struct rg_gate *gate)
 {
     struct run r = {.asked = against, .gate = gate};
     rg_interrupt_watch();
-    bool ok = choose(&r) && look_at_sides(&r) && find_keys(&r) && note_keys(&r) &&
-              rg_keep_open(against->request, key_of(&r), &r.kept);
+    bool ok = choose(&r), are_there = ok && look_at_sides(&r);
+    ok = ok && find_keys(&r) && note_keys(&r);
+    gate->is_told = ok && !are_there && gate->report.case_count;
+    ok = ok && are_there && rg_keep_open(against->request, key_of(&r), &r.kept);
     for (int i = 0; ok && i < gate->case_count && !rg_interrupted(); i++)
         compare(&r, i);
     ok = ok && time_all(&r) && (rg_interrupted() || rg_gate_report(against->request, gate));

@@ -162,7 +162,8 @@ static int look_at_sides(struct run *r)
     if (!are_names)
         return RG_EXIT_USAGE;
     rg_gate_warn_of_strange(r->asked->known, r->asked->cells, targets, r->asked->pairs->count);
-    const bool ok = rg_interrupted() || rg_sides_have(seen, count, r->asked->require);
+    const bool ok =
+        rg_interrupted() || rg_sides_have(seen, count, r->asked->require, &r->gate->report);
     return ok ? RG_EXIT_PASS : RG_EXIT_FAIL;
 }
 
@@ -326,8 +327,10 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
     struct run r = {.asked = request, .gate = gate, .left_ms = 1e3 * request->budget_s};
     rg_interrupt_watch();
     const int exit = look_at_sides(&r);
-    if (exit != RG_EXIT_PASS)
+    if (exit != RG_EXIT_PASS) {
+        gate->is_told = gate->report.case_count && set_passport(&r);
         return exit;
+    }
     bool ok = make_room(&r) && set_passport(&r) && rg_keep_open(request, key_of(&r), &r.kept);
     for (int pair = 0; ok && pair < request->pairs->count && !rg_interrupted(); pair++)
         ok = run_pair(&r, pair);

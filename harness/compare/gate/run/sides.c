@@ -1,9 +1,12 @@
 #include "harness/compare/gate/run/sides.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "core/base/log.h"
 #include "harness/devices/names.h"
+#include "harness/record/named.h"
 
 bool rg_side_launch(struct rg_side *side)
 {
@@ -20,29 +23,55 @@ void rg_side_close(struct rg_side *side)
 
 struct rg_side_seen rg_side_look(struct rg_side *side, struct rg_device_info *info)
 {
-    struct rg_side_seen seen = {side->name, true, true, rg_side_launch(side)};
+    struct rg_side_seen seen = {side->name, true, true, rg_side_launch(side), ""};
     if (seen.is_open) {
         *info = side->device->info;
         return seen;
     }
+    rg_text_copy(seen.why, sizeof(seen.why), rg_last_error());
     seen.is_name = rg_last_error_kind() != RG_ERROR_INPUT;
     seen.is_there = rg_outcome_of_error() != RG_UNSUPPORTED;
     return seen;
 }
 
+// What is missing becomes a case, with the last error for its message. False.
+static bool is_missing(const char *name, const struct rg_side_seen *side, struct rg_report *report)
+{
+    static const struct rg_bounded unknown = {NAN, NAN, NAN};
+    char text[RG_DEVICE_NAME_SIZE + 16];
+    snprintf(text, sizeof(text), "required.%s", name);
+    rg_report_add(report, &(struct rg_report_case){.name = text,
+                                                   .devices = side ? &side->name : NULL,
+                                                   .device_count = side != NULL,
+                                                   .ending = RG_ENDING_ERROR,
+                                                   .message = rg_last_error(),
+                                                   .details = side ? side->why : NULL,
+                                                   .ratio = unknown,
+                                                   .smallest_visible = NAN,
+                                                   .time_ms = unknown,
+                                                   .baseline_ms = NAN});
+    return false;
+}
+
 // A device that is there beside one of the same API that is not does not make up for it: the two
 // are held against each other.
-static bool is_there(const struct rg_side_seen *seen, int count, const char *name)
+static bool is_there(const struct rg_side_seen *seen, int count, const char *name,
+                     struct rg_report *report)
 {
     bool any = false;
     for (int i = 0; i < count; i++) {
         if (!rg_device_is_of(seen[i].name, name))
             continue;
-        if (!seen[i].is_there)
-            return rg_driver_error("--require %s: '%s' is not there", name, seen[i].name);
+        if (!seen[i].is_there) {
+            rg_driver_error("--require %s: '%s' is not there", name, seen[i].name);
+            return is_missing(name, &seen[i], report);
+        }
         any = true;
     }
-    return any || rg_driver_error("--require %s: it is not among the devices of this gate", name);
+    if (any)
+        return true;
+    rg_driver_error("--require %s: it is not among the devices of this gate", name);
+    return is_missing(name, NULL, report);
 }
 
 bool rg_sides_are_apart(const char *names)
@@ -60,11 +89,15 @@ bool rg_sides_are_apart(const char *names)
     return true;
 }
 
-bool rg_sides_have(const struct rg_side_seen *seen, int count, const char *require)
+bool rg_sides_have(const struct rg_side_seen *seen, int count, const char *require,
+                   struct rg_report *report)
 {
     struct rg_device_name name;
     bool all = true;
-    while (all && require && *require)
-        all = rg_device_name_read(&require, &name) && is_there(seen, count, name.name);
+    while (require && *require) {
+        if (!rg_device_name_read(&require, &name))
+            return false;
+        all = is_there(seen, count, name.name, report) && all;
+    }
     return all;
 }

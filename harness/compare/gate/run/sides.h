@@ -3,6 +3,7 @@
 #ifndef RG_HARNESS_COMPARE_GATE_RUN_SIDES_H
 #define RG_HARNESS_COMPARE_GATE_RUN_SIDES_H
 
+#include "harness/compare/gate/report/report.h"
 #include "harness/devices/devices.h"
 
 // A is what B is held against.
@@ -25,12 +26,14 @@ struct rg_side_seen {
     bool is_name;     // such that a device could have it
     bool is_there;    // on this machine, though its driver may fail: that ends its cases
     bool is_open;
+    char why[256]; // it is not
 };
 // Launches a side, of which `info` is then told.
 struct rg_side_seen rg_side_look(struct rg_side *side, struct rg_device_info *info);
-// Whether all that `require` names, NULL: nothing, is among them and is there; else one line is
-// logged.
-bool rg_sides_have(const struct rg_side_seen *seen, int count, const char *require);
+// Whether all that `require` names, NULL: nothing, is among them and is there; of each that is not,
+// one line is logged, and the report gets a case, "required.vulkan", so that a CI's page shows it.
+bool rg_sides_have(const struct rg_side_seen *seen, int count, const char *require,
+                   struct rg_report *report);
 
 // Whether a list of names has each once: cells of a device that stands there twice would share a
 // name. False, and one logged line, also where one is no name.
