@@ -6,6 +6,7 @@
 #include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "harness/console/exit.h"
+#include "harness/record/disk/cells.h"
 #include "harness/record/disk/journal.h"
 #include "harness/record/output.h"
 #include "harness/record/schema/schema.h"
@@ -20,21 +21,23 @@ const char *const rg_result_formats[] = {[RG_RESULT_MD] = "md",
                                          NULL};
 
 // The document of a result, with the trends beside, which are reckoned from it and not read back.
-static void print_json(const struct rg_result *result, FILE *out)
+static bool print_json(const struct rg_result *result, FILE *out)
 {
     json_t *json = rg_result_json(result);
+    const bool ok = rg_cells_seal(json) || rg_error("table '%s': no memory", result->table);
     json_object_set_new(json, "shapes", rg_trends_json(result));
-    json_dumpf(json, out, JSON_INDENT(1) | RG_JSON_FLAGS);
-    fprintf(out, "\n");
+    if (ok) {
+        json_dumpf(json, out, JSON_INDENT(1) | RG_JSON_FLAGS);
+        fprintf(out, "\n");
+    }
     json_decref(json);
+    return ok;
 }
 
 bool rg_result_print(const struct rg_result *result, int format, FILE *out)
 {
-    if (format == RG_RESULT_JSON) {
-        print_json(result, out);
-        return true;
-    }
+    if (format == RG_RESULT_JSON)
+        return print_json(result, out);
     if (format == RG_RESULT_MD)
         return rg_brief_print(result, out);
     struct rg_sheet sheet;

@@ -50,6 +50,9 @@ def check_compact(runner):
     problems = []
     with tempfile.TemporaryDirectory() as tmp:
         runner.run(["table", "--from", KEPT, "-o", tmp + "/written"])
+        again = runner.run(["table", "--from", tmp + "/written", "-o", tmp + "/again"])
+        problems += [name + " is written as another" for name in os.listdir(tmp + "/written")
+                     if again.returncode or read(tmp, "written", name) != read(tmp, "again", name)]
         python(KEEP, tmp + "/written", tmp + "/kept")
         if os.listdir(tmp + "/written") or sorted(os.listdir(tmp + "/kept")) != sorted(os.listdir(KEPT)):
             problems.append("left: %s, kept: %s" % (os.listdir(tmp + "/written"), os.listdir(tmp + "/kept")))
@@ -59,6 +62,78 @@ def check_compact(runner):
         lines = text.split('"cells": [\n')[1].splitlines()[:-2]
         if [json.loads(line.rstrip(",")) for line in lines] != json.loads(text)["cells"]:
             problems.append(name + ": not a line a cell")
+    return problems
+
+
+def of_another_commit(runner, text, folder):
+    """What a record would be had it been measured with another commit."""
+    record = forms.unsealed(json.loads(text))
+    record["passport"]["raingauge"]["commit"] = "0" * 40
+    pathlib.Path(folder, "other.json").write_text(json.dumps(record), encoding="utf-8")
+    runner.run(["table", "--from", folder + "/other.json", "-o", folder + "/other"])
+    os.remove(folder + "/other.json")
+    return json.loads(read(folder, "other", record["table"] + ".json"))
+
+
+def damages(other):
+    """What a hand or a merge does to a record of stuppacher-2, and what is said of it. `other`: a record of another commit."""
+    def with_cell(cell, change):
+        def damage(record):
+            change(record, record["cells"][cell])
+        return damage
+
+    def of_cell(i, device, what="wrong checksum"):
+        return r"cells\[%d\] \(row 1, paper, full, on %s\) has (a|no) %s" % (i, device, what)
+
+    def copied(record, cell):
+        record["cells"][2] = dict(cell, device=record["cells"][2]["device"])
+
+    head = "what stands before its cells was changed, or each of them"
+    return {
+        "a sample": (with_cell(0, lambda record, cell: cell["measured"]["samples_ms"].__setitem__(3, 1.5)), of_cell(0, "cpu")),
+        "a count": (with_cell(1, lambda record, cell: cell["tally"].update(items=1)), of_cell(1, "cpu:reference")),
+        "a pass": (with_cell(1, lambda record, cell: cell["measured"]["passes_ms"].popitem()), of_cell(1, "cpu:reference")),
+        "what is in print": (with_cell(0, lambda record, cell: cell["published"].update(fps=30)), of_cell(0, "cpu")),
+        "a setting": (with_cell(0, lambda record, cell: cell.update(set="resolution_px=64")), of_cell(0, "cpu")),
+        "times of another device": (with_cell(0, lambda record, cell: record["cells"][2].update(measured=cell["measured"])), of_cell(2, "gl")),
+        "a cell over that of another device": (with_cell(0, copied), of_cell(2, "gl")),
+        "a cell of which a row says that it is its own": (with_cell(0, lambda record, cell: record["cells"].__setitem__(0, dict(record["cells"][15], row=cell["row"], row_number=1, work="paper"))), of_cell(0, "cpu")),
+        "a cell without a checksum": (with_cell(0, lambda record, cell: cell.pop("checksum")), of_cell(0, "cpu", "checksum, and others have")),
+        "a cell of another commit": (lambda record: record["cells"].__setitem__(0, other["cells"][0]), of_cell(0, "cpu")),
+        "the cells of another commit": (lambda record: record.update(cells=other["cells"]), head),
+        "the machine": (lambda record: record["passport"]["machine"].update(cpu="another"), head),
+        "the commit": (lambda record: record["passport"]["raingauge"].update(commit="0" * 40), head),
+        "a driver": (lambda record: record["passport"]["devices"][2].update(driver="Mesa 99"), head),
+        "the length": (lambda record: record.update(length="full"), head),
+        "the size": (lambda record: record.update(size_px=[64, 64]), head),
+        "the order of fields": (lambda record: record.update(json.loads(json.dumps(record, sort_keys=True))), head),
+    }
+
+
+def check_damaged(runner):
+    """a record of which something was changed by hand or in a merge is refused with one line that names the cell, and nothing of it is printed"""
+    problems = []
+    text = read(KEPT, "stuppacher-2.json")
+    with tempfile.TemporaryDirectory() as tmp:
+        path = os.path.join(tmp, "record.json")
+        for what, (damage, says) in damages(of_another_commit(runner, text, tmp)).items():
+            record = json.loads(text)
+            damage(record)
+            pathlib.Path(path).write_text(json.dumps(record), encoding="utf-8")
+            for more in ([], ["--claims"], ["--json"]) if what == "a sample" else ([],):
+                done = runner.run(["table", "--from", tmp, *more])
+                if done.returncode != 2 or done.stdout or not re.fullmatch("raingauge: .*record\\.json: %s.*; restore it, or .*\n" % says, done.stderr):
+                    problems.append("%s: status %d, %s" % (what, done.returncode, done.stderr))
+        # A record that is written anew by another program, or has what others are made of changed, is the same.
+        record = json.loads(text)
+        for cell in record["cells"]:
+            cell["measured"].update(fps=1, ms=1.0, passes_share={})
+        record["interrupted"] = True
+        for same in (json.dumps(record, indent=8), re.sub(r"(?<=[:,\[])(\d+)\.0(?=[,}\]])", r"\1", text), json.dumps(forms.unsealed(record))):
+            pathlib.Path(path).write_text(same, encoding="utf-8")
+            done = runner.run(["table", "--from", path, "--format", "md"])
+            if done.returncode or done.stdout != read(KEPT, "stuppacher-2.md"):
+                problems.append("as another program writes it: status %d, %s" % (done.returncode, done.stderr))
     return problems
 
 
@@ -119,7 +194,7 @@ def check_colours(runner):
 def check_failed_colours(runner):
     """on a terminal cells that failed, in whichever way, are red, and those that are not supported yellow"""
     due = {"fail": "31", "error": "31", "crash": "31", "timeout": "31", "unsupported": "33"}
-    record = json.loads(read(KEPT, "stuppacher-2.json"))
+    record = forms.unsealed(json.loads(read(KEPT, "stuppacher-2.json")))
     for cell, status in zip(record["cells"], due):
         cell.update(status=status, detail="so it ended")
     with tempfile.TemporaryDirectory() as tmp:
@@ -191,7 +266,7 @@ def refused_form(runner):
 
 def check_lengths(runner):
     """table --claims names the length of what it judged, and judges no table that is there twice"""
-    kept = json.loads(read(KEPT, "feng-2.json"))
+    kept = forms.unsealed(json.loads(read(KEPT, "feng-2.json")))
     small = {"budget": {"seconds": 240, "size_divisor": 4, "few_samples": False, "left_out": []}}
     lengths = {"full": {"length": "full"}, "quick": {"length": "quick"}, "quick, with 1/4 of the width and height": dict(small, length="quick")}
     problems = []
@@ -239,4 +314,4 @@ def check_dirty_tree(runner):
     return problems
 
 
-CHECKS = [check_printed, check_compact, check_walk, check_colours, check_failed_colours, check_claims, check_lengths, check_dirty_tree]
+CHECKS = [check_printed, check_compact, check_damaged, check_walk, check_colours, check_failed_colours, check_claims, check_lengths, check_dirty_tree]

@@ -10,6 +10,7 @@
 #include "core/base/alloc.h"
 #include "core/base/array.h"
 #include "core/base/log.h"
+#include "harness/record/disk/cells.h"
 #include "harness/record/disk/document.h"
 
 static const char mend[] = "name a file as `raingauge table -o` writes it";
@@ -34,7 +35,8 @@ static bool read_documents(struct rg_stored *stored, const char *path, const cha
         json_t *document = rg_document_next(path, text, size, &at, mend, why);
         struct rg_result *result =
             document && rg_document_unseal(path, document, false, why) ? add(stored) : NULL;
-        const bool ok = result && rg_result_from_json(document, path, result, why);
+        const bool ok = result && rg_result_from_json(document, path, result, why) &&
+                        rg_cells_are_whole(path, document, why);
         json_decref(document);
         if (ok)
             rg_result_drop_begun(result);

@@ -1,10 +1,11 @@
 // Results and journals. What is taken is written and taken again: the two must say the same, or a
-// record that is kept is not the one that was measured. It is printed in every format. A journal's
-// checksum is mended first.
+// record that is kept is not the one that was measured. It is printed in every format. Checksums,
+// of cells and of journals, are mended first.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/record/disk/cells.h"
 #include "harness/record/disk/seal.h"
 #include "harness/record/disk/stored.h"
 #include "harness/tables/print.h"
@@ -29,6 +30,18 @@ static void check_again(const struct rg_result *result)
     rg_result_free(&again);
 }
 
+// What is printed as JSON is what --from takes.
+static void check_sealed(const char *text)
+{
+    char why[RG_WHY_SIZE] = "";
+    json_t *document = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
+    if (!document || !rg_cells_are_whole("printed", document, why)) {
+        fputs(why, stderr);
+        fuzz_complain("printed with a wrong checksum");
+    }
+    json_decref(document);
+}
+
 // In every format, without what steers a terminal; JSON is for programs, and keeps DEL.
 static void check_printed(const struct rg_result *result)
 {
@@ -43,6 +56,8 @@ static void check_printed(const struct rg_result *result)
         for (const unsigned char *c = (const unsigned char *)text; *c; c++)
             if ((*c < ' ' && *c != '\n') || (*c == 127 && format != RG_RESULT_JSON))
                 fuzz_complain("a control character is printed");
+        if (format == RG_RESULT_JSON)
+            check_sealed(text);
         free(text);
     }
 }
@@ -80,10 +95,22 @@ static void read_journal(const char *text, size_t size)
     rg_result_free(&result);
 }
 
+// With the checksums that its cells should have, where it has cells.
+static void read_sealed(json_t *document)
+{
+    char *text = json_is_array(json_object_get(document, "cells")) && rg_cells_seal(document)
+                     ? json_dumps(document, 0)
+                     : NULL;
+    if (text)
+        read_results((const uint8_t *)text, strlen(text));
+    free(text);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     read_results(data, size);
     json_t *document = json_loadb((const char *)data, size, JSON_DISABLE_EOF_CHECK, NULL);
+    read_sealed(document);
     char *text = json_is_object(document) && rg_seal(document) ? json_dumps(document, 0) : NULL;
     if (text)
         read_journal(text, strlen(text));

@@ -39,6 +39,7 @@ class Made:
         self.record["passport"]["devices"] = [dict(device, name=name) for name in names]
         self.record["cells"] = [dict(copy.deepcopy(cell), device=name) for cell in cells for name in names]
         for cell in self.record["cells"]:  # as many particles as in print
+            del cell["checksum"]
             if "particles" in cell["published"]:
                 cell["facts"]["particles"] = cell["published"]["particles"]
 

@@ -1,11 +1,12 @@
 """Records: journals, stored results, numbers and names, what is written to disk."""
 from fault import Fault
 
-TESTS = ("named", "held", "rows", "journal", "output", "stored", "damaged", "sheets, cells", "sheets, json", "sheets, parts", "measure", "machine", "command line, tables", "command line, stored", "command line, cases")
+TESTS = ("named", "held", "rows", "journal", "output", "stored", "damaged", "sealed", "sheets, cells", "sheets, json", "sheets, parts", "measure", "machine", "command line, tables", "command line, stored", "command line, cases")
 
 USER = "core/base/files/user.c"
 TABLE = "harness/tables/measuring/measure.c"
 JOURNAL, STORED, NAMED = "harness/record/disk/journal.c", "harness/record/disk/stored.c", "harness/record/named.c"
+CELLS = "harness/record/disk/cells.c"
 DOCUMENT, KEY = "harness/record/disk/document.c", "harness/record/passport/key.c"
 MACHINE, VARIABLES = "harness/record/passport/machine.c", "harness/record/passport/variables.c"
 OUTPUT, RESULT, RECORD = "harness/record/output.c", "harness/record/result.c", "harness/record/record.c"
@@ -30,6 +31,12 @@ ROWS = [
     Fault(JOURNAL, "*record = *rg_result_at(&journal->held, «at»);", "(struct rg_place){.work = at.work, .variant = at.variant}", "every row is taken over as the first"),
     Fault(FIELDS, "memcpy(text, json_string_value(value), length + 1);\n    «rg_plain(text);»", ";", "a stored text steers the terminal"),
     Fault(DOCUMENT, "if («sealed == RG_SEAL_WHOLE» ||", "sealed != RG_SEAL_ABSENT", "a wrong checksum is taken for a right one"),
+    Fault(STORED, "rg_result_from_json(document, path, result, why) &&\n                        «rg_cells_are_whole(path, document, why)»;", "true", "a cell that was changed is printed as measured", tests=("command line, kept",)),
+    Fault(CELLS, "hash(bare, «head», &found);", "head * 0", "a cell of another machine is taken for its own", tests=("sealed",)),
+    Fault(CELLS, "strtod(text, NULL)", "json_real_value(real)", "a number counts by digits that no document keeps", tests=("sealed",)),
+    Fault(CELLS, "json_object_del(measured, made[i]);", ";", "a record that keeps no frame rates is refused", tests=("sealed",)),
+    Fault(CELLS, "json_object_del(measured, name);", ";", "a record that keeps no numbers beside print is refused", tests=("sealed",)),
+    Fault(CELLS, "(!found.wrong && «!found.absent»)", "true", "a cell without a checksum is taken", tests=("sealed",)),
     Fault(USER, "if (named && «named[0] == '/'»)", "true", "a relative folder of the user's is followed", tests=("user",)),
     Fault(USER, "return «(size_t)length < size» ||", "true", "a folder of the user's that is too long is cut", tests=("user",)),
     Fault(USER, "const char *variable = «folders[folder].variable»;", "folders[RG_USER_CACHE].variable", "what goes on later lies where caches are cleaned", tests=("user",)),

@@ -1,0 +1,256 @@
+// Checksums of a stored table's cells: whatever is changed is noticed, and the cell is named; what
+// is made anew, and how numbers are written, is not looked at.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/record/disk/cells.h"
+#include "harness/tables/print.h"
+#include "tests/harness/record/made.h"
+
+// What is printed of a made result, read again.
+static json_t *make_document(void)
+{
+    struct rg_result made = make_result();
+    char *text = print_result(&made, RG_RESULT_JSON);
+    json_t *document = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
+    assert_non_null(document);
+    free(text);
+    rg_result_free(&made);
+    return document;
+}
+
+static json_t *cell_of(const json_t *document, size_t i)
+{
+    return json_array_get(json_object_get(document, "cells"), i);
+}
+
+static void assert_taken(const json_t *document)
+{
+    char why[RG_WHY_SIZE];
+    if (!rg_cells_are_whole("some/file.json", document, why))
+        fail_msg("refused: %s", why);
+}
+
+// `names`: what the line names.
+static void assert_refused(const json_t *document, const char *names)
+{
+    char why[RG_WHY_SIZE] = "";
+    if (rg_cells_are_whole("some/file.json", document, why))
+        fail_msg("taken, where '%s' is wrong", names);
+    if (strncmp(why, "some/file.json: ", 16) != 0 || !strstr(why, names) || strchr(why, '\n') ||
+        !strstr(why, "; restore it, or measure the table again"))
+        fail_msg("'%s' instead of '%s'", why, names);
+}
+
+// --- what is changed ---
+
+static bool is_made_anew(const char *key)
+{
+    // The last is a fact, beside what is published of it.
+    static const char *const keys[] = {"interrupted", "shapes",  "fps",          "ms",
+                                       "ms_low",      "ms_high", "passes_share", "particles"};
+    bool is = false;
+    for (size_t i = 0; i < sizeof(keys) / sizeof(keys[0]); i++)
+        is = is || !strcmp(key, keys[i]);
+    return is;
+}
+
+// Another value of the same kind, as little apart as can be kept.
+static json_t *other_value(const json_t *value)
+{
+    char text[4096];
+    if (json_is_string(value)) {
+        snprintf(text, sizeof(text), "%s.", json_string_value(value));
+        return json_string(text);
+    }
+    if (json_is_real(value))
+        return json_real(json_real_value(value) * (1 + 2e-8) + 1e-20);
+    if (json_is_integer(value))
+        return json_integer(json_integer_value(value) ^ 1);
+    if (json_is_boolean(value))
+        return json_boolean(!json_is_true(value));
+    return json_is_null(value) ? json_integer(0) : json_null();
+}
+
+// Changes each value below `at` but for what is made anew, takes each out of its object, and says
+// how much was tried. `names`: what the line has to name.
+static int change_each(const json_t *document, json_t *at, const char *names)
+{
+    const char *key;
+    json_t *value;
+    int tried = 0;
+    for (size_t i = 0; json_is_array(at) && i < json_array_size(at); i++) {
+        json_t *kept = json_incref(json_array_get(at, i));
+        json_array_set_new(at, i, other_value(kept));
+        assert_refused(document, names);
+        json_array_set(at, i, kept);
+        tried += 1 + change_each(document, kept, names);
+        json_decref(kept);
+    }
+    json_t *fields = json_is_object(at) ? json_copy(at) : NULL;
+    const bool is_measured = fields && json_object_get(fields, "samples_ms");
+    json_object_foreach(fields, key, value)
+    {
+        if (!strcmp(key, "cells") ||
+            ((is_measured || json_object_get(fields, "format")) && is_made_anew(key)))
+            continue;
+        json_object_set_new(at, key, other_value(value));
+        assert_refused(document, names);
+        json_object_del(at, key);
+        assert_refused(document, names);
+        json_object_clear(at);
+        json_object_update(at, fields);
+        tried += 2 + change_each(document, value, names);
+    }
+    json_decref(fields);
+    return tried;
+}
+
+static void test_each_field(void **state)
+{
+    (void)state;
+    json_t *document = make_document();
+    assert_taken(document);
+    const int head = change_each(document, document, "what stands before its cells was changed");
+    int cells = change_each(document, cell_of(document, 0), "cells[0] (row ");
+    cells += change_each(document, cell_of(document, 7), "cells[7] (row ");
+    assert_taken(document);
+    print_message("%d changes before the cells, %d of two cells\n", head, cells);
+    assert_true(head > 60 && cells > 120);
+    json_decref(document);
+}
+
+// What follows from other fields can be wrong, or missing, as in what results/keep.py keeps.
+static void test_made_anew(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"fps",     "ms",           "ms_low",
+                                        "ms_high", "passes_share", "particles"};
+    json_t *document = make_document();
+    json_t *measured = json_object_get(cell_of(document, 0), "measured");
+    json_object_set_new(measured, "fps", json_integer(1));
+    json_object_set_new(document, "interrupted", json_false());
+    assert_taken(document);
+    json_object_del(document, "shapes");
+    for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++)
+        assert_int_equal(json_object_del(measured, names[i]), 0);
+    assert_taken(document);
+    json_decref(document);
+}
+
+// --- what is written in another way ---
+
+// Whole numbers without a point, and others with all digits that they have in memory.
+static void rewrite(json_t *at)
+{
+    const char *key;
+    json_t *value, *fields = json_is_object(at) ? json_copy(at) : NULL;
+    for (size_t i = 0; json_is_array(at) && i < json_array_size(at); i++) {
+        value = json_array_get(at, i);
+        if (json_is_real(value) && json_real_value(value) == (double)(int)json_real_value(value))
+            json_array_set_new(at, i, json_integer((int)json_real_value(value)));
+        else
+            rewrite(value);
+    }
+    json_object_foreach(fields, key, value)
+    {
+        if (json_is_real(value) && json_real_value(value) == (double)(int)json_real_value(value))
+            json_object_set_new(at, key, json_integer((int)json_real_value(value)));
+        else
+            rewrite(value);
+    }
+    json_decref(fields);
+}
+
+static void test_other_writers(void **state)
+{
+    (void)state;
+    json_t *document = make_document();
+    json_t *measured = json_object_get(cell_of(document, 0), "measured");
+    assert_true(json_is_real(json_object_get(measured, "first_frame_ms")));
+    rewrite(document);
+    assert_true(json_is_integer(json_object_get(measured, "first_frame_ms")));
+    char *text = json_dumps(document, JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII);
+    json_t *again = json_loads(text, 0, NULL);
+    assert_taken(again);
+    // The first number of a row is its axis, and passes stand as they run.
+    json_t *sorted;
+    free(text);
+    text = json_dumps(document, JSON_SORT_KEYS);
+    sorted = json_loads(text, 0, NULL);
+    assert_refused(sorted, "no checksum is right");
+    free(text);
+    json_decref(sorted);
+    json_decref(again);
+    // What rounding makes whole when it is written was not before.
+    json_object_set_new(json_object_get(document, "passport"), "else", json_real(2 - 1e-12));
+    assert_true(rg_cells_seal(document));
+    text = json_dumps(document, RG_JSON_FLAGS);
+    again = json_loads(text, 0, NULL);
+    assert_taken(again);
+    free(text);
+    json_decref(again);
+    json_decref(document);
+}
+
+// --- what is moved ---
+
+static void test_moved(void **state)
+{
+    (void)state;
+    json_t *document = make_document(), *other = make_document();
+    json_t *cells = json_object_get(document, "cells");
+    // What was measured of a cell, over that of another variant; what was counted, of another row.
+    static const char *const fields[] = {"measured", "counted"};
+    for (size_t i = 0; i < 2; i++) {
+        json_t *cell = cell_of(document, i ? 8 : 2), *first = cell_of(document, 0);
+        json_t *kept = json_incref(json_object_get(cell, fields[i]));
+        json_object_set(cell, fields[i], json_object_get(first, fields[i]));
+        assert_refused(document, i ? "cells[8] (row 4, paper, full, on cpu:reference) has a wrong"
+                                   : "cells[2] (row 2, paper, bare, on cpu:reference) has a wrong");
+        json_object_set_new(cell, fields[i], kept);
+    }
+    assert_taken(document);
+    // A cell whole, with the names of the one that it is put over.
+    json_t *copied = json_deep_copy(cell_of(document, 0));
+    json_object_set_new(copied, "device", json_string("gl"));
+    json_array_set_new(cells, 1, copied);
+    assert_refused(document, "cells[1] (row 2, paper, full, on gl) has a wrong checksum");
+    // A cell of another machine's.
+    json_object_set_new(json_object_get(other, "passport"), "else", json_string("is another"));
+    assert_true(rg_cells_seal(other));
+    assert_taken(other);
+    json_array_set(cells, 1, cell_of(other, 1));
+    assert_refused(document, "cells[1] (row 2, paper, full, on gl) has a wrong checksum");
+    json_decref(other);
+    json_decref(document);
+}
+
+// Before there were checksums no cell had one.
+static void test_missing(void **state)
+{
+    (void)state;
+    json_t *document = make_document(), *cell;
+    size_t i;
+    json_object_del(cell_of(document, 3), "checksum");
+    assert_refused(document, "cells[3] (row 2, paper, bare, on gl) has no checksum");
+    json_object_set_new(cell_of(document, 3), "checksum", json_integer(3));
+    assert_refused(document, "cells[3] (row 2, paper, bare, on gl) has a wrong checksum");
+    json_array_foreach(json_object_get(document, "cells"), i, cell)
+        json_object_del(cell, "checksum");
+    assert_taken(document);
+    json_array_clear(json_object_get(document, "cells"));
+    assert_taken(document);
+    json_decref(document);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_each_field),    cmocka_unit_test(test_made_anew),
+        cmocka_unit_test(test_other_writers), cmocka_unit_test(test_moved),
+        cmocka_unit_test(test_missing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
