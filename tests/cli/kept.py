@@ -238,7 +238,7 @@ def check_claims(runner):
     noted = set(re.findall(r', ((?:not )?reproduced|undecided|other work) on [^:]*?, p (?:<|0|1)', wide))
     if noted != {"reproduced", "not reproduced", "undecided"}:
         problems.append("verdicts that have a reason and a probability: %s" % noted)
-    return problems + reason_problems(wide) + page_problems(runner, rows) + refused_form(runner)
+    return problems + reason_problems(wide) + page_problems(runner, rows) + json_problems(runner, rows, wide)
 
 
 # How the page of one screen says a verdict.
@@ -257,11 +257,51 @@ def page_problems(runner, rows):
     return problems
 
 
-def refused_form(runner):
-    refused = runner.run(["table", "--claims", "--from", KEPT, "--format", "json"])
-    if refused.returncode != 2 or "choose md, csv or tex" not in refused.stderr:
-        return ["as JSON: %s" % refused.stderr]
-    return []
+# Which bounds a test has.
+BOUNDS = {"ratio": ["least"], "apart": ["least"], "faster": ["least"], "rate": ["least"], "flattens": ["least"], "alike": ["most"],
+          "exponent": ["least", "most"]}
+
+
+def json_problems(runner, rows, wide):
+    """One document says what the rows of CSV do, with the reasons of the wide page and what was judged, and nothing else is printed."""
+    done = runner.run(["table", "--claims", "--json", "--from", KEPT])
+    if done.returncode or done.stderr or done.stdout != runner.run(["table", "--claims", "--format", "json", "--from", KEPT]).stdout:
+        return ["as JSON: status %d, %s" % (done.returncode, done.stderr)]
+    document = json.loads(done.stdout)
+    problems = forms.problems("claims", document)
+    ids = [claim["id"] for claim in document["claims"]]
+    if len(set(ids)) != len(ids) or "creus-5.3/20-meters-good-compromise-camera-1" not in ids or "creus-5.5/has-a-subtle-effect-1000-to-100000" not in ids:
+        problems.append("ids: %s" % ids)
+    due, told = [], []
+    for row in rows:
+        due += [(row["table"], row["section"], row["claim"], device, verdict) for device, verdict in list(row.items())[3:] if verdict]
+    for claim in document["claims"]:
+        quote = '"' * (claim["source"] == "said")
+        title = quote + claim["words"] + quote + (", " + claim["part"] if claim["part"] else "")
+        told += [(claim["table"], claim["section"], title, one["device"], one["verdict"]) for one in claim["verdicts"]]
+        problems += [one["why"] + " is no reason of the page" for one in claim["verdicts"] if ": %s.\n" % one["why"] not in wide]
+        if [name for name in ("least", "most") if claim[name] is not None] != BOUNDS.get(claim["test"], []):
+            problems.append("%s: %s from %s to %s" % (claim["id"], claim["test"], claim["least"], claim["most"]))
+        problems += [claim["id"] + ": of another paper" for _ in range(not claim["table"].startswith(claim["paper"]))]
+    if sorted(told) != sorted(due):
+        problems.append("told: %s, due: %s" % (told, due))
+    for table in document["tables"]:
+        record = json.loads(read(KEPT, table["table"] + ".json"))
+        if any(record[name] != table[name] for name in ("length", "quick", "passport")) or table["size_divisor"] != 1:
+            problems.append("%s: judged of something else" % table["table"])
+    if [table["table"] for table in document["tables"]] != sorted({row["table"] for row in rows}):
+        problems.append("tables: %s" % [table["table"] for table in document["tables"]])
+    return problems + probability_problems(document, wide)
+
+
+def probability_problems(document, wide):
+    """Probabilities are those of the page, which are told where they are not tiny, and decide verdicts at 2.5 %."""
+    found = [(one["verdict"], one["probability"]) for claim in document["claims"] for one in claim["verdicts"] if one["probability"] is not None]
+    problems = ["%s at %g" % one for one in found if (one[1] <= 0.025) != (one[0] in ("reproduced", "not reproduced")) and one[0] != "undecided"]
+    told = re.findall(r", p ([0-9.e-]+): ", wide)
+    printed = {"%.2g" % p for _, p in found}
+    problems += ["p %s is in no verdict" % p for p in told if p not in printed]
+    return problems if len(found) > 100 and told else problems + ["%d probabilities, %s" % (len(found), told)]
 
 
 def check_lengths(runner):

@@ -397,11 +397,15 @@ TWO_TABLES = "table stuppacher-2 raster-1 --rows 1-1 --device cpu "
 
 
 def check_claims_alone(runner):
-    """measured tables leave nothing before their claims, and an empty line between two tables"""
+    """measured tables leave nothing before their claims, which JSON alone has as one document, and an empty line between two tables"""
+    document, status, problems = run_json(runner, TWO_TABLES + "--claims", form="claims")
+    about = [table["table"] for table in document["tables"]], {claim["table"] for claim in document["claims"]}
+    if status or about != (["stuppacher-2"], {"stuppacher-2"}):
+        problems.append("as JSON: exit status %d, of %s" % (status, about))
     claims = runner.run((TWO_TABLES + "--claims --format csv").split())
     tables = runner.run((TWO_TABLES + "--format csv").split())
     found = claims.stdout.splitlines()[:1], tables.stdout.count("\n\n"), tables.stdout[:1] == "\n"
-    return [] if found == (["table,section,claim,cpu"], 1, False) else ["%s, %s" % (found, claims.stderr)]
+    return problems + ([] if found == (["table,section,claim,cpu"], 1, False) else ["%s, %s" % (found, claims.stderr)])
 
 
 def interrupt(runner, args, env):

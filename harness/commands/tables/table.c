@@ -15,8 +15,9 @@
 #include "harness/console/duration.h"
 #include "harness/console/exit.h"
 #include "harness/record/disk/stored.h"
-#include "harness/tables/claims/sheet.h"
 #include "harness/record/output.h"
+#include "harness/tables/claims/json.h"
+#include "harness/tables/claims/sheet.h"
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/print.h"
 #include "harness/tables/runs/regenerate.h"
@@ -78,7 +79,7 @@ static const struct rg_option options[] = {
     RG_GROUP("Output"),
     {RG_OPTION_FLAG, "claims",
      .about = "prints what the papers claim about the tables, and whether it holds, not the tables",
-     .offset = AT(claims), .excludes = "json"},
+     .offset = AT(claims)},
     {RG_OPTION_CHOICE, "format", .about = "what to print", .offset = AT(format),
      .choices = rg_result_formats, .initial = "md"},
     {RG_OPTION_FLAG, "wide",
@@ -121,24 +122,44 @@ static int print(const struct rg_result *result, const void *user)
     return exit;
 }
 
-// The verdicts, in the format that is asked for. An enum rg_exit.
-static int print_claims(const void *user)
+// False without memory.
+static bool print_claims_sheet(const struct rg_claim_outcomes *outcomes, int form)
 {
-    const struct table_options *o = user;
     struct rg_sheet sheet = {0};
-    if (!o->outcomes->count)
-        return RG_EXIT_PASS;
-    const bool wide = o->wide || o->format == RG_RESULT_CSV || o->format == RG_RESULT_TEX;
-    rg_claims_sheet(o->outcomes, wide, &sheet);
-    if (o->format == RG_RESULT_CSV)
+    rg_claims_sheet(outcomes, form != RG_RESULT_MD, &sheet);
+    if (form == RG_RESULT_CSV)
         rg_sheet_print_csv(&sheet, stdout);
-    else if (o->format == RG_RESULT_TEX)
+    else if (form == RG_RESULT_TEX)
         rg_sheet_print_tex(&sheet, stdout);
     else
         rg_sheet_print_md(&sheet, stdout);
     rg_sheet_free(&sheet);
+    return !sheet.incomplete;
+}
+
+// False, and one logged line, without memory.
+static bool print_claims_json(const struct rg_claim_outcomes *outcomes)
+{
+    json_t *json = rg_claims_json(outcomes);
+    if (!json)
+        return rg_error("claims: no memory to print them; close other programs");
+    json_dumpf(json, stdout, JSON_INDENT(1) | RG_JSON_FLAGS);
+    printf("\n");
+    json_decref(json);
+    return true;
+}
+
+// The verdicts, in the form that is asked for. An enum rg_exit.
+static int print_claims(const void *user)
+{
+    const struct table_options *o = user;
+    if (!o->outcomes->count)
+        return RG_EXIT_PASS;
+    const int form = form_of(o);
+    const bool is_whole = form == RG_RESULT_JSON ? print_claims_json(o->outcomes)
+                                                 : print_claims_sheet(o->outcomes, form);
     if (!fflush(stdout) && !ferror(stdout))
-        return sheet.incomplete ? RG_EXIT_FAIL : RG_EXIT_PASS;
+        return is_whole ? RG_EXIT_PASS : RG_EXIT_FAIL;
     rg_stdout_error();
     return RG_EXIT_USAGE;
 }
@@ -356,10 +377,6 @@ static int table(const void *values, const struct rg_words *arguments)
 {
     struct table_options o = *(const struct table_options *)values;
     struct rg_claim_outcomes outcomes = {0};
-    if (o.claims && o.format == RG_RESULT_JSON) {
-        rg_error("--claims --format json: choose md, csv or tex");
-        return RG_EXIT_USAGE;
-    }
     int printed = 0;
     o.outcomes = &outcomes;
     o.printed = &printed;

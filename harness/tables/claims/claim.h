@@ -48,6 +48,10 @@ bool rg_claim_is_of_each_row(const struct rg_claim *claim);
 enum { RG_CLAIM_TITLE = 160 };
 // "\"25% slower\", at least": the paper's own words in quotation marks, and nothing else in them.
 void rg_claim_title(const struct rg_claim *claim, char title[RG_CLAIM_TITLE]);
+enum { RG_CLAIM_ID = 192 };
+// "stuppacher-1/complex-models-25-slower-at-least": its table and its title, of small letters,
+// digits and what parts them. No other claim has it.
+void rg_claim_id(const struct rg_claim *claim, char id[RG_CLAIM_ID]);
 
 // All claims, by table; the last has no table.
 extern const struct rg_claim rg_claims[];
@@ -72,6 +76,9 @@ struct rg_judgement {
     int rows, rows_needed;    // those that it was judged by, of the claim's
     char why[RG_REASON_SIZE]; // one sentence
 };
+
+// The probability behind a verdict: against the claim where it is not reproduced, else for it.
+double rg_claim_probability(const struct rg_judgement *judgement);
 
 // Judges a claim by the result of its table, on one of its devices. A verdict is given where the
 // samples settle it with 95 % confidence for the claim as a whole (docs/claims.md).

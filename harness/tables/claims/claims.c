@@ -1,6 +1,7 @@
 // The claims of all papers, in the order of their tables.
 #include "harness/tables/claims/claim.h"
 
+#include <ctype.h>
 #include <stdio.h>
 
 #define SAID(table, variant, where, words)    table, variant, NULL, RG_CLAIM_SAID, where, words
@@ -109,4 +110,22 @@ void rg_claim_title(const struct rg_claim *claim, char title[RG_CLAIM_TITLE])
     const char *quote = claim->source == RG_CLAIM_SAID ? "\"" : "";
     snprintf(title, RG_CLAIM_TITLE, "%s%s%s%s%s", quote, claim->words, quote,
              claim->part ? ", " : "", claim->part ? claim->part : "");
+}
+
+// Whatever is no letter and no digit parts words, but for commas, which part digits of a number.
+void rg_claim_id(const struct rg_claim *claim, char id[RG_CLAIM_ID])
+{
+    char title[RG_CLAIM_TITLE];
+    int used = snprintf(id, RG_CLAIM_ID, "%s", claim->table);
+    char part = '/';
+    rg_claim_title(claim, title);
+    for (const char *c = title; *c && used + 2 < RG_CLAIM_ID; c++) {
+        const bool is_of_word = isalnum((unsigned char)*c);
+        if (is_of_word && part)
+            id[used++] = part;
+        if (is_of_word)
+            id[used++] = (char)tolower((unsigned char)*c);
+        part = is_of_word ? 0 : *c == ',' || part == '/' ? part : '-';
+    }
+    id[used] = 0;
 }

@@ -18,6 +18,11 @@ const char *rg_claim_verdict_text(enum rg_claim_verdict verdict)
     return texts[verdict];
 }
 
+double rg_claim_probability(const struct rg_judgement *j)
+{
+    return j->verdict == RG_CLAIM_NOT_REPRODUCED ? j->in_favour : j->against;
+}
+
 // --- pairs of cells ---
 
 // Probabilities gathered over what a claim needs: that all of it holds is as sure as the least sure

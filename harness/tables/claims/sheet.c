@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/base/array.h"
+#include "core/base/log.h"
 #include "harness/console/colour.h"
 
 // How the page says a verdict, and what its notes say that this is.
@@ -21,8 +22,23 @@ void rg_claims_length(const struct rg_result *result, char *text, size_t size)
                  result->size_divisor);
 }
 
+// What its document says of that (docs/records.md), and on what it was measured.
+static bool add_table(struct rg_claim_outcomes *o, const struct rg_result *result)
+{
+    if (!o->tables && !(o->tables = json_array()))
+        return rg_error("claims: no memory");
+    json_t *table = json_pack(
+        "{ss ss so si sO?}", "table", result->table, "length", result->full ? "full" : "quick",
+        "quick", *result->quick ? rg_json_text(result->quick) : json_null(), "size_divisor",
+        result->size_divisor > 1 ? result->size_divisor : 1, "passport", result->passport);
+    if (*result->changed)
+        json_object_set_new(table, "changed", rg_json_text(result->changed));
+    return !json_array_append_new(o->tables, table) || rg_error("claims: no memory");
+}
+
 bool rg_claims_add(struct rg_claim_outcomes *o, const struct rg_result *result)
 {
+    const int before = o->count;
     for (const struct rg_claim *claim = rg_claims; claim->table; claim++) {
         for (int i = 0; i < result->device_count && !strcmp(claim->table, result->table); i++) {
             if (!rg_array_fit(&o->outcomes, &o->room, o->count + 1, sizeof(*o->outcomes), "claims"))
@@ -34,12 +50,13 @@ bool rg_claims_add(struct rg_claim_outcomes *o, const struct rg_result *result)
             outcome->judgement = rg_claim_judge(claim, result, i);
         }
     }
-    return true;
+    return o->count == before || add_table(o, result);
 }
 
 void rg_claims_free(struct rg_claim_outcomes *outcomes)
 {
     free(outcomes->outcomes);
+    json_decref(outcomes->tables);
     *outcomes = (struct rg_claim_outcomes){0};
 }
 
@@ -112,7 +129,7 @@ static void add_legend(struct rg_sheet *sheet)
 // ", p 0.004": the probability behind a verdict; "" where none is.
 static void print_probability(const struct rg_judgement *j, char *text, size_t size)
 {
-    const double p = j->verdict == RG_CLAIM_NOT_REPRODUCED ? j->in_favour : j->against;
+    const double p = rg_claim_probability(j);
     *text = 0;
     if (isfinite(p) && p < 0.001)
         snprintf(text, size, ", p < 0.001");

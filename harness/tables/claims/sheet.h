@@ -20,6 +20,7 @@ struct rg_claim_outcomes {
     int count;
     int64_t room;                      // for rg_array_fit
     struct rg_claim_outcome *outcomes; // owned; all of a claim follow each other
+    json_t *tables; // owned; what each table that was judged is of, as its own document has it
 };
 
 // "full", "quick" with what that sets, or either with the share that pictures have of the table's

@@ -83,5 +83,9 @@ ROWS = [
     Fault(BEGIN, "«result->full || !table->quick ? \"\" : table->quick»,", "\"\"", "quick rows are full ones"),
     Fault(BEGIN, "if («rg_table_is_extra(table, c)»)", "true", "keys are told as printed numbers"),
     Fault("harness/commands/tables/table.c", "if («strcmp(here, before) != 0»)\n                return rg_error", "false", "verdicts mix quick and full", tests=("command line, kept",)),
+    Fault("harness/tables/claims/json.c", "if (!i || «outcome->claim != o->outcomes[i - 1].claim») {", "true", "programs are told a claim once a device", tests=("command line, kept",)),
+    Fault("harness/tables/claims/json.c", "bound(«test->has_least», claim->least)", "true", "programs are told bounds that a test has not", tests=("command line, kept",)),
+    Fault("harness/tables/claims/claims.c", "part = is_of_word ? 0 : *c == ',' || part == '/' ? part : «'-'»;", "0", "ids of claims run their words together", tests=("command line, kept",)),
+    Fault("harness/tables/claims/judge.c", "return «j->verdict == RG_CLAIM_NOT_REPRODUCED» ? j->in_favour : j->against;", "false", "what is not reproduced has the probability that it is", tests=("command line, kept",)),
     Fault("harness/tables/claims/sheet.c", "const char *length = «result->full ? \"full\" : \"quick\"»;", "\"quick\"", "claims of full tables are told as quick", tests=("command line, kept",)),
 ]

@@ -1,0 +1,81 @@
+#include "harness/tables/claims/json.h"
+
+#include "harness/record/schema/schema.h"
+#include "harness/tables/papers/papers.h"
+
+static const char *const sources[] = {[RG_CLAIM_SAID] = "said", [RG_CLAIM_PRINTED] = "printed"};
+
+// What a test is called, and which bounds it has (docs/claims.md).
+static const struct test {
+    const char *name;
+    bool has_least, has_most;
+} tests[] = {
+    [RG_CLAIM_FALLS] = {"falls", false, false},     [RG_CLAIM_ORDER] = {"order", false, false},
+    [RG_CLAIM_RATIO] = {"ratio", true, false},      [RG_CLAIM_ALIKE] = {"alike", false, true},
+    [RG_CLAIM_APART] = {"apart", true, false},      [RG_CLAIM_EXPONENT] = {"exponent", true, true},
+    [RG_CLAIM_FASTER] = {"faster", true, false},    [RG_CLAIM_RATE] = {"rate", true, false},
+    [RG_CLAIM_OPTIMUM] = {"optimum", false, false}, [RG_CLAIM_SLOWEST] = {"slowest", false, false},
+    [RG_CLAIM_CROSSES] = {"crosses", false, false}, [RG_CLAIM_FLATTENS] = {"flattens", true, false},
+};
+
+// The key of the paper that a table is of.
+static const char *paper_of(const struct rg_claim *claim)
+{
+    const struct rg_table *table = rg_table_find(claim->table);
+    const struct rg_technique *technique = table ? rg_technique_find(table->technique) : NULL;
+    return technique ? technique->paper : "";
+}
+
+static json_t *bound(bool has, double value)
+{
+    return has ? rg_number_json(value) : json_null();
+}
+
+static json_t *knee_json(const struct rg_claim *claim)
+{
+    const int until = claim->until ? claim->until : claim->knee;
+    return claim->knee ? json_pack("[ii]", claim->knee, until) : json_null();
+}
+
+// What is claimed, and how that is put to the test, without a verdict.
+static json_t *claim_json(const struct rg_claim *claim)
+{
+    const struct test *test = &tests[claim->test];
+    char id[RG_CLAIM_ID];
+    rg_claim_id(claim, id);
+    return json_pack("{ss ss ss ss ss ss ss? ss ss ss? s[ii] so so so}", "id", id, "table",
+                     claim->table, "paper", paper_of(claim), "section", claim->where, "source",
+                     sources[claim->source], "words", claim->words, "part", claim->part, "test",
+                     test->name, "variant", claim->variant, "other_variant", claim->other, "rows",
+                     claim->first, claim->last, "knee_rows", knee_json(claim), "least",
+                     bound(test->has_least, claim->least), "most",
+                     bound(test->has_most, claim->most));
+}
+
+static json_t *verdict_json(const struct rg_claim_outcome *outcome)
+{
+    const struct rg_judgement *j = &outcome->judgement;
+    return json_pack("{so ss so so si si}", "device", rg_json_text(outcome->device), "verdict",
+                     rg_claim_verdict_text(j->verdict), "why", rg_json_text(j->why), "probability",
+                     rg_number_json(rg_claim_probability(j)), "rows_judged", j->rows, "rows_needed",
+                     j->rows_needed);
+}
+
+json_t *rg_claims_json(const struct rg_claim_outcomes *o)
+{
+    json_t *claims = json_array(), *verdicts = NULL;
+    for (int i = 0; i < o->count; i++) {
+        const struct rg_claim_outcome *outcome = &o->outcomes[i];
+        if (!i || outcome->claim != o->outcomes[i - 1].claim) {
+            json_t *claim = claim_json(outcome->claim);
+            verdicts = json_array();
+            json_object_set_new(claim, "print_contradicts",
+                                json_boolean(outcome->judgement.print_contradicts));
+            json_object_set_new(claim, "verdicts", verdicts);
+            json_array_append_new(claims, claim);
+        }
+        json_array_append_new(verdicts, verdict_json(outcome));
+    }
+    return json_pack("{sisOso}", "format", RG_FORMAT_VERSION, "tables", o->tables, "claims",
+                     claims);
+}

@@ -1,0 +1,10 @@
+// Verdicts on the claims of all papers, for programs.
+#ifndef RG_HARNESS_TABLES_CLAIMS_JSON_H
+#define RG_HARNESS_TABLES_CLAIMS_JSON_H
+
+#include "harness/tables/claims/sheet.h"
+
+// The document of docs/records.md; the caller owns it. NULL without memory.
+json_t *rg_claims_json(const struct rg_claim_outcomes *outcomes);
+
+#endif
