@@ -23,7 +23,8 @@ HOW = {
     "fault": ("crash", r"its driver crashed \(Segmentation fault\)"),
     "exit": ("crash", r"its driver ended the process with status 0"),
     "hang": ("timeout", r"its driver did not come back within 10 s"),
-    "swell": ("crash", r"it took more than 2048 MiB of memory and was ended"),
+    # 1 GiB beyond what the user allows, less what other workers have of that.
+    "swell": ("crash", r"it took more than (1[0-9]{3}|20[0-4][0-9]) MiB of memory and was ended"),
     "lost": ("error", r"DEVICE_LOST|CONTEXT_LOST|OUT_OF_RESOURCES"),
     "none": ("error", r"its driver tells of 0, 0 and 0 work groups"),
 }
