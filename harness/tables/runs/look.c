@@ -62,13 +62,23 @@ void rg_look_extend(struct rg_frames *frames, enum rg_budget_size smallest, cons
         frames->frame_ms[size] = small_ms * larger[size];
 }
 
+// On a new machine drivers compile in a first opening, its first step and its first frames, and
+// keep what they made: where that one was late, a second one tells what those of cells will take.
+static bool look_compiled(struct rg_looking *p, struct rg_device *device,
+                          struct rg_cell_frames *frames)
+{
+    enum { LATE_MS = 1000 };
+    return rg_look_row(p, device, p->last, p->smallest, "", frames) &&
+           (frames->open_ms < LATE_MS || rg_look_row(p, device, p->last, p->smallest, "", frames));
+}
+
 bool rg_look_device(struct rg_looking *p, struct rg_device *device, struct rg_frames *frames)
 {
     static const double pixels[] = {1 / 16.0, 1 / 4.0, 1};
     const enum rg_budget_size smallest = p->smallest;
     struct rg_cell_frames small, next;
     double a_pixel = 0, larger[RG_BUDGET_SIZES];
-    if (!rg_look_row(p, device, p->last, smallest, "", &small))
+    if (!look_compiled(p, device, &small))
         return false;
     *frames = (struct rg_frames){.open_ms = small.open_ms, .step_ms = small.step_ms};
     if (smallest < RG_BUDGET_WHOLE) {

@@ -26,6 +26,7 @@ ROWS = [
     Fault(BUDGET, "if («!b->measured»)", "false", "a budget in which nothing is measured passes", tests=("planner",)),
     Fault(BUDGET, "b->measured += «had > 0»;", "1", "a table without a row counts as measured", tests=("planner",)),
     Fault(LOOK, "/ («pixels[smallest + 1] - pixels[smallest]»);", "1.0", "larger pictures take as long as smaller ones", tests=("planner",)),
+    Fault(LOOK, "(«frames->open_ms < LATE_MS» ||", "true", "what a driver compiles once is expected of each cell", tests=("planner",)),
     Fault(PROBE, "ok = «probe_row(p, row)»;", "(p->of_row[row] = p->of_row[p->last], true)", "every row takes as long as the last", tests=("planner",)),
     Fault(PROBE, "dry.frame_ms *= «p->kind->dry_share»;", "0", "a dry picture takes nothing", tests=("planner",)),
     Fault(CELL, "f->open_ms = fmax(opened - start «- f->frame_ms», 0);", "- 0", "the first frame counts as opening", tests=("planner",)),

@@ -158,6 +158,28 @@ static void a_device_that_fails_takes_nothing(void **state)
     slow_end(&rig);
 }
 
+// On a new machine drivers compile for a while, once, which is no part of what later cells take.
+static void what_a_driver_compiles_once_is_not_expected_again(void **state)
+{
+    (void)state;
+    for (int width = 256; width <= 1024; width *= 4) {
+        struct slow_rig rig;
+        struct rg_budget_kind kind = {0}, cold_kind = {0};
+        struct rg_budget_table warm, cold;
+        struct rg_table wide = table;
+        wide.width = width;
+        slow_begin(&rig);
+        assert_true(rg_budget_probe(&wide, &rig.kept, false, &kind, &warm));
+        const int opened = slow_opened;
+        slow_compiles(20000);
+        assert_true(rg_budget_probe(&wide, &rig.kept, false, &cold_kind, &cold));
+        assert_int_equal(slow_opened, 2 * opened + 1);
+        for (enum rg_budget_size size = 0; size < RG_BUDGET_SIZES; size++)
+            assert_ms(cold.cells[2][size].few_s * 1e3, warm.cells[2][size].few_s * 1e3);
+        slow_end(&rig);
+    }
+}
+
 // Levels of a texture take what opening it takes, once for those with the same settings.
 static void textures_take_what_opening_them_takes(void **state)
 {
@@ -491,6 +513,7 @@ int main(void)
         cmocka_unit_test(what_a_table_takes_is_what_was_seen),
         cmocka_unit_test(smaller_pictures_show_less),
         cmocka_unit_test(a_device_that_fails_takes_nothing),
+        cmocka_unit_test(what_a_driver_compiles_once_is_not_expected_again),
         cmocka_unit_test(textures_take_what_opening_them_takes),
         cmocka_unit_test(a_forecast_is_of_each_row),
         cmocka_unit_test(a_forecast_is_of_each_work),

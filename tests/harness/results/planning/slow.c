@@ -55,13 +55,29 @@ static double late_ms(const struct rg_instance *instance)
 }
 
 int slow_opened, slow_interrupted;
+// What gl's driver compiles, and how many times more.
+static double compile_ms;
+static int compiles_left;
+
+static double compiled_ms(const struct rg_instance *instance)
+{
+    const bool compiles = compiles_left > 0 && !strcmp(instance->device->info.name, "gl");
+    compiles_left -= compiles;
+    return compiles ? compile_ms : 0;
+}
+
+void slow_compiles(double ms)
+{
+    compile_ms = ms;
+    compiles_left = 3;
+}
 
 static bool open_slow(struct rg_instance *instance)
 {
     const struct slow_instance *slow = (const struct slow_instance *)instance;
     if (++slow_opened == slow_interrupted)
         raise(SIGINT);
-    fake_pass(slow->settings.open_ms * fake_of(instance)->item_ms);
+    fake_pass(slow->settings.open_ms * fake_of(instance)->item_ms + compiled_ms(instance));
     return true;
 }
 
@@ -78,7 +94,8 @@ static bool draw_slow(struct rg_instance *instance)
     const struct slow_settings *s = &((const struct slow_instance *)instance)->settings;
     const double pixels = (double)instance->target->desc.width * instance->target->desc.height;
     fake_of(instance)->shown = s->fixed_ms > 0 ? 0x3c00 : 0; // 1, or nothing without rain
-    fake_pass((s->fixed_ms + late_ms(instance) + 1e-3 * s->pixel_us * pixels) * slowness(instance));
+    fake_pass((s->fixed_ms + late_ms(instance) + 1e-3 * s->pixel_us * pixels) * slowness(instance) +
+              compiled_ms(instance));
     return true;
 }
 
@@ -117,6 +134,7 @@ void slow_begin(struct slow_rig *rig)
     }
     rig->kept.devices = &rig->devices;
     slow_opened = slow_interrupted = 0;
+    compiles_left = 0;
 }
 
 void slow_end(struct slow_rig *rig)

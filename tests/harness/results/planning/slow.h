@@ -10,6 +10,8 @@
 extern int slow_opened; // instances, since the rig was begun
 // The one of them that is interrupted, as by Ctrl-C; 0: none.
 extern int slow_interrupted;
+// Has gl's driver compile for so long in its next opening, and in each of the two frames after it.
+void slow_compiles(double ms);
 
 // cpu, cpu:reference, which takes ten times as long, and gl, which takes three times as long.
 struct slow_rig {
