@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-// "48 s", "3 min", "2.7 h": two digits.
+// "48 s", "2.8 min", "2.7 h": two digits.
 enum { RG_DURATION_TEXT = 24 };
 const char *rg_duration_text(double s, char text[RG_DURATION_TEXT]);
 

@@ -33,7 +33,7 @@ static void durations_have_two_digits(void **state)
     char text[RG_DURATION_TEXT];
     assert_string_equal(rg_duration_text(8.54, text), "8.5 s");
     assert_string_equal(rg_duration_text(48, text), "48 s");
-    assert_string_equal(rg_duration_text(170, text), "3 min");
+    assert_string_equal(rg_duration_text(170, text), "2.8 min");
     assert_string_equal(rg_duration_text(9720, text), "2.7 h");
     assert_string_equal(rg_duration_text(720000, text), "200 h");
 }
