@@ -47,10 +47,39 @@ static void map_picture(const struct rg_picture *picture, double exposure, float
 
 // --- the exposures ---
 
-static int ascending(const void *a, const void *b)
+// The value that has a rank among others, none of them NaN, in ascending order; they are moved.
+// Hoare's selection, for all of a large picture need not be sorted.
+static float value_at_rank(float *values, int64_t count, int64_t rank)
 {
-    const float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
+    int64_t first = 0, last = count - 1;
+    while (first < last) {
+        const float pivot = values[first + (last - first) / 2];
+        int64_t i = first - 1, j = last + 1;
+        for (;;) {
+            while (values[++i] < pivot)
+                ;
+            while (values[--j] > pivot)
+                ;
+            if (i >= j)
+                break;
+            const float value = values[i];
+            values[i] = values[j];
+            values[j] = value;
+        }
+        if (rank <= j)
+            last = j;
+        else
+            first = j + 1;
+    }
+    return values[rank];
+}
+
+static float largest_of(const float *values, int64_t count)
+{
+    float largest = values[0];
+    for (int64_t i = 1; i < count; i++)
+        largest = fmaxf(largest, values[i]);
+    return largest;
 }
 
 static void fill_luminances(const struct rg_picture *picture, float *luminances)
@@ -70,13 +99,14 @@ static void fill_luminances(const struct rg_picture *picture, float *luminances)
 static void find_exposures(const struct rg_picture *reference, float *luminances,
                            struct rg_hdr_flip *hdr)
 {
-    const size_t pixels = (size_t)reference->width * (size_t)reference->height;
+    const int64_t pixels = (int64_t)reference->width * reference->height;
     const double a = k[0] - BRIGHT * k[3], b = k[1] - BRIGHT * k[4], c = k[2] - BRIGHT * k[5];
     const double bright = -b / (2 * a) + sqrt(b * b / (4 * a * a) - c / a);
     fill_luminances(reference, luminances);
-    qsort(luminances, pixels, sizeof(*luminances), ascending);
-    const double median = 0.5 * ((double)luminances[(pixels - 1) / 2] + luminances[pixels / 2]);
-    hdr->start_exposure = log2(bright / fmax(luminances[pixels - 1], (double)FLT_EPSILON));
+    const double brightest = largest_of(luminances, pixels);
+    const double median = 0.5 * ((double)value_at_rank(luminances, pixels, (pixels - 1) / 2) +
+                                 value_at_rank(luminances, pixels, pixels / 2));
+    hdr->start_exposure = log2(bright / fmax(brightest, (double)FLT_EPSILON));
     hdr->stop_exposure = log2(bright / fmax(median, (double)FLT_EPSILON));
     hdr->exposures = (int)fmax(2, ceil(hdr->stop_exposure - hdr->start_exposure));
 }
@@ -101,19 +131,26 @@ static bool add_exposure(const struct rg_picture *a, const struct rg_picture *b,
     return true;
 }
 
+static bool is_same(const struct rg_picture *a, const struct rg_picture *b)
+{
+    const size_t texels = (size_t)a->width * (size_t)a->height * (size_t)a->channels;
+    return a->channels == b->channels && !memcmp(a->texels, b->texels, texels * sizeof(*a->texels));
+}
+
 bool rg_hdr_flip_map(const struct rg_picture *a, const struct rg_picture *b,
                      float pixels_per_degree, float *map, struct rg_hdr_flip *hdr)
 {
     const size_t pixels = (size_t)a->width * (size_t)a->height;
-    float *memory = malloc(pixels * 7 * sizeof(*memory));
+    float *memory = calloc(pixels, 7 * sizeof(*memory));
     if (!memory)
         return rg_error("HDR-FLIP of %d x %d pixels: no memory for it", a->width, a->height);
     const struct room room = {memory, memory + pixels * 3, memory + pixels * 6};
     find_exposures(a, room.map, hdr);
     memset(map, 0, pixels * sizeof(*map));
     const double step = (hdr->stop_exposure - hdr->start_exposure) / (hdr->exposures - 1);
+    const int shown = is_same(a, b) ? 0 : hdr->exposures; // the same picture differs at none
     bool good = true;
-    for (int i = 0; good && i < hdr->exposures; i++)
+    for (int i = 0; good && i < shown; i++)
         good = add_exposure(a, b, hdr->start_exposure + i * step, pixels_per_degree, &room, map);
     free(memory);
     return good;
