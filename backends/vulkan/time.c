@@ -14,7 +14,8 @@ static bool read_ticks(struct vk_device *device, uint64_t *ticks)
         return false;
     vk_barrier(batch);
     vkCmdResetQueryPool(batch->commands, device->timestamp, 0, 1);
-    vkCmdWriteTimestamp(batch->commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, device->timestamp, 0);
+    vkCmdWriteTimestamp(batch->commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, device->timestamp,
+                        0);
     return vk_wait(device) &&
            vk_try("device", device->pub.info.name, vkGetQueryPoolResults, device->handle,
                   device->timestamp, 0, 1, sizeof(*ticks), ticks, sizeof(*ticks),
