@@ -204,9 +204,9 @@ def check_advice(runner):
         for device in document["devices"]:
             device["of"]["cores"] = "64"
         for row in document["baseline"]:
-            row["launches_ms"] = [ms / 1000 for ms in row["launches_ms"]]
+            row["launches_ms"] = [ms / 100 for ms in row["launches_ms"]]
         for name in document["yardsticks_ms"]:
-            document["yardsticks_ms"][name] = [ms / 10 for ms in document["yardsticks_ms"][name]]
+            document["yardsticks_ms"][name] = [ms / 30 for ms in document["yardsticks_ms"][name]]
 
     with Files(TORUS) as files:
         path, _ = make(runner, files, *QUICK)
@@ -219,7 +219,7 @@ def check_advice(runner):
                          r"times by the yardsticks", case["message"])
         if case["ending"] != "pass" or case["ratio"]["value"] is not None or not told:
             problems.append("%s" % case)
-        elif not (100 < float(told[1]) < 10000 and float(told[2]) <= float(told[3]) < float(told[1])):
+        elif not (10 < float(told[1]) < 1000 and float(told[2]) <= float(told[3]) < float(told[1])):
             problems.append("ratios: %s" % case["message"])
         for name in ("chain", "vector", "copy", "fork_join"):
             if name + " takes" not in case["details"]:
