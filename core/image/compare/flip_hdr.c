@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/base/log.h"
+#include "core/base/alloc.h"
 #include "core/image/compare/compare.h"
 
 // The tone mapping: ACES as Narkowicz fits it, before which its own exposure of 0.6 is applied:
@@ -74,14 +74,6 @@ static float value_at_rank(float *values, int64_t count, int64_t rank)
     return values[rank];
 }
 
-static float largest_of(const float *values, int64_t count)
-{
-    float largest = values[0];
-    for (int64_t i = 1; i < count; i++)
-        largest = fmaxf(largest, values[i]);
-    return largest;
-}
-
 static void fill_luminances(const struct rg_picture *picture, float *luminances)
 {
     const int64_t pixels = (int64_t)picture->width * picture->height;
@@ -103,7 +95,7 @@ static void find_exposures(const struct rg_picture *reference, float *luminances
     const double a = k[0] - BRIGHT * k[3], b = k[1] - BRIGHT * k[4], c = k[2] - BRIGHT * k[5];
     const double bright = -b / (2 * a) + sqrt(b * b / (4 * a * a) - c / a);
     fill_luminances(reference, luminances);
-    const double brightest = largest_of(luminances, pixels);
+    const double brightest = value_at_rank(luminances, pixels, pixels - 1);
     const double median = 0.5 * ((double)value_at_rank(luminances, pixels, (pixels - 1) / 2) +
                                  value_at_rank(luminances, pixels, pixels / 2));
     hdr->start_exposure = log2(bright / fmax(brightest, (double)FLT_EPSILON));
@@ -141,9 +133,9 @@ bool rg_hdr_flip_map(const struct rg_picture *a, const struct rg_picture *b,
                      float pixels_per_degree, float *map, struct rg_hdr_flip *hdr)
 {
     const size_t pixels = (size_t)a->width * (size_t)a->height;
-    float *memory = calloc(pixels, 7 * sizeof(*memory));
+    float *memory = rg_alloc(pixels, 7 * sizeof(*memory), "HDR-FLIP");
     if (!memory)
-        return rg_error("HDR-FLIP of %d x %d pixels: no memory for it", a->width, a->height);
+        return false;
     const struct room room = {memory, memory + pixels * 3, memory + pixels * 6};
     find_exposures(a, room.map, hdr);
     memset(map, 0, pixels * sizeof(*map));
