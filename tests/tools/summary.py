@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""Adds up meson's test logs: summary.py LOG... prints the slowest tests, what failed, and one line of sums.
+"""Adds up meson's test logs: summary.py LOG... prints the slowest tests, what failed with what it said, and one line of sums.
 
 A test that was skipped has not passed: set-up installs every driver, so nothing may be missing. Exits
 1 if anything failed or nothing ran.
 """
 import json
 import os
+import re
 import sys
 
-SLOWEST = 10
+SLOWEST, SAID_LINES, SAID_COLUMNS = 10, 20, 1000
 
 
 def read(path):
@@ -17,19 +18,28 @@ def read(path):
         with open(path, encoding="utf-8") as log:
             tests = [json.loads(line) for line in log]
     except OSError as error:
-        return [(0, path, f"missing: {error.strerror}")]
+        return [(0, path, f"missing: {error.strerror}", "")]
     build = os.path.dirname(os.path.dirname(path))
-    return [(test["duration"], f"{build}: {test['name']}", test["result"]) for test in tests]
+    return [(test["duration"], f"{build}: {test['name']}", test["result"], said(test)) for test in tests]
+
+
+def said(test):
+    """What a test printed of its failures, as TAP or cmocka have it, or else its last lines: who reads the end of a
+    log has nothing else of it."""
+    output = test.get("stdout", "") + test.get("stderr", "")
+    failures = re.findall(r"^(?:not ok.*\n(?:#.*\n)*|\[ +(?:ERROR|LINE|FAILED) +\].*\n)", output, re.M)
+    lines = ("".join(failures) or output).splitlines()
+    return "".join(f"    {line[:SAID_COLUMNS]}\n" for line in (lines[:SAID_LINES] if failures else lines[-SAID_LINES:]))
 
 
 def main():
     results = [result for path in sys.argv[1:] for result in read(path)]
-    print(f"slowest of {sum(seconds for seconds, _, _ in results):.0f} s, others at their side:")
-    for seconds, name, _ in sorted(results, reverse=True)[:SLOWEST]:
+    print(f"slowest of {sum(seconds for seconds, *_ in results):.0f} s, others at their side:")
+    for seconds, name, *_ in sorted(results, reverse=True)[:SLOWEST]:
         print(f"{seconds:8.1f} s  {name}")
-    failed = [(name, result) for _, name, result in results if result not in ("OK", "EXPECTEDFAIL")]
-    for name, result in failed:
-        print(f"{result}: {name}")
+    failed = [(name, result, words) for _, name, result, words in results if result not in ("OK", "EXPECTEDFAIL")]
+    for name, result, words in failed:
+        print(f"{result}: {name}\n{words}", end="")
     print(f"{len(results) - len(failed)} passed, {len(failed)} failed")
     sys.exit(1 if failed or not results else 0)
 
