@@ -90,21 +90,32 @@ static bool is_same_choice(const struct rg_budget_choice *a, const struct rg_bud
            a->all_works == b->all_works;
 }
 
-// Plans a table and those that follow anew where they would not be done in time.
+// Of the budget, more than this is worth another plan.
+#define MORE 0.05
+
+// Plans a table and those that follow anew where they would not be done in time, or where those
+// before took less than they were to, so that there is time for more of these.
 static void plan_again(struct rg_budget *b, int from, FILE *out)
 {
+    const int count = b->count - from;
     const struct rg_budget_choice before = b->choices[from];
     const double slow = slowness(b), left_s = (b->seconds - passed_s(b)) / slow;
+    struct rg_budget_choice again[RG_BUDGET_TABLES];
     double due_s = 0;
     for (int i = from; i < b->count; i++)
         due_s += b->choices[i].expected_s;
-    if (due_s <= left_s)
+    const double again_s = rg_budget_plan(b->costs + from, count, &b->bits, left_s, again);
+    const bool is_late = due_s > left_s;
+    if (!is_late && again_s <= due_s + MORE * b->seconds)
         return;
-    rg_budget_plan(b->costs + from, b->count - from, &b->bits, left_s, b->choices + from);
-    if (!is_same_choice(&before, &b->choices[from])) {
+    memcpy(b->choices + from, again, (size_t)count * sizeof(*again));
+    if (is_same_choice(&before, &b->choices[from]))
+        return;
+    if (is_late)
         fprintf(out, "planned anew, as cells take %.2f times as long as they were to:\n", slow);
-        rg_budget_tell_table(b, from, out);
-    }
+    else
+        fprintf(out, "planned anew, as there is time for more:\n");
+    rg_budget_tell_table(b, from, out);
 }
 
 // --- a table as it is chosen ---

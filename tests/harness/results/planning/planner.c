@@ -419,6 +419,7 @@ static void cells_that_take_longer_have_the_rest_planned_anew(void **state)
     begin_plan(&p, 91);
     run(&p, 0, 3, 60);
     expect_next(&p, 1, true, true);
+    run(&p, 1, 3, 30);
     expect_next(&p, 2, false, false);
     expect_told(&p, "2.50 times");
     end_plan(&p);
@@ -426,6 +427,35 @@ static void cells_that_take_longer_have_the_rest_planned_anew(void **state)
     begin_plan(&p, 91);
     run(&p, 0, 3, 92);
     expect_next(&p, 1, false, false);
+    end_plan(&p);
+}
+
+// Of 63 s three tables may take 50.4, which is 36 of the fewest samples and 12 more for all of the
+// first. Where that takes half of the 24 s, the others have 102 s at that speed.
+static void time_that_is_left_is_used(void **state)
+{
+    (void)state;
+    struct plan p;
+    begin_plan(&p, 63);
+    assert_false(p.budget.choices[1].all_samples);
+    run(&p, 0, 3, 12);
+    expect_next(&p, 1, true, false);
+    expect_told(&p, "planned anew, as there is time for more:\n  slow-1 ");
+    expect_next(&p, 2, true, false);
+    end_plan(&p);
+    // Where it takes what it was to, there is none.
+    begin_plan(&p, 63);
+    run(&p, 0, 3, 24);
+    expect_next(&p, 1, true, true);
+    expect_told(&p, NULL);
+    end_plan(&p);
+    // 12 s of 241 are less than a twentieth.
+    begin_plan(&p, 241);
+    p.budget.choices[2].all_samples = false;
+    p.budget.choices[2].expected_s -= 12;
+    run(&p, 0, 3, 24);
+    expect_next(&p, 2, true, true);
+    expect_told(&p, NULL);
     end_plan(&p);
 }
 
@@ -520,6 +550,7 @@ int main(void)
         cmocka_unit_test(a_forecast_tells_many_works_apart),
         cmocka_unit_test(a_plan_that_is_kept_is_not_made_anew),
         cmocka_unit_test(cells_that_take_longer_have_the_rest_planned_anew),
+        cmocka_unit_test(time_that_is_left_is_used),
         cmocka_unit_test(what_comes_behind_has_its_least_left),
         cmocka_unit_test(rows_that_are_not_done_tell_nothing),
         cmocka_unit_test(nothing_is_an_error),
