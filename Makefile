@@ -67,6 +67,8 @@ tables: build
 	  echo "== the tables in $(TABLES) are of this build; rm -r $(TABLES) has them measured anew"; \
 	  $(BUILD)/harness/raingauge table --claims --from $(TABLES); \
 	else \
+	  echo "== having drivers compile what the tables draw with, which they keep"; \
+	  $(BUILD)/harness/raingauge table --compile; \
 	  echo "== regenerating the tables on every device, within $(BUDGET), into $(TABLES)"; \
 	  rm -rf $(TABLES); \
 	  $(BUILD)/harness/raingauge table --budget $(BUDGET) --claims -o $(TABLES) && echo "$(BUDGET)" >$(TABLES)/done; \

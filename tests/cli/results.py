@@ -16,6 +16,7 @@ import time
 import zlib
 
 import forms
+import misbehaving
 from cases import DIFF, FORMATS, NO_CACHE, RENDER, SMALL, STAGES, TABLE
 from runner import NO_DRIVERS
 
@@ -719,6 +720,34 @@ STORED = [check_claims_alone, check_interrupted, check_stored]
 VERIFY = "verify raster --frame 5 --device cpu --size 96x96 "
 
 
+def check_compile(runner):
+    """what tables draw with is compiled and kept, once, and nothing is measured; a driver that falls is told of"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        def kept():
+            return {name: os.path.getmtime(os.path.join(at, name)) for at, _, names in os.walk(tmp + "/cache") for name in names
+                    if name != "index"}  # of when what was used
+
+        args = ["table", "raster-1", "--compile", "--device"]
+        env = {"XDG_CACHE_HOME": tmp + "/cache"}
+        first = runner.run(args + ["cpu,vulkan,gl"], env)
+        made = kept()
+        again = runner.run(args + ["cpu,vulkan,gl"], env)
+        for result in first, again:
+            if result.returncode or result.stdout or not re.fullmatch(
+                    r"raingauge: what 1 technique draws with is compiled on 2 devices, in \d.*\n", result.stderr):
+                problems.append("exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr))
+        if not made or {name: time for name, time in kept().items() if name in made} != made:
+            problems.append("%d files were kept, and %d after another run" % (len(made), len(kept())))
+        with tempfile.TemporaryDirectory() as folder:
+            fell = runner.run(args + ["vulkan,gl"], dict(env, **misbehaving.shim(runner, folder, "vulkan", "vkQueueSubmit", "exit", 0)))
+        if fell.returncode != 1 or not re.fullmatch(
+                r"raingauge: warning: vulkan: what raster needs is not compiled beforehand: device 'vulkan': its driver ended the process with status 0.*\n",
+                fell.stderr):
+            problems.append("fell: exit status %d, %s" % (fell.returncode, fell.stderr))
+    return problems
+
+
 def check_verify_json(runner):
     """verify --json has a record for every check on every device"""
     report, status, problems = run_json(runner, VERIFY)
@@ -754,7 +783,7 @@ def check_atlas_not_kept(runner):
     return problems if images[0] == images[1] and images[0] else problems + ["printed:\n%s, kept:\n%s" % tuple(images)]
 
 
-LONG = [check_tallies, check_growth, check_changed, check_no_rain, check_brief, check_sweep, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept,
+LONG = [check_compile, check_tallies, check_growth, check_changed, check_no_rain, check_brief, check_sweep, check_tables_in_a_row, check_fresh, check_verify_json, check_verify_dry, check_atlas_not_kept,
         check_memory]
 
 

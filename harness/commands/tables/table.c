@@ -20,6 +20,7 @@
 #include "harness/tables/claims/sheet.h"
 #include "harness/tables/papers/papers.h"
 #include "harness/tables/print.h"
+#include "harness/tables/runs/compile.h"
 #include "harness/tables/runs/regenerate.h"
 
 struct table_options {
@@ -34,7 +35,7 @@ struct table_options {
     struct rg_words sets; // of --set
     char *set;            // the same as one text; NULL: none
     char *budget;         // "4m"; NULL: none
-    bool fresh, claims, wide, json;
+    bool fresh, claims, wide, json, compile;
     int64_t memory_bytes;
     struct rg_claim_outcomes *outcomes; // what --claims prints in the end
     int *printed;                       // tables so far, between which an empty line stands
@@ -72,6 +73,12 @@ static const struct rg_option options[] = {
      .about = "prints results that -o, --json or an interrupted run wrote there, and measures "
               "nothing",
      .offset = AT(from), .names = RG_NAMES_FILE, .excludes = "device quick full fresh set"},
+    {RG_OPTION_FLAG, "compile",
+     .about = "has drivers compile what the tables need, side by side, and measures nothing: what "
+              "they keep of it saves the time when tables are measured",
+     .offset = AT(compile),
+     .excludes = "full quick rows work variant set from fresh budget claims format wide output "
+                 "json"},
     RG_GROUP("Devices"),
     RG_INCLUDE(rg_devices_option, AT(devices.names), "all"),
     RG_INCLUDE(rg_asked_options, AT(devices), NULL),
@@ -250,6 +257,16 @@ static bool have_claims(const struct table_options *o, const struct rg_table *co
     return any || refuse_claims(chosen[0]->id);
 }
 
+static int compile(const struct table_options *o, const struct rg_table *const chosen[], int count)
+{
+    struct rg_devices devices;
+    const int exit = rg_devices_open_asked(&o->devices, &devices);
+    if (exit != RG_EXIT_PASS)
+        return exit;
+    return rg_devices_end(&devices, rg_exit_worse(rg_tables_compile(chosen, count, &devices),
+                                                  rg_devices_exit(&devices)));
+}
+
 static int measure(const struct table_options *o, const struct rg_words *arguments)
 {
     const struct rg_table *chosen[RG_MAX_WORDS];
@@ -259,6 +276,8 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
         !choose(arguments, o, chosen, &count) || !have_rows(o->rows, chosen, count) ||
         !take_sets(&o->sets, chosen, count))
         return RG_EXIT_USAGE;
+    if (o->compile)
+        return compile(o, chosen, count);
     const struct rg_regenerate_options wanted = {.first_row = o->rows.first,
                                                  .last_row = o->rows.last,
                                                  .full = o->length.full,
@@ -395,7 +414,7 @@ const struct rg_command rg_command_table = {
         "[ID...] [--device D,...|all] [--quick|--full] [--rows A-B] [--work "
         "paper|reading|ours|queries] "
         "[--variant NAME] [--set KEY=VALUE]... [--claims] [--wide] [--format F|--json] [-o DIR] "
-        "[--budget TIME] [--fresh] [--from FILE|DIR]",
+        "[--budget TIME] [--fresh] [--from FILE|DIR] [--compile]",
     .about = "regenerates the papers' tables: published beside measured, on every device",
     .options = options,
     .options_size = sizeof(struct table_options),

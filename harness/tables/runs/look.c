@@ -4,7 +4,43 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/tables/runs/needed.h"
 #include "harness/tables/table.h"
+
+// --- a table ---
+
+// The first and the last of the rows that curves and claims need.
+static void choose_ends(const struct rg_table *table, bool rows[RG_TABLE_ROWS])
+{
+    bool needed[RG_TABLE_ROWS];
+    int last = 0;
+    rg_needed_rows(table, needed);
+    for (int row = 0; row < table->row_count; row++)
+        last = needed[row] ? row : last;
+    rows[0] = rows[last] = true;
+}
+
+void rg_look_begin(struct rg_looking *p, const struct rg_table *table, struct rg_kept *kept,
+                   const struct rg_table_part *part, const bool *rows, struct rg_budget_kind *kind)
+{
+    *p = (struct rg_looking){.table = table, .kept = kept, .kind = kind, .first = -1};
+    if (rows)
+        memcpy(p->rows, rows, sizeof(p->rows));
+    else
+        choose_ends(table, p->rows);
+    for (int row = 0; row < table->row_count; row++) {
+        p->first = p->rows[row] && p->first < 0 ? row : p->first;
+        p->last = p->rows[row] ? row : p->last;
+    }
+    rg_table_begin(&p->result, table, part, kept->devices);
+}
+
+enum rg_budget_size rg_look_smallest(const struct rg_table *table)
+{
+    enum { SMALL_PIXELS = 512 * 512 };
+    const bool is_small = rg_needs_size(table) || table->width * table->height <= SMALL_PIXELS;
+    return is_small ? RG_BUDGET_WHOLE : RG_BUDGET_FOURTH;
+}
 
 // --- what is opened ---
 

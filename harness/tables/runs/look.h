@@ -6,6 +6,7 @@
 #include "harness/record/result.h"
 #include "harness/tables/measuring/cell.h"
 #include "harness/tables/runs/plan.h"
+#include "harness/tables/table.h"
 
 // The frames of a table on a device by size; or both by what they are elsewhere.
 struct rg_frames {
@@ -43,6 +44,13 @@ struct rg_looking {
     struct rg_device *cpu;
     struct rg_frames of_row[RG_TABLE_ROWS]; // on cpu
 };
+
+// Begins looking at these rows of a table; NULL: at the first and the last of those that its curves
+// and claims need. What it holds is freed with its result.
+void rg_look_begin(struct rg_looking *looking, const struct rg_table *table, struct rg_kept *kept,
+                   const struct rg_table_part *part, const bool *rows, struct rg_budget_kind *kind);
+// The smallest pictures that a table can be measured on.
+enum rg_budget_size rg_look_smallest(const struct rg_table *table);
 
 // The settings of a row at a size, with some over them; the caller frees them. NULL, and one logged
 // line, on failure.

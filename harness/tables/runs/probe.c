@@ -11,27 +11,14 @@
 #include "harness/tables/runs/needed.h"
 #include "harness/tables/runs/textures.h"
 
-// The first and the last of the rows that curves and claims need.
-static void choose_ends(const struct rg_table *table, bool rows[RG_TABLE_ROWS])
-{
-    bool needed[RG_TABLE_ROWS];
-    int last = 0;
-    rg_needed_rows(table, needed);
-    for (int row = 0; row < table->row_count; row++)
-        last = needed[row] ? row : last;
-    rows[0] = rows[last] = true;
-}
-
 static void name_costs(const struct rg_table *table, struct rg_budget_table *costs)
 {
-    enum { SMALL_PIXELS = 512 * 512 };
     bool needed[RG_TABLE_ROWS], rows[RG_TABLE_ROWS], variants[RG_TABLE_VARIANTS];
-    const bool is_small = rg_needs_size(table) || table->width * table->height <= SMALL_PIXELS;
     *costs = (struct rg_budget_table){.rows = rg_quick_rows(table, rows),
                                       .needed_rows = rg_needed_rows(table, needed),
                                       .needed_variants = rg_needed_variants(table, variants),
                                       .has_claims = rg_has_claims(table),
-                                      .smallest = is_small ? RG_BUDGET_WHOLE : RG_BUDGET_FOURTH};
+                                      .smallest = rg_look_smallest(table)};
     while (costs->variants < RG_TABLE_VARIANTS && table->variants[costs->variants].name)
         costs->variants++;
     while (costs->works < RG_TABLE_WORKS && table->works[costs->works].name)
@@ -219,22 +206,6 @@ static void divide(struct rg_budget_table *costs, int rows)
     }
 }
 
-// Begins looking at these rows of a table; NULL: at its ends.
-static void begin(struct rg_looking *p, const struct rg_table *table, struct rg_kept *kept,
-                  const struct rg_table_part *part, const bool *rows, struct rg_budget_kind *kind)
-{
-    *p = (struct rg_looking){.table = table, .kept = kept, .kind = kind, .first = -1};
-    if (rows)
-        memcpy(p->rows, rows, sizeof(p->rows));
-    else
-        choose_ends(table, p->rows);
-    for (int row = 0; row < table->row_count; row++) {
-        p->first = p->rows[row] && p->first < 0 ? row : p->first;
-        p->last = p->rows[row] ? row : p->last;
-    }
-    rg_table_begin(&p->result, table, part, kept->devices);
-}
-
 bool rg_budget_probe(const struct rg_table *table, struct rg_kept *kept, bool full,
                      struct rg_budget_kind *kind, struct rg_budget_table *costs)
 {
@@ -243,7 +214,7 @@ bool rg_budget_probe(const struct rg_table *table, struct rg_kept *kept, bool fu
     struct known known;
     int rows = 0;
     name_costs(table, costs);
-    begin(&p, table, kept, &all, NULL, kind);
+    rg_look_begin(&p, table, kept, &all, NULL, kind);
     p.smallest = full ? RG_BUDGET_WHOLE : costs->smallest;
     const bool ok = table->is_of_textures || (probe_cpu(&p) && learn_devices(&p, &known));
     if (table->is_of_textures)
@@ -285,7 +256,7 @@ bool rg_budget_probe_rows(const struct rg_table *table, struct rg_kept *kept,
     struct known known;
     struct rg_budget_table costs;
     name_costs(table, &costs);
-    begin(&p, table, kept, part, rows, kind);
+    rg_look_begin(&p, table, kept, part, rows, kind);
     p.smallest = RG_BUDGET_WHOLE;
     bool ok = p.first >= 0;
     if (ok && table->is_of_textures)

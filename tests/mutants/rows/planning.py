@@ -5,6 +5,7 @@ TESTS = ("budget", "planner", "time left")
 
 PLAN, CELL, BUDGET, PROBE = ("harness/tables/runs/plan.c", "harness/tables/measuring/cell.c", "harness/tables/runs/budget.c",
                              "harness/tables/runs/probe.c")
+COMPILE = "harness/tables/runs/compile.c"
 LOOK, NEEDED, BAR = "harness/tables/runs/look.c", "harness/tables/runs/needed.c", "harness/tables/measuring/bar.c"
 
 ROWS = [
@@ -20,13 +21,20 @@ ROWS = [
     Fault("harness/tables/claims/hearing.c", "if («claim->test == RG_CLAIM_RATE && h->result->size_divisor > 1») {", "false", "a rate of small pictures is judged", tests=("verdicts",)),
     Fault(BUDGET, "? «fmin(fmax(b->taken_s / b->due_s, 0.5), 4)» : 1;", "1.0", "slow cells are planned as if they were not", tests=("planner",)),
     Fault(BUDGET, "is_late = «due_s > left_s»;", "false", "what is late is not planned anew", tests=("planner",)),
-    Fault(BUDGET, "again_s <= «due_s + MORE * b->seconds»)", "1e9", "time that is left is not used", tests=("planner",)),
+    Fault(BUDGET, "«again_s» <= due_s +", "0", "time that is left is not used", tests=("planner",)),
     Fault(BUDGET, "due_s + «MORE * b->seconds»)", "0", "a plan is made anew for little", tests=("planner",)),
     Fault(BUDGET, "left_s = («b->seconds - passed_s(b)») / slow;", "b->seconds", "time does not pass", tests=("planner",)),
     Fault(BUDGET, "b->choices[i].expected_s «* had / fmax(wanted, 1)»;", "* 1.0", "rows that are not done were due", tests=("planner",)),
     Fault(BUDGET, "if («b->tables[i]->is_of_textures»)\n        return;", "false", "textures tell how slow frames are", tests=("planner",)),
     Fault(BUDGET, "if («!b->measured»)", "false", "a budget in which nothing is measured passes", tests=("planner",)),
     Fault(BUDGET, "b->measured += «had > 0»;", "1", "a table without a row counts as measured", tests=("planner",)),
+    Fault(COMPILE, "if («devices->devices[d]->backend->package»)", "\"\"", "what has no driver is opened beforehand", tests=("compiling beforehand",)),
+    Fault(COMPILE, "if («k < jobs->table_count» || tables[i]", "false", "each table of a technique is opened beforehand", tests=("compiling beforehand",)),
+    Fault(COMPILE, "return «allowed < MAX_AT_ONCE ? allowed : MAX_AT_ONCE»;", "1", "drivers compile one after the other", tests=("compiling beforehand",)),
+    Fault(COMPILE, "allowed = «sched_getaffinity(0, sizeof(mine), &mine) ? 1 : CPU_COUNT(&mine)»;", "MAX_AT_ONCE", "drivers compile all at once", tests=("compiling beforehand",)),
+    Fault(COMPILE, "if («status» && !is_unsupported", "0", "what is not compiled is not told", tests=("compiling beforehand",)),
+    Fault(COMPILE, "status && «!is_unsupported»", "true", "what is unsupported is told as a failure", tests=("compiling beforehand",)),
+    Fault(COMPILE, "begun < count_of(jobs) && «!rg_interrupted()») {", "true", "what was interrupted begins the rest", tests=("compiling beforehand",)),
     Fault(LOOK, "/ («pixels[smallest + 1] - pixels[smallest]»);", "1.0", "larger pictures take as long as smaller ones", tests=("planner",)),
     Fault(LOOK, "(«frames->open_ms < LATE_MS» ||", "true", "what a driver compiles once is expected of each cell", tests=("planner",)),
     Fault(PROBE, "ok = «probe_row(p, row)»;", "(p->of_row[row] = p->of_row[p->last], true)", "every row takes as long as the last", tests=("planner",)),

@@ -1,0 +1,228 @@
+#define _GNU_SOURCE // sched_getaffinity
+#include "harness/tables/runs/compile.h"
+
+#include <errno.h>
+#include <sched.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+
+#include "core/base/log.h"
+#include "core/base/program.h"
+#include "harness/console/clock.h"
+#include "harness/console/duration.h"
+#include "harness/console/exit.h"
+#include "harness/console/interrupt.h"
+#include "harness/console/progress.h"
+#include "harness/devices/kept.h"
+#include "harness/devices/workers/worker.h"
+#include "harness/tables/runs/chosen.h"
+#include "harness/tables/runs/look.h"
+
+// --- in this process ---
+
+// Draws two frames of the table's last row.
+static int compile_here(const struct rg_table *table, struct rg_device *device)
+{
+    const struct rg_table_part all = {.last_row = table->row_count - 1};
+    const struct rg_devices devices = {.count = 1, .devices = {device}};
+    struct rg_kept kept = {.devices = &devices};
+    struct rg_looking looking;
+    struct rg_cell_frames frames;
+    rg_look_begin(&looking, table, &kept, &all, NULL, NULL);
+    bool ok = rg_look_row(&looking, device, looking.last, rg_look_smallest(table), "", &frames);
+    rg_result_free(&looking.result);
+    ok = rg_kept_free(&kept) && ok;
+    return rg_interrupted() ? RG_EXIT_SIGNALLED + rg_interrupt_signal()
+           : ok             ? RG_EXIT_PASS
+                            : rg_exit_of_error();
+}
+
+// --- side by side ---
+
+enum { PAUSE_MS = 5, PATIENCE_MS = 10000, MAX_AT_ONCE = 64 };
+
+// A table on a device, in a process of its own.
+struct job {
+    const struct rg_table *table;
+    struct rg_device *device;
+    pid_t process; // 0: there is none
+    FILE *printed;
+};
+
+struct jobs {
+    const struct rg_table *tables[RG_BUDGET_TABLES]; // one of each technique
+    int table_count;
+    struct rg_device *devices[RG_MAX_DEVICES]; // that have drivers
+    int device_count;
+    int begun;
+    struct job running[MAX_AT_ONCE]; // of which those without a process are free
+    int at_once;
+    double asked_ms; // when they were asked to end; 0: they were not
+    struct rg_progress progress;
+    int exit;
+};
+
+static int cores(void)
+{
+    cpu_set_t mine;
+    const int allowed = sched_getaffinity(0, sizeof(mine), &mine) ? 1 : CPU_COUNT(&mine);
+    return allowed < MAX_AT_ONCE ? allowed : MAX_AT_ONCE;
+}
+
+// Of each technique the first that draws: what its tables draw with is the same for the most part.
+static void choose_tables(struct jobs *jobs, const struct rg_table *const tables[], int count)
+{
+    for (int i = 0; i < count; i++) {
+        int k = 0;
+        while (k < jobs->table_count &&
+               strcmp(jobs->tables[k]->technique, tables[i]->technique) != 0)
+            k++;
+        if (k < jobs->table_count || tables[i]->is_of_textures)
+            continue;
+        jobs->tables[jobs->table_count++] = tables[i];
+    }
+}
+
+// The last device comes first: OpenCL's compilers take longest, and what takes long is begun early.
+static void choose_devices(struct jobs *jobs, const struct rg_devices *devices)
+{
+    for (int d = devices->count - 1; d >= 0; d--)
+        if (devices->devices[d]->backend->package)
+            jobs->devices[jobs->device_count++] = devices->devices[d];
+}
+
+static struct job job_at(const struct jobs *jobs, int number)
+{
+    return (struct job){.table = jobs->tables[number % jobs->table_count],
+                        .device = jobs->devices[number / jobs->table_count]};
+}
+
+static int count_of(const struct jobs *jobs)
+{
+    return jobs->table_count * jobs->device_count;
+}
+
+static void tell_failure(struct jobs *jobs, const struct job *job, const char *why)
+{
+    rg_warning("%s: what %s needs is not compiled beforehand%s", job->device->info.name,
+               job->table->technique, why);
+    jobs->exit = RG_EXIT_FAIL;
+}
+
+// What it prints is told where it fails.
+static void begin(struct jobs *jobs, struct job *job)
+{
+    char timeout_s[16], why[128];
+    snprintf(timeout_s, sizeof(timeout_s), "%d", rg_workers.timeout_s);
+    const char *const args[] = {rg_workers.program, "table",    job->table->id,
+                                "--compile",        "--device", job->device->info.name,
+                                "--timeout",        timeout_s,  NULL};
+    job->printed = tmpfile();
+    const int file = job->printed ? fileno(job->printed) : -1;
+    const int error = rg_program_start(args, (const int[]){-1, file, file}, 3, &job->process);
+    if (!error)
+        return;
+    snprintf(why, sizeof(why), ": no process could be started for it: %s", strerror(error));
+    tell_failure(jobs, job, why);
+    if (job->printed)
+        fclose(job->printed);
+    job->process = 0;
+}
+
+static void end(struct jobs *jobs, struct job *job, int status)
+{
+    static const char prefix[] = ": raingauge"; // which is printed anew
+    char last[200] = "";
+    if (job->printed)
+        rg_program_last_line(job->printed, last, sizeof(last));
+    const bool is_ours = !strncmp(last, prefix, sizeof(prefix) - 1);
+    const bool is_unsupported = WIFEXITED(status) && WEXITSTATUS(status) == RG_EXIT_UNSUPPORTED;
+    if (status && !is_unsupported && !rg_interrupted())
+        tell_failure(jobs, job, last + (is_ours ? sizeof(prefix) - 1 : 0));
+    if (job->printed)
+        fclose(job->printed);
+    job->process = 0;
+    rg_progress_add(&jobs->progress, 1);
+}
+
+// Ctrl-C does not reach them: they are told, and ended where they do not end for that.
+static void pass_on_interruption(struct jobs *jobs)
+{
+    const bool is_over = jobs->asked_ms > 0 && rg_now_ms() > jobs->asked_ms + PATIENCE_MS;
+    if (!rg_interrupted() || (jobs->asked_ms > 0 && !is_over))
+        return;
+    for (int i = 0; i < jobs->at_once; i++)
+        if (jobs->running[i].process)
+            kill(-jobs->running[i].process, is_over ? SIGKILL : SIGINT);
+    jobs->asked_ms = rg_now_ms();
+}
+
+// Whether one of the places goes on.
+static bool look_at(struct jobs *jobs, struct job *job)
+{
+    int status = 0;
+    if (job->process) {
+        const pid_t ended = waitpid(job->process, &status, WNOHANG);
+        if (ended == job->process || (ended < 0 && errno != EINTR))
+            end(jobs, job, status);
+    }
+    if (!job->process && jobs->begun < count_of(jobs) && !rg_interrupted()) {
+        *job = job_at(jobs, jobs->begun++);
+        rg_progress_label(&jobs->progress, "%s on %s", job->table->technique,
+                          job->device->info.name);
+        begin(jobs, job);
+    }
+    return job->process || (jobs->begun < count_of(jobs) && !rg_interrupted());
+}
+
+static void run(struct jobs *jobs)
+{
+    bool goes_on = true;
+    while (goes_on) {
+        goes_on = false;
+        for (int i = 0; i < jobs->at_once; i++)
+            goes_on = look_at(jobs, &jobs->running[i]) || goes_on;
+        pass_on_interruption(jobs);
+        nanosleep(&(struct timespec){.tv_nsec = PAUSE_MS * 1000000}, NULL);
+    }
+}
+
+static int compile_apart(struct jobs *jobs)
+{
+    rg_progress_start(&jobs->progress, count_of(jobs));
+    run(jobs);
+    rg_progress_end(&jobs->progress);
+    return rg_interrupted() ? RG_EXIT_SIGNALLED + rg_interrupt_signal() : jobs->exit;
+}
+
+static void tell(const struct jobs *jobs, double ms)
+{
+    char took[RG_DURATION_TEXT];
+    rg_info("what %d technique%s draw%s with is compiled on %d device%s, in %s", jobs->table_count,
+            jobs->table_count == 1 ? "" : "s", jobs->table_count == 1 ? "s" : "",
+            jobs->device_count, jobs->device_count == 1 ? "" : "s",
+            rg_duration_text(ms / 1000, took));
+}
+
+int rg_tables_compile(const struct rg_table *const tables[], int count,
+                      const struct rg_devices *devices)
+{
+    struct jobs jobs = {.at_once = cores()};
+    const double start_ms = rg_now_ms();
+    rg_interrupt_watch();
+    choose_tables(&jobs, tables, count);
+    choose_devices(&jobs, devices);
+    if (!count_of(&jobs)) {
+        rg_info("none of these tables draws on one of these devices that has a driver: nothing is "
+                "compiled");
+        return RG_EXIT_PASS;
+    }
+    const bool is_one = count == 1 && count_of(&jobs) == 1;
+    const int exit = is_one ? compile_here(jobs.tables[0], jobs.devices[0]) : compile_apart(&jobs);
+    if (exit == RG_EXIT_PASS)
+        tell(&jobs, rg_now_ms() - start_ms);
+    return exit;
+}

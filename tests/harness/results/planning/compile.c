@@ -1,0 +1,216 @@
+// What drivers compile beforehand: one cell of each technique on each device that has a driver,
+// each in a process of its own, for which a script stands here, as many at a time as there are
+// cores.
+#define _GNU_SOURCE // sched_setaffinity
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <sched.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+#include "harness/console/exit.h"
+#include "harness/console/interrupt.h"
+#include "harness/devices/workers/worker.h"
+#include "harness/tables/runs/compile.h"
+#include "tests/harness/results/planning/slow.h"
+
+// --- tables and devices that are only named ---
+
+static const struct rg_table levels = {.id = "slow-0", .technique = "slow", .is_of_textures = true},
+                             first = {.id = "slow-1", .technique = "slow"},
+                             second = {.id = "slow-2", .technique = "slow"},
+                             other = {.id = "fast-1", .technique = "fast"};
+static const struct rg_table *const tables[] = {&levels, &first, &other, &second};
+enum { TABLES = 4 };
+
+static const struct rg_backend without = {.name = "cpu"}, with = {.package = "a-driver"};
+static struct rg_device named[] = {{.backend = &without, .info = {.name = "cpu"}},
+                                   {.backend = &with, .info = {.name = "gl"}},
+                                   {.backend = &with, .info = {.name = "opencl"}}};
+static const struct rg_devices devices = {.count = 3, .devices = {&named[0], &named[1], &named[2]}};
+
+// --- a script in place of the program ---
+
+static char folder[] = "/tmp/raingauge-compile-XXXXXX", script[64], told[64], heard[1024];
+
+// It tells when it begins and when it ends; between them stands what `does` says.
+static void write_script(const char *does)
+{
+    FILE *file = fopen(script, "w");
+    assert_non_null(file);
+    fprintf(file, "#!/bin/sh\ntold=%s\necho \"begin $*\" >>$told\n%s\necho end >>$told\n", told,
+            does);
+    assert_int_equal(fclose(file), 0);
+    assert_int_equal(chmod(script, 0755), 0);
+    remove(told);
+}
+
+static const char *read_told(void)
+{
+    static char text[4096];
+    FILE *file = fopen(told, "r");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof(text) - 1, file)] = 0;
+    fclose(file);
+    return text;
+}
+
+static void hear(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)user;
+    const size_t used = strlen(heard);
+    snprintf(heard + used, sizeof(heard) - used, "%s\n", line);
+}
+
+// On so many cores, with a script that does this. What is logged is heard.
+static int compile(int cores, const char *does)
+{
+    cpu_set_t before, these;
+    int left = cores;
+    assert_int_equal(sched_getaffinity(0, sizeof(before), &before), 0);
+    CPU_ZERO(&these);
+    for (int i = 0; i < CPU_SETSIZE; i++)
+        if (CPU_ISSET(i, &before) && left-- > 0)
+            CPU_SET(i, &these);
+    if (CPU_COUNT(&before) < cores)
+        skip();
+    assert_int_equal(sched_setaffinity(0, sizeof(these), &these), 0);
+    write_script(does);
+    *heard = 0;
+    rg_workers.program = script;
+    rg_workers.timeout_s = 7;
+    rg_log_listen(hear, NULL);
+    const int exit = rg_tables_compile(tables, TABLES, &devices);
+    rg_log_listen(NULL, NULL);
+    rg_workers.program = NULL;
+    assert_int_equal(sched_setaffinity(0, sizeof(before), &before), 0);
+    return exit;
+}
+
+static void a_technique_is_opened_once_on_each_driver(void **state)
+{
+    (void)state;
+    assert_int_equal(compile(1, "sleep 0.02"), RG_EXIT_PASS);
+    assert_string_equal(read_told(),
+                        "begin table slow-1 --compile --device opencl --timeout 7\nend\n"
+                        "begin table fast-1 --compile --device opencl --timeout 7\nend\n"
+                        "begin table slow-1 --compile --device gl --timeout 7\nend\n"
+                        "begin table fast-1 --compile --device gl --timeout 7\nend\n");
+    assert_non_null(strstr(heard, "what 2 techniques draw with is compiled on 2 devices"));
+}
+
+// Each of the first two waits for the other to begin.
+static void two_cores_compile_side_by_side(void **state)
+{
+    (void)state;
+    assert_int_equal(compile(2, "for i in $(seq 500); do\n"
+                                "  test $(grep -c begin $told) -ge 2 && break\n"
+                                "  sleep 0.01\n"
+                                "done\n"
+                                "test $i -lt 500 || exit 1\n"
+                                "test $(grep -c begin $told) -le $(($(grep -c end $told) + 2)) || "
+                                "exit 1"),
+                     RG_EXIT_PASS);
+}
+
+// The others go on; a device that does not support it has nothing to compile.
+static void what_fails_is_told(void **state)
+{
+    (void)state;
+    assert_int_equal(compile(1, "case \"$*\" in\n"
+                                "  *slow-1*opencl*) echo 'raingauge: it fell' >&2; exit 1;;\n"
+                                "  *fast-1*gl*) exit 77;;\n"
+                                "esac"),
+                     RG_EXIT_FAIL);
+    assert_string_equal(heard, "opencl: what slow needs is not compiled beforehand: it fell\n");
+    assert_non_null(
+        strstr(read_told(), "begin table slow-1 --compile --device gl --timeout 7\nend\n"));
+}
+
+// Ctrl-C reaches this process alone, which ends what it has begun.
+static void an_interruption_ends_it(void **state)
+{
+    (void)state;
+    assert_int_equal(compile(1, "kill -INT $PPID; sleep 300"), RG_EXIT_SIGNALLED + SIGINT);
+    assert_string_equal(read_told(), "begin table slow-1 --compile --device opencl --timeout 7\n");
+    assert_string_equal(heard, "");
+    rg_interrupt_watch();
+}
+
+// --- in this process ---
+
+static void one_cell_is_opened_here(void **state)
+{
+    (void)state;
+    static const struct rg_table_row rows[] = {{"fixed_ms=2", {1}, "a"}, {"fixed_ms=4", {2}, "b"}};
+    static const struct rg_table own = {.id = "slow-3",
+                                        .technique = "slow",
+                                        .columns = {"fixed_ms"},
+                                        .key_count = 1,
+                                        .variants = {{"full", "", NULL}},
+                                        .width = 64,
+                                        .height = 64,
+                                        .row_count = 2,
+                                        .rows = rows,
+                                        .note = "a note"};
+    const struct rg_table *const one[] = {&own};
+    struct slow_rig rig;
+    slow_begin(&rig);
+    struct rg_device *gl = rig.devices.devices[2];
+    struct rg_backend backend = *gl->backend;
+    const struct rg_devices alone = {.count = 1, .devices = {gl}};
+    rg_log_listen(hear, NULL);
+    *heard = 0;
+    assert_int_equal(rg_tables_compile(one, 1, &alone), RG_EXIT_PASS);
+    assert_int_equal(slow_opened, 0);
+    assert_non_null(strstr(heard, "nothing is compiled"));
+    backend.package = "a-driver";
+    gl->backend = &backend;
+    assert_int_equal(rg_tables_compile(one, 1, &alone), RG_EXIT_PASS);
+    assert_int_equal(slow_opened, 1);
+    rig.fakes[2]->waits_left = 0;
+    assert_int_not_equal(rg_tables_compile(one, 1, &alone), RG_EXIT_PASS);
+    rig.fakes[2]->waits_left = -1;
+    rg_log_listen(NULL, NULL);
+    slow_end(&rig);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    if (!mkdtemp(folder))
+        return -1;
+    snprintf(script, sizeof(script), "%s/program", folder);
+    snprintf(told, sizeof(told), "%s/told", folder);
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    remove(script);
+    remove(told);
+    return rmdir(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_technique_is_opened_once_on_each_driver),
+        cmocka_unit_test(two_cores_compile_side_by_side),
+        cmocka_unit_test(what_fails_is_told),
+        cmocka_unit_test(an_interruption_ends_it),
+        cmocka_unit_test(one_cell_is_opened_here),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
