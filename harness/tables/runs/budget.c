@@ -90,8 +90,10 @@ static bool is_same_choice(const struct rg_budget_choice *a, const struct rg_bud
            a->all_works == b->all_works;
 }
 
-// Of the budget, more than this is worth another plan.
-#define MORE 0.05
+// Of the budget, more than this is worth another plan, and of what is left so much stays for cells
+// that take longer again.
+#define MORE  0.05
+#define STAYS 0.2
 
 // Plans a table and those that follow anew where they would not be done in time, or where those
 // before took less than they were to, so that there is time for more of these.
@@ -104,8 +106,9 @@ static void plan_again(struct rg_budget *b, int from, FILE *out)
     double due_s = 0;
     for (int i = from; i < b->count; i++)
         due_s += b->choices[i].expected_s;
-    const double again_s = rg_budget_plan(b->costs + from, count, &b->bits, left_s, again);
     const bool is_late = due_s > left_s;
+    const double again_s = rg_budget_plan(b->costs + from, count, &b->bits,
+                                          is_late ? left_s : (1 - STAYS) * left_s, again);
     if (!is_late && again_s <= due_s + MORE * b->seconds)
         return;
     memcpy(b->choices + from, again, (size_t)count * sizeof(*again));

@@ -22,6 +22,7 @@ ROWS = [
     Fault(BUDGET, "? «fmin(fmax(b->taken_s / b->due_s, 0.5), 4)» : 1;", "1.0", "slow cells are planned as if they were not", tests=("planner",)),
     Fault(BUDGET, "is_late = «due_s > left_s»;", "false", "what is late is not planned anew", tests=("planner",)),
     Fault(BUDGET, "«again_s» <= due_s +", "0", "time that is left is not used", tests=("planner",)),
+    Fault(BUDGET, "«(1 - STAYS)» * left_s", "1", "of the time that is left nothing stays for cells that take longer again", tests=("planner",)),
     Fault(BUDGET, "due_s + «MORE * b->seconds»)", "0", "a plan is made anew for little", tests=("planner",)),
     Fault(BUDGET, "left_s = («b->seconds - passed_s(b)») / slow;", "b->seconds", "time does not pass", tests=("planner",)),
     Fault(BUDGET, "b->choices[i].expected_s «* had / fmax(wanted, 1)»;", "* 1.0", "rows that are not done were due", tests=("planner",)),

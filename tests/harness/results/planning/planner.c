@@ -449,6 +449,12 @@ static void time_that_is_left_is_used(void **state)
     expect_next(&p, 1, true, true);
     expect_told(&p, NULL);
     end_plan(&p);
+    // Of the 51.6 s that are left where it takes 20, a fifth stays: a plan of 41.3 has none.
+    begin_plan(&p, 63);
+    run(&p, 0, 3, 20);
+    expect_next(&p, 1, true, true);
+    expect_told(&p, NULL);
+    end_plan(&p);
     // 12 s of 241 are less than a twentieth.
     begin_plan(&p, 241);
     p.budget.choices[2].all_samples = false;
