@@ -735,14 +735,14 @@ def check_compile(runner):
         again = runner.run(args + ["cpu,vulkan,gl"], env)
         for result in first, again:
             if result.returncode or result.stdout or not re.fullmatch(
-                    r"raingauge: what 1 technique draws with is compiled on 2 devices, in \d.*\n", result.stderr):
+                    r"raingauge: 2 openings .*\nraingauge: what 1 technique draws with is compiled on 2 devices, in \d.*\n", result.stderr):
                 problems.append("exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr))
         if not made or {name: time for name, time in kept().items() if name in made} != made:
             problems.append("%d files were kept, and %d after another run" % (len(made), len(kept())))
         with tempfile.TemporaryDirectory() as folder:
             fell = runner.run(args + ["vulkan,gl"], dict(env, **misbehaving.shim(runner, folder, "vulkan", "vkQueueSubmit", "exit", 0)))
         if fell.returncode != 1 or not re.fullmatch(
-                r"raingauge: warning: vulkan: what raster needs is not compiled beforehand: device 'vulkan': its driver ended the process with status 0.*\n",
+                r"raingauge: 2 openings .*\nraingauge: warning: vulkan: what raster needs is not compiled beforehand: device 'vulkan': its driver ended the process with status 0.*\n",
                 fell.stderr):
             problems.append("fell: exit status %d, %s" % (fell.returncode, fell.stderr))
     return problems

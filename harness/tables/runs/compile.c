@@ -190,8 +190,12 @@ static void run(struct jobs *jobs)
     }
 }
 
+// How long it takes is not known: one opens at once where another compiles for half a minute.
 static int compile_apart(struct jobs *jobs)
 {
+    rg_info("%d openings for drivers to compile, %d at a time", count_of(jobs),
+            jobs->at_once < count_of(jobs) ? jobs->at_once : count_of(jobs));
+    rg_progress_told();
     rg_progress_start(&jobs->progress, count_of(jobs));
     run(jobs);
     rg_progress_end(&jobs->progress);
