@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 enum { MAX_FDS = 8 };
@@ -73,6 +74,12 @@ int rg_program_start_in(char *const environment[], const char *const args[], con
 int rg_program_start(const char *const args[], const int fds[], int fd_count, pid_t *child)
 {
     return rg_program_start_in(environ, args, fds, fd_count, child);
+}
+
+bool rg_program_has_ended(pid_t child, int *status)
+{
+    const pid_t ended = waitpid(child, status, WNOHANG);
+    return ended == child || (ended < 0 && errno != EINTR);
 }
 
 void rg_program_last_line(FILE *printed, char *last, size_t size)

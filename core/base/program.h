@@ -2,6 +2,7 @@
 #ifndef RG_CORE_BASE_PROGRAM_H
 #define RG_CORE_BASE_PROGRAM_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <sys/types.h>
@@ -15,6 +16,10 @@ int rg_program_start(const char *const args[], const int fds[], int fd_count, pi
 // The same with variables of its own, which end in NULL.
 int rg_program_start_in(char *const environment[], const char *const args[], const int fds[],
                         int fd_count, pid_t *child);
+
+// Whether it has ended, and how (waitpid(2)): at once. Also where it cannot be waited for: its
+// number may be another process's by now, and `status` stays as it is.
+bool rg_program_has_ended(pid_t child, int *status);
 
 // What a program that failed said last: ": " and the last line with a letter in it, "" where it
 // printed none.

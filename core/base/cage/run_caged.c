@@ -51,12 +51,6 @@ static int64_t now_ms(void)
     return now.tv_sec * 1000LL + now.tv_nsec / 1000000;
 }
 
-static bool is_over(pid_t child, int *status)
-{
-    const pid_t ended = waitpid(child, status, WNOHANG);
-    return ended == child || (ended < 0 && errno != EINTR);
-}
-
 // False when it had to be killed. Its end of `alive` closes when it ends; one that closes it and
 // goes on has as long as any other.
 static bool wait_for_end(pid_t child, int alive, int timeout_s, int *status)
@@ -69,7 +63,7 @@ static bool wait_for_end(pid_t child, int alive, int timeout_s, int *status)
             usleep(BEHIND_CLOSE_US);
         else
             is_closed = poll(&(struct pollfd){.fd = alive, .events = POLLIN}, 1, LOOK_MS) > 0;
-        if (is_closed && is_over(child, status))
+        if (is_closed && rg_program_has_ended(child, status))
             return true;
     }
     kill(child, SIGKILL);

@@ -113,7 +113,7 @@ static bool given_up(struct rg_encoder *e)
 static bool wait_for_end(struct rg_encoder *e, int *status)
 {
     const struct timespec pause = {0, 2000000};
-    while (waitpid(e->process, status, WNOHANG) == 0) {
+    while (!rg_program_has_ended(e->process, status)) {
         if (given_up(e))
             return false;
         nanosleep(&pause, NULL);

@@ -181,20 +181,13 @@ static bool start(struct rg_worker *worker, char *why, size_t size)
     return false;
 }
 
-// Also where it cannot be waited for: its number may be another process's by now.
-static bool has_ended(struct rg_worker *worker, int *status)
-{
-    const pid_t ended = waitpid(worker->process, status, WNOHANG);
-    return ended == worker->process || (ended < 0 && errno != EINTR);
-}
-
 // Waits for the end of a process that has closed its channel; it is killed where that lasts. One
 // that is stuck in the kernel does not end for that either, and is left as killed.
 static int end_process(struct rg_worker *worker)
 {
     int status = 0;
     const double start_ms = rg_now_ms();
-    while (!has_ended(worker, &status)) {
+    while (!rg_program_has_ended(worker->process, &status)) {
         const double waited_ms = rg_now_ms() - start_ms;
         if (waited_ms > END_MS)
             kill(worker->process, SIGKILL);

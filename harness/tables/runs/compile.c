@@ -1,8 +1,6 @@
-#define _GNU_SOURCE // sched_getaffinity
 #include "harness/tables/runs/compile.h"
 
-#include <errno.h>
-#include <sched.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,6 +16,7 @@
 #include "harness/console/progress.h"
 #include "harness/devices/kept.h"
 #include "harness/devices/workers/worker.h"
+#include "harness/record/passport/machine.h"
 #include "harness/tables/runs/chosen.h"
 #include "harness/tables/runs/look.h"
 
@@ -65,11 +64,13 @@ struct jobs {
     int exit;
 };
 
-static int cores(void)
+// As many as there are cores, or as their time is granted.
+static int places(void)
 {
-    cpu_set_t mine;
-    const int allowed = sched_getaffinity(0, sizeof(mine), &mine) ? 1 : CPU_COUNT(&mine);
-    return allowed < MAX_AT_ONCE ? allowed : MAX_AT_ONCE;
+    struct rg_machine machine;
+    rg_machine_read(&machine, "");
+    const double quota = machine.quota_cpus > 0 ? ceil(machine.quota_cpus) : MAX_AT_ONCE;
+    return (int)fmax(1, fmin(fmin(machine.cores_allowed, quota), MAX_AT_ONCE));
 }
 
 // Of each technique the first that draws: what its tables draw with is the same for the most part.
@@ -164,11 +165,8 @@ static void pass_on_interruption(struct jobs *jobs)
 static bool look_at(struct jobs *jobs, struct job *job)
 {
     int status = 0;
-    if (job->process) {
-        const pid_t ended = waitpid(job->process, &status, WNOHANG);
-        if (ended == job->process || (ended < 0 && errno != EINTR))
-            end(jobs, job, status);
-    }
+    if (job->process && rg_program_has_ended(job->process, &status))
+        end(jobs, job, status);
     if (!job->process && jobs->begun < count_of(jobs) && !rg_interrupted()) {
         *job = job_at(jobs, jobs->begun++);
         rg_progress_label(&jobs->progress, "%s on %s", job->table->technique,
@@ -214,7 +212,7 @@ static void tell(const struct jobs *jobs, double ms)
 int rg_tables_compile(const struct rg_table *const tables[], int count,
                       const struct rg_devices *devices)
 {
-    struct jobs jobs = {.at_once = cores()};
+    struct jobs jobs = {.at_once = places()};
     const double start_ms = rg_now_ms();
     rg_interrupt_watch();
     choose_tables(&jobs, tables, count);

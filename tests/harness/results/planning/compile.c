@@ -20,6 +20,7 @@
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/workers/worker.h"
+#include "harness/record/passport/machine.h"
 #include "harness/tables/runs/compile.h"
 #include "tests/harness/results/planning/slow.h"
 
@@ -82,7 +83,9 @@ static int compile(int cores, const char *does)
     for (int i = 0; i < CPU_SETSIZE; i++)
         if (CPU_ISSET(i, &before) && left-- > 0)
             CPU_SET(i, &these);
-    if (CPU_COUNT(&before) < cores)
+    struct rg_machine machine;
+    rg_machine_read(&machine, "");
+    if (CPU_COUNT(&before) < cores || (machine.quota_cpus > 0 && machine.quota_cpus <= cores - 1))
         skip();
     assert_int_equal(sched_setaffinity(0, sizeof(these), &these), 0);
     write_script(does);
