@@ -12,14 +12,30 @@ int rg_cell_check_frames(const struct rg_table *table)
     return table->check_frames ? table->check_frames : RG_CHECK_FRAMES;
 }
 
+int rg_cell_steps(const struct rg_table *table)
+{
+    return (int)fmax(rg_cell_check_frames(table) - 2, 1);
+}
+
 double rg_cell_image_ms(const struct rg_table *table, const struct rg_cell_frames *f)
 {
     return f->open_ms + (rg_cell_check_frames(table) - 1) * f->step_ms + f->frame_ms;
 }
 
-// Opening draws a frame, for drivers compile in it. The second is the one that is timed.
+static bool simulate(struct rg_session *session, int steps, double *step_ms)
+{
+    const double start = rg_now_ms();
+    bool ok = true;
+    for (int i = 0; ok && i < steps; i++)
+        ok = rg_session_step(session);
+    ok = ok && rg_session_sync(session);
+    *step_ms = (rg_now_ms() - start) / steps;
+    return ok;
+}
+
+// Opening draws a frame, for drivers compile in it. The second is the first that is timed.
 struct rg_session *rg_cell_look(struct rg_device *device, const struct rg_subject *subject,
-                                struct rg_cell_frames *f)
+                                int steps, struct rg_cell_frames *f)
 {
     const double start = rg_now_ms();
     struct rg_session *session = rg_session_run(device, subject, 1);
@@ -27,10 +43,9 @@ struct rg_session *rg_cell_look(struct rg_device *device, const struct rg_subjec
     if (!session)
         return NULL;
     bool ok = rg_session_frames(session, 1, &f->frame_ms);
-    const double drawn = rg_now_ms();
-    ok = ok && rg_session_step(session) && rg_session_sync(session);
-    f->step_ms = rg_now_ms() - drawn;
     f->open_ms = fmax(opened - start - f->frame_ms, 0);
+    ok = ok && simulate(session, steps, &f->step_ms) &&
+         (steps == 1 || rg_session_frames(session, 1, &f->frame_ms));
     if (ok)
         return session;
     rg_session_close(session);
@@ -45,8 +60,8 @@ static double reopen_ms(const struct rg_table *table, const struct rg_cell_frame
     return floor(frames / table->window_frames) * rg_cell_image_ms(table, f);
 }
 
-// Long frames end the warm-up as soon as its time is over, and short ones once they are alike, which
-// those are that come after the check frames.
+// Long frames end the warm-up as soon as its time is over, and short ones once they are alike,
+// which those are that come after the check frames.
 static double warm_up_frames(double ms, const struct rg_measure_options *o)
 {
     return fmin(fmax(o->warm_up_frames, 1), floor(o->warm_up_ms / ms) + 1);

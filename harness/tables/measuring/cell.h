@@ -14,10 +14,13 @@ struct rg_cell_frames {
     double open_ms, step_ms, frame_ms;
 };
 
-// Opens a subject and finds them by two frames and a step. The caller closes the session. NULL, and
-// one logged line, on failure.
+// Opens a subject and finds them by two frames, so many steps, of which each takes what all do on
+// average, and behind more than one a third frame: where rain builds up, the last takes the
+// longest. The caller closes the session. NULL, and one logged line, on failure.
 struct rg_session *rg_cell_look(struct rg_device *device, const struct rg_subject *subject,
-                                struct rg_cell_frames *frames);
+                                int steps, struct rg_cell_frames *frames);
+// The steps behind which the third frame is like those that are timed.
+int rg_cell_steps(const struct rg_table *table);
 
 // What a cell takes, in milliseconds: opening, the frames before its image is compared, the one
 // that is counted, warming up, samples with a frame before each, and the passes told apart.

@@ -23,7 +23,7 @@ static void choose_ends(const struct rg_table *table, bool rows[RG_TABLE_ROWS])
 void rg_look_begin(struct rg_looking *p, const struct rg_table *table, struct rg_kept *kept,
                    const struct rg_table_part *part, const bool *rows, struct rg_budget_kind *kind)
 {
-    *p = (struct rg_looking){.table = table, .kept = kept, .kind = kind, .first = -1};
+    *p = (struct rg_looking){.table = table, .kept = kept, .kind = kind, .first = -1, .steps = 1};
     if (rows)
         memcpy(p->rows, rows, sizeof(p->rows));
     else
@@ -47,9 +47,10 @@ enum rg_budget_size rg_look_smallest(const struct rg_table *table)
 // What is shared by the instances of a device is made when the first is opened, and lives as long
 // as one is kept.
 static bool probe_subject(struct rg_kept *kept, struct rg_device *device,
-                          const struct rg_subject *subject, struct rg_cell_frames *frames)
+                          const struct rg_subject *subject, int steps,
+                          struct rg_cell_frames *frames)
 {
-    struct rg_session *session = device ? rg_cell_look(device, subject, frames) : NULL;
+    struct rg_session *session = device ? rg_cell_look(device, subject, steps, frames) : NULL;
     if (session)
         rg_kept_put(kept, session);
     return session;
@@ -86,7 +87,7 @@ bool rg_look_row(struct rg_looking *p, struct rg_device *device, int row, enum r
     const struct rg_subject subject = {rg_technique_find(p->table->technique), settings,
                                        p->table->width / divisors[size],
                                        p->table->height / divisors[size]};
-    const bool ok = settings && probe_subject(p->kept, device, &subject, frames);
+    const bool ok = settings && probe_subject(p->kept, device, &subject, p->steps, frames);
     free(settings);
     return ok;
 }
@@ -129,6 +130,28 @@ bool rg_look_device(struct rg_looking *p, struct rg_device *device, struct rg_fr
             1 + a_pixel / fmax(small.frame_ms, 1e-3) * fmax(pixels[size] - pixels[smallest], 0);
     frames->frame_ms[smallest] = small.frame_ms;
     rg_look_extend(frames, smallest, larger);
+    return true;
+}
+
+bool rg_look_settled(struct rg_looking *p, int row)
+{
+    const struct rg_frames *first = &p->of_row[row];
+    const int steps = rg_cell_steps(p->table);
+    struct rg_frames *settled = &p->settled[row];
+    struct rg_cell_frames f;
+    *settled = *first;
+    if (steps == 1 && row != p->last)
+        return true;
+    p->steps = steps;
+    const bool ok = rg_look_row(p, p->cpu, row, p->smallest, "", &f);
+    p->steps = 1;
+    if (!ok)
+        return false;
+    settled->open_ms = f.open_ms;
+    settled->step_ms = f.step_ms;
+    for (int size = 0; size < RG_BUDGET_SIZES; size++)
+        settled->frame_ms[size] =
+            first->frame_ms[size] * f.frame_ms / fmax(first->frame_ms[p->smallest], 1e-3);
     return true;
 }
 

@@ -40,9 +40,13 @@ struct rg_looking {
     bool rows[RG_TABLE_ROWS]; // that are looked at, on cpu
     int first, last;          // of them
     int work;                 // of the result, that is looked at
+    int steps;                // that a row is simulated on (rg_cell_look)
     struct rg_budget_kind *kind;
     struct rg_device *cpu;
-    struct rg_frames of_row[RG_TABLE_ROWS]; // on cpu
+    struct rg_frames of_row[RG_TABLE_ROWS]; // on cpu, of the first frames
+    // The same of frames like those that are timed, behind which rain has built up, and of an
+    // opening that makes nothing of what instances share.
+    struct rg_frames settled[RG_TABLE_ROWS];
 };
 
 // Begins looking at these rows of a table; NULL: at the first and the last of those that its curves
@@ -63,6 +67,10 @@ bool rg_look_row(struct rg_looking *looking, struct rg_device *device, int row,
 bool rg_look_device(struct rg_looking *looking, struct rg_device *device, struct rg_frames *frames);
 // Fills in what frames of all sizes take: so many times as long as the smallest.
 void rg_look_extend(struct rg_frames *frames, enum rg_budget_size smallest, const double larger[]);
+// Opens a row on cpu once more, of which the first frames are known, and fills in `settled`. Where
+// the first frames are like those that are timed, only the last row is opened, which came first.
+// False, and one logged line, on failure.
+bool rg_look_settled(struct rg_looking *looking, int row);
 // How many times as long frames take on a device as on cpu: what is known of its technique, or
 // found now, by the last row.
 bool rg_look_ratio(struct rg_looking *looking, struct rg_device *device, struct rg_frames *ratio);

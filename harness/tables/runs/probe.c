@@ -59,18 +59,14 @@ static bool learn(struct rg_looking *p)
     return kind->is_known = true;
 }
 
-// What instances share is made with the first, so that the last, which comes first, opens as late
-// as the others.
 static bool probe_cpu(struct rg_looking *p)
 {
     p->cpu = rg_kept_device(p->kept, "cpu");
     bool ok = p->cpu && probe_row(p, p->last) && learn(p);
-    for (int row = p->first; ok && row < p->last; row++) {
-        if (!p->rows[row])
-            continue;
-        ok = probe_row(p, row);
-        p->of_row[p->last].open_ms = fmin(p->of_row[p->last].open_ms, p->of_row[row].open_ms);
-    }
+    for (int row = p->first; ok && row < p->last; row++)
+        ok = !p->rows[row] || probe_row(p, row);
+    for (int row = p->first; ok && row <= p->last; row++)
+        ok = !p->rows[row] || rg_look_settled(p, row);
     return ok;
 }
 
@@ -111,9 +107,9 @@ static double error_ms(const struct rg_looking *p, int size, double a_pixel_ms)
 static double check_ms(const struct rg_looking *p, int row, int size,
                        const struct rg_frames *reference, double a_pixel_ms)
 {
-    const struct rg_frames of_reference = rg_look_scaled(&p->of_row[row], reference);
+    const struct rg_frames of_reference = rg_look_scaled(&p->settled[row], reference);
     const struct rg_cell_frames expected = at_size(&of_reference, size);
-    struct rg_cell_frames dry = at_size(&p->of_row[row], size);
+    struct rg_cell_frames dry = at_size(&p->settled[row], size);
     dry.frame_ms *= p->kind->dry_share;
     return rg_cell_image_ms(p->table, &expected) + rg_cell_image_ms(p->table, &dry) +
            error_ms(p, size, a_pixel_ms);
@@ -171,7 +167,7 @@ static void add_cost(struct rg_budget_cost *sum, struct rg_budget_cost cost, int
 static void add_device(const struct rg_looking *p, int row, const struct known *known, int device,
                        enum rg_budget_size size, struct rg_budget_cost *sum)
 {
-    const struct rg_frames first = rg_look_scaled(&p->of_row[row], &known->of[device]);
+    const struct rg_frames first = rg_look_scaled(&p->settled[row], &known->of[device]);
     for (int work = 0; work <= known->other_count; work++) {
         const struct rg_work_frames *other = work ? &known->others[work - 1] : NULL;
         const struct rg_frames frames =

@@ -7,8 +7,9 @@
 
 // Opens the first and the last needed row of a table on cpu, and on devices of which nothing is
 // known the last, for two frames of the smallest picture, and the last at the next size as well;
-// what lies between, and beyond, follows from them. What opens late is opened twice, for drivers
-// compile once. Of a table of textures it opens the first row on each device. `full`: it is
+// what lies between, and beyond, follows from them. Where more frames are simulated before those
+// that are timed, rows are opened on cpu once more for these. What opens late is opened twice, for
+// drivers compile once. Of a table of textures it opens the first row on each device. `full`: it is
 // measured in full mode, and opened at its whole size alone. What fails is expected to take
 // nothing, for its cells end at once. False, and one logged line, where cpu, cpu:reference or the
 // truth does: then that is all cells of the table.

@@ -19,11 +19,11 @@ struct probe {
     double bytes;
 };
 
-static bool probe_settings(struct rg_device *device, const struct rg_subject *subject,
+static bool probe_settings(struct rg_device *device, const struct rg_subject *subject, int steps,
                            struct probe *probe)
 {
     const double before = (double)rg_remote_held_bytes(device);
-    struct rg_session *session = rg_cell_look(device, subject, &probe->frames);
+    struct rg_session *session = rg_cell_look(device, subject, steps, &probe->frames);
     if (!session)
         return false;
     probe->bytes = fmax((double)rg_remote_held_bytes(device) - before, 0);
@@ -41,7 +41,7 @@ static bool probe_row(const struct rg_table *table, const char *set, int row,
     if (of_row)
         settings = rg_settings_copy(technique, of_row, set ? set : "");
     const struct rg_subject subject = {technique, settings, table->width, table->height};
-    const bool ok = settings && probe_settings(device, &subject, probe);
+    const bool ok = settings && probe_settings(device, &subject, rg_cell_steps(table), probe);
     free(settings);
     free(of_row);
     free(defaults);

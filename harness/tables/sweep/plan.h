@@ -15,10 +15,11 @@ struct rg_plan {
     double all_bytes;                // what all rows take together
 };
 
-// Opens the first and the last row on each device for two frames, and reckons what lies between
-// from them: times and memory as they go from row to row by the same factor. One logged line for a
-// device on which one cannot be opened; false where the input is at fault, where no device is left,
-// or where cpu:reference, which checks the images, fails.
+// Opens the first and the last row on each device until frames are like those that are timed
+// (rg_cell_look), and reckons what lies between from them: times and memory as they go from row to
+// row by the same factor. One logged line for a device on which one cannot be opened; false where
+// the input is at fault, where no device is left, or where cpu:reference, which checks the images,
+// fails.
 bool rg_plan_make(const struct rg_table *table, const char *set, bool is_full, struct rg_kept *kept,
                   struct rg_plan *plan);
 

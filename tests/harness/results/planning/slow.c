@@ -16,7 +16,7 @@
 // --- a technique whose frames take what its settings say ---
 
 struct slow_settings {
-    double open_ms, step_ms, fixed_ms, late_ms, pixel_us;
+    double open_ms, step_ms, fixed_ms, late_ms, late_frame, late_on_cpu, pixel_us;
 };
 struct slow_instance {
     struct rg_instance pub;
@@ -29,10 +29,12 @@ static const struct rg_param params[] = {
     {"step_ms", RG_PARAM_FLOAT, AT(step_ms), 1, 0, 1e6, "ms", "of simulating a frame", NULL},
     {"fixed_ms", RG_PARAM_FLOAT, AT(fixed_ms), 10, 0, 1e6, "ms", "of drawing it", NULL},
     {"late_ms", RG_PARAM_FLOAT, AT(late_ms), 0, 0, 1e6, "ms", "more of it once rain fell", NULL},
+    {"late_frame", RG_PARAM_FLOAT, AT(late_frame), 3, 0, 100, "", "from which on it did", NULL},
+    {"late_on_cpu", RG_PARAM_FLOAT, AT(late_on_cpu), 1, 0, 1, "", "share of it on cpu", NULL},
     {"pixel_us", RG_PARAM_FLOAT, AT(pixel_us), 0.125, 0, 1e6, "us", "more of each pixel", NULL},
 };
 static const struct rg_param_table param_table = {
-    .technique = "slow", .rows = params, .count = 5, .settings_size = sizeof(struct slow_settings)};
+    .technique = "slow", .rows = params, .count = 7, .settings_size = sizeof(struct slow_settings)};
 
 // A device's item_ms is how many times as long it takes.
 static struct fake_device *fake_of(const struct rg_instance *instance)
@@ -49,9 +51,9 @@ static double slowness(const struct rg_instance *instance)
 // What rain takes that has built up: more than anyone sees who looks at the first frames.
 static double late_ms(const struct rg_instance *instance)
 {
-    enum { BUILT_UP_FRAME = 3 };
     const struct slow_settings *s = &((const struct slow_instance *)instance)->settings;
-    return instance->frame >= BUILT_UP_FRAME ? s->late_ms : 0;
+    const bool is_cpu = !strcmp(instance->device->info.name, "cpu");
+    return instance->frame >= s->late_frame ? s->late_ms * (is_cpu ? s->late_on_cpu : 1) : 0;
 }
 
 int slow_opened, slow_interrupted;
@@ -66,6 +68,21 @@ static double compiled_ms(const struct rg_instance *instance)
     return compiles ? compile_ms : 0;
 }
 
+// What cpu still has to make that its instances share.
+static double unshared_ms;
+
+static double shared_ms(const struct rg_instance *instance)
+{
+    const double ms = strcmp(instance->device->info.name, "cpu") ? 0 : unshared_ms;
+    unshared_ms -= ms;
+    return ms;
+}
+
+void slow_shares(double ms)
+{
+    unshared_ms = ms;
+}
+
 void slow_compiles(double ms)
 {
     compile_ms = ms;
@@ -77,7 +94,8 @@ static bool open_slow(struct rg_instance *instance)
     const struct slow_instance *slow = (const struct slow_instance *)instance;
     if (++slow_opened == slow_interrupted)
         raise(SIGINT);
-    fake_pass(slow->settings.open_ms * fake_of(instance)->item_ms + compiled_ms(instance));
+    fake_pass(slow->settings.open_ms * fake_of(instance)->item_ms + compiled_ms(instance) +
+              shared_ms(instance));
     return true;
 }
 
@@ -135,6 +153,7 @@ void slow_begin(struct slow_rig *rig)
     rig->kept.devices = &rig->devices;
     slow_opened = slow_interrupted = 0;
     compiles_left = 0;
+    unshared_ms = 0;
 }
 
 void slow_end(struct slow_rig *rig)

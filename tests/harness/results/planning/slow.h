@@ -12,6 +12,8 @@ extern int slow_opened; // instances, since the rig was begun
 extern int slow_interrupted;
 // Has gl's driver compile for so long in its next opening, and in each of the two frames after it.
 void slow_compiles(double ms);
+// Has cpu's next opening make what its instances share, which takes so long.
+void slow_shares(double ms);
 
 // cpu, cpu:reference, which takes ten times as long, and gl, which takes three times as long.
 struct slow_rig {
