@@ -16,7 +16,8 @@ struct rg_cell_frames {
 
 // Opens a subject and finds them by two frames, so many steps, of which each takes what all do on
 // average, and behind more than one a third frame: where rain builds up, the last takes the
-// longest. The caller closes the session. NULL, and one logged line, on failure.
+// longest. After four seconds no more steps follow. The caller closes the session. NULL, and one
+// logged line, on failure.
 struct rg_session *rg_cell_look(struct rg_device *device, const struct rg_subject *subject,
                                 int steps, struct rg_cell_frames *frames);
 // The steps behind which the third frame is like those that are timed.

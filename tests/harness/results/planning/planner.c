@@ -198,6 +198,24 @@ static void a_sweep_is_of_rain_that_has_built_up(void **state)
     slow_end(&rig);
 }
 
+// A hundred thousand steps before the frames that are timed are not all simulated to tell what they
+// take.
+static void looking_takes_a_moment(void **state)
+{
+    (void)state;
+    struct slow_rig rig;
+    struct rg_plan plan;
+    struct rg_table sweep = table;
+    sweep.check_frames = 100000;
+    slow_begin(&rig);
+    const double start_ms = rg_now_ms();
+    assert_true(rg_plan_make(&sweep, NULL, true, &rig.kept, &plan));
+    const int looks = 2 * 3; // two rows on three devices
+    assert_true(rg_now_ms() - start_ms < looks * 6000);
+    assert_true(plan.device_s[0] > 3 * 1e-3 * 100000); // three rows, a millisecond a step
+    slow_end(&rig);
+}
+
 // What the first instance of a table makes for all is no part of what each of them takes.
 static void what_instances_share_is_made_once(void **state)
 {
@@ -634,6 +652,7 @@ int main(void)
         cmocka_unit_test(smaller_pictures_show_less),
         cmocka_unit_test(rain_that_builds_up_takes_longer),
         cmocka_unit_test(a_sweep_is_of_rain_that_has_built_up),
+        cmocka_unit_test(looking_takes_a_moment),
         cmocka_unit_test(what_instances_share_is_made_once),
         cmocka_unit_test(a_device_that_fails_takes_nothing),
         cmocka_unit_test(what_a_driver_compiles_once_is_not_expected_again),
