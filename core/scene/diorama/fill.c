@@ -86,12 +86,7 @@ bool fill(struct builder *b, const struct leftover *leftover, int vertices, int 
         return false;
     const int more_vertices = vertices - mesh->vertex_count, more = faces - mesh->face_count;
     rg_mesh_destroy(mesh);
-    if (getenv("DIO"))
-        __builtin_printf("%s: vertices left %d faces left %d excess %g\n", b->name, more_vertices,
-                         more, more_vertices - more / 2.0); // DEBUG
     struct shares s;
-    if (getenv("DIO") && !share_out(more_vertices, more, &s))
-        return true; // DEBUG
     if (!share_out(more_vertices, more, &s))
         return rg_error("%s: %d vertices and %d faces are left over, which no pebbles and blades "
                         "have; make its parts smaller",
