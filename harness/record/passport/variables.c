@@ -49,6 +49,7 @@ const struct rg_variable rg_variables[] = {
     {"RG_CPU_LEVEL", true},
     {"RG_ENVIRONMENT_DIR", false},
     {"RG_KERNEL_DIR", false},
+    {"RG_MODEL_DIR", false},
     {"RG_VK_VALIDATION", true},
     {NULL, false},
 };
