@@ -44,6 +44,7 @@ ROWS = [
     Fault("harness/tables/sweep/plan.c", "probe_settings(device, &subject, «rg_cell_steps(table)», probe)", "1", "a sweep is of the first frames", tests=("planner",)),
     Fault(CELL, "*step_ms = passed_ms «/ fmax(done, 1)»;", "/ 1", "each step takes what all do", tests=("planner",)),
     Fault(CELL, "done < steps && «passed_ms < LONGEST_MS» &&", "true", "looking takes as long as what it foresees", tests=("planner",)),
+    Fault(CELL, "passed_ms < LONGEST_MS && «!rg_interrupted()») {", "true", "an interrupted look goes on", tests=("planner",)),
     Fault(CELL, "return (int)fmax(«rg_cell_check_frames(table) - 2», 1);", "1", "no rain builds up before it is looked at", tests=("planner",)),
     Fault(CELL, "(steps == 1 || «rg_session_frames(session, 1, &f->frame_ms)»)", "true", "a frame takes what it did before rain built up", tests=("planner",)),
     Fault(PROBE, "dry.frame_ms *= «p->kind->dry_share»;", "0", "a dry picture takes nothing", tests=("planner",)),

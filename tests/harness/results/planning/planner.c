@@ -11,6 +11,7 @@
 
 #include "core/base/log.h"
 #include "harness/console/clock.h"
+#include "harness/console/interrupt.h"
 #include "harness/tables/measuring/measure.h"
 #include "harness/tables/runs/budget.h"
 #include "harness/measure/sampling.h"
@@ -213,6 +214,24 @@ static void looking_takes_a_moment(void **state)
     const int looks = 2 * 3; // two rows on three devices
     assert_true(rg_now_ms() - start_ms < looks * 6000);
     assert_true(plan.device_s[0] > 3 * 1e-3 * 100000); // three rows, a millisecond a step
+    slow_end(&rig);
+}
+
+// None of them is simulated once the command was interrupted.
+static void an_interrupted_look_ends(void **state)
+{
+    (void)state;
+    struct slow_rig rig;
+    struct rg_plan plan;
+    struct rg_table sweep = table;
+    sweep.check_frames = 100000;
+    slow_begin(&rig);
+    rg_interrupt_watch();
+    slow_interrupted = 1;
+    const double start_ms = rg_now_ms();
+    rg_plan_make(&sweep, NULL, true, &rig.kept, &plan);
+    assert_true(rg_interrupted());
+    assert_true(rg_now_ms() - start_ms < 6000);
     slow_end(&rig);
 }
 
@@ -666,6 +685,7 @@ int main(void)
         cmocka_unit_test(what_comes_behind_has_its_least_left),
         cmocka_unit_test(rows_that_are_not_done_tell_nothing),
         cmocka_unit_test(nothing_is_an_error),
+        cmocka_unit_test(an_interrupted_look_ends), // last, for it stays interrupted
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
