@@ -8,7 +8,7 @@
            renders  the same of `render`
            tables   the same of `table`
            drivers  the same, of devices that need a driver or lack one
-           results  what table, diff and render print, on the CPU
+           results  what table, diff, render and atlas print, and what is refused for its size, on the CPU
            clips    frames in a row, as clips and as numbered pictures, on the CPU
            stored   tables that were interrupted, or are printed again
            losses   runs that are killed, that lose their disk, folder or clock, and a second one beside one that measures
@@ -34,8 +34,10 @@ import signal
 import sys
 
 sys.dont_write_bytecode = True  # the sources' folder stays as it is
-sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "devices"))
+for room in ("devices", "printed"):
+    sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), room))
 
+import atlases
 import baselines
 import bisecting
 import cases
@@ -45,26 +47,31 @@ import doctor
 import gates
 import installed
 import kept
+import limits
 import losses
 import misbehaving
 import pages
+import pictures
 import reports
-import results
 import resuming
 import shrinking
+import stored
+import tables
+import verifying
+import wrong
 from runner import Runner
 
 SUITES = {
-    "atlas": lambda runner: runner.check_all([results.check_atlas, results.check_compared]),
+    "atlas": lambda runner: runner.check_all(atlases.FIRST),
     "cases": lambda runner: cases.run(runner, cases.COMMANDS),
     "renders": lambda runner: cases.run(runner, cases.RENDERS),
     "tables": lambda runner: cases.run(runner, cases.TABLES),
     "drivers": lambda runner: cases.run(runner, cases.WITH_DRIVERS),
-    "results": lambda runner: runner.check_all(results.CHECKS),
+    "results": lambda runner: runner.check_all(tables.CHECKS + pictures.CHECKS + atlases.CHECKS + limits.CHECKS),
     "clips": lambda runner: runner.check_all(clips.CHECKS),
-    "stored": lambda runner: runner.check_all(results.STORED),
+    "stored": lambda runner: runner.check_all(stored.CHECKS),
     "losses": lambda runner: runner.check_all(losses.CHECKS + resuming.CHECKS),
-    "long": lambda runner: runner.check_all(results.LONG),
+    "long": lambda runner: runner.check_all(tables.LONG + stored.LONG + verifying.LONG + atlases.LONG + limits.LONG),
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
     "ways": lambda runner: runner.check_all(misbehaving.THOROUGH),
     "gates": lambda runner: runner.check_all(gates.CHECKS),
@@ -73,7 +80,7 @@ SUITES = {
     "ci": lambda runner: runner.check_all(ci.CHECKS),
     "bisects": lambda runner: runner.check_all(bisecting.CHECKS),
     "shrinking": lambda runner: runner.check_all(shrinking.CHECKS),
-    "wrong": lambda runner: runner.check_all(results.WRONG),
+    "wrong": lambda runner: runner.check_all(wrong.CHECKS),
     "doctor": lambda runner: runner.check_all(doctor.CHECKS),
     "pages": lambda runner: runner.check_all(pages.CHECKS),
     "kept": lambda runner: runner.check_all(kept.CHECKS),

@@ -9,9 +9,8 @@ import tempfile
 
 import forms
 import misbehaving
-import results
-
 from gates import SCHEMA, TORUS, Files, endings
+from wrong import RIGHT, TURNED
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 KEPT = os.path.join(ROOT, "results", "baseline.json")
@@ -174,7 +173,7 @@ def check_miscompiled(runner):
         path, _ = make(runner, files, "--pictures", device="gl,cpu")
         kernels = files.path("kernels")
         os.mkdir(kernels)
-        runner.kernels_with(kernels, "flow_normals.glsl", results.RIGHT, results.TURNED)
+        runner.kernels_with(kernels, "flow_normals.glsl", RIGHT, TURNED)
         result = gate(runner, files, path, "-o", files.path("pictures"), env={"RG_KERNEL_DIR": kernels})
         kept = sorted(re.sub("^.*-", "", name) for name in os.listdir(files.path("pictures")) if name.startswith("flow_pane"))
         found = {case["name"]: case for case in json.loads(result.stdout)["gated"]}

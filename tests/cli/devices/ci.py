@@ -7,9 +7,9 @@ import tempfile
 import xml.etree.ElementTree
 
 import bisecting
-import results
 import runners
-from gates import QUICK, SCHEMA, TORUS, Files, endings
+from gates import QUICK, SCHEMA, TORUS, Files
+from wrong import RIGHT, TURNED
 
 PNG = b"\x89PNG\r\n\x1a\n"
 THIRD = TORUS.replace("raster/torus", "raster/third")
@@ -108,7 +108,7 @@ def check_pictures(runner):
     with Files() as files:
         kernels = files.path("kernels")
         os.mkdir(kernels)
-        runner.kernels_with(kernels, "flow_normals.glsl", results.RIGHT, results.TURNED)
+        runner.kernels_with(kernels, "flow_normals.glsl", RIGHT, TURNED)
         for more, folder in (([], "gate-pictures"), (["-o", files.path("]] <&>'")], "]] <&>'")):
             for device, status in (("gl", 0), ("gl@RG_KERNEL_DIR=" + kernels, 1)):
                 ran = runner.run(["gate", "gl", device, "--cells", files.cells, "--pictures", "--junit", files.path("gate.xml"), "--json"] + more)

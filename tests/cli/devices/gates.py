@@ -8,7 +8,7 @@ import xml.etree.ElementTree
 
 import forms
 import misbehaving
-import results
+from wrong import RIGHT, TURNED
 
 TESTS = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCHEMA = os.path.join(TESTS, "harness", "gate", "report", "junit.xsd")
@@ -301,7 +301,7 @@ def check_miscompiled(runner):
     with Files() as files:
         kernels = files.path("kernels")
         os.mkdir(kernels)
-        runner.kernels_with(kernels, "flow_normals.glsl", results.RIGHT, results.TURNED)
+        runner.kernels_with(kernels, "flow_normals.glsl", RIGHT, TURNED)
         result = runner.run(["gate", "gl", "gl@RG_KERNEL_DIR=" + kernels, "--cells", files.cells, "--json", "--budget", "1s"])
         report = json.loads(result.stdout)
     found = {case["name"].split(".")[0]: case for case in report["gated"]}

@@ -7,10 +7,10 @@ import tempfile
 import xml.etree.ElementTree
 
 import forms
-import results
 import runners
 from ci import KNOWN, THIRD, lint
 from gates import QUICK, TORUS, Files
+from wrong import RIGHT, TURNED
 
 # Values of a variable that no driver reads, and what reports make of the characters that they cannot hold.
 HOSTILE = ["'quotes\" and ` <failure message=\"x\">&amp;</failure> ]]> <![CDATA[", "[[ATTACHMENT|/etc/passwd]] \x1b[31m\x07\x7f a\nb\tc\rd",
@@ -104,7 +104,7 @@ def check_expectations(runner):
     problems = []
     with tempfile.TemporaryDirectory() as folder:
         os.mkdir(os.path.join(folder, "kernels"))
-        runner.kernels_with(os.path.join(folder, "kernels"), "flow_normals.glsl", results.RIGHT, results.TURNED)
+        runner.kernels_with(os.path.join(folder, "kernels"), "flow_normals.glsl", RIGHT, TURNED)
         with open(os.path.join(folder, "cells.txt"), "w") as file:
             file.write(QUICK)
         for text, status, ending, says, has_patch in rows:

@@ -1,0 +1,139 @@
+"""Tables that were interrupted, are measured anew, or are printed again from what is stored."""
+import json
+import os
+import re
+import signal
+import tempfile
+
+import forms
+from cases import FORMATS
+from machine import run_json
+
+TWO_TABLES = "table stuppacher-2 raster-1 --rows 1-1 --device cpu "
+
+
+def check_claims_alone(runner):
+    """measured tables leave nothing before their claims, which JSON alone has as one document, and an empty line between two tables"""
+    document, status, problems = run_json(runner, TWO_TABLES + "--claims", form="claims")
+    about = [table["table"] for table in document["tables"]], {claim["table"] for claim in document["claims"]}
+    if status or about != (["stuppacher-2"], {"stuppacher-2"}):
+        problems.append("as JSON: exit status %d, of %s" % (status, about))
+    claims = runner.run((TWO_TABLES + "--claims --format csv").split())
+    tables = runner.run((TWO_TABLES + "--format csv").split())
+    found = claims.stdout.splitlines()[:1], tables.stdout.count("\n\n"), tables.stdout[:1] == "\n"
+    return problems + ([] if found == (["table,section,claim,cpu"], 1, False) else ["%s, %s" % (found, claims.stderr)])
+
+
+def interrupt(runner, args, env):
+    """Runs two tables and interrupts the second; what was printed, the exit status, the messages."""
+    process = runner.start(args.split(), env)
+    lines = []
+    for line in process.stdout:
+        lines.append(line)
+        if line.startswith("- Full frames of a box"):  # the first table's last line
+            break
+    process.send_signal(signal.SIGINT)
+    out, messages = process.communicate(timeout=300)
+    return "".join(lines) + out, process.returncode, messages.splitlines()
+
+
+def check_interrupted(runner):
+    """a table that is interrupted says so, and the same command goes on with what is missing"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp, tempfile.TemporaryDirectory() as state:
+        env = {"XDG_STATE_HOME": state}
+        for place, more in ((tmp + "/out", "-o %s/out" % tmp), (state + "/raingauge", "")):
+            first, status, messages = interrupt(runner, TWO_TABLES + more, env)
+            if status != 130 or len(messages) != 1 or not re.match(r"raingauge: (raster-1: interrupted|stuppacher-2: done, and then interrupted)", messages[0]):
+                problems.append("exit status %d, stderr: %s" % (status, messages))
+            if "## raster-1" in first or not first.startswith("## stuppacher-2"):
+                problems.append("printed, interrupted:\n" + first)
+            if "stuppacher-2-quick.journal" not in os.listdir(place):
+                problems.append("%s holds %s" % (place, os.listdir(place)))
+            with open(place + "/stuppacher-2-quick.journal") as file:
+                problems += forms.problems("table", json.load(file))
+            second = runner.run((TWO_TABLES + more).split(), env)
+            if second.returncode or not re.fullmatch(r"raingauge: stuppacher-2: 1 of 1 rows .*\n(raingauge: raster-1: 0 of .* have some of .*\n)?", second.stderr):
+                problems.append("again: exit status %d, stderr: %s" % (second.returncode, second.stderr))
+            rows = [line for line in first.splitlines() if line.startswith("|")]
+            if not rows or any(row not in second.stdout for row in rows) or "## raster-1" not in second.stdout:
+                problems.append("printed, again:\n" + second.stdout)
+            if any(name.endswith(".journal") for name in os.listdir(place)):
+                problems.append("left behind: %s" % os.listdir(place))
+        if sorted(os.listdir(tmp + "/out")) != sorted(t + "." + f for t in ("stuppacher-2", "raster-1") for f in FORMATS):
+            problems.append("written: %s" % os.listdir(tmp + "/out"))
+    return problems
+
+
+def replaces_stored(runner, out, tmp):
+    """What is wrong with a part of what is stored, written where it is stored, by any of the folder's names."""
+    problems = []
+    os.symlink(out, tmp + "/link")
+    os.symlink(out + "/raster-1.json", tmp + "/link.json")
+    before = {name: os.stat(os.path.join(out, name)).st_ino for name in os.listdir(out)}
+    for source, folder in ((out, out), (out, tmp + "/link"), (tmp + "/link", out + "/."), (out + "/raster-1.json", out), (tmp + "/link.json", out)):
+        done = runner.run(["table", "raster-1", "--rows", "1-1", "--from", source, "-o", folder])
+        said = r"raingauge: .*: holds what --from reads, which would be replaced; name another folder with -o, or leave it out\n"
+        if done.returncode != 2 or done.stdout or not re.fullmatch(said, done.stderr):
+            problems.append("--from %s -o %s: exit status %d, stderr: %s" % (source, folder, done.returncode, done.stderr))
+    after = {name: os.stat(os.path.join(out, name)).st_ino for name in os.listdir(out)}
+    return problems + ["what was stored is replaced"] * (after != before)
+
+
+def check_stored(runner):
+    """table --from prints what was measured as it was printed then, in every format, and opens no device"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        out = tmp + "/out"
+        printed = runner.run((TWO_TABLES + "-o " + out).split()).stdout
+        env = runner.crashing_vulkan(tmp)  # whoever lists Vulkan's devices says so on stderr
+        again = runner.run(["table", "--from", out], env)
+        if again.returncode or again.stderr:
+            problems.append("exit status %d, stderr: %s, printed:\n%s" % (again.returncode, again.stderr, again.stdout))
+        for table in ("stuppacher-2", "raster-1"):
+            for form in FORMATS:
+                with open("%s/%s.%s" % (out, table, form)) as file:
+                    written = file.read()
+                one = runner.run(["table", table, "--from", out + "/%s.json" % table, "--format", form], env)
+                if one.returncode or one.stdout != written or (form == "md" and written.strip() not in printed):
+                    problems.append("%s, %s:\n%s" % (table, form, one.stdout))
+        problems += replaces_stored(runner, out, tmp)
+        both = runner.run(["table", "--from", out, "--json", "-o", tmp + "/again"], env)
+        with open(tmp + "/both.json", "w") as file:
+            file.write(both.stdout)
+        joined = runner.run(["table", "--from", tmp + "/both.json"], env)
+        if joined.stdout != again.stdout or sorted(os.listdir(tmp + "/again")) != sorted(os.listdir(out)):
+            problems.append("several in a file:\n" + joined.stdout)
+        with open(out + "/raster-1.json", "a") as file:
+            file.write("{")
+        for args, says in (("--from " + out, r"raster-1\.json: line \d+ is no JSON: .*; name a file .*"),
+                           ("--from %s/none" % tmp, r".*/none: cannot be read: No such file or directory; name .*"),
+                           ("--from " + tmp + "/both.json --rows 7-8", r".*both\.json: holds nothing of the .*; .*"),
+                           ("creus-5.1 --from %s/both.json" % tmp, r".*both\.json: holds nothing of the .*; .*"),
+                           ("--from %s --device cpu" % out, r"--from and --device: choose one"),
+                           ("--from %s --full" % out, r"--from and --full: choose one")):
+            refused = runner.run(["table"] + args.split(), env)
+            if refused.returncode != 2 or refused.stdout or not re.fullmatch(r"raingauge: .*" + says + r"\n", refused.stderr):
+                problems.append("%s: exit status %d, stderr: %s" % (args, refused.returncode, refused.stderr))
+    return problems
+
+
+def check_fresh(runner):
+    """table --fresh takes nothing from an interrupted run; nor does a run of other devices"""
+    problems = []
+    with tempfile.TemporaryDirectory() as state:
+        env = {"XDG_STATE_HOME": state}
+        interrupt(runner, TWO_TABLES, env)
+        other = runner.run(TWO_TABLES.replace("--device cpu", "--device cpu:reference").split(), env)
+        if other.returncode or not re.fullmatch(
+                r"raingauge: .*stuppacher-2-quick\.journal: is of another .*\n(raingauge: .*raster-1-quick\.journal: is of another .*\n)?", other.stderr):
+            problems.append("other: exit status %d, stderr: %s" % (other.returncode, other.stderr))
+        interrupt(runner, TWO_TABLES, env)
+        fresh = runner.run((TWO_TABLES + "--fresh").split(), env)
+        if fresh.returncode or fresh.stderr or "interrupted" in fresh.stdout:
+            problems.append("fresh: exit status %d, stderr: %s" % (fresh.returncode, fresh.stderr))
+    return problems
+
+
+CHECKS = [check_claims_alone, check_interrupted, check_stored]
+LONG = [check_fresh]

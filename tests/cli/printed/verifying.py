@@ -1,0 +1,33 @@
+"""What verify prints, whose mutants have a scene of their own."""
+import re
+
+from machine import lacking, run_json
+
+VERIFY = "verify raster --frame 5 --device cpu --size 96x96 "
+
+
+def check_verify_json(runner):
+    """verify --json has a record for every check on every device"""
+    report, status, problems = run_json(runner, VERIFY)
+    for check in report["checks"]:
+        problems += lacking("check", check, dict.fromkeys(("technique", "check", "device", "status", "detail"), str))
+    named = {(check["check"], check["device"], check["status"]) for check in report["checks"]}
+    if (report["format"], status) != (1, 0) or not {("state", "cpu", "ok"), ("image", "cpu", "ok"), ("mutants", "cpu", "ok")} <= named:
+        problems.append("format %s, exit status %d, checks %s" % (report["format"], status, sorted(named)))
+    return problems
+
+
+def check_verify_dry(runner):
+    """verify fails an image without rain, which proves nothing, and no other check"""
+    result = runner.run((VERIFY + "--set share=0").split())
+    lines = result.stdout.splitlines()
+    failed = [line for line in lines[:-1] if not line.startswith("ok ")]
+    problems = ["stderr: " + line for line in result.stderr.splitlines()]
+    if result.returncode != 1 or len(lines) != 6 or len(failed) != 1 or lines[-1] != "5 checks, 4 ok, 1 fail":
+        problems.append("exit status %d, printed:\n%s" % (result.returncode, result.stdout))
+    if not re.match(r"fail +raster +image +cpu .*: no rain in the image, which therefore proves nothing$", failed[0] if failed else ""):
+        problems.append("failed: %s" % failed)
+    return problems
+
+
+LONG = [check_verify_json, check_verify_dry]
