@@ -100,9 +100,9 @@ static bool is_same_choice(const struct rg_budget_choice *a, const struct rg_bud
 static void plan_again(struct rg_budget *b, int from, FILE *out)
 {
     const int count = b->count - from;
-    const struct rg_budget_choice before = b->choices[from];
     const double slow = slowness(b), left_s = (b->seconds - passed_s(b)) / slow;
     struct rg_budget_choice again[RG_BUDGET_TABLES];
+    char why[64];
     double due_s = 0;
     for (int i = from; i < b->count; i++)
         due_s += b->choices[i].expected_s;
@@ -111,14 +111,21 @@ static void plan_again(struct rg_budget *b, int from, FILE *out)
                                           is_late ? left_s : (1 - STAYS) * left_s, again);
     if (!is_late && again_s <= due_s + MORE * b->seconds)
         return;
-    memcpy(b->choices + from, again, (size_t)count * sizeof(*again));
-    if (is_same_choice(&before, &b->choices[from]))
-        return;
-    if (is_late)
-        fprintf(out, "planned anew, as cells take %.2f times as long as they were to:\n", slow);
+    if (!is_late)
+        snprintf(why, sizeof(why), "there is time for more");
+    else if (slow > 1)
+        snprintf(why, sizeof(why), "cells take %.2f times as long as they were to", slow);
     else
-        fprintf(out, "planned anew, as there is time for more:\n");
-    rg_budget_tell_table(b, from, out);
+        snprintf(why, sizeof(why), "less time is left than the rest was to take");
+    for (int i = from, told = 0; i < b->count; i++) {
+        const bool is_same = is_same_choice(&b->choices[i], &again[i - from]);
+        b->choices[i] = again[i - from];
+        if (is_same)
+            continue;
+        if (!told++)
+            fprintf(out, "planned anew, as %s:\n", why);
+        rg_budget_tell_table(b, i, out);
+    }
 }
 
 // --- a table as it is chosen ---

@@ -24,6 +24,7 @@ ROWS = [
     Fault(BUDGET, "«again_s» <= due_s +", "0", "time that is left is not used", tests=("planner",)),
     Fault(BUDGET, "«(1 - STAYS)» * left_s", "1", "of the time that is left nothing stays for cells that take longer again", tests=("planner",)),
     Fault(BUDGET, "due_s + «MORE * b->seconds»)", "0", "a plan is made anew for little", tests=("planner",)),
+    Fault(BUDGET, "if («is_same»)\n            continue;", "is_same || i > from", "tables that are planned anew behind one that stays are not told", tests=("planner",)),
     Fault(BUDGET, "left_s = («b->seconds - passed_s(b)») / slow;", "b->seconds", "time does not pass", tests=("planner",)),
     Fault(BUDGET, "b->choices[i].expected_s «* had / fmax(wanted, 1)»;", "* 1.0", "rows that are not done were due", tests=("planner",)),
     Fault(BUDGET, "if («b->tables[i]->is_of_textures»)\n        return;", "false", "textures tell how slow frames are", tests=("planner",)),

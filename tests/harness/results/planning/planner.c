@@ -142,6 +142,12 @@ static void cells_that_take_longer_have_the_rest_planned_anew(void **state)
     expect_next(&p, 2, false, false);
     expect_told(&p, "2.50 times");
     end_plan(&p);
+    // Though cells take what they were to: of 91 s 60 have passed beside them.
+    begin_plan(&p, 91);
+    fake_pass(60000);
+    expect_next(&p, 1, true, true);
+    expect_told(&p, "planned anew, as less time is left than the rest was to take:\n");
+    end_plan(&p);
     // No time at all.
     begin_plan(&p, 91);
     run(&p, 0, 3, 92);
@@ -173,6 +179,15 @@ static void time_that_is_left_is_used(void **state)
     run(&p, 0, 3, 20);
     expect_next(&p, 1, true, true);
     expect_told(&p, NULL);
+    end_plan(&p);
+    // What comes behind tables that stay as they are is told too: 12 s of 235 are worth a plan.
+    begin_plan(&p, 235);
+    p.budget.choices[2].all_samples = false;
+    p.budget.choices[2].expected_s -= 12;
+    run(&p, 0, 3, 24);
+    expect_next(&p, 1, true, false);
+    expect_told(&p, "planned anew, as there is time for more:\n  slow-1            24.0 s");
+    expect_next(&p, 2, true, false);
     end_plan(&p);
     // 12 s of 241 are less than a twentieth.
     begin_plan(&p, 241);
