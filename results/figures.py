@@ -15,6 +15,10 @@ import re
 import statistics
 import sys
 
+sys.dont_write_bytecode = True  # the folder stays as it is
+
+import script
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BLOCK = re.compile(r"(<!-- (figures|passes): ([^\n]*?) -->\n)(.*?)(<!-- end of figures -->)", re.S)
 DEVICES = ["cpu", "opencl", "gl", "vulkan", "cpu:reference"]
@@ -87,24 +91,24 @@ def rewrite(folder, text):
 
 
 def main():
-    words = [word for word in sys.argv[1:] if word != "--check"]
-    folder = words[0] if words else os.path.join(ROOT, "results", "tables")
+    args = script.arguments(__doc__, "[TABLES]", "[PAGE...]", checks=True)
+    folder = args.tables or os.path.join(ROOT, "results", "tables")
     ok = True
-    for page in words[1:] or [os.path.join(ROOT, "docs", "performance.md")]:
+    for page in args.page or [os.path.join(ROOT, "docs", "performance.md")]:
         with open(page, encoding="utf-8") as file:
             text = file.read()
         made = rewrite(folder, text)
         if not BLOCK.search(text):
             print(f"{page}: has no figures that are made from tables", file=sys.stderr)
             ok = False
-        elif made != text and "--check" in sys.argv:
+        elif made != text and args.check:
             print(f"{page}: says other figures than {folder}; run results/figures.py", file=sys.stderr)
             ok = False
         elif made != text:
             with open(page, "w", encoding="utf-8") as file:
                 file.write(made)
-    sys.exit(0 if ok else 1)
+    return 0 if ok else 1
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(script.run(main))

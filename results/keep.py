@@ -11,6 +11,10 @@ import json
 import os
 import sys
 
+sys.dont_write_bytecode = True  # the folder stays as it is
+
+import script
+
 # Follow from the samples and the passes. Numbers beside published ones follow from the facts, by the same names.
 DERIVED = ("fps", "ms", "ms_low", "ms_high", "passes_share")
 
@@ -47,12 +51,12 @@ def keep(folder, table, to):
 
 
 def main():
-    folder, to = sys.argv[1:]
-    os.makedirs(to, exist_ok=True)
-    for name in sorted(os.listdir(folder)):
-        if name.endswith(".json"):
-            keep(folder, name[:-len(".json")], to)
+    args = script.arguments(__doc__, "FROM", "TO")
+    tables = sorted(name[:-len(".json")] for name in os.listdir(getattr(args, "from")) if name.endswith(".json"))
+    os.makedirs(args.to, exist_ok=True)
+    for table in tables:
+        keep(getattr(args, "from"), table, args.to)
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(script.run(main))

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Keeps what the README and docs/tables.md show of the tables that the repository keeps: it is what the program prints.
 
-    walk.py [--check] PROGRAM [PAGE]
+    walk.py [--check] PROGRAM [PAGE...]
 
 In a page an indented line `$ raingauge table ... --from results/tables` is followed by what that prints, up to a line
 that is not indented; it is printed anew. --check writes nothing, and exits 1 if a page shows anything else.
@@ -11,6 +11,10 @@ import re
 import shlex
 import subprocess
 import sys
+
+sys.dont_write_bytecode = True  # the folder stays as it is
+
+import script
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PAGES = [os.path.join(ROOT, "README.md"), os.path.join(ROOT, "docs", "tables.md")]
@@ -37,10 +41,10 @@ def renew(program, page, only_checks):
 
 
 def main():
-    words = [word for word in sys.argv[1:] if word != "--check"]
-    for page in words[1:] or PAGES:
-        renew(os.path.abspath(words[0]), page, "--check" in sys.argv[1:])
+    args = script.arguments(__doc__, "PROGRAM", "[PAGE...]", checks=True)
+    for page in args.page or PAGES:
+        renew(os.path.abspath(args.program), page, args.check)
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(script.run(main))

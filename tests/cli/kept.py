@@ -18,6 +18,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 KEPT = os.path.join(ROOT, "results", "tables")
 KEEP = os.path.join(ROOT, "results", "keep.py")
 WALK = os.path.join(ROOT, "results", "walk.py")
+FIGURES = os.path.join(ROOT, "results", "figures.py")
 FORMS = ("csv", "json", "md")
 
 
@@ -151,6 +152,27 @@ def check_walk(runner):
         problems += [] if walk("--check", runner.raingauge, page).returncode == 1 else ["another page passes"]
         if walk(runner.raingauge, page).returncode or read(page) != readme:
             problems.append("the page is not made anew")
+    return problems
+
+
+def check_scripts(runner):
+    """what the scripts of results/ cannot read is one line that names it, and exit status 2; nothing is written"""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        with open(os.path.join(tmp, "raster-1.json"), "w") as file:
+            file.write("{")
+        for name in ("raster-1.md", "raster-1.csv"):
+            pathlib.Path(tmp, name).touch()
+        for args, says in (([KEEP, tmp + "/none", tmp + "/to"], "/none: No such file or directory"),
+                           ([KEEP, tmp, tmp + "/to"], "a record is no JSON: "),
+                           ([FIGURES, tmp + "/none"], "/none/stuppacher-1.json: No such file or directory"),
+                           ([WALK, tmp + "/none"], "/none: No such file or directory"),
+                           ([WALK, "/bin/false"], "/bin/false table .* ended with status 1")):
+            done = subprocess.run([sys.executable, "-B", *args], check=False, capture_output=True, text=True)
+            if done.returncode != 2 or done.stdout or not re.fullmatch(r"\S+\.py: .*%s.*\n" % says, done.stderr):
+                problems.append("%s: exit status %d, %s%s" % (args, done.returncode, done.stdout, done.stderr))
+        if os.path.exists(tmp + "/to") and os.listdir(tmp + "/to"):
+            problems.append("written: %s" % os.listdir(tmp + "/to"))
     return problems
 
 
@@ -354,4 +376,4 @@ def check_dirty_tree(runner):
     return problems
 
 
-CHECKS = [check_printed, check_compact, check_damaged, check_walk, check_colours, check_failed_colours, check_claims, check_lengths, check_dirty_tree]
+CHECKS = [check_printed, check_compact, check_damaged, check_walk, check_scripts, check_colours, check_failed_colours, check_claims, check_lengths, check_dirty_tree]
