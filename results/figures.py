@@ -9,7 +9,6 @@ any all rows stand there. With `printed` behind the names there is a column of w
 has a line a pass and a column a row, of whole frames on cpu. --check writes nothing, and exits 1 if a page says anything
 else than its tables.
 """
-import json
 import os
 import re
 import statistics
@@ -37,8 +36,7 @@ def line_name(table, cell):
 
 def lines_of(folder, table, rows):
     """Each line's name, what was printed, and milliseconds by device; cells that were not timed have none."""
-    with open(os.path.join(folder, table + ".json"), encoding="utf-8") as file:
-        result = json.load(file)
+    result = script.read_record(os.path.join(folder, table + ".json"))
     lines = {}
     for cell in result["cells"]:
         if cell.get("work", "paper") != "paper" or (rows and cell["row_number"] not in rows):
@@ -72,9 +70,9 @@ def markdown(folder, asked):
 def passes(folder, asked):
     """Milliseconds of each pass in the run that waits for each, in the order in which they run."""
     table, _, rows = asked.partition(":")
-    with open(os.path.join(folder, table + ".json"), encoding="utf-8") as file:
-        cells = [cell for cell in json.load(file)["cells"] if cell["device"] == "cpu" and cell["variant"] == "full" and
-                 cell.get("work", "paper") == "paper" and str(cell["row_number"]) in rows.split(",")]
+    record = script.read_record(os.path.join(folder, table + ".json"))
+    cells = [cell for cell in record["cells"] if cell["device"] == "cpu" and cell["variant"] == "full" and
+             cell.get("work", "paper") == "paper" and str(cell["row_number"]) in rows.split(",")]
     if len(cells) != len(rows.split(",")):
         raise ValueError(f"{table}: {folder} has not all of rows {rows} of it")
     taken = [cell["measured"]["passes_ms"] for cell in cells]
@@ -105,8 +103,7 @@ def main():
             print(f"{page}: says other figures than {folder}; run results/figures.py", file=sys.stderr)
             ok = False
         elif made != text:
-            with open(page, "w", encoding="utf-8") as file:
-                file.write(made)
+            script.write(page, made)
     return 0 if ok else 1
 
 

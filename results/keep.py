@@ -31,21 +31,13 @@ def compact(record):
     return "{\n" + ",\n".join(head + ['"cells": [\n' + cells + "\n]"]) + "\n}\n"
 
 
-def write(path, text):
-    """Whole or not at all."""
-    with open(path + ".part", "w", encoding="utf-8") as file:
-        file.write(text)
-    os.replace(path + ".part", path)
-
-
 def keep(folder, table, to):
-    texts = {}
-    for form in ("md", "csv", "json"):
+    texts = {"json": compact(script.read_record(os.path.join(folder, table + ".json")))}
+    for form in ("md", "csv"):
         with open(os.path.join(folder, table + "." + form), encoding="utf-8", newline="") as file:
             texts[form] = file.read()
-    texts["json"] = compact(json.loads(texts["json"]))
     for form, text in texts.items():
-        write(os.path.join(to, table + "." + form), text)
+        script.write(os.path.join(to, table + "." + form), text)
     for form in ("md", "csv", "json", "tex"):
         os.remove(os.path.join(folder, table + "." + form))
 

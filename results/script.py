@@ -1,6 +1,7 @@
 """What the scripts of this folder share: their arguments, and one line and exit status 2 where a file cannot be read or written."""
 import argparse
 import json
+import os
 import subprocess
 import sys
 
@@ -19,13 +20,32 @@ def arguments(text, *names, checks=False):
     return parser.parse_args()
 
 
+def read_record(path):
+    """What raingauge wrote of a table."""
+    with open(path, encoding="utf-8") as file:
+        try:
+            record = json.load(file)
+        except json.JSONDecodeError as error:
+            raise ValueError(f"{path}:{error.lineno}:{error.colno}: {error.msg}; have raingauge write it anew") from error
+    if not isinstance(record, dict) or "cells" not in record:
+        raise ValueError(f"{path}: is no record of a table; leave it out of the folder")
+    return record
+
+
+def write(path, text):
+    """Whole or not at all."""
+    with open(path + ".part", "w", encoding="utf-8") as file:
+        file.write(text)
+    os.replace(path + ".part", path)
+
+
 def run(main):
     try:
         return main()
     except OSError as error:
-        line = "%s: %s" % (error.filename, error.strerror)
-    except json.JSONDecodeError as error:
-        line = "a record is no JSON: %s" % error
+        line = "%s: %s" % (error.filename, error.strerror) if error.filename else error.strerror
+    except ValueError as error:
+        line = str(error)
     except subprocess.CalledProcessError as error:
         line = "%s ended with status %d" % (" ".join(error.cmd), error.returncode)
     print("%s: %s" % (sys.argv[0], line), file=sys.stderr)

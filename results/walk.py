@@ -36,8 +36,7 @@ def renew(program, page, only_checks):
         return
     if only_checks:
         sys.exit(f"{page}: shows what the tables do not say; results/walk.py {program} makes it anew")
-    with open(page, "w", encoding="utf-8") as file:
-        file.write(made)
+    script.write(page, made)
 
 
 def main():

@@ -4,13 +4,11 @@ import io
 import json
 import os
 import pathlib
-import pty
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
-import threading
 
 import forms
 
@@ -163,8 +161,11 @@ def check_scripts(runner):
             file.write("{")
         for name in ("raster-1.md", "raster-1.csv"):
             pathlib.Path(tmp, name).touch()
+        os.mkdir(tmp + "/other")
+        pathlib.Path(tmp, "other", "stuppacher-1.json").write_text("[]", encoding="utf-8")
         for args, says in (([KEEP, tmp + "/none", tmp + "/to"], "/none: No such file or directory"),
-                           ([KEEP, tmp, tmp + "/to"], "a record is no JSON: "),
+                           ([KEEP, tmp, tmp + "/to"], r"/raster-1\.json:1:2: .*; have raingauge write it anew"),
+                           ([FIGURES, tmp + "/other"], r"/other/stuppacher-1\.json: is no record of a table; .*"),
                            ([FIGURES, tmp + "/none"], "/none/stuppacher-1.json: No such file or directory"),
                            ([WALK, tmp + "/none"], "/none: No such file or directory"),
                            ([WALK, "/bin/false"], "/bin/false table .* ended with status 1")):
@@ -176,39 +177,18 @@ def check_scripts(runner):
     return problems
 
 
-def on_a_terminal(runner, args, env):
-    """What a command prints on a terminal."""
-    ours, its = pty.openpty()
-    told = []
-
-    def listen():
-        try:
-            while piece := os.read(ours, 65536):
-                told.append(piece)
-        except OSError:  # the terminal's other end is closed
-            pass
-
-    listener = threading.Thread(target=listen)
-    listener.start()
-    runner.run(args, env, stdout=its)
-    os.close(its)
-    listener.join()
-    os.close(ours)
-    return b"".join(told).decode().replace("\r\n", "\n")
-
-
 def check_colours(runner):
     """on a terminal what is faster than print, or is reproduced, is green, but not what is faster than our own; headings are plain, and all is where the terminal or the user wants none"""
     args = ["table", "stuppacher-2", "--from", KEPT]
     plain = runner.run(args).stdout
-    shown = on_a_terminal(runner, args, {"TERM": "xterm", "NO_COLOR": None})
+    shown = runner.on_terminal(args, {"TERM": "xterm", "NO_COLOR": None}).stdout
     cells = re.findall(r"\x1b\[(\d+)m(.*?)\x1b\[0m", shown)
     problems = [] if cells and re.sub(r"\x1b\[\d+m", "", shown) == plain else ["on a terminal: %r" % shown]
     due = [("32", cell) for cell in re.findall(r"[\d.]+ +[1-9][\d.]*x|(?<!not )reproduced", re.sub(r"### ours, times paper\n\n(\|.*\n)+", "", plain))]
     if sorted(cell for cell in cells if cell[1] not in ("not reproduced", "undecided")) != sorted(due):
         problems.append("painted: %s, due: %s" % (cells, due))
     for env in ({"TERM": "xterm", "NO_COLOR": "1"}, {"TERM": "dumb", "NO_COLOR": None}):
-        if on_a_terminal(runner, args, env) != plain:
+        if runner.on_terminal(args, env).stdout != plain:
             problems.append("%s: it has colours" % env)
     return problems
 
@@ -222,7 +202,7 @@ def check_failed_colours(runner):
     with tempfile.TemporaryDirectory() as tmp:
         with open(tmp + "/record.json", "w", encoding="utf-8") as file:
             json.dump(record, file)
-        shown = on_a_terminal(runner, ["table", "--from", tmp + "/record.json"], {"TERM": "xterm", "NO_COLOR": None})
+        shown = runner.on_terminal(["table", "--from", tmp + "/record.json"], {"TERM": "xterm", "NO_COLOR": None}).stdout
     painted = {cell: colour for colour, cell in re.findall(r"\x1b\[(\d+)m(.*?)\x1b\[0m", shown) if cell in due}
     return [] if painted == due else ["painted: %s in %r" % (painted, shown)]
 

@@ -2,11 +2,13 @@
 import ctypes
 import json
 import os
+import pty
 import re
 import resource
 import shutil
 import subprocess
 import tempfile
+import threading
 
 # Variables that change what raingauge or a driver does; tests set what they mean to. Which fault it has is `make mutants`' own.
 CHANGES = re.compile(r"^(RG_(?!MUTANT$)|LP_|OMP_|GOMP_|POCL_|VK_|MESA_|GALLIUM|GALLIVM|LIBGL_|EGL_|__EGL_|OCL_|LD_|GTEST_)")
@@ -71,6 +73,27 @@ class Runner:
                                 encoding="utf-8")
         result.closing = "".join(CLOSING.findall(result.stderr))
         result.stderr = self.rest_of(result.stderr)
+        return result
+
+    def on_terminal(self, args, env={}):
+        """A command whose stdout is a terminal."""
+        ours, its = pty.openpty()
+        parts = []
+
+        def read():
+            try:
+                while part := os.read(ours, 65536):
+                    parts.append(part)
+            except OSError:  # the terminal's end
+                pass
+
+        reader = threading.Thread(target=read)  # a terminal holds some kilobytes, and its writer waits
+        reader.start()
+        result = self.run(args, env, stdout=its)
+        os.close(its)
+        reader.join()
+        os.close(ours)
+        result.stdout = b"".join(parts).decode("utf-8").replace("\r\n", "\n")
         return result
 
     def report(self, name, problems):

@@ -3,10 +3,8 @@ import csv
 import io
 import json
 import os
-import pty
 import re
 import tempfile
-import threading
 import time
 
 import forms
@@ -117,9 +115,11 @@ def check_brief(runner):
         stored = ["table", "--from", tmp]
         brief, wide = runner.run(stored).stdout, runner.run(stored + ["--wide"]).stdout
         refused = runner.run(stored + ["--wide", "--json"]).returncode
-        shown = on_terminal(runner, stored, {"TERM": "xterm", "NO_COLOR": None})
-        claims = on_terminal(runner, ["table", "--claims", "--from", "%s/results/tables" % ROOT], {"TERM": "xterm", "NO_COLOR": None})
-        plain = [on_terminal(runner, stored, env) for env in ({"TERM": "xterm", "NO_COLOR": "1"}, {"TERM": "dumb", "NO_COLOR": None})]
+        told = [runner.on_terminal(args, env) for args, env in (
+            (stored, {"TERM": "xterm", "NO_COLOR": None}),
+            (["table", "--claims", "--from", "%s/results/tables" % ROOT], {"TERM": "xterm", "NO_COLOR": None}),
+            (stored, {"TERM": "xterm", "NO_COLOR": "1"}), (stored, {"TERM": "dumb", "NO_COLOR": None}))]
+        shown, claims, *plain = [result.stdout + result.stderr for result in told]
     lines = [line for line in brief.split("\n") if re.match(r"\| +128 \|", line)]
     if len(lines) != 3 or not re.fullmatch(r"\| +128 \| +480 \| .* \d+(\.\d+)?x \|", lines[0]):
         problems.append("brief:\n" + brief)
@@ -171,27 +171,6 @@ def check_sweep(runner):
     if not told / 4 < took < 4 * told + 5:  # a busy machine's speed varies as much
         problems.append("%s s were planned, and %.1f s taken" % (told, took))
     return problems
-
-
-def on_terminal(runner, args, env):
-    """What a command prints where its stdout is a terminal."""
-    ours, its = pty.openpty()
-    parts = []
-
-    def read():
-        try:
-            while part := os.read(ours, 65536):
-                parts.append(part)
-        except OSError:  # the terminal's end
-            pass
-
-    reader = threading.Thread(target=read)  # a terminal holds some kilobytes, and its writer waits
-    reader.start()
-    process = runner.run(args, env, stdout=its)
-    os.close(its)
-    reader.join()
-    os.close(ours)
-    return b"".join(parts).decode("utf-8").replace("\r\n", "\n") + process.stderr
 
 
 def check_forms(runner):
