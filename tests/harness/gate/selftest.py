@@ -8,16 +8,20 @@ Runs `raingauge gate D D` until it has made --same verdicts (300), of all built-
 default these have one thread each, for with more a busy core keeps every frame waiting (docs/ci.md). Then it plants real work beside
 each frame, as much as takes --extra (5) percent of a frame as it was found, and runs the gate on what does it
 (BUILD/tests/harness/gate/slower) until there are --planted (59) verdicts. --idle leaves the cores alone. --keep writes what each run
-found into a folder, as the gate's JSON. --traces writes all launches, for decide/traces.c to decide on again. Prints both directions, the share that was left open, seconds a cell and the power at 2, 3
-and 5 %. The exit status is 1 where more than one of 300 that are the same was told apart, or one that was planted was not found.
+found into a folder, as the gate's JSON and its launches: what was interrupted goes on from there, with the same build and arguments.
+--traces writes all launches, for decide/traces.c to decide on again. Prints both directions, the share that was left open, seconds a
+cell and the power at 2, 3 and 5 %. The exit status is 1 where more than one of 300 that are the same was told apart, or one that was
+planted was not found.
 """
 import argparse
 import csv
+import hashlib
 import json
 import os
 import pathlib
 import re
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -39,6 +43,46 @@ def options():
     return parser.parse_args()
 
 
+class Kept:
+    """The folder of what runs found. What an interrupted self-test of the same build and arguments left there stays."""
+
+    def __init__(self, folder, programs, asked):
+        self.folder, self.of = pathlib.Path(folder), pathlib.Path(folder, "of.json")
+        arguments = {name: value for name, value in vars(asked).items() if name not in ("keep", "traces")}
+        whose = {"programs": [hashlib.sha256(pathlib.Path(program).read_bytes()).hexdigest() for program in programs], **arguments}
+        self.facts = json.loads(self.of.read_text()) if self.of.exists() else {}
+        if any(self.facts.get(name) != value for name, value in whose.items()):
+            shutil.rmtree(folder, ignore_errors=True)
+            self.folder.mkdir(parents=True)
+            self.facts = whose
+            self.write(self.of, json.dumps(self.facts))
+
+    @staticmethod
+    def write(path, text):
+        path.with_suffix(".tmp").write_text(text)
+        path.with_suffix(".tmp").rename(path)
+
+    def fact(self, name, measure):
+        """What was measured once, and holds for all runs."""
+        if name not in self.facts:
+            self.facts[name] = measure()
+            self.write(self.of, json.dumps(self.facts))
+        return self.facts[name]
+
+    def run(self, number, gate):
+        """The report and the launches of a run, which `gate` makes unless they are there."""
+        report, launches = self.folder / ("%03d.json" % number), self.folder / ("%03d.csv" % number)
+        if not report.exists():
+            texts = gate()
+            self.write(launches, texts[1])
+            self.write(report, texts[0])
+        return report.read_text(), launches.read_text()
+
+    def end(self):
+        """The next self-test begins anew."""
+        self.of.unlink()
+
+
 class Gates:
     """Runs gates, and counts their verdicts."""
 
@@ -46,7 +90,8 @@ class Gates:
         self.build = pathlib.Path(asked.build).resolve()
         self.raingauge = str(self.build / "harness" / "raingauge")
         self.slower = str(self.build / "tests" / "harness" / "gate" / "slower" / "raingauge-slower")
-        self.keep = asked.keep
+        self.nowhere = tempfile.TemporaryDirectory()
+        self.kept = Kept(asked.keep or self.nowhere.name, (self.raingauge, self.slower), asked)
         self.runs = 0
         self.traces = open(asked.traces, "w") if asked.traces else None
 
@@ -57,6 +102,15 @@ class Gates:
 
     def run(self, a, b, cells=None):
         """The cases of one gate, by the cells' names."""
+        self.runs += 1
+        result, launches = self.kept.run(self.runs, lambda: self.gate(a, b, cells))
+        report = json.loads(result)
+        if self.traces:
+            self.write_trace(a, b, report, list(csv.DictReader(launches.splitlines())))
+        return {case["name"].split(".", 1)[0]: case for case in report["gated"]}
+
+    def gate(self, a, b, cells):
+        """The report and the launches of a gate, as texts."""
         command = [self.raingauge, "gate", a, b, "--json"]
         with tempfile.TemporaryDirectory() as folder:
             if cells:
@@ -66,19 +120,10 @@ class Gates:
             result = subprocess.run(command + ["-o", folder], capture_output=True, text=True, check=False)
             if not result.stdout:
                 sys.exit("%s: exit status %d, %s" % (" ".join(command), result.returncode, result.stderr))
-            report = json.loads(result.stdout)
-            if self.traces:
-                self.write_trace(a, b, report, pathlib.Path(folder, "launches.csv"))
-        self.runs += 1
-        if self.keep:
-            pathlib.Path(self.keep).mkdir(exist_ok=True)
-            pathlib.Path(self.keep, "%03d.json" % self.runs).write_text(result.stdout)
-        return {case["name"].split(".", 1)[0]: case for case in report["gated"]}
+            return result.stdout, pathlib.Path(folder, "launches.csv").read_text()
 
-    def write_trace(self, a, b, report, path):
+    def write_trace(self, a, b, report, rows):
         """A line for the gate, and one for each of its cases."""
-        with open(path, newline="") as file:
-            rows = list(csv.DictReader(file))
         print("gate %s %s" % (a, "same" if a == b else "planted"), file=self.traces)
         for case in report["gated"]:
             logs = ["x" if row["disturbed"] == "1" else "%.6f" % float(row["log_ratio"]) for row in rows if row["case"] == case["name"]]
@@ -86,6 +131,9 @@ class Gates:
 
     def loop_ns(self):
         """What one loop of the extra work takes, of processor time."""
+        return self.kept.fact("loop_ns", self.measured_loop_ns)
+
+    def measured_loop_ns(self):
         loops = 400_000_000
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         subprocess.run([str(self.build / "tests" / "harness" / "gate" / "slower" / "loops"), str(loops)], check=True)
@@ -183,6 +231,7 @@ def main():
     finally:
         if busy:
             busy.kill()
+    gates.kept.end()
     same.tell()
     planted.tell()
     wrong = same.count("regressed") + same.count("improved")
