@@ -18,12 +18,11 @@ static double pairs_below(const double *low, int low_count, double factor, const
     return below;
 }
 
-// The probability of at least `pairs` of m n pairs. The largest of all samples is of the first set
-// with probability m / (m + n), and then below none of the other; else it is above all m. So the
+// The probability of each count of m n pairs. The largest of all samples is of the first set with
+// probability m / (m + n), and then below none of the other; else it is above all m. So the
 // distribution of (m, n) follows from those of (m - 1, n) and (m, n - 1).
-static double exact(int m, int n, int pairs)
+static void make_distribution(int m, int n, double p[EXACT + 1][EXACT * EXACT + 1])
 {
-    static _Thread_local double p[EXACT + 1][EXACT * EXACT + 1];
     for (int i = 0; i <= m; i++) {
         for (int j = 0; j <= n; j++) {
             double *now = p[j];
@@ -39,6 +38,18 @@ static double exact(int m, int n, int pairs)
             memcpy(now, next, (size_t)(i * j + 1) * sizeof(*now));
         }
     }
+}
+
+// The probability of at least `pairs` of m n pairs. Most questions are about as many samples as the
+// one before, so that its distribution is kept.
+static double exact(int m, int n, int pairs)
+{
+    static _Thread_local double p[EXACT + 1][EXACT * EXACT + 1];
+    static _Thread_local int made_m = -1, made_n = -1;
+    if (m != made_m || n != made_n)
+        make_distribution(m, n, p);
+    made_m = m;
+    made_n = n;
     double sum = 0;
     for (int u = m * n; u >= pairs; u--)
         sum += p[n][u];
