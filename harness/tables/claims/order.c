@@ -46,10 +46,11 @@ static double exact(int m, int n, int pairs)
 {
     static _Thread_local double p[EXACT + 1][EXACT * EXACT + 1];
     static _Thread_local int made_m = -1, made_n = -1;
-    if (m != made_m || n != made_n)
+    if (m != made_m || n != made_n) {
         make_distribution(m, n, p);
-    made_m = m;
-    made_n = n;
+        made_m = m;
+        made_n = n;
+    }
     double sum = 0;
     for (int u = m * n; u >= pairs; u--)
         sum += p[n][u];

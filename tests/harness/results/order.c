@@ -32,24 +32,32 @@ static double enumerated(int m, int n, int pairs)
     return (double)as_far / ways;
 }
 
+static void check_drawn(int m, int n)
+{
+    double low[6], high[6];
+    srand48(10 * m + n);
+    int pairs = 0;
+    for (int i = 0; i < m; i++)
+        low[i] = drand48();
+    for (int j = 0; j < n; j++)
+        high[j] = drand48() + 0.2;
+    for (int i = 0; i < m * n; i++)
+        pairs += low[i % m] < high[i / m];
+    const double found = rg_order_probability(low, m, 1, high, n);
+    assert_true(fabs(found - enumerated(m, n, pairs)) < 1e-12);
+}
+
 static void test_order_by_enumeration(void **state)
 {
     (void)state;
-    for (int m = 1; m <= 6; m++) {
-        for (int n = 1; n <= 6; n++) {
-            double low[6], high[6];
-            srand48(10 * m + n);
-            int pairs = 0;
-            for (int i = 0; i < m; i++)
-                low[i] = drand48();
-            for (int j = 0; j < n; j++)
-                high[j] = drand48() + 0.2;
-            for (int i = 0; i < m * n; i++)
-                pairs += low[i % m] < high[i / m];
-            assert_true(fabs(rg_order_probability(low, m, 1, high, n) - enumerated(m, n, pairs)) <
-                        1e-12);
-        }
-    }
+    for (int m = 1; m <= 6; m++)
+        for (int n = 1; n <= 6; n++)
+            check_drawn(m, n);
+    // What is kept from the question before is of other counts, in turn of the first or the second
+    // set.
+    for (int n = 1; n <= 6; n++)
+        for (int m = 1; m <= 6; m++)
+            check_drawn(m, n);
 }
 
 // A pair that is equal counts half, and half of a pair is none.

@@ -55,6 +55,8 @@ ROWS = [
     Fault(ORDER, "below += x < high[j] ? 1 : x > high[j] ? 0 : «0.5»;", "1", "a tie counts as below"),
     Fault(ORDER, "now[u] * i / «(i + j)» : 0;", "(i + j + 1)", "probabilities of orders do not add up to 1"),
     Fault(ORDER, "for (int u = m * n; «u >= pairs»; u--)", "u > pairs", "a probability leaves out its own outcome"),
+    Fault(ORDER, "if («m != made_m || n != made_n»)", "m != made_m || made_n < 0", "orders are judged by the distribution of other counts of the second set"),
+    Fault(ORDER, "if («m != made_m || n != made_n»)", "made_m < 0 || n != made_n", "orders are judged by the distribution of other counts of the first set"),
     Fault(ORDER, "sqrt(mean * (low_count + high_count «+ 1») / 6)", "- 8", "the spread of many samples' orders is too small"),
     Fault(ORDER, "0.5 * erfc((pairs «- 0.5» - mean)", "- 0.0", "many samples' orders have no continuity correction"),
     Fault(PRINTED, "return «print_apart(h) > c->most»;", "false", "a table that contradicts its text is not told"),
