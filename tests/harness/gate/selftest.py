@@ -8,10 +8,10 @@ Runs `raingauge gate D D` until it has made --same verdicts (300), of all built-
 default these have one thread each, for with more a busy core keeps every frame waiting (docs/ci.md). Then it plants real work beside
 each frame, as much as takes --extra (5) percent of a frame as it was found, and runs the gate on what does it
 (BUILD/tests/harness/gate/slower) until there are --planted (59) verdicts. --idle leaves the cores alone. --keep writes what each run
-found into a folder, as the gate's JSON and its launches: what was interrupted goes on from there, with the same build and arguments.
---traces writes all launches, for decide/traces.c to decide on again. Prints both directions, the share that was left open, seconds a
-cell and the power at 2, 3 and 5 %. The exit status is 1 where more than one of 300 that are the same was told apart, or one that was
-planted was not found.
+found into a folder, as the gate's JSON and its launches: with the same build and arguments what is there is not made again, so that
+what was interrupted goes on. --traces writes all launches, for decide/traces.c to decide on again. Prints both directions, the share
+that was left open, seconds a cell and the power at 2, 3 and 5 %. The exit status is 1 where more than one of 300 that are the same was
+told apart, or one that was planted was not found.
 """
 import argparse
 import csv
@@ -21,7 +21,6 @@ import os
 import pathlib
 import re
 import resource
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -44,43 +43,23 @@ def options():
 
 
 class Kept:
-    """The folder of what runs found. What an interrupted self-test of the same build and arguments left there stays."""
+    """The folder of what runs of a build found, with the same arguments. What is there is not made again."""
 
     def __init__(self, folder, programs, asked):
-        self.folder, self.of = pathlib.Path(folder), pathlib.Path(folder, "of.json")
-        arguments = {name: value for name, value in vars(asked).items() if name not in ("keep", "traces")}
-        whose = {"programs": [hashlib.sha256(pathlib.Path(program).read_bytes()).hexdigest() for program in programs], **arguments}
-        self.facts = json.loads(self.of.read_text()) if self.of.exists() else {}
-        if any(self.facts.get(name) != value for name, value in whose.items()):
-            shutil.rmtree(folder, ignore_errors=True)
-            self.folder.mkdir(parents=True)
-            self.facts = whose
-            self.write(self.of, json.dumps(self.facts))
+        whose = {name: value for name, value in vars(asked).items() if name not in ("build", "keep", "traces")}
+        whose["programs"] = [hashlib.sha256(pathlib.Path(program).read_bytes()).hexdigest() for program in programs]
+        self.folder = pathlib.Path(folder, hashlib.sha256(json.dumps(whose, sort_keys=True).encode()).hexdigest()[:16])
+        there = len(list(self.folder.glob("*/report.json")))
+        if there:
+            print("%s has %d runs of this build, which are not made again" % (self.folder, there), flush=True)
 
-    @staticmethod
-    def write(path, text):
-        path.with_suffix(".tmp").write_text(text)
-        path.with_suffix(".tmp").rename(path)
-
-    def fact(self, name, measure):
-        """What was measured once, and holds for all runs."""
-        if name not in self.facts:
-            self.facts[name] = measure()
-            self.write(self.of, json.dumps(self.facts))
-        return self.facts[name]
-
-    def run(self, number, gate):
-        """The report and the launches of a run, which `gate` makes unless they are there."""
-        report, launches = self.folder / ("%03d.json" % number), self.folder / ("%03d.csv" % number)
-        if not report.exists():
-            texts = gate()
-            self.write(launches, texts[1])
-            self.write(report, texts[0])
-        return report.read_text(), launches.read_text()
-
-    def end(self):
-        """The next self-test begins anew."""
-        self.of.unlink()
+    def text(self, name, make):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if not path.exists():
+            path.with_suffix(".tmp").write_text(make())
+            path.with_suffix(".tmp").rename(path)
+        return path.read_text()
 
 
 class Gates:
@@ -103,27 +82,28 @@ class Gates:
     def run(self, a, b, cells=None):
         """The cases of one gate, by the cells' names."""
         self.runs += 1
-        result, launches = self.kept.run(self.runs, lambda: self.gate(a, b, cells))
-        report = json.loads(result)
+        run = "%03d" % self.runs
+        report = json.loads(self.kept.text(run + "/report.json", lambda: self.gate(a, b, cells, self.kept.folder / run)))
         if self.traces:
-            self.write_trace(a, b, report, list(csv.DictReader(launches.splitlines())))
+            self.write_trace(a, b, report, self.kept.folder / run / "launches.csv")
         return {case["name"].split(".", 1)[0]: case for case in report["gated"]}
 
-    def gate(self, a, b, cells):
-        """The report and the launches of a gate, as texts."""
-        command = [self.raingauge, "gate", a, b, "--json"]
-        with tempfile.TemporaryDirectory() as folder:
-            if cells:
-                path = pathlib.Path(folder, "cells.txt")
-                path.write_text("\n".join(cells) + "\n")
-                command += ["--cells", str(path)]
-            result = subprocess.run(command + ["-o", folder], capture_output=True, text=True, check=False)
-            if not result.stdout:
-                sys.exit("%s: exit status %d, %s" % (" ".join(command), result.returncode, result.stderr))
-            return result.stdout, pathlib.Path(folder, "launches.csv").read_text()
+    def gate(self, a, b, cells, folder):
+        """The report of a gate, which goes on from the launches in its folder where it was interrupted."""
+        command = [self.raingauge, "gate", a, b, "--json", "-o", str(folder)]
+        if cells:
+            path = folder / "cells.txt"
+            path.write_text("\n".join(cells) + "\n")
+            command += ["--cells", str(path)]
+        result = subprocess.run(command, capture_output=True, text=True, check=False)
+        if not result.stdout:
+            sys.exit("%s: exit status %d, %s" % (" ".join(command), result.returncode, result.stderr))
+        return result.stdout
 
-    def write_trace(self, a, b, report, rows):
+    def write_trace(self, a, b, report, path):
         """A line for the gate, and one for each of its cases."""
+        with open(path, newline="") as file:
+            rows = list(csv.DictReader(file))
         print("gate %s %s" % (a, "same" if a == b else "planted"), file=self.traces)
         for case in report["gated"]:
             logs = ["x" if row["disturbed"] == "1" else "%.6f" % float(row["log_ratio"]) for row in rows if row["case"] == case["name"]]
@@ -131,7 +111,7 @@ class Gates:
 
     def loop_ns(self):
         """What one loop of the extra work takes, of processor time."""
-        return self.kept.fact("loop_ns", self.measured_loop_ns)
+        return float(self.kept.text("loop_ns", lambda: repr(self.measured_loop_ns())))
 
     def measured_loop_ns(self):
         loops = 400_000_000
@@ -231,7 +211,6 @@ def main():
     finally:
         if busy:
             busy.kill()
-    gates.kept.end()
     same.tell()
     planted.tell()
     wrong = same.count("regressed") + same.count("improved")
