@@ -17,6 +17,7 @@ KEPT = os.path.join(ROOT, "results", "tables")
 KEEP = os.path.join(ROOT, "results", "keep.py")
 WALK = os.path.join(ROOT, "results", "walk.py")
 FIGURES = os.path.join(ROOT, "results", "figures.py")
+SAME = os.path.join(ROOT, "results", "same.py")
 FORMS = ("csv", "json", "md")
 
 
@@ -167,6 +168,10 @@ def check_scripts(runner):
                            ([KEEP, tmp, tmp + "/to"], r"/raster-1\.json:1:2: .*; have raingauge write it anew"),
                            ([FIGURES, tmp + "/other"], r"/other/stuppacher-1\.json: is no record of a table; .*"),
                            ([FIGURES, tmp + "/none"], "/none/stuppacher-1.json: No such file or directory"),
+                           ([SAME, tmp + "/none", KEPT], "/none: No such file or directory"),
+                           ([SAME, tmp, KEPT], r"/raster-1\.json:1:2: .*; have raingauge write it anew"),
+                           ([SAME, tmp + "/to", KEPT], "/to: holds no record of a table; name a folder that raingauge table -o wrote"),
+                           ([SAME, KEPT, tmp + "/other"], "/other/chin-drops.json: No such file or directory"),
                            ([WALK, tmp + "/none"], "/none: No such file or directory"),
                            ([WALK, "/bin/false"], "/bin/false table .* ended with status 1")):
             done = subprocess.run([sys.executable, "-B", *args], check=False, capture_output=True, text=True)
@@ -174,6 +179,47 @@ def check_scripts(runner):
                 problems.append("%s: exit status %d, %s%s" % (args, done.returncode, done.stdout, done.stderr))
         if os.path.exists(tmp + "/to") and os.listdir(tmp + "/to"):
             problems.append("written: %s" % os.listdir(tmp + "/to"))
+    return problems
+
+
+# Of every technique the tables whose first row takes the least.
+DRAWN = (["chin-grid", "creus-5.2", "feng-2", "raster-1", "stuppacher-2", "ye-1"], ["creus-5.4", "--work", "paper", "--variant", "no_geometry"])
+
+
+def without_first_row(record):
+    record["cells"] = [cell for cell in record["cells"] if cell["row_number"] != 1]
+
+
+def check_drawn(runner):
+    """rows that are measured anew draw what the tables that are kept drew, to the last count and error, and same.py says of which cell something differs"""
+    changes = {
+        r"tally\.items is \d+, and 1 was kept": lambda record: record["cells"][0]["tally"].update(items=1),
+        r"tally\.records is \d+, and null was kept": lambda record: record["cells"][0]["tally"].pop("records"),
+        r"status is \"ok\", and \"fail\" was kept": lambda record: record["cells"][0].update(status="fail"),
+        r"published\.fps is 480, and 30 was kept": lambda record: record["cells"][0]["published"].update(fps=30),
+        r"is not kept": without_first_row,
+    }
+    with tempfile.TemporaryDirectory() as tmp:
+        for words in DRAWN:
+            runner.run(["table", *words, "--rows", "1-1", "--quick", "--device", "cpu", "-o", tmp + "/new"])
+        for name in os.listdir(tmp + "/new"):
+            if not name.endswith(".json"):
+                os.remove(os.path.join(tmp, "new", name))
+
+        def same(kept):
+            done = subprocess.run([sys.executable, "-B", SAME, tmp + "/new", kept], check=False, capture_output=True, text=True)
+            return done.returncode, re.sub(r": \d+ cells draw the same", "", done.stdout).splitlines(), done.stderr
+
+        tables = sorted(words for row in DRAWN for words in row if re.match(r"[a-z]+-[\d.a-z]+$", words))
+        problems = [] if same(KEPT) == (0, tables, "") else ["measured anew: %s" % (same(KEPT),)]
+        shutil.copytree(KEPT, tmp + "/kept")
+        for says, change in changes.items():
+            record = json.loads(read(KEPT, "stuppacher-2.json"))
+            change(record)
+            pathlib.Path(tmp, "kept", "stuppacher-2.json").write_text(json.dumps(record), encoding="utf-8")
+            status, lines, _ = same(tmp + "/kept")
+            if status != 1 or not re.fullmatch("stuppacher-2: row 1, full, paper, cpu: " + says, lines[tables.index("stuppacher-2")]):
+                problems.append("%s: status %d, %s" % (says, status, lines))
     return problems
 
 
@@ -357,3 +403,4 @@ def check_dirty_tree(runner):
 
 
 CHECKS = [check_printed, check_compact, check_damaged, check_walk, check_scripts, check_colours, check_failed_colours, check_claims, check_lengths, check_dirty_tree]
+LONG = [check_drawn]

@@ -12,7 +12,7 @@
            clips    frames in a row, as clips and as numbered pictures, on the CPU
            stored   tables that were interrupted, or are printed again
            losses   runs that are killed, that lose their disk, folder or clock, and a second one beside one that measures
-           long     what verify prints, tables that are counted, set in a row or begun anew, an atlas that is not kept
+           long     what verify prints, tables that are counted, set in a row, begun or measured anew, an atlas that is not kept
            misbehaving  drivers that crash, hang, lie about their end or lose their device
            ways     the same, in all ways, of the commands that take longer
            gates    one device held against another
@@ -71,7 +71,7 @@ SUITES = {
     "clips": lambda runner: runner.check_all(clips.CHECKS),
     "stored": lambda runner: runner.check_all(stored.CHECKS),
     "losses": lambda runner: runner.check_all(losses.CHECKS + resuming.CHECKS),
-    "long": lambda runner: runner.check_all(tables.LONG + stored.LONG + verifying.LONG + atlases.LONG + limits.LONG),
+    "long": lambda runner: runner.check_all(tables.LONG + stored.LONG + verifying.LONG + atlases.LONG + limits.LONG + kept.LONG),
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
     "ways": lambda runner: runner.check_all(misbehaving.THOROUGH),
     "gates": lambda runner: runner.check_all(gates.CHECKS),

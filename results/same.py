@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""Says whether tables that were measured anew draw what the tables that are kept drew: times differ, and nothing else may.
+
+    same.py FROM TO
+
+FROM holds records that `raingauge table -o FROM` wrote, of all rows or of some, and TO those that are kept. Of each cell of
+FROM all is compared but its times: what was set, its outcome, what was counted and drawn, and the error of its picture. Prints
+a line a table; the exit status is 1 where one differs or has a cell that TO has not.
+"""
+import json
+import os
+import sys
+
+sys.dont_write_bytecode = True  # the folder stays as it is
+
+import script
+
+TIMES = ("measured", "checksum")
+
+
+def cells_of(path):
+    """Cells by what they are of, without their times."""
+    cells = {}
+    for cell in script.read_record(path)["cells"]:
+        name = ", ".join(["row %d" % cell["row_number"], *(cell[key] for key in ("variant", "work", "device") if key in cell)])
+        cells[name] = {key: value for key, value in cell.items() if key not in TIMES}
+    return cells
+
+
+def values_of(cell):
+    """A cell's values, each by the whole of its name."""
+    values = {}
+    for key, value in cell.items():
+        values.update({f"{key}.{name}": one for name, one in value.items()} if isinstance(value, dict) else {key: value})
+    return values
+
+
+def first_difference(cells, kept):
+    for name, cell in cells.items():
+        if name not in kept:
+            return f"{name}: is not kept"
+        now, then = values_of(cell), values_of(kept[name])
+        for key in sorted(now.keys() | then.keys()):
+            if now.get(key) != then.get(key):
+                return f"{name}: {key} is {json.dumps(now.get(key))}, and {json.dumps(then.get(key))} was kept"
+    return ""
+
+
+def main():
+    args = script.arguments(__doc__, "FROM", "TO")
+    folder, differ = getattr(args, "from"), False
+    names = sorted(name for name in os.listdir(folder) if name.endswith(".json"))
+    if not names:
+        raise ValueError(f"{folder}: holds no record of a table; name a folder that raingauge table -o wrote")
+    for name in names:
+        cells = cells_of(os.path.join(folder, name))
+        difference = first_difference(cells, cells_of(os.path.join(args.to, name)))
+        print(f"{name[:-len('.json')]}: {difference or f'{len(cells)} cells draw the same'}")
+        differ |= bool(difference)
+    return 1 if differ else 0
+
+
+if __name__ == "__main__":
+    sys.exit(script.run(main))
