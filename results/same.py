@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Says whether tables that were measured anew draw what the tables that are kept drew: times differ, and nothing else may.
+"""Says whether tables that were measured anew count what the tables that are kept do: times differ, and nothing else may.
 
     same.py FROM TO
 
 FROM holds records that `raingauge table -o FROM` wrote, of all rows or of some, and TO those that are kept. Of each cell of
-FROM all is compared but its times: what was set, its outcome, what was counted and drawn, and the error of its picture. Prints
-a line a table; the exit status is 1 where one differs or has a cell that TO has not.
+FROM all is compared but its times: what was set, its outcome, what was counted, and the error of its picture, where its table
+has errors; what else a picture shows is in no record. Prints a line a table; the exit status is 1 where one differs or has a
+cell that TO has not.
 """
 import json
 import os
@@ -55,7 +56,7 @@ def main():
     for name in names:
         cells = cells_of(os.path.join(folder, name))
         difference = first_difference(cells, cells_of(os.path.join(args.to, name)))
-        print(f"{name[:-len('.json')]}: {difference or f'{len(cells)} cells draw the same'}")
+        print(f"{name[:-len('.json')]}: {difference or f'{len(cells)} cells count the same'}")
         differ |= bool(difference)
     return 1 if differ else 0
 

@@ -27,7 +27,8 @@ def read_record(path):
             record = json.load(file)
         except json.JSONDecodeError as error:
             raise ValueError(f"{path}:{error.lineno}:{error.colno}: {error.msg}; have raingauge write it anew") from error
-    if not isinstance(record, dict) or "cells" not in record:
+    cells = record.get("cells") if isinstance(record, dict) else None
+    if not isinstance(cells, list) or not all(isinstance(cell, dict) and {"row", "row_number", "device"} <= cell.keys() for cell in cells):
         raise ValueError(f"{path}: is no record of a table; leave it out of the folder")
     return record
 
