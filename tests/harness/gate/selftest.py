@@ -7,12 +7,12 @@ selftest.py BUILD [--device D,...] [--same N] [--planted N] [--extra PERCENT] [-
 Runs `raingauge gate D D` until it has made --same verdicts (300), of all built-in cells in turn, over the devices that are
 named. By default these have one thread each, for with more a busy core keeps every frame waiting (docs/ci.md). Then it plants
 real work beside each frame, as much as takes --extra (5) percent of a frame as it was found, and runs the gate on what does it
-(BUILD/tests/harness/gate/slower) until there are --planted (59) verdicts; where frames have become slower since, it is sized
-anew. --idle leaves the cores alone. --keep writes what each run found into a folder, as the gate's JSON and its launches: with
-the same build and arguments what is there is not made again, so that what was interrupted goes on. --traces writes all
-launches, for decide/traces.c to decide on again. Prints both directions, the share that was left open, seconds a cell and the
-power at 2, 3 and 5 %. The exit status is 1 where more than one of 300 that are the same was told apart, or one that was planted
-was not found.
+(BUILD/tests/harness/gate/slower) until there are --planted (59) verdicts; where frames have changed since, it is sized anew.
+--idle leaves the cores alone. --keep writes what each run found into a folder, as the gate's JSON and its launches: with the
+same build and arguments what is there is not made again, so that what was interrupted goes on. --traces writes all launches,
+for decide/traces.c to decide on again. Prints both directions, the share that was left open, seconds a cell and the power at 2,
+3 and 5 %. The exit status is 1 where more than one of 300 that are the same was told apart, or one that was planted was not
+found.
 """
 import argparse
 import csv
@@ -28,8 +28,8 @@ import tempfile
 import time
 
 MOST_WRONG_SHARE = 1 / 300
-# What is planted is of frames that were timed before: how much of the frames beside it these may be at least, and how often it is sized.
-LEAST_SIZE, SIZINGS = 0.9, 3
+# What is planted is of frames that were timed before: how far off those beside it these may be, and how often it is sized.
+MOST_OFF, SIZINGS = 0.1, 3
 
 
 def options():
@@ -190,17 +190,18 @@ def slower(gates, device, loops):
 def loop_ns(gates, device, line, frame):
     """What one loop of the extra work takes beside frames, by a gate on twice the work."""
     loops = round(frame * 1e6 / gates.loop_ns())
-    return frame * 1e6 * (gates.run(device, slower(gates, device, loops), [line])[line.split()[0]]["ratio"]["value"] - 1) / loops
+    case = gates.run(device, slower(gates, device, loops), [line])[line.split()[0]]
+    return case["baseline_ms"] * 1e6 * (case["ratio"]["value"] - 1) / loops
 
 
 def planted_case(gates, device, line, frame, extra, a_loop_ns):
-    """A gate on so many percent more of a frame. Where the machine has slowed down since frames were timed, so that this was less of
-    the frames of this very gate, it is sized by these and tried again, whatever the verdict."""
+    """A gate on so many percent more of a frame. Where the machine has become slower or faster since frames were timed, so that this
+    was less or more of the frames of this very gate, it is sized by these and tried again, whatever the verdict."""
     for _ in range(SIZINGS):
         loops = round(extra / 100 * frame * 1e6 / a_loop_ns)
         cases = gates.run(device, slower(gates, device, loops), [line])
         found = cases[line.split()[0]]["baseline_ms"]
-        if not found or frame >= LEAST_SIZE * found:
+        if not found or abs(frame / found - 1) <= MOST_OFF:
             break
         frame = found
     return cases
