@@ -71,12 +71,26 @@ RG_FN uint rg_pack_half(float v)
     return magnitude < 0x38800000u ? 0u : half_bits;
 }
 
+// A float by the bits of a smaller one, which stand where floats have their exponents: times 2^112,
+// exactly.
+RG_FN float rg_raised(uint bits)
+{
+#if RG_GLSL // drivers may take what is smaller than any normal float for 0
+    uint magnitude = bits & 0x7fffffffu;
+    float least = rg_to_float(rg_to_int(magnitude)) * 7.275957614183426e-12f; // 2^-37
+    float v = magnitude < 0x00800000u ? least : rg_bits_float(magnitude + 0x38000000u);
+    return bits != magnitude ? -v : v;
+#else
+    return rg_bits_float(bits) * 5.192296858534828e33f;
+#endif
+}
+
 // The half in the upper bits of a word: shifted to where floats have their exponents, behind copies
 // of its sign.
 RG_FN float rg_unpack_upper_half(uint word)
 {
     uint bits = rg_to_uint(rg_to_int(word) >> 3) & 0x8fffe000u;
-    return rg_bits_float(bits) * 5.192296858534828e33f; // 2^112, exactly
+    return rg_raised(bits);
 }
 
 RG_FN float rg_unpack_half(uint half_bits)
@@ -124,12 +138,12 @@ RG_FN rgba rg_fetched_D32F(rgba c)
 
 RG_FN float rg_unpack_float11(uint bits)
 {
-    return rg_bits_float(bits << 17) * 5.192296858534828e33f; // 2^112, exactly
+    return rg_raised(bits << 17);
 }
 
 RG_FN float rg_unpack_float10(uint bits)
 {
-    return rg_bits_float(bits << 18) * 5.192296858534828e33f;
+    return rg_raised(bits << 18);
 }
 
 RG_FN rgba rg_fetched_RG11B10F(rgba c)
