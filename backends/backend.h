@@ -68,7 +68,8 @@ struct rg_device_info {
 struct rg_device {
     const struct rg_backend *backend;
     struct rg_device_info info;
-    struct rg_work *work;       // what core/device counts; not the backend's business
+    bool rounds;          // its programs round quotients and roots; backends/rounding.h says so
+    struct rg_work *work; // what core/device counts; not the backend's business
     struct rg_packing *packing; // owned by core/device/packing.c; likewise
     struct rg_shared *shared;   // owned by core/device/shared.c; likewise
 };
@@ -168,6 +169,7 @@ enum { RG_MAX_DEVICES = 32 }; // that a list takes
 struct rg_backend {
     const char *name;    // "vulkan"
     const char *package; // the Debian package whose absence explains a missing device; NULL: none
+    bool rough;          // its language lets quotients and roots be inexact (rounding.h)
     bool packed;         // draws what core/device/packing.c has packed, rather than items
 
     // Fills `infos` with up to `max` devices, best first, and returns their number; 0: none, and

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/alloc.h"
 #include "core/base/files/file.h"
 #include "core/base/log.h"
 
@@ -54,11 +55,60 @@ static unsigned char *read_whole(FILE *file, size_t *size)
     return bytes;
 }
 
-bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind,
-                    struct rg_kernel_code *code, void **owned)
+static enum rg_code_kind rounded_kind(enum rg_code_kind kind)
 {
-    static const char *const extensions[RG_CODE_COUNT] = {"glsl",     "spv",  "cl",      "vert",
-                                                          "vert.spv", "frag", "frag.spv"};
+    switch (kind) {
+    case RG_CODE_SPIRV:
+        return RG_CODE_ROUNDED_SPIRV;
+    case RG_CODE_VERTEX_SPIRV:
+        return RG_CODE_ROUNDED_VERTEX_SPIRV;
+    case RG_CODE_FRAGMENT_SPIRV:
+        return RG_CODE_ROUNDED_FRAGMENT_SPIRV;
+    default:
+        return kind;
+    }
+}
+
+// Defines RG_ROUNDED behind the first line of GLSL, which is its version.
+static bool define_rounded(const struct rg_kernel *kernel, struct rg_kernel_code *code,
+                           void **owned)
+{
+    static const char line[] = "#define RG_ROUNDED\n";
+    const size_t added = sizeof(line) - 1;
+    const unsigned char *end = code->size ? memchr(code->bytes, '\n', code->size) : NULL;
+    if (!end)
+        return true;
+    const size_t first = (size_t)(end - code->bytes) + 1;
+    unsigned char *text = rg_alloc(1, code->size + added, kernel->name);
+    if (!text)
+        return false;
+    memcpy(text, code->bytes, first);
+    memcpy(text + first, line, added);
+    memcpy(text + first + added, code->bytes + first, code->size - first);
+    free(*owned);
+    code->bytes = *owned = text;
+    code->size += added;
+    return true;
+}
+
+static bool is_glsl(enum rg_code_kind kind)
+{
+    return kind == RG_CODE_GLSL || kind == RG_CODE_VERTEX_GLSL || kind == RG_CODE_FRAGMENT_GLSL;
+}
+
+static bool find_code(const struct rg_kernel *kernel, enum rg_code_kind kind,
+                      struct rg_kernel_code *code, void **owned)
+{
+    static const char *const extensions[RG_CODE_COUNT] = {"glsl",
+                                                          "spv",
+                                                          "cl",
+                                                          "vert",
+                                                          "vert.spv",
+                                                          "frag",
+                                                          "frag.spv",
+                                                          "rounded.spv",
+                                                          "vert.rounded.spv",
+                                                          "frag.rounded.spv"};
     *owned = NULL;
     *code = kernel->code[kind];
     const char *folder = rg_kernel_override();
@@ -78,4 +128,12 @@ bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind,
             path);
     code->bytes = *owned = bytes;
     return true;
+}
+
+bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind, bool rounded,
+                    struct rg_kernel_code *code, void **owned)
+{
+    if (!find_code(kernel, rounded ? rounded_kind(kind) : kind, code, owned))
+        return false;
+    return !rounded || !is_glsl(kind) || define_rounded(kernel, code, owned);
 }

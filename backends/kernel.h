@@ -48,6 +48,11 @@ enum rg_code_kind {
     RG_CODE_VERTEX_SPIRV,
     RG_CODE_FRAGMENT_GLSL,
     RG_CODE_FRAGMENT_SPIRV,
+    // Of programs that round quotients and roots themselves (kernels/dialect/rounding.h); their
+    // GLSL is that of others, and defines RG_ROUNDED.
+    RG_CODE_ROUNDED_SPIRV,
+    RG_CODE_ROUNDED_VERTEX_SPIRV,
+    RG_CODE_ROUNDED_FRAGMENT_SPIRV,
     RG_CODE_COUNT
 };
 
@@ -94,9 +99,9 @@ int rg_kernel_all(const struct rg_kernel *const **kernels);
 int rg_kernel_index(const struct rg_kernel *kernel);
 
 // The code for a driver, as embedded at build time or, where RG_KERNEL_DIR names a folder, read
-// from NAME.glsl, NAME.spv, NAME.cl and so on there. `owned` is what the caller frees when done,
-// NULL if nothing.
-bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind,
+// from NAME.glsl, NAME.spv, NAME.cl and so on there; `rounded`, of a program that rounds quotients
+// and roots itself. `owned` is what the caller frees when done, NULL if nothing.
+bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind, bool rounded,
                     struct rg_kernel_code *code, void **owned);
 
 // The folder that RG_KERNEL_DIR names, or NULL. Records say so.

@@ -1,5 +1,6 @@
 // The fragment stage of a DRAW program: everything from the packed record and the pixel's place.
 #define RG_STAGE_FRAGMENT 1
+#include "kernels/dialect/rounding.h"
 #include RG_KERNEL_HEADER
 #include "kernels/dialect/draw/lit.h"
 

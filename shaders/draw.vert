@@ -2,6 +2,7 @@
 // corners. In a viewport of RG_VIEWPORT_PX every step below is exact, so the driver snaps to the very
 // integers that were packed.
 #define RG_STAGE_VERTEX 1
+#include "kernels/dialect/rounding.h"
 #include RG_KERNEL_HEADER
 
 layout(std140, binding = 0) uniform rg_run_block

@@ -1,4 +1,5 @@
 // Makes a compute stage of a GRID kernel. One work item an item; the host folds large grids.
+#include "kernels/dialect/rounding.h"
 #include RG_KERNEL_HEADER
 
 layout(local_size_x = 64) in;

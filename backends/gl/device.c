@@ -144,6 +144,7 @@ static struct rg_device *gl_create(int index)
 const struct rg_backend rg_backend_gl = {
     .name = "gl",
     .package = "libegl-mesa0",
+    .rough = true,
     .packed = true,
     .list = gl_list,
     .create = gl_create,

@@ -32,7 +32,7 @@ static bool compile(const struct gl_device *device, const struct rg_kernel *kern
 {
     struct rg_kernel_code code;
     void *owned;
-    if (!rg_kernel_code(kernel, kind, &code, &owned))
+    if (!rg_kernel_code(kernel, kind, device->pub.rounds, &code, &owned))
         return false;
     const GLchar *text = (const GLchar *)code.bytes;
     const GLint length = (GLint)code.size;

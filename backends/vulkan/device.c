@@ -145,6 +145,7 @@ static struct rg_device *vk_create(int index)
 const struct rg_backend rg_backend_vulkan = {
     .name = "vulkan",
     .package = "mesa-vulkan-drivers",
+    .rough = true,
     .packed = true,
     .list = vk_list,
     .create = vk_create,

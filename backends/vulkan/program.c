@@ -12,7 +12,7 @@ static bool create_module(struct vk_device *device, const struct rg_kernel *kern
 {
     struct rg_kernel_code code;
     void *owned;
-    if (!rg_kernel_code(kernel, kind, &code, &owned))
+    if (!rg_kernel_code(kernel, kind, device->pub.rounds, &code, &owned))
         return false;
     const uint32_t spirv_magic = 0x07230203, header_bytes = 20;
     bool ok = code.size >= header_bytes && code.size % 4 == 0 &&

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "backends/rounding.h"
 #include "core/base/alloc.h"
 #include "core/base/doing.h"
 #include "core/base/memory.h"
@@ -105,7 +106,10 @@ struct rg_device *rg_device_open(const char *name)
     }
     device->backend = backend;
     device->work = work;
-    return device;
+    if (rg_rounding_settle(device))
+        return device;
+    rg_device_close(device);
+    return NULL;
 }
 
 bool rg_device_close(struct rg_device *device)

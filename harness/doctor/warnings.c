@@ -114,6 +114,7 @@ static void check_threads(json_t *warnings, const struct rg_device_list *list,
 static void check_variables(json_t *warnings)
 {
     const char *folder = rg_kernel_override(), *level = value_of("RG_CPU_LEVEL");
+    const char *rounding = value_of("RG_ROUNDING");
     const char *validation = value_of("RG_VK_VALIDATION"), *perf = value_of("GALLIVM_PERF");
     if (folder)
         warn(warnings,
@@ -122,6 +123,11 @@ static void check_variables(json_t *warnings)
     if (level)
         warn(warnings, "RG_CPU_LEVEL=%.40s: cpu runs at that level, which may not be its fastest",
              level);
+    if (rounding)
+        warn(warnings,
+             "RG_ROUNDING=%.40s: decides who rounds quotients and roots on gl and vulkan; "
+             "unset it to let each device's own decide",
+             rounding);
     if (validation && !strcmp(validation, "1"))
         warn(warnings, "RG_VK_VALIDATION=1: vulkan is validated, and slower for it; unset it to "
                        "measure");

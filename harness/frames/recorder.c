@@ -181,8 +181,7 @@ void *rg_recorder_code(struct rg_device *device, const struct rg_kernel *kernel,
 {
     struct rg_kernel_code code;
     void *owned, *copy = NULL;
-    (void)device;
-    if (!rg_kernel_code(kernel, kind, &code, &owned))
+    if (!rg_kernel_code(kernel, kind, device->rounds, &code, &owned))
         return NULL;
     if (!code.size)
         rg_unsupported("kernel '%s': this build has no code of it for drivers; build raingauge "

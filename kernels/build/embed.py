@@ -9,7 +9,7 @@ import hashlib
 import os
 import sys
 
-KINDS = ["glsl", "spv", "cl", "vert", "vert.spv", "frag", "frag.spv"]
+KINDS = ["glsl", "spv", "cl", "vert", "vert.spv", "frag", "frag.spv", "rounded.spv", "vert.rounded.spv", "frag.rounded.spv"]
 
 
 def assembler(symbol, path, data):

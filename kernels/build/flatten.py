@@ -4,9 +4,10 @@
 flatten.py SHADERS DEPFILE COMPILER... -- FOLDER [SHELL HEADER OUTPUT]...
 
 Runs the C preprocessor over each SHELL (a file of SHADERS), which includes the kernel's HEADER, so
-that FOLDER/OUTPUT is one flat file without includes or macros. For GLSL it then makes every float
-`precise`, which forbids a driver to contract or reorder: the one thing that the dialect cannot say
-in C and OpenCL C alike. A text that has not changed is not written again, so that the build does
+that FOLDER/OUTPUT is one flat file without includes or macros. For GLSL it then gives every quotient
+and root a name, behind which a program that defines RG_ROUNDED finds kernels/dialect/rounding.h and
+another the driver's own, and makes every float `precise`, which forbids a driver to contract or
+reorder: the two things that the dialect cannot say in C and OpenCL C alike. A text that has not changed is not written again, so that the build does
 not make anew what depends on it. One process makes all texts, with a helper for each processor. A
 kernel with a name that another language reserves is refused.
 """
@@ -16,6 +17,7 @@ import re
 import subprocess
 import sys
 
+import quotients
 import reserved
 
 # OpenGL and Vulkan name the vertex's number differently. OpenGL reads words, and structs of words,
@@ -38,6 +40,15 @@ VERSION = """#version 450 core
 #define RG_UINT_OF(words, i) texelFetch(words, i).x
 #define RG_STRUCTS(slot, T, block, words) layout(binding = slot) uniform usamplerBuffer words;
 #define RG_STRUCT_OF(of, words, i) of(words, i)
+#endif
+#define RG_ROUGH_QUOTIENT(a, b) ((a) / (b))
+#define RG_ROUGH_ROOT(x) sqrt(x)
+#ifdef RG_ROUNDED
+#define RG_QUOTIENT(a, b) rg_rounded_quotient(a, b)
+#define RG_ROOT(x) rg_rounded_root(x)
+#else
+#define RG_QUOTIENT(a, b) RG_ROUGH_QUOTIENT(a, b)
+#define RG_ROOT(x) RG_ROUGH_ROOT(x)
 #endif
 """
 
@@ -104,10 +115,11 @@ class PreciseExpressions:
             match.group(1): [p.split()[0] for p in match.group(2).split(",") if p.strip()]
             for match in header.finditer(text)
         }
+        self.parameters.update(RG_QUOTIENT=["float", "float"], RG_ROOT=["float"])
         self.text = self.rewrite(text, self.headers)
 
     def through(self, kind, expression):
-        if not re.search(r"[-+*/]", expression) or self.literal.fullmatch(expression):
+        if not re.search(r"[-+*/]|\bRG_QUOTIENT\b", expression) or self.literal.fullmatch(expression):
             return expression
         self.globals.append(f"precise {kind} rg_exact_{len(self.globals)};")
         space = expression[: len(expression) - len(expression.lstrip())]
@@ -210,7 +222,10 @@ def flatten(job):
     if refusal:
         return needs, f"{header}: {refusal}"
     if language == "GLSL":
-        text = VERSION + add_struct_readers(make_precise(text))
+        try:
+            text = VERSION + add_struct_readers(make_precise(quotients.rewrite(text)))
+        except quotients.Refused as refused:
+            return needs, f"{header}: {refused}"
     write_if_changed(output, text)
     return needs, None
 

@@ -40,7 +40,7 @@
 #define rg_to_uint(i)    uint(i)
 #define rg_float_bits(f) floatBitsToUint(f)
 #define rg_bits_float(u) uintBitsToFloat(u)
-#define rg_sqrt(f)       sqrt(f)
+#define rg_sqrt(f)       RG_ROOT(f)
 #define rg_floor(f)      floor(f)
 #define rg_abs(f)        abs(f)
 

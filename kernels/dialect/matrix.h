@@ -3,7 +3,6 @@
 #ifndef RG_KERNELS_DIALECT_MATRIX_H
 #define RG_KERNELS_DIALECT_MATRIX_H
 
-#include "kernels/dialect/corner.h"
 #include "kernels/dialect/vec.h"
 
 // Row-major: x' = xx x + xy y + xz z + xw, and so on.

@@ -1,4 +1,5 @@
-// Vectors of three floats, by value, each operation written out so that all devices round alike.
+// Vectors of three floats, by value, each operation written out so that all devices round alike;
+// and corners of four.
 #ifndef RG_KERNELS_DIALECT_VEC_H
 #define RG_KERNELS_DIALECT_VEC_H
 
@@ -50,6 +51,26 @@ RG_FN v3 v3_unit(v3 a)
 RG_FN v3 v3_reflect(v3 incident, v3 n)
 {
     return v3_add(incident, v3_scale(n, -2.0f * v3_dot(incident, n)));
+}
+
+// A corner of an item, in clip space.
+RG_STRUCT(rg_corner)
+{
+    float x;
+    float y;
+    float z;
+    float w;
+};
+RG_STRUCT_SIZE(rg_corner, 4)
+
+RG_FN rg_corner rg_corner_make(float x, float y, float z, float w)
+{
+    rg_corner c;
+    c.x = x;
+    c.y = y;
+    c.z = z;
+    c.w = w;
+    return c;
 }
 
 #endif

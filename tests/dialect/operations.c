@@ -169,7 +169,7 @@ static void every_kernel_has_its_stages(void **state)
     for (int i = 0; i < count; i++)
         for (int s = 0; s < SPIRV_STAGES; s++)
             assert_int_equal(all[i]->code[spirv_stages[s].kind].size > 0,
-                             !all[i]->draw == (spirv_stages[s].kind == RG_CODE_SPIRV));
+                             !all[i]->draw == (spirv_stages[s].text == RG_CODE_GLSL));
 }
 
 static struct spirv_module find_module(const char *kernel, enum rg_code_kind kind)

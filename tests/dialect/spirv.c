@@ -11,7 +11,10 @@
 const struct spirv_stage spirv_stages[SPIRV_STAGES] = {
     {RG_CODE_SPIRV, RG_CODE_GLSL, "compute"},
     {RG_CODE_VERTEX_SPIRV, RG_CODE_VERTEX_GLSL, "vertex"},
-    {RG_CODE_FRAGMENT_SPIRV, RG_CODE_FRAGMENT_GLSL, "fragment"}};
+    {RG_CODE_FRAGMENT_SPIRV, RG_CODE_FRAGMENT_GLSL, "fragment"},
+    {RG_CODE_ROUNDED_SPIRV, RG_CODE_GLSL, "rounded compute"},
+    {RG_CODE_ROUNDED_VERTEX_SPIRV, RG_CODE_VERTEX_GLSL, "rounded vertex"},
+    {RG_CODE_ROUNDED_FRAGMENT_SPIRV, RG_CODE_FRAGMENT_GLSL, "rounded fragment"}};
 
 struct spirv_module spirv_module(const struct rg_kernel *kernel, enum rg_code_kind kind)
 {

@@ -19,7 +19,7 @@ struct spirv_stage {
     const char *name;
 };
 
-enum { SPIRV_STAGES = 3 };
+enum { SPIRV_STAGES = 6 }; // three, and the same of programs that round quotients themselves
 
 extern const struct spirv_stage spirv_stages[SPIRV_STAGES];
 

@@ -8,7 +8,7 @@
 #ifndef RG_KERNELS_DIALECT_DRAW_CLIP_H
 #define RG_KERNELS_DIALECT_DRAW_CLIP_H
 
-#include "kernels/dialect/corner.h"
+#include "kernels/dialect/vec.h"
 #include "kernels/dialect/draw/state.h"
 
 // A driver draws in a viewport of RG_VIEWPORT_PX around the target's centre. Snapped coordinates

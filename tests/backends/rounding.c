@@ -1,0 +1,159 @@
+// When a device's programs round quotients and roots themselves: of `cpu`, made out to be a device
+// of an API that lets these be inexact, whose results are off where a test says so.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "core/device/device.h"
+#include "core/device/work.h"
+#include "kernels/probe/rough_params.h"
+
+enum operation { QUOTIENT, ROOT, NEITHER };
+
+static struct rg_backend pretending;
+const struct rg_backend *const rg_backends[] = {&pretending, NULL};
+extern const struct rg_backend rg_backend_cpu;
+
+static enum rg_tier tier;
+static enum operation inexact, asked;
+static int runs;
+static bool is_lost;
+
+static int list(struct rg_device_info *infos, int max, char *why, size_t why_size)
+{
+    const int count = rg_backend_cpu.list(infos, max < 1 ? max : 1, why, why_size);
+    infos[0].tier = tier;
+    return count;
+}
+
+static struct rg_device *create(int index)
+{
+    struct rg_device *device = rg_backend_cpu.create(index);
+    if (device)
+        device->info.tier = tier;
+    return device;
+}
+
+static bool pass_run(struct rg_pass *pass, const struct rg_run *run)
+{
+    asked = ((const struct probe_rough_params *)run->params)->roots ? ROOT : QUOTIENT;
+    runs++;
+    return is_lost ? rg_error("device 'cpu': lost") : rg_backend_cpu.pass_run(pass, run);
+}
+
+// One result of all is off, by an ulp.
+static bool buf_read(struct rg_buf *buf, size_t offset, void *data, size_t size)
+{
+    if (!rg_backend_cpu.buf_read(buf, offset, data, size))
+        return false;
+    ((uint32_t *)data)[size / 8] += asked == inexact;
+    return true;
+}
+
+static struct rg_device *open_pretending(bool rough, enum rg_tier its_tier,
+                                         enum operation its_inexact)
+{
+    pretending = rg_backend_cpu;
+    pretending.list = list;
+    pretending.create = create;
+    pretending.pass_run = pass_run;
+    pretending.buf_read = buf_read;
+    pretending.rough = rough;
+    tier = its_tier;
+    inexact = its_inexact;
+    runs = 0;
+    return rg_device_open("cpu");
+}
+
+// What was found out leaves nothing behind on the device.
+static void check(struct rg_device *device, bool rounds, int its_runs)
+{
+    assert_non_null(device);
+    assert_int_equal(device->rounds, rounds);
+    assert_int_equal(strstr(device->info.api, ", own rounding") != NULL, rounds);
+    assert_int_equal(runs, its_runs);
+    const struct rg_work none = {0};
+    assert_memory_equal(rg_device_work(device), &none, sizeof(none));
+    assert_true(rg_device_close(device));
+}
+
+static void inexact_devices_round_themselves(void **state)
+{
+    (void)state;
+    check(open_pretending(true, RG_T1, QUOTIENT), true, 1);
+    check(open_pretending(true, RG_T1, ROOT), true, 2);
+}
+
+static void exact_devices_do_not(void **state)
+{
+    (void)state;
+    check(open_pretending(true, RG_T1, NEITHER), false, 2);
+}
+
+// Nor are devices asked that compute as C does, or whose API promises exact ones.
+static void others_are_not_asked(void **state)
+{
+    (void)state;
+    check(open_pretending(true, RG_T0, QUOTIENT), false, 0);
+    check(open_pretending(false, RG_T1, QUOTIENT), false, 0);
+}
+
+static void the_variable_decides(void **state)
+{
+    (void)state;
+    setenv("RG_ROUNDING", "own", 1);
+    check(open_pretending(true, RG_T0, NEITHER), true, 0);
+    check(open_pretending(false, RG_T0, NEITHER), false, 0);
+    setenv("RG_ROUNDING", "driver", 1);
+    check(open_pretending(true, RG_T1, QUOTIENT), false, 0);
+    setenv("RG_ROUNDING", "", 1);
+    check(open_pretending(true, RG_T1, QUOTIENT), true, 1);
+    unsetenv("RG_ROUNDING");
+}
+
+static char heard[200];
+static int lines;
+
+static void hear(enum rg_log_level level, const char *line, void *user)
+{
+    (void)level, (void)user;
+    snprintf(heard, sizeof(heard), "%s", line);
+    lines++;
+}
+
+static void what_cannot_be_is_refused(void **state)
+{
+    (void)state;
+    rg_log_listen(hear, NULL);
+    lines = 0;
+    setenv("RG_ROUNDING", "up", 1);
+    assert_null(open_pretending(true, RG_T1, NEITHER));
+    unsetenv("RG_ROUNDING");
+    assert_string_equal(heard, "RG_ROUNDING=up: give own or driver, or unset it");
+    assert_int_equal(lines, 1);
+    is_lost = true;
+    assert_null(open_pretending(true, RG_T1, NEITHER));
+    is_lost = false;
+    assert_string_equal(heard, "device 'cpu': lost");
+    assert_int_equal(lines, 2);
+    rg_log_listen(NULL, NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(inexact_devices_round_themselves),
+        cmocka_unit_test(exact_devices_do_not),
+        cmocka_unit_test(others_are_not_asked),
+        cmocka_unit_test(the_variable_decides),
+        cmocka_unit_test(what_cannot_be_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
