@@ -146,6 +146,38 @@ static void what_cannot_be_is_refused(void **state)
     rg_log_listen(NULL, NULL);
 }
 
+// Programs that round are given as modules of their own, and as a text that says so behind its
+// version.
+static void their_code_is_another(void **state)
+{
+    (void)state;
+    static const enum rg_code_kind modules[][2] = {
+        {RG_CODE_SPIRV, RG_CODE_ROUNDED_SPIRV},
+        {RG_CODE_VERTEX_SPIRV, RG_CODE_ROUNDED_VERTEX_SPIRV},
+        {RG_CODE_FRAGMENT_SPIRV, RG_CODE_ROUNDED_FRAGMENT_SPIRV}};
+    static const enum rg_code_kind texts[] = {RG_CODE_GLSL, RG_CODE_VERTEX_GLSL,
+                                              RG_CODE_FRAGMENT_GLSL};
+    static const char begins[] = "#version 450 core\n#define RG_ROUNDED\n";
+    const size_t first = strlen("#version 450 core\n"), length = sizeof(begins) - 1;
+    for (int i = 0; i < 3; i++) {
+        const struct rg_kernel *kernel = rg_kernel_find(i ? "test_quads" : "probe_ops");
+        struct rg_kernel_code plain, code;
+        void *owned;
+        if (!kernel->code[texts[i]].size)
+            skip(); // a build without drivers
+        assert_true(rg_kernel_code(kernel, modules[i][0], true, &code, &owned));
+        assert_ptr_equal(code.bytes, kernel->code[modules[i][1]].bytes);
+        assert_null(owned);
+        assert_true(rg_kernel_code(kernel, texts[i], false, &plain, &owned));
+        assert_null(owned);
+        assert_true(rg_kernel_code(kernel, texts[i], true, &code, &owned));
+        assert_int_equal(code.size, plain.size + length - first);
+        assert_memory_equal(code.bytes, begins, length);
+        assert_memory_equal(code.bytes + length, plain.bytes + first, plain.size - first);
+        free(owned);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -153,6 +185,7 @@ int main(void)
         cmocka_unit_test(exact_devices_do_not),
         cmocka_unit_test(others_are_not_asked),
         cmocka_unit_test(the_variable_decides),
+        cmocka_unit_test(their_code_is_another),
         cmocka_unit_test(what_cannot_be_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

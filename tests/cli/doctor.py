@@ -118,6 +118,31 @@ def check_wrong_arithmetic(runner):
     return problems
 
 
+def check_own_rounding(runner):
+    """gl and vulkan run the programs that round quotients themselves where they are asked to, and no others"""
+    problems = []
+    own = {"RG_ROUNDING": "own"}
+    with tempfile.TemporaryDirectory() as tmp:
+        kernels = runner.kernels_with(tmp, "probe_ops.glsl", "(quotient & 0x7fffffu)", "(quotient & 0x7fff0fu)")
+        os.remove(os.path.join(tmp, "probe_ops.rounded.spv"))
+        of_drivers, status, errors = examine(runner, ["--device", "gl,vulkan"], kernels)
+        if status not in (0, 77):
+            problems.append("the drivers' own rounding: exit status %d, stderr: %s" % (status, errors))
+        report, status, errors = examine(runner, ["--device", "gl,vulkan"], {**kernels, **own})
+    devices, as_drivers = by_name(report), by_name(of_drivers)
+    if as_drivers["gl"]["status"] == "unsupported" or as_drivers["vulkan"]["status"] == "unsupported":
+        return problems
+    wrong = {o["name"] for o in devices["gl"].get("operations", []) if o["different"]}
+    if "divide" not in wrong or "sqrt" in wrong:
+        problems.append("gl: wrong are %s" % sorted(wrong))
+    if "probe_ops.rounded.spv" not in errors + json.dumps(devices["vulkan"]):
+        problems.append("vulkan: %s, stderr: %s" % (devices["vulkan"]["status"], errors))
+    for name in ("gl", "vulkan"):
+        if ", own rounding" in as_drivers[name]["api"] or ", own rounding" not in devices[name].get("api", ", own rounding"):
+            problems.append("%s is called %s, and %s with its own rounding" % (name, as_drivers[name]["api"], devices[name].get("api")))
+    return problems
+
+
 def check_full(runner):
     """a report that does not fit on standard output is an error of its own, also of a device that is not supported"""
     with open("/dev/full", "w") as full:
@@ -127,4 +152,4 @@ def check_full(runner):
     return []
 
 
-CHECKS = [check_devices, check_passport, check_missing, check_warnings, check_crash, check_wrong_arithmetic, check_full]
+CHECKS = [check_devices, check_passport, check_missing, check_warnings, check_crash, check_wrong_arithmetic, check_own_rounding, check_full]

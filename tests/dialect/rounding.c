@@ -110,15 +110,17 @@ static void the_rest_is_the_drivers(void **state)
 {
     (void)state;
     planted_ulps = 0;
-    const float rest[][2] = {{0.0f, 3.0f},   {-0.0f, 3.0f},          {1.0f, 0.0f},
-                             {1e38f, 1e-5f}, {1e-38f, 1e5f},         {1e-40f, 2.0f},
-                             {2.0f, 1e-40f}, {3.0f, (float)INFINITY}};
+    const float most = (float)INFINITY;
+    const float rest[][2] = {{0.0f, 3.0f},   {-0.0f, 3.0f},  {1.0f, 0.0f},
+                             {1e38f, 1e-5f}, {1e-38f, 1e5f}, {1e-40f, 2.0f},
+                             {2.0f, 1e-40f}, {3.0f, most},   {most, 3.0f}};
     for (size_t i = 0; i < sizeof(rest) / sizeof(rest[0]); i++)
         assert_int_equal(rg_float_bits(rg_rounded_quotient(rest[i][0], rest[i][1])),
                          rg_float_bits(rest[i][0] / rest[i][1]));
     assert_int_equal(rg_float_bits(rg_rounded_root(0.0f)), 0);
     assert_int_equal(rg_float_bits(rg_rounded_root(-0.0f)), 0x80000000u);
     assert_int_equal(rg_float_bits(rg_rounded_root(1e-40f)), rg_float_bits(sqrtf(1e-40f)));
+    assert_int_equal(rg_float_bits(rg_rounded_root(most)), rg_float_bits(most));
     assert_true(isnan(rg_rounded_root(-1.0f)));
 }
 

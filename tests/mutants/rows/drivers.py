@@ -8,6 +8,7 @@ TESTS = ("device suite, draws, gl", "device suite, targets, gl", "device suite, 
 
 GL, TARGET, VK, VK_TIME, VK_IMAGE = ("backends/gl/draw.c", "backends/gl/target.c", "backends/vulkan/draw.c",
                                      "backends/vulkan/time.c", "backends/vulkan/image.c")
+ROUNDING, KERNEL, OF_ROUNDING = "backends/rounding.c", "backends/kernel.c", ("rounding of devices", "command line, doctor")
 CL_BUF, CL_PASS, CL_TIME = "backends/opencl/buf.c", "backends/opencl/pass.c", "backends/opencl/time.c"
 OF_GL = ("device suite, draws, gl", "device suite, targets, gl")
 OF_VK = ("device suite, draws, vulkan", "device suite, targets, vulkan", "device suite, kernels, vulkan")
@@ -24,6 +25,14 @@ ROWS = [
     Fault(VK, ".y = (float)-((RG_VIEWPORT_PX - «height») / 2),", "width", "vulkan: pictures that are not square are shifted", tests=OF_VK),
     Fault(VK_TIME, "*time_ns = (int64_t)((long double)vk->ticks_total * «vk->limits.timestampPeriod»);", "0.1f", "vulkan: ticks are tenths of nanoseconds", tests=("vulkan", "device suite, kernels, vulkan")),
     Fault(VK_IMAGE, ".mipLevels = «(uint32_t)desc->levels»,", "1u", "vulkan: images have one level", tests=("device suite, images, vulkan",)),
+    Fault(ROUNDING, "!own && «info->tier != RG_T0» &&", "true", "devices that compute as C does are asked how they divide", tests=OF_ROUNDING),
+    Fault(ROUNDING, "if («!device->backend->rough» || driver)", "false", "devices of exact languages are asked how they divide", tests=OF_ROUNDING),
+    Fault(ROUNDING, "ok && !*is_rough && «roots < 2»", "roots < 1", "inexact roots are not noticed", tests=OF_ROUNDING),
+    Fault(ROUNDING, "*is_rough = ok && «!all_are_exact(o, roots)»;", "false", "no driver rounds badly", tests=OF_ROUNDING),
+    Fault(KERNEL, "return «RG_CODE_ROUNDED_FRAGMENT_SPIRV»;", "RG_CODE_FRAGMENT_SPIRV", "fragments are the driver's to round", tests=OF_ROUNDING),
+    Fault(KERNEL, "find_code(kernel, «rounded ? rounded_kind(kind) : kind», code, owned)", "kind", "modules are the driver's to round", tests=OF_ROUNDING),
+    Fault("backends/gl/program.c", "rg_kernel_code(kernel, kind, «device->pub.rounds»,", "false", "gl: programs are the driver's to round", tests=OF_ROUNDING),
+    Fault("backends/vulkan/program.c", "rg_kernel_code(kernel, kind, «device->pub.rounds»,", "false", "vulkan: programs are the driver's to round", tests=OF_ROUNDING),
     Fault(CL_BUF, "staged ? CL_FALSE : CL_TRUE,\n                                       «offset», size, staged", "0", "opencl: writes begin at 0", tests=OF_CL),
     Fault(CL_PASS, "return (width + group «- 1») / group * group;", "- group", "opencl: the last work group is left out", tests=OF_CL),
     Fault(CL_TIME, "*time_ns = (int64_t)end_ns;", "*time_ns = (int64_t)end_ns / 1000;", "opencl: time is in microseconds", tests=OF_CL),
