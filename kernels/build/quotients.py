@@ -4,6 +4,7 @@ GLSL has no operators of one's own, so the build rewrites them. Quotients of int
 compilers reckon. Whether a quotient is of floats its divisor tells: a literal, a call, or a name with members, each of which the
 text declares. What is none of these is refused.
 """
+import collections
 import re
 
 TOKEN = re.compile(r"\d[\w.]*(?:(?<=[eE])[-+]\d+)?f?|\.\d[\w.]*|[A-Za-z_]\w*|<<|>>|[-+*/%<>=!&|^]=|&&|\|\||\S")
@@ -86,9 +87,8 @@ class Text:
             first = self.primary_before(first - 2)
         return first
 
-    def divisor(self, slash):
-        """The first token behind signs, and the last one, of what stands behind a `/`."""
-        first = slash + 1
+    def term(self, first):
+        """The first token behind signs, and the last one, of the term that begins with `first`."""
         while self.tokens[first] in ("-", "+"):
             first += 1
         last = self.match[first] if self.tokens[first] == "(" else first
@@ -120,12 +120,7 @@ class Text:
                 first = at + 1
             at = self.match[at] if self.tokens[at] in ("(", "[") else at
             at += 1
-        while self.tokens[first] in ("-", "+"):
-            first += 1
-        end = self.match[first] if self.tokens[first] == "(" else first
-        while end < last and self.tokens[end + 1] in (".", "("):
-            end = end + 2 if self.tokens[end + 1] == "." else self.match[end + 1]
-        return self.kind(first, end)
+        return self.kind(*self.term(first))
 
     def is_literal(self, first, last):
         return first == last and LITERAL.match(self.tokens[first])
@@ -137,7 +132,7 @@ class Text:
                 raise Refused("`/=`: write the quotient out")
             if token != "/":
                 continue
-            first, (second, last) = self.dividend(slash), self.divisor(slash)
+            first, (second, last) = self.dividend(slash), self.term(slash + 1)
             kind = self.kind(second, last)
             if kind not in ("float", "int", "uint"):
                 said = self.text[self.starts[first] : self.ends[last]]
@@ -148,17 +143,13 @@ class Text:
 
 def rewrite(text):
     parsed = Text(text)
-    before, behind = {}, {}
-    replaced = {}
-    for first, slash, last in parsed.quotients():
-        before[first] = before.get(first, 0) + 1
-        behind[last] = behind.get(last, 0) + 1
-        replaced[slash] = ","
+    found = list(parsed.quotients())
+    firsts, slashes, lasts = (collections.Counter(tokens) for tokens in zip(*found)) if found else ({}, {}, {})
     done, at = [], 0
     for token, (start, end) in enumerate(zip(parsed.starts, parsed.ends)):
-        if token in before or token in behind or token in replaced:
-            said = replaced.get(token, text[start:end])
-            gap = text[at:start] if token not in replaced else text[at:start].rstrip()
-            done += [gap, "RG_QUOTIENT(" * before.get(token, 0), said, ")" * behind.get(token, 0)]
-            at = end
+        if token in slashes:
+            done += [text[at:start].rstrip(), ","]
+        else:
+            done += [text[at:start], "RG_QUOTIENT(" * firsts.get(token, 0), text[start:end], ")" * lasts.get(token, 0)]
+        at = end
     return "".join(done) + text[at:]
