@@ -250,6 +250,85 @@ static void the_inspection_finds_faults(void **state)
     assert_true(spoil("test_quads", RG_CODE_FRAGMENT_SPIRV).fetches >= 1);
 }
 
+// --- rounding ---
+
+// What becomes of the values of a module with quotients and roots.
+enum { IS_BITS = 1, IS_ROUGH = 2, IS_CHOSEN = 4 };
+
+struct roundings {
+    unsigned char *ids; // flags an id
+    int rough;          // quotients and roots
+};
+
+// Whether it is of significands alone, which kernels/dialect/rounding.h puts together from bits.
+static bool is_guess(const struct roundings *r, const struct spirv_instruction *at, size_t operands)
+{
+    for (size_t i = operands; i < at->count; i++)
+        if (!(r->ids[at->words[i]] & IS_BITS))
+            return false;
+    return true;
+}
+
+static bool note_rounding(const struct spirv_instruction *at, void *data)
+{
+    struct roundings *r = data;
+    const bool is_root = at->op == SpvOpExtInst && at->of_glsl && at->words[4] == GLSLstd450Sqrt;
+    if (at->op == SpvOpBitcast || at->op == SpvOpConstant)
+        r->ids[at->result] |= IS_BITS;
+    if (at->op == SpvOpFDiv || is_root) {
+        r->rough++;
+        if (!is_guess(r, at, is_root ? 5 : 3))
+            r->ids[at->result] |= IS_ROUGH;
+    }
+    // one of two values: of a choice, of two branches, of a variable that either stores to
+    if (at->op == SpvOpSelect)
+        r->ids[at->words[4]] |= IS_CHOSEN, r->ids[at->words[5]] |= IS_CHOSEN;
+    for (size_t i = 3; at->op == SpvOpPhi && i < at->count; i += 2)
+        r->ids[at->words[i]] |= IS_CHOSEN;
+    if (at->op == SpvOpStore)
+        r->ids[at->words[2]] |= IS_CHOSEN;
+    return true;
+}
+
+// How many quotients and roots of a module go on as they are: no choice may keep another.
+static int left_to_the_driver(struct spirv_module module, int *rough)
+{
+    enum { BOUND_WORD = 3 };
+    struct roundings r = {calloc(module.words[BOUND_WORD], sizeof(*r.ids)), 0};
+    assert_non_null(r.ids);
+    spirv_read(module, note_rounding, &r);
+    int left = 0;
+    for (uint32_t id = 0; id < module.words[BOUND_WORD]; id++)
+        left += (r.ids[id] & IS_ROUGH) && !(r.ids[id] & IS_CHOSEN);
+    free(r.ids);
+    *rough += r.rough;
+    return left;
+}
+
+// Software drivers would not tell: their own are exact.
+static void no_quotient_is_left_to_the_driver(void **state)
+{
+    (void)state;
+    const struct rg_kernel *const *all;
+    const int count = rg_kernel_all(&all);
+    int rough = 0, plain = 0, plain_left = 0;
+    for (int i = 0; i < count; i++)
+        for (int s = 0; s < SPIRV_STAGES; s++) {
+            const struct spirv_module module = spirv_module(all[i], spirv_stages[s].kind);
+            const bool rounds = spirv_stages[s].kind >= RG_CODE_ROUNDED_SPIRV;
+            if (!module.count)
+                continue;
+            const int left = left_to_the_driver(module, rounds ? &rough : &plain);
+            if (rounds && left)
+                fail_msg("kernel '%s', %s stage: %d quotients or roots are the driver's; see "
+                         "kernels/build/quotients.py",
+                         all[i]->name, spirv_stages[s].name, left);
+            plain_left += rounds ? 0 : left;
+        }
+    assert_true(rough > 1000 && plain > 500);
+    assert_true(plain_left > plain / 2); // so that one that is left would be seen
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -258,6 +337,7 @@ int main(void)
         cmocka_unit_test(every_kernel_has_its_stages),
         cmocka_unit_test(the_inspection_sees_operations),
         cmocka_unit_test(the_inspection_finds_faults),
+        cmocka_unit_test(no_quotient_is_left_to_the_driver),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
