@@ -97,6 +97,7 @@ int rg_caged_run(const char *const args[], int file, int timeout_s, struct rg_ca
 
 bool rg_caged_is_sound(const struct rg_caged *caged, const char *library, char *why, size_t size)
 {
+    enum { NOT_LOADED = 127 }; // of the dynamic loader, as of shells
     const int status = caged->status;
     const bool crashed = WIFSIGNALED(status);
     if (!caged->ended || (crashed && WTERMSIG(status) == SIGXCPU))
@@ -107,6 +108,11 @@ bool rg_caged_is_sound(const struct rg_caged *caged, const char *library, char *
     else if (crashed)
         snprintf(why, size, "%s crashed on it (%s); the file is damaged: repair or convert it",
                  library, strsignal(WTERMSIG(status)));
+    else if (WEXITSTATUS(status) == NOT_LOADED)
+        snprintf(why, size,
+                 "what reads it with %s could not be loaded, as where a library is absent; install "
+                 "raingauge's packages again",
+                 library);
     else if (WEXITSTATUS(status))
         snprintf(why, size,
                  "%s ended with status %d on it; the file is damaged: repair or convert it",

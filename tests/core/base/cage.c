@@ -217,6 +217,31 @@ static void a_caged_program_that_feigns_its_end_is_killed(void **state)
     close(file);
 }
 
+// What went wrong is told by how the program ended; a file is not blamed for a library that is
+// absent, with which the loader ends a program.
+static void an_end_that_is_not_sound_says_why(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *script, *why;
+    } ends[] = {
+        {"exit 3", "sh ended with status 3 on it; the file is damaged: repair or convert it"},
+        {"exit 127", "what reads it with sh could not be loaded, as where a library is absent; "
+                     "install raingauge's packages again"},
+        {"kill -SEGV $$", "sh crashed on it (Segmentation fault); the file is damaged: repair or "
+                          "convert it"},
+    };
+    for (size_t i = 0; i < sizeof(ends) / sizeof(ends[0]); i++) {
+        struct rg_caged caged;
+        char why[300] = "";
+        const char *const args[] = {"/bin/sh", "-c", ends[i].script, NULL};
+        assert_int_equal(rg_caged_run(args, -1, 20, &caged), 0);
+        assert_false(rg_caged_is_sound(&caged, "sh", why, sizeof(why)));
+        assert_string_equal(why, ends[i].why);
+        close(caged.reply);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -225,6 +250,7 @@ int main(void)
         cmocka_unit_test(limits_hold),
         cmocka_unit_test(a_caged_program_has_no_environment),
         cmocka_unit_test(a_caged_program_that_feigns_its_end_is_killed),
+        cmocka_unit_test(an_end_that_is_not_sound_says_why),
     };
     return cmocka_run_group_tests_name("cage", tests, NULL, NULL);
 }
