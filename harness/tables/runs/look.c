@@ -104,9 +104,9 @@ void rg_look_extend(struct rg_frames *frames, enum rg_budget_size smallest, cons
 static bool look_compiled(struct rg_looking *p, struct rg_device *device,
                           struct rg_cell_frames *frames)
 {
-    enum { LATE_MS = 1000 };
     return rg_look_row(p, device, p->last, p->smallest, "", frames) &&
-           (frames->open_ms < LATE_MS || rg_look_row(p, device, p->last, p->smallest, "", frames));
+           (frames->open_ms < RG_LOOK_LATE_MS ||
+            rg_look_row(p, device, p->last, p->smallest, "", frames));
 }
 
 bool rg_look_device(struct rg_looking *p, struct rg_device *device, struct rg_frames *frames)

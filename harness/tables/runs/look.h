@@ -56,6 +56,10 @@ void rg_look_begin(struct rg_looking *looking, const struct rg_table *table, str
 // The smallest pictures that a table can be measured on.
 enum rg_budget_size rg_look_smallest(const struct rg_table *table);
 
+// From so late on, an opening is taken for one in which drivers compiled what they keep, so that a
+// second one tells what those of cells will take.
+enum { RG_LOOK_LATE_MS = 1000 };
+
 // The settings of a row at a size, with some over them; the caller frees them. NULL, and one logged
 // line, on failure.
 void *rg_look_settings(const struct rg_looking *looking, int row, enum rg_budget_size size,

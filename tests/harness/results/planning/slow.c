@@ -57,13 +57,15 @@ static double late_ms(const struct rg_instance *instance)
 }
 
 int slow_opened, slow_interrupted;
-// What gl's driver compiles, and how many times more.
+// What gl's driver compiles, and how many times more: first in an opening, then in frames.
+enum { COMPILES = 3 };
 static double compile_ms;
 static int compiles_left;
 
-static double compiled_ms(const struct rg_instance *instance)
+static double compiled_ms(const struct rg_instance *instance, bool is_opening)
 {
-    const bool compiles = compiles_left > 0 && !strcmp(instance->device->info.name, "gl");
+    const bool is_due = compiles_left > 0 && (compiles_left == COMPILES) == is_opening;
+    const bool compiles = is_due && !strcmp(instance->device->info.name, "gl");
     compiles_left -= compiles;
     return compiles ? compile_ms : 0;
 }
@@ -86,7 +88,7 @@ void slow_shares(double ms)
 void slow_compiles(double ms)
 {
     compile_ms = ms;
-    compiles_left = 3;
+    compiles_left = COMPILES;
 }
 
 static bool open_slow(struct rg_instance *instance)
@@ -94,7 +96,7 @@ static bool open_slow(struct rg_instance *instance)
     const struct slow_instance *slow = (const struct slow_instance *)instance;
     if (++slow_opened == slow_interrupted)
         raise(SIGINT);
-    fake_pass(slow->settings.open_ms * fake_of(instance)->item_ms + compiled_ms(instance) +
+    fake_pass(slow->settings.open_ms * fake_of(instance)->item_ms + compiled_ms(instance, true) +
               shared_ms(instance));
     return true;
 }
@@ -113,7 +115,7 @@ static bool draw_slow(struct rg_instance *instance)
     const double pixels = (double)instance->target->desc.width * instance->target->desc.height;
     fake_of(instance)->shown = s->fixed_ms > 0 ? 0x3c00 : 0; // 1, or nothing without rain
     fake_pass((s->fixed_ms + late_ms(instance) + 1e-3 * s->pixel_us * pixels) * slowness(instance) +
-              compiled_ms(instance));
+              compiled_ms(instance, false));
     return true;
 }
 
