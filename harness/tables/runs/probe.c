@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/console/interrupt.h"
 #include "harness/measure/sampling.h"
 #include "harness/tables/measuring/measure.h"
 #include "harness/tables/runs/look.h"
@@ -59,12 +60,34 @@ static bool learn(struct rg_looking *p)
     return kind->is_known = true;
 }
 
+// A row that cannot be opened, as one whose model is absent, is not looked at: of the others the
+// last stands for the table. False where none can be opened.
+static bool probe_last(struct rg_looking *p)
+{
+    while (!probe_row(p, p->last)) {
+        p->rows[p->last] = false;
+        while (p->last >= p->first && !p->rows[p->last])
+            p->last--;
+        if (p->last < p->first || rg_interrupted())
+            return false;
+    }
+    return true;
+}
+
+static void probe_others(struct rg_looking *p)
+{
+    for (int row = p->first; row < p->last; row++)
+        p->rows[row] = p->rows[row] && probe_row(p, row);
+    while (!p->rows[p->first])
+        p->first++;
+}
+
 static bool probe_cpu(struct rg_looking *p)
 {
     p->cpu = rg_kept_device(p->kept, "cpu");
-    bool ok = p->cpu && probe_row(p, p->last) && learn(p);
-    for (int row = p->first; ok && row < p->last; row++)
-        ok = !p->rows[row] || probe_row(p, row);
+    bool ok = p->cpu && probe_last(p) && learn(p);
+    if (ok)
+        probe_others(p);
     for (int row = p->first; ok && row <= p->last; row++)
         ok = !p->rows[row] || rg_look_settled(p, row);
     return ok;

@@ -273,6 +273,35 @@ static void a_device_that_fails_takes_nothing(void **state)
     slow_end(&rig);
 }
 
+// A row that cannot be opened, as where a model is absent, leaves the table to those that can.
+static void rows_that_fail_leave_it_to_others(void **state)
+{
+    (void)state;
+    static const struct rg_table_row failing[][3] = {
+        {{"fixed_ms=2", {1}, "a"}, {"fixed_ms=4", {2}, "b"}, {"absent=1", {3}, "c"}},
+        {{"absent=1", {1}, "a"}, {"fixed_ms=4", {2}, "b"}, {"fixed_ms=10", {3}, "c"}},
+        {{"absent=1", {1}, "a"}, {"fixed_ms=4", {2}, "b"}, {"absent=1", {3}, "c"}}};
+    static const double fixed_ms[] = {2, 10, 0};
+    struct rg_table small = table;
+    small.width = 256;
+    for (int which = 0; which < 3; which++) {
+        struct slow_rig rig;
+        struct rg_budget_kind kind = {0};
+        struct rg_budget_table costs;
+        small.rows = failing[which];
+        slow_begin(&rig);
+        const bool any = fixed_ms[which] > 0;
+        assert_int_equal(rg_budget_probe(&small, &rig.kept, false, &kind, &costs), any);
+        for (int d = 0; d < 3; d++) {
+            const double ms = 1 + fixed_ms[which] + 1.25e-4 * 256 * 512;
+            const struct rg_cell_frames f = {40 * slowness[d], slowness[d], ms * slowness[d]};
+            const double due_ms = rg_cell_ms(&small, &f, rg_table_few_samples());
+            assert_ms(costs.cells[d][RG_BUDGET_WHOLE].few_s * 1e3, any ? due_ms : 0);
+        }
+        slow_end(&rig);
+    }
+}
+
 // On a new machine drivers compile for a while, once, which is no part of what later cells take.
 static void what_a_driver_compiles_once_is_not_expected_again(void **state)
 {
@@ -440,6 +469,7 @@ int main(void)
         cmocka_unit_test(looking_takes_a_moment),
         cmocka_unit_test(what_instances_share_is_made_once),
         cmocka_unit_test(a_device_that_fails_takes_nothing),
+        cmocka_unit_test(rows_that_fail_leave_it_to_others),
         cmocka_unit_test(what_a_driver_compiles_once_is_not_expected_again),
         cmocka_unit_test(textures_take_what_opening_them_takes),
         cmocka_unit_test(a_forecast_is_of_each_row),
