@@ -13,6 +13,7 @@ RUN_CAGED, SHUT = "core/base/cage/run_caged.c", "core/base/cage/shut.c"
 
 ROWS = [
     Fault(RUN_CAGED, "if (is_closed && «rg_program_has_ended(child, status)»)", "waitpid(child, status, 0)", "a caged program that feigns its end is waited for", tests=("cage",)),
+    Fault(RUN_CAGED, "WEXITSTATUS(status) == «NOT_LOADED»", "-1", "a file is damaged where a library is absent", tests=("cage",)),
     Fault(SHUT, "n += «allow_with(program + n, SYS_tgkill, ARGUMENT(0), &own, 1)»", "0", "a caged program may not signal itself", tests=("cage",)),
     Fault(SHUT, "JUMP(BPF_JEQ, values[i], (unsigned char)(count - i), 0);\n    «program[n++] = RETURN(REFUSE);»", "program[n++] = RETURN(SECCOMP_RET_ALLOW);", "a caged program signals others", tests=("cage",)),
     Fault(DISK, "return «(double)bytes <= free_bytes» ||", "true", "a disk has room for anything", tests=("command line, results",)),

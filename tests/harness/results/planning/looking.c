@@ -284,6 +284,7 @@ static void rows_that_fail_leave_it_to_others(void **state)
     static const double fixed_ms[] = {2, 10, 0};
     struct rg_table small = table;
     small.width = 256;
+    small.truth = "step_ms=20";
     for (int which = 0; which < 3; which++) {
         struct slow_rig rig;
         struct rg_budget_kind kind = {0};
