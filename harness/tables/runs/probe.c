@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/log.h"
 #include "harness/console/interrupt.h"
 #include "harness/measure/sampling.h"
 #include "harness/tables/measuring/measure.h"
@@ -60,34 +61,46 @@ static bool learn(struct rg_looking *p)
     return kind->is_known = true;
 }
 
-// A row that cannot be opened, as one whose model is absent, is not looked at: of the others the
-// last stands for the table. False where none can be opened.
+// Whether other rows can be opened where one could not, as one whose model is absent: what a driver
+// fails in would fail them too, each after as long a wait.
+static bool others_may(void)
+{
+    const enum rg_error_kind kind = rg_last_error_kind();
+    return (kind == RG_ERROR_INPUT || kind == RG_ERROR_UNSUPPORTED) && !rg_interrupted();
+}
+
+// The last row that can be opened stands for the table. False where there is none.
 static bool probe_last(struct rg_looking *p)
 {
     while (!probe_row(p, p->last)) {
         p->rows[p->last] = false;
         while (p->last >= p->first && !p->rows[p->last])
             p->last--;
-        if (p->last < p->first || rg_interrupted())
+        if (p->last < p->first || !others_may())
             return false;
     }
     return true;
 }
 
-static void probe_others(struct rg_looking *p)
+// Rows before it; those that cannot be opened are not looked at.
+static bool probe_others(struct rg_looking *p)
 {
-    for (int row = p->first; row < p->last; row++)
-        p->rows[row] = p->rows[row] && probe_row(p, row);
+    for (int row = p->first; row < p->last; row++) {
+        if (!p->rows[row] || probe_row(p, row))
+            continue;
+        p->rows[row] = false;
+        if (!others_may())
+            return false;
+    }
     while (!p->rows[p->first])
         p->first++;
+    return true;
 }
 
 static bool probe_cpu(struct rg_looking *p)
 {
     p->cpu = rg_kept_device(p->kept, "cpu");
-    bool ok = p->cpu && probe_last(p) && learn(p);
-    if (ok)
-        probe_others(p);
+    bool ok = p->cpu && probe_last(p) && learn(p) && probe_others(p);
     for (int row = p->first; ok && row <= p->last; row++)
         ok = !p->rows[row] || rg_look_settled(p, row);
     return ok;

@@ -266,9 +266,11 @@ static void a_device_that_fails_takes_nothing(void **state)
     assert_int_equal(costs.smallest, RG_BUDGET_WHOLE);
     assert_true(costs.cells[2][RG_BUDGET_WHOLE].few_s == 0);
     assert_true(costs.cells[0][RG_BUDGET_WHOLE].few_s > 0);
-    // Without cpu all cells fail.
+    // Without cpu all cells fail. One tells so: others might have to be waited for as long.
     rig.fakes[0]->waits_left = 0;
+    slow_opened = 0;
     assert_false(rg_budget_probe(&small, &rig.kept, false, &kind, &costs));
+    assert_int_equal(slow_opened, 1);
     rig.fakes[0]->waits_left = -1;
     slow_end(&rig);
 }
