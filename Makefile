@@ -20,22 +20,27 @@ MODELS = /usr/share/doc/libcgal-dev/data.tar.gz
 
 all: build
 
-# Installs the packages of packages.txt that are missing, with sudo unless root. Images for containers
+# Installs the packages of packages.txt that are missing, with sudo unless root. An optional one is
+# asked for once the lists are fetched, for a Debian may have none of its name. Images for containers
 # leave out /usr/share/doc, where libcgal-demo keeps its models: they are let through, and the package
 # is installed again where it came without.
 setup:
-	@missing=; for package in $$(sed 's/#.*//' packages.txt); do \
-	  dpkg-query -W -f '$${Status}' $$package 2>/dev/null | grep -q 'ok installed' || \
-	    missing="$$missing $$package"; \
+	@lacks() { ! dpkg-query -W -f '$${Status}' $$1 2>/dev/null | grep -q 'ok installed'; }; \
+	missing=; for package in $$(sed 's/#.*//; / optional$$/d' packages.txt); do \
+	  ! lacks $$package || missing="$$missing $$package"; \
 	done; \
 	case "$$missing" in \
 	  *libcgal-demo*) ;; \
 	  *) test -e $(MODELS) || missing="$$missing libcgal-demo";; \
 	esac; \
+	as_root=; [ "$$(id -u)" = 0 ] || as_root=sudo; \
+	[ -z "$$missing" ] || $$as_root apt-get update -q || exit; \
+	for package in $$(sed -n 's/^\([^#]*\) optional$$/\1/p' packages.txt); do \
+	  ! lacks $$package || ! apt-cache show $$package >/dev/null 2>&1 || \
+	    missing="$$missing $$package"; \
+	done; \
 	if [ -n "$$missing" ]; then \
 	  echo "== installing Debian packages:$$missing"; \
-	  as_root=; [ "$$(id -u)" = 0 ] || as_root=sudo; \
-	  $$as_root apt-get update -q && \
 	  $$as_root env DEBIAN_FRONTEND=noninteractive \
 	    apt-get install -qy --no-install-recommends --reinstall \
 	    -o 'Dpkg::Options::=--path-include=/usr/share/doc/libcgal-dev/*' $$missing; \

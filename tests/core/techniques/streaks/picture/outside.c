@@ -248,7 +248,7 @@ static void test_depth_map(void **state)
                                   "depth_map=dynamic geometry=off lights=0 drops_m2_s=0.01");
     struct rain_texels *picture = rain_read(s);
     const double middle[3] = {0, height_m, 0}, beside[3] = {20, height_m, 0};
-    double px[2], over[2];
+    double px[2], over[2] = {0};
     assert_true(project(&v, middle, px) && project(&v, beside, over));
     float *depths = malloc(256 * 256 * sizeof(*depths));
     assert_true(rg_image_read(s->map->depths, 0, 0, depths));
