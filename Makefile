@@ -4,7 +4,7 @@
 # take too long for every change; `make mutants` tries the tests themselves, with faults, and `make gate-selftest` the gate, with
 # builds that are the same and that are slower.
 .POSIX:
-.PHONY: all setup build tables committed results test thorough mutants gate-selftest clean format
+.PHONY: all setup build whole tables committed results test thorough mutants gate-selftest clean format
 
 BUILD = build
 ASAN = build-asan
@@ -62,7 +62,12 @@ $(TSAN)/build.ninja:
 	  -Db_lundef=false -Ddrivers=false >/dev/null || { cat $(TSAN)/meson-logs/meson-log.txt; exit 1; }
 
 build: setup $(BUILD)/build.ninja
-	@echo "== building in $(BUILD)"
+	@echo "== building the program in $(BUILD)"
+	@ninja -C $(BUILD) program
+
+# The program, and what tests it.
+whole: setup $(BUILD)/build.ninja
+	@echo "== building the program and its tests in $(BUILD)"
 	@ninja -C $(BUILD)
 
 # What was measured by this build before, within the same time, is printed again.
@@ -92,7 +97,7 @@ results: committed build
 	@python3 results/figures.py $(RESULTS)
 	@python3 results/walk.py $(BUILD)/harness/raingauge
 
-test: build $(ASAN)/build.ninja $(TSAN)/build.ninja
+test: whole $(ASAN)/build.ninja $(TSAN)/build.ninja
 	@echo "== building in $(ASAN)"
 	@ninja -C $(ASAN)
 	@echo "== testing, all devices"
@@ -104,16 +109,16 @@ test: build $(ASAN)/build.ninja $(TSAN)/build.ninja
 	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog.json $(ASAN)/meson-logs/testlog.json \
 	  $(TSAN)/meson-logs/testlog.json
 
-thorough: build
+thorough: whole
 	@echo "== testing at length, all devices"
 	@meson test -C $(BUILD) --no-rebuild --print-errorlogs --setup thorough --suite thorough || true
 	@python3 tests/tools/summary.py $(BUILD)/meson-logs/testlog-thorough.json
 
-mutants: build
+mutants: whole
 	@echo "== trying the tests with faults in host code and kernels, one at a time"
 	@python3 tests/mutants/mutants.py $(BUILD) $(WHAT)
 
-gate-selftest: build
+gate-selftest: whole
 	@echo "== gating what is the same, and what does 5 % more, while another process is busy; an hour or two"
 	@python3 tests/harness/gate/selftest.py $(BUILD) --keep $(BUILD)/selftest
 

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <libdeflate.h>
+
 #include "core/base/alloc.h"
 #include "core/base/files/file.h"
 #include "core/base/log.h"
@@ -70,8 +72,7 @@ static enum rg_code_kind rounded_kind(enum rg_code_kind kind)
 }
 
 // Defines RG_ROUNDED behind the first line of GLSL, which is its version.
-static bool define_rounded(const struct rg_kernel *kernel, struct rg_kernel_code *code,
-                           void **owned)
+static bool define_rounded(const struct rg_kernel *kernel, struct rg_kernel_code *code)
 {
     static const char line[] = "#define RG_ROUNDED\n";
     const size_t added = sizeof(line) - 1;
@@ -80,15 +81,14 @@ static bool define_rounded(const struct rg_kernel *kernel, struct rg_kernel_code
         return true;
     const size_t first = (size_t)(end - code->bytes) + 1;
     unsigned char *text = rg_alloc(1, code->size + added, kernel->name);
-    if (!text)
-        return false;
-    memcpy(text, code->bytes, first);
-    memcpy(text + first, line, added);
-    memcpy(text + first + added, code->bytes + first, code->size - first);
-    free(*owned);
-    code->bytes = *owned = text;
-    code->size += added;
-    return true;
+    if (text) {
+        memcpy(text, code->bytes, first);
+        memcpy(text + first, line, added);
+        memcpy(text + first + added, code->bytes + first, code->size - first);
+    }
+    free(code->bytes);
+    *code = (struct rg_kernel_code){text, text ? code->size + added : 0};
+    return text;
 }
 
 static bool is_glsl(enum rg_code_kind kind)
@@ -96,8 +96,27 @@ static bool is_glsl(enum rg_code_kind kind)
     return kind == RG_CODE_GLSL || kind == RG_CODE_VERTEX_GLSL || kind == RG_CODE_FRAGMENT_GLSL;
 }
 
-static bool find_code(const struct rg_kernel *kernel, enum rg_code_kind kind,
-                      struct rg_kernel_code *code, void **owned)
+bool rg_embedded_code(const struct rg_embedded_code *embedded, const char *name,
+                      struct rg_kernel_code *code)
+{
+    *code = (struct rg_kernel_code){0};
+    if (!embedded->size)
+        return true;
+    struct libdeflate_decompressor *inflater = libdeflate_alloc_decompressor();
+    unsigned char *bytes = inflater ? rg_alloc(1, embedded->size, name) : NULL;
+    const bool ok = bytes && !libdeflate_zlib_decompress(inflater, embedded->bytes,
+                                                         embedded->packed_size, bytes,
+                                                         embedded->size, NULL);
+    libdeflate_free_decompressor(inflater);
+    if (ok)
+        *code = (struct rg_kernel_code){bytes, embedded->size};
+    else
+        free(bytes);
+    return ok || rg_error("kernel '%s': the code in this program is damaged; build it again", name);
+}
+
+static bool read_code(const char *folder, const struct rg_kernel *kernel, enum rg_code_kind kind,
+                      struct rg_kernel_code *code)
 {
     static const char *const extensions[RG_CODE_COUNT] = {"glsl",
                                                           "spv",
@@ -109,31 +128,26 @@ static bool find_code(const struct rg_kernel *kernel, enum rg_code_kind kind,
                                                           "rounded.spv",
                                                           "vert.rounded.spv",
                                                           "frag.rounded.spv"};
-    *owned = NULL;
-    *code = kernel->code[kind];
-    const char *folder = rg_kernel_override();
-    if (!folder)
-        return true;
     char path[4096];
     snprintf(path, sizeof(path), "%s/%s.%s", folder, kernel->name, extensions[kind]);
     const char *why;
     FILE *file = rg_file_open(path, &why);
-    unsigned char *bytes = file ? read_whole(file, &code->size) : NULL;
+    code->bytes = file ? read_whole(file, &code->size) : NULL;
     if (file)
         fclose(file);
-    if (!bytes)
-        return rg_error(
-            "%s: cannot be read; RG_KERNEL_DIR must hold every kernel, as build/kernels "
-            "does",
-            path);
-    code->bytes = *owned = bytes;
-    return true;
+    return code->bytes ||
+           rg_error("%s: cannot be read; RG_KERNEL_DIR must hold every kernel, as build/kernels "
+                    "does",
+                    path);
 }
 
 bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind, bool rounded,
-                    struct rg_kernel_code *code, void **owned)
+                    struct rg_kernel_code *code)
 {
-    if (!find_code(kernel, rounded ? rounded_kind(kind) : kind, code, owned))
+    const char *folder = rg_kernel_override();
+    const enum rg_code_kind found = rounded ? rounded_kind(kind) : kind;
+    if (folder ? !read_code(folder, kernel, found, code)
+               : !rg_embedded_code(&kernel->code[found], kernel->name, code))
         return false;
-    return !rounded || !is_glsl(kind) || define_rounded(kernel, code, owned);
+    return !rounded || !is_glsl(kind) || define_rounded(kernel, code);
 }

@@ -35,8 +35,14 @@ struct rg_slot_info {
 
 // One driver's form of a kernel. Text is not terminated by a zero.
 struct rg_kernel_code {
-    const unsigned char *bytes;
+    unsigned char *bytes; // the caller frees them
     size_t size;
+};
+
+// The same as the build embeds it, compressed by zlib: a quarter of the bytes.
+struct rg_embedded_code {
+    const unsigned char *bytes;
+    size_t packed_size, size; // 0 where the kernel has no such form
 };
 
 // A GRID kernel has the first three; a DRAW program has OpenCL C and the last four.
@@ -84,9 +90,9 @@ struct rg_kernel {
     const char *name;
     int params_size; // in bytes, a multiple of 4
     int slot_count;
-    const struct rg_slot_info *slots;  // ascending by slot
-    const struct rg_kernel_code *code; // RG_CODE_COUNT of them
-    const struct rg_draw_info *draw;   // NULL: a GRID kernel
+    const struct rg_slot_info *slots;    // ascending by slot
+    const struct rg_embedded_code *code; // RG_CODE_COUNT of them
+    const struct rg_draw_info *draw;     // NULL: a GRID kernel
 };
 
 // The kernel of this name, or NULL (no message).
@@ -100,9 +106,13 @@ int rg_kernel_index(const struct rg_kernel *kernel);
 
 // The code for a driver, as embedded at build time or, where RG_KERNEL_DIR names a folder, read
 // from NAME.glsl, NAME.spv, NAME.cl and so on there; `rounded`, of a program that rounds quotients
-// and roots itself. `owned` is what the caller frees when done, NULL if nothing.
+// and roots itself. False, and one logged line, on failure; then there is nothing to free.
 bool rg_kernel_code(const struct rg_kernel *kernel, enum rg_code_kind kind, bool rounded,
-                    struct rg_kernel_code *code, void **owned);
+                    struct rg_kernel_code *code);
+
+// What was embedded; `name` is for messages. No bytes, and true, where there is no such form.
+bool rg_embedded_code(const struct rg_embedded_code *embedded, const char *name,
+                      struct rg_kernel_code *code);
 
 // The folder that RG_KERNEL_DIR names, or NULL. Records say so.
 const char *rg_kernel_override(void);

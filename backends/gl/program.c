@@ -31,14 +31,13 @@ static bool compile(const struct gl_device *device, const struct rg_kernel *kern
                     enum rg_code_kind kind, GLuint shader)
 {
     struct rg_kernel_code code;
-    void *owned;
-    if (!rg_kernel_code(kernel, kind, device->pub.rounds, &code, &owned))
+    if (!rg_kernel_code(kernel, kind, device->pub.rounds, &code))
         return false;
     const GLchar *text = (const GLchar *)code.bytes;
     const GLint length = (GLint)code.size;
     glShaderSource(shader, 1, &text, &length);
     glCompileShader(shader);
-    free(owned);
+    free(code.bytes);
     GLint compiled = GL_FALSE;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     char log[512] = "";

@@ -6,7 +6,7 @@
 #include "core/base/log.h"
 #include "kernels/dialect/draw/state.h"
 
-extern const struct rg_kernel_code rg_code_bins[RG_CODE_COUNT];
+extern const struct rg_embedded_code rg_code_bins[RG_CODE_COUNT];
 
 // Lanes keep several cores busy and leave little to scan. Places take MAX_PLACES words at most.
 enum { MAX_LANES = 64, ITEMS_A_LANE = 64, MAX_PLACES = 4 << 20 };
@@ -51,7 +51,10 @@ struct opencl_bins *opencl_bins_of(struct opencl_device *device)
     bins->places = (struct opencl_memory){NULL, device, "buffer", "bins"};
     bins->list = (struct opencl_memory){NULL, device, "buffer", "binned primitives"};
     bins->round = (struct opencl_memory){NULL, device, "buffer", "round of bins"};
-    bins->program = opencl_build(device, &rg_code_bins[RG_CODE_OPENCL], "", "bins");
+    struct rg_kernel_code text;
+    if (rg_embedded_code(&rg_code_bins[RG_CODE_OPENCL], "bins", &text))
+        bins->program = opencl_build(device, &text, "", "bins");
+    free(text.bytes);
     if (bins->program && make_kernel(bins, &bins->walk, "rg_bins_walk") &&
         make_kernel(bins, &bins->scan, "rg_bins_scan") &&
         opencl_memory_create(&bins->round, RG_ROUND_WORDS * sizeof(cl_uint)) &&

@@ -63,11 +63,10 @@ static cl_program build_kernel(struct opencl_device *device, const struct rg_ker
                                const char *defines)
 {
     struct rg_kernel_code text;
-    void *owned;
-    if (!rg_kernel_code(kernel, RG_CODE_OPENCL, false, &text, &owned))
+    if (!rg_kernel_code(kernel, RG_CODE_OPENCL, false, &text))
         return NULL;
     cl_program program = opencl_build(device, &text, defines, kernel->name);
-    free(owned);
+    free(text.bytes);
     return program;
 }
 

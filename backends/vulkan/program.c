@@ -11,8 +11,7 @@ static bool create_module(struct vk_device *device, const struct rg_kernel *kern
                           enum rg_code_kind kind, VkShaderModule *module)
 {
     struct rg_kernel_code code;
-    void *owned;
-    if (!rg_kernel_code(kernel, kind, device->pub.rounds, &code, &owned))
+    if (!rg_kernel_code(kernel, kind, device->pub.rounds, &code))
         return false;
     const uint32_t spirv_magic = 0x07230203, header_bytes = 20;
     bool ok = code.size >= header_bytes && code.size % 4 == 0 &&
@@ -27,7 +26,7 @@ static bool create_module(struct vk_device *device, const struct rg_kernel *kern
     };
     ok = ok &&
          vk_try("kernel", kernel->name, vkCreateShaderModule, device->handle, &info, NULL, module);
-    free(owned);
+    free(code.bytes);
     return ok;
 }
 

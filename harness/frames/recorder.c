@@ -180,17 +180,14 @@ void *rg_recorder_code(struct rg_device *device, const struct rg_kernel *kernel,
                        enum rg_code_kind kind, size_t *size)
 {
     struct rg_kernel_code code;
-    void *owned, *copy = NULL;
-    if (!rg_kernel_code(kernel, kind, device->rounds, &code, &owned))
+    if (!rg_kernel_code(kernel, kind, device->rounds, &code))
         return NULL;
     if (!code.size)
-        rg_unsupported("kernel '%s': this build has no code of it for drivers; build raingauge "
-                       "with -Ddrivers=true",
-                       kernel->name);
-    else if ((copy = rg_alloc(1, code.size, kernel->name)))
-        memcpy(copy, code.bytes, *size = code.size);
-    free(owned);
-    return copy;
+        return rg_unsupported_null("kernel '%s': this build has no code of it for drivers; build "
+                                   "raingauge with -Ddrivers=true",
+                                   kernel->name);
+    *size = code.size;
+    return code.bytes;
 }
 
 void rg_digests_free(struct rg_digests *digests)

@@ -34,7 +34,7 @@ static const struct rg_draw_info draw = {
 static_assert(RG_CORNERS == 3 || RG_CORNERS == 4, "items have 3 or 4 corners");
 #endif
 
-extern const struct rg_kernel_code RG_CAT(rg_code_, RG_KERNEL_NAME)[RG_CODE_COUNT];
+extern const struct rg_embedded_code RG_CAT(rg_code_, RG_KERNEL_NAME)[RG_CODE_COUNT];
 extern const struct rg_kernel RG_CAT(rg_kernel_, RG_KERNEL_NAME);
 
 const struct rg_kernel RG_CAT(rg_kernel_, RG_KERNEL_NAME) = {

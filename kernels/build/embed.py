@@ -1,49 +1,54 @@
 #!/usr/bin/env python3
-"""Puts code for drivers into the program: embed.py OUTPUT.c OUTPUT.S NAME... -- FILE...
+"""Puts code for drivers into the program: embed.py OUTPUT.c OUTPUT.S OUTPUT.bin NAME... -- FILE...
 
 The files are NAME.glsl, NAME.spv, NAME.cl and so on; each kernel gets `rg_code_NAME`, in the order of
-enum rg_code_kind, with nothing where it has no such file. The assembler reads their bytes, which a
-compiler would need many seconds for. OUTPUT.S holds their checksum, so that it changes with them.
+enum rg_code_kind, with nothing where it has no such file. They are compressed one by one, side by
+side in OUTPUT.bin, which the assembler reads: a compiler would need many seconds for its bytes.
+OUTPUT.S holds their checksum, so that it changes with them.
 """
 import hashlib
+import multiprocessing
 import os
 import sys
+import zlib
 
 KINDS = ["glsl", "spv", "cl", "vert", "vert.spv", "frag", "frag.spv", "rounded.spv", "vert.rounded.spv", "frag.rounded.spv"]
 
 
-def assembler(symbol, path, data):
-    return (
-        f"    .balign 4\n    .globl {symbol}\n"
-        f'{symbol}: .incbin "{path}" /* {hashlib.sha256(data).hexdigest()} */\n'
-    )
+def pack(path):
+    with open(path, "rb") as file:
+        data = file.read()
+    return zlib.compress(data, 6), len(data)
 
 
 def main():
-    c_path, s_path, end = sys.argv[1], sys.argv[2], sys.argv.index("--")
-    by_kernel = {name: {} for name in sys.argv[3:end]}
-    for path in sys.argv[end + 1:]:
-        kernel, kind = os.path.basename(path).split(".", 1)
-        by_kernel[kernel][kind] = path
-    c = ['#include "backends/kernel.h"\n']
-    s = ['    .section .note.GNU-stack,"",%progbits\n    .section .rodata\n']
-    for kernel, paths in by_kernel.items():
+    c_path, s_path, bin_path, end = *sys.argv[1:4], sys.argv.index("--")
+    paths = sys.argv[end + 1:]
+    by_kernel = {name: {} for name in sys.argv[4:end]}
+    with multiprocessing.Pool() as pool:
+        for path, packed in zip(paths, pool.map(pack, paths, chunksize=16)):
+            kernel, kind = os.path.basename(path).split(".", 1)
+            by_kernel[kernel][kind] = packed
+    symbol = "rg_bytes_" + os.path.basename(bin_path).replace(".", "_")
+    c = [f'#include "backends/kernel.h"\nextern const unsigned char {symbol}[];\n']
+    packed = bytearray()
+    for kernel, forms in by_kernel.items():
         entries = []
         for kind in KINDS:
-            if kind not in paths:
-                entries.append("{NULL, 0}")
-                continue
-            with open(paths[kind], "rb") as file:
-                data = file.read()
-            symbol = f"rg_bytes_{kernel}_{kind.replace('.', '_')}"
-            c.append(f"extern const unsigned char {symbol}[];\n")
-            s.append(assembler(symbol, paths[kind], data))
-            entries.append(f"{{{symbol}, {len(data)}}}")
-        c.append(f"extern const struct rg_kernel_code rg_code_{kernel}[];\n")
-        c.append(f"const struct rg_kernel_code rg_code_{kernel}[] = {{{', '.join(entries)}}};\n")
-    for path, lines in ((c_path, c), (s_path, s)):
-        with open(path, "w", encoding="utf-8") as out:
-            out.write("".join(lines))
+            data, size = forms.get(kind, (b"", 0))
+            entries.append(f"{{{symbol} + {len(packed)}, {len(data)}, {size}}}")
+            packed += data
+        c.append(f"extern const struct rg_embedded_code rg_code_{kernel}[];\n")
+        c.append(f"const struct rg_embedded_code rg_code_{kernel}[] = {{{', '.join(entries)}}};\n")
+    s = (
+        '    .section .note.GNU-stack,"",%progbits\n    .section .rodata\n'
+        f"    .globl {symbol}\n"
+        f'{symbol}: .incbin "{bin_path}" /* {hashlib.sha256(packed).hexdigest()} */\n'
+    )
+    for path, content in ((c_path, "".join(c).encode()), (s_path, s.encode()), (bin_path, packed)):
+        with open(path, "wb") as out:
+            out.write(content)
 
 
-main()
+if __name__ == "__main__":
+    main()

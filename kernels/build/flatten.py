@@ -7,15 +7,17 @@ Runs the C preprocessor over each SHELL (a file of SHADERS), which includes the 
 that FOLDER/OUTPUT is one flat file without includes or macros. For GLSL it then gives every quotient
 and root a name, behind which a program that defines RG_ROUNDED finds kernels/dialect/rounding.h and
 another the driver's own, and makes every float `precise`, which forbids a driver to contract or
-reorder: the two things that the dialect cannot say in C and OpenCL C alike. A text that has not changed is not written again, so that the build does
-not make anew what depends on it. One process makes all texts, with a helper for each processor. A
-kernel with a name that another language reserves is refused.
+reorder: the two things that the dialect cannot say in C and OpenCL C alike. A text whose files are
+older than OUTPUT.d, which lists them, is not made; one that has not changed is not written again, so
+that the build does not make anew what depends on it. One process makes all texts, with a helper for
+each processor. A kernel with a name that another language reserves is refused.
 """
 import multiprocessing
 import os
 import re
 import subprocess
 import sys
+import time
 
 import quotients
 import reserved
@@ -53,17 +55,32 @@ VERSION = """#version 450 core
 """
 
 
-def preprocess(language, header, shell, compiler):
-    """The text behind the preprocessor, and the files that it was made of."""
+def needs_of(depfile):
+    """The files that a text was made of."""
+    with open(depfile, encoding="utf-8") as file:
+        return file.read().replace("\\\n", " ").split(":", 1)[1].split()
+
+
+def preprocess(language, header, shell, depfile, compiler):
+    """The text behind the preprocessor, which also writes the files that it was made of."""
     command = compiler + [
-        "-E", "-P", "-undef", "-nostdinc", "-x", "c",
+        "-E", "-P", "-undef", "-nostdinc", "-x", "c", "-MD", "-MF", depfile,
         f"-DRG_{language}=1",
         f'-DRG_KERNEL_HEADER="{header}"',
         shell,
     ]
-    text = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
-    needs = subprocess.run(command + ["-M"], check=True, stdout=subprocess.PIPE, text=True).stdout
-    return text, needs.replace("\\\n", " ").split(":", 1)[1].split()
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+def is_made(output, depfile):
+    """Whether a text is there, and younger than all that it was made of and by."""
+    try:
+        made_ns = os.stat(depfile).st_mtime_ns
+        tools = [__file__, quotients.__file__, reserved.__file__]
+        return os.path.exists(output) and all(
+            os.stat(path).st_mtime_ns < made_ns for path in needs_of(depfile) + tools)
+    except OSError:
+        return False
 
 
 def closing(text, start):
@@ -216,8 +233,12 @@ def write_if_changed(path, text):
 def flatten(job):
     """Writes one text; returns the files that it was made of, and what is wrong with its names."""
     shell, header, output, compiler = job
-    language = "OPENCL" if shell.endswith(".cl") else "GLSL"
-    text, needs = preprocess(language, header, shell, compiler)
+    language, depfile = "OPENCL" if shell.endswith(".cl") else "GLSL", output + ".d"
+    if is_made(output, depfile):
+        return needs_of(depfile), None
+    started_ns = time.time_ns()
+    text = preprocess(language, header, shell, depfile + ".new", compiler)
+    needs = needs_of(depfile + ".new")
     refusal = reserved.refusal(language, text)
     if refusal:
         return needs, f"{header}: {refusal}"
@@ -227,6 +248,8 @@ def flatten(job):
         except quotients.Refused as refused:
             return needs, f"{header}: {refused}"
     write_if_changed(output, text)
+    os.utime(depfile + ".new", ns=(started_ns, started_ns))
+    os.replace(depfile + ".new", depfile)
     return needs, None
 
 

@@ -175,18 +175,20 @@ static void files_that_are_no_spirv_are_refused(void **state)
 // Binds slot 2 to 9, which the pipeline's layout lacks. A complaint fails one call, not the next.
 static void complaints_of_validation_fail_calls(void **state)
 {
-    const struct rg_kernel_code *code = &rg_kernel_find("probe_copy")->code[RG_CODE_SPIRV];
+    struct rg_kernel_code code;
+    assert_true(rg_kernel_code(rg_kernel_find("probe_copy"), RG_CODE_SPIRV, false, &code));
     const uint32_t op_decorate = 4u << 16 | 71, binding = 33;
-    uint32_t *words = malloc(code->size);
-    memcpy(words, code->bytes, code->size);
-    for (size_t i = 5; i + 3 < code->size / 4; i++)
+    uint32_t *words = malloc(code.size);
+    memcpy(words, code.bytes, code.size);
+    for (size_t i = 5; i + 3 < code.size / 4; i++)
         if (words[i] == op_decorate && words[i + 2] == binding && words[i + 3] == 2)
             words[i + 3] = 9;
-    assert_false(takes_kernel(*state, words, code->size));
+    assert_false(takes_kernel(*state, words, code.size));
     assert_non_null(strstr(rg_last_error(), "Vulkan validation: "));
     assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
     free(words);
-    assert_true(takes_kernel(*state, code->bytes, code->size));
+    assert_true(takes_kernel(*state, code.bytes, code.size));
+    free(code.bytes);
 }
 
 static void absent_drivers_are_explained(void **state)

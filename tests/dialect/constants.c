@@ -204,11 +204,11 @@ static struct values read_values(const char *text)
     return values;
 }
 
-static struct values values_of(const struct rg_kernel_code *text)
+static struct values values_of(struct rg_kernel_code text)
 {
-    char *copy = calloc(1, text->size + 1);
+    char *copy = calloc(1, text.size + 1);
     assert_non_null(copy);
-    memcpy(copy, text->bytes, text->size);
+    memcpy(copy, text.bytes, text.size);
     const struct values values = read_values(copy);
     free(copy);
     return values;
@@ -249,7 +249,7 @@ static struct stage read_stage(const struct rg_kernel *kernel, const struct spir
     struct stage read = {0};
     const struct spirv_module module = spirv_module(kernel, stage->kind);
     if (module.count) {
-        read.values = values_of(&kernel->code[stage->text]);
+        read.values = values_of(spirv_code(kernel, stage->text));
         spirv_read(module, read_constant, &read.constants);
     }
     return read;

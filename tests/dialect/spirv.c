@@ -2,6 +2,8 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 
 #include <cmocka.h>
@@ -16,10 +18,22 @@ const struct spirv_stage spirv_stages[SPIRV_STAGES] = {
     {RG_CODE_ROUNDED_VERTEX_SPIRV, RG_CODE_VERTEX_GLSL, "rounded vertex"},
     {RG_CODE_ROUNDED_FRAGMENT_SPIRV, RG_CODE_FRAGMENT_GLSL, "rounded fragment"}};
 
+struct rg_kernel_code spirv_code(const struct rg_kernel *kernel, enum rg_code_kind kind)
+{
+    enum { MOST_KERNELS = 1000 };
+    static struct rg_kernel_code all[MOST_KERNELS][RG_CODE_COUNT];
+    const int index = rg_kernel_index(kernel);
+    assert_in_range(index, 0, MOST_KERNELS - 1);
+    struct rg_kernel_code *code = &all[index][kind];
+    if (!code->bytes)
+        assert_true(rg_embedded_code(&kernel->code[kind], kernel->name, code));
+    return *code;
+}
+
 struct spirv_module spirv_module(const struct rg_kernel *kernel, enum rg_code_kind kind)
 {
-    const struct rg_kernel_code *code = &kernel->code[kind];
-    return (struct spirv_module){(const uint32_t *)(const void *)code->bytes, code->size / 4};
+    const struct rg_kernel_code code = spirv_code(kernel, kind);
+    return (struct spirv_module){(const uint32_t *)(const void *)code.bytes, code.size / 4};
 }
 
 struct reader {

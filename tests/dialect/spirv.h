@@ -33,6 +33,8 @@ struct spirv_instruction {
     bool of_float;    // OpConstant holds a float
 };
 
+// One of a kernel's forms, which lives as long as the test.
+struct rg_kernel_code spirv_code(const struct rg_kernel *kernel, enum rg_code_kind kind);
 struct spirv_module spirv_module(const struct rg_kernel *kernel, enum rg_code_kind kind);
 
 // Calls `look` for every instruction, in their order. Fails the test where the words are no SPIR-V,

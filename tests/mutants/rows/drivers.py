@@ -30,7 +30,7 @@ ROWS = [
     Fault(ROUNDING, "ok && !*is_rough && «roots < 2»", "roots < 1", "inexact roots are not noticed", tests=OF_ROUNDING),
     Fault(ROUNDING, "*is_rough = ok && «!all_are_exact(o, roots)»;", "false", "no driver rounds badly", tests=OF_ROUNDING),
     Fault(KERNEL, "return «RG_CODE_ROUNDED_FRAGMENT_SPIRV»;", "RG_CODE_FRAGMENT_SPIRV", "fragments are the driver's to round", tests=OF_ROUNDING),
-    Fault(KERNEL, "find_code(kernel, «rounded ? rounded_kind(kind) : kind», code, owned)", "kind", "modules are the driver's to round", tests=OF_ROUNDING),
+    Fault(KERNEL, "found = «rounded ? rounded_kind(kind) : kind»;", "kind", "modules are the driver's to round", tests=OF_ROUNDING),
     Fault("backends/gl/program.c", "rg_kernel_code(kernel, kind, «device->pub.rounds»,", "false", "gl: programs are the driver's to round", tests=OF_ROUNDING),
     Fault("backends/vulkan/program.c", "rg_kernel_code(kernel, kind, «device->pub.rounds»,", "false", "vulkan: programs are the driver's to round", tests=OF_ROUNDING),
     Fault(CL_BUF, "staged ? CL_FALSE : CL_TRUE,\n                                       «offset», size, staged", "0", "opencl: writes begin at 0", tests=OF_CL),

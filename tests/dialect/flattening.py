@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Flattening refuses a name that one of the languages reserves: reserved.py FLATTEN SHADERS COMPILER...
+"""What flattening refuses, and what it makes anew: flattening.py FLATTEN SHADERS COMPILER...
 
-A kernel with such a name is refused in one line, whatever text is made of it, and leaves no text; with another name it
-is taken. The words are tried as a local, a member, a parameter and a function.
+A kernel with a name that one of the languages reserves is refused in one line, whatever text is made of it, and leaves no
+text; with another name it is taken. The words are tried as a local, a member, a parameter and a function. A text is made
+anew where a file that it was made of is younger than the last time, and only then.
 """
 import os
 import subprocess
@@ -43,8 +44,9 @@ RESERVED = {
 
 def flatten(folder, names):
     """The exit status and message of flattening a kernel with these names, and which texts it left."""
-    with open(os.path.join(folder, "tried.h"), "w", encoding="utf-8") as file:
-        file.write(KERNEL % names)
+    if names:
+        with open(os.path.join(folder, "tried.h"), "w", encoding="utf-8") as file:
+            file.write(KERNEL % names)
     program, shaders, *compiler = sys.argv[1:]
     jobs = ["grid.glsl", "tried.h", "tried.glsl", "grid.cl", "tried.h", "tried.cl"]
     run = subprocess.run([program, shaders, os.path.join(folder, "tried.d"), *compiler, "-I", folder, "--", folder, *jobs],
@@ -58,7 +60,36 @@ def check(what, is_right, found):
         sys.exit(f"{what}: {found}")
 
 
+def check_what_is_made():
+    """A text that flattening should make is spoiled first: it is whole again where it was made."""
+    spoiled, header = "spoiled", "tried.h"
+    with tempfile.TemporaryDirectory() as folder:
+        text = os.path.join(folder, "tried.cl")
+
+        def remade(names):
+            with open(text, "w", encoding="utf-8") as file:
+                file.write(spoiled)
+            status, said, _ = flatten(folder, names)
+            check("flattened again", (status, said) == (0, ""), (status, said))
+            with open(text, encoding="utf-8") as file:
+                return file.read()
+
+        flatten(folder, PLACES)
+        check("nothing is younger", remade(None) == spoiled, "made anew")
+        check("a header is younger", "raised" in remade(PLACES), "left as it was")
+        check("another header", "lowered" in remade({**PLACES, "function": "lowered"}), "left as it was")
+        os.remove(text)
+        flatten(folder, None)
+        check("a text that is gone", os.path.exists(text), "left out")
+        os.remove(text + ".d")
+        check("it is not known what it was made of", "lowered" in remade(None), "left as it was")
+        os.remove(os.path.join(folder, header))
+        status, _, _ = flatten(folder, None)
+        check("a header that is gone", status, "taken")
+
+
 def main():
+    check_what_is_made()
     with tempfile.TemporaryDirectory() as folder:
         status, said, left = flatten(folder, PLACES)
         check("plain names", (status, said, len(left)) == (0, "", 3), (status, said, left))
