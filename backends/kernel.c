@@ -104,9 +104,9 @@ bool rg_embedded_code(const struct rg_embedded_code *embedded, const char *name,
         return true;
     struct libdeflate_decompressor *inflater = libdeflate_alloc_decompressor();
     unsigned char *bytes = inflater ? rg_alloc(1, embedded->size, name) : NULL;
-    const bool ok = bytes && !libdeflate_zlib_decompress(inflater, embedded->bytes,
-                                                         embedded->packed_size, bytes,
-                                                         embedded->size, NULL);
+    const bool ok =
+        bytes && !libdeflate_zlib_decompress(inflater, embedded->bytes, embedded->packed_size,
+                                             bytes, embedded->size, NULL);
     libdeflate_free_decompressor(inflater);
     if (ok)
         *code = (struct rg_kernel_code){bytes, embedded->size};

@@ -26,8 +26,8 @@ void rg_log_hold(bool holds);
 // Logs one line, "raingauge: ..." on stderr, where an error or a warning that was printed before is
 // not printed again: several devices, cells and processes may meet one. rg_error returns false and
 // rg_error_null returns NULL, so that a failing function ends in `return rg_error("...")`. Control
-// characters inside are made plain (core/base/text/plain.h). Those two log what another usage or input mends; errors of other kinds have
-// functions below.
+// characters inside are made plain (core/base/text/plain.h). Those two log what another usage or
+// input mends; errors of other kinds have functions below.
 bool rg_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void *rg_error_null(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void rg_warning(const char *format, ...) __attribute__((format(printf, 1, 2)));

@@ -2,9 +2,9 @@
 // the same bits. No branches and no tables, so that a C compiler can run several in one vector.
 //
 // Bounds are measured against double precision over all exponents and millions of values, and
-// tests/dialect/math.c measures them again. An ulp is the distance of two neighbouring floats at the
-// true result. Results are finite and never subnormal: RG_LARGEST or 0 stand for what would not be.
-// No argument may be NaN, and none subnormal unless a function says what then happens.
+// tests/dialect/math.c measures them again. An ulp is the distance of two neighbouring floats at
+// the true result. Results are finite and never subnormal: RG_LARGEST or 0 stand for what would not
+// be. No argument may be NaN, and none subnormal unless a function says what then happens.
 #ifndef RG_KERNELS_DIALECT_MATH_H
 #define RG_KERNELS_DIALECT_MATH_H
 
@@ -278,8 +278,8 @@ RG_FN float rg_cbrt(float x)
     return x < RG_SMALLEST_NORMAL ? 0.0f : y;
 }
 
-// x to a whole power from 0 to 15, by squaring. Roundings that squaring doubles add up to a relative
-// error of 14 * 2^-24 at most, for the power 15: below 14 ulp, 9.7 ulp seen.
+// x to a whole power from 0 to 15, by squaring. Roundings that squaring doubles add up to a
+// relative error of 14 * 2^-24 at most, for the power 15: below 14 ulp, 9.7 ulp seen.
 RG_FN float rg_pow_whole(float x, int power)
 {
     float x2 = x * x;

@@ -127,7 +127,7 @@ RG_STRUCT(drops_params)
     float owned_mm; // above 0; lower water is nobody's
     int down_cell;  // from a cell to the one below it, in cells of a map, as drops run
     int right_cell;
-    int is_upright;   // 1: it runs down the grid's columns, 0: along its rows
+    int is_upright; // 1: it runs down the grid's columns, 0: along its rows
     int does_smooth;
     int does_spread;
     int does_erode;

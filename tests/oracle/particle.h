@@ -22,8 +22,8 @@ struct particle_seen {
     double margin_m; // how far a length is from where the state changes
 };
 
-// A particle that began at clip coordinates (x, y), `start` of the way through the local space, when
-// all have run `run` of the way, over a surface at `hit`.
+// A particle that began at clip coordinates (x, y), `start` of the way through the local space,
+// when all have run `run` of the way, over a surface at `hit`.
 struct particle_seen particle_oracle(const struct particle_space *space, double x, double y,
                                      double start, double run, double hit);
 

@@ -37,8 +37,8 @@ bool refuse(const std::string &why)
 // texels, once as the file's own values.
 void set_limits(int64_t file_bytes)
 {
-    const int64_t texels = file_bytes < RG_PICTURE_MAX_BYTES / 4160 ? file_bytes * 4160
-                                                                    : RG_PICTURE_MAX_BYTES;
+    const int64_t texels =
+        file_bytes < RG_PICTURE_MAX_BYTES / 4160 ? file_bytes * 4160 : RG_PICTURE_MAX_BYTES;
     rg_cage_limits limits = {};
     limits.cpu_s = 20 + file_bytes / 20000000;
     limits.memory_bytes = ((int64_t)4 << 30) + 2 * texels;

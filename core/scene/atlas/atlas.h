@@ -90,9 +90,9 @@ struct rg_atlas_progress {
 // line, on failure. The caller destroys it.
 struct rg_atlas *rg_atlas_load(enum rg_atlas_size size, const struct rg_atlas_progress *progress);
 
-// The same without a cache: traced, in parallel, in about four minutes of one core, or eight seconds
-// for the small size. Neither the number of threads nor the vectors of the processor change its
-// bits. `size` is RG_ATLAS_FULL or RG_ATLAS_SMALL.
+// The same without a cache: traced, in parallel, in about four minutes of one core, or eight
+// seconds for the small size. Neither the number of threads nor the vectors of the processor change
+// its bits. `size` is RG_ATLAS_FULL or RG_ATLAS_SMALL.
 struct rg_atlas *rg_atlas_make(enum rg_atlas_size size, const struct rg_atlas_progress *progress);
 void rg_atlas_destroy(struct rg_atlas *atlas);
 

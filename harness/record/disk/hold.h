@@ -21,8 +21,8 @@ bool rg_hold_folder(const char *folder, struct rg_hold *hold);
 // Removes the folder if it was made and has stayed empty.
 void rg_hold_release(struct rg_hold *hold);
 
-// The user's folder for what goes on later (core/base/files/user.h); "" where no variable names one.
-// The folders that it lies in are made; itself is made by who writes there.
+// The user's folder for what goes on later (core/base/files/user.h); "" where no variable names
+// one. The folders that it lies in are made; itself is made by who writes there.
 void rg_state_folder(char *folder, size_t size);
 
 #endif

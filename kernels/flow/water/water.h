@@ -14,8 +14,8 @@
 
 #define FLOW_DROPLETS_PER_UNIT 65536.0f
 #define FLOW_DROPLET           1.52587890625e-5f
-#define FLOW_REMAINDER_ENTRIES 1024 // of the remainder map, evenly spaced over the water amount
-#define FLOW_MARGIN            4    // the farthest that water goes in a step
+#define FLOW_REMAINDER_ENTRIES 1024  // of the remainder map, evenly spaced over the water amount
+#define FLOW_MARGIN            4     // the farthest that water goes in a step
 #define FLOW_EDGE_HOLDS        64.0f // water up to which a texel takes in what crosses an edge
 
 #define FLOW_MAX_PANES 6
@@ -40,7 +40,7 @@ RG_STRUCT(flow_params)
     int noise_size;         // texels along a side of the noise map
     float noise_step;       // noise texels a pane texel
     float noise_x, noise_y; // where the window begins, in noise texels
-    float sweep;            // of texels that keep directions: the neighbours' share in a texel's own
+    float sweep; // of texels that keep directions: the neighbours' share in a texel's own
 };
 RG_STRUCT_SIZE(flow_params, 13)
 
@@ -55,10 +55,10 @@ RG_STRUCT(flow_neighbour)
 // What distinguishes the panes of a scene.
 RG_STRUCT(flow_pane)
 {
-    int ax, ay;    // the direction down, in whole texels (figure 8)
-    int bx, by;    // a second direction, where gravity lies between two of the eight
-    float b_share; // the share of what is given that goes that way, 0 to 1
-    float speed;   // cos(alpha) of equation 2: scales what is given
+    int ax, ay;        // the direction down, in whole texels (figure 8)
+    int bx, by;        // a second direction, where gravity lies between two of the eight
+    float b_share;     // the share of what is given that goes that way, 0 to 1
+    float speed;       // cos(alpha) of equation 2: scales what is given
     float noise_shift; // of the noise map's window, in noise texels: no two panes move alike
     flow_neighbour top, bottom, left, right;
     // Tangent (right), binormal (down) and normal (outwards) in the world.

@@ -534,8 +534,8 @@ static void test_interrupted(void **state)
     rg_interrupt_watch();
 }
 
-// Wherever it comes, no sample has fewer frames than it says, and how a job is sampled is settled by
-// whole runs alone.
+// Wherever it comes, no sample has fewer frames than it says, and how a job is sampled is settled
+// by whole runs alone.
 static void test_interrupted_samples(void **state)
 {
     (void)state;

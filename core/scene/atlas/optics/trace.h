@@ -4,8 +4,8 @@
 
 #include "core/scene/atlas/optics/drop.h"
 
-// The ways of light: reflected outside; refracted in and out; the same with one to three reflections
-// inside.
+// The ways of light: reflected outside; refracted in and out; the same with one to three
+// reflections inside.
 enum { RG_DROP_WAYS = 5, RG_TRACE_MAX = 512 };
 
 // A camera without perspective. `towards` points from the drop to the viewer; all are unit vectors.

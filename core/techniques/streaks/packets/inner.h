@@ -133,7 +133,7 @@ struct streaks_run {
     int64_t slot; // of the first, of all buffers counted through
     int32_t count;
     float shift_x, shift_y, turn;
-    int place; // of its bucket, which stands at several
+    int place;            // of its bucket, which stands at several
     int64_t first, block; // where its blocks begin, among all and among those that are seen
 };
 

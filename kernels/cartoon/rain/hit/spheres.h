@@ -30,8 +30,8 @@ RG_FN rg_corner cartoon_on_sphere(rg_ctx rg, cartoon_rain_params p, v3 middle, f
                                          middle.z + radius * sphere_at(rg, 3 * k + 2)));
 }
 
-// Which drop facet i is of: i / p.facets. Compilers vectorise no division of integers by a variable,
-// so floats divide first i, and then what that leaves, which is small enough to be exact.
+// Which drop facet i is of: i / p.facets. Compilers vectorise no division of integers by a
+// variable, so floats divide first i, and then what that leaves, which is small enough to be exact.
 RG_FN int cartoon_facet_drop(cartoon_rain_params p, int i)
 {
     float facets = rg_to_float(p.facets);

@@ -191,9 +191,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_first_row_left_out),
-        cmocka_unit_test(test_order_of_names),  cmocka_unit_test(test_groups),
-        cmocka_unit_test(test_unsettled_order), cmocka_unit_test(test_slope_along_axis),
-        cmocka_unit_test(test_other_work),      cmocka_unit_test(test_few_samples),
+        cmocka_unit_test(test_order_of_names),
+        cmocka_unit_test(test_groups),
+        cmocka_unit_test(test_unsettled_order),
+        cmocka_unit_test(test_slope_along_axis),
+        cmocka_unit_test(test_other_work),
+        cmocka_unit_test(test_few_samples),
         cmocka_unit_test(test_drift),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
