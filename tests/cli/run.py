@@ -20,6 +20,7 @@
            reports  what gates tell, of names with any characters and of what is expected
            ci       gates as CI services and runners of googletest run them
            bisects  the first of several drivers that is bad
+           shells   what a bisect hands to shells
            shrinking  a driver that miscompiles: blamed, and shrunk to a case
            wrong    a driver that draws wrongly is found
            doctor   the report about this machine
@@ -54,6 +55,7 @@ import pages
 import pictures
 import reports
 import resuming
+import shells
 import shrinking
 import stored
 import tables
@@ -78,7 +80,8 @@ SUITES = {
     "baselines": lambda runner: runner.check_all(baselines.CHECKS),
     "reports": lambda runner: runner.check_all(reports.CHECKS),
     "ci": lambda runner: runner.check_all(ci.CHECKS),
-    "bisects": lambda runner: runner.check_all(bisecting.CHECKS),
+    "bisects": lambda runner: runner.check_all(bisecting.CHECKS + shells.CHECKS),
+    "shells": lambda runner: runner.check_all(shells.THOROUGH),
     "shrinking": lambda runner: runner.check_all(shrinking.CHECKS),
     "wrong": lambda runner: runner.check_all(wrong.CHECKS),
     "doctor": lambda runner: runner.check_all(doctor.CHECKS),

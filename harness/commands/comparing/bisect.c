@@ -8,7 +8,9 @@
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/compare/bisect/bisect.h"
+#include "harness/compare/bisect/blanks.h"
 #include "harness/compare/bisect/git.h"
+#include "harness/compare/gate/text/shell.h"
 #include "harness/console/duration.h"
 #include "harness/console/interrupt.h"
 
@@ -45,15 +47,17 @@ static const struct rg_option options[] = {
      .offset = AT(fresh)},
     RG_GROUP("How one is judged"),
     {RG_OPTION_TEXT, "run", .argument = "COMMAND",
-     .about = "a line for the shell, in which {} is the candidate, {good} the good end and "
-              "{budget} a time; its exit status is the verdict: 0 good, 1 bad, 3 again, 4, 77 and "
-              "125 skip, else it stops (docs/ci.md)",
+     .about =
+         "a line for the shell, in which \"$RG_CANDIDATE\" or {} is the candidate, "
+         "\"$RG_GOOD\" or {good} the good end, and \"$RG_BUDGET\" or {budget} a time; its exit "
+         "status is the verdict: 0 good, 1 bad, 3 again, 4, 77 and 125 skip, else it stops "
+         "(docs/ci.md)",
      .offset = AT(line)},
     {RG_OPTION_INT, "tries", .argument = "N",
      .about = "what says 3 is tried so many times, then skipped", .offset = AT(tries),
      .initial = "3", .least = 1, .most = 16},
     {RG_OPTION_TEXT, "budget", .argument = "TIME",
-     .about = "what {budget} stands for at the first try; at each further it is twice as much",
+     .about = "RG_BUDGET at the first try; at each further it is twice as much",
      .offset = AT(budget), .initial = "2m"},
     {RG_OPTION_CHOICE, "crash", .about = "what a command says that a signal ends",
      .offset = AT(crash), .initial = "skip", .choices = crashes},
@@ -77,25 +81,26 @@ static int judge_for_git(const struct rg_judging *judging)
 
 // --- a list ---
 
-static int print_lines(const struct rg_candidates *candidates, const struct rg_judging *judging)
+static void print_variable(const char *name, const char *value)
 {
-    bool ok = true;
-    for (int64_t i = 0; ok && i < candidates->count; i++) {
-        char *line = rg_judging_line(judging, candidates->names[i], candidates->names[0], 0);
-        ok = line != NULL;
-        if (ok)
-            printf("%s\n", line);
-        free(line);
-    }
-    return ok ? RG_EXIT_PASS : RG_EXIT_FAIL;
+    printf("%s=", name);
+    rg_shell_word(stdout, value, strlen(value));
+    printf(" ");
 }
 
-static bool all_fit(const struct rg_candidates *candidates, const struct rg_judging *judging)
+static int print_lines(const struct rg_candidates *candidates, const struct rg_judging *judging)
 {
-    for (int64_t i = 0; i < candidates->count; i++)
-        if (!rg_judging_fits(judging, candidates->names[i], candidates->names[0]))
-            return false;
-    return true;
+    char budget[32];
+    rg_judging_budget(judging, 0, budget);
+    for (int64_t i = 0; i < candidates->count; i++) {
+        print_variable(RG_VARIABLE_CANDIDATE, candidates->names[i]);
+        print_variable(RG_VARIABLE_GOOD, candidates->names[0]);
+        print_variable(RG_VARIABLE_BUDGET, budget);
+        printf("/bin/sh -c ");
+        rg_shell_word(stdout, judging->line, strlen(judging->line));
+        printf("\n");
+    }
+    return RG_EXIT_PASS;
 }
 
 // Whether all of it was printed. False, and one logged line.
@@ -135,7 +140,7 @@ static int bisect_list(const struct bisect_options *o, const struct rg_words *ar
     bool ok = !o->list || rg_candidates_read(o->list, &candidates);
     for (int i = 0; ok && i < arguments->count; i++)
         ok = rg_candidates_add(arguments->items[i], &candidates);
-    ok = ok && rg_candidates_between(o->good, o->bad, &candidates) && all_fit(&candidates, judging);
+    ok = ok && rg_candidates_between(o->good, o->bad, &candidates);
     const int exit = !ok          ? rg_git_status_of_usage()
                      : o->dry_run ? print_lines(&candidates, judging)
                                   : search(o, &candidates, judging);
@@ -159,22 +164,25 @@ static bool check(const struct bisect_options *o, const struct rg_words *argumen
         return !(o->json || o->dry_run || o->fresh) ||
                rg_error("bisect: inside `git bisect run` there are no candidates; leave out "
                         "--json, --dry-run and --fresh");
-    if (!o->good || !o->bad)
-        return rg_error("bisect: --good and --bad name the two ends; --%s is missing",
-                        o->good ? "bad" : "good");
-    return strstr(o->line, "{}") ||
-           rg_error("--run '%s': has no {} where the candidate stands", o->line);
+    return (o->good && o->bad) ||
+           rg_error("bisect: --good and --bad name the two ends; --%s is missing",
+                    o->good ? "bad" : "good");
 }
 
 static int bisect(const void *values, const struct rg_words *arguments)
 {
     const struct bisect_options *o = values;
-    struct rg_judging judging = {
-        .line = o->line, .tries = o->tries, .crash_is_bad = o->crash == CRASH_BAD};
+    struct rg_judging judging = {.tries = o->tries, .crash_is_bad = o->crash == CRASH_BAD};
+    char *line = NULL;
     if (!check(o, arguments, &judging.prints_here) ||
-        !rg_duration_read(o->budget, "--budget", &judging.budget_s))
+        !rg_duration_read(o->budget, "--budget", &judging.budget_s) ||
+        !(line = rg_blanks_fill(o->line, !judging.prints_here)))
         return rg_git_status_of_usage();
-    return judging.prints_here ? judge_for_git(&judging) : bisect_list(o, arguments, &judging);
+    judging.line = line;
+    const int exit =
+        judging.prints_here ? judge_for_git(&judging) : bisect_list(o, arguments, &judging);
+    free(line);
+    return exit;
 }
 
 const struct rg_command rg_command_bisect = {

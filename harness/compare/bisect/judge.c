@@ -81,37 +81,31 @@ static int run_line(const char *line, bool prints_here)
     const int error = rg_program_start(args, fds, 3, &child);
     if (!error)
         return wait_for(child);
-    rg_error("/bin/sh: cannot be started: %s; close other programs", strerror(error));
+    rg_error("/bin/sh: cannot be started: %s; %s", strerror(error),
+             error == E2BIG ? "give it fewer or shorter variables" : "close other programs");
     return -1;
 }
 
-char *rg_judging_line(const struct rg_judging *judging, const char *candidate, const char *good,
-                      int number)
+void rg_judging_budget(const struct rg_judging *judging, int number, char budget[32])
 {
-    char budget[32];
-    snprintf(budget, sizeof(budget), "%.10gs", ldexp(judging->budget_s, number));
-    return rg_blanks_fill(judging->line, &(struct rg_blanks){candidate, good, budget});
+    snprintf(budget, 32, "%.10gs", ldexp(judging->budget_s, number));
 }
 
-bool rg_judging_fits(const struct rg_judging *judging, const char *candidate, const char *good)
+// Sets a variable of the command. No value: there is none to set.
+static bool hand_over(const char *variable, const char *value)
 {
-    enum { MOST_BYTES = 128 << 10 }; // of Linux, with the zero behind it: execve(2)
-    char *line = rg_judging_line(judging, candidate, good, judging->tries - 1);
-    const bool ok = line && (strlen(line) < MOST_BYTES ||
-                             rg_error("bisect: the command of '%.40s...' has more than %d bytes; "
-                                      "put it into a script",
-                                      candidate, MOST_BYTES - 1));
-    free(line);
-    return ok;
+    return !value || !setenv(variable, value, 1) ||
+           rg_error("bisect: no memory for %s; close other programs", variable);
 }
 
 static int try_once(const struct rg_judging *judging, const char *candidate, const char *good,
                     int number)
 {
-    char *line = rg_judging_line(judging, candidate, good, number);
-    const int status = line ? run_line(line, judging->prints_here) : -1;
-    free(line);
-    return status;
+    char budget[32];
+    rg_judging_budget(judging, number, budget);
+    const bool ok = hand_over(RG_VARIABLE_CANDIDATE, candidate) &&
+                    hand_over(RG_VARIABLE_GOOD, good) && hand_over(RG_VARIABLE_BUDGET, budget);
+    return ok ? run_line(judging->line, judging->prints_here) : -1;
 }
 
 struct rg_judged rg_judge(const struct rg_judging *judging, const char *candidate, const char *good)

@@ -24,8 +24,8 @@ const char *rg_judgement_name(enum rg_judgement verdict);
 enum rg_judgement rg_judgement_of(int status, bool crash_is_bad);
 
 struct rg_judging {
-    const char *line; // for the shell, with blanks (blanks.h)
-    double budget_s;  // that {budget} stands for at the first try; each further has twice as much
+    const char *line; // for the shell, with its blanks filled (blanks.h)
+    double budget_s;  // RG_BUDGET at the first try; each further has twice as much
     int tries;        // at most
     bool crash_is_bad;
     bool prints_here; // what the command prints to stdout comes to ours; else to stderr
@@ -39,17 +39,12 @@ struct rg_judged {
     uint64_t stamp; // what the candidate was on disk once it was judged (stamp.h)
 };
 
-// The line of a try, counted from 0, with its blanks filled, which the caller frees. NULL, and one
-// logged line, without memory.
-char *rg_judging_line(const struct rg_judging *judging, const char *candidate, const char *good,
-                      int number);
+// RG_BUDGET of a try, counted from 0.
+void rg_judging_budget(const struct rg_judging *judging, int number, char budget[32]);
 
-// Whether the system takes a candidate's line for an argument; else one line is logged. It is found
-// out before anything is judged.
-bool rg_judging_fits(const struct rg_judging *judging, const char *candidate, const char *good);
-
-// Judges a candidate; NULLs where it has no name. Its verdict is stop, too, and one line is logged,
-// where the shell cannot be started. A signal that asks raingauge to end
+// Judges a candidate, which the command gets as RG_CANDIDATE, and the good end as RG_GOOD; NULLs
+// where there are none. Its verdict is stop, too, and one line is logged, where the shell cannot be
+// started. A signal that asks raingauge to end
 // (harness/console/interrupt.h) ends the command first.
 struct rg_judged rg_judge(const struct rg_judging *judging, const char *candidate,
                           const char *good);

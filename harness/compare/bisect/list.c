@@ -7,6 +7,8 @@
 #include "core/base/array.h"
 #include "core/base/log.h"
 
+enum { MOST_BYTES = 1 << 16 }; // half of what the system takes for a variable
+
 bool rg_candidates_add(const char *name, struct rg_candidates *candidates)
 {
     for (const char *c = name; *c; c++)
@@ -15,6 +17,9 @@ bool rg_candidates_add(const char *name, struct rg_candidates *candidates)
                             (unsigned char)*c);
     if (!*name)
         return rg_error("bisect: a candidate has no name; leave it out");
+    if (strlen(name) > MOST_BYTES)
+        return rg_error("bisect: the candidate '%.40s...' has more than %d bytes; rename it", name,
+                        MOST_BYTES);
     if (!rg_array_fit(&candidates->names, &candidates->room, candidates->count + 1,
                       sizeof(*candidates->names), "candidates"))
         return false;

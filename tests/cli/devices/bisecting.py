@@ -142,15 +142,16 @@ def check_lists(runner):
 
 
 def check_names(runner):
-    """the shell takes a candidate of any characters for one word, in any quotes, and JSON has it as it is"""
+    """the command gets a candidate of any characters as it is, by a variable or by {} in any quotes, and JSON has it as it is"""
     problems = []
     for name in HOSTILE:
-        ran = runner.run(["bisect", "--good", "good", "--bad", name, "--run", "test {} = good", "--json"])
-        if ran.returncode or json.loads(ran.stdout)["first_bad"] != [name]:
-            problems.append("%r: exit status %d, %s%s" % (name, ran.returncode, ran.stdout, ran.stderr))
-        shown = runner.run(["bisect", "--good", "good", "--bad", name, "--dry-run", "--run", "printf '%s|' {} \"{}\" '{}' \"a{}\" \\' {}"])
+        for line in ("test {} = good", "# it's\ntest \"$RG_CANDIDATE\" = \"$RG_GOOD\" <<EOF\n'\nEOF\n", "sh -c 'test \"$RG_CANDIDATE\" = good'"):
+            ran = runner.run(["bisect", "--good", "good", "--bad", name, "--run", line, "--json"])
+            if ran.returncode or json.loads(ran.stdout)["first_bad"] != [name]:
+                problems.append("%r, %s: exit status %d, %s%s" % (name, line, ran.returncode, ran.stdout, ran.stderr))
+        shown = runner.run(["bisect", "--good", "good", "--bad", name, "--dry-run", "--run", "printf '%s|' {} \"{}\" '{}' \"a{}\" \\' {} {good} {budget}"])
         spoken = subprocess.run(["sh", "-c", shown.stdout.split("\n")[1]], capture_output=True, text=True, check=False)
-        if spoken.stdout != "%s|%s|%s|a%s|'|%s|" % (5 * (name,)):
+        if spoken.stdout != "%s|%s|%s|a%s|'|%s|good|120s|" % (5 * (name,)):
             problems.append("%r: %s becomes %r" % (name, shown.stdout, spoken.stdout))
     with tempfile.TemporaryDirectory() as folder:
         write(folder, "list.txt", "\ufeff%s\r\n# oldest first\n\n" % "good" + "".join("  %s  \r\n" % name for name in HOSTILE[:-1]))
@@ -230,14 +231,19 @@ def check_refused(runner):
     """what cannot be a bisect is refused in one line"""
     problems = []
     for args, says in ((["--good", "a", "--bad", "b"], "--run names the command"), (["--run", "{}", "--good", "a"], "--bad is missing"),
-                       (["--run", "{}", "a", "b"], "--good is missing"), (["--run", "true", "--good", "a", "--bad", "b"], "has no {}"),
+                       (["--run", "{}", "a", "b"], "--good is missing"),
+                       (["--run", "# it's\ntest {}", "--good", "a", "--bad", "b"], "{} is not one word for certain behind #; write \"$RG_CANDIDATE\""),
+                       (["--run", "test <<EOF\n{good}\nEOF", "--good", "a", "--bad", "b"], "{good} is not one word for certain behind <<; write \"$RG_GOOD\""),
+                       (["--run", "sh -c 'exit {}'", "--good", "a", "--bad", "b"], "for certain behind -c "),
+                       (["--run", "echo 'a {budget}'"], "{budget} is not one word for certain in quotes with others; write \"$RG_BUDGET\""),
                        (["--run", "{}", "--good", "a", "--bad", "a"], "both 'a'"), (["--run", "true", "--json"], "leave out"),
                        (["--run", "{}", "--good", "a", "--bad", "x", "a", "b"], "--bad 'x' is not among"),
                        (["--run", "{}", "--good", "a", "--bad", "b", "a", "b", "a"], "'a' is there twice"),
                        (["--run", "{}", "--good", "a", "--bad", "b\n"], "control character"), (["--run", "{}", "--good", "a", "--bad", ""], "--bad '': is empty"),
                        (["--run", "{}", "--good", "a", "--bad", "b", "--list", "/nonexistent"], "/nonexistent"),
                        (["--run", "{}", "--good", "a", "--bad", "b", "--list", "/dev/null"], "/dev/null"),
-                       (["--run", "{} " + 130000 * "x", "--good", "a", "--bad", "b" + 2000 * "x"], "has more than 131071 bytes; put it into a script"),
+                       (["--run", 20000 * "{} ", "--good", "a", "--bad", "b"], "has more than 131071 bytes; put it into a script"),
+                       (["--run", "{}", "--good", "a", "--bad", 70000 * "b"], "has more than 65536 bytes; rename it"),
                        (["--run", "{}", "--good", "a", "--bad", "b"] + 65 * ["c"], "more than 64 arguments; name fewer, or a file of them by --list"),
                        (["--run", "{}", "--budget", "soon"], "--budget 'soon'"), (["--run", "{}", "--tries", "0"], "--tries 0")):
         ran = runner.run(["bisect"] + args, env={"GIT_DIR": "/nonexistent"})
