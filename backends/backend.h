@@ -164,17 +164,18 @@ struct rg_run {
     struct rg_counts *counts;              // set by core/device/work.c; NULL: nobody counts
 };
 
-enum { RG_MAX_DEVICES = 32 }; // that a list takes
+enum { RG_MAX_DEVICES = 32, RG_LIST_WHY_SIZE = 640 }; // that a list takes; of its reason
 
 struct rg_backend {
     const char *name;    // "vulkan"
-    const char *package; // the Debian package whose absence explains a missing device; NULL: none
+    const char *package; // the Debian package that brings a driver; NULL: none is needed
     bool rough;          // its language lets quotients and roots be inexact (rounding.h)
     bool packed;         // draws what core/device/packing.c has packed, rather than items
 
-    // Fills `infos` with up to `max` devices, best first, and returns their number; 0: none, and
-    // `why` (of `why_size` bytes) says so in one line. Quiet: it logs nothing and leaves nothing
-    // open.
+    // Fills `infos` with up to `max` devices, best first, and returns their number; 0: no driver is
+    // there; -1: one is there, and fails. `why` (of `why_size` bytes, RG_LIST_WHY_SIZE are enough)
+    // then says so in one line, with the mend. Beside devices it is "", or tells of another driver
+    // that fails. Quiet: it logs nothing and leaves nothing open.
     int (*list)(struct rg_device_info *infos, int max, char *why, size_t why_size);
 
     // Opens the device at `index` of the list. NULL and one logged line on failure.

@@ -89,9 +89,7 @@ static int gl_list(struct rg_device_info *infos, int max, char *why, size_t why_
         count++;
         gl_egl_close(&egl);
     }
-    if (!count)
-        snprintf(why, why_size, "%s", search.why);
-    return count;
+    return gl_judge(&search, count, why, why_size);
 }
 
 // Opens the device at `index` of the list and leaves its context current.
@@ -143,7 +141,7 @@ static struct rg_device *gl_create(int index)
 
 const struct rg_backend rg_backend_gl = {
     .name = "gl",
-    .package = "libegl-mesa0",
+    .package = GL_PACKAGE,
     .rough = true,
     .packed = true,
     .list = gl_list,

@@ -11,6 +11,9 @@
 #include <epoxy/egl.h>
 
 #include "backends/backend.h"
+#include "backends/manifests.h"
+
+#define GL_PACKAGE "libegl-mesa0" // of Debian, which brings a driver
 
 // Items a work group: local_size_x of shaders/grid.glsl.
 enum { GL_GROUP_ITEMS = 64 };
@@ -29,7 +32,10 @@ struct gl_search {
     struct gl_target targets[GL_MAX_TARGETS];
     int count, next;
     bool found;    // at least one has opened
-    char why[256]; // what the best target's driver refused, "" for nothing
+    bool lacks;    // a library of EGL's or OpenGL's is not there
+    bool failed;   // what `why` tells is no lack, but a failure
+    bool other;    // a variable asks for another driver than one that opened
+    char why[512]; // what the best target's driver refused, a failure before a lack; "": nothing
 };
 
 // An open context and the display that it came from.
@@ -133,6 +139,13 @@ struct gl_pass {
 void gl_search_begin(struct gl_search *search);
 // Opens the next target that works and makes its context current; false: there is none left.
 bool gl_search_next(struct gl_search *search, struct gl_egl *egl);
+// api/drivers.c: where EGL finds drivers, and what backend->list says of `count` devices that were
+// found.
+extern const struct rg_manifest_rules gl_manifests;
+int gl_judge(const struct gl_search *search, int count, char *why, size_t why_size);
+// Whether the context that is current is of the driver that a variable of Mesa's asks for, or none
+// does; else `why` says so.
+bool gl_is_driver_asked(const struct gl_egl *egl, char *why, size_t why_size);
 void gl_egl_close(struct gl_egl *egl);
 // Makes the device's context current on this thread unless it is.
 bool gl_use(struct gl_device *device);

@@ -61,10 +61,12 @@ static void describe(cl_device_id id, int index, struct rg_device_info *info)
 static int opencl_list(struct rg_device_info *infos, int max, char *why, size_t why_size)
 {
     cl_device_id ids[RG_MAX_DEVICES];
-    int count = opencl_find(ids, max < RG_MAX_DEVICES ? max : RG_MAX_DEVICES, why, why_size);
+    struct opencl_search search;
+    rg_manifests_begin(&opencl_manifests);
+    int count = opencl_find(&search, ids, max < RG_MAX_DEVICES ? max : RG_MAX_DEVICES);
     for (int i = 0; i < count; i++)
         describe(ids[i], i, &infos[i]);
-    return count;
+    return opencl_judge(&search, count, why, why_size);
 }
 
 static int kernel_count(void)
@@ -104,9 +106,9 @@ static bool open_queue(struct opencl_device *device)
 static struct rg_device *opencl_create(int index)
 {
     cl_device_id ids[RG_MAX_DEVICES];
-    char why[160] = "";
-    if (opencl_find(ids, RG_MAX_DEVICES, why, sizeof(why)) <= index)
-        return rg_driver_error_null("device 'opencl:%d': it is gone; %s", index, why);
+    struct opencl_search search;
+    if (opencl_find(&search, ids, RG_MAX_DEVICES) <= index)
+        return rg_driver_error_null("device 'opencl:%d': it is gone; %s", index, search.why);
     struct opencl_device *device = rg_alloc(1, sizeof(*device), "device 'opencl'");
     if (device)
         device->programs = rg_alloc((size_t)kernel_count() * OPENCL_VARIANTS, sizeof(cl_program),
@@ -125,7 +127,7 @@ static struct rg_device *opencl_create(int index)
 
 const struct rg_backend rg_backend_opencl = {
     .name = "opencl",
-    .package = "pocl-opencl-icd",
+    .package = OPENCL_PACKAGE,
     .packed = true,
     .list = opencl_list,
     .create = opencl_create,

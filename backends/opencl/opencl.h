@@ -9,8 +9,13 @@
 #include <CL/cl.h>
 
 #include "backends/backend.h"
+#include "backends/manifests.h"
 #include "kernels/dialect/draw/bins.h"
 #include "kernels/dialect/image/memory.h"
+
+#define CL_PLATFORM_NOT_FOUND_KHR (-1001) // cl_khr_icd
+
+#define OPENCL_PACKAGE "pocl-opencl-icd" // of Debian, which brings a driver
 
 // Data on its way to the device: a copy that lives until the queue has ended.
 struct opencl_staged {
@@ -73,8 +78,15 @@ int opencl_hide_messages(void);
 void opencl_show_messages(int hidden);
 
 // api/search.c
-// The usable devices in the loader's order (GPUs first); 0: none, and `why` says so.
-int opencl_find(cl_device_id *ids, int max, char *why, size_t why_size);
+// The usable devices in the loader's order (GPUs first); `search` has why others are none.
+struct opencl_search {
+    enum rg_manifest_state state;
+    char why[512]; // a failure before a lack; "": nothing
+};
+int opencl_find(struct opencl_search *search, cl_device_id *ids, int max);
+// Where the loader finds drivers, and what backend->list says of `count` devices that were found.
+extern const struct rg_manifest_rules opencl_manifests;
+int opencl_judge(const struct opencl_search *search, int count, char *why, size_t why_size);
 // What a device or platform says of itself; "unnamed" and 0 where its driver does not know it.
 enum { OPENCL_TEXT = 1024 };
 const char *opencl_text(cl_device_id id, cl_device_info what, char text[OPENCL_TEXT]);

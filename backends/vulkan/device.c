@@ -9,13 +9,15 @@
 static int vk_list(struct rg_device_info *infos, int max, char *why, size_t why_size)
 {
     struct vk_instance instance;
-    if (!vk_instance_open(&instance, false, why, why_size))
-        return 0;
     VkPhysicalDevice devices[RG_MAX_DEVICES];
-    int count = vk_physical_devices(&instance, devices, max < RG_MAX_DEVICES ? max : RG_MAX_DEVICES,
+    int count = 0;
+    rg_manifests_begin(&vk_manifests);
+    if (vk_instance_open(&instance, false, why, why_size))
+        count = vk_physical_devices(&instance, devices, max < RG_MAX_DEVICES ? max : RG_MAX_DEVICES,
                                     why, why_size);
     for (int i = 0; i < count; i++)
         vk_describe(devices[i], i, &infos[i]);
+    count = vk_judge(&instance, count, why, why_size); // while the drivers are still loaded
     vk_instance_close(&instance);
     return count;
 }
@@ -144,7 +146,7 @@ static struct rg_device *vk_create(int index)
 
 const struct rg_backend rg_backend_vulkan = {
     .name = "vulkan",
-    .package = "mesa-vulkan-drivers",
+    .package = VK_PACKAGE,
     .rough = true,
     .packed = true,
     .list = vk_list,

@@ -9,6 +9,9 @@
 #include <vulkan/vulkan.h>
 
 #include "backends/backend.h"
+#include "backends/manifests.h"
+
+#define VK_PACKAGE "mesa-vulkan-drivers" // of Debian, which brings a driver
 
 enum {
     VK_BATCHES = 3,
@@ -47,6 +50,7 @@ struct vk_batch {
 struct vk_instance {
     VkInstance handle;
     VkDebugUtilsMessengerEXT messenger;
+    VkResult result;                 // of making it, then of asking it for devices
     int complaints, complaints_told; // those that made a call of ours return false
 };
 
@@ -140,8 +144,12 @@ bool vk_instance_open(struct vk_instance *instance, bool validate, char *why, si
 void vk_instance_close(struct vk_instance *instance);
 // The usable devices (Vulkan 1.2, a queue that computes), hardware first; returns their number, and
 // in `why` the reason when it is 0.
-int vk_physical_devices(const struct vk_instance *instance, VkPhysicalDevice *devices, int max,
-                        char *why, size_t why_size);
+int vk_physical_devices(struct vk_instance *instance, VkPhysicalDevice *devices, int max, char *why,
+                        size_t why_size);
+// api/drivers.c: where the loader finds drivers, and what backend->list says of `count` devices
+// that were found.
+extern const struct rg_manifest_rules vk_manifests;
+int vk_judge(const struct vk_instance *instance, int count, char *why, size_t why_size);
 // The first family that computes and draws, else the first that computes. False: there is none.
 bool vk_queue_family(VkPhysicalDevice device, struct vk_family *family);
 void vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info);

@@ -8,35 +8,46 @@
 #include "backends/rounding.h"
 #include "core/base/alloc.h"
 #include "core/base/doing.h"
+#include "core/base/log.h"
 #include "core/base/memory.h"
 #include "core/base/require.h"
 #include "core/device/limits.h"
 #include "core/device/packing.h"
 #include "core/device/shared.h"
 
-void rg_device_list_add(struct rg_device_list *list, const struct rg_backend *backend)
+// Asks a backend for its devices. It tells of a driver that fails beside others that do not.
+static int list(const struct rg_backend *backend, struct rg_device_info *infos, int max,
+                char why[RG_LIST_WHY_SIZE])
 {
-    char why[160] = "no device";
+    *why = 0;
+    const int count = backend->list(infos, max, why, RG_LIST_WHY_SIZE);
+    if (count > 0 && *why)
+        rg_warning("%s: a driver is left out: %s; mend it, or remove it", backend->name, why);
+    return count;
+}
+
+void rg_device_list_add(struct rg_device_list *devices, const struct rg_backend *backend)
+{
+    char why[RG_LIST_WHY_SIZE];
     int found =
-        backend->list(list->infos + list->count, RG_MAX_DEVICES - list->count, why, sizeof(why));
+        list(backend, devices->infos + devices->count, RG_MAX_DEVICES - devices->count, why);
     for (int i = 0; i < found; i++) {
-        list->backends[list->count] = backend;
-        list->backend_index[list->count++] = i;
+        devices->backends[devices->count] = backend;
+        devices->backend_index[devices->count++] = i;
     }
     if (found > 0)
         return;
-    struct rg_missing *missing = &list->missing[list->missing_count++];
-    *missing = (struct rg_missing){.backend = backend, .outcome = RG_UNSUPPORTED};
-    snprintf(missing->why, sizeof(missing->why), "%s: %s%s%s%s", backend->name, why,
-             backend->package ? "; the Debian package " : "",
-             backend->package ? backend->package : "", backend->package ? " brings one" : "");
+    struct rg_missing *missing = &devices->missing[devices->missing_count++];
+    *missing =
+        (struct rg_missing){.backend = backend, .outcome = found ? RG_ERROR : RG_UNSUPPORTED};
+    snprintf(missing->why, sizeof(missing->why), "%s: %s", backend->name, why);
 }
 
-void rg_device_list_all(struct rg_device_list *list)
+void rg_device_list_all(struct rg_device_list *devices)
 {
-    memset(list, 0, sizeof(*list));
+    memset(devices, 0, sizeof(*devices));
     for (int b = 0; rg_backends[b]; b++)
-        rg_device_list_add(list, rg_backends[b]);
+        rg_device_list_add(devices, rg_backends[b]);
 }
 
 static const struct rg_backend *find_backend(const char *name, size_t length)
@@ -83,12 +94,12 @@ struct rg_device *rg_device_open(const char *name)
     require_or_null(backend, "device '%s': unknown; `raingauge list devices` prints the names",
                     name);
     struct rg_device_info infos[RG_MAX_DEVICES];
-    char why[160] = "no device";
-    int count = backend->list(infos, RG_MAX_DEVICES, why, sizeof(why));
+    char why[RG_LIST_WHY_SIZE];
+    int count = list(backend, infos, RG_MAX_DEVICES, why);
+    if (count < 0)
+        return rg_driver_error_null("device '%s': %s", name, why);
     if (count == 0)
-        return rg_unsupported_null("device '%s': %s%s%s", name, why,
-                                   backend->package ? "; install the Debian package " : "",
-                                   backend->package ? backend->package : "");
+        return rg_unsupported_null("device '%s': %s", name, why);
     int index = choose(infos, count, name, colon ? colon + 1 : NULL);
     require_or_null(index >= 0,
                     "device '%s': %s has no such device; `raingauge list devices` prints the names",

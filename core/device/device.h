@@ -13,7 +13,8 @@
 #include "core/device/pass.h"
 #include "core/device/work.h"
 
-// A backend's devices, or why there is none. Quiet.
+// Backends' devices, or why there is none. Quiet, but for a warning of a driver that fails beside
+// others.
 struct rg_device_list {
     int count;
     struct rg_device_info infos[RG_MAX_DEVICES];
@@ -22,8 +23,8 @@ struct rg_device_list {
     int missing_count; // backends without a device
     struct rg_missing {
         const struct rg_backend *backend;
-        enum rg_outcome outcome; // unsupported, or how its driver failed when it was asked
-        char why[256];           // one line, which begins with the backend's name
+        enum rg_outcome outcome;         // unsupported, or how its driver failed when it was asked
+        char why[RG_LIST_WHY_SIZE + 16]; // one line, which begins with the backend's name
     } missing[RG_MAX_BACKENDS];
 };
 void rg_device_list_all(struct rg_device_list *list);

@@ -17,9 +17,7 @@ static void note_failure(struct rg_device_list *list, const struct rg_backend *b
 {
     struct rg_missing *missing = &list->missing[list->missing_count++];
     *missing = (struct rg_missing){.backend = backend, .outcome = outcome};
-    snprintf(missing->why, sizeof(missing->why), "%s: %.140s%s%s", backend->name, why,
-             backend->package ? "; reinstall the Debian package " : "",
-             backend->package ? backend->package : "");
+    snprintf(missing->why, sizeof(missing->why), "%s: %s", backend->name, why);
 }
 
 // Nothing is believed of a list that is damaged.
@@ -34,6 +32,9 @@ static void take_list(struct rg_message *reply, int backend, struct rg_device_li
             list->count++;
     }
     const char *why = rg_take_text(reply);
+    const enum rg_outcome outcome = (enum rg_outcome)rg_take_index(reply, RG_OUTCOME_COUNT);
+    if (!count && outcome == RG_OK) // no device, and nothing that explains it
+        rg_message_fail(reply);
     if (reply->failed) {
         list->count = before;
         note_failure(list, rg_backends[backend], RG_ERROR, rg_last_error());
@@ -42,7 +43,7 @@ static void take_list(struct rg_message *reply, int backend, struct rg_device_li
     if (count)
         return;
     struct rg_missing *missing = &list->missing[list->missing_count++];
-    *missing = (struct rg_missing){.backend = rg_backends[backend], .outcome = RG_UNSUPPORTED};
+    *missing = (struct rg_missing){.backend = rg_backends[backend], .outcome = outcome};
     snprintf(missing->why, sizeof(missing->why), "%s", why);
 }
 
@@ -50,7 +51,7 @@ static void take_list(struct rg_message *reply, int backend, struct rg_device_li
 static void list_remote(struct rg_worker *worker, int backend, struct rg_device_list *list)
 {
     struct rg_message request = {0}, reply;
-    char why[512];
+    char why[RG_LIST_WHY_SIZE];
     rg_put_int(&request, backend);
     const enum rg_outcome outcome =
         rg_worker_try(worker, RG_CALL_LIST, &request, &reply, why, sizeof(why));
@@ -110,7 +111,7 @@ static void leave_out(struct rg_devices *devices, const char *name, enum rg_outc
     struct rg_absent_device *absent = &devices->absent[devices->absent_count++];
     absent->outcome = outcome;
     snprintf(absent->name, sizeof(absent->name), "%s", name);
-    snprintf(absent->why, sizeof(absent->why), "%.255s", why);
+    snprintf(absent->why, sizeof(absent->why), "%s", why);
 }
 
 struct rg_device *rg_devices_open_one(const char *name)

@@ -25,9 +25,9 @@ struct rg_devices {
     // What is left out: backends without a device, and devices that are listed and do not open.
     int absent_count;
     struct rg_absent_device {
-        char name[RG_DEVICE_NAME_SIZE]; // the backend's or the device's
-        enum rg_outcome outcome;        // unsupported, or how its driver failed
-        char why[256];                  // one line
+        char name[RG_DEVICE_NAME_SIZE];  // the backend's or the device's
+        enum rg_outcome outcome;         // unsupported, or how its driver failed
+        char why[RG_LIST_WHY_SIZE + 64]; // one line
     } absent[RG_MAX_BACKENDS + RG_MAX_DEVICES];
 };
 int rg_devices_open(const char *names, struct rg_devices *devices);

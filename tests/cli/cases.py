@@ -20,8 +20,9 @@ UNKNOWN_DEVICE = r"device '.*': unknown; `raingauge list devices` prints the nam
 NO_CONTEXT = r"device 'gl': no OpenGL 4\.5 core: eglCreateContext failed"
 NO_CACHE = {"XDG_CACHE_HOME": "/proc/none"}
 OLD_GL = {"MESA_GL_VERSION_OVERRIDE": "3.3"}
-ABSENT = tuple(r"warning: unsupported here: %s: .*package %s" % pair for pair in (
-    ("gl", "libegl-mesa0"), ("vulkan", "mesa-vulkan-drivers"), ("opencl", "pocl-opencl-icd")))
+NO_VULKAN, NO_OPENCL, NO_GL = (variable + "=/nonexistent names no driver: unset it, or name one$" for variable in (
+    "VK_DRIVER_FILES", "OCL_ICD_VENDORS", "__EGL_VENDOR_LIBRARY_FILENAMES"))
+ABSENT = tuple(r"warning: unsupported here: %s: .*%s" % pair for pair in (("gl", NO_GL), ("vulkan", NO_VULKAN), ("opencl", NO_OPENCL)))
 SMALL = "--set environment_px=64 --set resolution_px=96 --size 96x96 "
 TABLE = "table stuppacher-2 --rows 1-1 --work paper --device cpu "
 FORMATS = ("csv", "json", "md", "tex")
@@ -461,18 +462,19 @@ TABLES = [
 
 WITH_DRIVERS = [
     Case("list devices", 0, None),
-    Case("list devices", 0, r"vulkan: .*package mesa-vulkan-drivers", {"VK_DRIVER_FILES": "/nonexistent"}),
+    Case("list devices", 0, r"vulkan: .*; install the Debian package mesa-vulkan-drivers, which brings one$",
+         {"XDG_DATA_DIRS": "/nonexistent"}),
     Case("list devices", 0, r"cpu: RG_CPU_LEVEL=v9 is no level .*; use plain, v2, v3 or v4$", {"RG_CPU_LEVEL": "v9"}),
 
     # what is absent
-    Case(RENDER + "--device vulkan -o {tmp}/a.png", 77, r"install the Debian package mesa-vulkan-drivers", NO_DRIVERS),
-    Case(RENDER + "--device opencl -o {tmp}/a.png", 77, r"install the Debian package pocl-opencl-icd", NO_DRIVERS),
-    Case(RENDER + "--device gl -o {tmp}/a.png", 77, r"install the Debian package libegl-mesa0", NO_DRIVERS),
-    Case("doctor --device vulkan", 77, r"install the Debian package mesa-vulkan-drivers", NO_DRIVERS),
-    Case("doctor --device gl --json", 77, r"install the Debian package libegl-mesa0", NO_DRIVERS),
-    Case("diff flow --device cpu,vulkan", 77, r"install the Debian package mesa-vulkan-drivers", NO_DRIVERS),
-    Case("verify flow --device opencl", 77, r"install the Debian package pocl-opencl-icd", NO_DRIVERS),
-    Case("table --device gl", 77, r"install the Debian package libegl-mesa0", NO_DRIVERS),
+    Case(RENDER + "--device vulkan -o {tmp}/a.png", 77, NO_VULKAN, NO_DRIVERS),
+    Case(RENDER + "--device opencl -o {tmp}/a.png", 77, NO_OPENCL, NO_DRIVERS),
+    Case(RENDER + "--device gl -o {tmp}/a.png", 77, NO_GL, NO_DRIVERS),
+    Case("doctor --device vulkan", 77, NO_VULKAN, NO_DRIVERS),
+    Case("doctor --device gl --json", 77, NO_GL, NO_DRIVERS),
+    Case("diff flow --device cpu,vulkan", 77, NO_VULKAN, NO_DRIVERS),
+    Case("verify flow --device opencl", 77, NO_OPENCL, NO_DRIVERS),
+    Case("table --device gl", 77, NO_GL, NO_DRIVERS),
     Case("table stuppacher-2 --rows 1-1 --device all -o {tmp}", 0, ABSENT, NO_DRIVERS, made=TABLE_FILES),
     Case("diff flow --frame 1 " + SMALL, 0, ABSENT, NO_DRIVERS),
     Case("verify flow --stages " + SMALL, 0, ABSENT, NO_DRIVERS),

@@ -13,6 +13,8 @@
            stored   tables that were interrupted, or are printed again
            losses   runs that are killed, that lose their disk, folder or clock, and a second one beside one that measures
            long     what verify prints, tables that are counted, set in a row, begun or measured anew, an atlas that is not kept
+           failing  drivers that are there and cannot be used, and what is absent
+           all      the same, of every command
            misbehaving  drivers that crash, hang, lie about their end or lose their device
            ways     the same, in all ways, of the commands that take longer
            gates    one device held against another
@@ -35,7 +37,7 @@ import signal
 import sys
 
 sys.dont_write_bytecode = True  # the sources' folder stays as it is
-for room in ("devices", "printed"):
+for room in ("devices", "drivers", "printed"):
     sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), room))
 
 import atlases
@@ -45,6 +47,7 @@ import cases
 import ci
 import clips
 import doctor
+import failing
 import gates
 import installed
 import kept
@@ -74,6 +77,8 @@ SUITES = {
     "stored": lambda runner: runner.check_all(stored.CHECKS),
     "losses": lambda runner: runner.check_all(losses.CHECKS + resuming.CHECKS),
     "long": lambda runner: runner.check_all(tables.LONG + stored.LONG + verifying.LONG + atlases.LONG + limits.LONG + kept.LONG),
+    "failing": lambda runner: runner.check_all(failing.CHECKS),
+    "all": lambda runner: runner.check_all(failing.THOROUGH),
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
     "ways": lambda runner: runner.check_all(misbehaving.THOROUGH),
     "gates": lambda runner: runner.check_all(gates.CHECKS),

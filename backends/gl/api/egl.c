@@ -1,6 +1,5 @@
 #include "backends/gl/gl.h"
 
-#include <dlfcn.h>
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -48,6 +47,20 @@ __attribute__((format(printf, 2, 3))) static bool refuse(struct gl_search *searc
     return false;
 }
 
+// The same of a driver that is there and fails, which outweighs what another lacks.
+__attribute__((format(printf, 2, 3))) static bool fail(struct gl_search *search, const char *format,
+                                                       ...)
+{
+    if (search->failed)
+        return false;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(search->why, sizeof(search->why), format, args);
+    va_end(args);
+    search->failed = true;
+    return false;
+}
+
 // --- targets ---
 
 // Mesa warns on stderr of devices that it cannot open: kept quiet, since the search goes on to the
@@ -57,15 +70,26 @@ static void silence_mesa(void)
     setenv("EGL_LOG_LEVEL", "fatal", 0);
 }
 
-// libepoxy ends the process when it needs one of these and finds neither.
-static bool opengl_library_exists(void)
+// libepoxy ends the process when it needs a library that cannot be loaded.
+static bool can_load(struct gl_search *search, const char *noun, const char *library,
+                     const char *package)
 {
-    void *library = dlopen("libOpenGL.so.0", RTLD_LAZY | RTLD_LOCAL);
-    if (!library)
-        library = dlopen("libGL.so.1", RTLD_LAZY | RTLD_LOCAL);
-    if (library)
-        dlclose(library);
-    return library != NULL;
+    char why[320];
+    bool is_absent = false;
+    if (rg_manifests_load(library, &is_absent, why, sizeof(why)))
+        return true;
+    search->lacks = is_absent;
+    return is_absent ? refuse(search, "no %s: %s is not there; install the Debian package %s", noun,
+                              library, package)
+                     : fail(search, "no %s: %s", noun, why);
+}
+
+// Of the two that have OpenGL's functions, one is enough.
+static bool can_load_opengl(struct gl_search *search)
+{
+    struct gl_search other = {0};
+    return can_load(&other, "OpenGL", "libGL.so.1", "") ||
+           can_load(search, "OpenGL", "libOpenGL.so.0", "libopengl0");
 }
 
 static bool has_client_extension(const char *name)
@@ -100,8 +124,10 @@ static void add_targets(struct gl_search *search)
     if ((base || (has_client_extension("EGL_EXT_device_enumeration") &&
                   has_client_extension("EGL_EXT_device_query"))) &&
         has_client_extension("EGL_EXT_platform_device") &&
-        !eglQueryDevicesEXT(GL_MAX_TARGETS - 1, devices, &count))
+        !eglQueryDevicesEXT(GL_MAX_TARGETS - 1, devices, &count)) {
+        fail(search, "no EGL devices: eglQueryDevices failed with %s", error_name(eglGetError()));
         count = 0;
+    }
     if (!software_is_forced())
         add_devices(search, devices, count, false);
     add_devices(search, devices, count, true);
@@ -115,11 +141,10 @@ void gl_search_begin(struct gl_search *search)
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, silence_mesa);
     *search = (struct gl_search){0};
-    if (!epoxy_has_egl())
-        refuse(search, "no EGL: libEGL.so.1 cannot be loaded");
-    else if (!opengl_library_exists())
-        refuse(search, "no OpenGL: neither libOpenGL.so.0 nor libGL.so.1 can be loaded");
-    else if (!has_client_extension("EGL_EXT_platform_base"))
+    if (!can_load(search, "EGL", "libEGL.so.1", "libegl1") || !can_load_opengl(search))
+        return;
+    rg_manifests_begin(&gl_manifests);
+    if (!has_client_extension("EGL_EXT_platform_base"))
         refuse(search, "no EGL driver: EGL lists no platforms");
     else
         add_targets(search);
@@ -147,14 +172,14 @@ static bool open_display(struct gl_search *search, const struct gl_target *targe
 {
     *display = eglGetPlatformDisplayEXT(target->platform, target->native, NULL);
     if (*display == EGL_NO_DISPLAY)
-        return refuse(search, "no EGL display: eglGetPlatformDisplay failed with %s",
-                      error_name(eglGetError()));
+        return fail(search, "no EGL display: eglGetPlatformDisplay failed with %s",
+                    error_name(eglGetError()));
     int at = place_of(*display);
     if (at < 0)
         return refuse(search, "no EGL display: %d are open", GL_MAX_TARGETS);
     if (!displays[at].users && !eglInitialize(*display, NULL, NULL))
-        return refuse(search, "no EGL display: eglInitialize failed with %s",
-                      error_name(eglGetError()));
+        return fail(search, "no EGL display: eglInitialize failed with %s",
+                    error_name(eglGetError()));
     displays[at].display = *display;
     displays[at].users++;
     return true;
@@ -180,15 +205,20 @@ static bool open_context(struct gl_search *search, struct gl_egl *egl)
         return refuse(search, "EGL by %s cannot open a context without a surface",
                       eglQueryString(egl->display, EGL_VENDOR));
     if (!eglBindAPI(EGL_OPENGL_API))
-        return refuse(search, "no OpenGL: eglBindAPI failed with %s", error_name(eglGetError()));
+        return fail(search, "no OpenGL: eglBindAPI failed with %s", error_name(eglGetError()));
     egl->context = eglCreateContext(egl->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
-    if (egl->context == EGL_NO_CONTEXT)
-        return refuse(search, "no OpenGL 4.5 core: eglCreateContext failed with %s",
-                      error_name(eglGetError()));
+    if (egl->context == EGL_NO_CONTEXT) {
+        const EGLint code = eglGetError();
+        // EGL's words for a version that the driver does not have.
+        const bool is_lack = code == EGL_BAD_MATCH || code == EGL_BAD_ATTRIBUTE;
+        return (is_lack ? refuse : fail)(
+            search, "no OpenGL 4.5 core: eglCreateContext failed with %s", error_name(code));
+    }
     if (!eglMakeCurrent(egl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl->context)) {
+        fail(search, "no OpenGL 4.5 core: eglMakeCurrent failed with %s",
+             error_name(eglGetError()));
         eglDestroyContext(egl->display, egl->context);
-        return refuse(search, "no OpenGL 4.5 core: eglMakeCurrent failed with %s",
-                      error_name(eglGetError()));
+        return false;
     }
     egl->serial = current = ++last_serial;
     return true;
@@ -205,7 +235,12 @@ static bool open_target(struct gl_search *search, const struct gl_target *target
         ok = false;
     }
     pthread_mutex_unlock(&displays_lock);
-    return ok;
+    char why[256];
+    if (!ok || gl_is_driver_asked(egl, why, sizeof(why)))
+        return ok;
+    search->other = true;
+    gl_egl_close(egl);
+    return fail(search, "%s", why);
 }
 
 bool gl_search_next(struct gl_search *search, struct gl_egl *egl)

@@ -6,8 +6,6 @@
 
 #include "core/base/log.h"
 
-#define CL_PLATFORM_NOT_FOUND_KHR (-1001) // cl_khr_icd
-
 const char *opencl_error_name(cl_int code)
 {
 #define NAME(name)                                                                                 \

@@ -1,9 +1,15 @@
 // The devices that the ICD loader finds, and what they say of themselves.
 #include "backends/opencl/opencl.h"
 
+#include <errno.h>
+#include <limits.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+#include "core/base/files/user.h"
 
 enum { MAX_PLATFORMS = 16 };
 
@@ -49,56 +55,133 @@ static const char *missing(cl_device_id id)
     return floats & CL_FP_ROUND_TO_NEAREST ? NULL : "does not round floats to nearest";
 }
 
+// A driver that is there and fails outweighs what another lacks, and the first what others say.
+__attribute__((format(printf, 2, 3))) static void fail(struct opencl_search *search,
+                                                       const char *format, ...)
+{
+    if (search->state == RG_MANIFEST_FAILED)
+        return;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(search->why, sizeof(search->why), format, args);
+    va_end(args);
+    search->state = RG_MANIFEST_FAILED;
+}
+
+// PoCL has a device wherever it runs, unless POCL_DEVICES is empty. It tells of none, and not why,
+// where it cannot write to its cache, or knows no device that POCL_DEVICES asks for.
+static void blame_pocl(struct opencl_search *search)
+{
+    const char *devices = getenv("POCL_DEVICES"), *cache = getenv("POCL_CACHE_DIR");
+    const char *user = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    char folder[PATH_MAX], why[256] = "";
+    if (devices && !*devices)
+        return;
+    if (cache && *cache)
+        snprintf(folder, sizeof(folder), "%s/", cache);
+    else
+        snprintf(folder, sizeof(folder), "%s%s/pocl/kcache/",
+                 user && *user ? user
+                 : home        ? home
+                               : "",
+                 user && *user ? "" : "/.cache");
+    if (rg_user_make_folders(folder, why) && access(folder, W_OK | X_OK))
+        snprintf(why, sizeof(why), "%.200s: %s", folder, strerror(errno));
+    if (*why)
+        fail(search,
+             "no OpenCL device: PoCL cannot write to its cache: %s; set POCL_CACHE_DIR to "
+             "a folder that takes files",
+             why);
+    else if (devices)
+        fail(search, "no OpenCL device: PoCL has none that POCL_DEVICES=%.60s asks for; unset it",
+             devices);
+    else
+        fail(search, "no OpenCL device: PoCL tells of none, though each machine has one");
+}
+
+static void blame_platform(struct opencl_search *search, cl_platform_id platform, cl_int code)
+{
+    char name[OPENCL_TEXT];
+    opencl_platform_text(platform, CL_PLATFORM_NAME, name);
+    if (code != CL_DEVICE_NOT_FOUND)
+        fail(search, "no OpenCL device: clGetDeviceIDs failed with %s on %.60s",
+             opencl_error_name(code), name);
+    else if (!strcmp(name, "Portable Computing Language"))
+        blame_pocl(search);
+    if (search->state == RG_MANIFEST_NONE)
+        snprintf(search->why, sizeof(search->why), "no OpenCL device: %s on %.60s",
+                 opencl_error_name(code), name);
+}
+
 // Adds the usable devices of a platform to `ids`; returns how many there are then.
-static int find_on_platform(cl_platform_id platform, cl_device_id *ids, int count, int max,
-                            char *why, size_t why_size)
+static int find_on_platform(struct opencl_search *search, cl_platform_id platform,
+                            cl_device_id *ids, int count, int max)
 {
     cl_device_id all[RG_MAX_DEVICES];
     cl_uint found = 0;
     char name[OPENCL_TEXT];
     cl_int code = clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, RG_MAX_DEVICES, all, &found);
-    if (code != CL_SUCCESS) {
-        opencl_platform_text(platform, CL_PLATFORM_NAME, name);
-        snprintf(why, why_size, "no OpenCL device: %s on %.60s%s", opencl_error_name(code), name,
-                 strcmp(name, "Portable Computing Language")
-                     ? ""
-                     : " (it obeys POCL_DEVICES and has to write to POCL_CACHE_DIR)");
-        return count;
-    }
-    for (int i = 0; i < (int)found && i < RG_MAX_DEVICES && count < max; i++) {
-        const char *reason = missing(all[i]);
-        if (!reason)
+    if (code != CL_SUCCESS)
+        blame_platform(search, platform, code);
+    for (int i = 0; code == CL_SUCCESS && i < (int)found && i < RG_MAX_DEVICES && count < max;
+         i++) {
+        const cl_int told = clGetDeviceInfo(all[i], CL_DEVICE_NAME, sizeof(name), name, NULL);
+        const char *reason = told == CL_SUCCESS ? missing(all[i]) : NULL;
+        if (told != CL_SUCCESS)
+            fail(search, "no OpenCL device: clGetDeviceInfo failed with %s",
+                 opencl_error_name(told));
+        else if (!reason)
             ids[count++] = all[i];
-        else
-            snprintf(why, why_size, "no OpenCL device: %.80s %s",
-                     opencl_text(all[i], CL_DEVICE_NAME, name), reason);
+        else if (search->state == RG_MANIFEST_NONE)
+            snprintf(search->why, sizeof(search->why), "no OpenCL device: %.80s %s", name, reason);
     }
     return count;
 }
 
-static int find_on_platforms(cl_device_id *ids, int max, char *why, size_t why_size)
+static int find_on_platforms(struct opencl_search *search, cl_device_id *ids, int max)
 {
     cl_platform_id platforms[MAX_PLATFORMS];
     cl_uint found = 0;
-    cl_int code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &found);
-    if (code != CL_SUCCESS || found == 0) {
-        snprintf(why, why_size, "no OpenCL platform: clGetPlatformIDs failed with %s",
-                 opencl_error_name(code));
-        return 0;
-    }
     int count = 0;
-    for (int i = 0; i < (int)found && i < MAX_PLATFORMS; i++)
-        count = find_on_platform(platforms[i], ids, count, max, why, why_size);
+    cl_int code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &found);
+    if (code == CL_PLATFORM_NOT_FOUND_KHR || (code == CL_SUCCESS && !found))
+        snprintf(search->why, sizeof(search->why), "no OpenCL platform: clGetPlatformIDs gives %s",
+                 code ? opencl_error_name(code) : "none");
+    else if (code != CL_SUCCESS)
+        fail(search, "no OpenCL platform: clGetPlatformIDs failed with %s",
+             opencl_error_name(code));
+    for (int i = 0; code == CL_SUCCESS && i < (int)found && i < MAX_PLATFORMS; i++)
+        count = find_on_platform(search, platforms[i], ids, count, max);
     return count;
 }
 
-int opencl_find(cl_device_id *ids, int max, char *why, size_t why_size)
+int opencl_find(struct opencl_search *search, cl_device_id *ids, int max)
 {
     const char *cache = getenv("POCL_CACHE_DIR");
     if (cache && !*cache)
         unsetenv("POCL_CACHE_DIR"); // PoCL 3.1 aborts on an empty one
+    *search = (struct opencl_search){.state = RG_MANIFEST_NONE};
     int kept = opencl_hide_messages();
-    int count = find_on_platforms(ids, max, why, why_size);
+    int count = find_on_platforms(search, ids, max);
     opencl_show_messages(kept);
     return count;
+}
+
+const struct rg_manifest_rules opencl_manifests = {
+    .instead = {"OCL_ICD_VENDORS", "OPENCL_VENDOR_PATH"},
+    .beside = {"OCL_ICD_FILENAMES"},
+    .places = {{NULL, "/etc/OpenCL/vendors"}},
+    .below = "",
+    .ending = ".icd",
+    .names_libraries = true,
+    .names_usual = true,
+    .is_text = true,
+    .functions = {"clGetExtensionFunctionAddress", "clIcdGetPlatformIDsKHR"},
+    .package = OPENCL_PACKAGE,
+};
+
+int opencl_judge(const struct opencl_search *search, int count, char *why, size_t why_size)
+{
+    snprintf(why, why_size, "%s", search->why);
+    return rg_manifests_judge(&opencl_manifests, count, search->state, why, why_size);
 }

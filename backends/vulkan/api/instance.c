@@ -62,26 +62,25 @@ static VkResult create_instance(struct vk_instance *instance, bool validate)
         .enabledExtensionCount = validate ? 2 : 0,
         .ppEnabledExtensionNames = extensions,
     };
-    return vkCreateInstance(&info, NULL, &instance->handle);
+    VkResult result = vkCreateInstance(&info, NULL, &instance->handle);
+    char paths[4096];
+    // The loader of Debian 12 gives up all drivers for one file that is damaged.
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY &&
+        rg_manifests_sound(&vk_manifests, paths, sizeof(paths))) {
+        setenv("VK_DRIVER_FILES", paths, 1);
+        result = vkCreateInstance(&info, NULL, &instance->handle);
+        unsetenv("VK_DRIVER_FILES");
+    }
+    return result;
 }
 
-// The variable that names the drivers, for the message that none was found.
 static void say_no_instance(VkResult result, char *why, size_t why_size)
 {
-    if (result == VK_ERROR_LAYER_NOT_PRESENT || result == VK_ERROR_EXTENSION_NOT_PRESENT) {
+    if (result == VK_ERROR_LAYER_NOT_PRESENT || result == VK_ERROR_EXTENSION_NOT_PRESENT)
         snprintf(why, why_size,
                  "no validation layer for RG_VK_VALIDATION=1: vkCreateInstance failed with %s; "
                  "the Debian package vulkan-validationlayers brings it",
                  vk_result_name(result));
-        return;
-    }
-    static const char *const variables[] = {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"};
-    const char *variable = "", *value = NULL;
-    for (int i = 0; i < 2 && !value; i++)
-        value = getenv(variable = variables[i]);
-    if (value)
-        snprintf(why, why_size, "no Vulkan driver: vkCreateInstance failed with %s (%s=%.60s)",
-                 vk_result_name(result), variable, value);
     else
         snprintf(why, why_size, "no Vulkan driver: vkCreateInstance failed with %s",
                  vk_result_name(result));
@@ -94,15 +93,16 @@ bool vk_instance_open(struct vk_instance *instance, bool validate, char *why, si
     setenv("MESA_VK_IGNORE_CONFORMANCE_WARNING", "1", 0);
     memset(instance, 0, sizeof(*instance));
     uint32_t version = VK_API_VERSION_1_0;
-    vkEnumerateInstanceVersion(&version);
-    if (version < VK_API_VERSION_1_2) {
+    instance->result = vkEnumerateInstanceVersion(&version);
+    if (instance->result == VK_SUCCESS && version < VK_API_VERSION_1_2) {
         snprintf(why, why_size, "the Vulkan loader is %u.%u and 1.2 is needed",
                  VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version));
         return false;
     }
-    VkResult result = create_instance(instance, validate);
-    if (result != VK_SUCCESS) {
-        say_no_instance(result, why, why_size);
+    if (instance->result == VK_SUCCESS)
+        instance->result = create_instance(instance, validate);
+    if (instance->result != VK_SUCCESS) {
+        say_no_instance(instance->result, why, why_size);
         instance->handle = VK_NULL_HANDLE;
         return false;
     }
@@ -151,13 +151,14 @@ static bool is_usable(VkPhysicalDevice device, const VkPhysicalDeviceProperties 
     return properties->apiVersion >= VK_API_VERSION_1_2 && vk_queue_family(device, &family);
 }
 
-int vk_physical_devices(const struct vk_instance *instance, VkPhysicalDevice *devices, int max,
-                        char *why, size_t why_size)
+int vk_physical_devices(struct vk_instance *instance, VkPhysicalDevice *devices, int max, char *why,
+                        size_t why_size)
 {
     VkPhysicalDevice all[MAX_PHYSICAL];
     VkPhysicalDeviceProperties properties[MAX_PHYSICAL];
     uint32_t all_count = MAX_PHYSICAL;
-    VkResult result = vkEnumeratePhysicalDevices(instance->handle, &all_count, all);
+    const VkResult result = vkEnumeratePhysicalDevices(instance->handle, &all_count, all);
+    instance->result = result;
     if (result < 0 || all_count == 0) {
         snprintf(why, why_size, "no Vulkan device: vkEnumeratePhysicalDevices %s%s",
                  result < 0 ? "failed with " : "found none",

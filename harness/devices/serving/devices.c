@@ -35,7 +35,8 @@ bool rg_serve_list(struct rg_message *request, struct rg_message *reply)
     rg_put_int(reply, list.count);
     for (int i = 0; i < list.count; i++)
         RG_PUT(reply, list.infos[i]);
-    rg_put_text(reply, list.missing_count ? list.missing[0].why : "");
+    rg_put_text(reply, list.missing[0].why);
+    rg_put_int(reply, list.missing[0].outcome);
     return true;
 }
 

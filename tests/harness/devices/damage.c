@@ -28,6 +28,8 @@ enum damage {
     ENDLESS_TEXTS,
     NO_TIER,
     NO_END,
+    NO_OUTCOME,
+    NO_REASON,
     TOO_MANY,
     NO_FORMAT,
     LEVELS,
@@ -60,10 +62,13 @@ static void put_info(struct rg_message *reply)
 static bool list(struct rg_message *request, struct rg_message *reply)
 {
     (void)request;
-    rg_put_int(reply, damage() == TOO_MANY ? INT_MAX : 1);
-    put_info(reply);
+    const bool is_empty = damage() == NO_REASON;
+    rg_put_int(reply, damage() == TOO_MANY ? INT_MAX : !is_empty);
+    if (!is_empty)
+        put_info(reply);
+    rg_put_text(reply, "");
     if (damage() != NO_END)
-        rg_put_text(reply, "");
+        rg_put_int(reply, damage() == NO_OUTCOME ? RG_OUTCOME_COUNT : RG_OK);
     return true;
 }
 
@@ -193,7 +198,7 @@ static int backend_count(void)
 
 static void a_damaged_list_is_a_failure_of_its_backend(void **state)
 {
-    static const enum damage all[] = {NO_TIER, NO_END, TOO_MANY};
+    static const enum damage all[] = {NO_TIER, NO_END, NO_OUTCOME, NO_REASON, TOO_MANY};
     static struct rg_device_list list;
     (void)state;
     set_damage(NOTHING);
