@@ -20,47 +20,37 @@ static void note_failure(struct rg_device_list *list, const struct rg_backend *b
     snprintf(missing->why, sizeof(missing->why), "%s: %s", backend->name, why);
 }
 
-// Nothing is believed of a list that is damaged.
-static void take_list(struct rg_message *reply, int backend, struct rg_device_list *list)
+static void add_told(const struct rg_told_list *told, int backend, struct rg_device_list *list)
 {
-    const int before = list->count;
-    const int count = rg_take_index(reply, RG_MAX_DEVICES + 1 - before);
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < told->count && list->count < RG_MAX_DEVICES; i++, list->count++) {
         list->backends[list->count] = rg_backends[backend];
         list->backend_index[list->count] = i;
-        if (rg_take_device_info(reply, &list->infos[list->count]))
-            list->count++;
+        list->infos[list->count] = told->infos[i];
     }
-    const char *why = rg_take_text(reply);
-    const enum rg_outcome outcome = (enum rg_outcome)rg_take_index(reply, RG_OUTCOME_COUNT);
-    if (!count && outcome == RG_OK) // no device, and nothing that explains it
-        rg_message_fail(reply);
-    if (reply->failed) {
-        list->count = before;
-        note_failure(list, rg_backends[backend], RG_ERROR, rg_last_error());
-        return;
-    }
-    if (count)
+    if (told->count)
         return;
     struct rg_missing *missing = &list->missing[list->missing_count++];
-    *missing = (struct rg_missing){.backend = rg_backends[backend], .outcome = outcome};
-    snprintf(missing->why, sizeof(missing->why), "%s", why);
+    *missing = (struct rg_missing){.backend = rg_backends[backend], .outcome = told->outcome};
+    snprintf(missing->why, sizeof(missing->why), "%s", told->why);
 }
 
-// Asks a worker for the devices of a backend.
+// Asks a worker for the devices of a backend. Nothing is believed of a list that is damaged.
 static void list_remote(struct rg_worker *worker, int backend, struct rg_device_list *list)
 {
+    static struct rg_told_list told;
     struct rg_message request = {0}, reply;
     char why[RG_LIST_WHY_SIZE];
+    told = (struct rg_told_list){.count = 0};
     rg_put_int(&request, backend);
     const enum rg_outcome outcome =
         rg_worker_try(worker, RG_CALL_LIST, &request, &reply, why, sizeof(why));
-    if (outcome == RG_OK)
-        take_list(&reply, backend, list);
+    const bool ok = outcome == RG_OK && rg_take_fields(&reply, rg_told_list_fields, &told);
+    if (rg_worker_finish(&reply, ok))
+        add_told(&told, backend, list);
     else
-        note_failure(list, rg_backends[backend], outcome, *why ? why : rg_last_error());
+        note_failure(list, rg_backends[backend], outcome == RG_OK ? RG_ERROR : outcome,
+                     *why ? why : rg_last_error());
     rg_message_free(&request);
-    rg_message_free(&reply);
 }
 
 // Each backend's worker goes into `workers`, by backend, for the first of its devices.

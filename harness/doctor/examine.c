@@ -36,39 +36,21 @@ static struct rg_device *open_device(struct rg_examination *examination)
     return device;
 }
 
-static bool probe(struct rg_worker *worker, struct rg_probe_result results[RG_PROBE_COUNT])
-{
-    struct rg_message reply;
-    const bool ok =
-        rg_worker_call(worker, RG_CALL_PROBE, NULL, &reply) && rg_take_probe(&reply, results);
-    rg_message_free(&reply);
-    return ok;
-}
-
 static bool audit(struct rg_worker *worker, struct rg_timer_audit *timer)
 {
-    struct rg_message reply;
-    const bool ok =
-        rg_worker_call(worker, RG_CALL_AUDIT, NULL, &reply) && rg_take_audit(&reply, timer);
-    rg_message_free(&reply);
-    return ok;
-}
-
-static bool measure(struct rg_worker *worker, struct rg_ceilings *ceilings)
-{
-    struct rg_message reply;
-    const bool ok = rg_worker_call(worker, RG_CALL_CEILINGS, NULL, &reply) &&
-                    rg_take_ceilings(&reply, ceilings);
-    rg_message_free(&reply);
+    const bool ok = rg_worker_fetch(worker, RG_CALL_AUDIT, NULL, rg_audit_fields, timer);
+    timer->trusted = ok && timer->has_timer && rg_timer_is_trusted(timer->ratio);
     return ok;
 }
 
 // Each step begins only where those before it came to their end.
 static bool examine(struct rg_examination *e, struct rg_worker *worker)
 {
-    e->probed = probe(worker, e->probe);
+    rg_probe_name(e->probe);
+    e->probed = rg_worker_fetch(worker, RG_CALL_PROBE, NULL, rg_probe_fields, e->probe);
     e->audited = e->probed && audit(worker, &e->timer);
-    e->measured = e->audited && measure(worker, &e->ceilings);
+    e->measured = e->audited &&
+                  rg_worker_fetch(worker, RG_CALL_CEILINGS, NULL, rg_ceilings_fields, &e->ceilings);
     return e->measured;
 }
 

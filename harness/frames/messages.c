@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "harness/frames/digests.h"
 
 // --- settings, by name: another build may have them elsewhere, and others beside them ---
 
@@ -114,153 +115,206 @@ bool rg_take_subject(struct rg_message *message, struct rg_subject *subject)
 
 // --- what a session tells ---
 
-void rg_put_account(struct rg_message *message, const struct rg_account *account)
+// Beyond any time, and far from infinity; beyond any frame's stages.
+#define MOST_MS INT64_C(1000000000000000000)
+enum { MOST_STAGES = 1 << 16 };
+
+static const struct rg_field counter_fields[] = {
+    RG_FIELD_NAME(struct rg_counter, name),
+    RG_FIELD_BYTES(struct rg_counter, value),
+    RG_FIELDS_END,
+};
+
+static const struct rg_field fact_fields[] = {
+    RG_FIELD_NAME(struct rg_fact, name),
+    RG_FIELD_TEXT(struct rg_fact, text),
+    RG_FIELD_BYTES(struct rg_fact, number),
+    RG_FIELDS_END,
+};
+
+const struct rg_field rg_told_account_fields[] = {
+    RG_FIELD_BYTES(struct rg_account, frame),
+    RG_FIELD_SOME(struct rg_account, counters, counter_count, counter_fields),
+    RG_FIELD_SOME(struct rg_account, facts, fact_count, fact_fields),
+    RG_FIELDS_END,
+};
+
+// Counts, of which -1 is one that is unknown.
+const struct rg_field rg_told_tally_fields[] = {
+    {RG_KIND_INTEGER, 0, sizeof(int64_t), -1, INT64_MAX,
+     .entries = sizeof(struct rg_tally) / sizeof(int64_t)},
+    RG_FIELDS_END,
+};
+
+const struct rg_field rg_told_code_fields[] = {
+    RG_FIELD_TEXT(struct rg_session_code, program),
+    RG_FIELD_BYTES(struct rg_session_code, libraries),
+    RG_FIELD_BYTES(struct rg_session_code, passes.hash),
+    RG_FIELD_INTEGER(struct rg_session_code, passes.bytes, 0, INT64_MAX),
+    RG_FIELDS_END,
+};
+
+const struct rg_field rg_told_session_fields[] = {
+    RG_FIELD_INTEGER(struct rg_told_session, number, 0, INT32_MAX),
+    RG_FIELD_INTEGER(struct rg_told_session, state_count, 0, RG_MAX_STATE),
+    RG_FIELDS_END,
+};
+
+static const struct rg_field stage_fields[] = {
+    RG_FIELD_NAME(struct rg_told_stage, kernel),
+    RG_FIELD_NUMBER(struct rg_told_stage, ms, 0, MOST_MS),
+    RG_FIELDS_END,
+};
+
+const struct rg_field rg_told_stages_fields[] = {
+    RG_FIELD_LIST(struct rg_told_stages, rows, stage_fields, MOST_STAGES),
+    RG_FIELDS_END,
+};
+
+const struct rg_field rg_told_law_fields[] = {
+    RG_FIELD_FLAG(struct rg_told_law, holds),
+    RG_FIELD_TEXT(struct rg_told_law, detail),
+    RG_FIELDS_END,
+};
+
+const struct rg_field rg_ms_fields[] = {
+    {RG_KIND_NUMBER, 0, sizeof(double), 0, MOST_MS, .entries = 1},
+    RG_FIELDS_END,
+};
+
+const struct rg_field rg_time_fields[] = {
+    {RG_KIND_BYTES, 0, sizeof(int64_t), .entries = 1},
+    RG_FIELDS_END,
+};
+
+static const struct rg_field layout_fields[] = {
+    RG_FIELD_NAME_OR_NONE(struct rg_state, name),
+    RG_FIELD_FLAG(struct rg_state, is_float),
+    RG_FIELD_INTEGER(struct rg_state, row, 0, INT32_MAX),
+    RG_FIELD_INTEGER(struct rg_state, margin, 0, INT32_MAX),
+    RG_FIELDS_END,
+};
+
+// --- images and bytes ---
+
+// A buffer has no levels, nor anything else.
+static bool is_desc(const void *all)
 {
-    rg_put_int(message, account->frame);
-    rg_put_int(message, account->counter_count);
-    for (int i = 0; i < account->counter_count; i++) {
-        rg_put_text(message, account->counters[i].name);
-        rg_put_int(message, account->counters[i].value);
-    }
-    rg_put_int(message, account->fact_count);
-    for (int i = 0; i < account->fact_count; i++) {
-        rg_put_text(message, account->facts[i].name);
-        rg_put_text(message, account->facts[i].text);
-        RG_PUT(message, account->facts[i].number);
-    }
+    static const struct rg_image_desc none;
+    const struct rg_image_desc *d = all;
+    return d->levels ? d->format != RG_FORMAT_NONE && d->width && d->height && d->layers
+                     : !memcmp(d, &none, sizeof(none));
 }
 
-bool rg_take_account(struct rg_message *message, struct rg_account *account)
+static const struct rg_field desc_fields[] = {
+    RG_FIELD_INTEGER(struct rg_image_desc, format, 0, RG_FORMAT_COUNT - 1),
+    RG_FIELD_INTEGER(struct rg_image_desc, width, 0, INT32_MAX),
+    RG_FIELD_INTEGER(struct rg_image_desc, height, 0, INT32_MAX),
+    RG_FIELD_INTEGER(struct rg_image_desc, layers, 0, INT32_MAX),
+    RG_FIELD_INTEGER(struct rg_image_desc, levels, 0, RG_MAX_LEVELS),
+    RG_FIELD_CHECK(is_desc),
+    RG_FIELDS_END,
+};
+
+// Sides may be such that an int64_t does not hold their product.
+static bool is_of_size(const void *all)
 {
-    *account = (struct rg_account){.frame = rg_take_int(message)};
-    account->counter_count = rg_take_index(message, RG_MAX_COUNTERS + 1);
-    for (int i = 0; i < account->counter_count; i++) {
-        account->counters[i].name = rg_take_name(message);
-        account->counters[i].value = rg_take_int(message);
-    }
-    account->fact_count = rg_take_index(message, RG_MAX_FACTS + 1);
-    for (int i = 0; i < account->fact_count; i++) {
-        struct rg_fact *fact = &account->facts[i];
-        fact->name = rg_take_name(message);
-        snprintf(fact->text, sizeof(fact->text), "%s", rg_take_text(message));
-        RG_TAKE(message, fact->number);
-    }
-    return !message->failed;
+    const struct rg_contents *c = all;
+    const struct rg_image_desc *d = &c->desc;
+    return !d->levels || ((double)d->width * d->height * d->layers <= (double)c->size &&
+                          rg_contents_size(d) == c->size);
 }
 
-enum { COUNTS = sizeof(struct rg_tally) / sizeof(int64_t) };
+static const struct rg_field contents_fields[] = {
+    RG_FIELD_STRUCT(struct rg_contents, desc, desc_fields),
+    RG_FIELD_BLOCK(struct rg_contents, bytes, size),
+    RG_FIELD_CHECK(is_of_size),
+    RG_FIELDS_END,
+};
 
-void rg_put_tally(struct rg_message *message, const struct rg_tally *tally)
-{
-    RG_PUT(message, *tally);
-}
+const struct rg_field rg_told_texture_fields[] = {
+    RG_FIELD_FLAG(struct rg_told_texture, is_found),
+    RG_FIELD_STRUCT(struct rg_told_texture, desc, desc_fields),
+    RG_FIELD_INTEGER(struct rg_told_texture, first_level, 0, RG_MAX_LEVELS - 1),
+    RG_FIELDS_END,
+};
 
-bool rg_take_tally(struct rg_message *message, struct rg_tally *tally)
-{
-    int64_t counts[COUNTS];
-    _Static_assert(sizeof(counts) == sizeof(*tally), "a tally has counts alone");
-    if (!RG_TAKE(message, counts))
-        return false;
-    for (int i = 0; i < COUNTS; i++)
-        if (counts[i] < -1)
-            return rg_message_fail(message);
-    memcpy(tally, counts, sizeof(counts));
-    return true;
-}
+const struct rg_field rg_told_bytes_fields[] = {
+    RG_FIELD_STRUCT(struct rg_told_bytes, layout, layout_fields),
+    RG_FIELD_BLOCK(struct rg_told_bytes, bytes, size),
+    RG_FIELDS_END,
+};
 
-void rg_put_layout(struct rg_message *message, const struct rg_state *layout)
-{
-    rg_put_text(message, layout->name ? layout->name : "");
-    rg_put_int(message, layout->is_float);
-    rg_put_int(message, layout->row);
-    rg_put_int(message, layout->margin);
-}
+const struct rg_field rg_told_contents_fields[] = {
+    RG_FIELD_STRUCT(struct rg_told_contents, contents, contents_fields),
+    RG_FIELD_STRUCT(struct rg_told_contents, state, layout_fields),
+    RG_FIELDS_END,
+};
 
-bool rg_take_layout(struct rg_message *message, struct rg_state *layout)
-{
-    const char *name = rg_take_name(message);
-    *layout = (struct rg_state){.name = *name ? name : NULL};
-    layout->is_float = rg_take_index(message, 2);
-    layout->row = rg_take_index(message, INT32_MAX);
-    layout->margin = rg_take_index(message, INT32_MAX);
-    return !message->failed;
-}
+static const struct rg_field digest_fields[] = {
+    RG_FIELD_INTEGER(struct rg_digest, frame, 0, INT64_MAX),
+    RG_FIELD_INTEGER(struct rg_digest, stages_run, 0, INT32_MAX),
+    RG_FIELD_TEXT(struct rg_digest, stage),
+    RG_FIELD_TEXT(struct rg_digest, asset),
+    RG_FIELD_BYTES(struct rg_digest, hash),
+    RG_FIELD_INTEGER(struct rg_digest, weight, 0, INT64_MAX),
+    RG_FIELDS_END,
+};
+
+const struct rg_field rg_told_digests_fields[] = {
+    RG_FIELD_LIST(struct rg_digests, rows, digest_fields, INT32_MAX),
+    RG_FIELDS_END,
+};
 
 // --- dispatches ---
 
-static void put_contents(struct rg_message *message, const struct rg_contents *contents)
-{
-    RG_PUT(message, contents->desc);
-    rg_put_block(message, contents->bytes, (int64_t)contents->size);
-}
+static const struct rg_field extent_fields[] = {
+    RG_FIELD_INTEGER(struct rg_extent, width, 0, INT32_MAX),
+    RG_FIELD_INTEGER(struct rg_extent, height, 0, INT32_MAX),
+    RG_FIELD_INTEGER(struct rg_extent, depth, 0, INT32_MAX),
+    RG_FIELDS_END,
+};
 
-static bool is_image(const struct rg_image_desc *d)
-{
-    return (unsigned)d->format < RG_FORMAT_COUNT && d->format != RG_FORMAT_NONE && d->levels > 0 &&
-           d->levels <= RG_MAX_LEVELS && d->width > 0 && d->height > 0 && d->layers > 0;
-}
-
-bool rg_take_image_desc(struct rg_message *message, struct rg_image_desc *desc)
-{
-    if (!RG_TAKE(message, *desc) || (desc->levels && !is_image(desc)))
-        return rg_message_fail(message);
-    if (!desc->levels)
-        *desc = (struct rg_image_desc){0};
-    return true;
-}
-
-// Its sides may be such that an int64_t does not hold their product.
-static bool is_of_size(const struct rg_image_desc *desc, int64_t size)
-{
-    return (double)desc->width * desc->height * desc->layers <= (double)size &&
-           rg_contents_size(desc) == (size_t)size;
-}
-
-bool rg_take_contents_bytes(struct rg_message *message, struct rg_contents *contents)
-{
-    int64_t size = 0;
-    contents->bytes = rg_take_block(message, &size);
-    contents->size = (size_t)size;
-    return contents->bytes && (!contents->desc.levels || is_of_size(&contents->desc, size) ||
-                               rg_message_fail(message));
-}
-
-static bool take_contents(struct rg_message *message, struct rg_contents *contents)
-{
-    rg_contents_free(contents);
-    return rg_take_image_desc(message, &contents->desc) &&
-           rg_take_contents_bytes(message, contents);
-}
+// Behind its kernel's name, and before its slots, whose number the kernel says.
+static const struct rg_field dispatched_fields[] = {
+    RG_FIELD_FLAG(struct rg_dispatched, was_kept),
+    RG_FIELD_BYTES(struct rg_dispatched, params),
+    RG_FIELD_STRUCT(struct rg_dispatched, origin, extent_fields),
+    RG_FIELD_STRUCT(struct rg_dispatched, extent, extent_fields),
+    RG_FIELDS_END,
+};
 
 void rg_put_dispatched(struct rg_message *message, const struct rg_dispatched *d)
 {
     rg_put_text(message, d->kernel->name);
-    rg_put_int(message, d->was_kept);
-    RG_PUT(message, d->params);
-    RG_PUT(message, d->origin);
-    RG_PUT(message, d->extent);
+    rg_put_fields(message, dispatched_fields, d);
     for (int i = 0; d->was_kept && i < d->kernel->slot_count; i++)
-        put_contents(message, &d->before[d->kernel->slots[i].slot]);
+        rg_put_fields(message, contents_fields, &d->before[d->kernel->slots[i].slot]);
 }
 
 void rg_put_dispatched_after(struct rg_message *message, const struct rg_dispatched *d)
 {
     for (int i = 0; d->was_kept && i < d->kernel->slot_count; i++)
         if (rg_slot_is_written(d->kernel->slots[i].kind))
-            put_contents(message, &d->after[d->kernel->slots[i].slot]);
+            rg_put_fields(message, contents_fields, &d->after[d->kernel->slots[i].slot]);
+}
+
+static bool take_contents(struct rg_message *message, struct rg_contents *contents)
+{
+    rg_contents_free(contents);
+    *contents = (struct rg_contents){0};
+    return rg_take_fields(message, contents_fields, contents);
 }
 
 bool rg_take_dispatched(struct rg_message *message, struct rg_dispatched *d)
 {
     const char *name = rg_take_text(message);
     d->kernel = message->failed ? NULL : rg_kernel_find(name);
-    d->was_kept = rg_take_index(message, 2);
-    bool ok = d->kernel && RG_TAKE(message, d->params) && RG_TAKE(message, d->origin) &&
-              RG_TAKE(message, d->extent);
+    bool ok =
+        (d->kernel || rg_message_fail(message)) && rg_take_fields(message, dispatched_fields, d);
     for (int i = 0; ok && d->was_kept && i < d->kernel->slot_count; i++)
         ok = take_contents(message, &d->before[d->kernel->slots[i].slot]);
-    return ok || (!message->failed &&
-                  rg_error("a message between processes names no dispatch of a kernel"));
+    return ok;
 }
 
 bool rg_take_dispatched_after(struct rg_message *message, struct rg_dispatched *d)

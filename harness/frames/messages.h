@@ -1,10 +1,11 @@
-// What sessions hand from one process to the other.
+// What sessions hand from one process to the other. What is a table is put and taken by it
+// (harness/devices/workers/fields.h).
 #ifndef RG_HARNESS_FRAMES_MESSAGES_H
 #define RG_HARNESS_FRAMES_MESSAGES_H
 
 #include "core/techniques/stages/dispatched.h"
+#include "harness/devices/workers/fields.h"
 #include "harness/frames/subject.h"
-#include "harness/devices/workers/message.h"
 
 // A subject goes by names, so that a build with other parameters takes it too: what it does not
 // know it refuses only where the value is not the usual one.
@@ -12,21 +13,55 @@ void rg_put_subject(struct rg_message *message, const struct rg_subject *subject
 // The caller frees the settings, NULL where it failed.
 bool rg_take_subject(struct rg_message *message, struct rg_subject *subject);
 
-void rg_put_account(struct rg_message *message, const struct rg_account *account);
-bool rg_take_account(struct rg_message *message, struct rg_account *account);
+// Of a session that was opened.
+struct rg_told_session {
+    int number, state_count;
+};
 
-// Counts, of which -1 is one that is unknown.
-void rg_put_tally(struct rg_message *message, const struct rg_tally *tally);
-bool rg_take_tally(struct rg_message *message, struct rg_tally *tally);
+// What each stage of a frame took.
+struct rg_told_stage {
+    const char *kernel;
+    double ms;
+};
+struct rg_told_stages {
+    int count;
+    int64_t room;
+    struct rg_told_stage *rows; // owned
+};
 
-// A state without its asset; no name where it is none.
-void rg_put_layout(struct rg_message *message, const struct rg_state *layout);
-bool rg_take_layout(struct rg_message *message, struct rg_state *layout);
+// Of a law: whether it holds, and what is wrong.
+struct rg_told_law {
+    bool holds;
+    char detail[512];
+};
 
-// What an image is; a buffer has no levels.
-bool rg_take_image_desc(struct rg_message *message, struct rg_image_desc *desc);
-// The bytes of what `contents->desc` describes, which was taken before.
-bool rg_take_contents_bytes(struct rg_message *message, struct rg_contents *contents);
+struct rg_told_texture {
+    bool is_found;
+    struct rg_image_desc desc;
+    int first_level;
+};
+
+// Bytes as they are: texels, words of a state, code.
+struct rg_told_bytes {
+    void *bytes; // owned
+    size_t size;
+    struct rg_state layout; // of a state, without its asset; no name where it is none
+};
+
+// An asset of a run.
+struct rg_told_contents {
+    struct rg_contents contents;
+    struct rg_state state; // likewise
+};
+
+// Of struct rg_account, rg_tally, rg_session_code and rg_digests, of those above, and of one double
+// and one int64_t.
+extern const struct rg_field rg_told_account_fields[], rg_told_tally_fields[],
+    rg_told_code_fields[], rg_told_digests_fields[];
+extern const struct rg_field rg_told_session_fields[], rg_told_stages_fields[],
+    rg_told_law_fields[], rg_told_texture_fields[], rg_told_bytes_fields[],
+    rg_told_contents_fields[];
+extern const struct rg_field rg_ms_fields[], rg_time_fields[];
 
 // What lay in its slots before goes one way, and what lies there after the other.
 void rg_put_dispatched(struct rg_message *message, const struct rg_dispatched *dispatched);

@@ -2,78 +2,49 @@
 
 #include <limits.h>
 
+#include "core/device/probe.h"
+#include "harness/measure/ceilings.h"
+#include "harness/measure/timer_audit.h"
+
 // Beyond any time in ms or us, any ratio of times and any rate of a device, and far from infinity.
-static const double most = 1e18;
+#define MOST INT64_C(1000000000000000000)
 
-// --- the probe: names and kinds of its operations are the same in both processes ---
-
-void rg_put_probe(struct rg_message *message, const struct rg_probe_result results[RG_PROBE_COUNT])
+// Zeros of unlike signs differ by nothing; what does not differ has no distance.
+static bool is_result(const void *all)
 {
-    for (int i = 0; i < RG_PROBE_COUNT; i++) {
-        rg_put_int(message, results[i].compared);
-        rg_put_int(message, results[i].different);
-        rg_put_int(message, results[i].largest_ulps);
-    }
+    const struct rg_probe_result *result = all;
+    return result->different || !result->largest_ulps;
 }
 
-bool rg_take_probe(struct rg_message *message, struct rg_probe_result results[RG_PROBE_COUNT])
-{
-    rg_probe_name(results);
-    for (int i = 0; i < RG_PROBE_COUNT; i++) {
-        struct rg_probe_result *result = &results[i];
-        result->compared = rg_take_index(message, RG_PROBE_INPUTS + 1);
-        result->different = rg_take_index(message, result->compared + 1);
-        const int64_t ulps = rg_take_int(message);
-        result->largest_ulps = (uint32_t)ulps;
-        // Zeros of unlike signs differ by nothing; what does not differ has no distance.
-        if (ulps < 0 || ulps > UINT32_MAX || result->compared != RG_PROBE_INPUTS ||
-            (ulps && !result->different))
-            rg_message_fail(message);
-    }
-    return !message->failed;
-}
+static const struct rg_field result_fields[] = {
+    RG_FIELD_INTEGER(struct rg_probe_result, compared, RG_PROBE_INPUTS, RG_PROBE_INPUTS),
+    RG_FIELD_INTEGER(struct rg_probe_result, different, 0, RG_PROBE_INPUTS),
+    RG_FIELD_BYTES(struct rg_probe_result, largest_ulps),
+    RG_FIELD_CHECK(is_result),
+    RG_FIELDS_END,
+};
 
-// --- the timer ---
+const struct rg_field rg_probe_fields[] = {
+    {RG_KIND_STRUCT, 0, sizeof(struct rg_probe_result), .entries = RG_PROBE_COUNT,
+     .of = result_fields},
+    RG_FIELDS_END,
+};
 
-void rg_put_audit(struct rg_message *message, const struct rg_timer_audit *audit)
-{
-    rg_put_int(message, audit->passes);
-    rg_put_int(message, audit->has_timer);
-    RG_PUT(message, audit->wall_ms);
-    RG_PUT(message, audit->api_ms);
-    RG_PUT(message, audit->ratio);
-    RG_PUT(message, audit->sync_us);
-    RG_PUT(message, audit->dispatch_us);
-    RG_PUT(message, audit->round_trip_us);
-}
+const struct rg_field rg_audit_fields[] = {
+    RG_FIELD_INTEGER(struct rg_timer_audit, passes, 1, INT_MAX),
+    RG_FIELD_FLAG(struct rg_timer_audit, has_timer),
+    RG_FIELD_NUMBER(struct rg_timer_audit, wall_ms, 0, MOST),
+    RG_FIELD_NUMBER(struct rg_timer_audit, api_ms, -MOST, MOST), // a bad timer may go backwards
+    RG_FIELD_NUMBER(struct rg_timer_audit, ratio, -MOST, MOST),
+    RG_FIELD_NUMBER(struct rg_timer_audit, sync_us, 0, MOST),
+    RG_FIELD_NUMBER(struct rg_timer_audit, dispatch_us, 0, MOST),
+    RG_FIELD_NUMBER(struct rg_timer_audit, round_trip_us, 0, MOST),
+    RG_FIELDS_END,
+};
 
-bool rg_take_audit(struct rg_message *message, struct rg_timer_audit *audit)
-{
-    *audit = (struct rg_timer_audit){.passes = rg_take_index(message, INT_MAX)};
-    audit->has_timer = rg_take_index(message, 2);
-    audit->wall_ms = rg_take_number(message, 0, most);
-    audit->api_ms = rg_take_number(message, -most, most); // a bad timer may go backwards
-    audit->ratio = rg_take_number(message, -most, most);
-    audit->trusted = audit->has_timer && rg_timer_is_trusted(audit->ratio);
-    audit->sync_us = rg_take_number(message, 0, most);
-    audit->dispatch_us = rg_take_number(message, 0, most);
-    audit->round_trip_us = rg_take_number(message, 0, most);
-    return (audit->passes && !message->failed) || rg_message_fail(message);
-}
-
-// --- ceilings ---
-
-void rg_put_ceilings(struct rg_message *message, const struct rg_ceilings *ceilings)
-{
-    RG_PUT(message, ceilings->memory_gb_s);
-    RG_PUT(message, ceilings->cache_gb_s);
-    RG_PUT(message, ceilings->arithmetic_gop_s);
-}
-
-bool rg_take_ceilings(struct rg_message *message, struct rg_ceilings *ceilings)
-{
-    ceilings->memory_gb_s = rg_take_number(message, 0, most);
-    ceilings->cache_gb_s = rg_take_number(message, 0, most);
-    ceilings->arithmetic_gop_s = rg_take_number(message, 0, most);
-    return !message->failed;
-}
+const struct rg_field rg_ceilings_fields[] = {
+    RG_FIELD_NUMBER(struct rg_ceilings, memory_gb_s, 0, MOST),
+    RG_FIELD_NUMBER(struct rg_ceilings, cache_gb_s, 0, MOST),
+    RG_FIELD_NUMBER(struct rg_ceilings, arithmetic_gop_s, 0, MOST),
+    RG_FIELDS_END,
+};

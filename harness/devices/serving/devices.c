@@ -4,8 +4,12 @@
 #include <string.h>
 
 #include "core/base/log.h"
+#include "harness/devices/workers/device.h"
 #include "harness/measure/messages.h"
 #include "harness/devices/serving/services.h"
+#include "harness/measure/ceilings.h"
+#include "harness/measure/timer_audit.h"
+#include "core/device/probe.h"
 
 static struct rg_device *device;
 
@@ -32,11 +36,12 @@ bool rg_serve_list(struct rg_message *request, struct rg_message *reply)
     memset(&list, 0, sizeof(list));
     const int backend = rg_take_index(request, RG_MAX_BACKENDS);
     rg_device_list_add(&list, rg_backends[backend]);
-    rg_put_int(reply, list.count);
-    for (int i = 0; i < list.count; i++)
-        RG_PUT(reply, list.infos[i]);
-    rg_put_text(reply, list.missing[0].why);
-    rg_put_int(reply, list.missing[0].outcome);
+    static struct rg_told_list told;
+    told.count = list.count;
+    memcpy(told.infos, list.infos, sizeof(told.infos));
+    told.outcome = list.missing[0].outcome;
+    snprintf(told.why, sizeof(told.why), "%s", list.missing[0].why);
+    rg_put_fields(reply, rg_told_list_fields, &told);
     return true;
 }
 
@@ -53,8 +58,8 @@ bool rg_serve_open(struct rg_message *request, struct rg_message *reply)
     const struct rg_device *opened = rg_served_device(rg_take_text(request));
     if (!opened)
         return false;
-    RG_PUT(reply, opened->info);
-    rg_put_int(reply, index_of(opened->backend));
+    const struct rg_told_device told = {opened->info, index_of(opened->backend)};
+    rg_put_fields(reply, rg_told_device_fields, &told);
     return true;
 }
 
@@ -64,7 +69,7 @@ bool rg_serve_probe(struct rg_message *request, struct rg_message *reply)
     (void)request;
     if (!rg_probe_run(device, results))
         return false;
-    rg_put_probe(reply, results);
+    rg_put_fields(reply, rg_probe_fields, results);
     return true;
 }
 
@@ -74,7 +79,7 @@ bool rg_serve_audit(struct rg_message *request, struct rg_message *reply)
     (void)request;
     if (!rg_timer_audit(device, &audit))
         return false;
-    rg_put_audit(reply, &audit);
+    rg_put_fields(reply, rg_audit_fields, &audit);
     return true;
 }
 
@@ -84,6 +89,6 @@ bool rg_serve_ceilings(struct rg_message *request, struct rg_message *reply)
     (void)request;
     if (!rg_ceilings_measure(device, &ceilings))
         return false;
-    rg_put_ceilings(reply, &ceilings);
+    rg_put_fields(reply, rg_ceilings_fields, &ceilings);
     return true;
 }

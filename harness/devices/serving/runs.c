@@ -18,6 +18,15 @@ static struct rg_device *take_run(struct rg_message *request, struct rg_digest_r
     return device;
 }
 
+bool rg_serve_bytes(struct rg_message *reply, struct rg_told_bytes *told)
+{
+    const bool ok = told->bytes;
+    if (ok)
+        rg_put_fields(reply, rg_told_bytes_fields, told);
+    free(told->bytes);
+    return ok;
+}
+
 bool rg_serve_digests(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_digest_run run;
@@ -26,7 +35,7 @@ bool rg_serve_digests(struct rg_message *request, struct rg_message *reply)
     struct rg_device *device = take_run(request, &run, &row);
     const bool ok = device && rg_digests_take(&run, device, &digests);
     if (ok)
-        rg_put_block(reply, digests.rows, digests.count * (int64_t)sizeof(*digests.rows));
+        rg_put_fields(reply, rg_told_digests_fields, &digests);
     rg_digests_free(&digests);
     free((void *)run.subject.settings);
     return ok;
@@ -35,17 +44,13 @@ bool rg_serve_digests(struct rg_message *request, struct rg_message *reply)
 bool rg_serve_contents(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_digest_run run;
-    struct rg_contents contents = {0};
-    struct rg_state state;
+    struct rg_told_contents told = {.contents = {.size = 0}};
     int row;
     struct rg_device *device = take_run(request, &run, &row);
-    const bool ok = device && rg_digests_contents(&run, device, row, &contents, &state);
-    if (ok) {
-        RG_PUT(reply, contents.desc);
-        rg_put_layout(reply, &state);
-        rg_put_block(reply, contents.bytes, (int64_t)contents.size);
-    }
-    rg_contents_free(&contents);
+    const bool ok = device && rg_digests_contents(&run, device, row, &told.contents, &told.state);
+    if (ok)
+        rg_put_fields(reply, rg_told_contents_fields, &told);
+    rg_contents_free(&told.contents);
     free((void *)run.subject.settings);
     return ok;
 }
@@ -84,11 +89,10 @@ bool rg_serve_kernel_code(struct rg_message *request, struct rg_message *reply)
     struct rg_device *device = rg_served_device(rg_take_text(request));
     const struct rg_kernel *kernel = rg_kernel_find(rg_take_text(request));
     const enum rg_code_kind kind = (enum rg_code_kind)rg_take_index(request, RG_CODE_COUNT);
-    size_t size = 0;
-    void *code =
-        device && kernel && !request->failed ? rg_digests_code(device, kernel, kind, &size) : NULL;
-    if (code)
-        rg_put_block(reply, code, (int64_t)size);
-    free(code);
-    return code || (!kernel && rg_error("a message between processes names no kernel"));
+    struct rg_told_bytes told = {0};
+    if (!kernel)
+        return rg_error("a message between processes names no kernel");
+    if (device && !request->failed)
+        told.bytes = rg_digests_code(device, kernel, kind, &told.size);
+    return rg_serve_bytes(reply, &told);
 }

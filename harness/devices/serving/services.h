@@ -12,12 +12,12 @@ bool rg_served_device_close(void);
 // Closes every session.
 void rg_served_sessions_close(void);
 
-rg_service rg_serve_hello, rg_serve_list, rg_serve_open, rg_serve_probe, rg_serve_audit,
-    rg_serve_ceilings;
-rg_service rg_serve_session_open, rg_serve_session_close, rg_serve_step, rg_serve_draw,
-    rg_serve_sync, rg_serve_frames, rg_serve_count, rg_serve_stages, rg_serve_time, rg_serve_code,
-    rg_serve_read, rg_serve_tell, rg_serve_read_state, rg_serve_obeys, rg_serve_texture,
-    rg_serve_digests, rg_serve_contents, rg_serve_dispatches, rg_serve_dispatch,
-    rg_serve_kernel_code;
+// Puts bytes, which are freed. False where there are none.
+struct rg_told_bytes;
+bool rg_serve_bytes(struct rg_message *reply, struct rg_told_bytes *told);
+
+// A service for each call of the list: rg_serve_hello and so on.
+#define RG_SERVICE(name, service, doing) rg_service rg_serve_##service;
+RG_CALLS(RG_SERVICE)
 
 #endif

@@ -3,6 +3,11 @@
 #ifndef RG_HARNESS_DEVICES_SERVING_SERVING_H
 #define RG_HARNESS_DEVICES_SERVING_SERVING_H
 
+#include "harness/devices/workers/serve.h"
+
+// By call.
+extern rg_service *const rg_services[RG_CALL_COUNT_OF_CALLS];
+
 // Serves as a worker (rg_serve), until the harness ends. Returns the exit status.
 int rg_serving(const char *argument);
 

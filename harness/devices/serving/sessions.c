@@ -37,8 +37,8 @@ bool rg_serve_session_open(struct rg_message *request, struct rg_message *reply)
     free((void *)subject.settings);
     if (!session)
         return false;
-    rg_put_int(reply, sessions.count);
-    rg_put_int(reply, rg_session_state_count(session));
+    const struct rg_told_session told = {sessions.count, rg_session_state_count(session)};
+    rg_put_fields(reply, rg_told_session_fields, &told);
     sessions.all[sessions.count++] = session;
     return true;
 }
@@ -94,7 +94,7 @@ bool rg_serve_frames(struct rg_message *request, struct rg_message *reply)
     double wall_ms;
     if (!session || !rg_session_frames(session, frames, &wall_ms))
         return false;
-    RG_PUT(reply, wall_ms);
+    rg_put_fields(reply, rg_ms_fields, &wall_ms);
     return true;
 }
 
@@ -104,31 +104,24 @@ bool rg_serve_count(struct rg_message *request, struct rg_message *reply)
     struct rg_tally tally;
     if (!session || !rg_session_count(session, &tally))
         return false;
-    rg_put_tally(reply, &tally);
+    rg_put_fields(reply, rg_told_tally_fields, &tally);
     return true;
 }
 
-struct told_stages {
-    int64_t count;
-    struct rg_message rows;
-};
-
-static void put_stage(const char *kernel, double ms, void *user)
+static void keep_stage(const char *kernel, double ms, void *user)
 {
-    struct told_stages *told = user;
-    rg_put_text(&told->rows, kernel);
-    RG_PUT(&told->rows, ms);
-    told->count++;
+    struct rg_told_stages *told = user;
+    if (rg_array_fit(&told->rows, &told->room, told->count + 1, sizeof(*told->rows), "stages"))
+        told->rows[told->count++] = (struct rg_told_stage){kernel, ms};
 }
 
 bool rg_serve_stages(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_session *session = take_session(request);
-    struct told_stages told = {0};
-    const bool ok = session && rg_session_stages(session, put_stage, &told);
-    rg_put_int(reply, told.count);
-    rg_put(reply, told.rows.bytes, told.rows.size);
-    rg_message_free(&told.rows);
+    struct rg_told_stages told = {0};
+    const bool ok = session && rg_session_stages(session, keep_stage, &told);
+    rg_put_fields(reply, rg_told_stages_fields, &told);
+    free(told.rows);
     return ok;
 }
 
@@ -138,7 +131,7 @@ bool rg_serve_time(struct rg_message *request, struct rg_message *reply)
     int64_t time_ns;
     if (!session || !rg_session_time(session, &time_ns))
         return false;
-    RG_PUT(reply, time_ns);
+    rg_put_fields(reply, rg_time_fields, &time_ns);
     return true;
 }
 
@@ -148,10 +141,7 @@ bool rg_serve_code(struct rg_message *request, struct rg_message *reply)
     struct rg_session_code code;
     if (!session || !rg_session_code(session, &code))
         return false;
-    rg_put_text(reply, code.program);
-    RG_PUT(reply, code.libraries);
-    RG_PUT(reply, code.passes.hash);
-    rg_put_int(reply, code.passes.bytes);
+    rg_put_fields(reply, rg_told_code_fields, &code);
     return true;
 }
 
@@ -160,12 +150,9 @@ bool rg_serve_code(struct rg_message *request, struct rg_message *reply)
 bool rg_serve_read(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_session *session = take_session(request);
-    size_t size = 0;
-    void *texels = session ? rg_session_read(session, &size) : NULL;
-    if (texels)
-        rg_put_block(reply, texels, (int64_t)size);
-    free(texels);
-    return texels;
+    struct rg_told_bytes told = {0};
+    told.bytes = session ? rg_session_read(session, &told.size) : NULL;
+    return rg_serve_bytes(reply, &told);
 }
 
 bool rg_serve_tell(struct rg_message *request, struct rg_message *reply)
@@ -174,7 +161,7 @@ bool rg_serve_tell(struct rg_message *request, struct rg_message *reply)
     struct rg_account account;
     if (!session || !rg_session_tell(session, &account))
         return false;
-    rg_put_account(reply, &account);
+    rg_put_fields(reply, rg_told_account_fields, &account);
     return true;
 }
 
@@ -182,44 +169,34 @@ bool rg_serve_read_state(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_session *session = take_session(request);
     const int index = session ? rg_take_index(request, rg_session_state_count(session)) : 0;
-    struct rg_state layout;
-    size_t size = 0;
-    void *words =
-        session && !request->failed ? rg_session_read_state(session, index, &layout, &size) : NULL;
-    if (words) {
-        rg_put_layout(reply, &layout);
-        rg_put_block(reply, words, (int64_t)size);
-    }
-    free(words);
-    return words;
+    struct rg_told_bytes told = {0};
+    if (session && !request->failed)
+        told.bytes = rg_session_read_state(session, index, &told.layout, &told.size);
+    return rg_serve_bytes(reply, &told);
 }
 
 bool rg_serve_obeys(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_session *session = take_session(request);
-    char detail[512] = "";
+    struct rg_told_law told = {0};
     if (!session)
         return false;
     const struct rg_law *law = rg_session_law(session, rg_take_index(request, INT32_MAX));
     if (!law)
         return rg_error("a session's technique has no such law");
-    rg_put_int(reply, rg_session_obeys(session, law, detail, sizeof(detail)));
-    rg_put_text(reply, detail);
+    told.holds = rg_session_obeys(session, law, told.detail, sizeof(told.detail));
+    rg_put_fields(reply, rg_told_law_fields, &told);
     return true;
 }
 
 bool rg_serve_texture(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_session *session = take_session(request);
-    struct rg_image_desc desc;
-    int first_level;
+    struct rg_told_texture told = {0};
     if (!session)
         return false;
-    const bool found = rg_session_texture(session, rg_take_text(request), &desc, &first_level);
-    rg_put_int(reply, found);
-    if (found) {
-        RG_PUT(reply, desc);
-        rg_put_int(reply, first_level);
-    }
+    told.is_found =
+        rg_session_texture(session, rg_take_text(request), &told.desc, &told.first_level);
+    rg_put_fields(reply, rg_told_texture_fields, &told);
     return true;
 }

@@ -1,41 +1,44 @@
-// What the harness asks of workers. What a call is given and gives lies with those who make and
-// serve it: harness/frames/remote.c and harness/devices/serving/.
+// What the harness asks of workers: the one list of calls, each with the name of its service
+// (harness/devices/serving/) and with what a worker does meanwhile. What a call is given and gives
+// is told by tables of fields that both sides use (harness/frames/messages.h,
+// harness/measure/messages.h, harness/devices/workers/device.h).
 #ifndef RG_HARNESS_DEVICES_WORKERS_CALLS_H
 #define RG_HARNESS_DEVICES_WORKERS_CALLS_H
 
-enum rg_call {
-    RG_CALL_HELLO, // do both speak of the same things (harness/devices/serving/hello.c)? First for
-                   // ever, in all builds
-    // The device
-    RG_CALL_LIST,     // a backend's devices
-    RG_CALL_OPEN,     // the one device of this worker
-    RG_CALL_CLOSE,    // likewise, and the worker ends
-    RG_CALL_PROBE,    // is its arithmetic exact?
-    RG_CALL_AUDIT,    // is its clock?
-    RG_CALL_CEILINGS, // what it can do at most
-    // Sessions
-    RG_CALL_SESSION_OPEN,
-    RG_CALL_SESSION_CLOSE,
-    RG_CALL_STEP,
-    RG_CALL_DRAW,
-    RG_CALL_SYNC,
-    RG_CALL_FRAMES,
-    RG_CALL_COUNT,
-    RG_CALL_STAGES,
-    RG_CALL_TIME,
-    RG_CALL_CODE,
-    RG_CALL_READ,
-    RG_CALL_TELL,
-    RG_CALL_READ_STATE,
-    RG_CALL_OBEYS,
-    RG_CALL_TEXTURE,
-    RG_CALL_DIGESTS,
-    RG_CALL_CONTENTS,
-    RG_CALL_DISPATCHES,
-    RG_CALL_DISPATCH,
-    RG_CALL_KERNEL_CODE,
-    RG_CALL_COUNT_OF_CALLS,
-};
+// The first asks whether both speak of the same things (harness/devices/serving/hello.c), and stays
+// the first for ever, in all builds. LIST is of a backend's devices, those down to CEILINGS of the
+// one device of this worker, which ends behind CLOSE, and others of sessions and runs.
+#define RG_CALLS(CALL)                                                                             \
+    CALL(HELLO, hello, "greeting")                                                                 \
+    CALL(LIST, list, "listing devices")                                                            \
+    CALL(OPEN, open, "opening the device")                                                         \
+    CALL(CLOSE, close, "closing the device")                                                       \
+    CALL(PROBE, probe, "probing its arithmetic")                                                   \
+    CALL(AUDIT, audit, "auditing its timer")                                                       \
+    CALL(CEILINGS, ceilings, "measuring its ceilings")                                             \
+    CALL(SESSION_OPEN, session_open, "opening a technique")                                        \
+    CALL(SESSION_CLOSE, session_close, "closing a technique")                                      \
+    CALL(STEP, step, "simulating a frame")                                                         \
+    CALL(DRAW, draw, "drawing a frame")                                                            \
+    CALL(SYNC, sync, "waiting for the device")                                                     \
+    CALL(FRAMES, frames, "simulating and drawing frames")                                          \
+    CALL(COUNT, count, "counting a frame's work")                                                  \
+    CALL(STAGES, stages, "timing a frame's passes")                                                \
+    CALL(TIME, time, "asking for the device's time")                                               \
+    CALL(CODE, code, "telling of its code")                                                        \
+    CALL(READ, read, "reading the picture")                                                        \
+    CALL(TELL, tell, "telling of a technique")                                                     \
+    CALL(READ_STATE, read_state, "reading the state")                                              \
+    CALL(OBEYS, obeys, "checking a law")                                                           \
+    CALL(TEXTURE, texture, "telling of a texture")                                                 \
+    CALL(DIGESTS, digests, "digesting stages")                                                     \
+    CALL(CONTENTS, contents, "reading an asset")                                                   \
+    CALL(DISPATCHES, dispatches, "keeping a stage's dispatches")                                   \
+    CALL(DISPATCH, dispatch, "running a kernel alone")                                             \
+    CALL(KERNEL_CODE, kernel_code, "reading a kernel's code")
+
+#define RG_CALL_NUMBER(name, service, doing) RG_CALL_##name,
+enum rg_call { RG_CALLS(RG_CALL_NUMBER) RG_CALL_COUNT_OF_CALLS };
 
 // What a worker does while it serves a call: "opening the device".
 const char *rg_call_doing(enum rg_call call);

@@ -8,7 +8,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "harness/console/clock.h"
+
 enum { LEAST_BYTES = 1 << 16 }; // of a segment for messages
+enum { PIECE_BYTES = 1 << 26 }; // are copied between two looks at the clock
 
 // What the socket carries: where the message is.
 struct notice {
@@ -73,6 +76,20 @@ bool rg_channel_send(struct rg_channel *channel, const struct rg_message *head,
     return sent == sizeof(notice);
 }
 
+// Memory that nobody has written yet is made as it is read, so that a copy takes long which is
+// larger than what was sent.
+static bool copy(const struct rg_channel *channel, char *to, int64_t size)
+{
+    const double end_ms = rg_now_ms() + channel->patience_ms;
+    for (int64_t at = 0; at < size; at += PIECE_BYTES) {
+        const int64_t piece = size - at < PIECE_BYTES ? size - at : PIECE_BYTES;
+        memcpy(to + at, (const char *)channel->taken.bytes + at, (size_t)piece);
+        if (channel->patience_ms > 0 && rg_now_ms() > end_ms)
+            return false;
+    }
+    return true;
+}
+
 // The notice was sent by a process that a driver may have damaged.
 static bool take(struct rg_channel *channel, struct rg_message *message,
                  const struct notice *notice)
@@ -80,13 +97,12 @@ static bool take(struct rg_channel *channel, struct rg_message *message,
     struct rg_segment *taken = &channel->taken;
     if ((!taken->bytes || taken->id != notice->segment) && !rg_segment_join(taken, notice->segment))
         return false;
-    if (notice->size < 0 || notice->size > taken->size)
+    if (notice->size < 0 || notice->size > taken->size ||
+        (channel->most_bytes && notice->size > channel->most_bytes))
         return false;
     message->bytes = malloc((size_t)notice->size + 1);
     message->size = message->room = notice->size;
-    if (message->bytes)
-        memcpy(message->bytes, taken->bytes, (size_t)notice->size);
-    return message->bytes;
+    return message->bytes && copy(channel, message->bytes, notice->size);
 }
 
 enum rg_arrival rg_channel_receive(struct rg_channel *channel, struct rg_message *message,
@@ -104,5 +120,5 @@ enum rg_arrival rg_channel_receive(struct rg_channel *channel, struct rg_message
     if (got == sizeof(notice) && take(channel, message, &notice))
         return RG_ARRIVED;
     rg_message_free(message);
-    return RG_ENDED;
+    return got > 0 ? RG_DAMAGED : RG_ENDED;
 }

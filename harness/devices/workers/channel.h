@@ -13,6 +13,8 @@ struct rg_channel {
     struct rg_segment doing; // a struct rg_doing: what the worker does
     struct rg_segment sent;  // of this process: its last message
     struct rg_segment taken; // of the other
+    int64_t most_bytes;      // that a message of the other may have; 0: as many as there are
+    double patience_ms;      // how long one may take to be copied; 0: as long as that lasts
 };
 
 // Makes the harness's end. `theirs` gets the socket that the worker's process is started with,
@@ -26,8 +28,8 @@ void rg_channel_close(struct rg_channel *channel);
 bool rg_channel_send(struct rg_channel *channel, const struct rg_message *head,
                      const struct rg_message *body);
 // Waits for up to `timeout_ms`, -1 for as long as it takes, and takes a message, which the caller
-// frees.
-enum rg_arrival { RG_ARRIVED, RG_ENDED, RG_NOT_YET };
+// frees. RG_DAMAGED: the other end said that there is one, and there is none that can be taken.
+enum rg_arrival { RG_ARRIVED, RG_ENDED, RG_NOT_YET, RG_DAMAGED };
 enum rg_arrival rg_channel_receive(struct rg_channel *channel, struct rg_message *message,
                                    int timeout_ms);
 

@@ -1,5 +1,6 @@
 #include "harness/devices/workers/device.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,72 +32,90 @@ static bool destroy_remote(struct rg_device *device)
     return is_closed && has_ended;
 }
 
-static void end_text(char *text, size_t size)
+static const struct rg_field format_fields[] = {
+    RG_FIELD_BYTES(struct rg_format_limits, uses),
+    RG_FIELD_INTEGER(struct rg_format_limits, max_px, 0, INT_MAX),
+    RG_FIELD_INTEGER(struct rg_format_limits, max_layers, 0, INT_MAX),
+    RG_FIELD_INTEGER(struct rg_format_limits, max_levels, 0, INT_MAX),
+    RG_FIELD_INTEGER(struct rg_format_limits, max_bytes, 0, INT64_MAX),
+    RG_FIELDS_END,
+};
+
+static const struct rg_field slot_fields[] = {
+    RG_FIELD_INTEGER(struct rg_slot_limits, buffers, 0, INT_MAX),
+    RG_FIELD_INTEGER(struct rg_slot_limits, images, 0, INT_MAX),
+    RG_FIELD_INTEGER(struct rg_slot_limits, out_images, 0, INT_MAX),
+    RG_FIELDS_END,
+};
+
+static const struct rg_field limits_fields[] = {
+    RG_FIELD_INTEGER(struct rg_limits, max_objects, 0, INT_MAX),
+    RG_FIELD_INTEGER(struct rg_limits, max_buffer_bytes, 0, INT64_MAX),
+    RG_FIELD_INTEGER(struct rg_limits, max_image_px, 0, INT_MAX),
+    RG_FIELD_INTEGER(struct rg_limits, max_image_layers, 0, INT_MAX),
+    RG_FIELD_INTEGERS(struct rg_limits, max_groups, 0, INT_MAX),
+    RG_FIELD_INTEGER(struct rg_limits, group_items, 0, INT_MAX),
+    RG_FIELD_STRUCTS(struct rg_limits, formats, format_fields),
+    RG_FIELD_STRUCT(struct rg_limits, slot_count, slot_fields),
+    RG_FIELD_STRUCT(struct rg_limits, slot_end, slot_fields),
+    RG_FIELD_TEXT(struct rg_limits, no_draws),
+    RG_FIELD_FLAG(struct rg_limits, has_clock),
+    RG_FIELD_FLAG(struct rg_limits, has_queries),
+    RG_FIELDS_END,
+};
+
+static const struct rg_field info_fields[] = {
+    RG_FIELD_TEXT(struct rg_device_info, name),
+    RG_FIELD_TEXT(struct rg_device_info, device),
+    RG_FIELD_TEXT(struct rg_device_info, driver),
+    RG_FIELD_TEXT(struct rg_device_info, api),
+    RG_FIELD_FLAG(struct rg_device_info, software),
+    RG_FIELD_INTEGER(struct rg_device_info, tier, 0, RG_TIER_COUNT - 1),
+    RG_FIELD_STRUCT(struct rg_device_info, limits, limits_fields),
+    RG_FIELDS_END,
+};
+
+const struct rg_field rg_told_device_fields[] = {
+    RG_FIELD_STRUCT(struct rg_told_device, info, info_fields),
+    RG_FIELD_INTEGER(struct rg_told_device, backend, 0, RG_MAX_BACKENDS - 1),
+    RG_FIELDS_END,
+};
+
+static bool is_explained(const void *all)
 {
-    text[size - 1] = 0;
+    const struct rg_told_list *told = all;
+    return told->count || told->outcome != RG_OK;
 }
 
-// A byte that is neither 0 nor 1 is no bool, and must not be read as one.
-static bool is_bool(const bool *value)
-{
-    unsigned char byte;
-    memcpy(&byte, value, sizeof(byte));
-    return byte <= 1;
-}
-
-static bool are_slots(const struct rg_slot_limits *slots)
-{
-    return slots->buffers >= 0 && slots->images >= 0 && slots->out_images >= 0;
-}
-
-static bool are_limits(const struct rg_limits *l)
-{
-    bool ok = is_bool(&l->has_clock) && is_bool(&l->has_queries) && l->max_objects >= 0 &&
-              l->max_buffer_bytes >= 0 && l->max_image_px >= 0 && l->max_image_layers >= 0 &&
-              l->group_items >= 0 && are_slots(&l->slot_count) && are_slots(&l->slot_end);
-    for (int i = 0; i < 3; i++)
-        ok = ok && l->max_groups[i] >= 0;
-    for (int i = 0; i < RG_FORMAT_COUNT; i++) {
-        const struct rg_format_limits *format = &l->formats[i];
-        ok = ok && format->max_px >= 0 && format->max_layers >= 0 && format->max_levels >= 0 &&
-             format->max_bytes >= 0;
-    }
-    return ok;
-}
-
-bool rg_take_device_info(struct rg_message *message, struct rg_device_info *info)
-{
-    if (!RG_TAKE(message, *info))
-        return false;
-    end_text(info->name, sizeof(info->name));
-    end_text(info->device, sizeof(info->device));
-    end_text(info->driver, sizeof(info->driver));
-    end_text(info->api, sizeof(info->api));
-    end_text(info->limits.no_draws, sizeof(info->limits.no_draws));
-    return ((unsigned)info->tier < RG_TIER_COUNT && is_bool(&info->software) &&
-            are_limits(&info->limits)) ||
-           rg_message_fail(message);
-}
+const struct rg_field rg_told_list_fields[] = {
+    RG_FIELD_SOME(struct rg_told_list, infos, count, info_fields),
+    RG_FIELD_INTEGER(struct rg_told_list, outcome, 0, RG_OUTCOME_COUNT - 1),
+    RG_FIELD_TEXT(struct rg_told_list, why),
+    RG_FIELD_CHECK(is_explained),
+    RG_FIELDS_END,
+};
 
 // Asks for the device. Its name is as the driver's list has it, before an environment.
 static bool ask_for(struct remote *remote, const char *name, const char *environment)
 {
-    struct rg_message request = {0}, reply;
+    struct rg_message request = {0};
+    struct rg_told_device asked = {.backend = 0};
     const size_t plain = strcspn(name, "@");
     char own[RG_DEVICE_NAME_SIZE];
     snprintf(own, sizeof(own), "%.*s", (int)plain, name);
     rg_put_text(&request, own);
-    bool ok = rg_worker_call(remote->worker, RG_CALL_OPEN, &request, &reply) &&
-              rg_take_device_info(&reply, &remote->pub.info);
-    const int backend = ok ? rg_take_index(&reply, RG_MAX_BACKENDS) : 0;
-    ok = ok && !reply.failed && (rg_backends[backend] || rg_message_fail(&reply));
+    const bool ok =
+        rg_worker_fetch(remote->worker, RG_CALL_OPEN, &request, rg_told_device_fields, &asked);
     rg_message_free(&request);
-    rg_message_free(&reply);
     if (!ok)
         return false;
+    const struct rg_backend *backend = rg_backends[asked.backend];
+    if (!backend)
+        return rg_driver_error("device '%s': its process tells of no backend", name);
+    remote->pub.info = asked.info;
     remote->pub.backend = &remote->backend;
-    remote->backend = (struct rg_backend){.name = rg_backends[backend]->name,
-                                          .package = rg_backends[backend]->package,
+    remote->backend = (struct rg_backend){.name = backend->name,
+                                          .package = backend->package,
                                           .sync = sync_remote,
                                           .destroy = destroy_remote};
     char *told = remote->pub.info.name;

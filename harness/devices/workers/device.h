@@ -13,8 +13,21 @@
 struct rg_device *rg_remote_open(struct rg_worker *worker, const char *name,
                                  const char *environment);
 
-// What a worker tells of its device, with texts that end; false where it cannot be.
-bool rg_take_device_info(struct rg_message *message, struct rg_device_info *info);
+// What a worker tells of its device: what it is, and the number of its backend.
+struct rg_told_device {
+    struct rg_device_info info;
+    int backend;
+};
+
+// What it tells of a backend: its devices, or why there are none.
+struct rg_told_list {
+    int count;
+    struct rg_device_info infos[RG_MAX_DEVICES];
+    enum rg_outcome outcome; // without a device: whether the driver is absent, or fails
+    char why[RG_LIST_WHY_SIZE + 16];
+};
+
+extern const struct rg_field rg_told_device_fields[], rg_told_list_fields[];
 
 // The memory that the process holds in which a device lives.
 int64_t rg_remote_held_bytes(const struct rg_device *device);

@@ -8,5 +8,8 @@ enum { RG_WORKER_SOCKET = 3 };
 // Its arguments behind the program: RG_WORKER_ARGUMENT, and in one word the harness's process and
 // where the worker tells what it does.
 #define RG_WORKER_CHANNEL "%ld:%d"
+// A reply has at most so many lines that were logged: beyond them a worker keeps none but one
+// error.
+enum { RG_WORKER_MOST_LINES = 1000 };
 
 #endif

@@ -12,7 +12,7 @@ void rg_message_free(struct rg_message *message)
     *message = (struct rg_message){0};
 }
 
-enum { WORD_BYTES = 4 };
+enum { WORD_BYTES = 4, MOST_NAMES = 4096, MOST_NAME_BYTES = 256 };
 
 // --- putting ---
 
@@ -48,9 +48,12 @@ void rg_put_text(struct rg_message *message, const char *text)
 
 bool rg_message_fail(struct rg_message *message)
 {
-    if (!message->failed)
-        rg_driver_error(
-            "a message between processes is damaged; a driver may have written over it");
+    static const char damaged[] = "a message between processes is damaged; a driver may have "
+                                  "written over it";
+    if (!message->failed && message->device)
+        rg_driver_error("device '%s': %s", message->device, damaged);
+    else if (!message->failed)
+        rg_driver_error("%s", damaged);
     message->failed = true;
     return false;
 }
@@ -80,25 +83,17 @@ int rg_take_index(struct rg_message *message, int end)
     return 0;
 }
 
-double rg_take_number(struct rg_message *message, double least, double most)
-{
-    double number = least;
-    if (RG_TAKE(message, number) && number >= least && number <= most)
-        return number;
-    rg_message_fail(message);
-    return least;
-}
-
-// Where a block lies in the message; NULL where it does not.
+// Where a block lies in the message; NULL, and no size, where it does not.
 static const char *take_place(struct rg_message *message, int64_t *size)
 {
-    *size = rg_take_int(message);
-    if (message->failed || *size < 0 || *size > message->size - message->at) {
+    const int64_t said = rg_take_int(message);
+    *size = 0;
+    if (message->failed || said < 0 || said > message->size - message->at) {
         rg_message_fail(message);
         return NULL;
     }
     const char *place = message->bytes + message->at;
-    message->at += *size;
+    message->at += *size = said;
     return place;
 }
 
@@ -119,10 +114,15 @@ const char *rg_take_name(struct rg_message *message)
         struct kept_name *next;
         char text[];
     } * names;
+    static int count;
     const char *text = rg_take_text(message);
     for (const struct kept_name *name = names; name; name = name->next)
         if (!strcmp(name->text, text))
             return name->text;
+    if (count == MOST_NAMES || strlen(text) >= MOST_NAME_BYTES) {
+        rg_message_fail(message);
+        return "";
+    }
     struct kept_name *name = malloc(sizeof(*name) + strlen(text) + 1);
     if (!name) {
         message->failed = true;
@@ -132,6 +132,7 @@ const char *rg_take_name(struct rg_message *message)
     strcpy(name->text, text);
     name->next = names;
     names = name;
+    count++;
     return name->text;
 }
 
@@ -146,6 +147,7 @@ void *rg_take_block(struct rg_message *message, int64_t *size)
     if (place && !block) {
         message->failed = true;
         rg_error("a message between processes: no memory for %lld bytes", (long long)*size);
+        *size = 0;
     }
     return block;
 }

@@ -13,8 +13,9 @@
 struct rg_message {
     char *bytes; // owned
     int64_t size, room;
-    int64_t at;  // of the next value to take
-    bool failed; // without memory, or taken amiss; one line has been logged
+    int64_t at;         // of the next value to take
+    bool failed;        // without memory, or taken amiss; one line has been logged
+    const char *device; // whose process sent it, which outlives it; NULL: whoever
 };
 
 void rg_message_free(struct rg_message *message);
@@ -35,13 +36,13 @@ bool rg_take(struct rg_message *message, void *bytes, int64_t size);
 int64_t rg_take_int(struct rg_message *message);
 // A number from 0 to `end` - 1; else the message has failed.
 int rg_take_index(struct rg_message *message, int end);
-// A number from `least` to `most`, which no NaN is; else the message has failed, and it is `least`.
-double rg_take_number(struct rg_message *message, double least, double most);
 // A text of the message, which lives as long; "" where it has failed.
 const char *rg_take_text(struct rg_message *message);
-// The same text for as long as this process lives: names that structs point to.
+// The same text for as long as this process lives: names that structs point to. No process gives
+// more of them, or longer ones, than a program has; else the message has failed.
 const char *rg_take_name(struct rg_message *message);
-// A block, which the caller frees, with a word of zeros behind it; one of no bytes is no NULL.
+// A block, which the caller frees, with a word of zeros behind it; one of no bytes is no NULL. Its
+// size is 0 where it is NULL.
 void *rg_take_block(struct rg_message *message, int64_t *size);
 // For those who find that what they took cannot be: the message has failed. False.
 bool rg_message_fail(struct rg_message *message);

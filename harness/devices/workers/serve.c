@@ -23,6 +23,8 @@ static struct {
 static void keep_line(enum rg_log_level level, const char *line, void *user)
 {
     (void)user;
+    if (logged.count >= RG_WORKER_MOST_LINES - (level != RG_LOG_ERROR))
+        return;
     rg_put_int(&logged.lines, level);
     rg_put_text(&logged.lines, line);
     logged.count++;

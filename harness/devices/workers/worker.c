@@ -229,7 +229,7 @@ bool rg_worker_destroy(struct rg_worker *worker)
 // --- watching it ---
 
 // What ended a process, where that was we.
-enum verdict { BY_ITSELF, HANGS, HOLDS_TOO_MUCH };
+enum verdict { BY_ITSELF, HANGS, HOLDS_TOO_MUCH, LIES };
 
 // A terminal's Ctrl-C does not reach the worker, which is in a group of its own. It is told once,
 // for a second signal would end it. Whether that was now.
@@ -277,6 +277,8 @@ static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
     for (;;) {
         drop_much_printed(worker);
         const enum rg_arrival arrival = rg_channel_receive(&worker->channel, reply, LOOK_MS);
+        if (arrival == RG_DAMAGED)
+            *verdict = LIES;
         if (arrival != RG_NOT_YET)
             return arrival;
         const bool is_told_now = pass_on_interruption(worker);
@@ -313,6 +315,10 @@ static void tell_end(const struct rg_worker *worker, enum verdict verdict, int s
     else if (verdict == HOLDS_TOO_MUCH)
         snprintf(line, sizeof(line), "it took more than %lld MiB of memory and was ended",
                  (long long)(worker->memory_bytes >> 20));
+    else if (verdict == LIES)
+        snprintf(line, sizeof(line),
+                 "it sent no message that can be taken, and was ended; a "
+                 "driver may have written over it");
     else if (WIFSIGNALED(status))
         snprintf(line, sizeof(line), "its driver crashed (%s)", strsignal(WTERMSIG(status)));
     else
@@ -357,19 +363,21 @@ static void relay(const struct rg_worker *worker, enum rg_log_level level, enum 
     rg_log_relay(level, kind, adds ? named : line);
 }
 
-// Logs what the worker did, and says whether the call succeeded.
+// Logs what the worker did, and says whether the call succeeded. One that failed has said why.
 static bool open_reply(const struct rg_worker *worker, struct rg_message *reply)
 {
     const bool ok = rg_take_index(reply, 2);
     const int kind = rg_take_index(reply, RG_ERROR_KINDS);
-    const int64_t count = rg_take_int(reply);
-    for (int64_t i = 0; i < count && !reply->failed; i++) {
+    const int count = rg_take_index(reply, RG_WORKER_MOST_LINES + 1);
+    bool has_told = ok;
+    for (int i = 0; i < count && !reply->failed; i++) {
         const int level = rg_take_index(reply, RG_LOG_LEVELS);
         const char *line = rg_take_text(reply);
         if (!reply->failed)
             relay(worker, (enum rg_log_level)level, (enum rg_error_kind)kind, line);
+        has_told = has_told || level == RG_LOG_ERROR;
     }
-    return ok && !reply->failed;
+    return (has_told || rg_message_fail(reply)) && ok && !reply->failed;
 }
 
 // What is asked: the call, then the request.
@@ -399,13 +407,18 @@ static bool hears(struct rg_worker *worker, struct rg_message *reply, int patien
 // cannot be understood.
 static bool is_greeted(struct rg_worker *worker)
 {
-    struct rg_message reply = {0};
+    struct rg_message reply = {0}, due = {0};
     const int timeout_s = rg_workers.timeout_s;
     const int patience_ms = timeout_s < HELLO_MS / 1000 ? timeout_s * 1000 : HELLO_MS;
+    rg_put_int(&due, true); // a success, no error, no lines
+    rg_put_int(&due, 0);
+    rg_put_int(&due, 0);
+    rg_put_text(&due, rg_workers.hello);
     const bool same = send(worker, RG_CALL_HELLO, NULL) && hears(worker, &reply, patience_ms) &&
-                      rg_take_index(&reply, 2) && !rg_take_int(&reply) && !rg_take_int(&reply) &&
-                      !strcmp(rg_take_text(&reply), rg_workers.hello);
+                      reply.size == due.size && !due.failed &&
+                      !memcmp(reply.bytes, due.bytes, (size_t)due.size);
     rg_message_free(&reply);
+    rg_message_free(&due);
     return same;
 }
 
@@ -447,10 +460,13 @@ enum rg_outcome rg_worker_try(struct rg_worker *worker, enum rg_call call,
         return RG_ERROR;
     if (!comes_to_life(worker, why, why_size))
         return worker->end;
-    if (!send(worker, call, request) || watch(worker, reply, &verdict) == RG_ENDED)
+    worker->channel.most_bytes = worker->memory_bytes;
+    worker->channel.patience_ms = 1000.0 * rg_workers.timeout_s;
+    if (!send(worker, call, request) || watch(worker, reply, &verdict) != RG_ARRIVED)
         return bury(worker, verdict, why, why_size);
     const struct rg_doing *doing = worker->channel.doing.bytes;
     count_taken(worker, atomic_load(&doing->taken_bytes));
+    reply->device = worker->name;
     return open_reply(worker, reply) ? RG_OK : rg_outcome_of_error();
 }
 
@@ -462,12 +478,26 @@ bool rg_worker_call(struct rg_worker *worker, enum rg_call call, const struct rg
     return outcome == RG_OK || (*why && tell_loss(worker, outcome, why));
 }
 
+bool rg_worker_finish(struct rg_message *reply, bool ok)
+{
+    ok = ok && (reply->at == reply->size || rg_message_fail(reply)) && !reply->failed;
+    rg_message_free(reply);
+    return ok;
+}
+
+bool rg_worker_fetch(struct rg_worker *worker, enum rg_call call, const struct rg_message *request,
+                     const struct rg_field *fields, void *all)
+{
+    static const struct rg_field nothing[] = {RG_FIELDS_END};
+    struct rg_message reply;
+    const bool ok = rg_worker_call(worker, call, request, &reply) &&
+                    rg_take_fields(&reply, fields ? fields : nothing, all);
+    return rg_worker_finish(&reply, ok);
+}
+
 bool rg_worker_ask(struct rg_worker *worker, enum rg_call call, const struct rg_message *request)
 {
-    struct rg_message reply;
-    const bool ok = rg_worker_call(worker, call, request, &reply);
-    rg_message_free(&reply);
-    return ok;
+    return rg_worker_fetch(worker, call, request, NULL, NULL);
 }
 
 bool rg_worker_retire(struct rg_worker *worker)

@@ -12,7 +12,7 @@
 
 #include "core/base/outcome.h"
 #include "harness/devices/workers/calls.h"
-#include "harness/devices/workers/message.h"
+#include "harness/devices/workers/fields.h"
 
 enum { RG_WORKER_LIVES = 3 };
 
@@ -67,7 +67,13 @@ bool rg_worker_call(struct rg_worker *worker, enum rg_call call, const struct rg
 enum rg_outcome rg_worker_try(struct rg_worker *worker, enum rg_call call,
                               const struct rg_message *request, struct rg_message *reply, char *why,
                               size_t why_size);
+// As rg_worker_call where the reply is a struct of these fields, which is zeroed before, and whose
+// blocks and lists the caller frees in either case.
+bool rg_worker_fetch(struct rg_worker *worker, enum rg_call call, const struct rg_message *request,
+                     const struct rg_field *fields, void *all);
 // Where nothing but success comes back.
 bool rg_worker_ask(struct rg_worker *worker, enum rg_call call, const struct rg_message *request);
+// Ends the taking of a reply, which is freed: whether it went well, and nothing is left of it.
+bool rg_worker_finish(struct rg_message *reply, bool ok);
 
 #endif

@@ -25,11 +25,12 @@
 // What is wrong with what it sends, which the tests say by a variable.
 enum damage {
     NOTHING,
-    ENDLESS_TEXTS,
+    ENDLESS_TEXT,
     NO_TIER,
     NO_END,
     NO_OUTCOME,
     NO_REASON,
+    LONGER,
     TOO_MANY,
     NO_FORMAT,
     LEVELS,
@@ -44,41 +45,53 @@ static enum damage damage(void)
     return (enum damage)atoi(getenv("RG_TEST_DAMAGE"));
 }
 
-static void put_info(struct rg_message *reply)
+static struct rg_device_info info(void)
 {
     struct rg_device_info info = {.name = "toy", .device = "Toy", .tier = RG_T1};
-    if (damage() == ENDLESS_TEXTS) {
-        memset(info.name, 'n', sizeof(info.name));
-        memset(info.device, 'd', sizeof(info.device));
-        memset(info.driver, 'v', sizeof(info.driver));
-        memset(info.api, 'a', sizeof(info.api));
-    }
     const int no_tier = RG_TIER_COUNT;
+    if (damage() == ENDLESS_TEXT)
+        memset(info.driver, 'v', sizeof(info.driver));
     if (damage() == NO_TIER)
         memcpy(&info.tier, &no_tier, sizeof(info.tier));
-    RG_PUT(reply, info);
+    return info;
 }
 
 static bool list(struct rg_message *request, struct rg_message *reply)
 {
+    static struct rg_told_list told = {.count = 1};
+    const int64_t many = INT_MAX;
     (void)request;
-    const bool is_empty = damage() == NO_REASON;
-    rg_put_int(reply, damage() == TOO_MANY ? INT_MAX : !is_empty);
-    if (!is_empty)
-        put_info(reply);
-    rg_put_text(reply, "");
-    if (damage() != NO_END)
-        rg_put_int(reply, damage() == NO_OUTCOME ? RG_OUTCOME_COUNT : RG_OK);
+    const int no_outcome = RG_OUTCOME_COUNT;
+    told.infos[0] = info();
+    told.count = damage() != NO_REASON;
+    if (damage() == NO_OUTCOME)
+        memcpy(&told.outcome, &no_outcome, sizeof(told.outcome));
+    rg_put_fields(reply, rg_told_list_fields, &told);
+    if (damage() == TOO_MANY)
+        memcpy(reply->bytes, &many, sizeof(many));
+    reply->size -= damage() == NO_END;
     return true;
 }
 
 static bool open(struct rg_message *request, struct rg_message *reply)
 {
+    const struct rg_told_device told = {info(), 0};
     (void)request;
-    put_info(reply);
-    if (damage() != NO_END)
+    rg_put_fields(reply, rg_told_device_fields, &told);
+    reply->size -= damage() == NO_END;
+    if (damage() == LONGER)
         rg_put_int(reply, 0);
     return true;
+}
+
+// Tells more than anybody reads, and fails.
+static bool chatter(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    (void)reply;
+    for (int i = 0; i < 5000; i++)
+        rg_warning("line %d", i);
+    return rg_driver_error("the end");
 }
 
 static bool nod(struct rg_message *request, struct rg_message *reply)
@@ -108,27 +121,26 @@ static bool contents(struct rg_message *request, struct rg_message *reply)
     desc.layers = damage() == LAYERS ? -1 : desc.layers;
     if (damage() == WIDE)
         desc.width = desc.height = desc.layers = INT_MAX;
-    RG_PUT(reply, desc);
-    rg_put_text(reply, ""); // no state
-    for (int i = 0; i < 3; i++)
-        rg_put_int(reply, 0);
-    rg_put_block(reply, texels, damage() == BYTES ? bytes - 1 : bytes);
+    const size_t size = (size_t)bytes - (damage() == BYTES);
+    const struct rg_told_contents told = {.contents = {desc, size, (void *)(uintptr_t)texels}};
+    rg_put_fields(reply, rg_told_contents_fields, &told);
     return true;
 }
 
 static bool digests(struct rg_message *request, struct rg_message *reply)
 {
-    const struct rg_digest row = {.frame = 1};
+    struct rg_digest row = {.frame = 1};
+    const struct rg_digests told = {.count = 1, .rows = &row};
     (void)request;
-    rg_put_block(reply, &row, damage() == HALF_A_ROW ? sizeof(row) / 2 : sizeof(row));
+    rg_put_fields(reply, rg_told_digests_fields, &told);
+    reply->size -= damage() == HALF_A_ROW ? reply->size / 2 : 0;
     return true;
 }
 
 static bool open_session(struct rg_message *request, struct rg_message *reply)
 {
     (void)request;
-    rg_put_int(reply, 0); // its number
-    rg_put_int(reply, 0); // without a state
+    rg_put_fields(reply, rg_told_session_fields, &(struct rg_told_session){0, 0});
     return true;
 }
 
@@ -136,7 +148,7 @@ static bool run_frames(struct rg_message *request, struct rg_message *reply)
 {
     const double wall_ms = 1;
     (void)request;
-    RG_PUT(reply, wall_ms);
+    rg_put_fields(reply, rg_ms_fields, &wall_ms);
     return true;
 }
 
@@ -144,7 +156,7 @@ static bool count(struct rg_message *request, struct rg_message *reply)
 {
     const struct rg_tally tally = {.runs = 1};
     (void)request;
-    RG_PUT(reply, tally);
+    rg_put_fields(reply, rg_told_tally_fields, &tally);
     return true;
 }
 
@@ -156,7 +168,7 @@ static bool tell(struct rg_message *request, struct rg_message *reply)
     (void)request;
     if (calls++ == atoi(getenv("RG_TEST_TOLD")))
         _exit(3);
-    rg_put_account(reply, &account);
+    rg_put_fields(reply, rg_told_account_fields, &account);
     return true;
 }
 
@@ -167,6 +179,7 @@ static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {
     [RG_CALL_SYNC] = nod,          [RG_CALL_FRAMES] = run_frames,
     [RG_CALL_COUNT] = count,       [RG_CALL_TELL] = tell,
     [RG_CALL_CONTENTS] = contents, [RG_CALL_DIGESTS] = digests,
+    [RG_CALL_PROBE] = chatter,
 };
 
 // --- in the harness ---
@@ -198,7 +211,8 @@ static int backend_count(void)
 
 static void a_damaged_list_is_a_failure_of_its_backend(void **state)
 {
-    static const enum damage all[] = {NO_TIER, NO_END, NO_OUTCOME, NO_REASON, TOO_MANY};
+    static const enum damage all[] = {ENDLESS_TEXT, NO_TIER,   NO_END,
+                                      NO_OUTCOME,   NO_REASON, TOO_MANY};
     static struct rg_device_list list;
     (void)state;
     set_damage(NOTHING);
@@ -219,33 +233,15 @@ static void a_damaged_list_is_a_failure_of_its_backend(void **state)
 
 static void a_device_that_cannot_be_is_not_opened(void **state)
 {
-    static const enum damage all[] = {NO_TIER, NO_END};
+    static const enum damage all[] = {ENDLESS_TEXT, NO_TIER, NO_END, LONGER};
     (void)state;
     for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); i++) {
         set_damage(all[i]);
         assert_null(rg_devices_open_one("toy"));
         assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
+        assert_non_null(strstr(rg_last_error(), "device 'toy': a message"));
         assert_int_equal(lines, 1);
     }
-}
-
-static void texts_of_a_device_end(void **state)
-{
-    static struct rg_device_list list;
-    (void)state;
-    set_damage(ENDLESS_TEXTS);
-    struct rg_device *device = rg_devices_open_one("toy");
-    assert_non_null(device);
-    rg_devices_list(&list);
-    assert_int_equal(list.count, backend_count());
-    for (int i = 0; i < 2; i++) {
-        const struct rg_device_info *info = i ? &list.infos[0] : &device->info;
-        assert_int_equal(strnlen(info->name, sizeof(info->name)), sizeof(info->name) - 1);
-        assert_int_equal(strnlen(info->device, sizeof(info->device)), sizeof(info->device) - 1);
-        assert_int_equal(strnlen(info->driver, sizeof(info->driver)), sizeof(info->driver) - 1);
-        assert_int_equal(strnlen(info->api, sizeof(info->api)), sizeof(info->api) - 1);
-    }
-    assert_true(rg_device_close(device));
 }
 
 // Opens the device as long as it does no harm; the result is that of the taking.
@@ -304,6 +300,18 @@ static void digests_are_whole_rows(void **state)
     free(settings);
 }
 
+static void lines_are_bounded_and_the_error_is_kept(void **state)
+{
+    (void)state;
+    set_damage(NOTHING);
+    struct rg_device *device = rg_devices_open_one("toy");
+    assert_non_null(device);
+    assert_false(rg_worker_ask(rg_remote_worker(device), RG_CALL_PROBE, NULL));
+    assert_in_range(lines, 2, 1000);
+    assert_non_null(strstr(rg_last_error(), "the end"));
+    assert_true(rg_device_close(device));
+}
+
 // A worker that ends while it tells of a session leaves no record that is well and counts nothing.
 static void what_is_not_told_ends_a_record(void **state)
 {
@@ -337,9 +345,9 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_damaged_list_is_a_failure_of_its_backend),
         cmocka_unit_test(a_device_that_cannot_be_is_not_opened),
-        cmocka_unit_test(texts_of_a_device_end),
         cmocka_unit_test(contents_are_what_is_said_of_them),
         cmocka_unit_test(digests_are_whole_rows),
+        cmocka_unit_test(lines_are_bounded_and_the_error_is_kept),
         cmocka_unit_test(what_is_not_told_ends_a_record),
     };
     rg_workers.program = "/proc/self/exe";

@@ -20,80 +20,94 @@
 #include "harness/frames/session.h"
 #include "harness/measure/messages.h"
 
-// What is written over a reply: eight bytes, or one.
+// What is written over a struct that is put into a reply.
 struct damage {
     enum rg_call call;
-    size_t at; // bytes
-    enum { INTEGER, NUMBER, BYTE, NONE } kind;
+    size_t at, size; // bytes
     int64_t integer;
-    double number;
+    double number; // where the integer is NUMBER
 };
 
-#define INFO(field)  offsetof(struct rg_device_info, field)
-#define OP(i, field) ((size_t)(3 * (i) + (field)) * 8) // 0: compared, 1: different, 2: ulps
+#define NUMBER         INT64_MIN
+#define WORD(S, field) offsetof(S, field), sizeof(((S *)0)->field)
+#define BYTE(S, field) offsetof(S, field), 1
+#define OF_INFO(call, field, value)                                                                \
+    {                                                                                              \
+        call, WORD(struct rg_told_device, info.field), value, 0                                    \
+    }
+#define OF_OP(i, field, value)                                                                     \
+    {                                                                                              \
+        RG_CALL_PROBE, (i) * sizeof(struct rg_probe_result) + WORD(struct rg_probe_result, field), \
+            value, 0                                                                               \
+    }
+#define OF(name, S, field, value)                                                                  \
+    {                                                                                              \
+        RG_CALL_##name, WORD(S, field), value, 0                                                   \
+    }
+#define OF_NUMBER(name, S, field, value)                                                           \
+    {                                                                                              \
+        RG_CALL_##name, WORD(S, field), NUMBER, value                                              \
+    }
 
 // All are refused.
 static const struct damage damages[] = {
-    {RG_CALL_OPEN, INFO(software), BYTE, 2, 0},
-    {RG_CALL_OPEN, INFO(limits.has_clock), BYTE, 255, 0},
-    {RG_CALL_OPEN, INFO(limits.has_queries), BYTE, 3, 0},
-    {RG_CALL_OPEN, INFO(limits.max_buffer_bytes), INTEGER, -1, 0},
-    {RG_CALL_OPEN, INFO(limits.max_groups[1]) + 3, BYTE, 0x80, 0},
-    {RG_CALL_OPEN, INFO(limits.slot_end.images) + 3, BYTE, 0x80, 0},
-    {RG_CALL_OPEN, INFO(limits.formats[2].max_px) + 3, BYTE, 0x80, 0},
-    {RG_CALL_PROBE, OP(0, 0), INTEGER, RG_PROBE_INPUTS + 1, 0},
-    {RG_CALL_PROBE, OP(0, 0), INTEGER, RG_PROBE_INPUTS - 1, 0},
-    {RG_CALL_PROBE, OP(3, 1), INTEGER, RG_PROBE_INPUTS + 1, 0},
-    {RG_CALL_PROBE, OP(3, 1), INTEGER, -1, 0},
-    {RG_CALL_PROBE, OP(2, 2), INTEGER, INT64_C(1) << 32, 0},
-    {RG_CALL_PROBE, OP(5, 2), INTEGER, -1, 0},
-    {RG_CALL_PROBE, OP(RG_PROBE_COUNT - 1, 2), INTEGER, 7, 0}, // apart, and none differs
-    {RG_CALL_AUDIT, 0, INTEGER, 0, 0},
-    {RG_CALL_AUDIT, 0, INTEGER, INT64_MAX, 0},
-    {RG_CALL_AUDIT, 8, INTEGER, 2, 0},
-    {RG_CALL_AUDIT, 16, NUMBER, 0, NAN},
-    {RG_CALL_AUDIT, 16, NUMBER, 0, -1},
-    {RG_CALL_AUDIT, 24, NUMBER, 0, INFINITY},
-    {RG_CALL_AUDIT, 32, NUMBER, 0, NAN},
-    {RG_CALL_AUDIT, 40, NUMBER, 0, -INFINITY},
-    {RG_CALL_AUDIT, 48, NUMBER, 0, -1},
-    {RG_CALL_AUDIT, 56, NUMBER, 0, 1e300},
-    {RG_CALL_CEILINGS, 0, NUMBER, 0, NAN},
-    {RG_CALL_CEILINGS, 8, NUMBER, 0, INFINITY},
-    {RG_CALL_CEILINGS, 16, NUMBER, 0, -1},
-    {RG_CALL_FRAMES, 0, NUMBER, 0, NAN},
-    {RG_CALL_FRAMES, 0, NUMBER, 0, -1},
-    {RG_CALL_STAGES, 18, NUMBER, 0, INFINITY}, // behind their count and a name of one letter
-    {RG_CALL_STAGES, 0, INTEGER, 2, 0},
-    {RG_CALL_COUNT, offsetof(struct rg_tally, items), INTEGER, -2, 0},
-    {RG_CALL_TEXTURE, 8 + sizeof(struct rg_image_desc), INTEGER, RG_MAX_LEVELS, 0},
-    {RG_CALL_TEXTURE, 8 + sizeof(struct rg_image_desc), INTEGER, -1, 0},
-    {RG_CALL_HELLO, 0, NONE, 0, 0}, // nothing: the last
+    OF_INFO(RG_CALL_OPEN, software, 2),
+    OF_INFO(RG_CALL_OPEN, limits.has_clock, 255),
+    OF_INFO(RG_CALL_OPEN, limits.has_queries, 3),
+    OF_INFO(RG_CALL_OPEN, limits.max_buffer_bytes, -1),
+    OF_INFO(RG_CALL_OPEN, limits.max_groups[1], INT32_MIN),
+    OF_INFO(RG_CALL_OPEN, limits.slot_end.images, -1),
+    OF_INFO(RG_CALL_OPEN, limits.formats[2].max_px, -1),
+    OF(OPEN, struct rg_told_device, backend, RG_MAX_BACKENDS),
+    OF_OP(0, compared, RG_PROBE_INPUTS + 1),
+    OF_OP(0, compared, RG_PROBE_INPUTS - 1),
+    OF_OP(3, different, RG_PROBE_INPUTS + 1),
+    OF_OP(3, different, -1),
+    OF_OP(RG_PROBE_COUNT - 1, largest_ulps, 7), // apart, and none differs
+    OF(AUDIT, struct rg_timer_audit, passes, 0),
+    OF(AUDIT, struct rg_timer_audit, passes, -1),
+    OF(AUDIT, struct rg_timer_audit, has_timer, 2),
+    OF_NUMBER(AUDIT, struct rg_timer_audit, wall_ms, NAN),
+    OF_NUMBER(AUDIT, struct rg_timer_audit, wall_ms, -1),
+    OF_NUMBER(AUDIT, struct rg_timer_audit, api_ms, INFINITY),
+    OF_NUMBER(AUDIT, struct rg_timer_audit, ratio, NAN),
+    OF_NUMBER(AUDIT, struct rg_timer_audit, sync_us, -INFINITY),
+    OF_NUMBER(AUDIT, struct rg_timer_audit, dispatch_us, -1),
+    OF_NUMBER(AUDIT, struct rg_timer_audit, round_trip_us, 1e300),
+    OF_NUMBER(CEILINGS, struct rg_ceilings, memory_gb_s, NAN),
+    OF_NUMBER(CEILINGS, struct rg_ceilings, cache_gb_s, INFINITY),
+    OF_NUMBER(CEILINGS, struct rg_ceilings, arithmetic_gop_s, -1),
+    {RG_CALL_FRAMES, 0, 8, NUMBER, NAN},
+    {RG_CALL_FRAMES, 0, 8, NUMBER, -1},
+    OF_NUMBER(STAGES, struct rg_told_stage, ms, INFINITY),
+    {RG_CALL_STAGES, 0, 8, 0, 0}, // no name
+    OF(COUNT, struct rg_tally, items, -2),
+    OF(TEXTURE, struct rg_told_texture, first_level, RG_MAX_LEVELS),
+    OF(TEXTURE, struct rg_told_texture, first_level, -1),
+    OF(TEXTURE, struct rg_told_texture, desc.format, RG_FORMAT_COUNT),
+    OF(TEXTURE, struct rg_told_texture, desc.levels, 0),
+    {RG_CALL_HELLO, 0, 0, 0, 0}, // nothing: the last
 };
 enum { DAMAGES = sizeof(damages) / sizeof(damages[0]), NO_DAMAGE = DAMAGES - 1 };
 
 // --- in the worker ---
 
-static bool hurt(struct rg_message *reply, enum rg_call call)
+static void hurt(void *told, enum rg_call call)
 {
     const struct damage *d = &damages[atoi(getenv("RG_TEST_DAMAGE"))];
-    if (d->call != call || d->kind == NONE)
-        return true;
-    const unsigned char byte = (unsigned char)d->integer;
-    const void *value = d->kind == BYTE     ? (const void *)&byte
-                        : d->kind == NUMBER ? (const void *)&d->number
-                                            : (const void *)&d->integer;
-    memcpy(reply->bytes + d->at, value, d->kind == BYTE ? 1 : 8);
-    return true;
+    if (d->call == call)
+        memcpy((char *)told + d->at,
+               d->integer == NUMBER ? (const void *)&d->number : (const void *)&d->integer,
+               d->size);
 }
 
 static bool open(struct rg_message *request, struct rg_message *reply)
 {
-    const struct rg_device_info info = {.name = "toy", .device = "Toy", .tier = RG_T1};
+    struct rg_told_device told = {{.name = "toy", .device = "Toy", .tier = RG_T1}, 0};
     (void)request;
-    RG_PUT(reply, info);
-    rg_put_int(reply, 0);
-    return hurt(reply, RG_CALL_OPEN);
+    hurt(&told, RG_CALL_OPEN);
+    rg_put_fields(reply, rg_told_device_fields, &told);
+    return true;
 }
 
 static bool probe(struct rg_message *request, struct rg_message *reply)
@@ -106,32 +120,35 @@ static bool probe(struct rg_message *request, struct rg_message *reply)
     results[1].different = 2; // zeros of unlike signs, which are not apart
     results[2].different = RG_PROBE_INPUTS;
     results[2].largest_ulps = UINT32_MAX;
-    rg_put_probe(reply, results);
-    return hurt(reply, RG_CALL_PROBE);
+    hurt(results, RG_CALL_PROBE);
+    rg_put_fields(reply, rg_probe_fields, results);
+    return true;
 }
 
 static bool audit(struct rg_message *request, struct rg_message *reply)
 {
-    const struct rg_timer_audit audit = {.passes = 3,
-                                         .wall_ms = 1,
-                                         .has_timer = true,
-                                         .api_ms = 2,
-                                         .ratio = 2,
-                                         .trusted = true, // which a ratio of 2 is not
-                                         .sync_us = 0,
-                                         .dispatch_us = 0.5,
-                                         .round_trip_us = 7};
+    struct rg_timer_audit audit = {.passes = 3,
+                                   .wall_ms = 1,
+                                   .has_timer = true,
+                                   .api_ms = 2,
+                                   .ratio = 2,
+                                   .trusted = true, // which a ratio of 2 is not
+                                   .sync_us = 0,
+                                   .dispatch_us = 0.5,
+                                   .round_trip_us = 7};
     (void)request;
-    rg_put_audit(reply, &audit);
-    return hurt(reply, RG_CALL_AUDIT);
+    hurt(&audit, RG_CALL_AUDIT);
+    rg_put_fields(reply, rg_audit_fields, &audit);
+    return true;
 }
 
 static bool ceilings(struct rg_message *request, struct rg_message *reply)
 {
-    const struct rg_ceilings ceilings = {1, 2, 3};
+    struct rg_ceilings ceilings = {1, 2, 3};
     (void)request;
-    rg_put_ceilings(reply, &ceilings);
-    return hurt(reply, RG_CALL_CEILINGS);
+    hurt(&ceilings, RG_CALL_CEILINGS);
+    rg_put_fields(reply, rg_ceilings_fields, &ceilings);
+    return true;
 }
 
 static bool nod(struct rg_message *request, struct rg_message *reply)
@@ -144,8 +161,7 @@ static bool nod(struct rg_message *request, struct rg_message *reply)
 static bool open_session(struct rg_message *request, struct rg_message *reply)
 {
     (void)request;
-    rg_put_int(reply, 0);
-    rg_put_int(reply, 0);
+    rg_put_fields(reply, rg_told_session_fields, &(struct rg_told_session){0, 0});
     return true;
 }
 
@@ -153,44 +169,45 @@ static bool tell(struct rg_message *request, struct rg_message *reply)
 {
     const struct rg_account account = {.frame = 1};
     (void)request;
-    rg_put_account(reply, &account);
+    rg_put_fields(reply, rg_told_account_fields, &account);
     return true;
 }
 
 static bool run_frames(struct rg_message *request, struct rg_message *reply)
 {
-    const double wall_ms = 1;
+    double wall_ms = 1;
     (void)request;
-    RG_PUT(reply, wall_ms);
-    return hurt(reply, RG_CALL_FRAMES);
+    hurt(&wall_ms, RG_CALL_FRAMES);
+    rg_put_fields(reply, rg_ms_fields, &wall_ms);
+    return true;
 }
 
 static bool stages(struct rg_message *request, struct rg_message *reply)
 {
-    const double ms = 1;
+    struct rg_told_stage row = {"k", 1};
+    const struct rg_told_stages told = {.count = 1, .rows = &row};
     (void)request;
-    rg_put_int(reply, 1);
-    rg_put_text(reply, "k");
-    RG_PUT(reply, ms);
-    return hurt(reply, RG_CALL_STAGES);
+    hurt(&row, RG_CALL_STAGES);
+    rg_put_fields(reply, rg_told_stages_fields, &told);
+    return true;
 }
 
 static bool count(struct rg_message *request, struct rg_message *reply)
 {
-    const struct rg_tally tally = {.runs = 1, .fragments = -1};
+    struct rg_tally tally = {.runs = 1, .fragments = -1};
     (void)request;
-    rg_put_tally(reply, &tally);
-    return hurt(reply, RG_CALL_COUNT);
+    hurt(&tally, RG_CALL_COUNT);
+    rg_put_fields(reply, rg_told_tally_fields, &tally);
+    return true;
 }
 
 static bool texture(struct rg_message *request, struct rg_message *reply)
 {
-    const struct rg_image_desc desc = {RG_R16F, 4, 4, 1, 3};
+    struct rg_told_texture told = {true, {RG_R16F, 4, 4, 1, 3}, 1};
     (void)request;
-    rg_put_int(reply, 1);
-    RG_PUT(reply, desc);
-    rg_put_int(reply, 1);
-    return hurt(reply, RG_CALL_TEXTURE);
+    hurt(&told, RG_CALL_TEXTURE);
+    rg_put_fields(reply, rg_told_texture_fields, &told);
+    return true;
 }
 
 static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {

@@ -6,11 +6,12 @@
 
 #include <cmocka.h>
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/devices/workers/message.h"
+#include "harness/devices/workers/channel.h"
 
 static int lines;
 
@@ -93,7 +94,9 @@ static void sizes_that_lie_are_not_believed(void **state)
         int64_t size;
         rg_put_int(&message, sizes[i]);
         rg_put(&message, "12345678", 8);
+        size = 1;
         assert_null(rg_take_block(&message, &size));
+        assert_int_equal(size, 0); // which no taker counts rows of
         assert_true(message.failed);
         rg_message_free(&message);
     }
@@ -140,6 +143,54 @@ static void names_stay_when_their_message_has_gone(void **state)
     assert_ptr_equal(names[1], names[3]);
 }
 
+// What a liar says for ever: names are kept for as long as the process lives.
+static void names_are_no_more_than_a_program_has(void **state)
+{
+    char name[512] = "";
+    int taken = 0;
+    (void)state;
+    lines = 0;
+    for (int i = 0; i < 10000; i++) {
+        struct rg_message message = {0};
+        snprintf(name, sizeof(name), "name %d", i);
+        rg_put_text(&message, name);
+        taken += rg_take_name(&message)[0] != 0;
+        rg_message_free(&message);
+    }
+    assert_in_range(taken, 1000, 5000);
+    assert_int_equal(lines, 10000 - taken);
+    memset(name, 'n', sizeof(name) - 1);
+    struct rg_message message = {0};
+    rg_put_text(&message, name);
+    assert_string_equal(rg_take_name(&message), "");
+    assert_true(message.failed);
+    rg_message_free(&message);
+}
+
+// What the other end says of a message is not copied for ever, nor beyond what it may hold.
+static void a_message_is_bounded(void **state)
+{
+    static const struct rg_message nothing;
+    struct rg_message sent = {0}, got;
+    struct rg_channel ours, theirs;
+    int socket;
+    (void)state;
+    assert_int_equal(rg_channel_create(&ours, &socket), 0);
+    assert_true(rg_channel_join(&theirs, socket, ours.doing.id));
+    rg_put_int(&sent, 1);
+    for (int bound = 0; bound < 4; bound++) {
+        ours.most_bytes = (int64_t[]){0, 7, 8, 0}[bound];
+        ours.patience_ms = bound == 3 ? 1e-9 : 0;
+        assert_true(rg_channel_send(&theirs, &sent, &nothing));
+        assert_int_equal(rg_channel_receive(&ours, &got, -1), bound % 2 ? RG_DAMAGED : RG_ARRIVED);
+        assert_int_equal(got.size, bound % 2 ? 0 : 8);
+        rg_message_free(&got);
+    }
+    rg_message_free(&sent);
+    rg_channel_close(&theirs);
+    rg_channel_close(&ours);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -149,6 +200,8 @@ int main(void)
         cmocka_unit_test(a_text_ends_within_its_block),
         cmocka_unit_test(an_index_is_within_its_range),
         cmocka_unit_test(names_stay_when_their_message_has_gone),
+        cmocka_unit_test(names_are_no_more_than_a_program_has),
+        cmocka_unit_test(a_message_is_bounded),
     };
     rg_log_listen(count_line, NULL);
     return cmocka_run_group_tests_name("messages", tests, NULL, NULL);

@@ -1,0 +1,98 @@
+// What a message holds, described once: the fields of a struct, from which it is put and taken. So
+// whoever takes it checks all that the description says, and forgets nothing.
+//
+//   static const struct rg_field fields[] = {
+//       RG_FIELD_INTEGER(struct fact, count, 0, 9),
+//       RG_FIELD_NAME(struct fact, name),
+//       RG_FIELDS_END,
+//   };
+#ifndef RG_HARNESS_DEVICES_WORKERS_FIELDS_H
+#define RG_HARNESS_DEVICES_WORKERS_FIELDS_H
+
+#include <stddef.h>
+
+#include "harness/devices/workers/message.h"
+
+enum rg_field_kind {
+    RG_KIND_END,
+    RG_KIND_INTEGER, // of 1, 4 or 8 bytes, from `least` to `most`: bools and enums as well
+    RG_KIND_NUMBER,  // a double, from `least` to `most`, which no NaN is
+    RG_KIND_BYTES,   // that may be any
+    RG_KIND_TEXT,    // that ends within its array
+    RG_KIND_NAME,    // a const char *, which lives as long as this process, of `least` bytes or
+                     // more; one of none is NULL
+    RG_KIND_STRUCT,  // the fields `of` it
+    RG_KIND_BLOCK,   // a pointer to memory of its own; its size is the size_t at `count`
+    RG_KIND_LIST,    // a pointer to rows, each with the fields `of` it; their number is the int at
+                     // `count`, the room for them the int64_t at `room`
+    RG_KIND_CHECK,   // no field: the struct is damaged where `holds` is false
+};
+
+// A table of them ends with RG_FIELDS_END.
+struct rg_field {
+    enum rg_field_kind kind;
+    size_t offset, size; // of one entry, or of one row of a list
+    int64_t least, most; // of a list: of its rows
+    size_t entries;      // of an array, one after the other
+    bool is_counted;     // as many of them as the int at `count` says
+    size_t count, room;  // offsets
+    const struct rg_field *of;
+    bool (*holds)(const void *all);
+};
+
+#define RG_FIELD_OF(kind, S, field, ...)                                                           \
+    {                                                                                              \
+        RG_KIND_##kind, offsetof(S, field), sizeof(((S *)0)->field), .entries = 1, __VA_ARGS__     \
+    }
+#define RG_FIELD_INTEGER(S, field, from, to)                                                       \
+    RG_FIELD_OF(INTEGER, S, field, .least = (from), .most = (to))
+#define RG_FIELD_FLAG(S, field) RG_FIELD_INTEGER(S, field, 0, 1)
+#define RG_FIELD_NUMBER(S, field, from, to)                                                        \
+    RG_FIELD_OF(NUMBER, S, field, .least = (from), .most = (to))
+#define RG_FIELD_BYTES(S, field)         RG_FIELD_OF(BYTES, S, field, .least = 0)
+#define RG_FIELD_TEXT(S, field)          RG_FIELD_OF(TEXT, S, field, .least = 0)
+#define RG_FIELD_NAME(S, field)          RG_FIELD_OF(NAME, S, field, .least = 1)
+#define RG_FIELD_NAME_OR_NONE(S, field)  RG_FIELD_OF(NAME, S, field, .least = 0)
+#define RG_FIELD_STRUCT(S, field, table) RG_FIELD_OF(STRUCT, S, field, .of = (table))
+#define RG_FIELD_BLOCK(S, field, bytes)  RG_FIELD_OF(BLOCK, S, field, .count = offsetof(S, bytes))
+// An array of integers, or of structs.
+#define RG_FIELD_INTEGERS(S, field, from, to)                                                      \
+    {                                                                                              \
+        RG_KIND_INTEGER, offsetof(S, field), sizeof(((S *)0)->field[0]),                           \
+            .least = (from), .most = (to), .entries = RG_FIELD_ENTRIES(S, field)                   \
+    }
+#define RG_FIELD_STRUCTS(S, field, table)                                                          \
+    {                                                                                              \
+        RG_KIND_STRUCT, offsetof(S, field), sizeof(((S *)0)->field[0]),                            \
+            .entries = RG_FIELD_ENTRIES(S, field), .of = (table)                                   \
+    }
+// The same of structs that are as many as an int says.
+#define RG_FIELD_SOME(S, field, number, table)                                                     \
+    {                                                                                              \
+        RG_KIND_STRUCT, offsetof(S, field), sizeof(((S *)0)->field[0]),                            \
+            .entries = RG_FIELD_ENTRIES(S, field), .is_counted = true,                             \
+            .count = offsetof(S, number), .of = (table)                                            \
+    }
+#define RG_FIELD_LIST(S, field, table, highest)                                                    \
+    {                                                                                              \
+        RG_KIND_LIST, offsetof(S, field), sizeof(((S *)0)->field[0]),                              \
+            .most = (highest), .entries = 1, .count = offsetof(S, count),                          \
+            .room = offsetof(S, room), .of = (table)                                               \
+    }
+#define RG_FIELD_ENTRIES(S, field) (sizeof(((S *)0)->field) / sizeof(((S *)0)->field[0]))
+// The last before the end: what no range of one field says.
+#define RG_FIELD_CHECK(function)                                                                   \
+    {                                                                                              \
+        RG_KIND_CHECK, .entries = 1, .holds = (function)                                           \
+    }
+#define RG_FIELDS_END                                                                              \
+    {                                                                                              \
+        RG_KIND_END                                                                                \
+    }
+
+void rg_put_fields(struct rg_message *message, const struct rg_field *fields, const void *all);
+// `all` is zeroed before. False, with one logged line, where the message has failed. Blocks and
+// lists that were taken until then stay in `all`, which the caller frees in either case.
+bool rg_take_fields(struct rg_message *message, const struct rg_field *fields, void *all);
+
+#endif

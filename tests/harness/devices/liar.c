@@ -1,0 +1,380 @@
+// A worker that lies: any byte of any reply may be another one, numbers may be ones that no message
+// has, replies are cut or go on, and notices of them say what is not so. Whatever it says, nothing
+// crashes, reads what is not there, or waits for ever, and what is refused names the device.
+//
+// The worker serves what a worker of raingauge serves, once; it says the same again as often as it
+// is asked, for a million messages have to take minutes. `--runs N --seed S` says how many calls.
+#define _GNU_SOURCE // MSG_NOSIGNAL
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "core/base/log.h"
+#include "core/device/probe.h"
+#include "harness/devices/devices.h"
+#include "harness/devices/serving/serving.h"
+#include "harness/devices/workers/channel.h"
+#include "harness/devices/workers/device.h"
+#include "harness/frames/digests.h"
+#include "harness/frames/messages.h"
+#include "harness/frames/session.h"
+#include "harness/measure/ceilings.h"
+#include "harness/measure/messages.h"
+#include "harness/measure/timer_audit.h"
+
+static uint64_t state;
+
+static uint32_t chance(uint32_t end)
+{
+    state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return (uint32_t)(state >> 33) % end;
+}
+
+// --- in the worker: what is sound ---
+
+struct kept {
+    struct rg_message request, reply;
+};
+static struct kept kept[RG_CALL_COUNT_OF_CALLS];
+
+static void copy(struct rg_message *to, const struct rg_message *from)
+{
+    rg_message_free(to);
+    rg_put(to, from->bytes, from->size);
+}
+
+// What would take its time is made up.
+static bool make_up(enum rg_call call, struct rg_message *reply)
+{
+    struct rg_probe_result results[RG_PROBE_COUNT] = {{.compared = 0}};
+    for (int i = 0; i < RG_PROBE_COUNT; i++)
+        results[i].compared = RG_PROBE_INPUTS;
+    if (call == RG_CALL_PROBE)
+        rg_put_fields(reply, rg_probe_fields, results);
+    else if (call == RG_CALL_AUDIT)
+        rg_put_fields(reply, rg_audit_fields, &(struct rg_timer_audit){.passes = 3, .ratio = 1});
+    else if (call == RG_CALL_CEILINGS)
+        rg_put_fields(reply, rg_ceilings_fields, &(struct rg_ceilings){1, 2, 3});
+    return reply->size > 0;
+}
+
+static bool serve(enum rg_call call, struct rg_message *request, struct rg_message *reply)
+{
+    struct kept *k = &kept[call];
+    struct rg_message asked = {.bytes = request->bytes + request->at,
+                               .size = request->size - request->at};
+    if (!chance(8))
+        rg_info("a line");
+    if (make_up(call, reply) || call == RG_CALL_SESSION_CLOSE) // its session is opened again
+        return true;
+    if (call == RG_CALL_CLOSE)
+        return rg_services[call](request, reply);
+    const bool is_same =
+        k->request.size == asked.size &&
+        (!asked.size || !memcmp(k->request.bytes, asked.bytes, (size_t)asked.size));
+    // A dispatch that came from a lie would run with any parameters, and to open is told each time
+    // how much memory is left.
+    const bool is_any = call == RG_CALL_DISPATCH || call == RG_CALL_SESSION_OPEN;
+    if (k->reply.bytes && (is_same || is_any)) {
+        copy(reply, &k->reply);
+        return true;
+    }
+    copy(&k->request, &asked);
+    rg_message_free(&k->reply);
+    if (!rg_services[call](request, reply))
+        return false;
+    copy(&k->reply, reply);
+    return true;
+}
+
+#define SERVICE(name, service, doing)                                                              \
+    static bool lie_##service(struct rg_message *request, struct rg_message *reply)                \
+    {                                                                                              \
+        return serve(RG_CALL_##name, request, reply);                                              \
+    }
+RG_CALLS(SERVICE)
+#define ROW(name, service, doing) [RG_CALL_##name] = lie_##service,
+static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {RG_CALLS(ROW)};
+
+// --- in the worker: the lie ---
+
+static bool is_liar;
+
+static int64_t odd_number(int64_t size)
+{
+    const int64_t odd[] = {-1,        0,         1,        INT64_C(1) << 60, INT64_MIN, INT64_MAX,
+                           INT32_MAX, INT32_MIN, size + 1, size - 1,         size / 2,  1 << 20};
+    return odd[chance(sizeof(odd) / sizeof(odd[0]))];
+}
+
+static void tamper(struct rg_message *m)
+{
+    const uint32_t size = (uint32_t)m->size;
+    const int64_t number = odd_number(m->size);
+    const uint32_t kind = chance(8), at = size ? chance(size) : 0;
+    if (!size)
+        return;
+    if (kind < 3) // in its first bytes as well, for large blocks lie behind what is said of them
+        for (uint32_t i = 0; i <= chance(4); i++)
+            m->bytes[chance(kind ? size : size < 256 ? size : 256)] = (char)chance(256);
+    else if (kind < 5 && size >= 8)
+        memcpy(m->bytes + (kind == 3 ? at & ~7u : chance(size < 64 ? size : 64)) % (size - 7),
+               &number, 8);
+    else if (kind == 5)
+        m->size = at;
+    else if (kind == 6)
+        rg_put(m, m->bytes, 1 + chance(64) % size);
+    else
+        memset(m->bytes + at, (int)chance(3) - 1, chance(size - at + 1));
+}
+
+bool __real_rg_channel_send(struct rg_channel *channel, const struct rg_message *head,
+                            const struct rg_message *body);
+bool __wrap_rg_channel_send(struct rg_channel *channel, const struct rg_message *head,
+                            const struct rg_message *body);
+
+// The first replies of a worker open its device and its session: they lie less often.
+bool __wrap_rg_channel_send(struct rg_channel *channel, const struct rg_message *head,
+                            const struct rg_message *body)
+{
+    static const struct rg_message nothing;
+    static int sent;
+    struct rg_message whole = {0};
+    if (!is_liar)
+        return __real_rg_channel_send(channel, head, body);
+    copy(&whole, head);
+    rg_put(&whole, body->bytes, body->size);
+    if (chance(8) < (sent++ < 4 ? 1 : 7))
+        tamper(&whole);
+    const bool ok = __real_rg_channel_send(channel, &whole, &nothing);
+    rg_message_free(&whole);
+    return ok;
+}
+
+ssize_t __real_send(int socket, const void *bytes, size_t size, int flags);
+ssize_t __wrap_send(int socket, const void *bytes, size_t size, int flags);
+
+ssize_t __wrap_send(int socket, const void *bytes, size_t size, int flags)
+{
+    char notice[64];
+    if (!is_liar || size > sizeof(notice) || chance(10000))
+        return __real_send(socket, bytes, size, flags);
+    memcpy(notice, bytes, size);
+    notice[chance((uint32_t)size)] = (char)chance(256);
+    const size_t said = chance(4) ? size : 1 + chance((uint32_t)size);
+    const ssize_t sent = __real_send(socket, notice, said, flags);
+    return sent < 0 ? sent : (ssize_t)size;
+}
+
+// --- in the harness ---
+
+static int lines;
+static int damaged, unnamed; // what was said of messages, and without their device
+
+static void hear(enum rg_log_level level, const char *line, void *user)
+{
+    (void)user;
+    lines += level == RG_LOG_ERROR;
+    damaged += strstr(line, "is damaged") != NULL;
+    unnamed += strstr(line, "is damaged") && !strstr(line, "'cpu'");
+}
+
+struct asked {
+    struct rg_device *device;
+    struct rg_session *session;
+    struct rg_digest_run run;
+    struct rg_dispatches dispatches; // that were taken last
+};
+
+static void tell_stage(const char *kernel, double ms, void *user)
+{
+    *(double *)user += ms + (double)strlen(kernel);
+}
+
+static bool ask_device(struct asked *a, uint32_t which)
+{
+    static struct rg_told_list list;
+    static struct rg_told_device told;
+    static struct rg_probe_result results[RG_PROBE_COUNT];
+    struct rg_timer_audit audit = {.passes = 0};
+    struct rg_ceilings ceilings;
+    struct rg_worker *worker = rg_remote_worker(a->device);
+    struct rg_message request = {0};
+    bool ok = false;
+    if (which == 0) {
+        rg_put_text(&request, "cpu");
+        ok = rg_worker_fetch(worker, RG_CALL_OPEN, &request, rg_told_device_fields, &told);
+    } else if (which == 1) {
+        rg_put_int(&request, 0);
+        ok = rg_worker_fetch(worker, RG_CALL_LIST, &request, rg_told_list_fields, &list);
+    } else if (which == 2)
+        ok = rg_worker_fetch(worker, RG_CALL_PROBE, NULL, rg_probe_fields, results);
+    else if (which == 3)
+        ok = rg_worker_fetch(worker, RG_CALL_AUDIT, NULL, rg_audit_fields, &audit);
+    else
+        ok = rg_worker_fetch(worker, RG_CALL_CEILINGS, NULL, rg_ceilings_fields, &ceilings);
+    rg_message_free(&request);
+    return ok;
+}
+
+static bool ask_run(struct asked *a, uint32_t which)
+{
+    struct rg_digests digests = {0};
+    struct rg_contents contents = {0};
+    struct rg_state layout;
+    size_t size;
+    bool ok = false;
+    if (which == 0) {
+        ok = rg_digests_take(&a->run, a->device, &digests);
+        rg_digests_free(&digests);
+    } else if (which == 1) {
+        ok = rg_digests_contents(&a->run, a->device, 0, &contents, &layout);
+        rg_contents_free(&contents);
+    } else if (which == 2) {
+        rg_dispatches_free(&a->dispatches);
+        ok = rg_digests_dispatches(&a->run, a->device, 1, &a->dispatches);
+        if (!ok)
+            rg_dispatches_free(&a->dispatches);
+    } else if (which == 3) {
+        ok = a->dispatches.count == 0 || rg_digests_dispatch(&a->dispatches.rows[0], a->device);
+    } else {
+        void *code = rg_digests_code(a->device, rg_kernel_find("flow_blur"), RG_CODE_OPENCL, &size);
+        ok = code;
+        free(code);
+    }
+    return ok;
+}
+
+static bool ask_session(struct asked *a, uint32_t which)
+{
+    struct rg_session *s = a->session;
+    struct rg_tally tally;
+    struct rg_session_code code;
+    struct rg_account account;
+    struct rg_image_desc desc;
+    struct rg_state layout;
+    char detail[64];
+    double ms = 0;
+    int64_t time_ns;
+    size_t size = 0;
+    int level;
+    void *bytes = NULL;
+    switch (which) {
+    case 0:
+        return rg_session_step(s);
+    case 1:
+        return rg_session_frames(s, 1, &ms);
+    case 2:
+        return rg_session_count(s, &tally);
+    case 3:
+        return rg_session_stages(s, tell_stage, &ms);
+    case 4:
+        return rg_session_time(s, &time_ns);
+    case 5:
+        return rg_session_code(s, &code);
+    case 6:
+        return rg_session_tell(s, &account);
+    case 7:
+        return rg_session_texture(s, "environment", &desc, &level) || !lines;
+    case 8:
+        return rg_session_obeys(s, rg_session_law(s, 0), detail, sizeof(detail)) || !lines;
+    case 9:
+        bytes = rg_session_read(s, &size);
+        break;
+    default:
+        bytes = rg_session_read_state(s, 0, &layout, &size);
+        break;
+    }
+    const bool ok = bytes;
+    free(bytes);
+    return ok;
+}
+
+static void close_all(struct asked *a)
+{
+    rg_session_close(a->session);
+    if (a->device)
+        rg_device_close(a->device);
+    a->session = NULL;
+    a->device = NULL;
+}
+
+// Opens what is not open; a worker that has come to its end is left.
+static bool open_all(struct asked *a, uint64_t run)
+{
+    char seed[32];
+    snprintf(seed, sizeof(seed), "%llu", (unsigned long long)(state ^ run));
+    setenv("RG_TEST_SEED", seed, 1);
+    if (a->session && !rg_session_lives(a->session))
+        close_all(a);
+    if (!a->device)
+        a->device = rg_devices_open_one("cpu");
+    for (int i = 0; a->device && !a->session && i < 8; i++)
+        a->session = rg_session_open(a->device, &a->run.subject);
+    if (!a->session)
+        close_all(a);
+    return a->session;
+}
+
+static bool ask(struct asked *a)
+{
+    const uint32_t which = chance(64);
+    if (which < 10)
+        return ask_device(a, which / 2);
+    if (which < 20)
+        return ask_run(a, which / 2 - 5);
+    if (which == 20) {
+        rg_session_close(a->session);
+        a->session = rg_session_open(a->device, &a->run.subject);
+        return a->session;
+    }
+    return ask_session(a, which % 11);
+}
+
+static int try_all(uint64_t runs)
+{
+    const struct rg_technique *technique = rg_technique_find("flow");
+    void *defaults = rg_settings_create(technique);
+    void *settings = rg_settings_copy(technique, defaults, "environment_px=16 resolution_px=16");
+    struct asked a = {.run = {{technique, settings, 16, 16}, 1}};
+    uint64_t asked = 0, well = 0;
+    bool is_silent = false;
+    while (asked < runs && !is_silent) {
+        if (asked % 1000 == 0)
+            alarm(300);
+        lines = 0;
+        const bool ok = open_all(&a, asked) && ask(&a);
+        asked++;
+        well += ok;
+        is_silent = !ok && !lines;
+    }
+    printf("%llu replies, of which %llu were taken; %d of %d lines name no device\n",
+           (unsigned long long)asked, (unsigned long long)well, unnamed, damaged);
+    if (is_silent)
+        printf("the last was refused without a line\n");
+    close_all(&a);
+    rg_dispatches_free(&a.dispatches);
+    free(settings);
+    free(defaults);
+    // What it logs itself may come as another's error, which names no device.
+    return is_silent || !well || well == asked || unnamed * 20 > damaged;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 3 && !strcmp(argv[1], RG_WORKER_ARGUMENT)) {
+        state = strtoull(getenv("RG_TEST_SEED"), NULL, 10);
+        is_liar = true;
+        return rg_serve(argv[2], services);
+    }
+    if (argc != 5 || strcmp(argv[1], "--runs") != 0 || strcmp(argv[3], "--seed") != 0)
+        return 2;
+    rg_workers.program = "/proc/self/exe";
+    rg_workers.timeout_s = 60;
+    rg_log_listen(hear, NULL);
+    state = strtoull(argv[4], NULL, 10);
+    return try_all(strtoull(argv[2], NULL, 10));
+}
