@@ -34,7 +34,7 @@ struct gl_search {
     bool found;    // at least one has opened
     bool lacks;    // a library of EGL's or OpenGL's is not there
     bool failed;   // what `why` tells is no lack, but a failure
-    bool other;    // a variable asks for another driver than one that opened
+    bool grave;    // that failure counts beside devices that opened, too
     char why[512]; // what the best target's driver refused, a failure before a lack; "": nothing
 };
 

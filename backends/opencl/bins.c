@@ -135,7 +135,8 @@ static bool walk(struct opencl_bins *bins, const struct rg_run *run, cl_int scat
     if (!opencl_check(code, "clSetKernelArg", "kernel", "rg_bins_walk"))
         return false;
     const size_t lanes = (size_t)bins->shape.lanes, one = 1;
-    opencl_will_queue(bins->device);
+    if (!opencl_will_queue(bins->device))
+        return false;
     code = clEnqueueNDRangeKernel(bins->device->queue, bins->walk, 1, NULL, &lanes, &one, 0, NULL,
                                   NULL);
     return opencl_check(code, "clEnqueueNDRangeKernel", "kernel", "rg_bins_walk");
@@ -145,7 +146,8 @@ static bool clear_places(struct opencl_bins *bins)
 {
     const cl_uint zero = 0;
     const size_t words = (size_t)bins->shape.tiles * (size_t)bins->shape.lanes;
-    opencl_will_queue(bins->device);
+    if (!opencl_will_queue(bins->device))
+        return false;
     cl_int code = clEnqueueFillBuffer(bins->device->queue, bins->places.mem, &zero, sizeof(zero), 0,
                                       words * sizeof(zero), 0, NULL, NULL);
     return opencl_check(code, "clEnqueueFillBuffer", "buffer", "bins");
@@ -161,7 +163,8 @@ static bool scan(struct opencl_bins *bins, const struct rg_run *run)
     if (!opencl_check(code, "clSetKernelArg", "kernel", "rg_bins_scan"))
         return false;
     const size_t items = RG_SCAN_ITEMS;
-    opencl_will_queue(bins->device);
+    if (!opencl_will_queue(bins->device))
+        return false;
     code = clEnqueueNDRangeKernel(bins->device->queue, bins->scan, 1, NULL, &items, &items, 0, NULL,
                                   NULL);
     return opencl_check(code, "clEnqueueNDRangeKernel", "kernel", "rg_bins_scan");

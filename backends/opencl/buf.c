@@ -36,8 +36,8 @@ bool opencl_memory_write(const struct opencl_memory *memory, size_t offset, cons
 {
     struct opencl_device *device = memory->device;
     const void *staged = device->queued ? stage(device, data, size) : NULL;
-    if (staged)
-        opencl_will_queue(device);
+    if (staged && !opencl_will_queue(device))
+        return false;
     cl_int code = clEnqueueWriteBuffer(device->queue, memory->mem, staged ? CL_FALSE : CL_TRUE,
                                        offset, size, staged ? staged : data, 0, NULL, NULL);
     if (!opencl_check(code, "clEnqueueWriteBuffer", memory->kind, memory->name))

@@ -54,7 +54,8 @@ static bool shade(cl_kernel kernel, const struct rg_kernel *info, const struct o
     const size_t a_side = RG_TILE_PX / (size_t)bins->shape.block_px, blocks = a_side * a_side;
     const size_t local = blocks == 1 ? TILES_A_GROUP_CPU : blocks;
     const size_t items = ((size_t)bins->shape.tiles * blocks + local - 1) / local * local;
-    opencl_will_queue(bins->device);
+    if (!opencl_will_queue(bins->device))
+        return false;
     return opencl_check(
         clEnqueueNDRangeKernel(bins->device->queue, kernel, 1, NULL, &items, &local, 0, NULL, NULL),
         "clEnqueueNDRangeKernel", "kernel", info->name);

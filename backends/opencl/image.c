@@ -63,7 +63,8 @@ bool opencl_image_clear(struct rg_image *image, const void *texel)
 {
     struct opencl_image *opencl = (struct opencl_image *)image;
     struct opencl_device *device = opencl->memory.device;
-    opencl_will_queue(device);
+    if (!opencl_will_queue(device))
+        return false;
     cl_int code = clEnqueueFillBuffer(
         device->queue, opencl->memory.mem, texel, (size_t)rg_format_size(image->desc.format),
         sizeof(opencl->header), (size_t)opencl->words * sizeof(cl_uint) - sizeof(opencl->header), 0,

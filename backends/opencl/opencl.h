@@ -96,7 +96,7 @@ int opencl_version(const char *version); // 30 of "OpenCL 3.0 PoCL 3.1"
 
 // api/queue.c
 // Call before each command that is queued without waiting for it.
-void opencl_will_queue(struct opencl_device *device);
+bool opencl_will_queue(struct opencl_device *device);
 // Call when the queue is known to have ended.
 void opencl_ended(struct opencl_device *device);
 

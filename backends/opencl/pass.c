@@ -90,7 +90,8 @@ static bool enqueue(struct opencl_pass *pass, const struct rg_run *run)
     const size_t local[3] = {(size_t)device->pub.info.limits.group_items, 1, 1};
     const size_t global[3] = {(size_t)whole_groups(device, run->extent.width),
                               (size_t)run->extent.height, (size_t)run->extent.depth};
-    opencl_will_queue(device);
+    if (!opencl_will_queue(device))
+        return false;
     return opencl_check(clEnqueueNDRangeKernel(device->queue, pass->variants[0], 3, NULL, global,
                                                local, 0, NULL, NULL),
                         "clEnqueueNDRangeKernel", "kernel", name);

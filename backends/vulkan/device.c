@@ -16,7 +16,10 @@ static int vk_list(struct rg_device_info *infos, int max, char *why, size_t why_
         count = vk_physical_devices(&instance, devices, max < RG_MAX_DEVICES ? max : RG_MAX_DEVICES,
                                     why, why_size);
     for (int i = 0; i < count; i++)
-        vk_describe(devices[i], i, &infos[i]);
+        if (!vk_describe(devices[i], i, &infos[i], why, why_size)) {
+            instance.result = VK_ERROR_UNKNOWN;
+            count = 0;
+        }
     count = vk_judge(&instance, count, why, why_size); // while the drivers are still loaded
     vk_instance_close(&instance);
     return count;
@@ -38,7 +41,8 @@ static bool choose_physical(struct vk_device *device, int index)
     if (index >= count)
         return rg_driver_error("device 'vulkan:%d': it is gone; %d are left", index, count);
     device->physical = devices[index];
-    vk_describe(device->physical, index, &device->pub.info);
+    if (!vk_describe(device->physical, index, &device->pub.info, why, sizeof(why)))
+        return rg_driver_error("device '%s': %s", device->pub.info.name, why);
     VkPhysicalDeviceMaintenance3Properties allocation = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
     VkPhysicalDeviceProperties2 properties = {
@@ -113,8 +117,10 @@ static bool create_shared_objects(struct vk_device *device)
 static bool vk_destroy(struct rg_device *device)
 {
     struct vk_device *vk = (struct vk_device *)device;
+    bool is_idle = true;
     if (vk->handle) {
-        vkDeviceWaitIdle(vk->handle);
+        is_idle =
+            vk_check(vkDeviceWaitIdle(vk->handle), "vkDeviceWaitIdle", "device", device->info.name);
         vk_draw_close(vk);
         vk_batches_destroy(vk);
         vkDestroyQueryPool(vk->handle, vk->timestamp, NULL);
@@ -123,7 +129,7 @@ static bool vk_destroy(struct rg_device *device)
     }
     vk_instance_close(&vk->instance);
     free(vk);
-    return true;
+    return is_idle;
 }
 
 static struct rg_device *vk_create(int index)

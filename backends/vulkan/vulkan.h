@@ -152,11 +152,14 @@ extern const struct rg_manifest_rules vk_manifests;
 int vk_judge(const struct vk_instance *instance, int count, char *why, size_t why_size);
 // The first family that computes and draws, else the first that computes. False: there is none.
 bool vk_queue_family(VkPhysicalDevice device, struct vk_family *family);
-void vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info);
+// False, and `why`, where the driver does not tell what its images can be.
+bool vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info, char *why,
+                 size_t why_size);
 
 // api/limits.c
 struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *family,
-                           const VkPhysicalDeviceLimits *limits, uint64_t max_allocation_bytes);
+                           const VkPhysicalDeviceLimits *limits, uint64_t max_allocation_bytes,
+                           VkResult *result);
 
 // api/error.c
 const char *vk_result_name(VkResult result);

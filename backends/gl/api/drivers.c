@@ -107,7 +107,7 @@ const struct rg_manifest_rules gl_manifests = {
 int gl_judge(const struct gl_search *search, int count, char *why, size_t why_size)
 {
     snprintf(why, why_size, "%s", search->why);
-    if (search->other)
+    if (search->grave)
         return -1;
     if (!count && search->lacks)
         return 0;

@@ -61,6 +61,13 @@ __attribute__((format(printf, 2, 3))) static bool fail(struct gl_search *search,
     return false;
 }
 
+// The same where it counts, though devices may open.
+static void fail_gravely(struct gl_search *search, const char *call)
+{
+    fail(search, "%s failed with %s", call, error_name(eglGetError()));
+    search->grave = true;
+}
+
 // --- targets ---
 
 // Mesa warns on stderr of devices that it cannot open: kept quiet, since the search goes on to the
@@ -109,6 +116,8 @@ static void add_devices(struct gl_search *search, EGLDeviceEXT *devices, int cou
 {
     for (int i = 0; i < count && search->count < GL_MAX_TARGETS; i++) {
         const char *extensions = eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS);
+        if (!extensions)
+            fail_gravely(search, "no EGL devices: eglQueryDeviceString");
         bool is_software = extensions && strstr(extensions, "EGL_MESA_device_software");
         if (is_software == software)
             search->targets[search->count++] =
@@ -125,7 +134,7 @@ static void add_targets(struct gl_search *search)
                   has_client_extension("EGL_EXT_device_query"))) &&
         has_client_extension("EGL_EXT_platform_device") &&
         !eglQueryDevicesEXT(GL_MAX_TARGETS - 1, devices, &count)) {
-        fail(search, "no EGL devices: eglQueryDevices failed with %s", error_name(eglGetError()));
+        fail_gravely(search, "no EGL devices: eglQueryDevices");
         count = 0;
     }
     if (!software_is_forced())
@@ -144,7 +153,12 @@ void gl_search_begin(struct gl_search *search)
     if (!can_load(search, "EGL", "libEGL.so.1", "libegl1") || !can_load_opengl(search))
         return;
     rg_manifests_begin(&gl_manifests);
-    if (!has_client_extension("EGL_EXT_platform_base"))
+    // Without extensions of its own EGL calls this a wrong display.
+    const char *listed = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    const EGLint code = listed ? EGL_SUCCESS : eglGetError();
+    if (code != EGL_SUCCESS && code != EGL_BAD_DISPLAY)
+        fail(search, "no EGL driver: eglQueryString failed with %s", error_name(code));
+    else if (!has_client_extension("EGL_EXT_platform_base"))
         refuse(search, "no EGL driver: EGL lists no platforms");
     else
         add_targets(search);
@@ -238,7 +252,7 @@ static bool open_target(struct gl_search *search, const struct gl_target *target
     char why[256];
     if (!ok || gl_is_driver_asked(egl, why, sizeof(why)))
         return ok;
-    search->other = true;
+    search->grave = true;
     gl_egl_close(egl);
     return fail(search, "%s", why);
 }

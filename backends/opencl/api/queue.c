@@ -8,11 +8,12 @@ enum { COMMANDS_A_FLUSH = 16 };
 
 // Flushes before a command, never after it: rusticl's clFinish (Mesa 22.3.6) does not wait for what
 // was flushed when nothing came after.
-void opencl_will_queue(struct opencl_device *device)
+bool opencl_will_queue(struct opencl_device *device)
 {
-    if (device->queued && device->queued % COMMANDS_A_FLUSH == 0)
-        clFlush(device->queue);
+    const bool is_due = device->queued && device->queued % COMMANDS_A_FLUSH == 0;
     device->queued++;
+    return !is_due ||
+           opencl_check(clFlush(device->queue), "clFlush", "device", device->pub.info.name);
 }
 
 void opencl_ended(struct opencl_device *device)

@@ -99,10 +99,8 @@ static void blame_pocl(struct opencl_search *search)
         fail(search, "no OpenCL device: PoCL tells of none, though each machine has one");
 }
 
-static void blame_platform(struct opencl_search *search, cl_platform_id platform, cl_int code)
+static void blame_platform(struct opencl_search *search, const char *name, cl_int code)
 {
-    char name[OPENCL_TEXT];
-    opencl_platform_text(platform, CL_PLATFORM_NAME, name);
     if (code != CL_DEVICE_NOT_FOUND)
         fail(search, "no OpenCL device: clGetDeviceIDs failed with %s on %.60s",
              opencl_error_name(code), name);
@@ -120,9 +118,14 @@ static int find_on_platform(struct opencl_search *search, cl_platform_id platfor
     cl_device_id all[RG_MAX_DEVICES];
     cl_uint found = 0;
     char name[OPENCL_TEXT];
-    cl_int code = clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, RG_MAX_DEVICES, all, &found);
+    cl_int code = clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof(name), name, NULL);
+    if (code != CL_SUCCESS) {
+        fail(search, "no OpenCL device: clGetPlatformInfo failed with %s", opencl_error_name(code));
+        return count;
+    }
+    code = clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, RG_MAX_DEVICES, all, &found);
     if (code != CL_SUCCESS)
-        blame_platform(search, platform, code);
+        blame_platform(search, name, code);
     for (int i = 0; code == CL_SUCCESS && i < (int)found && i < RG_MAX_DEVICES && count < max;
          i++) {
         const cl_int told = clGetDeviceInfo(all[i], CL_DEVICE_NAME, sizeof(name), name, NULL);

@@ -107,10 +107,11 @@ bool vk_instance_open(struct vk_instance *instance, bool validate, char *why, si
         return false;
     }
     PFN_vkCreateDebugUtilsMessengerEXT create =
-        (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(instance->handle,
-                                                                  "vkCreateDebugUtilsMessengerEXT");
+        validate ? (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
+                       instance->handle, "vkCreateDebugUtilsMessengerEXT")
+                 : NULL;
     const VkDebugUtilsMessengerCreateInfoEXT info = messenger_info(instance);
-    if (validate && create)
+    if (create)
         create(instance->handle, &info, NULL, &instance->messenger);
     return true;
 }
@@ -180,8 +181,10 @@ int vk_physical_devices(struct vk_instance *instance, VkPhysicalDevice *devices,
     return count;
 }
 
-void vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info)
+bool vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info, char *why,
+                 size_t why_size)
 {
+    VkResult result = VK_SUCCESS;
     VkPhysicalDeviceDriverProperties driver = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceMaintenance3Properties allocation = {
@@ -206,5 +209,11 @@ void vk_describe(VkPhysicalDevice device, int index, struct rg_device_info *info
     info->tier = info->software ? RG_T0 : RG_T1;
     struct vk_family family = {0};
     vk_queue_family(device, &family);
-    info->limits = vk_limits(device, &family, &p->limits, allocation.maxMemoryAllocationSize);
+    info->limits =
+        vk_limits(device, &family, &p->limits, allocation.maxMemoryAllocationSize, &result);
+    if (result < 0)
+        snprintf(why, why_size,
+                 "no Vulkan device: vkGetPhysicalDeviceImageFormatProperties failed with %s",
+                 vk_result_name(result));
+    return result >= 0;
 }

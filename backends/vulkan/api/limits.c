@@ -35,15 +35,20 @@ static unsigned uses_of(VkPhysicalDevice device, enum rg_format format, bool dra
     return uses;
 }
 
-// A driver may allow less for a format than for images in general.
+// A driver may allow less for a format than for images in general. `*result` keeps an error.
 static struct rg_format_limits format_limits(VkPhysicalDevice device, enum rg_format format,
-                                             bool draws)
+                                             bool draws, VkResult *result)
 {
     const unsigned uses = uses_of(device, format, draws);
     VkImageFormatProperties most;
-    if (!uses || vkGetPhysicalDeviceImageFormatProperties(
-                     device, vk_format(format), VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL,
-                     vk_usage(format, uses), 0, &most) != VK_SUCCESS)
+    VkResult found = VK_ERROR_FORMAT_NOT_SUPPORTED;
+    if (uses)
+        found = vkGetPhysicalDeviceImageFormatProperties(device, vk_format(format),
+                                                         VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL,
+                                                         vk_usage(format, uses), 0, &most);
+    if (found < 0 && found != VK_ERROR_FORMAT_NOT_SUPPORTED)
+        *result = found;
+    if (found != VK_SUCCESS)
         return (struct rg_format_limits){0};
     const uint32_t side =
         most.maxExtent.width < most.maxExtent.height ? most.maxExtent.width : most.maxExtent.height;
@@ -82,7 +87,8 @@ static bool counts_exactly(VkPhysicalDevice device)
 }
 
 struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *family,
-                           const VkPhysicalDeviceLimits *l, uint64_t max_allocation_bytes)
+                           const VkPhysicalDeviceLimits *l, uint64_t max_allocation_bytes,
+                           VkResult *result)
 {
     const uint64_t max_bytes = l->maxStorageBufferRange < max_allocation_bytes
                                    ? l->maxStorageBufferRange
@@ -104,7 +110,7 @@ struct rg_limits vk_limits(VkPhysicalDevice device, const struct vk_family *fami
     for (int i = 0; i < 3; i++)
         limits.max_groups[i] = at_most_int(l->maxComputeWorkGroupCount[i]);
     for (int f = RG_FORMAT_NONE + 1; f < RG_FORMAT_COUNT; f++)
-        limits.formats[f] = format_limits(device, (enum rg_format)f, family->draws);
+        limits.formats[f] = format_limits(device, (enum rg_format)f, family->draws, result);
     limits.has_queries = family->draws && counts_exactly(device);
     say_no_draws(device, l, family->draws, limits.no_draws, sizeof(limits.no_draws));
     return limits;

@@ -7,7 +7,7 @@ import shlex
 import tempfile
 
 SMALL = "--size 16x16 --frame 1"
-CELL = "raster/dot raster 16x16 1 scene=billboards billboards=20\n"
+CELL = "raster/torus raster 64x48 2 scene=mesh model=torus faces=300\n"
 # What each command is asked for of one device.
 COMMANDS = {
     "list": "list devices",

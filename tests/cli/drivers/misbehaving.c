@@ -1,11 +1,11 @@
 // A driver that misbehaves, for each API: one function of it aborts, faults, ends the process,
 // hangs, takes memory without end, or reports that the device is lost or has no room for work.
 //
-// RG_MISBEHAVE=FUNCTION:HOW:CALLS names which function does so, how (abort, fault, exit, hang,
-// swell, lost, none), and how many calls go well before. RG_HANGS=FILE has a file made when it
-// hangs. All else goes to the real driver. For Vulkan this library is a driver of its own in front
-// of lavapipe, which the loader finds by a manifest (VK_DRIVER_FILES), and may change a constant of
-// a shader; for EGL, OpenGL and OpenCL it is loaded before others (LD_PRELOAD).
+// RG_MISBEHAVE=FUNCTION:HOW:CALLS names which function does so, how (a way of ways.h, lost or
+// none), and how many calls go well before. All else goes to the real driver. For Vulkan this
+// library is a driver of its own in front of lavapipe, which the loader finds by a manifest
+// (VK_DRIVER_FILES), and may change a constant of a shader; for EGL, OpenGL and OpenCL it is loaded
+// before others (LD_PRELOAD). faults.c has any function fail, and none of a driver's own.
 #define _GNU_SOURCE // RTLD_NEXT, dlvsym
 #include <dlfcn.h>
 #include <stdbool.h>
@@ -13,8 +13,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -24,34 +22,9 @@
 #include <vulkan/vk_icd.h>
 #include <vulkan/vulkan.h>
 
+#include "tests/cli/drivers/ways.h"
+
 // --- misbehaving ---
-
-static void swell(void)
-{
-    for (;;) {
-        char *more =
-            mmap(NULL, 8 << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-        if (more != MAP_FAILED)
-            memset(more, 1, 8 << 20);
-        usleep(500);
-    }
-}
-
-static void fault(void)
-{
-    volatile int *volatile nowhere = NULL;
-    *nowhere = 1;
-}
-
-static void hang(void)
-{
-    const char *path = getenv("RG_HANGS");
-    FILE *file = path ? fopen(path, "w") : NULL;
-    if (file)
-        fclose(file);
-    for (;;)
-        pause();
-}
 
 // Whether this call is to report that the device is lost; it does not come back where it ends
 // otherwise.
@@ -64,16 +37,7 @@ static bool misbehaves(const char *function)
     if (!asked || sscanf(asked, "%63[^:]:%15[^:]:%d", name, how, &after) != 3 ||
         strcmp(name, function) != 0 || calls++ < after)
         return false;
-    if (!strcmp(how, "abort"))
-        abort();
-    if (!strcmp(how, "fault"))
-        fault();
-    if (!strcmp(how, "exit"))
-        _exit(0);
-    if (!strcmp(how, "swell"))
-        swell();
-    if (!strcmp(how, "hang"))
-        hang();
+    end_as(how);
     return true;
 }
 

@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+"""A table of faults: each function of a driver that a command reaches fails in each way, and no command ends as if all were well.
+
+    faults.py RAINGAUGE FAULTS_LIBRARY FUNCTIONS [--sample N] [--seed N] [--api A] [--command C] [--how H] [--function PATTERN] [--at-once N]
+
+A fault is a function, a way (faults.c) and a command that asks for one device. Which functions a command reaches is found by running it well,
+so that a function that is never called is in no count. Left out are two kinds of pairs that mean nothing: the error of a Vulkan function that
+returns nothing, and an error or a loss of functions that only give something back (vkDestroy..., vkFree..., glDelete..., clRelease...,
+eglDestroyContext, eglTerminate), after which a command asks nothing more of the device. Prints what ended with 0, in another way than with
+status 1, or with more than a few lines; which faults doctor does not find that another command finds; and the counts.
+"""
+import argparse
+import concurrent.futures
+import collections
+import os
+import random
+import re
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from runner import CHANGES
+
+CELL = "raster/torus raster 64x48 2 scene=mesh model=torus faces=300\n"
+SMALL = "--size 32x32"
+COMMANDS = {
+    "doctor": "doctor --device {api}",
+    "list": "list devices",
+    "render": "render flow --frame 2 --set environment_px=64 --set resolution_px=32 %s --device {api} -o {tmp}/a.png" % SMALL,
+    "diff": "diff raster --frame 1 %s --device cpu,{api}" % SMALL,
+    "verify": "verify raster --stages --frame 1 %s --device {api}" % SMALL,
+    "gate": "gate cpu {api} --pictures --cells {tmp}/cells.txt",
+    "table": "table stuppacher-2 --work paper --rows 1-1 --quick --device {api}",
+    "sweep": "sweep raster --axis billboards=20000 --quick %s --device {api}" % SMALL,
+    "baseline": "baseline --pictures --cells {tmp}/cells.txt --device {api} -o {tmp}/baseline.json",
+}
+WAYS = ("error", "abort", "exit", "hang", "lost", "swell")
+PREFIX = {"vulkan": "vk", "gl": ("gl", "egl"), "opencl": "cl"}
+GIVES_BACK = re.compile("vkDestroy|vkFree|glDelete|clRelease|eglDestroyContext|eglTerminate")
+HANG_S = 3  # after which one that hangs is given up
+PAIRS_OF_A_SAMPLE = 6  # of an API and a command, for each of which the command is run well first
+
+Fault = collections.namedtuple("Fault", "api function how command")
+
+
+class Faults:
+    def __init__(self, raingauge, library, functions):
+        self.raingauge, self.library = map(os.path.abspath, (raingauge, library))
+        with open(functions) as file:
+            rows = re.findall(r"FUNCTION\(\d+, (\w+), (\w+), \d+\)", file.read())
+        self.kinds = dict(rows)
+
+    def run(self, command, api, **more):
+        """A command of a device under the library; its status, and what it said."""
+        env = {name: value for name, value in os.environ.items() if not CHANGES.match(name)}
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "cells.txt"), "w") as file:
+                file.write(CELL)
+            env.update(GOMP_SPINCOUNT="0", RG_LONG_S="1e9", XDG_STATE_HOME=folder, LD_PRELOAD=self.library, **more)
+            hangs = ":hang:" in env.get("RG_FAULT", "")
+            args = COMMANDS[command].format(api=api, tmp=folder).split() + ["--timeout", str(HANG_S) if hangs else "100", "--memory", "1GiB"]
+            result = subprocess.run([self.raingauge] + args, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                    encoding="utf-8", errors="replace", timeout=600)
+        return result.returncode, [line for line in result.stderr.splitlines() if not line.startswith("plan: ")]
+
+    def reached(self, command, api):
+        """The functions of an API that a command calls where all goes well."""
+        with tempfile.NamedTemporaryFile("r") as file:
+            status, lines = self.run(command, api, RG_REACHED=file.name)
+            if status:
+                raise SystemExit("%s of %s fails by itself, with status %d: %s" % (command, api, status, lines))
+            return sorted({name for name in file.read().split() if name.startswith(PREFIX[api])})
+
+    def means_something(self, function, how):
+        return not (how in ("error", "lost") and GIVES_BACK.match(function)) and not (how == "error" and self.kinds[function] == "VK_NOTHING")
+
+    def all(self, pairs, at_once):
+        """Every fault that means something, of pairs of an API and a command."""
+        with concurrent.futures.ThreadPoolExecutor(at_once) as pool:
+            reached = list(pool.map(lambda pair: self.reached(pair[1], pair[0]), pairs))
+        return [Fault(api, function, how, command) for (api, command), functions in zip(pairs, reached)
+                for function in functions for how in WAYS if self.means_something(function, how)]
+
+    def end(self, fault):
+        return self.run(fault.command, fault.api, RG_FAULT="%s:%s:0" % (fault.function, fault.how))
+
+
+def try_all(faults, asked, at_once):
+    """How each ends. Those that hang wait, so that more of them go on at once."""
+    ends, problems = {}, []
+    with concurrent.futures.ThreadPoolExecutor(at_once) as pool, concurrent.futures.ThreadPoolExecutor(3 * at_once) as waiting:
+        started = {(waiting if fault.how == "hang" else pool).submit(faults.end, fault): fault for fault in asked}
+        for done in concurrent.futures.as_completed(started):
+            fault, (status, lines) = started[done], done.result()
+            ends[fault] = status
+            if status != 1 or not lines or len(lines) > 4:
+                problems.append("%s %s in %s: status %d, %d lines: %s" % (fault.function, fault.how, fault.command, status, len(lines), lines[:2]))
+                print(problems[-1], flush=True)
+            if len(ends) % 100 == 0:
+                print("%d of %d tried, %d amiss" % (len(ends), len(asked), len(problems)), flush=True)
+    return ends, problems
+
+
+def missed_by_doctor(ends):
+    """Faults (a function and a way) that another command finds and doctor does not, and how many it was asked about."""
+    found = {(fault.function, fault.how) for fault, status in ends.items() if status and fault.command != "doctor"}
+    found_there = {(fault.function, fault.how) for fault, status in ends.items() if status and fault.command == "doctor"}
+    return sorted(found - found_there), len(found)
+
+
+def print_counts(ends):
+    for title, key in (("API", "api"), ("way", "how"), ("command", "command")):
+        counts = collections.Counter((getattr(fault, key), status) for fault, status in ends.items())
+        print("%s: %s" % (title, ", ".join("%s: %d ended with %d" % (name, count, status) for (name, status), count in sorted(counts.items()))))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    for name in ("raingauge", "library", "functions"):
+        parser.add_argument(name)
+    parser.add_argument("--sample", type=int, default=0)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--at-once", type=int, default=2)
+    parser.add_argument("--api", action="append", choices=PREFIX)
+    parser.add_argument("--command", action="append", choices=COMMANDS)
+    parser.add_argument("--how", action="append", choices=WAYS)
+    parser.add_argument("--function", default="")
+    options = parser.parse_args()
+    faults = Faults(options.raingauge, options.library, options.functions)
+    pairs = [(api, command) for api in options.api or PREFIX for command in options.command or COMMANDS]
+    chance = random.Random(options.seed)
+    if options.sample:
+        pairs = chance.sample(pairs, min(PAIRS_OF_A_SAMPLE, len(pairs)))
+    asked = [fault for fault in faults.all(pairs, options.at_once)
+             if (not options.how or fault.how in options.how) and re.search(options.function, fault.function)]
+    if options.sample:
+        asked = chance.sample(asked, min(options.sample, len(asked)))
+    print("seed %d, %d faults of %s" % (options.seed, len(asked), ", ".join("%s %s" % pair for pair in pairs)), flush=True)
+    ends, problems = try_all(faults, asked, options.at_once)
+    print_counts(ends)
+    complete = not options.sample and not options.command
+    missed, found = missed_by_doctor(ends)
+    if complete:
+        print("doctor finds %d of %d faults that others find; not %s" % (found - len(missed), found, missed))
+        if len(missed) > 0.05 * found:
+            problems.append("doctor misses more than 5 %")
+    print("%d faults tried, %d ended amiss" % (len(ends), len(problems)))
+    return 1 if problems or not ends else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
