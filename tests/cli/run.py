@@ -23,6 +23,7 @@
            ci       gates as CI services and runners of googletest run them
            bisects  the first of several drivers that is bad
            shells   what a bisect hands to shells
+           acts     what a file from elsewhere may have raingauge do
            shrinking  a driver that miscompiles: blamed, and shrunk to a case
            wrong    a driver that draws wrongly is found
            doctor   the report about this machine
@@ -40,6 +41,7 @@ sys.dont_write_bytecode = True  # the sources' folder stays as it is
 for room in ("devices", "drivers", "printed"):
     sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), room))
 
+import acts
 import atlases
 import baselines
 import bisecting
@@ -86,6 +88,7 @@ SUITES = {
     "reports": lambda runner: runner.check_all(reports.CHECKS),
     "ci": lambda runner: runner.check_all(ci.CHECKS),
     "bisects": lambda runner: runner.check_all(bisecting.CHECKS + shells.CHECKS),
+    "acts": lambda runner: runner.check_all(acts.CHECKS),
     "shells": lambda runner: runner.check_all(shells.THOROUGH),
     "shrinking": lambda runner: runner.check_all(shrinking.CHECKS),
     "wrong": lambda runner: runner.check_all(wrong.CHECKS),

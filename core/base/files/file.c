@@ -13,20 +13,22 @@
 
 #define SMALL_BYTES (1 << 18)
 
-static const char *judge(int fd)
+static const char *judge(const struct stat *st)
 {
-    struct stat st;
-    if (fd < 0 || fstat(fd, &st)) // a socket cannot even be opened
-        return errno == ENXIO ? "is not a regular file" : strerror(errno);
-    return S_ISREG(st.st_mode)   ? NULL
-           : S_ISDIR(st.st_mode) ? "is a folder"
-                                 : "is not a regular file";
+    return S_ISREG(st->st_mode)   ? NULL
+           : S_ISDIR(st->st_mode) ? "is a folder"
+                                  : "is not a regular file";
 }
 
-// Opens a descriptor of a regular file, and closes all else.
-static FILE *stream(int fd, const char *mode, const char **why)
+// Opens a regular file. All else is not even opened, for some devices act as soon as they are; what
+// took its place meanwhile is closed again.
+static FILE *stream(const char *path, int flags, const char *mode, const char **why)
 {
-    *why = judge(fd);
+    struct stat st;
+    *why = stat(path, &st) ? NULL : judge(&st);
+    const int fd = *why ? -1 : open(path, flags | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666);
+    if (!*why)
+        *why = fd < 0 || fstat(fd, &st) ? strerror(errno) : judge(&st);
     FILE *file = *why ? NULL : fdopen(fd, mode);
     if (!file && !*why)
         *why = strerror(errno);
@@ -37,7 +39,7 @@ static FILE *stream(int fd, const char *mode, const char **why)
 
 FILE *rg_file_open(const char *path, const char **why)
 {
-    return stream(open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC), "rb", why);
+    return stream(path, O_RDONLY, "rb", why);
 }
 
 FILE *rg_file_open_small(const char *path, const char **why)
@@ -55,8 +57,7 @@ FILE *rg_file_open_small(const char *path, const char **why)
 
 FILE *rg_file_append(const char *path, const char **why)
 {
-    const int flags = O_WRONLY | O_APPEND | O_CREAT | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
-    return stream(open(path, flags, 0666), "a", why);
+    return stream(path, O_WRONLY | O_APPEND | O_CREAT, "a", why);
 }
 
 static bool lead_to_one(const char *a, const char *b)

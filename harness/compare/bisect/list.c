@@ -6,15 +6,16 @@
 #include "core/base/alloc.h"
 #include "core/base/array.h"
 #include "core/base/log.h"
+#include "core/base/text/plain.h"
 
 enum { MOST_BYTES = 1 << 16 }; // half of what the system takes for a variable
 
 bool rg_candidates_add(const char *name, struct rg_candidates *candidates)
 {
     for (const char *c = name; *c; c++)
-        if ((unsigned char)*c < ' ' || *c == 127)
+        if (rg_control_at(c) >= 0)
             return rg_error("bisect: a candidate has a control character 0x%02x; rename it",
-                            (unsigned char)*c);
+                            (unsigned)rg_control_at(c));
     if (!*name)
         return rg_error("bisect: a candidate has no name; leave it out");
     if (strlen(name) > MOST_BYTES)

@@ -25,7 +25,11 @@ struct memory_file {
 static unsigned char *read_whole(const char *path, size_t *size)
 {
     struct stat st;
-    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); // a FIFO would block
+    if (!stat(path, &st) && !S_ISREG(st.st_mode)) { // some devices act as soon as they are opened
+        errno = EFBIG;
+        return NULL;
+    }
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); // what took its place may block
     if (fd < 0)
         return NULL;
     unsigned char *bytes = NULL;
@@ -104,12 +108,23 @@ static bool has_buffer(const struct import *import, const char *path)
     return false;
 }
 
-// A file beside the mesh's, which Assimp will ask for by this path.
+// Whether a name leads out of the folder that it is looked for in.
+static bool leads_out(const char *name, size_t length)
+{
+    for (size_t at = 0; at < length; at++)
+        if ((at == 0 || name[at - 1] == '/') && !strncmp(name + at, "..", 2) &&
+            (at + 2 == length || name[at + 2] == '/'))
+            return true;
+    return name[0] == '/';
+}
+
+// A file in the mesh's folder or below, which Assimp will ask for by this path: a mesh that comes
+// from elsewhere opens nothing else.
 static void read_buffer(struct import *import, const char *name, size_t length)
 {
     const char *slash = strrchr(import->name, '/');
     const size_t folder = slash ? (size_t)(slash - import->name) + 1 : 0;
-    char *path = malloc(folder + length + 1);
+    char *path = leads_out(name, length) ? NULL : malloc(folder + length + 1);
     if (!path)
         return;
     memcpy(path, import->name, folder);

@@ -7,6 +7,7 @@
 
 #include "core/base/array.h"
 #include "core/base/log.h"
+#include "harness/compare/gate/text/shell.h"
 #include "harness/devices/names.h"
 
 // --- rows and devices ---
@@ -50,13 +51,18 @@ void rg_baseline_free(struct rg_baseline *baseline)
 
 // --- whether it is of these cells ---
 
-bool rg_baseline_asks(const char *devices, const char *device)
+static bool is_named_by(const char *devices, const char *device)
 {
     struct rg_device_name name;
-    bool asks = !devices || !strcmp(devices, "all");
-    while (!asks && devices && *devices && rg_device_name_read(&devices, &name))
-        asks = !strcmp(name.name, device);
-    return asks;
+    while (devices && *devices && rg_device_name_read(&devices, &name))
+        if (!strcmp(name.name, device))
+            return true;
+    return false;
+}
+
+bool rg_baseline_asks(const char *devices, const char *device)
+{
+    return !devices || !strcmp(devices, "all") || is_named_by(devices, device);
 }
 
 static bool has_devices(const struct rg_baseline *baseline, const char *path, const char *devices)
@@ -69,6 +75,42 @@ static bool has_devices(const struct rg_baseline *baseline, const char *path, co
             return rg_error("--device %s: %s has no such device; add it with `raingauge baseline "
                             "--update`",
                             name.name, path);
+    }
+    return true;
+}
+
+// Names the option, which has all devices of the baseline as a shell takes them.
+static bool refuse_variables(const struct rg_baseline *baseline, const char *path, const char *name)
+{
+    enum { MOST_TOLD = 500 }; // so that the line is not cut in quotes
+    char *names = NULL, *word = NULL;
+    size_t size;
+    FILE *out = open_memstream(&names, &size);
+    for (int i = 0; out && i < baseline->device_count; i++)
+        fprintf(out, "%s%s", i ? "," : "", baseline->devices[i].name);
+    bool ok = out && !fclose(out) && (out = open_memstream(&word, &size));
+    if (ok)
+        rg_shell_word(out, names, strlen(names));
+    ok = ok && !fclose(out);
+    if (ok)
+        rg_error("%s: its device '%s' sets variables, which may start programs and drivers, so "
+                 "that the command line has to name it; add --device %s",
+                 path, name, strlen(word) < MOST_TOLD ? word : "with all that are to run");
+    else
+        rg_error("%s: no memory for its devices; close other programs", path);
+    free(names);
+    free(word);
+    return false;
+}
+
+// A file alone sets no variable: neither starts it a program, nor chooses drivers and libraries.
+static bool sets_no_variables(const struct rg_baseline *baseline, const char *path,
+                              const char *devices)
+{
+    for (int i = 0; i < baseline->device_count; i++) {
+        const char *name = baseline->devices[i].name;
+        if (strchr(name, '@') && rg_baseline_asks(devices, name) && !is_named_by(devices, name))
+            return refuse_variables(baseline, path, name);
     }
     return true;
 }
@@ -107,7 +149,8 @@ bool rg_baseline_fits(const struct rg_baseline *baseline, const char *path,
                       const struct rg_gate_cells *cells, const char *cells_name,
                       const char *devices)
 {
-    if (!has_devices(baseline, path, devices) || !has_its_cells(baseline, path, cells, cells_name))
+    if (!has_devices(baseline, path, devices) || !sets_no_variables(baseline, path, devices) ||
+        !has_its_cells(baseline, path, cells, cells_name))
         return false;
     for (int64_t i = 0; i < cells->count; i++)
         for (int d = 0; d < baseline->device_count; d++)

@@ -72,7 +72,8 @@ bool rg_baseline_write(const struct rg_baseline *baseline, const char *path);
 
 // Whether its cells and those at hand are the same, of those devices that `devices` names (names
 // with commas; NULL or "all": all). Else one line is logged, which names both files: `cells_name`
-// is what the cells at hand are called.
+// is what the cells at hand are called. So is one where it would run a device with variables (an
+// '@') that `devices` does not name.
 bool rg_baseline_fits(const struct rg_baseline *baseline, const char *path,
                       const struct rg_gate_cells *cells, const char *cells_name,
                       const char *devices);

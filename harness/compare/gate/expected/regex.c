@@ -13,15 +13,19 @@
 // The C library writes counted repetitions out, takes memory for each pair of what may be left out,
 // and goes into groups by recursion: a few bytes could take all of it.
 enum { MOST_BYTES = 4096, MOST_ATOMS = 4096, MOST_DEPTH = 250 };
+// A search takes time with the square of its repetitions and more: with 3,600 of them ten seconds a
+// name, with 100 a fifth of a second.
+enum { MOST_REPETITIONS = 100 };
 
 struct translation {
     const char *place;
-    const char *at;               // what comes next
-    char *to;                     // where it goes to: at most 6 bytes for each of the text's
-    bool is_repeated;             // what stands last is a repetition, which a ? would make lazy
-    int depth;                    // of the group that it is in
-    double atoms[MOST_DEPTH + 1]; // of each group around, with counts written out
-    double last;                  // those of what stands last
+    const char *at;   // what comes next
+    char *to;         // where it goes to: at most 6 bytes for each of the text's
+    bool is_repeated; // what stands last is a repetition, which a ? would make lazy
+    int depth;        // of the group that it is in
+    struct extent {
+        double atoms, repetitions;  // with counts written out
+    } groups[MOST_DEPTH + 1], last; // of each group around, and of what stands last
 };
 
 static void put(struct translation *t, const char *text)
@@ -38,25 +42,40 @@ static bool refuse(const struct translation *t, const char *what)
                     t->place, what, t->at);
 }
 
-static void add_atoms(struct translation *t, double atoms)
+static void add(struct translation *t, struct extent extent)
 {
-    t->last = atoms;
-    t->atoms[t->depth] += atoms;
+    t->last = extent;
+    t->groups[t->depth].atoms += extent.atoms;
+    t->groups[t->depth].repetitions += extent.repetitions;
+}
+
+// What stands last is there so many times.
+static bool repeat(struct translation *t, double times)
+{
+    struct extent *group = &t->groups[t->depth];
+    const double within = t->last.repetitions > 1 ? t->last.repetitions : 1;
+    const struct extent last = {t->last.atoms * times, within * times};
+    group->atoms += last.atoms - t->last.atoms;
+    group->repetitions += last.repetitions - t->last.repetitions;
+    t->last = last;
+    return (group->atoms <= MOST_ATOMS && group->repetitions <= MOST_REPETITIONS) ||
+           refuse(t, "a count that comes to so much");
 }
 
 static bool open_group(struct translation *t)
 {
     if (t->depth == MOST_DEPTH)
         return refuse(t, "so deep a group");
-    t->atoms[++t->depth] = 0;
+    t->groups[++t->depth] = (struct extent){0};
     return true;
 }
 
 static void close_group(struct translation *t)
 {
     if (t->depth > 0) {
-        const double inside = t->atoms[t->depth--];
-        add_atoms(t, inside + 2); // and the group itself
+        struct extent inside = t->groups[t->depth--];
+        inside.atoms += 2; // the group itself
+        add(t, inside);
     }
 }
 
@@ -73,11 +92,8 @@ static bool take_count(struct translation *t)
     const size_t length = (size_t)(end - t->at) + 1;
     if (!isdigit((unsigned char)*from) || *end != '}' || strspn(from, "0123456789,") + 2 != length)
         return refuse(t, "this count");
-    const double last = t->last * (most > 1 ? most : 1);
-    t->atoms[t->depth] += last - t->last;
-    t->last = last;
-    if (t->atoms[t->depth] > MOST_ATOMS)
-        return refuse(t, "a count that comes to so much");
+    if (!repeat(t, most > 1 ? most : 1))
+        return false;
     memcpy(t->to, t->at, length);
     t->to += length;
     t->at += length;
@@ -134,8 +150,10 @@ static bool take_other(struct translation *t)
     if (c == ')')
         close_group(t);
     else if (!strchr("(|*+?", c))
-        add_atoms(t, 1);
+        add(t, (struct extent){.atoms = 1});
     const bool is_lazy = c == '?' && t->is_repeated;
+    if (strchr("*+?", c) && !is_lazy && !repeat(t, 1))
+        return false;
     if (!is_lazy)
         *t->to++ = c;
     t->is_repeated = !is_lazy && strchr("*+?", c);
@@ -154,11 +172,22 @@ static bool translate(struct translation *t)
                              : take_other(t);
         if (is_one) {
             t->is_repeated = false;
-            add_atoms(t, 1);
+            add(t, (struct extent){.atoms = 1});
         }
     }
     *t->to = 0;
     return ok;
+}
+
+// Whether it can be searched for in what is left for the file, which gets less by it.
+static bool can_be_searched(const struct translation *t, double *left)
+{
+    const double repetitions = t->groups[0].repetitions;
+    *left -= repetitions * repetitions;
+    return (repetitions <= MOST_REPETITIONS && *left >= 0) ||
+           rg_error("%s: regular expression: %s too often to be searched for in time; write fewer "
+                    "of ? * + and counts (docs/expectations.md)",
+                    t->place, *left >= 0 ? "repeats" : "with those before it repeats");
 }
 
 static regex_t *compile(const char *place, const char *text, const char *posix)
@@ -175,7 +204,7 @@ static regex_t *compile(const char *place, const char *text, const char *posix)
     return rg_error_null("%s: regular expression '%.80s': %s; mend it", place, text, why);
 }
 
-regex_t *rg_known_regex(const char *place, const char *text)
+regex_t *rg_known_regex(const char *place, const char *text, double *left)
 {
     const size_t length = strlen(text);
     if (length > MOST_BYTES)
@@ -183,7 +212,8 @@ regex_t *rg_known_regex(const char *place, const char *text)
                              MOST_BYTES);
     char *posix = rg_alloc(6, length + 1, place);
     struct translation t = {.place = place, .at = text, .to = posix};
-    regex_t *regex = posix && translate(&t) ? compile(place, text, posix) : NULL;
+    regex_t *regex =
+        posix && translate(&t) && can_be_searched(&t, left) ? compile(place, text, posix) : NULL;
     free(posix);
     return regex;
 }

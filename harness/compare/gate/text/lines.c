@@ -9,6 +9,7 @@
 #include "core/base/array.h"
 #include "core/base/files/file.h"
 #include "core/base/log.h"
+#include "core/base/text/plain.h"
 
 enum { MOST_BYTES = 64 << 20 };
 
@@ -41,10 +42,10 @@ bool rg_line_is_empty(const struct rg_line *line)
 static bool is_clean(const struct rg_lines *lines, const char *text, size_t length)
 {
     for (size_t i = 0; i < length; i++)
-        if (((unsigned char)text[i] < ' ' && text[i] != '\t') || text[i] == 127)
+        if (rg_control_at(text + i) >= 0 && text[i] != '\t')
             return rg_error("%s:%lld: control character 0x%02x in column %zu; take it out",
-                            lines->name, (long long)lines->count + 1, (unsigned char)text[i],
-                            i + 1);
+                            lines->name, (long long)lines->count + 1,
+                            (unsigned)rg_control_at(text + i), i + 1);
     return true;
 }
 

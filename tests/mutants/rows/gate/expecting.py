@@ -9,9 +9,9 @@ JUDGE, PATCH, DIFF = "harness/compare/gate/expected/judge.c", "harness/compare/g
 REGEX, WRITE, LOG = "harness/compare/gate/expected/regex.c", "harness/compare/gate/expected/write.c", "core/base/log.c"
 
 ROWS = [
-    Fault(REGEX, "if («t->atoms[t->depth] > MOST_ATOMS»)", "false", "counts in counts take all memory"),
+    Fault(REGEX, "return («group->atoms <= MOST_ATOMS» &&", "true", "counts in counts take all memory"),
     Fault(REGEX, "if («t->depth == MOST_DEPTH»)", "t->depth < 0", "groups in groups take all of the stack"),
-    Fault(REGEX, "t->atoms[t->depth] += «last - t->last»;", "0", "a count counts nothing"),
+    Fault(REGEX, "group->atoms += «last.atoms - t->last.atoms»;", "0", "a count counts nothing"),
     Fault(LOG, "if («error_place && level == RG_LOG_ERROR»)", "false", "what refuses a line does not say where it is"),
     Fault(CELLS, "rg_log_place(«NULL»);", "place", "errors of others name a line of the cells"),
     Fault(CELLS, "return isalnum((unsigned char)*name) && «strlen(name) < RG_GATE_NAME_SIZE»;", "true", "a cell's name that is too long is cut"),
