@@ -61,8 +61,6 @@ bool rg_log_is_news(enum rg_log_level level, const char *line)
 static void log_line(enum rg_log_level level, const char *format, va_list args)
 {
     char line[LINE_SIZE] = "";
-    if (is_held)
-        return;
     if (error_place && level == RG_LOG_ERROR)
         snprintf(line, sizeof(line) / 2, "%s: ", error_place);
     const size_t used = strlen(line);
@@ -70,6 +68,8 @@ static void log_line(enum rg_log_level level, const char *format, va_list args)
     rg_plain(line);
     if (level == RG_LOG_ERROR)
         memcpy(last_error, line, sizeof(line));
+    if (is_held)
+        return;
     if (listener)
         listener(level, line, listener_user);
     else if (rg_log_is_news(level, line))

@@ -148,7 +148,9 @@ const struct rg_work *rg_device_work(const struct rg_device *device)
 bool rg_device_sync(struct rg_device *device)
 {
     rg_doing_begin("waiting for the device", "");
-    return device->backend->sync(device);
+    const bool ok = device->backend->sync(device);
+    rg_doing_waited();
+    return ok;
 }
 
 bool rg_device_time(struct rg_device *device, int64_t *time_ns)

@@ -134,7 +134,7 @@ bool rg_dispatch(struct rg_pass *pass, const struct rg_run *run)
     work->dispatches++;
     if (watch)
         watch->before(pass, run, watch->user);
-    rg_doing_begin("running kernel", pass->kernel->name);
+    rg_doing_run(pass->kernel->name);
     const bool ok = work->tally ? rg_tally_run(work->tally, pass, run)
                                 : pass->device->backend->pass_run(pass, run);
     if (watch)

@@ -124,7 +124,9 @@ bool rg_buf_read(struct rg_buf *buf, int64_t offset, void *data, int64_t size)
         return memset(data, 0, (size_t)size);
     buf->device->work->bytes_read += size;
     rg_doing_begin("reading buffer", buf->name);
-    return buf->device->backend->buf_read(buf, (size_t)offset, data, (size_t)size);
+    const bool ok = buf->device->backend->buf_read(buf, (size_t)offset, data, (size_t)size);
+    rg_doing_waited();
+    return ok;
 }
 
 struct rg_buf *rg_buf_create_with(struct rg_device *device, const void *data, int64_t size,
@@ -233,7 +235,9 @@ bool rg_image_read(struct rg_image *image, int layer, int level, void *texels)
         return memset(texels, 0, (size_t)level_bytes(image, level));
     image->device->work->bytes_read += level_bytes(image, level);
     rg_doing_begin("reading image", image->name);
-    return image->device->backend->image_read(image, layer, level, texels);
+    const bool ok = image->device->backend->image_read(image, layer, level, texels);
+    rg_doing_waited();
+    return ok;
 }
 
 bool rg_image_clear(struct rg_image *image, const void *texel)

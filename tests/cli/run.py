@@ -25,6 +25,7 @@
            shells   what a bisect hands to shells
            acts     what a file from elsewhere may have raingauge do
            shrinking  a driver that miscompiles: blamed, and shrunk to a case
+           compiling  a driver that cannot compile or run a kernel: named, and shrunk to a case
            wrong    a driver that draws wrongly is found
            doctor   the report about this machine
            pages    the manual page and bash's completion
@@ -48,6 +49,7 @@ import bisecting
 import cases
 import ci
 import clips
+import compiling
 import doctor
 import failing
 import gates
@@ -82,7 +84,7 @@ SUITES = {
     "failing": lambda runner: runner.check_all(failing.CHECKS),
     "all": lambda runner: runner.check_all(failing.THOROUGH),
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
-    "ways": lambda runner: runner.check_all(misbehaving.THOROUGH),
+    "ways": lambda runner: runner.check_all(misbehaving.THOROUGH + compiling.THOROUGH),
     "gates": lambda runner: runner.check_all(gates.CHECKS),
     "baselines": lambda runner: runner.check_all(baselines.CHECKS),
     "reports": lambda runner: runner.check_all(reports.CHECKS),
@@ -91,6 +93,7 @@ SUITES = {
     "acts": lambda runner: runner.check_all(acts.CHECKS),
     "shells": lambda runner: runner.check_all(shells.THOROUGH),
     "shrinking": lambda runner: runner.check_all(shrinking.CHECKS),
+    "compiling": lambda runner: runner.check_all(compiling.CHECKS),
     "wrong": lambda runner: runner.check_all(wrong.CHECKS),
     "doctor": lambda runner: runner.check_all(doctor.CHECKS),
     "pages": lambda runner: runner.check_all(pages.CHECKS),

@@ -63,7 +63,7 @@ static bool write_found(const struct rg_case *found, const struct rg_blame *blam
     struct rg_culprit culprit;
     char plain[RG_PATH_SIZE];
     const double end_ms = rg_now_ms() + 1000.0 * KERNEL_SECONDS;
-    bool ok = rg_culprit_find(&found->run, blame, device, truth, end_ms, &culprit) &&
+    bool ok = rg_culprit_find(&found->run, blame, &found->fall, device, truth, end_ms, &culprit) &&
               rg_case_write(found, blame->text, path);
     if (ok && culprit.found)
         ok = rg_kernel_folder_write(path, &culprit, blame->text, device, truth);

@@ -63,8 +63,13 @@ static void write_text(FILE *out, const struct rg_case *c, void *defaults, const
             subject->height, c->run.frames);
     write_settings(out, subject, defaults);
     fprintf(out, "behind %d\nstage %s\nasset %s\nclass %s\n", c->stages_run, stage_name(c->stage),
-            c->asset, rg_difference_name(c->difference));
-    fprintf(out, "expected %016" PRIx64 "\nfound %016" PRIx64 "\n", c->expected, c->found);
+            c->asset,
+            c->fall.outcome ? rg_outcome_name(c->fall.outcome) : rg_difference_name(c->difference));
+    fprintf(out, "expected %016" PRIx64 "\n", c->expected);
+    if (c->fall.outcome)
+        fprintf(out, "fails %s\n", c->fall.what);
+    else
+        fprintf(out, "found %016" PRIx64 "\n", c->found);
     fprintf(out, "truth %s\ndevice %s\n", c->truth, c->device);
 }
 
@@ -123,6 +128,14 @@ static bool take_text(const char *text, char *to, size_t size)
     return *text && (size_t)snprintf(to, size, "%s", text) < size;
 }
 
+// A kind of difference, or how the device fails.
+static bool take_class(const char *text, struct rg_case *c)
+{
+    c->difference = rg_difference_find(text);
+    return c->difference != RG_DIFFERENCE_NONE ||
+           (rg_outcome_find(text, &c->fall.outcome) && rg_outcome_is_broken(c->fall.outcome));
+}
+
 static bool take_line(const char *word, const char *rest, struct rg_case *c)
 {
     if (!strcmp(word, "technique"))
@@ -138,7 +151,9 @@ static bool take_line(const char *word, const char *rest, struct rg_case *c)
     if (!strcmp(word, "asset"))
         return take_text(rest, c->asset, sizeof(c->asset));
     if (!strcmp(word, "class"))
-        return (c->difference = rg_difference_find(rest)) != RG_DIFFERENCE_NONE;
+        return take_class(rest, c);
+    if (!strcmp(word, "fails"))
+        return take_text(rest, c->fall.what, sizeof(c->fall.what));
     if (!strcmp(word, "expected"))
         return take_digest(rest, &c->expected);
     if (!strcmp(word, "found"))
@@ -210,7 +225,8 @@ bool rg_case_read(const char *path, struct rg_case *c)
             ok = read_line(path, i + 1, rg_line_skip(lines.lines[i].text), &seen, &keys, c);
     rg_lines_free(&lines);
     if (ok && (!c->run.subject.settings || !c->run.subject.width || c->run.frames < 0 ||
-               c->stages_run < 0 || !*c->stage || !*c->asset || !c->expected || !c->difference ||
+               c->stages_run < 0 || !*c->stage || !*c->asset || !c->expected ||
+               (!c->difference && !c->fall.outcome) || !*c->fall.what != !c->fall.outcome ||
                !*c->truth || !*c->device))
         ok = rg_error("%s: lacks its technique, size, frames, stage, what it is behind, asset, "
                       "class, expected digest or devices; write one anew with `raingauge shrink`",

@@ -3,6 +3,7 @@
 #define RG_HARNESS_COMPARE_SHRINK_CASE_H
 
 #include "harness/compare/blame/blame.h"
+#include "harness/compare/blame/fall.h"
 
 enum { RG_CASE_NAME = 256 };
 
@@ -10,8 +11,9 @@ struct rg_case {
     struct rg_digest_run run; // its settings are owned
     int stages_run;           // behind which the asset differs
     char stage[RG_ASSET_NAME], asset[RG_ASSET_NAME];
-    enum rg_difference difference;
-    uint64_t expected, found;                       // digests of the asset
+    enum rg_difference difference;                  // NONE where the device fails
+    struct rg_fall fall;                            // how, where it does
+    uint64_t expected, found;                       // digests of the asset; found: 0 then
     char device[RG_CASE_NAME], truth[RG_CASE_NAME]; // that it was found with
 };
 
@@ -25,8 +27,8 @@ bool rg_case_write(const struct rg_case *found, const char *note, const char *pa
 bool rg_case_read(const char *path, struct rg_case *found);
 void rg_case_free(struct rg_case *found);
 
-// Replays it on a device, prints what it left, and returns an enum rg_exit: pass where that is what
-// the case expects.
+// Replays it on a device, prints what it left, or how it failed, and returns an enum rg_exit: pass
+// where it left what the case expects.
 int rg_case_replay(const struct rg_case *found, struct rg_device *device);
 
 #endif

@@ -11,6 +11,7 @@ struct pair {
     struct rg_dispatched now; // what the device leaves; it borrows what lay there before
     struct rg_dispatched *due;
     double end_ms;
+    bool falls; // the device fails, which is what is sought
     bool has_failed;
 };
 
@@ -35,9 +36,11 @@ static bool differs(struct pair *p)
     memcpy(p->now.params, p->due->params, sizeof(p->now.params));
     p->now.origin = p->due->origin;
     p->now.extent = p->due->extent;
-    p->has_failed = p->has_failed || !rg_digests_dispatch(p->due, p->truth) ||
-                    !rg_digests_dispatch(&p->now, p->device);
-    return !p->has_failed && !leaves_same(&p->now, p->due);
+    p->has_failed = p->has_failed || !rg_digests_dispatch(p->due, p->truth);
+    if (p->has_failed || rg_digests_dispatch(&p->now, p->device))
+        return !p->has_failed && !p->falls && !leaves_same(&p->now, p->due);
+    p->has_failed = !p->falls || rg_fall_now(p->device).outcome == RG_OK;
+    return !p->has_failed;
 }
 
 static void forget(struct pair *p)
@@ -124,8 +127,11 @@ static void tell_none(const struct pair *p, const struct rg_blame *blame,
                                 : "no kernel packs it");
     else
         snprintf(culprit->why_not, sizeof(culprit->why_not),
-                 "no kernel of stage %s leaves other bits alone: what differs is between kernels, "
-                 "such as their order, barriers or memory",
+                 p->falls
+                     ? "no kernel of stage %s fails alone: what it needs is between kernels, "
+                       "such as their order, barriers or memory"
+                     : "no kernel of stage %s leaves other bits alone: what differs is between "
+                       "kernels, such as their order, barriers or memory",
                  blame->first.stage);
 }
 
@@ -150,12 +156,13 @@ static bool find(struct pair *p, const struct rg_blame *blame, struct rg_dispatc
 }
 
 bool rg_culprit_find(const struct rg_digest_run *run, const struct rg_blame *blame,
-                     struct rg_device *device, struct rg_device *truth, double end_ms,
-                     struct rg_culprit *culprit)
+                     const struct rg_fall *fall, struct rg_device *device, struct rg_device *truth,
+                     double end_ms, struct rg_culprit *culprit)
 {
     struct rg_digest_run until = *run;
     struct rg_dispatches all = {0};
-    struct pair p = {.device = device, .truth = truth, .end_ms = end_ms};
+    struct pair p = {
+        .device = device, .truth = truth, .end_ms = end_ms, .falls = fall && fall->outcome};
     *culprit = (struct rg_culprit){0};
     if (!*blame->first.stage) {
         snprintf(culprit->why_not, sizeof(culprit->why_not),
@@ -165,8 +172,13 @@ bool rg_culprit_find(const struct rg_digest_run *run, const struct rg_blame *bla
     }
     if (blame->first.frame + 1 < run->frames)
         until.frames = (int)blame->first.frame + 1;
-    const bool ok = rg_digests_dispatches(&until, device, blame->first.stages_run, &all) &&
-                    find(&p, blame, &all, culprit);
+    rg_log_hold(p.falls); // how it does is known
+    const bool ok =
+        rg_digests_dispatches(&until, p.falls ? truth : device, blame->first.stages_run, &all) &&
+        find(&p, blame, &all, culprit);
+    rg_log_hold(false);
+    if (!ok && p.falls)
+        rg_log_relay(RG_LOG_ERROR, rg_last_error_kind(), rg_last_error());
     forget(&p);
     rg_dispatches_free(&all);
     return ok;

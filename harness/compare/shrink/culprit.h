@@ -4,6 +4,7 @@
 #define RG_HARNESS_COMPARE_SHRINK_CULPRIT_H
 
 #include "harness/compare/blame/blame.h"
+#include "harness/compare/blame/fall.h"
 
 // The owner calls rg_culprit_free.
 struct rg_culprit {
@@ -17,9 +18,11 @@ struct rg_culprit {
 // pack it, and runs each alone on both from what lay there before. The first that differs is the
 // culprit; its items are halved along each axis as often as it still differs, until `end_ms`
 // (rg_now_ms). False, and one logged line, where a device fails.
+// Where the device fails (`fall`; NULL: it does not), they are as the truth makes them, and the
+// culprit is the first at which it fails, however it does.
 bool rg_culprit_find(const struct rg_digest_run *run, const struct rg_blame *blame,
-                     struct rg_device *device, struct rg_device *truth, double end_ms,
-                     struct rg_culprit *culprit);
+                     const struct rg_fall *fall, struct rg_device *device, struct rg_device *truth,
+                     double end_ms, struct rg_culprit *culprit);
 void rg_culprit_free(struct rg_culprit *culprit);
 
 #endif

@@ -58,13 +58,23 @@ static int tell(const struct rg_case *c, const struct rg_digests *digests, const
     return is_same ? RG_EXIT_PASS : RG_EXIT_FAIL;
 }
 
+// The line that tells how it failed has been logged.
+static void tell_fall(const struct rg_case *c, struct rg_device *device)
+{
+    const struct rg_fall fall = rg_fall_now(device);
+    if (fall.outcome)
+        printf("other: %s: %s %s%s\n", device->info.name, rg_outcome_name(fall.outcome), fall.what,
+               rg_fall_is_same(&fall, &c->fall) ? ", as was found" : "");
+}
+
 int rg_case_replay(const struct rg_case *c, struct rg_device *device)
 {
     struct rg_digests digests = {0};
     int exit = RG_EXIT_USAGE;
-    if (!rg_digests_take(&c->run, device, &digests))
+    if (!rg_digests_take(&c->run, device, &digests)) {
         exit = rg_exit_of_error();
-    else if (is_of_this_version(c, &digests))
+        tell_fall(c, device);
+    } else if (is_of_this_version(c, &digests))
         exit = tell(c, &digests, device->info.name);
     rg_digests_free(&digests);
     return exit;

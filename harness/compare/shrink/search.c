@@ -7,16 +7,72 @@
 #include "core/base/log.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
+#include "harness/devices/workers/device.h"
 
 // Opens the best on both devices, and closes what was there before.
 static void hold_best(struct rg_search *s)
 {
     struct rg_device *devices[2] = {s->asked->device, s->asked->truth};
-    for (int i = 0; i < 2; i++) {
+    for (int i = s->fall.outcome ? 1 : 0; i < 2; i++) { // a device that fails holds nothing
         struct rg_session *next = rg_session_open(devices[i], &s->best.subject);
         rg_session_close(s->held[i]);
         s->held[i] = next;
     }
+}
+
+// Whether the device fails at a run which the truth does, and how: the blame then is of what the
+// truth leaves behind that stage.
+static bool falls(struct rg_search *s, const struct rg_digest_run *run, struct rg_fall *fall,
+                  struct rg_blame *blame)
+{
+    struct rg_digests now = {0}, due = {0};
+    *fall = (struct rg_fall){.outcome = RG_OK};
+    *blame = (struct rg_blame){.found = false};
+    bool ok = rg_digests_take(run, s->asked->truth, &due) && due.count;
+    if (ok && !rg_digests_take(run, s->asked->device, &now)) {
+        snprintf(blame->text, sizeof(blame->text), "%.599s", rg_last_error());
+        *fall = rg_fall_now(s->asked->device);
+        blame->found = fall->outcome != RG_OK;
+        blame->first = due.rows[rg_fall_row(fall, &due)];
+        blame->expected = blame->first.hash;
+    }
+    rg_digests_free(&now);
+    rg_digests_free(&due);
+    return blame->found;
+}
+
+// The same for the frames that are asked for: for one, then twice as many, up to all.
+static bool find_fall(struct rg_search *s)
+{
+    struct rg_digest_run part = s->best;
+    rg_worker_renew(rg_remote_worker(s->asked->device));
+    for (part.frames = 1; !s->blame.found; part.frames *= 2) {
+        part.frames = part.frames < s->best.frames ? part.frames : s->best.frames;
+        if (falls(s, &part, &s->fall, &s->blame))
+            s->best.frames = part.frames;
+        if (part.frames == s->best.frames)
+            break;
+    }
+    return s->blame.found;
+}
+
+// What differs first. Lines are held until it is known that they are no difference.
+static bool find_difference(struct rg_search *s)
+{
+    struct rg_device *device = s->asked->device, *truth = s->asked->truth;
+    rg_log_hold(true);
+    bool ok = rg_blame_find(&s->best, device, truth, &s->blame);
+    const enum rg_error_kind kind = rg_last_error_kind();
+    char line[1024];
+    snprintf(line, sizeof(line), "%s", rg_last_error());
+    const bool is_broken = !ok && !rg_interrupted() && kind != RG_ERROR_INPUT &&
+                           kind != RG_ERROR_UNSUPPORTED && rg_remote_worker(device);
+    if (is_broken)
+        ok = find_fall(s);
+    rg_log_hold(false);
+    if (!ok && !rg_interrupted())
+        rg_log_relay(RG_LOG_ERROR, kind, line);
+    return ok;
 }
 
 bool rg_search_begin(struct rg_search *s, const struct rg_shrink_request *asked)
@@ -25,8 +81,7 @@ bool rg_search_begin(struct rg_search *s, const struct rg_shrink_request *asked)
     *s = (struct rg_search){
         .asked = asked, .best = asked->run, .end_ms = rg_now_ms() + 1000.0 * asked->seconds};
     s->best.subject.settings = rg_settings_copy(subject->technique, subject->settings, "");
-    bool ok =
-        s->best.subject.settings && rg_blame_find(&s->best, asked->device, asked->truth, &s->blame);
+    bool ok = s->best.subject.settings && find_difference(s);
     s->has_none = ok && (!s->blame.found || s->blame.is_alone);
     if (s->has_none)
         ok = rg_error("shrink: %s leaves in every asset behind every stage what %s does; give "
@@ -55,6 +110,15 @@ static bool is_sought(const struct rg_search *s, const struct rg_digests *now,
            !strcmp(now->rows[row].asset, s->blame.first.asset);
 }
 
+// The same where the device fails: it does so in the same way.
+static bool falls_alike(struct rg_search *s, const struct rg_digest_run *run, int64_t most_weight,
+                        struct rg_blame *blame)
+{
+    struct rg_fall fall;
+    return falls(s, run, &fall, blame) && rg_fall_is_same(&fall, &s->fall) &&
+           blame->first.weight <= most_weight && !strcmp(blame->first.stage, s->blame.first.stage);
+}
+
 static bool is_alike(struct rg_search *s, const struct rg_digest_run *run, int64_t most_weight,
                      struct rg_blame *blame)
 {
@@ -81,7 +145,8 @@ bool rg_search_try(struct rg_search *s, struct rg_digest_run run, int64_t most_w
     bool keeps = false;
     if (run.subject.settings && !s->is_over && !rg_interrupted() && rg_now_ms() < s->end_ms) {
         s->tried++;
-        keeps = is_alike(s, &run, most_weight, &blame);
+        keeps = s->fall.outcome ? falls_alike(s, &run, most_weight, &blame)
+                                : is_alike(s, &run, most_weight, &blame);
     }
     free((void *)(uintptr_t)(keeps ? s->best.subject.settings : run.subject.settings));
     if (keeps) {

@@ -3,6 +3,7 @@
 #ifndef RG_HARNESS_COMPARE_SHRINK_SEARCH_H
 #define RG_HARNESS_COMPARE_SHRINK_SEARCH_H
 
+#include "harness/compare/blame/fall.h"
 #include "harness/compare/shrink/shrink.h"
 #include "harness/frames/session.h"
 
@@ -10,6 +11,7 @@ struct rg_search {
     const struct rg_shrink_request *asked;
     struct rg_digest_run best;  // its settings are owned
     struct rg_blame blame;      // of the best
+    struct rg_fall fall;        // how the device fails, where that is the difference
     struct rg_session *held[2]; // of the best, so that what instances share is made once
     double end_ms;
     int tried;

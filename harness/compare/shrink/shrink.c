@@ -201,8 +201,9 @@ int rg_shrink_case(const struct rg_shrink_request *request, struct rg_case *foun
     found->run = s.best;
     found->stages_run = s.blame.first.stages_run;
     found->difference = s.blame.difference;
+    found->fall = s.fall;
     found->expected = s.blame.expected;
-    found->found = s.blame.first.hash;
+    found->found = s.fall.outcome ? 0 : s.blame.first.hash;
     snprintf(found->stage, sizeof(found->stage), "%s", s.blame.first.stage);
     snprintf(found->asset, sizeof(found->asset), "%s", s.blame.first.asset);
     snprintf(found->device, sizeof(found->device), "%s", request->device->info.name);

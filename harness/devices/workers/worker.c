@@ -49,7 +49,9 @@ struct rg_worker {
     int64_t memory_bytes; // that its process may hold
     int64_t taken_bytes;  // of them counted here (core/base/memory.h)
     int life;
+    int ended;           // processes, since it was renewed
     enum rg_outcome end; // how its process ended last
+    char doing[560];     // while it did so
 };
 
 struct rg_worker *rg_worker_create(const char *name, const char *environment)
@@ -299,15 +301,25 @@ static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
 
 // --- telling how it ended ---
 
+// What it was doing, and which kernels nobody had waited for: a driver may compile and run them
+// whenever it likes, and in threads of its own.
+static void tell_doing(struct rg_worker *worker)
+{
+    struct rg_doing seen = *(const struct rg_doing *)worker->channel.doing.bytes;
+    seen.what[sizeof(seen.what) - 1] = seen.queued[sizeof(seen.queued) - 1] = 0;
+    const bool is_told = *seen.queued && !strchr(seen.queued, ',') &&
+                         strstr(seen.what, "running") && strstr(seen.what, seen.queued);
+    snprintf(worker->doing, sizeof(worker->doing), "%s%s%s%s", *seen.what ? " while " : "",
+             seen.what, *seen.queued && !is_told ? "; not known to have ended: " : "",
+             is_told ? "" : seen.queued);
+}
+
 // What it was doing goes behind how it ended, and then what its process printed last.
-static void tell_end(const struct rg_worker *worker, enum verdict verdict, int status, char *why,
+static void tell_end(struct rg_worker *worker, enum verdict verdict, int status, char *why,
                      size_t size)
 {
-    char last[200], doing[140] = "", line[200];
-    struct rg_doing seen = *(const struct rg_doing *)worker->channel.doing.bytes;
-    seen.what[sizeof(seen.what) - 1] = 0;
-    if (*seen.what)
-        snprintf(doing, sizeof(doing), " while %s", seen.what);
+    char last[200], line[200];
+    tell_doing(worker);
     rg_program_last_line(worker->printed, last, sizeof(last));
     if (verdict == HANGS)
         snprintf(line, sizeof(line), "its driver did not come back within %d s",
@@ -324,7 +336,7 @@ static void tell_end(const struct rg_worker *worker, enum verdict verdict, int s
     else
         snprintf(line, sizeof(line), "its driver ended the process with status %d",
                  WEXITSTATUS(status));
-    snprintf(why, size, "%s%s%s", line, doing, last);
+    snprintf(why, size, "%s%s%s", line, worker->doing, last);
 }
 
 // A sanitizer's report has many lines, and all of them are wanted.
@@ -346,6 +358,7 @@ static enum rg_outcome bury(struct rg_worker *worker, enum verdict verdict, char
     tell_end(worker, verdict, end_process(worker), why, size);
     show_report(worker->printed);
     forget_process(worker);
+    worker->ended++;
     worker->end = verdict == HANGS ? RG_TIMEOUT : RG_CRASH;
     return worker->end;
 }
@@ -429,6 +442,7 @@ static bool turn_away(struct rg_worker *worker)
     end_process(worker);
     forget_process(worker);
     worker->end = RG_ERROR;
+    worker->ended++;
     return rg_error("device '%s': " RG_WORKER_PROGRAM "=%s is no raingauge that this one can ask; "
                     "build both from commits whose messages between processes are the same",
                     worker->name, program_of(worker));
@@ -440,10 +454,10 @@ static bool comes_to_life(struct rg_worker *worker, char *why, size_t size)
 {
     if (worker->process)
         return true;
-    if (worker->life < RG_WORKER_LIVES)
+    if (worker->ended < RG_WORKER_LIVES)
         return start(worker, why, size) &&
                (!program_of(worker) || is_greeted(worker) || turn_away(worker));
-    snprintf(why, size, "left out, for its process has ended %d times", worker->life);
+    snprintf(why, size, "left out, for its process has ended %d times", worker->ended);
     return false;
 }
 
@@ -473,7 +487,7 @@ enum rg_outcome rg_worker_try(struct rg_worker *worker, enum rg_call call,
 bool rg_worker_call(struct rg_worker *worker, enum rg_call call, const struct rg_message *request,
                     struct rg_message *reply)
 {
-    char why[512];
+    char why[960];
     const enum rg_outcome outcome = rg_worker_try(worker, call, request, reply, why, sizeof(why));
     return outcome == RG_OK || (*why && tell_loss(worker, outcome, why));
 }
@@ -498,6 +512,21 @@ bool rg_worker_fetch(struct rg_worker *worker, enum rg_call call, const struct r
 bool rg_worker_ask(struct rg_worker *worker, enum rg_call call, const struct rg_message *request)
 {
     return rg_worker_fetch(worker, call, request, NULL, NULL);
+}
+
+const char *rg_worker_end_doing(const struct rg_worker *worker)
+{
+    return worker->doing;
+}
+
+void rg_worker_renew(struct rg_worker *worker)
+{
+    if (worker->process) {
+        kill(worker->process, SIGKILL);
+        end_process(worker);
+        forget_process(worker);
+    }
+    worker->ended = 0;
 }
 
 bool rg_worker_retire(struct rg_worker *worker)

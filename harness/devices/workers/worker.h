@@ -41,6 +41,12 @@ struct rg_worker *rg_worker_create(const char *name, const char *environment);
 // Has a worker that lives close its device, which logs what is left on it. False, with a logged
 // line, where something is, or where it ends meanwhile.
 bool rg_worker_retire(struct rg_worker *worker);
+// What its process did when it crashed or was ended last, as the line about that has it: " while
+// running kernel 'flow_blur'"; "": nothing that is known.
+const char *rg_worker_end_doing(const struct rg_worker *worker);
+// Ends its process, so that the next call has a new one, and forgets how often one ended: for those
+// who bring a driver down on purpose, again and again.
+void rg_worker_renew(struct rg_worker *worker);
 // Ends it, at once where it does not end by itself. False, with one logged line, where it had
 // closed its device and ended as a driver does that crashes. NULL is accepted.
 bool rg_worker_destroy(struct rg_worker *worker);

@@ -1,0 +1,50 @@
+#include "harness/compare/blame/fall.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/log.h"
+#include "core/base/text/plain.h"
+#include "harness/devices/workers/device.h"
+
+struct rg_fall rg_fall_now(struct rg_device *device)
+{
+    struct rg_worker *worker = rg_remote_worker(device);
+    struct rg_fall fall = {.outcome = RG_OK};
+    const enum rg_error_kind kind = rg_last_error_kind();
+    if (kind == RG_ERROR_INPUT || kind == RG_ERROR_UNSUPPORTED || !worker)
+        return fall;
+    fall.outcome = rg_outcome_of_error();
+    const char *what = fall.outcome == RG_ERROR ? rg_last_error() : rg_worker_end_doing(worker);
+    what += strspn(what, " ");
+    snprintf(fall.what, sizeof(fall.what), "%s", *what ? what : "at its start");
+    rg_plain(fall.what);
+    rg_worker_renew(worker);
+    return fall;
+}
+
+bool rg_fall_is_same(const struct rg_fall *a, const struct rg_fall *b)
+{
+    return a->outcome == b->outcome && !strcmp(a->what, b->what);
+}
+
+// Whether a line has a kernel in quotes, or one of those that pack what it draws.
+static bool names(const char *line, const char *kernel)
+{
+    static const char *const ends[] = {"'", "_count'", "_emit'"};
+    const size_t length = strlen(kernel);
+    for (const char *at = line; length && (at = strchr(at, '\'')); at++)
+        for (int i = 0; i < 3; i++)
+            if (!strncmp(at + 1, kernel, length) &&
+                !strncmp(at + 1 + length, ends[i], strlen(ends[i])))
+                return true;
+    return false;
+}
+
+int rg_fall_row(const struct rg_fall *fall, const struct rg_digests *digests)
+{
+    for (int i = 0; i < digests->count; i++)
+        if (names(fall->what, digests->rows[i].stage))
+            return i;
+    return digests->count - 1;
+}

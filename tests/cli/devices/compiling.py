@@ -1,0 +1,99 @@
+"""A driver that cannot compile or run one kernel: the kernel is named, and the failure shrunk to a case that replays it."""
+import json
+import os
+import re
+import tempfile
+
+from misbehaving import side_by_side
+
+KERNEL = "flow_normals"
+SMALL = "--set environment_px=16 --set resolution_px=16 --set model= --size 16x16".split()
+# How the driver fails, by API: as the kernel is compiled, as it is run, and as somebody waits for what ran, and how that is told.
+WAYS = {"compile:abort": r"crashed \(Aborted\) while compiling kernel 'KERNEL'", "compile:exit": "ended the process with status 0 while compiling kernel 'KERNEL'",
+        "compile:error": "kernel 'KERNEL': .* failed", "run:fault": r"crashed \(Segmentation fault\) while .*'KERNEL'",
+        "run:abort": r"crashed \(Aborted\) while .*'KERNEL'", "wait:abort": r"crashed \(Aborted\) while .*; not known to have ended: .*'KERNEL'",
+        "wait:hang": "did not come back within 8 s while .*; not known to have ended: .*'KERNEL'"}
+CASES = [("vulkan", "compile:abort"), ("vulkan", "compile:error"), ("vulkan", "run:fault"), ("vulkan", "wait:abort"),
+         ("gl", "compile:exit"), ("gl", "run:abort"), ("gl", "wait:hang"),
+         ("opencl", "compile:error"), ("opencl", "run:fault"), ("opencl", "wait:abort")]
+SHRUNK = [("vulkan", "compile:error", "error"), ("gl", "run:abort", "crash"), ("opencl", "wait:abort", "crash")]
+
+
+def failing(runner, folder, api, way, kernel=KERNEL):
+    """The device of an API whose driver fails at a kernel."""
+    library = os.path.join(os.path.dirname(runner.misbehaver), "libcompiling_driver.so")
+    code = os.path.join(runner.kernels, kernel + {"vulkan": ".spv", "gl": ".glsl", "opencl": ".cl"}[api])
+    loaded = "LD_PRELOAD=" + library
+    if api == "vulkan":
+        path = os.path.join(folder, "failing.json")
+        with open(path, "w") as file:
+            json.dump({"file_format_version": "1.0.0", "ICD": {"library_path": library, "api_version": "1.1.0"}}, file)
+        loaded = "VK_DRIVER_FILES=" + path
+    return "%s@%s;RG_KERNEL=%s;RG_FAILS=%s" % (api, loaded, code, way)
+
+
+def problems_named(runner, case):
+    """What is wrong with how render ends."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "picture.png")
+        args = ["render", "flow", "--frame", "1", "--device", failing(runner, folder, *case), "-o", path]
+        args += ["--timeout", "8" if "hang" in case[1] else "100"]  # others wait for a busy machine
+        result = runner.run(args + SMALL)
+        lines = result.stderr.splitlines()
+        says = WAYS[case[1]].replace("KERNEL", KERNEL)
+        well = result.returncode == 1 and len(lines) == 1 and re.search(says, lines[0]) and not os.path.exists(path)
+    return [] if well else ["%s: exit status %d, %s" % (case, result.returncode, lines)]
+
+
+def check_named(runner):
+    """the line tells the kernel at which a driver falls, as it is compiled, run, or waited for"""
+    return side_by_side(lambda case: problems_named(runner, case), CASES)
+
+
+def problems_shrunk(runner, case, seconds=3):
+    """What is wrong with the case that is made of a failure, within so many seconds; where these are many, it is the least."""
+    api, way, kind = case
+    with tempfile.TemporaryDirectory() as folder:
+        device, path = failing(runner, folder, api, way), os.path.join(folder, "case.txt")
+        args = ["shrink", "flow", "--frame", "2", "--seconds", str(seconds), "--device", device + ",cpu:reference", "-o", path]
+        result = runner.run(args + SMALL + "--set drops=40 --size 32x32".split())
+        if result.returncode != 0 or result.stderr or KERNEL + " alone, " not in result.stdout:
+            return ["%s: exit status %d, %s%s" % (case, result.returncode, result.stdout, result.stderr)]
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        lines = dict(line.split(" ", 1) for line in text.splitlines() if not line.startswith(("#", "set ")))
+        told = (lines["class"], lines["stage"], lines["frames"], "found" in lines)
+        is_least = seconds < 60 or lines["size"] == "16x16" and "set drops" not in text and "set view=pane" in text
+        problems = [] if told == (kind, KERNEL, "1", False) and KERNEL in lines["fails"] and is_least else [text]
+        for other, status, says in ((device, 1, r"other: %s@.*: %s .*'%s'.*, as was found\n" % (api, kind, KERNEL)),
+                                    ("cpu", 0, "same: cpu leaves ")):
+            again = runner.run(["render", "--case", path, "--device", other])
+            if again.returncode != status or len(again.stderr.splitlines()) != status or not re.match(says, again.stdout):
+                problems.append("%s: exit status %d, %s%s" % (other, again.returncode, again.stdout, again.stderr))
+    return ["%s: %s" % (case, problem) for problem in problems]
+
+
+def check_shrunk(runner):
+    """what a driver fails at is shrunk to a case, which fails there again and passes elsewhere, and to one run of the kernel"""
+    return side_by_side(lambda case: problems_shrunk(runner, case), SHRUNK)
+
+
+def check_least(runner):
+    """and to the least settings, frames and pixels, where there is time"""
+    return side_by_side(lambda case: problems_shrunk(runner, case, 600), SHRUNK)
+
+
+def check_other(runner):
+    """a truth that fails is no difference, nor is a driver that is absent"""
+    problems = []
+    with tempfile.TemporaryDirectory() as folder:
+        device, path = failing(runner, folder, "opencl", "compile:abort"), os.path.join(folder, "case.txt")
+        for pair, status in (("cpu," + device, 1), ("cpu,cpu:reference", 1)):
+            result = runner.run(["shrink", "flow", "--frame", "1", "--device", pair, "-o", path] + SMALL)
+            if result.returncode != status or len(result.stderr.splitlines()) != 1 or os.path.exists(path):
+                problems.append("%s: exit status %d, %s" % (pair, result.returncode, result.stderr))
+    return problems
+
+
+THOROUGH = [check_least]
+CHECKS = [check_named, check_shrunk, check_other]
