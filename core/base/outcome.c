@@ -5,8 +5,9 @@
 #include "core/base/log.h"
 
 static const char *const names[RG_OUTCOME_COUNT] = {
-    [RG_OK] = "ok",       [RG_FAIL] = "fail",   [RG_UNSUPPORTED] = "unsupported",
-    [RG_ERROR] = "error", [RG_CRASH] = "crash", [RG_TIMEOUT] = "timeout",
+    [RG_OK] = "ok",           [RG_FAIL] = "fail",   [RG_UNSUPPORTED] = "unsupported",
+    [RG_ERROR] = "error",     [RG_CRASH] = "crash", [RG_TIMEOUT] = "timeout",
+    [RG_NOTHING] = "nothing",
 };
 
 const char *rg_outcome_name(enum rg_outcome outcome)

@@ -13,10 +13,12 @@ enum rg_outcome {
     RG_ERROR,       // it could not be done: a driver reported an error
     RG_CRASH,       // a driver ended the process that it ran in
     RG_TIMEOUT,     // a driver did not come back in time
+    RG_NOTHING,     // it was done, and proves nothing: there was no rain to compare or to time
 };
-enum { RG_OUTCOME_COUNT = RG_TIMEOUT + 1 };
+enum { RG_OUTCOME_COUNT = RG_NOTHING + 1 };
 
-// "ok", "fail", "unsupported", "error", "crash", "timeout": the words of all machine forms.
+// "ok", "fail", "unsupported", "error", "crash", "timeout", "nothing": the words of all machine
+// forms.
 const char *rg_outcome_name(enum rg_outcome outcome);
 // The outcome of this name. False where there is none.
 bool rg_outcome_find(const char *name, enum rg_outcome *outcome);

@@ -9,6 +9,8 @@ int rg_exit_of(enum rg_outcome outcome)
         return RG_EXIT_PASS;
     case RG_UNSUPPORTED:
         return RG_EXIT_UNSUPPORTED;
+    case RG_NOTHING:
+        return RG_EXIT_NOTHING;
     default:
         return RG_EXIT_FAIL;
     }
@@ -21,9 +23,14 @@ int rg_exit_of_all(const int counts[RG_OUTCOME_COUNT])
         failed = failed || (counts[i] && rg_exit_of((enum rg_outcome)i) == RG_EXIT_FAIL);
     if (failed)
         return RG_EXIT_FAIL;
-    if (counts[RG_OK])
+    if (counts[RG_OK] && !counts[RG_NOTHING])
         return RG_EXIT_PASS;
-    return counts[RG_UNSUPPORTED] ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
+    return counts[RG_UNSUPPORTED] && !counts[RG_NOTHING] ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
+}
+
+int rg_exit_with(int exit, int64_t count)
+{
+    return exit == RG_EXIT_PASS && count <= 0 ? RG_EXIT_NOTHING : exit;
 }
 
 int rg_exit_of_error(void)

@@ -2,6 +2,8 @@
 #ifndef RG_HARNESS_CONSOLE_EXIT_H
 #define RG_HARNESS_CONSOLE_EXIT_H
 
+#include <stdint.h>
+
 #include "core/base/outcome.h"
 
 // docs/environment.md lists them. Functions return one as an int, since 128 plus a signal's number
@@ -19,9 +21,13 @@ enum rg_exit {
 
 // Of work that had one outcome.
 int rg_exit_of(enum rg_outcome outcome);
-// Of work with so many of each outcome: a failure of any kind outweighs all; then it passes where
-// something was ok, and is unsupported where all was. Without any, nothing was measured.
+// Of work with so many of each outcome: a failure of any kind outweighs all, and what proves
+// nothing all but that; then it passes where something was ok, and is unsupported where all was.
+// Without any, nothing was measured.
 int rg_exit_of_all(const int counts[RG_OUTCOME_COUNT]);
+// Of a command that compares or measures, and came to `exit` with so many things that were compared
+// or measured: it passes with some alone.
+int rg_exit_with(int exit, int64_t count);
 // Of work that the last error (core/base/log.h) ended: bad usage where that is the user's.
 int rg_exit_of_error(void);
 

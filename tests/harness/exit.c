@@ -12,8 +12,9 @@
 static void each_outcome_has_one(void **state)
 {
     (void)state;
-    static const int due[RG_OUTCOME_COUNT] = {[RG_OK] = 0,    [RG_FAIL] = 1,  [RG_UNSUPPORTED] = 77,
-                                              [RG_ERROR] = 1, [RG_CRASH] = 1, [RG_TIMEOUT] = 1};
+    static const int due[RG_OUTCOME_COUNT] = {
+        [RG_OK] = 0,    [RG_FAIL] = 1,    [RG_UNSUPPORTED] = 77, [RG_ERROR] = 1,
+        [RG_CRASH] = 1, [RG_TIMEOUT] = 1, [RG_NOTHING] = 4};
     for (int i = 0; i < RG_OUTCOME_COUNT; i++)
         assert_int_equal(rg_exit_of((enum rg_outcome)i), due[i]);
 }
@@ -33,6 +34,21 @@ static void failures_outweigh_what_is_ok(void **state)
         assert_int_equal(rg_exit_of_all(counts), RG_EXIT_FAIL);
         counts[failures[i]] = 0;
     }
+}
+
+static void what_proves_nothing_is_no_pass(void **state)
+{
+    (void)state;
+    int counts[RG_OUTCOME_COUNT] = {[RG_NOTHING] = 1};
+    assert_int_equal(rg_exit_of_all(counts), RG_EXIT_NOTHING);
+    counts[RG_OK] = counts[RG_UNSUPPORTED] = 5;
+    assert_int_equal(rg_exit_of_all(counts), RG_EXIT_NOTHING);
+    counts[RG_CRASH] = 1;
+    assert_int_equal(rg_exit_of_all(counts), RG_EXIT_FAIL);
+    assert_int_equal(rg_exit_with(RG_EXIT_PASS, 0), RG_EXIT_NOTHING);
+    assert_int_equal(rg_exit_with(RG_EXIT_PASS, 1), RG_EXIT_PASS);
+    assert_int_equal(rg_exit_with(RG_EXIT_FAIL, 0), RG_EXIT_FAIL);
+    assert_int_equal(rg_exit_with(RG_EXIT_UNSUPPORTED, 0), RG_EXIT_UNSUPPORTED);
 }
 
 static void ignore(enum rg_log_level level, const char *line, void *user)
@@ -75,6 +91,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_outcome_has_one),
         cmocka_unit_test(failures_outweigh_what_is_ok),
+        cmocka_unit_test(what_proves_nothing_is_no_pass),
         cmocka_unit_test(only_users_make_bad_usage),
         cmocka_unit_test(the_worse_of_two_is_kept),
     };

@@ -56,7 +56,7 @@ static bool compute(const struct rg_picture *a, const struct rg_picture *b,
         rg_encode(background, c->exposure, planes->background);
     return rg_metrics_compute(a, b, &c->metrics) &&
            rg_tiers_compute(a, b, planes->a, planes->b, background ? planes->background : NULL,
-                            &c->metrics, planes->mask, &c->tiers) &&
+                            c->exposure, &c->metrics, planes->mask, &c->tiers) &&
            rg_flip_map(planes->a, planes->b, a->width, a->height, c->pixels_per_degree,
                        c->flip_map) &&
            rg_flip_pool(c->flip_map, background ? planes->mask : NULL,
@@ -124,6 +124,21 @@ bool rg_compare(const struct rg_picture *a, const char *name_a, const struct rg_
     if (!good)
         rg_comparison_destroy(c);
     return good;
+}
+
+bool rg_picture_shows_rain(const struct rg_picture *picture, const struct rg_picture *background,
+                           float exposure, bool *shows)
+{
+    const size_t pixels = (size_t)picture->width * (size_t)picture->height;
+    uint8_t *codes = malloc(pixels * 8);
+    if (!codes)
+        return rg_error("pictures of %d x %d pixels: no memory to compare them; crop them",
+                        picture->width, picture->height);
+    rg_encode(picture, exposure, codes);
+    rg_encode(background, exposure, codes + pixels * 4);
+    *shows = rg_shows_rain(codes, codes + pixels * 4, (int64_t)pixels);
+    free(codes);
+    return true;
 }
 
 void rg_comparison_destroy(struct rg_comparison *comparison)

@@ -12,6 +12,7 @@
 #ifndef RG_CORE_IMAGE_COMPARE_COMPARE_H
 #define RG_CORE_IMAGE_COMPARE_COMPARE_H
 
+#include "core/base/outcome.h"
 #include "core/base/tier.h"
 #include "core/image/picture.h"
 
@@ -77,6 +78,13 @@ struct rg_tiers {
                                  // codes, within 1 pixel in B (in A)
     double energy_ratio;         // sum of |B - background| / sum of |A - background|; 1 when 0 / 0
     double tile_max_codes;       // largest |mean of B - A| of a colour in a 16 x 16 tile
+    // Linear, of what the encoding clamps away below black and above white: relative to the larger
+    // of the two values, and to 1 at least. `above_one_fraction`, `matched_` and `tile_max_codes`
+    // have it too, as the codes that so much is at white: 112 for all of it.
+    double clamped_max;   // T1: the largest difference anywhere, alpha included
+    double clamped_bias;  // T1: mean of B - A over the mask, of the colour where it is largest
+    double clamped_ratio; // T2: light of B by that of A, of values of which one is beyond black
+                          // or white, over the mask; 1 without any
     // Beside them: linear, over the mask's colours.
     double relative_mean; // sum of |A - B| / sum of max(|A|, |B|)
     double relative_max;  // largest of the same of one pixel
@@ -135,8 +143,12 @@ bool rg_code_metrics(const struct rg_picture *a, const struct rg_picture *b,
 // `background_codes`: NULL for none.
 bool rg_tiers_compute(const struct rg_picture *a, const struct rg_picture *b,
                       const uint8_t *a_codes, const uint8_t *b_codes,
-                      const uint8_t *background_codes, const struct rg_metrics *metrics,
-                      uint8_t *mask, struct rg_tiers *tiers);
+                      const uint8_t *background_codes, float exposure,
+                      const struct rg_metrics *metrics, uint8_t *mask, struct rg_tiers *tiers);
+
+// What a comparison comes to of two pictures that owe each other a tier: ok, fail, or nothing where
+// neither has rain, so that nothing of it was compared.
+enum rg_outcome rg_comparison_outcome(const struct rg_comparison *comparison, enum rg_tier owed);
 
 // The strictest tier that two pictures hold; RG_TIER_COUNT: none.
 int rg_tiers_strictest(const struct rg_tiers *tiers);
@@ -147,6 +159,10 @@ void rg_tiers_text(const struct rg_tiers *tiers, char text[RG_TIERS_TEXT]);
 // Whether a picture has any pixel of rain before its background: of an empty mask nothing can be
 // said.
 bool rg_shows_rain(const uint8_t *codes, const uint8_t *background_codes, int64_t pixels);
+// The same of pictures of one size, encoded with an exposure. False, and one logged line, without
+// memory.
+bool rg_picture_shows_rain(const struct rg_picture *picture, const struct rg_picture *background,
+                           float exposure, bool *shows);
 
 // FLIP of each pixel into width * height floats. pixels_per_degree: 1 to 200.
 bool rg_flip_map(const uint8_t *a_codes, const uint8_t *b_codes, int width, int height,

@@ -18,12 +18,17 @@ enum {
 static const double T1_ABOVE_ONE = 0.001, T1_BIAS_CODES = 0.25;
 static const double T2_MATCHED = 0.995, T2_ENERGY_LOW = 0.99, T2_ENERGY_HIGH = 1.01;
 static const double T2_TILE_CODES = 2.0;
+// What the encoding clamps away, below black and above white, is compared as light: a relative
+// difference there counts as the codes that it is at white, which is the slope of sRGB's curve.
+static const double CODES_AT_WHITE = 255 * 1.055 / 2.4;
+static const double CLAMPED_LOW = 0.99, CLAMPED_HIGH = 1.01; // of light
 
 struct pictures {
     const struct rg_picture *linear_a, *linear_b;
     const uint8_t *a, *b, *background; // codes; background: NULL for none
     const uint8_t *mask;
     int width, height;
+    float exposure;
 };
 
 // What one row adds; integers, so that the order of adding does not matter.
@@ -48,16 +53,59 @@ static void mask_row(const struct pictures *p, int y, uint8_t *mask)
                    distance(p->b + at * 4, p->background + at * 4) > MASK_CODES;
 }
 
+// --- what is clamped away ---
+
+// The part of a value that no code holds.
+static double clamped(double value)
+{
+    return value > 1 ? value - 1 : value < 0 ? value : 0;
+}
+
+// By how many codes b's channel is above a's beyond black and white. Values that are not finite
+// fail the tiers by themselves.
+static double clamped_codes(const struct pictures *p, const float *a, const float *b, int channel)
+{
+    const bool is_colour = channel < rg_picture_colours(p->linear_a);
+    const double scale = is_colour ? (double)p->exposure : 1;
+    const double va = scale * (double)a[channel], vb = scale * (double)b[channel];
+    if (!isfinite(va) || !isfinite(vb))
+        return 0;
+    const double size = fmax(fabs(va), fabs(vb));
+    return size > 1 || va < 0 || vb < 0
+               ? CODES_AT_WHITE * (clamped(vb) - clamped(va)) / fmax(size, 1)
+               : 0;
+}
+
+// The largest of a pixel's channels, either way.
+static double clamped_distance(const struct pictures *p, const float *a, const float *b)
+{
+    double worst = 0;
+    for (int c = 0; c < p->linear_a->channels; c++)
+        worst = fmax(worst, fabs(clamped_codes(p, a, b, c)));
+    return worst;
+}
+
+static const float *linear(const struct pictures *p, const uint8_t *of, int64_t pixel)
+{
+    const struct rg_picture *picture = of == p->a ? p->linear_a : p->linear_b;
+    return picture->texels + pixel * picture->channels;
+}
+
+// --- what the encoding holds ---
+
 // Whether the colour of pixel x, y of `from` is found within one pixel of it in `to`.
 static bool found_near(const struct pictures *p, const uint8_t *from, const uint8_t *to, int x,
                        int y)
 {
-    const uint8_t *colour = from + ((int64_t)y * p->width + x) * 4;
+    const int64_t at = (int64_t)y * p->width + x;
     for (int ny = y - 1; ny <= y + 1; ny++)
-        for (int nx = x - 1; nx <= x + 1; nx++)
+        for (int nx = x - 1; nx <= x + 1; nx++) {
+            const int64_t near = (int64_t)ny * p->width + nx;
             if (nx >= 0 && ny >= 0 && nx < p->width && ny < p->height &&
-                distance(colour, to + ((int64_t)ny * p->width + nx) * 4) <= POSITION_CODES)
+                distance(from + at * 4, to + near * 4) <= POSITION_CODES &&
+                clamped_distance(p, linear(p, from, at), linear(p, to, near)) <= POSITION_CODES)
                 return true;
+        }
     return false;
 }
 
@@ -65,12 +113,13 @@ static void measure_differing(const struct pictures *p, int x, int y, struct row
 {
     int64_t at = ((int64_t)y * p->width + x) * 4;
     const uint8_t *a = p->a + at, *b = p->b + at;
+    const double lost = clamped_distance(p, linear(p, p->a, at / 4), linear(p, p->b, at / 4));
     int colours = distance(a, b), alpha = abs(a[3] - b[3]);
     int worst = colours > alpha ? colours : alpha;
     s->max_codes = worst > s->max_codes ? worst : s->max_codes;
     if (!p->mask[at / 4])
         return;
-    s->above_one += worst > 1;
+    s->above_one += worst > 1 || lost > 1;
     for (int c = 0; c < 3; c++)
         s->bias[c] += b[c] - a[c];
     if (p->background) {
@@ -78,7 +127,7 @@ static void measure_differing(const struct pictures *p, int x, int y, struct row
         s->coverage_mismatches +=
             (from_a > MASK_CODES && from_b == 0) || (from_b > MASK_CODES && from_a == 0);
     }
-    if (colours > POSITION_CODES) {
+    if (colours > POSITION_CODES || lost > POSITION_CODES) {
         s->unmatched_a += !found_near(p, p->a, p->b, x, y);
         s->unmatched_b += !found_near(p, p->b, p->a, x, y);
     }
@@ -97,7 +146,9 @@ static struct row_sums measure_row(const struct pictures *p, int y)
     struct row_sums s;
     memset(&s, 0, sizeof(s));
     int64_t start = (int64_t)y * p->width;
-    bool same = memcmp(p->a + start * 4, p->b + start * 4, (size_t)p->width * 4) == 0;
+    const size_t texel = (size_t)p->linear_a->channels * sizeof(float);
+    bool same =
+        memcmp(linear(p, p->a, start), linear(p, p->b, start), (size_t)p->width * texel) == 0;
     for (int x = 0; x < p->width; x++) {
         int64_t at = (start + x) * 4;
         s.mask_pixels += p->mask[start + x];
@@ -106,7 +157,7 @@ static struct row_sums measure_row(const struct pictures *p, int y)
         const uint8_t *background = p->background ? p->background + at : NULL;
         s.energy_a += energy(p->a + at, background);
         s.energy_b += energy(p->b + at, background);
-        if (!same && memcmp(p->a + at, p->b + at, 4) != 0)
+        if (!same && memcmp(linear(p, p->a, at / 4), linear(p, p->b, at / 4), texel) != 0)
             measure_differing(p, x, y, &s);
     }
     return s;
@@ -126,6 +177,18 @@ static void add_row(const struct row_sums *row, struct row_sums *total)
     total->max_codes = row->max_codes > total->max_codes ? row->max_codes : total->max_codes;
 }
 
+// Adds what some pixels of a row differ by beyond black and white, by channel.
+static void add_clamped(const struct pictures *p, int64_t pixel, int count, double codes[4])
+{
+    const int channels = p->linear_a->channels;
+    const float *a = linear(p, p->a, pixel), *b = linear(p, p->b, pixel);
+    if (memcmp(a, b, (size_t)count * (size_t)channels * sizeof(*a)) == 0)
+        return;
+    for (int i = 0; i < count * channels; i++)
+        codes[i % channels] +=
+            clamped_codes(p, a + i - i % channels, b + i - i % channels, i % channels);
+}
+
 // The largest difference of a colour's mean among the tiles of the row of tiles that starts at y0.
 static double tile_row_max(const struct pictures *p, int y0)
 {
@@ -133,13 +196,15 @@ static double tile_row_max(const struct pictures *p, int y0)
     int rows = p->height - y0 < TILE ? p->height - y0 : TILE;
     for (int x0 = 0; x0 < p->width; x0 += TILE) {
         int columns = p->width - x0 < TILE ? p->width - x0 : TILE, sum[4] = {0};
+        double lost[4] = {0};
         for (int y = y0; y < y0 + rows; y++) {
             int64_t at = ((int64_t)y * p->width + x0) * 4;
             for (int i = 0; i < columns * 4; i++)
                 sum[i & 3] += p->b[at + i] - p->a[at + i];
+            add_clamped(p, at / 4, columns, lost);
         }
         for (int c = 0; c < 3; c++)
-            max = fmax(max, abs(sum[c]) / (double)(rows * columns));
+            max = fmax(max, fabs(sum[c] + lost[c]) / (double)(rows * columns));
     }
     return max;
 }
@@ -168,6 +233,57 @@ static void relative_row(const struct pictures *p, int y, double sums[2], double
         if (difference > *max * size)
             *max = difference / size;
     }
+}
+
+// What the encoding clamps away in a row.
+struct clamped_sums {
+    double max_codes;        // anywhere
+    double bias[4];          // over the mask, by channel
+    double light_a, light_b; // over the mask's values of which one is beyond black or white
+};
+
+static void clamped_row(const struct pictures *p, int y, struct clamped_sums *s)
+{
+    const int colours = rg_picture_colours(p->linear_a);
+    for (int64_t at = (int64_t)y * p->width; at < ((int64_t)y + 1) * p->width; at++) {
+        const float *a = linear(p, p->a, at), *b = linear(p, p->b, at);
+        s->max_codes = fmax(s->max_codes, clamped_distance(p, a, b));
+        for (int c = 0; p->mask[at] && c < colours; c++) {
+            const double va = fabs((double)(p->exposure * a[c])),
+                         vb = fabs((double)(p->exposure * b[c]));
+            if ((a[c] >= 0 && b[c] >= 0 && va <= 1 && vb <= 1) || !isfinite(va) || !isfinite(vb))
+                continue;
+            s->light_a += fmax(va, 1);
+            s->light_b += fmax(vb, 1);
+        }
+        if (p->mask[at])
+            add_clamped(p, at, 1, s->bias);
+    }
+}
+
+static bool measure_clamped(const struct pictures *p, struct rg_tiers *tiers)
+{
+    struct clamped_sums *rows = calloc((size_t)p->height, sizeof(*rows)), all = {0};
+    if (!rows)
+        return false;
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < p->height; y++)
+        clamped_row(p, y, &rows[y]);
+    for (int y = 0; y < p->height; y++) {
+        all.max_codes = fmax(all.max_codes, rows[y].max_codes);
+        for (int c = 0; c < 3; c++)
+            all.bias[c] += rows[y].bias[c];
+        all.light_a += rows[y].light_a;
+        all.light_b += rows[y].light_b;
+    }
+    free(rows);
+    tiers->clamped_max = all.max_codes / CODES_AT_WHITE;
+    const double mask = CODES_AT_WHITE * (double)(tiers->mask_pixels ? tiers->mask_pixels : 1);
+    for (int c = 0; c < rg_picture_colours(p->linear_a); c++)
+        if (fabs(all.bias[c] / mask) > fabs(tiers->clamped_bias))
+            tiers->clamped_bias = all.bias[c] / mask;
+    tiers->clamped_ratio = all.light_a > 0 ? all.light_b / all.light_a : 1;
+    return true;
 }
 
 static bool measure_relative(const struct pictures *p, struct rg_tiers *tiers)
@@ -212,11 +328,18 @@ static void judge_t1(struct rg_tiers *t)
     if (t->max_codes > T1_MAX_CODES)
         fail_tier(&t->of[RG_T1], "largest difference %d/255 is above %d/255", t->max_codes,
                   T1_MAX_CODES);
+    if (t->clamped_max > T1_MAX_CODES / CODES_AT_WHITE)
+        fail_tier(&t->of[RG_T1],
+                  "beyond black and white: largest difference %.3g %% is above %.3g %%",
+                  100 * t->clamped_max, 100 * T1_MAX_CODES / CODES_AT_WHITE);
     if (t->above_one_fraction > T1_ABOVE_ONE)
         fail_tier(&t->of[RG_T1], "%.3g %% of the mask is above 1/255, allowed %g %%",
                   100 * t->above_one_fraction, 100 * T1_ABOVE_ONE);
     if (fabs(t->bias_codes) > T1_BIAS_CODES)
         fail_tier(&t->of[RG_T1], "bias %.3g/255 is beyond %g/255", t->bias_codes, T1_BIAS_CODES);
+    if (fabs(t->clamped_bias) > T1_BIAS_CODES / CODES_AT_WHITE)
+        fail_tier(&t->of[RG_T1], "beyond black and white: bias %.3g %% is beyond %.3g %%",
+                  100 * t->clamped_bias, 100 * T1_BIAS_CODES / CODES_AT_WHITE);
 }
 
 static void judge_t2(struct rg_tiers *t)
@@ -228,6 +351,9 @@ static void judge_t2(struct rg_tiers *t)
     if (!(t->energy_ratio >= T2_ENERGY_LOW && t->energy_ratio <= T2_ENERGY_HIGH))
         fail_tier(&t->of[RG_T2], "energy ratio %.5g is outside %g to %g", t->energy_ratio,
                   T2_ENERGY_LOW, T2_ENERGY_HIGH);
+    if (!(t->clamped_ratio >= CLAMPED_LOW && t->clamped_ratio <= CLAMPED_HIGH))
+        fail_tier(&t->of[RG_T2], "beyond black and white: light's ratio %.5g is outside %g to %g",
+                  t->clamped_ratio, CLAMPED_LOW, CLAMPED_HIGH);
     if (t->tile_max_codes > T2_TILE_CODES)
         fail_tier(&t->of[RG_T2], "a 16 x 16 tile's mean differs by %.3g/255, above %g/255",
                   t->tile_max_codes, T2_TILE_CODES);
@@ -237,14 +363,14 @@ static void judge(const struct rg_metrics *metrics, struct rg_tiers *t)
 {
     for (int i = 0; i < RG_TIER_COUNT; i++) {
         t->of[i].holds = true;
+        if (i == RG_T0 && metrics->differing_values)
+            fail_tier(&t->of[i], "%lld values differ", (long long)metrics->differing_values);
         if (t->mask_pixels == 0)
             fail_tier(&t->of[i], "the rain mask is empty: neither picture has rain");
         if (i > RG_T0 && metrics->nonfinite_mismatches)
             fail_tier(&t->of[i], "%lld values are NaN or infinite in one picture only",
                       (long long)metrics->nonfinite_mismatches);
     }
-    if (metrics->differing_values)
-        fail_tier(&t->of[RG_T0], "%lld values differ", (long long)metrics->differing_values);
     judge_t1(t);
     judge_t2(t);
 }
@@ -268,10 +394,11 @@ static void conclude(const struct row_sums *sums, struct rg_tiers *t)
 
 bool rg_tiers_compute(const struct rg_picture *a, const struct rg_picture *b,
                       const uint8_t *a_codes, const uint8_t *b_codes,
-                      const uint8_t *background_codes, const struct rg_metrics *metrics,
-                      uint8_t *mask, struct rg_tiers *tiers)
+                      const uint8_t *background_codes, float exposure,
+                      const struct rg_metrics *metrics, uint8_t *mask, struct rg_tiers *tiers)
 {
-    struct pictures p = {a, b, a_codes, b_codes, background_codes, mask, a->width, a->height};
+    struct pictures p = {a,    b,        a_codes,   b_codes, background_codes,
+                         mask, a->width, a->height, exposure};
     struct row_sums total;
     memset(&total, 0, sizeof(total));
     memset(tiers, 0, sizeof(*tiers));
@@ -296,9 +423,9 @@ bool rg_tiers_compute(const struct rg_picture *a, const struct rg_picture *b,
         add_row(&own, &total);
     }
     tiers->tile_max_codes = tile_max;
-    if (!measure_relative(&p, tiers))
-        return rg_error("comparing %d x %d pixels: no memory; crop them", p.width, p.height);
     conclude(&total, tiers);
+    if (!measure_relative(&p, tiers) || !measure_clamped(&p, tiers))
+        return rg_error("comparing %d x %d pixels: no memory; crop them", p.width, p.height);
     judge(metrics, tiers);
     return true;
 }
@@ -309,6 +436,14 @@ bool rg_shows_rain(const uint8_t *codes, const uint8_t *background_codes, int64_
     for (int64_t i = 0; i < pixels && !shows; i++)
         shows = distance(codes + i * 4, background_codes + i * 4) > MASK_CODES;
     return shows;
+}
+
+enum rg_outcome rg_comparison_outcome(const struct rg_comparison *comparison, enum rg_tier owed)
+{
+    const struct rg_tiers *tiers = &comparison->tiers;
+    if (!tiers->mask_pixels && (owed != RG_T0 || !comparison->metrics.differing_values))
+        return RG_NOTHING;
+    return tiers->of[owed].holds ? RG_OK : RG_FAIL;
 }
 
 int rg_tiers_strictest(const struct rg_tiers *tiers)

@@ -69,6 +69,8 @@ static void print_tiers(const struct rg_comparison *c)
            100 * t->matched_a, 100 * t->matched_b);
     printf("  energy ratio                 %.6f\n", t->energy_ratio);
     printf("  largest tile difference      %.4g/255\n", t->tile_max_codes);
+    printf("  beyond black and white       largest %.4g %%, bias %.4g %%, ratio of light %.6f\n",
+           100 * t->clamped_max, 100 * t->clamped_bias, t->clamped_ratio);
     printf("  relative error (linear)      mean %.4g, largest %.4g\n", t->relative_mean,
            t->relative_max);
 }
@@ -123,15 +125,16 @@ static json_t *verdict_json(const struct rg_verdict *verdict)
 
 static json_t *tiers_json(const struct rg_tiers *t)
 {
-    return json_pack("{s:o, s:o, s:o, s:b, s:o, s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:o}", "t0",
-                     verdict_json(&t->of[RG_T0]), "t1", verdict_json(&t->of[RG_T1]), "t2",
-                     verdict_json(&t->of[RG_T2]), "mask_is_whole", t->mask_is_whole,
-                     "above_one_fraction", number(t->above_one_fraction), "bias_codes",
-                     number(t->bias_codes), "coverage_mismatches",
-                     (json_int_t)t->coverage_mismatches, "matched_a", number(t->matched_a),
-                     "matched_b", number(t->matched_b), "energy_ratio", number(t->energy_ratio),
-                     "tile_max_codes", number(t->tile_max_codes), "relative_mean",
-                     number(t->relative_mean), "relative_max", number(t->relative_max));
+    return json_pack(
+        "{s:o, s:o, s:o, s:b, s:o, s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "t0",
+        verdict_json(&t->of[RG_T0]), "t1", verdict_json(&t->of[RG_T1]), "t2",
+        verdict_json(&t->of[RG_T2]), "mask_is_whole", t->mask_is_whole, "above_one_fraction",
+        number(t->above_one_fraction), "bias_codes", number(t->bias_codes), "coverage_mismatches",
+        (json_int_t)t->coverage_mismatches, "matched_a", number(t->matched_a), "matched_b",
+        number(t->matched_b), "energy_ratio", number(t->energy_ratio), "tile_max_codes",
+        number(t->tile_max_codes), "relative_mean", number(t->relative_mean), "relative_max",
+        number(t->relative_max), "clamped_max", number(t->clamped_max), "clamped_bias",
+        number(t->clamped_bias), "clamped_ratio", number(t->clamped_ratio));
 }
 
 static json_t *metrics_json(const struct rg_metrics *m)

@@ -12,7 +12,8 @@
 static void outcomes_are_found_by_their_names(void **state)
 {
     (void)state;
-    static const char *const names[] = {"ok", "fail", "unsupported", "error", "crash", "timeout"};
+    static const char *const names[] = {"ok",    "fail",    "unsupported", "error",
+                                        "crash", "timeout", "nothing"};
     for (int i = 0; i < RG_OUTCOME_COUNT; i++) {
         enum rg_outcome found = (enum rg_outcome)((i + 1) % RG_OUTCOME_COUNT);
         assert_string_equal(rg_outcome_name((enum rg_outcome)i), names[i]);

@@ -255,6 +255,167 @@ static void exposure_reveals_dim_rain(void **state)
     rg_picture_destroy(&dim);
 }
 
+// --- what the encoding clamps away ---
+
+enum { BAR_PX = 32, BARS = WIDTH / BAR_PX, BELOW_BLACK = BARS - 1 };
+
+static int bar_of(int i)
+{
+    return i / CHANNELS % WIDTH / BAR_PX;
+}
+
+// Bars of lamps before the honest rain, each brighter than the one before, and one of light below
+// black.
+static bool is_lamp(int i)
+{
+    return i / CHANNELS % WIDTH % BAR_PX < 8 && i % CHANNELS < 3;
+}
+
+static void draw_lamps(struct rg_picture *picture)
+{
+    rain_draw(picture, honest_rain);
+    for (int i = 0; i < WIDTH * HEIGHT * CHANNELS; i++)
+        if (is_lamp(i))
+            picture->texels[i] =
+                bar_of(i) == BELOW_BLACK ? -3.0f : 1.2f * powf(2.5f, (float)bar_of(i));
+}
+
+// Of `mutant` before the lamps, over the whole picture.
+static struct rg_tiers judge_lamps(float exposure)
+{
+    struct rg_comparison c;
+    struct rg_picture lamps;
+    assert_true(rg_picture_create(&lamps, WIDTH, HEIGHT, CHANNELS, "lamps"));
+    draw_lamps(&lamps);
+    assert_true(rg_compare(&lamps, "a", &mutant, "b", NULL,
+                           &(struct rg_compare_options){.exposure = exposure}, &c));
+    const struct rg_tiers tiers = c.tiers;
+    rg_comparison_destroy(&c);
+    rg_picture_destroy(&lamps);
+    return tiers;
+}
+
+// The lamps of some bars times a factor.
+static struct rg_tiers scale_lamps(float factor, int first, int last)
+{
+    draw_lamps(&mutant);
+    for (int i = 0; i < WIDTH * HEIGHT * CHANNELS; i++)
+        if (is_lamp(i) && bar_of(i) >= first && bar_of(i) <= last)
+            mutant.texels[i] *= factor;
+    return judge_lamps(1);
+}
+
+static void lamps_that_clip_alike_are_told_apart(void **state)
+{
+    (void)state;
+    const struct rg_tiers same = scale_lamps(1, 0, 9);
+    assert_holds(&same, true, true, true);
+    assert_true(same.clamped_max == 0 && same.clamped_bias == 0 && same.clamped_ratio == 1);
+    struct rg_tiers t = scale_lamps(4000, 0, 0); // 1.2 and 4800: no code differs
+    assert_int_equal(t.max_codes, 0);
+    assert_holds(&t, false, false, false);
+    assert_non_null(strstr(t.of[RG_T1].why, "beyond black and white"));
+    t = scale_lamps(1000, BELOW_BLACK, BELOW_BLACK);
+    assert_int_equal(t.max_codes, 0);
+    assert_holds(&t, false, false, false);
+}
+
+static void what_halves_round_is_arithmetic(void **state)
+{
+    (void)state;
+    const struct rg_tiers t = scale_lamps(1 + 0x1p-11f, 0, BELOW_BLACK);
+    assert_holds(&t, false, true, true);
+    assert_true(t.clamped_max > 4e-4 && t.clamped_max < 6e-4);
+}
+
+// Each within the bound of all others.
+static void each_bound_beyond_white_decides(void **state)
+{
+    (void)state;
+    struct rg_tiers t =
+        scale_lamps(1.003f, 0, BELOW_BLACK); // a quarter of the picture, below a code
+    assert_holds(&t, false, true, true);
+    assert_true(t.clamped_bias > 5e-4 && t.clamped_bias < 1e-3);
+    t = scale_lamps(1.011f, 3, 3); // more than a code in 2.5 % of the picture
+    assert_false(t.of[RG_T1].holds);
+    assert_true(t.of[RG_T2].holds);
+    t = scale_lamps(1.012f, 0, BELOW_BLACK);
+    assert_false(t.of[RG_T2].holds);
+    assert_non_null(strstr(t.of[RG_T2].why, "ratio"));
+    draw_lamps(&mutant);
+    mutant.texels[0] *= 1.02f; // one value
+    t = judge_lamps(1);
+    assert_false(t.of[RG_T1].holds);
+    assert_true(t.clamped_max > 0.0195 && t.clamped_max < 0.0197);
+}
+
+static void a_value_that_clips_on_one_side_is_told_apart(void **state)
+{
+    (void)state;
+    draw_lamps(&mutant);
+    for (int i = 0; i < WIDTH * HEIGHT * CHANNELS; i++)
+        if (is_lamp(i) && bar_of(i) == 5)
+            mutant.texels[i] = 0.999f;
+    const struct rg_tiers t = judge_lamps(1);
+    assert_int_equal(t.max_codes, 0);
+    assert_holds(&t, false, false, false);
+}
+
+// A lamp of 1.2 is no light beyond white at a tenth of the exposure, and one of 117 still is.
+static void the_exposure_decides_what_clips(void **state)
+{
+    (void)state;
+    draw_lamps(&mutant);
+    for (int i = 0; i < WIDTH * HEIGHT * CHANNELS; i++)
+        if (is_lamp(i) && bar_of(i) == 0)
+            mutant.texels[i] *= 1.004f;
+    assert_true(judge_lamps(1).clamped_max > 0.003 && judge_lamps(0.1f).clamped_max == 0);
+    draw_lamps(&mutant);
+    for (int i = 0; i < WIDTH * HEIGHT * CHANNELS; i++)
+        if (is_lamp(i) && bar_of(i) == 5)
+            mutant.texels[i] *= 20;
+    assert_false(judge_lamps(0.1f).of[RG_T1].holds);
+}
+
+static void infinite_lamps_agree_with_themselves_alone(void **state)
+{
+    (void)state;
+    struct rg_comparison c;
+    struct rg_picture other;
+    assert_true(rg_picture_create(&other, WIDTH, HEIGHT, CHANNELS, "other"));
+    draw_lamps(&mutant);
+    draw_lamps(&other);
+    mutant.texels[0] = INFINITY;
+    struct rg_tiers t = judge_lamps(1);
+    assert_holds(&t, false, false, false);
+    other.texels[0] = INFINITY;
+    other.texels[1] = nextafterf(other.texels[1], 0);
+    assert_true(rg_compare(&mutant, "a", &other, "b", NULL, &(struct rg_compare_options){0}, &c));
+    assert_holds(&c.tiers, false, true, true);
+    assert_true(c.tiers.clamped_max > 0 && c.tiers.clamped_max < 1e-6);
+    rg_comparison_destroy(&c);
+    rg_picture_destroy(&other);
+}
+
+// One lamp's pixel, off by a factor from 1.02 to 1000 either way, where it clips all the same.
+static void seeded_mutants_of_lamps_are_rejected(void **state)
+{
+    (void)state;
+    uint32_t noise = 1;
+    for (int run = 0; run < 40; run++) {
+        int i;
+        do
+            i = (int)((noise = rain_noise(noise + 1)) % (WIDTH * HEIGHT * CHANNELS));
+        while (!is_lamp(i));
+        draw_lamps(&mutant);
+        const float factor = 1.02f + (float)(noise >> 16) / 65536.0f * (run % 2 ? 1000.0f : 0.1f);
+        mutant.texels[i] *= run % 4 < 2 || fabsf(mutant.texels[i]) < 1.5f ? factor : 1 / factor;
+        const struct rg_tiers t = judge_lamps(1);
+        if (t.of[RG_T1].holds)
+            fail_msg("run %d: value %d times %g holds T1", run, i, (double)factor);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -273,6 +434,13 @@ int main(void)
         cmocka_unit_test(nan_in_one_picture_fails),
         cmocka_unit_test(values_that_are_not_finite_are_left_out),
         cmocka_unit_test(exposure_reveals_dim_rain),
+        cmocka_unit_test(lamps_that_clip_alike_are_told_apart),
+        cmocka_unit_test(what_halves_round_is_arithmetic),
+        cmocka_unit_test(each_bound_beyond_white_decides),
+        cmocka_unit_test(a_value_that_clips_on_one_side_is_told_apart),
+        cmocka_unit_test(the_exposure_decides_what_clips),
+        cmocka_unit_test(infinite_lamps_agree_with_themselves_alone),
+        cmocka_unit_test(seeded_mutants_of_lamps_are_rejected),
     };
     return cmocka_run_group_tests_name("agreement tiers", tests, make_pictures, destroy_pictures);
 }
