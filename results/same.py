@@ -55,6 +55,8 @@ def main():
         raise ValueError(f"{folder}: holds no record of a table; name a folder that raingauge table -o wrote")
     for name in names:
         cells = cells_of(os.path.join(folder, name))
+        if not cells:
+            raise ValueError(f"{os.path.join(folder, name)}: holds no cell, so that nothing is compared; measure the table anew")
         difference = first_difference(cells, cells_of(os.path.join(args.to, name)))
         print(f"{name[:-len('.json')]}: {difference or f'{len(cells)} cells count the same'}")
         differ |= bool(difference)

@@ -1,8 +1,10 @@
 #include "harness/frames/frame.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "core/base/log.h"
+#include "core/image/compare/compare.h"
 #include "core/image/files/io.h"
 #include "harness/console/clock.h"
 #include "harness/console/duration.h"
@@ -27,6 +29,43 @@ bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subjec
     const bool ok = settings && rg_frame_draw(device, &dry, frames, picture);
     free(settings);
     return ok;
+}
+
+static bool shows_rain(struct rg_device *device, const struct rg_subject *subject, int frames,
+                       float exposure)
+{
+    struct rg_picture picture = {0}, dry = {0};
+    bool shows = false;
+    const bool ok = rg_frame_draw(device, subject, frames, &picture) &&
+                    rg_frame_draw_dry(device, subject, frames, &dry) &&
+                    rg_picture_shows_rain(&picture, &dry, exposure, &shows);
+    rg_picture_destroy(&picture);
+    rg_picture_destroy(&dry);
+    return ok && shows;
+}
+
+void rg_frame_tell_dry(struct rg_device *device, const struct rg_subject *subject, int frames,
+                       float exposure, const char *option, char text[RG_FRAME_DRY])
+{
+    static const int others[] = {60, 240};
+    int found = -1;
+    rg_log_hold(true); // that none is found says enough
+    for (int i = 0; found < 0 && i < 2; i++)
+        if (others[i] != frames && shows_rain(device, subject, others[i], exposure))
+            found = others[i];
+    rg_log_hold(false);
+    if (found >= 0)
+        snprintf(text, RG_FRAME_DRY, "no rain at frame %d, so that nothing is compared; take %s %d",
+                 frames, option, found);
+    else
+        snprintf(
+            text, RG_FRAME_DRY,
+            "no rain at frame %d, nor at %s, so that nothing is compared; give another size or "
+            "setting",
+            frames,
+            frames == 60    ? "240"
+            : frames == 240 ? "60"
+                            : "60 and 240");
 }
 
 // Pictures from this size on are looked at in small first.

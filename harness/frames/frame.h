@@ -13,6 +13,12 @@ bool rg_frame_draw(struct rg_device *device, const struct rg_subject *subject, i
 bool rg_frame_draw_dry(struct rg_device *device, const struct rg_subject *subject, int frames,
                        struct rg_picture *picture);
 
+enum { RG_FRAME_DRY = 160 };
+// Says in one line that a subject has no rain behind so many frames, and which frame has some, if
+// one is found; `option` is how the user gives a frame, as "--frame".
+void rg_frame_tell_dry(struct rg_device *device, const struct rg_subject *subject, int frames,
+                       float exposure, const char *option, char text[RG_FRAME_DRY]);
+
 // Opens a subject on a device, simulates so many frames and draws the last, with a bar of progress;
 // of a picture so large that it alone may last long, how long is found out first, from one of an
 // eighth of its sides. NULL, and one logged line, on failure.

@@ -17,6 +17,8 @@
            all      the same, of every command
            misbehaving  drivers that crash, hang, lie about their end or lose their device
            ways     the same, in all ways, of the commands that take longer
+           vacuous  commands that are left with nothing to compare or to measure
+           idle     the same, all of them
            gates    one device held against another
            baselines  a device held against what was kept of it
            reports  what gates tell, of names with any characters and of what is expected
@@ -66,6 +68,7 @@ import shells
 import shrinking
 import stored
 import tables
+import vacuous
 import verifying
 import wrong
 from runner import Runner
@@ -85,6 +88,8 @@ SUITES = {
     "all": lambda runner: runner.check_all(failing.THOROUGH),
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
     "ways": lambda runner: runner.check_all(misbehaving.THOROUGH + compiling.THOROUGH),
+    "vacuous": lambda runner: runner.check_all(vacuous.CHECKS),
+    "idle": lambda runner: runner.check_all(vacuous.THOROUGH),
     "gates": lambda runner: runner.check_all(gates.CHECKS),
     "baselines": lambda runner: runner.check_all(baselines.CHECKS),
     "reports": lambda runner: runner.check_all(reports.CHECKS),

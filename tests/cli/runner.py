@@ -1,5 +1,6 @@
 """Runs raingauge as a person would, and prints TAP."""
 import ctypes
+import datetime
 import json
 import os
 import pty
@@ -17,6 +18,9 @@ NO_DRIVERS = {
     "OCL_ICD_VENDORS": "/nonexistent",
     "__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent",
 }
+
+# A day to which an expectation may hold.
+LATER = (datetime.date.today() + datetime.timedelta(90)).isoformat()
 
 # With what table and sweep end.
 CLOSING = re.compile(r"^raingauge: (?:\d+ of )?\d+ cells? measured on \d+ devices?(?:; [^;\n]*)?\n", re.M)

@@ -288,8 +288,10 @@ static bool has_times(const struct gate_options *o, const struct rg_baseline *ba
 static bool read_input(const struct gate_options *o, struct gate_input *in)
 {
     const bool is_read = rg_gate_cells_read(o->cells, &in->cells) && read_known(o, &in->known);
-    if (is_read && !o->gtest.list)
+    if (is_read && !o->gtest.list) {
         rg_gate_warn_of_strays(&in->known, &in->cells);
+        rg_gate_warn_of_days(&in->known, today());
+    }
     return is_read && (!o->baseline || (rg_baseline_read(&in->baseline, o->baseline) &&
                                         rg_baseline_fits(&in->baseline, o->baseline, &in->cells,
                                                          o->cells ? o->cells : "built-in cells",

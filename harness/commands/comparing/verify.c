@@ -149,6 +149,8 @@ static int verify_on(const struct verify_options *o, const struct rg_devices *de
         verify_all(&v, o->stages, subjects, count);
         rg_checks_print(&checks, o->json);
         exit = rg_checks_exit(&checks);
+        if (!checks.count)
+            rg_error("verify: no device is held against cpu:reference; name another by --device");
     }
     rg_checks_free(&checks);
     for (int i = 0; i < 2; i++)

@@ -38,6 +38,11 @@ struct session {
     struct rg_accepts accepts;
 };
 
+static float exposure_of(const struct session *s)
+{
+    return s->asked->exposure != 0 ? (float)s->asked->exposure : 1.0f;
+}
+
 // Draws the same frame without rain. The rain mask is where a picture differs from it.
 static bool take_background(struct session *s)
 {
@@ -128,6 +133,12 @@ static bool spare_files(const struct session *s, const struct rg_devices *device
     return spared;
 }
 
+static void print_head(void)
+{
+    printf("%-30s %-5s %-5s %10s %10s %8s %9s %8s\n", "pair", "", "tier", "differing", "largest",
+           "mask px", "FLIP mean", "PSNR dB");
+}
+
 static void print_pair(const struct shot *a, const struct shot *b, const struct rg_comparison *c,
                        bool holds)
 {
@@ -176,34 +187,43 @@ static json_t *pair_json(const struct shot *a, const struct shot *b, const struc
     return rg_pair_json(names[0], names[1], c);
 }
 
+// Why a pair fails, and what a looser tier would let pass.
+static void tell_failure(struct session *s, const struct shot *a, const struct shot *b,
+                         const struct rg_comparison *c, json_t *pair)
+{
+    json_t *blame = blame_pair(s, a, b);
+    if (pair && blame)
+        json_object_set(pair, "blame", blame);
+    json_decref(blame);
+    json_t *accepts = rg_accepts_tell(&s->accepts, s->asked->subject.technique, &c->tiers,
+                                      s->asked->mutants, s->pairs);
+    if (pair && accepts)
+        json_object_set(pair, "accepts", accepts);
+    json_decref(accepts);
+}
+
 static int compare_pair(struct session *s, const struct shot *a, const struct shot *b)
 {
     struct rg_comparison c;
     if (!rg_compare(&a->picture, a->info->name, &b->picture, b->info->name, &s->background,
-                    &(struct rg_compare_options){.exposure = (float)s->asked->exposure}, &c))
+                    &(struct rg_compare_options){.exposure = exposure_of(s)}, &c))
         return RG_EXIT_USAGE;
-    s->compared++;
-    const bool holds = c.tiers.of[rg_tier_owed(a->info, b->info)].holds;
-    bool ok = true;
+    const enum rg_outcome outcome = rg_comparison_outcome(&c, rg_tier_owed(a->info, b->info));
+    s->compared += outcome != RG_NOTHING;
     json_t *pair = s->pairs ? pair_json(a, b, &c) : NULL;
-    if (!s->pairs)
-        print_pair(a, b, &c, holds);
-    json_t *blame = holds ? NULL : blame_pair(s, a, b);
-    if (pair && blame)
-        json_object_set(pair, "blame", blame);
-    json_decref(blame);
-    json_t *accepts = holds ? NULL
-                            : rg_accepts_tell(&s->accepts, s->asked->subject.technique, &c.tiers,
-                                              s->asked->mutants, s->pairs);
-    if (pair && accepts)
-        json_object_set(pair, "accepts", accepts);
-    json_decref(accepts);
+    if (!s->pairs && s->compared == 1 && outcome != RG_NOTHING)
+        print_head();
+    if (!s->pairs && outcome != RG_NOTHING)
+        print_pair(a, b, &c, outcome == RG_OK);
+    bool ok = true;
+    if (outcome == RG_FAIL)
+        tell_failure(s, a, b, &c, pair);
     if (s->pairs)
-        ok = json_array_append_new(s->pairs, pair) == 0;
+        ok = json_array_append_new(s->pairs, pair) == 0 && ok;
     if (s->asked->heatmap_prefix)
         ok = write_heatmaps(s, a, b, &c) && ok;
     rg_comparison_destroy(&c);
-    return !ok ? RG_EXIT_USAGE : holds ? RG_EXIT_PASS : RG_EXIT_FAIL;
+    return ok ? rg_exit_of(outcome) : RG_EXIT_USAGE;
 }
 
 // No pair is no proof, and is said.
@@ -215,16 +235,24 @@ static void tell_count(const struct session *s)
     printf("\n");
 }
 
+// Why pairs of the devices' pictures may have nothing that could be compared.
+static void tell_dry(const struct session *s)
+{
+    const struct rg_diff_devices_request *r = s->asked;
+    char why[RG_FRAME_DRY];
+    rg_frame_tell_dry(s->shots[0].device, &r->subject, r->frames, exposure_of(s), "--frame", why);
+    rg_error("diff %s: %s", r->subject.technique->name, why);
+}
+
 static int compare_all(struct session *s)
 {
     int exit = s->exit;
-    if (!s->asked->json)
-        printf("%-30s %-5s %-5s %10s %10s %8s %9s %8s\n", "pair", "", "tier", "differing",
-               "largest", "mask px", "FLIP mean", "PSNR dB");
     for (int i = 0; i < s->shot_count; i++) {
         for (int j = i + 1; j < s->shot_count && exit != RG_EXIT_USAGE; j++)
             exit = rg_exit_worse(exit, compare_pair(s, &s->shots[i], &s->shots[j]));
     }
+    if (exit == RG_EXIT_NOTHING)
+        tell_dry(s);
     if (!s->asked->json)
         tell_count(s);
     else if (!rg_pairs_print_json(s->pairs, s->failures))
@@ -261,8 +289,7 @@ int rg_diff_devices(const struct rg_diff_devices_request *request)
         exit = RG_EXIT_USAGE;
     } else if (exit == RG_EXIT_PASS) {
         exit = take_pictures(s, &devices) ? compare_all(s) : rg_exit_of_error();
-        if (!s->compared)
-            exit = rg_exit_worse(exit, RG_EXIT_NOTHING);
+        exit = rg_exit_with(exit, s->compared);
     }
     for (int i = 0; i < s->shot_count; i++)
         rg_picture_destroy(&s->shots[i].picture);

@@ -1,5 +1,6 @@
 #include "harness/compare/diff/files.h"
 
+#include "core/base/log.h"
 #include "core/image/files/io.h"
 #include "harness/compare/diff/report.h"
 #include "harness/console/exit.h"
@@ -35,9 +36,15 @@ int rg_diff_files(const struct rg_diff_request *request)
         good = print_json(request, &comparison);
     else if (good)
         rg_pair_print(request->a, request->b, &comparison);
-    int status = !good                              ? RG_EXIT_USAGE
-                 : comparison.tiers.of[RG_T0].holds ? RG_EXIT_PASS
-                                                    : RG_EXIT_FAIL;
+    const enum rg_outcome outcome = good ? rg_comparison_outcome(&comparison, RG_T0) : RG_ERROR;
+    const int status = !good                   ? RG_EXIT_USAGE
+                       : outcome == RG_NOTHING ? RG_EXIT_NOTHING
+                       : outcome == RG_OK      ? RG_EXIT_PASS
+                                               : RG_EXIT_FAIL;
+    if (status == RG_EXIT_NOTHING)
+        rg_error("%s: has no rain before %s, nor has %s, so that nothing is compared; name "
+                 "pictures with rain, or leave --background out",
+                 request->a, request->background, request->b);
     rg_comparison_destroy(&comparison);
     for (int i = 0; i < 3; i++)
         rg_picture_destroy(&pictures[i]);

@@ -106,11 +106,23 @@ void rg_checks_print(const struct rg_checks *checks, bool json)
     print_count(checks);
 }
 
+// Of raingauge's own model, and of no device that is held against it.
+static bool is_own(const struct rg_check *row)
+{
+    return !strcmp(row->check, "mutants") || !strcmp(row->device, "cpu:reference");
+}
+
 int rg_checks_exit(const struct rg_checks *checks)
 {
-    int counts[RG_OUTCOME_COUNT];
+    int counts[RG_OUTCOME_COUNT], devices[RG_OUTCOME_COUNT] = {0};
+    bool has_devices = false;
     count_outcomes(checks, counts);
-    return rg_exit_worse(checks->exit, rg_exit_of_all(counts));
+    for (int i = 0; i < checks->count; i++) {
+        devices[checks->rows[i].status] += !is_own(&checks->rows[i]);
+        has_devices = has_devices || !is_own(&checks->rows[i]);
+    }
+    const int exit = rg_exit_worse(checks->exit, rg_exit_of_all(counts));
+    return has_devices ? rg_exit_worse(exit, rg_exit_of_all(devices)) : exit;
 }
 
 void rg_checks_free(struct rg_checks *checks)

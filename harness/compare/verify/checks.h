@@ -34,7 +34,8 @@ void rg_checks_add_error(struct rg_checks *checks, const char *technique, const 
 // To stdout: a line a check, or one JSON object {"format":1, "checks":[...]}.
 void rg_checks_print(const struct rg_checks *checks, bool json);
 
-// An enum rg_exit: `exit`, or what rg_exit_of_all makes of the results where that is worse.
+// An enum rg_exit: `exit`, or what rg_exit_of_all makes of the results where that is worse, and of
+// those of devices alone, where there are some: a model that is well proves none of them.
 int rg_checks_exit(const struct rg_checks *checks);
 
 void rg_checks_free(struct rg_checks *checks);

@@ -18,6 +18,7 @@ struct tally {
     int runs, failed, errors;
     int least_steps, most_steps; // of the runs
     int unlike;                  // not identical, where that is allowed
+    int dry;                     // showed no rain, so that nothing was compared
     enum rg_outcome ended;       // what the errors come to
     bool is_bad_input;           // one of them is the user's
     char first[400];             // what went wrong first
@@ -177,9 +178,8 @@ static void check_tier(struct tally *tally, const struct one_case *c, enum rg_ti
         note_error(tally);
         return;
     }
-    const struct rg_verdict *verdict = &comparison.tiers.of[tier];
-    if (!verdict->holds)
-        blame(tally, c, "%s (%s)", verdict->why, rg_tier_name(tier));
+    if (rg_comparison_outcome(&comparison, tier) == RG_FAIL)
+        blame(tally, c, "%s (%s)", comparison.tiers.of[tier].why, rg_tier_name(tier));
     rg_comparison_destroy(&comparison);
 }
 
@@ -279,13 +279,20 @@ static bool expect(struct rg_verify *v, struct row *reference, struct one_case *
     return ok;
 }
 
-static void blame_dry_image(const struct one_case *c, struct row *rows, int count)
+// Of an image without rain nothing can be said.
+static void note_dry_image(const struct one_case *c, struct row *rows, int count)
 {
     const size_t bytes = (size_t)rg_picture_values(&c->dry) * sizeof(float);
     if (!c->with_dry || memcmp(c->dry.texels, c->expected_picture.texels, bytes))
         return;
-    for (int i = 0; i < count; i++)
-        blame(&rows[i].tallies[IMAGE], c, "no rain in the image, which therefore proves nothing");
+    for (int i = 0; i < count; i++) {
+        struct tally *tally = &rows[i].tallies[IMAGE];
+        if (!tally->dry++ && !tally->failed && !tally->errors)
+            snprintf(tally->first, sizeof(tally->first),
+                     "%s: no rain in the image, which therefore proves nothing; take another "
+                     "--frame, size or setting",
+                     c->name);
+    }
 }
 
 // rows[0] is the reference.
@@ -294,7 +301,7 @@ static void run_one(struct rg_verify *v, struct row *rows, int count, struct one
     if (expect(v, &rows[0], c)) {
         for (int i = 1; i < count; i++)
             check_device(v, &rows[i], c);
-        blame_dry_image(c, rows + 1, count - 1);
+        note_dry_image(c, rows + 1, count - 1);
     }
     rg_snapshot_free(&c->expected);
     rg_picture_destroy(&c->expected_picture);
@@ -368,6 +375,8 @@ static void report(struct rg_verify *v, const struct row *reference, const struc
                       t->runs, t->first);
     else if (t->errors)
         rg_checks_add(v->checks, technique, name, device, t->ended, "%s", t->first);
+    else if (t->dry)
+        rg_checks_add(v->checks, technique, name, device, RG_NOTHING, "%s", t->first);
     else if (!t->runs)
         rg_checks_add(v->checks, technique, name, device, reference->tallies[check].ended,
                       "not run: %s, which it is compared with, failed", v->reference->info.name);

@@ -100,9 +100,9 @@ static bool fail_without_rain(struct preparation *p, bool *shows)
     if (!rg_expected_shows_rain(&p->expected, shows))
         return false;
     for (int d = 0; !*shows && d < p->count; d++)
-        rg_record_end(p->jobs[d].record, RG_FAIL, why);
+        rg_record_end(p->jobs[d].record, RG_NOTHING, why);
     if (!*shows)
-        end_error(&p->truth_error, RG_FAIL, why);
+        end_error(&p->truth_error, RG_NOTHING, why);
     return true;
 }
 

@@ -15,12 +15,17 @@ void rg_closing_add(struct rg_closing *closing, const struct rg_result *result)
     }
 }
 
+int rg_closing_measured(const struct rg_closing *closing)
+{
+    return closing->cells - closing->failed - closing->unsupported;
+}
+
 void rg_closing_tell(const struct rg_closing *closing, int devices)
 {
     const int lost = closing->failed + closing->unsupported;
     char of[24] = "", without[64] = "";
     if (lost)
-        snprintf(of, sizeof(of), "%d of ", closing->cells - lost);
+        snprintf(of, sizeof(of), "%d of ", rg_closing_measured(closing));
     if (closing->failed)
         snprintf(without, sizeof(without), "; %d failed", closing->failed);
     if (closing->unsupported)

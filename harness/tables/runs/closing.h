@@ -11,6 +11,9 @@ struct rg_closing {
 // Adds the cells of a result that are there.
 void rg_closing_add(struct rg_closing *closing, const struct rg_result *result);
 
+// Of them, those with a number.
+int rg_closing_measured(const struct rg_closing *closing);
+
 // Says in one line on stderr how many were measured on so many devices.
 void rg_closing_tell(const struct rg_closing *closing, int devices);
 

@@ -218,9 +218,9 @@ int rg_tables_compile(const struct rg_table *const tables[], int count,
     choose_tables(&jobs, tables, count);
     choose_devices(&jobs, devices);
     if (!count_of(&jobs)) {
-        rg_info("none of these tables draws on one of these devices that has a driver: nothing is "
-                "compiled");
-        return RG_EXIT_PASS;
+        rg_error("table --compile: none of these tables draws on one of these devices that has a "
+                 "driver, so that nothing is compiled; name others");
+        return RG_EXIT_NOTHING;
     }
     const bool is_one = count == 1 && count_of(&jobs) == 1;
     const int exit = is_one ? compile_here(jobs.tables[0], jobs.devices[0]) : compile_apart(&jobs);

@@ -287,7 +287,8 @@ static int run_tasks(struct task *tasks, int count, const struct rg_devices *dev
     rg_progress_end(&progress);
     if (rg_interrupted())
         exit = rg_exit_worse(exit, RG_EXIT_SIGNALLED + rg_interrupt_signal());
-    exit = rg_exit_worse(exit, finish_tasks(tasks, count, o));
+    exit = rg_exit_with(rg_exit_worse(exit, finish_tasks(tasks, count, o)),
+                        rg_closing_measured(&closing));
     end_tasks(tasks, count, &closing, devices->count);
     return rg_kept_free(&kept) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
 }
@@ -325,7 +326,7 @@ static int regenerate_within(const struct rg_table *const tables[], int count,
         exit = rg_exit_worse(exit, RG_EXIT_NOTHING);
     if (rg_interrupted())
         exit = RG_EXIT_SIGNALLED + rg_interrupt_signal();
-    exit = rg_exit_worse(exit, print_end(options));
+    exit = rg_exit_with(rg_exit_worse(exit, print_end(options)), rg_closing_measured(&closing));
     if (ok && !rg_interrupted())
         rg_closing_tell(&closing, devices->count);
     return rg_kept_free(&kept) && ok ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);

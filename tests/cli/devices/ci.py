@@ -175,7 +175,7 @@ def check_gtest_flags(runner):
 
 
 def check_shards(runner):
-    """shards of googletest have each case once, also where there are more of them than cases"""
+    """shards of googletest have each case once; one that is left without any compares nothing"""
     problems = []
     with Files(QUICK + THIRD) as files:
         args = ["gate", "cpu", "cpu", "--cells", files.cells, "--pictures"]
@@ -185,7 +185,7 @@ def check_shards(runner):
             for index in range(total):
                 status = files.path("status")
                 ran = runner.run(args, env={"GTEST_TOTAL_SHARDS": str(total), "GTEST_SHARD_INDEX": str(index), "GTEST_SHARD_STATUS_FILE": status})
-                if ran.returncode or not os.path.exists(status):
+                if ran.returncode != (4 if index >= len(every) else 0) or not os.path.exists(status):
                     problems.append("%d of %d: exit status %d, %s" % (index, total, ran.returncode, ran.stderr))
                 os.unlink(status)
                 found += [name for name, _ in runners.results(ran.stdout)]

@@ -21,7 +21,7 @@ static void ask(const struct rg_known *known)
 {
     for (int i = 0; i < RESULTS; i++) {
         const int64_t row =
-            rg_known_row(known, results[i].cell, results[i].device, results[i].driver);
+            rg_known_row(known, results[i].cell, results[i].device, results[i].driver, TODAY);
         if (row < -1 || row >= known->count)
             fuzz_complain("a row that is not there");
         const enum rg_met met = rg_known_judge(known, row, &results[i], TODAY);

@@ -349,6 +349,6 @@ int rg_against_run(const struct rg_against *against, struct rg_gate *gate)
     ok = end(&r) && ok;
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
-    const int found = ok ? rg_gate_exit(gate) : RG_EXIT_FAIL;
+    const int found = ok ? rg_gate_exit(against->request, gate) : RG_EXIT_FAIL;
     return is_kept ? found : rg_exit_worse(found, RG_EXIT_USAGE);
 }

@@ -91,10 +91,10 @@ bool rg_known_add_text(struct rg_known *expected, const char *name, const char *
                        enum rg_known_form form);
 void rg_known_free(struct rg_known *expected);
 
-// The row that holds for a cell: of several, a skip before a flake before a failure, and then the
-// first. -1: none.
+// The row that holds for a cell on this day: of several, a skip before a flake before a failure,
+// and then the first. -1: none; one that begins later does not hold yet.
 int64_t rg_known_row(const struct rg_known *expected, const char *cell, const char *device,
-                     const char *driver);
+                     const char *driver, int today);
 // Whether a row keeps its cell from running on this day; false for row -1.
 bool rg_known_skips(const struct rg_known *expected, int64_t row, int today);
 

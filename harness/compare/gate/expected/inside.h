@@ -15,9 +15,10 @@ struct rg_expectation *rg_known_new(struct rg_known *expected, enum rg_known_kin
 bool rg_known_read_own(struct rg_known *expected);
 bool rg_known_read_mesa(struct rg_known *expected, enum rg_known_form form);
 
-// Whether an expectation is of a cell on a device with a driver; NULL: that may be any.
+// Whether an expectation has begun by this day and is of a cell on a device with a driver; NULL:
+// that may be any.
 bool rg_known_holds(const struct rg_known *expected, const struct rg_expectation *row,
-                    const char *cell, const char *device, const char *driver);
+                    const char *cell, const char *device, const char *driver, int today);
 
 // Compiles a regular expression of Rust's syntax as one of POSIX; docs/expectations.md says what
 // of it there is. NULL, and one logged line that begins with `place`, where it cannot be had. The

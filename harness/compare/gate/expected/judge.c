@@ -27,8 +27,10 @@ static bool is_of(const char *pattern, const char *text)
 }
 
 bool rg_known_holds(const struct rg_known *expected, const struct rg_expectation *row,
-                    const char *cell, const char *device, const char *driver)
+                    const char *cell, const char *device, const char *driver, int today)
 {
+    if (today < row->since)
+        return false;
     if (row->regex)
         return !regexec(row->regex, cell, 0, NULL, 0);
     if (expected->files[row->file].form == RG_FORM_FAILS)
@@ -38,13 +40,13 @@ bool rg_known_holds(const struct rg_known *expected, const struct rg_expectation
 }
 
 int64_t rg_known_row(const struct rg_known *expected, const char *cell, const char *device,
-                     const char *driver)
+                     const char *driver, int today)
 {
     int64_t found = -1;
     for (int64_t i = 0; i < expected->count; i++) {
         const struct rg_expectation *row = &expected->rows[i];
         if ((found < 0 || row->kind < expected->rows[found].kind) &&
-            rg_known_holds(expected, row, cell, device, driver))
+            rg_known_holds(expected, row, cell, device, driver, today))
             found = i;
     }
     return found;

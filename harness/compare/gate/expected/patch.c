@@ -81,7 +81,7 @@ static bool is_fixed_behind(const struct patch *p, int64_t row, int64_t result)
     const struct rg_expectation *r = &p->expected->rows[row];
     const struct rg_known_result *of = &p->results[result];
     return p->met[result] == RG_MET_FIXED && p->rows[result] < row && r->kind == RG_EXPECT_FAIL &&
-           rg_known_holds(p->expected, r, of->cell, of->device, of->driver);
+           rg_known_holds(p->expected, r, of->cell, of->device, of->driver, p->today);
 }
 
 // Whether a row may be the one that holds for a result: which one does is not known of a driver
@@ -90,8 +90,8 @@ static bool is_of_row(const struct patch *p, int64_t row, int64_t result)
 {
     const struct rg_known_result *of = &p->results[result];
     return p->rows[result] == row ||
-           (!of->driver &&
-            rg_known_holds(p->expected, &p->expected->rows[row], of->cell, of->device, of->driver));
+           (!of->driver && rg_known_holds(p->expected, &p->expected->rows[row], of->cell,
+                                          of->device, of->driver, p->today));
 }
 
 // Of result `only`, or of all with -1. Of what nothing is known of, what was expected still is.
@@ -323,7 +323,7 @@ static void judge_all(struct patch *p)
 {
     for (int64_t i = 0; i < p->count; i++) {
         const struct rg_known_result *r = &p->results[i];
-        p->rows[i] = rg_known_row(p->expected, r->cell, r->device, r->driver);
+        p->rows[i] = rg_known_row(p->expected, r->cell, r->device, r->driver, p->today);
         p->met[i] = rg_known_judge(p->expected, p->rows[i], r, p->today);
     }
 }

@@ -205,4 +205,7 @@ void rg_report_summary(const struct rg_report *report, char text[RG_REPORT_SUMMA
             length += snprintf(text + length, RG_REPORT_SUMMARY - (size_t)length, ", %d %s", count,
                                rg_ending_name((enum rg_ending)i));
     }
+    if (report->idle_count)
+        snprintf(text + length, RG_REPORT_SUMMARY - (size_t)length, "; %d of them compared nothing",
+                 report->idle_count);
 }

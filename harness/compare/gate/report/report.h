@@ -66,7 +66,8 @@ struct rg_report_case {
 struct rg_report {
     int case_count;
     struct rg_report_case *cases; // in the order in which they were added
-    const char *passport;         // what the numbers depend on, as text of several lines
+    int idle_count;       // of those that are expected to fail, or may, such that compared nothing
+    const char *passport; // what the numbers depend on, as text of several lines
     // Owned memory.
     int64_t case_room, text_room;
     int text_count;
@@ -98,7 +99,8 @@ int *rg_report_worst_first(const struct rg_report *report);
 // "ratio 1.052 (1.031 to 1.074), would have seen 2 %": what was measured; "" where nothing was.
 enum { RG_REPORT_MEASURED = 160 };
 void rg_report_measured(const struct rg_report_case *told, char *text, size_t size);
-// "14 cases, 1 crash, 13 pass".
+// "14 cases, 1 crash, 13 pass": each that passes, differs or has a ratio was compared. Of those
+// that are expected to fail, "; 1 of them compared nothing".
 enum { RG_REPORT_SUMMARY = 512 };
 void rg_report_summary(const struct rg_report *report, char text[RG_REPORT_SUMMARY]);
 

@@ -57,13 +57,13 @@ bool rg_agreement_blame(const struct rg_gate_cell *cell, struct rg_device *devic
 
 // A cell without rain would pass whatever a device makes of rain. That is the cell's fault, and no
 // difference.
-static bool shows_nothing(struct rg_agreement *agreement)
+static bool shows_nothing(const struct rg_gate_cell *cell, struct rg_device *device,
+                          struct rg_agreement *agreement)
 {
-    agreement->outcome = RG_ERROR;
+    const struct rg_subject subject = {cell->technique, cell->settings, cell->width, cell->height};
+    agreement->outcome = RG_NOTHING;
     agreement->is_ours = true;
-    snprintf(agreement->message, RG_AGREEMENT_TEXT,
-             "the picture is the same without rain, so that nothing is compared; give the cell "
-             "another frame, size or setting");
+    rg_frame_tell_dry(device, &subject, cell->frames, 1, "FRAMES", agreement->message);
     return false;
 }
 
@@ -104,8 +104,8 @@ bool rg_alike_pictures(const struct rg_gate_cell *cell, struct rg_device *device
                          &(struct rg_compare_options){0}, &c);
     if (!ok) {
         rg_agreement_fails(agreement, a->name);
-    } else if (!c.tiers.mask_pixels && !c.metrics.differing_values) {
-        ok = shows_nothing(agreement);
+    } else if (rg_comparison_outcome(&c, owed) == RG_NOTHING) {
+        ok = shows_nothing(cell, device, agreement);
     } else {
         agreement->pixels = (double)c.metrics.differing_pixels;
         agreement->difference = c.tiers.max_codes;

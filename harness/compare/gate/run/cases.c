@@ -16,8 +16,14 @@ void rg_gate_case_expect(struct rg_gate_case *c, const struct rg_gate_request *r
                          const struct rg_device *device)
 {
     snprintf(c->driver, sizeof(c->driver), "%s", device ? device->info.driver : "");
-    c->expectation = rg_known_row(request->known, c->cell->name, rg_gate_case_device(c), c->driver);
+    c->expectation = rg_known_row(request->known, c->cell->name, rg_gate_case_device(c), c->driver,
+                                  request->today);
     c->is_skipped = rg_known_skips(request->known, c->expectation, request->today);
+}
+
+bool rg_gate_case_was_compared(const struct rg_gate_case *c)
+{
+    return c->is_compared && (c->agreement.outcome == RG_OK || c->agreement.outcome == RG_FAIL);
 }
 
 // --- endings ---
@@ -31,6 +37,7 @@ static enum rg_ending ending_of_outcome(enum rg_outcome outcome)
         [RG_ERROR] = RG_ENDING_ERROR,
         [RG_CRASH] = RG_ENDING_CRASH,
         [RG_TIMEOUT] = RG_ENDING_TIMEOUT,
+        [RG_NOTHING] = RG_ENDING_NOTHING_MEASURED,
     };
     return endings[outcome];
 }

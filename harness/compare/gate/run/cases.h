@@ -36,6 +36,9 @@ const char *rg_gate_case_device(const struct rg_gate_case *of);
 void rg_gate_case_expect(struct rg_gate_case *of, const struct rg_gate_request *request,
                          const struct rg_device *device);
 
+// Whether its pictures were: what else ended it proves nothing.
+bool rg_gate_case_was_compared(const struct rg_gate_case *of);
+
 // Fills in its case, which points into it and into the request, and what the expectations are held
 // against.
 void rg_gate_case_tell(struct rg_gate_case *of, const struct rg_gate_request *request,

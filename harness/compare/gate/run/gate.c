@@ -18,6 +18,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
+#include "harness/devices/names.h"
 #include "harness/record/passport/passport.h"
 
 char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
@@ -275,6 +276,27 @@ static bool make_results(const struct rg_gate_request *asked, struct rg_gate *ga
     return gate->results;
 }
 
+// A device that is required, and of whose cells none was compared though none fails the gate,
+// becomes a case as one that is missing does.
+static void hold_required(struct rg_gate *gate, const char *name)
+{
+    bool any = false, is_told = false;
+    for (int i = 0; i < gate->case_count; i++) {
+        const struct rg_gate_case *c = &gate->cases[i];
+        const enum rg_ending_kind kind = rg_ending_kind(gate->report.cases[i].ending);
+        for (int d = 0; d < c->device_count; d++) {
+            const bool is_of = rg_device_is_of(c->devices[d], name);
+            any = any || is_of;
+            is_told = is_told || (is_of && (rg_gate_case_was_compared(c) ||
+                                            kind == RG_KIND_FAILURE || kind == RG_KIND_ERROR));
+        }
+    }
+    if (!any || is_told)
+        return;
+    rg_driver_error("--require %s: none of its cells was compared", name);
+    rg_side_is_missing(name, NULL, &gate->report);
+}
+
 bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
 {
     bool ok = make_results(asked, gate);
@@ -283,32 +305,58 @@ bool rg_gate_report(const struct rg_gate_request *asked, struct rg_gate *gate)
         struct rg_gate_case *c = &gate->cases[i];
         struct rg_known_result *result = &gate->results[gate->result_count++];
         rg_gate_case_tell(c, asked, &told, result);
-        if (!c->is_compared && !c->is_skipped)
+        if (!c->is_compared && !c->is_skipped &&
+            (result->outcome == RG_UNSUPPORTED || result->is_foreign))
             *result = unknown(c->cell->name, rg_gate_case_device(c));
+        gate->report.idle_count +=
+            (told.ending == RG_ENDING_FLAKE || told.ending == RG_ENDING_EXPECTED_FAILURE) &&
+            !rg_gate_case_was_compared(c);
         ok = rg_report_add(&gate->report, &told);
         if (asked->tell)
             asked->tell(&told, asked->user);
     }
+    struct rg_device_name name;
+    for (const char *rest = asked->require; ok && rest && *rest;)
+        if ((ok = rg_device_name_read(&rest, &name)))
+            hold_required(gate, name.name);
     gate->is_told = ok;
     return ok;
 }
 
-int rg_gate_exit(const struct rg_gate *gate)
+// Why a gate that failed nothing proves nothing.
+static void tell_nothing(const struct rg_gate_request *asked, const struct rg_gate *gate)
+{
+    const struct rg_gtest_shards *shards = &asked->shards;
+    if (gate->case_count)
+        rg_error("gate: none of %d cases was compared to its end; mend what their lines name",
+                 gate->case_count);
+    else if (gate->chosen)
+        rg_error("gate: shard %d of %d has none of %d cases; set GTEST_TOTAL_SHARDS to %d at most",
+                 shards->index + 1, shards->total, gate->chosen, gate->chosen);
+    else
+        rg_error("gate: no case has a name of --gtest_filter; --gtest_list_tests prints names");
+}
+
+int rg_gate_exit(const struct rg_gate_request *asked, const struct rg_gate *gate)
 {
     const struct rg_report *report = &gate->report;
     int kinds[RG_KIND_SKIPPED + 1] = {0};
     for (int e = 0; e < RG_ENDING_COUNT; e++)
         kinds[rg_ending_kind((enum rg_ending)e)] += rg_report_count(report, (enum rg_ending)e);
-    if (!gate->case_count && gate->chosen)
-        return RG_EXIT_PASS; // other shards have them all
-    if (kinds[RG_KIND_FAILURE] || kinds[RG_KIND_ERROR])
+    const int nothing = rg_report_count(report, RG_ENDING_NOTHING_MEASURED);
+    const int compared = kinds[RG_KIND_PASS] + rg_report_count(report, RG_ENDING_FLAKE) +
+                         rg_report_count(report, RG_ENDING_EXPECTED_FAILURE) - report->idle_count;
+    if (kinds[RG_KIND_FAILURE] || kinds[RG_KIND_ERROR] > nothing)
         return RG_EXIT_FAIL;
     if (rg_report_count(report, RG_ENDING_INCONCLUSIVE))
         return RG_EXIT_INCONCLUSIVE;
-    if (kinds[RG_KIND_PASS] || rg_report_count(report, RG_ENDING_EXPECTED_FAILURE) ||
-        rg_report_count(report, RG_ENDING_FLAKE))
-        return RG_EXIT_PASS;
-    return rg_report_count(report, RG_ENDING_UNSUPPORTED) ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
+    if (nothing)
+        return RG_EXIT_NOTHING;
+    if (!compared && rg_report_count(report, RG_ENDING_UNSUPPORTED))
+        return RG_EXIT_UNSUPPORTED;
+    if (!compared)
+        tell_nothing(asked, gate);
+    return rg_exit_with(RG_EXIT_PASS, compared);
 }
 
 static bool run_pair(struct run *r, int pair)
@@ -342,7 +390,7 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
     for (int side = 0; side < RG_SIDES; side++)
         ok = ok && !r.sides[side].was_closed_badly;
-    const int found = ok ? rg_gate_exit(gate) : RG_EXIT_FAIL;
+    const int found = ok ? rg_gate_exit(request, gate) : RG_EXIT_FAIL;
     return is_kept ? found : rg_exit_worse(found, RG_EXIT_USAGE);
 }
 

@@ -30,8 +30,8 @@ char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device);
 // Runs it. Returns an enum rg_exit: fail where something is worse or broken, inconclusive where
 // times leave it open, nothing measured where nothing was compared, unsupported where a side is.
 int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate);
-// The exit status of one whose report is whole.
-int rg_gate_exit(const struct rg_gate *gate);
+// The exit status of one whose report is whole; where nothing was compared, one line is logged.
+int rg_gate_exit(const struct rg_gate_request *request, const struct rg_gate *gate);
 void rg_gate_free(struct rg_gate *gate);
 
 // --- the parts, for other gates that make the same report ---

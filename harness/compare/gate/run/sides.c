@@ -34,8 +34,7 @@ struct rg_side_seen rg_side_look(struct rg_side *side, struct rg_device_info *in
     return seen;
 }
 
-// What is missing becomes a case, with the last error for its message. False.
-static bool is_missing(const char *name, const struct rg_side_seen *side, struct rg_report *report)
+bool rg_side_is_missing(const char *name, const struct rg_side_seen *side, struct rg_report *report)
 {
     static const struct rg_bounded unknown = {NAN, NAN, NAN};
     char text[RG_DEVICE_NAME_SIZE + 16];
@@ -64,14 +63,14 @@ static bool is_there(const struct rg_side_seen *seen, int count, const char *nam
             continue;
         if (!seen[i].is_there) {
             rg_driver_error("--require %s: '%s' is not there", name, seen[i].name);
-            return is_missing(name, &seen[i], report);
+            return rg_side_is_missing(name, &seen[i], report);
         }
         any = true;
     }
     if (any)
         return true;
     rg_driver_error("--require %s: it is not among the devices of this gate", name);
-    return is_missing(name, NULL, report);
+    return rg_side_is_missing(name, NULL, report);
 }
 
 bool rg_sides_are_apart(const char *names)

@@ -26,7 +26,7 @@ struct rg_side_seen {
     bool is_name;     // such that a device could have it
     bool is_there;    // on this machine, though its driver may fail: that ends its cases
     bool is_open;
-    char why[256]; // it is not
+    char why[256]; // it is not open
 };
 // Launches a side, of which `info` is then told.
 struct rg_side_seen rg_side_look(struct rg_side *side, struct rg_device_info *info);
@@ -34,6 +34,10 @@ struct rg_side_seen rg_side_look(struct rg_side *side, struct rg_device_info *in
 // one line is logged, and the report gets a case, "required.vulkan", so that a CI's page shows it.
 bool rg_sides_have(const struct rg_side_seen *seen, int count, const char *require,
                    struct rg_report *report);
+
+// The case of a required side, NULL: of none, with the last error for its message. False.
+bool rg_side_is_missing(const char *name, const struct rg_side_seen *side,
+                        struct rg_report *report);
 
 // Whether a list of names has each once: cells of a device that stands there twice would share a
 // name. False, and one logged line, also where one is no name.

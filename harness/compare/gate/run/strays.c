@@ -1,6 +1,7 @@
 #include "harness/compare/gate/run/strays.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 
 #include "core/base/log.h"
 #include "harness/compare/gate/text/glob.h"
@@ -93,4 +94,51 @@ int64_t rg_gate_warn_of_strange(const struct rg_known *known, const struct rg_ga
                                 const struct rg_gate_target *targets, int count)
 {
     return warn_of_files(&(struct search){known, cells, targets, count});
+}
+
+// --- days ---
+
+static bool is_to_come(const struct rg_expectation *row, int today)
+{
+    return row->since > today;
+}
+
+// Nobody looks at it again before people and drivers have changed.
+static bool is_far(const struct rg_expectation *row, int today)
+{
+    enum { YEAR_DAYS = 366 };
+    return row->values[RG_FIELD_UNTIL] && row->until - today > YEAR_DAYS;
+}
+
+static int64_t warn_of_day(const struct rg_known *known, int file, int today,
+                           bool (*is_odd)(const struct rg_expectation *row, int today),
+                           enum rg_known_field field, const char *says)
+{
+    const struct rg_expectation *first = NULL;
+    int64_t count = 0;
+    for (int64_t i = 0; i < known->count; i++)
+        if (known->rows[i].file == file && is_odd(&known->rows[i], today) && !count++)
+            first = &known->rows[i];
+    char more[64] = "";
+    if (count > 1)
+        snprintf(more, sizeof(more), ", and %" PRId64 " more of this file", count - 1);
+    if (first)
+        rg_warning("%s:%" PRId64 ": %s %s: %s%s", known->files[file].lines.name,
+                   first->at[field] + 1, field == RG_FIELD_SINCE ? "since" : "until",
+                   first->values[field], says, more);
+    return count;
+}
+
+int64_t rg_gate_warn_of_days(const struct rg_known *known, int today)
+{
+    int64_t count = 0;
+    for (int file = 0; file < known->file_count; file++) {
+        if (known->files[file].form != RG_FORM_OWN)
+            continue;
+        count += warn_of_day(known, file, today, is_to_come, RG_FIELD_SINCE,
+                             "is to come, so that nothing is expected until then");
+        count += warn_of_day(known, file, today, is_far, RG_FIELD_UNTIL,
+                             "is more than a year away; name a day on which somebody looks again");
+    }
+    return count;
 }

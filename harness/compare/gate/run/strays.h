@@ -1,4 +1,4 @@
-// Expectations of cells, devices and drivers that there are none of.
+// Expectations of cells, devices and drivers that there are none of, and of days far away.
 #ifndef RG_HARNESS_COMPARE_GATE_RUN_STRAYS_H
 #define RG_HARNESS_COMPARE_GATE_RUN_STRAYS_H
 
@@ -19,5 +19,9 @@ struct rg_gate_target {
 // driver none of those has that are such a device and are there.
 int64_t rg_gate_warn_of_strange(const struct rg_known *known, const struct rg_gate_cells *cells,
                                 const struct rg_gate_target *targets, int count);
+
+// The same of the expectations that begin behind this day, and of those that hold for more than a
+// year from it: a line each a file.
+int64_t rg_gate_warn_of_days(const struct rg_known *known, int today);
 
 #endif

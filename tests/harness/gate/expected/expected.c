@@ -129,7 +129,8 @@ static void judge(const struct rg_known *expected, const struct judged *rows, si
 {
     for (size_t i = 0; i < count; i++) {
         const struct rg_known_result *r = &rows[i].result;
-        const int64_t row = rg_known_row(expected, r->cell, r->device, r->driver);
+        const int64_t row =
+            rg_known_row(expected, r->cell, r->device, r->driver, day(rows[i].today));
         const enum rg_met met = rg_known_judge(expected, row, r, day(rows[i].today));
         if (met != rows[i].met)
             fail_msg("row %zu: %s, not %s", i, rg_met_name(met), rg_met_name(rows[i].met));
@@ -179,7 +180,7 @@ static void results_meet_what_is_expected(void **state)
         {{"streaks/slow", VK, RG_UNSUPPORTED, 0, 0, false}, "2027-01-01", RG_MET_NOTHING},
     };
     judge(&expected, rows, sizeof(rows) / sizeof(rows[0]));
-    const int64_t slow = rg_known_row(&expected, "a/slow", "gl", "");
+    const int64_t slow = rg_known_row(&expected, "a/slow", "gl", "", day("2026-12-31"));
     assert_true(rg_known_skips(&expected, slow, day("2026-12-31")));
     assert_false(rg_known_skips(&expected, slow, day("2027-01-01")));
     assert_false(rg_known_skips(&expected, 0, day("2026-11-23")));
@@ -277,9 +278,9 @@ static void expressions_are_rusts_or_refused(void **state)
         memset(&expected, 0, sizeof(expected));
         if (!add(&expected, rows[i].regex, RG_FORM_SKIPS))
             fail_msg("%s", logged);
-        if (rg_known_row(&expected, rows[i].matched, "", "") < 0)
+        if (rg_known_row(&expected, rows[i].matched, "", "", 0) < 0)
             fail_msg("%s: not %s", rows[i].regex, rows[i].matched);
-        if (rg_known_row(&expected, rows[i].unmatched, "", "") >= 0)
+        if (rg_known_row(&expected, rows[i].unmatched, "", "", 0) >= 0)
             fail_msg("%s: %s", rows[i].regex, rows[i].unmatched);
         rg_known_free(&expected);
     }
@@ -357,7 +358,7 @@ static void an_empty_file_expects_nothing(void **state)
     for (int form = RG_FORM_OWN; form <= RG_FORM_SKIPS; form++)
         assert_true(add(&expected, form % 2 ? "" : "\n\r\n# nothing", (enum rg_known_form)form));
     assert_int_equal(expected.file_count, 4);
-    assert_int_equal(rg_known_row(&expected, "a", "", ""), -1);
+    assert_int_equal(rg_known_row(&expected, "a", "", "", 0), -1);
     rg_known_free(&expected);
     for (int i = 0; i < 16; i++)
         assert_true(add(&expected, "", RG_FORM_OWN));
@@ -388,9 +389,9 @@ static void large_files_are_read(void **state)
     struct rg_known expected = {.count = 0};
     assert_true(rg_known_add_text(&expected, "many.txt", text, size, RG_FORM_FAILS));
     assert_int_equal(expected.count, 100001);
-    assert_int_equal(rg_known_row(&expected, "streaks/cell-99999", "", ""), 99999);
-    assert_int_equal(rg_known_row(&expected, name, "", ""), 100000);
-    assert_int_equal(rg_known_row(&expected, "streaks/cell-100000", "", ""), -1);
+    assert_int_equal(rg_known_row(&expected, "streaks/cell-99999", "", "", 0), 99999);
+    assert_int_equal(rg_known_row(&expected, name, "", "", 0), 100000);
+    assert_int_equal(rg_known_row(&expected, "streaks/cell-100000", "", "", 0), -1);
     rg_known_free(&expected);
     free(text);
     assert_true(rg_glob(name, name));
@@ -429,6 +430,45 @@ static void an_expectation_of_no_cell_is_told(void **state)
         rg_known_free(&expected);
     }
     rg_gate_cells_free(&cells);
+}
+
+// A day to come and one that is far, in files of each form.
+static void an_expectation_of_a_far_day_is_told(void **state)
+{
+    (void)state;
+#define DAYS(since, until) "flake *\n reason r\n since " since "\n until " until "\n"
+    static const struct {
+        const char *text, *said;
+        int64_t count;
+    } rows[] = {
+        {DAYS("2026-11-23", "2027-11-24"), "", 0},
+        {DAYS("2026-11-24", "2027-01-01"), "my.txt:3: since 2026-11-24: is to come", 1},
+        {DAYS("2026-11-01", "9999-12-31"), "my.txt:4: until 9999-12-31: is more than a year", 1},
+        {DAYS("2026-11-01", "2027-11-25") DAYS("2026-11-01", "2027-11-26"),
+         "my.txt:4: until 2027-11-25: is more than a year", 2},
+        {DAYS("2026-11-24", "9999-12-31"), "my.txt:4: until 9999-12-31", 2},
+    };
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows[0]); i++) {
+        struct rg_known expected = {.count = 0};
+        assert_true(add(&expected, rows[i].text, RG_FORM_OWN));
+        assert_true(add(&expected, "a,Fail", RG_FORM_FAILS));
+        assert_int_equal(rg_gate_warn_of_days(&expected, day("2026-11-23")), rows[i].count);
+        if (strncmp(logged, rows[i].said, strlen(rows[i].said)) != 0)
+            fail_msg("row %zu said: %s", i, logged);
+        rg_known_free(&expected);
+    }
+}
+
+// What begins later expects nothing yet, and a patch leaves it as it is.
+static void an_expectation_to_come_does_not_hold_yet(void **state)
+{
+    (void)state;
+    struct rg_known expected = {.count = 0};
+    assert_true(
+        add(&expected, "skip *\n reason r\n since 2026-11-24\n until 2026-12-01\n", RG_FORM_OWN));
+    assert_int_equal(rg_known_row(&expected, "a", "gl", "", day("2026-11-23")), -1);
+    assert_int_equal(rg_known_row(&expected, "a", "gl", "", day("2026-11-24")), 0);
+    rg_known_free(&expected);
 }
 
 #define DRIVER "skip *\n device vulkan*\n driver "
@@ -485,6 +525,8 @@ int main(void)
         cmocka_unit_test(an_empty_file_expects_nothing),
         cmocka_unit_test(large_files_are_read),
         cmocka_unit_test(an_expectation_of_no_cell_is_told),
+        cmocka_unit_test(an_expectation_of_a_far_day_is_told),
+        cmocka_unit_test(an_expectation_to_come_does_not_hold_yet),
         cmocka_unit_test(an_expectation_of_no_device_or_driver_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

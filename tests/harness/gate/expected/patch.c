@@ -343,8 +343,8 @@ static void hostile_names_are_matched_by_what_is_written(void **state)
     char *text = patched("", RG_FORM_OWN, results, 1, "2026-01-15");
     struct rg_known known = {.count = 0};
     assert_true(rg_known_add(&known, name, RG_FORM_OWN));
-    assert_int_equal(rg_known_row(&known, cell, "d\nreason x", "Any"), 0);
-    assert_int_equal(rg_known_row(&known, cell, "e", ""), -1);
+    assert_int_equal(rg_known_row(&known, cell, "d\nreason x", "Any", 20500), 0);
+    assert_int_equal(rg_known_row(&known, cell, "e", "", 20500), -1);
     rg_known_free(&known);
     free(text);
 }
