@@ -48,10 +48,30 @@ static bool examine(struct rg_examination *e, struct rg_worker *worker)
 {
     rg_probe_name(e->probe);
     e->probed = rg_worker_fetch(worker, RG_CALL_PROBE, NULL, rg_probe_fields, e->probe);
-    e->audited = e->probed && audit(worker, &e->timer);
+    e->drawn =
+        e->probed && rg_worker_fetch(worker, RG_CALL_DRAWING, NULL, rg_drawing_fields, &e->drawing);
+    e->audited = e->drawn && audit(worker, &e->timer);
     e->measured = e->audited &&
                   rg_worker_fetch(worker, RG_CALL_CEILINGS, NULL, rg_ceilings_fields, &e->ceilings);
     return e->measured;
+}
+
+// What it computes and draws.
+static void judge(struct rg_examination *e)
+{
+    const int failures = e->probed ? rg_examination_failures(e) : 0;
+    if (failures)
+        snprintf(e->why, sizeof(e->why),
+                 "%d of %d operations that kernels use give other bits than C", failures,
+                 RG_PROBE_OP_COUNT);
+    for (int i = 0; !*e->why && i < e->drawing.count; i++)
+        if (!rg_drawn_is_well(&e->drawing.formats[i], e->info.tier))
+            snprintf(e->why, sizeof(e->why),
+                     "%d of %d pixels drawn into %s, with depth and blending, are not what "
+                     "cpu:reference draws",
+                     e->drawing.formats[i].differing, RG_DRAWING_PIXELS,
+                     rg_format_name(e->drawing.formats[i].format));
+    e->status = *e->why ? RG_FAIL : RG_OK;
 }
 
 void rg_doctor_examine(struct rg_examination *examination)
@@ -64,11 +84,6 @@ void rg_doctor_examine(struct rg_examination *examination)
         fail(examination);
     if (!rg_device_close(device) && ok)
         fail(examination);
-    const int failures = examination->probed ? rg_examination_failures(examination) : 0;
-    if (examination->status != RG_OK || !failures)
-        return;
-    examination->status = RG_FAIL;
-    snprintf(examination->why, sizeof(examination->why),
-             "%d of %d operations that kernels use give other bits than C", failures,
-             RG_PROBE_OP_COUNT);
+    if (examination->status == RG_OK)
+        judge(examination);
 }

@@ -40,6 +40,16 @@ static json_t *timer(const struct rg_timer_audit *t)
                      t->round_trip_us);
 }
 
+static json_t *drawing(const struct rg_drawing *d)
+{
+    json_t *formats = json_array();
+    for (int i = 0; i < d->count; i++)
+        json_array_append_new(
+            formats, json_pack("{sssisi}", "name", rg_format_name(d->formats[i].format), "compared",
+                               RG_DRAWING_PIXELS, "different", d->formats[i].differing));
+    return json_pack("{sosf}", "formats", formats, "ms", d->ms);
+}
+
 static json_t *device(const struct rg_examination *e)
 {
     json_t *row = e->opened ? rg_passport_device(&e->info)
@@ -52,6 +62,8 @@ static json_t *device(const struct rg_examination *e)
         json_object_set_new(row, "operations", probe(e->probe, false));
         json_object_set_new(row, "builtins", probe(e->probe, true));
     }
+    if (e->drawn)
+        json_object_set_new(row, "drawing", drawing(&e->drawing));
     if (e->audited)
         json_object_set_new(row, "timer", timer(&e->timer));
     if (e->measured)

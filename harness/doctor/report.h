@@ -8,16 +8,19 @@
 #include "core/device/device.h"
 #include "core/device/probe.h"
 #include "harness/measure/ceilings.h"
+#include "harness/measure/drawing.h"
 #include "harness/measure/timer_audit.h"
 
 // One device. Holds what was found until the driver failed, if it did.
 struct rg_examination {
     bool is_unknown;            // no such name: the rest says nothing but why
-    enum rg_outcome status;     // fail: an operation of the kernel dialect gives other bits than C
+    enum rg_outcome status;     // fail: an operation of the kernel dialect gives other bits than C,
+                                // or it draws what cpu:reference does not
     char why[512];              // in one line; "" when all is well
     struct rg_device_info info; // until `opened`, only info.name is certain
-    bool opened, probed, audited, measured;
+    bool opened, probed, drawn, audited, measured;
     struct rg_probe_result probe[RG_PROBE_COUNT]; // when probed
+    struct rg_drawing drawing;                    // when drawn
     struct rg_timer_audit timer;                  // when audited
     struct rg_ceilings ceilings;                  // when measured
 };
@@ -30,7 +33,8 @@ struct rg_doctor_report {
     json_t *warnings;                    // array of strings
 };
 
-// Opens the device that info.name names in a worker, probes its arithmetic and audits its timer.
+// Opens the device that info.name names in a worker, probes its arithmetic, draws, and audits its
+// timer.
 // What fails has been logged; what was found before stays.
 void rg_doctor_examine(struct rg_examination *examination);
 

@@ -154,6 +154,32 @@ static void print_arithmetic(const struct rg_examination *e)
     }
 }
 
+static void print_drawing(const struct rg_examination *e)
+{
+    char text[200], names[100] = "";
+    const struct rg_drawing *d = &e->drawing;
+    int well = 0;
+    for (int i = 0; i < d->count; i++) {
+        const struct rg_drawn *drawn = &d->formats[i];
+        const char *name = rg_format_name(drawn->format);
+        if (rg_drawn_is_well(drawn, e->info.tier)) {
+            const size_t used = strlen(names);
+            snprintf(names + used, sizeof(names) - used, "%s%s", well++ ? ", " : "", name);
+            continue;
+        }
+        snprintf(text, sizeof(text), "FAIL %s: %d of %d pixels are not what cpu:reference draws",
+                 name, drawn->differing, RG_DRAWING_PIXELS);
+        print_field("drawing", text);
+    }
+    if (well)
+        snprintf(text, sizeof(text),
+                 "%s, with depth and blending: what cpu:reference draws, in %.1f ms", names, d->ms);
+    else
+        snprintf(text, sizeof(text), "none: it %s", e->info.limits.no_draws);
+    if (well || !d->count)
+        print_field("drawing", text);
+}
+
 // What times on the device are bound to.
 static void print_key(const json_t *passport, const struct rg_device_info *info)
 {
@@ -181,6 +207,8 @@ static void print_device(const struct rg_examination *e, const json_t *passport)
     }
     if (e->probed)
         print_arithmetic(e);
+    if (e->drawn)
+        print_drawing(e);
     if (e->audited)
         print_timer(&e->timer);
     if (e->measured)

@@ -4,6 +4,7 @@
 
 #include "core/device/probe.h"
 #include "harness/measure/ceilings.h"
+#include "harness/measure/drawing.h"
 #include "harness/measure/timer_audit.h"
 
 // Beyond any time in ms or us, any ratio of times and any rate of a device, and far from infinity.
@@ -27,6 +28,18 @@ static const struct rg_field result_fields[] = {
 const struct rg_field rg_probe_fields[] = {
     {RG_KIND_STRUCT, 0, sizeof(struct rg_probe_result), .entries = RG_PROBE_COUNT,
      .of = result_fields},
+    RG_FIELDS_END,
+};
+
+static const struct rg_field drawn_fields[] = {
+    RG_FIELD_INTEGER(struct rg_drawn, format, RG_FORMAT_NONE + 1, RG_FORMAT_COUNT - 1),
+    RG_FIELD_INTEGER(struct rg_drawn, differing, 0, RG_DRAWING_PIXELS),
+    RG_FIELDS_END,
+};
+
+const struct rg_field rg_drawing_fields[] = {
+    RG_FIELD_SOME(struct rg_drawing, formats, count, drawn_fields),
+    RG_FIELD_NUMBER(struct rg_drawing, ms, 0, MOST),
     RG_FIELDS_END,
 };
 

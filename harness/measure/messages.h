@@ -8,7 +8,9 @@
 #include "harness/devices/workers/fields.h"
 
 // Of RG_PROBE_COUNT struct rg_probe_result, whose names and kinds are the same in both processes
-// (rg_probe_name), of struct rg_timer_audit without `trusted`, and of struct rg_ceilings.
-extern const struct rg_field rg_probe_fields[], rg_audit_fields[], rg_ceilings_fields[];
+// (rg_probe_name), of struct rg_drawing, of struct rg_timer_audit without `trusted`, and of struct
+// rg_ceilings.
+extern const struct rg_field rg_probe_fields[], rg_drawing_fields[], rg_audit_fields[],
+    rg_ceilings_fields[];
 
 #endif

@@ -5,6 +5,7 @@ import re
 import tempfile
 
 import forms
+import misbehaving
 from runner import NO_DRIVERS
 
 
@@ -119,6 +120,32 @@ def check_wrong_arithmetic(runner):
     return problems
 
 
+def check_drawing(runner):
+    """A device that makes no pipeline, or draws another picture, is found, whichever API; and each draws into three formats."""
+    problems = []
+    with tempfile.TemporaryDirectory() as tmp:
+        for device, function, how, status, says in (
+                ("vulkan", "vkCreateGraphicsPipelines", "lost", "error", "vkCreateGraphicsPipelines"),
+                ("vulkan", "vkCreateGraphicsPipelines", "none", "fail", "pixels drawn into RGBA8, with depth and blending"),
+                ("gl", "glBlendFunc", "none", "fail", "pixels drawn into RGBA8")):
+            env = misbehaving.shim(runner, tmp, device, function, how, 0)
+            problems += problems_drawn(runner, device, env, status, says)
+        wrong = runner.kernels_with(tmp, "raster_quads.cl", "make(r.colour, r.depth)", "make(r.colour, r.depth * 0.5f)")
+        problems += problems_drawn(runner, "opencl", wrong, "fail", "pixels drawn into RGBA8")
+    report, status, _ = examine(runner, ["--device", "cpu"])
+    drawn = report["devices"][0]["drawing"]
+    if status or [(f["name"], f["different"]) for f in drawn["formats"]] != [("RGBA8", 0), ("RGBA16F", 0), ("RGBA32F", 0)]:
+        problems.append("cpu: %s" % drawn)
+    return problems
+
+
+def problems_drawn(runner, device, env, wanted, says):
+    report, status, errors = examine(runner, ["--device", device], env)
+    found = by_name(report)[device]
+    well = status == 1 and found["status"] == wanted and says in found["why"] and "'%s'" % device in errors and "operations" in found
+    return [] if well else ["%s: %s: %s, exit status %d, %s" % (env, found["status"], found["why"], status, errors)]
+
+
 def check_own_rounding(runner):
     """gl and vulkan run the programs that round quotients themselves where they are asked to, and no others"""
     problems = []
@@ -153,4 +180,4 @@ def check_full(runner):
     return []
 
 
-CHECKS = [check_devices, check_passport, check_missing, check_warnings, check_crash, check_wrong_arithmetic, check_own_rounding, check_full]
+CHECKS = [check_devices, check_passport, check_missing, check_warnings, check_crash, check_wrong_arithmetic, check_drawing, check_own_rounding, check_full]

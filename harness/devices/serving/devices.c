@@ -73,6 +73,16 @@ bool rg_serve_probe(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
+bool rg_serve_drawing(struct rg_message *request, struct rg_message *reply)
+{
+    struct rg_drawing drawing;
+    (void)request;
+    if (!rg_drawing_check(device, &drawing))
+        return false;
+    rg_put_fields(reply, rg_drawing_fields, &drawing);
+    return true;
+}
+
 bool rg_serve_audit(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_timer_audit audit;

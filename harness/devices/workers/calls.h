@@ -14,6 +14,7 @@
     CALL(OPEN, open, "opening the device")                                                         \
     CALL(CLOSE, close, "closing the device")                                                       \
     CALL(PROBE, probe, "probing its arithmetic")                                                   \
+    CALL(DRAWING, drawing, "drawing into each format")                                             \
     CALL(AUDIT, audit, "auditing its timer")                                                       \
     CALL(CEILINGS, ceilings, "measuring its ceilings")                                             \
     CALL(SESSION_OPEN, session_open, "opening a technique")                                        \

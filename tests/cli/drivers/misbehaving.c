@@ -70,6 +70,7 @@ static PFN_vkGetPhysicalDeviceProperties2 real_vkGetPhysicalDeviceProperties2;
 static PFN_vkCreateDevice real_vkCreateDevice;
 static PFN_vkDestroyDevice real_vkDestroyDevice;
 static PFN_vkCreateComputePipelines real_vkCreateComputePipelines;
+static PFN_vkCreateGraphicsPipelines real_vkCreateGraphicsPipelines;
 static PFN_vkCreateShaderModule real_vkCreateShaderModule;
 static PFN_vkQueueSubmit real_vkQueueSubmit;
 static PFN_vkWaitForFences real_vkWaitForFences;
@@ -78,6 +79,7 @@ static EGLBoolean (*real_eglInitialize)(EGLDisplay, EGLint *, EGLint *);
 static any_function (*real_eglGetProcAddress)(const char *);
 static void (*real_glLinkProgram)(GLuint);
 static void (*real_glDispatchCompute)(GLuint, GLuint, GLuint);
+static void (*real_glBlendFunc)(GLenum, GLenum);
 static void (*real_glFinish)(void);
 static GLenum (*real_glGetError)(void);
 
@@ -118,6 +120,24 @@ static VkResult hooked_vkCreateComputePipelines(VkDevice d, VkPipelineCache c, u
     return misbehaves("vkCreateComputePipelines")
                ? VK_ERROR_DEVICE_LOST
                : real_vkCreateComputePipelines(d, c, n, infos, a, p);
+}
+
+// Lost, or with "none" made such that it does not blend.
+static VkResult hooked_vkCreateGraphicsPipelines(VkDevice d, VkPipelineCache c, uint32_t n,
+                                                 const VkGraphicsPipelineCreateInfo *infos,
+                                                 const VkAllocationCallbacks *a, VkPipeline *p)
+{
+    if (!misbehaves("vkCreateGraphicsPipelines"))
+        return real_vkCreateGraphicsPipelines(d, c, n, infos, a, p);
+    if (!strstr(getenv("RG_MISBEHAVE"), ":none:") || n != 1)
+        return VK_ERROR_DEVICE_LOST;
+    VkGraphicsPipelineCreateInfo changed = *infos;
+    VkPipelineColorBlendStateCreateInfo blend = *infos->pColorBlendState;
+    VkPipelineColorBlendAttachmentState opaque = *blend.pAttachments;
+    opaque.blendEnable = VK_FALSE;
+    blend.pAttachments = &opaque;
+    changed.pColorBlendState = &blend;
+    return real_vkCreateGraphicsPipelines(d, c, 1, &changed, a, p);
 }
 
 static VkResult hooked_vkQueueSubmit(VkQueue q, uint32_t n, const VkSubmitInfo *infos, VkFence f)
@@ -186,6 +206,12 @@ static void hooked_glDispatchCompute(GLuint x, GLuint y, GLuint z)
         real_glDispatchCompute(x, y, z);
 }
 
+static void hooked_glBlendFunc(GLenum source, GLenum target)
+{
+    if (!misbehaves("glBlendFunc"))
+        real_glBlendFunc(source, target);
+}
+
 static void hooked_glFinish(void)
 {
     if (!misbehaves("glFinish"))
@@ -211,6 +237,7 @@ static any_function hook_of(const char *name, any_function real)
         HOOK(vkCreateDevice),
         HOOK(vkDestroyDevice),
         HOOK(vkCreateComputePipelines),
+        HOOK(vkCreateGraphicsPipelines),
         HOOK(vkCreateShaderModule),
         HOOK(vkQueueSubmit),
         HOOK(vkWaitForFences),
@@ -219,6 +246,7 @@ static any_function hook_of(const char *name, any_function real)
         HOOK(eglGetProcAddress),
         HOOK(glLinkProgram),
         HOOK(glDispatchCompute),
+        HOOK(glBlendFunc),
         HOOK(glFinish),
         HOOK(glGetError),
     };

@@ -11,6 +11,8 @@ PROGRESS = "harness/console/progress.c"
 SAMPLING = "harness/measure/sampling.c"
 
 ROWS = [
+    Fault("harness/doctor/examine.c", "if («!rg_drawn_is_well(&e->drawing.formats[i], e->info.tier)»)", "false", "a device that draws wrongly is well", tests=("command line, doctor",)),
+    Fault("harness/measure/drawing.c", "return «drawn->differing <= (tier == RG_T0 ? 0 : RG_DRAWING_PIXELS / 1000)»;", "drawn->differing < RG_DRAWING_PIXELS", "a device that blends nothing draws well", tests=("command line, doctor",)),
     Fault(PROGRESS, "p->first_ms «- p->start_ms» +", "- 0", "the first units of a bar are told wrongly", tests=("progress",)),
     Fault(PROGRESS, "(double)(p->total «- p->first_done»)", "- 0", "the first units of a bar are told twice", tests=("progress",)),
     Fault(PROGRESS, "} else if («p->told_ms > 0» ? rg_progress_is_off", "false", "how long is told again and again", tests=("progress",)),
