@@ -22,6 +22,7 @@
 #include <stdint.h>
 
 #include "backends/kernel.h"
+#include "backends/library.h"
 #include "core/base/tier.h"
 
 struct rg_extent {
@@ -50,14 +51,21 @@ struct rg_limits {
     bool has_queries;                 // the API's own occlusion queries
 };
 
-enum { RG_DEVICE_NAME_SIZE = 256 };
+// Room for a name with settings, several paths among them. Of the libraries that a driver's code
+// lies in: most drivers are one file, and a layered one, such as zink, stands on another's.
+enum { RG_DEVICE_NAME_SIZE = 512, RG_DRIVER_LIBRARIES = 3 };
 
 struct rg_device_info {
-    // As the command line says it: "cpu:reference", "gl", "vulkan:1", "gl@LP_NUM_THREADS=1".
+    // As tables and messages call it: "cpu:reference", "gl", "vulkan:1", "gl@LP_NUM_THREADS=1", or
+    // the short name that the command line gave it, as "new" by "new=vulkan@DRIVER=/opt/mesa".
     char name[RG_DEVICE_NAME_SIZE];
+    char full[RG_DEVICE_NAME_SIZE]; // by which it can be opened again, without a short name
     char device[128]; // what the driver calls it: "llvmpipe (LLVM 15.0.6, 256 bits)"
     char driver[160]; // driver and version: "Mesa 22.3.6"
     char api[64];     // "OpenGL 4.5 core", "Vulkan 1.3.230", "OpenCL 1.2", "C11, AVX-512"
+    // The files whose code draws, of a device that is open; of cpu the program. The first is the
+    // API's driver; without a path the rest are none.
+    struct rg_library libraries[RG_DRIVER_LIBRARIES];
     bool software;    // runs on the CPU
     // How closely its pictures agree with those of cpu:reference: T0 of a driver that computes as C
     // does, T1 of one whose arithmetic is a GPU's, T2 of a device that draws in another way.
@@ -180,6 +188,9 @@ struct rg_backend {
 
     // Opens the device at `index` of the list. NULL and one logged line on failure.
     struct rg_device *(*create)(int index);
+    // Addresses in the driver's code, of functions that serve this device: up to `max`, of each
+    // file one or more, the API's driver first. Returns how many. NULL: the program itself draws.
+    int (*functions)(struct rg_device *device, const void **functions, int max);
     // False, and one logged line, where the driver did not come to its end well.
     bool (*destroy)(struct rg_device *device);
 

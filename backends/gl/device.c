@@ -146,6 +146,7 @@ const struct rg_backend rg_backend_gl = {
     .packed = true,
     .list = gl_list,
     .create = gl_create,
+    .functions = gl_functions,
     .destroy = gl_destroy,
     .buf_create = gl_buf_create,
     .buf_destroy = gl_buf_destroy,

@@ -147,6 +147,9 @@ int gl_judge(const struct gl_search *search, int count, char *why, size_t why_si
 // does; else `why` says so.
 bool gl_is_driver_asked(const struct gl_egl *egl, char *why, size_t why_size);
 void gl_egl_close(struct gl_egl *egl);
+
+// backend->functions
+int gl_functions(struct rg_device *device, const void **functions, int max);
 // Makes the device's context current on this thread unless it is.
 bool gl_use(struct gl_device *device);
 

@@ -131,6 +131,7 @@ const struct rg_backend rg_backend_opencl = {
     .packed = true,
     .list = opencl_list,
     .create = opencl_create,
+    .functions = opencl_functions,
     .destroy = opencl_destroy,
     .buf_create = opencl_buf_create,
     .buf_destroy = opencl_buf_destroy,

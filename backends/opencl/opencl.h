@@ -87,6 +87,8 @@ int opencl_find(struct opencl_search *search, cl_device_id *ids, int max);
 // Where the loader finds drivers, and what backend->list says of `count` devices that were found.
 extern const struct rg_manifest_rules opencl_manifests;
 int opencl_judge(const struct opencl_search *search, int count, char *why, size_t why_size);
+// backend->functions
+int opencl_functions(struct rg_device *device, const void **functions, int max);
 // What a device or platform says of itself; "unnamed" and 0 where its driver does not know it.
 enum { OPENCL_TEXT = 1024 };
 const char *opencl_text(cl_device_id id, cl_device_info what, char text[OPENCL_TEXT]);

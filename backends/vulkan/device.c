@@ -157,6 +157,7 @@ const struct rg_backend rg_backend_vulkan = {
     .packed = true,
     .list = vk_list,
     .create = vk_create,
+    .functions = vk_functions,
     .destroy = vk_destroy,
     .buf_create = vk_buf_create,
     .buf_destroy = vk_buf_destroy,

@@ -142,6 +142,8 @@ struct vk_pass {
 // Opens an instance, with the validation layer if `validate`. `why` receives one line on failure.
 bool vk_instance_open(struct vk_instance *instance, bool validate, char *why, size_t why_size);
 void vk_instance_close(struct vk_instance *instance);
+// backend->functions
+int vk_functions(struct rg_device *device, const void **functions, int max);
 // The usable devices (Vulkan 1.2, a queue that computes), hardware first; returns their number, and
 // in `why` the reason when it is 0.
 int vk_physical_devices(struct vk_instance *instance, VkPhysicalDevice *devices, int max, char *why,

@@ -86,6 +86,26 @@ static int choose(const struct rg_device_info *infos, int count, const char *nam
     return -1;
 }
 
+// Each file that holds some of the driver's functions, once.
+static void find_libraries(struct rg_device *device)
+{
+    enum { MOST_FUNCTIONS = 16 };
+    const void *functions[MOST_FUNCTIONS] = {(const void *)rg_rounding_settle};
+    int count = 1, found = 0;
+    if (device->backend->functions)
+        count = device->backend->functions(device, functions, MOST_FUNCTIONS);
+    struct rg_library *all = device->info.libraries;
+    for (int i = 0; i < count && found < RG_DRIVER_LIBRARIES; i++) {
+        int same = 0;
+        rg_library_at(functions[i], &all[found]);
+        while (same < found && !rg_library_is_same(&all[same], &all[found]))
+            same++;
+        found += same == found && *all[found].path;
+    }
+    if (found < RG_DRIVER_LIBRARIES)
+        all[found] = (struct rg_library){.path = ""};
+}
+
 struct rg_device *rg_device_open(const char *name)
 {
     const char *colon = strchr(name, ':');
@@ -117,6 +137,8 @@ struct rg_device *rg_device_open(const char *name)
     }
     device->backend = backend;
     device->work = work;
+    find_libraries(device);
+    memcpy(device->info.full, device->info.name, RG_DEVICE_NAME_SIZE);
     if (rg_rounding_settle(device))
         return device;
     rg_device_close(device);

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-enum { RG_SHEET_COLUMNS = 32, RG_SHEET_CELL = 256 };
+enum { RG_SHEET_COLUMNS = 32, RG_SHEET_CELL = 512 };
 
 // Columns of a page that a terminal shows whole.
 enum { RG_PAGE_WIDTH = 110 };

@@ -7,6 +7,8 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/console/exit.h"
+#include "harness/devices/drivers/choice.h"
+#include "harness/devices/drivers/side.h"
 #include "harness/devices/names.h"
 #include "harness/devices/workers/device.h"
 
@@ -104,13 +106,18 @@ static void leave_out(struct rg_devices *devices, const char *name, enum rg_outc
     snprintf(absent->why, sizeof(absent->why), "%s", why);
 }
 
+static struct rg_device *open_device(const struct rg_device_name *name)
+{
+    const struct rg_asked asked = {name->name, name->full, name->environment};
+    return rg_workers.program ? rg_side_open(&asked) : rg_device_open(name->full);
+}
+
 struct rg_device *rg_devices_open_one(const char *name)
 {
     struct rg_device_name parsed;
     if (!rg_device_name_read(&name, &parsed) || (*name && !rg_error("--device: one is wanted")))
         return NULL;
-    return rg_workers.program ? rg_remote_open(NULL, parsed.name, parsed.environment)
-                              : rg_device_open(parsed.name);
+    return open_device(&parsed);
 }
 
 static void open_listed(struct rg_devices *devices, const struct rg_device_list *list,
@@ -123,9 +130,9 @@ static void open_listed(struct rg_devices *devices, const struct rg_device_list 
         struct rg_worker **worker = workers;
         while (rg_backends[worker - workers] != list->backends[i])
             worker++;
-        struct rg_device *device = rg_workers.program
-                                       ? rg_remote_open(*worker, list->infos[i].name, NULL)
-                                       : rg_device_open(list->infos[i].name);
+        const char *name = list->infos[i].name;
+        struct rg_device *device =
+            rg_workers.program ? rg_remote_open(*worker, name, name, NULL) : rg_device_open(name);
         *worker = NULL; // the device owns it
         if (device)
             devices->devices[devices->count++] = device;
@@ -150,6 +157,29 @@ static int open_all(struct rg_devices *devices)
                           : rg_exit_worse(RG_EXIT_UNSUPPORTED, rg_devices_exit(devices));
 }
 
+bool rg_devices_are_apart(const struct rg_device_info *a, const struct rg_device_info *b)
+{
+    struct rg_device_name of_a, of_b;
+    const char *full_a = a->full, *full_b = b->full;
+    return rg_device_name_read(&full_a, &of_a) && rg_device_name_read(&full_b, &of_b) &&
+           rg_drivers_are_apart(a, of_a.environment, b, of_b.environment);
+}
+
+// A short name is one device's, and two drivers that are named differently are two.
+static bool are_apart(const struct rg_devices *devices)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < devices->count; i++)
+        for (int j = 0; ok && j < i; j++) {
+            const struct rg_device_info *a = &devices->devices[j]->info;
+            const struct rg_device_info *b = &devices->devices[i]->info;
+            if (!strcmp(a->name, b->name) && strcmp(b->name, b->full) != 0)
+                ok = rg_error("--device: '%s' stands there twice; name it once", b->name);
+            ok = ok && rg_devices_are_apart(a, b);
+        }
+    return ok;
+}
+
 // One that is unsupported is noted, and the others are opened all the same: what is required may be
 // among them.
 static int open_named(const char *names, struct rg_devices *devices)
@@ -163,9 +193,7 @@ static int open_named(const char *names, struct rg_devices *devices)
         }
         if (!rg_device_name_read(&rest, &name))
             return RG_EXIT_USAGE;
-        struct rg_device *device = rg_workers.program
-                                       ? rg_remote_open(NULL, name.name, name.environment)
-                                       : rg_device_open(name.name);
+        struct rg_device *device = open_device(&name);
         if (device)
             devices->devices[devices->count++] = device;
         else if (rg_outcome_of_error() == RG_UNSUPPORTED)
@@ -173,13 +201,16 @@ static int open_named(const char *names, struct rg_devices *devices)
         else
             return rg_exit_of_error();
     } while (*rest);
+    if (!are_apart(devices))
+        return RG_EXIT_USAGE;
     return devices->absent_count ? RG_EXIT_UNSUPPORTED : RG_EXIT_PASS;
 }
 
 bool rg_device_is_of(const char *device, const char *name)
 {
-    const size_t length = strcspn(device, ":@");
-    return !strcmp(device, name) || (strlen(name) == length && !strncmp(device, name, length));
+    const char *full = rg_device_name_full(device);
+    const size_t length = strcspn(full, ":@");
+    return !strcmp(device, name) || (strlen(name) == length && !strncmp(full, name, length));
 }
 
 static bool is_there(const struct rg_devices *devices, const char *name)

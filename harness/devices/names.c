@@ -9,6 +9,75 @@
 #include "harness/console/threads.h"
 #include "harness/devices/workers/environment.h"
 
+// --- short names ---
+
+enum { MOST_SHORT = 64, SHORT_SIZE = 64 };
+
+// Those that were given to this process. A name is read many times on its way.
+static struct {
+    int count;
+    struct {
+        char name[SHORT_SIZE], full[RG_DEVICE_NAME_SIZE];
+    } all[MOST_SHORT];
+} known;
+
+const char *rg_device_name_full(const char *name)
+{
+    for (int i = 0; i < known.count; i++)
+        if (!strcmp(known.all[i].name, name))
+            return known.all[i].full;
+    return name;
+}
+
+// How long the short name is with which a name begins; 0: it has none.
+static size_t short_length(const char *name)
+{
+    const size_t length = strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                       "0123456789._-");
+    return name[length] == '=' ? length : 0;
+}
+
+// Whether something is called so that is no short name.
+static bool is_taken(const char *name)
+{
+    bool taken = !strcmp(name, "all");
+    for (int i = 0; !taken && rg_backends[i]; i++)
+        taken = !strcmp(name, rg_backends[i]->name);
+    return taken;
+}
+
+// Takes the short name off the full one, or puts what a short one alone stands for.
+static bool read_short(struct rg_device_name *name)
+{
+    const size_t length = short_length(name->name);
+    memcpy(name->full, rg_device_name_full(name->name), RG_DEVICE_NAME_SIZE);
+    if (!length)
+        return true;
+    memmove(name->full, name->full + length + 1, strlen(name->full + length + 1) + 1);
+    name->name[length] = 0;
+    if (is_taken(name->name) || length >= SHORT_SIZE || !isalnum((unsigned char)*name->name))
+        return rg_error("device '%.80s=%.200s': a short name begins with a letter or a digit, has "
+                        "at most %d characters, and is no API's; choose another one",
+                        name->name, name->full, SHORT_SIZE - 1);
+    if (!*name->full || short_length(name->full) || rg_device_name_full(name->full) != name->full)
+        return rg_error("device '%s=%.200s': a short name stands before the name of a device; "
+                        "write it as new=vulkan@DRIVER=PREFIX",
+                        name->name, name->full);
+    const char *before = rg_device_name_full(name->name);
+    if (before != name->name)
+        return !strcmp(before, name->full) ||
+               rg_error("device '%s=%.200s': '%s' is short for '%s' already; choose another one",
+                        name->name, name->full, name->name, before);
+    if (known.count == MOST_SHORT)
+        return rg_error("device '%s=%.200s': more than %d short names", name->name, name->full,
+                        MOST_SHORT);
+    snprintf(known.all[known.count].name, SHORT_SIZE, "%.*s", SHORT_SIZE - 1, name->name);
+    memcpy(known.all[known.count++].full, name->full, RG_DEVICE_NAME_SIZE);
+    return true;
+}
+
+// --- reading ---
+
 // The end of a name: a comma outside of quotes, or the end of all. NULL: a quote does not end.
 static const char *find_end(const char *name)
 {
@@ -71,7 +140,7 @@ static bool is_set_before(const char *environment, const char *last)
 
 static bool read_environment(struct rg_device_name *name)
 {
-    const char *from = strchr(name->name, '@');
+    const char *from = strchr(name->full, '@');
     char *to = name->environment;
     for (from = from ? from + 1 : ""; *from; *to++ = 0) {
         const char *const variable = to, *value = copy_key(from, &to);
@@ -85,7 +154,7 @@ static bool read_environment(struct rg_device_name *name)
         from = copy_value(value, &to);
     }
     *to = 0;
-    const bool is_told = !strchr(name->name, '@') || to > name->environment;
+    const bool is_told = !strchr(name->full, '@') || to > name->environment;
     return is_told ||
            rg_error("device '%s': no KEY=value follows its '@'; write one, or leave it out",
                     name->name);
@@ -117,7 +186,7 @@ static bool read_name(const char *given_to, const char *names, const char **rest
     memset(name, 0, sizeof(*name));
     memcpy(name->name, *rest, length);
     *rest = *end ? end + 1 : end;
-    return read_environment(name) && has_sound_threads(name);
+    return read_short(name) && read_environment(name) && has_sound_threads(name);
 }
 
 bool rg_device_name_read(const char **names, struct rg_device_name *name)
@@ -164,11 +233,11 @@ bool rg_device_name_with(const char *name, const char *key, const char *value,
                          char with[RG_DEVICE_NAME_SIZE])
 {
     char quoted[2 * RG_DEVICE_NAME_SIZE];
-    const char *mark = value[strcspn(value, ",;\"")] ? "\"" : "";
+    const char *mark = value[strcspn(value, ",;\"")] ? "\"" : "", *full = rg_device_name_full(name);
     if (*mark)
         quote_value(value, quoted, sizeof(quoted));
     const int length =
-        snprintf(with, RG_DEVICE_NAME_SIZE, "%s%c%s=%s%s%s", name, strchr(name, '@') ? ';' : '@',
+        snprintf(with, RG_DEVICE_NAME_SIZE, "%s%c%s=%s%s%s", full, strchr(full, '@') ? ';' : '@',
                  key, mark, *mark ? quoted : value, mark);
     return length < RG_DEVICE_NAME_SIZE ||
            rg_error("device '%s': with %s=%.60s... its name has more than %d characters", name, key,

@@ -42,7 +42,7 @@ static bool open_remote(struct rg_session *session, const struct rg_subject *sub
     struct rg_message request = {0};
     struct rg_told_session told = {0};
     struct rg_worker *worker = worker_of(session);
-    rg_put_text(&request, session->device->info.name);
+    rg_put_text(&request, session->device->info.full);
     rg_put_int(&request, rg_worker_grant(worker));
     rg_put_subject(&request, subject);
     const bool ok =
@@ -191,7 +191,7 @@ static bool texture(const struct rg_session *session, const char *name, struct r
 static void put_run(struct rg_message *request, const struct rg_digest_run *run,
                     const struct rg_device *device, int row)
 {
-    rg_put_text(request, device->info.name);
+    rg_put_text(request, device->info.full);
     rg_put_subject(request, &run->subject);
     rg_put_int(request, run->frames);
     rg_put_int(request, row);
@@ -246,7 +246,7 @@ static bool take_dispatches(const struct rg_digest_run *run, struct rg_device *d
 static bool run_dispatched(struct rg_dispatched *dispatched, struct rg_device *device)
 {
     struct rg_message request = {0}, reply;
-    rg_put_text(&request, device->info.name);
+    rg_put_text(&request, device->info.full);
     rg_put_dispatched(&request, dispatched);
     const bool ok = rg_worker_call(rg_remote_worker(device), RG_CALL_DISPATCH, &request, &reply) &&
                     rg_take_dispatched_after(&reply, dispatched);
@@ -259,7 +259,7 @@ static void *take_code(struct rg_device *device, const struct rg_kernel *kernel,
 {
     struct rg_message request = {0};
     struct rg_told_bytes told = {0};
-    rg_put_text(&request, device->info.name);
+    rg_put_text(&request, device->info.full);
     rg_put_text(&request, kernel->name);
     rg_put_int(&request, kind);
     const bool ok = rg_worker_fetch(rg_remote_worker(device), RG_CALL_KERNEL_CODE, &request,

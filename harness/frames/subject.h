@@ -23,7 +23,7 @@ struct rg_account {
 
 // What runs for an instance: equal where the same code does. It is told of, and decides nothing.
 struct rg_session_code {
-    char program[RG_PROGRAM_ID_SIZE]; // raingauge itself
+    char program[RG_BUILD_ID_SIZE]; // raingauge itself
     uint64_t libraries;               // drivers among them
     struct {
         uint64_t hash;

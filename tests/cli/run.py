@@ -29,6 +29,7 @@
            shrinking  a driver that miscompiles: blamed, and shrunk to a case
            compiling  a driver that cannot compile or run a kernel: named, and shrunk to a case
            wrong    a driver that draws wrongly is found
+           named    the driver that was named is the driver that runs
            doctor   the report about this machine
            pages    the manual page and bash's completion
            kept     the tables that the repository keeps
@@ -60,6 +61,7 @@ import kept
 import limits
 import losses
 import misbehaving
+import named
 import pages
 import pictures
 import reports
@@ -92,6 +94,7 @@ SUITES = {
     "idle": lambda runner: runner.check_all(vacuous.THOROUGH),
     "gates": lambda runner: runner.check_all(gates.CHECKS),
     "baselines": lambda runner: runner.check_all(baselines.CHECKS),
+    "named": lambda runner: runner.check_all(named.CHECKS),
     "reports": lambda runner: runner.check_all(reports.CHECKS),
     "ci": lambda runner: runner.check_all(ci.CHECKS),
     "bisects": lambda runner: runner.check_all(bisecting.CHECKS + shells.CHECKS),

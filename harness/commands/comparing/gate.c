@@ -16,6 +16,7 @@
 #include "harness/compare/gate/run/gate.h"
 #include "harness/compare/gate/run/strays.h"
 #include "harness/console/duration.h"
+#include "harness/devices/drivers/side.h"
 #include "harness/devices/workers/worker.h"
 #include "harness/record/disk/hold.h"
 
@@ -307,6 +308,7 @@ static int gate(const void *values, const struct rg_words *arguments)
     rg_gtest_inherit(&asked.gtest);
     rg_memory_allow(o->memory_bytes);
     rg_workers.timeout_s = o->devices.timeout_s;
+    rg_sides_begin();
     int exit = find_pairs(o, arguments, &in.pairs);
     if (exit == RG_EXIT_PASS && !read_input(o, &in))
         exit = RG_EXIT_USAGE;

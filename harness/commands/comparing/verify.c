@@ -124,6 +124,15 @@ static void verify_all(struct rg_verify *v, bool stages, const struct subject *s
     rg_progress_end(&progress);
 }
 
+static void print_checks(const struct rg_checks *checks, const struct rg_devices *devices,
+                         bool json)
+{
+    const struct rg_device_info *infos[RG_MAX_DEVICES];
+    for (int i = 0; i < devices->count; i++)
+        infos[i] = &devices->devices[i]->info;
+    rg_checks_print(checks, infos, devices->count, json);
+}
+
 static int verify_on(const struct verify_options *o, const struct rg_devices *devices,
                      const struct subject *subjects, int count)
 {
@@ -147,7 +156,7 @@ static int verify_on(const struct verify_options *o, const struct rg_devices *de
     } else {
         note_absent(devices, subjects, count, &checks);
         verify_all(&v, o->stages, subjects, count);
-        rg_checks_print(&checks, o->json);
+        print_checks(&checks, devices, o->json);
         exit = rg_checks_exit(&checks);
         if (!checks.count)
             rg_error("verify: no device is held against cpu:reference; name another by --device");

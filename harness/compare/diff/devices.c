@@ -17,8 +17,10 @@
 #include "harness/devices/devices.h"
 #include "harness/frames/frame.h"
 #include "harness/record/named.h"
+#include "harness/record/passport/driver.h"
+#include "harness/record/passport/passport.h"
 
-enum { HEATMAP_PREFIX = 2500 };
+enum { HEATMAP_PREFIX = 1904 + 2 * RG_DEVICE_NAME_SIZE };
 
 struct shot {
     struct rg_device *device;
@@ -156,7 +158,7 @@ static bool is_truer(const struct rg_device_info *a, const struct rg_device_info
 {
     if (a->tier != b->tier)
         return a->tier < b->tier;
-    return !strncmp(a->name, "cpu", 3) && strcmp(b->name, "cpu:reference") != 0;
+    return !strncmp(a->full, "cpu", 3) && strcmp(b->full, "cpu:reference") != 0;
 }
 
 // Where the two part, for a pair that does not hold what its devices owe each other; the one that
@@ -244,9 +246,20 @@ static void tell_dry(const struct session *s)
     rg_error("diff %s: %s", r->subject.technique->name, why);
 }
 
+// The devices that gave pictures.
+static void list_infos(const struct session *s, const struct rg_device_info *infos[RG_MAX_DEVICES])
+{
+    for (int i = 0; i < s->shot_count; i++)
+        infos[i] = s->shots[i].info;
+}
+
 static int compare_all(struct session *s)
 {
+    const struct rg_device_info *infos[RG_MAX_DEVICES];
     int exit = s->exit;
+    list_infos(s, infos);
+    if (!s->asked->json)
+        rg_drivers_print(infos, s->shot_count, stdout);
     for (int i = 0; i < s->shot_count; i++) {
         for (int j = i + 1; j < s->shot_count && exit != RG_EXIT_USAGE; j++)
             exit = rg_exit_worse(exit, compare_pair(s, &s->shots[i], &s->shots[j]));
@@ -255,7 +268,7 @@ static int compare_all(struct session *s)
         tell_dry(s);
     if (!s->asked->json)
         tell_count(s);
-    else if (!rg_pairs_print_json(s->pairs, s->failures))
+    else if (!rg_pairs_print_json(rg_passport_devices(infos, s->shot_count), s->pairs, s->failures))
         exit = RG_EXIT_USAGE;
     return exit;
 }

@@ -10,7 +10,7 @@ static bool print_json(const struct rg_diff_request *request,
 {
     json_t *pair = rg_pair_json(request->a, request->b, comparison);
     json_t *pairs = pair ? json_pack("[o]", pair) : NULL, *failures = json_array();
-    const bool good = pairs && rg_pairs_print_json(pairs, failures);
+    const bool good = pairs && rg_pairs_print_json(NULL, pairs, failures);
     json_decref(pairs);
     json_decref(failures);
     return good;

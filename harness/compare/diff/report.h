@@ -14,9 +14,10 @@ void rg_pair_print(const char *a, const char *b, const struct rg_comparison *com
 // The same for machines (docs/records.md); the caller owns it. NULL, and one logged
 // line, when a name is not UTF-8.
 json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *comparison);
-// Prints an array of pairs, and one of devices that gave no picture, with their format number.
-// False, and one logged line, on failure.
-bool rg_pairs_print_json(json_t *pairs, json_t *failures);
+// Prints an array of pairs, and one of devices that gave no picture, with their format number, and
+// the devices that gave one, which it takes over; NULL: they are files. False, and one logged line,
+// on failure.
+bool rg_pairs_print_json(json_t *devices, json_t *pairs, json_t *failures);
 
 // Whether heat maps of so many pixels together can be written there, as is found out before any
 // work; a prefix of NULL asks for none. False, and one logged line.

@@ -5,7 +5,7 @@
 #include "harness/compare/blame/blame.h"
 #include "harness/compare/blame/fall.h"
 
-enum { RG_CASE_NAME = 256 };
+enum { RG_CASE_NAME = RG_DEVICE_NAME_SIZE };
 
 struct rg_case {
     struct rg_digest_run run; // its settings are owned

@@ -11,7 +11,7 @@ struct rg_culprit {
     bool found;
     struct rg_dispatched due; // of the fewest items, with what the truth leaves after it
     int64_t items, of_items;  // how many, and of how many
-    char why_not[900];        // where none is found: a line
+    char why_not[1400];       // where none is found: a line
 };
 
 // Keeps the dispatches of the stage that is blamed as `device` makes them, of a draw those that

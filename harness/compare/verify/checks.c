@@ -10,6 +10,8 @@
 #include "core/base/log.h"
 #include "harness/console/exit.h"
 #include "harness/record/named.h"
+#include "harness/record/passport/driver.h"
+#include "harness/record/passport/passport.h"
 
 void rg_checks_add(struct rg_checks *checks, const char *technique, const char *check,
                    const char *device, enum rg_outcome status, const char *format, ...)
@@ -39,7 +41,7 @@ void rg_checks_add_error(struct rg_checks *checks, const char *technique, const 
     rg_checks_add(checks, technique, check, device, rg_outcome_of_error(), "%s", rg_last_error());
 }
 
-static void print_json(const struct rg_checks *checks)
+static void print_json(const struct rg_checks *checks, json_t *devices)
 {
     json_t *rows = json_array();
     for (int i = 0; i < checks->count; i++) {
@@ -49,7 +51,7 @@ static void print_json(const struct rg_checks *checks)
                                               "status", rg_outcome_name(row->status), "detail",
                                               rg_json_text(row->detail)));
     }
-    json_t *root = json_pack("{siso}", "format", 1, "checks", rows);
+    json_t *root = json_pack("{sisoso}", "format", 1, "devices", devices, "checks", rows);
     json_dumpf(root, stdout, JSON_INDENT(2));
     printf("\n");
     json_decref(root);
@@ -96,12 +98,14 @@ static void print_count(const struct rg_checks *checks)
     printf("\n");
 }
 
-void rg_checks_print(const struct rg_checks *checks, bool json)
+void rg_checks_print(const struct rg_checks *checks, const struct rg_device_info *const devices[],
+                     int device_count, bool json)
 {
     if (json) {
-        print_json(checks);
+        print_json(checks, rg_passport_devices(devices, device_count));
         return;
     }
+    rg_drivers_print(devices, device_count, stdout);
     print_lines(checks);
     print_count(checks);
 }

@@ -31,8 +31,10 @@ void rg_checks_add(struct rg_checks *checks, const char *technique, const char *
 void rg_checks_add_error(struct rg_checks *checks, const char *technique, const char *check,
                          const char *device);
 
-// To stdout: a line a check, or one JSON object {"format":1, "checks":[...]}.
-void rg_checks_print(const struct rg_checks *checks, bool json);
+// To stdout: a line a device, which tells its driver, and a line a check, or one JSON object
+// {"format":1, "devices":[...], "checks":[...]}.
+void rg_checks_print(const struct rg_checks *checks, const struct rg_device_info *const devices[],
+                     int device_count, bool json);
 
 // An enum rg_exit: `exit`, or what rg_exit_of_all makes of the results where that is worse, and of
 // those of devices alone, where there are some: a model that is well proves none of them.

@@ -1,5 +1,6 @@
 // Calls about the device (harness/devices/workers/device.c, harness/devices/ and harness/doctor/
 // make them).
+#include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -42,6 +43,21 @@ bool rg_serve_list(struct rg_message *request, struct rg_message *reply)
     told.outcome = list.missing[0].outcome;
     snprintf(told.why, sizeof(told.why), "%s", list.missing[0].why);
     rg_put_fields(reply, rg_told_list_fields, &told);
+    return true;
+}
+
+// What was loaded stays, so that the loader of the API gets the same.
+bool rg_serve_load(struct rg_message *request, struct rg_message *reply)
+{
+    char why[512] = "";
+    bool any = false;
+    for (int64_t i = rg_take_int(request); i > 0 && !any && !request->failed; i--) {
+        const char *library = rg_take_text(request);
+        any = dlopen(library, RTLD_LAZY | RTLD_LOCAL);
+        if (!any && !*why)
+            snprintf(why, sizeof(why), "%s", dlerror());
+    }
+    rg_put_text(reply, any ? "" : why);
     return true;
 }
 

@@ -1,6 +1,5 @@
 #include "harness/devices/serving/serving.h"
 
-#include "harness/devices/serving/caches.h"
 #include "harness/devices/serving/services.h"
 
 bool rg_serve_close(struct rg_message *request, struct rg_message *reply)
@@ -16,6 +15,5 @@ rg_service *const rg_services[RG_CALL_COUNT_OF_CALLS] = {RG_CALLS(ROW)};
 
 int rg_serving(const char *argument)
 {
-    rg_caches_part();
     return rg_serve(argument, rg_services);
 }

@@ -6,11 +6,13 @@
 #define RG_HARNESS_DEVICES_WORKERS_CALLS_H
 
 // The first asks whether both speak of the same things (harness/devices/serving/hello.c), and stays
-// the first for ever, in all builds. LIST is of a backend's devices, those down to CEILINGS of the
-// one device of this worker, which ends behind CLOSE, and others of sessions and runs.
+// the first for ever, in all builds. LIST is of a backend's devices, LOAD of libraries that a
+// device's name names, those down to CEILINGS of the one device of this worker, which ends behind
+// CLOSE, and others of sessions and runs.
 #define RG_CALLS(CALL)                                                                             \
     CALL(HELLO, hello, "greeting")                                                                 \
     CALL(LIST, list, "listing devices")                                                            \
+    CALL(LOAD, load, "loading the driver")                                                         \
     CALL(OPEN, open, "opening the device")                                                         \
     CALL(CLOSE, close, "closing the device")                                                       \
     CALL(PROBE, probe, "probing its arithmetic")                                                   \

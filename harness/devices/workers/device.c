@@ -64,11 +64,21 @@ static const struct rg_field limits_fields[] = {
     RG_FIELDS_END,
 };
 
+static const struct rg_field library_fields[] = {
+    RG_FIELD_TEXT(struct rg_library, path),
+    RG_FIELD_TEXT(struct rg_library, build),
+    RG_FIELD_BYTES(struct rg_library, device),
+    RG_FIELD_BYTES(struct rg_library, inode),
+    RG_FIELDS_END,
+};
+
 static const struct rg_field info_fields[] = {
     RG_FIELD_TEXT(struct rg_device_info, name),
+    RG_FIELD_TEXT(struct rg_device_info, full),
     RG_FIELD_TEXT(struct rg_device_info, device),
     RG_FIELD_TEXT(struct rg_device_info, driver),
     RG_FIELD_TEXT(struct rg_device_info, api),
+    RG_FIELD_STRUCTS(struct rg_device_info, libraries, library_fields),
     RG_FIELD_FLAG(struct rg_device_info, software),
     RG_FIELD_INTEGER(struct rg_device_info, tier, 0, RG_TIER_COUNT - 1),
     RG_FIELD_STRUCT(struct rg_device_info, limits, limits_fields),
@@ -96,13 +106,13 @@ const struct rg_field rg_told_list_fields[] = {
 };
 
 // Asks for the device. Its name is as the driver's list has it, before an environment.
-static bool ask_for(struct remote *remote, const char *name, const char *environment)
+static bool ask_for(struct remote *remote, const char *name, const char *full)
 {
     struct rg_message request = {0};
     struct rg_told_device asked = {.backend = 0};
-    const size_t plain = strcspn(name, "@");
+    const size_t plain = strcspn(full, "@");
     char own[RG_DEVICE_NAME_SIZE];
-    snprintf(own, sizeof(own), "%.*s", (int)plain, name);
+    snprintf(own, sizeof(own), "%.*s", (int)plain, full);
     rg_put_text(&request, own);
     const bool ok =
         rg_worker_fetch(remote->worker, RG_CALL_OPEN, &request, rg_told_device_fields, &asked);
@@ -118,13 +128,14 @@ static bool ask_for(struct remote *remote, const char *name, const char *environ
                                           .package = backend->package,
                                           .sync = sync_remote,
                                           .destroy = destroy_remote};
-    char *told = remote->pub.info.name;
-    if (environment && *environment)
-        snprintf(told + strlen(told), RG_DEVICE_NAME_SIZE - strlen(told), "%s", name + plain);
+    struct rg_device_info *info = &remote->pub.info;
+    snprintf(info->full + strlen(info->full), RG_DEVICE_NAME_SIZE - strlen(info->full), "%s",
+             full + plain);
+    snprintf(info->name, RG_DEVICE_NAME_SIZE, "%s", strcmp(name, full) ? name : info->full);
     return true;
 }
 
-struct rg_device *rg_remote_open(struct rg_worker *worker, const char *name,
+struct rg_device *rg_remote_open(struct rg_worker *worker, const char *name, const char *full,
                                  const char *environment)
 {
     struct remote *remote = rg_alloc(1, sizeof(*remote), name);
@@ -133,7 +144,7 @@ struct rg_device *rg_remote_open(struct rg_worker *worker, const char *name,
         remote->worker = worker ? worker : rg_worker_create(name, environment);
     else
         rg_worker_destroy(worker);
-    if (work && remote->worker && ask_for(remote, name, environment)) {
+    if (work && remote->worker && ask_for(remote, name, full)) {
         remote->pub.work = work;
         return &remote->pub;
     }

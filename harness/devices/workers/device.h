@@ -7,10 +7,12 @@
 #include "harness/devices/workers/worker.h"
 
 // Opens a device in a worker of its own, or in `worker`, which it then owns, where that is not
-// NULL. `environment` is as rg_worker_create takes it; the device's name then is `name`.
+// NULL. `environment` is as rg_worker_create takes it. `full` is the device's name with what
+// follows '@'; `name` is what messages and tables call it, where that is another name, or where
+// something follows '@'.
 // rg_device_close closes it and ends the worker. NULL, and one logged line, on failure, of the kind
 // that rg_device_open has, or that ended the worker.
-struct rg_device *rg_remote_open(struct rg_worker *worker, const char *name,
+struct rg_device *rg_remote_open(struct rg_worker *worker, const char *name, const char *full,
                                  const char *environment);
 
 // What a worker tells of its device: what it is, and the number of its backend.

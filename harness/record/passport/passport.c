@@ -7,6 +7,7 @@
 #include "harness/record/passport/build_info.h"
 #include "harness/record/passport/machine.h"
 #include "harness/record/named.h"
+#include "harness/record/passport/driver.h"
 #include "harness/record/passport/key.h"
 #include "harness/record/passport/program.h"
 #include "harness/record/passport/variables.h"
@@ -50,7 +51,7 @@ static json_t *machine(void)
 static json_t *build(void)
 {
     const char *folder = rg_kernel_override();
-    char id[RG_PROGRAM_ID_SIZE];
+    char id[RG_BUILD_ID_SIZE];
     rg_program_id(id);
     return json_pack("{ssssssssssso}", "version", rg_build_version, "commit", rg_build_commit,
                      "compiler", rg_build_compiler, "type", rg_build_type, "program", id,
@@ -59,9 +60,19 @@ static json_t *build(void)
 
 json_t *rg_passport_device(const struct rg_device_info *info)
 {
-    return json_pack("{sososososb}", "name", rg_json_text(info->name), "api",
-                     rg_json_text(info->api), "device", rg_json_text(info->device), "driver",
-                     rg_json_text(info->driver), "software", info->software);
+    json_t *device = json_pack("{sososososb}", "name", rg_json_text(info->name), "api",
+                               rg_json_text(info->api), "device", rg_json_text(info->device),
+                               "driver", rg_json_text(info->driver), "software", info->software);
+    rg_driver_put(device, info);
+    return device;
+}
+
+json_t *rg_passport_devices(const struct rg_device_info *const infos[], int count)
+{
+    json_t *all = json_array();
+    for (int i = 0; i < count; i++)
+        json_array_append_new(all, rg_passport_device(infos[i]));
+    return all;
 }
 
 json_t *rg_passport_json(const struct rg_device_info *infos, int count)

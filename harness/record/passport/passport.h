@@ -12,7 +12,9 @@
 // changes from run to run on one machine (no clock frequencies, no load, no host name).
 json_t *rg_passport_json(const struct rg_device_info *infos, int count);
 
-// The same of one device: name, api, device, driver, software.
+// The same of one device: name, api, device, driver, software, libraries.
 json_t *rg_passport_device(const struct rg_device_info *info);
+// An array of them.
+json_t *rg_passport_devices(const struct rg_device_info *const infos[], int count);
 
 #endif

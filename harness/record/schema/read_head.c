@@ -120,6 +120,26 @@ static bool read_works(struct rg_reader *r, const json_t *document, struct rg_re
     return count > 0;
 }
 
+// What records of older raingauges do not have: a name by which to open it again, and the files
+// that its driver was loaded from.
+static bool read_driver(struct rg_reader *r, const json_t *json, struct rg_device_info *info)
+{
+    const json_t *array = json_object_get(json, "libraries");
+    const size_t count = json_array_size(array);
+    memcpy(info->full, info->name, sizeof(info->full));
+    bool ok = !json_object_get(json, "full") ||
+              rg_field_text(r, json, "full", info->full, sizeof(info->full));
+    if (ok && count > RG_DRIVER_LIBRARIES)
+        return rg_reader_refuse(r, "libraries", "has more than %d elements", RG_DRIVER_LIBRARIES);
+    for (size_t i = 0; ok && i < count; i++) {
+        struct rg_library *library = &info->libraries[i];
+        const json_t *of = json_array_get(array, i);
+        ok = rg_field_text(r, of, "path", library->path, sizeof(library->path)) &&
+             rg_field_text(r, of, "build", library->build, sizeof(library->build));
+    }
+    return ok;
+}
+
 static bool read_devices(struct rg_reader *r, const json_t *document, struct rg_result *result)
 {
     int count;
@@ -136,7 +156,7 @@ static bool read_devices(struct rg_reader *r, const json_t *document, struct rg_
             !rg_field_text(r, json, "api", info->api, sizeof(info->api)) ||
             !rg_field_text(r, json, "device", info->device, sizeof(info->device)) ||
             !rg_field_text(r, json, "driver", info->driver, sizeof(info->driver)) ||
-            !rg_field_bool(r, json, "software", &info->software))
+            !rg_field_bool(r, json, "software", &info->software) || !read_driver(r, json, info))
             return false;
     }
     rg_reader_enter(r, "%s", "");

@@ -6,6 +6,7 @@
 #include "core/techniques/technique.h"
 #include "harness/console/colour.h"
 #include "harness/console/sheet.h"
+#include "harness/record/passport/driver.h"
 #include "harness/tables/sheet/below.h"
 #include "harness/tables/sheet/curve.h"
 #include "harness/tables/sheet/digits.h"
@@ -318,6 +319,34 @@ static bool print_table(const struct rg_result *result, struct rg_place of, FILE
     return !sheet.incomplete;
 }
 
+// Whether two of its devices are sides of one API, or one has settings of its own: then it must be
+// seen which drivers they run.
+static bool has_sides(const struct rg_result *result)
+{
+    bool any = false;
+    for (int i = 0; result->device_count > 1 && i < result->device_count; i++) {
+        const char *full = result->devices[i].full;
+        any = any || strchr(full, '@');
+        for (int j = 0; j < i; j++) {
+            const size_t length = strcspn(full, ":@");
+            any = any || (strncmp(full, "cpu", 3) != 0 &&
+                          length == strcspn(result->devices[j].full, ":@") &&
+                          !strncmp(full, result->devices[j].full, length));
+        }
+    }
+    return any;
+}
+
+static void print_drivers(const struct rg_result *result, FILE *out)
+{
+    char line[RG_DRIVER_LINE];
+    for (int i = 0; i < result->device_count; i++) {
+        rg_driver_line(&result->devices[i], line);
+        fprintf(out, "- %s\n", line);
+    }
+    fprintf(out, "\n");
+}
+
 static void print_head(const struct rg_result *result, FILE *out)
 {
     fprintf(out, "## %s\n\n", result->table);
@@ -328,6 +357,8 @@ static void print_head(const struct rg_result *result, FILE *out)
                      "is.\n\n");
     else
         fprintf(out, "Frames a second on each device.\n\n");
+    if (has_sides(result))
+        print_drivers(result, out);
 }
 
 bool rg_brief_print(const struct rg_result *result, FILE *out)

@@ -23,7 +23,7 @@ static void keep(enum rg_log_level level, const char *line, void *user)
 // The variables of a name with a bar behind each.
 static const char *variables(const struct rg_device_name *name)
 {
-    static char text[512];
+    static char text[2 * RG_DEVICE_NAME_SIZE];
     *text = 0;
     for (const char *v = name->environment; *v; v += strlen(v) + 1)
         snprintf(text + strlen(text), sizeof(text) - strlen(text), "%s|", v);
@@ -68,10 +68,37 @@ static void quotes_hold_commas_semicolons_and_quotes(void **state)
     check("gl@A=x\",\"y;B=\"\"", 1, (const char *const[][2]){{"gl@A=x\",\"y;B=\"\"", "A=x,y|B=|"}});
 }
 
+static void a_short_name_stands_for_a_device_from_then_on(void **state)
+{
+    (void)state;
+    struct rg_device_name name;
+    const char *rest = "new=vulkan@DRIVER=/opt/mesa;A=b=c,old.1-a_b=gl:1,cpu";
+    assert_true(rg_device_name_read(&rest, &name));
+    assert_string_equal(name.name, "new");
+    assert_string_equal(name.full, "vulkan@DRIVER=/opt/mesa;A=b=c");
+    assert_string_equal(variables(&name), "DRIVER=/opt/mesa|A=b=c|");
+    assert_true(rg_device_name_read(&rest, &name));
+    assert_string_equal(name.name, "old.1-a_b");
+    assert_string_equal(name.full, "gl:1");
+    assert_string_equal(variables(&name), "");
+    assert_true(rg_device_name_read(&rest, &name));
+    assert_string_equal(name.name, "cpu");
+    assert_string_equal(name.full, "cpu");
+    rest = "new";
+    assert_true(rg_device_name_read(&rest, &name));
+    assert_string_equal(name.name, "new");
+    assert_string_equal(name.full, "vulkan@DRIVER=/opt/mesa;A=b=c");
+    rest = "new=vulkan@DRIVER=/opt/mesa;A=b=c"; // the same again
+    assert_true(rg_device_name_read(&rest, &name));
+    char with[RG_DEVICE_NAME_SIZE];
+    assert_true(rg_device_name_with("new", "B", "1,2", with));
+    assert_string_equal(with, "vulkan@DRIVER=/opt/mesa;A=b=c;B=\"1,2\"");
+}
+
 static void what_is_no_such_form_is_refused(void **state)
 {
     (void)state;
-    char long_name[400];
+    char long_name[700];
     memset(long_name, 'x', sizeof(long_name) - 1);
     long_name[sizeof(long_name) - 1] = 0;
     const char *const refused[][2] = {
@@ -86,7 +113,7 @@ static void what_is_no_such_form_is_refused(void **state)
         {"gl@A B=2", "does not set a variable"},
         {"gl@A=1;B", "'B' does not"},
         {"gl@A=\"1", "is not closed"},
-        {long_name, "at most 255"},
+        {long_name, "at most 511"},
         {"gl@A=1;;B=2", "does not set a variable"},
         {"cpu@OMP_NUM_THREADS=0", "OMP_NUM_THREADS is no number from 1"},
         {"cpu@A=1;OMP_NUM_THREADS=abc", "OMP_NUM_THREADS is no number from 1"},
@@ -94,6 +121,15 @@ static void what_is_no_such_form_is_refused(void **state)
         {"cpu@OMP_NUM_THREADS=100000", "OMP_NUM_THREADS is no number from 1"},
         {"gl@A=1;A=2", "device 'gl@A=1;A=2': sets A twice"},
         {"gl@AB=1;A=2;B=3;AB=1", "sets AB twice"},
+        {"new=vulkan@DRIVER=/opt/mesa", "'new' is short for 'vulkan@DRIVER=/opt/mesa;A=b=c'"},
+        {"gl=vulkan", "is no API's"},
+        {"all=vulkan", "is no API's"},
+        {".x=vulkan", "begins with a letter or a digit"},
+        {"x=", "stands before the name of a device"},
+        {"x=y=vulkan", "stands before the name of a device"},
+        {"x=new", "stands before the name of a device"},
+        {"x y=vulkan@A", "'A' does not set a variable"},
+        {"abcdefghijklmnopqrstuvwxyzabcdefghijklmnopqrstuvwxyz0123456789--=gl", "at most 63"},
         {"cpu,,", "--require 'cpu,,': names no device beside a comma"},
     };
     for (size_t i = 0; i < sizeof(refused) / sizeof(refused[0]); i++) {
@@ -109,6 +145,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_are_read_one_after_the_other),
         cmocka_unit_test(quotes_hold_commas_semicolons_and_quotes),
+        cmocka_unit_test(a_short_name_stands_for_a_device_from_then_on),
         cmocka_unit_test(what_is_no_such_form_is_refused),
     };
     rg_log_listen(keep, NULL);

@@ -17,6 +17,7 @@
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/record/passport/key.h"
+#include "harness/record/passport/driver.h"
 #include "harness/record/passport/passport.h"
 
 // Cells whose times are taken in one course.
@@ -160,9 +161,11 @@ static bool note_keys(struct run *r)
     for (int side = 0; out && side < r->side_count; side++) {
         const struct rg_baseline_device *was =
             rg_baseline_device(r->asked->baseline, r->sides[side].name);
-        char now_key[RG_KEY_SIZE], was_key[RG_KEY_SIZE], text[RG_KEY_TEXT];
+        char now_key[RG_KEY_SIZE], was_key[RG_KEY_SIZE], text[RG_KEY_TEXT], line[RG_DRIVER_LINE];
         if (!r->parts[side])
             continue;
+        rg_driver_line(&r->infos[side], line);
+        fprintf(out, "%s\n", line);
         rg_key_hash(r->parts[side], now_key);
         rg_key_hash(was->parts, was_key);
         rg_key_difference(r->parts[side], was->parts, text);

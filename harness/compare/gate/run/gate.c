@@ -19,6 +19,7 @@
 #include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/names.h"
+#include "harness/record/passport/driver.h"
 #include "harness/record/passport/passport.h"
 
 char *rg_gate_case_name(const struct rg_gate_cell *cell, const char *device)
@@ -46,6 +47,7 @@ struct run {
     const struct rg_gate_request *asked;
     struct rg_gate *gate; // a case a pair and cell that the filter lets through
     struct rg_device_info infos[RG_SIDES * RG_MAX_DEVICES]; // of all sides that are there
+    int info_sides[RG_SIDES * RG_MAX_DEVICES];
     int info_count;
     // Of the pair that is held against each other now.
     const struct rg_gate_pair *pair;
@@ -146,13 +148,18 @@ static int look_at_sides(struct run *r)
     struct rg_side_seen seen[RG_SIDES * RG_MAX_DEVICES];
     struct rg_gate_target targets[RG_MAX_DEVICES];
     int count = 0;
-    bool are_names = true;
+    bool are_names = true, is_apart = true;
     for (int pair = 0; are_names && pair < r->asked->pairs->count; pair++) {
         begin_pair(r, pair);
         for (int side = 0; are_names && side < RG_SIDES; side++) {
             struct rg_device_info *info = &r->infos[r->info_count];
             seen[count] = rg_side_look(&r->sides[side], info);
+            r->info_sides[r->info_count] = side;
             r->info_count += seen[count].is_open;
+            // The other side's, where it is open, lies before it.
+            is_apart =
+                is_apart && (side != RG_SIDE_B || !seen[count].is_open ||
+                             !seen[count - 1].is_open || rg_devices_are_apart(info - 1, info));
             if (side == RG_SIDE_B)
                 targets[pair] = (struct rg_gate_target){seen[count].name,
                                                         seen[count].is_open ? info->driver : NULL};
@@ -160,12 +167,25 @@ static int look_at_sides(struct run *r)
         }
         end_pair(r);
     }
-    if (!are_names)
+    if (!are_names || !is_apart)
         return RG_EXIT_USAGE;
     rg_gate_warn_of_strange(r->asked->known, r->asked->cells, targets, r->asked->pairs->count);
     const bool ok =
         rg_interrupted() || rg_sides_have(seen, count, r->asked->require, &r->gate->report);
     return ok ? RG_EXIT_PASS : RG_EXIT_FAIL;
+}
+
+// Which driver each side runs, above all that is found.
+static bool note_drivers(struct run *r)
+{
+    size_t size;
+    char line[RG_DRIVER_LINE];
+    FILE *out = open_memstream(&r->gate->note, &size);
+    for (int i = 0; out && i < r->info_count; i++) {
+        rg_driver_line(&r->infos[i], line);
+        fprintf(out, "%c  %s\n", "AB"[r->info_sides[i]], line);
+    }
+    return out && fclose(out) == 0;
 }
 
 static void compare(struct run *r, struct rg_gate_case *c)
@@ -379,7 +399,8 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
         gate->is_told = gate->report.case_count && set_passport(&r);
         return exit;
     }
-    bool ok = make_room(&r) && set_passport(&r) && rg_keep_open(request, key_of(&r), &r.kept);
+    bool ok = make_room(&r) && set_passport(&r) && note_drivers(&r) &&
+              rg_keep_open(request, key_of(&r), &r.kept);
     for (int pair = 0; ok && pair < request->pairs->count && !rg_interrupted(); pair++)
         ok = run_pair(&r, pair);
     ok = ok && (rg_interrupted() || rg_gate_report(request, gate));

@@ -92,7 +92,7 @@ static bool is_held(const struct rg_gate_pairs *pairs, const char *name)
     const size_t length = strlen(name);
     bool any = false;
     for (int i = 0; !any && i < pairs->count; i++) {
-        const char *held = pairs->all[i].names[RG_SIDE_B];
+        const char *held = rg_device_name_full(pairs->all[i].names[RG_SIDE_B]);
         any = strcspn(held, "@") == length && !strncmp(held, name, length);
     }
     return any;

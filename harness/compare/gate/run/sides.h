@@ -26,7 +26,7 @@ struct rg_side_seen {
     bool is_name;     // such that a device could have it
     bool is_there;    // on this machine, though its driver may fail: that ends its cases
     bool is_open;
-    char why[256]; // it is not open
+    char why[RG_LIST_WHY_SIZE + 64]; // it is not open
 };
 // Launches a side, of which `info` is then told.
 struct rg_side_seen rg_side_look(struct rg_side *side, struct rg_device_info *info);

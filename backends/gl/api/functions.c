@@ -1,0 +1,102 @@
+// Where the driver's code lies that serves a context.
+//
+// EGL and OpenGL are called through libglvnd, and Mesa's functions through a table of its own, so
+// that no address that they hand out lies in the driver. It is found among what is loaded: first
+// the vendor's library that EGL has taken, by what it exports, then the one behind it that draws,
+// by the names that Mesa and NVIDIA give to theirs.
+#include "backends/gl/gl.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+static const char *base_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static bool ends_with(const char *text, const char *end)
+{
+    const size_t length = strlen(text), of = strlen(end);
+    return length >= of && !strcmp(text + length - of, end);
+}
+
+static bool is_implementation(const char *path, const void *code)
+{
+    const char *base = base_of(path);
+    (void)code;
+    return !strncmp(base, "libgallium-", 11) || ends_with(base, "_dri.so") ||
+           !strncmp(base, "libnvidia-eglcore", 17);
+}
+
+static bool is_vendor(const char *path, const void *code)
+{
+    (void)path;
+    return rg_library_exports(code, "__egl_Main");
+}
+
+// A libEGL that is a driver itself, without libglvnd.
+static bool is_egl(const char *path, const void *code)
+{
+    return !strncmp(base_of(path), "libEGL", 6) && rg_library_exports(code, "eglInitialize");
+}
+
+static bool is_vulkan_driver(const char *path, const void *code)
+{
+    (void)path;
+    return rg_library_exports(code, "vk_icdGetInstanceProcAddr");
+}
+
+static bool is_lavapipe(const char *path, const void *code)
+{
+    return strstr(base_of(path), "lvp") && is_vulkan_driver(path, code);
+}
+
+static bool is_of(const char *word, const void *code)
+{
+    struct rg_library library;
+    char lower[RG_LIBRARY_PATH];
+    size_t i = 0;
+    rg_library_at(code, &library);
+    for (const char *c = base_of(library.path); *c; c++)
+        lower[i++] = (char)(*c | 0x20);
+    lower[i] = 0;
+    return strstr(lower, word) != NULL;
+}
+
+// Keeps those that belong to the vendor that EGL names, where several are loaded: libglvnd loads
+// all that are installed.
+static int keep_of_vendor(EGLDisplay display, const void **codes, int count)
+{
+    const char *vendor = eglQueryString(display, EGL_VENDOR);
+    const char *word = vendor && !strncasecmp(vendor, "nvidia", 6) ? "nvidia" : "mesa";
+    int kept = 0;
+    for (int i = 0; i < count; i++)
+        if (count == 1 || is_of("nvidia", codes[i]) == !strcmp(word, "nvidia"))
+            codes[kept++] = codes[i];
+    return kept;
+}
+
+// zink draws through a Vulkan driver, of which it tells the device's name.
+static int add_below(const void **functions, int count, int max)
+{
+    const char *renderer = (const char *)glGetString(GL_RENDERER);
+    if (!renderer || strncmp(renderer, "zink", 4) != 0)
+        return count;
+    return count + rg_libraries_find(strstr(renderer, "llvmpipe") ? is_lavapipe : is_vulkan_driver,
+                                     functions + count, max - count);
+}
+
+int gl_functions(struct rg_device *device, const void **functions, int max)
+{
+    struct gl_device *gl = (struct gl_device *)device;
+    bool (*const kinds[])(const char *, const void *) = {is_implementation, is_vendor, is_egl};
+    int count = 0;
+    if (!gl_use(gl))
+        return 0;
+    for (int i = 0; !count && i < 3; i++)
+        count =
+            keep_of_vendor(gl->egl.display, functions, rg_libraries_find(kinds[i], functions, max));
+    return add_below(functions, count, max);
+}
