@@ -6,6 +6,7 @@
 
 #include "core/base/log.h"
 #include "harness/devices/workers/device.h"
+#include "harness/measure/drawing.h"
 #include "harness/measure/messages.h"
 #include "harness/devices/serving/services.h"
 #include "harness/measure/ceilings.h"
