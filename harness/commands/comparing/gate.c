@@ -42,7 +42,7 @@ static const struct rg_option options[] = {
     RG_GROUP("What to compare"),
     {RG_OPTION_OPERAND, .argument = "A B",
      .about = "two devices: B is held against A; each may have an environment, as in "
-              "'vulkan@VK_DRIVER_FILES=new.json'",
+              "'new=vulkan@DRIVER=PREFIX'",
      .names = RG_NAMES_DEVICE, .first = 1, .last = 2},
     {RG_OPTION_TEXT, "against", .argument = "BINARY",
      .about =

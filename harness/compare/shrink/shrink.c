@@ -206,7 +206,7 @@ int rg_shrink_case(const struct rg_shrink_request *request, struct rg_case *foun
     found->found = s.fall.outcome ? 0 : s.blame.first.hash;
     snprintf(found->stage, sizeof(found->stage), "%s", s.blame.first.stage);
     snprintf(found->asset, sizeof(found->asset), "%s", s.blame.first.asset);
-    snprintf(found->device, sizeof(found->device), "%s", request->device->info.name);
-    snprintf(found->truth, sizeof(found->truth), "%s", request->truth->info.name);
+    snprintf(found->device, sizeof(found->device), "%s", request->device->info.full);
+    snprintf(found->truth, sizeof(found->truth), "%s", request->truth->info.full);
     return ok ? RG_EXIT_PASS : s.has_none ? RG_EXIT_FAIL : rg_exit_of_error();
 }

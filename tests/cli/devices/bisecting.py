@@ -3,6 +3,7 @@ import json
 import os
 import re
 import signal
+import shutil
 import subprocess
 import tempfile
 import time
@@ -26,6 +27,14 @@ def manifest(library):
     return json.dumps({"file_format_version": "1.0.0", "ICD": {"library_path": library, "api_version": "1.1.0"}})
 
 
+def write_build(folder, name, library):
+    """A driver's manifest with a copy of its library beside it: two builds are two files, or a gate refuses them."""
+    copy = os.path.join(folder, os.path.dirname(name), "driver.so")
+    os.makedirs(os.path.dirname(copy), exist_ok=True)
+    shutil.copy(library, copy)
+    write(folder, name, manifest(copy))
+
+
 def shell(runner, folder, script):
     """A script of docs/ci, which docs/ci.md quotes, in a folder where raingauge is found by its name."""
     with open(os.path.join(EXAMPLES, script)) as file, open(EXAMPLES + ".md") as page:
@@ -42,11 +51,14 @@ def bisect(runner, line, more=(), good="1", bad="9", names="123456789"):
 
 
 def check_builds(runner):
-    """of five builds the first that crashes is found, and one that is no driver is skipped, as docs/ci.md shows it"""
+    """of five builds the first that crashes is found, and one without a driver is skipped, as docs/ci.md shows it"""
     with tempfile.TemporaryDirectory() as folder:
         write(folder, "cells.txt", TORUS)
         for build, library in (("1", runner.misbehaver), ("2", runner.misbehaver), ("3", None), ("4", runner.crasher), ("5", runner.crasher)):
-            write(folder, "builds/%s/icd.json" % build, manifest(library) if library else "no driver\n")
+            if library:
+                write_build(folder, "builds/%s/icd.json" % build, library)
+            else:
+                write(folder, "builds/%s/failed" % build, "no driver\n")
         ran = shell(runner, folder, "bisect-builds.sh")
         problems = [] if ran.returncode == 3 else ["exit status %d, %s" % (ran.returncode, ran.stderr)]
         wanted = ["good  builds/1", "bad   builds/5", "skip  builds/3", "good  builds/2", "bad   builds/4"]
@@ -54,7 +66,7 @@ def check_builds(runner):
         if [line.split("  (")[0] for line in lines[:5]] != wanted or lines[5:] != [
                 "builds/2 is good; the first bad one is one of these, of which the last alone was judged:", "  builds/3", "  builds/4", ""]:
             problems.append(ran.stdout)
-        write(folder, "builds/3/icd.json", manifest(runner.misbehaver))
+        write_build(folder, "builds/3/icd.json", runner.misbehaver)
         ran = shell(runner, folder, "bisect-builds.sh")
         if ran.returncode or not ran.stdout.endswith("the first bad one is builds/4; builds/3 before it is good\n"):
             problems.append("exit status %d, %s%s" % (ran.returncode, ran.stdout, ran.stderr))

@@ -1,14 +1,15 @@
 """Workers: how they are asked, how they end, and what is made of it; names of devices."""
 from fault import Fault
 
-TESTS = ("workers that end", "damaged replies", "damaged findings", "messages", "names of devices", "sessions in workers", "subjects between processes", "log", "command line, misbehaving", "command line, gates")
+TESTS = ("workers that end", "damaged replies", "damaged findings", "messages", "names of devices", "sessions in workers", "subjects between processes", "log", "command line, misbehaving", "command line, gates", "command line, named")
 
 W = "harness/devices/workers/"
 WORKER, CHANNEL, SERVE, MESSAGE, ENVIRONMENT, DEVICE = (
     W + name + ".c" for name in ("worker", "channel", "serve", "message", "environment", "device"))
 NAMES, DEVICES, REMOTE, LOG = ("harness/devices/names.c", "harness/devices/devices.c", "harness/frames/remote.c", "core/base/log.c")
 DIFF, MESSAGES, FINDINGS = "harness/compare/diff/devices.c", "harness/frames/messages.c", "harness/measure/messages.c"
-CACHES = "harness/devices/serving/caches.c"
+D = "harness/devices/drivers/"
+CACHES, CHOICE, SIDE, PREFIX = (D + name + ".c" for name in ("caches", "choice", "side", "prefix"))
 PLAN, DOCTOR = "harness/tables/sweep/plan.c", "harness/commands/doctor.c"
 
 ROWS = [
@@ -60,7 +61,8 @@ ROWS = [
     Fault(MESSAGES, "if («counts[i] < -1»)", "false", "a count may be any number"),
     Fault(DEVICE, "text[size - 1] = 0;", ";", "a device's texts have no end"),
     Fault(DEVICES, "if («reply->failed») {", "false", "a damaged list is one of a backend without devices"),
-    Fault(DEVICE, "if («environment && *environment»)\n        snprintf(told", "false", "a device's name does not tell its environment"),
+    Fault(DEVICE, "«full + plain»);", "\"\"", "a device's name does not tell its environment"),
+    Fault(DEVICE, "\"%s\", «strcmp(name, full) ? name : info->full»);", "info->full", "a short name is forgotten"),
     Fault(NAMES, "if («is_set_before(name->environment, variable)»)", "false", "a variable may stand twice in a name"),
     Fault(NAMES, "for (; *name && («quoted» || *name != ','); name++)", "false", "a comma in quotes ends a name"),
     Fault(NAMES, "for (; *from && («quoted» || *from != ';'); from++) {", "false", "a semicolon in quotes ends a value"),
@@ -81,7 +83,13 @@ ROWS = [
     Fault(DOCTOR, "if (examination->is_unknown && «was_listed(&report->list, examination->info.name)»)", "false", "a device that is gone takes the report along"),
     Fault(DOCTOR, "exit = «RG_EXIT_FAIL»;\n        }", "RG_EXIT_PASS", "a backend that crashes while it is listed is no failure"),
     Fault(DIFF, "s->exit = rg_exit_worse(s->exit, rg_exit_of(outcome));", ";", "a device that failed passes"),
-    Fault(CACHES, "if («!width» || getenv", "true", "code of one width of vectors runs as another's"),
-    Fault(CACHES, "\"llvmpipe-%d-bits/\", «width_of(width)»", "0", "all widths that are set share a cache"),
-    Fault(CACHES, "rg_user_path(RG_USER_CACHE, name, path, sizeof(path), why) &&\n        «rg_user_make_folders(path, why)»", "true", "a driver's cache has no folder"),
+    Fault(CHOICE, "if («variable && is_all(a, b, false)»)", "false", "one driver under two names is compared with itself"),
+    Fault(CHOICE, "if («!*tree || rg_path_is_below(driver->path, tree)»)", "true", "a manifest's library may come from another tree"),
+    Fault(CHOICE, "return «any || refuse_manifest(c, &c->manifests[0])»;", "true", "a manifest that is not there is no fault"),
+    Fault(PREFIX, "if («rg_library_is_foreign(path)») {", "false", "a library for another processor is taken"),
+    Fault(SIDE, "ok = ok && !reply.failed && («!*why» || rg_choice_refuse(choice, why));", "true", "why a driver cannot be loaded is not told"),
+    Fault(SIDE, "(«*asked->environment» || are_all_sides", "false", "a device with settings of its own writes the user's cache"),
+    Fault(SIDE, "|| «are_all_sides» ||", "false", "the sides of a gate write the user's cache"),
+    Fault(CACHES, "«hash += XXH3_64bits(v, strlen(v));»", ";", "all settings share a cache"),
+    Fault(CACHES, "use(root, f->settings_path, «RG_SIDES_KEPT»)", "1000", "folders of old settings stay"),
 ]

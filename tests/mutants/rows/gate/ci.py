@@ -64,7 +64,7 @@ ROWS = [
     Fault(COMMAND, "exit = rg_exit_worse(exit, «RG_EXIT_USAGE»); // a full disk", "RG_EXIT_FAIL", "a full disk is a regression", tests=("command line, gates",)),
     Fault(RUN, "return «is_kept» ? found", "true", "launches that are lost are not told of", tests=("command line, gates",)),
     Fault(RUN, "    «r->left_ms -= rg_now_ms() - start_ms;»", ";", "each device of two builds has half of the budget that others have taken", tests=("command line, gates",)),
-    Fault("harness/record/passport/program.c", "    if («!*id»)\n", "0", "libraries without a build id are all the same", tests=("command line, gates",)),
+    Fault("backends/library.c", "    if («!*id»)\n", "0", "libraries without a build id are all the same", tests=("command line, gates",)),
     Fault(STRAYS, "        any = «rg_glob(row->cell, cells->cells[i].name)»;", "true", "an expectation of no cell is silent", tests=("expectations", "command line, reports")),
     Fault(STRAYS, "return «row->since > today»;", "false", "an expectation to come is silent", tests=("expectations",)),
     Fault(STRAYS, "&& row->until - today > «YEAR_DAYS»;", "100 * YEAR_DAYS", "an expectation without end is silent", tests=("expectations",)),
