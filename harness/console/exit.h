@@ -13,7 +13,7 @@ enum rg_exit {
     RG_EXIT_FAIL = 1,  // differs, regressed, not verified; a driver failed
     RG_EXIT_USAGE = 2, // bad usage or input
     RG_EXIT_INCONCLUSIVE = 3,
-    RG_EXIT_NOTHING = 4,      // nothing was measured
+    RG_EXIT_NOTHING = 4,      // nothing was compared or measured
     RG_EXIT_UNSUPPORTED = 77, // not supported on this machine
     RG_EXIT_GIT_SKIP = 125,   // `git bisect run` alone is told so: this commit cannot be tested
     RG_EXIT_SIGNALLED = 128,  // and the signal's number: ended early because it was asked to

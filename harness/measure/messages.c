@@ -32,7 +32,8 @@ const struct rg_field rg_probe_fields[] = {
 };
 
 static const struct rg_field drawn_fields[] = {
-    RG_FIELD_INTEGER(struct rg_drawn, format, RG_FORMAT_NONE + 1, RG_FORMAT_COUNT - 1),
+    RG_FIELD_INTEGER(struct rg_drawn, format, RG_FORMAT_NONE + 1,
+                     RG_RGBA32F), // that can be drawn to
     RG_FIELD_INTEGER(struct rg_drawn, differing, 0, RG_DRAWING_PIXELS),
     RG_FIELDS_END,
 };

@@ -368,7 +368,8 @@ static int print_stored(struct rg_stored *stored, const struct table_options *o,
         exit = rg_exit_worse(exit, print(result, o));
     }
     if (printed && exit == RG_EXIT_NOTHING)
-        rg_error("%s: holds no cell of these that was measured; measure the table anew", o->from);
+        rg_error("%s: of some of its cells, or all, nothing was measured; measure the table anew",
+                 o->from);
     if (printed && (!o->claims || o->outcomes->count || exit != RG_EXIT_PASS))
         return exit;
     if (printed) {

@@ -18,6 +18,7 @@
 #include "harness/doctor/report.h"
 #include "harness/frames/messages.h"
 #include "harness/frames/session.h"
+#include "harness/measure/drawing.h"
 #include "harness/measure/messages.h"
 
 // What is written over a struct that is put into a reply.
@@ -64,6 +65,12 @@ static const struct damage damages[] = {
     OF_OP(3, different, RG_PROBE_INPUTS + 1),
     OF_OP(3, different, -1),
     OF_OP(RG_PROBE_COUNT - 1, largest_ulps, 7), // apart, and none differs
+    OF(DRAWING, struct rg_drawing, count, RG_DRAWING_FORMATS + 1),
+    OF(DRAWING, struct rg_drawing, count, -1),
+    OF(DRAWING, struct rg_drawing, formats[0].format, RG_FORMAT_NONE),
+    OF(DRAWING, struct rg_drawing, formats[0].format, RG_R32F),
+    OF(DRAWING, struct rg_drawing, formats[0].differing, RG_DRAWING_PIXELS + 1),
+    OF_NUMBER(DRAWING, struct rg_drawing, ms, NAN),
     OF(AUDIT, struct rg_timer_audit, passes, 0),
     OF(AUDIT, struct rg_timer_audit, passes, -1),
     OF(AUDIT, struct rg_timer_audit, has_timer, 2),
@@ -122,6 +129,15 @@ static bool probe(struct rg_message *request, struct rg_message *reply)
     results[2].largest_ulps = UINT32_MAX;
     hurt(results, RG_CALL_PROBE);
     rg_put_fields(reply, rg_probe_fields, results);
+    return true;
+}
+
+static bool drawing(struct rg_message *request, struct rg_message *reply)
+{
+    struct rg_drawing drawing = {.count = 1, .formats = {{RG_RGBA16F, RG_DRAWING_PIXELS}}, .ms = 2};
+    (void)request;
+    hurt(&drawing, RG_CALL_DRAWING);
+    rg_put_fields(reply, rg_drawing_fields, &drawing);
     return true;
 }
 
@@ -211,12 +227,19 @@ static bool texture(struct rg_message *request, struct rg_message *reply)
 }
 
 static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {
-    [RG_CALL_OPEN] = open,         [RG_CALL_CLOSE] = nod,
-    [RG_CALL_PROBE] = probe,       [RG_CALL_AUDIT] = audit,
-    [RG_CALL_CEILINGS] = ceilings, [RG_CALL_SESSION_OPEN] = open_session,
-    [RG_CALL_SESSION_CLOSE] = nod, [RG_CALL_TELL] = tell,
-    [RG_CALL_FRAMES] = run_frames, [RG_CALL_STAGES] = stages,
-    [RG_CALL_COUNT] = count,       [RG_CALL_TEXTURE] = texture,
+    [RG_CALL_OPEN] = open,
+    [RG_CALL_CLOSE] = nod,
+    [RG_CALL_PROBE] = probe,
+    [RG_CALL_DRAWING] = drawing,
+    [RG_CALL_AUDIT] = audit,
+    [RG_CALL_CEILINGS] = ceilings,
+    [RG_CALL_SESSION_OPEN] = open_session,
+    [RG_CALL_SESSION_CLOSE] = nod,
+    [RG_CALL_TELL] = tell,
+    [RG_CALL_FRAMES] = run_frames,
+    [RG_CALL_STAGES] = stages,
+    [RG_CALL_COUNT] = count,
+    [RG_CALL_TEXTURE] = texture,
 };
 
 // --- in the harness ---
@@ -257,6 +280,9 @@ static void what_is_sound_is_taken(void **state)
     assert_int_equal(e.probe[1].largest_ulps, 0);
     assert_true(e.probe[2].largest_ulps == UINT32_MAX);
     assert_true(e.probe[RG_PROBE_COUNT - 1].builtin && !e.probe[0].builtin);
+    assert_int_equal(e.drawing.count, 1);
+    assert_int_equal(e.drawing.formats[0].format, RG_RGBA16F);
+    assert_int_equal(e.drawing.formats[0].differing, RG_DRAWING_PIXELS);
     assert_int_equal(e.timer.passes, 3);
     assert_true(e.timer.has_timer && !e.timer.trusted && e.timer.round_trip_us == 7);
     assert_true(e.ceilings.memory_gb_s == 1 && e.ceilings.arithmetic_gop_s == 3);
@@ -272,6 +298,7 @@ static void what_cannot_be_ends_an_examination(void **state)
             fail_msg("damage %d: status %d, %d lines, %s", i, (int)e.status, lines, e.why);
         assert_int_equal(e.opened, damages[i].call > RG_CALL_OPEN);
         assert_int_equal(e.probed, damages[i].call > RG_CALL_PROBE);
+        assert_int_equal(e.drawn, damages[i].call > RG_CALL_DRAWING);
         assert_int_equal(e.audited, damages[i].call > RG_CALL_AUDIT);
     }
 }
