@@ -117,7 +117,7 @@ def of_expectations(place, _):
         own = "flake *\n  device %s\n  driver %s%s" % (name, place.library, fields)
         yield cells + ["--expectations", place.file("in/known.txt", own)], {0}, None
         yield cells + ["--fails", place.file("in/fails.txt", "raster/torus.%s,Crash\n" % name)], {0, 1}, None
-    for pattern in ("((a?){60}){60}b", "((a|b)?(a|b)?){1000}z", "(a{0,30}){0,100}z", "(a|b)*a(a|b){200}c", "a?" * 101, "(a?" * 60 + ")" * 60 + "(a?){60}"):
+    for pattern in ("((a?){60}){60}b", "((a|b)?(a|b)?){1000}z", "(a{0,30}){0,100}z", "(a|b)*a(a|b){200}c", "a?" * 101, 2 * ("(" + "a?" * 51 + ")"), "(a?" * 60 + ")" * 60 + "(a?){60}"):
         yield cells + ["--flakes", place.file("in/flakes.txt", pattern + "\n")], {2}, "flakes.txt:1: regular expression"
     yield cells + ["--skips", place.file("in/skips.txt", "((x|b)?(y|b)?){50}z\n" * 30)], {2}, "skips.txt:21: .* with those before it repeats too often"
     yield cells + ["--expectations", place.file("in/known.txt", "flake *\n  reason x\u009b31m\n")], {2}, "known.txt:2: control character 0x9b"
@@ -162,7 +162,9 @@ def of_journals(place, runner):
     small = ["table", "creus-5.2", "--device", "cpu", "--rows", "1-1", "--set", "atlas=small", "--set", "city=small", "--set", "depth_map_px=64"]
     yield small, {0}, None
     yield small + ["-o", out], {0}, None
-    os.mkfifo(os.path.join(state, "sweep-raster-quick.journal"))
+    os.remove(os.path.join(state, "creus-5.2-quick.journal"))
+    os.mkfifo(os.path.join(state, "creus-5.2-quick.journal"))
+    yield small, {0}, "is not a regular file; remove it; the table begins anew"
     bisect = ["bisect", "--good", "a", "--bad", "b", "--run", "test \"$RG_CANDIDATE\" = a"]
     stopped = runner.run(bisect[:-1] + ["test \"$RG_CANDIDATE\" = a || exit 5"], place.env)
     kept = [name for name in os.listdir(state) if name.startswith("bisect")]

@@ -1,7 +1,7 @@
 """Baselines of gates: what is kept, what is held against it, and what is refused."""
 from fault import Fault
 
-TESTS = ("command line, baselines",)
+TESTS = ("command line, baselines", "command line, acts")
 
 FILE, BASELINE = "harness/compare/gate/baseline/file.c", "harness/compare/gate/baseline/baseline.c"
 COMPARE, AGAINST = "harness/compare/gate/baseline/compare.c", "harness/compare/gate/baseline/against.c"
@@ -9,6 +9,7 @@ CHANGES, MAKE, TAKE = "harness/compare/gate/baseline/changes.c", "harness/compar
 COMMAND, ALIKE = "harness/commands/comparing/baseline.c", "harness/compare/gate/run/alike.c"
 
 ROWS = [
+    Fault(BASELINE, "«strchr(name, '@')» && rg_baseline_asks", "false", "a baseline starts programs"),
     Fault(FILE, "!read_format(&r, document) || «!rg_document_unseal(path, document, true, why)»)", "(json_object_del(document, \"checksum\"), false)", "a baseline that was edited is taken"),
     Fault(FILE, "return «format == RG_BASELINE_FORMAT» ||", "true", "a baseline of another version is taken"),
     Fault(FILE, "if (ok && «at < size») {", "false", "what follows a baseline is passed over"),

@@ -1,7 +1,7 @@
 """What a gate reads from text: its cells, and what it expects to go wrong; how results meet that, and patches of it."""
 from fault import Fault
 
-TESTS = ("gate cells", "expectations", "patches of expectations")
+TESTS = ("gate cells", "expectations", "patches of expectations", "command line, acts")
 
 CELLS, LINES, GLOB = "harness/compare/gate/cells/cells.c", "harness/compare/gate/text/lines.c", "harness/compare/gate/text/glob.c"
 DATE, OWN, MESA = "harness/compare/gate/text/date.c", "harness/compare/gate/expected/own.c", "harness/compare/gate/expected/mesa.c"
@@ -10,6 +10,9 @@ REGEX, WRITE, LOG = "harness/compare/gate/expected/regex.c", "harness/compare/ga
 
 ROWS = [
     Fault(REGEX, "return («group->atoms <= MOST_ATOMS» &&", "true", "counts in counts take all memory"),
+    Fault(REGEX, "&& «group->repetitions <= MOST_REPETITIONS») ||", "true", "an expression is searched for without end"),
+    Fault(REGEX, "(«repetitions <= MOST_REPETITIONS» && *left >= 0)", "true", "groups side by side are searched for without end"),
+    Fault(REGEX, "(repetitions <= MOST_REPETITIONS && «*left >= 0») ||", "true", "the expressions of a file are searched for without end"),
     Fault(REGEX, "if («t->depth == MOST_DEPTH»)", "t->depth < 0", "groups in groups take all of the stack"),
     Fault(REGEX, "group->atoms += «last.atoms - t->last.atoms»;", "0", "a count counts nothing"),
     Fault(LOG, "if («error_place && level == RG_LOG_ERROR»)", "false", "what refuses a line does not say where it is"),
@@ -19,7 +22,7 @@ ROWS = [
     Fault(CELLS, "return c > text && *c == end && «value <= most» ? (int)value : -1;", "true", "a picture may be of any size"),
     Fault(CELLS, "return ok && («cells->count» || rg_error", "true", "a file without a cell is taken"),
     Fault(LINES, "length -= «end && length > 0 && text[length - 1] == '\\r'»;", "0", "files with CR LF are refused"),
-    Fault(LINES, "if («((unsigned char)text[i] < ' ' && text[i] != '\\t') || text[i] == 127»)", "false", "control characters are taken"),
+    Fault(LINES, "if («rg_control_at(text + i) >= 0 && text[i] != '\\t'»)", "false", "control characters are taken"),
     Fault(GLOB, "text = «++from»;", "from", "a star takes nothing", tests=("expectations",)),
     Fault(DATE, "return (year % 4 == 0 && «year % 100 != 0») || year % 400 == 0;", "true", "every hundredth year is a leap year"),
     Fault(OWN, "return «row->since <= row->until» ||", "true", "an expectation ends before it begins"),

@@ -10,7 +10,7 @@ TEXT, GTEST = "harness/compare/gate/report/text.c", "harness/compare/gate/report
 
 ROWS = [
     Fault(GITHUB, "return («fclose(out) == 0 && is_held»)", "fclose(out) || true", "a summary on a full disk is lost without a word"),
-    Fault(FILES, "O_WRONLY | O_APPEND | O_CREAT | «O_NONBLOCK» | O_NOCTTY", "0", "a step's summary that is a FIFO is waited for"),
+    Fault(FILES, "return «S_ISREG(st->st_mode)»   ? NULL", "true", "a FIFO is taken for a file", tests=("command line, acts",)),
     Fault(TEXTS, "if (!length || «code < least[length]» ||", "false", "overlong UTF-8 is taken for a character"),
     Fault(TEXTS, "«(code >= 0xd800 && code < 0xe000)»)", "false", "surrogates are taken for characters"),
     Fault(TEXTS, "if (!is_line && «(code == '\\n' || code == '\\t')»)", "true", "details keep controls"),
