@@ -87,7 +87,7 @@ ROWS = [
     Fault(CHOICE, "if («!*tree || rg_path_is_below(driver->path, tree)»)", "true", "a manifest's library may come from another tree"),
     Fault(CHOICE, "return «any || refuse_manifest(c, &c->manifests[0])»;", "true", "a manifest that is not there is no fault"),
     Fault(PREFIX, "if («rg_library_is_foreign(path)») {", "false", "a library for another processor is taken"),
-    Fault(SIDE, "ok = ok && !reply.failed && («!*why» || rg_choice_refuse(choice, why));", "true", "why a driver cannot be loaded is not told"),
+    Fault(SIDE, "return rg_worker_finish(&reply, ok) && «(!*why || rg_choice_refuse(choice, why))»;", "true", "why a driver cannot be loaded is not told"),
     Fault(SIDE, "(«*asked->environment» || are_all_sides", "false", "a device with settings of its own writes the user's cache"),
     Fault(SIDE, "|| «are_all_sides» ||", "false", "the sides of a gate write the user's cache"),
     Fault(CACHES, "«hash += XXH3_64bits(v, strlen(v));»", ";", "all settings share a cache"),

@@ -43,13 +43,8 @@ ROWS = [
     Fault(CASES, "rg_gate_cell_again(out, c->cell, «agreement->truth», rg_gate_case_device(c));", "c->devices[0]", "a baseline's device is compared with itself again", tests=("command line, gates",)),
     Fault("harness/compare/gate/text/shell.c", "        if («text[i] == '\\''»)", "0", "a quote in a device's name ends the shell's", tests=("command line, gates",)),
     Fault(AGAIN, "    fprintf(out, \"raingauge diff %s --size %dx%d --frame %d\", cell->technique->name, cell->width,\n            cell->height, «cell->frames»);", "60", "another frame is compared again", tests=("command line, gates",)),
-<<<<<<< ours
-    Fault(AGAIN, "        «put_word(out, word, length);»", "(void)word;", "a cell is compared again without its settings", tests=("command line, gates",)),
-    Fault(RUN, "        if («!c->is_compared && !c->is_skipped» &&\n", "false", "what is expected of a device that is not there goes", tests=("command line, reports",)),
-=======
     Fault(AGAIN, "        «rg_shell_word(out, word, length);»", "(void)word;", "a cell is compared again without its settings", tests=("command line, gates",)),
-    Fault(RUN, "    if («!c->is_compared && !c->is_skipped»)\n", "false", "what is expected of a device that is not there goes", tests=("command line, reports",)),
->>>>>>> theirs
+    Fault(RUN, "        if («!c->is_compared && !c->is_skipped» &&\n", "false", "what is expected of a device that is not there goes", tests=("command line, reports",)),
     Fault(COMMAND, "    if («o->against»)\n        rg_gate_pairs_left", "false", "what is expected of devices that one build was not asked for goes", tests=("command line, reports",)),
     Fault(COMMAND, "if («!rg_baseline_asks(o->devices.names, in->baseline.devices[i].name)»)", "false", "what is expected of devices that a baseline was not asked for goes", tests=("command line, reports",)),
     Fault(PICTURES, "for (int i = 0; ok && i < «2»; i++) {", "1", "B's picture is not written"),
