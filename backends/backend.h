@@ -217,9 +217,10 @@ struct rg_backend {
     // program's rg_draw_call (kernels/dialect/draw/draw.h): the draw's state, then the parameters.
     bool (*pass_run)(struct rg_pass *pass, const struct rg_run *run);
     // What the driver's compiler has made of it, as the API hands it out, which may be less than
-    // native code: bytes that the caller frees, or NULL where there are none. Drivers compile late:
-    // to be asked for once the pass has run. NULL: the API has no such thing.
-    void *(*pass_code)(struct rg_pass *pass, size_t *size);
+    // native code: `*bytes`, which the caller frees, or NULL where there are none. False, and one
+    // logged line, on failure. Drivers compile late: to be asked for once the pass has run. NULL:
+    // the API has no such thing.
+    bool (*pass_code)(struct rg_pass *pass, void **bytes, size_t *size);
 
     // Returns when all that was queued has ended. False: some of it failed.
     bool (*sync)(struct rg_device *device);

@@ -253,7 +253,7 @@ void gl_queries_end(struct gl_device *device);
 // pass.c
 struct rg_pass *gl_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
 void gl_pass_destroy(struct rg_pass *pass);
-void *gl_pass_code(struct rg_pass *pass, size_t *size);
+bool gl_pass_code(struct rg_pass *pass, void **bytes, size_t *size);
 bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run);
 
 // time.c

@@ -53,18 +53,22 @@ void gl_pass_destroy(struct rg_pass *pass)
     free(mine);
 }
 
-void *gl_pass_code(struct rg_pass *pass, size_t *size)
+bool gl_pass_code(struct rg_pass *pass, void **bytes, size_t *size)
 {
     const struct gl_pass *mine = (const struct gl_pass *)pass;
+    struct gl_device *gl = (struct gl_device *)pass->device;
     GLint length = 0;
     GLenum format;
-    if (gl_use((struct gl_device *)pass->device))
-        glGetProgramiv(mine->program, GL_PROGRAM_BINARY_LENGTH, &length);
-    void *bytes = length > 0 ? malloc((size_t)length) : NULL;
-    if (bytes)
-        glGetProgramBinary(mine->program, length, &length, &format, bytes);
+    *bytes = NULL;
+    if (!gl_use(gl))
+        return false;
+    glGetProgramiv(mine->program, GL_PROGRAM_BINARY_LENGTH, &length);
+    if (length > 0)
+        *bytes = malloc((size_t)length);
+    if (*bytes)
+        glGetProgramBinary(mine->program, length, &length, &format, *bytes);
     *size = (size_t)length;
-    return bytes;
+    return gl_check(gl, "glGetProgramBinary", "kernel", pass->kernel->name);
 }
 
 bool gl_pass_run(struct rg_pass *pass, const struct rg_run *run)

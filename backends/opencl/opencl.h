@@ -169,7 +169,7 @@ bool opencl_draw(struct rg_pass *pass, const struct rg_run *run);
 // pass.c
 struct rg_pass *opencl_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
 void opencl_pass_destroy(struct rg_pass *pass);
-void *opencl_pass_code(struct rg_pass *pass, size_t *size);
+bool opencl_pass_code(struct rg_pass *pass, void **bytes, size_t *size);
 bool opencl_pass_run(struct rg_pass *pass, const struct rg_run *run);
 
 // time.c

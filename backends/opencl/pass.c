@@ -28,34 +28,33 @@ struct rg_pass *opencl_pass_create(struct rg_device *device, const struct rg_ker
 }
 
 // Appends a kernel's program, built for the context's one device.
-static bool append_program(cl_kernel kernel, unsigned char **bytes, size_t *size)
+static cl_int append_program(cl_kernel kernel, unsigned char **bytes, size_t *size)
 {
     cl_program program;
     size_t more = 0;
-    if (clGetKernelInfo(kernel, CL_KERNEL_PROGRAM, sizeof(program), &program, NULL) ||
-        clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof(more), &more, NULL) || !more)
-        return false;
-    unsigned char *longer = realloc(*bytes, *size + more);
+    cl_int code = clGetKernelInfo(kernel, CL_KERNEL_PROGRAM, sizeof(program), &program, NULL);
+    if (!code)
+        code = clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof(more), &more, NULL);
+    unsigned char *longer = !code && more ? realloc(*bytes, *size + more) : NULL;
     if (!longer)
-        return false;
+        return code ? code : more ? CL_OUT_OF_HOST_MEMORY : CL_SUCCESS;
     *bytes = longer;
     longer += *size;
     *size += more;
-    return !clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof(longer), &longer, NULL);
+    return clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof(longer), &longer, NULL);
 }
 
-void *opencl_pass_code(struct rg_pass *pass, size_t *size)
+bool opencl_pass_code(struct rg_pass *pass, void **bytes, size_t *size)
 {
     const struct opencl_pass *opencl = (const struct opencl_pass *)pass;
-    unsigned char *bytes = NULL;
-    bool ok = true;
+    unsigned char *all = NULL;
+    cl_int code = CL_SUCCESS;
     *size = 0;
-    for (int i = 0; ok && i < OPENCL_VARIANTS; i++)
-        ok = !opencl->variants[i] || append_program(opencl->variants[i], &bytes, size);
-    if (ok)
-        return bytes;
-    free(bytes);
-    return NULL;
+    for (int i = 0; !code && i < OPENCL_VARIANTS; i++)
+        if (opencl->variants[i])
+            code = append_program(opencl->variants[i], &all, size);
+    *bytes = all;
+    return opencl_check(code, "clGetProgramInfo", "kernel", pass->kernel->name);
 }
 
 // The arguments of shaders/grid.cl, in its order. Drivers take about 20 ns for each.

@@ -50,19 +50,18 @@ void vk_pass_destroy(struct rg_pass *pass)
 
 // A cache begins with a header of the driver's, which tells one build of it from another. A driver
 // that keeps no code there, as lavapipe, hands out the header alone.
-void *vk_pass_code(struct rg_pass *pass, size_t *size)
+bool vk_pass_code(struct rg_pass *pass, void **bytes, size_t *size)
 {
     const VkDevice device = ((struct vk_device *)pass->device)->handle;
     const VkPipelineCache cache = ((struct vk_pass *)pass)->cache;
-    void *bytes = NULL;
+    *bytes = NULL;
     *size = 0;
-    if (vkGetPipelineCacheData(device, cache, size, NULL) == VK_SUCCESS &&
-        *size > sizeof(VkPipelineCacheHeaderVersionOne))
-        bytes = malloc(*size);
-    if (bytes && vkGetPipelineCacheData(device, cache, size, bytes) == VK_SUCCESS)
-        return bytes;
-    free(bytes);
-    return NULL;
+    VkResult result = vkGetPipelineCacheData(device, cache, size, NULL);
+    if (result == VK_SUCCESS && *size > sizeof(VkPipelineCacheHeaderVersionOne))
+        *bytes = malloc(*size);
+    if (*bytes)
+        result = vkGetPipelineCacheData(device, cache, size, *bytes);
+    return vk_check(result, "vkGetPipelineCacheData", "kernel", pass->kernel->name);
 }
 
 // --- running ---

@@ -300,7 +300,7 @@ void vk_queries_close(struct vk_device *device);
 // pass.c
 struct rg_pass *vk_pass_create(struct rg_device *device, const struct rg_kernel *kernel);
 void vk_pass_destroy(struct rg_pass *pass);
-void *vk_pass_code(struct rg_pass *pass, size_t *size);
+bool vk_pass_code(struct rg_pass *pass, void **bytes, size_t *size);
 bool vk_pass_run(struct rg_pass *pass, const struct rg_run *run);
 
 // time.c

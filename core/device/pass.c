@@ -22,25 +22,25 @@ void rg_pass_destroy(struct rg_pass *pass)
     rg_grid_destroy(pass);
 }
 
-static void give_code(struct rg_pass *pass,
+static bool give_code(struct rg_pass *pass,
                       void (*take)(const void *bytes, size_t size, void *user), void *user)
 {
+    const struct rg_backend *backend = pass->device->backend;
     size_t size = 0;
-    void *bytes =
-        pass->device->backend->pass_code ? pass->device->backend->pass_code(pass, &size) : NULL;
+    void *bytes = NULL;
+    const bool ok = !backend->pass_code || backend->pass_code(pass, &bytes, &size);
     if (bytes)
         take(bytes, size, user);
     free(bytes);
+    return ok;
 }
 
-void rg_pass_code(struct rg_pass *pass, void (*take)(const void *bytes, size_t size, void *user),
+bool rg_pass_code(struct rg_pass *pass, void (*take)(const void *bytes, size_t size, void *user),
                   void *user)
 {
-    give_code(pass, take, user);
-    if (pass->packer) {
-        give_code(pass->packer->count, take, user);
-        give_code(pass->packer->emit, take, user);
-    }
+    return give_code(pass, take, user) &&
+           (!pass->packer || (give_code(pass->packer->count, take, user) &&
+                              give_code(pass->packer->emit, take, user)));
 }
 
 bool rg_pass_run(struct rg_pass *pass, const struct rg_run *run)

@@ -9,8 +9,9 @@ struct rg_pass *rg_pass_create(struct rg_device *device, const char *kernel);
 void rg_pass_destroy(struct rg_pass *pass);
 
 // Gives what the driver's compiler has made of a pass so far, and of what packs its items, as the
-// API hands it out, which may be nothing: bytes that last as long as the call.
-void rg_pass_code(struct rg_pass *pass, void (*take)(const void *bytes, size_t size, void *user),
+// API hands it out, which may be nothing: bytes that last as long as the call. False, and one
+// logged line, where the driver refuses.
+bool rg_pass_code(struct rg_pass *pass, void (*take)(const void *bytes, size_t size, void *user),
                   void *user);
 
 // Checks a run, counts it and hands it to the backend. False and one logged line where a check or

@@ -107,8 +107,9 @@ static bool tell_code(struct rg_session *session, struct rg_session_code *code)
     *code = (struct rg_session_code){.libraries = rg_libraries_hash()};
     rg_program_id(code->program);
     for (int i = 0; i < instance->stage_count; i++)
-        if (instance->stages[i].owns_pass)
-            rg_pass_code(instance->stages[i].pass, add_pass_code, code);
+        if (instance->stages[i].owns_pass &&
+            !rg_pass_code(instance->stages[i].pass, add_pass_code, code))
+            return false;
     return true;
 }
 

@@ -57,8 +57,9 @@ static bool open_remote(struct rg_session *session, const struct rg_subject *sub
 // What is gone with its worker needs no closing, and no line.
 static void close_remote(struct rg_session *session)
 {
-    if (rg_worker_has(worker_of(session), session->life))
-        ask(session, RG_CALL_SESSION_CLOSE, NULL, NULL);
+    if (rg_worker_has(worker_of(session), session->life) &&
+        !ask(session, RG_CALL_SESSION_CLOSE, NULL, NULL))
+        rg_worker_closes_badly(worker_of(session));
 }
 
 // --- simulating and drawing ---

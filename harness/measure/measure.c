@@ -37,7 +37,18 @@ static void shuffle(int *order, int count, int round)
     }
 }
 
-// The last sample of a job is timed by the API's own clock, too. A device may have none.
+// What the API's own clock says. A device may have none; one that has it and does not tell it
+// fails.
+static bool tell_time(struct rg_job *job, int64_t *time_ns)
+{
+    if (rg_session_time(job->session, time_ns))
+        return true;
+    if (rg_outcome_of_error() != RG_UNSUPPORTED)
+        rg_record_end_by_error(job->record);
+    return false;
+}
+
+// The last sample of a job is timed by the API's own clock, too.
 static void take_sample(struct rg_job *job)
 {
     struct rg_record *record = job->record;
@@ -47,11 +58,13 @@ static void take_sample(struct rg_job *job)
         return;
     if (rg_sampling_has_run_up(job->warm_frame_ms))
         rg_job_time(job, 1);
-    const bool has_begun = is_last && rg_session_time(job->session, &begin);
+    const bool has_begun = is_last && tell_time(job, &begin);
+    if (record->outcome != RG_OK)
+        return;
     const double ms = rg_job_time(job, record->frames_a_sample);
     if (rg_interrupted()) // so that it may have fewer frames
         return;
-    if (has_begun && rg_session_time(job->session, &end))
+    if (has_begun && tell_time(job, &end))
         record->api_over_wall =
             ((double)end - (double)begin) * 1e-6 / (ms * record->frames_a_sample);
     record->samples_ms[record->sample_count++] = ms;

@@ -97,16 +97,14 @@ static bool calibrate(struct load *load, int *passes)
 static bool audit_timer(struct load *load, struct rg_timer_audit *audit)
 {
     double walls_ms[REPETITIONS], apis_ms[REPETITIONS], ratios[REPETITIONS];
-    audit->has_timer = true;
+    audit->has_timer = load->device->info.limits.has_clock;
     for (int i = 0; i < REPETITIONS; i++) {
         int64_t start = 0, end = 0;
         double wall_ns;
-        if (audit->has_timer)
-            audit->has_timer = rg_device_time(load->device, &start);
-        if (!time_wall(load, audit->passes, SIDE, &wall_ns))
+        if ((audit->has_timer && !rg_device_time(load->device, &start)) ||
+            !time_wall(load, audit->passes, SIDE, &wall_ns) ||
+            (audit->has_timer && !rg_device_time(load->device, &end)))
             return false;
-        if (audit->has_timer)
-            audit->has_timer = rg_device_time(load->device, &end);
         walls_ms[i] = wall_ns * 1e-6;
         apis_ms[i] = ((double)end - (double)start) * 1e-6;
         ratios[i] = apis_ms[i] / walls_ms[i];

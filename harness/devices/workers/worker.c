@@ -46,6 +46,7 @@ struct rg_worker {
     FILE *printed;        // what the process prints; drivers do
     bool is_interrupted;  // it was told so
     bool is_closed;       // its device was
+    bool closed_badly;    // something on it was not
     int64_t memory_bytes; // that its process may hold
     int64_t taken_bytes;  // of them counted here (core/base/memory.h)
     int life;
@@ -533,5 +534,10 @@ bool rg_worker_retire(struct rg_worker *worker)
 {
     const bool was_alive = worker->process;
     worker->is_closed = was_alive && rg_worker_ask(worker, RG_CALL_CLOSE, NULL);
-    return worker->is_closed || !was_alive;
+    return (worker->is_closed || !was_alive) && !worker->closed_badly;
+}
+
+void rg_worker_closes_badly(struct rg_worker *worker)
+{
+    worker->closed_badly = true;
 }

@@ -47,6 +47,9 @@ const char *rg_worker_end_doing(const struct rg_worker *worker);
 // Ends its process, so that the next call has a new one, and forgets how often one ended: for those
 // who bring a driver down on purpose, again and again.
 void rg_worker_renew(struct rg_worker *worker);
+// Has rg_worker_retire return false: something on the device could not be closed, and a line is
+// logged.
+void rg_worker_closes_badly(struct rg_worker *worker);
 // Ends it, at once where it does not end by itself. False, with one logged line, where it had
 // closed its device and ended as a driver does that crashes. NULL is accepted.
 bool rg_worker_destroy(struct rg_worker *worker);
