@@ -6,7 +6,8 @@
 #include <stdio.h>
 
 // Opens a regular file to read. NULL for all else: a FIFO, a device or a socket would be waited for
-// without end, and is not opened, for some devices act as soon as they are. `why` is then what is wrong, without the file's name.
+// without end, and is not opened, for some devices act as soon as they are. `why` is then what is
+// wrong, without the file's name.
 FILE *rg_file_open(const char *path, const char **why);
 
 // The same of what users write by hand. A file of more than 256 KiB is refused as well, so that no
