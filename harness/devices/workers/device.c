@@ -129,6 +129,7 @@ static bool ask_for(struct remote *remote, const char *name, const char *full)
                                           .sync = sync_remote,
                                           .destroy = destroy_remote};
     struct rg_device_info *info = &remote->pub.info;
+    memcpy(info->full, info->name, sizeof(info->full));
     snprintf(info->full + strlen(info->full), RG_DEVICE_NAME_SIZE - strlen(info->full), "%s",
              full + plain);
     snprintf(info->name, RG_DEVICE_NAME_SIZE, "%s", strcmp(name, full) ? name : info->full);

@@ -53,9 +53,9 @@ void rg_driver_put(json_t *device, const struct rg_device_info *info)
     json_t *libraries = json_array();
     for (int i = 0; i < RG_DRIVER_LIBRARIES && *info->libraries[i].path; i++) {
         const struct rg_library *library = &info->libraries[i];
-        json_array_append_new(libraries, json_pack("{so ss}", "path",
+        json_array_append_new(libraries, json_pack("{so so}", "path",
                                                    rg_json_text(kept_path(info, library->path)),
-                                                   "build", library->build));
+                                                   "build", rg_json_text(library->build)));
     }
     if (*info->full && strcmp(info->name, info->full) != 0)
         json_object_set_new(device, "full", rg_json_text(info->full));
