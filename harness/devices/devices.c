@@ -7,6 +7,7 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/console/exit.h"
+#include "harness/devices/drivers/apart.h"
 #include "harness/devices/drivers/choice.h"
 #include "harness/devices/drivers/side.h"
 #include "harness/devices/names.h"

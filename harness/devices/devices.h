@@ -46,7 +46,7 @@ bool rg_devices_have(const struct rg_devices *devices, const char *require);
 bool rg_device_is_of(const char *device, const char *name);
 // Of what was left out, an enum rg_exit: fail where a driver failed.
 int rg_devices_exit(const struct rg_devices *devices);
-// Whether two devices may be held against each other (harness/devices/drivers/choice.h). False, and
+// Whether two devices may be held against each other (harness/devices/drivers/apart.h). False, and
 // one logged line, where one driver runs on both though their names choose two.
 bool rg_devices_are_apart(const struct rg_device_info *a, const struct rg_device_info *b);
 // Closes them; false on a leak, or where a driver crashes meanwhile.

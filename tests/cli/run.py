@@ -29,7 +29,8 @@
            shrinking  a driver that miscompiles: blamed, and shrunk to a case
            compiling  a driver that cannot compile or run a kernel: named, and shrunk to a case
            wrong    a driver that draws wrongly is found
-           named    the driver that was named is the driver that runs
+           named    a driver that is named wrongly is refused
+           sides    a second driver in a folder runs, and keeps its code apart
            doctor   the report about this machine
            pages    the manual page and bash's completion
            kept     the tables that the repository keeps
@@ -95,6 +96,7 @@ SUITES = {
     "gates": lambda runner: runner.check_all(gates.CHECKS),
     "baselines": lambda runner: runner.check_all(baselines.CHECKS),
     "named": lambda runner: runner.check_all(named.CHECKS),
+    "sides": lambda runner: runner.check_all(named.SIDES),
     "reports": lambda runner: runner.check_all(reports.CHECKS),
     "ci": lambda runner: runner.check_all(ci.CHECKS),
     "bisects": lambda runner: runner.check_all(bisecting.CHECKS + shells.CHECKS),

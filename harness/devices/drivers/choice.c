@@ -72,22 +72,19 @@ static void read_named(struct rg_choice *c)
 
 // --- what is amiss with it ---
 
-// Where a device's driver is to be named instead.
-#define MEND_PREFIX "write '%s@DRIVER=PREFIX', PREFIX the folder that has its usr/lib and usr/share"
-
 static bool refuse_manifest(const struct rg_choice *c, const struct rg_manifest *m)
 {
     const char *device = c->name;
     if (m->fault == RG_MANIFEST_ABSENT)
         return rg_unsupported("device '%s': %s names %s, which is not there; name a driver's file, "
-                              "or " MEND_PREFIX,
+                              "or " RG_MEND_PREFIX,
                               device, c->variable, m->path, c->api);
     if (m->fault == RG_MANIFEST_NO_LIBRARY)
         return rg_driver_error("device '%s': %s names the library %s, which is not there; mend its "
-                               "library_path, or " MEND_PREFIX,
+                               "library_path, or " RG_MEND_PREFIX,
                                device, m->path, m->library, c->api);
     return rg_driver_error("device '%s': %s is no driver's file, which has a library_path; name "
-                           "another one, or " MEND_PREFIX,
+                           "another one, or " RG_MEND_PREFIX,
                            device, m->path, c->api);
 }
 
@@ -173,7 +170,7 @@ bool rg_choice_refuse(const struct rg_choice *c, const char *why)
                                "what is missing, or unpack it into %s",
                                c->name, library, why, c->driver);
     return rg_driver_error("device '%s': the library that %s names cannot be loaded: %s; add the "
-                           "folder of what is missing by LD_LIBRARY_PATH, or " MEND_PREFIX,
+                           "folder of what is missing by LD_LIBRARY_PATH, or " RG_MEND_PREFIX,
                            c->name, c->manifests[0].path, why, c->api);
 }
 
@@ -224,90 +221,4 @@ bool rg_choice_is_met(const struct rg_choice *c, const struct rg_device_info *in
                     strayed->is_bare ? "is a bare name, which is looked for in the system's folders"
                                      : "leads there",
                     c->api, of_strayed);
-}
-
-// --- two of them ---
-
-static const char *const choosing[] = {"DRIVER",
-                                       "VK_DRIVER_FILES",
-                                       "VK_ICD_FILENAMES",
-                                       "VK_ADD_DRIVER_FILES",
-                                       "__EGL_VENDOR_LIBRARY_FILENAMES",
-                                       "__EGL_VENDOR_LIBRARY_DIRS",
-                                       "LIBGL_DRIVERS_PATH",
-                                       "OCL_ICD_VENDORS",
-                                       "OCL_ICD_FILENAMES",
-                                       "LD_LIBRARY_PATH",
-                                       NULL};
-
-static const char *value_of(const char *environment, const char *variable)
-{
-    const char *own = rg_environment_find(environment, variable);
-    const char *value = own || !strcmp(variable, "DRIVER") ? own : getenv(variable);
-    return value ? value : "";
-}
-
-// The variable by which two names choose their drivers differently; NULL: none.
-static const char *find_difference(const char *a, const char *b)
-{
-    for (int i = 0; choosing[i]; i++)
-        if (strcmp(value_of(a, choosing[i]), value_of(b, choosing[i])) != 0)
-            return choosing[i];
-    return NULL;
-}
-
-static bool is_all(const struct rg_device_info *a, const struct rg_device_info *b, bool by_build)
-{
-    bool all = *a->libraries[0].path && *b->libraries[0].path;
-    for (int i = 0; all && i < RG_DRIVER_LIBRARIES; i++) {
-        const struct rg_library *of_a = &a->libraries[i], *of_b = &b->libraries[i];
-        all = !*of_a->path && !*of_b->path ? true
-              : by_build                   ? !strcmp(of_a->build, of_b->build)
-                                           : rg_library_is_same(of_a, of_b);
-    }
-    return all;
-}
-
-// The prefix that a folder of libraries lies in; "PREFIX" where it says none.
-static void guess_prefix(const char *libraries, char prefix[PATH_MAX])
-{
-    const char *end = strstr(libraries, "/usr/lib");
-    end = end ? end : strstr(libraries, "/lib");
-    snprintf(prefix, PATH_MAX, "%.*s", end && end > libraries ? (int)(end - libraries) : 6,
-             end && end > libraries ? libraries : "PREFIX");
-}
-
-// Why a variable did not choose another driver, and what does.
-static bool tell_same(const struct rg_device_info *a, const struct rg_device_info *b,
-                      const char *variable, const char *api, const char *value)
-{
-    char prefix[PATH_MAX];
-    guess_prefix(value, prefix);
-    if (!strcmp(variable, "LD_LIBRARY_PATH"))
-        return rg_error("devices '%s' and '%s' run one driver, %s: LD_LIBRARY_PATH alone chooses "
-                        "none, for the system's own files name it; write '%s@DRIVER=%s'",
-                        a->name, b->name, a->libraries[0].path, api, prefix);
-    return rg_error("devices '%s' and '%s' run one driver, %s, though they name it differently by "
-                    "%s; name the other one, or " MEND_PREFIX,
-                    a->name, b->name, a->libraries[0].path, variable, api);
-}
-
-bool rg_drivers_are_apart(const struct rg_device_info *a, const char *settings_a,
-                          const struct rg_device_info *b, const char *settings_b)
-{
-    const size_t length = strcspn(a->full, ":@");
-    if (length != strcspn(b->full, ":@") || strncmp(a->full, b->full, length) != 0 ||
-        !strncmp(a->full, "cpu", length))
-        return true;
-    const char *variable = find_difference(settings_a, settings_b);
-    char api[32];
-    snprintf(api, sizeof(api), "%.*s", (int)length, a->full);
-    if (variable && is_all(a, b, false))
-        return tell_same(
-            a, b, variable, api,
-            value_of(*value_of(settings_b, variable) ? settings_b : settings_a, variable));
-    if (variable && is_all(a, b, true))
-        rg_warning("devices '%s' and '%s' run one build of a driver from two files, %s and %s",
-                   a->name, b->name, a->libraries[0].path, b->libraries[0].path);
-    return true;
 }

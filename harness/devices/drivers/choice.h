@@ -52,10 +52,8 @@ bool rg_choice_refuse(const struct rg_choice *choice, const char *why);
 // lies elsewhere than what was named.
 bool rg_choice_is_met(const struct rg_choice *choice, const struct rg_device_info *info);
 
-// Whether two devices that were opened may be held against each other: where their names choose
-// their drivers differently, and one file runs on both, that is an error. One build in two files is
-// a warning. Both come with the variables of their names.
-bool rg_drivers_are_apart(const struct rg_device_info *a, const char *settings_a,
-                          const struct rg_device_info *b, const char *settings_b);
+// How a device's driver is to be named instead, for messages: takes the API's name.
+#define RG_MEND_PREFIX                                                                             \
+    "write '%s@DRIVER=PREFIX', PREFIX the folder that has its usr/lib and usr/share"
 
 #endif

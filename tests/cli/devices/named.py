@@ -329,4 +329,5 @@ def check_bounded(runner):
     return problems
 
 
-CHECKS = [check_wrong_names, check_alone, check_prefix, check_told, check_one_build, check_refused, check_caches, check_kept_apart, check_bounded]
+CHECKS = [check_wrong_names, check_alone, check_one_build, check_refused, check_bounded]
+SIDES = [check_prefix, check_told, check_caches, check_kept_apart]

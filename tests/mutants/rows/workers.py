@@ -1,7 +1,7 @@
 """Workers: how they are asked, how they end, and what is made of it; names of devices."""
 from fault import Fault
 
-TESTS = ("workers that end", "damaged replies", "damaged findings", "messages", "names of devices", "sessions in workers", "subjects between processes", "log", "command line, misbehaving", "command line, gates", "command line, named")
+TESTS = ("workers that end", "damaged replies", "damaged findings", "messages", "names of devices", "sessions in workers", "subjects between processes", "log", "command line, misbehaving", "command line, gates", "command line, named", "command line, sides")
 
 W = "harness/devices/workers/"
 WORKER, CHANNEL, SERVE, MESSAGE, ENVIRONMENT, DEVICE = (
@@ -9,7 +9,7 @@ WORKER, CHANNEL, SERVE, MESSAGE, ENVIRONMENT, DEVICE = (
 NAMES, DEVICES, REMOTE, LOG = ("harness/devices/names.c", "harness/devices/devices.c", "harness/frames/remote.c", "core/base/log.c")
 DIFF, MESSAGES, FINDINGS = "harness/compare/diff/devices.c", "harness/frames/messages.c", "harness/measure/messages.c"
 D = "harness/devices/drivers/"
-CACHES, CHOICE, SIDE, PREFIX = (D + name + ".c" for name in ("caches", "choice", "side", "prefix"))
+CACHES, CHOICE, APART, SIDE, PREFIX = (D + name + ".c" for name in ("caches", "choice", "apart", "side", "prefix"))
 PLAN, DOCTOR = "harness/tables/sweep/plan.c", "harness/commands/doctor.c"
 
 ROWS = [
@@ -83,7 +83,7 @@ ROWS = [
     Fault(DOCTOR, "if (examination->is_unknown && «was_listed(&report->list, examination->info.name)»)", "false", "a device that is gone takes the report along"),
     Fault(DOCTOR, "exit = «RG_EXIT_FAIL»;\n        }", "RG_EXIT_PASS", "a backend that crashes while it is listed is no failure"),
     Fault(DIFF, "s->exit = rg_exit_worse(s->exit, rg_exit_of(outcome));", ";", "a device that failed passes"),
-    Fault(CHOICE, "if («variable && is_all(a, b, false)»)", "false", "one driver under two names is compared with itself"),
+    Fault(APART, "if («variable && is_all(a, b, false)»)", "false", "one driver under two names is compared with itself"),
     Fault(CHOICE, "if («!*tree || rg_path_is_below(driver->path, tree)»)", "true", "a manifest's library may come from another tree"),
     Fault(CHOICE, "return «any || refuse_manifest(c, &c->manifests[0])»;", "true", "a manifest that is not there is no fault"),
     Fault(PREFIX, "if («rg_library_is_foreign(path)») {", "false", "a library for another processor is taken"),
