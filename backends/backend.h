@@ -60,13 +60,13 @@ struct rg_device_info {
     // the short name that the command line gave it, as "new" by "new=vulkan@DRIVER=/opt/mesa".
     char name[RG_DEVICE_NAME_SIZE];
     char full[RG_DEVICE_NAME_SIZE]; // by which it can be opened again, without a short name
-    char device[128]; // what the driver calls it: "llvmpipe (LLVM 15.0.6, 256 bits)"
-    char driver[160]; // driver and version: "Mesa 22.3.6"
-    char api[64];     // "OpenGL 4.5 core", "Vulkan 1.3.230", "OpenCL 1.2", "C11, AVX-512"
+    char device[128];               // what the driver calls it: "llvmpipe (LLVM 15.0.6, 256 bits)"
+    char driver[160];               // driver and version: "Mesa 22.3.6"
+    char api[64]; // "OpenGL 4.5 core", "Vulkan 1.3.230", "OpenCL 1.2", "C11, AVX-512"
     // The files whose code draws, of a device that is open; of cpu the program. The first is the
     // API's driver; without a path the rest are none.
     struct rg_library libraries[RG_DRIVER_LIBRARIES];
-    bool software;    // runs on the CPU
+    bool software; // runs on the CPU
     // How closely its pictures agree with those of cpu:reference: T0 of a driver that computes as C
     // does, T1 of one whose arithmetic is a GPU's, T2 of a device that draws in another way.
     enum rg_tier tier;

@@ -24,7 +24,7 @@ struct rg_account {
 // What runs for an instance: equal where the same code does. It is told of, and decides nothing.
 struct rg_session_code {
     char program[RG_BUILD_ID_SIZE]; // raingauge itself
-    uint64_t libraries;               // drivers among them
+    uint64_t libraries;             // drivers among them
     struct {
         uint64_t hash;
         int64_t bytes; // 0: the API hands none out
