@@ -38,7 +38,7 @@ enum kind { VK_CODE, VK_VALUE, VK_NOTHING, CL_CODE, CL_HANDLE, CL_VALUE, EGL_VAL
 #define FUNCTION(number, name, kind, parameters)                                                   \
     __asm__(".text\n" LABEL_##kind(name) "faulty_" #name ":\n"                                     \
                                          "endbr64\nmov $" #number ", %r11d\njmp faulty_any\n");
-#include "functions.inc"
+#include FUNCTIONS
 #undef FUNCTION
 
 // Saves what parameters lie in, and asks `choose` for where to go on; or returns what it says.
@@ -59,7 +59,7 @@ __asm__(".text\nfaulty_any:\n"
         "leave\ntest %r11, %r11\njz 1f\njmp *%r11\n1: ret\n");
 
 #define FUNCTION(number, name, kind, parameters) void faulty_##name(void) __asm__("faulty_" #name);
-#include "functions.inc"
+#include FUNCTIONS
 #undef FUNCTION
 
 static struct function {
@@ -71,7 +71,7 @@ static struct function {
     int calls;
 } functions[] = {
 #define FUNCTION(number, name, kind, parameters) {#name, kind, parameters, faulty_##name, NULL, 0},
-#include "functions.inc"
+#include FUNCTIONS
 #undef FUNCTION
 };
 

@@ -102,12 +102,13 @@ static bool do_alike_work(struct pair *p)
     return rg_alike_work(&tallies[0], &tallies[1], p->found);
 }
 
+// A difference that was found outweighs that a side does not tell its code.
 static bool tell_code(struct pair *p, struct rg_session_code code[RG_SIDES])
 {
-    bool ok = true;
-    for (int side = 0; ok && side < RG_SIDES; side++)
-        ok = rg_session_code(p->sessions[side], &code[side]);
-    return ok;
+    for (int side = 0; side < RG_SIDES; side++)
+        if (!rg_session_code(p->sessions[side], &code[side]))
+            return p->found->outcome != RG_FAIL && fail_by_error(p, side);
+    return true;
 }
 
 void rg_gate_agree(const struct rg_gate_cell *cell, struct rg_side sides[RG_SIDES],
