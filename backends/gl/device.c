@@ -86,6 +86,7 @@ static int gl_list(struct rg_device_info *infos, int max, char *why, size_t why_
     gl_search_begin(&search);
     while (count < max && gl_search_next(&search, &egl)) {
         describe(count, &egl, &infos[count]);
+        gl_search_check(&search);
         count++;
         gl_egl_close(&egl);
     }

@@ -146,6 +146,8 @@ int gl_judge(const struct gl_search *search, int count, char *why, size_t why_si
 // Whether the context that is current is of the driver that a variable of Mesa's asks for, or none
 // does; else `why` says so.
 bool gl_is_driver_asked(const struct gl_egl *egl, char *why, size_t why_size);
+// Has the search fail where the device that was opened last did not tell what it was asked for.
+void gl_search_check(struct gl_search *search);
 void gl_egl_close(struct gl_egl *egl);
 
 // backend->functions

@@ -270,6 +270,15 @@ bool gl_search_next(struct gl_search *search, struct gl_egl *egl)
     return false;
 }
 
+void gl_search_check(struct gl_search *search)
+{
+    const GLenum code = glGetError();
+    if (code == GL_NO_ERROR)
+        return;
+    search->grave = true;
+    fail(search, "no GL device: its limits cannot be read, with GL error 0x%x", code);
+}
+
 void gl_egl_close(struct gl_egl *egl)
 {
     pthread_mutex_lock(&displays_lock);

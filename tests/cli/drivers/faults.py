@@ -4,10 +4,11 @@
     faults.py RAINGAUGE FAULTS_LIBRARY FUNCTIONS [--sample N] [--seed N] [--api A] [--command C] [--how H] [--function PATTERN] [--at-once N]
 
 A fault is a function, a way (faults.c) and a command that asks for one device. Which functions a command reaches is found by running it well,
-so that a function that is never called is in no count. Left out are two kinds of pairs that mean nothing: the error of a Vulkan function that
-returns nothing, and an error or a loss of functions that only give something back (vkDestroy..., vkFree..., glDelete..., clRelease...,
-eglDestroyContext, eglTerminate), after which a command asks nothing more of the device. Prints what ended with 0, in another way than with
-status 1, or with more than a few lines; which faults doctor does not find that another command finds; and the counts.
+so that a function that is never called is in no count. Left out are pairs that mean nothing: the error of a Vulkan function that returns
+nothing, and in `list`, which opens no device, its loss; and an error or a loss of functions that only give something back (vkDestroy...,
+vkFree..., glDelete..., clRelease..., eglDestroyContext, eglTerminate), after which a command asks nothing more of the device. Prints what
+ended with 0, in another way than with status 1, or with more than a few lines; which faults doctor does not find that another command finds;
+and the counts.
 """
 import argparse
 import concurrent.futures
@@ -73,15 +74,16 @@ class Faults:
                 raise SystemExit("%s of %s fails by itself, with status %d: %s" % (command, api, status, lines))
             return sorted({name for name in file.read().split() if name.startswith(PREFIX[api])})
 
-    def means_something(self, function, how):
-        return not (how in ("error", "lost") and GIVES_BACK.match(function)) and not (how == "error" and self.kinds[function] == "VK_NOTHING")
+    def means_something(self, function, how, command):
+        silent = {"error", "lost"} if command == "list" else {"error"}  # which has no device that could be lost
+        return not (how in ("error", "lost") and GIVES_BACK.match(function)) and not (how in silent and self.kinds[function] == "VK_NOTHING")
 
     def all(self, pairs, at_once):
         """Every fault that means something, of pairs of an API and a command."""
         with concurrent.futures.ThreadPoolExecutor(at_once) as pool:
             reached = list(pool.map(lambda pair: self.reached(pair[1], pair[0]), pairs))
         return [Fault(api, function, how, command) for (api, command), functions in zip(pairs, reached)
-                for function in functions for how in WAYS if self.means_something(function, how)]
+                for function in functions for how in WAYS if self.means_something(function, how, command)]
 
     def end(self, fault):
         return self.run(fault.command, fault.api, RG_FAULT="%s:%s:0" % (fault.function, fault.how))

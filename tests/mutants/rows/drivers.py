@@ -14,7 +14,15 @@ OF_GL = ("device suite, draws, gl", "device suite, targets, gl")
 OF_VK = ("device suite, draws, vulkan", "device suite, targets, vulkan", "device suite, kernels, vulkan")
 OF_CL = ("device suite, kernels, opencl", "device suite, images, opencl", "opencl")
 
+MANIFESTS, OF_FAILING = "backends/manifests.c", ("command line, failing",)
+
 ROWS = [
+    Fault(MANIFESTS, "return «walk.is_named_broken ? -1 : count»;", "count", "a named driver that fails beside a good one is passed over", tests=OF_FAILING),
+    Fault(MANIFESTS, "if («walk->named_by»)", "false", "a named driver without a device is absent", tests=OF_FAILING),
+    Fault(MANIFESTS, "if («*broken»)", "false", "a driver that cannot be loaded is absent", tests=OF_FAILING),
+    Fault(MANIFESTS, "return «!is_named && *walk.broken» && *paths;", "false", "one damaged file takes all drivers along", tests=OF_FAILING),
+    Fault("backends/gl/api/drivers.c", "    if («search->grave»)", "false", "another driver of Mesa's than the one asked for is taken", tests=OF_FAILING),
+    Fault("backends/opencl/api/search.c", "if («devices && !*devices»)", "true", "PoCL without a cache is absent", tests=OF_FAILING),
     Fault(GL, "glDepthFunc(«GL_LESS»);", "GL_LEQUAL", "gl: of equal depths the last stays", tests=OF_GL),
     Fault(GL, "blend == RG_BLEND_ADD ? GL_ONE : «GL_ONE_MINUS_SRC_ALPHA»", "GL_ONE_MINUS_SRC_COLOR", "gl: what is over is blended by its colour", tests=OF_GL),
     Fault(GL, "glDepthMask(«depth == RG_DEPTH_WRITE»);", "GL_TRUE", "gl: a depth that is tested is written", tests=OF_GL),
