@@ -10,12 +10,14 @@
 #include "harness/cli/shared.h"
 #include "harness/devices/devices.h"
 #include "harness/devices/names.h"
+#include "harness/doctor/compile.h"
 #include "harness/doctor/report.h"
 #include "harness/record/passport/passport.h"
 #include "harness/devices/workers/worker.h"
 
 struct doctor_options {
     char *devices; // their names
+    char *kernels; // that are compiled; NULL: devices are examined
     int timeout_s;
     int64_t memory_bytes;
     bool json;
@@ -28,6 +30,10 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_devices_option, AT(devices), "all"),
     RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
+    {RG_OPTION_TEXT, "compile", .argument = "KERNELS",
+     .about = "compiles kernels instead, each by itself, and runs an item of those that need "
+              "nothing for it: all, or names with commas; lists those that a driver cannot",
+     .offset = AT(kernels)},
     RG_GROUP("Output"),
     RG_INCLUDE(rg_json_option, AT(json), NULL),
     {RG_OPTION_END},
@@ -130,12 +136,34 @@ static void complain(const struct rg_doctor_report *report)
                      report->examinations[i].why);
 }
 
+static int compile(const struct rg_doctor_report *report, const struct doctor_options *o)
+{
+    json_t *all = o->json ? json_array() : NULL;
+    int exit = report->count ? RG_EXIT_PASS : RG_EXIT_UNSUPPORTED;
+    for (int i = 0; i < report->count; i++)
+        exit = rg_exit_worse(exit,
+                             rg_doctor_compile(report->examinations[i].info.name, o->kernels, all));
+    if (all) {
+        json_dumpf(all, stdout, JSON_INDENT(2));
+        printf("\n");
+    }
+    json_decref(all);
+    return strcmp(o->devices, "all") ? exit
+                                     : rg_exit_worse(exit, complain_of_listing(&report->list));
+}
+
 static int run(struct rg_doctor_report *report, const struct doctor_options *o)
 {
     rg_memory_allow(o->memory_bytes);
     rg_workers.timeout_s = o->timeout_s;
+    if (o->kernels && !rg_doctor_knows_kernels(o->kernels))
+        return RG_EXIT_USAGE;
     rg_devices_list(&report->list);
-    if (!take_names(report, o->devices) || !examine(report))
+    if (!take_names(report, o->devices))
+        return RG_EXIT_USAGE;
+    if (o->kernels)
+        return compile(report, o);
+    if (!examine(report))
         return RG_EXIT_USAGE;
     describe(report);
     if (o->json)
@@ -165,7 +193,7 @@ static int doctor(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_doctor = {
     .name = "doctor",
-    .usage = "[--device D,...|all] [--json]",
+    .usage = "[--device D,...|all] [--compile KERNELS|all] [--json]",
     .about = "examines machine, drivers, their arithmetic and their timers",
     .options = options,
     .options_size = sizeof(struct doctor_options),

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "core/base/log.h"
+#include "core/device/pass.h"
 #include "harness/frames/digests.h"
 #include "harness/frames/messages.h"
 #include "harness/devices/serving/services.h"
@@ -95,4 +96,14 @@ bool rg_serve_kernel_code(struct rg_message *request, struct rg_message *reply)
     if (device && !request->failed)
         told.bytes = rg_digests_code(device, kernel, kind, &told.size);
     return rg_serve_bytes(reply, &told);
+}
+
+bool rg_serve_compile(struct rg_message *request, struct rg_message *reply)
+{
+    struct rg_device *device = rg_served_device(rg_take_text(request));
+    const char *kernel = rg_take_text(request);
+    struct rg_pass *pass = device && !request->failed ? rg_pass_create(device, kernel) : NULL;
+    (void)reply;
+    rg_pass_destroy(pass);
+    return pass;
 }

@@ -38,7 +38,8 @@
     CALL(CONTENTS, contents, "reading an asset")                                                   \
     CALL(DISPATCHES, dispatches, "keeping a stage's dispatches")                                   \
     CALL(DISPATCH, dispatch, "running a kernel alone")                                             \
-    CALL(KERNEL_CODE, kernel_code, "reading a kernel's code")
+    CALL(KERNEL_CODE, kernel_code, "reading a kernel's code")                                      \
+    CALL(COMPILE, compile, "compiling a kernel")
 
 #define RG_CALL_NUMBER(name, service, doing) RG_CALL_##name,
 enum rg_call { RG_CALLS(RG_CALL_NUMBER) RG_CALL_COUNT_OF_CALLS };

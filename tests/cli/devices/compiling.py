@@ -95,5 +95,27 @@ def check_other(runner):
     return problems
 
 
+def check_compiled(runner):
+    """doctor lists the kernels that a driver cannot compile or run, each by itself, and goes on with the others"""
+    kernels, problems = ["flow_copy", KERNEL, "flow_level"], []
+    with tempfile.TemporaryDirectory() as folder:
+        devices = [failing(runner, folder, *case) for case in (("vulkan", "compile:abort"), ("gl", "run:fault"), ("opencl", "wait:abort"))]
+        args = ["doctor", "--compile", ",".join(kernels), "--device"]
+        result = runner.run(args + [",".join(devices + ["cpu"])])
+        told = re.findall(r"(?m)^(\w+)\S*: (\d) kernels compile, an item of (\d) of them was run, and (\d) fail\n((?:  .*\n)*)", result.stdout)
+        line = "  %s: crash\n" % KERNEL
+        wanted = [("vulkan", "2", "2", "1", line), ("gl", "3", "2", "1", line), ("opencl", "3", "2", "1", line), ("cpu", "3", "3", "0", "")]
+        if result.returncode != 1 or told != wanted or len(re.findall(r"(?m)^raingauge: .*crashed.*'%s'$" % KERNEL, result.stderr)) != 3:
+            problems.append("exit status %d, %s%s" % (result.returncode, result.stdout, result.stderr))
+        report = json.loads(runner.run(args + [devices[0], "--json"]).stdout)
+        if [(row["compiled"], row["ran"], [(one["kernel"], one["status"]) for one in row["failed"]]) for row in report] != [(2, 2, [(KERNEL, "crash")])]:
+            problems.append("%s" % report)
+        for which, device, status in (("flow_copy", "cpu", 0), ("flow_copy,nonsense", "cpu", 2), ("", "cpu", 2), ("flow_copy", "nonsense", 2)):
+            result = runner.run(["doctor", "--compile", which, "--device", device])
+            if result.returncode != status or len(result.stderr.splitlines()) != (status > 0):
+                problems.append("%s on %s: exit status %d, %s" % (which, device, result.returncode, result.stderr))
+    return problems
+
+
 THOROUGH = [check_least]
-CHECKS = [check_named, check_shrunk, check_other]
+CHECKS = [check_named, check_shrunk, check_other, check_compiled]
