@@ -9,7 +9,7 @@
 struct rg_dispatched {
     const struct rg_kernel *kernel;
     bool was_kept; // a DRAW program's is not: its slots are empty
-    unsigned char params[RG_MAX_PARAMS_SIZE];
+    _Alignas(16) unsigned char params[RG_MAX_PARAMS_SIZE]; // kernels read them as structs
     struct rg_extent origin, extent;
     struct rg_contents before[RG_MAX_SLOTS]; // by slot
     struct rg_contents after[RG_MAX_SLOTS];  // likewise, of those that are written
