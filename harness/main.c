@@ -8,6 +8,7 @@
 
 #include "core/base/log.h"
 #include "harness/commands/commands.h"
+#include "harness/console/interrupt.h"
 #include "harness/console/threads.h"
 #include "harness/record/passport/build_info.h"
 #include "harness/devices/serving/serving.h"
@@ -70,10 +71,12 @@ static int serve(const char *argument)
 
 int main(int argc, char **argv)
 {
+    rg_interrupt_hold(); // a signal between here and there would be lost to a first process
     if (argc == 3 && !strcmp(argv[1], RG_WORKER_ARGUMENT))
         return serve(argv[2]);
     open_standard_streams();
     rg_threads_settle(argv);
+    rg_interrupt_heed();
     rg_workers.program = "/proc/self/exe";
     rg_workers.hello = rg_serving_hello();
     // A write past a file-size limit then fails with EFBIG and is reported, instead of killing us.

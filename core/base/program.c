@@ -5,11 +5,37 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdatomic.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { MAX_FDS = 8 };
+enum { MAX_FDS = 8, MOST_STARTED = 256, MOST_ACTS = 8 };
+
+typedef void (*act_before_end)(void);
+
+// What was started and has not been waited for; 0: a free place. A handler reads it.
+static _Atomic pid_t started[MOST_STARTED];
+static _Atomic(act_before_end) acts[MOST_ACTS];
+static pid_t owner; // a process that is forked has started none of them
+
+static void remember(pid_t child)
+{
+    owner = getpid();
+    for (int i = 0; i < MOST_STARTED; i++) {
+        pid_t none = 0;
+        if (atomic_compare_exchange_strong(&started[i], &none, child))
+            return;
+    }
+}
+
+static void forget(pid_t child)
+{
+    for (int i = 0; i < MOST_STARTED; i++) {
+        pid_t it = child;
+        atomic_compare_exchange_strong(&started[i], &it, 0);
+    }
+}
 
 // The descriptors as the program has them. `moved` are above all numbers that they get, so that
 // none is overwritten before it is copied.
@@ -63,8 +89,13 @@ int rg_program_start_in(char *const environment[], const char *const args[], con
         if (fds[count] >= 0 && moved[count] < 0)
             error = errno;
     }
-    if (!error)
-        error = spawn(environment, args, moved, fd_count, child);
+    // No signal comes between the start of a program and the note of it.
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, &before);
+    if (!error && !(error = spawn(environment, args, moved, fd_count, child)))
+        remember(*child);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
     for (int i = 0; i < count; i++)
         if (moved[i] >= 0)
             close(moved[i]);
@@ -79,7 +110,17 @@ int rg_program_start(const char *const args[], const int fds[], int fd_count, pi
 bool rg_program_has_ended(pid_t child, int *status)
 {
     const pid_t ended = waitpid(child, status, WNOHANG);
-    return ended == child || (ended < 0 && errno != EINTR);
+    if (!ended || (ended < 0 && errno == EINTR))
+        return false;
+    forget(child);
+    return true;
+}
+
+void rg_program_wait(pid_t child, int *status)
+{
+    while (waitpid(child, status, 0) < 0 && errno == EINTR)
+        continue;
+    forget(child);
 }
 
 void rg_program_last_line(FILE *printed, char *last, size_t size)
@@ -92,4 +133,29 @@ void rg_program_last_line(FILE *printed, char *last, size_t size)
         if (strpbrk(line, "abcdefghijklmnopqrstuvwxyz"))
             snprintf(last, size, ": %.160s", line);
     }
+}
+
+void rg_program_before_end(void (*act)(void))
+{
+    for (int i = 0; i < MOST_ACTS; i++) {
+        act_before_end none = NULL;
+        if (atomic_compare_exchange_strong(&acts[i], &none, act) || none == act)
+            return;
+    }
+}
+
+noreturn void rg_program_end_by(int number)
+{
+    sigset_t it;
+    for (int i = 0; i < MOST_STARTED && getpid() == owner; i++)
+        if (started[i])
+            kill(-started[i], SIGKILL);
+    for (int i = 0; i < MOST_ACTS && acts[i]; i++)
+        acts[i]();
+    signal(number, SIG_DFL);
+    sigemptyset(&it);
+    sigaddset(&it, number);
+    pthread_sigmask(SIG_UNBLOCK, &it, NULL);
+    raise(number);
+    _exit(128 + number);
 }

@@ -1,10 +1,12 @@
-// Starting another program, which shares nothing with this one but what it is given.
+// Starting another program, which shares nothing with this one but what it is given; and how a
+// signal ends this one, with all that it has started.
 #ifndef RG_CORE_BASE_PROGRAM_H
 #define RG_CORE_BASE_PROGRAM_H
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <stdnoreturn.h>
 #include <sys/types.h>
 
 // Starts args[0], which is looked for along PATH where it has no slash in it. `args` ends in NULL.
@@ -20,9 +22,22 @@ int rg_program_start_in(char *const environment[], const char *const args[], con
 // Whether it has ended, and how (waitpid(2)): at once. Also where it cannot be waited for: its
 // number may be another process's by now, and `status` stays as it is.
 bool rg_program_has_ended(pid_t child, int *status);
+// Waits for its end, however long that takes.
+void rg_program_wait(pid_t child, int *status);
 
 // What a program that failed said last: ": " and the last line with a letter in it, "" where it
 // printed none.
 void rg_program_last_line(FILE *printed, char *last, size_t size);
+
+// --- this program's own end ---
+
+// Has rg_program_end_by call `act` first, which does only what a signal's handler may
+// (signal-safety(7)). One that was given before counts once; there is room for eight.
+void rg_program_before_end(void (*act)(void));
+
+// Ends this process as the signal does by default, also where that is ignored, as it is of a
+// container's first process: the status is then 128 and the number. What rg_program_start started
+// and has not ended is killed, with its process group. A signal's handler may call it.
+noreturn void rg_program_end_by(int number);
 
 #endif

@@ -67,8 +67,7 @@ static bool wait_for_end(pid_t child, int alive, int timeout_s, int *status)
             return true;
     }
     kill(child, SIGKILL);
-    while (waitpid(child, status, 0) < 0 && errno == EINTR)
-        continue;
+    rg_program_wait(child, status);
     return false;
 }
 

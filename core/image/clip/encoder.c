@@ -189,8 +189,7 @@ void rg_encoder_end(struct rg_encoder *e)
 {
     if (e->process) {
         kill(e->process, SIGKILL);
-        while (waitpid(e->process, NULL, 0) < 0 && errno == EINTR)
-            continue;
+        rg_program_wait(e->process, NULL);
     }
     if (e->feed >= 0)
         close(e->feed);

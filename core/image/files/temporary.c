@@ -3,13 +3,14 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "core/base/program.h"
 
 enum { MAX_NAMES = 100 };
 
@@ -50,26 +51,13 @@ static void name_beside(const char *target, int attempt, char *name, size_t size
 static _Atomic(const struct rg_temporary *) named[MAX_NAMES];
 static pid_t owner; // a process that is forked meanwhile leaves them alone
 
-static void end_without(int number)
+static void remove_named(void)
 {
     for (int i = 0; i < MAX_NAMES && getpid() == owner; i++) {
         const struct rg_temporary *t = atomic_load(&named[i]);
         if (t)
             unlink(t->path);
     }
-    signal(number, SIG_DFL);
-    raise(number); // it comes when this ends
-}
-
-// Signals that are ignored, or that a command notes, stay so.
-static void watch(int number)
-{
-    struct sigaction action;
-    if (sigaction(number, NULL, &action) || action.sa_handler != SIG_DFL)
-        return;
-    action = (struct sigaction){.sa_handler = end_without};
-    sigemptyset(&action.sa_mask);
-    sigaction(number, &action, NULL);
 }
 
 static void remember(const struct rg_temporary *t)
@@ -80,8 +68,7 @@ static void remember(const struct rg_temporary *t)
         if (atomic_compare_exchange_strong(&named[i], &none, t))
             break;
     }
-    watch(SIGINT);
-    watch(SIGTERM);
+    rg_program_before_end(remove_named);
 }
 
 static void forget(const struct rg_temporary *t)

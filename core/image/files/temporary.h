@@ -1,10 +1,10 @@
 // The file that a result is written to before it is whole.
 //
 // It has no name while it is written, where the file system knows such files: whatever ends the
-// program leaves nothing behind. Where it has one, SIGINT and SIGTERM remove it: a temporary stays
-// where it is in memory until it ends. A link is followed, as a shell's redirection does, and what
-// stands there read-only is refused. What replaces a file has its mode, and until then is read by
-// nobody else.
+// program leaves nothing behind. Where it has one, the signals that end the program remove it
+// (core/base/program.h): a temporary stays where it is in memory until it ends. A link is followed,
+// as a shell's redirection does, and what stands there read-only is refused. What replaces a file
+// has its mode, and until then is read by nobody else.
 #ifndef RG_CORE_IMAGE_FILES_TEMPORARY_H
 #define RG_CORE_IMAGE_FILES_TEMPORARY_H
 

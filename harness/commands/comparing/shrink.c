@@ -1,12 +1,16 @@
 // raingauge shrink: the least with which two devices still differ in the same way, as a file.
-#include <stdio.h>
+#define _GNU_SOURCE // getdents64
 #include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "core/base/log.h"
 #include "core/base/memory.h"
+#include "core/base/program.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
@@ -84,32 +88,44 @@ static bool write_found(const struct rg_case *found, const struct rg_blame *blam
     return ok;
 }
 
-// A folder for files that are tried, which goes with all that is in it.
-static bool make_folder(char *folder, size_t size)
+// The folder for files that are tried; "": there is none.
+static char folder[512];
+
+// Removes it with all that is in it. It does only what a signal's handler may: no readdir.
+static void remove_folder(void)
 {
-    const char *parent = getenv("TMPDIR");
-    snprintf(folder, size, "%s/raingauge-XXXXXX", parent && *parent ? parent : "/tmp");
-    return mkdtemp(folder) ||
-           rg_error("%s: cannot be made; set TMPDIR to a folder that takes files", folder);
+    char entries[2048];
+    ssize_t bytes;
+    const int fd = *folder ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    while (fd >= 0 && (bytes = getdents64(fd, entries, sizeof(entries))) > 0)
+        for (ssize_t at = 0; at < bytes;) {
+            const struct dirent64 *entry = (const void *)(entries + at);
+            unlinkat(fd, entry->d_name, 0); // fails of "." and ".."
+            at += entry->d_reclen;
+        }
+    if (fd >= 0)
+        close(fd);
+    rmdir(folder);
+    *folder = 0;
 }
 
-static void remove_folder(const char *folder)
+static bool make_folder(void)
 {
-    char path[RG_PATH_SIZE];
-    DIR *open = opendir(folder);
-    for (struct dirent *entry = NULL; open && (entry = readdir(open));) {
-        snprintf(path, sizeof(path), "%.500s/%s", folder, entry->d_name);
-        unlink(path);
+    const char *parent = getenv("TMPDIR");
+    snprintf(folder, sizeof(folder), "%s/raingauge-XXXXXX", parent && *parent ? parent : "/tmp");
+    if (mkdtemp(folder)) {
+        rg_program_before_end(remove_folder);
+        return true;
     }
-    if (open)
-        closedir(open);
-    rmdir(folder);
+    rg_error("%s: cannot be made: %s; set TMPDIR to a folder that takes files", folder,
+             strerror(errno));
+    *folder = 0;
+    return false;
 }
 
 static int shrink_on(const struct rg_devices *devices, const struct rg_subject *subject,
                      const struct shrink_options *o)
 {
-    char folder[512];
     const struct rg_shrink_request request = {.run = {*subject, o->frames < 1 ? 1 : o->frames},
                                               .device = devices->devices[0],
                                               .truth = devices->devices[1],
@@ -118,8 +134,8 @@ static int shrink_on(const struct rg_devices *devices, const struct rg_subject *
     struct rg_case found;
     struct rg_blame blame;
     int tried;
-    rg_interrupt_watch(); // so that the folder goes whatever ends the search
-    if (!make_folder(folder, sizeof(folder)))
+    rg_interrupt_watch();
+    if (!make_folder())
         return RG_EXIT_USAGE;
     int exit = rg_shrink_case(&request, &found, &blame, &tried);
     if (exit == RG_EXIT_PASS && !rg_interrupted()) {
@@ -128,7 +144,7 @@ static int shrink_on(const struct rg_devices *devices, const struct rg_subject *
             exit = RG_EXIT_USAGE; // a full disk says nothing of the devices
     }
     rg_case_free(&found);
-    remove_folder(folder);
+    remove_folder();
     return rg_interrupted() ? RG_EXIT_SIGNALLED + rg_interrupt_signal() : exit;
 }
 

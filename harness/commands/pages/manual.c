@@ -94,6 +94,7 @@ static void print_statuses(void)
         {RG_EXIT_UNSUPPORTED, "not supported on this machine"},
         {RG_EXIT_GIT_SKIP, "for git: `bisect` inside `git bisect run` skips this commit"},
         {RG_EXIT_SIGNALLED, "for git: `bisect` inside `git bisect run` ends the search"},
+        {RG_EXIT_SIGNALLED + SIGHUP, "interrupted by SIGHUP; `table` goes on where it was"},
         {RG_EXIT_SIGNALLED + SIGINT, "interrupted by SIGINT; `table` goes on where it was"},
         {RG_EXIT_SIGNALLED + SIGTERM, "interrupted by SIGTERM; `table` goes on where it was"},
     };

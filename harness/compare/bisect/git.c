@@ -1,6 +1,5 @@
 #include "harness/compare/bisect/git.h"
 
-#include <errno.h>
 #include <sys/wait.h>
 
 #include "core/base/program.h"
@@ -22,12 +21,10 @@ static bool git_is_bisecting(void)
     static const char *const args[] = {
         "/bin/sh", "-c", "test -e \"$(git rev-parse --git-path BISECT_START)\"", NULL};
     pid_t child;
-    int status;
+    int status = -1; // where it cannot be waited for
     if (rg_program_start(args, (const int[]){-1, -1, -1}, 3, &child))
         return false;
-    while (waitpid(child, &status, 0) < 0)
-        if (errno != EINTR)
-            return false;
+    rg_program_wait(child, &status);
     return WIFEXITED(status) && !WEXITSTATUS(status);
 }
 

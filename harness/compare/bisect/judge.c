@@ -1,6 +1,5 @@
 #include "harness/compare/bisect/judge.h"
 
-#include <errno.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -40,6 +39,7 @@ enum rg_judgement rg_judgement_of(int status, bool crash_is_bad)
         return RG_JUDGED_SKIP;
     case RG_EXIT_SIGNALLED + SIGINT:
     case RG_EXIT_SIGNALLED + SIGTERM:
+    case RG_EXIT_SIGNALLED + SIGHUP:
         return RG_JUDGED_STOP;
     default:
         if (status <= RG_EXIT_SIGNALLED)
@@ -48,27 +48,21 @@ enum rg_judgement rg_judgement_of(int status, bool crash_is_bad)
     }
 }
 
-// Waits for a process, and ends its group where we are asked to end. Its exit status as a shell
+// Waits for a process, and asks its group to end where we are asked to. Its exit status as a shell
 // tells it.
 static int wait_for(pid_t child)
 {
     enum { PAUSE_MS = 5 };
-    const double patience_ms = 10000;
-    double asked_ms = 0;
-    int status;
-    pid_t ended;
-    while ((ended = waitpid(child, &status, WNOHANG)) == 0 || (ended < 0 && errno == EINTR)) {
-        if (rg_interrupted() && !asked_ms) {
-            asked_ms = rg_now_ms();
+    bool is_asked = false;
+    int status = RG_EXIT_SIGNALLED << 8; // the exit status where it cannot be waited for
+    while (!rg_program_has_ended(child, &status)) {
+        if (rg_interrupted() && !is_asked) {
+            is_asked = true;
             kill(-child, SIGTERM);
-        } else if (asked_ms && rg_now_ms() > asked_ms + patience_ms) {
-            kill(-child, SIGKILL);
         }
         nanosleep(&(struct timespec){.tv_nsec = PAUSE_MS * 1000000}, NULL);
     }
-    return ended != child        ? RG_EXIT_SIGNALLED
-           : WIFSIGNALED(status) ? RG_EXIT_SIGNALLED + WTERMSIG(status)
-                                 : WEXITSTATUS(status);
+    return WIFSIGNALED(status) ? RG_EXIT_SIGNALLED + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
 // The status of the shell with a line; below 0: it could not be started.

@@ -72,7 +72,7 @@ static bool become_a_worker(pid_t harness)
         return false; // or it has ended before this was set
     setrlimit(RLIMIT_CORE, &none);
     signal(SIGXFSZ, SIG_IGN);
-    rg_interrupt_watch();
+    rg_interrupt_serve();
     return true;
 }
 

@@ -26,9 +26,6 @@
 // A program that is asked whether it is a raingauge gets so long, or --timeout where that is less.
 enum { LOOK_MS = 100, END_MS = 5000, HELLO_MS = 20000 };
 
-// What does nothing more for so long after Ctrl-C is not waited for.
-enum { INTERRUPTED_MS = 10000 };
-
 // Of what a process prints its last line is told. It lies in memory that is not counted as the
 // process's, so that more than this is dropped.
 enum { MOST_PRINTED = 1 << 20 };
@@ -244,16 +241,6 @@ static bool pass_on_interruption(struct rg_worker *worker)
     return worker->is_interrupted = true;
 }
 
-// What was asked to end is not kept from it by a driver that does not come back: it ends as by a
-// second signal, which keeps what is on disk by then. How the driver fares is not known, and no
-// record tells of it.
-static void end_at_once(const struct rg_worker *worker)
-{
-    rg_info("device '%s': its driver does not come back; raingauge ends without it", worker->name);
-    kill(worker->process, SIGKILL);
-    raise(rg_interrupt_signal());
-}
-
 // Also where a process of its own keeps the channel open. It is not waited for yet.
 static bool is_dead(const struct rg_worker *worker)
 {
@@ -289,8 +276,6 @@ static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
         if (count != seen || is_told_now)
             since_ms = rg_now_ms();
         seen = count;
-        if (worker->is_interrupted && rg_now_ms() - since_ms > INTERRUPTED_MS)
-            end_at_once(worker);
         if (rg_now_ms() - since_ms > 1000.0 * rg_workers.timeout_s)
             *verdict = HANGS;
         else if (rg_held_bytes(worker->process) > worker->memory_bytes)

@@ -41,7 +41,7 @@ static int compile_here(const struct rg_table *table, struct rg_device *device)
 
 // --- side by side ---
 
-enum { PAUSE_MS = 5, PATIENCE_MS = 10000, MAX_AT_ONCE = 64 };
+enum { PAUSE_MS = 5, MAX_AT_ONCE = 64 };
 
 // A table on a device, in a process of its own.
 struct job {
@@ -59,7 +59,7 @@ struct jobs {
     int begun;
     struct job running[MAX_AT_ONCE]; // of which those without a process are free
     int at_once;
-    double asked_ms; // when they were asked to end; 0: they were not
+    bool are_told; // to end
     struct rg_progress progress;
     int exit;
 };
@@ -149,16 +149,15 @@ static void end(struct jobs *jobs, struct job *job, int status)
     rg_progress_add(&jobs->progress, 1);
 }
 
-// Ctrl-C does not reach them: they are told, and ended where they do not end for that.
+// Ctrl-C does not reach them: they are told, once.
 static void pass_on_interruption(struct jobs *jobs)
 {
-    const bool is_over = jobs->asked_ms > 0 && rg_now_ms() > jobs->asked_ms + PATIENCE_MS;
-    if (!rg_interrupted() || (jobs->asked_ms > 0 && !is_over))
+    if (!rg_interrupted() || jobs->are_told)
         return;
     for (int i = 0; i < jobs->at_once; i++)
         if (jobs->running[i].process)
-            kill(-jobs->running[i].process, is_over ? SIGKILL : SIGINT);
-    jobs->asked_ms = rg_now_ms();
+            kill(-jobs->running[i].process, SIGINT);
+    jobs->are_told = true;
 }
 
 // Whether one of the places goes on.

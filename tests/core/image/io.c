@@ -18,6 +18,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/base/program.h"
 #include "core/base/log.h"
 #include "core/image/files/format.h"
 #include "core/image/files/io.h"
@@ -442,7 +443,7 @@ static int status_of(void (*work)(int), int number)
     int status = 0;
     const pid_t child = fork();
     if (child == 0) {
-        signal(number, SIG_DFL);
+        signal(number, rg_program_end_by);
         work(number);
         _exit(1);
     }
@@ -465,8 +466,8 @@ static void end_with_a_name(int number)
 static void a_signal_takes_the_name(void **state)
 {
     (void)state;
-    static const int signals[] = {SIGINT, SIGTERM};
-    for (int i = 0; i < 2; i++) {
+    static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
+    for (int i = 0; i < 3; i++) {
         const int status = status_of(end_with_a_name, signals[i]);
         if (WIFEXITED(status) && WEXITSTATUS(status) == 77)
             skip(); // no file system may be mounted here
