@@ -55,17 +55,7 @@ FILE *rg_file_open_small(const char *path, const char **why)
     return NULL;
 }
 
-FILE *rg_file_append(const char *path, const char **why)
-{
-    return stream(path, O_WRONLY | O_APPEND | O_CREAT, "a", why);
-}
-
-static bool lead_to_one(const char *a, const char *b)
-{
-    struct stat of_a, of_b;
-    return !stat(a, &of_a) && !stat(b, &of_b) && of_a.st_dev == of_b.st_dev &&
-           of_a.st_ino == of_b.st_ino;
-}
+// --- in folders that all may write to ---
 
 // The folder in which a path lies, and returns its name there. NULL where it is too long.
 static const char *split(const char *path, char folder[PATH_MAX])
@@ -73,6 +63,73 @@ static const char *split(const char *path, char folder[PATH_MAX])
     const char *slash = strrchr(path, '/');
     const int length = slash ? (int)(slash - path) + 1 : 0;
     return snprintf(folder, PATH_MAX, "%.*s.", length, path) < PATH_MAX ? path + length : NULL;
+}
+
+// Whether what lies there is nobody's who could have put it in the way of this user: it is the
+// user's own, or that of the folder's owner, or the folder is no shared one (sticky, and anybody
+// writes to it). That is the kernel's rule (fs.protected_symlinks and its kin), where it is on.
+static bool is_trusted(const char *path, const struct stat *st)
+{
+    char folder[PATH_MAX];
+    struct stat in;
+    const mode_t shared = S_ISVTX | S_IWOTH;
+    return st->st_uid == geteuid() || !split(path, folder) || stat(folder, &in) ||
+           (in.st_mode & shared) != shared || st->st_uid == in.st_uid;
+}
+
+// Follows the links that a path ends in.
+static bool follow(const char *path, char target[PATH_MAX], const char **why)
+{
+    enum { MOST_LINKS = 40 }; // as the kernel has it
+    struct stat st;
+    char to[PATH_MAX], folder[PATH_MAX];
+    snprintf(target, PATH_MAX, "%s", path);
+    for (int links = 0; !lstat(target, &st) && S_ISLNK(st.st_mode); links++) {
+        const ssize_t length = readlink(target, to, sizeof(to) - 1);
+        *why = links == MOST_LINKS ? strerror(ELOOP)
+               : length < 0        ? strerror(errno)
+               : is_trusted(target, &st)
+                   ? NULL
+                   : "is or goes through a link that another user has put into a folder for all";
+        if (*why)
+            return false;
+        to[length] = 0;
+        const size_t used = *to == '/' || !split(target, folder) ? 0 : strlen(folder) - 1;
+        if (snprintf(target, PATH_MAX, "%.*s%s", (int)used, folder, to) >= PATH_MAX)
+            return *why = strerror(ENAMETOOLONG), false;
+    }
+    return true;
+}
+
+bool rg_file_follow(const char *path, char target[PATH_MAX], const char **why)
+{
+    char folder[PATH_MAX];
+    if (strlen(path) >= PATH_MAX || !split(path, folder))
+        return *why = strerror(ENAMETOOLONG), false;
+    const size_t length = strlen(folder);
+    if (length > 2)
+        folder[length - 2] = 0; // the slash and the dot, behind which no link would be seen
+    return (length <= 2 || follow(folder, target, why)) && follow(path, target, why);
+}
+
+FILE *rg_file_append(const char *path, const char **why)
+{
+    const int flags = O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW;
+    char target[PATH_MAX];
+    struct stat st;
+    FILE *file = rg_file_follow(path, target, why) ? stream(target, flags, "a", why) : NULL;
+    if (!file || fstat(fileno(file), &st) || is_trusted(target, &st))
+        return file;
+    *why = "is a file of another user in a folder for all";
+    fclose(file);
+    return NULL;
+}
+
+static bool lead_to_one(const char *a, const char *b)
+{
+    struct stat of_a, of_b;
+    return !stat(a, &of_a) && !stat(b, &of_b) && of_a.st_dev == of_b.st_dev &&
+           of_a.st_ino == of_b.st_ino;
 }
 
 bool rg_file_is_same(const char *a, const char *b)

@@ -2,6 +2,7 @@
 #ifndef RG_CORE_BASE_FILES_FILE_H
 #define RG_CORE_BASE_FILES_FILE_H
 
+#include <limits.h>
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -14,8 +15,15 @@ FILE *rg_file_open(const char *path, const char **why);
 // parser reads one of gigabytes to its end, or keeps many times its size.
 FILE *rg_file_open_small(const char *path, const char **why);
 
-// The same to append to, behind all that is there; it is made where it is not.
+// The same to append to, behind all that is there; it is made where it is not. In a folder for all
+// one of another user is refused, and a link as below.
 FILE *rg_file_append(const char *path, const char **why);
+
+// The path of a file that is to be written, behind the links that `path` ends in, whether or not it
+// is there. False, and `why`, where that or its folder is another user's link in a folder to which
+// all may write (sticky, as /tmp is) and which is not that user's: whoever put it there would
+// choose what is overwritten.
+bool rg_file_follow(const char *path, char target[PATH_MAX], const char **why);
 
 // Whether two paths are one file or folder, also one that neither has made yet. A link is what it
 // leads to.

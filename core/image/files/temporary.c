@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/base/files/file.h"
 #include "core/base/program.h"
 
 enum { MAX_NAMES = 100 };
@@ -20,14 +21,17 @@ enum { MAX_NAMES = 100 };
 static bool find_target(const char *path, char target[PATH_MAX], mode_t *mode, struct rg_why *why)
 {
     struct stat st;
+    const char *refused;
     *mode = 0;
-    if (snprintf(target, PATH_MAX, "%s", path) >= PATH_MAX)
+    if (strlen(path) >= PATH_MAX)
         return rg_why_set(why, "the path is too long; choose a shorter one");
-    if (lstat(path, &st))
+    if (!rg_file_follow(path, target, &refused))
+        return rg_why_set(why, "%s; name another file", refused);
+    if (lstat(target, &st) && !lstat(path, &st) && S_ISLNK(st.st_mode))
+        return rg_why_set(why, "is a link to nothing; remove it, or name another file");
+    if (lstat(target, &st))
         return errno == ENOENT || errno == ENOTDIR || errno == EACCES ||
                rg_why_set(why, "cannot be written: %s; choose another name", strerror(errno));
-    if (S_ISLNK(st.st_mode) && (!realpath(path, target) || stat(target, &st)))
-        return rg_why_set(why, "is a link to nothing; remove it, or name another file");
     if (!S_ISREG(st.st_mode))
         return rg_why_set(why, S_ISDIR(st.st_mode) ? "is a folder; name a file in it"
                                                    : "is not a regular file; name another");
