@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "core/base/program.h"
 #include "harness/commands/commands.h"
 #include "harness/console/interrupt.h"
 #include "harness/console/threads.h"
@@ -62,6 +63,7 @@ static int run(int argc, char **argv)
 // when a process ends as usual.
 static int serve(const char *argument)
 {
+    rg_threads_fit();
     const int status = rg_serving(argument);
 #ifndef __SANITIZE_ADDRESS__
     _exit(status);
@@ -77,7 +79,8 @@ int main(int argc, char **argv)
     open_standard_streams();
     rg_threads_settle(argv);
     rg_interrupt_heed();
-    rg_workers.program = "/proc/self/exe";
+    rg_threads_fit();
+    rg_workers.program = rg_program_self();
     rg_workers.hello = rg_serving_hello();
     // A write past a file-size limit then fails with EFBIG and is reported, instead of killing us.
     signal(SIGXFSZ, SIG_IGN);

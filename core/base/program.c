@@ -6,7 +6,10 @@
 #include <signal.h>
 #include <spawn.h>
 #include <stdatomic.h>
+#include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/auxv.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -107,6 +110,27 @@ int rg_program_start(const char *const args[], const int fds[], int fd_count, pi
     return rg_program_start_in(environ, args, fds, fd_count, child);
 }
 
+const char *rg_program_mend(int error)
+{
+    switch (error) {
+    case EMFILE:
+    case ENFILE:
+        return "allow more open files (ulimit -n)";
+    case EAGAIN:
+        return "allow more processes (ulimit -u, or the container's pids limit)";
+    case E2BIG:
+        return "give it fewer or shorter variables";
+    case ENOMEM:
+        return "close other programs, or allow more memory";
+    case ENOENT:
+        return "put it and /dev/null there";
+    case EACCES:
+        return "make it a program that may be run, in a folder that is not mounted noexec";
+    default:
+        return "have the container or its seccomp filter allow to start processes";
+    }
+}
+
 bool rg_program_has_ended(pid_t child, int *status)
 {
     const pid_t ended = waitpid(child, status, WNOHANG);
@@ -133,6 +157,27 @@ void rg_program_last_line(FILE *printed, char *last, size_t size)
         if (strpbrk(line, "abcdefghijklmnopqrstuvwxyz"))
             snprintf(last, size, ": %.160s", line);
     }
+}
+
+const char *rg_program_self(void)
+{
+    static char path[PATH_MAX];
+    static const char proc[] = "/proc/self/exe";
+    const char *const started_by = (const char *)(uintptr_t)getauxval(AT_EXECFN);
+    return *path ? path : access(proc, X_OK) && realpath(started_by, path) ? path : proc;
+}
+
+void rg_program_folder(char place[PATH_MAX])
+{
+    const char *const self = rg_program_self();
+    const ssize_t length = readlink(self, place, PATH_MAX - 1); // also of a file that is gone
+    if (length < 0)
+        snprintf(place, PATH_MAX, "%s", self);
+    else
+        place[length] = 0;
+    char *slash = strrchr(place, '/');
+    if (slash)
+        *slash = 0;
 }
 
 void rg_program_before_end(void (*act)(void))

@@ -3,6 +3,7 @@
 #ifndef RG_CORE_BASE_PROGRAM_H
 #define RG_CORE_BASE_PROGRAM_H
 
+#include <limits.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -19,6 +20,9 @@ int rg_program_start(const char *const args[], const int fds[], int fd_count, pi
 int rg_program_start_in(char *const environment[], const char *const args[], const int fds[],
                         int fd_count, pid_t *child);
 
+// What mends an errno with which none could be started: a clause, without a point.
+const char *rg_program_mend(int error);
+
 // Whether it has ended, and how (waitpid(2)): at once. Also where it cannot be waited for: its
 // number may be another process's by now, and `status` stays as it is.
 bool rg_program_has_ended(pid_t child, int *status);
@@ -29,7 +33,15 @@ void rg_program_wait(pid_t child, int *status);
 // printed none.
 void rg_program_last_line(FILE *printed, char *last, size_t size);
 
-// --- this program's own end ---
+// --- this program ---
+
+// A path that this program can be started again by, for as long as it runs: /proc/self/exe, or its
+// own path where there is no /proc.
+const char *rg_program_self(void);
+// The folder in which it lies, without a slash behind it; "" where that cannot be found.
+void rg_program_folder(char place[PATH_MAX]);
+
+// --- its own end ---
 
 // Has rg_program_end_by call `act` first, which does only what a signal's handler may
 // (signal-safety(7)). One that was given before counts once; there is room for eight.

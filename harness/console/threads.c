@@ -1,12 +1,17 @@
 #include "harness/console/threads.h"
 
+#include <errno.h>
 #include <fcntl.h>
+#include <omp.h>
+#include <pthread.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "core/base/program.h"
 
 enum { THREADS_A_PROCESSOR = 4 };
 
@@ -76,8 +81,39 @@ void rg_threads_settle(char **argv)
     if (!limit_threads() && !spins)
         return;
     silence();
-    execv("/proc/self/exe", argv);
+    execv(rg_program_self(), argv);
     hear_again();
     if (spins)
         unsetenv("GOMP_SPINCOUNT"); // the passport must not claim what libgomp never read
+}
+
+// --- as many as can be started ---
+
+static void *wait_at(void *gate)
+{
+    pthread_mutex_lock(gate);
+    pthread_mutex_unlock(gate);
+    return NULL;
+}
+
+void rg_threads_fit(void)
+{
+    pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER;
+    const int wanted = omp_get_max_threads() - 1;
+    pthread_t *threads = calloc((size_t)wanted + 1, sizeof(*threads));
+    int made = 0, error = threads ? 0 : ENOMEM;
+    pthread_mutex_lock(&gate); // so that all are there at once
+    while (!error && made < wanted &&
+           !(error = pthread_create(&threads[made], NULL, wait_at, &gate)))
+        made++;
+    pthread_mutex_unlock(&gate);
+    for (int i = 0; i < made; i++)
+        pthread_join(threads[i], NULL);
+    free(threads);
+    if (!error)
+        return;
+    rg_warning("%d of %d threads can be started: %s; allow more processes or memory (ulimit -u, "
+               "-v), or set %s",
+               made + 1, wanted + 1, strerror(error), count_name);
+    omp_set_num_threads(made + 1);
 }

@@ -10,4 +10,8 @@ long rg_threads_most(void);
 // with one warning where more are asked for. What libgomp complains of it says once.
 void rg_threads_settle(char **argv);
 
+// Has OpenMP take as many threads as can be started, with one warning where that are fewer than it
+// would: libgomp ends a process that cannot start one.
+void rg_threads_fit(void);
+
 #endif

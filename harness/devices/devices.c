@@ -6,6 +6,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/base/text/limits.h"
 #include "harness/console/exit.h"
 #include "harness/devices/drivers/apart.h"
 #include "harness/devices/drivers/choice.h"
@@ -34,7 +35,13 @@ static void add_told(const struct rg_told_list *told, int backend, struct rg_dev
         return;
     struct rg_missing *missing = &list->missing[list->missing_count++];
     *missing = (struct rg_missing){.backend = rg_backends[backend], .outcome = told->outcome};
-    snprintf(missing->why, sizeof(missing->why), "%s", told->why);
+    char limits[RG_LIMITS_TEXT];
+    if (rg_limits_low(limits))
+        snprintf(missing->why, sizeof(missing->why),
+                 "%s: its driver gives no device %s; allow more", rg_backends[backend]->name,
+                 limits);
+    else
+        snprintf(missing->why, sizeof(missing->why), "%s", told->why);
 }
 
 // Asks a worker for the devices of a backend. Nothing is believed of a list that is damaged.
@@ -83,7 +90,7 @@ void rg_devices_list(struct rg_device_list *list)
 
 int rg_devices_complain(const struct rg_device_list *list)
 {
-    int exit = RG_EXIT_PASS;
+    int exit = list->count ? RG_EXIT_PASS : RG_EXIT_UNSUPPORTED;
     for (int i = 0; i < list->missing_count; i++) {
         const struct rg_missing *missing = &list->missing[i];
         if (missing->outcome == RG_UNSUPPORTED) {
@@ -91,7 +98,7 @@ int rg_devices_complain(const struct rg_device_list *list)
             continue;
         }
         rg_driver_error("%s", missing->why);
-        exit = RG_EXIT_FAIL;
+        exit = rg_exit_worse(exit, RG_EXIT_FAIL);
     }
     return exit;
 }

@@ -221,7 +221,7 @@ FAILURES = {
     "cat > /dev/null; echo too late >&2; exit 1": r"vpxenc ended with status 1: too late; nothing was written",
     "kill -KILL $$": r"vpxenc was ended by a signal \(Killed\); nothing was written",
     "head -c 50 > /dev/null; kill -SEGV $$": r"vpxenc was ended by a signal \(Segmentation fault\); nothing was written",
-    "head -c 50 > /dev/null; sleep 0.5; echo webm >&3": r"vpxenc ended before it had coded all frames; nothing was written",
+    "head -c 50 > /dev/null; sleep 0.5; echo webm >&1": r"vpxenc ended before it had coded all frames; nothing was written",
     "exit 0": r"vpxenc ended before it had coded all frames; nothing was written",
     "cat > /dev/null": r"vpxenc ended before it had coded all frames; nothing was written",
 }
@@ -242,7 +242,7 @@ def check_failing_encoder(runner):
 def check_hanging_encoder(runner):
     """a vpxenc that takes nothing, codes nothing or stops is ended and told in one line; one that is slow and goes on is waited for"""
     problems = []
-    slow = "for i in 1 2 3 4 5 6; do sleep 0.4; echo webm >&3; done; cat > /dev/null"
+    slow = "for i in 1 2 3 4 5 6; do sleep 0.4; echo webm >&1; done; cat > /dev/null"
     for script in ("exec sleep 1000", "cat > /dev/null; exec sleep 1000", "exec <&-; exec sleep 1000", "kill -STOP $$", slow):
         with tempfile.TemporaryDirectory() as tmp, tempfile.TemporaryDirectory() as fake:
             result = runner.run((FRAMES + "--timeout 2 -o %s/a.webm" % tmp).split(), with_encoder(fake, script))

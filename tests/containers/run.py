@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""raingauge as containers and other users have it.
+"""raingauge as containers, limits and other users have it.
 
-    run.py SUITE RAINGAUGE
+    run.py SUITE RAINGAUGE REFUSING
 
-    SUITE: signals  INT, TERM and HUP, also of the first process of a container
-           links    output through links that other users put into a folder for all
+    SUITE: signals       INT, TERM and HUP, also of the first process of a container
+           refusals      some calls and limits that are refused, for commands that take below a second
+           all refusals  all of them, for all commands
+           links         output through links that other users put into a folder for all
 
 Prints TAP, for meson. What needs a namespace of its own is skipped where it may not have one.
 """
@@ -15,16 +17,17 @@ sys.dont_write_bytecode = True  # the sources' folder stays as it is
 sys.path.insert(1, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "cli"))
 
 import links
+import refusals
 import signals
 from runner import Runner
 
-SUITES = {"signals": signals.run, "links": links.run}
+SUITES = {"signals": signals.run, "refusals": refusals.run_some, "all refusals": refusals.run_all, "links": links.run}
 
 
 def main():
-    suite, raingauge = sys.argv[1:3]
+    suite, raingauge, refusing = sys.argv[1:4]
     runner = Runner(raingauge, "", "", "", "", "")
-    SUITES[suite](runner)
+    SUITES[suite](runner, os.path.abspath(refusing))
     return runner.finish()
 
 

@@ -137,7 +137,8 @@ def has_namespaces():
     return subprocess.run(NAMESPACE + ["true"], stderr=subprocess.DEVNULL, check=False).returncode == 0
 
 
-def run(runner):
+def run(runner, refusing):
+    del refusing
     with tempfile.TemporaryDirectory() as path:
         folder = Folder(runner, path)
         turns = [(name, SIGNALS[i % len(SIGNALS)]) for i, name in enumerate(COMMANDS)]

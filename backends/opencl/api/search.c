@@ -1,4 +1,5 @@
 // The devices that the ICD loader finds, and what they say of themselves.
+#define _GNU_SOURCE // ST_NOEXEC
 #include "backends/opencl/opencl.h"
 
 #include <errno.h>
@@ -7,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include "core/base/files/user.h"
@@ -99,16 +101,43 @@ static void blame_pocl(struct opencl_search *search)
         fail(search, "no OpenCL device: PoCL tells of none, though each machine has one");
 }
 
+static bool is_pocl(const char *platform)
+{
+    return !strcmp(platform, "Portable Computing Language");
+}
+
 static void blame_platform(struct opencl_search *search, const char *name, cl_int code)
 {
     if (code != CL_DEVICE_NOT_FOUND)
         fail(search, "no OpenCL device: clGetDeviceIDs failed with %s on %.60s",
              opencl_error_name(code), name);
-    else if (!strcmp(name, "Portable Computing Language"))
+    else if (is_pocl(name))
         blame_pocl(search);
     if (search->state == RG_MANIFEST_NONE)
         snprintf(search->why, sizeof(search->why), "no OpenCL device: %s on %.60s",
                  opencl_error_name(code), name);
+}
+
+// Where PoCL keeps what it compiles, or the folder above it that is there; it loads programs from
+// there, and aborts where none may be run. Whether that is so.
+static bool cache_is_noexec(char folder[PATH_MAX])
+{
+    const char *own = getenv("POCL_CACHE_DIR"), *user = getenv("XDG_CACHE_HOME");
+    const char *home = getenv("HOME");
+    struct statvfs disk;
+    snprintf(folder, PATH_MAX, "%s%s",
+             own    ? own
+             : user ? user
+             : home ? home
+                    : "/tmp",
+             own || user || !home ? "" : "/.cache");
+    while (statvfs(folder, &disk)) {
+        char *slash = strrchr(folder, '/');
+        if (!slash || slash == folder)
+            return false;
+        *slash = 0;
+    }
+    return disk.f_flag & ST_NOEXEC;
 }
 
 // Adds the usable devices of a platform to `ids`; returns how many there are then.
@@ -117,10 +146,17 @@ static int find_on_platform(struct opencl_search *search, cl_platform_id platfor
 {
     cl_device_id all[RG_MAX_DEVICES];
     cl_uint found = 0;
-    char name[OPENCL_TEXT];
+    char name[OPENCL_TEXT], cache[PATH_MAX];
     cl_int code = clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof(name), name, NULL);
     if (code != CL_SUCCESS) {
         fail(search, "no OpenCL device: clGetPlatformInfo failed with %s", opencl_error_name(code));
+        return count;
+    }
+    if (is_pocl(name) && cache_is_noexec(cache)) {
+        fail(search,
+             "PoCL cannot load what it compiles from %.50s, which is mounted noexec; set "
+             "POCL_CACHE_DIR to another folder",
+             cache);
         return count;
     }
     code = clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, RG_MAX_DEVICES, all, &found);

@@ -1,18 +1,19 @@
-#define _GNU_SOURCE // memfd_create
+#define _GNU_SOURCE // pipe2
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "core/base/cage/cage.h"
 #include "core/base/program.h"
+#include "core/base/text/limits.h"
 
 // Where such a program is, seen from the folder of the running one: beside it, installed, or in the
 // build, whose programs and tests lie at several depths.
@@ -30,11 +31,7 @@ static const char *const places[] = {
 bool rg_caged_find(const char *program, char *path, size_t size)
 {
     char folder[PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", folder, sizeof(folder) - 1);
-    folder[length < 0 ? 0 : length] = 0;
-    char *slash = strrchr(folder, '/');
-    if (slash)
-        *slash = 0;
+    rg_program_folder(folder);
     for (size_t i = 0; i < sizeof(places) / sizeof(places[0]); i++) {
         const int written = snprintf(path, size, "%s/%s%s", folder, places[i], program);
         if (written > 0 && (size_t)written < size && !access(path, X_OK))
@@ -51,55 +48,116 @@ static int64_t now_ms(void)
     return now.tv_sec * 1000LL + now.tv_nsec / 1000000;
 }
 
-// False when it had to be killed. Its end of `alive` closes when it ends; one that closes it and
-// goes on has as long as any other.
-static bool wait_for_end(pid_t child, int alive, int timeout_s, int *status)
+// --- its reply ---
+
+// Takes what is there. False: there will be no more, or no more is taken.
+static bool take(int from, int64_t most_bytes, size_t *room, struct rg_caged *caged)
+{
+    enum { LEAST_BYTES = 1 << 16 };
+    if (caged->bytes == *room) {
+        const size_t more = *room ? 2 * *room : LEAST_BYTES;
+        char *reply = realloc(caged->reply, more);
+        caged->has_room = reply != NULL;
+        if (!reply)
+            return false;
+        caged->reply = reply;
+        *room = more;
+    }
+    const ssize_t got = read(from, caged->reply + caged->bytes, *room - caged->bytes);
+    if (got <= 0)
+        return got < 0 && errno == EINTR;
+    caged->bytes += (size_t)got;
+    caged->is_cut = (int64_t)caged->bytes > most_bytes;
+    return !caged->is_cut;
+}
+
+// Takes its reply until it ends. Not ended: it had to be killed. Its end of the pipe closes when it
+// ends; one that closes it and goes on has as long as any other.
+static void attend(pid_t child, int reply, int timeout_s, int64_t most_bytes,
+                   struct rg_caged *caged)
 {
     enum { LOOK_MS = 200, BEHIND_CLOSE_US = 100 };
     const int64_t deadline_ms = now_ms() + 1000LL * timeout_s;
-    bool is_closed = false;
-    while (now_ms() <= deadline_ms) {
-        if (is_closed)
+    bool is_open = true;
+    size_t room = 0;
+    while (now_ms() <= deadline_ms && !caged->is_cut && caged->has_room) {
+        if (!is_open)
             usleep(BEHIND_CLOSE_US);
-        else
-            is_closed = poll(&(struct pollfd){.fd = alive, .events = POLLIN}, 1, LOOK_MS) > 0;
-        if (is_closed && rg_program_has_ended(child, status))
-            return true;
+        else if (poll(&(struct pollfd){.fd = reply, .events = POLLIN}, 1, LOOK_MS) > 0)
+            is_open = take(reply, most_bytes, &room, caged);
+        caged->ended = !is_open && rg_program_has_ended(child, &caged->status);
+        if (caged->ended)
+            return;
     }
     kill(child, SIGKILL);
-    rg_program_wait(child, status);
-    return false;
+    rg_program_wait(child, &caged->status);
 }
 
-int rg_caged_run(const char *const args[], int file, int timeout_s, struct rg_caged *caged)
+// --- the program ---
+
+int rg_caged_run(const char *const args[], int file, int timeout_s, int64_t most_bytes,
+                 struct rg_caged *caged)
 {
-    static char *const no_environment[] = {NULL};
-    int alive[2] = {-1, -1};
-    *caged = (struct rg_caged){.reply = memfd_create("raingauge reply", MFD_CLOEXEC)};
-    int error = caged->reply < 0 || pipe2(alive, O_CLOEXEC) ? errno : 0;
+    static char off[] = RG_CAGE_VARIABLE "=off";
+    const char *const asked = getenv(RG_CAGE_VARIABLE);
+    char *const environment[] = {asked && !strcmp(asked, "off") ? off : NULL, NULL};
+    int reply[2] = {-1, -1};
+    *caged = (struct rg_caged){.has_room = true};
+    if (pipe2(reply, O_CLOEXEC))
+        return errno;
     pid_t child = 0;
-    if (!error) {
-        // The end of `alive` that the process has closes when it ends.
-        error =
-            rg_program_start_in(no_environment, args,
-                                (const int[]){-1, -1, -1, [RG_CAGE_REPLY] = caged->reply,
-                                              [RG_CAGE_ALIVE] = alive[1], [RG_CAGE_FILE] = file},
-                                RG_CAGE_FILE + 1, &child);
-        close(alive[1]);
-    }
+    const int error = rg_program_start_in(
+        environment, args,
+        (const int[]){-1, -1, -1, [RG_CAGE_REPLY] = reply[1], [RG_CAGE_FILE] = file},
+        RG_CAGE_FILE + 1, &child);
+    close(reply[1]);
     if (!error)
-        caged->ended = wait_for_end(child, alive[0], timeout_s, &caged->status);
-    if (alive[0] >= 0)
-        close(alive[0]);
+        attend(child, reply[0], timeout_s, most_bytes, caged);
+    close(reply[0]);
     return error;
 }
 
-bool rg_caged_is_sound(const struct rg_caged *caged, const char *library, char *why, size_t size)
+// How it ended where the machine kept it from its work. False: it did not.
+static bool is_refused(const struct rg_caged *caged, const char *library, char *why, size_t size)
 {
     enum { NOT_LOADED = 127 }; // of the dynamic loader, as of shells
+    char limits[RG_LIMITS_TEXT];
+    const int status = caged->ended && WIFEXITED(caged->status) ? WEXITSTATUS(caged->status) : -1;
+    if (status == RG_CAGE_REFUSED)
+        snprintf(why, size,
+                 "the system gives its reader no cage (seccomp, prctl, capset), as in an emulator; "
+                 "allow these, "
+                 "or set " RG_CAGE_VARIABLE "=off to read files that you trust without one");
+    else if (!caged->has_room || status == RG_CAGE_NO_MEMORY)
+        snprintf(
+            why, size,
+            "no memory for what %s makes of it; close other programs, or allow more (ulimit -v)",
+            library);
+    else if (!caged->is_cut && rg_limits_low(limits))
+        snprintf(why, size, "%s cannot read it %s; allow more", library, limits);
+    else if (status == NOT_LOADED)
+        snprintf(why, size,
+                 "what reads it with %s could not be loaded, as where a library is absent; install "
+                 "raingauge's packages again",
+                 library);
+    else
+        return false;
+    return true;
+}
+
+enum rg_caged_end rg_caged_end(const struct rg_caged *caged, const char *library, char *why,
+                               size_t size)
+{
     const int status = caged->status;
     const bool crashed = WIFSIGNALED(status);
-    if (!caged->ended || (crashed && WTERMSIG(status) == SIGXCPU))
+    if (caged->ended && !status && !caged->is_cut && caged->has_room)
+        return RG_CAGED_SOUND;
+    if (is_refused(caged, library, why, size))
+        return RG_CAGED_MACHINE;
+    if (caged->is_cut)
+        snprintf(why, size, "%s made more of it than it can hold; the file is damaged: repair it",
+                 library);
+    else if (!caged->ended || (crashed && WTERMSIG(status) == SIGXCPU))
         snprintf(why, size,
                  "%s did not come to an end with it in time; the file is damaged or too large: "
                  "repair, convert or reduce it",
@@ -107,14 +165,9 @@ bool rg_caged_is_sound(const struct rg_caged *caged, const char *library, char *
     else if (crashed)
         snprintf(why, size, "%s crashed on it (%s); the file is damaged: repair or convert it",
                  library, strsignal(WTERMSIG(status)));
-    else if (WEXITSTATUS(status) == NOT_LOADED)
-        snprintf(why, size,
-                 "what reads it with %s could not be loaded, as where a library is absent; install "
-                 "raingauge's packages again",
-                 library);
-    else if (WEXITSTATUS(status))
+    else
         snprintf(why, size,
                  "%s ended with status %d on it; the file is damaged: repair or convert it",
                  library, WEXITSTATUS(status));
-    return caged->ended && status == 0;
+    return RG_CAGED_FILE;
 }

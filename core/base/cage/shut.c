@@ -7,6 +7,7 @@
 #include <linux/seccomp.h>
 #include <signal.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -54,8 +55,7 @@ void rg_cage_limit(const struct rg_cage_limits *limits)
         limit(RLIMIT_CPU, SLOWNESS * limits->cpu_s);
     if (limits->memory_bytes && LIMITS_MEMORY)
         limit(RLIMIT_AS, limits->memory_bytes);
-    if (limits->reply_bytes)
-        limit(RLIMIT_FSIZE, limits->reply_bytes);
+    limit(RLIMIT_FSIZE, 0);
 }
 
 // --- privileges ---
@@ -126,7 +126,7 @@ static int allow_with(struct sock_filter *program, unsigned int call, unsigned i
 }
 #endif
 
-bool rg_cage_shut(void)
+static bool shut(void)
 {
 #ifdef ARCHITECTURE
     struct sock_filter program[LENGTH];
@@ -156,4 +156,23 @@ bool rg_cage_shut(void)
 #else
     return drop_capabilities() && !prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
 #endif
+}
+
+bool rg_cage_shut(void)
+{
+    const char *const choice = getenv(RG_CAGE_VARIABLE);
+    return shut() || (choice && !strcmp(choice, "off"));
+}
+
+// --- the reply ---
+
+bool rg_cage_reply(const void *data, size_t bytes)
+{
+    for (size_t done = 0; done < bytes;) {
+        const ssize_t written = write(RG_CAGE_REPLY, (const char *)data + done, bytes - done);
+        if (written < 0 && errno != EINTR)
+            return false;
+        done += written > 0 ? (size_t)written : 0;
+    }
+    return true;
 }

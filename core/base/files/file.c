@@ -125,6 +125,19 @@ FILE *rg_file_append(const char *path, const char **why)
     return NULL;
 }
 
+bool rg_file_copy(int from, int to)
+{
+    char bytes[1 << 16];
+    ssize_t got;
+    for (off_t at = 0; (got = pread(from, bytes, sizeof(bytes), at)) > 0;) {
+        const ssize_t put = write(to, bytes, (size_t)got);
+        if (put < 0)
+            return false;
+        at += put;
+    }
+    return !got;
+}
+
 static bool lead_to_one(const char *a, const char *b)
 {
     struct stat of_a, of_b;

@@ -25,6 +25,9 @@ FILE *rg_file_append(const char *path, const char **why);
 // choose what is overwritten.
 bool rg_file_follow(const char *path, char target[PATH_MAX], const char **why);
 
+// Copies a file from its start to where another stands; errno on failure.
+bool rg_file_copy(int from, int to);
+
 // Whether two paths are one file or folder, also one that neither has made yet. A link is what it
 // leads to.
 bool rg_file_is_same(const char *a, const char *b);

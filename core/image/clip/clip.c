@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/sendfile.h>
 #include <unistd.h>
 
 #include "core/base/alloc.h"
+#include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "core/image/clip/encoder.h"
 #include "core/image/clip/yuv.h"
@@ -53,30 +53,25 @@ bool rg_clip_add(struct rg_clip *clip, const struct rg_picture *picture)
 
 // --- the file ---
 
-static bool copy(int from, off_t bytes, const char *path, struct rg_why *why)
+static bool copy(int from, const char *path, struct rg_why *why)
 {
     const int to = open(path, O_WRONLY | O_CLOEXEC);
-    off_t at = 0;
-    ssize_t copied = 1;
-    while (to >= 0 && at < bytes && copied > 0)
-        copied = sendfile(to, from, &at, (size_t)(bytes - at));
-    bool ok = to >= 0 && at == bytes;
+    bool ok = to >= 0 && rg_file_copy(from, to);
     if (!ok)
-        rg_why_set(why, "cannot be written: %s; make room", strerror(errno));
+        rg_why_unwritten(why, strerror(errno));
     if (to >= 0 && close(to) && ok)
-        ok = rg_why_set(why, "cannot be written: %s; make room", strerror(errno));
+        ok = rg_why_unwritten(why, strerror(errno));
     return ok;
 }
 
 bool rg_clip_finish(struct rg_clip *clip)
 {
-    int64_t bytes;
     struct rg_why why;
     struct rg_temporary temporary;
-    if (!rg_encoder_finish(&clip->encoder, &bytes))
+    if (!rg_encoder_finish(&clip->encoder))
         return false;
     if (rg_temporary_make(clip->path, &temporary, &why)) {
-        const bool written = copy(clip->encoder.coded, bytes, temporary.path, &why);
+        const bool written = copy(clip->encoder.coded, temporary.path, &why);
         if (rg_temporary_end(&temporary, written, &why))
             return true;
     }

@@ -1,21 +1,21 @@
-#define _GNU_SOURCE // memfd_create
+#define _GNU_SOURCE // SOCK_CLOEXEC
 #include "core/image/clip/encoder.h"
 
 #include <errno.h>
 #include <poll.h>
 #include <signal.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "core/base/files/nameless.h"
 #include "core/base/log.h"
 #include "core/base/program.h"
 
-enum { FRAMES_FD = 0, MESSAGES_FD = 2, CODED_FD = 3, FDS };
+enum { FRAMES_FD, CODED_FD, MESSAGES_FD, FDS };
 enum { WAIT_MS = 100 };
 
 // One pass, because frames come once. A constant quality, level 16 of 63: the eye hardly tells a
@@ -36,17 +36,20 @@ static const char *const arguments[] = {
     "--cq-level=16",
     "--color-space=bt709",
     "--threads=8",
-    "--output=/proc/self/fd/3",
+    "--output=-",
     "-",
     NULL,
 };
 
 static bool make_room(struct rg_encoder *e)
 {
-    e->coded = memfd_create("raingauge clip", MFD_CLOEXEC);
-    e->messages = tmpfile();
-    return (e->coded >= 0 && e->messages) ||
-           rg_error("%s: no memory for it: %s; close other programs", e->name, strerror(errno));
+    char why[RG_NAMELESS_WHY] = "close other programs";
+    e->coded = rg_file_nameless(why);
+    const int messages = e->coded < 0 ? -1 : rg_file_nameless(why);
+    e->messages = messages < 0 ? NULL : fdopen(messages, "w+");
+    if (messages >= 0 && !e->messages)
+        close(messages);
+    return e->messages || rg_unsupported("%s: cannot be made: %s", e->name, why);
 }
 
 // A socket, since a write to a pipe that nobody reads would kill this process.
@@ -54,10 +57,11 @@ static bool start(struct rg_encoder *e)
 {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends))
-        return rg_error("%s: no way to hand frames to vpxenc: %s", e->name, strerror(errno));
+        return rg_unsupported("%s: no socket to hand frames to vpxenc (socketpair): %s", e->name,
+                              strerror(errno));
     e->feed = ends[1];
     const int fds[FDS] = {
-        [FRAMES_FD] = ends[0], -1, [MESSAGES_FD] = fileno(e->messages), [CODED_FD] = e->coded};
+        [FRAMES_FD] = ends[0], [CODED_FD] = e->coded, [MESSAGES_FD] = fileno(e->messages)};
     const int error = rg_program_start(arguments, fds, FDS, &e->process);
     close(ends[0]);
     if (!error)
@@ -67,7 +71,8 @@ static bool start(struct rg_encoder *e)
         return rg_unsupported("%s: a clip is made by vpxenc, which is not here; install the Debian "
                               "package vpx-tools, or write pictures (-o NAME-%%04d.png)",
                               e->name);
-    return rg_driver_error("%s: vpxenc could not be started: %s", e->name, strerror(error));
+    return rg_unsupported("%s: vpxenc could not be started: %s; %s", e->name, strerror(error),
+                          rg_program_mend(error));
 }
 
 bool rg_encoder_start(struct rg_encoder *e, const char *name, double patience_s, bool (*stop)(void))
@@ -171,7 +176,7 @@ static bool has_read_all(const struct rg_encoder *e)
     return getsockopt(e->feed, SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0;
 }
 
-bool rg_encoder_finish(struct rg_encoder *e, int64_t *file_bytes)
+bool rg_encoder_finish(struct rg_encoder *e)
 {
     int status = 0;
     struct stat st;
@@ -181,7 +186,6 @@ bool rg_encoder_finish(struct rg_encoder *e, int64_t *file_bytes)
         return false;
     if (status || !has_read_all(e) || fstat(e->coded, &st) || st.st_size == 0)
         return tell_end(e, status);
-    *file_bytes = st.st_size;
     return true;
 }
 

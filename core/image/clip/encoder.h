@@ -32,7 +32,7 @@ bool rg_encoder_start(struct rg_encoder *encoder, const char *name, double patie
 bool rg_encoder_feed(struct rg_encoder *encoder, const void *data, size_t bytes);
 // Says that there are no more, and waits until it has made its file, from the start of `coded`.
 // False, and one logged line, where it failed.
-bool rg_encoder_finish(struct rg_encoder *encoder, int64_t *file_bytes);
+bool rg_encoder_finish(struct rg_encoder *encoder);
 // Kills it where it still runs, and frees what it holds.
 void rg_encoder_end(struct rg_encoder *encoder);
 

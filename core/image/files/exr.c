@@ -262,6 +262,5 @@ bool rg_exr_write(const char *path, const struct rg_picture *picture,
     exr_result_t finished = exr_finish(&exr);
     if (code == EXR_ERR_SUCCESS)
         code = finished;
-    return code == EXR_ERR_SUCCESS ||
-           rg_why_set(why, "cannot be written: %s; make room", exr_get_default_error_message(code));
+    return code == EXR_ERR_SUCCESS || rg_why_unwritten(why, exr_get_default_error_message(code));
 }

@@ -25,7 +25,8 @@ bool rg_oiio_read(const char *path, int64_t file_bytes, struct rg_picture *pictu
                   struct rg_why *why);
 // What the reader's process handed back of a file of so many bytes (core/image/reader/reply.h). The
 // picture may hold texels where the reply turns out to be cut; the caller destroys it either way.
-bool rg_oiio_take_reply(int fd, int64_t file_bytes, struct rg_picture *picture, struct rg_why *why);
+bool rg_oiio_take_reply(const void *reply, size_t bytes, int64_t file_bytes,
+                        struct rg_picture *picture, struct rg_why *why);
 bool rg_oiio_write_hdr(const char *path, const struct rg_picture *picture,
                        const struct rg_write_options *options, struct rg_why *why);
 bool rg_oiio_write_tiff(const char *path, const struct rg_picture *picture,

@@ -110,7 +110,7 @@ bool rg_pictures_read(const char *const *paths, struct rg_picture *pictures, int
     bool told = false;
     for (int i = 0; i < count; i++) {
         if (failed && pictures[i].texels == NULL && !told)
-            told = !rg_error("%s: %s", paths[i], why[i].text);
+            told = !rg_why_tell(&why[i], paths[i]);
         if (failed)
             rg_picture_destroy(&pictures[i]);
         else if (!was_named_before(paths, i))

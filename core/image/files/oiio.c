@@ -6,10 +6,12 @@
 #include <limits.h>
 #include <pthread.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "core/base/cage/cage.h"
+#include "core/base/program.h"
 #include "core/image/files/format.h"
 #include "core/image/reader/reply.h"
 #include "core/image/srgb.h"
@@ -56,59 +58,57 @@ static bool decode(struct rg_picture *picture)
 
 // --- reading, in the reader's process ---
 
-static bool take_texels(int fd, const struct rg_picture_reply *reply, struct rg_picture *picture,
-                        struct rg_why *why)
+bool rg_oiio_take_reply(const void *reply, size_t bytes, int64_t file_bytes,
+                        struct rg_picture *picture, struct rg_why *why)
 {
-    const int64_t bytes = rg_picture_reply_values(reply) * (int64_t)sizeof(float);
-    for (int64_t done = 0; done < bytes;) {
-        const ssize_t got = pread(fd, (char *)picture->texels + done, (size_t)(bytes - done),
-                                  (off_t)((int64_t)sizeof(*reply) + done));
-        if (got == 0 || (got < 0 && errno != EINTR))
-            return rg_why_set(why, "raingauge_picture_reader handed back a part of it; build "
-                                   "raingauge again");
-        done += got > 0 ? got : 0;
-    }
-    return reply->integer ? decode(picture) : true;
-}
-
-bool rg_oiio_take_reply(int fd, int64_t file_bytes, struct rg_picture *picture, struct rg_why *why)
-{
-    struct rg_picture_reply reply;
-    if (pread(fd, &reply, sizeof(reply), 0) != (ssize_t)sizeof(reply) ||
-        reply.magic != RG_PICTURE_REPLY_MAGIC)
+    struct rg_picture_reply header;
+    if (bytes < sizeof(header))
+        return rg_why_set(why, "raingauge_picture_reader gave no reply; build raingauge again");
+    memcpy(&header, reply, sizeof(header));
+    if (header.magic != RG_PICTURE_REPLY_MAGIC)
         return rg_why_set(why, "raingauge_picture_reader is of another version; build raingauge "
                                "again");
-    reply.why[sizeof(reply.why) - 1] = 0;
-    if (reply.why[0])
-        return rg_why_set(why, "cannot be read: %s; write it again", reply.why);
-    if (!rg_picture_reply_fits(&reply, file_bytes))
+    header.why[sizeof(header.why) - 1] = 0;
+    if (header.why[0])
+        return rg_why_set(why, "cannot be read: %s; write it again", header.why);
+    if (!rg_picture_reply_fits(&header, file_bytes))
         return rg_why_set(
             why, "promises %.0f values, more than its %lld bytes can hold; write it again",
-            (double)reply.width * reply.height * reply.channels, (long long)file_bytes);
-    return rg_picture_allocate(picture, reply.width, reply.height, reply.channels, why->text,
-                               sizeof(why->text)) &&
-           take_texels(fd, &reply, picture, why);
+            (double)header.width * header.height * header.channels, (long long)file_bytes);
+    if (!rg_picture_allocate(picture, header.width, header.height, header.channels, why->text,
+                             sizeof(why->text)))
+        return false;
+    const size_t texels_bytes = (size_t)rg_picture_reply_values(&header) * sizeof(float);
+    if (bytes - sizeof(header) != texels_bytes)
+        return rg_why_set(why, "raingauge_picture_reader handed back a part of it; build "
+                               "raingauge again");
+    memcpy(picture->texels, (const char *)reply + sizeof(header), texels_bytes);
+    return header.integer ? decode(picture) : true;
 }
 
 static bool read_caged(const char *path, int file, int64_t file_bytes, struct rg_picture *picture,
                        struct rg_why *why)
 {
-    char program[PATH_MAX];
+    char program[PATH_MAX], name[32];
     struct rg_caged caged;
     if (!rg_caged_find("raingauge_picture_reader", program, sizeof(program)))
         return rg_why_set(why,
                           "raingauge_picture_reader is not beside raingauge; install it again");
     const char *extension = strrchr(path, '.');
-    char name[32];
     snprintf(name, sizeof(name), "picture%s", extension ? extension : "");
-    const int error = rg_caged_run((const char *const[]){program, name, NULL}, file,
-                                   (int)(60 + file_bytes / 1000000), &caged);
-    const bool good =
-        error ? rg_why_set(why, "%s could not be started: %s", program, strerror(error))
-              : rg_caged_is_sound(&caged, "OpenImageIO", why->text, sizeof(why->text)) &&
-                    rg_oiio_take_reply(caged.reply, file_bytes, picture, why);
-    if (caged.reply >= 0)
-        close(caged.reply);
+    const int error = rg_caged_run(
+        (const char *const[]){program, name, NULL}, file, (int)(60 + file_bytes / 1000000),
+        (int64_t)sizeof(struct rg_picture_reply) + RG_PICTURE_MAX_BYTES, &caged);
+    const enum rg_caged_end end =
+        error ? RG_CAGED_MACHINE
+              : rg_caged_end(&caged, "OpenImageIO", why->text, sizeof(why->text));
+    if (error)
+        rg_why_refused(why, "%s could not be started: %s; %s", program, strerror(error),
+                       rg_program_mend(error));
+    why->is_machine = end == RG_CAGED_MACHINE;
+    const bool good = end == RG_CAGED_SOUND &&
+                      rg_oiio_take_reply(caged.reply, caged.bytes, file_bytes, picture, why);
+    free(caged.reply);
     return good;
 }
 
@@ -134,7 +134,7 @@ static bool write_as(const char *path, const char *format, const struct rg_pictu
     char reason[400];
     return oiio && (oiio->write(path, format, picture->width, picture->height, picture->channels,
                                 picture->texels, reason, sizeof(reason)) ||
-                    rg_why_set(why, "cannot be written: %s", reason));
+                    rg_why_unwritten(why, reason));
 }
 
 bool rg_oiio_write_hdr(const char *path, const struct rg_picture *picture,

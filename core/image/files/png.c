@@ -221,7 +221,7 @@ bool rg_png_write(const char *path, const struct rg_picture *picture,
                          : rg_why_set(why, "no memory for the PNG writer");
     png_destroy_write_struct(&job.png, &job.info);
     if (fclose(job.file) && good)
-        good = rg_why_set(why, "cannot be written: %s; make room", strerror(errno));
+        good = rg_why_unwritten(why, strerror(errno));
     job.file = NULL;
     release(&job);
     return good;

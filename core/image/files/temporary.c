@@ -91,11 +91,6 @@ static mode_t first_mode(const struct rg_temporary *t)
     return t->mode ? S_IRUSR | S_IWUSR : 0666;
 }
 
-static bool is_unknown_here(int error)
-{
-    return error == EOPNOTSUPP || error == EISDIR || error == EINVAL;
-}
-
 static int open_nameless(struct rg_temporary *t)
 {
     char folder[PATH_MAX];
@@ -134,7 +129,7 @@ bool rg_temporary_make(const char *path, struct rg_temporary *temporary, struct 
     if (!find_target(path, temporary->target, &temporary->mode, why))
         return false;
     int error = open_nameless(temporary);
-    if (is_unknown_here(error))
+    if (error) // some file systems know no such files, and some containers refuse them
         error = open_named(temporary);
     if (error == ENOTDIR)
         return rg_why_set(why, "cannot be written: %s; name a folder", strerror(error));
@@ -148,15 +143,35 @@ bool rg_temporary_make(const char *path, struct rg_temporary *temporary, struct 
 
 // --- putting it in place ---
 
-// Only a file that is there already needs a name for a moment: a link replaces none.
-static bool put_in_place(const struct rg_temporary *t)
+static bool give_mode(const struct rg_temporary *t)
 {
     if (t->mode) // fails where a file system has no modes: all files are alike there
         fchmod(t->fd, t->mode & 0777);
-    if (t->is_named)
-        return !rename(t->path, t->target);
-    if (!linkat(AT_FDCWD, t->path, AT_FDCWD, t->target, AT_SYMLINK_FOLLOW))
+    return true;
+}
+
+// Copies a file without a name to one that has a name, where the system gives it none (linkat): it
+// is `t` from then on.
+static bool copy_to_name(struct rg_temporary *t)
+{
+    const int from = t->fd;
+    int error = open_named(t);
+    if (!error && !rg_file_copy(from, t->fd))
+        error = errno;
+    close(from);
+    errno = error;
+    return !error && give_mode(t);
+}
+
+// Only a file that is there already needs a name for a moment: a link replaces none.
+static bool put_in_place(struct rg_temporary *t)
+{
+    give_mode(t);
+    if (!t->is_named && !linkat(AT_FDCWD, t->path, AT_FDCWD, t->target, AT_SYMLINK_FOLLOW))
         return true;
+    const bool is_refused = !t->is_named && errno != EEXIST;
+    if (t->is_named || is_refused)
+        return (t->is_named || copy_to_name(t)) && !rename(t->path, t->target);
     char name[PATH_MAX];
     for (int attempt = 0; errno == EEXIST && attempt < MAX_NAMES; attempt++) {
         name_beside(t->target, attempt, name, sizeof(name));

@@ -7,9 +7,10 @@
 #include <OpenImageIO/imageio.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <memory>
-#include <sys/mman.h>
+#include <new>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,6 +27,7 @@ namespace
 {
 
 rg_picture_reply reply = {RG_PICTURE_REPLY_MAGIC, 0, 0, 0, 0, 0, ""};
+float *texels; // NULL: none
 
 bool refuse(const std::string &why)
 {
@@ -42,7 +44,6 @@ void set_limits(int64_t file_bytes)
     rg_cage_limits limits = {};
     limits.cpu_s = 20 + file_bytes / 20000000;
     limits.memory_bytes = ((int64_t)4 << 30) + 2 * texels;
-    limits.reply_bytes = (int64_t)sizeof(reply) + texels;
     rg_cage_limit(&limits);
 }
 
@@ -63,16 +64,11 @@ bool describe(const ImageSpec &spec)
     return (spec.depth <= 1 && !spec.deep) || refuse("is a volume or deep; flatten it");
 }
 
-// Straight into the memory that both processes share.
 bool read_texels(ImageInput *input)
 {
-    const size_t bytes = sizeof(reply) + (size_t)rg_picture_reply_values(&reply) * sizeof(float);
-    if (ftruncate(RG_CAGE_REPLY, (off_t)bytes))
-        return refuse("no memory for its texels");
-    void *shared = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, RG_CAGE_REPLY, 0);
-    if (shared == MAP_FAILED)
-        return refuse("no memory for its texels");
-    float *texels = reinterpret_cast<float *>(static_cast<char *>(shared) + sizeof(reply));
+    texels = static_cast<float *>(calloc((size_t)rg_picture_reply_values(&reply), sizeof(float)));
+    if (!texels)
+        _exit(RG_CAGE_NO_MEMORY);
     return (input->read_image(0, 0, 0, reply.channels, TypeDesc::FLOAT, texels) &&
             !input->has_error()) ||
            refuse(input->geterror());
@@ -93,6 +89,8 @@ try {
     if (!rg_picture_reply_is_possible(&reply) || !rg_picture_reply_fits(&reply, file_bytes))
         return true; // the receiver says so
     return read_texels(input.get());
+} catch (const std::bad_alloc &) {
+    _exit(RG_CAGE_NO_MEMORY);
 } catch (const std::exception &e) {
     return refuse(e.what());
 }
@@ -109,9 +107,10 @@ int main(int argc, char **argv)
     set_limits(st.st_size);
     set_library();
     if (!rg_cage_shut())
-        refuse("the system gives its reader no cage (seccomp); use a kernel with it");
-    else
-        read_picture(argv[1], st.st_size);
-    const bool put = pwrite(RG_CAGE_REPLY, &reply, sizeof(reply), 0) == (ssize_t)sizeof(reply);
+        _exit(RG_CAGE_REFUSED);
+    const bool is_read = read_picture(argv[1], st.st_size) && texels;
+    const size_t values = is_read ? (size_t)rg_picture_reply_values(&reply) : 0;
+    const bool put =
+        rg_cage_reply(&reply, sizeof(reply)) && rg_cage_reply(texels, values * sizeof(float));
     _exit(put ? 0 : 1); // not exit: destructors of libraries are not part of the work
 }

@@ -3,14 +3,15 @@
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/base/cage/cage.h"
 #include "core/base/log.h"
 #include "core/base/memory.h"
+#include "core/base/program.h"
 #include "core/scene/mesh/reply.h"
 
 // --- the reply ---
@@ -39,20 +40,6 @@ struct rg_mesh *rg_mesh_from_reply(const char *name, const void *reply, size_t b
                           (const uint32_t *)(normals + 3 * vertices));
 }
 
-static struct rg_mesh *map_reply(const char *name, int fd)
-{
-    struct stat st;
-    if (fstat(fd, &st) || st.st_size == 0)
-        return rg_mesh_from_reply(name, NULL, 0);
-    const size_t bytes = (size_t)st.st_size;
-    void *reply = mmap(NULL, bytes, PROT_READ, MAP_PRIVATE, fd, 0);
-    if (reply == MAP_FAILED)
-        return rg_error_null("%s: no memory for %zu bytes: %s", name, bytes, strerror(errno));
-    struct rg_mesh *mesh = rg_mesh_from_reply(name, reply, bytes);
-    munmap(reply, bytes);
-    return mesh;
-}
-
 // --- the process ---
 
 struct rg_mesh *rg_mesh_read_by(const char *program, int timeout_s, const char *name,
@@ -61,16 +48,20 @@ struct rg_mesh *rg_mesh_read_by(const char *program, int timeout_s, const char *
     char why[300];
     struct rg_caged caged;
     struct rg_mesh *mesh = NULL;
-    const int error =
-        rg_caged_run((const char *const[]){program, path, member, NULL}, -1, timeout_s, &caged);
+    const int error = rg_caged_run((const char *const[]){program, path, member, NULL}, -1,
+                                   timeout_s, RG_IMPORT_MAX_MEMORY_BYTES, &caged);
+    const enum rg_caged_end end =
+        error ? RG_CAGED_MACHINE : rg_caged_end(&caged, "Assimp", why, sizeof(why));
     if (error)
-        rg_error("%s: %s could not be started: %s", name, program, strerror(error));
-    else if (!rg_caged_is_sound(&caged, "Assimp", why, sizeof(why)))
+        rg_unsupported("%s: %s could not be started: %s; %s", name, program, strerror(error),
+                       rg_program_mend(error));
+    else if (end == RG_CAGED_MACHINE)
+        rg_unsupported("%s: %s", name, why);
+    else if (end == RG_CAGED_FILE)
         rg_error("%s: %s", name, why);
     else
-        mesh = map_reply(name, caged.reply);
-    if (caged.reply >= 0)
-        close(caged.reply);
+        mesh = rg_mesh_from_reply(name, caged.reply, caged.bytes);
+    free(caged.reply);
     return mesh;
 }
 

@@ -75,8 +75,7 @@ static int run_line(const char *line, bool prints_here)
     const int error = rg_program_start(args, fds, 3, &child);
     if (!error)
         return wait_for(child);
-    rg_error("/bin/sh: cannot be started: %s; %s", strerror(error),
-             error == E2BIG ? "give it fewer or shorter variables" : "close other programs");
+    rg_unsupported("/bin/sh: cannot be started: %s; %s", strerror(error), rg_program_mend(error));
     return -1;
 }
 

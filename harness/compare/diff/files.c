@@ -37,10 +37,10 @@ int rg_diff_files(const struct rg_diff_request *request)
     else if (good)
         rg_pair_print(request->a, request->b, &comparison);
     const enum rg_outcome outcome = good ? rg_comparison_outcome(&comparison, RG_T0) : RG_ERROR;
-    const int status = !good                   ? RG_EXIT_USAGE
-                       : outcome == RG_NOTHING ? RG_EXIT_NOTHING
-                       : outcome == RG_OK      ? RG_EXIT_PASS
-                                               : RG_EXIT_FAIL;
+    int status = !good                   ? rg_exit_of_error()
+                 : outcome == RG_NOTHING ? RG_EXIT_NOTHING
+                 : outcome == RG_OK      ? RG_EXIT_PASS
+                                         : RG_EXIT_FAIL;
     if (status == RG_EXIT_NOTHING)
         rg_error("%s: has no rain before %s, nor has %s, so that nothing is compared; name "
                  "pictures with rain, or leave --background out",

@@ -5,120 +5,169 @@
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "harness/console/clock.h"
+#include "core/base/files/nameless.h"
 
-enum { LEAST_BYTES = 1 << 16 }; // of a segment for messages
-enum { PIECE_BYTES = 1 << 26 }; // are copied between two looks at the clock
+// --- the page ---
 
-// What the socket carries: where the message is.
-struct notice {
-    int64_t size;
-    int segment, unused; // so that no byte of it is left unset
-};
+// The page in a file, or one of this process alone where there is none: then nobody sees what the
+// worker does, and how long it has been at that is counted from its last message.
+static struct rg_doing *map(int page)
+{
+    const int shared = page < 0 ? MAP_PRIVATE | MAP_ANONYMOUS : MAP_SHARED;
+    void *bytes = mmap(NULL, sizeof(struct rg_doing), PROT_READ | PROT_WRITE, shared, page, 0);
+    return bytes != MAP_FAILED ? bytes : page < 0 ? NULL : map(-1);
+}
 
-int rg_channel_create(struct rg_channel *channel, int *theirs)
+// A file for the page; -1 where there can be none, as with ulimit -f 0. It has as few bytes as it
+// needs, and zeros are written, which no filter of system calls refuses.
+static int make_page(void)
+{
+    static const char zeros[sizeof(struct rg_doing)];
+    char why[RG_NAMELESS_WHY];
+    const int page = rg_file_nameless(why);
+    if (page < 0 || write(page, zeros, sizeof(zeros)) == sizeof(zeros))
+        return page;
+    close(page);
+    return -1;
+}
+
+// --- opening and closing ---
+
+int rg_channel_create(struct rg_channel *channel, int theirs[2])
 {
     int sockets[2];
     *channel = (struct rg_channel){.socket = -1};
-    *theirs = -1;
-    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets))
+    theirs[0] = theirs[1] = -1;
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets))
         return errno;
     channel->socket = sockets[0];
-    *theirs = sockets[1];
-    return rg_segment_create(&channel->doing, sizeof(struct rg_doing));
+    theirs[0] = sockets[1];
+    theirs[1] = make_page();
+    channel->doing = map(theirs[1]);
+    return channel->doing ? 0 : ENOMEM;
 }
 
-bool rg_channel_join(struct rg_channel *channel, int socket, int doing_id)
+bool rg_channel_join(struct rg_channel *channel, int socket, int page)
 {
-    *channel = (struct rg_channel){.socket = socket};
-    return rg_segment_join(&channel->doing, doing_id) &&
-           channel->doing.size >= (int64_t)sizeof(struct rg_doing);
+    *channel = (struct rg_channel){
+        .socket = socket, .patience_ms = -1, .most_bytes = INT64_MAX, .doing = map(page)};
+    close(page);
+    return channel->doing;
 }
 
 void rg_channel_close(struct rg_channel *channel)
 {
-    rg_segment_free(&channel->doing);
-    rg_segment_free(&channel->sent);
-    rg_segment_free(&channel->taken);
+    if (channel->doing)
+        munmap(channel->doing, sizeof(*channel->doing));
+    channel->doing = NULL;
+    rg_message_free(&channel->taken);
+    channel->taken_bytes = 0;
     if (channel->socket >= 0)
         close(channel->socket);
     channel->socket = -1;
 }
 
-// Room for messages of this size and for ones that are not much larger.
-static bool make_room(struct rg_segment *segment, int64_t size)
+// --- sending ---
+
+static bool send_bytes(const struct rg_channel *channel, const void *bytes, int64_t size)
 {
-    if (size <= segment->size)
-        return true;
-    int64_t room = LEAST_BYTES;
-    while (room < size)
-        room += room / 2;
-    return !rg_segment_create(segment, room);
+    for (const char *at = bytes, *end = at + size; at < end;) {
+        struct pollfd ready = {.fd = channel->socket, .events = POLLOUT};
+        const ssize_t sent =
+            send(channel->socket, at, (size_t)(end - at), MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent > 0)
+            at += sent;
+        else if (errno == EAGAIN && !poll(&ready, 1, channel->patience_ms))
+            return errno = ETIMEDOUT, false;
+        else if (errno != EAGAIN && errno != EINTR)
+            return false;
+    }
+    return true;
 }
 
 bool rg_channel_send(struct rg_channel *channel, const struct rg_message *head,
                      const struct rg_message *body)
 {
     const int64_t size = head->size + body->size;
-    if (head->failed || body->failed || !make_room(&channel->sent, size))
-        return false;
-    const struct notice notice = {size, channel->sent.id, 0};
-    memcpy(channel->sent.bytes, head->bytes, (size_t)head->size);
-    if (body->size)
-        memcpy((char *)channel->sent.bytes + head->size, body->bytes, (size_t)body->size);
-    ssize_t sent;
-    do
-        sent = send(channel->socket, &notice, sizeof(notice), MSG_NOSIGNAL);
-    while (sent < 0 && errno == EINTR);
-    return sent == sizeof(notice);
+    return !head->failed && !body->failed && send_bytes(channel, &size, sizeof(size)) &&
+           send_bytes(channel, head->bytes, head->size) &&
+           send_bytes(channel, body->bytes, body->size);
 }
 
-// Memory that nobody has written yet is made as it is read, so that a copy takes long which is
-// larger than what was sent.
-static bool copy(const struct rg_channel *channel, char *to, int64_t size)
+// --- receiving ---
+
+// Memory for more of a message: no more than twice of what has come, for its size may be a lie.
+static bool make_room(struct rg_channel *channel)
 {
-    const double end_ms = rg_now_ms() + channel->patience_ms;
-    for (int64_t at = 0; at < size; at += PIECE_BYTES) {
-        const int64_t piece = size - at < PIECE_BYTES ? size - at : PIECE_BYTES;
-        memcpy(to + at, (const char *)channel->taken.bytes + at, (size_t)piece);
-        if (channel->patience_ms > 0 && rg_now_ms() > end_ms)
-            return false;
-    }
+    enum { LEAST_BYTES = 1 << 16 };
+    struct rg_message *taken = &channel->taken;
+    if (taken->size < taken->room)
+        return true;
+    int64_t room = taken->room ? 2 * taken->room : LEAST_BYTES;
+    if (room > channel->taken_size)
+        room = channel->taken_size;
+    char *bytes = realloc(taken->bytes, (size_t)room + 1);
+    if (!bytes)
+        return false;
+    taken->bytes = bytes;
+    taken->room = room;
     return true;
 }
 
-// The notice was sent by a process that a driver may have damaged.
-static bool take(struct rg_channel *channel, struct rg_message *message,
-                 const struct notice *notice)
+// Takes what is there, of the size before a message first. What the kernel says of it.
+static ssize_t take(struct rg_channel *channel)
 {
-    struct rg_segment *taken = &channel->taken;
-    if ((!taken->bytes || taken->id != notice->segment) && !rg_segment_join(taken, notice->segment))
-        return false;
-    if (notice->size < 0 || notice->size > taken->size ||
-        (channel->most_bytes && notice->size > channel->most_bytes))
-        return false;
-    message->bytes = malloc((size_t)notice->size + 1);
-    message->size = message->room = notice->size;
-    return message->bytes && copy(channel, message->bytes, notice->size);
+    struct rg_message *taken = &channel->taken;
+    const int64_t before = (int64_t)sizeof(channel->taken_size);
+    const bool is_size = channel->taken_bytes < before;
+    void *to =
+        is_size ? (char *)&channel->taken_size + channel->taken_bytes : taken->bytes + taken->size;
+    const int64_t most = is_size ? before - channel->taken_bytes : taken->room - taken->size;
+    const ssize_t got = recv(channel->socket, to, (size_t)most, MSG_DONTWAIT);
+    if (got > 0)
+        channel->taken_bytes += got;
+    if (got > 0 && !is_size)
+        taken->size += got;
+    return got;
+}
+
+// How far the message has come. Its size was sent by a process that a driver may have damaged.
+static enum rg_arrival look(struct rg_channel *channel)
+{
+    if (channel->taken_bytes < (int64_t)sizeof(channel->taken_size))
+        return RG_NOT_YET;
+    if (channel->taken_size < 0 || channel->taken_size > channel->most_bytes)
+        return RG_DAMAGED;
+    if (channel->taken.size == channel->taken_size && channel->taken.bytes)
+        return RG_ARRIVED;
+    if (!make_room(channel))
+        return RG_NO_ROOM;
+    return channel->taken_size ? RG_NOT_YET : RG_ARRIVED;
 }
 
 enum rg_arrival rg_channel_receive(struct rg_channel *channel, struct rg_message *message,
                                    int timeout_ms)
 {
     struct pollfd waited = {.fd = channel->socket, .events = POLLIN};
-    struct notice notice;
+    enum rg_arrival arrival = RG_NOT_YET;
     *message = (struct rg_message){0};
-    const int ready = poll(&waited, 1, timeout_ms);
-    if (ready == 0 || (ready < 0 && errno == EINTR))
-        return RG_NOT_YET;
-    const ssize_t got = ready < 0 ? -1 : recv(channel->socket, &notice, sizeof(notice), 0);
-    if (got < 0 && errno == EINTR)
-        return RG_NOT_YET;
-    if (got == sizeof(notice) && take(channel, message, &notice))
-        return RG_ARRIVED;
-    rg_message_free(message);
-    return got > 0 ? RG_DAMAGED : RG_ENDED;
+    while (arrival == RG_NOT_YET) {
+        const int ready = poll(&waited, 1, timeout_ms);
+        if (ready == 0 || (ready < 0 && errno == EINTR))
+            return RG_NOT_YET;
+        const ssize_t got = ready < 0 ? 0 : take(channel);
+        if (got == 0 || (got < 0 && errno != EINTR && errno != EAGAIN))
+            return RG_ENDED;
+        arrival = look(channel);
+    }
+    if (arrival == RG_ARRIVED) {
+        *message = channel->taken;
+        channel->taken = (struct rg_message){0};
+        channel->taken_bytes = 0;
+    }
+    return arrival;
 }

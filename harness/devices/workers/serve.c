@@ -49,14 +49,13 @@ static bool send_reply(struct rg_channel *channel, bool ok, const struct rg_mess
 static bool serve_one(struct rg_channel *channel, rg_service *const services[],
                       struct rg_message *request, enum rg_call *call)
 {
-    struct rg_doing *const doing = channel->doing.bytes;
     struct rg_message result = {0};
     *call = (enum rg_call)rg_take_index(request, RG_CALL_COUNT_OF_CALLS);
     rg_doing_begin(rg_call_doing(*call), "");
     const bool ok = !request->failed &&
                     (services[*call] || rg_error("a worker does not serve this call")) &&
                     services[*call](request, &result) && !request->failed && !result.failed;
-    atomic_store(&doing->taken_bytes, rg_memory_taken());
+    atomic_store(&channel->doing->taken_bytes, rg_memory_taken());
     const bool sent = send_reply(channel, ok, &result);
     rg_message_free(&result);
     return sent;
@@ -80,19 +79,17 @@ int rg_serve(const char *argument, rg_service *const services[RG_CALL_COUNT_OF_C
 {
     struct rg_channel channel;
     long harness = 0;
-    int doing_id = 0;
     struct rg_message request;
     enum rg_call call = RG_CALL_OPEN;
-    if (sscanf(argument, RG_WORKER_CHANNEL, &harness, &doing_id) != 2 ||
-        !become_a_worker((pid_t)harness) ||
-        !rg_channel_join(&channel, RG_WORKER_SOCKET, doing_id)) {
+    if (sscanf(argument, RG_WORKER_CHANNEL, &harness) != 1 || !become_a_worker((pid_t)harness) ||
+        !rg_channel_join(&channel, RG_WORKER_SOCKET, RG_WORKER_PAGE)) {
         rg_error("worker '%s': raingauge starts its workers itself; `raingauge --help` lists what "
                  "there is to start",
                  argument);
         return RG_EXIT_USAGE;
     }
     rg_log_listen(keep_line, NULL);
-    rg_doing_share(channel.doing.bytes);
+    rg_doing_share(channel.doing);
     bool goes_on = true;
     while (goes_on && call != RG_CALL_CLOSE) {
         const enum rg_arrival arrival = rg_channel_receive(&channel, &request, -1);

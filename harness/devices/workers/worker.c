@@ -1,4 +1,4 @@
-#define _GNU_SOURCE // memfd_create
+#define _GNU_SOURCE // usleep
 #include "harness/devices/workers/worker.h"
 
 #include <errno.h>
@@ -7,15 +7,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/base/alloc.h"
+#include "core/base/files/nameless.h"
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "core/base/program.h"
+#include "core/base/text/limits.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/workers/channel.h"
@@ -44,6 +45,7 @@ struct rg_worker {
     bool is_interrupted;  // it was told so
     bool is_closed;       // its device was
     bool closed_badly;    // something on it was not
+    bool was_open;        // its device, in this life or one before
     int64_t memory_bytes; // that its process may hold
     int64_t taken_bytes;  // of them counted here (core/base/memory.h)
     int life;
@@ -77,6 +79,8 @@ static bool tell_loss(const struct rg_worker *worker, enum rg_outcome outcome, c
         return rg_crash_error("device '%s': %s", worker->name, why);
     if (outcome == RG_TIMEOUT)
         return rg_timeout_error("device '%s': %s", worker->name, why);
+    if (outcome == RG_UNSUPPORTED)
+        return rg_unsupported("device '%s': %s", worker->name, why);
     return rg_driver_error("device '%s': %s", worker->name, why);
 }
 
@@ -144,40 +148,85 @@ int64_t rg_worker_grant(struct rg_worker *worker)
     return rg_memory_grant(worker->taken_bytes);
 }
 
-// False, with the reason in `why`, or one logged line where it is the user's, on failure.
-static bool start(struct rg_worker *worker, char *why, size_t size)
+// What comes of what the machine refuses: the device is not to be had here. One that was opened
+// before is missed, though, and is not left out.
+static enum rg_outcome refused(const struct rg_worker *worker)
 {
-    char argument[40];
-    int theirs;
-    const int printed = memfd_create("raingauge worker's output", MFD_CLOEXEC);
-    char **environment = rg_environment_with(worker->environment);
-    int error = rg_channel_create(&worker->channel, &theirs);
-    worker->printed = printed < 0 ? NULL : fdopen(printed, "w+");
-    fcntl(printed, F_SETFL, O_APPEND); // goes on at the end, wherever that has come to be
-    if (!error && (!worker->printed || !environment))
-        error = ENOMEM;
-    snprintf(argument, sizeof(argument), RG_WORKER_CHANNEL, (long)getpid(),
-             worker->channel.doing.id);
+    return worker->was_open ? RG_ERROR : RG_UNSUPPORTED;
+}
+
+// The file that the process prints into. It goes on at the end, wherever that has come to be.
+static bool make_printed(struct rg_worker *worker, char why[RG_NAMELESS_WHY])
+{
+    const int file = rg_file_nameless(why);
+    if (file < 0)
+        return false;
+    fcntl(file, F_SETFL, O_APPEND);
+    worker->printed = fdopen(file, "w+");
+    if (worker->printed)
+        return true;
+    close(file);
+    snprintf(why, RG_NAMELESS_WHY, "no memory for what it prints; close other programs");
+    return false;
+}
+
+static bool make_channel(struct rg_channel *channel, int theirs[2], char why[RG_NAMELESS_WHY])
+{
+    const int error = rg_channel_create(channel, theirs);
+    if (error)
+        snprintf(why, RG_NAMELESS_WHY, "no socket to it (socketpair): %s; %s", strerror(error),
+                 rg_program_mend(error));
+    return !error;
+}
+
+// Starts it with its ends of the channel. 0, or the errno.
+static int start_program(struct rg_worker *worker, const int theirs[2])
+{
+    char argument[24];
+    const int printed = fileno(worker->printed);
+    const int fds[RG_WORKER_FDS] = {
+        -1, printed, printed, [RG_WORKER_SOCKET] = theirs[0], [RG_WORKER_PAGE] = theirs[1]};
+    snprintf(argument, sizeof(argument), RG_WORKER_CHANNEL, (long)getpid());
     const char *const other = program_of(worker);
     const char *const args[] = {other ? other : rg_workers.program, RG_WORKER_ARGUMENT, argument,
                                 NULL};
-    if (!error)
-        error = rg_program_start_in(environment, args, (const int[]){-1, printed, printed, theirs},
-                                    4, &worker->process);
+    char **environment = rg_environment_with(worker->environment);
+    const int error =
+        environment ? rg_program_start_in(environment, args, fds, RG_WORKER_FDS, &worker->process)
+                    : ENOMEM;
     free(environment);
-    if (theirs >= 0)
-        close(theirs);
-    if (!error) {
+    return error;
+}
+
+// False, with the reason in `why`, or one logged line where it is the user's, on failure. A process
+// that the machine refuses says nothing of the driver.
+static bool start(struct rg_worker *worker, char *why, size_t size)
+{
+    char lack[RG_NAMELESS_WHY];
+    int theirs[2] = {-1, -1};
+    const bool has_means =
+        make_printed(worker, lack) && make_channel(&worker->channel, theirs, lack);
+    const int error = has_means ? start_program(worker, theirs) : 0;
+    for (int i = 0; i < 2; i++)
+        if (theirs[i] >= 0)
+            close(theirs[i]);
+    if (has_means && !error) {
         limit_memory(worker);
+        worker->channel.most_bytes = worker->memory_bytes;
+        worker->channel.patience_ms = 1000 * rg_workers.timeout_s;
         worker->life++;
         return true;
     }
     forget_process(worker);
-    worker->end = RG_ERROR;
-    if (other)
+    worker->end = refused(worker);
+    if (has_means && program_of(worker)) {
+        worker->end = RG_ERROR;
         return rg_error("device '%s': " RG_WORKER_PROGRAM "=%s cannot be started: %s", worker->name,
-                        other, strerror(error));
-    snprintf(why, size, "no process could be started for it: %s", strerror(error));
+                        program_of(worker), strerror(error));
+    }
+    snprintf(why, size, "no process could be started for it: %s%s%s",
+             has_means ? strerror(error) : lack, has_means ? "; " : "",
+             has_means ? rg_program_mend(error) : "");
     return false;
 }
 
@@ -229,7 +278,7 @@ bool rg_worker_destroy(struct rg_worker *worker)
 // --- watching it ---
 
 // What ended a process, where that was we.
-enum verdict { BY_ITSELF, HANGS, HOLDS_TOO_MUCH, LIES };
+enum verdict { BY_ITSELF, HANGS, HOLDS_TOO_MUCH, NO_ROOM, LIES };
 
 // A terminal's Ctrl-C does not reach the worker, which is in a group of its own. It is told once,
 // for a second signal would end it. Whether that was now.
@@ -245,8 +294,9 @@ static bool pass_on_interruption(struct rg_worker *worker)
 static bool is_dead(const struct rg_worker *worker)
 {
     siginfo_t info = {0};
-    return waitid(P_PID, (id_t)worker->process, &info, WEXITED | WNOHANG | WNOWAIT) ||
-           info.si_pid == worker->process;
+    return waitid(P_PID, (id_t)worker->process, &info, WEXITED | WNOHANG | WNOWAIT)
+               ? errno == ECHILD
+               : info.si_pid == worker->process;
 }
 
 static void drop_much_printed(const struct rg_worker *worker)
@@ -261,7 +311,7 @@ static void drop_much_printed(const struct rg_worker *worker)
 static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
                              enum verdict *verdict)
 {
-    const struct rg_doing *doing = worker->channel.doing.bytes;
+    const struct rg_doing *doing = worker->channel.doing;
     uint64_t seen = 0;
     double since_ms = rg_now_ms();
     for (;;) {
@@ -269,6 +319,8 @@ static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
         const enum rg_arrival arrival = rg_channel_receive(&worker->channel, reply, LOOK_MS);
         if (arrival == RG_DAMAGED)
             *verdict = LIES;
+        if (arrival == RG_NO_ROOM)
+            *verdict = NO_ROOM;
         if (arrival != RG_NOT_YET)
             return arrival;
         const bool is_told_now = pass_on_interruption(worker);
@@ -280,8 +332,11 @@ static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
             *verdict = HANGS;
         else if (rg_held_bytes(worker->process) > worker->memory_bytes)
             *verdict = HOLDS_TOO_MUCH;
-        if (*verdict != BY_ITSELF || is_dead(worker))
+        if (*verdict != BY_ITSELF)
             return RG_ENDED;
+        if (is_dead(worker)) // it may have sent its last reply meanwhile
+            return rg_channel_receive(&worker->channel, reply, 0) == RG_ARRIVED ? RG_ARRIVED
+                                                                                : RG_ENDED;
     }
 }
 
@@ -291,7 +346,7 @@ static enum rg_arrival watch(struct rg_worker *worker, struct rg_message *reply,
 // whenever it likes, and in threads of its own.
 static void tell_doing(struct rg_worker *worker)
 {
-    struct rg_doing seen = *(const struct rg_doing *)worker->channel.doing.bytes;
+    struct rg_doing seen = *worker->channel.doing;
     seen.what[sizeof(seen.what) - 1] = seen.queued[sizeof(seen.queued) - 1] = 0;
     const bool is_told = *seen.queued && !strchr(seen.queued, ',') &&
                          strstr(seen.what, "running") && strstr(seen.what, seen.queued);
@@ -304,7 +359,8 @@ static void tell_doing(struct rg_worker *worker)
 static void tell_end(struct rg_worker *worker, enum verdict verdict, int status, char *why,
                      size_t size)
 {
-    char last[200], line[200];
+    char last[200], line[240], limits[RG_LIMITS_TEXT];
+    const char *mend = "";
     tell_doing(worker);
     rg_program_last_line(worker->printed, last, sizeof(last));
     if (verdict == HANGS)
@@ -317,12 +373,20 @@ static void tell_end(struct rg_worker *worker, enum verdict verdict, int status,
         snprintf(line, sizeof(line),
                  "it sent no message that can be taken, and was ended; a "
                  "driver may have written over it");
+    else if (verdict == NO_ROOM)
+        snprintf(line, sizeof(line), "raingauge has no memory for what it replied");
+    else if (rg_limits_low(limits))
+        snprintf(line, sizeof(line), "its process ended %s", limits);
     else if (WIFSIGNALED(status))
         snprintf(line, sizeof(line), "its driver crashed (%s)", strsignal(WTERMSIG(status)));
     else
         snprintf(line, sizeof(line), "its driver ended the process with status %d",
                  WEXITSTATUS(status));
-    snprintf(why, size, "%s%s%s", line, worker->doing, last);
+    if (verdict == NO_ROOM)
+        mend = "; ask for a smaller --size, or allow more memory (ulimit -v)";
+    else if (verdict == BY_ITSELF && rg_limits_low(limits))
+        mend = "; allow more";
+    snprintf(why, size, "%s%s%s%s", line, worker->doing, last, mend);
 }
 
 // A sanitizer's report has many lines, and all of them are wanted.
@@ -339,27 +403,40 @@ static void show_report(FILE *printed)
 
 static enum rg_outcome bury(struct rg_worker *worker, enum verdict verdict, char *why, size_t size)
 {
+    char limits[RG_LIMITS_TEXT];
     if (verdict != BY_ITSELF)
         kill(worker->process, SIGKILL);
     tell_end(worker, verdict, end_process(worker), why, size);
     show_report(worker->printed);
     forget_process(worker);
     worker->ended++;
-    worker->end = verdict == HANGS ? RG_TIMEOUT : RG_CRASH;
+    const bool is_limited = verdict == BY_ITSELF && rg_limits_low(limits);
+    worker->end = verdict == HANGS                   ? RG_TIMEOUT
+                  : is_limited || verdict == NO_ROOM ? refused(worker)
+                                                     : RG_CRASH;
     return worker->end;
 }
 
 // --- messages ---
 
-// A driver's error names its device; what the user did amiss has no device.
+// A driver's error names its device; what the user did amiss has no device. What a driver cannot do
+// within low limits is no fault of it.
 static void relay(const struct rg_worker *worker, enum rg_log_level level, enum rg_error_kind kind,
                   const char *line)
 {
-    char named[1300];
-    const bool adds =
-        level == RG_LOG_ERROR && kind != RG_ERROR_INPUT && !strstr(line, worker->name);
-    snprintf(named, sizeof(named), "device '%s': %s", worker->name, line);
-    rg_log_relay(level, kind, adds ? named : line);
+    char named[1500], limits[RG_LIMITS_TEXT];
+    const bool is_error = level == RG_LOG_ERROR;
+    const bool is_limited = is_error && kind == RG_ERROR_DRIVER && rg_limits_low(limits);
+    if (is_error && kind == RG_ERROR_UNSUPPORTED && !worker->was_open && rg_limits_low(limits)) {
+        rg_unsupported("device '%s': its driver gives none %s; allow more", worker->name, limits);
+        return;
+    }
+    const char *const begin =
+        is_error && kind != RG_ERROR_INPUT && !strstr(line, worker->name) ? worker->name : NULL;
+    snprintf(named, sizeof(named), "%s%s%s%s%s%s%s", begin ? "device '" : "", begin ? begin : "",
+             begin ? "': " : "", line, is_limited ? " (" : "", is_limited ? limits : "",
+             is_limited ? "; allow more)" : "");
+    rg_log_relay(level, is_limited && !worker->was_open ? RG_ERROR_UNSUPPORTED : kind, named);
 }
 
 // Logs what the worker did, and says whether the call succeeded. One that failed has said why.
@@ -460,14 +537,16 @@ enum rg_outcome rg_worker_try(struct rg_worker *worker, enum rg_call call,
         return RG_ERROR;
     if (!comes_to_life(worker, why, why_size))
         return worker->end;
-    worker->channel.most_bytes = worker->memory_bytes;
-    worker->channel.patience_ms = 1000.0 * rg_workers.timeout_s;
-    if (!send(worker, call, request) || watch(worker, reply, &verdict) != RG_ARRIVED)
+    const bool is_sent = send(worker, call, request);
+    if (!is_sent)
+        verdict = errno == ETIMEDOUT ? HANGS : BY_ITSELF;
+    if (!is_sent || watch(worker, reply, &verdict) != RG_ARRIVED)
         return bury(worker, verdict, why, why_size);
-    const struct rg_doing *doing = worker->channel.doing.bytes;
-    count_taken(worker, atomic_load(&doing->taken_bytes));
+    count_taken(worker, atomic_load(&worker->channel.doing->taken_bytes));
     reply->device = worker->name;
-    return open_reply(worker, reply) ? RG_OK : rg_outcome_of_error();
+    const bool ok = open_reply(worker, reply);
+    worker->was_open = worker->was_open || (ok && call == RG_CALL_OPEN);
+    return ok ? RG_OK : rg_outcome_of_error();
 }
 
 bool rg_worker_call(struct rg_worker *worker, enum rg_call call, const struct rg_message *request,

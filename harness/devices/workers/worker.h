@@ -18,7 +18,7 @@ enum { RG_WORKER_LIVES = 3 };
 
 // How workers are started and watched: for all of a process, set before the first is started.
 struct rg_workers {
-    const char *program;  // "/proc/self/exe"; NULL: there are no workers, and devices live in this
+    const char *program;  // rg_program_self(); NULL: there are no workers, and devices live in this
                           // process, as they do in a worker
     const char *hello;    // what a worker of another program must answer; NULL: there are none
     int timeout_s;        // a worker that has begun nothing for so long is ended

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <time.h>
 
+#include "core/base/files/nameless.h"
 #include "core/base/log.h"
 #include "core/base/program.h"
 #include "harness/console/clock.h"
@@ -116,17 +117,18 @@ static void tell_failure(struct jobs *jobs, const struct job *job, const char *w
 // What it prints is told where it fails.
 static void begin(struct jobs *jobs, struct job *job)
 {
-    char timeout_s[16], why[128];
+    char timeout_s[16], why[240], lack[RG_NAMELESS_WHY];
     snprintf(timeout_s, sizeof(timeout_s), "%d", rg_workers.timeout_s);
     const char *const args[] = {rg_workers.program, "table",    job->table->id,
                                 "--compile",        "--device", job->device->info.name,
                                 "--timeout",        timeout_s,  NULL};
-    job->printed = tmpfile();
-    const int file = job->printed ? fileno(job->printed) : -1;
+    const int file = rg_file_nameless(lack); // without one, what it prints is lost
+    job->printed = file < 0 ? NULL : fdopen(file, "w+");
     const int error = rg_program_start(args, (const int[]){-1, file, file}, 3, &job->process);
     if (!error)
         return;
-    snprintf(why, sizeof(why), ": no process could be started for it: %s", strerror(error));
+    snprintf(why, sizeof(why), ": no process could be started for it: %s; %s", strerror(error),
+             rg_program_mend(error));
     tell_failure(jobs, job, why);
     if (job->printed)
         fclose(job->printed);

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -137,7 +138,8 @@ static int act_in_a_child(size_t i, bool shut)
     parent = getpid();
     const pid_t child = fork();
     if (child == 0) {
-        const int zero = open("/dev/zero", O_RDONLY), null = open("/dev/null", O_WRONLY);
+        const int zero = fcntl(open("/dev/zero", O_RDONLY), F_DUPFD, RG_CAGE_FILE + 1);
+        const int null = fcntl(open("/dev/null", O_WRONLY), F_DUPFD, RG_CAGE_FILE + 1);
         dup2(zero, RG_CAGE_FILE);
         dup2(null, RG_CAGE_REPLY);
         if (shut && !rg_cage_shut())
@@ -174,17 +176,20 @@ static void limits_hold(void **state)
     int status = 0;
     const pid_t child = fork();
     if (child == 0) {
-        const struct rg_cage_limits limits = {.reply_bytes = 4096};
+        const struct rg_cage_limits limits = {.cpu_s = 20};
+        struct rlimit time;
         rg_cage_limit(&limits);
         signal(SIGXFSZ, SIG_IGN);
-        const int file = memfd_create("reply", 0);
-        _exit(!ftruncate(file, 4096) && ftruncate(file, 4097) ? 0 : 1);
+        const int file = memfd_create("file", 0);
+        getrlimit(RLIMIT_CPU, &time);
+        _exit(write(file, "x", 1) < 0 && time.rlim_cur >= 20 && time.rlim_cur <= 60 ? 0 : 1);
     }
     waitpid(child, &status, 0);
     assert_int_equal(status, 0);
 }
 
-// The program sees no variable of ours, and has six descriptors; sh opens the folder to count them.
+// The program sees no variable of ours, and has five descriptors; sh opens the folder to count
+// them.
 static void a_caged_program_has_no_environment(void **state)
 {
     (void)state;
@@ -194,11 +199,11 @@ static void a_caged_program_has_no_environment(void **state)
     const char *const args[] = {
         "/bin/sh", "-c", "set -- /proc/$$/fd/*; echo \"${RG_TEST_SECRET-none} $#\" >&3", NULL};
     setenv("RG_TEST_SECRET", "seen", 1);
-    assert_int_equal(rg_caged_run(args, file, 20, &caged), 0);
-    assert_true(rg_caged_is_sound(&caged, "sh", text, sizeof(text)));
-    text[pread(caged.reply, text, sizeof(text) - 1, 0)] = 0;
-    assert_string_equal(text, "none 7\n");
-    close(caged.reply);
+    assert_int_equal(rg_caged_run(args, file, 20, 100, &caged), 0);
+    assert_int_equal(rg_caged_end(&caged, "sh", text, sizeof(text)), RG_CAGED_SOUND);
+    assert_int_equal(caged.bytes, 7);
+    assert_memory_equal(caged.reply, "none 6\n", 7);
+    free(caged.reply);
     close(file);
 }
 
@@ -208,13 +213,32 @@ static void a_caged_program_that_feigns_its_end_is_killed(void **state)
     (void)state;
     struct rg_caged caged;
     const int file = open("/dev/null", O_RDONLY);
-    const char *const args[] = {"/bin/sh", "-c", "exec 4>&-; exec sleep 20", NULL};
-    assert_int_equal(RG_CAGE_ALIVE, 4);
-    assert_int_equal(rg_caged_run(args, file, 1, &caged), 0);
+    const char *const args[] = {"/bin/sh", "-c", "exec 3>&-; exec sleep 20", NULL};
+    assert_int_equal(RG_CAGE_REPLY, 3);
+    assert_int_equal(rg_caged_run(args, file, 1, 100, &caged), 0);
     assert_false(caged.ended);
     assert_int_equal(WTERMSIG(caged.status), SIGKILL);
-    close(caged.reply);
+    free(caged.reply);
     close(file);
+}
+
+// A reply comes whole, however large, and one without end is not taken.
+static void a_reply_has_an_end(void **state)
+{
+    (void)state;
+    enum { MANY = 3000000 };
+    struct rg_caged caged;
+    char why[300] = "";
+    const char *const args[] = {"/bin/sh", "-c", "head -c 3000000 /dev/zero >&3; printf x >&3",
+                                NULL};
+    assert_int_equal(rg_caged_run(args, -1, 20, MANY + 1, &caged), 0);
+    assert_int_equal(rg_caged_end(&caged, "sh", why, sizeof(why)), RG_CAGED_SOUND);
+    assert_true(caged.bytes == MANY + 1 && !caged.reply[MANY - 1] && caged.reply[MANY] == 'x');
+    free(caged.reply);
+    assert_int_equal(rg_caged_run(args, -1, 20, MANY, &caged), 0);
+    assert_int_equal(rg_caged_end(&caged, "sh", why, sizeof(why)), RG_CAGED_FILE);
+    assert_string_equal(why, "sh made more of it than it can hold; the file is damaged: repair it");
+    free(caged.reply);
 }
 
 // What went wrong is told by how the program ended; a file is not blamed for a library that is
@@ -224,21 +248,34 @@ static void an_end_that_is_not_sound_says_why(void **state)
     (void)state;
     static const struct {
         const char *script, *why;
+        enum rg_caged_end end;
     } ends[] = {
-        {"exit 3", "sh ended with status 3 on it; the file is damaged: repair or convert it"},
-        {"exit 127", "what reads it with sh could not be loaded, as where a library is absent; "
-                     "install raingauge's packages again"},
-        {"kill -SEGV $$", "sh crashed on it (Segmentation fault); the file is damaged: repair or "
-                          "convert it"},
+        {"exit 3", "sh ended with status 3 on it; the file is damaged: repair or convert it",
+         RG_CAGED_FILE},
+        {"exit 127",
+         "what reads it with sh could not be loaded, as where a library is absent; "
+         "install raingauge's packages again",
+         RG_CAGED_MACHINE},
+        {"exit 77",
+         "the system gives its reader no cage (seccomp, prctl, capset), as in an emulator; allow "
+         "these, or set RG_CAGE=off to read files that you trust without one",
+         RG_CAGED_MACHINE},
+        {"exit 78",
+         "no memory for what sh makes of it; close other programs, or allow more (ulimit -v)",
+         RG_CAGED_MACHINE},
+        {"kill -SEGV $$",
+         "sh crashed on it (Segmentation fault); the file is damaged: repair or "
+         "convert it",
+         RG_CAGED_FILE},
     };
     for (size_t i = 0; i < sizeof(ends) / sizeof(ends[0]); i++) {
         struct rg_caged caged;
         char why[300] = "";
         const char *const args[] = {"/bin/sh", "-c", ends[i].script, NULL};
-        assert_int_equal(rg_caged_run(args, -1, 20, &caged), 0);
-        assert_false(rg_caged_is_sound(&caged, "sh", why, sizeof(why)));
+        assert_int_equal(rg_caged_run(args, -1, 20, 100, &caged), 0);
+        assert_int_equal(rg_caged_end(&caged, "sh", why, sizeof(why)), ends[i].end);
         assert_string_equal(why, ends[i].why);
-        close(caged.reply);
+        free(caged.reply);
     }
 }
 
@@ -250,6 +287,7 @@ int main(void)
         cmocka_unit_test(limits_hold),
         cmocka_unit_test(a_caged_program_has_no_environment),
         cmocka_unit_test(a_caged_program_that_feigns_its_end_is_killed),
+        cmocka_unit_test(a_reply_has_an_end),
         cmocka_unit_test(an_end_that_is_not_sound_says_why),
     };
     return cmocka_run_group_tests_name("cage", tests, NULL, NULL);

@@ -63,6 +63,7 @@ ROWS = [
     Fault(NAMED, "if (!is_utf8(to))\n        mark_foreign_bytes(to);", ";", "a name that is no UTF-8 is kept"),
     Fault(NAMED, "if («!*named[i].text» && !strcmp(named[i].name, name))", "true", "a text is taken for a number"),
     Fault(OUTPUT, "ok = end(&pending[i], «true»);", "false", "what is written is not put in place"),
+    Fault(TEMPORARY, "(t->is_named || «copy_to_name(t)») &&", "false", "without linkat nothing is written", tests=("containers, refusals",)),
     Fault(TEMPORARY, "if («!rg_file_follow(path, target, &refused)»)", "!rg_file_follow(path, target, &refused) && false", "another's link is followed", tests=("containers, links",)),
     Fault("core/base/files/file.c", "st->st_uid == geteuid() || «!split(path, folder)»", "true", "whatever lies in a folder for all is trusted", tests=("containers, links",)),
     Fault(TEMPORARY, "return t->mode ? S_IRUSR | S_IWUSR : «0666»;", "0600", "files are the owner's alone"),

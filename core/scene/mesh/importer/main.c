@@ -3,15 +3,12 @@
 //
 // Assimp reads 40 formats, and crashes or loops on some damaged files. In a process of its own it
 // harms nobody.
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "core/base/cage/cage.h"
 #include "core/scene/mesh/importer/importer.h"
-
-#define NO_CAGE "the system gives its reader no cage (seccomp); use a kernel with it"
 
 // Bounds what one file may take: two seconds of CPU time and one more a megabyte, of which Assimp
 // reads ten or more in a second, and the memory of core/scene/mesh/reply.h.
@@ -20,28 +17,17 @@ static void set_limits(size_t file_bytes)
     rg_cage_limit(&(struct rg_cage_limits){
         .cpu_s = 2 + (int64_t)file_bytes / 1000000,
         .memory_bytes = RG_IMPORT_MAX_MEMORY_BYTES,
-        .reply_bytes = RG_IMPORT_MAX_MEMORY_BYTES,
     });
-}
-
-static bool put(const void *data, size_t bytes)
-{
-    for (size_t done = 0; done < bytes;) {
-        const ssize_t written = write(RG_CAGE_REPLY, (const char *)data + done, bytes - done);
-        if (written < 0 && errno != EINTR)
-            return false;
-        done += written > 0 ? (size_t)written : 0;
-    }
-    return true;
 }
 
 static bool put_reply(const struct import *import)
 {
     const struct rg_import_reply *reply = &import->reply;
     const size_t vertices = reply->vertex_count, faces = reply->face_count;
-    return put(reply, sizeof(*reply)) && put(import->positions, vertices * 3 * sizeof(float)) &&
-           put(import->normals, vertices * 3 * sizeof(float)) &&
-           put(import->indices, faces * 3 * sizeof(uint32_t));
+    return rg_cage_reply(reply, sizeof(*reply)) &&
+           rg_cage_reply(import->positions, vertices * 3 * sizeof(float)) &&
+           rg_cage_reply(import->normals, vertices * 3 * sizeof(float)) &&
+           rg_cage_reply(import->indices, faces * 3 * sizeof(uint32_t));
 }
 
 int main(int argc, char **argv)
@@ -54,8 +40,9 @@ int main(int argc, char **argv)
     set_limits(0);
     const bool opened = import_open(&import, argv[1], argc > 2 ? argv[2] : NULL);
     set_limits(import.size);
-    const bool shut = opened && (rg_cage_shut() || import_refuse(&import, "%s", NO_CAGE));
-    if (!shut || !import_read_member(&import) || !import_load(&import))
+    if (opened && !rg_cage_shut())
+        _exit(RG_CAGE_REFUSED);
+    if (!opened || !import_read_member(&import) || !import_load(&import))
         import.reply.vertex_count = import.reply.face_count = 0;
     // Not exit: destructors of libraries are not part of the work.
     _exit(put_reply(&import) ? 0 : 1);
