@@ -39,12 +39,15 @@ static void ignore_line(enum rg_log_level level, const char *line, void *user)
     (void)user;
 }
 
+static bool has_clock = true; // that the device says it has
+
 // Audits cpu with some of its functions replaced.
 static bool audit(struct rg_backend backend, struct rg_timer_audit *result)
 {
     struct rg_device *device = rg_device_open("cpu");
     assert_non_null(device);
     device->backend = &backend;
+    device->info.limits.has_clock = has_clock;
     rg_log_listen(ignore_line, NULL);
     bool ok = rg_timer_audit(device, result);
     rg_log_listen(NULL, NULL);
@@ -93,10 +96,21 @@ static void an_absent_timer_is_a_result(void **state)
     struct rg_timer_audit result;
     struct rg_backend without = *honest;
     without.time = no_time;
+    has_clock = false;
     assert_true(audit(without, &result));
+    has_clock = true;
     assert_false(result.has_timer);
     assert_false(result.trusted);
     assert_true(result.wall_ms > 0);
+}
+
+static void a_timer_that_fails_is_a_failure(void **state)
+{
+    (void)state;
+    struct rg_timer_audit result;
+    struct rg_backend broken = *honest;
+    broken.time = no_time;
+    assert_false(audit(broken, &result));
 }
 
 static void a_lost_device_is_a_failure(void **state)
@@ -114,6 +128,7 @@ int main(void)
         cmocka_unit_test(an_honest_timer_is_read),
         cmocka_unit_test(a_lying_timer_is_not_trusted),
         cmocka_unit_test(an_absent_timer_is_a_result),
+        cmocka_unit_test(a_timer_that_fails_is_a_failure),
         cmocka_unit_test(a_lost_device_is_a_failure),
     };
     return cmocka_run_group_tests(tests, find_honest, NULL);
