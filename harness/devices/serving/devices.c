@@ -80,11 +80,17 @@ bool rg_serve_open(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
+// A process that was started again has not opened it.
+static bool is_open(void)
+{
+    return device || rg_driver_error("its device has gone with its process");
+}
+
 bool rg_serve_probe(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_probe_result results[RG_PROBE_COUNT];
     (void)request;
-    if (!rg_probe_run(device, results))
+    if (!is_open() || !rg_probe_run(device, results))
         return false;
     rg_put_fields(reply, rg_probe_fields, results);
     return true;
@@ -104,7 +110,7 @@ bool rg_serve_audit(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_timer_audit audit;
     (void)request;
-    if (!rg_timer_audit(device, &audit))
+    if (!is_open() || !rg_timer_audit(device, &audit))
         return false;
     rg_put_fields(reply, rg_audit_fields, &audit);
     return true;
@@ -114,7 +120,7 @@ bool rg_serve_ceilings(struct rg_message *request, struct rg_message *reply)
 {
     struct rg_ceilings ceilings;
     (void)request;
-    if (!rg_ceilings_measure(device, &ceilings))
+    if (!is_open() || !rg_ceilings_measure(device, &ceilings))
         return false;
     rg_put_fields(reply, rg_ceilings_fields, &ceilings);
     return true;
