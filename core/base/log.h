@@ -20,7 +20,8 @@ void rg_log_listen(rg_log_fn fn, void *user);
 // its cause. It counts as told then. A listener hears every line; one that prints asks this.
 bool rg_log_is_news(enum rg_log_level level, const char *line);
 
-// Lines are dropped while this holds: what goes wrong then is expected, and said by who holds.
+// Lines are dropped while this holds: what goes wrong then is expected, and said by who holds, who
+// may ask for the last error.
 void rg_log_hold(bool holds);
 
 // Logs one line, "raingauge: ..." on stderr, where an error or a warning that was printed before is

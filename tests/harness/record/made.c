@@ -76,6 +76,7 @@ static void name_devices(struct rg_result *result)
     for (int d = 0; d < 2; d++) {
         struct rg_device_info *info = &result->devices[result->device_count++];
         snprintf(info->name, sizeof(info->name), "%s", d ? "gl" : "cpu:reference");
+        memcpy(info->full, info->name, sizeof(info->full));
         snprintf(info->driver, sizeof(info->driver), "a driver, 1.%d", d);
         json_array_append_new(devices,
                               json_pack("{sssssssssb}", "name", info->name, "api", "", "device", "",
