@@ -14,8 +14,8 @@
     IMAGE(4, RGBA16F, normal_map)                                                                  \
     IN(5, uint, answers)                                                                           \
     OUT(6, uint, hits)                                                                             \
-    OUT(7, cartoon_surface, surfaces) ATOMIC(8, uint, tally) IMAGE(9, RGBA8, face_map)             \
-        IN(10, float, positions) IN(11, uint, indices)
+    OUT(7, cartoon_surface, surfaces)                                                              \
+    ATOMIC(8, uint, tally) IMAGE(9, RGBA8, face_map) IN(10, float, positions) IN(11, uint, indices)
 #include "kernels/dialect/slots/slots.h"
 
 #include "kernels/cartoon/rain/hit/samples.h"

@@ -7,8 +7,9 @@
     IN(1, uint, unused)                                                                            \
     INOUT(2, uint, living)                                                                         \
     IN(3, uint, hits)                                                                              \
-    IN(4, uint, hits_before) IN(5, cartoon_raindrop, raindrops) IN(6, cartoon_surface, surfaces)   \
-        OUT(7, cartoon_spray, sprays) ATOMIC(8, uint, tally)
+    IN(4, uint, hits_before)                                                                       \
+    IN(5, cartoon_raindrop, raindrops)                                                             \
+    IN(6, cartoon_surface, surfaces) OUT(7, cartoon_spray, sprays) ATOMIC(8, uint, tally)
 #include "kernels/dialect/slots/slots.h"
 
 #include "kernels/cartoon/rain/life/lists.h"
