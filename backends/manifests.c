@@ -128,45 +128,47 @@ bool rg_manifests_load(const char *name, bool *is_absent, char *why, size_t why_
 
 // --- a file ---
 
-// The library that a file names, in memory that the caller frees. NULL: `fault` says why.
-static char *read_text(FILE *file, char *fault, size_t size)
+static bool read_text(FILE *file, char named[PATH_MAX], char *fault, size_t size)
 {
-    char line[PATH_MAX] = "";
-    const bool is_read = fgets(line, sizeof(line), file) != NULL;
-    line[strcspn(line, " \t\r\n")] = 0;
-    if (is_read && *line)
-        return strdup(line);
-    snprintf(fault, size, "which names no library in its first line");
-    return NULL;
+    const bool is_read = fgets(named, PATH_MAX, file) != NULL;
+    named[is_read ? strcspn(named, " \t\r\n") : 0] = 0;
+    if (!*named)
+        snprintf(fault, size, "which names no library in its first line");
+    return *named;
 }
 
-static char *read_json(FILE *file, char *fault, size_t size)
+static bool read_json(FILE *file, char named[PATH_MAX], char *fault, size_t size)
 {
     json_error_t error;
     json_t *root = json_loadf(file, JSON_DISABLE_EOF_CHECK, &error);
     const char *name =
         json_string_value(json_object_get(json_object_get(root, "ICD"), "library_path"));
-    char *library = name && *name ? strdup(name) : NULL;
+    snprintf(named, PATH_MAX, "%s", name ? name : "");
     if (!root)
         snprintf(fault, size, "which is no JSON: line %d: %.120s", error.line, error.text);
-    else if (!library)
+    else if (!*named)
         snprintf(fault, size, "which names no library as ICD.library_path");
     json_decref(root);
-    return library;
+    return *named;
+}
+
+bool rg_manifest_read_library(FILE *file, bool is_text, char named[PATH_MAX], char *fault,
+                              size_t size)
+{
+    return is_text ? read_text(file, named, fault, size) : read_json(file, named, fault, size);
 }
 
 static void examine_file(struct walk *walk, const char *path)
 {
-    char fault[240], whole[PATH_MAX];
+    char fault[240], library[PATH_MAX], whole[PATH_MAX];
     const char *why = NULL;
     FILE *file = rg_file_open(path, &why);
     snprintf(fault, sizeof(fault), "which cannot be read: %s", why ? why : "");
-    char *library = !file                  ? NULL
-                    : walk->rules->is_text ? read_text(file, fault, sizeof(fault))
-                                           : read_json(file, fault, sizeof(fault));
+    const bool is_read =
+        file && rg_manifest_read_library(file, walk->rules->is_text, library, fault, sizeof(fault));
     if (file)
         fclose(file);
-    if (!library) {
+    if (!is_read) {
         count_driver(walk);
         note(walk, path, fault);
         return;
@@ -176,7 +178,6 @@ static void examine_file(struct walk *walk, const char *path)
         walk->rules->beside_file && *library != '/' && strchr(library, '/') && slash;
     snprintf(whole, sizeof(whole), "%.*s%s", is_beside ? (int)(slash + 1 - path) : 0, path,
              library);
-    free(library);
     examine_library(walk, path, whole);
 }
 

@@ -6,8 +6,10 @@
 #ifndef RG_BACKENDS_MANIFESTS_H
 #define RG_BACKENDS_MANIFESTS_H
 
+#include <limits.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 // A variable that holds folders, ':' between two, and what is taken where it is not set: "~/" is
 // the user's folder.
@@ -57,6 +59,11 @@ void rg_manifests_begin(const struct rg_manifest_rules *rules);
 // The files of drivers that can be loaded, ':' between two, where others cannot, and no variable
 // names any. Else false.
 bool rg_manifests_sound(const struct rg_manifest_rules *rules, char *paths, size_t size);
+
+// The library that a driver's file names, as it stands there: ICD.library_path of JSON, or the
+// first word of a text. False, and `fault` says why, where it names none.
+bool rg_manifest_read_library(FILE *file, bool is_text, char named[PATH_MAX], char *fault,
+                              size_t size);
 
 // Loads a library, and lets it go again. False where it cannot be, and `why` has the linker's
 // words; `is_absent` is set where there simply is no such file.

@@ -151,10 +151,11 @@ bool rg_device_close(struct rg_device *device)
         return true;
     const bool shared_clean = rg_shared_close(device);
     rg_packing_destroy(device);
-    device->backend->sync(device);
+    rg_work_settle(device);
     const struct rg_work *w = device->work;
-    const bool clean = !w->live_buffers && !w->live_images && !w->live_passes;
-    if (!clean)
+    const bool is_empty = !w->live_buffers && !w->live_images && !w->live_passes;
+    const bool clean = is_empty && !w->has_failed;
+    if (!is_empty)
         rg_error("device '%s': closed with %lld buffers, %lld images and %lld passes not destroyed",
                  device->info.name, (long long)w->live_buffers, (long long)w->live_images,
                  (long long)w->live_passes);
@@ -170,8 +171,10 @@ const struct rg_work *rg_device_work(const struct rg_device *device)
 bool rg_device_sync(struct rg_device *device)
 {
     rg_doing_begin("waiting for the device", "");
-    const bool ok = device->backend->sync(device);
+    rg_work_settle(device);
     rg_doing_waited();
+    const bool ok = !device->work->has_failed;
+    device->work->has_failed = false;
     return ok;
 }
 

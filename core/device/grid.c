@@ -33,7 +33,7 @@ void rg_grid_destroy(struct rg_pass *pass)
 {
     if (!pass)
         return;
-    pass->device->backend->sync(pass->device);
+    rg_work_settle(pass->device);
     pass->device->work->live_passes--;
     if (pass->is_counted)
         free(pass);

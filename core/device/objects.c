@@ -85,7 +85,7 @@ void rg_buf_destroy(struct rg_buf *buf)
     if (!buf)
         return;
     struct rg_device *device = buf->device;
-    device->backend->sync(device);
+    rg_work_settle(device);
     device->work->live_buffers--;
     device->work->live_bytes -= (int64_t)buf->size;
     if (buf->is_counted) {
@@ -191,7 +191,7 @@ void rg_image_destroy(struct rg_image *image)
     if (!image)
         return;
     struct rg_device *device = image->device;
-    device->backend->sync(device);
+    rg_work_settle(device);
     device->work->live_images--;
     device->work->live_bytes -= image_bytes(&image->desc);
     if (image->is_counted) {

@@ -7,6 +7,12 @@
 
 // --- room ---
 
+void rg_work_settle(struct rg_device *device)
+{
+    if (!device->backend->sync(device))
+        device->work->has_failed = true;
+}
+
 void rg_room_count(struct rg_device *device)
 {
     device->work->room = RG_ROOM_COUNTED;

@@ -35,7 +35,8 @@ struct rg_work {
     int64_t before_bytes; // and what lived then
     int64_t watch_bytes;  // beyond which objects are counted, where they are watched
     enum rg_room room;
-    struct rg_tally *tally;       // NULL: only this is counted
+    bool has_failed;        // while something was destroyed; the next sync says so, or closing
+    struct rg_tally *tally; // NULL: only this is counted
     const struct rg_watch *watch; // NULL: nobody looks
 };
 
@@ -51,6 +52,10 @@ struct rg_tally {
     int64_t texels_fetched;            // from images
     int64_t bytes_written, bytes_read; // between host and device
 };
+
+// Waits for all that was queued, before something is destroyed: for those who do that, who cannot
+// tell of a failure. The next sync does, or closing the device.
+void rg_work_settle(struct rg_device *device);
 
 // From here on objects are counted alone: for core/device/objects.c.
 void rg_room_count(struct rg_device *device);

@@ -34,9 +34,11 @@ static void add_told(const struct rg_told_list *told, int backend, struct rg_dev
     if (told->count)
         return;
     struct rg_missing *missing = &list->missing[list->missing_count++];
-    *missing = (struct rg_missing){.backend = rg_backends[backend], .outcome = told->outcome};
     char limits[RG_LIMITS_TEXT];
-    if (rg_limits_low(limits))
+    const bool is_limited = rg_limits_low(limits);
+    *missing = (struct rg_missing){.backend = rg_backends[backend],
+                                   .outcome = is_limited ? RG_UNSUPPORTED : told->outcome};
+    if (is_limited)
         snprintf(missing->why, sizeof(missing->why),
                  "%s: its driver gives no device %s; allow more", rg_backends[backend]->name,
                  limits);

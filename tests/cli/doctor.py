@@ -90,7 +90,7 @@ def check_crash(runner):
     problems = []
     if devices["cpu"]["status"] != "ok":
         problems.append("cpu: " + devices["cpu"]["status"])
-    if devices["vulkan"]["status"] != "crash" or "its driver crashed (Aborted) while opening the device" not in devices["vulkan"]["why"]:
+    if devices["vulkan"]["status"] != "crash" or "its driver crashed (Aborted) while loading drivers of 'VK_DRIVER_FILES=" not in devices["vulkan"]["why"]:
         problems.append("vulkan: %s, %s" % (devices["vulkan"]["status"], devices["vulkan"]["why"]))
     if not any(line.startswith("vulkan: its driver crashed (Aborted)") for line in report["missing"]):
         problems.append("missing: %s" % report["missing"])

@@ -113,8 +113,9 @@ SUITES = {
 
 
 def main():
-    # What a shell starts in the background ignores SIGINT, and so would the commands that are interrupted.
+    # What a shell starts in the background ignores SIGINT, what nohup starts SIGHUP, and so would the commands that are interrupted.
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
     runner = Runner(*sys.argv[2:8])
     SUITES[sys.argv[1]](runner)
     return runner.finish()

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "backends/manifests.h"
 #include "core/base/files/file.h"
 #include "core/base/log.h"
 
@@ -15,28 +16,6 @@ static bool is_icd(const char *path)
 {
     const size_t length = strlen(path);
     return length > 4 && !strcmp(path + length - 4, ".icd");
-}
-
-static const json_t *library_of(const json_t *json)
-{
-    return json_object_get(json_object_get(json, "ICD"), "library_path");
-}
-
-static bool read_json(FILE *file, char named[PATH_MAX])
-{
-    json_t *json = json_loadf(file, 0, NULL);
-    const char *library = json_string_value(library_of(json));
-    snprintf(named, PATH_MAX, "%s", library ? library : "");
-    json_decref(json);
-    return *named;
-}
-
-static bool read_line(FILE *file, char named[PATH_MAX])
-{
-    if (!fgets(named, PATH_MAX, file))
-        *named = 0;
-    named[strcspn(named, "\r\n")] = 0;
-    return *named;
 }
 
 // A path with a slash counts from the manifest's own folder.
@@ -56,6 +35,7 @@ static void find_library(struct rg_manifest *m)
 void rg_manifest_read(const char *path, struct rg_manifest *m)
 {
     const char *why;
+    char fault[200];
     *m = (struct rg_manifest){.fault = RG_MANIFEST_NO_FORM};
     snprintf(m->path, sizeof(m->path), "%s", path);
     if (access(path, F_OK))
@@ -63,7 +43,7 @@ void rg_manifest_read(const char *path, struct rg_manifest *m)
     FILE *file = rg_file_open_small(path, &why);
     if (!file)
         return;
-    if (is_icd(path) ? read_line(file, m->named) : read_json(file, m->named)) {
+    if (rg_manifest_read_library(file, is_icd(path), m->named, fault, sizeof(fault))) {
         m->fault = RG_MANIFEST_WELL;
         find_library(m);
     }

@@ -297,7 +297,7 @@ static bool make_results(const struct rg_gate_request *asked, struct rg_gate *ga
 }
 
 // A device that is required, and of whose cells none was compared though none fails the gate,
-// becomes a case as one that is missing does.
+// becomes a case as one that is missing does. What is unsupported does not pass anyway.
 static void hold_required(struct rg_gate *gate, const char *name)
 {
     bool any = false, is_told = false;
@@ -305,7 +305,8 @@ static void hold_required(struct rg_gate *gate, const char *name)
         const struct rg_gate_case *c = &gate->cases[i];
         const enum rg_ending_kind kind = rg_ending_kind(gate->report.cases[i].ending);
         for (int d = 0; d < c->device_count; d++) {
-            const bool is_of = rg_device_is_of(c->devices[d], name);
+            const bool is_of = rg_device_is_of(c->devices[d], name) &&
+                               gate->report.cases[i].ending != RG_ENDING_UNSUPPORTED;
             any = any || is_of;
             is_told = is_told || (is_of && (rg_gate_case_was_compared(c) ||
                                             kind == RG_KIND_FAILURE || kind == RG_KIND_ERROR));
