@@ -160,7 +160,7 @@ bool rg_manifest_read_library(FILE *file, bool is_text, char named[PATH_MAX], ch
 
 static void examine_file(struct walk *walk, const char *path)
 {
-    char fault[240], library[PATH_MAX], whole[PATH_MAX];
+    char fault[240], library[PATH_MAX], whole[2 * PATH_MAX];
     const char *why = NULL;
     FILE *file = rg_file_open(path, &why);
     snprintf(fault, sizeof(fault), "which cannot be read: %s", why ? why : "");

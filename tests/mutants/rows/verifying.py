@@ -78,7 +78,7 @@ ROWS = [
     Fault(REPLAY, "const bool is_same = «hash == c->expected»;", "true", "every device leaves what is expected", tests=SHRINKING),
     Fault(REPLAY, "return «knows_asset(digests, c->asset)» ||", "true", "a case of an asset that is no more is a device that draws otherwise", tests=SHRINKING),
     Fault(REPLAY, "while (row < digests->count && («digests->rows[row].stages_run != c->stages_run» ||", "false", "a case is judged behind the first stage that wrote the asset", tests=SHRINKING),
-    Fault(CULPRIT, "return !p->has_failed && «!leaves_same(&p->now, p->due)»;", "true", "every kernel is the one", tests=SHRINKING),
+    Fault(CULPRIT, "return !p->has_failed && !p->falls && «!leaves_same(&p->now, p->due)»;", "true", "every kernel is the one", tests=SHRINKING),
     Fault(CULPRIT, "keeps = «differs(p)»;\n        if (!keeps) {\n            *origin = first + half;", "false", "the first half of the items is never kept", tests=SHRINKING),
     Fault(CULPRIT, "halve(p, &origin->width, &extent->width);", ";", "items along x stay as they are", tests=SHRINKING),
     Fault(RECORDER, "return r->ok && «r->stages_run == r->watched - 1»;", "r->stages_run == r->watched", "the next stage is kept", tests=SHRINKING),

@@ -1,19 +1,25 @@
 """Workers: how they are asked, how they end, and what is made of it; names of devices."""
 from fault import Fault
 
-TESTS = ("workers that end", "damaged replies", "damaged findings", "messages", "names of devices", "sessions in workers", "subjects between processes", "log", "command line, misbehaving", "command line, gates", "command line, named", "command line, sides")
+TESTS = ("workers that end", "damaged replies", "damaged findings", "messages", "workers that lie, 20000", "names of devices", "sessions in workers", "subjects between processes", "log", "command line, misbehaving", "command line, gates", "command line, named", "command line, sides")
 
 W = "harness/devices/workers/"
-WORKER, CHANNEL, SERVE, MESSAGE, ENVIRONMENT, DEVICE = (
-    W + name + ".c" for name in ("worker", "channel", "serve", "message", "environment", "device"))
+WORKER, CHANNEL, SERVE, MESSAGE, FIELDS, ENVIRONMENT, DEVICE = (
+    W + name + ".c" for name in ("worker", "channel", "serve", "message", "fields", "environment", "device"))
 NAMES, DEVICES, REMOTE, LOG = ("harness/devices/names.c", "harness/devices/devices.c", "harness/frames/remote.c", "core/base/log.c")
 DIFF, MESSAGES, FINDINGS = "harness/compare/diff/devices.c", "harness/frames/messages.c", "harness/measure/messages.c"
 D = "harness/devices/drivers/"
 CACHES, CHOICE, APART, SIDE, PREFIX = (D + name + ".c" for name in ("caches", "choice", "apart", "side", "prefix"))
-PLAN, DOCTOR = "harness/tables/sweep/plan.c", "harness/commands/doctor.c"
+PLAN, DOCTOR, EXAMINE = "harness/tables/sweep/plan.c", "harness/commands/doctor.c", "harness/doctor/examine.c"
+
+# Tables of fields hold constants, and no switch: what one of them might say amiss is planted where they are followed.
+LEAST = "return «integer_of(value, field) >= field->least» &&"
+MOST = "&& «integer_of(value, field) <= field->most»;"
+NUMBER = "return «number >= (double)field->least && number <= (double)field->most»;"
+FOUND, DAMAGED, IN_WORKERS, LIES = ("damaged findings",), ("damaged replies",), ("sessions in workers",), ("workers that lie, 20000",)
 
 ROWS = [
-    Fault(WORKER, "if («worker->life < RG_WORKER_LIVES»)", "true", "a worker is started without end"),
+    Fault(WORKER, "if («worker->ended < RG_WORKER_LIVES»)", "true", "a worker is started without end", tests=("workers that end",)),
     Fault(WORKER, "return «worker->process» && worker->life == life;", "true", "what was open is there though its process has ended"),
     Fault(WORKER, "return worker->process && «worker->life == life»;", "true", "what was open in another life is there"),
     Fault(WORKER, "? «RG_TIMEOUT»\n                  : is_limited", "RG_CRASH", "a hang is a crash"),
@@ -27,7 +33,9 @@ ROWS = [
     Fault(WORKER, "drop_much_printed(worker);", ";", "what a driver prints has no end"),
     Fault(WORKER, "fcntl(file, F_SETFL, «O_APPEND»);", "0", "what is printed after much was dropped is not found"),
     Fault(WORKER, "else if («WIFSIGNALED(status)»)", "false", "a signal is told as a status"),
-    Fault(WORKER, "return «ok» && !reply->failed;", "true", "a call that failed succeeds"),
+    Fault(WORKER, "return (has_told || rg_message_fail(reply)) && «ok» && !reply->failed;", "true", "a call that failed succeeds", tests=("workers that end",)),
+    Fault(WORKER, "return «(has_told || rg_message_fail(reply))» && ok", "true", "a call fails without a line", tests=LIES),
+    Fault(WORKER, "ok = ok && «(reply->at == reply->size || rg_message_fail(reply))» &&", "true", "a reply goes on behind what is taken of it", tests=DAMAGED),
     Fault(WORKER, "if (verdict != BY_ITSELF)\n        kill(worker->process, SIGKILL);", ";", "who hangs is not killed, and waited for until it is"),
     Fault(WORKER, "is_error && «kind != RG_ERROR_INPUT» && !strstr", "true", "the user's error is the device's"),
     Fault(WORKER, "&& «!strstr(line, worker->name)» ?", "true", "a line names its device twice"),
@@ -38,9 +46,9 @@ ROWS = [
     Fault(MESSAGES, "if (!message->failed && !param && «!is_usual»)", "true", "what a build does not know is refused though it is as usual"),
     Fault(MESSAGES, "const bool is_number = «param->kind == RG_PARAM_FLOAT»;", "false", "a number with a fraction is rounded on its way"),
     Fault(MESSAGES, "|| «!(value >= param->min && value <= param->max)»)", "false", "a number on its way has no range"),
-    Fault(MESSAGES, "«(double)desc->width * desc->height * desc->layers <= (double)size» &&", "true", "sides whose product is no number are multiplied", lives="it wraps, and comes to no size that a reply has"),
-    Fault(MESSAGES, "«rg_contents_size(desc) == (size_t)size»;", "true", "an image may have bytes of another"),
-    Fault(MESSAGES, "«d->levels <= RG_MAX_LEVELS» &&", "true", "an image may have any number of levels"),
+    Fault(MESSAGES, "return !d->levels || («(double)d->width * d->height * d->layers <= (double)c->size» &&", "true", "sides whose product is no number are multiplied", lives="it wraps, and comes to no size that a reply has"),
+    Fault(MESSAGES, "«rg_contents_size(d) == c->size»);", "true", "an image may have bytes of another", tests=DAMAGED),
+    Fault(MESSAGES, ": «!memcmp(d, &none, sizeof(none))»;", "true", "what has no levels may be an image", tests=FOUND),
     Fault("harness/measure/job.c", "if («!rg_session_tell(session, &told)»)", "!rg_session_tell(session, &told) && false", "a record is well of which nothing was told"),
     Fault(SERVE, "prctl(PR_SET_PDEATHSIG, SIGKILL);", ";", "a worker outlives a harness that is killed"),
     Fault(SERVE, "rg_put_int(&reply, «rg_last_error_kind()»);", "RG_ERROR_INPUT", "every error of a worker is the user's"),
@@ -61,15 +69,29 @@ ROWS = [
     Fault(MESSAGE, "if (text && size > 0 && «!text[size - 1]»)", "true", "a text has no end"),
     Fault(MESSAGE, "if (index >= 0 && «index < end»)", "true", "an index is out of its range"),
     Fault(ENVIRONMENT, "if («!has_key_of(variables, *v)»)", "true", "a variable stands twice, and the old one counts where the last does"),
-    Fault(DEVICE, "return («(unsigned)info->tier < RG_TIER_COUNT» && is_bool", "true", "a device may be of any tier"),
-    Fault(DEVICE, "return «byte <= 1»;", "byte + 1", "a byte that is no bool is read as one"),
-    Fault(DEVICE, "«are_limits(&info->limits)») ||", "true", "a device has limits below 0"),
-    Fault(MESSAGE, "&& «number >= least && number <= most»)", "number >= least", "a time may be infinite"),
-    Fault(FINDINGS, "«(ulps && !result->different)»)", "false", "results are apart where none differs"),
-    Fault(FINDINGS, "audit->trusted = audit->has_timer && «rg_timer_is_trusted(audit->ratio)»;", "true", "a timer is trusted whatever its ratio"),
-    Fault(MESSAGES, "if («counts[i] < -1»)", "false", "a count may be any number"),
-    Fault(DEVICE, "text[size - 1] = 0;", ";", "a device's texts have no end"),
-    Fault(DEVICES, "if («reply->failed») {", "false", "a damaged list is one of a backend without devices"),
+    Fault(FIELDS, MOST, "field->size == 4 || integer_of(value, field) <= field->most", "a device may be of any tier, and an image have any number of levels", tests=DAMAGED),
+    Fault(FIELDS, MOST, "field->size == 1 || integer_of(value, field) <= field->most", "a byte that is no bool is read as one", tests=FOUND),
+    Fault(FIELDS, LEAST, "(!field->least && field->size == 8) || integer_of(value, field) >= field->least", "a device has limits below 0", tests=FOUND),
+    Fault(FIELDS, NUMBER, "number >= (double)field->least", "a time may be infinite", tests=FOUND),
+    Fault(FIELDS, NUMBER, "number <= (double)field->most", "a time may be below 0", tests=FOUND),
+    Fault(FIELDS, NUMBER, "!(number < (double)field->least || number > (double)field->most)", "a time may be no number", tests=FOUND),
+    Fault(FINDINGS, "return «result->different || !result->largest_ulps»;", "true", "results are apart where none differs", tests=FOUND),
+    Fault(EXAMINE, "ok && timer->has_timer && «rg_timer_is_trusted(timer->ratio)»;", "true", "a timer is trusted whatever its ratio", tests=FOUND),
+    Fault(FIELDS, LEAST, "field->least < 0 || integer_of(value, field) >= field->least", "a count may be any number", tests=FOUND),
+    Fault(FIELDS, LEAST, "field->least > 0 || integer_of(value, field) >= field->least", "an audit may be one of no pass", tests=FOUND),
+    Fault(FIELDS, "if (message->failed || «strlen(taken) >= size»)", "false", "a text is longer than its array"),
+    Fault(FIELDS, "«(int64_t)field->size > message->size - message->at» ||", "false", "a field is looked at behind its message", lives="it is not taken, for rg_take refuses it; the look itself a sanitizer alone sees"),
+    Fault(FIELDS, "if («field->kind == RG_KIND_BYTES»)", "false", "what may be any number has a range", tests=FOUND),
+    Fault(FIELDS, "return «*name || !field->least» ? !message->failed", "true", "what needs a name has none", tests=FOUND),
+    Fault(FIELDS, "*(const char **)entry = «*name ? name : NULL»;", "name", "what has no name has an empty one", tests=IN_WORKERS),
+    Fault(FIELDS, "*(size_t *)at(all, field->count) = «(size_t)size»;", "0", "the size of a block is forgotten", tests=DAMAGED),
+    Fault(MESSAGE, "if (message->failed || «said < 0 || said > message->size - message->at»)", "false", "a block is longer than its message", tests=("messages",)),
+    Fault(FIELDS, "bool ok = «(due >= 0 && due <= field->most)» ||", "true", "a list may have any number of rows", lives="rows are counted as they come: too many end with the message, and fewer than none are none"),
+    Fault(FIELDS, "for (int64_t i = 0; ok && «i < due»; i++)", "i < due - 1", "the last row of a list is left behind", tests=DAMAGED),
+    Fault(FIELDS, "*count = «rg_take_index(message, (int)field->entries + 1)»;", "(int)rg_take_int(message)", "as many rows come as are said, whatever their array holds", tests=FOUND),
+    Fault(FIELDS, "return «field->holds(all)» ||", "true", "what no range of a field says is not looked at", tests=FOUND),
+    Fault(DEVICE, "return «told->count || told->outcome != RG_OK»;", "true", "a backend has no devices for no reason", tests=DAMAGED),
+    Fault(DEVICES, "if («rg_worker_finish(&reply, ok)»)", "rg_worker_finish(&reply, ok) || outcome == RG_OK", "what was taken of a damaged list is believed", tests=DAMAGED),
     Fault(DEVICE, "«full + plain»);", "\"\"", "a device's name does not tell its environment"),
     Fault(DEVICE, "\"%s\", «strcmp(name, full) ? name : info->full»);", "info->full", "a short name is forgotten"),
     Fault(NAMES, "if («is_set_before(name->environment, variable)»)", "false", "a variable may stand twice in a name"),
@@ -83,8 +105,8 @@ ROWS = [
     Fault(DEVICES, "return «rg_devices_close(devices)» ? exit :", "(rg_devices_close(devices), true)", "how devices were closed changes no status"),
     Fault(DEVICES, "note_failure(list, rg_backends[b], RG_ERROR, \"no memory for its worker\");", ";", "a backend without a worker is not missed", lives="there is no memory for a few bytes"),
     Fault(REMOTE, "if («rg_worker_has(worker_of(session), session->life)» &&", "true", "what is gone with its worker is closed, with a line"),
-    Fault(REMOTE, "bool ok = «rg_worker_still_has(worker_of(session), session->life)»;", "true", "a session of another life is asked"),
-    Fault(REMOTE, "if («bytes && due && *size != due»)", "false", "a picture may be of any size", lives="the worker is this program, and sends the size that is due"),
+    Fault(REMOTE, "const bool ok = «rg_worker_still_has(worker_of(session), session->life)» &&", "true", "a session of another life is asked", tests=IN_WORKERS),
+    Fault(REMOTE, "if (ok && «told.size != due»)", "false", "a picture may be of any size", lives="the worker is this program, and sends the size that is due"),
     Fault(LOG, "else if («rg_log_is_news(level, line)»)", "true", "one error is many lines"),
     Fault(DIFF, "if (rg_last_error_kind() == RG_ERROR_INPUT && !s->shot_count)\n        return false;", "return false;", "a device that fails ends the comparison of the others"),
     Fault(PLAN, "else if («!leave_out(plan, d)»)", "true", "a device that fails ends a sweep of the others"),
