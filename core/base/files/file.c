@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "core/base/text/mark.h"
 
 #define SMALL_BYTES (1 << 18)
 
@@ -42,10 +43,23 @@ FILE *rg_file_open(const char *path, const char **why)
     return stream(path, O_RDONLY, "rb", why);
 }
 
+FILE *rg_file_open_text(const char *path, const char **why)
+{
+    char start[4];
+    FILE *file = rg_file_open(path, why);
+    const size_t got = file ? fread(start, 1, 3, file) : 0;
+    if (file && fseek(file, (long)rg_mark_bytes(start, got), SEEK_SET)) {
+        *why = strerror(errno);
+        fclose(file);
+        return NULL;
+    }
+    return file;
+}
+
 FILE *rg_file_open_small(const char *path, const char **why)
 {
     struct stat st;
-    FILE *file = rg_file_open(path, why);
+    FILE *file = rg_file_open_text(path, why);
     if (file && !fstat(fileno(file), &st) && st.st_size <= SMALL_BYTES)
         return file;
     if (file) {

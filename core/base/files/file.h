@@ -11,6 +11,9 @@
 // wrong, without the file's name.
 FILE *rg_file_open(const char *path, const char **why);
 
+// The same of a text, behind its byte order mark, if it has one.
+FILE *rg_file_open_text(const char *path, const char **why);
+
 // The same of what users write by hand. A file of more than 256 KiB is refused as well, so that no
 // parser reads one of gigabytes to its end, or keeps many times its size.
 FILE *rg_file_open_small(const char *path, const char **why);

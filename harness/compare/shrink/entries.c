@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
+#include "core/base/text/mark.h"
 #include "harness/compare/shrink/files.h"
 #include "harness/compare/shrink/search.h"
 
@@ -122,7 +123,8 @@ void rg_search_entries(struct rg_search *s, const struct rg_param *param)
     rg_params_text(param, s->best.subject.settings, path, sizeof(path));
     rg_file_ending(path, ending, sizeof(ending));
     char *bytes = rg_file_is_own(path) ? rg_file_load(path, &size) : NULL;
-    json_t *root = bytes ? json_loadb(bytes, size, 0, NULL) : NULL;
+    const size_t mark = bytes ? rg_mark_bytes(bytes, size) : 0;
+    json_t *root = bytes ? json_loadb(bytes + mark, size - mark, 0, NULL) : NULL;
     if (json_is_object(root))
         shrink_array(s, param, root);
     else if (bytes && strlen(bytes) == size) // a text

@@ -34,7 +34,7 @@ char *rg_document_load(const char *path, size_t *size, const char *mend, char wh
 {
     const char *reason;
     errno = 0;
-    FILE *file = rg_file_open(path, &reason);
+    FILE *file = rg_file_open_text(path, &reason);
     char *text = file ? read_text(file, size) : NULL;
     if (!text)
         snprintf(why, RG_WHY_SIZE, "%.200s: cannot be read: %s; %s", path,

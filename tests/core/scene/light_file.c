@@ -38,6 +38,18 @@ static bool read_text(const char *text, struct rg_lights *lights)
     return ok;
 }
 
+// Some editors begin a text with a byte order mark.
+static void a_mark_is_no_part_of_a_file(void **state)
+{
+    (void)state;
+    struct rg_lights lights;
+    assert_true(read_text("\xef\xbb\xbf{\"lights\": [{\"type\": \"point\", "
+                          "\"position_m\": [0, 1, 2], \"colour\": [1, 1, 1]}]}",
+                          &lights));
+    assert_int_equal(lights.count, 1);
+    assert_false(read_text("\xef\xbb", &lights)); // half of it
+}
+
 static void a_file_says_all_of_its_lights(void **state)
 {
     (void)state;
@@ -260,6 +272,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_file_says_all_of_its_lights),
+        cmocka_unit_test(a_mark_is_no_part_of_a_file),
         cmocka_unit_test(what_is_left_out_has_defaults),
         cmocka_unit_test(bad_files_are_refused_in_one_line),
         cmocka_unit_test(there_are_sixteen_lights_at_most),

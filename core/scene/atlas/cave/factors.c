@@ -72,7 +72,7 @@ static bool take_factors(struct reader *r, float factors[RG_ATLAS_OSCILLATIONS])
 static FILE *open_text(const char *path, struct rg_cave_why *why)
 {
     const char *reason;
-    FILE *file = rg_file_open(path, &reason);
+    FILE *file = rg_file_open_text(path, &reason);
     if (!file)
         rg_cave_refuse(why, "%s: %s; name the folder that holds the whole database", path, reason);
     return file;

@@ -1,14 +1,12 @@
-#define _GNU_SOURCE // memmem
 #include <archive.h>
 #include <archive_entry.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/base/text/mark.h"
 #include "core/scene/mesh/importer/importer.h"
 
 // A file in memory and the place in it, behind Assimp's callbacks.
@@ -18,34 +16,14 @@ struct memory_file {
     size_t size, at;
 };
 
-// --- reading whole files ---
+// --- texts and archives ---
 
-// Only a regular file, of at most RG_IMPORT_MAX_FILE_BYTES, into memory of a byte more. Sets errno
-// on failure.
-static unsigned char *read_whole(const char *path, size_t *size)
+// Assimp (5.2) takes a byte order mark for the beginning of a word, and so loses a vertex.
+static void drop_mark(struct import *import)
 {
-    struct stat st;
-    if (!stat(path, &st) && !S_ISREG(st.st_mode)) { // some devices act as soon as they are opened
-        errno = EFBIG;
-        return NULL;
-    }
-    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); // what took its place may block
-    if (fd < 0)
-        return NULL;
-    unsigned char *bytes = NULL;
-    if (fstat(fd, &st))
-        st.st_size = 0;
-    else if (!S_ISREG(st.st_mode) || st.st_size > RG_IMPORT_MAX_FILE_BYTES)
-        errno = EFBIG;
-    else
-        bytes = malloc((size_t)st.st_size + 1);
-    *size = 0;
-    for (ssize_t got = 1; bytes && got > 0 && *size < (size_t)st.st_size;) {
-        got = read(fd, bytes + *size, (size_t)st.st_size - *size);
-        *size += got > 0 ? (size_t)got : 0;
-    }
-    close(fd);
-    return bytes;
+    const size_t mark = rg_mark_bytes(import->bytes, import->size);
+    import->size -= mark;
+    memmove(import->bytes, import->bytes + mark, import->size);
 }
 
 static bool read_entry(struct import *import, struct archive *archive, int64_t size)
@@ -59,6 +37,7 @@ static bool read_entry(struct import *import, struct archive *archive, int64_t s
     if (archive_read_data(archive, import->bytes, (size_t)size) != size)
         return import_refuse(import, "%s is damaged; install the package again", import->name);
     import->size = (size_t)size;
+    drop_mark(import);
     return true;
 }
 
@@ -90,80 +69,16 @@ void import_name(struct import *import, const char *name)
     import->extension = dot ? dot + 1 : "";
 }
 
-// --- buffers ---
-
-// The start of the quoted text that ends at `end`, NULL where there is none.
-static const char *find_quote(const char *start, const char *end)
-{
-    while (end > start && end[-1] != '"' && end[-1] != '\n')
-        end--;
-    return end > start && end[-1] == '"' ? end : NULL;
-}
-
-static bool has_buffer(const struct import *import, const char *path)
-{
-    for (int i = 0; i < import->buffer_count; i++)
-        if (!strcmp(import->buffers[i].path, path))
-            return true;
-    return false;
-}
-
-// Whether a name leads out of the folder that it is looked for in.
-static bool leads_out(const char *name, size_t length)
-{
-    for (size_t at = 0; at < length; at++)
-        if ((at == 0 || name[at - 1] == '/') && !strncmp(name + at, "..", 2) &&
-            (at + 2 == length || name[at + 2] == '/'))
-            return true;
-    return name[0] == '/';
-}
-
-// A file in the mesh's folder or below, which Assimp will ask for by this path: a mesh that comes
-// from elsewhere opens nothing else.
-static void read_buffer(struct import *import, const char *name, size_t length)
-{
-    const char *slash = strrchr(import->name, '/');
-    const size_t folder = slash ? (size_t)(slash - import->name) + 1 : 0;
-    char *path = leads_out(name, length) ? NULL : malloc(folder + length + 1);
-    if (!path)
-        return;
-    memcpy(path, import->name, folder);
-    memcpy(path + folder, name, length);
-    path[folder + length] = 0;
-    struct import_buffer *buffer = &import->buffers[import->buffer_count];
-    *buffer = (struct import_buffer){.path = path};
-    if (!has_buffer(import, path) && (buffer->bytes = read_whole(path, &buffer->size)))
-        import->buffer_count++;
-    else
-        free(path);
-}
-
-// In the cage nothing can be opened, and only Assimp finds out what a glTF file asks for: so all
-// that is quoted in it and ends in .bin is read before.
-static void read_buffers(struct import *import)
-{
-    static const char ending[] = ".bin\"";
-    const char *start = (const char *)import->bytes, *end = start + import->size;
-    if (strcasecmp(import->extension, "gltf") && strcasecmp(import->extension, "glb"))
-        return;
-    for (const char *at = start; import->buffer_count < IMPORT_MAX_BUFFERS; at++) {
-        at = memmem(at, (size_t)(end - at), ending, strlen(ending));
-        if (!at)
-            return;
-        const char *name = find_quote(start, at);
-        if (name)
-            read_buffer(import, name, (size_t)(at - name) + strlen(".bin"));
-    }
-}
-
 bool import_open(struct import *import, const char *path, const char *member)
 {
     import_name(import, member ? member : path);
     import->member = member;
     if (member)
         import->archive = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    else if ((import->bytes = read_whole(path, &import->size)))
-        read_buffers(import);
+    else if ((import->bytes = import_read_whole(path, &import->size))) {
+        drop_mark(import);
+        import_read_buffers(import);
+    }
     return member ? import->archive >= 0 ||
                         import_refuse(import, "%s; install the package again", strerror(errno))
                   : import->bytes || import_refuse(import, "%s; check the path", strerror(errno));

@@ -15,7 +15,7 @@
 // A file that the mesh's file names.
 enum { IMPORT_MAX_BUFFERS = 32 };
 struct import_buffer {
-    char *path;
+    char *path; // as Assimp asks for it, which decodes nothing
     unsigned char *bytes;
     size_t size;
 };
@@ -44,13 +44,19 @@ void import_name(struct import *import, const char *name);
 // Before the cage is shut: reads the file and the buffers that it names, or opens the archive whose
 // `member` is not NULL. Nothing is parsed.
 bool import_open(struct import *import, const char *path, const char *member);
+// All of a regular file of at most RG_IMPORT_MAX_FILE_BYTES, in memory of a byte more. NULL, and
+// errno, on failure.
+unsigned char *import_read_whole(const char *path, size_t *size);
+// The files that a glTF file names as its buffers, while files can still be opened. What is absent
+// is left for Assimp to miss.
+void import_read_buffers(struct import *import);
 // The archive's member, if one is asked for.
 bool import_read_member(struct import *import);
 
 // From the file's bytes to the arrays and their counts in the reply.
 bool import_load(struct import *import);
 
-// Files for Assimp: the one that was read, out of memory, and glTF's buffers (.bin) beside it.
+// Files for Assimp: the one that was read, out of memory, and glTF's buffers beside it.
 // These were read beforehand. Nothing else is: no materials, no textures, nothing to write.
 struct aiFileIO import_files(struct import *import);
 

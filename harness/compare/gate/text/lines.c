@@ -9,6 +9,7 @@
 #include "core/base/array.h"
 #include "core/base/files/file.h"
 #include "core/base/log.h"
+#include "core/base/text/mark.h"
 #include "core/base/text/plain.h"
 
 enum { MOST_BYTES = 64 << 20 };
@@ -68,13 +69,11 @@ static bool add_line(struct rg_lines *lines, size_t at)
     return true;
 }
 
-// Some editors begin a text with a byte order mark, which is no part of its first line.
+// The mark stays in the bytes, which may be written back.
 static void skip_mark(struct rg_lines *lines)
 {
-    static const char mark[] = "\xef\xbb\xbf";
-    const size_t length = sizeof(mark) - 1;
-    if (lines->count && lines->size >= length && !memcmp(lines->texts, mark, length))
-        lines->lines[0].text += length;
+    if (lines->count)
+        lines->lines[0].text += rg_mark_bytes(lines->texts, lines->size);
 }
 
 static bool split(struct rg_lines *lines)

@@ -425,6 +425,9 @@ static void wind_scripts_are_checked(void **state)
     snprintf(text, sizeof(text), "1 2 3 # %0500d 4 5 6\n2 3 4\n", 0);
     put_script(path, text);
     assert_true(cartoon_wind_read(path, &script) && script.count == 2);
+    put_script(path, "\xef\xbb\xbf"
+                     "1 2 3\n2 3 4\n"); // some editors begin so
+    assert_true(cartoon_wind_read(path, &script) && script.count == 2);
     snprintf(text, sizeof(text), "1 2 3 %300s\n2 3 4\n", "");
     put_script(path, text);
     assert_false(cartoon_wind_read(path, &script));
