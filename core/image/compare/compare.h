@@ -27,7 +27,8 @@ extern const float rg_above_thresholds[RG_ABOVE_COUNT];
 struct rg_metrics {
     double mean;                   // of |A - B|
     double rms;                    // of A - B
-    double psnr_db;                // 20 log10(largest |value| / rms); infinite when rms is 0
+    double psnr_db;                // 20 log10(largest |value|, at least 1, / rms); infinite where
+                                   // nothing differs, NAN where else a value is not finite
     double max;                    // of |A - B|
     int max_x, max_y, max_channel; // of the first value in row order that has it; 0 when equal
     int64_t values;                // compared

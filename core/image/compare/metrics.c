@@ -145,7 +145,7 @@ static void measure_row(const float *a, const float *b, const struct rg_picture 
 static void add_rows(const struct row_metrics *rows, int height, int channels, struct rg_metrics *m)
 {
     double sum = 0, squares = 0;
-    float largest = 0;
+    float largest = 1; // so that dark pictures are measured by what white would be
     for (int y = 0; y < height; y++) {
         const struct row_metrics *row = &rows[y];
         sum += row->sum;
@@ -169,7 +169,10 @@ static void add_rows(const struct row_metrics *rows, int height, int channels, s
     }
     m->mean = sum / (double)m->values;
     m->rms = sqrt(squares / (double)m->values);
-    m->psnr_db = m->rms > 0 ? 20 * log10((double)largest / m->rms) : INFINITY;
+    const bool is_equal = m->rms == 0 && !m->nonfinite_mismatches;
+    m->psnr_db = is_equal                           ? INFINITY
+                 : m->nonfinite_a || m->nonfinite_b ? NAN
+                                                    : 20 * log10((double)largest / m->rms);
 }
 
 static const float *row_of(const struct rg_picture *picture, int y)

@@ -1,6 +1,7 @@
 #include "harness/compare/diff/devices.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -147,9 +148,12 @@ static void print_pair(const struct shot *a, const struct shot *b, const struct 
     char pair[2 * RG_DEVICE_NAME_SIZE + 2];
     snprintf(pair, sizeof(pair), "%s, %s", a->info->name, b->info->name);
     rg_plain(pair);
-    printf("%-30s %-5s %-5s %10lld %6d/255 %8lld %9.6f %8.4g\n", pair, holds ? "ok" : "fail",
-           c->tier, (long long)c->metrics.differing_values, c->tiers.max_codes,
-           (long long)c->tiers.mask_pixels, c->flip.mean, c->metrics.psnr_db);
+    char psnr[32] = "none"; // of values that are no numbers
+    if (!isnan(c->metrics.psnr_db))
+        snprintf(psnr, sizeof(psnr), "%.4g", c->metrics.psnr_db);
+    printf("%-30s %-5s %-5s %10lld %6d/255 %8lld %9.6f %8s\n", pair, holds ? "ok" : "fail", c->tier,
+           (long long)c->metrics.differing_values, c->tiers.max_codes,
+           (long long)c->tiers.mask_pixels, c->flip.mean, psnr);
 }
 
 // Whether it is the reference, or nearer to it by the tier it owes or, among equals, by what cpu

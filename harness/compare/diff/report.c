@@ -24,12 +24,20 @@ static void print_verdicts(const struct rg_tiers *t)
     printf("  T2 geometry                  %s%s\n", yes(&t->of[RG_T2]), t->of[RG_T2].why);
 }
 
+static void print_psnr(const struct rg_metrics *m)
+{
+    if (isnan(m->psnr_db))
+        printf("  PSNR                         none, of values that are no numbers\n");
+    else
+        printf("  PSNR                         %.4g dB\n", m->psnr_db);
+}
+
 // What linear figures are of depends on the files: integers were decoded.
 static void print_codes(const struct rg_metrics *m)
 {
     printf("\ncodes, over the largest code\n");
     printf("  mean error, rms              %.6g, %.6g\n", m->mean, m->rms);
-    printf("  PSNR                         %.4g dB\n", m->psnr_db);
+    print_psnr(m);
     printf("  largest error                %.6g\n", m->max);
 }
 
@@ -39,7 +47,7 @@ static void print_metrics(const struct rg_metrics *m, bool decoded)
     printf("  differing values             %lld of %lld, in %lld pixels\n",
            (long long)m->differing_values, (long long)m->values, (long long)m->differing_pixels);
     printf("  mean error, rms              %.6g, %.6g\n", m->mean, m->rms);
-    printf("  PSNR                         %.4g dB\n", m->psnr_db);
+    print_psnr(m);
     printf("  largest error                %.6g", m->max);
     if (m->max > 0)
         printf(" at x %d, y %d, channel %d", m->max_x, m->max_y, m->max_channel);
@@ -153,13 +161,22 @@ static json_t *metrics_json(const struct rg_metrics *m)
                      "nonfinite_mismatches", (json_int_t)m->nonfinite_mismatches, "above", above);
 }
 
+// null: nothing differs. Absent where a value is no number.
+static void set_psnr(json_t *json, const struct rg_metrics *m)
+{
+    if (!isnan(m->psnr_db))
+        json_object_set_new(json, "psnr", number(m->psnr_db));
+}
+
 static json_t *codes_json(const struct rg_comparison *c)
 {
     const struct rg_metrics *m = &c->code_metrics;
-    return !c->has_codes
-               ? json_null()
-               : json_pack("{s:o, s:o, s:o, s:o}", "mean", number(m->mean), "rms", number(m->rms),
-                           "max", number(m->max), "psnr", number(m->psnr_db));
+    if (!c->has_codes)
+        return json_null();
+    json_t *json = json_pack("{s:o, s:o, s:o}", "mean", number(m->mean), "rms", number(m->rms),
+                             "max", number(m->max));
+    set_psnr(json, m);
+    return json;
 }
 
 static json_t *hdr_flip_json(const struct rg_comparison *c)
@@ -190,20 +207,21 @@ json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *c
     if (!is_utf8(a) || !is_utf8(b))
         return NULL;
     json_t *pair = json_pack(
-        "{s:s, s:s, s:s, s:i, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:o, s:o, "
+        "{s:s, s:s, s:s, s:i, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:o, s:o, "
         "s:o}",
         "a", a, "b", b, "tier", c->tier, "max", c->tiers.max_codes, "differing",
         (json_int_t)c->metrics.differing_values, "mask", (json_int_t)c->tiers.mask_pixels,
-        "flip_mean", number(f->mean), "psnr", number(c->metrics.psnr_db), "flip_weighted_median",
-        number(f->weighted_median), "flip_p99", number(f->p99), "flip_max", number(f->max),
-        "flip_mask_mean", number(f->mask_mean), "flip_mask_p99", number(f->mask_p99), "exposure",
-        (double)c->exposure, "pixels_per_degree", (double)c->pixels_per_degree, "relative_mean",
+        "flip_mean", number(f->mean), "flip_weighted_median", number(f->weighted_median),
+        "flip_p99", number(f->p99), "flip_max", number(f->max), "flip_mask_mean",
+        number(f->mask_mean), "flip_mask_p99", number(f->mask_p99), "exposure", (double)c->exposure,
+        "pixels_per_degree", (double)c->pixels_per_degree, "relative_mean",
         number(c->tiers.relative_mean), "tiers", tiers_json(&c->tiers), "linear",
         metrics_json(&c->metrics));
     if (!pair)
         return rg_error_null("diff --json: no memory for the figures of '%s' and '%s'; close other "
                              "programs",
                              a, b);
+    set_psnr(pair, &c->metrics);
     json_object_set_new(pair, "flip_weighted_quartile_1", number(f->weighted_quartile_1));
     json_object_set_new(pair, "flip_weighted_quartile_3", number(f->weighted_quartile_3));
     json_object_set_new(pair, "codes", codes_json(c));
