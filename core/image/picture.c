@@ -53,7 +53,8 @@ bool rg_picture_allocate(struct rg_picture *picture, int64_t width, int64_t heig
                  (long long)width, (long long)height, (long long)(bytes >> 20));
         return false;
     }
-    *picture = (struct rg_picture){(int)width, (int)height, (int)channels, texels, false};
+    *picture = (struct rg_picture){
+        .width = (int)width, .height = (int)height, .channels = (int)channels, .texels = texels};
     return true;
 }
 
@@ -86,18 +87,52 @@ void rg_picture_destroy(struct rg_picture *picture)
     if (!picture)
         return;
     free(picture->texels);
+    free(picture->extras);
     memset(picture, 0, sizeof(*picture));
+}
+
+bool rg_picture_is_see_through(const struct rg_picture *picture)
+{
+    const int64_t pixels = (int64_t)picture->width * picture->height;
+    const int channels = picture->channels, colours = rg_picture_colours(picture);
+    for (int64_t i = 0; colours < channels && i < pixels; i++)
+        if (picture->texels[i * channels + colours] != 1.0f)
+            return true;
+    return false;
+}
+
+bool rg_picture_widen(struct rg_picture *picture, const struct rg_picture *other, const char *name)
+{
+    const int own = rg_picture_colours(picture), others = rg_picture_colours(other);
+    const bool has_alpha = picture->channels > own, is_alpha_wanted = other->channels > others;
+    const int colours = own > others ? own : others;
+    const int channels = colours + (has_alpha || is_alpha_wanted);
+    struct rg_picture wide;
+    if (channels == picture->channels)
+        return true;
+    if (!rg_picture_create(&wide, picture->width, picture->height, channels, name))
+        return false;
+    const int64_t pixels = (int64_t)picture->width * picture->height;
+    const float *from = picture->texels;
+    float *to = wide.texels;
+    for (int64_t i = 0; i < pixels; i++, from += picture->channels, to += channels) {
+        for (int c = 0; c < colours; c++)
+            to[c] = from[own > 1 ? c : 0];
+        if (channels > colours)
+            to[colours] = has_alpha ? from[own] : 1.0f;
+    }
+    free(picture->texels);
+    picture->texels = wide.texels;
+    picture->channels = channels;
+    return true;
 }
 
 void rg_picture_drop_opaque_alpha(struct rg_picture *picture)
 {
     const int64_t pixels = (int64_t)picture->width * picture->height;
     const int channels = picture->channels, colours = rg_picture_colours(picture);
-    if (colours == channels)
+    if (colours == channels || rg_picture_is_see_through(picture))
         return;
-    for (int64_t i = 0; i < pixels; i++)
-        if (picture->texels[i * channels + colours] != 1.0f)
-            return;
     for (int64_t i = 0; i < pixels; i++)
         for (int c = 0; c < colours; c++)
             picture->texels[i * colours + c] = picture->texels[i * channels + c];

@@ -16,7 +16,10 @@
 struct rg_picture {
     int width, height, channels;
     float *texels;
-    bool decoded; // read from integer codes, which were taken for sRGB and made linear
+    bool decoded;       // read from integer codes, which were made linear
+    bool is_associated; // read from a file whose colours are multiplied by alpha already
+    double gamma;       // of codes whose curve is a power: light is code^gamma; 0: sRGB's curve
+    char *extras;       // what else the file holds (core/image/extras.h); NULL: nothing; owned
 };
 
 // Makes a picture of undefined texels. A size outside the limits, or memory that is not there, is
@@ -38,6 +41,13 @@ void rg_picture_destroy(struct rg_picture *picture);
 // files can be read at once and one line be logged.
 bool rg_picture_allocate(struct rg_picture *picture, int64_t width, int64_t height,
                          int64_t channels, char *why, size_t why_size);
+
+// Whether an alpha is there that is not 1 everywhere.
+bool rg_picture_is_see_through(const struct rg_picture *picture);
+
+// Makes room for as many channels as the other has, and shows the same: grey becomes red, green and
+// blue, and an alpha of 1 is added. In place. False, and one logged line, without memory.
+bool rg_picture_widen(struct rg_picture *picture, const struct rg_picture *other, const char *name);
 
 // Leaves out an alpha that is 1 everywhere: files are smaller, and HDR holds none. In place.
 void rg_picture_drop_opaque_alpha(struct rg_picture *picture);

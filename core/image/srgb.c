@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <pthread.h>
+#include <stdlib.h>
 
 static struct rg_srgb tables;
 static pthread_once_t tables_once = PTHREAD_ONCE_INIT;
@@ -14,6 +15,16 @@ double rg_srgb_decode(double encoded)
 double rg_srgb_encode(double linear)
 {
     return linear <= 0.0031308 ? linear * 12.92 : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+}
+
+float *rg_light_of_codes(int codes, double gamma)
+{
+    float *light = malloc((size_t)codes * sizeof(*light));
+    for (int c = 0; light && c < codes; c++) {
+        const double code = c / (codes - 1.0);
+        light[c] = (float)(gamma > 0 ? pow(code, gamma) : rg_srgb_decode(code));
+    }
+    return light;
 }
 
 static void make_tables(void)

@@ -19,6 +19,10 @@ struct rg_srgb {
 // The tables; made on the first call, from any thread.
 const struct rg_srgb *rg_srgb(void);
 
+// What light codes are: a table of as many as there are, which the caller frees. `gamma`: their
+// curve is this power; 0: sRGB's. NULL without memory.
+float *rg_light_of_codes(int codes, double gamma);
+
 // The curve itself, for one value in 0..1.
 double rg_srgb_decode(double encoded);
 double rg_srgb_encode(double linear);

@@ -16,7 +16,7 @@
            failing  drivers that are there and cannot be used, and what is absent
            all      the same, of every command
            misbehaving  drivers that crash, hang, lie about their end or lose their device
-           ways     the same, in all ways, of the commands that take longer
+           ways     the same, in all ways, of the commands that take longer, and files of pictures of all kinds
            vacuous  commands that are left with nothing to compare or to measure
            idle     the same, all of them
            gates    one device held against another
@@ -49,6 +49,7 @@ for room in ("devices", "drivers", "printed"):
 import acts
 import atlases
 import baselines
+import besides
 import bisecting
 import cases
 import ci
@@ -82,7 +83,7 @@ SUITES = {
     "renders": lambda runner: cases.run(runner, cases.RENDERS),
     "tables": lambda runner: cases.run(runner, cases.TABLES),
     "drivers": lambda runner: cases.run(runner, cases.WITH_DRIVERS),
-    "results": lambda runner: runner.check_all(tables.CHECKS + pictures.CHECKS + atlases.CHECKS + limits.CHECKS),
+    "results": lambda runner: runner.check_all(tables.CHECKS + pictures.CHECKS + besides.CHECKS + atlases.CHECKS + limits.CHECKS),
     "clips": lambda runner: runner.check_all(clips.CHECKS),
     "stored": lambda runner: runner.check_all(stored.CHECKS),
     "losses": lambda runner: runner.check_all(losses.CHECKS + resuming.CHECKS),
@@ -90,7 +91,7 @@ SUITES = {
     "failing": lambda runner: runner.check_all(failing.CHECKS),
     "all": lambda runner: runner.check_all(failing.THOROUGH),
     "misbehaving": lambda runner: runner.check_all(misbehaving.CHECKS),
-    "ways": lambda runner: runner.check_all(misbehaving.THOROUGH + compiling.THOROUGH),
+    "ways": lambda runner: runner.check_all(misbehaving.THOROUGH + compiling.THOROUGH + besides.THOROUGH),
     "vacuous": lambda runner: runner.check_all(vacuous.CHECKS),
     "idle": lambda runner: runner.check_all(vacuous.THOROUGH),
     "gates": lambda runner: runner.check_all(gates.CHECKS),

@@ -1,4 +1,6 @@
 // Figures of codes, as programs have them that compare integer pictures without decoding them.
+#include <math.h>
+
 #include "core/image/compare/compare.h"
 #include "core/image/srgb.h"
 
@@ -10,7 +12,9 @@ static void encode_back(const struct rg_picture *from, int y, float *row)
     const float *texel = from->texels + (int64_t)y * from->width * channels;
     for (int x = 0; x < from->width; x++, texel += channels, row += channels)
         for (int c = 0; c < channels; c++)
-            row[c] = c < colours ? rg_srgb_encoded(srgb, texel[c]) : texel[c];
+            row[c] = c >= colours      ? texel[c]
+                     : from->gamma > 0 ? (float)pow((double)texel[c], 1 / from->gamma)
+                                       : rg_srgb_encoded(srgb, texel[c]);
 }
 
 bool rg_code_metrics(const struct rg_picture *a, const struct rg_picture *b,

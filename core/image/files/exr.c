@@ -5,6 +5,7 @@
 
 #include "core/image/files/exr_unpack.h"
 #include "core/image/files/format.h"
+#include "core/image/reader/reply.h"
 
 // What reading one file keeps, for OpenEXRCore's callbacks and the loop over chunks.
 struct exr_job {
@@ -43,7 +44,8 @@ static exr_context_initializer_t initializer(void)
     return with;
 }
 
-// Fills job->names and returns how many: R, G, B and A, or Y and A. 0: neither, with `why` set.
+// Fills job->names and returns how many: R, G, B and A, or Y and A, or V and A. 0: neither, with
+// `why` set.
 static int choose_channels(struct exr_job *job, const exr_attr_chlist_t *list)
 {
     static const char *const sets[][5] = {{"R", "G", "B", "A"}, {"Y", "A"}, {"V", "A"}};
@@ -51,14 +53,8 @@ static int choose_channels(struct exr_job *job, const exr_attr_chlist_t *list)
         int found = 0, needed = s ? 1 : 3;
         for (int wanted = 0; sets[s][wanted]; wanted++)
             for (int c = 0; c < list->num_channels; c++)
-                if (!strcmp(list->entries[c].name.str, sets[s][wanted]) && found == wanted) {
-                    if (list->entries[c].x_sampling != 1 || list->entries[c].y_sampling != 1)
-                        return rg_why_set(job->why,
-                                          "channel %s is subsampled; write it at full "
-                                          "resolution",
-                                          sets[s][wanted]);
+                if (!strcmp(list->entries[c].name.str, sets[s][wanted]) && found == wanted)
                     job->names[found++] = sets[s][wanted];
-                }
         if (found >= needed)
             return found;
     }
@@ -74,8 +70,6 @@ static bool find_chunks(struct exr_job *job, int64_t width, int64_t height)
     exr_storage_t storage;
     exr_get_storage(job->exr, 0, &storage);
     job->tiled = storage == EXR_STORAGE_TILED;
-    if (storage != EXR_STORAGE_SCANLINE && !job->tiled)
-        return rg_why_set(job->why, "holds deep data; flatten it");
     if (job->tiled) {
         uint32_t tile_width, tile_height;
         exr_tile_level_mode_t levels;
@@ -94,15 +88,94 @@ static bool find_chunks(struct exr_job *job, int64_t width, int64_t height)
     return true;
 }
 
-static bool read_header(struct exr_job *job, int64_t file_bytes)
+// What nobody reads here is refused by its name, in whichever part it stands.
+static bool is_readable(const struct exr_job *job, int part)
 {
     const exr_attr_chlist_t *list;
-    if (exr_get_data_window(job->exr, 0, &job->window) || exr_get_channels(job->exr, 0, &list))
-        return rg_why_set(job->why, "EXR header: the window or the channels are missing");
-    int channels = choose_channels(job, list);
+    exr_storage_t storage;
+    uint32_t width, height;
+    exr_tile_level_mode_t levels = EXR_TILE_ONE_LEVEL;
+    exr_tile_round_mode_t round;
+    if (exr_get_storage(job->exr, part, &storage) || exr_get_channels(job->exr, part, &list))
+        return rg_why_set(job->why, "EXR header: the channels are missing");
+    if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED)
+        return rg_why_set(job->why, "holds deep data; flatten it");
+    bool has_luminance = false, has_chroma = false;
+    for (int c = 0; c < list->num_channels; c++) {
+        const exr_attr_chlist_entry_t *entry = &list->entries[c];
+        has_luminance = has_luminance || !strcmp(entry->name.str, "Y");
+        has_chroma = has_chroma || !strcmp(entry->name.str, "RY") || !strcmp(entry->name.str, "BY");
+    }
+    exr_get_tile_descriptor(job->exr, part, &width, &height, &levels, &round);
+    if (levels == EXR_TILE_RIPMAP_LEVELS)
+        return rg_why_set(job->why, "holds a ripmap; write it with one level");
+    if (has_luminance && has_chroma)
+        return rg_why_set(job->why, "holds luminance and chroma (Y, RY, BY); write it as R, G, B");
+    for (int c = 0; c < list->num_channels; c++)
+        if (list->entries[c].x_sampling != 1 || list->entries[c].y_sampling != 1)
+            return rg_why_set(job->why, "channel %.60s is subsampled; write it at full resolution",
+                              list->entries[c].name.str);
+    return true;
+}
+
+static bool is_rec709(const exr_attr_chromaticities_t *c)
+{
+    return c->red_x == 0.64f && c->red_y == 0.33f && c->green_x == 0.3f && c->green_y == 0.6f &&
+           c->blue_x == 0.15f && c->blue_y == 0.06f && c->white_x == 0.3127f &&
+           c->white_y == 0.329f;
+}
+
+// Whether the file holds the picture and nothing else, in a way that the library decodes rightly:
+// its routine for B44 (3.1.5) is wrong for floats, and it has none for DWAA and DWAB.
+static bool is_plain(const struct exr_job *job, const exr_attr_chlist_t *list, int channels)
+{
+    exr_attr_box2i_t display;
+    exr_compression_t compression;
+    uint32_t tile_width, tile_height;
+    exr_tile_level_mode_t levels = EXR_TILE_ONE_LEVEL;
+    exr_tile_round_mode_t round;
+    const exr_attribute_t *colours;
+    float aspect = 1;
+    int parts = 0;
+    exr_get_count(job->exr, &parts);
+    exr_get_display_window(job->exr, 0, &display);
+    exr_get_compression(job->exr, 0, &compression);
+    exr_get_pixel_aspect_ratio(job->exr, 0, &aspect);
+    exr_get_tile_descriptor(job->exr, 0, &tile_width, &tile_height, &levels, &round);
+    bool is = parts == 1 && list->num_channels == channels && compression < EXR_COMPRESSION_B44 &&
+              !display.min.x && !display.min.y && aspect == 1 && levels == EXR_TILE_ONE_LEVEL &&
+              !memcmp(&display, &job->window, sizeof(display));
+    for (int c = 0; is && c < list->num_channels; c++)
+        is = list->entries[c].pixel_type != EXR_PIXEL_UINT;
+    return is && (exr_get_attribute_by_name(job->exr, 0, "ICCProfile", &colours)) &&
+           (exr_get_attribute_by_name(job->exr, 0, "chromaticities", &colours) ||
+            (colours->type == EXR_ATTR_CHROMATICITIES && is_rec709(colours->chromaticities)));
+}
+
+// Whose it is to read the texels.
+enum reader { NOBODY, THIS, OPENIMAGEIO };
+
+static enum reader choose_reader(struct exr_job *job, int *channels)
+{
+    const exr_attr_chlist_t *list;
+    int parts = 0;
+    exr_get_count(job->exr, &parts);
+    for (int part = 0; part < parts; part++)
+        if (!is_readable(job, part))
+            return NOBODY;
+    if (exr_get_data_window(job->exr, 0, &job->window) || exr_get_channels(job->exr, 0, &list)) {
+        rg_why_set(job->why, "EXR header: the window or the channels are missing");
+        return NOBODY;
+    }
+    *channels = choose_channels(job, list);
+    return !*channels ? NOBODY : is_plain(job, list, *channels) ? THIS : OPENIMAGEIO;
+}
+
+static bool prepare(struct exr_job *job, int64_t file_bytes, int channels)
+{
     int64_t width = (int64_t)job->window.max.x - job->window.min.x + 1;
     int64_t height = (int64_t)job->window.max.y - job->window.min.y + 1;
-    if (!channels || !find_chunks(job, width, height))
+    if (!find_chunks(job, width, height))
         return false;
     // Every chunk has an entry of 8 bytes in the chunk table, and a header of 8 at least.
     if ((int64_t)job->across * job->down * 16 > file_bytes)
@@ -189,8 +262,15 @@ bool rg_exr_read(const char *path, int64_t file_bytes, struct rg_picture *pictur
     exr_result_t code = exr_start_read(&job.exr, path, &with);
     if (code != EXR_ERR_SUCCESS)
         return failed(why, "header", code);
-    bool good = read_header(&job, file_bytes) && read_chunks(&job);
+    int channels = 0;
+    const enum reader reader = choose_reader(&job, &channels);
+    bool good = reader == THIS && prepare(&job, file_bytes, channels) && read_chunks(&job);
     exr_finish(&job.exr);
+    if (reader == OPENIMAGEIO)
+        good = rg_oiio_read(path,
+                            file_bytes < RG_PICTURE_EXR_BYTES ? RG_PICTURE_EXR_BYTES : file_bytes,
+                            picture, why);
+    picture->is_associated = good && picture->channels > rg_picture_colours(picture);
     if (!good)
         rg_picture_destroy(picture);
     return good;

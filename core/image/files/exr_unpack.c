@@ -4,18 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A half as a float, exact for every half: zeros, subnormals, infinities and NaN too.
-static float float_of_half(uint16_t half)
-{
-    uint32_t magnitude = half & 0x7fffu, bits = magnitude << 13;
-    float value;
-    memcpy(&value, &bits, 4);
-    value *= 0x1p112f;
-    memcpy(&bits, &value, 4);
-    bits |= (magnitude >= 0x7c00 ? 0x7f800000u : 0) | (uint32_t)(half & 0x8000) << 16;
-    memcpy(&value, &bits, 4);
-    return value;
-}
+#include "core/image/half.h"
 
 // Converts `count` values of one channel of one line, and spreads them over texels.
 static void convert_line(const uint8_t *from, int type, int count, float *to, int stride)
@@ -32,7 +21,7 @@ static void convert_line(const uint8_t *from, int type, int count, float *to, in
         memcpy(type == EXR_PIXEL_FLOAT ? (void *)values : (void *)&raw, from,
                (size_t)part * (size_t)size);
         for (int i = 0; type == EXR_PIXEL_HALF && i < part; i++)
-            values[i] = float_of_half(raw.half[i]);
+            values[i] = rg_float_of_half(raw.half[i]);
         for (int i = 0; type == EXR_PIXEL_UINT && i < part; i++)
             values[i] = (float)raw.integer[i];
         for (int i = 0; i < part; i++)

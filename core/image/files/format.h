@@ -20,7 +20,8 @@ bool rg_png_read_codes(const char *path, int64_t file_bytes, struct rg_picture *
 bool rg_png_write(const char *path, const struct rg_picture *picture,
                   const struct rg_write_options *options, struct rg_why *why);
 
-// HDR and TIFF. The writer takes the format from `extension`, since `path` is a temporary name.
+// HDR and TIFF, and EXR that needs it. The writer takes the format from `extension`, since `path`
+// is a temporary name.
 bool rg_oiio_read(const char *path, int64_t file_bytes, struct rg_picture *picture,
                   struct rg_why *why);
 // What the reader's process handed back of a file of so many bytes (core/image/reader/reply.h). The

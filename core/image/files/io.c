@@ -9,6 +9,8 @@
 #include <unistd.h>
 
 #include "core/base/log.h"
+#include "core/base/text/plain.h"
+#include "core/image/extras.h"
 #include "core/image/files/disk.h"
 #include "core/image/files/format.h"
 #include "core/image/files/temporary.h"
@@ -120,9 +122,26 @@ bool rg_pictures_read(const char *const *paths, struct rg_picture *pictures, int
     return !failed;
 }
 
+static void warn_of_extras(const char *path, const struct rg_picture *picture)
+{
+    char names[200] = "";
+    struct rg_extra extra;
+    for (const char *at = picture->extras; rg_extras_next(&at, &extra);) {
+        const size_t length = strlen(names);
+        snprintf(names + length, sizeof(names) - length, "%s%.*s", length ? ", " : "",
+                 extra.name_length, extra.name);
+    }
+    rg_plain(names);
+    if (*names)
+        rg_warning("%s: what it holds besides is not used: %s", path, names);
+}
+
 bool rg_picture_read(const char *path, struct rg_picture *picture)
 {
-    return rg_pictures_read(&path, picture, 1);
+    const bool good = rg_pictures_read(&path, picture, 1);
+    if (good)
+        warn_of_extras(path, picture);
+    return good;
 }
 
 int64_t rg_picture_file_bytes(const char *path, int64_t pixels)

@@ -9,12 +9,16 @@
 #include "core/image/files/options.h"
 #include "core/image/picture.h"
 
-// Reads a file of 8-bit codes (PNG, TIFF of integers) from sRGB to linear light, one of floats as
-// it is. A file that cannot be read leaves `picture` zeroed and logs one line: file, what is wrong,
-// how to mend it. NaN and infinite texels are kept, with a warning that counts them.
+// Reads a file of codes (PNG, TIFF of integers) to linear light: from sRGB, or by the power that a
+// PNG's gAMA says; one of floats as it is. Of an EXR this is the display window, 0 where the file
+// has no texels; HDR and TIFF are turned upright. What the file holds besides is in the picture's
+// extras. A file that cannot be read leaves `picture` zeroed and logs one line: file, what is
+// wrong, how to mend it. NaN and infinite texels are kept, with a warning that counts them; what is
+// held besides is a warning, too.
 bool rg_picture_read(const char *path, struct rg_picture *picture);
 
 // Reads several files at once, on as many threads. All are read or none: then one line is logged.
+// Of what they hold besides nothing is said: that is for who compares them.
 bool rg_pictures_read(const char *const *paths, struct rg_picture *pictures, int count);
 
 // The least bytes that drawn pictures of so many pixels take in a file of this name; 0 where its

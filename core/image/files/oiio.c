@@ -14,7 +14,6 @@
 #include "core/base/program.h"
 #include "core/image/files/format.h"
 #include "core/image/reader/reply.h"
-#include "core/image/srgb.h"
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static const struct rg_oiio_functions *functions;
@@ -44,19 +43,36 @@ const struct rg_oiio_functions *rg_oiio(char *why, int why_size)
     return functions;
 }
 
-// Values of integer files are sRGB-encoded: bends them to linear light, alpha excepted.
-static bool decode(struct rg_picture *picture)
+// --- reading, in the reader's process ---
+
+// The extras that follow the texels, as a text.
+static bool take_extras(const char *extras, uint32_t bytes, struct rg_picture *picture,
+                        struct rg_why *why)
 {
-    picture->decoded = true;
-    int colours = rg_picture_colours(picture);
-    int64_t values = rg_picture_values(picture);
-    for (int64_t i = 0; i < values; i++)
-        if (i % picture->channels < colours)
-            picture->texels[i] = (float)rg_srgb_decode(picture->texels[i]);
+    if (!bytes)
+        return true;
+    picture->extras = malloc((size_t)bytes + 1);
+    if (!picture->extras)
+        return rg_why_refused(why, "no memory for what it holds besides; close other programs");
+    memcpy(picture->extras, extras, bytes);
+    picture->extras[bytes] = 0;
     return true;
 }
 
-// --- reading, in the reader's process ---
+// What follows the header, whose picture has its memory.
+static bool take_rest(const char *rest, size_t bytes, const struct rg_picture_reply *header,
+                      struct rg_picture *picture, struct rg_why *why)
+{
+    const size_t texels_bytes = (size_t)rg_picture_reply_values(header) * sizeof(float);
+    if (header->extras_bytes > RG_PICTURE_EXTRAS_BYTES ||
+        bytes != texels_bytes + header->extras_bytes)
+        return rg_why_set(why, "raingauge_picture_reader handed back a part of it; build "
+                               "raingauge again");
+    picture->decoded = header->is_decoded != 0;
+    picture->is_associated = header->is_associated != 0;
+    memcpy(picture->texels, rest, texels_bytes);
+    return take_extras(rest + texels_bytes, header->extras_bytes, picture, why);
+}
 
 bool rg_oiio_take_reply(const void *reply, size_t bytes, int64_t file_bytes,
                         struct rg_picture *picture, struct rg_why *why)
@@ -75,15 +91,10 @@ bool rg_oiio_take_reply(const void *reply, size_t bytes, int64_t file_bytes,
         return rg_why_set(
             why, "promises %.0f values, more than its %lld bytes can hold; write it again",
             (double)header.width * header.height * header.channels, (long long)file_bytes);
-    if (!rg_picture_allocate(picture, header.width, header.height, header.channels, why->text,
-                             sizeof(why->text)))
-        return false;
-    const size_t texels_bytes = (size_t)rg_picture_reply_values(&header) * sizeof(float);
-    if (bytes - sizeof(header) != texels_bytes)
-        return rg_why_set(why, "raingauge_picture_reader handed back a part of it; build "
-                               "raingauge again");
-    memcpy(picture->texels, (const char *)reply + sizeof(header), texels_bytes);
-    return header.integer ? decode(picture) : true;
+    return rg_picture_allocate(picture, header.width, header.height, header.channels, why->text,
+                               sizeof(why->text)) &&
+           take_rest((const char *)reply + sizeof(header), bytes - sizeof(header), &header, picture,
+                     why);
 }
 
 static bool read_caged(const char *path, int file, int64_t file_bytes, struct rg_picture *picture,
@@ -98,7 +109,8 @@ static bool read_caged(const char *path, int file, int64_t file_bytes, struct rg
     snprintf(name, sizeof(name), "picture%s", extension ? extension : "");
     const int error = rg_caged_run(
         (const char *const[]){program, name, NULL}, file, (int)(60 + file_bytes / 1000000),
-        (int64_t)sizeof(struct rg_picture_reply) + RG_PICTURE_MAX_BYTES, &caged);
+        (int64_t)sizeof(struct rg_picture_reply) + RG_PICTURE_MAX_BYTES + RG_PICTURE_EXTRAS_BYTES,
+        &caged);
     const enum rg_caged_end end =
         error ? RG_CAGED_MACHINE
               : rg_caged_end(&caged, "OpenImageIO", why->text, sizeof(why->text));

@@ -45,6 +45,10 @@ try {
         return false;
     }
     ImageSpec spec(width, height, channels, kind == "tiff" ? TypeDesc::HALF : TypeDesc::FLOAT);
+    if (channels == 2) { // of four the last is alpha anyway
+        spec.channelnames = {"Y", "A"};
+        spec.alpha_channel = 1;
+    }
     spec["oiio:UnassociatedAlpha"] = 1;
     spec["oiio:ColorSpace"] = "linear";
     FILE *file = fopen(path, "wb");

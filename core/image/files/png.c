@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/image/files/format.h"
+#include "core/image/files/png_beside.h"
 #include "core/image/srgb.h"
 
 // Everything that a read or a write holds. libpng reports errors by longjmp, so it lives outside
@@ -16,14 +17,16 @@ struct png_job {
     FILE *file;
     png_byte *bytes;
     png_bytep *rows;
+    struct rg_png_beside beside;
     struct rg_why *why;
 };
 
 static void on_error(png_structp png, png_const_charp message)
 {
     struct png_job *job = png_get_error_ptr(png);
-    rg_why_set(job->why, "PNG: %s%s%s", message, errno ? ": " : "; write it again",
-               errno ? strerror(errno) : "");
+    const bool is_disks = ferror(job->file) != 0;
+    rg_why_set(job->why, "PNG: %s%s%s", message, is_disks ? ": " : "; write it again",
+               is_disks ? strerror(errno) : "");
     longjmp(png_jmpbuf(png), 1);
 }
 
@@ -39,6 +42,7 @@ static void release(struct png_job *job)
         fclose(job->file);
     free(job->bytes);
     free(job->rows);
+    rg_png_beside_release(&job->beside);
 }
 
 // A deflated byte holds at most 1032 others, so a header that promises more is a lie that need not
@@ -70,6 +74,8 @@ static bool read_rows(struct png_job *job, int64_t file_bytes, struct rg_picture
     if (setjmp(png_jmpbuf(job->png)))
         return false;
     png_set_user_limits(job->png, RG_PICTURE_MAX_SIDE_PX, RG_PICTURE_MAX_SIDE_PX);
+    png_set_chunk_malloc_max(job->png, (png_alloc_size_t)file_bytes); // frames may be large
+    rg_png_beside_hear(&job->beside, job->png);
     png_init_io(job->png, job->file);
     png_read_info(job->png, job->info);
     int64_t height = png_get_image_height(job->png, job->info);
@@ -85,41 +91,48 @@ static bool read_rows(struct png_job *job, int64_t file_bytes, struct rg_picture
                                png_get_channels(job->png, job->info), job->why->text,
                                sizeof(job->why->text)) &&
            allocate_rows(job, row_bytes, (size_t)height) &&
-           (png_read_image(job->png, job->rows), png_read_end(job->png, NULL), true);
+           (png_read_image(job->png, job->rows), png_read_end(job->png, job->info), true);
 }
 
-static void decode8(const png_byte *codes, struct rg_picture *picture)
+static void decode8(const png_byte *codes, const float *light, struct rg_picture *picture)
 {
-    const float *linear = rg_srgb()->linear;
     int channels = picture->channels, colours = rg_picture_colours(picture);
     int64_t texels = (int64_t)picture->width * picture->height;
     float *to = picture->texels;
     if (channels == 3 || channels == 1) {
         for (int64_t i = 0; i < texels * channels; i++)
-            to[i] = linear[codes[i]];
+            to[i] = light[codes[i]];
         return;
     }
     for (int64_t i = 0; i < texels; i++, codes += channels, to += channels) {
         for (int c = 0; c < colours; c++)
-            to[c] = linear[codes[c]];
+            to[c] = light[codes[c]];
         to[colours] = codes[colours] / 255.0f;
     }
 }
 
-static bool decode16(const png_byte *bytes, struct rg_picture *picture, struct rg_why *why)
+static void decode16(const png_byte *bytes, const float *light, struct rg_picture *picture)
 {
-    float *linear = malloc(65536 * sizeof(*linear));
-    if (!linear)
-        return rg_why_set(why, "no memory for the 16-bit curve");
-    for (int c = 0; c < 65536; c++)
-        linear[c] = (float)rg_srgb_decode(c / 65535.0);
     const uint16_t *codes = (const uint16_t *)(const void *)bytes;
     int colours = rg_picture_colours(picture);
     int64_t values = rg_picture_values(picture);
     for (int64_t i = 0; i < values; i++)
         picture->texels[i] =
-            i % picture->channels < colours ? linear[codes[i]] : codes[i] / 65535.0f;
-    free(linear);
+            i % picture->channels < colours ? light[codes[i]] : codes[i] / 65535.0f;
+}
+
+static bool decode(const struct png_job *job, bool wide, struct rg_picture *picture)
+{
+    if (!rg_png_beside_tell(&job->beside, picture))
+        return rg_why_set(job->why, "no memory for what it holds besides");
+    float *light = rg_light_of_codes(wide ? 65536 : 256, picture->gamma);
+    if (!light)
+        return rg_why_set(job->why, "no memory for its curve");
+    if (wide)
+        decode16(job->bytes, light, picture);
+    else
+        decode8(job->bytes, light, picture);
+    free(light);
     return true;
 }
 
@@ -138,7 +151,6 @@ static bool read_png(const char *path, int64_t file_bytes, bool curve, struct rg
     struct png_job job = {.file = fopen(path, "rb"), .why = why};
     if (!job.file)
         return rg_why_set(why, "%s; check the path", strerror(errno));
-    errno = 0;
     job.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
     bool good = job.info ? read_rows(&job, file_bytes, picture)
@@ -146,10 +158,8 @@ static bool read_png(const char *path, int64_t file_bytes, bool curve, struct rg
     const bool wide = good && png_get_bit_depth(job.png, job.info) == 16;
     if (good && !curve)
         keep_codes(job.bytes, wide, picture);
-    else if (wide)
-        good = decode16(job.bytes, picture, why);
     else if (good)
-        decode8(job.bytes, picture);
+        good = decode(&job, wide, picture);
     picture->decoded = good && curve;
     png_destroy_read_struct(&job.png, &job.info, NULL);
     release(&job);
@@ -214,7 +224,6 @@ bool rg_png_write(const char *path, const struct rg_picture *picture,
     struct png_job job = {.file = fopen(path, "wb"), .why = why};
     if (!job.file)
         return rg_why_set(why, "cannot be written: %s", strerror(errno));
-    errno = 0;
     job.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
     bool good = job.info ? write_rows(&job, picture, options->exposure)

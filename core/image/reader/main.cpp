@@ -1,22 +1,23 @@
-// raingauge_picture_reader: reads one HDR or TIFF file with OpenImageIO and hands back its texels
-// (reply.h).
+// raingauge_picture_reader: reads one picture with OpenImageIO, and hands back its texels and what
+// the file holds besides (reply.h). HDR and TIFF come here, and what core/image/files/exr.c leaves
+// of EXR.
 //
 // OpenImageIO 2.4 writes past its memory with some files, such as a tiled TIFF of signed 8-bit
 // CMYK. In a cage it harms nobody.
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 
 #include <cstdio>
-#include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <new>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/image/reader/reader.h"
+
 extern "C" {
 #include "core/base/cage/cage.h"
-#include "core/image/reader/reply.h"
 }
 
 using OIIO::ImageInput;
@@ -25,15 +26,6 @@ using OIIO::TypeDesc;
 
 namespace
 {
-
-rg_picture_reply reply = {RG_PICTURE_REPLY_MAGIC, 0, 0, 0, 0, 0, ""};
-float *texels; // NULL: none
-
-bool refuse(const std::string &why)
-{
-    snprintf(reply.why, sizeof(reply.why), "%s", why.empty() ? "no reason is given" : why.c_str());
-    return false;
-}
 
 // Time for 20 megabytes of a file in a second, and memory for what it may hold at most: once as
 // texels, once as the file's own values.
@@ -52,47 +44,39 @@ void set_library()
 {
     OIIO::attribute("try_all_readers", 0);
     OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", -1);
     OIIO::attribute("limits:imagesize_MB", 16384);
 }
 
-bool describe(const ImageSpec &spec)
-{
-    reply.width = spec.width;
-    reply.height = spec.height;
-    reply.channels = spec.nchannels;
-    reply.integer = !spec.format.is_floating_point();
-    return (spec.depth <= 1 && !spec.deep) || refuse("is a volume or deep; flatten it");
-}
-
-bool read_texels(ImageInput *input)
-{
-    texels = static_cast<float *>(calloc((size_t)rg_picture_reply_values(&reply), sizeof(float)));
-    if (!texels)
-        _exit(RG_CAGE_NO_MEMORY);
-    return (input->read_image(0, 0, 0, reply.channels, TypeDesc::FLOAT, texels) &&
-            !input->has_error()) ||
-           refuse(input->geterror());
-}
-
-bool read_picture(const char *name, int64_t file_bytes)
+bool read_file(Reading &reading)
 try {
     OIIO::Filesystem::IOFile proxy(fdopen(RG_CAGE_FILE, "rb"), OIIO::Filesystem::IOProxy::Read);
     ImageSpec hints;
     hints["oiio:UnassociatedAlpha"] = 1;
     OIIO::Filesystem::IOProxy *source = &proxy;
     hints.attribute("oiio:ioproxy", TypeDesc::PTR, &source); // some readers look for it only there
-    std::unique_ptr<ImageInput> input = ImageInput::open(name, &hints, &proxy);
+    std::unique_ptr<ImageInput> input =
+        ImageInput::open("picture." + reading.extension, &hints, &proxy);
     if (!input)
-        return refuse(OIIO::geterror());
-    if (!describe(input->spec()))
-        return false;
-    if (!rg_picture_reply_is_possible(&reply) || !rg_picture_reply_fits(&reply, file_bytes))
-        return true; // the receiver says so
-    return read_texels(input.get());
+        return reading.refuse(OIIO::geterror());
+    return read_all(reading, *input);
 } catch (const std::bad_alloc &) {
     _exit(RG_CAGE_NO_MEMORY);
 } catch (const std::exception &e) {
-    return refuse(e.what());
+    return reading.refuse(e.what());
+}
+
+bool put_reply(Reading &reading)
+{
+    if (reading.extras.size() > RG_PICTURE_EXTRAS_BYTES)
+        reading.refuse("has too many parts or channels; keep those that count");
+    if (reading.reply.why[0] || !reading.texels)
+        return rg_cage_reply(&reading.reply, sizeof(reading.reply));
+    reading.reply.extras_bytes = (uint32_t)reading.extras.size();
+    return rg_cage_reply(&reading.reply, sizeof(reading.reply)) &&
+           rg_cage_reply(reading.texels,
+                         (size_t)rg_picture_reply_values(&reading.reply) * sizeof(float)) &&
+           rg_cage_reply(reading.extras.data(), reading.extras.size());
 }
 
 } // namespace
@@ -104,13 +88,20 @@ int main(int argc, char **argv)
         fputs("raingauge_picture_reader is started by raingauge\n", stderr);
         return 2;
     }
-    set_limits(st.st_size);
+    Reading reading = {};
+    reading.reply.magic = RG_PICTURE_REPLY_MAGIC;
+    reading.pages = 1;
+    const char *extension = strrchr(argv[1], '.');
+    for (const char *c = extension ? extension + 1 : ""; *c; c++)
+        reading.extension += (char)tolower((unsigned char)*c);
+    reading.file_bytes = st.st_size;
+    if (reading.is_exr() && reading.file_bytes < RG_PICTURE_EXR_BYTES)
+        reading.file_bytes = RG_PICTURE_EXR_BYTES;
+    set_limits(reading.file_bytes);
     set_library();
     if (!rg_cage_shut())
         _exit(RG_CAGE_REFUSED);
-    const bool is_read = read_picture(argv[1], st.st_size) && texels;
-    const size_t values = is_read ? (size_t)rg_picture_reply_values(&reply) : 0;
-    const bool put =
-        rg_cage_reply(&reply, sizeof(reply)) && rg_cage_reply(texels, values * sizeof(float));
+    read_file(reading);
+    const bool put = put_reply(reading);
     _exit(put ? 0 : 1); // not exit: destructors of libraries are not part of the work
 }

@@ -2,9 +2,10 @@
 //
 // Command line: raingauge_picture_reader NAME, of which only the extension counts: the file is the
 // descriptor that it is given. The reply is this header, then the texels as floats, as in
-// picture.h. `why` is "" or a sentence that says what is wrong, and then nothing follows; nothing
-// follows either where the header alone shows a picture that cannot be. The receiver trusts none
-// of it.
+// picture.h, then the extras (core/image/extras.h), which are no longer than
+// RG_PICTURE_EXTRAS_BYTES. `why` is "" or a sentence that says what is wrong, and then nothing
+// follows; nothing follows either where the header alone shows a picture that cannot be. The
+// receiver trusts none of it.
 #ifndef RG_CORE_IMAGE_READER_REPLY_H
 #define RG_CORE_IMAGE_READER_REPLY_H
 
@@ -13,12 +14,20 @@
 
 #include "core/image/picture.h"
 
-#define RG_PICTURE_REPLY_MAGIC 0x50524731u // "1GRP"
+#define RG_PICTURE_REPLY_MAGIC 0x50524732u // "2GRP"
+
+// A file of a few thousand channels or parts has no more.
+enum { RG_PICTURE_EXTRAS_BYTES = 1 << 18 };
+
+// The display window of an EXR may be larger than what its file has texels for: so such files are
+// believed to have as many bytes at least.
+enum { RG_PICTURE_EXR_BYTES = 1 << 18 };
 
 struct rg_picture_reply {
-    uint32_t magic, integer; // integer: of 8 or 16 bits, values are code / largest code
+    uint32_t magic, is_decoded; // is_decoded: from integer codes
     int32_t width, height, channels, reserved;
-    char why[488];
+    uint32_t is_associated, extras_bytes;
+    char why[480];
 };
 
 // Whether it is a picture within the limits.
@@ -34,8 +43,8 @@ static inline int64_t rg_picture_reply_values(const struct rg_picture_reply *rep
     return (int64_t)reply->width * reply->height * reply->channels;
 }
 
-// Whether a file of so many bytes can hold the picture: no format codes more than 1040 values in a
-// byte.
+// Whether a file of so many bytes can hold the picture: no format but EXR codes more than 1040
+// values in a byte.
 static inline bool rg_picture_reply_fits(const struct rg_picture_reply *reply, int64_t file_bytes)
 {
     return (double)reply->width * reply->height * reply->channels / 1040 <= (double)file_bytes;

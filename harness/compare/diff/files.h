@@ -14,9 +14,9 @@ struct rg_diff_request {
     struct rg_compare_options options;
 };
 
-// Prints the comparison of `b` with `a` to stdout. Returns an enum rg_exit: pass when they are
-// the same to the bit (T0); usage, with one line logged, for bad input or a heat map that cannot be
-// written.
+// Prints the comparison of `b` with `a` to stdout. Returns an enum rg_exit: pass when they show
+// the same to the bit (T0) and hold nothing else that differs; usage, with one line logged, for bad
+// input or a heat map that cannot be written.
 int rg_diff_files(const struct rg_diff_request *request);
 
 #endif

@@ -11,10 +11,11 @@ from pathlib import Path
 WIDE, HIGH = 5, 3
 
 
-def png(kind, depth, samples, interlaced=False, more=b""):
-    def chunk(name, content):
-        return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
+def chunk(name, content):
+    return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
 
+
+def png(kind, depth, samples, interlaced=False, more=b""):
     def rows(width, height):
         line = (width * depth * samples + 7) // 8
         return b"".join(bytes([y % 5]) + bytes((37 * (x + y * line)) % 256 for x in range(line)) for y in range(height))
@@ -26,9 +27,6 @@ def png(kind, depth, samples, interlaced=False, more=b""):
 
 
 def palette_png():
-    def chunk(name, content):
-        return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
-
     return png(3, 2, 1, more=chunk(b"PLTE", bytes(range(12))) + chunk(b"tRNS", b"\0\x80") + chunk(b"gAMA", b"\0\0\xb1\x8f"))
 
 
@@ -102,9 +100,9 @@ def ktx(side, key_values=b""):
                                                       1, len(key_values)) + key_values + face)
 
 
-def reply(width, height, channels, integer, how):
-    head = struct.pack("<IIiiii", 0x50524731, integer, width, height, channels, how)
-    return b"\x01" + head + bytes(488) + struct.pack("<f", 0.5) * (width * height * channels)
+def reply(width, height, channels, decoded, how, extras=b""):
+    head = struct.pack("<IIiiiiII", 0x50524732, decoded, width, height, channels, how, channels == 4, len(extras))
+    return b"\x01" + head + bytes(480) + struct.pack("<f", 0.5) * (width * height * channels) + extras
 
 
 # The first byte says whose value it is: of one of six techniques, or of an option of one of seven kinds.
@@ -118,13 +116,19 @@ SEEDS = {
         "interlaced.png": png(6, 8, 4, True), "palette.png": palette_png(),
         "half.exr": exr([b"R", b"G", b"B", b"A"], 1, 3), "float.exr": exr([b"Y"], 2, 0),
         "line.exr": exr([b"B", b"G", b"R"], 2, 2), "tiles.exr": exr([b"R", b"G", b"B"], 1, 3, 2),
-        "whole.exr": exr([b"V", b"A"], 0, 0, 4),
+        "frames.png": png(2, 8, 3, more=chunk(b"acTL", struct.pack(">II", 2, 0)) + chunk(b"fcTL", bytes(26)) + chunk(b"fdAT", bytes(30)) +
+                          chunk(b"cICP", b"\x09\x10\0\1") + chunk(b"cHRM", bytes(range(32))) + chunk(b"pHYs", bytes(range(9)))),
+        "profile.png": png(6, 8, 4, more=chunk(b"iCCP", b"any\0\0" + zlib.compress(bytes(50))) + chunk(b"gAMA", b"\0\1\x86\xa0") +
+                           chunk(b"eXIf", b"MM\0*" + struct.pack(">IHHHIHHI", 8, 1, 0x112, 3, 1, 6, 0, 0)) + chunk(b"oFFs", bytes(range(9)))),
     },
     "caged": {
+        "whole.exr": exr([b"V", b"A"], 0, 0, 4), "depth.exr": exr([b"R", b"G", b"B", b"Z"], 2, 0),
+        "exposed.hdr": hdr().replace(b"\n\n", b"\nEXPOSURE=2\nCOLORCORR=1 2 1\n\n", 1),
         "flat.hdr": hdr(), "bytes.tif": tiff(), "words.tif": tiff(16, 4), "floats.tif": tiff(32, 1, 3),
         "tiles.tif": tiff(8, 4, 1, True), "signed.tif": tiff(8, 4, 2, True),
     },
-    "reply": {"small": reply(3, 2, 3, 0, 1), "codes": reply(4, 4, 4, 1, 1), "wrong": reply(2, 2, 2, 0, 0)},
+    "reply": {"small": reply(3, 2, 3, 0, 1), "codes": reply(4, 4, 4, 1, 1), "wrong": reply(2, 2, 2, 0, 0),
+              "extras": reply(2, 2, 1, 0, 2, b"channel Z\tXXH3 1\n!ICC profile\t5 bytes\n")},
     "cube": {"small.ktx": ktx(2), "keys.ktx": ktx(1, struct.pack("<I", 4) + b"a\0b\0")},
 }
 

@@ -8,6 +8,7 @@ TIERS, METRICS, COMPARE = ("core/image/compare/tiers.c", "core/image/compare/met
 PNG, DISC, SRGB, YUV = ("core/image/files/png.c", "core/image/disc.c", "core/image/srgb.c", "core/image/clip/yuv.c")
 PICTURE, DISK, IO, FLIP = "core/image/picture.c", "core/image/files/disk.c", "core/image/files/io.c", "core/image/compare/flip.c"
 HDR, UNPACK = "core/image/compare/flip_hdr.c", "core/image/files/exr_unpack.c"
+EXR, BESIDE, EXTRAS = "core/image/files/exr.c", "core/image/files/png_beside.c", "core/image/extras.c"
 
 RUN_CAGED, SHUT = "core/base/cage/run_caged.c", "core/base/cage/shut.c"
 
@@ -24,7 +25,9 @@ ROWS = [
     Fault(SRGB, "linear <= «0.0031308» ? linear", "0.04045", "the curve's dark part ends where that of codes does"),
     Fault(SRGB, "rg_srgb_decode((c «- 0.5») / 255)", "- 0.0", "codes are cut off, not rounded"),
     Fault(SRGB, "above < exact ? «nextafterf(above, 2)» : above", "above", "a threshold of codes is a step too low"),
-    Fault(PICTURE, "if (picture->texels[i * channels + colours] != 1.0f)\n            «return;»", "break;", "alpha is dropped though it is not opaque"),
+    Fault(PICTURE, "if (colours == channels || «rg_picture_is_see_through(picture)»)", "false", "alpha is dropped though it is not opaque"),
+    Fault(PICTURE, "to[c] = from[«own > 1 ? c : 0»];", "c", "grey is widened into what lies beside it", tests=("image diff",)),
+    Fault(PICTURE, "to[colours] = has_alpha ? from[own] : «1.0f»;", "0.0f", "a picture without alpha is widened as transparent", tests=("image diff",)),
     Fault(PICTURE, "width * height * channels * «4» > RG_PICTURE_MAX_BYTES", "1", "the limit of memory counts bytes as values"),
     Fault(DISC, "right = x + 1 < p->width ? «x + 1» : x", "x", "halving takes the left column twice"),
     Fault(DISC, "*to++ = mean_of_four(picture, «2 * x», 2 * y, c);", "x", "halving reads the left half"),
@@ -33,9 +36,18 @@ ROWS = [
     Fault(DISC, "return area_up_to(radius, dy + 0.5) «- area_up_to(radius, dy - 0.5)»;", "- area_up_to(radius, dy - 0.4)", "a disc's rows do not meet"),
     Fault(DISC, "half.decoded = picture->decoded;", "", "a halved picture forgets that its codes were made linear"),
     Fault(PNG, "if («png_get_bit_depth(job->png, job->info) == 16»)\n        png_set_swap", "false", "16-bit PNG are read in the other byte order"),
-    Fault(PNG, "linear[c] = (float)rg_srgb_decode(c / «65535.0»);", "65536.0", "white of 16 bits is not white"),
-    Fault(PNG, "to[colours] = «codes[colours] / 255.0f»;", "linear[codes[colours]]", "alpha goes through the curve"),
-    Fault(PNG, "i % picture->channels < colours ? «linear[codes[i]]» : codes", "codes[i] / 65535.0f", "16-bit PNG are taken as linear"),
+    Fault(SRGB, "const double code = c / «(codes - 1.0)»;", "(double)codes", "white is not white"),
+    Fault(SRGB, "light[c] = (float)(«gamma > 0» ? pow(code, gamma)", "false", "a file's gamma is not applied"),
+    Fault(PNG, "to[colours] = «codes[colours] / 255.0f»;", "light[codes[colours]]", "alpha goes through the curve"),
+    Fault(PNG, "i % picture->channels < colours ? «light[codes[i]]» : codes", "codes[i] / 65535.0f", "16-bit PNG are taken as linear", tests=("command line, results",)),
+    Fault(BESIDE, "picture->gamma = «gamma == 45454 || gamma == 45455» ? 0", "false", "what many programs write for sRGB is another curve", tests=("command line, results",)),
+    Fault(BESIDE, "!beside->chunks[i].is_there «&& !is_late»", "&& is_late", "chunks before a PNG's rows are passed over", tests=("command line, results",)),
+    Fault(BESIDE, "XXH3_64bits_update(beside->animation, chunk->data + 4, «chunk->size - 4»);", "0", "what frames hold is passed over", tests=("command line, results",)),
+    Fault(EXR, "parts == 1 && «list->num_channels == channels» &&", "true", "further channels of an EXR are passed over", tests=("command line, results",)),
+    Fault(EXR, "compression < «EXR_COMPRESSION_B44»", "EXR_COMPRESSION_DWAA", "OpenEXRCore's routine reads B44", tests=("image agrees",)),
+    Fault(EXTRAS, "if («!find(a, &one, &other)»)", "false", "what the second file alone holds is passed over", tests=("command line, results",)),
+    Fault(METRICS, "float largest = «1»;", "0", "dark pictures have a lower peak"),
+    Fault(METRICS, ": «m->nonfinite_a || m->nonfinite_b» ? NAN", "false", "a ratio is told of values that are no numbers"),
     Fault(PNG, "codes[c] = rg_srgb_code(srgb, from[c] «* exposure»);", "* 1", "the exposure of a PNG is left out"),
     Fault(PNG, "if (raw_bytes / «1040» <= file_bytes)", "1", "PNG that compress well are refused"),
     Fault(PNG, "picture->decoded = good && «curve»;", "true", "codes that were kept count as made linear"),
@@ -103,7 +115,7 @@ ROWS = [
     Fault("core/image/compare/flip_pool.c", "!is_near[value >> FIRST_SHIFT] || «(mask && !mask[i])»", "false", "the mask counts for the first digit alone"),
     Fault("core/image/compare/flip_pool.c", "{.by_sum = true, .target = «sum / 4»},", "sum / 2", "the first quartile is the median"),
     Fault("core/image/compare/flip_pool.c", "{.by_sum = true, .target = «sum / 4 * 3»}};", "sum / 2", "the third quartile is the median"),
-    Fault("core/image/compare/codes.c", "row[c] = c < colours ? «rg_srgb_encoded(srgb, texel[c])» : texel[c];", "texel[c]", "codes are light"),
+    Fault("core/image/compare/codes.c", ": «rg_srgb_encoded(srgb, texel[c])»;", "texel[c]", "codes are light"),
     Fault("core/image/srgb.h", "return «srgb->linear[code] == linear» ?", "1", "codes of 16 bits are rounded to 8"),
     Fault(COMPARE, "c->has_codes = «a->decoded && b->decoded»;", "a->decoded", "codes are told of a file that has none"),
     Fault(COMPARE, "c->has_hdr_flip = wants_hdr && «!a->decoded && !b->decoded»;", "true", "HDR-FLIP is told of integers"),

@@ -1,0 +1,46 @@
+// What the chunks of a PNG say besides its rows: the curve and the colours of its codes, where and
+// which way round it is shown, the frames of an animation. libpng (1.6) knows neither cICP nor
+// animations, and reads a damaged profile as none: so these chunks are taken as they come.
+#ifndef RG_CORE_IMAGE_FILES_PNG_BESIDE_H
+#define RG_CORE_IMAGE_FILES_PNG_BESIDE_H
+
+#include <png.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <xxhash.h>
+
+#include "core/image/picture.h"
+
+enum rg_png_chunk {
+    RG_PNG_GAMA,
+    RG_PNG_CHRM,
+    RG_PNG_SRGB,
+    RG_PNG_ICCP,
+    RG_PNG_CICP,
+    RG_PNG_PHYS,
+    RG_PNG_OFFS,
+    RG_PNG_EXIF,
+    RG_PNG_CHUNKS
+};
+
+// Zeroed at first; released by rg_png_beside_release.
+struct rg_png_beside {
+    struct {
+        bool is_there;
+        uint32_t size;
+        uint8_t bytes[512];  // its first ones
+    } chunks[RG_PNG_CHUNKS]; // the first of each kind that stands before the rows
+    uint64_t profile;        // a digest of it
+    uint32_t profile_bytes;
+    XXH3_state_t *animation;
+    int frames; // of the animation, 0: none
+};
+
+// Has libpng hand the chunks over, before anything is read.
+void rg_png_beside_hear(struct rg_png_beside *beside, png_structp png);
+
+// Sets the picture's gamma and adds its extras. False without memory for them.
+bool rg_png_beside_tell(const struct rg_png_beside *beside, struct rg_picture *picture);
+void rg_png_beside_release(struct rg_png_beside *beside);
+
+#endif
