@@ -38,8 +38,11 @@ int read_head(Reading &reading, const OIIO::ImageSpec &spec);
 // Colours, profile and shape of texels, as OpenImageIO names them.
 void tell_attributes(Reading &reading, const OIIO::ImageSpec &spec);
 
-// The texels, and extras of what is left of the file: further channels, parts, pages and levels,
-// and texels outside the display window. Ends the process where there is no memory for the texels.
+// Extras of further parts, pages and levels. False where one is refused.
+bool tell_parts(Reading &reading, OIIO::ImageInput &input);
+
+// The texels, and extras of further channels, of texels outside the display window, and of what
+// tell_parts tells. Ends the process where there is no memory for the texels.
 bool read_all(Reading &reading, OIIO::ImageInput &input);
 
 // A digest as extras print it.

@@ -1,19 +1,14 @@
-// The texels of a file: those of the picture, and digests of all others.
+// The texels of a picture, and digests of what does not come into them.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <functional>
 #include <unistd.h>
 #include <vector>
-#include <xxhash.h>
 
-#include "core/image/reader/reader.h"
+#include "core/image/reader/bands.h"
 
 extern "C" {
 #include "core/base/cage/cage.h"
-#include "core/image/half.h"
 #include "core/image/srgb.h"
 }
 
@@ -23,191 +18,6 @@ using OIIO::TypeDesc;
 
 namespace
 {
-
-enum { BAND_LINES = 64, MOST_PARTS = 4096 };
-
-// --- bands of texels, as doubles ---
-
-// The largest code of integers, 0 for floats.
-double largest_code(TypeDesc type)
-{
-    static const struct {
-        TypeDesc::BASETYPE type;
-        double largest;
-    } known[] = {{TypeDesc::UINT8, 255},
-                 {TypeDesc::INT8, 127},
-                 {TypeDesc::UINT16, 65535},
-                 {TypeDesc::INT16, 32767},
-                 {TypeDesc::UINT32, 4294967295.0},
-                 {TypeDesc::INT32, 2147483647.0},
-                 {TypeDesc::UINT64, 18446744073709551615.0},
-                 {TypeDesc::INT64, 9223372036854775807.0}};
-    for (const auto &one : known)
-        if (type.basetype == one.type)
-            return one.largest;
-    return 0;
-}
-
-struct Band {
-    int first_line, lines; // of the data window
-    const double *values;  // of all channels
-};
-
-bool is_readable(const ImageSpec &spec)
-{
-    return spec.width > 0 && spec.height > 0 && spec.nchannels > 0 &&
-           (double)spec.width * spec.nchannels * 8 * BAND_LINES < 2e9;
-}
-
-double number_of(const unsigned char *at, TypeDesc type)
-{
-    const auto as = [at](auto value) {
-        memcpy(&value, at, sizeof(value));
-        return value;
-    };
-    switch (type.basetype) {
-    case TypeDesc::UINT8:
-        return as(uint8_t());
-    case TypeDesc::INT8:
-        return as(int8_t());
-    case TypeDesc::UINT16:
-        return as(uint16_t());
-    case TypeDesc::INT16:
-        return as(int16_t());
-    case TypeDesc::UINT32:
-        return as(uint32_t());
-    case TypeDesc::INT32:
-        return as(int32_t());
-    case TypeDesc::HALF:
-        return (double)rg_float_of_half(as(uint16_t()));
-    case TypeDesc::FLOAT:
-        return (double)as(float());
-    case TypeDesc::DOUBLE:
-        return as(double());
-    default:
-        return 0;
-    }
-}
-
-// Texels as the file has them, made doubles: OpenImageIO itself would round them to floats. Codes
-// become quotients by the largest code, but those of EXR stay whole numbers.
-class Converter
-{
-  public:
-    Converter(const ImageSpec &spec, bool is_exr)
-    {
-        for (int c = 0; c < spec.nchannels; c++) {
-            const TypeDesc type = spec.channelformat(c);
-            types.push_back(type);
-            most.push_back(is_exr ? 0 : largest_code(type));
-            is_known = is_known && (number_types >> type.basetype & 1);
-        }
-    }
-
-    void convert(const std::vector<unsigned char> &from, std::vector<double> &to) const
-    {
-        const unsigned char *at = from.data();
-        for (size_t i = 0; i < to.size(); i += types.size())
-            for (size_t c = 0; c < types.size(); at += types[c].size(), c++) {
-                const double number = number_of(at, types[c]);
-                to[i + c] = most[c] > 0 ? number / most[c] : number;
-            }
-    }
-
-    bool is_known = true; // every type is
-
-  private:
-    static constexpr unsigned number_types =
-        1u << TypeDesc::UINT8 | 1u << TypeDesc::INT8 | 1u << TypeDesc::UINT16 |
-        1u << TypeDesc::INT16 | 1u << TypeDesc::UINT32 | 1u << TypeDesc::INT32 |
-        1u << TypeDesc::HALF | 1u << TypeDesc::FLOAT | 1u << TypeDesc::DOUBLE;
-    std::vector<TypeDesc> types;
-    std::vector<double> most;
-};
-
-// Reads a part's texels band by band.
-bool each_band(Reading &reading, ImageInput &input, int part, int level,
-               const std::function<void(const Band &)> &take)
-{
-    const ImageSpec spec = input.spec(part, level);
-    const Converter converter(spec, reading.is_exr());
-    if (!is_readable(spec))
-        return reading.refuse("its rows are too large; cut it into pieces");
-    if (!converter.is_known)
-        return reading.refuse(
-            "holds integers of 64 bits, or no numbers; write it with 32 or fewer");
-    const bool is_tiled = spec.tile_width > 0;
-    const int step = is_tiled ? spec.tile_height : std::min<int>(BAND_LINES, spec.height);
-    const size_t row = (size_t)spec.width * (size_t)spec.nchannels;
-    std::vector<unsigned char> native((size_t)spec.width * spec.pixel_bytes(true) * (size_t)step);
-    std::vector<double> values(row * (size_t)step);
-    for (int y = 0; y < spec.height; y += step) {
-        const int lines = std::min(step, spec.height - y), top = spec.y + y;
-        const bool good =
-            is_tiled ? input.read_tiles(part, level, spec.x, spec.x + spec.width, top, top + lines,
-                                        spec.z, spec.z + 1, 0, spec.nchannels, TypeDesc::UNKNOWN,
-                                        native.data())
-                     : input.read_scanlines(part, level, top, top + lines, spec.z, 0,
-                                            spec.nchannels, TypeDesc::UNKNOWN, native.data());
-        if (!good || input.has_error())
-            return reading.refuse(input.geterror());
-        values.resize(row * (size_t)lines);
-        converter.convert(native, values);
-        take({y, lines, values.data()});
-    }
-    return true;
-}
-
-// --- digests ---
-
-// One for each channel, of its values with their places in the display window: the same of a half
-// and of a float, and of a data window that leaves out nothing but zeros.
-class Digests
-{
-  public:
-    explicit Digests(int channels) : states((size_t)channels)
-    {
-        for (XXH3_state_t *&state : states) {
-            state = XXH3_createState();
-            XXH3_64bits_reset(state);
-        }
-    }
-
-    void add(const ImageSpec &spec, const Band &band)
-    {
-        const double *value = band.values;
-        for (int line = 0; line < band.lines; line++)
-            for (int x = 0; x < spec.width; x++)
-                for (size_t c = 0; c < states.size(); c++, value++)
-                    add_value(c, spec.x + x - spec.full_x,
-                              spec.y + band.first_line + line - spec.full_y, *value);
-    }
-
-    void add_value(size_t channel, int x, int y, double value)
-    {
-        const double told[] = {(double)x, (double)y, value};
-        if (value != 0 || std::signbit(value))
-            XXH3_64bits_update(states[channel], told, sizeof(told));
-    }
-
-    std::string text(size_t channel) const
-    {
-        return digest_text(XXH3_64bits_digest(states[channel]));
-    }
-
-    std::string text_of_all() const
-    {
-        std::string all;
-        for (size_t c = 0; c < states.size(); c++)
-            all += text(c);
-        return digest_text(XXH3_64bits(all.data(), all.size()));
-    }
-
-  private:
-    std::vector<XXH3_state_t *> states;
-};
-
-// --- the picture ---
 
 // Which of a file's channels is which of the picture's; -1: none of it.
 struct Picture {
@@ -368,49 +178,6 @@ bool read_picture(Reading &reading, ImageInput &input, Picture &p)
         reading.tell(true, "values outside the display window",
                      std::to_string(p.values_outside) + ", " + p.outside.text_of_all());
     return true;
-}
-
-// --- what is left ---
-
-// Parts of EXR, pages of TIFF, smaller levels of either.
-bool tell_part(Reading &reading, ImageInput &input, int part, int level)
-{
-    const ImageSpec spec = input.spec(part, level);
-    if (spec.deep || spec.depth > 1)
-        return reading.refuse("is a volume or deep; flatten it");
-    Digests digests(spec.nchannels);
-    if (!each_band(reading, input, part, level, [&](const Band &band) { digests.add(spec, band); }))
-        return false;
-    std::string names;
-    for (const std::string &name : spec.channelnames)
-        names += (names.empty() ? "" : ",") + name;
-    char shape[80];
-    snprintf(shape, sizeof(shape), "%dx%d at %d, %d, ", spec.full_width, spec.full_height,
-             spec.full_x, spec.full_y);
-    const std::string what = reading.is_exr() ? "part " : "page ";
-    const std::string of_level = level ? "level " + std::to_string(level + 1) + " of " : "";
-    reading.tell(true, of_level + what + std::to_string(part + 1),
-                 shape + names.substr(0, 160) + ", " + digests.text_of_all());
-    return true;
-}
-
-bool tell_parts(Reading &reading, ImageInput &input)
-{
-    const int promised =
-        reading.is_exr() ? input.spec(0, 0).get_int_attribute("oiio:subimages", 1) : reading.pages;
-    int part = 0;
-    for (; part < promised && input.seek_subimage(part, 0); part++) {
-        if (part >= MOST_PARTS || reading.extras.size() > RG_PICTURE_EXTRAS_BYTES)
-            return reading.refuse("has too many parts or channels; keep those that count");
-        const std::string name = input.spec(part, 0).get_string_attribute("oiio:subimagename");
-        if (!name.empty() && promised > 1)
-            reading.tell(true, "name of part " + std::to_string(part + 1), name.substr(0, 200));
-        for (int level = part ? 0 : 1; input.seek_subimage(part, level); level++)
-            if (!tell_part(reading, input, part, level))
-                return false;
-    }
-    return part >= promised ||
-           reading.refuse("its page " + std::to_string(part + 1) + " cannot be read");
 }
 
 } // namespace
