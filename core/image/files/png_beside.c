@@ -50,9 +50,9 @@ static void hear_profile(struct rg_png_beside *beside, const png_unknown_chunk *
 static int hear(png_structp png, png_unknown_chunkp chunk)
 {
     struct rg_png_beside *beside = png_get_user_chunk_ptr(png);
-    const bool is_late = chunk->location & PNG_AFTER_IDAT;
+    const bool is_said = chunk->size > 0 && !(chunk->location & PNG_AFTER_IDAT);
     for (int i = 0; i < RG_PNG_CHUNKS; i++)
-        if (!memcmp(chunk->name, names[i], 5) && !beside->chunks[i].is_there && !is_late) {
+        if (!memcmp(chunk->name, names[i], 5) && !beside->chunks[i].is_there && is_said) {
             const size_t most = sizeof(beside->chunks[i].bytes);
             beside->chunks[i].is_there = true;
             beside->chunks[i].size = (uint32_t)chunk->size;

@@ -100,8 +100,8 @@ def ktx(side, key_values=b""):
                                                       1, len(key_values)) + key_values + face)
 
 
-def reply(width, height, channels, decoded, how, extras=b""):
-    head = struct.pack("<IIiiiiII", 0x50524732, decoded, width, height, channels, how, channels == 4, len(extras))
+def reply(width, height, channels, decoded, how, extras=b"", more=0):
+    head = struct.pack("<IIiiiiII", 0x50524732, decoded, width, height, channels, how, channels == 4, len(extras) + more)
     return b"\x01" + head + bytes(480) + struct.pack("<f", 0.5) * (width * height * channels) + extras
 
 
@@ -117,7 +117,7 @@ SEEDS = {
         "half.exr": exr([b"R", b"G", b"B", b"A"], 1, 3), "float.exr": exr([b"Y"], 2, 0),
         "line.exr": exr([b"B", b"G", b"R"], 2, 2), "tiles.exr": exr([b"R", b"G", b"B"], 1, 3, 2),
         "frames.png": png(2, 8, 3, more=chunk(b"acTL", struct.pack(">II", 2, 0)) + chunk(b"fcTL", bytes(26)) + chunk(b"fdAT", bytes(30)) +
-                          chunk(b"cICP", b"\x09\x10\0\1") + chunk(b"cHRM", bytes(range(32))) + chunk(b"pHYs", bytes(range(9)))),
+                          chunk(b"cICP", b"\x09\x10\0\1") + chunk(b"cHRM", bytes(range(32))) + chunk(b"pHYs", bytes(range(9))) + chunk(b"iCCP", b"") + chunk(b"oFFs", b"")),
         "profile.png": png(6, 8, 4, more=chunk(b"iCCP", b"any\0\0" + zlib.compress(bytes(50))) + chunk(b"gAMA", b"\0\1\x86\xa0") +
                            chunk(b"eXIf", b"MM\0*" + struct.pack(">IHHHIHHI", 8, 1, 0x112, 3, 1, 6, 0, 0)) + chunk(b"oFFs", bytes(range(9)))),
     },
@@ -128,7 +128,9 @@ SEEDS = {
         "tiles.tif": tiff(8, 4, 1, True), "signed.tif": tiff(8, 4, 2, True),
     },
     "reply": {"small": reply(3, 2, 3, 0, 1), "codes": reply(4, 4, 4, 1, 1), "wrong": reply(2, 2, 2, 0, 0),
-              "extras": reply(2, 2, 1, 0, 2, b"channel Z\tXXH3 1\n!ICC profile\t5 bytes\n")},
+              "extras": reply(2, 2, 1, 0, 2, b"channel Z\tXXH3 1\n!ICC profile\t5 bytes\n"),
+              "cut": reply(2, 2, 1, 0, 0, b"channel Z\t1\n", 1), "without end": reply(2, 2, 1, 0, 0, b"a\tb", 0x7fffffff),
+              "large": reply(2, 2, 1, 0, 0, b"a\t" + b"b" * (1 << 18))},
     "cube": {"small.ktx": ktx(2), "keys.ktx": ktx(1, struct.pack("<I", 4) + b"a\0b\0")},
 }
 

@@ -41,7 +41,7 @@ ROWS = [
     Fault(PNG, "to[colours] = «codes[colours] / 255.0f»;", "light[codes[colours]]", "alpha goes through the curve"),
     Fault(PNG, "i % picture->channels < colours ? «light[codes[i]]» : codes", "codes[i] / 65535.0f", "16-bit PNG are taken as linear", tests=("command line, results",)),
     Fault(BESIDE, "picture->gamma = «gamma == 45454 || gamma == 45455» ? 0", "false", "what many programs write for sRGB is another curve", tests=("command line, results",)),
-    Fault(BESIDE, "!beside->chunks[i].is_there «&& !is_late»", "&& is_late", "chunks before a PNG's rows are passed over", tests=("command line, results",)),
+    Fault(BESIDE, "!beside->chunks[i].is_there «&& is_said»", "&& !is_said", "chunks before a PNG's rows are passed over", tests=("command line, results",)),
     Fault(BESIDE, "XXH3_64bits_update(beside->animation, chunk->data + 4, «chunk->size - 4»);", "0", "what frames hold is passed over", tests=("command line, results",)),
     Fault(EXR, "parts == 1 && «list->num_channels == channels» &&", "true", "further channels of an EXR are passed over", tests=("command line, results",)),
     Fault(EXR, "compression < «EXR_COMPRESSION_B44»", "EXR_COMPRESSION_DWAA", "OpenEXRCore's routine reads B44", tests=("image agrees",)),
