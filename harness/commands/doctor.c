@@ -30,7 +30,7 @@ static const struct rg_option options[] = {
     RG_INCLUDE(rg_devices_option, AT(devices), "all"),
     RG_INCLUDE(rg_timeout_option, AT(timeout_s), NULL),
     RG_INCLUDE(rg_memory_option, AT(memory_bytes), NULL),
-    {RG_OPTION_TEXT, "compile", .argument = "KERNELS",
+    {RG_OPTION_TEXT, "kernels", .argument = "NAMES",
      .about = "compiles kernels instead, each by itself, and runs an item of those that need "
               "nothing for it: all, or names with commas; lists those that a driver cannot",
      .offset = AT(kernels)},
@@ -193,7 +193,7 @@ static int doctor(const void *values, const struct rg_words *arguments)
 
 const struct rg_command rg_command_doctor = {
     .name = "doctor",
-    .usage = "[--device D,...|all] [--compile KERNELS|all] [--json]",
+    .usage = "[--device D,...|all] [--kernels NAMES|all] [--json]",
     .about = "examines machine, drivers, their arithmetic and their timers",
     .options = options,
     .options_size = sizeof(struct doctor_options),

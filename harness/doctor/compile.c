@@ -38,7 +38,7 @@ bool rg_doctor_knows_kernels(const char *names)
          at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
         snprintf(name, sizeof(name), "%.*s", (int)strcspn(at, ","), at);
         if (!rg_kernel_find(name))
-            return rg_error("--compile: there is no kernel '%s'; `all`, or names of kernels with "
+            return rg_error("--kernels: there is no kernel '%s'; `all`, or names of kernels with "
                             "commas between them, as lines about drivers have them",
                             name);
     }

@@ -100,7 +100,7 @@ def check_compiled(runner):
     kernels, problems = ["flow_copy", KERNEL, "flow_level"], []
     with tempfile.TemporaryDirectory() as folder:
         devices = [failing(runner, folder, *case) for case in (("vulkan", "compile:abort"), ("gl", "run:fault"), ("opencl", "wait:abort"))]
-        args = ["doctor", "--compile", ",".join(kernels), "--device"]
+        args = ["doctor", "--kernels", ",".join(kernels), "--device"]
         result = runner.run(args + [",".join(devices + ["cpu"])])
         told = re.findall(r"(?m)^(\w+)\S*: (\d) kernels compile, an item of (\d) of them was run, and (\d) fail\n((?:  .*\n)*)", result.stdout)
         line = "  %s: crash\n" % KERNEL
@@ -111,7 +111,7 @@ def check_compiled(runner):
         if [(row["compiled"], row["ran"], [(one["kernel"], one["status"]) for one in row["failed"]]) for row in report] != [(2, 2, [(KERNEL, "crash")])]:
             problems.append("%s" % report)
         for which, device, status in (("flow_copy", "cpu", 0), ("flow_copy,nonsense", "cpu", 2), ("", "cpu", 2), ("flow_copy", "nonsense", 2)):
-            result = runner.run(["doctor", "--compile", which, "--device", device])
+            result = runner.run(["doctor", "--kernels", which, "--device", device])
             if result.returncode != status or len(result.stderr.splitlines()) != (status > 0):
                 problems.append("%s on %s: exit status %d, %s" % (which, device, result.returncode, result.stderr))
     return problems
