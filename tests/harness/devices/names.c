@@ -122,7 +122,7 @@ static void what_is_no_such_form_is_refused(void **state)
         {"gl@A=1;A=2", "device 'gl@A=1;A=2': sets A twice"},
         {"gl@AB=1;A=2;B=3;AB=1", "sets AB twice"},
         {"new=vulkan@DRIVER=/opt/mesa", "'new' is short for 'vulkan@DRIVER=/opt/mesa;A=b=c'"},
-        {"gl=vulkan", "is no API's"},
+        {"cpu=vulkan", "is no API's"},
         {"all=vulkan", "is no API's"},
         {".x=vulkan", "begins with a letter or a digit"},
         {"x=", "stands before the name of a device"},

@@ -162,5 +162,5 @@ void slow_end(struct slow_rig *rig)
 {
     assert_true(rg_kept_free(&rig->kept));
     for (int d = 0; d < 3; d++)
-        assert_true(rg_device_close(&rig->fakes[d]->pub));
+        assert_int_equal(rg_device_close(&rig->fakes[d]->pub), rig->fakes[d]->waits_left < 0);
 }
