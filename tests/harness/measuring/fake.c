@@ -53,6 +53,7 @@ static bool fake_sync(struct rg_device *device)
     fake->waits++;
     now_ms += fake->pending_ms + fake->sync_ms;
     fake->pending_ms = 0;
+    fake->was_lost = fake->was_lost || fake->waits_left == 0;
     if (fake->waits_left == 0)
         return rg_driver_error("device 'fake': lost");
     fake->waits_left -= fake->waits_left > 0;

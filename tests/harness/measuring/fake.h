@@ -25,14 +25,15 @@ extern const struct rg_technique fake_technique;
 // What a device does. Fields may be changed while it is open.
 struct fake_device {
     struct rg_device pub;
-    double sync_ms;                   // a wait, whatever it waits for
-    double run_ms;                    // a run of a pass
-    double item_ms, word_ms;          // more of each of its items, and of each that copies a word
-    int slow_runs;                    // so many runs more take ten times as long
-    int slow_every;                   // as does each of so many; 0: none
-    double clock_rate;                // of the API's clock, by wall clock
-    double clock_ms;                  // reading it
-    int waits_left;                   // after so many waits it is lost; -1: never
+    double sync_ms;          // a wait, whatever it waits for
+    double run_ms;           // a run of a pass
+    double item_ms, word_ms; // more of each of its items, and of each that copies a word
+    int slow_runs;           // so many runs more take ten times as long
+    int slow_every;          // as does each of so many; 0: none
+    double clock_rate;       // of the API's clock, by wall clock
+    double clock_ms;         // reading it
+    int waits_left;          // after so many waits it is lost; -1: never
+    bool was_lost;
     int64_t waits, clock_reads, runs; // since it was opened
     double pending_ms;                // asked for, and not waited for
     const void *last;                 // the instance that stepped last

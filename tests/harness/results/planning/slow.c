@@ -161,6 +161,8 @@ void slow_begin(struct slow_rig *rig)
 void slow_end(struct slow_rig *rig)
 {
     assert_true(rg_kept_free(&rig->kept));
-    for (int d = 0; d < 3; d++)
-        assert_int_equal(rg_device_close(&rig->fakes[d]->pub), rig->fakes[d]->waits_left < 0);
+    for (int d = 0; d < 3; d++) {
+        const bool was_well = !rig->fakes[d]->was_lost;
+        assert_true(rg_device_close(&rig->fakes[d]->pub) || !was_well);
+    }
 }
