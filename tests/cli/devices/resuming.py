@@ -105,7 +105,7 @@ def check_built_anew(runner):
             result = runner.run(["gate", *sides, "--cells", files.cells, "-o", folder, "--budget", "0.5s"])
             told = told_launches(folder)
             same = [key for key, values in left.items() if all(abs(a - b) <= 1e-8 * abs(a) for a, b in zip(values, told.get(key, [0, 0, 0])))]
-            if result.returncode not in (0, 3) or ("was timed with other code" in result.stderr) == is_kept or len(same) != is_kept * len(left):
+            if result.returncode not in (0, 3) or ("is of another build" in result.stderr) == is_kept or len(same) != is_kept * len(left):
                 problems.append("%s: exit status %d, %d of %d are the same, %s" % (program, result.returncode, len(same), len(left), result.stderr))
             with open(path, "w") as file:
                 file.write(whole)
