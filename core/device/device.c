@@ -171,9 +171,12 @@ const struct rg_work *rg_device_work(const struct rg_device *device)
 bool rg_device_sync(struct rg_device *device)
 {
     rg_doing_begin("waiting for the device", "");
+    bool ok = !device->work->has_failed ||
+              rg_driver_error("device '%s': failed while something on it was destroyed",
+                              device->info.name);
     rg_work_settle(device);
     rg_doing_waited();
-    const bool ok = !device->work->has_failed;
+    ok = ok && !device->work->has_failed;
     device->work->has_failed = false;
     return ok;
 }

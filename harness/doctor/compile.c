@@ -82,16 +82,6 @@ static bool is_harmless(const struct rg_kernel *kernel, struct rg_device *refere
 
 // --- compiling ---
 
-static bool compile(const struct rg_kernel *kernel, struct rg_device *device)
-{
-    struct rg_message request = {0};
-    rg_put_text(&request, device->info.name);
-    rg_put_text(&request, kernel->name);
-    const bool ok = rg_worker_ask(rg_remote_worker(device), RG_CALL_COMPILE, &request);
-    rg_message_free(&request);
-    return ok;
-}
-
 // What failed has been logged, and its device may have to be opened anew.
 static void note(struct pair *p, const struct rg_kernel *kernel)
 {
@@ -105,7 +95,7 @@ static void note(struct pair *p, const struct rg_kernel *kernel)
 
 static void try_kernel(struct pair *p, const struct rg_kernel *kernel)
 {
-    bool ok = compile(kernel, p->device);
+    bool ok = rg_digests_compile(p->device, kernel);
     p->compiled += ok;
     if (ok && !kernel->draw && is_harmless(kernel, p->reference)) {
         ok = run_zeros(kernel, p->device);

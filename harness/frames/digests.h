@@ -29,8 +29,8 @@ struct rg_digests {
     struct rg_digest *rows; // owned
 };
 
-// Runs and records; frames are left out once raingauge is interrupted. False, and one logged line,
-// on failure; to be freed in either case.
+// Runs and records; frames are left out once raingauge is interrupted. The caller frees them. False,
+// with one logged line and no digests, on failure.
 bool rg_digests_take(const struct rg_digest_run *run, struct rg_device *device,
                      struct rg_digests *digests);
 void rg_digests_free(struct rg_digests *digests);
@@ -53,5 +53,8 @@ bool rg_digests_dispatch(struct rg_dispatched *dispatched, struct rg_device *dev
 // that the caller frees. NULL, and one logged line, on failure.
 void *rg_digests_code(struct rg_device *device, const struct rg_kernel *kernel,
                       enum rg_code_kind kind, size_t *size);
+
+// Has a device compile a kernel, and drops it. False, and one logged line, on failure.
+bool rg_digests_compile(struct rg_device *device, const struct rg_kernel *kernel);
 
 #endif

@@ -1,70 +1,71 @@
-// A session whose instance lives in this process.
+// Calls about sessions and runs, as this process does them: the one table of them.
 #include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
 
+#include "core/base/array.h"
 #include "core/base/log.h"
 #include "core/device/pass.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
-#include "harness/frames/ways.h"
+#include "harness/frames/calling.h"
+#include "harness/frames/messages.h"
 #include "harness/frames/recorder.h"
-
-static bool open_local(struct rg_session *session, const struct rg_subject *subject)
-{
-    session->instance = rg_instance_open(subject->technique, session->device, subject->settings,
-                                         subject->width, subject->height);
-    if (session->instance)
-        session->state_count = session->instance->state_count;
-    return session->instance;
-}
-
-static void close_local(struct rg_session *session)
-{
-    rg_instance_close(session->instance);
-}
 
 // --- simulating and drawing ---
 
-static bool step(struct rg_session *session)
+static bool step(struct rg_session *session, const void *request, void *reply)
 {
+    (void)request;
+    (void)reply;
     return session->technique->step(session->instance);
 }
 
-static bool draw(struct rg_session *session)
+static bool draw(struct rg_session *session, const void *request, void *reply)
 {
+    (void)request;
+    (void)reply;
     return session->technique->draw(session->instance);
 }
 
-static bool wait_for_all(struct rg_session *session)
+static bool wait_for_all(struct rg_session *session, const void *request, void *reply)
 {
+    (void)request;
+    (void)reply;
     return rg_device_sync(session->device);
 }
 
-static bool run_frames(struct rg_session *session, int frames, double *wall_ms)
+static bool run_frames(struct rg_session *session, int frames)
 {
-    const double start_ms = rg_now_ms();
+    const struct rg_technique *technique = session->technique;
     bool ok = true;
     for (int i = 0; ok && i < frames && !rg_interrupted(); i++)
-        ok = step(session) && draw(session);
-    ok = ok && wait_for_all(session);
-    if (wall_ms)
-        *wall_ms = rg_now_ms() - start_ms;
+        ok = technique->step(session->instance) && technique->draw(session->instance);
+    return ok && rg_device_sync(session->device);
+}
+
+static bool frames(struct rg_session *session, const void *request, void *reply)
+{
+    const struct rg_asked *asked = request;
+    double *wall_ms = reply;
+    const double start_ms = rg_now_ms();
+    const bool ok = run_frames(session, asked->number);
+    *wall_ms = rg_now_ms() - start_ms;
     return ok;
 }
 
-static bool count(struct rg_session *session, struct rg_tally *tally)
+static bool count(struct rg_session *session, const void *request, void *reply)
 {
-    rg_tally_begin(session->device, tally);
-    const bool ok = run_frames(session, 1, NULL);
+    (void)request;
+    rg_tally_begin(session->device, reply);
+    const bool ok = run_frames(session, 1);
     rg_tally_end(session->device);
     return ok;
 }
 
 struct stage_clock {
     struct rg_session *session;
-    void (*tell)(const char *kernel, double ms, void *user);
-    void *user;
+    struct rg_told_stages *told;
     double last_ms;
     bool ok;
 };
@@ -72,26 +73,32 @@ struct stage_clock {
 static void after_stage(const struct rg_opened_stage *stage, void *user)
 {
     struct stage_clock *clock = user;
-    clock->ok = wait_for_all(clock->session) && clock->ok;
+    struct rg_told_stages *told = clock->told;
+    clock->ok =
+        rg_device_sync(clock->session->device) && clock->ok &&
+        rg_array_fit(&told->rows, &told->room, told->count + 1, sizeof(*told->rows), "stages");
     const double now_ms = rg_now_ms();
-    clock->tell(stage->row.kernel, now_ms - clock->last_ms, clock->user);
+    if (clock->ok)
+        told->rows[told->count++] =
+            (struct rg_told_stage){stage->row.kernel, now_ms - clock->last_ms};
     clock->last_ms = now_ms;
 }
 
-static bool time_stages(struct rg_session *session,
-                        void (*tell)(const char *kernel, double ms, void *user), void *user)
+static bool stages(struct rg_session *session, const void *request, void *reply)
 {
-    struct stage_clock clock = {session, tell, user, rg_now_ms(), true};
+    struct stage_clock clock = {session, reply, rg_now_ms(), true};
+    (void)request;
     session->instance->after_stage = after_stage;
     session->instance->user = &clock;
-    const bool ok = run_frames(session, 1, NULL);
+    const bool ok = run_frames(session, 1);
     session->instance->after_stage = NULL;
     return ok && clock.ok;
 }
 
-static bool tell_time(struct rg_session *session, int64_t *time_ns)
+static bool tell_time(struct rg_session *session, const void *request, void *reply)
 {
-    return rg_device_time(session->device, time_ns);
+    (void)request;
+    return rg_device_time(session->device, reply);
 }
 
 static void add_pass_code(const void *bytes, size_t size, void *user)
@@ -101,9 +108,11 @@ static void add_pass_code(const void *bytes, size_t size, void *user)
     code->passes.bytes += (int64_t)size;
 }
 
-static bool tell_code(struct rg_session *session, struct rg_session_code *code)
+static bool tell_code(struct rg_session *session, const void *request, void *reply)
 {
     const struct rg_instance *instance = session->instance;
+    struct rg_session_code *code = reply;
+    (void)request;
     *code = (struct rg_session_code){.libraries = rg_libraries_hash()};
     rg_program_id(code->program);
     for (int i = 0; i < instance->stage_count; i++)
@@ -115,14 +124,19 @@ static bool tell_code(struct rg_session *session, struct rg_session_code *code)
 
 // --- its picture, its state, and what it tells of itself ---
 
-static void *read_picture(struct rg_session *session, size_t *size)
+static bool read_picture(struct rg_session *session, const void *request, void *reply)
 {
-    return rg_frame_read(session->instance, size);
+    struct rg_told_bytes *told = reply;
+    (void)request;
+    told->bytes = rg_frame_read(session->instance, &told->size);
+    return told->bytes;
 }
 
-static bool tell(const struct rg_session *session, struct rg_account *account)
+static bool tell(struct rg_session *session, const void *request, void *reply)
 {
     const struct rg_instance *instance = session->instance;
+    struct rg_account *account = reply;
+    (void)request;
     *account = (struct rg_account){.frame = instance->frame,
                                    .counter_count = instance->counter_count,
                                    .fact_count = instance->fact_count};
@@ -131,64 +145,130 @@ static bool tell(const struct rg_session *session, struct rg_account *account)
     return true;
 }
 
-static void *read_state(struct rg_session *session, int index, struct rg_state *layout,
-                        size_t *size)
+static bool read_state(struct rg_session *session, const void *request, void *reply)
 {
-    const struct rg_state *state = &session->instance->state[index];
+    const struct rg_asked *asked = request;
+    struct rg_told_bytes *told = reply;
+    if (asked->number >= session->instance->state_count)
+        return rg_error("a session has no state of the number %d", asked->number);
+    const struct rg_state *state = &session->instance->state[asked->number];
     struct rg_buf *buf = state->asset->buf;
-    void *words = malloc(buf->size);
-    if (!words)
-        return rg_error_null("buffer '%s': no memory for %zu bytes", state->name, buf->size);
-    if (rg_buf_read(buf, 0, words, (int64_t)buf->size)) {
-        *layout = *state;
-        layout->asset = NULL;
-        *size = buf->size;
-        return words;
-    }
-    free(words);
-    return NULL;
+    told->layout = *state;
+    told->layout.asset = NULL;
+    told->size = buf->size;
+    told->bytes = malloc(buf->size);
+    if (!told->bytes)
+        return rg_error("buffer '%s': no memory for %zu bytes", state->name, buf->size);
+    return rg_buf_read(buf, 0, told->bytes, (int64_t)buf->size);
 }
 
-static bool obeys(const struct rg_session *session, const struct rg_law *law, char *detail,
-                  size_t size)
+static bool obeys(struct rg_session *session, const void *request, void *reply)
 {
-    return law->holds(session->instance, detail, size);
+    const struct rg_asked *asked = request;
+    struct rg_told_law *told = reply;
+    const struct rg_law *law = rg_session_law(session, asked->number);
+    if (!law)
+        return rg_error("a session's technique has no such law");
+    told->holds = law->holds(session->instance, told->detail, sizeof(told->detail));
+    return true;
 }
 
-static bool texture(const struct rg_session *session, const char *name, struct rg_image_desc *desc,
-                    int *first_level)
+static bool texture(struct rg_session *session, const void *request, void *reply)
 {
     const struct rg_instance *instance = session->instance;
-    for (int i = 0; i < instance->texture_count; i++) {
+    const struct rg_asked *asked = request;
+    struct rg_told_texture *told = reply;
+    for (int i = 0; i < instance->texture_count && !told->is_found; i++) {
         const struct rg_texture *found = &instance->textures[i];
-        if (strcmp(found->name, name))
-            continue;
-        *desc = found->image->desc;
-        *first_level = found->first_level;
-        return true;
+        if (asked->name && !strcmp(found->name, asked->name))
+            *told = (struct rg_told_texture){true, found->image->desc, found->first_level};
     }
-    return false;
+    return true;
 }
 
-const struct rg_session_ways rg_local_session = {
-    .open = open_local,
-    .close = close_local,
-    .step = step,
-    .draw = draw,
-    .sync = wait_for_all,
-    .frames = run_frames,
-    .count = count,
-    .stages = time_stages,
-    .time = tell_time,
-    .code = tell_code,
-    .read = read_picture,
-    .tell = tell,
-    .read_state = read_state,
-    .obeys = obeys,
-    .texture = texture,
-    .take_digests = rg_recorder_take,
-    .take_contents = rg_recorder_contents,
-    .take_dispatches = rg_recorder_dispatches,
-    .run_dispatched = rg_dispatched_run,
-    .take_code = rg_recorder_code,
+// --- runs whose stages are looked at, and kernels alone ---
+
+static bool digests(struct rg_device *device, const void *request, void *reply)
+{
+    const struct rg_asked_run *asked = request;
+    return rg_recorder_take(&asked->run, device, reply);
+}
+
+static bool contents(struct rg_device *device, const void *request, void *reply)
+{
+    const struct rg_asked_run *asked = request;
+    struct rg_told_contents *told = reply;
+    return rg_recorder_contents(&asked->run, device, asked->row, &told->contents, &told->state);
+}
+
+static bool dispatches(struct rg_device *device, const void *request, void *reply)
+{
+    const struct rg_asked_run *asked = request;
+    return rg_recorder_dispatches(&asked->run, device, asked->row, reply);
+}
+
+// A worker replies with another struct than it was asked with, which lends it what lay before.
+static bool dispatch(struct rg_device *device, const void *request, void *reply)
+{
+    struct rg_dispatched *told = reply;
+    if (request != reply)
+        *told = *(const struct rg_dispatched *)request;
+    return rg_dispatched_run(told, device);
+}
+
+static bool kernel_code(struct rg_device *device, const void *request, void *reply)
+{
+    const struct rg_asked *asked = request;
+    struct rg_told_bytes *told = reply;
+    const struct rg_kernel *kernel = asked->name ? rg_kernel_find(asked->name) : NULL;
+    if (!kernel || asked->number >= RG_CODE_COUNT)
+        return rg_error("a call names no kernel, or no kind of code");
+    told->bytes = rg_recorder_code(device, kernel, (enum rg_code_kind)asked->number, &told->size);
+    return told->bytes;
+}
+
+static bool compile(struct rg_device *device, const void *request, void *reply)
+{
+    const struct rg_asked *asked = request;
+    struct rg_pass *pass = rg_pass_create(device, asked->name ? asked->name : "");
+    (void)reply;
+    rg_pass_destroy(pass);
+    return pass;
+}
+
+// --- the table ---
+
+#define REQUEST(S, fields) .request = (fields), .request_size = sizeof(S)
+#define REPLY(S, fields)   .reply = (fields), .reply_size = sizeof(S)
+#define ASKED              REQUEST(struct rg_asked, rg_asked_fields)
+#define RUN                REQUEST(struct rg_asked_run, rg_asked_run_fields)
+
+const struct rg_frame_call rg_frame_calls[RG_CALL_COUNT_OF_CALLS] = {
+    [RG_CALL_STEP] = {step},
+    [RG_CALL_DRAW] = {draw},
+    [RG_CALL_SYNC] = {wait_for_all},
+    [RG_CALL_FRAMES] = {frames, ASKED, REPLY(double, rg_ms_fields)},
+    [RG_CALL_COUNT] = {count, REPLY(struct rg_tally, rg_told_tally_fields)},
+    [RG_CALL_STAGES] = {stages, REPLY(struct rg_told_stages, rg_told_stages_fields)},
+    [RG_CALL_TIME] = {tell_time, REPLY(int64_t, rg_time_fields)},
+    [RG_CALL_CODE] = {tell_code, REPLY(struct rg_session_code, rg_told_code_fields)},
+    [RG_CALL_READ] = {read_picture, REPLY(struct rg_told_bytes, rg_told_bytes_fields)},
+    [RG_CALL_TELL] = {tell, REPLY(struct rg_account, rg_told_account_fields)},
+    [RG_CALL_READ_STATE] = {read_state, ASKED, REPLY(struct rg_told_bytes, rg_told_bytes_fields)},
+    [RG_CALL_OBEYS] = {obeys, ASKED, REPLY(struct rg_told_law, rg_told_law_fields)},
+    [RG_CALL_TEXTURE] = {texture, ASKED, REPLY(struct rg_told_texture, rg_told_texture_fields)},
+    [RG_CALL_DIGESTS] = {.of_run = digests, RUN, REPLY(struct rg_digests, rg_told_digests_fields)},
+    [RG_CALL_CONTENTS] = {.of_run = contents,
+                          RUN,
+                          REPLY(struct rg_told_contents, rg_told_contents_fields)},
+    [RG_CALL_DISPATCHES] = {.of_run = dispatches,
+                            RUN,
+                            REPLY(struct rg_dispatches, rg_told_dispatches_fields)},
+    [RG_CALL_DISPATCH] = {.of_run = dispatch,
+                          REQUEST(struct rg_dispatched, rg_asked_dispatched_fields),
+                          REPLY(struct rg_dispatched, rg_told_dispatched_fields)},
+    [RG_CALL_KERNEL_CODE] = {.of_run = kernel_code,
+                             ASKED,
+                             REPLY(struct rg_told_bytes, rg_told_bytes_fields)},
+    [RG_CALL_COMPILE] = {.of_run = compile, ASKED},
 };

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "core/base/log.h"
-#include "harness/frames/digests.h"
 
 // --- settings, by name: another build may have them elsewhere, and others beside them ---
 
@@ -112,6 +111,41 @@ bool rg_take_subject(struct rg_message *message, struct rg_subject *subject)
     subject->settings = NULL;
     return ok ? rg_error("a message between processes names no subject") : false;
 }
+
+static void put_subject(struct rg_message *message, const void *entry)
+{
+    rg_put_subject(message, entry);
+}
+
+static bool take_subject(struct rg_message *message, void *entry)
+{
+    return rg_take_subject(message, entry);
+}
+
+static void free_subject(void *entry)
+{
+    free((void *)(uintptr_t)((struct rg_subject *)entry)->settings);
+}
+
+static const struct rg_field_way subject_way = {put_subject, take_subject, free_subject};
+
+// --- what calls are asked with ---
+
+const struct rg_field rg_asked_fields[] = {
+    RG_FIELD_NAME_OR_NONE(struct rg_asked, name),
+    RG_FIELD_INTEGER(struct rg_asked, number, 0, INT32_MAX - 1),
+    RG_FIELDS_END,
+};
+
+// A subject goes before what is asked of it.
+const struct rg_field rg_asked_run_fields[] = {
+    RG_FIELD_OWN(struct rg_subject, &subject_way),
+    RG_FIELD_INTEGER(struct rg_asked_run, run.frames, 0, INT32_MAX - 1),
+    RG_FIELD_INTEGER(struct rg_asked_run, row, 0, INT32_MAX - 1),
+    RG_FIELDS_END,
+};
+
+_Static_assert(offsetof(struct rg_asked_run, run.subject) == 0, "a subject that is taken first");
 
 // --- what a session tells ---
 
@@ -266,7 +300,7 @@ const struct rg_field rg_told_digests_fields[] = {
     RG_FIELDS_END,
 };
 
-// --- dispatches ---
+// --- dispatches, whose slots their kernels say ---
 
 static const struct rg_field extent_fields[] = {
     RG_FIELD_INTEGER(struct rg_extent, width, 0, INT32_MAX),
@@ -284,16 +318,18 @@ static const struct rg_field dispatched_fields[] = {
     RG_FIELDS_END,
 };
 
-void rg_put_dispatched(struct rg_message *message, const struct rg_dispatched *d)
+static void put_before(struct rg_message *message, const void *entry)
 {
+    const struct rg_dispatched *d = entry;
     rg_put_text(message, d->kernel->name);
     rg_put_fields(message, dispatched_fields, d);
     for (int i = 0; d->was_kept && i < d->kernel->slot_count; i++)
         rg_put_fields(message, contents_fields, &d->before[d->kernel->slots[i].slot]);
 }
 
-void rg_put_dispatched_after(struct rg_message *message, const struct rg_dispatched *d)
+static void put_after(struct rg_message *message, const void *entry)
 {
+    const struct rg_dispatched *d = entry;
     for (int i = 0; d->was_kept && i < d->kernel->slot_count; i++)
         if (rg_slot_is_written(d->kernel->slots[i].kind))
             rg_put_fields(message, contents_fields, &d->after[d->kernel->slots[i].slot]);
@@ -306,8 +342,9 @@ static bool take_contents(struct rg_message *message, struct rg_contents *conten
     return rg_take_fields(message, contents_fields, contents);
 }
 
-bool rg_take_dispatched(struct rg_message *message, struct rg_dispatched *d)
+static bool take_before(struct rg_message *message, void *entry)
 {
+    struct rg_dispatched *d = entry;
     const char *name = rg_take_text(message);
     d->kernel = message->failed ? NULL : rg_kernel_find(name);
     bool ok =
@@ -317,11 +354,50 @@ bool rg_take_dispatched(struct rg_message *message, struct rg_dispatched *d)
     return ok;
 }
 
-bool rg_take_dispatched_after(struct rg_message *message, struct rg_dispatched *d)
+static bool take_after(struct rg_message *message, void *entry)
 {
+    struct rg_dispatched *d = entry;
     bool ok = !message->failed;
     for (int i = 0; ok && d->was_kept && i < d->kernel->slot_count; i++)
         if (rg_slot_is_written(d->kernel->slots[i].kind))
             ok = take_contents(message, &d->after[d->kernel->slots[i].slot]);
     return ok;
 }
+
+static void free_before(void *entry)
+{
+    struct rg_dispatched *d = entry;
+    for (int i = 0; i < RG_MAX_SLOTS; i++)
+        rg_contents_free(&d->before[i]);
+}
+
+static void free_after(void *entry)
+{
+    struct rg_dispatched *d = entry;
+    for (int i = 0; i < RG_MAX_SLOTS; i++)
+        rg_contents_free(&d->after[i]);
+}
+
+static const struct rg_field_way before_way = {put_before, take_before, free_before};
+static const struct rg_field_way after_way = {put_after, take_after, free_after};
+
+const struct rg_field rg_asked_dispatched_fields[] = {
+    RG_FIELD_OWN(struct rg_dispatched, &before_way),
+    RG_FIELDS_END,
+};
+
+const struct rg_field rg_told_dispatched_fields[] = {
+    RG_FIELD_OWN(struct rg_dispatched, &after_way),
+    RG_FIELDS_END,
+};
+
+static const struct rg_field both_fields[] = {
+    RG_FIELD_OWN(struct rg_dispatched, &before_way),
+    RG_FIELD_OWN(struct rg_dispatched, &after_way),
+    RG_FIELDS_END,
+};
+
+const struct rg_field rg_told_dispatches_fields[] = {
+    RG_FIELD_LIST(struct rg_dispatches, rows, both_fields, INT32_MAX),
+    RG_FIELDS_END,
+};

@@ -3,9 +3,20 @@
 #ifndef RG_HARNESS_FRAMES_MESSAGES_H
 #define RG_HARNESS_FRAMES_MESSAGES_H
 
-#include "core/techniques/stages/dispatched.h"
 #include "harness/devices/workers/fields.h"
-#include "harness/frames/subject.h"
+#include "harness/frames/digests.h"
+
+// What calls are asked with: a name, a number, or both; which, each call says.
+struct rg_asked {
+    const char *name; // NULL: none
+    int number;
+};
+
+// A run whose stages are looked at, and which row of it.
+struct rg_asked_run {
+    struct rg_digest_run run; // its settings are the message's own where it was taken
+    int row;
+};
 
 // A subject goes by names, so that a build with other parameters takes it too: what it does not
 // know it refuses only where the value is not the usual one.
@@ -54,20 +65,18 @@ struct rg_told_contents {
     struct rg_state state; // likewise
 };
 
-// Of struct rg_account, rg_tally, rg_session_code and rg_digests, of those above, and of one double
-// and one int64_t.
+// Of struct rg_account, rg_tally, rg_session_code, rg_digests and rg_dispatches, of those above,
+// and of one double and one int64_t.
+extern const struct rg_field rg_asked_fields[], rg_asked_run_fields[];
 extern const struct rg_field rg_told_account_fields[], rg_told_tally_fields[],
-    rg_told_code_fields[], rg_told_digests_fields[];
+    rg_told_code_fields[], rg_told_digests_fields[], rg_told_dispatches_fields[];
 extern const struct rg_field rg_told_session_fields[], rg_told_stages_fields[],
     rg_told_law_fields[], rg_told_texture_fields[], rg_told_bytes_fields[],
     rg_told_contents_fields[];
 extern const struct rg_field rg_ms_fields[], rg_time_fields[];
 
-// What lay in its slots before goes one way, and what lies there after the other.
-void rg_put_dispatched(struct rg_message *message, const struct rg_dispatched *dispatched);
-void rg_put_dispatched_after(struct rg_message *message, const struct rg_dispatched *dispatched);
-// Zeroed before; freed by the caller in either case.
-bool rg_take_dispatched(struct rg_message *message, struct rg_dispatched *dispatched);
-bool rg_take_dispatched_after(struct rg_message *message, struct rg_dispatched *dispatched);
+// Of struct rg_dispatched: with what lay in its slots before, and what lies there after, which is
+// taken into the one that was asked about.
+extern const struct rg_field rg_asked_dispatched_fields[], rg_told_dispatched_fields[];
 
 #endif

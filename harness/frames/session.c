@@ -1,14 +1,21 @@
 #include "harness/frames/session.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
-#include "harness/frames/ways.h"
+#include "core/base/log.h"
 #include "harness/devices/workers/device.h"
+#include "harness/frames/calling.h"
+#include "harness/frames/messages.h"
 
-static const struct rg_session_ways *ways_of(const struct rg_device *device)
+static bool open_here(struct rg_session *session, const struct rg_subject *subject)
 {
-    return rg_remote_worker(device) ? &rg_remote_session : &rg_local_session;
+    session->instance = rg_instance_open(subject->technique, session->device, subject->settings,
+                                         subject->width, subject->height);
+    if (session->instance)
+        session->state_count = session->instance->state_count;
+    return session->instance;
 }
 
 struct rg_session *rg_session_open(struct rg_device *device, const struct rg_subject *subject)
@@ -16,12 +23,12 @@ struct rg_session *rg_session_open(struct rg_device *device, const struct rg_sub
     struct rg_session *session = rg_alloc(1, sizeof(*session), subject->technique->name);
     if (!session)
         return NULL;
-    *session = (struct rg_session){.ways = ways_of(device),
-                                   .device = device,
+    *session = (struct rg_session){.device = device,
                                    .technique = subject->technique,
                                    .width = subject->width,
                                    .height = subject->height};
-    if (session->ways->open(session, subject))
+    if (rg_remote_worker(device) ? rg_remote_session_open(session, subject)
+                                 : open_here(session, subject))
         return session;
     free(session);
     return NULL;
@@ -42,8 +49,10 @@ struct rg_session *rg_session_run(struct rg_device *device, const struct rg_subj
 
 void rg_session_close(struct rg_session *session)
 {
-    if (session)
-        session->ways->close(session);
+    if (session && rg_remote_worker(session->device))
+        rg_remote_session_close(session);
+    else if (session)
+        rg_instance_close(session->instance);
     free(session);
 }
 
@@ -62,50 +71,77 @@ struct rg_device *rg_session_device(const struct rg_session *session)
 
 bool rg_session_step(struct rg_session *session)
 {
-    return session->ways->step(session);
+    return rg_session_ask(session, RG_CALL_STEP, NULL, NULL);
 }
 
 bool rg_session_draw(struct rg_session *session)
 {
-    return session->ways->draw(session);
+    return rg_session_ask(session, RG_CALL_DRAW, NULL, NULL);
 }
 
 bool rg_session_sync(struct rg_session *session)
 {
-    return session->ways->sync(session);
+    return rg_session_ask(session, RG_CALL_SYNC, NULL, NULL);
 }
 
 bool rg_session_frames(struct rg_session *session, int frames, double *wall_ms)
 {
-    return session->ways->frames(session, frames, wall_ms);
+    double ms = 0;
+    const bool ok = rg_session_ask(session, RG_CALL_FRAMES, &(struct rg_asked){NULL, frames}, &ms);
+    if (wall_ms)
+        *wall_ms = ms;
+    return ok;
 }
 
 bool rg_session_count(struct rg_session *session, struct rg_tally *tally)
 {
-    return session->ways->count(session, tally);
+    return rg_session_ask(session, RG_CALL_COUNT, NULL, tally);
 }
 
 bool rg_session_stages(struct rg_session *session,
                        void (*tell)(const char *kernel, double ms, void *user), void *user)
 {
-    return session->ways->stages(session, tell, user);
+    struct rg_told_stages told = {0};
+    const bool ok = rg_session_ask(session, RG_CALL_STAGES, NULL, &told);
+    for (int i = 0; ok && i < told.count; i++)
+        tell(told.rows[i].kernel, told.rows[i].ms, user);
+    free(told.rows);
+    return ok;
 }
 
 bool rg_session_time(struct rg_session *session, int64_t *time_ns)
 {
-    return session->ways->time(session, time_ns);
+    return rg_session_ask(session, RG_CALL_TIME, NULL, time_ns);
 }
 
 bool rg_session_code(struct rg_session *session, struct rg_session_code *code)
 {
-    return session->ways->code(session, code);
+    *code = (struct rg_session_code){.libraries = 0};
+    return rg_session_ask(session, RG_CALL_CODE, NULL, code);
 }
 
 // --- its picture ---
 
+// The bytes of what was told; NULL, and freed, where that failed.
+static void *bytes_of(struct rg_told_bytes *told, bool ok, size_t *size)
+{
+    *size = told->size;
+    if (ok)
+        return told->bytes;
+    free(told->bytes);
+    return NULL;
+}
+
 void *rg_session_read(struct rg_session *session, size_t *size)
 {
-    return session->ways->read(session, size);
+    struct rg_told_bytes told = {0};
+    bool ok = rg_session_ask(session, RG_CALL_READ, NULL, &told);
+    const size_t due =
+        (size_t)session->width * (size_t)session->height * (size_t)rg_format_size(RG_RGBA16F);
+    if (ok && told.size != due)
+        ok = rg_driver_error("device '%s': a picture from its process has %zu bytes, not %zu",
+                             session->device->info.name, told.size, due);
+    return bytes_of(&told, ok, size);
 }
 
 bool rg_session_picture(const struct rg_session *session, const void *texels,
@@ -127,7 +163,11 @@ bool rg_session_read_picture(struct rg_session *session, struct rg_picture *pict
 
 bool rg_session_tell(const struct rg_session *session, struct rg_account *account)
 {
-    return session->ways->tell(session, account);
+    *account = (struct rg_account){0};
+    const bool told = rg_session_ask(session, RG_CALL_TELL, NULL, account);
+    if (!told)
+        *account = (struct rg_account){0};
+    return told;
 }
 
 int rg_session_state_count(const struct rg_session *session)
@@ -138,7 +178,11 @@ int rg_session_state_count(const struct rg_session *session)
 void *rg_session_read_state(struct rg_session *session, int index, struct rg_state *layout,
                             size_t *size)
 {
-    return session->ways->read_state(session, index, layout, size);
+    struct rg_told_bytes told = {0};
+    const bool ok =
+        rg_session_ask(session, RG_CALL_READ_STATE, &(struct rg_asked){NULL, index}, &told);
+    *layout = told.layout;
+    return bytes_of(&told, ok, size);
 }
 
 const struct rg_law *rg_session_law(const struct rg_session *session, int number)
@@ -152,47 +196,70 @@ const struct rg_law *rg_session_law(const struct rg_session *session, int number
 bool rg_session_obeys(const struct rg_session *session, const struct rg_law *law, char *detail,
                       size_t size)
 {
-    return session->ways->obeys(session, law, detail, size);
+    const struct rg_asked asked = {NULL, (int)(law - session->technique->proof->laws)};
+    struct rg_told_law told = {0};
+    const bool ok = rg_session_ask(session, RG_CALL_OBEYS, &asked, &told);
+    snprintf(detail, size, "%s", ok ? told.detail : rg_last_error());
+    return ok && told.holds;
 }
 
 bool rg_session_texture(const struct rg_session *session, const char *name,
                         struct rg_image_desc *desc, int *first_level)
 {
-    return session->ways->texture(session, name, desc, first_level);
+    struct rg_told_texture told = {0};
+    if (!rg_session_ask(session, RG_CALL_TEXTURE, &(struct rg_asked){name, 0}, &told) ||
+        !told.is_found)
+        return false;
+    *desc = told.desc;
+    *first_level = told.first_level;
+    return true;
 }
 
-// --- digests ---
+// --- runs whose stages are looked at, and kernels alone ---
 
 bool rg_digests_take(const struct rg_digest_run *run, struct rg_device *device,
                      struct rg_digests *digests)
 {
-    return ways_of(device)->take_digests(run, device, digests);
+    const bool ok = rg_run_ask(device, RG_CALL_DIGESTS, &(struct rg_asked_run){*run, 0}, digests);
+    if (!ok)
+        rg_digests_free(digests);
+    return ok;
 }
 
 bool rg_digests_contents(const struct rg_digest_run *run, struct rg_device *device, int row,
                          struct rg_contents *contents, struct rg_state *state)
 {
-    *contents = (struct rg_contents){0};
-    *state = (struct rg_state){0};
-    return ways_of(device)->take_contents(run, device, row, contents, state);
+    struct rg_told_contents told = {.contents = {.size = 0}};
+    const bool ok = rg_run_ask(device, RG_CALL_CONTENTS, &(struct rg_asked_run){*run, row}, &told);
+    *contents = told.contents;
+    *state = told.state;
+    return ok;
 }
 
 bool rg_digests_dispatches(const struct rg_digest_run *run, struct rg_device *device,
                            int stages_run, struct rg_dispatches *dispatches)
 {
     *dispatches = (struct rg_dispatches){0};
-    return ways_of(device)->take_dispatches(run, device, stages_run, dispatches);
+    return rg_run_ask(device, RG_CALL_DISPATCHES, &(struct rg_asked_run){*run, stages_run},
+                      dispatches);
 }
 
 bool rg_digests_dispatch(struct rg_dispatched *dispatched, struct rg_device *device)
 {
     for (int i = 0; i < RG_MAX_SLOTS; i++) // of another kernel before it, perhaps
         rg_contents_free(&dispatched->after[i]);
-    return ways_of(device)->run_dispatched(dispatched, device);
+    return rg_run_ask(device, RG_CALL_DISPATCH, dispatched, dispatched);
 }
 
 void *rg_digests_code(struct rg_device *device, const struct rg_kernel *kernel,
                       enum rg_code_kind kind, size_t *size)
 {
-    return ways_of(device)->take_code(device, kernel, kind, size);
+    const struct rg_asked asked = {kernel->name, (int)kind};
+    struct rg_told_bytes told = {0};
+    return bytes_of(&told, rg_run_ask(device, RG_CALL_KERNEL_CODE, &asked, &told), size);
+}
+
+bool rg_digests_compile(struct rg_device *device, const struct rg_kernel *kernel)
+{
+    return rg_run_ask(device, RG_CALL_COMPILE, &(struct rg_asked){kernel->name, 0}, NULL);
 }

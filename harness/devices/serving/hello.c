@@ -8,7 +8,7 @@
 #include "harness/frames/digests.h"
 
 // Counted up where calls and sizes stay as they are and mean something else.
-enum { FORMAT = 4 };
+enum { FORMAT = 5 };
 
 const char *rg_serving_hello(void)
 {

@@ -12,10 +12,6 @@ bool rg_served_device_close(void);
 // Closes every session.
 void rg_served_sessions_close(void);
 
-// Puts bytes, which are freed. False where there are none.
-struct rg_told_bytes;
-bool rg_serve_bytes(struct rg_message *reply, struct rg_told_bytes *told);
-
 // A service for each call of the list: rg_serve_hello and so on.
 #define RG_SERVICE(name, service, doing) rg_service rg_serve_##service;
 RG_CALLS(RG_SERVICE)

@@ -1,13 +1,16 @@
 #include "harness/devices/serving/serving.h"
 
 #include "harness/devices/serving/services.h"
+#include "harness/devices/workers/fields.h"
+#include "harness/devices/workers/worker.h"
 
 bool rg_serve_close(struct rg_message *request, struct rg_message *reply)
 {
     (void)request;
-    (void)reply;
     rg_served_sessions_close();
-    return rg_served_device_close();
+    const bool is_clean = rg_served_device_close();
+    rg_put_fields(reply, rg_closed_fields, &is_clean);
+    return true;
 }
 
 #define ROW(name, service, doing) [RG_CALL_##name] = rg_serve_##service,

@@ -5,22 +5,8 @@
 #ifndef RG_HARNESS_DEVICES_WORKERS_CALLS_H
 #define RG_HARNESS_DEVICES_WORKERS_CALLS_H
 
-// The first asks whether both speak of the same things (harness/devices/serving/hello.c), and stays
-// the first for ever, in all builds. LIST is of a backend's devices, LOAD of libraries that a
-// device's name names, those down to CEILINGS of the one device of this worker, which ends behind
-// CLOSE, and others of sessions and runs.
-#define RG_CALLS(CALL)                                                                             \
-    CALL(HELLO, hello, "greeting")                                                                 \
-    CALL(LIST, list, "listing devices")                                                            \
-    CALL(LOAD, load, "loading the driver")                                                         \
-    CALL(OPEN, open, "opening the device")                                                         \
-    CALL(CLOSE, close, "closing the device")                                                       \
-    CALL(PROBE, probe, "probing its arithmetic")                                                   \
-    CALL(DRAWING, drawing, "drawing into each format")                                             \
-    CALL(AUDIT, audit, "auditing its timer")                                                       \
-    CALL(CEILINGS, ceilings, "measuring its ceilings")                                             \
-    CALL(SESSION_OPEN, session_open, "opening a technique")                                        \
-    CALL(SESSION_CLOSE, session_close, "closing a technique")                                      \
+// Of a session that is open (harness/frames/local.c).
+#define RG_SESSION_CALLS(CALL)                                                                     \
     CALL(STEP, step, "simulating a frame")                                                         \
     CALL(DRAW, draw, "drawing a frame")                                                            \
     CALL(SYNC, sync, "waiting for the device")                                                     \
@@ -33,13 +19,34 @@
     CALL(TELL, tell, "telling of a technique")                                                     \
     CALL(READ_STATE, read_state, "reading the state")                                              \
     CALL(OBEYS, obeys, "checking a law")                                                           \
-    CALL(TEXTURE, texture, "telling of a texture")                                                 \
+    CALL(TEXTURE, texture, "telling of a texture")
+// Of runs of a device and of its kernels, without a session (likewise).
+#define RG_RUN_CALLS(CALL)                                                                         \
     CALL(DIGESTS, digests, "digesting stages")                                                     \
     CALL(CONTENTS, contents, "reading an asset")                                                   \
     CALL(DISPATCHES, dispatches, "keeping a stage's dispatches")                                   \
     CALL(DISPATCH, dispatch, "running a kernel alone")                                             \
     CALL(KERNEL_CODE, kernel_code, "reading a kernel's code")                                      \
     CALL(COMPILE, compile, "compiling a kernel")
+
+// The first asks whether both speak of the same things (harness/devices/serving/hello.c), and stays
+// the first for ever, in all builds. LIST is of a backend's devices, LOAD of libraries that a
+// device's name names, those down to CEILINGS of the one device of this worker, which ends behind
+// CLOSE, and the rest of sessions and runs.
+#define RG_CALLS(CALL)                                                                             \
+    CALL(HELLO, hello, "greeting")                                                                 \
+    CALL(LIST, list, "listing devices")                                                            \
+    CALL(LOAD, load, "loading the driver")                                                         \
+    CALL(OPEN, open, "opening the device")                                                         \
+    CALL(CLOSE, close, "closing the device")                                                       \
+    CALL(PROBE, probe, "probing its arithmetic")                                                   \
+    CALL(DRAWING, drawing, "drawing into each format")                                             \
+    CALL(AUDIT, audit, "auditing its timer")                                                       \
+    CALL(CEILINGS, ceilings, "measuring its ceilings")                                             \
+    CALL(SESSION_OPEN, session_open, "opening a technique")                                        \
+    CALL(SESSION_CLOSE, session_close, "closing a technique")                                      \
+    RG_SESSION_CALLS(CALL)                                                                         \
+    RG_RUN_CALLS(CALL)
 
 #define RG_CALL_NUMBER(name, service, doing) RG_CALL_##name,
 enum rg_call { RG_CALLS(RG_CALL_NUMBER) RG_CALL_COUNT_OF_CALLS };

@@ -1,5 +1,6 @@
 #include "harness/devices/workers/fields.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/array.h"
@@ -56,6 +57,9 @@ static void put_entry(struct rg_message *message, const struct rg_field *field, 
         break;
     case RG_KIND_LIST:
         put_rows(message, field, *(void *const *)entry, count_of(field, all));
+        break;
+    case RG_KIND_OWN:
+        field->way->put(message, entry);
         break;
     case RG_KIND_CHECK:
     case RG_KIND_END:
@@ -175,6 +179,8 @@ static bool take_entry(struct rg_message *message, const struct rg_field *field,
         return take_block(message, field, all);
     case RG_KIND_LIST:
         return take_list(message, field, all);
+    case RG_KIND_OWN:
+        return field->way->take(message, entry);
     case RG_KIND_CHECK:
         return field->holds(all) || rg_message_fail(message);
     case RG_KIND_END:
@@ -193,4 +199,29 @@ bool rg_take_fields(struct rg_message *message, const struct rg_field *fields, v
             ok = take_entry(message, field, all, at(all, field->offset + i * field->size));
     }
     return ok;
+}
+
+// --- giving back ---
+
+static void free_rows(const struct rg_field *field, void *all)
+{
+    void **rows = at(all, field->offset);
+    for (int i = 0; i < count_of(field, all); i++)
+        rg_free_fields(field->of, at(*rows, (size_t)i * field->size));
+    free(*rows);
+}
+
+void rg_free_fields(const struct rg_field *fields, void *all)
+{
+    for (const struct rg_field *field = fields; field->kind != RG_KIND_END; field++) {
+        void *entry = at(all, field->offset);
+        if (field->kind == RG_KIND_STRUCT && !field->is_counted)
+            rg_free_fields(field->of, entry);
+        else if (field->kind == RG_KIND_BLOCK)
+            free(*(void **)entry);
+        else if (field->kind == RG_KIND_LIST)
+            free_rows(field, all);
+        else if (field->kind == RG_KIND_OWN && field->way->free)
+            field->way->free(entry);
+    }
 }

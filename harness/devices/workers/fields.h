@@ -25,7 +25,16 @@ enum rg_field_kind {
     RG_KIND_BLOCK,   // a pointer to memory of its own; its size is the size_t at `count`
     RG_KIND_LIST,    // a pointer to rows, each with the fields `of` it; their number is the int at
                      // `count`, the room for them the int64_t at `room`
+    RG_KIND_OWN,     // a struct that goes in a way of its own
     RG_KIND_CHECK,   // no field: the struct is damaged where `holds` is false
+};
+
+// How a struct is put that no table describes. It is taken into a zeroed one: false, with one
+// logged line, where that failed; what was taken until then is given back by `free`, NULL: nothing.
+struct rg_field_way {
+    void (*put)(struct rg_message *message, const void *entry);
+    bool (*take)(struct rg_message *message, void *entry);
+    void (*free)(void *entry);
 };
 
 // A table of them ends with RG_FIELDS_END.
@@ -37,6 +46,7 @@ struct rg_field {
     bool is_counted;     // as many of them as the int at `count` says
     size_t count, room;  // offsets
     const struct rg_field *of;
+    const struct rg_field_way *way;
     bool (*holds)(const void *all);
 };
 
@@ -80,6 +90,11 @@ struct rg_field {
             .room = offsetof(S, room), .of = (table)                                               \
     }
 #define RG_FIELD_ENTRIES(S, field) (sizeof(((S *)0)->field) / sizeof(((S *)0)->field[0]))
+// All of a struct.
+#define RG_FIELD_OWN(S, functions)                                                                 \
+    {                                                                                              \
+        RG_KIND_OWN, .size = sizeof(S), .entries = 1, .way = (functions)                           \
+    }
 // The last before the end: what no range of one field says.
 #define RG_FIELD_CHECK(function)                                                                   \
     {                                                                                              \
@@ -94,5 +109,7 @@ void rg_put_fields(struct rg_message *message, const struct rg_field *fields, co
 // `all` is zeroed before. False, with one logged line, where the message has failed. Blocks and
 // lists that were taken until then stay in `all`, which the caller frees in either case.
 bool rg_take_fields(struct rg_message *message, const struct rg_field *fields, void *all);
+// Gives back the memory of blocks, lists and structs that go their own way.
+void rg_free_fields(const struct rg_field *fields, void *all);
 
 #endif

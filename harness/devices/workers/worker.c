@@ -45,7 +45,6 @@ struct rg_worker {
     bool is_interrupted;  // it was told so
     bool is_closed;       // its device was
     bool closed_badly;    // something on it was not
-    bool has_told;        // an error, in this life: a call may fail for it later
     bool was_open;        // its device, in this life or one before
     int64_t memory_bytes; // that its process may hold
     int64_t taken_bytes;  // of them counted here (core/base/memory.h)
@@ -121,7 +120,7 @@ static void forget_process(struct rg_worker *worker)
 {
     count_taken(worker, 0);
     worker->process = 0;
-    worker->is_interrupted = worker->is_closed = worker->has_told = false;
+    worker->is_interrupted = worker->is_closed = false;
     rg_channel_close(&worker->channel);
     if (worker->printed)
         fclose(worker->printed);
@@ -440,21 +439,21 @@ static void relay(const struct rg_worker *worker, enum rg_log_level level, enum 
     rg_log_relay(level, is_limited && !worker->was_open ? RG_ERROR_UNSUPPORTED : kind, named);
 }
 
-// Logs what the worker did, and says whether the call succeeded. One that failed has said why, in
-// this reply or one before: a driver's loss is told once, and whoever asks later fails for it.
-static bool open_reply(struct rg_worker *worker, struct rg_message *reply)
+// Logs what the worker did, and says whether the call succeeded. One that failed has said why.
+static bool open_reply(const struct rg_worker *worker, struct rg_message *reply)
 {
     const bool ok = rg_take_index(reply, 2);
     const int kind = rg_take_index(reply, RG_ERROR_KINDS);
     const int count = rg_take_index(reply, RG_WORKER_MOST_LINES + 1);
+    bool has_told = ok;
     for (int i = 0; i < count && !reply->failed; i++) {
         const int level = rg_take_index(reply, RG_LOG_LEVELS);
         const char *line = rg_take_text(reply);
         if (!reply->failed)
             relay(worker, (enum rg_log_level)level, (enum rg_error_kind)kind, line);
-        worker->has_told |= level == RG_LOG_ERROR;
+        has_told = has_told || level == RG_LOG_ERROR;
     }
-    return (ok || worker->has_told || rg_message_fail(reply)) && ok && !reply->failed;
+    return (has_told || rg_message_fail(reply)) && ok && !reply->failed;
 }
 
 // What is asked: the call, then the request.
@@ -595,11 +594,18 @@ void rg_worker_renew(struct rg_worker *worker)
     worker->ended = 0;
 }
 
+const struct rg_field rg_closed_fields[] = {
+    {RG_KIND_INTEGER, 0, sizeof(bool), 0, 1, .entries = 1},
+    RG_FIELDS_END,
+};
+
 bool rg_worker_retire(struct rg_worker *worker)
 {
     const bool was_alive = worker->process;
-    worker->is_closed = was_alive && rg_worker_ask(worker, RG_CALL_CLOSE, NULL);
-    return (worker->is_closed || !was_alive) && !worker->closed_badly;
+    bool is_clean = true;
+    worker->is_closed =
+        was_alive && rg_worker_fetch(worker, RG_CALL_CLOSE, NULL, rg_closed_fields, &is_clean);
+    return (worker->is_closed || !was_alive) && is_clean && !worker->closed_badly;
 }
 
 void rg_worker_closes_badly(struct rg_worker *worker)

@@ -41,6 +41,8 @@ struct rg_worker *rg_worker_create(const char *name, const char *environment);
 // Has a worker that lives close its device, which logs what is left on it. False, with a logged
 // line, where something is, or where it ends meanwhile.
 bool rg_worker_retire(struct rg_worker *worker);
+// What a worker replies to that: a bool, whether nothing was left and nothing on it had failed.
+extern const struct rg_field rg_closed_fields[];
 // What its process did when it crashed or was ended last, as the line about that has it: " while
 // running kernel 'flow_blur'"; "": nothing that is known.
 const char *rg_worker_end_doing(const struct rg_worker *worker);

@@ -11,7 +11,7 @@
 #include "harness/devices/serving/serving.h"
 #include "harness/devices/workers/worker.h"
 #include "harness/frames/session.h"
-#include "harness/frames/ways.h"
+#include "harness/frames/calling.h"
 #include "harness/record/stats.h"
 
 enum { ROUNDS = 600 };

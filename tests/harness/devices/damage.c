@@ -94,6 +94,13 @@ static bool chatter(struct rg_message *request, struct rg_message *reply)
     return rg_driver_error("the end");
 }
 
+static bool shut(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    rg_put_fields(reply, rg_closed_fields, &(bool){true});
+    return true;
+}
+
 static bool nod(struct rg_message *request, struct rg_message *reply)
 {
     (void)request;
@@ -174,7 +181,7 @@ static bool tell(struct rg_message *request, struct rg_message *reply)
 
 static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {
     [RG_CALL_LIST] = list,         [RG_CALL_OPEN] = open,
-    [RG_CALL_CLOSE] = nod,         [RG_CALL_SESSION_OPEN] = open_session,
+    [RG_CALL_CLOSE] = shut,        [RG_CALL_SESSION_OPEN] = open_session,
     [RG_CALL_SESSION_CLOSE] = nod, [RG_CALL_STEP] = nod,
     [RG_CALL_SYNC] = nod,          [RG_CALL_FRAMES] = run_frames,
     [RG_CALL_COUNT] = count,       [RG_CALL_TELL] = tell,

@@ -167,6 +167,13 @@ static bool ceilings(struct rg_message *request, struct rg_message *reply)
     return true;
 }
 
+static bool shut(struct rg_message *request, struct rg_message *reply)
+{
+    (void)request;
+    rg_put_fields(reply, rg_closed_fields, &(bool){true});
+    return true;
+}
+
 static bool nod(struct rg_message *request, struct rg_message *reply)
 {
     (void)request;
@@ -228,7 +235,7 @@ static bool texture(struct rg_message *request, struct rg_message *reply)
 
 static rg_service *const services[RG_CALL_COUNT_OF_CALLS] = {
     [RG_CALL_OPEN] = open,
-    [RG_CALL_CLOSE] = nod,
+    [RG_CALL_CLOSE] = shut,
     [RG_CALL_PROBE] = probe,
     [RG_CALL_DRAWING] = drawing,
     [RG_CALL_AUDIT] = audit,
