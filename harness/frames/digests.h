@@ -29,8 +29,8 @@ struct rg_digests {
     struct rg_digest *rows; // owned
 };
 
-// Runs and records; frames are left out once raingauge is interrupted. The caller frees them. False,
-// with one logged line and no digests, on failure.
+// Runs and records; frames are left out once raingauge is interrupted. The caller frees them.
+// False, with one logged line and no digests, on failure.
 bool rg_digests_take(const struct rg_digest_run *run, struct rg_device *device,
                      struct rg_digests *digests);
 void rg_digests_free(struct rg_digests *digests);

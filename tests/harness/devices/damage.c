@@ -97,7 +97,7 @@ static bool chatter(struct rg_message *request, struct rg_message *reply)
 static bool shut(struct rg_message *request, struct rg_message *reply)
 {
     (void)request;
-    rg_put_fields(reply, rg_closed_fields, &(bool){true});
+    rg_put_fields(reply, rg_closed_fields, &(bool){!getenv("RG_TEST_UNCLEAN")});
     return true;
 }
 
@@ -307,6 +307,21 @@ static void digests_are_whole_rows(void **state)
     free(settings);
 }
 
+static void what_closed_badly_has_not_closed(void **state)
+{
+    (void)state;
+    set_damage(NOTHING);
+    for (int unclean = 0; unclean < 2; unclean++) {
+        if (unclean)
+            setenv("RG_TEST_UNCLEAN", "1", 1);
+        struct rg_device *device = rg_devices_open_one("toy");
+        assert_non_null(device);
+        assert_int_equal(rg_device_close(device), !unclean);
+        unsetenv("RG_TEST_UNCLEAN");
+    }
+    assert_int_equal(lines, 0); // it was told before
+}
+
 static void lines_are_bounded_and_the_error_is_kept(void **state)
 {
     (void)state;
@@ -354,6 +369,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_device_that_cannot_be_is_not_opened),
         cmocka_unit_test(contents_are_what_is_said_of_them),
         cmocka_unit_test(digests_are_whole_rows),
+        cmocka_unit_test(what_closed_badly_has_not_closed),
         cmocka_unit_test(lines_are_bounded_and_the_error_is_kept),
         cmocka_unit_test(what_is_not_told_ends_a_record),
     };
