@@ -168,9 +168,11 @@ bool rg_picture_shows_rain(const struct rg_picture *picture, const struct rg_pic
 // FLIP of each pixel into width * height floats. pixels_per_degree: 1 to 200.
 bool rg_flip_map(const uint8_t *a_codes, const uint8_t *b_codes, int width, int height,
                  float pixels_per_degree, float *map);
-// The same of linear colours from 0 to 1, three a pixel.
-bool rg_flip_map_linear(const float *a, const float *b, int width, int height,
-                        float pixels_per_degree, float *map);
+// The same of pictures of one shape as they are shown: `tone` makes what a screen shows, 0 to 1, of
+// values of one colour, in place. Where the map has had a larger value, that stays.
+typedef void rg_tone(float *values, int count, float scale);
+bool rg_flip_map_shown(const struct rg_picture *a, const struct rg_picture *b, rg_tone *tone,
+                       float scale, float pixels_per_degree, float *map);
 // HDR-FLIP of each pixel; `hdr` gets the exposures.
 bool rg_hdr_flip_map(const struct rg_picture *a, const struct rg_picture *b,
                      float pixels_per_degree, float *map, struct rg_hdr_flip *hdr);

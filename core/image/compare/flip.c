@@ -16,7 +16,7 @@ enum {
     MAX_RADIUS = 32, // of the filters, pixels; reached at 210 pixels a degree
     COLUMNS = TILE_WIDTH + 2 * MAX_RADIUS,
     ROWS = TILE_HEIGHT + 2 * MAX_RADIUS,
-    LANES = 8,
+    LANES = 16,
 };
 
 typedef float lanes __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
@@ -314,7 +314,7 @@ static inline float hyab(struct lab p, struct lab q)
 // cmax: the largest difference of colours, green to blue, to the power of 0.7.
 RG_MULTIVERSION static void difference_row(const struct filtered *restrict a,
                                            const struct filtered *restrict b, int width, float cmax,
-                                           float *restrict map)
+                                           float *restrict map, bool keeps_larger)
 {
     // Plain pointers: gcc does not vectorise members of a struct that vectors were stored to.
     const float *ay = a->y, *acx = a->cx, *acz = a->cz, *a_edge = a->edge, *a_point = a->point;
@@ -328,7 +328,8 @@ RG_MULTIVERSION static void difference_row(const struct filtered *restrict a,
         float edge = fabsf(a_edge[x] - b_edge[x]), point = fabsf(a_point[x] - b_point[x]);
         float feature = sqrtf(0.70710678f * (edge > point ? edge : point));
         float flip = exp_2((1.0f - feature) * log_2(colour));
-        map[x] = distance > 0.0f ? clamp01(flip) : 0.0f;
+        float value = distance > 0.0f ? clamp01(flip) : 0.0f;
+        map[x] = keeps_larger && map[x] > value ? map[x] : value;
     }
 }
 
@@ -340,46 +341,85 @@ static inline int clamp_index(int i, int count)
 }
 
 struct job {
-    const uint8_t *codes[2]; // NULL: linear colours
-    const float *colours[2];
+    const uint8_t *codes[2]; // NULL: pictures
+    const struct rg_picture *pictures[2];
+    rg_tone *tone; // of what pictures hold
+    float scale;   // likewise
     int width, height;
     struct filters filters;
     float cmax;
     const float *linear;
     float *map;
+    bool keeps_larger; // what the map has stays where it is larger
 };
 
-// The colour of a pixel, linear.
-static inline const float *colour_at(const struct job *job, int picture, int64_t pixel,
-                                     float decoded[3])
+// A row of a tile and its border, linear and shown: the picture's edge pixels go on for ever.
+struct colours {
+    float of[3][COLUMNS];
+};
+
+static void read_codes(const struct job *job, const uint8_t *codes, int x0, int columns,
+                       struct colours *row)
 {
-    if (!job->codes[picture])
-        return job->colours[picture] + pixel * 3;
-    const uint8_t *code = job->codes[picture] + pixel * 4;
-    for (int c = 0; c < 3; c++)
-        decoded[c] = job->linear[code[c]];
-    return decoded;
+    for (int column = 0; column < columns; column++) {
+        const uint8_t *code = codes + (int64_t)clamp_index(x0 + column, job->width) * 4;
+        for (int c = 0; c < 3; c++)
+            row->of[c][column] = job->linear[code[c]];
+    }
 }
 
-// Reads a tile and its border (the picture's edge pixels go on for ever) into planes.
+// A loop over a fixed number of channels is vectors.
+RG_MULTIVERSION static void take_colour(const float *texels, int channels, int count,
+                                        float *restrict values)
+{
+    for (int i = 0; channels == 4 && i < count; i++)
+        values[i] = texels[i * 4];
+    for (int i = 0; channels != 4 && i < count; i++)
+        values[i] = texels[i * channels];
+}
+
+static void read_picture(const struct job *job, const struct rg_picture *picture, int64_t line,
+                         int x0, int columns, struct colours *row)
+{
+    const int channels = picture->channels, green = rg_picture_colours(picture) > 1;
+    const float *texels = picture->texels + line * channels;
+    const int left = x0 < 0 ? -x0 : 0, end = job->width - x0 < columns ? job->width - x0 : columns;
+    for (int c = 0; c < 3; c++) {
+        float *of = row->of[c];
+        take_colour(texels + (int64_t)(x0 + left) * channels + c * green, channels, end - left,
+                    of + left);
+        for (int column = 0; column < left; column++)
+            of[column] = of[left];
+        for (int column = end; column < columns; column++)
+            of[column] = of[end - 1];
+        job->tone(of, columns, job->scale);
+    }
+}
+
+RG_MULTIVERSION static void to_planes(const struct colours *row, int columns, float *restrict ys,
+                                      float *restrict cxs, float *restrict czs)
+{
+    for (int column = 0; column < columns; column++) {
+        float red = row->of[0][column], green = row->of[1][column], blue = row->of[2][column];
+        float y = 0.21263682f * red + 0.71518298f * green + 0.07218020f * blue;
+        ys[column] = y;
+        cxs[column] = 0.43389538f * red + 0.37624236f * green + 0.18986223f * blue - y;
+        czs[column] = y - (0.01775242f * red + 0.10946563f * green + 0.87278196f * blue);
+    }
+}
+
 static void load_planes(const struct job *job, int picture, int x0, int y0, int columns, int rows,
                         struct planes *planes)
 {
-    int r = job->filters.radius;
+    const int r = job->filters.radius;
+    struct colours colours;
     for (int row = 0; row < rows; row++) {
         const int64_t line = (int64_t)clamp_index(y0 - r + row, job->height) * job->width;
-        for (int column = 0; column < columns; column++) {
-            float decoded[3];
-            const float *colour =
-                colour_at(job, picture, line + clamp_index(x0 - r + column, job->width), decoded);
-            float red = colour[0], green = colour[1], blue = colour[2];
-            float y = 0.21263682f * red + 0.71518298f * green + 0.07218020f * blue;
-            planes->y[row][column] = y;
-            planes->cx[row][column] =
-                0.43389538f * red + 0.37624236f * green + 0.18986223f * blue - y;
-            planes->cz[row][column] =
-                y - (0.01775242f * red + 0.10946563f * green + 0.87278196f * blue);
-        }
+        if (job->codes[picture])
+            read_codes(job, job->codes[picture] + line * 4, x0 - r, columns, &colours);
+        else
+            read_picture(job, job->pictures[picture], line, x0 - r, columns, &colours);
+        to_planes(&colours, columns, planes->y[row], planes->cx[row], planes->cz[row]);
     }
 }
 
@@ -393,9 +433,11 @@ static bool same_tile(const struct job *job, int x0, int y0, int width, int heig
     for (int y = top; y <= bottom; y++) {
         const int64_t at = (int64_t)y * job->width + left;
         const size_t pixels = (size_t)(right - left + 1);
+        const struct rg_picture *a = job->pictures[0], *b = job->pictures[1];
+        const size_t texel = job->codes[0] ? 4 : (size_t)a->channels;
         if (job->codes[0] ? memcmp(job->codes[0] + at * 4, job->codes[1] + at * 4, pixels * 4)
-                          : memcmp(job->colours[0] + at * 3, job->colours[1] + at * 3,
-                                   pixels * 3 * sizeof(float)))
+                          : memcmp(a->texels + at * a->channels, b->texels + at * b->channels,
+                                   pixels * texel * sizeof(float)))
             return false;
     }
     return true;
@@ -407,7 +449,7 @@ static void flip_tile(const struct job *job, int x0, int y0, struct tile_memory 
     int height = job->height - y0 < TILE_HEIGHT ? job->height - y0 : TILE_HEIGHT;
     float *map = job->map + (int64_t)y0 * job->width + x0;
     if (same_tile(job, x0, y0, width, height)) {
-        for (int row = 0; row < height; row++)
+        for (int row = 0; row < height && !job->keeps_larger; row++)
             memset(map + (int64_t)row * job->width, 0, (size_t)width * sizeof(*map));
         return;
     }
@@ -422,7 +464,7 @@ static void flip_tile(const struct job *job, int x0, int y0, struct tile_memory 
             filter_features(&memory->vertical, f, width, &memory->filtered[p]);
         }
         difference_row(&memory->filtered[0], &memory->filtered[1], width, job->cmax,
-                       map + (int64_t)row * job->width);
+                       map + (int64_t)row * job->width, job->keeps_larger);
     }
 }
 
@@ -460,9 +502,14 @@ bool rg_flip_map(const uint8_t *a_codes, const uint8_t *b_codes, int width, int 
                     pixels_per_degree, map);
 }
 
-bool rg_flip_map_linear(const float *a, const float *b, int width, int height,
-                        float pixels_per_degree, float *map)
+bool rg_flip_map_shown(const struct rg_picture *a, const struct rg_picture *b, rg_tone *tone,
+                       float scale, float pixels_per_degree, float *map)
 {
-    return make_map((struct job){.colours = {a, b}, .width = width, .height = height},
+    return make_map((struct job){.pictures = {a, b},
+                                 .tone = tone,
+                                 .scale = scale,
+                                 .width = a->width,
+                                 .height = a->height,
+                                 .keeps_larger = true},
                     pixels_per_degree, map);
 }

@@ -3,11 +3,10 @@
 // that show something of the reference, tone-mapped, and the largest difference counts.
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "core/base/alloc.h"
 #include "core/image/compare/compare.h"
+#include "core/image/compare/multiversion.h"
 
 // The tone mapping: ACES as Narkowicz fits it, before which its own exposure of 0.6 is applied:
 // (k[0] x^2 + k[1] x + k[2]) / (k[3] x^2 + k[4] x + k[5]).
@@ -32,17 +31,10 @@ static inline float tone_mapped(float x)
     return y < 1 ? y : 1;
 }
 
-// Red, green and blue of each pixel at an exposure, tone-mapped.
-static void map_picture(const struct rg_picture *picture, double exposure, float *rgb)
+RG_MULTIVERSION static void map_tones(float *values, int count, float scale)
 {
-    const int64_t pixels = (int64_t)picture->width * picture->height;
-    const int channels = picture->channels, colours = rg_picture_colours(picture);
-    const float scale = (float)exp2(exposure);
-#pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < pixels; i++)
-        for (int c = 0; c < 3; c++)
-            rgb[i * 3 + c] =
-                tone_mapped(seen(picture->texels[i * channels + (colours > 1 ? c : 0)], scale));
+    for (int i = 0; i < count; i++)
+        values[i] = tone_mapped(seen(values[i], scale));
 }
 
 // --- the exposures ---
@@ -105,24 +97,6 @@ static void find_exposures(const struct rg_picture *reference, float *luminances
 
 // --- the largest difference ---
 
-// Room for both pictures, a map and the reference's luminances.
-struct room {
-    float *a, *b, *map;
-};
-
-static bool add_exposure(const struct rg_picture *a, const struct rg_picture *b, double exposure,
-                         float pixels_per_degree, const struct room *room, float *largest)
-{
-    const int64_t pixels = (int64_t)a->width * a->height;
-    map_picture(a, exposure, room->a);
-    map_picture(b, exposure, room->b);
-    if (!rg_flip_map_linear(room->a, room->b, a->width, a->height, pixels_per_degree, room->map))
-        return false;
-    for (int64_t i = 0; i < pixels; i++)
-        largest[i] = fmaxf(largest[i], room->map[i]);
-    return true;
-}
-
 static bool is_same(const struct rg_picture *a, const struct rg_picture *b)
 {
     const size_t texels = (size_t)a->width * (size_t)a->height * (size_t)a->channels;
@@ -133,17 +107,13 @@ bool rg_hdr_flip_map(const struct rg_picture *a, const struct rg_picture *b,
                      float pixels_per_degree, float *map, struct rg_hdr_flip *hdr)
 {
     const size_t pixels = (size_t)a->width * (size_t)a->height;
-    float *memory = rg_alloc(pixels, 7 * sizeof(*memory), "HDR-FLIP");
-    if (!memory)
-        return false;
-    const struct room room = {memory, memory + pixels * 3, memory + pixels * 6};
-    find_exposures(a, room.map, hdr);
+    find_exposures(a, map, hdr);
     memset(map, 0, pixels * sizeof(*map));
     const double step = (hdr->stop_exposure - hdr->start_exposure) / (hdr->exposures - 1);
     const int shown = is_same(a, b) ? 0 : hdr->exposures; // the same picture differs at none
     bool good = true;
     for (int i = 0; good && i < shown; i++)
-        good = add_exposure(a, b, hdr->start_exposure + i * step, pixels_per_degree, &room, map);
-    free(memory);
+        good = rg_flip_map_shown(a, b, map_tones, (float)exp2(hdr->start_exposure + i * step),
+                                 pixels_per_degree, map);
     return good;
 }

@@ -83,38 +83,80 @@ static void sum_any_row(const float *a, const float *b, int values, struct row_m
     }
 }
 
-// Counts of a row in which something differs. A mismatch counts as above every threshold.
+// How far two values are apart for counting: a mismatch is further than every threshold.
+static inline float apart(float a, float b)
+{
+    const float d = fabsf(a - b);
+    return d <= 3.4e38f ? d : a == b || (isnan(a) && isnan(b)) ? 0.0f : INFINITY;
+}
+
+static inline int differs(float a, float b)
+{
+    uint32_t bits_a, bits_b;
+    memcpy(&bits_a, &a, sizeof(bits_a));
+    memcpy(&bits_b, &b, sizeof(bits_b));
+    return bits_a != bits_b;
+}
+
+enum { BLOCK = 256 }; // pixels of which differences are kept, so that both loops are vectors
+
+struct block {
+    float d[BLOCK * 4];
+    int differs[BLOCK * 4];
+};
+
+static inline __attribute__((always_inline)) void
+count_pixels(const struct block *block, int pixels, int channels, struct row_metrics *row)
+{
+    int differing = 0, above[RG_ABOVE_COUNT] = {0};
+    for (int x = 0; x < pixels; x++) {
+        float worst = 0.0f;
+        int any = 0;
+        for (int c = 0; c < channels; c++) {
+            worst = larger(block->d[x * channels + c], worst);
+            any |= block->differs[x * channels + c];
+        }
+        differing += any;
+        for (int t = 0; t < RG_ABOVE_COUNT; t++)
+            above[t] += worst > rg_above_thresholds[t];
+    }
+    row->differing_pixels += differing;
+    for (int t = 0; t < RG_ABOVE_COUNT; t++)
+        row->pixels_above[t] += above[t];
+}
+
+static inline __attribute__((always_inline)) void
+count_block(const float *a, const float *b, int pixels, int channels, struct row_metrics *row)
+{
+    struct block block;
+    int differing = 0, above[RG_ABOVE_COUNT] = {0};
+    for (int i = 0; i < pixels * channels; i++) {
+        block.d[i] = apart(a[i], b[i]);
+        block.differs[i] = differs(a[i], b[i]);
+        differing += block.differs[i];
+        for (int t = 0; t < RG_ABOVE_COUNT; t++)
+            above[t] += block.d[i] > rg_above_thresholds[t];
+    }
+    row->differing_values += differing;
+    for (int t = 0; t < RG_ABOVE_COUNT; t++)
+        row->values_above[t] += above[t];
+    count_pixels(&block, pixels, channels, row);
+}
+
+// Counts of a row in which something differs. Loops over a fixed number of channels are vectors.
 RG_MULTIVERSION static void count_row(const float *a, const float *b, int width, int channels,
                                       struct row_metrics *row)
 {
-    int values_above[RG_ABOVE_COUNT] = {0}, pixels_above[RG_ABOVE_COUNT] = {0};
-    int differing_values = 0, differing_pixels = 0;
-    for (int x = 0; x < width; x++) {
-        float worst = 0.0f;
-        int differs = 0;
-        for (int c = 0; c < channels; c++) {
-            uint32_t bits_a, bits_b;
-            memcpy(&bits_a, a + x * channels + c, 4);
-            memcpy(&bits_b, b + x * channels + c, 4);
-            if (bits_a == bits_b)
-                continue;
-            float va = a[x * channels + c], vb = b[x * channels + c], d = fabsf(va - vb);
-            if (d != d || isinf(d)) // one is not finite
-                d = va == vb || (isnan(va) && isnan(vb)) ? 0.0f : INFINITY;
-            differs++;
-            worst = d > worst ? d : worst;
-            for (int t = 0; t < RG_ABOVE_COUNT; t++)
-                values_above[t] += d > rg_above_thresholds[t];
-        }
-        differing_values += differs;
-        differing_pixels += differs > 0;
-        for (int t = 0; t < RG_ABOVE_COUNT; t++)
-            pixels_above[t] += worst > rg_above_thresholds[t];
+    for (int x = 0; x < width; x += BLOCK) {
+        const int pixels = width - x < BLOCK ? width - x : BLOCK;
+        const float *pa = a + (int64_t)x * channels, *pb = b + (int64_t)x * channels;
+        if (channels == 4)
+            count_block(pa, pb, pixels, 4, row);
+        else if (channels == 3)
+            count_block(pa, pb, pixels, 3, row);
+        else
+            count_block(pa, pb, pixels, channels, row);
     }
-    row->differing_values = differing_values;
-    row->differing_pixels = differing_pixels;
-    memcpy(row->values_above, values_above, sizeof(values_above));
-    memcpy(row->pixels_above, pixels_above, sizeof(pixels_above));
 }
 
 // Where a row has its largest difference: the first such value.

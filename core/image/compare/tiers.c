@@ -8,6 +8,7 @@
 
 #include "core/base/log.h"
 #include "core/image/compare/compare.h"
+#include "core/image/compare/multiversion.h"
 
 enum {
     MASK_CODES = 1,     // a pixel is rain when a colour is further than this from the background
@@ -27,6 +28,7 @@ struct pictures {
     const struct rg_picture *linear_a, *linear_b;
     const uint8_t *a, *b, *background; // codes; background: NULL for none
     const uint8_t *mask;
+    const bool *beyond; // by row, of those above and below it too: whether one may be clamped
     int width, height;
     float exposure;
 };
@@ -48,12 +50,32 @@ static inline int distance(const uint8_t *p, const uint8_t *q)
 static void mask_row(const struct pictures *p, int y, uint8_t *mask)
 {
     int64_t at = (int64_t)y * p->width;
+    if (!p->background) {
+        memset(mask + at, 1, (size_t)p->width);
+        return;
+    }
     for (int x = 0; x < p->width; x++, at++)
-        mask[at] = !p->background || distance(p->a + at * 4, p->background + at * 4) > MASK_CODES ||
+        mask[at] = distance(p->a + at * 4, p->background + at * 4) > MASK_CODES ||
                    distance(p->b + at * 4, p->background + at * 4) > MASK_CODES;
 }
 
 // --- what is clamped away ---
+
+// Whether a value is outside 0..1 once it is scaled, or NaN. Alpha is not scaled: where the scale
+// is below 1, it is as if it were 1.
+RG_MULTIVERSION static bool has_beyond(const float *values, int64_t count, float scale)
+{
+    int beyond = 0;
+    for (int64_t i = 0; i < count; i++)
+        beyond |= !(values[i] >= 0 && values[i] * scale <= 1);
+    return beyond;
+}
+
+static bool row_has_beyond(const struct pictures *p, const struct rg_picture *of, int y)
+{
+    const int64_t values = (int64_t)of->width * of->channels;
+    return has_beyond(of->texels + y * values, values, fmaxf(p->exposure, 1));
+}
 
 // The part of a value that no code holds.
 static double clamped(double value)
@@ -77,9 +99,11 @@ static double clamped_codes(const struct pictures *p, const float *a, const floa
 }
 
 // The largest of a pixel's channels, either way.
-static double clamped_distance(const struct pictures *p, const float *a, const float *b)
+static double clamped_distance(const struct pictures *p, int y, const float *a, const float *b)
 {
     double worst = 0;
+    if (!p->beyond[y])
+        return 0;
     for (int c = 0; c < p->linear_a->channels; c++)
         worst = fmax(worst, fabs(clamped_codes(p, a, b, c)));
     return worst;
@@ -103,7 +127,7 @@ static bool found_near(const struct pictures *p, const uint8_t *from, const uint
             const int64_t near = (int64_t)ny * p->width + nx;
             if (nx >= 0 && ny >= 0 && nx < p->width && ny < p->height &&
                 distance(from + at * 4, to + near * 4) <= POSITION_CODES &&
-                clamped_distance(p, linear(p, from, at), linear(p, to, near)) <= POSITION_CODES)
+                clamped_distance(p, y, linear(p, from, at), linear(p, to, near)) <= POSITION_CODES)
                 return true;
         }
     return false;
@@ -113,7 +137,7 @@ static void measure_differing(const struct pictures *p, int x, int y, struct row
 {
     int64_t at = ((int64_t)y * p->width + x) * 4;
     const uint8_t *a = p->a + at, *b = p->b + at;
-    const double lost = clamped_distance(p, linear(p, p->a, at / 4), linear(p, p->b, at / 4));
+    const double lost = clamped_distance(p, y, linear(p, p->a, at / 4), linear(p, p->b, at / 4));
     int colours = distance(a, b), alpha = abs(a[3] - b[3]);
     int worst = colours > alpha ? colours : alpha;
     s->max_codes = worst > s->max_codes ? worst : s->max_codes;
@@ -135,31 +159,57 @@ static void measure_differing(const struct pictures *p, int x, int y, struct row
 
 static int energy(const uint8_t *codes, const uint8_t *background)
 {
-    if (!background)
-        return codes[0] + codes[1] + codes[2];
     return abs(codes[0] - background[0]) + abs(codes[1] - background[1]) +
            abs(codes[2] - background[2]);
+}
+
+// The energies of a row without a background, and its mask, which is all of it.
+RG_MULTIVERSION static void add_energies(const uint8_t *a, const uint8_t *b, int width,
+                                         struct row_sums *s)
+{
+    int sum_a = 0, sum_b = 0; // of at most RG_PICTURE_MAX_SIDE_PX times 765
+    for (int x = 0; x < width; x++) {
+        sum_a += a[x * 4] + a[x * 4 + 1] + a[x * 4 + 2];
+        sum_b += b[x * 4] + b[x * 4 + 1] + b[x * 4 + 2];
+    }
+    s->energy_a += sum_a;
+    s->energy_b += sum_b;
+    s->mask_pixels += width;
+}
+
+// Whether a pixel's codes differ, or what the encoding may have clamped away.
+static bool differs(const struct pictures *p, int64_t pixel, int y)
+{
+    uint32_t a, b;
+    memcpy(&a, p->a + pixel * 4, sizeof(a));
+    memcpy(&b, p->b + pixel * 4, sizeof(b));
+    const size_t texel = (size_t)p->linear_a->channels * sizeof(float);
+    return a != b ||
+           (p->beyond[y] && memcmp(linear(p, p->a, pixel), linear(p, p->b, pixel), texel) != 0);
 }
 
 static struct row_sums measure_row(const struct pictures *p, int y)
 {
     struct row_sums s;
     memset(&s, 0, sizeof(s));
-    int64_t start = (int64_t)y * p->width;
-    const size_t texel = (size_t)p->linear_a->channels * sizeof(float);
-    bool same =
-        memcmp(linear(p, p->a, start), linear(p, p->b, start), (size_t)p->width * texel) == 0;
-    for (int x = 0; x < p->width; x++) {
-        int64_t at = (start + x) * 4;
-        s.mask_pixels += p->mask[start + x];
-        if (!p->mask[start + x] && p->background && same)
+    const int64_t start = (int64_t)y * p->width, end = start + p->width;
+    if (!p->background)
+        add_energies(p->a + start * 4, p->b + start * 4, p->width, &s);
+    const size_t row = (size_t)(p->width * p->linear_a->channels) * sizeof(float);
+    const bool same =
+        p->background && memcmp(linear(p, p->a, start), linear(p, p->b, start), row) == 0;
+    for (int64_t at = start; p->background && at < end; at++) {
+        s.mask_pixels += p->mask[at];
+        if (same && !p->mask[at])
             continue;
-        const uint8_t *background = p->background ? p->background + at : NULL;
-        s.energy_a += energy(p->a + at, background);
-        s.energy_b += energy(p->b + at, background);
-        if (!same && memcmp(linear(p, p->a, at / 4), linear(p, p->b, at / 4), texel) != 0)
-            measure_differing(p, x, y, &s);
+        s.energy_a += energy(p->a + at * 4, p->background + at * 4);
+        s.energy_b += energy(p->b + at * 4, p->background + at * 4);
     }
+    if (!p->beyond[y] && memcmp(p->a + start * 4, p->b + start * 4, (size_t)p->width * 4) == 0)
+        return s;
+    for (int64_t at = start; at < end; at++)
+        if (differs(p, at, y))
+            measure_differing(p, (int)(at - start), y, &s);
     return s;
 }
 
@@ -177,9 +227,11 @@ static void add_row(const struct row_sums *row, struct row_sums *total)
     total->max_codes = row->max_codes > total->max_codes ? row->max_codes : total->max_codes;
 }
 
-// Adds what some pixels of a row differ by beyond black and white, by channel.
-static void add_clamped(const struct pictures *p, int64_t pixel, int count, double codes[4])
+// Adds what some pixels of row y differ by beyond black and white, by channel.
+static void add_clamped(const struct pictures *p, int y, int64_t pixel, int count, double codes[4])
 {
+    if (!p->beyond[y])
+        return;
     const int channels = p->linear_a->channels;
     const float *a = linear(p, p->a, pixel), *b = linear(p, p->b, pixel);
     if (memcmp(a, b, (size_t)count * (size_t)channels * sizeof(*a)) == 0)
@@ -189,6 +241,14 @@ static void add_clamped(const struct pictures *p, int64_t pixel, int count, doub
             clamped_codes(p, a + i - i % channels, b + i - i % channels, i % channels);
 }
 
+// Adds how far b's codes are above a's, by channel and column.
+RG_MULTIVERSION static void add_codes(const uint8_t *a, const uint8_t *b, int codes,
+                                      int sums[TILE * 4])
+{
+    for (int i = 0; i < codes; i++)
+        sums[i] += b[i] - a[i];
+}
+
 // The largest difference of a colour's mean among the tiles of the row of tiles that starts at y0.
 static double tile_row_max(const struct pictures *p, int y0)
 {
@@ -196,13 +256,15 @@ static double tile_row_max(const struct pictures *p, int y0)
     int rows = p->height - y0 < TILE ? p->height - y0 : TILE;
     for (int x0 = 0; x0 < p->width; x0 += TILE) {
         int columns = p->width - x0 < TILE ? p->width - x0 : TILE, sum[4] = {0};
+        int sums[TILE * 4] = {0};
         double lost[4] = {0};
         for (int y = y0; y < y0 + rows; y++) {
             int64_t at = ((int64_t)y * p->width + x0) * 4;
-            for (int i = 0; i < columns * 4; i++)
-                sum[i & 3] += p->b[at + i] - p->a[at + i];
-            add_clamped(p, at / 4, columns, lost);
+            add_codes(p->a + at, p->b + at, columns * 4, sums);
+            add_clamped(p, y, at / 4, columns, lost);
         }
+        for (int i = 0; i < columns * 4; i++)
+            sum[i & 3] += sums[i];
         for (int c = 0; c < 3; c++)
             max = fmax(max, fabs(sum[c] + lost[c]) / (double)(rows * columns));
     }
@@ -245,9 +307,11 @@ struct clamped_sums {
 static void clamped_row(const struct pictures *p, int y, struct clamped_sums *s)
 {
     const int colours = rg_picture_colours(p->linear_a);
+    if (!p->beyond[y])
+        return;
     for (int64_t at = (int64_t)y * p->width; at < ((int64_t)y + 1) * p->width; at++) {
         const float *a = linear(p, p->a, at), *b = linear(p, p->b, at);
-        s->max_codes = fmax(s->max_codes, clamped_distance(p, a, b));
+        s->max_codes = fmax(s->max_codes, clamped_distance(p, y, a, b));
         for (int c = 0; p->mask[at] && c < colours; c++) {
             const double va = fabs((double)(p->exposure * a[c])),
                          vb = fabs((double)(p->exposure * b[c]));
@@ -257,7 +321,7 @@ static void clamped_row(const struct pictures *p, int y, struct clamped_sums *s)
             s->light_b += fmax(vb, 1);
         }
         if (p->mask[at])
-            add_clamped(p, at, 1, s->bias);
+            add_clamped(p, y, at, 1, s->bias);
     }
 }
 
@@ -392,13 +456,31 @@ static void conclude(const struct row_sums *sums, struct rg_tiers *t)
                                        : 1;
 }
 
+// By row, whether it or one beside it has something to be clamped; the caller frees it.
+static bool *find_beyond(const struct pictures *p)
+{
+    bool *of_rows = calloc((size_t)p->height, 2 * sizeof(*of_rows)), *beside = of_rows + p->height;
+    if (!of_rows)
+        return NULL;
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < p->height; y++)
+        beside[y] = row_has_beyond(p, p->linear_a, y) || row_has_beyond(p, p->linear_b, y);
+    for (int y = 0; y < p->height; y++)
+        of_rows[y] = beside[y] || (y > 0 && beside[y - 1]) || (y < p->height - 1 && beside[y + 1]);
+    return of_rows;
+}
+
 bool rg_tiers_compute(const struct rg_picture *a, const struct rg_picture *b,
                       const uint8_t *a_codes, const uint8_t *b_codes,
                       const uint8_t *background_codes, float exposure,
                       const struct rg_metrics *metrics, uint8_t *mask, struct rg_tiers *tiers)
 {
-    struct pictures p = {a,    b,        a_codes,   b_codes, background_codes,
-                         mask, a->width, a->height, exposure};
+    struct pictures p = {a,    b,    a_codes,  b_codes,   background_codes,
+                         mask, NULL, a->width, a->height, exposure};
+    bool *beyond = find_beyond(&p);
+    if (!beyond)
+        return rg_error("comparing %d x %d pixels: no memory; crop them", p.width, p.height);
+    p.beyond = beyond;
     struct row_sums total;
     memset(&total, 0, sizeof(total));
     memset(tiers, 0, sizeof(*tiers));
@@ -424,7 +506,9 @@ bool rg_tiers_compute(const struct rg_picture *a, const struct rg_picture *b,
     }
     tiers->tile_max_codes = tile_max;
     conclude(&total, tiers);
-    if (!measure_relative(&p, tiers) || !measure_clamped(&p, tiers))
+    const bool ok = measure_relative(&p, tiers) && measure_clamped(&p, tiers);
+    free(beyond);
+    if (!ok)
         return rg_error("comparing %d x %d pixels: no memory; crop them", p.width, p.height);
     judge(metrics, tiers);
     return true;
