@@ -11,9 +11,9 @@
 #include "core/base/log.h"
 
 const struct rg_slot_info rg_drawn_slots[RG_DRAWN_SLOTS] = {
-    {"packed primitives", RG_SLOT_PRIMS, RG_SLOT_IN, 4, RG_FORMAT_NONE},
-    {"visible samples", RG_SLOT_SAMPLES, RG_SLOT_ATOMIC, 4, RG_FORMAT_NONE},
-    {"depth behind", RG_SLOT_BEHIND, RG_SLOT_IMAGE, 0, RG_D32F},
+    {"packed primitives", RG_SLOT_PRIMS, RG_SLOT_IN, 4, RG_FORMAT_NONE, NULL},
+    {"visible samples", RG_SLOT_SAMPLES, RG_SLOT_ATOMIC, 4, RG_FORMAT_NONE, "u"},
+    {"depth behind", RG_SLOT_BEHIND, RG_SLOT_IMAGE, 0, RG_D32F, NULL},
 };
 
 const struct rg_kernel *rg_kernel_find(const char *name)

@@ -31,7 +31,12 @@ struct rg_slot_info {
     enum rg_slot_kind kind;
     int element_size;      // of a buffer's element, in bytes; 0 for an image
     enum rg_format format; // of an image; RG_FORMAT_NONE for a buffer
+    const char *words; // of a buffer's element: a letter a word, as enum rg_word has them; NULL:
+                       // not told
 };
+
+// What four bytes of a buffer are; an element's are told in one text, "uff".
+enum rg_word { RG_WORD_FLOAT = 'f', RG_WORD_INT = 'i', RG_WORD_UINT = 'u' };
 
 // One driver's form of a kernel. Text is not terminated by a zero.
 struct rg_kernel_code {

@@ -36,8 +36,8 @@ bool rg_digests_take(const struct rg_digest_run *run, struct rg_device *device,
 void rg_digests_free(struct rg_digests *digests);
 
 // Runs once more, and brings what the asset of a row held then, with what is known of it as a state
-// (`state`: its name is NULL where it is none). False, and one logged line, on failure; the
-// contents are to be freed in either case.
+// (`state`: its name is NULL where it is none) and of a buffer's words. False, and one logged line,
+// on failure; the contents are to be freed in either case.
 bool rg_digests_contents(const struct rg_digest_run *run, struct rg_device *device, int row,
                          struct rg_contents *contents, struct rg_state *state);
 

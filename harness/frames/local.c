@@ -6,6 +6,7 @@
 #include "core/base/array.h"
 #include "core/base/log.h"
 #include "core/device/pass.h"
+#include "core/techniques/stages/stages.h"
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/frames/calling.h"
@@ -155,6 +156,7 @@ static bool read_state(struct rg_session *session, const void *request, void *re
     struct rg_buf *buf = state->asset->buf;
     told->layout = *state;
     told->layout.asset = NULL;
+    told->layout.words = rg_asset_words(session->instance, NULL, state->asset);
     told->size = buf->size;
     told->bytes = malloc(buf->size);
     if (!told->bytes)

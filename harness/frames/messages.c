@@ -221,11 +221,20 @@ const struct rg_field rg_time_fields[] = {
     RG_FIELDS_END,
 };
 
+// Elements are of one word at least.
+static bool knows_words(const void *all)
+{
+    static const char letters[] = {RG_WORD_FLOAT, RG_WORD_INT, RG_WORD_UINT, 0};
+    const char *words = ((const struct rg_state *)all)->words;
+    return !words || (*words && !words[strspn(words, letters)]);
+}
+
 static const struct rg_field layout_fields[] = {
     RG_FIELD_NAME_OR_NONE(struct rg_state, name),
-    RG_FIELD_FLAG(struct rg_state, is_float),
+    RG_FIELD_NAME_OR_NONE(struct rg_state, words),
     RG_FIELD_INTEGER(struct rg_state, row, 0, INT32_MAX),
     RG_FIELD_INTEGER(struct rg_state, margin, 0, INT32_MAX),
+    RG_FIELD_CHECK(knows_words),
     RG_FIELDS_END,
 };
 

@@ -7,6 +7,7 @@
 #include "core/base/alloc.h"
 #include "core/base/array.h"
 #include "core/base/log.h"
+#include "core/techniques/stages/stages.h"
 #include "harness/console/interrupt.h"
 
 // A run that is recorded.
@@ -47,11 +48,13 @@ static bool is_own(const struct rg_instance *instance, int asset)
     return a->is_defined && (a->buf || a->image);
 }
 
-static void keep_state(struct recorder *r, const struct rg_asset *asset)
+static void keep_state(struct recorder *r, const struct rg_opened_stage *stage,
+                       const struct rg_asset *asset)
 {
     for (int i = 0; i < r->instance->state_count; i++)
         if (r->instance->state[i].asset == asset)
             *r->state = r->instance->state[i];
+    r->state->words = rg_asset_words(r->instance, stage, asset);
 }
 
 // A lent asset that no stage writes is read once, since nobody changes it.
@@ -75,7 +78,7 @@ static void record(struct recorder *r, const struct rg_opened_stage *stage, int 
         if (r->digests->count == r->wanted) {
             *r->contents = now;
             now = (struct rg_contents){0};
-            keep_state(r, asset);
+            keep_state(r, wrote ? stage : NULL, asset);
         }
         r->ok = add(r->digests, &digest);
     }

@@ -5,12 +5,28 @@
 #define RG_CAT(a, b)             RG_CAT_(a, b)
 #define RG_STRING_(a)            #a
 #define RG_STRING(a)             RG_STRING_(a)
-#define IN(slot, T, name)        {#name, slot, RG_SLOT_IN, sizeof(T), RG_FORMAT_NONE},
-#define OUT(slot, T, name)       {#name, slot, RG_SLOT_OUT, sizeof(T), RG_FORMAT_NONE},
-#define INOUT(slot, T, name)     {#name, slot, RG_SLOT_INOUT, sizeof(T), RG_FORMAT_NONE},
-#define ATOMIC(slot, T, name)    {#name, slot, RG_SLOT_ATOMIC, sizeof(T), RG_FORMAT_NONE},
-#define IMAGE(slot, F, name)     {#name, slot, RG_SLOT_IMAGE, 0, RG_##F},
-#define OUT_IMAGE(slot, F, name) {#name, slot, RG_SLOT_OUT_IMAGE, 0, RG_##F},
+#define IN(slot, T, name)        RG_BUFFER(slot, T, name, RG_SLOT_IN)
+#define OUT(slot, T, name)       RG_BUFFER(slot, T, name, RG_SLOT_OUT)
+#define INOUT(slot, T, name)     RG_BUFFER(slot, T, name, RG_SLOT_INOUT)
+#define ATOMIC(slot, T, name)    RG_BUFFER(slot, T, name, RG_SLOT_ATOMIC)
+#define IMAGE(slot, F, name)     {#name, slot, RG_SLOT_IMAGE, 0, RG_##F, NULL},
+#define OUT_IMAGE(slot, F, name) {#name, slot, RG_SLOT_OUT_IMAGE, 0, RG_##F, NULL},
+
+// What the words of a type are (enum rg_word), behind a comma; a type without a row here has NULL.
+// tests/structure/words.py compares them with the structs.
+#define RG_WORDS_float            , "f"
+#define RG_WORDS_int              , "i"
+#define RG_WORDS_uint             , "u"
+#define RG_WORDS_flow_pane        , "iiiifffiiiiiiiiiiiifffffffff"
+#define RG_WORDS_drops_drop       , "uuufffffuuu"
+#define RG_WORDS_scenery_light    , "ifffffffffffiiffffffffffffffffff"
+#define RG_WORDS_cartoon_raindrop , "ffffffffffffffiiuu"
+#define RG_WORDS_cartoon_spray    , "fffffffffiiiu"
+#define RG_WORDS_cartoon_surface  , "ffff"
+#define RG_SECOND_(a, b, ...)     b
+#define RG_SECOND(...)            RG_SECOND_(__VA_ARGS__)
+#define RG_BUFFER(slot, T, name, kind)                                                             \
+    {#name, slot, kind, sizeof(T), RG_FORMAT_NONE, RG_SECOND(RG_WORDS_##T, NULL, )},
 
 static const struct rg_slot_info slots[] = {RG_ALL_SLOTS};
 

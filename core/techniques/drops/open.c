@@ -161,8 +161,8 @@ static void add_maps(struct drops *d)
     rg_add_buf(i, "affinity", cells, NULL);
     rg_add_buf(i, "labels", cells, NULL);
     rg_add_buf(i, "leaders", cells, nobody);
-    rg_add_state(i, d->height, "height", true, d->params.stride, DROPS_MARGIN);
-    rg_add_state(i, d->ids, "ids", false, d->params.stride, DROPS_MARGIN);
+    rg_add_state(i, d->height, "height", d->params.stride, DROPS_MARGIN);
+    rg_add_state(i, d->ids, "ids", d->params.stride, DROPS_MARGIN);
     free(nobody);
 }
 
@@ -184,8 +184,8 @@ static void add_drops(struct drops *d)
                NULL);
     rg_add_buf(i, "hot", DROPS_HOT_WORDS, NULL);
     d->tally = rg_add_buf(i, "tally", DROPS_TALLY, tally);
-    rg_add_state(i, d->drops, "drops", false, words, 0);
-    rg_add_state(i, d->tally, "tally", false, 0, 0);
+    rg_add_state(i, d->drops, "drops", words, 0);
+    rg_add_state(i, d->tally, "tally", 0, 0);
 }
 
 // Whether settings go together; else one logged line says which do not.

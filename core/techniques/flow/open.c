@@ -179,13 +179,13 @@ static void add_water(struct flow *flow)
     add_normals(flow, texels);
     flow->panes = rg_add_buf(i, "panes", FLOW_MAX_PANES * (int64_t)sizeof(flow_pane) / 4, NULL);
     rg_set_items(flow->panes, flow->pane_count, 1, 1);
-    rg_add_state(i, flow->water, "water", true, row, FLOW_MARGIN);
-    rg_add_state(i, rg_add_buf(i, "ledger", FLOW_LEDGER_WORDS, NULL), "ledger", false, 0, 0);
+    rg_add_state(i, flow->water, "water", row, FLOW_MARGIN);
+    rg_add_state(i, rg_add_buf(i, "ledger", FLOW_LEDGER_WORDS, NULL), "ledger", 0, 0);
     if (!keeps_directions(i))
         return;
     flow->kept = rg_add_buf(i, "kept", texels, NULL);
     flow->heading = rg_add_buf(i, "heading", texels, NULL);
-    rg_add_state(i, flow->kept, "directions", false, row, FLOW_MARGIN);
+    rg_add_state(i, flow->kept, "directions", row, FLOW_MARGIN);
 }
 
 static void add_map(struct flow *flow, const char *name, float *values, int64_t count)

@@ -84,7 +84,7 @@ static void add_drops(struct raster *r)
     r->item_count = r->drops.count;
     struct rg_asset *drops = rg_add_room(&r->base, "drops", 3 * (int64_t)r->item_count);
     rg_set_items(drops, r->item_count, 1, 1);
-    rg_add_state(&r->base, drops, "drops", true, r->item_count, 0);
+    rg_add_state(&r->base, drops, "drops", r->item_count, 0);
 }
 
 static void add_scene(struct raster *r)

@@ -104,10 +104,10 @@ static bool add_particles(struct shower *s)
     s->unused = rg_add_buf(i, "unused", has_free_list(s) ? slots : 1, NULL);
     s->found = rg_add_buf(i, "found", 1, NULL);
     s->counts = rg_add_buf(i, "tally", SHOWER_TALLY, NULL);
-    rg_add_state(i, s->particles, "particles", true, s->params.slots, 0);
+    rg_add_state(i, s->particles, "particles", s->params.slots, 0);
     if (s->params.is_full)
-        rg_add_state(i, s->attributes, "attributes", true, s->params.slots, 0);
-    rg_add_state(i, s->counts, "tally", false, 0, 0);
+        rg_add_state(i, s->attributes, "attributes", s->params.slots, 0);
+    rg_add_state(i, s->counts, "tally", 0, 0);
     rg_add_counters(i, counter_names, SHOWER_COUNTERS);
     if (i->has_failed)
         return false;

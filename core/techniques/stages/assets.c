@@ -182,12 +182,12 @@ void rg_swap(struct rg_asset *a, struct rg_asset *b)
     b->is_defined = was.is_defined;
 }
 
-void rg_add_state(struct rg_instance *instance, struct rg_asset *asset, const char *name,
-                  bool is_float, int row, int margin)
+void rg_add_state(struct rg_instance *instance, struct rg_asset *asset, const char *name, int row,
+                  int margin)
 {
     if (!instance->has_failed && instance->state_count < RG_MAX_STATE)
         instance->state[instance->state_count++] =
-            (struct rg_state){name, asset, is_float, row, margin};
+            (struct rg_state){name, asset, row, margin, NULL};
 }
 
 void rg_assets_free(struct rg_instance *instance)

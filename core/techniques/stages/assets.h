@@ -47,8 +47,8 @@ void rg_swap(struct rg_asset *a, struct rg_asset *b);
 
 // Says that a buffer among the assets is part of the simulation's state, which `verify` compares
 // (struct rg_state has the arguments).
-void rg_add_state(struct rg_instance *instance, struct rg_asset *asset, const char *name,
-                  bool is_float, int row, int margin);
+void rg_add_state(struct rg_instance *instance, struct rg_asset *asset, const char *name, int row,
+                  int margin);
 
 // Destroys all assets.
 void rg_assets_free(struct rg_instance *instance);

@@ -7,6 +7,7 @@
 #include <xxhash.h>
 
 #include "core/base/alloc.h"
+#include "core/image/half.h"
 
 static size_t level_bytes(const struct rg_image_desc *desc, int level)
 {
@@ -94,47 +95,92 @@ static void texel_text(const struct rg_image_desc *desc, size_t byte, char *text
 static void place_text(const struct rg_contents *c, const struct rg_state *state, size_t byte,
                        char *text, size_t size)
 {
-    const size_t word = byte / 4;
+    const size_t word = byte / 4, words = state->words ? strlen(state->words) : 1;
     if (c->desc.levels)
         texel_text(&c->desc, byte, text, size);
-    else if (state && state->row)
+    else if (state->row)
         snprintf(text, size, " (%d, %d)", (int)(word % (size_t)state->row) - state->margin,
                  (int)(word / (size_t)state->row) - state->margin);
+    else if (words > 1)
+        snprintf(text, size, "[%zu], word %zu of its %zu,", word / words, word % words, words);
     else
         snprintf(text, size, "[%zu]", word);
 }
 
-// A word in text: as a float and as bits; a word that holds several smaller values as bits alone.
-static void word_text(uint32_t bits, bool as_float, char *text, size_t size)
+enum rg_number rg_contents_number(const struct rg_contents *c, const struct rg_state *state,
+                                  int64_t word)
 {
-    float value;
-    memcpy(&value, &bits, sizeof(value));
-    if (as_float)
-        snprintf(text, size, "%.9g (0x%08x)", (double)value, bits);
-    else
-        snprintf(text, size, "%u (0x%08x)", bits, bits);
-}
-
-// Where nothing says what words are, they count as floats if their exponent is neither that of a
-// small integer nor all ones.
-bool rg_contents_has_float(const struct rg_contents *c, const struct rg_state *state, uint32_t bits)
-{
-    const uint32_t exponent = bits >> 23 & 0xff;
+    static const enum rg_number of_formats[RG_FORMAT_COUNT] = {
+        [RG_RGBA8] = RG_NUMBER_CODE, [RG_RGBA16F] = RG_NUMBER_HALF, [RG_RGBA32F] = RG_NUMBER_FLOAT,
+        [RG_R32F] = RG_NUMBER_FLOAT, [RG_R16F] = RG_NUMBER_HALF,    [RG_RG11B10F] = RG_NUMBER_SMALL,
+        [RG_D32F] = RG_NUMBER_FLOAT,
+    };
     if (c->desc.levels)
-        return c->desc.format == RG_R32F || c->desc.format == RG_RGBA32F ||
-               c->desc.format == RG_D32F;
-    return state ? state->is_float : exponent > 64 && exponent < 255;
+        return of_formats[c->desc.format];
+    const char *words = state->words ? state->words : "";
+    const char letter = *words ? words[word % (int64_t)strlen(words)] : RG_WORD_UINT;
+    return letter == RG_WORD_FLOAT ? RG_NUMBER_FLOAT
+           : letter == RG_WORD_INT ? RG_NUMBER_INT
+                                   : RG_NUMBER_UINT;
 }
 
-static void difference_text(uint32_t bits, uint32_t due, bool as_float, char *text, size_t size)
+int rg_number_bits(enum rg_number number, int at)
 {
-    float value, expected;
-    memcpy(&value, &bits, sizeof(value));
-    memcpy(&expected, &due, sizeof(expected));
-    if (as_float)
-        snprintf(text, size, "%.3g", fabs((double)value - (double)expected));
-    else
-        snprintf(text, size, "%u", bits > due ? bits - due : due - bits);
+    return number == RG_NUMBER_HALF    ? 16
+           : number == RG_NUMBER_CODE  ? 8
+           : number == RG_NUMBER_SMALL ? (at < 22 ? 11 : 10)
+                                       : 32;
+}
+
+// The number at bit `at` of a word.
+static double value_of(uint32_t word, enum rg_number number, int at)
+{
+    const int bits = rg_number_bits(number, at);
+    const uint32_t value = bits == 32 ? word : word >> at & ((1u << bits) - 1);
+    float real;
+    memcpy(&real, &word, sizeof(real));
+    switch (number) {
+    case RG_NUMBER_FLOAT:
+        return (double)real;
+    case RG_NUMBER_HALF:
+        return (double)rg_float_of_half((uint16_t)value);
+    case RG_NUMBER_SMALL: // a half without its sign and last bits
+        return (double)rg_float_of_half((uint16_t)(value << (15 - bits)));
+    case RG_NUMBER_INT:
+        return (double)(int32_t)value;
+    default:
+        return (double)value;
+    }
+}
+
+// A word in text, as its numbers and as bits. A float has nine digits, which tell it from all
+// others.
+static void word_text(uint32_t word, enum rg_number number, char *text, size_t size)
+{
+    const int digits = number == RG_NUMBER_FLOAT ? 9 : number == RG_NUMBER_HALF ? 5 : 10;
+    const bool has_several = rg_number_bits(number, 0) < 32;
+    size_t used = 0;
+    for (int at = 0; at < 32 && used < size; at += rg_number_bits(number, at))
+        used += (size_t)snprintf(text + used, size - used, "%s%.*g",
+                                 at            ? ", "
+                                 : has_several ? "("
+                                               : "",
+                                 digits, value_of(word, number, at));
+    if (used < size)
+        snprintf(text + used, size - used, "%s (0x%08x)", has_several ? ")" : "", word);
+}
+
+// How far two words are from each other: the most that one of their numbers is.
+static double distance(uint32_t a, uint32_t b, enum rg_number number)
+{
+    double most = 0;
+    for (int at = 0; at < 32; at += rg_number_bits(number, at)) {
+        const double off = fabs(value_of(a, number, at) - value_of(b, number, at));
+        const bool is_same = value_of(a, number, at) == value_of(b, number, at); // infinite, too
+        if (!is_same && !(off <= most) && !isnan(most))
+            most = off;
+    }
+    return most;
 }
 
 void rg_contents_describe(const struct rg_contents *c, const struct rg_contents *expected,
@@ -152,15 +198,15 @@ void rg_contents_describe(const struct rg_contents *c, const struct rg_contents 
     }
     if (!differing)
         return;
-    char place[160], is[48], due[48], off[32];
+    char place[160], is[96], due[96];
     uint32_t bits, expected_bits;
     memcpy(&bits, a + 4 * first, 4);
     memcpy(&expected_bits, b + 4 * first, 4);
-    const bool as_float = rg_contents_has_float(c, state, expected_bits ? expected_bits : bits);
+    const enum rg_number number = rg_contents_number(c, state, (int64_t)first);
+    const bool is_whole = number == RG_NUMBER_UINT || number == RG_NUMBER_INT;
     place_text(c, state, 4 * first, place, sizeof(place));
-    word_text(bits, as_float, is, sizeof(is));
-    word_text(expected_bits, as_float, due, sizeof(due));
-    difference_text(bits, expected_bits, as_float, off, sizeof(off));
-    snprintf(text, size, "%s is %s, not %s, off by %s; %zu of %zu words differ", place, is, due,
-             off, differing, words);
+    word_text(bits, number, is, sizeof(is));
+    word_text(expected_bits, number, due, sizeof(due));
+    snprintf(text, size, "%s is %s, not %s, off by %.*g; %zu of %zu words differ", place, is, due,
+             is_whole ? 10 : 3, distance(bits, expected_bits, number), differing, words);
 }

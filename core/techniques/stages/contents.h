@@ -25,15 +25,27 @@ void rg_contents_free(struct rg_contents *contents);
 uint64_t rg_contents_hash(const struct rg_contents *contents);
 
 // Where two of one size differ first, by how much, and in how many words: "[17] is 0.5
-// (0x3f000000), not 0.25 (0x3e800000), off by 0.25; 3 of 64 words differ". A state's words have a
-// column and a row; texels have x, y, layer and level. "" where nothing differs. `state` is of the
-// buffer, or NULL.
+// (0x3f000000), not 0.25 (0x3e800000), off by 0.25; 3 of 64 words differ". A word that holds
+// several numbers has them in brackets. A state's words have a column and a row; those of structs a
+// place in theirs; texels have x, y, layer and level. "" where nothing differs. `state` is of a
+// buffer: its words, row and margin count.
 void rg_contents_describe(const struct rg_contents *contents, const struct rg_contents *expected,
                           const struct rg_state *state, char *text, size_t size);
 
-// Whether a word counts as a float: by the image's format, by what is known of the state, or, where
-// nothing tells, by its bits.
-bool rg_contents_has_float(const struct rg_contents *contents, const struct rg_state *state,
-                           uint32_t bits);
+// What a word holds: one number, or as many as there is room for, the lowest bits first.
+enum rg_number {
+    RG_NUMBER_UINT,
+    RG_NUMBER_INT,
+    RG_NUMBER_FLOAT,
+    RG_NUMBER_HALF,
+    RG_NUMBER_CODE,  // of 8 bits
+    RG_NUMBER_SMALL, // floats without a sign: two of 11 bits, then one of 10
+};
+// Of a word of contents: by the image's format, or by the words of the buffer's elements; where
+// these are not known it is an unsigned integer.
+enum rg_number rg_contents_number(const struct rg_contents *contents, const struct rg_state *state,
+                                  int64_t word);
+// The bits of the number that begins at bit `at` of a word.
+int rg_number_bits(enum rg_number number, int at);
 
 #endif

@@ -59,13 +59,14 @@ struct rg_opened_stage {
 };
 
 // An asset that is part of the simulation's state: what `verify` compares byte by byte. `row` and
-// `margin` name an element in a message: (index % row - margin, index / row - margin).
+// `margin` name an element in a message: (index % row - margin, index / row - margin). `words` is
+// told by whoever reads the contents (rg_asset_words).
 struct rg_state {
     const char *name;
     const struct rg_asset *asset; // a buffer
-    bool is_float;                // 4-byte floats, or uints
     int row;                      // elements a row; 0: a plain list
     int margin;                   // elements before the first of a row, and rows before the first
+    const char *words;            // what an element's are (enum rg_word); NULL: not known
 };
 
 // An exact count of work since the instance was opened.

@@ -224,3 +224,22 @@ bool rg_stage_wrote(const struct rg_opened_stage *s, const struct rg_asset *asse
            (s->drawn.colour == asset->image ||
             (s->drawn.depth == asset->image && s->drawn.depth_mode == RG_DEPTH_WRITE));
 }
+
+static const char *words_of(const struct rg_opened_stage *s, const struct rg_buf *buf)
+{
+    for (int i = 0; s->pass && i < s->pass->kernel->slot_count; i++) {
+        const struct rg_slot_info *slot = &s->pass->kernel->slots[i];
+        if (s->slots[slot->slot]->buf == buf && slot->words)
+            return slot->words;
+    }
+    return NULL;
+}
+
+const char *rg_asset_words(const struct rg_instance *instance, const struct rg_opened_stage *by,
+                           const struct rg_asset *asset)
+{
+    const char *words = by && asset->buf ? words_of(by, asset->buf) : NULL;
+    for (int i = 0; !words && asset->buf && i < instance->stage_count; i++)
+        words = words_of(&instance->stages[i], asset->buf);
+    return words;
+}

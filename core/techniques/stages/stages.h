@@ -34,6 +34,11 @@ struct rg_draw rg_stage_draw(const struct rg_instance *instance, int stage);
 // Whether the last run of a stage wrote an asset.
 bool rg_stage_wrote(const struct rg_opened_stage *stage, const struct rg_asset *asset);
 
+// What the words of a buffer are (struct rg_slot_info), by the slots that it is bound to: those of
+// `by` first, which has written it, or NULL. NULL where no slot tells.
+const char *rg_asset_words(const struct rg_instance *instance, const struct rg_opened_stage *by,
+                           const struct rg_asset *asset);
+
 // Destroys all stages' passes.
 void rg_stages_free(struct rg_instance *instance);
 

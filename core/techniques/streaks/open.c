@@ -102,7 +102,7 @@ static void add_assets(struct streaks *s)
         rg_lend_image(i, "density", s->density);
     rg_lend_buf(i, "lights", s->lights->in_frame);
     rg_lend_image(i, "shadows", s->lights->shadows);
-    rg_add_state(i, s->places, "places", true, STREAKS_STATE_WORDS, 0);
+    rg_add_state(i, s->places, "places", STREAKS_STATE_WORDS, 0);
     i->state_count = 0; // until a step has kept it
     rg_add_counters(i, counter_names, STREAKS_COUNTERS);
 }

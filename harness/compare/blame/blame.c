@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "backends/kernel.h"
 #include "core/base/log.h"
 #include "harness/console/interrupt.h"
 #include "harness/record/named.h"
@@ -26,18 +25,6 @@ static int row_before(const struct rg_digests *digests, int row)
     while (before >= 0 && strcmp(digests->rows[before].asset, digests->rows[row].asset) != 0)
         before--;
     return before;
-}
-
-// Of the buffer that a kernel knows by an asset's name; a word where it knows it by another.
-static int element_bytes(const struct rg_digest *digest)
-{
-    const struct rg_kernel *kernel = rg_kernel_find(digest->stage);
-    const char *point = strrchr(digest->asset, '.');
-    const char *name = point ? point + 1 : digest->asset; // "scope.name"
-    for (int i = 0; kernel && i < kernel->slot_count; i++)
-        if (!strcmp(kernel->slots[i].name, name) && kernel->slots[i].element_size >= 4)
-            return kernel->slots[i].element_size;
-    return 4;
 }
 
 static void find_texel(const struct rg_image_desc *desc, int64_t byte, struct rg_blame *blame)
@@ -72,17 +59,16 @@ static bool read_three(const struct rg_digest_run *run, struct rg_device *device
 
 static void judge(const struct three *c, struct rg_blame *blame, char *where, size_t size)
 {
-    const struct rg_state *state = c->state.name ? &c->state : NULL;
-    const int bytes = element_bytes(&blame->first);
+    const struct rg_state *state = &c->state;
     struct rg_differing differing;
-    blame->difference = rg_difference_of(&c->now, &c->due, &c->before, bytes, state, &differing);
+    blame->difference = rg_difference_of(&c->now, &c->due, &c->before, state, &differing);
     blame->differing = differing.count;
     blame->words = (int64_t)(c->due.size + 3) / 4;
     blame->is_image = c->now.desc.levels > 0;
     if (blame->is_image && differing.count)
         find_texel(&c->now.desc, 4 * differing.first, blame);
     else
-        blame->item = 4 * differing.first / bytes;
+        blame->item = 4 * differing.first / rg_difference_element(state);
     rg_contents_describe(&c->now, &c->due, state, where, size);
 }
 

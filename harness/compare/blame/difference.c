@@ -62,76 +62,63 @@ static bool differs(const struct pair *p, int64_t word)
 
 // --- values: the parts of a word that are numbers of their own ---
 
-// Bits of each; 0: a word that is no such number.
-static int value_bits(const struct pair *p, int64_t word)
+static bool is_whole(enum rg_number number)
 {
-    if (p->now->desc.levels)
-        switch (p->now->desc.format) {
-        case RG_RGBA8:
-            return 8;
-        case RG_RGBA16F:
-        case RG_R16F:
-            return 16;
-        case RG_RG11B10F:
-            return 0;
-        default:
-            return 32;
-        }
-    return rg_contents_has_float(p->due, p->state, word_of(p->due, word)) ? 32 : 0;
+    return number == RG_NUMBER_UINT || number == RG_NUMBER_INT;
 }
 
-// Of a float of so many bits: all ones in its exponent.
-static bool is_endless(uint32_t bits, int size)
+static uint32_t value_of(uint32_t word, enum rg_number number, int at)
 {
-    const uint32_t exponent = size == 32 ? 0x7f800000u : 0x7c00u;
-    return size > 8 && (bits & exponent) == exponent;
-}
-
-// Floats as integers in their order, so that neighbours are one apart.
-static int64_t step_of(uint32_t bits, int size)
-{
-    const uint32_t sign = 1u << (size - 1);
-    return size == 8 ? (int64_t)bits : bits & sign ? -(int64_t)(bits & ~sign) : (int64_t)bits;
-}
-
-static bool is_near(uint32_t a, uint32_t b, int size)
-{
-    const int64_t apart = llabs(step_of(a, size) - step_of(b, size));
-    return apart <= (size == 32 ? LAST_STEPS : size == 16 ? LAST_STEPS_HALF : LAST_CODES);
-}
-
-static uint32_t value_of(uint32_t word, int at, int size)
-{
+    const int size = rg_number_bits(number, at);
     return size == 32 ? word : word >> at & ((1u << size) - 1);
 }
 
-// What a float unit makes where there is no number, or none so large.
-static bool is_made_endless(uint32_t bits)
+// Whether a float is NaN or infinite: all ones in its exponent.
+static bool is_endless(uint32_t bits, enum rg_number number, int at)
 {
-    return (bits & 0x7fffffff) == 0x7fc00000 || (bits & 0x7fffffff) == 0x7f800000;
+    const uint32_t exponent = number == RG_NUMBER_FLOAT ? 0x7f800000u
+                              : number == RG_NUMBER_HALF
+                                  ? 0x7c00u
+                                  : 0x1fu << (rg_number_bits(number, at) - 5);
+    return !is_whole(number) && number != RG_NUMBER_CODE && (bits & exponent) == exponent;
+}
+
+// Floats as integers in their order, so that neighbours are one apart.
+static int64_t step_of(uint32_t bits, enum rg_number number)
+{
+    const uint32_t sign = number == RG_NUMBER_FLOAT  ? 1u << 31
+                          : number == RG_NUMBER_HALF ? 1u << 15
+                                                     : 0;
+    return bits & sign ? -(int64_t)(bits & ~sign) : (int64_t)bits;
+}
+
+static bool is_near(uint32_t a, uint32_t b, enum rg_number number)
+{
+    const int64_t apart = llabs(step_of(a, number) - step_of(b, number));
+    return apart <= (number == RG_NUMBER_FLOAT  ? LAST_STEPS
+                     : number == RG_NUMBER_CODE ? LAST_CODES
+                                                : LAST_STEPS_HALF);
 }
 
 static bool has_nan(const struct pair *p, int64_t word)
 {
     const uint32_t a = word_of(p->now, word), b = word_of(p->due, word);
-    const int size = value_bits(p, word);
-    // Where nothing tells floats from integers, whose bits may be those of any NaN.
-    if (!p->now->desc.levels && !p->state)
-        return size && is_made_endless(a) != is_made_endless(b);
-    for (int at = 0; size && at < 32; at += size)
-        if (is_endless(value_of(a, at, size), size) != is_endless(value_of(b, at, size), size))
-            return true;
-    return false;
+    const enum rg_number number = rg_contents_number(p->due, p->state, word);
+    bool has = false;
+    for (int at = 0; at < 32; at += rg_number_bits(number, at))
+        has = has || is_endless(value_of(a, number, at), number, at) !=
+                         is_endless(value_of(b, number, at), number, at);
+    return has;
 }
 
 static bool is_in_last_bits(const struct pair *p, int64_t word)
 {
     const uint32_t a = word_of(p->now, word), b = word_of(p->due, word);
-    const int size = value_bits(p, word);
-    for (int at = 0; size && at < 32; at += size)
-        if (!is_near(value_of(a, at, size), value_of(b, at, size), size))
-            return false;
-    return size != 0;
+    const enum rg_number number = rg_contents_number(p->due, p->state, word);
+    bool is = !is_whole(number);
+    for (int at = 0; at < 32; at += rg_number_bits(number, at))
+        is = is && is_near(value_of(a, number, at), value_of(b, number, at), number);
+    return is;
 }
 
 // --- places ---
@@ -226,10 +213,15 @@ static bool is_at_edges(const struct pair *p)
     return true;
 }
 
+int rg_difference_element(const struct rg_state *state)
+{
+    return state->words ? 4 * (int)strlen(state->words) : 4;
+}
+
 enum rg_difference rg_difference_of(const struct rg_contents *contents,
                                     const struct rg_contents *expected,
-                                    const struct rg_contents *before, int element_bytes,
-                                    const struct rg_state *state, struct rg_differing *differing)
+                                    const struct rg_contents *before, const struct rg_state *state,
+                                    struct rg_differing *differing)
 {
     const size_t size = contents->size < expected->size ? contents->size : expected->size;
     const struct pair p = {contents, expected, before, (int64_t)(size + 3) / 4, state};
@@ -248,7 +240,7 @@ enum rg_difference rg_difference_of(const struct rg_contents *contents,
         return RG_DIFFERENCE_MISSING;
     if (has_before && all(&p, was_due_so))
         return RG_DIFFERENCE_SURPLUS;
-    if (!contents->desc.levels && is_another_order(&p, element_bytes))
+    if (!contents->desc.levels && is_another_order(&p, rg_difference_element(state)))
         return RG_DIFFERENCE_ORDER;
     if (all(&p, is_in_last_bits))
         return RG_DIFFERENCE_LAST_BITS;

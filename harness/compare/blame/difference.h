@@ -31,11 +31,13 @@ struct rg_differing {
 };
 
 // What kind it is. `before` is what both had before the stage, or zeroed where that is not known;
-// `element_bytes` is the size of a buffer's element, a multiple of 4; `state` is of the buffer, or
-// NULL: it tells floats from integers.
+// `state` tells of a buffer what its words are.
 enum rg_difference rg_difference_of(const struct rg_contents *contents,
                                     const struct rg_contents *expected,
-                                    const struct rg_contents *before, int element_bytes,
-                                    const struct rg_state *state, struct rg_differing *differing);
+                                    const struct rg_contents *before, const struct rg_state *state,
+                                    struct rg_differing *differing);
+
+// The bytes of a buffer's element.
+int rg_difference_element(const struct rg_state *state);
 
 #endif

@@ -131,7 +131,7 @@ static void describe_first(struct rg_verify *v, struct rg_device *device, const 
     const struct rg_subject subject = subject_of(v, c->settings);
     struct rg_session *a = rg_session_open(device, &subject);
     struct rg_session *b = rg_session_open(v->reference, &subject);
-    char element[160] = "";
+    char element[400] = "";
     int step = 0;
     for (bool ok = a && b; ok && !*element && step <= c->steps; step++) {
         struct rg_snapshot now = {0}, expected = {0};

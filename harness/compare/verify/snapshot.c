@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/techniques/stages/contents.h"
+
 bool rg_snapshot_take(struct rg_session *session, bool with_image, struct rg_snapshot *s)
 {
     memset(s, 0, sizeof(*s));
@@ -46,44 +48,17 @@ bool rg_snapshot_same_image(const struct rg_snapshot *a, const struct rg_snapsho
     return same(a->texels, a->texels_bytes, b->texels, b->texels_bytes);
 }
 
-static void value_text(const struct rg_state *layout, const void *state, size_t i, char *text,
-                       size_t size)
-{
-    uint32_t bits;
-    float value;
-    memcpy(&bits, (const char *)state + 4 * i, sizeof(bits));
-    memcpy(&value, &bits, sizeof(value));
-    if (layout->is_float)
-        snprintf(text, size, "%.9g (0x%08x)", (double)value, bits);
-    else
-        snprintf(text, size, "%u", bits);
-}
-
-static void describe_element(const struct rg_state *layout, const void *a, const void *expected,
-                             size_t i, char *text, size_t size)
-{
-    char value[40], due[40], place[40];
-    value_text(layout, a, i, value, sizeof(value));
-    value_text(layout, expected, i, due, sizeof(due));
-    if (layout->row)
-        snprintf(place, sizeof(place), " (%d, %d)", (int)(i % (size_t)layout->row) - layout->margin,
-                 (int)(i / (size_t)layout->row) - layout->margin);
-    else
-        snprintf(place, sizeof(place), "[%zu]", i);
-    snprintf(text, size, "%s%s is %s, not %s", layout->name, place, value, due);
-}
-
 void rg_snapshot_describe(const struct rg_snapshot *a, const struct rg_snapshot *expected,
                           char *text, size_t size)
 {
     *text = 0;
-    for (int s = 0; s < a->state_count && s < expected->state_count; s++) {
-        const char *p = a->state[s], *q = expected->state[s];
-        for (size_t i = 0; 4 * i < a->state_bytes[s] && 4 * i < expected->state_bytes[s]; i++) {
-            if (!memcmp(p + 4 * i, q + 4 * i, 4))
-                continue;
-            describe_element(&a->layout[s], p, q, i, text, size);
-            return;
-        }
+    for (int s = 0; !*text && s < a->state_count && s < expected->state_count; s++) {
+        const struct rg_contents now = {.size = a->state_bytes[s], .bytes = a->state[s]};
+        const struct rg_contents due = {.size = expected->state_bytes[s],
+                                        .bytes = expected->state[s]};
+        char where[400];
+        rg_contents_describe(&now, &due, &a->layout[s], where, sizeof(where));
+        if (*where)
+            snprintf(text, size, "%s%s", a->layout[s].name, where);
     }
 }

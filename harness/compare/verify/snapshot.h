@@ -22,8 +22,8 @@ void rg_snapshot_free(struct rg_snapshot *snapshot);
 bool rg_snapshot_same_state(const struct rg_snapshot *a, const struct rg_snapshot *b);
 bool rg_snapshot_same_image(const struct rg_snapshot *a, const struct rg_snapshot *b);
 
-// Names the first element of the state that differs, with both values: "water (17, 3) is 0.25, not
-// 0.5". "" when none does.
+// Names the first element of the state that differs, with both values: "water (17, 3) is 0.25
+// (0x3e800000), not ..." (rg_contents_describe). "" when none does.
 void rg_snapshot_describe(const struct rg_snapshot *a, const struct rg_snapshot *expected,
                           char *text, size_t size);
 

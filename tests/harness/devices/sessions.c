@@ -135,7 +135,8 @@ static void states_are_the_same(void **state)
         assert_string_equal(layouts[LOCAL].name, layouts[REMOTE].name);
         assert_int_equal(layouts[LOCAL].row, layouts[REMOTE].row);
         assert_int_equal(layouts[LOCAL].margin, layouts[REMOTE].margin);
-        assert_int_equal(layouts[LOCAL].is_float, layouts[REMOTE].is_float);
+        assert_string_equal(layouts[LOCAL].words, s == 0 ? "f" : "u"); // water, and the others
+        assert_string_equal(layouts[REMOTE].words, layouts[LOCAL].words);
         free(words[LOCAL]);
         free(words[REMOTE]);
     }
@@ -246,6 +247,9 @@ static void digests_are_the_same(void **state)
         assert_memory_equal(contents[LOCAL].bytes, contents[REMOTE].bytes, contents[LOCAL].size);
         assert_int_equal(contents[LOCAL].desc.width, contents[REMOTE].desc.width);
         assert_int_equal(!states[LOCAL].name, !states[REMOTE].name);
+        assert_int_equal(!states[LOCAL].words, !!contents[LOCAL].desc.levels);
+        if (states[LOCAL].words)
+            assert_string_equal(states[LOCAL].words, states[REMOTE].words);
         for (int i = 0; i < 2; i++)
             rg_contents_free(&contents[i]);
     }

@@ -19,7 +19,7 @@ enum { WORDS = 16 };
 static float now[WORDS], due[WORDS], before[WORDS];
 static struct rg_contents contents, expected, earlier;
 static struct rg_differing differing;
-static const struct rg_state floats = {.name = "floats", .is_float = true};
+static struct rg_state words; // floats, unless a test says otherwise
 
 // Floats 1 to 16 in both, and 100 to 115 before.
 static int setup(void **state)
@@ -28,6 +28,7 @@ static int setup(void **state)
     contents = (struct rg_contents){.size = sizeof(now), .bytes = now};
     expected = (struct rg_contents){.size = sizeof(due), .bytes = due};
     earlier = (struct rg_contents){.size = sizeof(before), .bytes = before};
+    words = (struct rg_state){.name = "words", .words = "f"};
     for (int i = 0; i < WORDS; i++) {
         now[i] = due[i] = (float)(i + 1);
         before[i] = (float)(i + 100);
@@ -35,9 +36,9 @@ static int setup(void **state)
     return 0;
 }
 
-static enum rg_difference found(int element_bytes)
+static enum rg_difference found(void)
 {
-    return rg_difference_of(&contents, &expected, &earlier, element_bytes, &floats, &differing);
+    return rg_difference_of(&contents, &expected, &earlier, &words, &differing);
 }
 
 // A picture of 4 x 4 texels of floats.
@@ -50,10 +51,10 @@ static void make_image(enum rg_format format, int side)
 static void nothing_differs(void **state)
 {
     (void)state;
-    assert_int_equal(found(4), RG_DIFFERENCE_NONE);
+    assert_int_equal(found(), RG_DIFFERENCE_NONE);
     assert_int_equal(differing.count, 0);
     contents.size = 12;
-    assert_int_equal(found(4), RG_DIFFERENCE_SIZE);
+    assert_int_equal(found(), RG_DIFFERENCE_SIZE);
 }
 
 static void the_first_word_and_their_number(void **state)
@@ -61,7 +62,7 @@ static void the_first_word_and_their_number(void **state)
     (void)state;
     now[5] = 50;
     now[15] = 60;
-    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
     assert_int_equal(differing.first, 5);
     assert_int_equal(differing.count, 2);
 }
@@ -71,36 +72,107 @@ static void a_nan_is_told(void **state)
 {
     (void)state;
     now[3] = NAN;
-    assert_int_equal(found(4), RG_DIFFERENCE_NAN);
+    assert_int_equal(found(), RG_DIFFERENCE_NAN);
     now[3] = due[3];
     due[7] = INFINITY;
-    assert_int_equal(found(4), RG_DIFFERENCE_NAN);
+    assert_int_equal(found(), RG_DIFFERENCE_NAN);
     now[7] = NAN;
     due[7] = -NAN;
-    assert_int_not_equal(found(4), RG_DIFFERENCE_NAN);
+    assert_int_not_equal(found(), RG_DIFFERENCE_NAN);
     setup(NULL);
     make_image(RG_RGBA16F, 2);
     contents.size = expected.size = 32;
     memcpy(now, &(uint32_t){0x7c003c00}, 4);
     memcpy(due, &(uint32_t){0x3c003c00}, 4);
-    assert_int_equal(found(4), RG_DIFFERENCE_NAN);
+    assert_int_equal(found(), RG_DIFFERENCE_NAN);
 }
 
-// Of a buffer of which nothing is known only the NaN that units make counts, beside what can be a
-// float: an integer may have the bits of any other.
-static void a_nan_of_unknown_words_is_told(void **state)
+// Integers may have the bits of any float, and are no last bits from each other.
+static void integers_are_no_floats(void **state)
 {
     (void)state;
+    words.words = "u";
     memcpy(now, &(uint32_t){0x7fc00000}, 4);
-    assert_int_equal(rg_difference_of(&contents, &expected, &earlier, 4, NULL, &differing),
-                     RG_DIFFERENCE_NAN);
-    memcpy(now, &(uint32_t){0x7f99abcd}, 4);
-    assert_int_equal(rg_difference_of(&contents, &expected, &earlier, 4, NULL, &differing),
-                     RG_DIFFERENCE_VALUES);
-    memcpy(now, &(uint32_t){0x7fc00000}, 4);
-    memcpy(due, &(uint32_t){7}, 4);
-    assert_int_equal(rg_difference_of(&contents, &expected, &earlier, 4, NULL, &differing),
-                     RG_DIFFERENCE_VALUES);
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
+    memcpy(now, &(uint32_t){0x7f800001}, 4);
+    memcpy(due, &(uint32_t){0x7f800000}, 4);
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
+    words.words = NULL;
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
+    words.words = "f";
+    assert_int_equal(found(), RG_DIFFERENCE_LAST_BITS);
+    words.words = "uf"; // the first word of each element
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
+}
+
+// A difference of one word, as it is told.
+static void assert_told(uint32_t is, uint32_t should, const char *says)
+{
+    char text[400];
+    memcpy(now + 5, &is, 4);
+    memcpy(due + 5, &should, 4);
+    rg_contents_describe(&contents, &expected, &words, text, sizeof(text));
+    assert_string_equal(text, says);
+}
+
+static void words_are_told_as_what_they_are(void **state)
+{
+    (void)state;
+    assert_told(
+        0x3f000000, 0x3e800000,
+        "[5] is 0.5 (0x3f000000), not 0.25 (0x3e800000), off by 0.25; 1 of 16 words differ");
+    words.words = "u";
+    assert_told(0xff6a0001, 7,
+                "[5] is 4285136897 (0xff6a0001), not 7 (0x00000007), off by 4285136890; 1 of 16 "
+                "words differ");
+    words.words = "fiu";
+    assert_told(0xffffffff, 1,
+                "[1], word 2 of its 3, is 4294967295 (0xffffffff), not 1 (0x00000001), off by "
+                "4294967294; 1 of 16 words differ");
+    words.words = "fi";
+    assert_told(0xffffffff, 1,
+                "[2], word 1 of its 2, is -1 (0xffffffff), not 1 (0x00000001), off by 2; 1 of 16 "
+                "words differ");
+}
+
+static void texels_are_told_as_what_they_hold(void **state)
+{
+    (void)state;
+    words.words = NULL;
+    make_image(RG_RGBA8, 4);
+    assert_told(0xff0a00fe, 0xff0c00ff,
+                " (1, 1) of layer 0, level 0, byte 0 of the texel is (254, 0, 10, 255) "
+                "(0xff0a00fe), not (255, 0, 12, 255) (0xff0c00ff), off by 2; 1 of 16 words differ");
+    make_image(RG_RG11B10F, 4); // 1, 0.5 and 2
+    assert_told(0x801c03c0, 0x781c03c0,
+                " (1, 1) of layer 0, level 0, byte 0 of the texel is (1, 0.5, 2) (0x801c03c0), "
+                "not (1, 0.5, 1) (0x781c03c0), off by 1; 1 of 16 words differ");
+    make_image(RG_R32F, 4);
+    assert_told(0x3f800000, 0,
+                " (1, 1) of layer 0, level 0, byte 0 of the texel is 1 (0x3f800000), not 0 "
+                "(0x00000000), off by 1; 1 of 16 words differ");
+    contents.size = expected.size = sizeof(now);
+    make_image(RG_RGBA16F, 2);
+    contents.size = expected.size = 32;
+    assert_told(0x3c00c000, 0x38004000,
+                " (0, 1) of layer 0, level 0, byte 4 of the texel is (-2, 1) (0x3c00c000), not "
+                "(2, 0.5) (0x38004000), off by 4; 1 of 8 words differ");
+}
+
+// NaN where a small float has all ones in its exponent, and a step of its last bit.
+static void small_floats_are_told(void **state)
+{
+    (void)state;
+    make_image(RG_RG11B10F, 4);
+    memcpy(now, &(uint32_t){0x7c1}, 4);
+    memcpy(due, &(uint32_t){0x3c0}, 4);
+    assert_int_equal(found(), RG_DIFFERENCE_NAN);
+    memcpy(now, &(uint32_t){0x3c1 | 0x3c1u << 11}, 4);
+    memcpy(due, &(uint32_t){0x3c0 | 0x3c0u << 11}, 4);
+    assert_int_equal(found(), RG_DIFFERENCE_LAST_BITS);
+    memcpy(now, &(uint32_t){0x3d0}, 4);
+    memcpy(due, &(uint32_t){0x3c0}, 4);
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
 }
 
 // All of it is missing, or all is surplus; a part is neither.
@@ -109,14 +181,14 @@ static void what_the_stage_left_out_is_told(void **state)
     (void)state;
     now[4] = before[4];
     now[9] = before[9];
-    assert_int_equal(found(4), RG_DIFFERENCE_MISSING);
+    assert_int_equal(found(), RG_DIFFERENCE_MISSING);
     now[2] = 55;
-    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
     setup(NULL);
     due[4] = before[4];
-    assert_int_equal(found(4), RG_DIFFERENCE_SURPLUS);
+    assert_int_equal(found(), RG_DIFFERENCE_SURPLUS);
     earlier.bytes = NULL;
-    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
 }
 
 // Elements of two words: words that changed places alone are no other order.
@@ -125,34 +197,37 @@ static void another_order_is_told(void **state)
     (void)state;
     memcpy(now + 4, due + 10, 8);
     memcpy(now + 10, due + 4, 8);
-    assert_int_equal(found(8), RG_DIFFERENCE_ORDER);
-    assert_int_equal(found(16), RG_DIFFERENCE_VALUES);
+    words.words = "ff";
+    assert_int_equal(found(), RG_DIFFERENCE_ORDER);
+    words.words = "ffff";
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
+    words.words = "ff";
     now[4]++;
-    assert_int_equal(found(8), RG_DIFFERENCE_VALUES);
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
     setup(NULL);
     now[0] = due[4]; // three in turn
     now[4] = due[10];
     now[10] = due[0];
-    assert_int_equal(found(4), RG_DIFFERENCE_ORDER);
+    assert_int_equal(found(), RG_DIFFERENCE_ORDER);
 }
 
 static void last_bits_are_told(void **state)
 {
     (void)state;
     now[6] = nextafterf(due[6], 0);
-    assert_int_equal(found(4), RG_DIFFERENCE_LAST_BITS);
+    assert_int_equal(found(), RG_DIFFERENCE_LAST_BITS);
     due[8] = 1e-44f; // either side of zero
     now[8] = -1e-44f;
-    assert_int_equal(found(4), RG_DIFFERENCE_LAST_BITS);
+    assert_int_equal(found(), RG_DIFFERENCE_LAST_BITS);
     now[7] = due[7] * 1.001f;
-    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
     setup(NULL);
     make_image(RG_RGBA8, 4);
     memcpy(now, &(uint32_t){0x10203040}, 4);
     memcpy(due, &(uint32_t){0x0f213040}, 4);
-    assert_int_equal(found(4), RG_DIFFERENCE_LAST_BITS);
+    assert_int_equal(found(), RG_DIFFERENCE_LAST_BITS);
     memcpy(due, &(uint32_t){0x0e213040}, 4);
-    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
 }
 
 // A step that lies a texel to the right; one that lies two does not count.
@@ -164,16 +239,16 @@ static void an_edge_is_told(void **state)
         due[i] = i % 4 < 2 ? 1.0f : 9.0f;
         now[i] = i % 4 < 3 ? 1.0f : 9.0f;
     }
-    assert_int_equal(found(4), RG_DIFFERENCE_EDGE);
+    assert_int_equal(found(), RG_DIFFERENCE_EDGE);
     for (int i = 0; i < WORDS; i++)
         due[i] = i % 4 < 1 ? 1.0f : 9.0f;
-    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
     for (int i = 0; i < WORDS; i++)
         due[i] = now[i] = i < 12 ? 1.0f : 9.0f;
     now[0] = 9.0f; // which is three rows below
-    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
     now[0] = 5.0f; // which is nowhere
-    assert_int_equal(found(4), RG_DIFFERENCE_VALUES);
+    assert_int_equal(found(), RG_DIFFERENCE_VALUES);
 }
 
 static void names_are_read_back(void **state)
@@ -279,7 +354,10 @@ int main(void)
         cmocka_unit_test_setup(nothing_differs, setup),
         cmocka_unit_test_setup(the_first_word_and_their_number, setup),
         cmocka_unit_test_setup(a_nan_is_told, setup),
-        cmocka_unit_test_setup(a_nan_of_unknown_words_is_told, setup),
+        cmocka_unit_test_setup(integers_are_no_floats, setup),
+        cmocka_unit_test_setup(words_are_told_as_what_they_are, setup),
+        cmocka_unit_test_setup(texels_are_told_as_what_they_hold, setup),
+        cmocka_unit_test_setup(small_floats_are_told, setup),
         cmocka_unit_test_setup(what_the_stage_left_out_is_told, setup),
         cmocka_unit_test_setup(another_order_is_told, setup),
         cmocka_unit_test_setup(last_bits_are_told, setup),

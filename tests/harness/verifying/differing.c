@@ -69,15 +69,17 @@ static void an_element_is_named(void **state)
     uint32_t found[16] = {0}, due[16] = {0};
     struct rg_snapshot a = {.state_count = 1, .state = {found}, .state_bytes = {sizeof(found)}};
     struct rg_snapshot b = {.state_count = 1, .state = {due}, .state_bytes = {sizeof(due)}};
-    char text[128];
+    char text[256];
     found[6] = 7;
     found[15] = 8;
     a.layout[0] = (struct rg_state){.name = "water", .row = 4, .margin = 1};
     rg_snapshot_describe(&a, &b, text, sizeof(text));
-    assert_string_equal(text, "water (1, 0) is 7, not 0");
+    assert_string_equal(
+        text, "water (1, 0) is 7 (0x00000007), not 0 (0x00000000), off by 7; 2 of 16 words differ");
     a.layout[0] = (struct rg_state){.name = "water"};
     rg_snapshot_describe(&a, &b, text, sizeof(text));
-    assert_string_equal(text, "water[6] is 7, not 0");
+    assert_string_equal(
+        text, "water[6] is 7 (0x00000007), not 0 (0x00000000), off by 7; 2 of 16 words differ");
     assert_false(rg_snapshot_same_state(&a, &b));
     found[6] = found[15] = 0;
     assert_true(rg_snapshot_same_state(&a, &b));

@@ -63,9 +63,9 @@ static void add_particles(struct cartoon_rain *r)
     r->hits = rg_add_buf(i, "hits", drops, NULL);
     r->hits_before = rg_add_buf(i, "hits_before", drops + 1, NULL);
     rg_add_buf(i, "surfaces", drops * (int64_t)(sizeof(cartoon_surface) / 4), NULL);
-    rg_add_state(i, r->raindrops, "raindrops", false, drop_words, 0);
-    rg_add_state(i, r->sprays, "sprays", false, spray_words, 0);
-    rg_add_state(i, r->tally, "tally", false, 0, 0);
+    rg_add_state(i, r->raindrops, "raindrops", drop_words, 0);
+    rg_add_state(i, r->sprays, "sprays", spray_words, 0);
+    rg_add_state(i, r->tally, "tally", 0, 0);
 }
 
 static bool allow_queries(const struct rg_device *device)
@@ -101,7 +101,7 @@ static void keep_answers(struct cartoon_rain *r, struct rg_stage *rows)
         return;
     }
     struct rg_asset *answers = rg_add_buf(r->instance, "answers", r->params.drop_slots, NULL);
-    rg_add_state(r->instance, answers, "answers", false, 0, 0);
+    rg_add_state(r->instance, answers, "answers", 0, 0);
 }
 
 // Counts come from discs, from spheres, or are not asked for.

@@ -97,8 +97,8 @@ bool cartoon_water_open(struct cartoon_water *w, const struct cartoon_rain *rain
     w->next = rg_add_buf(i, "water_next", CELLS, NULL);
     add_beds(i);
     w->account = rg_add_buf(i, "account", CARTOON_ACCOUNT, NULL);
-    rg_add_state(i, w->now, "water", false, CARTOON_COLUMNS, 0);
-    rg_add_state(i, w->account, "account", false, 0, 0);
+    rg_add_state(i, w->now, "water", CARTOON_COLUMNS, 0);
+    rg_add_state(i, w->account, "account", 0, 0);
     w->first_stage = rg_open_stages(i, stages, CARTOON_WATER_STAGES, w, NULL);
     return w->first_stage >= 0;
 }
