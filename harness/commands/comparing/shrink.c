@@ -57,7 +57,7 @@ static const struct rg_option options[] = {
     {RG_OPTION_END},
 };
 
-enum { KERNEL_SECONDS = 10 }; // for which the items of a kernel are made fewer
+enum { KERNEL_SECONDS = 20 }; // for which the items of a kernel, and its inputs, are made fewer
 
 // Finds the kernel behind it, and writes what there is, the case last.
 static bool write_found(const struct rg_case *found, const struct rg_blame *blame,

@@ -7,6 +7,7 @@
 
 #include "core/base/log.h"
 #include "core/base/text/place.h"
+#include "core/base/text/words.h"
 #include "harness/compare/gate/text/lines.h"
 #include "harness/compare/shrink/files.h"
 #include "harness/record/output.h"
@@ -136,6 +137,14 @@ static bool take_class(const char *text, struct rg_case *c)
            (rg_outcome_find(text, &c->fall.outcome) && rg_outcome_is_broken(c->fall.outcome));
 }
 
+// Whether lines of a case begin so.
+static bool is_word(const char *word)
+{
+    return rg_has_word("technique size frames behind stage asset class fails expected found truth "
+                       "device",
+                       word);
+}
+
 static bool take_line(const char *word, const char *rest, struct rg_case *c)
 {
     if (!strcmp(word, "technique"))
@@ -208,10 +217,13 @@ static bool read_line(const char *path, int64_t number, char *word, struct seen 
     if (!comes_once(word, seen))
         return rg_error("%s: line %lld: '%s' is there twice; leave one out", path,
                         (long long)number, word);
-    return take_line(word, rest, c) ||
-           rg_error("%s: line %lld: '%.60s' is no line of a case here; write one anew with "
-                    "`raingauge shrink`",
-                    path, (long long)number, word);
+    if (take_line(word, rest, c))
+        return true;
+    return rg_error(is_word(word) ? "%s: line %lld: %.60s '%.200s' is no value of a case here; "
+                                    "write one anew with `raingauge shrink`"
+                                  : "%s: line %lld: '%.60s' is no line of a case here; write one "
+                                    "anew with `raingauge shrink`",
+                    path, (long long)number, word, rest);
 }
 
 bool rg_case_read(const char *path, struct rg_case *c)

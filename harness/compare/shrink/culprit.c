@@ -1,8 +1,10 @@
 #include "harness/compare/shrink/culprit.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "harness/console/clock.h"
 
@@ -76,6 +78,49 @@ static int64_t items_of(const struct rg_dispatched *d)
     return (int64_t)d->extent.width * d->extent.height * d->extent.depth;
 }
 
+// --- the fewest inputs ---
+
+enum { LEAST_BYTES = 64, LARGEST_BYTES = 1 << 30 }; // of a part that is zeroed
+
+// Zeroes a part, which is put back where the two do not differ then. False where a device fails,
+// which zeroes may make it do.
+static bool zero_part(struct pair *p, unsigned char *bytes, size_t size)
+{
+    unsigned char *kept = rg_alloc(size, 1, "a kernel's inputs");
+    if (!kept)
+        return false;
+    memcpy(kept, bytes, size);
+    memset(bytes, 0, size);
+    const bool keeps = differs(p);
+    if (!keeps)
+        memcpy(bytes, kept, size);
+    free(kept);
+    return !p->has_failed;
+}
+
+static bool is_zero(const unsigned char *bytes, size_t size)
+{
+    return !size || (!bytes[0] && !memcmp(bytes, bytes + 1, size - 1));
+}
+
+// What no item needs becomes zero: all of a slot, else its halves, and so on. The largest parts
+// come first, so that most is gone where the time does not suffice.
+static void shrink_inputs(struct pair *p)
+{
+    bool ok = true;
+    for (size_t part = LARGEST_BYTES; ok && part >= LEAST_BYTES; part /= 2)
+        for (int slot = 0; ok && slot < RG_MAX_SLOTS; slot++) {
+            const struct rg_contents *c = &p->due->before[slot];
+            unsigned char *bytes = c->bytes;
+            size_t end = part / 2 < c->size ? c->size : 0; // once as a whole
+            for (size_t at = 0; ok && at < end && rg_now_ms() < p->end_ms; at += part) {
+                const size_t size = end - at < part ? end - at : part;
+                ok = is_zero(bytes + at, size) || zero_part(p, bytes + at, size);
+            }
+        }
+    p->has_failed = false; // with these inputs alone
+}
+
 // Leaves what the truth does of the fewest.
 static void shrink_items(struct pair *p, struct rg_culprit *culprit)
 {
@@ -85,6 +130,7 @@ static void shrink_items(struct pair *p, struct rg_culprit *culprit)
     halve(p, &origin->height, &extent->height);
     halve(p, &origin->width, &extent->width);
     culprit->items = items_of(p->due);
+    shrink_inputs(p);
     culprit->found = differs(p);
 }
 

@@ -16,10 +16,10 @@ struct rg_culprit {
 
 // Keeps the dispatches of the stage that is blamed as `device` makes them, of a draw those that
 // pack it, and runs each alone on both from what lay there before. The first that differs is the
-// culprit; its items are halved along each axis as often as it still differs, until `end_ms`
-// (rg_now_ms). False, and one logged line, where a device fails.
-// Where the device fails (`fall`; NULL: it does not), they are as the truth makes them, and the
-// culprit is the first at which it fails, however it does.
+// culprit; its items are halved along each axis as often as it still differs, and then what lay in
+// its slots is zeroed wherever it still does, until `end_ms` (rg_now_ms). False, and one logged
+// line, where a device fails. Where the device fails (`fall`; NULL: it does not), they are as the
+// truth makes them, and the culprit is the first at which it fails, however it does.
 bool rg_culprit_find(const struct rg_digest_run *run, const struct rg_blame *blame,
                      const struct rg_fall *fall, struct rg_device *device, struct rg_device *truth,
                      double end_ms, struct rg_culprit *culprit);

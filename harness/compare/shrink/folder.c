@@ -50,6 +50,34 @@ static bool add_code(struct folder *f, struct rg_device *device, enum rg_code_ki
     return code;
 }
 
+// Adds the parts of `bytes` that differ from `before`; NULL: from zero. Where less lies between two
+// than a part's head takes, they are one.
+static bool add_parts(struct folder *f, const char *name, const unsigned char *bytes,
+                      const unsigned char *before, size_t size)
+{
+    enum { HEAD = 8 };
+    char *parts = NULL;
+    size_t parts_size;
+    FILE *out = open_memstream(&parts, &parts_size);
+    for (size_t at = 0; out && at < size;) {
+        size_t end = at;
+        for (size_t i = at; i < size && i < end + HEAD; i++)
+            end = bytes[i] != (before ? before[i] : 0) ? i + 1 : end;
+        if (end > at) {
+            const uint32_t head[2] = {(uint32_t)at, (uint32_t)(end - at)};
+            fwrite(head, sizeof(head), 1, out);
+            fwrite(bytes + at, 1, end - at, out);
+        }
+        at = end > at ? end : at + 1;
+    }
+    const bool ok = (out && fclose(out) == 0) || rg_error("%s: no memory for its files", f->path);
+    if (ok)
+        add(f, name, parts, parts_size, parts);
+    else
+        free(parts);
+    return ok;
+}
+
 // The uniform block at binding 0: the first item and the end, of four ints each, then the kernel's
 // parameters, padded as std140 has it.
 static bool add_block(struct folder *f, size_t *size)
@@ -64,13 +92,14 @@ static bool add_block(struct folder *f, size_t *size)
                        d->origin.depth + d->extent.depth,
                        0};
     *size = (sizeof(at) + (size_t)d->kernel->params_size + 15) / 16 * 16;
-    char *block = rg_alloc(1, *size, "a kernel's parameters");
+    unsigned char *block = rg_alloc(1, *size, "a kernel's parameters");
     if (!block)
         return false;
     memcpy(block, at, sizeof(at));
     memcpy(block + sizeof(at), d->params, (size_t)d->kernel->params_size);
-    add(f, "00-block.before", block, *size, block);
-    return true;
+    const bool ok = add_parts(f, "00-block.before", block, NULL, *size);
+    free(block);
+    return ok;
 }
 
 static void write_slot(FILE *out, const struct rg_slot_info *slot, const struct rg_contents *c,
@@ -102,47 +131,52 @@ static void write_slot(FILE *out, const struct rg_slot_info *slot, const struct 
                                                                           : "written");
 }
 
-static void add_slots(struct folder *f, FILE *manifest)
+static bool add_slots(struct folder *f, FILE *manifest)
 {
     const struct rg_dispatched *d = &f->culprit->due;
-    for (int i = 0; i < d->kernel->slot_count; i++) {
+    bool ok = true;
+    for (int i = 0; ok && i < d->kernel->slot_count; i++) {
         const struct rg_slot_info *slot = &d->kernel->slots[i];
         const struct rg_contents *before = &d->before[slot->slot], *after = &d->after[slot->slot];
         char name[64], expected[64] = "-";
         snprintf(name, sizeof(name), "%02d-%.40s.before", slot->slot, slot->name);
-        add(f, name, before->bytes, before->size, NULL);
+        ok = add_parts(f, name, before->bytes, NULL, before->size);
         if (rg_slot_is_written(slot->kind)) {
             snprintf(expected, sizeof(expected), "%02d-%.40s.expected", slot->slot, slot->name);
-            add(f, expected, after->bytes, after->size, NULL);
+            ok = ok && add_parts(f, expected, after->bytes, before->bytes, after->size);
         }
         write_slot(manifest, slot, before, name, expected);
     }
+    return ok;
 }
 
-static void write_manifest(struct folder *f, FILE *out, size_t code_size, size_t block_size)
+static bool write_manifest(struct folder *f, FILE *out, size_t block_size)
 {
     const struct rg_dispatched *d = &f->culprit->due;
     fprintf(
         out,
         "# One run of the compute shader %s, of %lld items of %lld: from (%d, %d, %d) on,\n"
         "# %d x %d x %d. README says how to run it.\n"
-        "# code: bytes of kernel.spv; groups: of %d items along x.\n"
-        "code %zu groups %d %d %d\n"
+        "# groups: of %d items along x.\n"
+        "groups %d %d %d\n"
         "# slot: the binding, of set 0. type: 1 sampled image, 3 stored image, 6 uniform block,\n"
         "# 7 storage buffer (VkDescriptorType). format: VkFormat; aspect: VkImageAspectFlagBits; "
         "texel: its\n"
-        "# bytes. An image's file has all layers of level 0, then of level 1, rows without "
-        "padding.\n"
-        "# Last the files: what it holds before, and what is expected after the run.\n",
+        "# bytes. An image has all layers of level 0, then of level 1, rows without padding.\n"
+        "# Last the files: what it holds before, and what is expected after the run. Each has "
+        "parts of it:\n"
+        "# where the part begins and how many bytes it has, of 4 bytes each, and these bytes. What "
+        "no part\n"
+        "# has is 0 before the run, and after it as it was before.\n",
         d->kernel->name, (long long)f->culprit->items, (long long)f->culprit->of_items,
         d->origin.width, d->origin.height, d->origin.depth, d->extent.width, d->extent.height,
-        d->extent.depth, GROUP_ITEMS, code_size, (d->extent.width + GROUP_ITEMS - 1) / GROUP_ITEMS,
+        d->extent.depth, GROUP_ITEMS, (d->extent.width + GROUP_ITEMS - 1) / GROUP_ITEMS,
         d->extent.height, d->extent.depth);
     fprintf(out,
             "slot 0 type %d format 0 aspect 0 texel 0 size 0 x 0 layers 0 levels 0 bytes %zu "
             "00-block.before - # the first item and the end, 4 ints each, then the parameters\n",
             UNIFORM_BLOCK, block_size);
-    add_slots(f, out);
+    return add_slots(f, out);
 }
 
 static bool takes_opencl(const struct rg_device_info *device)
@@ -186,9 +220,9 @@ static void write_readme(const struct folder *f, FILE *out, const char *note,
 static bool fill(struct folder *f, const char *note, struct rg_device *device,
                  const struct rg_device *truth)
 {
-    size_t code_size, size, block_size;
+    size_t size, block_size;
     char *texts[2] = {NULL, NULL};
-    if (!add_code(f, device, RG_CODE_SPIRV, "kernel.spv", &code_size) ||
+    if (!add_code(f, device, RG_CODE_SPIRV, "kernel.spv", &size) ||
         !add_code(f, device, RG_CODE_GLSL, "kernel.comp", &size) || !add_block(f, &block_size) ||
         (takes_opencl(&device->info) && !add_code(f, device, RG_CODE_OPENCL, "kernel.cl", &size)))
         return false;
@@ -196,10 +230,10 @@ static bool fill(struct folder *f, const char *note, struct rg_device *device,
     for (int i = 0; ok && i < 2; i++) {
         FILE *out = open_memstream(&texts[i], &size);
         if (out && i == 0)
-            write_manifest(f, out, code_size, block_size);
+            ok = write_manifest(f, out, block_size);
         else if (out)
             write_readme(f, out, note, &device->info, &truth->info);
-        ok = (out && fclose(out) == 0) || rg_error("%s: no memory for its texts", f->path);
+        ok = ((out && fclose(out) == 0) || rg_error("%s: no memory for its texts", f->path)) && ok;
         if (texts[i])
             add(f, i == 0 ? "kernel.txt" : "README", texts[i], 0, texts[i]);
     }

@@ -21,22 +21,33 @@ static struct slot { // a line of kernel.txt
     VkImage image;
     VkImageView view;
 } slots[16];
-static unsigned count, groups[3], code_size;
+static unsigned count, groups[3];
 static VkPhysicalDeviceMemoryProperties memory;
 static VkDevice device;
 static VkQueue queue;
 static VkCommandBuffer commands;
 
-static void *read_file(const char *path, void *bytes, size_t size) {
+static void *read_code(const char *path, size_t *size) { // the whole file
     FILE *file = fopen(path, "rb");
-    if (!file || !bytes || fread(bytes, 1, size, file) != size || fclose(file)) FAIL(2, "%s: cannot be read\n", path);
+    const long end = file && !fseek(file, 0, SEEK_END) ? ftell(file) : -1;
+    void *bytes = end > 0 ? calloc(1, *size = (size_t)end) : NULL;
+    if (!bytes || fseek(file, 0, SEEK_SET) || fread(bytes, 1, *size, file) != *size || fclose(file)) FAIL(2, "%s: cannot be read\n", path);
     return bytes;
+}
+
+static void read_parts(const char *path, unsigned char *bytes, size_t size) { // the parts that it has; all else stays
+    unsigned part[2]; // where it begins, and how many bytes follow
+    FILE *file = fopen(path, "rb");
+    for (size_t head; file && (head = fread(part, 1, sizeof(part), file));)
+        if (head != sizeof(part) || part[0] > size || part[1] > size - part[0] || fread(bytes + part[0], 1, part[1], file) != part[1])
+            FAIL(2, "%s: a part of it is cut off, or ends behind the slot\n", path);
+    if (!file || fclose(file)) FAIL(2, "%s: cannot be read\n", path);
 }
 
 static void read_manifest(FILE *file) {
     for (char line[512]; file && count < 16 && fgets(line, sizeof(line), file);) {
         struct slot *s = &slots[count];
-        sscanf(line, "code %u groups %u %u %u", &code_size, &groups[0], &groups[1], &groups[2]);
+        sscanf(line, "groups %u %u %u", &groups[0], &groups[1], &groups[2]);
         count += sscanf(line, "slot %u type %u format %u aspect %u texel %u size %u x %u layers %u levels %u bytes %u %63s %63s",
             &s->at, &s->type, &s->format, &s->aspect, &s->texel, &s->width, &s->height, &s->layers, &s->levels, &s->size,
             s->before, s->expected) == 12;
@@ -84,7 +95,7 @@ static void make_slot(struct slot *s) {
     VkDeviceMemory held = allocate(needs, 0x6); // that the host sees, and coherent
     TRY(vkBindBufferMemory(device, s->buffer, held, 0));
     TRY(vkMapMemory(device, held, 0, VK_WHOLE_SIZE, 0, (void **)&s->bytes));
-    read_file(s->before, s->bytes, s->size);
+    read_parts(s->before, memset(s->bytes, 0, s->size), s->size);
     if (!s->format) return;
     NEW(Image, IMAGE, &s->image, .imageType = VK_IMAGE_TYPE_2D, .format = s->format, .extent = {s->width, s->height, 1},
         .mipLevels = s->levels, .arrayLayers = s->layers, .samples = 1, .usage = stored ? 0xb : 0x7); // copies; stored or sampled
@@ -119,13 +130,15 @@ static void record_shader(void) {
     VkDescriptorPoolSize sizes[] = {{1, 16}, {3, 16}, {6, 16}, {7, 16}}; // of each type
     VkDescriptorSetLayout set_layout; VkPipelineLayout layout; VkDescriptorPool pool; VkDescriptorSet set;
     VkSampler sampler; VkShaderModule module; VkPipeline pipeline;
+    size_t code_size;
+    const void *code = read_code("kernel.spv", &code_size);
     for (unsigned i = 0; i < count; i++)
         bindings[i] = (VkDescriptorSetLayoutBinding){slots[i].at, slots[i].type, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
     NEW(Sampler, SAMPLER, &sampler, .maxLod = VK_LOD_CLAMP_NONE);
     NEW(DescriptorSetLayout, DESCRIPTOR_SET_LAYOUT, &set_layout, .bindingCount = count, .pBindings = bindings);
     NEW(PipelineLayout, PIPELINE_LAYOUT, &layout, .setLayoutCount = 1, .pSetLayouts = &set_layout);
     NEW(DescriptorPool, DESCRIPTOR_POOL, &pool, .maxSets = 1, .poolSizeCount = 4, .pPoolSizes = sizes);
-    NEW(ShaderModule, SHADER_MODULE, &module, .codeSize = code_size, .pCode = read_file("kernel.spv", malloc(code_size), code_size));
+    NEW(ShaderModule, SHADER_MODULE, &module, .codeSize = code_size, .pCode = code);
     TRY(vkAllocateDescriptorSets(device, INFO(DescriptorSetAllocateInfo, DESCRIPTOR_SET_ALLOCATE_INFO, .descriptorPool = pool,
         .descriptorSetCount = 1, .pSetLayouts = &set_layout), &set));
     for EACH_SLOT
@@ -141,7 +154,10 @@ static void record_shader(void) {
 }
 
 static int differs(const struct slot *s) {
-    unsigned char *due = read_file(s->expected, malloc(s->size), s->size);
+    unsigned char *due = calloc(1, s->size);
+    if (!due) FAIL(2, "there is no memory\n");
+    read_parts(s->before, due, s->size);
+    read_parts(s->expected, due, s->size);
     for (unsigned i = 0; i < s->size; i++)
         if (s->bytes[i] != due[i])
             return printf("slot %u: byte %u is %02x, not %02x as in %s\n", s->at, i, s->bytes[i], due[i], s->expected);

@@ -3,12 +3,14 @@ import json
 import os
 import re
 import shutil
+import struct
 import subprocess
 import tempfile
 
 import misbehaving
 
-MOST_LINES = 170  # of the program that runs a kernel alone
+MOST_LINES = 190  # of the program that runs a kernel alone
+MOST_BYTES = 4096  # that one item needs of its slots
 SMALL = "--set environment_px=64 --set resolution_px=96 --size 96x96 "
 STAGE, RIGHT, WRONG = "flow_normals", "44ffe000", "44ff0000"  # 2047 and 2040
 
@@ -65,8 +67,9 @@ def check_shrunk(runner):
                 problems.append("%s: exit status %d, %s%s" % (other, result.returncode, result.stdout, result.stderr))
         text = "\n".join(lines)
         for right, wrong, says in (
-                ("size 1x1", "size 1x", r"line 4: 'size' is no line of a case here"),
+                ("size 1x1", "size 1x", r"line 4: size '1x' is no value of a case here"),
                 ("set environment_px", "set nonsense_px", r"line \d+: .*nonsense_px"),
+                ("frames ", "frame ", r"line \d+: 'frame' is no line of a case here"),
                 ("asset normals", "", r"lacks its technique, size, .*asset, class, expected digest or devices"),
                 ("behind ", "# ", r"lacks its .*what it is behind"),
                 ("frames ", "# ", r"lacks its .*frames"),
@@ -75,7 +78,7 @@ def check_shrunk(runner):
                 ("stage %s" % STAGE, "stage flow_water", r"behind \d+ is stage '%s' here, and not 'flow_water'" % STAGE),
                 ("behind ", "behind 9", r"there are fewer than 9\d+ stages here; write one anew"),
                 ("asset normals", "asset nonsense", r"there is no asset 'nonsense' here; write one anew"),
-                ("technique flow", "technique nonsense", r"line 3: 'technique' is no line")):
+                ("technique flow", "technique nonsense", r"line 3: technique 'nonsense' is no value of a case here")):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text.replace(right, wrong))
             result = runner.run(["render", "--case", path])
@@ -96,6 +99,17 @@ def read(folder, name):
         return file.read()
 
 
+def whole(folder, name, under):
+    """What a slot holds by the parts of a file, over what it held before."""
+    held, parts = bytearray(under), read(folder, name)
+    while parts:
+        at, size = struct.unpack_from("=II", parts)
+        if at + size > len(held) or len(parts) < 8 + size:
+            raise ValueError("%s: a part from %d on of %d bytes" % (name, at, size))
+        held[at:at + size], parts = parts[8:8 + size], parts[8 + size:]
+    return bytes(held)
+
+
 def folder_problems(runner, folder):
     """What is wrong with the files of a kernel's folder, which a program has not touched yet."""
     problems, slots = [], slots_of(folder)
@@ -105,9 +119,11 @@ def folder_problems(runner, folder):
         problems.append("files: %s" % sorted(there))
     if {at: slot[0] for at, slot in slots.items()} != {0: 6, 1: 7, 2: 7} or slots[1][3] != "-" or slots[2][3] == "-":
         problems.append("slots: %s" % slots)
-    problems += ["%s: %d bytes" % (name, len(read(folder, name))) for slot in slots.values() for name in slot[2:]
-                 if name != "-" and len(read(folder, name)) != slot[1]]
-    before, due = read(folder, slots[2][2]), read(folder, slots[2][3])
+    needed = sum(len(read(folder, name)) for name in named)
+    if needed > MOST_BYTES or slots[1][1] <= MOST_BYTES:
+        problems.append("%d bytes for one item, of slots of %s" % (needed, [slot[1] for slot in slots.values()]))
+    before = whole(folder, slots[2][2], bytes(slots[2][1]))
+    due = whole(folder, slots[2][3], before)
     changed = {i // 12 for i in range(0, len(due), 4) if before[i:i + 4] != due[i:i + 4]}
     if len(changed) > 1:
         problems.append("%d elements are due to change, of one item's" % len(changed))
@@ -153,13 +169,22 @@ def check_alone(runner):
             got = run(args, env)
             if got[0] != status or not re.fullmatch(says, got[1]):
                 problems.append("run %s %s: exit status %d, %s" % (args, env, *got))
-        with open(os.path.join(alone, "02-normals.expected"), "r+b") as file:
-            file.write(bytes(byte ^ 1 for byte in read(alone, "02-normals.before")[:1]))
+        # A kernel that was edited is of another size.
+        compiled = subprocess.run("glslc -fshader-stage=compute --target-env=vulkan1.2 -O0 -g kernel.comp -o kernel.spv".split(),
+                                  cwd=alone, stderr=subprocess.PIPE, encoding="utf-8")
+        if compiled.returncode or read(alone, "kernel.spv") == read(path + ".kernel", "kernel.spv") or run([]) != (0, "it is the same\n"):
+            problems.append("another kernel.spv: %s%s" % (compiled.stderr, run([])))
+        slots = slots_of(alone)
+        first = whole(alone, slots[2][3], whole(alone, slots[2][2], bytes(slots[2][1])))[0]
+        with open(os.path.join(alone, slots[2][3]), "ab") as file:
+            file.write(struct.pack("=IIB", 0, 1, first ^ 1))
         if run([])[0] != 1:
             problems.append("another first byte is not noticed")
-        os.truncate(os.path.join(alone, "01-blurred.before"), 4)
-        if run([]) != (2, "01-blurred.before: cannot be read\n"):
-            problems.append("a short file: %s" % (run([]),))
+        for cut in (struct.pack("=I", 0), struct.pack("=IIB", 0, 2, 0), struct.pack("=IIB", slots[1][1], 1, 0)):
+            with open(os.path.join(alone, slots[1][2]), "wb") as file:
+                file.write(cut)
+            if run([]) != (2, "01-blurred.before: a part of it is cut off, or ends behind the slot\n"):
+                problems.append("a short file: %s" % (run([]),))
     return problems
 
 
