@@ -8,6 +8,7 @@
 
 #include "core/base/log.h"
 #include "core/base/program.h"
+#include "core/base/text/words.h"
 #include "harness/commands/commands.h"
 #include "harness/console/interrupt.h"
 #include "harness/console/threads.h"
@@ -42,21 +43,43 @@ static int finish(int exit)
     return rg_exit_worse(exit, RG_EXIT_USAGE);
 }
 
+static int refuse(const char *name)
+{
+    struct rg_nearest nearest = {0};
+    for (int i = 0; rg_commands[i]; i++)
+        rg_nearest_try(&nearest, name, rg_commands[i]->name);
+    rg_error("command '%s': unknown; the nearest is '%s', and `raingauge --help` lists them", name,
+             nearest.name);
+    return RG_EXIT_USAGE;
+}
+
+// The program's help, or that of a command that is named.
+static int help(const char *name)
+{
+    const struct rg_command *command = name ? rg_command_find(name) : NULL;
+    if (name && !command)
+        return refuse(name);
+    if (command)
+        rg_command_print_help(command);
+    else
+        print_usage();
+    return RG_EXIT_PASS;
+}
+
 static int run(int argc, char **argv)
 {
-    if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) {
-        print_usage();
-        return RG_EXIT_PASS;
-    }
-    if (!strcmp(argv[1], "--version")) {
+    if (!strcmp(argv[1], "help"))
+        return help(argv[2]);
+    if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h"))
+        return help(NULL);
+    if (!strcmp(argv[1], "--version") || !strcmp(argv[1], "version")) {
         printf("raingauge %s\n", rg_build_version);
         return RG_EXIT_PASS;
     }
     const struct rg_command *command = rg_command_find(argv[1]);
     if (command)
         return rg_command_run(command, argc - 1, (const char **)argv + 1);
-    rg_error("command '%s': unknown; `raingauge --help` lists them", argv[1]);
-    return RG_EXIT_USAGE;
+    return refuse(argv[1]);
 }
 
 // Drivers' destructors are no part of the work, and some of them crash. Sanitizers look for leaks

@@ -7,6 +7,7 @@
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
+#include "core/base/text/words.h"
 
 static int *int_at(const struct rg_param *param, const void *settings)
 {
@@ -45,36 +46,14 @@ const struct rg_param *rg_params_find(const struct rg_param_table *table, const 
     return NULL;
 }
 
-// Letters to insert, delete or change to make `a` of `b`.
-static int edit_distance(const char *a, const char *b)
-{
-    enum { LONGEST = 64 };
-    int row[LONGEST + 1];
-    int length = (int)strnlen(b, LONGEST);
-    for (int j = 0; j <= length; j++)
-        row[j] = j;
-    for (int i = 0; a[i]; i++) {
-        int diagonal = row[0];
-        row[0] = i + 1;
-        for (int j = 0; j < length; j++) {
-            int changed = diagonal + (a[i] != b[j]);
-            diagonal = row[j + 1];
-            int shorter = row[j] < diagonal ? row[j] + 1 : diagonal + 1;
-            row[j + 1] = changed < shorter ? changed : shorter;
-        }
-    }
-    return row[length];
-}
-
 static bool unknown_name(const struct rg_param_table *table, const char *name)
 {
-    const char *nearest = table->rows[0].name;
-    for (int i = 1; i < table->count; i++)
-        if (edit_distance(name, table->rows[i].name) < edit_distance(name, nearest))
-            nearest = table->rows[i].name;
+    struct rg_nearest nearest = {0};
+    for (int i = 0; i < table->count; i++)
+        rg_nearest_try(&nearest, name, table->rows[i].name);
     return rg_error("parameter '%s': %s has none of that name; the nearest is '%s', and "
                     "`raingauge list params %s` prints all",
-                    name, table->technique, nearest, table->technique);
+                    name, table->technique, nearest.name, table->technique);
 }
 
 static bool set_number(const struct rg_param *param, void *settings, const char *text)

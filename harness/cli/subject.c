@@ -3,14 +3,19 @@
 #include <stdlib.h>
 
 #include "core/base/log.h"
+#include "core/base/text/words.h"
 
 const struct rg_technique *rg_subject_technique(const char *name)
 {
     const struct rg_technique *technique = rg_technique_find(name);
-    if (!technique)
-        return rg_error_null("technique '%s': unknown; `raingauge list techniques` prints them",
-                             name);
-    return technique;
+    struct rg_nearest nearest = {0};
+    if (technique)
+        return technique;
+    for (int i = 0; rg_techniques[i]; i++)
+        rg_nearest_try(&nearest, name, rg_techniques[i]->name);
+    return rg_error_null("technique '%s': unknown; the nearest is '%s', and `raingauge list "
+                         "techniques` prints them",
+                         name, nearest.name);
 }
 
 void *rg_subject_settings(const struct rg_technique *technique, const struct rg_words *sets)

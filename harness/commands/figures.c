@@ -3,6 +3,7 @@
 
 #include "core/base/log.h"
 #include "core/base/memory.h"
+#include "core/base/text/words.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/console/interrupt.h"
@@ -40,6 +41,16 @@ static const struct rg_option options[] = {
 
 enum { MOST_FIGURES = 128 };
 
+static void refuse(const char *id)
+{
+    struct rg_nearest nearest = {0};
+    const struct rg_figure *figure;
+    for (int i = 0; (figure = rg_figure_at(i)); i++)
+        rg_nearest_try(&nearest, id, figure->id);
+    rg_error("figure '%s': unknown; the nearest is '%s', and `raingauge list figures` prints them",
+             id, nearest.name);
+}
+
 // The figures that are named, or all; how many, 0 with one logged line.
 static int choose(const struct rg_words *names, const struct rg_figure *figures[MOST_FIGURES])
 {
@@ -47,7 +58,7 @@ static int choose(const struct rg_words *names, const struct rg_figure *figures[
     int count = 0;
     for (int i = 0; i < names->count; i++) {
         if (!(figures[i] = rg_figure_find(names->items[i]))) {
-            rg_error("figure '%s': unknown; `raingauge list figures` prints them", names->items[i]);
+            refuse(names->items[i]);
             return 0;
         }
     }

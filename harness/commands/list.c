@@ -8,6 +8,7 @@
 #include "core/base/alloc.h"
 #include "core/base/log.h"
 #include "core/base/memory.h"
+#include "core/base/text/words.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
@@ -168,6 +169,21 @@ static int list_params_of(const struct rg_words *arguments, bool json)
     return technique ? print(list_params(technique), "params", fields, json) : RG_EXIT_USAGE;
 }
 
+static int refuse(const char *what)
+{
+    struct rg_nearest nearest = {0};
+    for (int i = 0; lists[i]; i++)
+        rg_nearest_try(&nearest, what, lists[i]);
+    if (*what)
+        rg_error("list '%s': unknown; the nearest is '%s', and there are techniques, tables, "
+                 "figures, devices and params TECHNIQUE",
+                 what, nearest.name);
+    else
+        rg_error("list: name what to list: techniques, tables, figures, devices, or params "
+                 "TECHNIQUE");
+    return RG_EXIT_USAGE;
+}
+
 static int list(const void *values, const struct rg_words *arguments)
 {
     const struct list_options *o = values;
@@ -194,8 +210,7 @@ static int list(const void *values, const struct rg_words *arguments)
         print(list_devices(&exit), what, device_fields, o->json);
         return exit;
     }
-    rg_error("list '%s': list techniques, tables, figures, devices, or params TECHNIQUE", what);
-    return RG_EXIT_USAGE;
+    return refuse(what);
 }
 
 const struct rg_command rg_command_list = {

@@ -48,7 +48,12 @@ COMMANDS = [
     Case("", 2, r"no command; `raingauge --help` lists them"),
     Case("--help", 0, None),
     Case("--version", 0, None),
-    Case("nonsense", 2, r"command 'nonsense': unknown; `raingauge --help` lists them"),
+    Case("nonsense", 2, r"command 'nonsense': unknown; the nearest is 'bisect', and `raingauge --help` lists them"),
+    Case("tabel", 2, r"command 'tabel': unknown; the nearest is 'table', and `raingauge --help` lists them"),
+    Case("help", 0, None),
+    Case("help diff", 0, None),
+    Case("help dif", 2, r"command 'dif': unknown; the nearest is 'diff', and"),
+    Case("version", 0, None),
     Case("worker x", 2, r"worker 'x': raingauge starts its workers itself; `raingauge --help`"),
     Case("worker 1:0", 2, r"worker '1:0': raingauge starts its workers itself"),
     Case("list --nonsense", 2, r"--nonsense: unknown option; `raingauge list --help`"),
@@ -60,8 +65,8 @@ COMMANDS = [
     Case("list tables", 0, None),
     Case("list params flow", 0, None),
     Case("list figures", 0, None),
-    Case("list", 2, r"list '': list techniques, tables, figures, devices, or params TECHNIQUE"),
-    Case("list nonsense", 2, r"list 'nonsense': list techniques"),
+    Case("list", 2, r"list: name what to list: techniques, tables, figures, devices, or params TECHNIQUE"),
+    Case("list device", 2, r"list 'device': unknown; the nearest is 'devices', and there are techniques, tables, figures, devices and params TECHNIQUE"),
     Case("list params", 2, r"name a technique; `raingauge list techniques`"),
     Case("list params nonsense", 2, r"technique 'nonsense': unknown"),
     Case("list devices twice", 2, r"'twice' is one argument too many"),
@@ -194,8 +199,10 @@ COMMANDS = [
     Case("diff {data}/a.png {data}/half.png", 2, r"half\.png: "),
     Case("diff {data}/half.exr {data}/a.exr", 2, r"half\.exr: "),
     Case("diff {data}/short.exr {data}/a.exr", 2, r"short\.exr: "),
-    Case("diff {data}/folder.exr {data}/a.exr", 2, r"folder\.exr: "),
-    Case("diff {data} {data}/a.exr", 2, r"the extension is missing; use \.exr, \.png"),
+    Case("diff {data}/folder.exr {data}/a.exr", 2, r"diff: '.*/folder\.exr' is a folder; name two pictures, and call diff once for each pair"),
+    Case("diff {data}/a.exr {data}", 2, r"diff: '.*' is a folder; name two pictures"),
+    Case("diff {data}", 2, r"diff: '.*' is a folder; name two pictures"),
+    Case("diff {data}/a.png {data}/b.png -o {tmp}/", 1, None, made=("difference.png", "flip.png")),
     Case("diff {data}/a.nonsense {data}/a.png", 2, r"a\.nonsense: the extension .* is not a known picture's"),
     Case("diff {data}/a.png {data}/a.png --background {data}/wide.png", 2, r"the background: is 48 x 32 pixels but .*a\.png is 32 x 32"),
     Case("diff {data}/a.png {data}/b.png -o {tmp}/none/heat", 2, r"none/heat-flip\.png: its folder is not there"),
@@ -207,20 +214,21 @@ COMMANDS = [
     # diff: devices
     Case(DIFF, 0, None),
     Case(DIFF + "-o {tmp}/heat", 0, None, made=("heat-cpu-cpu_reference-difference.png", "heat-cpu-cpu_reference-flip.png")),
+    Case(DIFF + "-o {tmp}/", 0, None, made=("cpu-cpu_reference-difference.png", "cpu-cpu_reference-flip.png")),
     Case(DIFF + "-o {tmp}/none/heat", 2, r"none/heat-flip\.png: its folder is not there"),
-    Case("diff nonsense", 2, r"technique 'nonsense': unknown; `raingauge list techniques`"),
+    Case("diff nonsense", 2, r"technique 'nonsense': unknown; the nearest is '.*', and `raingauge list techniques`"),
     Case("diff flow --device cpu", 2, r"--device cpu: a comparison takes two devices"),
     Case("diff flow --device cpu,nonsense", 2, UNKNOWN_DEVICE),
     Case("diff flow --set drops=-1 --device cpu,cpu:reference", 2, r"parameter 'drops': -1 is out of range"),
 
     # figures
-    Case("figures nonsense", 2, r"figure 'nonsense': unknown; `raingauge list figures` prints them"),
+    Case("figures creus-4.41", 2, r"figure 'creus-4.41': unknown; the nearest is 'creus-4.14', and `raingauge list figures` prints them"),
     Case("figures creus-4.4 -o {tmp}/none/out", 2, r"none/out: its folder is not there; make it first"),
     Case("figures creus-4.4 --device nonsense", 2, UNKNOWN_DEVICE),
     Case("figures creus-4.1 --size 64x36 --memory 1M -o {tmp}/out", 2, r"streaks of 64x36 on cpu needs .* MiB, and 1\.0 MiB of --memory are left"),
 
     # atlas
-    Case("atlas nonsense", 2, r"technique 'nonsense': unknown; `raingauge list techniques`"),
+    Case("atlas nonsense", 2, r"technique 'nonsense': unknown; the nearest is '.*', and `raingauge list techniques`"),
     Case("atlas cartoon flow", 2, r"atlas: 'flow' is one argument too many"),
     Case("atlas flow", 2, r"technique 'flow': it generates no textures; `raingauge atlas --help`"),
     Case("atlas cartoon --quick", 2, r"atlas cartoon: --from, --compare, --quick and --full are about the streak atlas; leave them out"),
@@ -240,7 +248,7 @@ COMMANDS = [
 
     # verify
     Case(STAGES, 0, None),
-    Case("verify nonsense", 2, r"technique 'nonsense': unknown; `raingauge list techniques`"),
+    Case("verify nonsense", 2, r"technique 'nonsense': unknown; the nearest is '.*', and `raingauge list techniques`"),
     Case("verify flow --set drops=100001 --device cpu", 2, r"parameter 'drops': 100001 is out of range; 0 to 100000"),
     Case("verify flow --set nonsense=1 --device cpu", 2, r"parameter 'nonsense': flow has none"),
     Case("verify flow --device nonsense", 2, UNKNOWN_DEVICE),
@@ -256,7 +264,7 @@ RENDERS = [
 
     # what it is asked
     Case("render", 2, r"no technique named; `raingauge list techniques`"),
-    Case("render nonsense", 2, r"technique 'nonsense': unknown; `raingauge list techniques`"),
+    Case("render nonsense", 2, r"technique 'nonsense': unknown; the nearest is '.*', and `raingauge list techniques`"),
     Case("render flow flow", 2, r"'flow' is one argument too many"),
     Case(RENDER + "--device nonsense -o {tmp}/a.png", 2, UNKNOWN_DEVICE),
     Case(RENDER + "--device cpu:nonsense -o {tmp}/a.png", 2, r"device 'cpu:nonsense': cpu has no such device"),
@@ -402,7 +410,7 @@ RENDERS = [
 
 TABLES = [
     # what it is asked
-    Case("table nonsense", 2, r"table 'nonsense': unknown; `raingauge list tables` prints them"),
+    Case("table stupacher-2", 2, r"table 'stupacher-2': unknown; the nearest is 'stuppacher-2', and `raingauge list tables` prints them"),
     Case("table --rows 0-1", 2, r"--rows 0-1: rows count from 1, the first not after the last"),
     Case("table --rows 3-2", 2, r"--rows 3-2: rows count from 1, the first not after the last"),
     Case("table stuppacher-2 --rows 9-9 --device cpu", 2, r"--rows 9-9: stuppacher-2 has rows 1-3"),

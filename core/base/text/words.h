@@ -7,4 +7,12 @@
 // Whether a word is among them.
 bool rg_has_word(const char *words, const char *word);
 
+// Of names that are tried one after the other, the one that takes the fewest letters to insert,
+// delete or change; zeroed before the first. `name` is NULL where none was tried.
+struct rg_nearest {
+    const char *name;
+    int distance;
+};
+void rg_nearest_try(struct rg_nearest *nearest, const char *typed, const char *name);
+
 #endif

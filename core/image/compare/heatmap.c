@@ -38,8 +38,10 @@ enum {
     GLYPH_WIDTH = 6,
     GLYPH_HEIGHT = 7,
     LABEL_CHARACTERS = 9,
-    LOWEST = 48, // a shorter picture is padded, so that the labels do not meet
-    BIG = 360,   // from this height on the labels are drawn twice as large
+    LOWEST = 48,    // a shorter picture is padded, so that the labels do not meet
+    BIG = 360,      // from this height on the labels are drawn twice as large
+    TINY = 128,     // a picture whose sides are shorter is enlarged,
+    ENLARGED = 256, // to no more than this
 };
 
 static void set_texel(struct rg_picture *heat, int x, int y, const float colour[3])
@@ -87,9 +89,11 @@ static void draw_scale(struct rg_picture *heat, int left, float top)
 
 bool rg_heatmap_draw(const float *values, int width, int height, float top, struct rg_picture *heat)
 {
-    int drawn_height = height < LOWEST ? LOWEST : height;
+    int longer = width > height ? width : height;
+    int zoom = longer < TINY ? ENLARGED / longer : 1;
+    int drawn_height = height * zoom < LOWEST ? LOWEST : height * zoom;
     int scale = drawn_height >= BIG ? 2 : 1;
-    int left = width + GAP;
+    int left = width * zoom + GAP;
     int drawn_width = left + BAR_WIDTH + GAP + LABEL_CHARACTERS * GLYPH_WIDTH * scale;
     if (!rg_picture_create(heat, drawn_width, drawn_height, 3, "heat map"))
         return false;
@@ -97,10 +101,10 @@ bool rg_heatmap_draw(const float *values, int width, int height, float top, stru
     const float *linear = rg_srgb()->linear;
     float per_top = top > 0.0f ? 1.0f / top : 0.0f;
 #pragma omp parallel for schedule(static)
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
+    for (int y = 0; y < height * zoom; y++)
+        for (int x = 0; x < width * zoom; x++) {
             float colour[3];
-            colour_of(linear, values[(int64_t)y * width + x] * per_top, colour);
+            colour_of(linear, values[(int64_t)(y / zoom) * width + x / zoom] * per_top, colour);
             set_texel(heat, x, y, colour);
         }
     draw_scale(heat, left, top);

@@ -7,7 +7,8 @@
 // Draws width * height `values` from 0 (black) to `top` (light yellow) in the colours of magma, and
 // right of them a scale whose ends are labelled 0 and `top`. Values outside are drawn as the nearer
 // end, NaN as `top`. `heat` becomes a picture of 3 channels, made so that its sRGB codes are the
-// colours; the caller destroys it.
+// colours; the caller destroys it. A picture whose sides are below 128 pixels is enlarged, so that
+// a value is a square of pixels.
 bool rg_heatmap_draw(const float *values, int width, int height, float top,
                      struct rg_picture *heat);
 

@@ -1,5 +1,6 @@
 // raingauge diff: two files, or one frame of a technique on every pair of devices.
 #include <stdlib.h>
+#include <sys/stat.h>
 
 #include "core/base/log.h"
 #include "core/base/memory.h"
@@ -72,10 +73,26 @@ static int diff_devices(const struct diff_options *o, const struct rg_words *arg
     return exit;
 }
 
+// A technique has its name even where a folder is called so.
+static bool are_no_folders(const struct rg_words *arguments)
+{
+    struct stat status;
+    for (int i = 0; i < arguments->count; i++)
+        if ((arguments->count > 1 || !rg_technique_find(arguments->items[i])) &&
+            stat(arguments->items[i], &status) == 0 && S_ISDIR(status.st_mode))
+            return rg_error(
+                "diff: '%s' is a folder; name two pictures, and call diff once for each "
+                "pair of files",
+                arguments->items[i]);
+    return true;
+}
+
 static int diff(const void *values, const struct rg_words *arguments)
 {
     const struct diff_options *o = values;
     rg_memory_allow(o->memory_bytes);
+    if (!are_no_folders(arguments))
+        return RG_EXIT_USAGE;
     if (arguments->count == 1)
         return diff_devices(o, arguments);
     if (arguments->count != 2) {

@@ -7,6 +7,7 @@
 #include "core/base/files/file.h"
 #include "core/base/log.h"
 #include "core/base/memory.h"
+#include "core/base/text/words.h"
 #include "harness/cli/command.h"
 #include "harness/cli/shared.h"
 #include "harness/cli/subject.h"
@@ -202,6 +203,16 @@ static bool take_sets(const struct rg_words *sets, const struct rg_table *const 
     return ok;
 }
 
+static bool refuse_table(const char *id)
+{
+    struct rg_nearest nearest = {0};
+    for (int i = 0; rg_tables[i]; i++)
+        rg_nearest_try(&nearest, id, rg_tables[i]->id);
+    return rg_error("table '%s': unknown; the nearest is '%s', and `raingauge list tables` prints "
+                    "them",
+                    id, nearest.name);
+}
+
 // The tables that are named, or all that have the work and the variant. False, and one logged line,
 // where one is unknown, or has them not.
 static bool choose(const struct rg_words *ids, const struct table_options *o,
@@ -212,8 +223,7 @@ static bool choose(const struct rg_words *ids, const struct table_options *o,
     for (int i = 0; i < ids->count; i++) {
         chosen[(*count)++] = rg_table_find(ids->items[i]);
         if (!chosen[i])
-            return rg_error("table '%s': unknown; `raingauge list tables` prints them",
-                            ids->items[i]);
+            return refuse_table(ids->items[i]);
         if (!has_work(chosen[i], work))
             return rg_error("--work %s: table '%s' has no such work; choose paper or ours", work,
                             ids->items[i]);

@@ -1,10 +1,12 @@
 #include "harness/compare/diff/devices.h"
 
 #include <ctype.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <xxhash.h>
 
 #include "core/base/alloc.h"
 #include "core/base/log.h"
@@ -21,7 +23,7 @@
 #include "harness/record/passport/driver.h"
 #include "harness/record/passport/passport.h"
 
-enum { HEATMAP_PREFIX = 1904 + 2 * RG_DEVICE_NAME_SIZE };
+enum { DEVICE_PART = 100, HEATMAP_PREFIX = 2048 };
 
 struct shot {
     struct rg_device *device;
@@ -101,16 +103,32 @@ static bool take_pictures(struct session *s, const struct rg_devices *devices)
     return ok;
 }
 
-// "cpu:reference" and "gl" become PREFIX-cpu_reference-gl: what may steer a shell or name a folder
-// is left out.
+// A device's name as a part of a file's: what may steer a shell or name a folder is left out, and
+// what would make two names one, or one too long, is told apart by a hash of the whole.
+static void name_device(const char *name, char text[DEVICE_PART])
+{
+    enum { KEPT = DEVICE_PART - 20 };
+    snprintf(text, DEVICE_PART, "%.*s", KEPT, name);
+    bool is_plain = strlen(name) <= KEPT;
+    for (char *c = text; *c; c++)
+        if (!isalnum((unsigned char)*c) && !strchr("-.", *c)) {
+            is_plain = is_plain && *c == ':'; // "cpu:reference"
+            *c = '_';
+        }
+    if (!is_plain)
+        sprintf(text + strlen(text), "_%016" PRIx64, (uint64_t)XXH3_64bits(name, strlen(name)));
+}
+
+// "cpu:reference" and "gl" become PREFIX-cpu_reference-gl.
 static void name_heatmaps(const struct session *s, const struct rg_device_info *a,
                           const struct rg_device_info *b, char prefix[HEATMAP_PREFIX])
 {
-    int base = (int)strlen(s->asked->heatmap_prefix);
-    snprintf(prefix, HEATMAP_PREFIX, "%.1900s-%s-%s", s->asked->heatmap_prefix, a->name, b->name);
-    for (char *c = prefix + base; c < prefix + strlen(prefix); c++)
-        if (!isalnum((unsigned char)*c) && !strchr("-.=", *c))
-            *c = '_';
+    char names[2][DEVICE_PART];
+    const char *asked = s->asked->heatmap_prefix;
+    name_device(a->name, names[0]);
+    name_device(b->name, names[1]);
+    snprintf(prefix, HEATMAP_PREFIX, "%.1700s%s%s-%s", asked, rg_is_folder_prefix(asked) ? "" : "-",
+             names[0], names[1]);
 }
 
 static bool write_heatmaps(const struct session *s, const struct shot *a, const struct shot *b,

@@ -9,7 +9,7 @@
 struct rg_diff_request {
     const char *a, *b;          // files
     const char *background;     // NULL: none; the rain mask is the whole picture then
-    const char *heatmap_prefix; // NULL: none; else PREFIX-flip.png and PREFIX-difference.png
+    const char *heatmap_prefix; // NULL: none; else as of rg_pair_heatmaps
     bool json;                  // instead of a table
     struct rg_compare_options options;
 };

@@ -239,13 +239,19 @@ bool rg_pairs_print_json(json_t *devices, json_t *pairs, json_t *failures)
     return good || rg_error("standard output: cannot be written; is it closed, or the disk full?");
 }
 
-// PREFIX-name.png, which the caller frees. NULL, and one logged line, without memory.
+bool rg_is_folder_prefix(const char *prefix)
+{
+    return *prefix && prefix[strlen(prefix) - 1] == '/';
+}
+
+// PREFIX-name.png, or FOLDER/name.png, which the caller frees. NULL, and one logged line, without
+// memory.
 static char *heatmap_path(const char *prefix, const char *name)
 {
     const size_t size = strlen(prefix) + strlen(name) + 6;
     char *path = rg_alloc(size, 1, "a heat map's name");
     if (path)
-        snprintf(path, size, "%s-%s.png", prefix, name);
+        snprintf(path, size, "%s%s%s.png", prefix, rg_is_folder_prefix(prefix) ? "" : "-", name);
     return path;
 }
 

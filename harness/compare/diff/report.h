@@ -25,7 +25,10 @@ bool rg_pair_heatmaps_can_be_written(const char *prefix, int64_t pixels);
 // Whether none of them would replace a file that is read; NULL: none is. False, and one logged
 // line.
 bool rg_pair_heatmaps_spare(const char *prefix, const char *read);
-// Writes PREFIX-flip.png and PREFIX-difference.png. False, and one logged line, on failure.
+// Whether names that begin so lie in a folder, and need nothing between: it ends with a slash.
+bool rg_is_folder_prefix(const char *prefix);
+// Writes PREFIX-flip.png and PREFIX-difference.png, or FOLDER/flip.png and FOLDER/difference.png.
+// False, and one logged line, on failure.
 bool rg_pair_heatmaps(const char *prefix, const struct rg_picture *a, const struct rg_picture *b,
                       const struct rg_comparison *comparison);
 

@@ -232,8 +232,11 @@ static void heat_colours_are_magma(void **state)
     struct rg_picture heat;
     assert_true(rg_heatmap_draw(values, 3, 1, 1.0f, &heat));
     // sRGB (183, 55, 121) in the middle; NaN as the top, (252, 253, 191).
-    assert_true(fabsf(heat.texels[3] - 0.4735f) < 1e-3f && fabsf(heat.texels[4] - 0.0382f) < 1e-3f);
-    assert_true(fabsf(heat.texels[6] - 0.9734f) < 1e-3f && fabsf(heat.texels[8] - 0.5209f) < 1e-3f);
+    const float *middle = heat.texels + 3 * 85, *last = heat.texels + 3 * 255; // of 3 x 85 pixels
+    assert_true(fabsf(middle[0] - 0.4735f) < 1e-3f && fabsf(middle[1] - 0.0382f) < 1e-3f);
+    assert_memory_equal(middle + 3 * 84, middle, 3 * sizeof(float));
+    assert_memory_equal(middle + 3 * heat.width * 84, middle, 3 * sizeof(float));
+    assert_true(fabsf(heat.texels[3 * 254] - 0.9734f) < 1e-3f && fabsf(last[0]) < 1e-3f);
     rg_picture_destroy(&heat);
 }
 

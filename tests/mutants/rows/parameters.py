@@ -5,6 +5,7 @@ TESTS = ("parameters", "command line, parsing", "options of all commands", "comm
          "command line, renders", "command line, pages", "streaks, sizes")
 
 PARAMS, VALUE, PARSE, OPTION = ("core/techniques/params.c", "harness/cli/value.c", "harness/cli/parse.c", "harness/cli/option.c")
+WORDS = "core/base/text/words.c"
 
 THREADS = "harness/console/threads.c"
 
@@ -27,7 +28,7 @@ ROWS = [
     Fault(PARAMS, "if («strlen(text) == length» && !memcmp(choice, text, length)) {", "true", "the beginning of a choice is taken for it"),
     Fault(PARAMS, "if («strlen(text) >= RG_PATH_SIZE»)", "strlen(text) > RG_PATH_SIZE + 8", "a path of 1024 bytes is taken"),
     Fault(PARAMS, "return «!table->preset» || strcmp(param->name, table->preset) ||", "true", "a preset assigns nothing"),
-    Fault(PARAMS, "if («edit_distance(name, table->rows[i].name) < edit_distance(name, nearest)»)", "false", "the nearest name is the first one"),
+    Fault(WORDS, "if (!nearest->name || «distance < nearest->distance»)", "false", "the nearest name is the first one"),
     Fault(PARAMS, "snprintf(text, size, «\"%.10g\"», *double_at", "\"%.3g\"", "parameters print three digits"),
     Fault(VALUE, "if (value < row->least || «value > row->most»)", "false", "an option's number may be above its range"),
     Fault(VALUE, "if (!(«*number > 0» && *number <= row->most))", "*number >= 0", "a factor may be 0"),
