@@ -40,7 +40,7 @@ static int finish(int exit)
     if (!fflush(stdout) && !ferror(stdout))
         return exit;
     rg_stdout_error(); // once: a command may have said so
-    return rg_exit_worse(exit, RG_EXIT_USAGE);
+    return rg_exit_worse(exit, RG_EXIT_HARNESS);
 }
 
 static int refuse(const char *name)

@@ -103,9 +103,9 @@ bool cpu_draw(struct cpu_device *device, const char *name, const struct cpu_prog
         .threads = omp_get_max_threads(),
     };
     return draw_rounds(&d) ||
-           rg_error("kernel '%s': no memory for the primitives that it draws; close other "
-                    "programs, or draw fewer items",
-                    name);
+           rg_harness_error("kernel '%s': no memory for the primitives that it draws; close other "
+                            "programs, or draw fewer items",
+                            name);
 }
 
 // What follows counts what a draw comes to, by plain loops. The drawing itself cannot tell, since

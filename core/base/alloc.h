@@ -18,9 +18,10 @@ static inline void *rg_alloc(size_t count, size_t size, const char *what)
     }
     void *memory = calloc(count ? count : 1, size);
     return memory ? memory
-                  : rg_error_null("%s: no memory for %zu times %zu bytes; ask for less, or close "
-                                  "other programs",
-                                  what, count, size);
+                  : rg_harness_error_null(
+                        "%s: no memory for %zu times %zu bytes; ask for less, or close "
+                        "other programs",
+                        what, count, size);
 }
 
 // Memory aligned to cache lines, not zeroed, which the caller frees. NULL, without a message, when

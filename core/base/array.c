@@ -20,8 +20,8 @@ bool rg_array_fit(void *array, int64_t *room, int64_t count, size_t size, const 
     const bool fits = (size_t)wanted <= PTRDIFF_MAX / size;
     void *grown = fits ? realloc(memory, (size_t)wanted * size) : NULL;
     if (!grown)
-        return rg_error("%s: no memory for %lld; ask for less, or close other programs", what,
-                        (long long)wanted);
+        return rg_harness_error("%s: no memory for %lld; ask for less, or close other programs",
+                                what, (long long)wanted);
     memcpy(array, &grown, sizeof(grown));
     *room = wanted;
     return true;

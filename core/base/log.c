@@ -1,6 +1,7 @@
 #include "core/base/log.h"
 #include "core/base/text/place.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -8,13 +9,12 @@
 
 #include "core/base/text/plain.h"
 
-enum { LINE_SIZE = 1024, MOST_TOLD = 256 };
+enum { MOST_TOLD = 256 };
 
 static rg_log_fn listener;
 static void *listener_user;
 static bool is_held;
-static char last_error[LINE_SIZE];
-static enum rg_error_kind last_kind;
+static struct rg_failure last;
 static const char *error_place;
 
 void rg_log_listen(rg_log_fn fn, void *user)
@@ -35,12 +35,37 @@ void rg_log_place(const char *place)
 
 const char *rg_last_error(void)
 {
-    return last_error;
+    return last.line;
 }
 
-enum rg_error_kind rg_last_error_kind(void)
+const char *rg_fault_name(enum rg_fault fault)
 {
-    return last_kind;
+    static const char *const names[RG_FAULTS] = {
+        [RG_FAULT_NONE] = "none",    [RG_FAULT_INPUT] = "input",   [RG_FAULT_HARNESS] = "harness",
+        [RG_FAULT_SETUP] = "set-up", [RG_FAULT_DRIVER] = "driver",
+    };
+    return names[fault];
+}
+
+// Where nobody said why, there was no memory to say it.
+struct rg_failure rg_failure_take(void)
+{
+    struct rg_failure now = last;
+    if (now.outcome == RG_OK) {
+        now.fault = RG_FAULT_HARNESS;
+        now.outcome = RG_LACKING;
+    }
+    return now;
+}
+
+bool rg_is_want(int error)
+{
+    static const int wants[] = {ENOMEM, EMFILE, ENFILE,  EAGAIN, ENOSPC,
+                                EDQUOT, EFBIG,  ENOBUFS, EIO};
+    for (size_t i = 0; i < sizeof(wants) / sizeof(wants[0]); i++)
+        if (error == wants[i])
+            return true;
+    return false;
 }
 
 bool rg_log_is_news(enum rg_log_level level, const char *line)
@@ -60,14 +85,14 @@ bool rg_log_is_news(enum rg_log_level level, const char *line)
 
 static void log_line(enum rg_log_level level, const char *format, va_list args)
 {
-    char line[LINE_SIZE] = "";
+    char line[RG_LINE_SIZE] = "";
     if (error_place && level == RG_LOG_ERROR)
         snprintf(line, sizeof(line) / 2, "%s: ", error_place);
     const size_t used = strlen(line);
     vsnprintf(line + used, sizeof(line) - used, format, args);
     rg_plain(line);
     if (level == RG_LOG_ERROR)
-        memcpy(last_error, line, sizeof(line));
+        memcpy(last.line, line, sizeof(line));
     if (is_held)
         return;
     if (listener)
@@ -82,49 +107,71 @@ static void log_line(enum rg_log_level level, const char *format, va_list args)
     log_line(level, format, args);                                                                 \
     va_end(args)
 
-#define ERROR(kind, result)                                                                        \
+#define ERROR(of, as, result)                                                                      \
     LOG(RG_LOG_ERROR);                                                                             \
-    last_kind = kind;                                                                              \
+    last.fault = of;                                                                               \
+    last.outcome = as;                                                                             \
     return result
 
 bool rg_error(const char *format, ...)
 {
-    ERROR(RG_ERROR_INPUT, false);
+    ERROR(RG_FAULT_INPUT, RG_ERROR, false);
 }
 
 void *rg_error_null(const char *format, ...)
 {
-    ERROR(RG_ERROR_INPUT, NULL);
+    ERROR(RG_FAULT_INPUT, RG_ERROR, NULL);
 }
 
 bool rg_unsupported(const char *format, ...)
 {
-    ERROR(RG_ERROR_UNSUPPORTED, false);
+    ERROR(RG_FAULT_NONE, RG_UNSUPPORTED, false);
 }
 
 void *rg_unsupported_null(const char *format, ...)
 {
-    ERROR(RG_ERROR_UNSUPPORTED, NULL);
+    ERROR(RG_FAULT_NONE, RG_UNSUPPORTED, NULL);
 }
 
 bool rg_driver_error(const char *format, ...)
 {
-    ERROR(RG_ERROR_DRIVER, false);
+    ERROR(RG_FAULT_DRIVER, RG_ERROR, false);
 }
 
 void *rg_driver_error_null(const char *format, ...)
 {
-    ERROR(RG_ERROR_DRIVER, NULL);
+    ERROR(RG_FAULT_DRIVER, RG_ERROR, NULL);
+}
+
+bool rg_harness_error(const char *format, ...)
+{
+    ERROR(RG_FAULT_HARNESS, RG_LACKING, false);
+}
+
+void *rg_harness_error_null(const char *format, ...)
+{
+    ERROR(RG_FAULT_HARNESS, RG_LACKING, NULL);
+}
+
+bool rg_system_error(int error, const char *format, ...)
+{
+    const bool is_want = rg_is_want(error);
+    ERROR(is_want ? RG_FAULT_HARNESS : RG_FAULT_INPUT, is_want ? RG_LACKING : RG_ERROR, false);
+}
+
+bool rg_setup_error(const char *format, ...)
+{
+    ERROR(RG_FAULT_SETUP, RG_ERROR, false);
 }
 
 bool rg_crash_error(const char *format, ...)
 {
-    ERROR(RG_ERROR_CRASH, false);
+    ERROR(RG_FAULT_DRIVER, RG_CRASH, false);
 }
 
 bool rg_timeout_error(const char *format, ...)
 {
-    ERROR(RG_ERROR_TIMEOUT, false);
+    ERROR(RG_FAULT_DRIVER, RG_TIMEOUT, false);
 }
 
 static void log_text(enum rg_log_level level, const char *format, ...)
@@ -135,11 +182,19 @@ static void log_text(enum rg_log_level level, const char *format, ...)
     LOG(level);
 }
 
-void rg_log_relay(enum rg_log_level level, enum rg_error_kind kind, const char *line)
+void rg_log_relay(enum rg_log_level level, enum rg_fault fault, enum rg_outcome outcome,
+                  const char *line)
 {
     log_text(level, "%s", line);
-    if (level == RG_LOG_ERROR)
-        last_kind = kind;
+    if (level != RG_LOG_ERROR)
+        return;
+    last.fault = fault;
+    last.outcome = outcome;
+}
+
+void rg_failure_tell(const struct rg_failure *failure)
+{
+    rg_log_relay(RG_LOG_ERROR, failure->fault, failure->outcome, failure->line);
 }
 
 void rg_warning(const char *format, ...)

@@ -7,6 +7,8 @@
 
 #include <stdbool.h>
 
+#include "core/base/outcome.h"
+
 enum rg_log_level { RG_LOG_ERROR, RG_LOG_WARNING, RG_LOG_INFO };
 enum { RG_LOG_LEVELS = RG_LOG_INFO + 1 };
 
@@ -44,25 +46,54 @@ void *rg_unsupported_null(const char *format, ...) __attribute__((format(printf,
 bool rg_driver_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void *rg_driver_error_null(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-// Whose the last error was, by the function that logged it.
-enum rg_error_kind {
-    RG_ERROR_INPUT,       // rg_error: the user's, bad usage or input
-    RG_ERROR_UNSUPPORTED, // rg_unsupported: nobody's
-    RG_ERROR_DRIVER,      // rg_driver_error: the driver's
-    RG_ERROR_CRASH,       // the driver's: it ended the process that it ran in
-    RG_ERROR_TIMEOUT,     // the driver's: it did not come back in time
-};
-enum { RG_ERROR_KINDS = RG_ERROR_TIMEOUT + 1 };
-enum rg_error_kind rg_last_error_kind(void);
+// An error of raingauge itself: it lacks memory, a process, a descriptor, or room for a file.
+bool rg_harness_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void *rg_harness_error_null(const char *format, ...) __attribute__((format(printf, 1, 2)));
+// An error of a call of the system that set errno to `error`: raingauge's own where that tells of a
+// want (rg_is_want), else the user's, who named a file that cannot be had.
+bool rg_system_error(int error, const char *format, ...) __attribute__((format(printf, 2, 3)));
+bool rg_is_want(int error);
+
+// An error of how this machine is set up: a driver that is there and broken.
+bool rg_setup_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 // Errors of a driver whose process has ended, or was ended because it did not come back.
 bool rg_crash_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 bool rg_timeout_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+// Whose fault a failure was.
+enum rg_fault {
+    RG_FAULT_INPUT,   // the user's, bad usage or input: rg_error
+    RG_FAULT_HARNESS, // raingauge's own: rg_harness_error
+    RG_FAULT_SETUP,   // the machine's: rg_setup_error
+    RG_FAULT_DRIVER,  // rg_driver_error, rg_crash_error, rg_timeout_error
+    RG_FAULT_NONE,    // nobody's: rg_unsupported
+};
+enum { RG_FAULTS = RG_FAULT_NONE + 1 };
+// "input", "harness", "set-up", "driver", "none": the words of machine forms.
+const char *rg_fault_name(enum rg_fault fault);
+
+enum { RG_LINE_SIZE = 1024 };
+
+// A failure, as the function that met it said it.
+struct rg_failure {
+    enum rg_fault fault;
+    enum rg_outcome outcome; // never RG_OK
+    char line[RG_LINE_SIZE];
+};
+
+// The failure of the function that just returned false or NULL. Whoever catches one takes it once,
+// before anything else can fail, and hands it on.
+struct rg_failure rg_failure_take(void);
+
 // Logs a line as another process logged it, or would have if it had lived: an error is of this
-// kind. A warning that was logged so before is not logged again, for processes know nothing of each
-// other.
-void rg_log_relay(enum rg_log_level level, enum rg_error_kind kind, const char *line);
+// fault and outcome. A warning that was logged so before is not logged again, for processes know
+// nothing of each other.
+void rg_log_relay(enum rg_log_level level, enum rg_fault fault, enum rg_outcome outcome,
+                  const char *line);
+
+// Says a failure that was met while lines were held.
+void rg_failure_tell(const struct rg_failure *failure);
 
 // The last error's line, "" when there was none. Valid until the next error; records quote it.
 const char *rg_last_error(void);

@@ -211,10 +211,11 @@ bool rg_memory_refuse(const char *begin, int64_t bytes, const char *mend)
     char needed[RG_MEMORY_TEXT], left[RG_MEMORY_TEXT];
     rg_memory_text(bytes, needed);
     rg_memory_text(rg_memory_left(), left);
-    return memory.is_chosen ? rg_error("%s needs %s, and %s of --memory are left; allow more, or "
-                                       "ask for less: %s",
-                                       begin, needed, left, mend)
-                            : rg_error("%s needs %s, and %s are free; --memory allows more, %s "
-                                       "needs less",
-                                       begin, needed, left, mend);
+    return memory.is_chosen
+               ? rg_error("%s needs %s, and %s of --memory are left; allow more, or "
+                          "ask for less: %s",
+                          begin, needed, left, mend)
+               : rg_harness_error("%s needs %s, and %s are free; --memory allows more, %s "
+                                  "needs less",
+                                  begin, needed, left, mend);
 }

@@ -14,21 +14,20 @@ enum rg_outcome {
     RG_CRASH,       // a driver ended the process that it ran in
     RG_TIMEOUT,     // a driver did not come back in time
     RG_NOTHING,     // it was done, and proves nothing: there was no rain to compare or to time
+    RG_LACKING,     // it could not be done: raingauge itself lacked memory, a process, a descriptor
+                    // or room for a file, which says nothing of a driver
 };
-enum { RG_OUTCOME_COUNT = RG_NOTHING + 1 };
+enum { RG_OUTCOME_COUNT = RG_LACKING + 1 };
 
 // "ok", "fail", "unsupported", "error", "crash", "timeout", "nothing": the words of all machine
-// forms.
+// forms. RG_LACKING is an "error" there as well, which all readers know; its fault stands beside
+// it.
 const char *rg_outcome_name(enum rg_outcome outcome);
 // The outcome of this name. False where there is none.
 bool rg_outcome_find(const char *name, enum rg_outcome *outcome);
 
-// Whether it kept the work from being done, and may pass by another time: an error, a crash or a
-// timeout.
+// Whether it kept the work from being done, and may pass by another time: an error, a crash, a
+// timeout or a want of raingauge's own.
 bool rg_outcome_is_broken(enum rg_outcome outcome);
-
-// How work ended that the last error (core/base/log.h) kept from being done: unsupported, a crash
-// or a timeout as that error says, and RG_ERROR for every other kind of error.
-enum rg_outcome rg_outcome_of_error(void);
 
 #endif

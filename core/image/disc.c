@@ -123,6 +123,6 @@ bool rg_picture_blur(struct rg_picture *picture, double diameter_px)
     }
     free(sums);
     free(blurred);
-    return ok || rg_error("a picture of %dx%d texels: no memory to blur it", picture->width,
-                          picture->height);
+    return ok || rg_harness_error("a picture of %dx%d texels: no memory to blur it", picture->width,
+                                  picture->height);
 }

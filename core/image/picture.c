@@ -1,6 +1,7 @@
 #define _DEFAULT_SOURCE // madvise
 #include "core/image/picture.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,6 +30,7 @@ bool rg_picture_allocate(struct rg_picture *picture, int64_t width, int64_t heig
                          int64_t channels, char *why, size_t why_size)
 {
     memset(picture, 0, sizeof(*picture));
+    errno = EINVAL;
     if (width < 1 || height < 1 || channels < 1 || channels > 4) {
         snprintf(why, why_size,
                  "%lld x %lld pixels of %lld channels is no picture; it needs a pixel, and 1 to 4 "
@@ -47,6 +49,7 @@ bool rg_picture_allocate(struct rg_picture *picture, int64_t width, int64_t heig
     int64_t bytes = width * height * channels * 4;
     float *texels = rg_memory_allows(bytes) ? allocate_texels((size_t)bytes) : NULL;
     if (!texels) {
+        errno = ENOMEM;
         snprintf(why, why_size,
                  "no memory for %lld x %lld pixels (%lld MiB); make it smaller, or allow more with "
                  "--memory",
@@ -63,7 +66,7 @@ bool rg_picture_create(struct rg_picture *picture, int width, int height, int ch
 {
     char why[256];
     if (!rg_picture_allocate(picture, width, height, channels, why, sizeof(why)))
-        return rg_error("%s: %s", name, why);
+        return rg_system_error(errno, "%s: %s", name, why);
     return true;
 }
 

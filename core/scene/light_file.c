@@ -1,5 +1,6 @@
 #include "core/scene/light_file.h"
 
+#include <errno.h>
 #include <jansson.h>
 #include <math.h>
 #include <string.h>
@@ -223,8 +224,8 @@ bool rg_light_file_read(const char *path, struct rg_lights *lights)
     const char *why;
     FILE *file = rg_file_open_small(path, &why); // parsed it takes some twenty times its size
     if (!file)
-        return rg_error("%s: %s; name a file of at most %d lights (docs/lights.md)", path, why,
-                        SCENERY_MAX_LIGHTS);
+        return rg_system_error(errno, "%s: %s; name a file of at most %d lights (docs/lights.md)",
+                               path, why, SCENERY_MAX_LIGHTS);
     json_error_t error;
     json_t *root = json_loadf(file, JSON_REJECT_DUPLICATES, &error);
     fclose(file);

@@ -35,7 +35,7 @@ static bool write_factors(const struct rg_atlas *atlas, const char *folder)
     size_t size;
     FILE *out = open_memstream(&text, &size);
     if (!out)
-        return rg_error("%s/factors.csv: no memory to write it", folder);
+        return rg_harness_error("%s/factors.csv: no memory to write it", folder);
     fprintf(out, "image,oscillation,theta_view_deg,theta_light_deg,phi_light_deg,factor\n");
     for (int k = 0; k < RG_ATLAS_OSCILLATIONS; k++) {
         for (int view = 0; view < RG_ATLAS_VIEWS; view++) {
@@ -47,8 +47,9 @@ static bool write_factors(const struct rg_atlas *atlas, const char *folder)
         }
     }
     const bool printed = fclose(out) == 0;
-    const bool written = printed ? rg_output_write(folder, "factors.csv", text)
-                                 : rg_error("%s/factors.csv: no memory to write it", folder);
+    const bool written = printed
+                             ? rg_output_write(folder, "factors.csv", text)
+                             : rg_harness_error("%s/factors.csv: no memory to write it", folder);
     free(text);
     return written;
 }

@@ -210,11 +210,11 @@ int rg_command_run(const struct rg_command *command, int argc, const char **argv
     const char **words = line.values ? settle_flags(&line, argc, argv, &count) : NULL;
     if (!words) {
         free(line.values);
-        return RG_EXIT_FAIL;
+        return rg_exit_of_error();
     }
     make_table(&line, table);
     line.context = poptGetContext("raingauge", count, words, table, 0);
-    const int exit = set_defaults(&line) ? run(&line) : RG_EXIT_FAIL;
+    const int exit = set_defaults(&line) ? run(&line) : rg_exit_of_error();
     poptFreeContext(line.context);
     for (int i = 0; i < line.count; i++)
         rg_option_free(&line.rows[i], line.values);

@@ -154,7 +154,7 @@ static bool set_text(const struct rg_option *row, char **copy, const char *text)
     if (row->names == RG_NAMES_DEVICES && !rg_device_names_check(option, text))
         return false;
     free(*copy);
-    return (*copy = strdup(text)) || rg_error("--%s %s: no memory for it", row->name, text);
+    return (*copy = strdup(text)) || rg_harness_error("--%s %s: no memory for it", row->name, text);
 }
 
 static bool add_text(const struct rg_option *row, struct rg_words *words, const char *text)

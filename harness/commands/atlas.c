@@ -221,16 +221,16 @@ static int make_textures(const struct atlas_options *o, const char *name)
     struct rg_texture_rows rows;
     const struct rg_technique *technique = rg_subject_technique(name);
     if (!technique)
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     if (o->from || o->compare || o->length.quick || o->length.full) {
         rg_error(
             "atlas %s: --from, --compare, --quick and --full are about the streak atlas; leave "
             "them out",
             name);
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     }
     if (!can_be_kept(o, TEXTURES_BYTES) || !rg_textures_make(technique, o->output, &rows))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     if (o->json)
         print_rows_json(technique, &rows);
     else
@@ -263,7 +263,7 @@ static int atlas_command(const void *values, const struct rg_words *arguments)
     struct found found;
     if (!can_be_kept(o, o->length.quick ? SMALL_BYTES : FULL_BYTES) ||
         (o->compare && !rg_cave_has_pictures(o->compare)) || !find(o, &found))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     const bool good = (!o->output || rg_atlas_export(found.atlas, o->output)) &&
                       (!o->compare || compare(o, found.atlas));
     const bool describes = good && !o->compare;
@@ -272,7 +272,7 @@ static int atlas_command(const void *values, const struct rg_words *arguments)
     else if (describes)
         print_text(&found);
     rg_atlas_destroy(found.atlas);
-    return good ? RG_EXIT_PASS : RG_EXIT_USAGE;
+    return good ? RG_EXIT_PASS : rg_exit_of_error();
 }
 
 const struct rg_command rg_command_atlas = {

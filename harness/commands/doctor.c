@@ -69,7 +69,7 @@ static int complain_of_listing(const struct rg_device_list *list)
     for (int i = 0; i < list->missing_count; i++)
         if (list->missing[i].outcome != RG_UNSUPPORTED) {
             rg_driver_error("%s", list->missing[i].why);
-            exit = RG_EXIT_FAIL;
+            exit = rg_exit_worse(exit, rg_exit_of(list->missing[i].outcome));
         }
     return exit;
 }
@@ -157,14 +157,14 @@ static int run(struct rg_doctor_report *report, const struct doctor_options *o)
     rg_memory_allow(o->memory_bytes);
     rg_workers.timeout_s = o->timeout_s;
     if (o->kernels && !rg_doctor_knows_kernels(o->kernels))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     rg_devices_list(&report->list);
     if (!take_names(report, o->devices))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     if (o->kernels)
         return compile(report, o);
     if (!examine(report))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     describe(report);
     if (o->json)
         rg_doctor_print_json(report);
@@ -183,7 +183,7 @@ static int doctor(const void *values, const struct rg_words *arguments)
     if (!report)
         return RG_EXIT_FAIL;
     report->examinations = rg_alloc(RG_MAX_DEVICES, sizeof(*report->examinations), "report");
-    int exit = report->examinations ? run(report, values) : RG_EXIT_FAIL;
+    int exit = report->examinations ? run(report, values) : rg_exit_of_error();
     json_decref(report->passport);
     json_decref(report->warnings);
     free(report->examinations);

@@ -77,7 +77,7 @@ static int figures_command(const void *values, const struct rg_words *arguments)
     struct rg_devices devices;
     rg_memory_allow(o->memory_bytes);
     if (!count || !rg_device_names_one(o->device, "figures"))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     int exit = rg_devices_open_asked(
         &(struct rg_devices_asked){.names = o->device, .timeout_s = o->timeout_s}, &devices);
     if (exit == RG_EXIT_PASS) {

@@ -108,9 +108,10 @@ static json_t *list_devices(int *exit)
 {
     json_t *rows = json_array();
     struct rg_device_list *list = rg_alloc(1, sizeof(*list), "list of devices");
-    *exit = RG_EXIT_FAIL;
-    if (!list)
+    if (!list) {
+        *exit = rg_exit_of_error();
         return rows;
+    }
     rg_devices_list(list);
     for (int i = 0; i < list->count; i++)
         json_array_append_new(rows,
@@ -163,10 +164,10 @@ static int list_params_of(const struct rg_words *arguments, bool json)
     static const char *const fields[] = {"name", "default", "unit", "range", "about", NULL};
     if (arguments->count < 2) {
         rg_error("list params: name a technique; `raingauge list techniques` prints them");
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     }
     const struct rg_technique *technique = rg_subject_technique(arguments->items[1]);
-    return technique ? print(list_params(technique), "params", fields, json) : RG_EXIT_USAGE;
+    return technique ? print(list_params(technique), "params", fields, json) : rg_exit_of_error();
 }
 
 static int refuse(const char *what)
@@ -181,7 +182,7 @@ static int refuse(const char *what)
     else
         rg_error("list: name what to list: techniques, tables, figures, devices, or params "
                  "TECHNIQUE");
-    return RG_EXIT_USAGE;
+    return rg_exit_of_error();
 }
 
 static int list(const void *values, const struct rg_words *arguments)
@@ -195,7 +196,7 @@ static int list(const void *values, const struct rg_words *arguments)
     if (arguments->count > 1) {
         rg_error("list: '%s' is one argument too many; `raingauge list --help` prints the usage",
                  arguments->items[1]);
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     }
     if (!strcmp(what, "techniques"))
         return print(list_techniques(), what, about_fields, o->json);

@@ -173,7 +173,7 @@ static int replay(const struct render_options *o)
 {
     struct rg_case found;
     struct rg_devices devices = {0};
-    int exit = rg_case_read(o->replayed, &found) ? RG_EXIT_PASS : RG_EXIT_USAGE;
+    int exit = rg_case_read(o->replayed, &found) ? RG_EXIT_PASS : rg_exit_of_error();
     if (exit == RG_EXIT_PASS)
         exit = rg_devices_open_asked(
             &(struct rg_devices_asked){.names = o->device, .timeout_s = o->timeout_s}, &devices);
@@ -190,17 +190,17 @@ static int render(const void *values, const struct rg_words *arguments)
     void *settings;
     rg_memory_allow(o->memory_bytes);
     if (!rg_device_names_one(o->device, "render") || !check_output(o))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     if (o->replayed && !arguments->count)
         return replay(o);
     if (o->replayed) {
         rg_error("--case %s: names its technique itself; leave out '%s'", o->replayed,
                  arguments->items[0]);
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     }
     const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
     if (!technique)
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     struct rg_devices devices;
     int exit = rg_devices_open_asked(
         &(struct rg_devices_asked){.names = o->device, .timeout_s = o->timeout_s}, &devices);

@@ -11,6 +11,8 @@ int rg_exit_of(enum rg_outcome outcome)
         return RG_EXIT_UNSUPPORTED;
     case RG_NOTHING:
         return RG_EXIT_NOTHING;
+    case RG_LACKING:
+        return RG_EXIT_HARNESS;
     default:
         return RG_EXIT_FAIL;
     }
@@ -23,6 +25,8 @@ int rg_exit_of_all(const int counts[RG_OUTCOME_COUNT])
         failed = failed || (counts[i] && rg_exit_of((enum rg_outcome)i) == RG_EXIT_FAIL);
     if (failed)
         return RG_EXIT_FAIL;
+    if (counts[RG_LACKING])
+        return RG_EXIT_HARNESS;
     if (counts[RG_OK] && !counts[RG_NOTHING])
         return RG_EXIT_PASS;
     return counts[RG_UNSUPPORTED] && !counts[RG_NOTHING] ? RG_EXIT_UNSUPPORTED : RG_EXIT_NOTHING;
@@ -35,14 +39,14 @@ int rg_exit_with(int exit, int64_t count)
 
 int rg_exit_of_error(void)
 {
-    return rg_last_error_kind() == RG_ERROR_INPUT ? RG_EXIT_USAGE
-                                                  : rg_exit_of(rg_outcome_of_error());
+    const struct rg_failure failure = rg_failure_take();
+    return failure.fault == RG_FAULT_INPUT ? RG_EXIT_USAGE : rg_exit_of(failure.outcome);
 }
 
 int rg_exit_worse(int a, int b)
 {
-    static const int order[] = {RG_EXIT_USAGE, RG_EXIT_FAIL, RG_EXIT_INCONCLUSIVE, RG_EXIT_NOTHING,
-                                RG_EXIT_UNSUPPORTED};
+    static const int order[] = {RG_EXIT_USAGE,        RG_EXIT_FAIL,    RG_EXIT_HARNESS,
+                                RG_EXIT_INCONCLUSIVE, RG_EXIT_NOTHING, RG_EXIT_UNSUPPORTED};
     if (a > RG_EXIT_SIGNALLED || b > RG_EXIT_SIGNALLED)
         return a > b ? a : b;
     for (int i = 0; i < (int)(sizeof(order) / sizeof(order[0])); i++)
@@ -53,5 +57,5 @@ int rg_exit_worse(int a, int b)
 
 bool rg_stdout_error(void)
 {
-    return rg_error("standard output: cannot be written; is it closed, or the disk full?");
+    return rg_harness_error("standard output: cannot be written; is it closed, or the disk full?");
 }

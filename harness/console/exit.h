@@ -14,6 +14,7 @@ enum rg_exit {
     RG_EXIT_USAGE = 2, // bad usage or input
     RG_EXIT_INCONCLUSIVE = 3,
     RG_EXIT_NOTHING = 4,      // nothing was compared or measured
+    RG_EXIT_HARNESS = 71,     // raingauge itself lacked memory, processes, descriptors or disk
     RG_EXIT_UNSUPPORTED = 77, // not supported on this machine
     RG_EXIT_GIT_SKIP = 125,   // `git bisect run` alone is told so: this commit cannot be tested
     RG_EXIT_SIGNALLED = 128,  // and the signal's number: ended early because it was asked to
@@ -21,21 +22,22 @@ enum rg_exit {
 
 // Of work that had one outcome.
 int rg_exit_of(enum rg_outcome outcome);
-// Of work with so many of each outcome: a failure of any kind outweighs all, and what proves
-// nothing all but that; then it passes where something was ok, and is unsupported where all was.
-// Without any, nothing was measured.
+// Of work with so many of each outcome: a failure of any kind outweighs all, then a want of
+// raingauge's own, then what proves nothing; then it passes where something was ok, and is
+// unsupported where all was. Without any, nothing was measured.
 int rg_exit_of_all(const int counts[RG_OUTCOME_COUNT]);
 // Of a command that compares or measures, and came to `exit` with so many things that were compared
 // or measured: it passes with some alone.
 int rg_exit_with(int exit, int64_t count);
-// Of work that the last error (core/base/log.h) ended: bad usage where that is the user's.
+// Of work that the failure that was just met ended (rg_failure_take): bad usage where that is the
+// user's.
 int rg_exit_of_error(void);
 
 // Says that what is printed is lost, in one line, and returns false, as rg_error does.
 bool rg_stdout_error(void);
 
-// Of two parts of a command. Bad usage outweighs a failure, a failure what proves nothing, and an
-// interruption all.
+// Of two parts of a command. Bad usage outweighs a failure, a failure a want of raingauge's own,
+// that what proves nothing, and an interruption all.
 int rg_exit_worse(int a, int b);
 
 #endif

@@ -53,7 +53,7 @@ void rg_sheet_note(struct rg_sheet *sheet, const char *format, ...)
         sheet->notes[sheet->note_count++] = note;
         return;
     }
-    sheet->incomplete = !rg_error("table '%s': no memory for a note", sheet->title);
+    sheet->incomplete = !rg_harness_error("table '%s': no memory for a note", sheet->title);
     free(note);
 }
 

@@ -78,7 +78,7 @@ static void list_all(struct rg_device_list *list, struct rg_worker *workers[RG_M
         if (workers[b])
             list_remote(workers[b], b, list);
         else
-            note_failure(list, rg_backends[b], RG_ERROR, "no memory for its worker");
+            note_failure(list, rg_backends[b], RG_LACKING, "no memory for its worker");
     }
 }
 
@@ -99,8 +99,9 @@ int rg_devices_complain(const struct rg_device_list *list)
             rg_warning("unsupported here: %s", missing->why);
             continue;
         }
-        rg_driver_error("%s", missing->why);
-        exit = rg_exit_worse(exit, RG_EXIT_FAIL);
+        const bool is_lacking = missing->outcome == RG_LACKING;
+        (is_lacking ? rg_harness_error : rg_driver_error)("%s", missing->why);
+        exit = rg_exit_worse(exit, rg_exit_of(missing->outcome));
     }
     return exit;
 }
@@ -113,7 +114,15 @@ static void leave_out(struct rg_devices *devices, const char *name, enum rg_outc
     struct rg_absent_device *absent = &devices->absent[devices->absent_count++];
     absent->outcome = outcome;
     snprintf(absent->name, sizeof(absent->name), "%s", name);
-    snprintf(absent->why, sizeof(absent->why), "%s", why);
+    snprintf(absent->why, sizeof(absent->why), "%.700s", why);
+}
+
+// For the failure that was just met.
+static enum rg_outcome leave_out_failed(struct rg_devices *devices, const char *name)
+{
+    const struct rg_failure failure = rg_failure_take();
+    leave_out(devices, name, failure.outcome, failure.line);
+    return failure.outcome;
 }
 
 static struct rg_device *open_device(const struct rg_device_name *name)
@@ -147,7 +156,7 @@ static void open_listed(struct rg_devices *devices, const struct rg_device_list 
         if (device)
             devices->devices[devices->count++] = device;
         else
-            leave_out(devices, list->infos[i].name, rg_outcome_of_error(), rg_last_error());
+            leave_out_failed(devices, list->infos[i].name);
     }
 }
 
@@ -156,7 +165,7 @@ static int open_all(struct rg_devices *devices)
     struct rg_worker *workers[RG_MAX_BACKENDS] = {0};
     struct rg_device_list *list = rg_alloc(1, sizeof(*list), "list of devices");
     if (!list)
-        return RG_EXIT_FAIL;
+        return rg_exit_of_error();
     list_all(list, workers);
     rg_devices_complain(list);
     open_listed(devices, list, workers);
@@ -199,20 +208,18 @@ static int open_named(const char *names, struct rg_devices *devices)
     do {
         if (devices->count + devices->absent_count == RG_MAX_DEVICES) {
             rg_error("--device: more than %d names", RG_MAX_DEVICES);
-            return RG_EXIT_USAGE;
+            return rg_exit_of_error();
         }
         if (!rg_device_name_read(&rest, &name))
-            return RG_EXIT_USAGE;
+            return rg_exit_of_error();
         struct rg_device *device = open_device(&name);
         if (device)
             devices->devices[devices->count++] = device;
-        else if (rg_outcome_of_error() == RG_UNSUPPORTED)
-            leave_out(devices, name.name, RG_UNSUPPORTED, rg_last_error());
-        else
+        else if (leave_out_failed(devices, name.name) != RG_UNSUPPORTED)
             return rg_exit_of_error();
     } while (*rest);
     if (!are_apart(devices))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     return devices->absent_count ? RG_EXIT_UNSUPPORTED : RG_EXIT_PASS;
 }
 
@@ -229,10 +236,13 @@ static bool is_there(const struct rg_devices *devices, const char *name)
     for (int i = 0; i < devices->count; i++)
         if (rg_device_is_of(devices->devices[i]->info.name, name))
             return true;
+    bool is_lacking = false;
     for (int i = 0; i < devices->absent_count; i++)
-        if (rg_device_is_of(devices->absent[i].name, name))
+        if (rg_device_is_of(devices->absent[i].name, name)) {
             why = devices->absent[i].why;
-    return rg_driver_error("--require %s: %s", name, why);
+            is_lacking = devices->absent[i].outcome == RG_LACKING;
+        }
+    return (is_lacking ? rg_harness_error : rg_driver_error)("--require %s: %s", name, why);
 }
 
 bool rg_devices_have(const struct rg_devices *devices, const char *require)
@@ -250,7 +260,7 @@ static int open_required(const char *names, const char *require, struct rg_devic
     int exit = !strcmp(names, "all") ? open_all(devices) : open_named(names, devices);
     const bool all_were_tried = exit == RG_EXIT_PASS || exit == RG_EXIT_UNSUPPORTED;
     if (all_were_tried && !rg_devices_have(devices, require))
-        exit = RG_EXIT_FAIL;
+        exit = rg_exit_of_error();
     if (exit != RG_EXIT_PASS)
         rg_devices_close(devices);
     return exit;

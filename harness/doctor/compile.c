@@ -17,6 +17,7 @@ enum { BUFFER_ELEMENTS = 4096, IMAGE_PX = 16, IMAGE_LAYERS = 6 };
 struct pair {
     struct rg_device *device, *reference;
     int compiled, ran;
+    int exit;         // what the failures come to
     json_t *failures; // {kernel, status, why} each
 };
 
@@ -85,11 +86,13 @@ static bool is_harmless(const struct rg_kernel *kernel, struct rg_device *refere
 // What failed has been logged, and its device may have to be opened anew.
 static void note(struct pair *p, const struct rg_kernel *kernel)
 {
-    const enum rg_outcome outcome = rg_outcome_of_error();
-    if (outcome == RG_UNSUPPORTED)
+    const struct rg_failure failure = rg_failure_take();
+    if (failure.outcome == RG_UNSUPPORTED)
         return; // it has no room for it, which is no fault
-    json_array_append_new(p->failures, json_pack("{ss ss ss}", "kernel", kernel->name, "status",
-                                                 rg_outcome_name(outcome), "why", rg_last_error()));
+    p->exit = rg_exit_worse(p->exit, rg_exit_of(failure.outcome));
+    json_array_append_new(p->failures,
+                          json_pack("{ss ss ss}", "kernel", kernel->name, "status",
+                                    rg_outcome_name(failure.outcome), "why", failure.line));
     rg_worker_renew(rg_remote_worker(p->device));
 }
 
@@ -124,7 +127,7 @@ static int try_all(struct pair *p, const char *names, json_t *report)
     for (int i = 0; i < count; i++)
         if (is_among(names, all[i]->name))
             try_kernel(p, all[i]);
-    const int exit = json_array_size(p->failures) ? RG_EXIT_FAIL
+    const int exit = json_array_size(p->failures) ? p->exit
                      : p->compiled                ? RG_EXIT_PASS
                                                   : RG_EXIT_UNSUPPORTED;
     if (report)

@@ -16,11 +16,13 @@ int rg_examination_failures(const struct rg_examination *examination)
     return failures;
 }
 
-// Ends it with the last error.
+// Ends it with the failure that was just met.
 static void fail(struct rg_examination *examination)
 {
-    examination->status = rg_outcome_of_error();
-    snprintf(examination->why, sizeof(examination->why), "%.500s", rg_last_error());
+    const struct rg_failure failure = rg_failure_take();
+    examination->status = failure.outcome;
+    examination->is_unknown = !examination->opened && failure.fault == RG_FAULT_INPUT;
+    snprintf(examination->why, sizeof(examination->why), "%.500s", failure.line);
 }
 
 static struct rg_device *open_device(struct rg_examination *examination)
@@ -28,7 +30,6 @@ static struct rg_device *open_device(struct rg_examination *examination)
     struct rg_device *device = rg_devices_open_one(examination->info.name);
     if (!device) {
         fail(examination);
-        examination->is_unknown = rg_last_error_kind() == RG_ERROR_INPUT;
         return NULL;
     }
     examination->info = device->info;

@@ -160,7 +160,7 @@ static bool read_state(struct rg_session *session, const void *request, void *re
     told->size = buf->size;
     told->bytes = malloc(buf->size);
     if (!told->bytes)
-        return rg_error("buffer '%s': no memory for %zu bytes", state->name, buf->size);
+        return rg_harness_error("buffer '%s': no memory for %zu bytes", state->name, buf->size);
     return rg_buf_read(buf, 0, told->bytes, (int64_t)buf->size);
 }
 

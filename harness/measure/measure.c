@@ -43,8 +43,9 @@ static bool tell_time(struct rg_job *job, int64_t *time_ns)
 {
     if (rg_session_time(job->session, time_ns))
         return true;
-    if (rg_outcome_of_error() != RG_UNSUPPORTED)
-        rg_record_end_by_error(job->record);
+    const struct rg_failure failure = rg_failure_take();
+    if (failure.outcome != RG_UNSUPPORTED)
+        rg_record_end(job->record, failure.outcome, failure.line);
     return false;
 }
 

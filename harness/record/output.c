@@ -31,8 +31,8 @@ static bool make_folder(const char *folder, bool *made)
 {
     *made = mkdir(folder, 0777) == 0;
     return *made || errno == EEXIST ||
-           rg_error("%s: cannot be made: %s; name a folder that can be written", folder,
-                    strerror(errno));
+           rg_system_error(errno, "%s: cannot be made: %s; name a folder that can be written",
+                           folder, strerror(errno));
 }
 
 bool rg_output_folder(const char *folder)
@@ -55,14 +55,14 @@ bool rg_output_can_be_written(const char *folder, int64_t bytes)
         (int)sizeof(path))
         return rg_error("%.80s...: its name is too long", folder);
     return (rg_temporary_try(path, &why) && rg_disk_has_room(path, bytes, &why)) ||
-           rg_error("%s: %s", folder, why.text);
+           rg_why_tell(&why, folder);
 }
 
 bool rg_output_file_can_be_written(const char *path, int64_t bytes)
 {
     struct rg_why why;
     return (rg_temporary_try(path, &why) && rg_disk_has_room(path, bytes, &why)) ||
-           rg_error("%s: %s", path, why.text);
+           rg_why_tell(&why, path);
 }
 
 bool rg_output_can_be_replaced(const char *folder, const char *name)
@@ -72,7 +72,7 @@ bool rg_output_can_be_replaced(const char *folder, const char *name)
     struct stat st;
     if (snprintf(path, sizeof(path), "%s/%s", folder, name) >= (int)sizeof(path))
         return rg_error("%.80s...: its name is too long", folder);
-    return lstat(path, &st) || rg_temporary_try(path, &why) || rg_error("%s: %s", path, why.text);
+    return lstat(path, &st) || rg_temporary_try(path, &why) || rg_why_tell(&why, path);
 }
 
 // A file that is written and not yet in its place.
@@ -91,12 +91,12 @@ static bool begin(const char *folder, const struct rg_output_file *file, struct 
         return rg_error("%.80s...: its name is too long; name a folder of at most %zu bytes",
                         folder, sizeof(pending->path) - strlen(file->name) - 2);
     if (!rg_temporary_make(pending->path, &pending->temporary, &why))
-        return rg_error("%s: %s", pending->path, why.text);
+        return rg_why_tell(&why, pending->path);
     pending->is_open = true;
     const size_t size = file->size ? file->size : strlen(file->text);
     return write_all(pending->temporary.fd, file->text, size) ||
-           rg_error("%s: cannot be written: %s; nothing was changed", pending->path,
-                    strerror(errno));
+           rg_system_error(errno, "%s: cannot be written: %s; nothing was changed", pending->path,
+                           strerror(errno));
 }
 
 static bool end(struct pending *pending, bool written)
@@ -104,7 +104,7 @@ static bool end(struct pending *pending, bool written)
     struct rg_why why;
     pending->is_open = false;
     return rg_temporary_end(&pending->temporary, written, &why) ||
-           (written && rg_error("%s: %s", pending->path, why.text));
+           (written && rg_why_tell(&why, pending->path));
 }
 
 bool rg_output_write_set(const char *folder, const struct rg_output_file *files, int count)

@@ -41,7 +41,8 @@ bool rg_record_end(struct rg_record *record, enum rg_outcome outcome, const char
 
 bool rg_record_end_by_error(struct rg_record *record)
 {
-    return rg_record_end(record, rg_outcome_of_error(), rg_last_error());
+    const struct rg_failure failure = rg_failure_take();
+    return rg_record_end(record, failure.outcome, failure.line);
 }
 
 static void settle(double *number)

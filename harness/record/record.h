@@ -87,7 +87,7 @@ json_t *rg_tally_json(const struct rg_tally *tally);
 // Ends the record with an outcome other than OK, for the reason `detail`. Returns false, so that a
 // caller can end with it.
 bool rg_record_end(struct rg_record *record, enum rg_outcome outcome, const char *detail);
-// The same with the outcome and the line of the last error (rg_outcome_of_error).
+// The same with the failure that was just met (rg_failure_take).
 bool rg_record_end_by_error(struct rg_record *record);
 
 // Rounds the record's numbers to the digits that a document keeps, and makes frame_ms of its

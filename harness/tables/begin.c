@@ -115,7 +115,7 @@ char *rg_table_assignments(const struct rg_result *result, const struct rg_table
     if (out && fclose(out) == 0)
         return text;
     free(text);
-    return rg_error_null("table '%s': no memory for a row's settings", table->id);
+    return rg_harness_error_null("table '%s': no memory for a row's settings", table->id);
 }
 
 // What tells the row from others: its name, and the settings that are the table's keys.

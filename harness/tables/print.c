@@ -24,7 +24,7 @@ const char *const rg_result_formats[] = {[RG_RESULT_MD] = "md",
 static bool print_json(const struct rg_result *result, FILE *out)
 {
     json_t *json = rg_result_json(result);
-    const bool ok = rg_cells_seal(json) || rg_error("table '%s': no memory", result->table);
+    const bool ok = rg_cells_seal(json) || rg_harness_error("table '%s': no memory", result->table);
     json_object_set_new(json, "shapes", rg_trends_json(result));
     if (ok) {
         json_dumpf(json, out, JSON_INDENT(1) | RG_JSON_FLAGS);
@@ -60,7 +60,7 @@ static char *print_text(const struct rg_result *result, int format)
     FILE *out = open_memstream(&text, &size);
     bool ok = out && rg_result_print(result, format, out);
     if (!out || fclose(out))
-        ok = rg_error("table '%s': no memory to print it", result->table);
+        ok = rg_harness_error("table '%s': no memory to print it", result->table);
     if (!ok)
         free(text);
     return ok ? text : NULL;
@@ -154,8 +154,8 @@ int rg_result_exit(const struct rg_result *result)
     for (struct rg_place at = rg_result_start(result); rg_result_next(result, &at);) {
         const struct rg_record *record = rg_result_at(result, at);
         counts[record->outcome]++;
-        if (rg_exit_of(record->truth_error.outcome) == RG_EXIT_FAIL)
-            counts[RG_FAIL]++;
+        if (rg_outcome_is_broken(record->truth_error.outcome))
+            counts[record->truth_error.outcome]++;
     }
     return rg_exit_of_all(counts);
 }
@@ -174,8 +174,8 @@ int rg_result_finish(const struct rg_result *result, int format, const char *fol
     const bool was_lost = ferror(stdout);
     // Before it is printed: SIGPIPE ends raingauge once nobody reads that.
     if (is_whole && folder && !rg_result_write(result, folder))
-        exit = rg_exit_worse(exit, RG_EXIT_USAGE);
+        exit = rg_exit_worse(exit, rg_exit_of_error());
     if (rg_result_next(result, &at) && !rg_result_print(result, format, stdout))
-        exit = rg_exit_worse(exit, RG_EXIT_FAIL);
-    return is_printed(was_lost) ? exit : rg_exit_worse(exit, RG_EXIT_USAGE);
+        exit = rg_exit_worse(exit, rg_exit_of_error());
+    return is_printed(was_lost) ? exit : rg_exit_worse(exit, RG_EXIT_HARNESS);
 }

@@ -20,7 +20,7 @@
 #include "tests/kernels/drawing/quads_params.h"
 
 static const char *reason;      // why there is no device; NULL: there is one
-static enum rg_error_kind kind; // of that
+static enum rg_fault kind; // of that
 static int errors;              // lines logged as errors
 static FILE *noise;             // what anyone wrote to stderr
 
@@ -132,7 +132,7 @@ static void a_kernel_that_does_not_compile_is_one_line(void **state)
     assert_int_equal(errors, 1);
     assert_non_null(strstr(rg_last_error(), "kernel 'probe_copy': glCompileShader failed on gl: "));
     assert_non_null(strstr(rg_last_error(), "missing"));
-    assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
+    assert_int_equal(rg_failure_take().fault, RG_FAULT_DRIVER);
 }
 
 static void a_program_that_does_not_link_is_one_line(void **state)
@@ -299,7 +299,7 @@ static void what_the_driver_refuses_is_one_line(void **state)
     assert_non_null(strstr(rg_last_error(), "image 'all there is': glTextureStorage3D of "));
     assert_non_null(strstr(rg_last_error(), " texels of RGBA32F, "));
     assert_non_null(strstr(rg_last_error(), " levels, failed on gl with GL_"));
-    assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
+    assert_int_equal(rg_failure_take().fault, RG_FAULT_DRIVER);
     assert_int_equal(walk(device, 3, 5), expected_walk(3, 5));
 }
 
@@ -317,7 +317,7 @@ static void a_missing_driver_has_a_reason(void **state)
     if (!strstr(line, reason))
         fail_msg("'%s' does not say '%s'", line, reason);
     assert_null(rg_device_open("gl"));
-    assert_int_equal(rg_last_error_kind(), kind);
+    assert_int_equal(rg_failure_take().fault, kind);
     assert_int_equal(errors, 1);
     assert_non_null(strstr(rg_last_error(), reason));
 }
@@ -357,7 +357,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(drivers_are_silent),
     };
     reason = argc > 1 ? argv[1] : NULL;
-    kind = argc > 2 && !strcmp(argv[2], "fails") ? RG_ERROR_DRIVER : RG_ERROR_UNSUPPORTED;
+    kind = argc > 2 && !strcmp(argv[2], "fails") ? RG_FAULT_DRIVER : RG_FAULT_NONE;
     cmocka_set_message_output(CM_OUTPUT_TAP);
     rg_log_listen(count_line, NULL);
     noise = tmpfile();

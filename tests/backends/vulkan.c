@@ -168,7 +168,7 @@ static void files_that_are_no_spirv_are_refused(void **state)
 {
     assert_false(takes_kernel(*state, "#version 450 core\n", 18));
     assert_non_null(strstr(rg_last_error(), "are no SPIR-V"));
-    assert_int_equal(rg_last_error_kind(), RG_ERROR_INPUT); // RG_KERNEL_DIR names them
+    assert_int_equal(rg_failure_take().fault, RG_FAULT_INPUT); // RG_KERNEL_DIR names them
     assert_int_equal(errors, 1);
 }
 
@@ -185,7 +185,7 @@ static void complaints_of_validation_fail_calls(void **state)
             words[i + 3] = 9;
     assert_false(takes_kernel(*state, words, code.size));
     assert_non_null(strstr(rg_last_error(), "Vulkan validation: "));
-    assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
+    assert_int_equal(rg_failure_take().fault, RG_FAULT_DRIVER);
     free(words);
     assert_true(takes_kernel(*state, code.bytes, code.size));
     free(code.bytes);
@@ -204,7 +204,7 @@ static void drivers_that_are_named_and_are_not_there_fail(void **state)
         unsetenv("VK_DRIVER_FILES");
     free(kept);
     assert_null(device);
-    assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
+    assert_int_equal(rg_failure_take().fault, RG_FAULT_DRIVER);
     assert_int_equal(errors, 1);
     assert_non_null(strstr(rg_last_error(), "VK_ERROR_INCOMPATIBLE_DRIVER"));
     assert_non_null(
@@ -218,7 +218,7 @@ int main(void)
     rg_log_listen(count_errors, NULL);
     const int skipped = 77;
     struct rg_device *device = rg_device_open("vulkan");
-    if (!device && rg_outcome_of_error() == RG_UNSUPPORTED)
+    if (!device && rg_failure_take().outcome == RG_UNSUPPORTED)
         return skipped;
     rg_device_close(device);
 #define SILENT(test) cmocka_unit_test_setup_teardown(test, open_device, close_silently)

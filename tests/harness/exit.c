@@ -1,4 +1,5 @@
 // Which exit status outcomes and errors become.
+#include <errno.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +15,7 @@ static void each_outcome_has_one(void **state)
     (void)state;
     static const int due[RG_OUTCOME_COUNT] = {
         [RG_OK] = 0,    [RG_FAIL] = 1,    [RG_UNSUPPORTED] = 77, [RG_ERROR] = 1,
-        [RG_CRASH] = 1, [RG_TIMEOUT] = 1, [RG_NOTHING] = 4};
+        [RG_CRASH] = 1, [RG_TIMEOUT] = 1, [RG_NOTHING] = 4,      [RG_LACKING] = 71};
     for (int i = 0; i < RG_OUTCOME_COUNT; i++)
         assert_int_equal(rg_exit_of((enum rg_outcome)i), due[i]);
 }
@@ -32,7 +33,11 @@ static void failures_outweigh_what_is_ok(void **state)
     for (int i = 0; i < 4; i++) {
         counts[failures[i]] = 1;
         assert_int_equal(rg_exit_of_all(counts), RG_EXIT_FAIL);
+        counts[RG_LACKING] = 1;
+        assert_int_equal(rg_exit_of_all(counts), RG_EXIT_FAIL);
         counts[failures[i]] = 0;
+        assert_int_equal(rg_exit_of_all(counts), RG_EXIT_HARNESS);
+        counts[RG_LACKING] = 0;
     }
 }
 
@@ -68,6 +73,12 @@ static void only_users_make_bad_usage(void **state)
     assert_int_equal(rg_exit_of_error(), RG_EXIT_UNSUPPORTED);
     rg_error("the user's");
     assert_int_equal(rg_exit_of_error(), RG_EXIT_USAGE);
+    rg_harness_error("its own");
+    assert_int_equal(rg_exit_of_error(), RG_EXIT_HARNESS);
+    rg_system_error(ENOSPC, "its own");
+    assert_int_equal(rg_exit_of_error(), RG_EXIT_HARNESS);
+    rg_system_error(ENOENT, "the user's");
+    assert_int_equal(rg_exit_of_error(), RG_EXIT_USAGE);
     rg_log_listen(NULL, NULL);
 }
 
@@ -76,10 +87,10 @@ static void the_worse_of_two_is_kept(void **state)
 {
     (void)state;
     static const int order[] = {RG_EXIT_SIGNALLED + 15, RG_EXIT_SIGNALLED + 2, RG_EXIT_USAGE,
-                                RG_EXIT_FAIL,           RG_EXIT_INCONCLUSIVE,  RG_EXIT_NOTHING,
-                                RG_EXIT_UNSUPPORTED,    RG_EXIT_PASS};
-    for (int i = 0; i < 8; i++) {
-        for (int j = i; j < 8; j++) {
+                                RG_EXIT_FAIL,           RG_EXIT_HARNESS,       RG_EXIT_INCONCLUSIVE,
+                                RG_EXIT_NOTHING,        RG_EXIT_UNSUPPORTED,   RG_EXIT_PASS};
+    for (int i = 0; i < 9; i++) {
+        for (int j = i; j < 9; j++) {
             assert_int_equal(rg_exit_worse(order[i], order[j]), order[i]);
             assert_int_equal(rg_exit_worse(order[j], order[i]), order[i]);
         }

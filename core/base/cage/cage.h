@@ -31,8 +31,9 @@ struct rg_caged {
     bool has_room; // for the reply in our memory: false when it was killed for that
 };
 
-// Whose fault it is that nothing came of it: the file's, or the machine's that runs the program.
-enum rg_caged_end { RG_CAGED_SOUND, RG_CAGED_FILE, RG_CAGED_MACHINE };
+// Why nothing came of it: the file is at fault, the machine gives its reader no cage, or raingauge
+// lacks memory or a process for it.
+enum rg_caged_end { RG_CAGED_SOUND, RG_CAGED_FILE, RG_CAGED_MACHINE, RG_CAGED_LACKING };
 
 // The path of such a program, beside the running one, installed, or in the build. False where it is
 // not there; `path` is then the folder that was looked in.

@@ -117,32 +117,38 @@ int rg_caged_run(const char *const args[], int file, int timeout_s, int64_t most
     return error;
 }
 
-// How it ended where the machine kept it from its work. False: it did not.
-static bool is_refused(const struct rg_caged *caged, const char *library, char *why, size_t size)
+// How it ended where the machine kept it from its work. RG_CAGED_FILE: it did not.
+static enum rg_caged_end refused(const struct rg_caged *caged, const char *library, char *why,
+                                 size_t size)
 {
     enum { NOT_LOADED = 127 }; // of the dynamic loader, as of shells
     char limits[RG_LIMITS_TEXT];
     const int status = caged->ended && WIFEXITED(caged->status) ? WEXITSTATUS(caged->status) : -1;
-    if (status == RG_CAGE_REFUSED)
+    if (status == RG_CAGE_REFUSED) {
         snprintf(why, size,
                  "the system gives its reader no cage (seccomp, prctl, capset), as in an emulator; "
                  "allow these, "
                  "or set " RG_CAGE_VARIABLE "=off to read files that you trust without one");
-    else if (!caged->has_room || status == RG_CAGE_NO_MEMORY)
+        return RG_CAGED_MACHINE;
+    }
+    if (!caged->has_room || status == RG_CAGE_NO_MEMORY) {
         snprintf(
             why, size,
             "no memory for what %s makes of it; close other programs, or allow more (ulimit -v)",
             library);
-    else if (!caged->is_cut && rg_limits_low(limits))
+        return RG_CAGED_LACKING;
+    }
+    if (!caged->is_cut && rg_limits_low(limits)) {
         snprintf(why, size, "%s cannot read it %s; allow more", library, limits);
-    else if (status == NOT_LOADED)
-        snprintf(why, size,
-                 "what reads it with %s could not be loaded, as where a library is absent; install "
-                 "raingauge's packages again",
-                 library);
-    else
-        return false;
-    return true;
+        return RG_CAGED_LACKING;
+    }
+    if (status != NOT_LOADED)
+        return RG_CAGED_FILE;
+    snprintf(why, size,
+             "what reads it with %s could not be loaded, as where a library is absent; install "
+             "raingauge's packages again",
+             library);
+    return RG_CAGED_MACHINE;
 }
 
 enum rg_caged_end rg_caged_end(const struct rg_caged *caged, const char *library, char *why,
@@ -152,8 +158,9 @@ enum rg_caged_end rg_caged_end(const struct rg_caged *caged, const char *library
     const bool crashed = WIFSIGNALED(status);
     if (caged->ended && !status && !caged->is_cut && caged->has_room)
         return RG_CAGED_SOUND;
-    if (is_refused(caged, library, why, size))
-        return RG_CAGED_MACHINE;
+    const enum rg_caged_end end = refused(caged, library, why, size);
+    if (end != RG_CAGED_FILE)
+        return end;
     if (caged->is_cut)
         snprintf(why, size, "%s made more of it than it can hold; the file is damaged: repair it",
                  library);

@@ -26,15 +26,20 @@ static const char *judge(const struct stat *st)
 static FILE *stream(const char *path, int flags, const char *mode, const char **why)
 {
     struct stat st;
+    int error = EINVAL;
     *why = stat(path, &st) ? NULL : judge(&st);
     const int fd = *why ? -1 : open(path, flags | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666);
-    if (!*why)
-        *why = fd < 0 || fstat(fd, &st) ? strerror(errno) : judge(&st);
+    if (!*why && (fd < 0 || fstat(fd, &st)))
+        *why = strerror(error = errno);
+    else if (!*why)
+        *why = judge(&st);
     FILE *file = *why ? NULL : fdopen(fd, mode);
     if (!file && !*why)
-        *why = strerror(errno);
+        *why = strerror(error = errno);
     if (!file && fd >= 0)
         close(fd);
+    if (!file)
+        errno = error;
     return file;
 }
 
@@ -65,6 +70,7 @@ FILE *rg_file_open_small(const char *path, const char **why)
     if (file) {
         *why = "has more than 256 KiB";
         fclose(file);
+        errno = EINVAL;
     }
     return NULL;
 }
@@ -136,6 +142,7 @@ FILE *rg_file_append(const char *path, const char **why)
         return file;
     *why = "is a file of another user in a folder for all";
     fclose(file);
+    errno = EINVAL;
     return NULL;
 }
 

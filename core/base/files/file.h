@@ -8,7 +8,7 @@
 
 // Opens a regular file to read. NULL for all else: a FIFO, a device or a socket would be waited for
 // without end, and is not opened, for some devices act as soon as they are. `why` is then what is
-// wrong, without the file's name.
+// wrong, without the file's name, and errno the system's, or EINVAL where the file is at fault.
 FILE *rg_file_open(const char *path, const char **why);
 
 // The same of a text, behind its byte order mark, if it has one.

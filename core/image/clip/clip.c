@@ -75,7 +75,7 @@ bool rg_clip_finish(struct rg_clip *clip)
         if (rg_temporary_end(&temporary, written, &why))
             return true;
     }
-    return rg_error("%s: %s", clip->path, why.text);
+    return rg_why_tell(&why, clip->path);
 }
 
 // --- opening and closing ---
@@ -97,8 +97,10 @@ static double patience_of(const struct rg_clip_options *options)
 struct rg_clip *rg_clip_open(const char *path, const struct rg_clip_options *options)
 {
     struct rg_why why;
-    if (!rg_temporary_try(path, &why) || !rg_disk_has_room(path, least_bytes(options), &why))
-        return rg_error_null("%s: %s", path, why.text);
+    if (!rg_temporary_try(path, &why) || !rg_disk_has_room(path, least_bytes(options), &why)) {
+        rg_why_tell(&why, path);
+        return NULL;
+    }
     struct rg_clip *clip = rg_alloc(1, sizeof(*clip), path);
     if (!clip)
         return NULL;

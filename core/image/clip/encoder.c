@@ -49,7 +49,7 @@ static bool make_room(struct rg_encoder *e)
     e->messages = messages < 0 ? NULL : fdopen(messages, "w+");
     if (messages >= 0 && !e->messages)
         close(messages);
-    return e->messages || rg_unsupported("%s: cannot be made: %s", e->name, why);
+    return e->messages || rg_harness_error("%s: cannot be made: %s", e->name, why);
 }
 
 // A socket, since a write to a pipe that nobody reads would kill this process.
@@ -57,8 +57,8 @@ static bool start(struct rg_encoder *e)
 {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends))
-        return rg_unsupported("%s: no socket to hand frames to vpxenc (socketpair): %s", e->name,
-                              strerror(errno));
+        return rg_harness_error("%s: no socket to hand frames to vpxenc (socketpair): %s", e->name,
+                                strerror(errno));
     e->feed = ends[1];
     const int fds[FDS] = {
         [FRAMES_FD] = ends[0], [CODED_FD] = e->coded, [MESSAGES_FD] = fileno(e->messages)};
@@ -71,8 +71,8 @@ static bool start(struct rg_encoder *e)
         return rg_unsupported("%s: a clip is made by vpxenc, which is not here; install the Debian "
                               "package vpx-tools, or write pictures (-o NAME-%%04d.png)",
                               e->name);
-    return rg_unsupported("%s: vpxenc could not be started: %s; %s", e->name, strerror(error),
-                          rg_program_mend(error));
+    return rg_harness_error("%s: vpxenc could not be started: %s; %s", e->name, strerror(error),
+                            rg_program_mend(error));
 }
 
 bool rg_encoder_start(struct rg_encoder *e, const char *name, double patience_s, bool (*stop)(void))
@@ -133,8 +133,8 @@ static bool tell_end(const struct rg_encoder *e, int status)
     char last[200];
     rg_program_last_line(e->messages, last, sizeof(last));
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ)
-        return rg_error("%s: cannot be written: %s; allow larger files (ulimit -f)", e->name,
-                        strerror(EFBIG));
+        return rg_harness_error("%s: cannot be written: %s; allow larger files (ulimit -f)",
+                                e->name, strerror(EFBIG));
     if (WIFSIGNALED(status))
         return rg_driver_error("%s: vpxenc was ended by a signal (%s)%s; nothing was written",
                                e->name, strsignal(WTERMSIG(status)), last);

@@ -75,10 +75,10 @@ static bool compute_beside(const struct rg_picture *a, const struct rg_picture *
     if (!c->has_hdr_flip)
         return true;
     float *map = malloc((size_t)pixels * sizeof(*map));
-    const bool ok =
-        (map || rg_error("HDR-FLIP of %d x %d pixels: no memory for it", a->width, a->height)) &&
-        rg_hdr_flip_map(a, b, c->pixels_per_degree, map, &c->hdr_flip) &&
-        rg_flip_pool(map, mask, pixels, &c->hdr_flip.flip);
+    const bool ok = (map || rg_harness_error("HDR-FLIP of %d x %d pixels: no memory for it",
+                                             a->width, a->height)) &&
+                    rg_hdr_flip_map(a, b, c->pixels_per_degree, map, &c->hdr_flip) &&
+                    rg_flip_pool(map, mask, pixels, &c->hdr_flip.flip);
     free(map);
     return ok;
 }
@@ -114,11 +114,12 @@ bool rg_compare(const struct rg_picture *a, const char *name_a, const struct rg_
     c->flip_map = malloc(pixels * sizeof(*c->flip_map));
     struct planes planes = {memory, memory + pixels * 4, background ? memory + pixels * 9 : NULL,
                             memory + pixels * 8};
-    bool good = memory && c->flip_map ? compute(a, b, background, &planes, c) &&
-                                            compute_beside(a, b, background ? planes.mask : NULL,
-                                                           options->hdr_flip, c)
-                                      : rg_error("%s: no memory to compare %d x %d pixels; crop it",
-                                                 name_a, a->width, a->height);
+    bool good =
+        memory && c->flip_map
+            ? compute(a, b, background, &planes, c) &&
+                  compute_beside(a, b, background ? planes.mask : NULL, options->hdr_flip, c)
+            : rg_harness_error("%s: no memory to compare %d x %d pixels; crop it", name_a, a->width,
+                               a->height);
     free(memory);
     c->tier = tier_name(&c->tiers);
     if (!good)
@@ -132,8 +133,8 @@ bool rg_picture_shows_rain(const struct rg_picture *picture, const struct rg_pic
     const size_t pixels = (size_t)picture->width * (size_t)picture->height;
     uint8_t *codes = malloc(pixels * 8);
     if (!codes)
-        return rg_error("pictures of %d x %d pixels: no memory to compare them; crop them",
-                        picture->width, picture->height);
+        return rg_harness_error("pictures of %d x %d pixels: no memory to compare them; crop them",
+                                picture->width, picture->height);
     rg_encode(picture, exposure, codes);
     rg_encode(background, exposure, codes + pixels * 4);
     *shows = rg_shows_rain(codes, codes + pixels * 4, (int64_t)pixels);

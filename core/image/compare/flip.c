@@ -492,7 +492,8 @@ static bool make_map(struct job job, float pixels_per_degree, float *map)
                 flip_tile(&job, tile % across * TILE_WIDTH, tile / across * TILE_HEIGHT, memory);
         free(memory);
     }
-    return !failed || rg_error("FLIP of %d x %d pixels: no memory for its tiles", width, height);
+    return !failed ||
+           rg_harness_error("FLIP of %d x %d pixels: no memory for its tiles", width, height);
 }
 
 bool rg_flip_map(const uint8_t *a_codes, const uint8_t *b_codes, int width, int height,

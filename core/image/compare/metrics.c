@@ -264,7 +264,8 @@ bool rg_metrics_of_rows(const struct rg_picture *a, const struct rg_picture *b, 
     if (ok)
         add_rows(rows, a->height, a->channels, metrics);
     free(rows);
-    return ok || rg_error("comparing %d x %d pixels: no memory; crop them", a->width, a->height);
+    return ok ||
+           rg_harness_error("comparing %d x %d pixels: no memory; crop them", a->width, a->height);
 }
 
 bool rg_metrics_compute(const struct rg_picture *a, const struct rg_picture *b,

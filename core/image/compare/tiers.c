@@ -479,7 +479,8 @@ bool rg_tiers_compute(const struct rg_picture *a, const struct rg_picture *b,
                          mask, NULL, a->width, a->height, exposure};
     bool *beyond = find_beyond(&p);
     if (!beyond)
-        return rg_error("comparing %d x %d pixels: no memory; crop them", p.width, p.height);
+        return rg_harness_error("comparing %d x %d pixels: no memory; crop them", p.width,
+                                p.height);
     p.beyond = beyond;
     struct row_sums total;
     memset(&total, 0, sizeof(total));
@@ -509,7 +510,8 @@ bool rg_tiers_compute(const struct rg_picture *a, const struct rg_picture *b,
     const bool ok = measure_relative(&p, tiers) && measure_clamped(&p, tiers);
     free(beyond);
     if (!ok)
-        return rg_error("comparing %d x %d pixels: no memory; crop them", p.width, p.height);
+        return rg_harness_error("comparing %d x %d pixels: no memory; crop them", p.width,
+                                p.height);
     judge(metrics, tiers);
     return true;
 }

@@ -1,5 +1,6 @@
 #include "core/image/files/disk.h"
 
+#include <errno.h>
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,8 +19,8 @@ bool rg_disk_has_room(const char *path, int64_t bytes, struct rg_why *why)
         return true;
     const double free_bytes = (double)disk.f_bavail * (double)disk.f_frsize;
     return (double)bytes <= free_bytes ||
-           rg_why_set(why,
-                      "the disk has %s left, and at least %s are to be written; make room, or "
-                      "choose another folder",
-                      rg_memory_text((int64_t)free_bytes, left), rg_memory_text(bytes, wanted));
+           rg_why_system(why, ENOSPC,
+                         "the disk has %s left, and at least %s are to be written; make room, or "
+                         "choose another folder",
+                         rg_memory_text((int64_t)free_bytes, left), rg_memory_text(bytes, wanted));
 }

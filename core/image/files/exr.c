@@ -29,7 +29,8 @@ static void on_error(exr_const_context_t exr, exr_result_t code, const char *mes
 // One sentence for a failed call: the library's own messages name files and come several at a time.
 static bool failed(struct rg_why *why, const char *step, exr_result_t code)
 {
-    return rg_why_set(why, "EXR %s: %s; write it again", step, exr_get_default_error_message(code));
+    return rg_why_system(why, code == EXR_ERR_OUT_OF_MEMORY ? ENOMEM : EINVAL,
+                         "EXR %s: %s; write it again", step, exr_get_default_error_message(code));
 }
 
 static exr_context_initializer_t initializer(void)
@@ -183,8 +184,7 @@ static bool prepare(struct exr_job *job, int64_t file_bytes, int channels)
                           "promises %d chunks of pixels, more than its %lld bytes can "
                           "hold; it is cut short: write it again",
                           job->across * job->down, (long long)file_bytes);
-    return rg_picture_allocate(job->picture, width, height, channels, job->why->text,
-                               sizeof(job->why->text));
+    return rg_why_allocate(job->picture, width, height, channels, job->why);
 }
 
 // Tells the pipeline where the picture wants each channel of the chunk whose corner is x, y.
@@ -328,7 +328,8 @@ bool rg_exr_write(const char *path, const struct rg_picture *picture,
     exr_context_initializer_t with = initializer();
     exr_result_t code = exr_start_write(&exr, path, EXR_WRITE_FILE_DIRECTLY, &with);
     if (code != EXR_ERR_SUCCESS)
-        return rg_why_set(why, "cannot be written: %s", exr_get_default_error_message(code));
+        return rg_why_system(why, code == EXR_ERR_OUT_OF_MEMORY ? ENOMEM : errno,
+                             "cannot be written: %s", exr_get_default_error_message(code));
     code = write_header(exr, picture, options->full_float);
     int lines = 1;
     if (code == EXR_ERR_SUCCESS)

@@ -48,14 +48,14 @@ static bool examine(const char *path, int64_t *bytes, struct rg_why *why)
 {
     struct stat st;
     if (stat(path, &st))
-        return rg_why_set(why, "%s; %s", strerror(errno),
-                          errno == ENOENT ? "check the name" : "check the path");
+        return rg_why_system(why, errno, "%s; %s", strerror(errno),
+                             errno == ENOENT ? "check the name" : "check the path");
     if (S_ISDIR(st.st_mode))
         return rg_why_set(why, "is a folder; name a picture file in it");
     if (!S_ISREG(st.st_mode))
         return rg_why_set(why, "is not a regular file; copy the picture to one");
     if (access(path, R_OK))
-        return rg_why_set(why, "%s; change the file's permissions", strerror(errno));
+        return rg_why_system(why, errno, "%s; change the file's permissions", strerror(errno));
     if (st.st_size == 0)
         return rg_why_set(why, "is empty; write it again");
     *bytes = st.st_size;
@@ -104,7 +104,7 @@ bool rg_pictures_read(const char *const *paths, struct rg_picture *pictures, int
 {
     struct rg_why *why = calloc((size_t)count, sizeof(*why));
     if (!why)
-        return rg_error("%s: no memory to read it", paths[0]);
+        return rg_harness_error("%s: no memory to read it", paths[0]);
     int failed = 0;
 #pragma omp parallel for schedule(dynamic) reduction(+ : failed) if (count > 1)
     for (int i = 0; i < count; i++)
@@ -156,7 +156,7 @@ bool rg_picture_can_be_written(const char *path, int64_t pixels)
     struct rg_why why;
     return (find_format(path, &why) >= 0 && rg_temporary_try(path, &why) &&
             rg_disk_has_room(path, rg_picture_file_bytes(path, pixels), &why)) ||
-           rg_error("%s: %s", path, why.text);
+           rg_why_tell(&why, path);
 }
 
 bool rg_picture_write(const char *path, const struct rg_picture *picture,
@@ -169,7 +169,7 @@ bool rg_picture_write(const char *path, const struct rg_picture *picture,
     struct rg_temporary temporary;
     int format = find_format(path, &why);
     if (format < 0 || !rg_temporary_make(path, &temporary, &why))
-        return rg_error("%s: %s", path, why.text);
+        return rg_why_tell(&why, path);
     const bool written = formats[format].write(temporary.path, picture, &with, &why);
-    return rg_temporary_end(&temporary, written, &why) || rg_error("%s: %s", path, why.text);
+    return rg_temporary_end(&temporary, written, &why) || rg_why_tell(&why, path);
 }

@@ -53,7 +53,8 @@ static bool take_extras(const char *extras, uint32_t bytes, struct rg_picture *p
         return true;
     picture->extras = malloc((size_t)bytes + 1);
     if (!picture->extras)
-        return rg_why_refused(why, "no memory for what it holds besides; close other programs");
+        return rg_why_system(why, ENOMEM,
+                             "no memory for what it holds besides; close other programs");
     memcpy(picture->extras, extras, bytes);
     picture->extras[bytes] = 0;
     return true;
@@ -91,8 +92,7 @@ bool rg_oiio_take_reply(const void *reply, size_t bytes, int64_t file_bytes,
         return rg_why_set(
             why, "promises %.0f values, more than its %lld bytes can hold; write it again",
             (double)header.width * header.height * header.channels, (long long)file_bytes);
-    return rg_picture_allocate(picture, header.width, header.height, header.channels, why->text,
-                               sizeof(why->text)) &&
+    return rg_why_allocate(picture, header.width, header.height, header.channels, why) &&
            take_rest((const char *)reply + sizeof(header), bytes - sizeof(header), &header, picture,
                      why);
 }
@@ -112,12 +112,14 @@ static bool read_caged(const char *path, int file, int64_t file_bytes, struct rg
         (int64_t)sizeof(struct rg_picture_reply) + RG_PICTURE_MAX_BYTES + RG_PICTURE_EXTRAS_BYTES,
         &caged);
     const enum rg_caged_end end =
-        error ? RG_CAGED_MACHINE
+        error ? RG_CAGED_LACKING
               : rg_caged_end(&caged, "OpenImageIO", why->text, sizeof(why->text));
     if (error)
-        rg_why_refused(why, "%s could not be started: %s; %s", program, strerror(error),
-                       rg_program_mend(error));
-    why->is_machine = end == RG_CAGED_MACHINE;
+        rg_why_set(why, "%s could not be started: %s; %s", program, strerror(error),
+                   rg_program_mend(error));
+    why->fault = end == RG_CAGED_LACKING ? RG_FAULT_HARNESS
+                 : end == RG_CAGED_FILE  ? RG_FAULT_INPUT
+                                         : RG_FAULT_NONE;
     const bool good = end == RG_CAGED_SOUND &&
                       rg_oiio_take_reply(caged.reply, caged.bytes, file_bytes, picture, why);
     free(caged.reply);
@@ -129,7 +131,7 @@ bool rg_oiio_read(const char *path, int64_t file_bytes, struct rg_picture *pictu
 {
     const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (file < 0)
-        return rg_why_set(why, "%s; check the path", strerror(errno));
+        return rg_why_system(why, errno, "%s; check the path", strerror(errno));
     const bool good = read_caged(path, file, file_bytes, picture, why);
     close(file);
     if (!good)

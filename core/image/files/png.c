@@ -25,8 +25,9 @@ static void on_error(png_structp png, png_const_charp message)
 {
     struct png_job *job = png_get_error_ptr(png);
     const bool is_disks = ferror(job->file) != 0;
-    rg_why_set(job->why, "PNG: %s%s%s", message, is_disks ? ": " : "; write it again",
-               is_disks ? strerror(errno) : "");
+    const int error = is_disks ? errno : 0;
+    rg_why_system(job->why, error, "PNG: %s%s%s", message, is_disks ? ": " : "; write it again",
+                  is_disks ? strerror(error) : "");
     longjmp(png_jmpbuf(png), 1);
 }
 
@@ -63,7 +64,7 @@ static bool allocate_rows(struct png_job *job, size_t row_bytes, size_t height)
     job->bytes = malloc(row_bytes * height);
     job->rows = malloc(height * sizeof(*job->rows));
     if (!job->bytes || !job->rows)
-        return rg_why_set(job->why, "no memory for its rows; make it smaller");
+        return rg_why_system(job->why, ENOMEM, "no memory for its rows; make it smaller");
     for (size_t y = 0; y < height; y++)
         job->rows[y] = job->bytes + y * row_bytes;
     return true;
@@ -87,9 +88,8 @@ static bool read_rows(struct png_job *job, int64_t file_bytes, struct rg_picture
     png_set_interlace_handling(job->png);
     png_read_update_info(job->png, job->info);
     size_t row_bytes = png_get_rowbytes(job->png, job->info);
-    return rg_picture_allocate(picture, png_get_image_width(job->png, job->info), height,
-                               png_get_channels(job->png, job->info), job->why->text,
-                               sizeof(job->why->text)) &&
+    return rg_why_allocate(picture, png_get_image_width(job->png, job->info), height,
+                           png_get_channels(job->png, job->info), job->why) &&
            allocate_rows(job, row_bytes, (size_t)height) &&
            (png_read_image(job->png, job->rows), png_read_end(job->png, job->info), true);
 }
@@ -124,10 +124,10 @@ static void decode16(const png_byte *bytes, const float *light, struct rg_pictur
 static bool decode(const struct png_job *job, bool wide, struct rg_picture *picture)
 {
     if (!rg_png_beside_tell(&job->beside, picture))
-        return rg_why_set(job->why, "no memory for what it holds besides");
+        return rg_why_system(job->why, ENOMEM, "no memory for what it holds besides");
     float *light = rg_light_of_codes(wide ? 65536 : 256, picture->gamma);
     if (!light)
-        return rg_why_set(job->why, "no memory for its curve");
+        return rg_why_system(job->why, ENOMEM, "no memory for its curve");
     if (wide)
         decode16(job->bytes, light, picture);
     else
@@ -150,11 +150,11 @@ static bool read_png(const char *path, int64_t file_bytes, bool curve, struct rg
 {
     struct png_job job = {.file = fopen(path, "rb"), .why = why};
     if (!job.file)
-        return rg_why_set(why, "%s; check the path", strerror(errno));
+        return rg_why_system(why, errno, "%s; check the path", strerror(errno));
     job.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
     bool good = job.info ? read_rows(&job, file_bytes, picture)
-                         : rg_why_set(why, "no memory for the PNG reader");
+                         : rg_why_system(why, ENOMEM, "no memory for the PNG reader");
     const bool wide = good && png_get_bit_depth(job.png, job.info) == 16;
     if (good && !curve)
         keep_codes(job.bytes, wide, picture);
@@ -199,7 +199,7 @@ static bool write_rows(struct png_job *job, const struct rg_picture *picture, fl
                                 PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
     job->bytes = malloc((size_t)picture->width * (size_t)picture->channels);
     if (!job->bytes)
-        return rg_why_set(job->why, "no memory for its rows");
+        return rg_why_system(job->why, ENOMEM, "no memory for its rows");
     if (setjmp(png_jmpbuf(job->png)))
         return false;
     png_init_io(job->png, job->file);
@@ -223,11 +223,11 @@ bool rg_png_write(const char *path, const struct rg_picture *picture,
 {
     struct png_job job = {.file = fopen(path, "wb"), .why = why};
     if (!job.file)
-        return rg_why_set(why, "cannot be written: %s", strerror(errno));
+        return rg_why_system(why, errno, "cannot be written: %s", strerror(errno));
     job.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
     bool good = job.info ? write_rows(&job, picture, options->exposure)
-                         : rg_why_set(why, "no memory for the PNG writer");
+                         : rg_why_system(why, ENOMEM, "no memory for the PNG writer");
     png_destroy_write_struct(&job.png, &job.info);
     if (fclose(job.file) && good)
         good = rg_why_unwritten(why, strerror(errno));

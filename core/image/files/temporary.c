@@ -31,14 +31,16 @@ static bool find_target(const char *path, char target[PATH_MAX], mode_t *mode, s
         return rg_why_set(why, "is a link to nothing; remove it, or name another file");
     if (lstat(target, &st))
         return errno == ENOENT || errno == ENOTDIR || errno == EACCES ||
-               rg_why_set(why, "cannot be written: %s; choose another name", strerror(errno));
+               rg_why_system(why, errno, "cannot be written: %s; choose another name",
+                             strerror(errno));
     if (!S_ISREG(st.st_mode))
         return rg_why_set(why, S_ISDIR(st.st_mode) ? "is a folder; name a file in it"
                                                    : "is not a regular file; name another");
     *mode = st.st_mode;
     return !access(target, W_OK) ||
-           rg_why_set(why, "cannot be written: %s; name another file, or make it writable",
-                      strerror(errno));
+           rg_why_system(why, errno,
+                         "cannot be written: %s; name another file, or make it writable",
+                         strerror(errno));
 }
 
 // A name in the target's folder, which is short, so that it fits where the target's does.
@@ -137,8 +139,8 @@ bool rg_temporary_make(const char *path, struct rg_temporary *temporary, struct 
         return rg_why_set(why, "its folder is not there; make it first");
     if (error == EEXIST)
         return rg_why_set(why, "temporary files of this name are in the way; remove them");
-    return !error ||
-           rg_why_set(why, "cannot be written: %s; choose another folder", strerror(error));
+    return !error || rg_why_system(why, error, "cannot be written: %s; choose another folder",
+                                   strerror(error));
 }
 
 // --- putting it in place ---
@@ -190,7 +192,7 @@ bool rg_temporary_end(struct rg_temporary *temporary, bool written, struct rg_wh
 {
     const bool placed = written && put_in_place(temporary);
     if (written && !placed)
-        rg_why_set(why, "cannot be put in place: %s", strerror(errno));
+        rg_why_system(why, errno, "cannot be put in place: %s", strerror(errno));
     if (!placed && temporary->is_named)
         unlink(temporary->path);
     if (temporary->is_named)

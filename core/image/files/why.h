@@ -5,18 +5,24 @@
 
 #include <stdbool.h>
 
+#include "core/base/log.h"
+#include "core/image/picture.h"
+
 struct rg_why {
     char text[512];
-    bool is_machine; // the machine's fault, and neither the file's nor the user's
+    enum rg_fault fault; // the input's, raingauge's own, or nobody's: the machine allows no reader
 };
 
 // Sets the sentence and returns false.
 bool rg_why_set(struct rg_why *why, const char *format, ...) __attribute__((format(printf, 2, 3)));
-// The same of what the machine refuses.
-bool rg_why_refused(struct rg_why *why, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+// The same of a call of the system that set errno to `error`, as rg_system_error.
+bool rg_why_system(struct rg_why *why, int error, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 // The same of a file that could not be written whole; errno says what mends that.
 bool rg_why_unwritten(struct rg_why *why, const char *reason);
+// rg_picture_allocate, with its sentence in `why`.
+bool rg_why_allocate(struct rg_picture *picture, int64_t width, int64_t height, int64_t channels,
+                     struct rg_why *why);
 // Logs the sentence behind the file's name, as whose fault it is, and returns false.
 bool rg_why_tell(const struct rg_why *why, const char *path);
 

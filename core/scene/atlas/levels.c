@@ -212,7 +212,7 @@ bool rg_atlas_find_hash(struct rg_atlas *atlas)
 {
     XXH3_state_t *state = XXH3_createState();
     if (!state)
-        return rg_error("streak atlas: no memory for its hash");
+        return rg_harness_error("streak atlas: no memory for its hash");
     XXH3_64bits_reset(state);
     hash_floats(state, &atlas->point_factor[0][0][0][0],
                 sizeof(atlas->point_factor) / sizeof(float));

@@ -102,7 +102,7 @@ static bool grow_places(struct city_builder *b)
     b->places = calloc((size_t)b->place_room, sizeof(*b->places));
     if (!b->places) {
         b->failed = true;
-        return rg_error("city: no memory for its surfaces; close other programs");
+        return rg_harness_error("city: no memory for its surfaces; close other programs");
     }
     for (int i = 0; i < f->surface_count; i++)
         b->places[place_of(b, words_of(b, i))] = i + 1;

@@ -135,7 +135,7 @@ static bool write_level(const struct rg_environment *environment, int level, str
     const size_t face_texels = (size_t)size_px * (size_t)size_px;
     uint32_t *texels = malloc(6 * face_texels * sizeof(uint32_t));
     if (!texels)
-        return rg_error("environment: no memory for faces of %d texels", size_px);
+        return rg_harness_error("environment: no memory for faces of %d texels", size_px);
     bool ok = rg_environment_pack(environment, size_px, texels);
     for (int face = 0; ok && face < 6; face++)
         ok = rg_image_write(image, face, level, texels + (size_t)face * face_texels);

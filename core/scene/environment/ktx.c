@@ -1,5 +1,6 @@
 #include "core/scene/environment/ktx.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -93,8 +94,10 @@ struct rg_environment *rg_ktx_read(const char *path)
 {
     const char *why;
     FILE *file = rg_file_open(path, &why);
-    if (!file)
-        return rg_error_null("%s: cannot be opened: %s", path, why);
+    if (!file) {
+        rg_system_error(errno, "%s: cannot be opened: %s", path, why);
+        return NULL;
+    }
     struct rg_environment *environment = read_file(path, file);
     fclose(file);
     return environment;

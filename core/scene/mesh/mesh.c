@@ -181,7 +181,7 @@ static bool find_hash(struct rg_mesh *mesh)
 {
     XXH3_state_t *state = XXH3_createState();
     if (!state)
-        return rg_error("%s: no memory for its hash", mesh->name);
+        return rg_harness_error("%s: no memory for its hash", mesh->name);
     XXH3_64bits_reset(state);
     hash_words(state, mesh->positions, 3 * (size_t)mesh->vertex_count);
     hash_words(state, mesh->indices, 3 * (size_t)mesh->face_count);

@@ -51,12 +51,14 @@ struct rg_mesh *rg_mesh_read_by(const char *program, int timeout_s, const char *
     const int error = rg_caged_run((const char *const[]){program, path, member, NULL}, -1,
                                    timeout_s, RG_IMPORT_MAX_MEMORY_BYTES, &caged);
     const enum rg_caged_end end =
-        error ? RG_CAGED_MACHINE : rg_caged_end(&caged, "Assimp", why, sizeof(why));
+        error ? RG_CAGED_LACKING : rg_caged_end(&caged, "Assimp", why, sizeof(why));
     if (error)
-        rg_unsupported("%s: %s could not be started: %s; %s", name, program, strerror(error),
-                       rg_program_mend(error));
+        rg_harness_error("%s: %s could not be started: %s; %s", name, program, strerror(error),
+                         rg_program_mend(error));
     else if (end == RG_CAGED_MACHINE)
         rg_unsupported("%s: %s", name, why);
+    else if (end == RG_CAGED_LACKING)
+        rg_harness_error("%s: %s", name, why);
     else if (end == RG_CAGED_FILE)
         rg_error("%s: %s", name, why);
     else
@@ -84,13 +86,14 @@ static bool check_file(const char *path, int64_t *bytes)
 {
     struct stat st;
     if (stat(path, &st))
-        return rg_error("%s: %s; check the name", path, strerror(errno));
+        return rg_system_error(errno, "%s: %s; check the name", path, strerror(errno));
     if (S_ISDIR(st.st_mode))
         return rg_error("%s: is a folder; name a mesh in it", path);
     if (!S_ISREG(st.st_mode))
         return rg_error("%s: is not a regular file; copy the mesh to one", path);
     if (access(path, R_OK))
-        return rg_error("%s: %s; change the file's permissions", path, strerror(errno));
+        return rg_system_error(errno, "%s: %s; change the file's permissions", path,
+                               strerror(errno));
     if (st.st_size == 0)
         return rg_error("%s: is empty; write it again", path);
     if (st.st_size > RG_IMPORT_MAX_FILE_BYTES)

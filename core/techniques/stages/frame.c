@@ -11,7 +11,8 @@ void *rg_frame_read(struct rg_instance *instance, size_t *size)
     *size = (size_t)desc->width * (size_t)desc->height * (size_t)rg_format_size(desc->format);
     void *texels = malloc(*size);
     if (!texels)
-        return rg_error_null("image '%s': no memory for %zu bytes", instance->target->name, *size);
+        return rg_harness_error_null("image '%s': no memory for %zu bytes", instance->target->name,
+                                     *size);
     if (rg_image_read(instance->target, 0, 0, texels))
         return texels;
     free(texels);

@@ -124,10 +124,19 @@ static int print_failures(const struct rg_baseline *made)
     return rg_exit_of_all(counts);
 }
 
+// What raingauge could not do here must not be expected of a device.
+static bool has_lacking(const struct rg_baseline *made)
+{
+    bool any = false;
+    for (int64_t i = 0; !any && i < made->count; i++)
+        any = made->rows[i].outcome == RG_LACKING;
+    return any;
+}
+
 static int write_it(const struct baseline_options *o, const struct rg_baseline *made)
 {
     if (!rg_baseline_write(made, o->output))
-        return RG_EXIT_USAGE; // a full disk is no regression
+        return rg_exit_of_error(); // a full disk is no regression
     printf("%s: %lld cells on %d device%s\n", o->output,
            (long long)(made->count / made->device_count), made->device_count,
            made->device_count == 1 ? "" : "s");
@@ -142,6 +151,12 @@ static int keep(const struct baseline_options *o, const struct before *before,
     const int failures = print_failures(made);
     const bool is_there = before->is_there;
     const int changes = is_there ? rg_baseline_print_changes(&before->baseline, made, stdout) : 0;
+    if (has_lacking(made)) {
+        rg_error("%s: stays as it is, for raingauge itself lacked what some cells need; run this "
+                 "again once it is there",
+                 o->output);
+        return failures;
+    }
     if (is_there && !changes) {
         printf("%s: nothing changes\n", o->output);
         return failures;
@@ -179,7 +194,8 @@ static int make(const struct baseline_options *o, const struct rg_gate_cells *ce
             exit = rg_exit_worse(rg_exit_worse(keep(o, before, &made, left_out), left_out),
                                  clean ? RG_EXIT_PASS : RG_EXIT_FAIL);
         else
-            exit = rg_interrupted() ? RG_EXIT_SIGNALLED + rg_interrupt_signal() : RG_EXIT_FAIL;
+            exit =
+                rg_interrupted() ? RG_EXIT_SIGNALLED + rg_interrupt_signal() : rg_exit_of_error();
     }
     rg_baseline_free(&made);
     return exit;
@@ -190,15 +206,14 @@ static int baseline(const void *values, const struct rg_words *arguments)
     const struct baseline_options *o = values;
     struct rg_gate_cells cells = {.count = 0};
     struct before before = {.is_there = false};
-    int exit = RG_EXIT_USAGE;
     (void)arguments;
     rg_memory_allow(o->memory_bytes);
-    if (!o->output)
-        rg_error("baseline: name the file to write, as in `raingauge baseline -o "
-                 "results/baseline.json`");
-    else if (rg_sides_are_apart(o->devices.names) && rg_gate_cells_read(o->cells, &cells) &&
-             look_before(o->output, &before))
-        exit = make(o, &cells, &before);
+    const bool ok =
+        (o->output || rg_error("baseline: name the file to write, as in `raingauge baseline -o "
+                               "results/baseline.json`")) &&
+        rg_sides_are_apart(o->devices.names) && rg_gate_cells_read(o->cells, &cells) &&
+        look_before(o->output, &before);
+    const int exit = ok ? make(o, &cells, &before) : rg_exit_of_error();
     rg_baseline_free(&before.baseline);
     rg_gate_cells_free(&cells);
     return exit;

@@ -59,7 +59,7 @@ static int diff_devices(const struct diff_options *o, const struct rg_words *arg
     void *settings;
     const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
     if (!technique)
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     const int exit = rg_diff_devices(&(struct rg_diff_devices_request){
         .subject = {technique, settings, o->size.width, o->size.height},
         .devices = &o->devices,
@@ -97,7 +97,7 @@ static int diff(const void *values, const struct rg_words *arguments)
         return diff_devices(o, arguments);
     if (arguments->count != 2) {
         rg_error("diff: name a technique, or two image files; `raingauge diff --help` explains");
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     }
     return rg_diff_files(&(struct rg_diff_request){
         .a = arguments->items[0],

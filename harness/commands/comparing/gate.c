@@ -161,7 +161,7 @@ static int list_cases(const struct gate_options *o, const struct gate_input *in)
     if (ok)
         rg_gtest_list(stdout, &report, o->gtest.filter ? o->gtest.filter : "*");
     rg_report_free(&report);
-    return ok ? RG_EXIT_PASS : RG_EXIT_FAIL;
+    return ok ? RG_EXIT_PASS : rg_exit_of_error();
 }
 
 // Whether no report replaces a file that the gate reads.
@@ -200,7 +200,7 @@ static int run_held(const struct gate_options *o, const struct gate_input *in,
         rg_error("%s: another raingauge writes into it; wait until it has ended, or name another "
                  "folder",
                  o->pictures);
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     }
     const int exit = run_either(o, in, request, gate);
     rg_hold_release(&hold);
@@ -232,7 +232,7 @@ static int run(const struct gate_options *o, const struct gate_input *in)
                                       .today = today(),
                                       .pictures_only = o->pictures_only,
                                       .filter = o->gtest.filter};
-    int exit = RG_EXIT_USAGE;
+    int exit;
     if (rg_gtest_shards(&request.shards) &&
         rg_gate_outputs_settle(o->junit, o->pictures, &o->gtest, &outputs) &&
         spares_inputs(o, &outputs) &&
@@ -242,7 +242,9 @@ static int run(const struct gate_options *o, const struct gate_input *in)
         request.pictures = *outputs.pictures ? outputs.pictures : NULL;
         exit = run_held(o, in, &request, &gate);
         if (gate.is_told && !rg_gate_outputs_print(&outputs, &in->known, &gate))
-            exit = rg_exit_worse(exit, RG_EXIT_USAGE); // a full disk is no regression
+            exit = rg_exit_worse(exit, rg_exit_of_error()); // a full disk is no regression
+    } else {
+        exit = rg_exit_of_error();
     }
     rg_gate_free(&gate);
     return exit;
@@ -271,7 +273,7 @@ static int find_pairs(const struct gate_options *o, const struct rg_words *sides
                  "--baseline");
     else if (rg_gate_pair_of(sides->items[0], sides->items[1], &pairs->all[0]))
         return RG_EXIT_PASS;
-    return RG_EXIT_USAGE;
+    return rg_exit_of_error();
 }
 
 // A gate that is to compare times must not pass for want of them.
@@ -311,7 +313,7 @@ static int gate(const void *values, const struct rg_words *arguments)
     rg_sides_begin();
     int exit = find_pairs(o, arguments, &in.pairs);
     if (exit == RG_EXIT_PASS && !read_input(o, &in))
-        exit = RG_EXIT_USAGE;
+        exit = rg_exit_of_error();
     if (exit == RG_EXIT_PASS)
         exit = rg_exit_worse(o->gtest.list ? list_cases(o, &in) : run(o, &in), in.pairs.left_out);
     rg_baseline_free(&in.baseline);

@@ -117,8 +117,8 @@ static bool make_folder(void)
         rg_program_before_end(remove_folder);
         return true;
     }
-    rg_error("%s: cannot be made: %s; set TMPDIR to a folder that takes files", folder,
-             strerror(errno));
+    rg_system_error(errno, "%s: cannot be made: %s; set TMPDIR to a folder that takes files",
+                    folder, strerror(errno));
     *folder = 0;
     return false;
 }
@@ -136,12 +136,12 @@ static int shrink_on(const struct rg_devices *devices, const struct rg_subject *
     int tried;
     rg_interrupt_watch();
     if (!make_folder())
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     int exit = rg_shrink_case(&request, &found, &blame, &tried);
     if (exit == RG_EXIT_PASS && !rg_interrupted()) {
         printf("%s\n%d runs tried\n", blame.text, tried);
         if (!write_found(&found, &blame, devices, o->output))
-            exit = RG_EXIT_USAGE; // a full disk says nothing of the devices
+            exit = rg_exit_of_error(); // a full disk says nothing of the devices
     }
     rg_case_free(&found);
     remove_folder();
@@ -155,20 +155,20 @@ static int shrink(const void *values, const struct rg_words *arguments)
     void *settings;
     rg_memory_allow(o->memory_bytes);
     if (!rg_output_file_can_be_written(o->output, CASE_BYTES))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
     if (!technique)
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     const struct rg_subject subject = {technique, settings, o->size.width, o->size.height};
     struct rg_devices devices = {0};
     int exit = rg_files_spared_by_case(&subject, o->output)
                    ? rg_devices_open_asked(&o->devices, &devices)
-                   : RG_EXIT_USAGE;
+                   : rg_exit_of_error();
     if (exit == RG_EXIT_PASS)
         exit = rg_devices_exit(&devices);
     if (exit == RG_EXIT_PASS && devices.count != 2) {
         rg_error("--device %s: shrink takes two devices, the one in doubt first", o->devices.names);
-        exit = RG_EXIT_USAGE;
+        exit = rg_exit_of_error();
     } else if (exit == RG_EXIT_PASS) {
         exit = shrink_on(&devices, &subject, o);
     }

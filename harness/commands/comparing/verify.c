@@ -180,12 +180,14 @@ static int verify(const void *values, const struct rg_words *arguments)
     const struct verify_options *o = values;
     struct subject subjects[MAX_TECHNIQUES] = {{0}};
     struct rg_devices devices;
-    int count = 0, exit = RG_EXIT_USAGE;
+    int count = 0, exit;
     rg_memory_allow(o->memory_bytes);
     if (check_frames(o) && choose_all(arguments, &o->sets, subjects, &count)) {
         exit = rg_devices_open_asked(&o->devices, &devices);
         if (exit == RG_EXIT_PASS)
             exit = rg_devices_end(&devices, verify_on(o, &devices, subjects, count));
+    } else {
+        exit = rg_exit_of_error();
     }
     for (int i = 0; i < count; i++)
         free(subjects[i].settings);

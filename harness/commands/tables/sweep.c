@@ -96,7 +96,7 @@ static bool read_axes(const struct rg_words *words, struct rg_grid *grid, char *
         if (!rg_device_names_check("--axis device", text + strlen(DEVICE_AXIS)))
             return false;
         if (!(*devices = strdup(text + strlen(DEVICE_AXIS))))
-            return rg_error("--axis device: no memory");
+            return rg_harness_error("--axis device: no memory");
     }
     return grid->axis_count ||
            rg_error("--axis: none is of a parameter; name one, as in --axis seed=1,2..5");
@@ -132,7 +132,7 @@ static int open_and_run(struct rg_grid *grid, const struct sweep_options *o, cha
     struct rg_devices_asked asked = o->devices;
     if (names && asked.names) {
         rg_error("--axis device: --device names devices too; leave one of the two out");
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     }
     asked.names = names ? names : asked.names ? asked.names : "cpu";
     int exit = rg_devices_open_asked(&asked, &devices);
@@ -147,19 +147,17 @@ static int run_grid(struct rg_grid *grid, const struct sweep_options *o,
 {
     void *settings = NULL;
     char *names = NULL, *set = NULL;
-    int exit = RG_EXIT_USAGE;
     const struct rg_technique *technique = rg_subject_find(arguments, &o->sets, &settings);
-    if (technique && read_axes(&o->axes, grid, &names) && rg_grid_make(grid, technique) &&
-        rg_sets_join(&o->sets, &set) &&
-        rg_grid_keeps_axes(grid, technique, o->sets.items, o->sets.count)) {
-        grid->table.width = o->size.width;
-        grid->table.height = o->size.height;
-        grid->table.check_frames = o->frame;
-        const struct rg_table *const table = &grid->table;
-        if (rg_inputs_are_spared(&table, 1, set, o->output) &&
-            (!o->output || rg_results_can_be_written(&table, 1, o->output)))
-            exit = open_and_run(grid, o, names, set);
-    }
+    const struct rg_table *const table = &grid->table;
+    grid->table.width = o->size.width;
+    grid->table.height = o->size.height;
+    grid->table.check_frames = o->frame;
+    const bool ok = technique && read_axes(&o->axes, grid, &names) &&
+                    rg_grid_make(grid, technique) && rg_sets_join(&o->sets, &set) &&
+                    rg_grid_keeps_axes(grid, technique, o->sets.items, o->sets.count) &&
+                    rg_inputs_are_spared(&table, 1, set, o->output) &&
+                    (!o->output || rg_results_can_be_written(&table, 1, o->output));
+    const int exit = ok ? open_and_run(grid, o, names, set) : rg_exit_of_error();
     free(settings);
     free(names);
     free(set);
@@ -171,7 +169,7 @@ static int sweep(const void *values, const struct rg_words *arguments)
     const struct sweep_options *o = values;
     struct rg_grid *grid = rg_alloc(1, sizeof(*grid), "sweep");
     rg_memory_allow(o->memory_bytes);
-    const int exit = grid ? run_grid(grid, values, arguments) : RG_EXIT_FAIL;
+    const int exit = grid ? run_grid(grid, values, arguments) : rg_exit_of_error();
     free(grid);
     return exit;
 }

@@ -124,9 +124,9 @@ static int print(const struct rg_result *result, const void *user)
     if (!o->claims)
         return rg_result_finish(result, form_of(o), o->output);
     const bool is_whole = rg_result_first_missing(result) > result->last_row;
-    int exit = rg_claims_add(o->outcomes, result) ? rg_result_exit(result) : RG_EXIT_FAIL;
+    int exit = rg_claims_add(o->outcomes, result) ? rg_result_exit(result) : rg_exit_of_error();
     if (is_whole && o->output && !rg_result_write(result, o->output))
-        exit = rg_exit_worse(exit, RG_EXIT_USAGE);
+        exit = rg_exit_worse(exit, rg_exit_of_error());
     return exit;
 }
 
@@ -150,7 +150,7 @@ static bool print_claims_json(const struct rg_claim_outcomes *outcomes)
 {
     json_t *json = rg_claims_json(outcomes);
     if (!json)
-        return rg_error("claims: no memory to print them; close other programs");
+        return rg_harness_error("claims: no memory to print them; close other programs");
     json_dumpf(json, stdout, JSON_INDENT(1) | RG_JSON_FLAGS);
     printf("\n");
     json_decref(json);
@@ -167,9 +167,9 @@ static int print_claims(const void *user)
     const bool is_whole = form == RG_RESULT_JSON ? print_claims_json(o->outcomes)
                                                  : print_claims_sheet(o->outcomes, form);
     if (!fflush(stdout) && !ferror(stdout))
-        return is_whole ? RG_EXIT_PASS : RG_EXIT_FAIL;
+        return is_whole ? RG_EXIT_PASS : rg_exit_of_error();
     rg_stdout_error();
-    return RG_EXIT_USAGE;
+    return rg_exit_of_error();
 }
 
 // --- tables that are measured ---
@@ -285,7 +285,7 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
     if ((o->budget && !rg_duration_read(o->budget, "--budget", &budget_s)) ||
         !choose(arguments, o, chosen, &count) || !have_rows(o->rows, chosen, count) ||
         !take_sets(&o->sets, chosen, count))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     if (o->compile)
         return compile(o, chosen, count);
     const struct rg_regenerate_options wanted = {.first_row = o->rows.first,
@@ -303,7 +303,7 @@ static int measure(const struct table_options *o, const struct rg_words *argumen
     struct rg_devices devices;
     if (!have_claims(o, chosen, count) || !rg_inputs_are_spared(chosen, count, o->set, o->output) ||
         (o->output && !rg_results_can_be_written(chosen, count, o->output)))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     int exit = rg_devices_open_asked(&o->devices, &devices);
     if (exit != RG_EXIT_PASS)
         return exit;
@@ -369,7 +369,7 @@ static int print_stored(struct rg_stored *stored, const struct table_options *o,
 {
     int exit = RG_EXIT_PASS, printed = 0;
     if (!have_one_length(stored, o, ids))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     for (int i = 0; i < stored->count; i++) {
         struct rg_result *result = &stored->results[i];
         if (!is_named(ids, result->table) || !keep(result, o))
@@ -384,12 +384,12 @@ static int print_stored(struct rg_stored *stored, const struct table_options *o,
         return exit;
     if (printed) {
         refuse_claims(ids->count ? ids->items[0] : stored->results[0].table);
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     }
     rg_error("%s: holds nothing of the tables, rows and works that are asked for; without them "
              "`raingauge table --from` prints what it holds",
              o->from);
-    return RG_EXIT_USAGE;
+    return rg_exit_of_error();
 }
 
 static int print_tables(const struct table_options *o, const struct rg_words *arguments)
@@ -398,9 +398,9 @@ static int print_tables(const struct table_options *o, const struct rg_words *ar
     if (!o->from)
         return measure(o, arguments);
     if (!spares_stored(o))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     const int exit =
-        rg_stored_read(&stored, o->from) ? print_stored(&stored, o, arguments) : RG_EXIT_USAGE;
+        rg_stored_read(&stored, o->from) ? print_stored(&stored, o, arguments) : rg_exit_of_error();
     rg_stored_free(&stored);
     return rg_exit_worse(exit, print_claims(o));
 }
@@ -414,7 +414,7 @@ static int table(const void *values, const struct rg_words *arguments)
     o.printed = &printed;
     rg_memory_allow(o.memory_bytes);
     if (!rg_sets_join(&o.sets, &o.set))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     const int exit = print_tables(&o, arguments);
     free(o.set);
     rg_claims_free(&outcomes);

@@ -74,7 +74,7 @@ static int judge_end(struct run *r, int64_t at, enum rg_judgement wanted)
     struct rg_bisect *b = r->bisect;
     const char *word = rg_judgement_name(wanted), *name = b->candidates->names[at];
     if (!judge(r, at))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     if (r->verdicts[at] == wanted)
         return RG_EXIT_PASS;
     b->end = wanted == RG_JUDGED_GOOD ? RG_BISECT_GOOD_END : RG_BISECT_BAD_END;
@@ -104,7 +104,7 @@ static int halve(struct run *r)
         rg_info("%lld candidate%s left, about %d more to judge", (long long)search.left,
                 search.left == 1 ? "" : "s", rg_search_steps(&search));
         if (!judge(r, next))
-            return RG_EXIT_USAGE;
+            return rg_exit_of_error();
     }
     b->end = b->bad == b->good + 1 ? RG_BISECT_FOUND : RG_BISECT_AMONG;
     return b->end == RG_BISECT_FOUND ? RG_EXIT_PASS : RG_EXIT_INCONCLUSIVE;
@@ -143,7 +143,7 @@ static int end(struct run *r, int exit)
         rg_info("once it can be told, the same command goes on from %lld verdicts",
                 (long long)b->order_count);
     }
-    return is_told ? exit : rg_exit_worse(exit, RG_EXIT_USAGE);
+    return is_told ? exit : rg_exit_worse(exit, RG_EXIT_HARNESS);
 }
 
 static int run(struct run *r)
@@ -169,7 +169,7 @@ int rg_bisect_run(struct rg_bisect *bisect)
     rg_bisect_kept_find(bisect, &r.kept);
     rg_interrupt_watch();
     const bool ok = r.verdicts && bisect->judged && bisect->order;
-    const int exit = ok ? run(&r) : RG_EXIT_FAIL;
+    const int exit = ok ? run(&r) : rg_exit_of_error();
     free(r.verdicts);
     return exit;
 }

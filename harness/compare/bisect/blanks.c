@@ -129,7 +129,7 @@ char *rg_blanks_fill(const char *line, bool has_candidates)
     struct filling filling = {.out = open_memstream(&text, &size), .opened = line};
     bool ok = filling.out && fill(&filling, line, has_candidates);
     if (!filling.out || fclose(filling.out))
-        ok = rg_error("bisect: no memory for the command; close other programs");
+        ok = rg_harness_error("bisect: no memory for the command; close other programs");
     else if (ok && size >= MOST_BYTES)
         ok = rg_error("bisect: the command has more than %d bytes; put it into a script",
                       MOST_BYTES - 1);

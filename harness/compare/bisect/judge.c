@@ -75,7 +75,7 @@ static int run_line(const char *line, bool prints_here)
     const int error = rg_program_start(args, fds, 3, &child);
     if (!error)
         return wait_for(child);
-    rg_unsupported("/bin/sh: cannot be started: %s; %s", strerror(error), rg_program_mend(error));
+    rg_harness_error("/bin/sh: cannot be started: %s; %s", strerror(error), rg_program_mend(error));
     return -1;
 }
 
@@ -88,7 +88,7 @@ void rg_judging_budget(const struct rg_judging *judging, int number, char budget
 static bool hand_over(const char *variable, const char *value)
 {
     return !value || !setenv(variable, value, 1) ||
-           rg_error("bisect: no memory for %s; close other programs", variable);
+           rg_harness_error("bisect: no memory for %s; close other programs", variable);
 }
 
 static int try_once(const struct rg_judging *judging, const char *candidate, const char *good,

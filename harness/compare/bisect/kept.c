@@ -193,8 +193,9 @@ bool rg_bisect_kept_write(const struct rg_bisect_kept *kept, const struct rg_bis
                                  verdicts_of(bisect));
     char *text =
         document && rg_seal(document) ? json_dumps(document, RG_JSON_FLAGS | JSON_COMPACT) : NULL;
-    const bool ok = text ? rg_output_write(kept->folder, kept->name, text)
-                         : rg_error("bisect: no memory for the verdicts; close other programs");
+    const bool ok =
+        text ? rg_output_write(kept->folder, kept->name, text)
+             : rg_harness_error("bisect: no memory for the verdicts; close other programs");
     free(text);
     json_decref(document);
     return ok;

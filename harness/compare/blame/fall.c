@@ -11,11 +11,11 @@ struct rg_fall rg_fall_now(struct rg_device *device)
 {
     struct rg_worker *worker = rg_remote_worker(device);
     struct rg_fall fall = {.outcome = RG_OK};
-    const enum rg_error_kind kind = rg_last_error_kind();
-    if (kind == RG_ERROR_INPUT || kind == RG_ERROR_UNSUPPORTED || !worker)
+    const struct rg_failure failure = rg_failure_take();
+    if (failure.fault != RG_FAULT_DRIVER || !worker)
         return fall;
-    fall.outcome = rg_outcome_of_error();
-    const char *what = fall.outcome == RG_ERROR ? rg_last_error() : rg_worker_end_doing(worker);
+    fall.outcome = failure.outcome;
+    const char *what = fall.outcome == RG_ERROR ? failure.line : rg_worker_end_doing(worker);
     what += strspn(what, " ");
     snprintf(fall.what, sizeof(fall.what), "%s", *what ? what : "at its start");
     rg_plain(fall.what);

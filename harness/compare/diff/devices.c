@@ -81,9 +81,10 @@ static bool take_picture(struct session *s, struct rg_device *device)
         s->shot_count++;
         return true;
     }
-    if (rg_last_error_kind() == RG_ERROR_INPUT && !s->shot_count)
+    const struct rg_failure failure = rg_failure_take();
+    if (failure.fault == RG_FAULT_INPUT && !s->shot_count)
         return false;
-    note_failure(s, device->info.name, rg_outcome_of_error(), rg_last_error());
+    note_failure(s, device->info.name, failure.outcome, failure.line);
     return true;
 }
 
@@ -231,7 +232,7 @@ static int compare_pair(struct session *s, const struct shot *a, const struct sh
     struct rg_comparison c;
     if (!rg_compare(&a->picture, a->info->name, &b->picture, b->info->name, &s->background,
                     &(struct rg_compare_options){.exposure = exposure_of(s)}, &c))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     const enum rg_outcome outcome = rg_comparison_outcome(&c, rg_tier_owed(a->info, b->info));
     s->compared += outcome != RG_NOTHING;
     json_t *pair = s->pairs ? pair_json(a, b, &c) : NULL;
@@ -247,7 +248,7 @@ static int compare_pair(struct session *s, const struct shot *a, const struct sh
     if (s->asked->heatmap_prefix)
         ok = write_heatmaps(s, a, b, &c) && ok;
     rg_comparison_destroy(&c);
-    return ok ? rg_exit_of(outcome) : RG_EXIT_USAGE;
+    return ok ? rg_exit_of(outcome) : rg_exit_of_error();
 }
 
 // No pair is no proof, and is said.
@@ -291,7 +292,7 @@ static int compare_all(struct session *s)
     if (!s->asked->json)
         tell_count(s);
     else if (!rg_pairs_print_json(rg_passport_devices(infos, s->shot_count), s->pairs, s->failures))
-        exit = RG_EXIT_USAGE;
+        exit = rg_exit_worse(exit, rg_exit_of_error());
     return exit;
 }
 
@@ -308,7 +309,7 @@ int rg_diff_devices(const struct rg_diff_devices_request *request)
 {
     struct session *s = rg_alloc(1, sizeof(*s), "diff");
     if (!s)
-        return RG_EXIT_FAIL;
+        return rg_exit_of_error();
     s->asked = request;
     if (request->json) {
         s->pairs = json_array();
@@ -321,7 +322,7 @@ int rg_diff_devices(const struct rg_diff_devices_request *request)
         exit = RG_EXIT_USAGE;
     } else if (exit == RG_EXIT_PASS &&
                !(spare_files(s, &devices) && has_room(request, devices.count))) {
-        exit = RG_EXIT_USAGE;
+        exit = rg_exit_of_error();
     } else if (exit == RG_EXIT_PASS) {
         exit = take_pictures(s, &devices) ? compare_all(s) : rg_exit_of_error();
         exit = rg_exit_with(exit, s->compared);

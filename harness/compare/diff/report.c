@@ -218,9 +218,10 @@ json_t *rg_pair_json(const char *a, const char *b, const struct rg_comparison *c
         number(c->tiers.relative_mean), "tiers", tiers_json(&c->tiers), "linear",
         metrics_json(&c->metrics));
     if (!pair)
-        return rg_error_null("diff --json: no memory for the figures of '%s' and '%s'; close other "
-                             "programs",
-                             a, b);
+        return rg_harness_error_null(
+            "diff --json: no memory for the figures of '%s' and '%s'; close other "
+            "programs",
+            a, b);
     set_psnr(pair, &c->metrics);
     json_object_set_new(pair, "flip_weighted_quartile_1", number(f->weighted_quartile_1));
     json_object_set_new(pair, "flip_weighted_quartile_3", number(f->weighted_quartile_3));
@@ -295,7 +296,7 @@ bool rg_pair_heatmaps(const char *prefix, const struct rg_picture *a, const stru
 {
     float *difference = malloc((size_t)c->width * (size_t)c->height * sizeof(*difference)), top;
     if (!difference)
-        return rg_error("%s: no memory for the heat maps", prefix);
+        return rg_harness_error("%s: no memory for the heat maps", prefix);
     rg_heatmap_difference(a, b, difference, &top);
     bool good = write_heatmap(prefix, "flip", c->flip_map, c, 1.0f) &&
                 write_heatmap(prefix, "difference", difference, c, top);

@@ -223,8 +223,9 @@ bool rg_culprit_find(const struct rg_digest_run *run, const struct rg_blame *bla
         rg_digests_dispatches(&until, p.falls ? truth : device, blame->first.stages_run, &all) &&
         find(&p, blame, &all, culprit);
     rg_log_hold(false);
+    const struct rg_failure failure = rg_failure_take();
     if (!ok && p.falls)
-        rg_log_relay(RG_LOG_ERROR, rg_last_error_kind(), rg_last_error());
+        rg_failure_tell(&failure);
     forget(&p);
     rg_dispatches_free(&all);
     return ok;

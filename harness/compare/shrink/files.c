@@ -1,6 +1,7 @@
 #include "harness/compare/shrink/files.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,16 +49,23 @@ void rg_file_ending(const char *path, char *ending, size_t size)
 char *rg_file_load(const char *path, size_t *size)
 {
     const char *why = "cannot be read";
+    int error = EINVAL;
     FILE *file = rg_file_open(path, &why);
+    if (!file)
+        error = errno;
     long end = file && !fseek(file, 0, SEEK_END) ? ftell(file) : -1;
-    char *bytes = end >= 0 && !fseek(file, 0, SEEK_SET) ? rg_alloc(1, (size_t)end + 1, path) : NULL;
+    char *bytes = end >= 0 && !fseek(file, 0, SEEK_SET) ? calloc(1, (size_t)end + 1) : NULL;
+    if (end >= 0 && !bytes)
+        error = ENOMEM;
     *size = bytes ? fread(bytes, 1, (size_t)end, file) : 0;
     if (file)
         fclose(file);
     if (bytes && *size == (size_t)end)
         return bytes;
     free(bytes);
-    return rg_error_null("%s: %s; name a file that can be read", path, why);
+    rg_system_error(error, "%s: %s; name a file that can be read", path,
+                    error == ENOMEM ? strerror(error) : why);
+    return NULL;
 }
 
 void rg_file_sent_name(const struct rg_param *param, const char *path, char name[RG_FILE_NAME])

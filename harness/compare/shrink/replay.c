@@ -70,12 +70,14 @@ static void tell_fall(const struct rg_case *c, struct rg_device *device)
 int rg_case_replay(const struct rg_case *c, struct rg_device *device)
 {
     struct rg_digests digests = {0};
-    int exit = RG_EXIT_USAGE;
+    int exit;
     if (!rg_digests_take(&c->run, device, &digests)) {
         exit = rg_exit_of_error();
         tell_fall(c, device);
     } else if (is_of_this_version(c, &digests))
         exit = tell(c, &digests, device->info.name);
+    else
+        exit = rg_exit_of_error();
     rg_digests_free(&digests);
     return exit;
 }

@@ -8,6 +8,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/workers/device.h"
+#include "harness/record/named.h"
 
 // Opens the best on both devices, and closes what was there before.
 static void hold_best(struct rg_search *s)
@@ -62,16 +63,14 @@ static bool find_difference(struct rg_search *s)
     struct rg_device *device = s->asked->device, *truth = s->asked->truth;
     rg_log_hold(true);
     bool ok = rg_blame_find(&s->best, device, truth, &s->blame);
-    const enum rg_error_kind kind = rg_last_error_kind();
-    char line[1024];
-    snprintf(line, sizeof(line), "%s", rg_last_error());
-    const bool is_broken = !ok && !rg_interrupted() && kind != RG_ERROR_INPUT &&
-                           kind != RG_ERROR_UNSUPPORTED && rg_remote_worker(device);
+    const struct rg_failure failure = rg_failure_take();
+    const bool is_broken =
+        !ok && !rg_interrupted() && failure.fault == RG_FAULT_DRIVER && rg_remote_worker(device);
     if (is_broken)
         ok = find_fall(s);
     rg_log_hold(false);
     if (!ok && !rg_interrupted())
-        rg_log_relay(RG_LOG_ERROR, kind, line);
+        rg_failure_tell(&failure);
     return ok;
 }
 
@@ -129,10 +128,10 @@ static bool is_alike(struct rg_search *s, const struct rg_digest_run *run, int64
     if (is_near)
         ok = rg_blame_row(run, device, truth, &now, &due, blame);
     // Settings that do not go together are refused, which is no failure of a device.
-    if (!ok && rg_last_error_kind() != RG_ERROR_INPUT &&
-        rg_last_error_kind() != RG_ERROR_UNSUPPORTED) {
+    const struct rg_failure failure = rg_failure_take();
+    if (!ok && failure.fault != RG_FAULT_INPUT && failure.fault != RG_FAULT_NONE) {
         s->is_over = true;
-        snprintf(s->why, sizeof(s->why), "%s", rg_last_error());
+        rg_text_copy(s->why, sizeof(s->why), failure.line);
     }
     rg_digests_free(&now);
     rg_digests_free(&due);

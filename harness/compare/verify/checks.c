@@ -18,7 +18,7 @@ void rg_checks_add(struct rg_checks *checks, const char *technique, const char *
 {
     if (!rg_array_fit(&checks->rows, &checks->room, checks->count + 1, sizeof(*checks->rows),
                       "results of checks")) {
-        checks->exit = rg_exit_worse(checks->exit, RG_EXIT_FAIL);
+        checks->exit = rg_exit_worse(checks->exit, RG_EXIT_HARNESS);
         return;
     }
     struct rg_check *row = &checks->rows[checks->count++];
@@ -36,9 +36,10 @@ void rg_checks_add(struct rg_checks *checks, const char *technique, const char *
 void rg_checks_add_error(struct rg_checks *checks, const char *technique, const char *check,
                          const char *device)
 {
-    if (rg_last_error_kind() == RG_ERROR_INPUT)
+    const struct rg_failure failure = rg_failure_take();
+    if (failure.fault == RG_FAULT_INPUT)
         checks->exit = rg_exit_worse(checks->exit, RG_EXIT_USAGE);
-    rg_checks_add(checks, technique, check, device, rg_outcome_of_error(), "%s", rg_last_error());
+    rg_checks_add(checks, technique, check, device, failure.outcome, "%s", failure.line);
 }
 
 static void print_json(const struct rg_checks *checks, json_t *devices)

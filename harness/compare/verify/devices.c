@@ -12,6 +12,7 @@
 #include "harness/compare/verify/verify.h"
 #include "harness/console/exit.h"
 #include "harness/frames/frame.h"
+#include "harness/record/named.h"
 
 // One check on one device, over all cases.
 struct tally {
@@ -63,13 +64,14 @@ static void blame(struct tally *tally, const struct one_case *c, const char *for
 // Keeps the first error. An error takes the place of an "unsupported", which says less.
 static void note_error(struct tally *tally)
 {
-    const enum rg_outcome ended = rg_outcome_of_error();
-    tally->is_bad_input = tally->is_bad_input || rg_last_error_kind() == RG_ERROR_INPUT;
+    const struct rg_failure failure = rg_failure_take();
+    const enum rg_outcome ended = failure.outcome;
+    tally->is_bad_input = tally->is_bad_input || failure.fault == RG_FAULT_INPUT;
     if (tally->errors++ && (tally->ended != RG_UNSUPPORTED || ended == RG_UNSUPPORTED))
         return;
     tally->ended = ended;
     if (!tally->failed)
-        snprintf(tally->first, sizeof(tally->first), "%s", rg_last_error());
+        rg_text_copy(tally->first, sizeof(tally->first), failure.line);
 }
 
 static void count_run(struct tally *tally, const struct one_case *c)

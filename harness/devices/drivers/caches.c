@@ -114,8 +114,9 @@ static bool use(const char *parent, const char *path, int kept)
 {
     const bool is_new = !mkdir(path, 0700);
     if (!is_new && errno != EEXIST)
-        return rg_error("%s: cannot be made: %s; set XDG_CACHE_HOME to a folder that takes files",
-                        path, strerror(errno));
+        return rg_system_error(
+            errno, "%s: cannot be made: %s; set XDG_CACHE_HOME to a folder that takes files", path,
+            strerror(errno));
     hold(path);
     if (is_new)
         keep_last(parent, kept);
@@ -223,8 +224,9 @@ bool rg_side_folder_in(const struct rg_side_folder *f, const char *name, char pa
 {
     snprintf(path, PATH_MAX, "%.4000s/%.40s", f->path, name);
     return !mkdir(path, 0700) || errno == EEXIST ||
-           rg_error("%s: cannot be made: %s; set XDG_CACHE_HOME to a folder that takes files", path,
-                    strerror(errno));
+           rg_system_error(
+               errno, "%s: cannot be made: %s; set XDG_CACHE_HOME to a folder that takes files",
+               path, strerror(errno));
 }
 
 bool rg_side_caches_set(const struct rg_side_folder *f, struct rg_worker_variables *variables)

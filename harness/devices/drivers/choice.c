@@ -143,7 +143,7 @@ bool rg_choice_set(const struct rg_choice *c, const char *folder, struct rg_work
         ok = (c->driver && !strcmp(key, "DRIVER")) || rg_variables_set(v, key, own + length + 1);
     }
     if (!ok)
-        return rg_error("device '%s': no memory for its variables", c->name);
+        return rg_harness_error("device '%s': no memory for its variables", c->name);
     return !c->driver || rg_prefix_set(&c->prefix, folder, v);
 }
 

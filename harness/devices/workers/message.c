@@ -126,7 +126,7 @@ const char *rg_take_name(struct rg_message *message)
     struct kept_name *name = malloc(sizeof(*name) + strlen(text) + 1);
     if (!name) {
         message->failed = true;
-        rg_error("a message between processes: no memory for a name");
+        rg_harness_error("a message between processes: no memory for a name");
         return "";
     }
     strcpy(name->text, text);
@@ -146,7 +146,7 @@ void *rg_take_block(struct rg_message *message, int64_t *size)
     }
     if (place && !block) {
         message->failed = true;
-        rg_error("a message between processes: no memory for %lld bytes", (long long)*size);
+        rg_harness_error("a message between processes: no memory for %lld bytes", (long long)*size);
         *size = 0;
     }
     return block;

@@ -30,13 +30,16 @@ static void keep_line(enum rg_log_level level, const char *line, void *user)
     logged.count++;
 }
 
-// A reply is: whether the call succeeded, whose the last error was, the lines, and the result.
+// A reply is: whether the call succeeded, the failure, the lines, and the result.
 static bool send_reply(struct rg_channel *channel, bool ok, const struct rg_message *result)
 {
     static const struct rg_message nothing;
     struct rg_message reply = {0};
+    const struct rg_failure failure =
+        ok && !logged.count ? (struct rg_failure){.fault = RG_FAULT_NONE} : rg_failure_take();
     rg_put_int(&reply, ok);
-    rg_put_int(&reply, rg_last_error_kind());
+    rg_put_int(&reply, failure.fault);
+    rg_put_int(&reply, failure.outcome);
     rg_put_int(&reply, logged.count);
     rg_put(&reply, logged.lines.bytes, logged.lines.size);
     const bool sent = rg_channel_send(channel, &reply, ok ? result : &nothing);

@@ -65,7 +65,7 @@ struct rg_worker *rg_worker_create(const char *name, const char *environment)
     if (worker->name && worker->environment)
         return worker;
     rg_worker_destroy(worker);
-    return rg_error_null("device '%s': no memory for its worker", name);
+    return rg_harness_error_null("device '%s': no memory for its worker", name);
 }
 
 int rg_worker_life(const struct rg_worker *worker)
@@ -79,8 +79,8 @@ static bool tell_loss(const struct rg_worker *worker, enum rg_outcome outcome, c
         return rg_crash_error("device '%s': %s", worker->name, why);
     if (outcome == RG_TIMEOUT)
         return rg_timeout_error("device '%s': %s", worker->name, why);
-    if (outcome == RG_UNSUPPORTED)
-        return rg_unsupported("device '%s': %s", worker->name, why);
+    if (outcome == RG_LACKING)
+        return rg_harness_error("device '%s': %s", worker->name, why);
     return rg_driver_error("device '%s': %s", worker->name, why);
 }
 
@@ -148,13 +148,6 @@ int64_t rg_worker_grant(struct rg_worker *worker)
     return rg_memory_grant(worker->taken_bytes);
 }
 
-// What comes of what the machine refuses: the device is not to be had here. One that was opened
-// before is missed, though, and is not left out.
-static enum rg_outcome refused(const struct rg_worker *worker)
-{
-    return worker->was_open ? RG_ERROR : RG_UNSUPPORTED;
-}
-
 // The file that the process prints into. It goes on at the end, wherever that has come to be.
 static bool make_printed(struct rg_worker *worker, char why[RG_NAMELESS_WHY])
 {
@@ -218,7 +211,7 @@ static bool start(struct rg_worker *worker, char *why, size_t size)
         return true;
     }
     forget_process(worker);
-    worker->end = refused(worker);
+    worker->end = RG_LACKING;
     if (has_means && program_of(worker)) {
         worker->end = RG_ERROR;
         return rg_error("device '%s': " RG_WORKER_PROGRAM "=%s cannot be started: %s", worker->name,
@@ -412,7 +405,7 @@ static enum rg_outcome bury(struct rg_worker *worker, enum verdict verdict, char
     worker->ended++;
     const bool is_limited = verdict == BY_ITSELF && rg_limits_low(limits);
     worker->end = verdict == HANGS                   ? RG_TIMEOUT
-                  : is_limited || verdict == NO_ROOM ? refused(worker)
+                  : is_limited || verdict == NO_ROOM ? RG_LACKING
                                                      : RG_CRASH;
     return worker->end;
 }
@@ -420,37 +413,41 @@ static enum rg_outcome bury(struct rg_worker *worker, enum verdict verdict, char
 // --- messages ---
 
 // A driver's error names its device; what the user did amiss has no device. What a driver cannot do
-// within low limits is no fault of it.
-static void relay(const struct rg_worker *worker, enum rg_log_level level, enum rg_error_kind kind,
-                  const char *line)
+// within low limits is no fault of it, nor is it absent for them.
+static void relay(const struct rg_worker *worker, enum rg_log_level level, enum rg_fault fault,
+                  enum rg_outcome outcome, const char *line)
 {
     char named[1500], limits[RG_LIMITS_TEXT];
     const bool is_error = level == RG_LOG_ERROR;
-    const bool is_limited = is_error && kind == RG_ERROR_DRIVER && rg_limits_low(limits);
-    if (is_error && kind == RG_ERROR_UNSUPPORTED && !worker->was_open && rg_limits_low(limits)) {
-        rg_unsupported("device '%s': its driver gives none %s; allow more", worker->name, limits);
+    const bool is_limited = is_error && fault == RG_FAULT_DRIVER && rg_limits_low(limits);
+    if (is_error && fault == RG_FAULT_NONE && !worker->was_open && rg_limits_low(limits)) {
+        rg_harness_error("device '%s': its driver gives none %s; allow more", worker->name, limits);
         return;
     }
     const char *const begin =
-        is_error && kind != RG_ERROR_INPUT && !strstr(line, worker->name) ? worker->name : NULL;
+        is_error && fault != RG_FAULT_INPUT && !strstr(line, worker->name) ? worker->name : NULL;
     snprintf(named, sizeof(named), "%s%s%s%s%s%s%s", begin ? "device '" : "", begin ? begin : "",
              begin ? "': " : "", line, is_limited ? " (" : "", is_limited ? limits : "",
              is_limited ? "; allow more)" : "");
-    rg_log_relay(level, is_limited && !worker->was_open ? RG_ERROR_UNSUPPORTED : kind, named);
+    rg_log_relay(level, is_limited ? RG_FAULT_HARNESS : fault, is_limited ? RG_LACKING : outcome,
+                 named);
 }
 
 // Logs what the worker did, and says whether the call succeeded. One that failed has said why.
 static bool open_reply(const struct rg_worker *worker, struct rg_message *reply)
 {
     const bool ok = rg_take_index(reply, 2);
-    const int kind = rg_take_index(reply, RG_ERROR_KINDS);
+    const enum rg_fault fault = (enum rg_fault)rg_take_index(reply, RG_FAULTS);
+    const enum rg_outcome outcome = (enum rg_outcome)rg_take_index(reply, RG_OUTCOME_COUNT);
     const int count = rg_take_index(reply, RG_WORKER_MOST_LINES + 1);
     bool has_told = ok;
+    if (!ok && !rg_outcome_is_broken(outcome) && outcome != RG_UNSUPPORTED)
+        rg_message_fail(reply);
     for (int i = 0; i < count && !reply->failed; i++) {
         const int level = rg_take_index(reply, RG_LOG_LEVELS);
         const char *line = rg_take_text(reply);
         if (!reply->failed)
-            relay(worker, (enum rg_log_level)level, (enum rg_error_kind)kind, line);
+            relay(worker, (enum rg_log_level)level, fault, outcome, line);
         has_told = has_told || level == RG_LOG_ERROR;
     }
     return (has_told || rg_message_fail(reply)) && ok && !reply->failed;
@@ -487,7 +484,8 @@ static bool is_greeted(struct rg_worker *worker)
     const int timeout_s = rg_workers.timeout_s;
     const int patience_ms = timeout_s < HELLO_MS / 1000 ? timeout_s * 1000 : HELLO_MS;
     rg_put_int(&due, true); // a success, no error, no lines
-    rg_put_int(&due, 0);
+    rg_put_int(&due, RG_FAULT_NONE);
+    rg_put_int(&due, RG_OK);
     rg_put_int(&due, 0);
     rg_put_text(&due, rg_workers.hello);
     const bool same = send(worker, RG_CALL_HELLO, NULL) && hears(worker, &reply, patience_ms) &&
@@ -534,7 +532,7 @@ enum rg_outcome rg_worker_try(struct rg_worker *worker, enum rg_call call,
     *reply = (struct rg_message){0};
     *why = 0;
     if (request && request->failed)
-        return RG_ERROR;
+        return rg_failure_take().outcome;
     if (!comes_to_life(worker, why, why_size))
         return worker->end;
     const bool is_sent = send(worker, call, request);
@@ -546,7 +544,7 @@ enum rg_outcome rg_worker_try(struct rg_worker *worker, enum rg_call call,
     reply->device = worker->name;
     const bool ok = open_reply(worker, reply);
     worker->was_open = worker->was_open || (ok && call == RG_CALL_OPEN);
-    return ok ? RG_OK : rg_outcome_of_error();
+    return ok ? RG_OK : rg_failure_take().outcome;
 }
 
 bool rg_worker_call(struct rg_worker *worker, enum rg_call call, const struct rg_message *request,

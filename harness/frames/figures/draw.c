@@ -96,7 +96,7 @@ static bool write_page(const struct rg_figure_run *run)
     size_t size;
     FILE *page = open_memstream(&text, &size);
     if (!page)
-        return rg_error("figures.md: out of memory; draw fewer figures at once");
+        return rg_harness_error("figures.md: out of memory; draw fewer figures at once");
     fprintf(page, "# Figures\n\nDrawn by raingauge on %s. The scenes are not the papers'.\n",
             run->device->info.name);
     for (int i = 0; i < run->count; i++) {

@@ -73,10 +73,10 @@ static bool read_folder(struct rg_stored *stored, const char *folder)
 {
     struct dirent **entries;
     const int count = scandir(folder, &entries, holds_result, alphasort);
-    bool ok =
-        count > 0 || (rg_error("%s: %s; name a folder that `raingauge table -o` wrote to", folder,
-                               count ? strerror(errno) : "holds no .json and no .journal"),
-                      false);
+    bool ok = count > 0 ||
+              (rg_system_error(errno, "%s: %s; name a folder that `raingauge table -o` wrote to",
+                               folder, count ? strerror(errno) : "holds no .json and no .journal"),
+               false);
     for (int i = 0; i < count; i++) {
         char path[4096];
         const int length = snprintf(path, sizeof(path), "%s/%s", folder, entries[i]->d_name);

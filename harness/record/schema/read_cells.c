@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/base/log.h"
 #include "harness/record/schema/read.h"
 #include "harness/record/schema/schema.h"
 
@@ -80,6 +81,9 @@ static bool read_outcome(struct rg_reader *r, const json_t *object, enum rg_outc
         return false;
     if (!rg_outcome_find(name, outcome))
         return rg_reader_refuse(r, "status", "is no outcome");
+    const char *const fault = json_string_value(json_object_get(object, "fault"));
+    if (*outcome == RG_ERROR && fault && !strcmp(fault, rg_fault_name(RG_FAULT_HARNESS)))
+        *outcome = RG_LACKING;
     return *outcome == RG_OK || rg_field_text(r, object, "detail", detail, RG_DETAIL_SIZE);
 }
 

@@ -26,14 +26,14 @@ void rg_claims_length(const struct rg_result *result, char *text, size_t size)
 static bool add_table(struct rg_claim_outcomes *o, const struct rg_result *result)
 {
     if (!o->tables && !(o->tables = json_array()))
-        return rg_error("claims: no memory");
+        return rg_harness_error("claims: no memory");
     json_t *table = json_pack(
         "{ss ss so si sO?}", "table", result->table, "length", result->full ? "full" : "quick",
         "quick", *result->quick ? rg_json_text(result->quick) : json_null(), "size_divisor",
         result->size_divisor > 1 ? result->size_divisor : 1, "passport", result->passport);
     if (*result->changed)
         json_object_set_new(table, "changed", rg_json_text(result->changed));
-    return !json_array_append_new(o->tables, table) || rg_error("claims: no memory");
+    return !json_array_append_new(o->tables, table) || rg_harness_error("claims: no memory");
 }
 
 bool rg_claims_add(struct rg_claim_outcomes *o, const struct rg_result *result)

@@ -148,8 +148,10 @@ static void measure_error(struct preparation *p)
     const char *over = p->table->shown ? p->table->shown : "";
     void *shown = rg_settings_copy(p->subject.technique, p->subject.settings, over);
     void *settings = shown ? rg_settings_copy(p->subject.technique, shown, p->table->truth) : NULL;
-    if (!settings || !compare_with_truth(p, shown, settings))
-        end_error(&p->truth_error, rg_outcome_of_error(), rg_last_error());
+    if (!settings || !compare_with_truth(p, shown, settings)) {
+        const struct rg_failure failure = rg_failure_take();
+        end_error(&p->truth_error, failure.outcome, failure.line);
+    }
     free(settings);
     free(shown);
 }
@@ -160,13 +162,13 @@ static void measure_error(struct preparation *p)
 // with.
 static void give_up(struct preparation *p)
 {
-    const enum rg_outcome outcome = rg_outcome_of_error();
+    const struct rg_failure failure = rg_failure_take();
     char why[RG_DETAIL_SIZE];
-    snprintf(why, sizeof(why), "no image to check it by: %.160s", rg_last_error());
+    snprintf(why, sizeof(why), "no image to check it by: %.160s", failure.line);
     for (int d = 0; d < p->count; d++)
         if (p->jobs[d].record->outcome == RG_OK)
-            rg_record_end(p->jobs[d].record, outcome, why);
-    end_error(&p->truth_error, outcome, why);
+            rg_record_end(p->jobs[d].record, failure.outcome, why);
+    end_error(&p->truth_error, failure.outcome, why);
 }
 
 static void prepare_jobs(struct preparation *p, const struct rg_measure_options *options)

@@ -107,11 +107,11 @@ static int count_of(const struct jobs *jobs)
     return jobs->table_count * jobs->device_count;
 }
 
-static void tell_failure(struct jobs *jobs, const struct job *job, const char *why)
+static void tell_failure(struct jobs *jobs, const struct job *job, int exit, const char *why)
 {
     rg_warning("%s: what %s needs is not compiled beforehand%s", job->device->info.name,
                job->table->technique, why);
-    jobs->exit = RG_EXIT_FAIL;
+    jobs->exit = rg_exit_worse(jobs->exit, exit);
 }
 
 // What it prints is told where it fails.
@@ -129,7 +129,7 @@ static void begin(struct jobs *jobs, struct job *job)
         return;
     snprintf(why, sizeof(why), ": no process could be started for it: %s; %s", strerror(error),
              rg_program_mend(error));
-    tell_failure(jobs, job, why);
+    tell_failure(jobs, job, RG_EXIT_HARNESS, why);
     if (job->printed)
         fclose(job->printed);
     job->process = 0;
@@ -142,9 +142,10 @@ static void end(struct jobs *jobs, struct job *job, int status)
     if (job->printed)
         rg_program_last_line(job->printed, last, sizeof(last));
     const bool is_ours = !strncmp(last, prefix, sizeof(prefix) - 1);
-    const bool is_unsupported = WIFEXITED(status) && WEXITSTATUS(status) == RG_EXIT_UNSUPPORTED;
-    if (status && !is_unsupported && !rg_interrupted())
-        tell_failure(jobs, job, last + (is_ours ? sizeof(prefix) - 1 : 0));
+    const int exit = WIFEXITED(status) ? WEXITSTATUS(status) : RG_EXIT_FAIL;
+    if (status && exit != RG_EXIT_UNSUPPORTED && !rg_interrupted())
+        tell_failure(jobs, job, exit == RG_EXIT_HARNESS ? exit : RG_EXIT_FAIL,
+                     last + (is_ours ? sizeof(prefix) - 1 : 0));
     if (job->printed)
         fclose(job->printed);
     job->process = 0;

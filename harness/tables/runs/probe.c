@@ -65,8 +65,8 @@ static bool learn(struct rg_looking *p)
 // fails in would fail them too, each after as long a wait.
 static bool others_may(void)
 {
-    const enum rg_error_kind kind = rg_last_error_kind();
-    return (kind == RG_ERROR_INPUT || kind == RG_ERROR_UNSUPPORTED) && !rg_interrupted();
+    const enum rg_fault fault = rg_failure_take().fault;
+    return (fault == RG_FAULT_INPUT || fault == RG_FAULT_NONE) && !rg_interrupted();
 }
 
 // The last row that can be opened stands for the table. False where there is none.

@@ -61,7 +61,7 @@ static int run_task(struct task *task, struct rg_kept *kept,
     tell_resumed(task);
     const struct rg_table_bar *bar = task->bar.progress ? &task->bar : NULL;
     if (!rg_table_measure(&task->result, task->table, kept, task->journal, bar))
-        return RG_EXIT_FAIL;
+        return rg_exit_of_error();
     if (bar)
         rg_progress_hide(bar->progress);
     struct rg_place any = rg_result_start(&task->result);
@@ -69,7 +69,7 @@ static int run_task(struct task *task, struct rg_kept *kept,
         return RG_EXIT_PASS; // the budget ended before it
     rg_closing_add(closing, &task->result);
     int exit = options->print(&task->result, options->user);
-    task->is_lost = exit == RG_EXIT_USAGE;
+    task->is_lost = exit == RG_EXIT_USAGE || exit == RG_EXIT_HARNESS;
     if (task->is_lost)
         rg_journal_keep(task->journal);
     if (rg_interrupted()) {
@@ -243,7 +243,7 @@ static int print_end(const struct rg_regenerate_options *options)
 static int finish_tasks(struct task *tasks, int count, const struct rg_regenerate_options *options)
 {
     const int exit = print_end(options);
-    for (int i = 0; exit == RG_EXIT_USAGE && i < count; i++) {
+    for (int i = 0; (exit == RG_EXIT_USAGE || exit == RG_EXIT_HARNESS) && i < count; i++) {
         tasks[i].is_lost = true;
         rg_journal_keep(tasks[i].journal);
     }
@@ -322,6 +322,8 @@ static int regenerate_within(const struct rg_table *const tables[], int count,
     const bool ok = rg_budget_begin(budget, tables, count, &kept, options->budget_s, stderr);
     for (int i = 0; ok && i < count && !rg_interrupted(); i++)
         exit = rg_exit_worse(exit, run_within(budget, i, &kept, options, &closing));
+    if (!ok)
+        exit = rg_exit_of_error();
     if (ok && !rg_interrupted() && !rg_budget_end(budget, stderr))
         exit = rg_exit_worse(exit, RG_EXIT_NOTHING);
     if (rg_interrupted())
@@ -329,7 +331,7 @@ static int regenerate_within(const struct rg_table *const tables[], int count,
     exit = rg_exit_with(rg_exit_worse(exit, print_end(options)), rg_closing_measured(&closing));
     if (ok && !rg_interrupted())
         rg_closing_tell(&closing, devices->count);
-    return rg_kept_free(&kept) && ok ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
+    return rg_kept_free(&kept) ? exit : rg_exit_worse(exit, RG_EXIT_FAIL);
 }
 
 static int plan_and_regenerate(const struct rg_table *const tables[], int count,
@@ -338,7 +340,7 @@ static int plan_and_regenerate(const struct rg_table *const tables[], int count,
 {
     struct rg_budget *budget = rg_alloc(1, sizeof(*budget), "budget");
     const int exit =
-        budget ? regenerate_within(tables, count, devices, options, budget) : RG_EXIT_FAIL;
+        budget ? regenerate_within(tables, count, devices, options, budget) : rg_exit_of_error();
     if (budget)
         free(budget->quick);
     free(budget);
@@ -353,10 +355,9 @@ static int regenerate(const struct rg_table *const tables[], int count,
         return plan_and_regenerate(tables, count, devices, options);
     struct task *tasks = rg_alloc((size_t)count, sizeof(*tasks), "tables");
     const int made = tasks ? make_tasks(options, devices, tables, count, keeps, tasks) : 0;
-    int exit = RG_EXIT_FAIL;
-    if (tasks && spare_journals(tasks, made, devices))
-        exit = run_tasks(tasks, made, devices, options);
-    else
+    const bool ok = tasks && spare_journals(tasks, made, devices);
+    const int exit = ok ? run_tasks(tasks, made, devices, options) : rg_exit_of_error();
+    if (!ok)
         forget_tasks(tasks, made);
     free(tasks);
     return exit;
@@ -376,7 +377,7 @@ int rg_tables_regenerate(const struct rg_table *const tables[], int count,
         rg_error("%s: another raingauge measures into it; wait until it has ended, or name another "
                  "folder",
                  folder);
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     }
     if (!is_ours)
         rg_warning("%s: another raingauge that measures keeps its rows there; this one keeps none: "

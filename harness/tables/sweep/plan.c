@@ -95,7 +95,7 @@ static bool leave_out(struct rg_plan *plan, int device)
 {
     plan->device_s[device] = NAN;
     plan->failed++;
-    return rg_last_error_kind() != RG_ERROR_INPUT && plan->failed < plan->devices;
+    return rg_failure_take().fault != RG_FAULT_INPUT && plan->failed < plan->devices;
 }
 
 bool rg_plan_make(const struct rg_table *table, const char *set, bool is_full, struct rg_kept *kept,

@@ -262,7 +262,7 @@ static void an_end_that_is_not_sound_says_why(void **state)
          RG_CAGED_MACHINE},
         {"exit 78",
          "no memory for what sh makes of it; close other programs, or allow more (ulimit -v)",
-         RG_CAGED_MACHINE},
+         RG_CAGED_LACKING},
         {"kill -SEGV $$",
          "sh crashed on it (Segmentation fault); the file is damaged: repair or "
          "convert it",

@@ -80,16 +80,16 @@ static void a_relayed_error_has_its_kind(void **state)
 {
     (void)state;
     rg_log_listen(listen, NULL);
-    rg_log_relay(RG_LOG_ERROR, RG_ERROR_UNSUPPORTED, "100 %d of it is missing");
+    rg_log_relay(RG_LOG_ERROR, RG_FAULT_NONE, RG_UNSUPPORTED, "100 %d of it is missing");
     assert_string_equal(heard, "100 %d of it is missing");
-    assert_int_equal(rg_last_error_kind(), RG_ERROR_UNSUPPORTED);
-    rg_log_relay(RG_LOG_WARNING, RG_ERROR_INPUT, "beware");
+    assert_int_equal(rg_failure_take().fault, RG_FAULT_NONE);
+    rg_log_relay(RG_LOG_WARNING, RG_FAULT_INPUT, RG_ERROR, "beware");
     assert_string_equal(heard, "beware");
-    assert_int_equal(rg_last_error_kind(), RG_ERROR_UNSUPPORTED);
+    assert_int_equal(rg_failure_take().fault, RG_FAULT_NONE);
     rg_timeout_error("it hangs");
-    assert_int_equal(rg_outcome_of_error(), RG_TIMEOUT);
+    assert_int_equal(rg_failure_take().outcome, RG_TIMEOUT);
     rg_crash_error("it fell");
-    assert_int_equal(rg_outcome_of_error(), RG_CRASH);
+    assert_int_equal(rg_failure_take().outcome, RG_CRASH);
     rg_log_listen(NULL, NULL);
 }
 

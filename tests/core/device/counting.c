@@ -116,7 +116,7 @@ static void test_no_room_for_work(void **state)
         const int right = *numbers[i];
         for (*numbers[i] = 0; *numbers[i] > -2; --*numbers[i])
             assert_false(rg_limits_are_sound(&info));
-        assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
+        assert_int_equal(rg_failure_take().fault, RG_FAULT_DRIVER);
         *numbers[i] = right;
     }
     rg_log_listen(NULL, NULL);

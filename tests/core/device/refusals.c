@@ -230,12 +230,12 @@ static void unknown_devices_are_refused(void **state)
 {
     (void)state;
     assert_refused(rg_device_open("abacus"), "'abacus'");
-    assert_int_equal(rg_last_error_kind(), RG_ERROR_INPUT);
+    assert_int_equal(rg_failure_take().fault, RG_FAULT_INPUT);
     char name[64] = "";
     strncat(name, suite_device, strcspn(suite_device, ":"));
     strcat(name, ":no such thing");
     assert_refused(rg_device_open(name), name);
-    assert_int_equal(rg_last_error_kind(), RG_ERROR_INPUT);
+    assert_int_equal(rg_failure_take().fault, RG_FAULT_INPUT);
 }
 
 static const struct CMUnitTest tests[] = {

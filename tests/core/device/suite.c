@@ -23,7 +23,7 @@ static int device_is_missing(void)
     struct rg_device *device = rg_device_open(suite_device);
     if (device)
         return rg_device_close(device) ? 0 : 1;
-    return rg_outcome_of_error() == RG_UNSUPPORTED ? EXIT_UNSUPPORTED : 1;
+    return rg_failure_take().outcome == RG_UNSUPPORTED ? EXIT_UNSUPPORTED : 1;
 }
 
 // The parts of the suite, which can run side by side.

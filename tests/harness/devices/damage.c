@@ -245,7 +245,7 @@ static void a_device_that_cannot_be_is_not_opened(void **state)
     for (size_t i = 0; i < sizeof(all) / sizeof(all[0]); i++) {
         set_damage(all[i]);
         assert_null(rg_devices_open_one("toy"));
-        assert_int_equal(rg_last_error_kind(), RG_ERROR_DRIVER);
+        assert_int_equal(rg_failure_take().fault, RG_FAULT_DRIVER);
         assert_non_null(strstr(rg_last_error(), "device 'toy': a message"));
         assert_int_equal(lines, 1);
     }

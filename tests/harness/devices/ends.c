@@ -177,7 +177,7 @@ static enum rg_outcome ask(struct rg_worker *worker, enum rg_call call, int64_t 
         *result = rg_take_int(&reply);
     rg_message_free(&request);
     rg_message_free(&reply);
-    return ok ? RG_OK : rg_outcome_of_error();
+    return ok ? RG_OK : rg_failure_take().outcome;
 }
 
 static void results_come_back(void **state)
@@ -369,7 +369,7 @@ static void another_build_with_other_messages_is_turned_away(void **state)
                                            "RG_PROGRAM=/bin/cat\0"};
     for (size_t i = 0; i < sizeof(programs) / sizeof(*programs); i++) {
         assert_int_not_equal(ask_program("other messages", programs[i], &result), RG_OK);
-        assert_int_equal(rg_last_error_kind(), RG_ERROR_INPUT);
+        assert_int_equal(rg_failure_take().fault, RG_FAULT_INPUT);
         assert_non_null(strstr(logged, "is no raingauge that this one can ask"));
         assert_ptr_equal(strchr(logged, '\n'), logged + strlen(logged) - 1);
     }

@@ -99,7 +99,8 @@ static void begin_reply(struct rg_message *reply)
 {
     rg_message_free(reply);
     rg_put_int(reply, true);
-    rg_put_int(reply, 0);
+    rg_put_int(reply, RG_FAULT_INPUT);
+    rg_put_int(reply, RG_OK);
     rg_put_int(reply, 1);
     rg_put_int(reply, RG_LOG_INFO);
     rg_put_text(reply, "a line");

@@ -285,7 +285,7 @@ static void what_the_worker_refuses_is_refused_here(void **state)
     for (int i = 0; i < 2; i++) {
         *logged = 0;
         assert_null(rg_session_open(pair.devices[i], &subject));
-        assert_int_equal(rg_last_error_kind(), RG_ERROR_INPUT);
+        assert_int_equal(rg_failure_take().fault, RG_FAULT_INPUT);
         strcpy(lines[i], logged);
     }
     assert_non_null(strstr(lines[LOCAL], "/nowhere/at-all.ktx"));
@@ -305,10 +305,10 @@ static void a_session_ends_with_its_worker(void **state)
     kill(rg_worker_process(worker), SIGKILL);
     *logged = 0;
     assert_false(rg_session_step(session));
-    assert_int_equal(rg_outcome_of_error(), RG_CRASH);
+    assert_int_equal(rg_failure_take().outcome, RG_CRASH);
     assert_non_null(strstr(logged, "device 'cpu': its driver crashed (Killed)"));
     assert_false(rg_session_draw(session));
-    assert_int_equal(rg_outcome_of_error(), RG_CRASH);
+    assert_int_equal(rg_failure_take().outcome, RG_CRASH);
     assert_false(rg_session_tell(session, &account));
     assert_int_equal(account.frame, 0);
     assert_int_equal(rg_worker_life(worker), 1); // no call of a session that is gone starts another
@@ -365,7 +365,7 @@ static void workers_share_what_the_user_allows(void **state)
     assert_int_equal(rg_memory_taken(), idle + 2 * one);
     *logged = 0;
     assert_null(rg_session_open(other, &pair.subject));
-    assert_int_equal(rg_last_error_kind(), RG_ERROR_INPUT);
+    assert_int_equal(rg_failure_take().fault, RG_FAULT_INPUT);
     assert_non_null(strstr(logged, " of --memory are left"));
     assert_null(rg_session_open(pair.devices[LOCAL], &pair.subject)); // nor can this process
 

@@ -66,7 +66,7 @@ bool cartoon_wind_read(const char *path, struct cartoon_wind_script *script)
     const char *why;
     FILE *in = rg_file_open_small(path, &why);
     if (!in)
-        return rg_error("%s: %s; name a file of winds (docs/cartoon.md)", path, why);
+        return rg_system_error(errno, "%s: %s; name a file of winds (docs/cartoon.md)", path, why);
     for (int line = 1; ok && fgets(text, sizeof(text), in); line++)
         ok =
             skip_rest(text, in)
@@ -74,7 +74,8 @@ bool cartoon_wind_read(const char *path, struct cartoon_wind_script *script)
                 : rg_error("%s:%d: more than %zu bytes, or no text; write lines such as '2.5 8 90'",
                            path, line, sizeof(text) - 2);
     if (ok && ferror(in))
-        ok = rg_error("%s: %s; name a file of winds (docs/cartoon.md)", path, strerror(errno));
+        ok = rg_system_error(errno, "%s: %s; name a file of winds (docs/cartoon.md)", path,
+                             strerror(errno));
     else if (ok && !script->count)
         ok = rg_error("%s: no wind in it; write lines such as '2.5 8 90'", path);
     fclose(in);

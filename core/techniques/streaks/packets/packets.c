@@ -16,8 +16,9 @@ static bool spread(struct streaks_packets *p)
         slots += streaks_padded(p->packets[i].count);
     float *particles = realloc(p->particles, (size_t)slots * STREAKS_PARTICLE_BYTES);
     if (!particles)
-        return rg_error("rain: no memory for %lld particles; ask for less, or close other programs",
-                        (long long)slots);
+        return rg_harness_error(
+            "rain: no memory for %lld particles; ask for less, or close other programs",
+            (long long)slots);
     p->particles = particles;
     p->slots = slots;
     for (int64_t i = p->info.packets - 1; i >= 0; i--) {

@@ -348,10 +348,13 @@ int rg_against_run(const struct rg_against *against, struct rg_gate *gate)
     for (int i = 0; ok && i < gate->case_count && !rg_interrupted(); i++)
         compare(&r, i);
     ok = ok && time_all(&r) && (rg_interrupted() || rg_gate_report(against->request, gate));
+    int found = ok ? RG_EXIT_PASS : rg_exit_of_error();
     const bool is_kept = rg_keep_close(against->request, r.kept, ok && !rg_interrupted());
-    ok = end(&r) && ok;
+    const int kept = is_kept ? RG_EXIT_PASS : rg_exit_of_error();
+    if (!end(&r))
+        found = rg_exit_worse(found, RG_EXIT_FAIL);
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
-    const int found = ok ? rg_gate_exit(against->request, gate) : RG_EXIT_FAIL;
-    return is_kept ? found : rg_exit_worse(found, RG_EXIT_USAGE);
+    return rg_exit_worse(found == RG_EXIT_PASS ? rg_gate_exit(against->request, gate) : found,
+                         kept);
 }

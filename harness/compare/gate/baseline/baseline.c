@@ -97,7 +97,7 @@ static bool refuse_variables(const struct rg_baseline *baseline, const char *pat
                  "that the command line has to name it; add --device %s",
                  path, name, strlen(word) < MOST_TOLD ? word : "with all that are to run");
     else
-        rg_error("%s: no memory for its devices; close other programs", path);
+        rg_harness_error("%s: no memory for its devices; close other programs", path);
     free(names);
     free(word);
     return false;

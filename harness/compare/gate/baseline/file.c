@@ -86,8 +86,9 @@ bool rg_baseline_write(const struct rg_baseline *baseline, const char *path)
 {
     json_t *json = baseline_json(baseline);
     char *text = json ? json_dumps(json, JSON_INDENT(1) | RG_JSON_FLAGS) : NULL;
-    const bool ok = text ? rg_output_write_file(path, text)
-                         : rg_error("%s: no memory to write it; what was there is unchanged", path);
+    const bool ok =
+        text ? rg_output_write_file(path, text)
+             : rg_harness_error("%s: no memory to write it; what was there is unchanged", path);
     free(text);
     json_decref(json);
     return ok;

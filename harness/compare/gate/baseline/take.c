@@ -68,9 +68,10 @@ void rg_baseline_take(const struct rg_gate_cell *cell, struct rg_device *device,
     struct rg_session *session = rg_session_run(device, &subject, cell->frames);
     if (!session || !take_picture(session, row, picture) || !take_states(session, row) ||
         !take_work(session, row) || !rg_session_code(session, &row->code)) {
-        row->outcome = rg_outcome_of_error();
-        row->is_ours = rg_last_error_kind() == RG_ERROR_INPUT;
-        rg_text_copy(row->why, sizeof(row->why), rg_last_error());
+        const struct rg_failure failure = rg_failure_take();
+        row->outcome = failure.outcome;
+        row->is_ours = failure.fault == RG_FAULT_INPUT || failure.fault == RG_FAULT_HARNESS;
+        rg_text_copy(row->why, sizeof(row->why), failure.line);
         rg_picture_destroy(picture);
     }
     rg_session_close(session);

@@ -100,7 +100,7 @@ static bool take_settings(struct rg_gate_cell *cell, const char *assignments)
         if (*c == '\t')
             *c = ' ';
     if (!cell->assignments)
-        return rg_error("no memory");
+        return rg_harness_error("no memory");
     return rg_params_set_all(cell->technique->params, cell->settings, cell->assignments) &&
            has_keys_once(cell->assignments);
 }

@@ -91,6 +91,6 @@ bool rg_lines_diff(const struct rg_lines *lines, const struct rg_line_edit *edit
         n = in_hunk(edits + i, count - i);
         print_hunk(lines, edits + i, n, &moved, out);
     }
-    return !ferror(out) ||
-           rg_error("%s: its patch cannot be written: %s; make room", lines->name, strerror(errno));
+    return !ferror(out) || rg_system_error(errno, "%s: its patch cannot be written: %s; make room",
+                                           lines->name, strerror(errno));
 }

@@ -200,7 +200,7 @@ static void split(struct patch *p, int64_t index)
     size_t size;
     FILE *out = open_memstream(&text, &size);
     if (!out) {
-        p->ok = rg_error("%s: no memory for its patch", p->lines->name);
+        p->ok = rg_harness_error("%s: no memory for its patch", p->lines->name);
         return;
     }
     const char *between = "";
@@ -300,7 +300,7 @@ static void add_new(struct patch *p)
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     if (!out) {
-        p->ok = rg_error("%s: no memory for its patch", lines->name);
+        p->ok = rg_harness_error("%s: no memory for its patch", lines->name);
         return;
     }
     if (there)

@@ -192,7 +192,7 @@ bool rg_report_markdown(const struct rg_report *report, FILE *out, size_t room)
     } else if (!page.is_broken)
         rg_warning("the step's summary has no room left; write less to it before the gate");
     free(order);
-    return !page.is_broken || rg_error("a step's summary: no memory; close other programs");
+    return !page.is_broken || rg_harness_error("a step's summary: no memory; close other programs");
 }
 
 // The file to append to, and its size. NULL, and one logged line, where it is none.
@@ -202,8 +202,8 @@ static FILE *open_summary(const char *path, struct stat *st)
     FILE *out = rg_file_append(path, &why);
     if (out && !fstat(fileno(out), st))
         return out;
-    rg_error("%s: cannot be opened: %s; $GITHUB_STEP_SUMMARY must name a file", path,
-             out ? strerror(errno) : why);
+    rg_system_error(errno, "%s: cannot be opened: %s; $GITHUB_STEP_SUMMARY must name a file", path,
+                    out ? strerror(errno) : why);
     if (out)
         fclose(out);
     return NULL;
@@ -227,5 +227,6 @@ bool rg_report_append_markdown(const struct rg_report *report, const char *path)
     const bool is_held = !ferror(out);
     return (fclose(out) == 0 && is_held)
                ? is_made
-               : rg_error("%s: cannot be written: %s; free some disk", path, strerror(errno));
+               : rg_system_error(errno, "%s: cannot be written: %s; free some disk", path,
+                                 strerror(errno));
 }

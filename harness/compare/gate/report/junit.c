@@ -197,8 +197,8 @@ static bool size_without_details(const struct rg_report *report, size_t *size)
     const bool is_held = out && !ferror(out);
     const bool is_counted = out && fclose(out) == 0 && is_held;
     free(text);
-    return is_counted ||
-           rg_error("JUnit: no memory for %d cases; close other programs", report->case_count);
+    return is_counted || rg_harness_error("JUnit: no memory for %d cases; close other programs",
+                                          report->case_count);
 }
 
 bool rg_report_junit(const struct rg_report *report, FILE *out)

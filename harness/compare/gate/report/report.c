@@ -19,6 +19,7 @@ static const struct {
     [RG_ENDING_CRASH] = {"crash", RG_KIND_ERROR},
     [RG_ENDING_TIMEOUT] = {"timeout", RG_KIND_ERROR},
     [RG_ENDING_ERROR] = {"error", RG_KIND_ERROR},
+    [RG_ENDING_LACKING] = {"lacking", RG_KIND_ERROR},
     [RG_ENDING_DIFFERS] = {"differs", RG_KIND_FAILURE},
     [RG_ENDING_UNEXPECTED_PASS] = {"unexpected pass", RG_KIND_FAILURE},
     [RG_ENDING_NOTHING_MEASURED] = {"nothing measured", RG_KIND_ERROR},
@@ -167,17 +168,17 @@ bool rg_report_write(const struct rg_report *report, rg_report_form form, const 
     struct rg_temporary temporary;
     struct rg_why why;
     if (!rg_temporary_make(path, &temporary, &why))
-        return rg_error("%s: %s", path, why.text);
+        return rg_why_tell(&why, path);
     FILE *out = fopen(temporary.path, "w");
     const bool is_made = out && form(report, out);
     bool is_written = out && !ferror(out);
     is_written = out && fclose(out) == 0 && is_written;
     if (!is_written)
-        rg_error("%s: cannot be written: %s; what was there is unchanged", path, strerror(errno));
+        rg_system_error(errno, "%s: cannot be written: %s; what was there is unchanged", path,
+                        strerror(errno));
     const bool is_whole = is_made && is_written;
-    return rg_temporary_end(&temporary, is_whole, &why)
-               ? is_whole
-               : is_whole && rg_error("%s: %s", path, why.text);
+    return rg_temporary_end(&temporary, is_whole, &why) ? is_whole
+                                                        : is_whole && rg_why_tell(&why, path);
 }
 
 void rg_report_measured(const struct rg_report_case *told, char *text, size_t size)

@@ -15,6 +15,7 @@ enum rg_ending {
     RG_ENDING_CRASH,
     RG_ENDING_TIMEOUT,
     RG_ENDING_ERROR,
+    RG_ENDING_LACKING,         // raingauge itself lacked memory, a process, a descriptor or disk
     RG_ENDING_DIFFERS,         // other pictures, states or counters
     RG_ENDING_UNEXPECTED_PASS, // it was expected to fail
     RG_ENDING_NOTHING_MEASURED,

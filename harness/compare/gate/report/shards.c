@@ -32,8 +32,9 @@ static bool tell_runner(void)
         return true;
     FILE *file = rg_file_append(path, &why);
     return (file && fclose(file) == 0) ||
-           rg_error("%s: cannot be written: %s; $GTEST_SHARD_STATUS_FILE names a file", path,
-                    file ? strerror(errno) : why);
+           rg_system_error(errno,
+                           "%s: cannot be written: %s; $GTEST_SHARD_STATUS_FILE names a file", path,
+                           file ? strerror(errno) : why);
 }
 
 bool rg_gtest_shards(struct rg_gtest_shards *shards)

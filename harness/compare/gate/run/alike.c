@@ -11,6 +11,7 @@
 #include "harness/compare/blame/blame.h"
 #include "harness/compare/gate/pictures/pictures.h"
 #include "harness/frames/frame.h"
+#include "harness/record/named.h"
 
 void rg_agreement_code(const struct rg_agreement *agreement, char code[RG_AGREEMENT_CODE])
 {
@@ -36,10 +37,11 @@ bool rg_agreement_differs(struct rg_agreement *agreement, const char *format, ..
 
 bool rg_agreement_fails(struct rg_agreement *agreement, const char *device)
 {
-    agreement->outcome = rg_outcome_of_error();
-    agreement->is_ours = rg_last_error_kind() == RG_ERROR_INPUT;
+    const struct rg_failure failure = rg_failure_take();
+    agreement->outcome = failure.outcome;
+    agreement->is_ours = failure.fault == RG_FAULT_INPUT || failure.fault == RG_FAULT_HARNESS;
     agreement->device = device;
-    snprintf(agreement->message, RG_AGREEMENT_TEXT, "%s", rg_last_error());
+    rg_text_copy(agreement->message, RG_AGREEMENT_TEXT, failure.line);
     return false;
 }
 

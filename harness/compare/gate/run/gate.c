@@ -365,10 +365,13 @@ int rg_gate_exit(const struct rg_gate_request *asked, const struct rg_gate *gate
     for (int e = 0; e < RG_ENDING_COUNT; e++)
         kinds[rg_ending_kind((enum rg_ending)e)] += rg_report_count(report, (enum rg_ending)e);
     const int nothing = rg_report_count(report, RG_ENDING_NOTHING_MEASURED);
+    const int lacking = rg_report_count(report, RG_ENDING_LACKING);
     const int compared = kinds[RG_KIND_PASS] + rg_report_count(report, RG_ENDING_FLAKE) +
                          rg_report_count(report, RG_ENDING_EXPECTED_FAILURE) - report->idle_count;
-    if (kinds[RG_KIND_FAILURE] || kinds[RG_KIND_ERROR] > nothing)
+    if (kinds[RG_KIND_FAILURE] || kinds[RG_KIND_ERROR] > nothing + lacking)
         return RG_EXIT_FAIL;
+    if (lacking)
+        return RG_EXIT_HARNESS;
     if (rg_report_count(report, RG_ENDING_INCONCLUSIVE))
         return RG_EXIT_INCONCLUSIVE;
     if (nothing)
@@ -405,15 +408,17 @@ int rg_gate_run(const struct rg_gate_request *request, struct rg_gate *gate)
     for (int pair = 0; ok && pair < request->pairs->count && !rg_interrupted(); pair++)
         ok = run_pair(&r, pair);
     ok = ok && (rg_interrupted() || rg_gate_report(request, gate));
+    int found = ok ? RG_EXIT_PASS : rg_exit_of_error();
     const bool is_kept = rg_keep_close(request, r.kept, ok && !rg_interrupted());
+    const int kept = is_kept ? RG_EXIT_PASS : rg_exit_of_error();
     free(r.timed);
     free(r.timed_names);
     if (rg_interrupted())
         return RG_EXIT_SIGNALLED + rg_interrupt_signal();
     for (int side = 0; side < RG_SIDES; side++)
-        ok = ok && !r.sides[side].was_closed_badly;
-    const int found = ok ? rg_gate_exit(request, gate) : RG_EXIT_FAIL;
-    return is_kept ? found : rg_exit_worse(found, RG_EXIT_USAGE);
+        if (r.sides[side].was_closed_badly)
+            found = rg_exit_worse(found, RG_EXIT_FAIL);
+    return rg_exit_worse(found == RG_EXIT_PASS ? rg_gate_exit(request, gate) : found, kept);
 }
 
 void rg_gate_free(struct rg_gate *gate)

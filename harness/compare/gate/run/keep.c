@@ -41,7 +41,7 @@ static bool write_launches(const char *folder, const char *csv)
         return rg_output_write(folder, RG_GATE_LAUNCHES, csv);
     snprintf(path, sizeof(path), "%s/" RG_GATE_LAUNCHES, folder);
     return !unlink(path) || errno == ENOENT ||
-           rg_error("%s: cannot be removed: %s", path, strerror(errno));
+           rg_system_error(errno, "%s: cannot be removed: %s", path, strerror(errno));
 }
 
 bool rg_keep_close(const struct rg_gate_request *asked, struct rg_kept_times *kept, bool is_done)

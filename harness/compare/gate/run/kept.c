@@ -119,7 +119,7 @@ struct rg_kept_times *rg_kept_times_open(const char *folder, json_t *key, bool f
         free(kept->folder);
         free(kept);
     }
-    rg_error("gate: no memory for what is kept of it");
+    rg_harness_error("gate: no memory for what is kept of it");
     return NULL;
 }
 

@@ -42,7 +42,7 @@ static int add_listed(const char *program, struct rg_gate_pairs *pairs)
 {
     struct rg_device_list *list = rg_alloc(1, sizeof(*list), "list of devices");
     if (!list)
-        return RG_EXIT_FAIL;
+        return rg_exit_of_error();
     rg_devices_list(list);
     pairs->left_out = rg_devices_complain(list);
     bool ok = true;
@@ -50,7 +50,7 @@ static int add_listed(const char *program, struct rg_gate_pairs *pairs)
         ok = add(program, list->infos[i].name, pairs);
     free(list);
     if (!ok)
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     return pairs->count ? RG_EXIT_PASS : rg_exit_worse(RG_EXIT_UNSUPPORTED, pairs->left_out);
 }
 
@@ -58,10 +58,10 @@ static int add_named(const char *program, const char *names, struct rg_gate_pair
 {
     struct rg_device_name name;
     if (!rg_sides_are_apart(names))
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     do
         if (!rg_device_name_read(&names, &name) || !add(program, name.name, pairs))
-            return RG_EXIT_USAGE;
+            return rg_exit_of_error();
     while (*names);
     return RG_EXIT_PASS;
 }
@@ -72,7 +72,7 @@ int rg_gate_pairs_of_builds(const char *program, const char *names, struct rg_ga
     if (access(program, X_OK)) {
         rg_error("--against '%s': no program that can be started; name another build's raingauge",
                  program);
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     }
     // A file is meant. Without a slash it would be looked for along PATH.
     char path[PATH_MAX];
@@ -80,7 +80,7 @@ int rg_gate_pairs_of_builds(const char *program, const char *names, struct rg_ga
         snprintf(path, sizeof(path), "%s%s", strchr(program, '/') ? "" : "./", program);
     if (length >= PATH_MAX) {
         rg_error("--against: its path is too long; choose a shorter one");
-        return RG_EXIT_USAGE;
+        return rg_exit_of_error();
     }
     return strcmp(names, "all") ? add_named(path, names, pairs) : add_listed(path, pairs);
 }

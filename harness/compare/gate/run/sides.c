@@ -28,9 +28,10 @@ struct rg_side_seen rg_side_look(struct rg_side *side, struct rg_device_info *in
         *info = side->device->info;
         return seen;
     }
-    rg_text_copy(seen.why, sizeof(seen.why), rg_last_error());
-    seen.is_name = rg_last_error_kind() != RG_ERROR_INPUT;
-    seen.is_there = rg_outcome_of_error() != RG_UNSUPPORTED;
+    const struct rg_failure failure = rg_failure_take();
+    rg_text_copy(seen.why, sizeof(seen.why), failure.line);
+    seen.is_name = failure.fault != RG_FAULT_INPUT;
+    seen.is_there = failure.outcome != RG_UNSUPPORTED;
     return seen;
 }
 

@@ -8,6 +8,7 @@
 #include "harness/console/clock.h"
 #include "harness/console/interrupt.h"
 #include "harness/frames/session.h"
+#include "harness/record/named.h"
 #include "harness/record/stats.h"
 
 // A launch takes so many quads: opening a cell costs as much as several, and what disturbs one of
@@ -22,10 +23,10 @@ bool rg_times_are_over(void *user)
 
 bool rg_timed_cell_fails(struct rg_timed_cell *timed)
 {
-    const enum rg_outcome outcome = rg_outcome_of_error();
-    timed->outcome = outcome == RG_UNSUPPORTED ? RG_ERROR : outcome;
-    timed->is_ours = rg_last_error_kind() == RG_ERROR_INPUT;
-    snprintf(timed->why, sizeof(timed->why), "%s", rg_last_error());
+    const struct rg_failure failure = rg_failure_take();
+    timed->outcome = failure.outcome == RG_UNSUPPORTED ? RG_ERROR : failure.outcome;
+    timed->is_ours = failure.fault == RG_FAULT_INPUT || failure.fault == RG_FAULT_HARNESS;
+    rg_text_copy(timed->why, sizeof(timed->why), failure.line);
     return false;
 }
 

@@ -116,7 +116,7 @@ static char *read_bytes(const char *path, FILE *in, size_t *size)
         got = fread(bytes + *size, 1, BUFSIZ, in);
     }
     if (ferror(in)) {
-        rg_error("%s: %s; name a text file that can be read", path, strerror(errno));
+        rg_system_error(errno, "%s: %s; name a text file that can be read", path, strerror(errno));
         free(bytes);
         return NULL;
     }
@@ -129,7 +129,7 @@ bool rg_lines_read(const char *path, struct rg_lines *lines)
     const char *why;
     FILE *in = rg_file_open(path, &why);
     if (!in)
-        return rg_error("%s: %s; name a text file that can be read", path, why);
+        return rg_system_error(errno, "%s: %s; name a text file that can be read", path, why);
     size_t size;
     char *bytes = read_bytes(path, in, &size);
     const bool ok = bytes && rg_lines_of(path, bytes, size, lines);

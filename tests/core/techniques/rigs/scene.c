@@ -70,7 +70,7 @@ int raster_tests_run(int argc, char **argv, const struct CMUnitTest *tests, size
         device_name = argv[1];
     struct rg_device *device = rg_device_open(device_name);
     if (!device)
-        return rg_outcome_of_error() == RG_UNSUPPORTED ? UNSUPPORTED : 1;
+        return rg_failure_take().outcome == RG_UNSUPPORTED ? UNSUPPORTED : 1;
     if (!rg_device_close(device))
         return 1;
     return _cmocka_run_group_tests(device_name, tests, count, open_device, close_device);
