@@ -14,8 +14,8 @@ struct rg_buf *cpu_buf_create(struct rg_device *device, size_t size, const char 
     buf->data = rg_alloc_lines(size);
     if (!buf->data) {
         free(buf);
-        return rg_error_null("buffer '%s': %s has no %zu bytes of memory left", name,
-                             device->info.name, size);
+        return rg_harness_error_null("buffer '%s': %s has no %zu bytes of memory left", name,
+                                     device->info.name, size);
     }
     return &buf->pub;
 }

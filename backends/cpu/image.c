@@ -20,8 +20,8 @@ struct rg_image *cpu_image_create(struct rg_device *device, const struct rg_imag
     image->texels = rg_alloc_lines((size_t)words * sizeof(uint));
     if (!image->texels) {
         free(image);
-        return rg_error_null("image '%s': %s has no %lld bytes of memory left", name,
-                             device->info.name, (long long)words * 4);
+        return rg_harness_error_null("image '%s': %s has no %lld bytes of memory left", name,
+                                     device->info.name, (long long)words * 4);
     }
     memcpy(image->texels, header, sizeof(header));
     return &image->pub;

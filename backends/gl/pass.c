@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
+#include "core/base/log.h"
 
 // The barriers that show a kernel's writes to whatever comes next: other passes, writes, reads.
 static GLbitfield barriers_after(const struct rg_kernel *kernel)
@@ -65,6 +66,8 @@ bool gl_pass_code(struct rg_pass *pass, void **bytes, size_t *size)
     glGetProgramiv(mine->program, GL_PROGRAM_BINARY_LENGTH, &length);
     if (length > 0)
         *bytes = malloc((size_t)length);
+    if (length > 0 && !*bytes)
+        return rg_harness_error("kernel '%s': no memory for its program", pass->kernel->name);
     if (*bytes)
         glGetProgramBinary(mine->program, length, &length, &format, *bytes);
     *size = (size_t)length;

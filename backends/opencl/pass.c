@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "core/base/alloc.h"
+#include "core/base/log.h"
 
 void opencl_pass_destroy(struct rg_pass *pass)
 {
@@ -27,6 +28,8 @@ struct rg_pass *opencl_pass_create(struct rg_device *device, const struct rg_ker
     return NULL;
 }
 
+enum { NO_MEMORY = 1 }; // raingauge's own, which is no code of OpenCL: those are 0 or below
+
 // Appends a kernel's program, built for the context's one device.
 static cl_int append_program(cl_kernel kernel, unsigned char **bytes, size_t *size)
 {
@@ -37,7 +40,7 @@ static cl_int append_program(cl_kernel kernel, unsigned char **bytes, size_t *si
         code = clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof(more), &more, NULL);
     unsigned char *longer = !code && more ? realloc(*bytes, *size + more) : NULL;
     if (!longer)
-        return code ? code : more ? CL_OUT_OF_HOST_MEMORY : CL_SUCCESS;
+        return code ? code : more ? NO_MEMORY : CL_SUCCESS;
     *bytes = longer;
     longer += *size;
     *size += more;
@@ -54,6 +57,8 @@ bool opencl_pass_code(struct rg_pass *pass, void **bytes, size_t *size)
         if (opencl->variants[i])
             code = append_program(opencl->variants[i], &all, size);
     *bytes = all;
+    if (code == NO_MEMORY)
+        return rg_harness_error("kernel '%s': no memory for its program", pass->kernel->name);
     return opencl_check(code, "clGetProgramInfo", "kernel", pass->kernel->name);
 }
 

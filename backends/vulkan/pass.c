@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/base/alloc.h"
+#include "core/base/log.h"
 
 // The uniform block of shaders/grid.glsl: where the items lie, then the kernel's parameters.
 struct run_block {
@@ -59,6 +60,8 @@ bool vk_pass_code(struct rg_pass *pass, void **bytes, size_t *size)
     VkResult result = vkGetPipelineCacheData(device, cache, size, NULL);
     if (result == VK_SUCCESS && *size > sizeof(VkPipelineCacheHeaderVersionOne))
         *bytes = malloc(*size);
+    if (result == VK_SUCCESS && *size > sizeof(VkPipelineCacheHeaderVersionOne) && !*bytes)
+        return rg_harness_error("kernel '%s': no memory for its program", pass->kernel->name);
     if (*bytes)
         result = vkGetPipelineCacheData(device, cache, size, *bytes);
     return vk_check(result, "vkGetPipelineCacheData", "kernel", pass->kernel->name);

@@ -39,6 +39,13 @@ static const struct rg_option *flag_of(const struct line *line, const char *word
     return NULL;
 }
 
+static void free_words(const char **words)
+{
+    for (int i = 0; words && words[i]; i++)
+        free((char *)words[i]);
+    free(words);
+}
+
 // The words with such flags written as --NAME, or left out; a NULL follows. The caller frees them
 // with free_words. NULL without memory.
 static const char **settle_flags(const struct line *line, int argc, const char **argv, int *count)
@@ -51,15 +58,12 @@ static const char **settle_flags(const struct line *line, int argc, const char *
         const struct rg_option *flag = goes_on ? flag_of(line, argv[i], &holds) : NULL;
         if (!flag || holds)
             words[(*count)++] = flag ? strndup(argv[i], strlen(flag->name) + 2) : strdup(argv[i]);
+        if (*count && !words[*count - 1]) {
+            free_words(words);
+            return rg_harness_error_null("options: no memory for them; close other programs");
+        }
     }
     return words;
-}
-
-static void free_words(const char **words)
-{
-    for (int i = 0; words && words[i]; i++)
-        free((char *)words[i]);
-    free(words);
 }
 
 // --- the line ---

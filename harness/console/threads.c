@@ -101,7 +101,9 @@ void rg_threads_fit(void)
     pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER;
     const int wanted = omp_get_max_threads() - 1;
     pthread_t *threads = calloc((size_t)wanted + 1, sizeof(*threads));
-    int made = 0, error = threads ? 0 : ENOMEM;
+    int made = 0, error = 0;
+    if (!threads)
+        return;                // it is not known that there are fewer
     pthread_mutex_lock(&gate); // so that all are there at once
     while (!error && made < wanted &&
            !(error = pthread_create(&threads[made], NULL, wait_at, &gate)))

@@ -54,7 +54,7 @@ static json_t *device(const struct rg_examination *e)
 {
     json_t *row = e->opened ? rg_passport_device(&e->info)
                             : json_pack("{so}", "name", rg_json_text(e->info.name));
-    json_object_set_new(row, "status", json_string(rg_outcome_name(e->status)));
+    rg_outcome_set(row, e->status);
     json_object_set_new(row, "why", rg_json_text(e->why));
     if (e->opened)
         json_object_set_new(row, "limits", limits(&e->info.limits));

@@ -199,7 +199,7 @@ bool rg_session_obeys(const struct rg_session *session, const struct rg_law *law
     const struct rg_asked asked = {NULL, (int)(law - session->technique->proof->laws)};
     struct rg_told_law told = {0};
     const bool ok = rg_session_ask(session, RG_CALL_OBEYS, &asked, &told);
-    snprintf(detail, size, "%s", ok ? told.detail : rg_last_error());
+    snprintf(detail, size, "%s", ok ? told.detail : "");
     return ok && told.holds;
 }
 

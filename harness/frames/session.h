@@ -77,7 +77,8 @@ void *rg_session_read_state(struct rg_session *session, int index, struct rg_sta
                             size_t *size);
 // The law of this number of its technique's proof; NULL: there is none.
 const struct rg_law *rg_session_law(const struct rg_session *session, int number);
-// Whether a law of the technique's proof holds now; else `detail` says what is wrong.
+// Whether a law of the technique's proof holds now; else `detail` says what is wrong, or is empty
+// where it could not be found out, which has been logged.
 bool rg_session_obeys(const struct rg_session *session, const struct rg_law *law, char *detail,
                       size_t size);
 // The size of a texture that the technique reads from, and the level of the whole texture that its

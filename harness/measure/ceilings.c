@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/base/alloc.h"
 #include "core/device/device.h"
 #include "harness/console/clock.h"
 #include "kernels/probe/arithmetic_params.h"
@@ -30,7 +31,7 @@ static bool time_run(struct rg_pass *pass, const struct rg_run *run, int batch, 
 // Gigabytes a second, read and written, of a copy of so many bytes.
 static bool measure_copy(struct rg_device *device, int bytes, int batch, double *gb_s)
 {
-    void *zeroes = calloc(1, (size_t)bytes);
+    void *zeroes = rg_alloc(1, (size_t)bytes, "ceiling source");
     struct rg_buf *source =
         zeroes ? rg_buf_create_with(device, zeroes, bytes, "ceiling source") : NULL;
     struct rg_buf *target = rg_buf_create(device, bytes, "ceiling target");

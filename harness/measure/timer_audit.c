@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include "core/base/alloc.h"
 #include "core/device/device.h"
 #include "harness/console/clock.h"
 #include "harness/record/stats.h"
@@ -27,7 +28,7 @@ struct load {
 static bool load_init(struct load *load, struct rg_device *device)
 {
     *load = (struct load){.device = device};
-    uint32_t *words = calloc(WORDS, 4);
+    uint32_t *words = rg_alloc(WORDS, 4, "timer source");
     bool ok = words &&
               (load->source = rg_buf_create_with(device, words, WORDS * 4, "timer source")) &&
               (load->target = rg_buf_create(device, WORDS * 4, "timer target")) &&

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/log.h"
 #include "core/base/text/plain.h"
 
 // Whether a text is UTF-8: jansson takes nothing else.
@@ -32,6 +33,13 @@ void rg_text_copy(char *to, size_t size, const char *from)
     if (!is_utf8(to))
         mark_foreign_bytes(to);
     rg_plain(to);
+}
+
+void rg_outcome_set(json_t *json, enum rg_outcome outcome)
+{
+    json_object_set_new(json, "status", json_string(rg_outcome_name(outcome)));
+    if (outcome == RG_LACKING)
+        json_object_set_new(json, "fault", json_string(rg_fault_name(RG_FAULT_HARNESS)));
 }
 
 json_t *rg_json_text(const char *text)

@@ -5,6 +5,7 @@
 
 #include <jansson.h>
 
+#include "core/base/outcome.h"
 #include "core/techniques/technique.h"
 
 enum { RG_NAME_SIZE = 48, RG_FACTS_TEXT = 2048 };
@@ -50,6 +51,10 @@ json_t *rg_counts_json(const struct rg_count *counts, int count);
 
 // A JSON number, without a point where it is whole; null for infinity and NaN, which JSON lacks.
 json_t *rg_number_json(double number);
+// Sets "status" to an outcome's word. A want of raingauge's own is an "error", as older readers
+// know it, with its "fault" beside it.
+void rg_outcome_set(json_t *json, enum rg_outcome outcome);
+
 // A JSON string of text from outside, as rg_text_copy copies it, of any length.
 json_t *rg_json_text(const char *text);
 

@@ -12,9 +12,19 @@
 #include "core/base/log.h"
 #include "core/base/memory.h"
 #include "core/base/program.h"
+#include "core/base/text/limits.h"
 #include "core/scene/mesh/reply.h"
 
 // --- the reply ---
+
+// What the importer says. Under low limits it has less memory than it thinks.
+static void *refused(const char *name, const char *error)
+{
+    char limits[RG_LIMITS_TEXT];
+    if (strstr(error, "memory") && rg_limits_low(limits))
+        return rg_harness_error_null("%s: Assimp cannot read it %s; allow more", name, limits);
+    return rg_error_null("%s: %s", name, error);
+}
 
 struct rg_mesh *rg_mesh_from_reply(const char *name, const void *reply, size_t bytes)
 {
@@ -27,7 +37,7 @@ struct rg_mesh *rg_mesh_from_reply(const char *name, const void *reply, size_t b
         return rg_error_null("%s: raingauge_importer is of another version; build raingauge again",
                              name);
     if (header.error[0])
-        return rg_error_null("%s: %s", name, header.error);
+        return refused(name, header.error);
     const uint64_t vertices = header.vertex_count, faces = header.face_count;
     if (vertices > INT_MAX || faces > INT_MAX ||
         bytes != sizeof(header) + vertices * 6 * sizeof(float) + faces * 3 * sizeof(uint32_t))

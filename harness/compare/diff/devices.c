@@ -64,10 +64,12 @@ static void note_failure(struct session *s, const char *device, enum rg_outcome 
     s->failed++;
     if (outcome != RG_UNSUPPORTED)
         s->exit = rg_exit_worse(s->exit, rg_exit_of(outcome));
-    if (s->failures)
-        json_array_append_new(s->failures,
-                              json_pack("{sossso}", "device", rg_json_text(device), "status",
-                                        rg_outcome_name(outcome), "detail", rg_json_text(why)));
+    if (!s->failures)
+        return;
+    json_t *row = json_pack("{so}", "device", rg_json_text(device));
+    rg_outcome_set(row, outcome);
+    json_object_set_new(row, "detail", rg_json_text(why));
+    json_array_append_new(s->failures, row);
 }
 
 // Draws on a device. False where the first refuses the user's input, as every other would.

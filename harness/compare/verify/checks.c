@@ -33,13 +33,19 @@ void rg_checks_add(struct rg_checks *checks, const char *technique, const char *
     va_end(args);
 }
 
+void rg_checks_add_failure(struct rg_checks *checks, const char *technique, const char *check,
+                           const char *device, const struct rg_failure *failure)
+{
+    if (failure->fault == RG_FAULT_INPUT)
+        checks->exit = rg_exit_worse(checks->exit, RG_EXIT_USAGE);
+    rg_checks_add(checks, technique, check, device, failure->outcome, "%s", failure->line);
+}
+
 void rg_checks_add_error(struct rg_checks *checks, const char *technique, const char *check,
                          const char *device)
 {
     const struct rg_failure failure = rg_failure_take();
-    if (failure.fault == RG_FAULT_INPUT)
-        checks->exit = rg_exit_worse(checks->exit, RG_EXIT_USAGE);
-    rg_checks_add(checks, technique, check, device, failure.outcome, "%s", failure.line);
+    rg_checks_add_failure(checks, technique, check, device, &failure);
 }
 
 static void print_json(const struct rg_checks *checks, json_t *devices)
@@ -47,10 +53,11 @@ static void print_json(const struct rg_checks *checks, json_t *devices)
     json_t *rows = json_array();
     for (int i = 0; i < checks->count; i++) {
         const struct rg_check *row = &checks->rows[i];
-        json_array_append_new(rows, json_pack("{sssssossso}", "technique", row->technique, "check",
-                                              row->check, "device", rg_json_text(row->device),
-                                              "status", rg_outcome_name(row->status), "detail",
-                                              rg_json_text(row->detail)));
+        json_t *json = json_pack("{ssssso}", "technique", row->technique, "check", row->check,
+                                 "device", rg_json_text(row->device));
+        rg_outcome_set(json, row->status);
+        json_object_set_new(json, "detail", rg_json_text(row->detail));
+        json_array_append_new(rows, json);
     }
     json_t *root = json_pack("{sisoso}", "format", 1, "devices", devices, "checks", rows);
     json_dumpf(root, stdout, JSON_INDENT(2));

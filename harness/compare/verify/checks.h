@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "backends/backend.h"
+#include "core/base/log.h"
 #include "core/base/outcome.h"
 
 struct rg_check {
@@ -27,7 +28,10 @@ void rg_checks_add(struct rg_checks *checks, const char *technique, const char *
                    const char *device, enum rg_outcome status, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
-// The last error as a result. The user's is bad usage of the command.
+// A failure as a result. The user's is bad usage of the command.
+void rg_checks_add_failure(struct rg_checks *checks, const char *technique, const char *check,
+                           const char *device, const struct rg_failure *failure);
+// The same of the failure that was just met (rg_failure_take).
 void rg_checks_add_error(struct rg_checks *checks, const char *technique, const char *check,
                          const char *device);
 

@@ -225,10 +225,10 @@ static void check_laws(const struct rg_verify *v, struct row *row, const struct 
         count_run(tally, c);
         if (rg_session_obeys(session, &v->technique->proof->laws[i], detail, sizeof(detail)))
             continue;
-        if (rg_session_lives(session))
+        if (*detail)
             blame(tally, c, "%s", detail);
         else
-            note_error(tally); // its driver fell while the law read from it
+            note_error(tally);
     }
 }
 

@@ -29,8 +29,16 @@ int64_t rg_verify_mutant_work(const struct rg_verify *v)
 struct verdicts {
     struct rg_mutants_told told;
     bool error;
-    char fault[400]; // of the list, the first; "": none
+    struct rg_failure failure; // the first
+    char fault[400];           // of the list, the first; "": none
 };
+
+static void note_error(struct verdicts *verdicts)
+{
+    if (!verdicts->error)
+        verdicts->failure = rg_failure_take();
+    verdicts->error = true;
+}
 
 // The parameter's value as the mutant has it. False where that is out of its range, or the model's
 // own value: 1 % less of nothing is no mutant, and the list that has it is wrong.
@@ -72,7 +80,7 @@ static bool is_rejected(const struct rg_picture *truth, const struct rg_picture 
     struct rg_comparison comparison;
     if (!rg_compare(truth, "the model", other, "the mutant", dry, &(struct rg_compare_options){0},
                     &comparison)) {
-        verdicts->error = true;
+        note_error(verdicts);
         return false;
     }
     bool rejected = !comparison.tiers.of[verdicts->told.tier].holds && comparison.tiers.mask_pixels;
@@ -102,7 +110,7 @@ static void run_all(struct rg_verify *v, const struct rg_picture *truth,
         if (draw(v, assignment, &mutated))
             judge(m->about, truth, &mutated, dry, verdicts);
         else
-            verdicts->error = true;
+            note_error(verdicts);
         rg_picture_destroy(&mutated);
     }
 }
@@ -126,7 +134,7 @@ static void run_contrast(const struct rg_verify *scene, const struct rg_contrast
         draw(&v, contrast->mutant, &mutated))
         judge(contrast->about, &truth, &mutated, &dry, verdicts);
     else
-        verdicts->error = true;
+        note_error(verdicts);
     rg_picture_destroy(&truth);
     rg_picture_destroy(&dry);
     rg_picture_destroy(&mutated);
@@ -141,7 +149,7 @@ static void report(struct rg_verify *v, const struct verdicts *verdicts)
     char alive[400];
     rg_mutants_text(told, alive, sizeof(alive));
     if (verdicts->error)
-        rg_checks_add_error(v->checks, technique, "mutants", device);
+        rg_checks_add_failure(v->checks, technique, "mutants", device, &verdicts->failure);
     else if (*verdicts->fault)
         rg_checks_add(v->checks, technique, "mutants", device, RG_FAIL, "%s", verdicts->fault);
     else if (killed == told->run && told->run)
@@ -176,7 +184,7 @@ static void draw_all(const struct rg_verify *verify, struct verdicts *verdicts)
     if (first && draw(&scene, "", &truth) && draw_dry(&scene, &dry))
         run_all(&scene, &truth, &dry, verdicts);
     else
-        verdicts->error = true;
+        note_error(verdicts);
     for (const struct rg_contrast *c = scene.technique->proof->contrasts;
          c && c->about && !verdicts->error; c++)
         run_contrast(&scene, c, verdicts);

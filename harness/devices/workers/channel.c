@@ -48,7 +48,7 @@ int rg_channel_create(struct rg_channel *channel, int theirs[2])
     theirs[0] = sockets[1];
     theirs[1] = make_page();
     channel->doing = map(theirs[1]);
-    return channel->doing ? 0 : ENOMEM;
+    return channel->doing ? 0 : errno;
 }
 
 bool rg_channel_join(struct rg_channel *channel, int socket, int page)

@@ -20,6 +20,9 @@ static struct {
     struct rg_message lines;
 } logged;
 
+// There was no memory for a message.
+static bool lacks;
+
 static void keep_line(enum rg_log_level level, const char *line, void *user)
 {
     (void)user;
@@ -42,7 +45,9 @@ static bool send_reply(struct rg_channel *channel, bool ok, const struct rg_mess
     rg_put_int(&reply, failure.outcome);
     rg_put_int(&reply, logged.count);
     rg_put(&reply, logged.lines.bytes, logged.lines.size);
-    const bool sent = rg_channel_send(channel, &reply, ok ? result : &nothing);
+    const bool is_made = !reply.failed && !logged.lines.failed;
+    const bool sent = is_made && rg_channel_send(channel, &reply, ok ? result : &nothing);
+    lacks = lacks || !is_made;
     rg_message_free(&reply);
     rg_message_free(&logged.lines);
     logged.count = 0;
@@ -84,13 +89,14 @@ int rg_serve(const char *argument, rg_service *const services[RG_CALL_COUNT_OF_C
     long harness = 0;
     struct rg_message request;
     enum rg_call call = RG_CALL_OPEN;
-    if (sscanf(argument, RG_WORKER_CHANNEL, &harness) != 1 || !become_a_worker((pid_t)harness) ||
-        !rg_channel_join(&channel, RG_WORKER_SOCKET, RG_WORKER_PAGE)) {
+    if (sscanf(argument, RG_WORKER_CHANNEL, &harness) != 1 || !become_a_worker((pid_t)harness)) {
         rg_error("worker '%s': raingauge starts its workers itself; `raingauge --help` lists what "
                  "there is to start",
                  argument);
         return RG_EXIT_USAGE;
     }
+    if (!rg_channel_join(&channel, RG_WORKER_SOCKET, RG_WORKER_PAGE))
+        return RG_EXIT_HARNESS;
     rg_log_listen(keep_line, NULL);
     rg_doing_share(channel.doing);
     bool goes_on = true;
@@ -98,11 +104,12 @@ int rg_serve(const char *argument, rg_service *const services[RG_CALL_COUNT_OF_C
         const enum rg_arrival arrival = rg_channel_receive(&channel, &request, -1);
         if (arrival == RG_NOT_YET)
             continue;
+        lacks = lacks || arrival == RG_NO_ROOM;
         goes_on = arrival == RG_ARRIVED && serve_one(&channel, services, &request, &call);
         rg_message_free(&request);
     }
     rg_doing_share(NULL);
     rg_log_listen(NULL, NULL);
     rg_channel_close(&channel);
-    return 0;
+    return lacks ? RG_EXIT_HARNESS : RG_EXIT_PASS;
 }

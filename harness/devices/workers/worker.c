@@ -18,6 +18,7 @@
 #include "core/base/program.h"
 #include "core/base/text/limits.h"
 #include "harness/console/clock.h"
+#include "harness/console/exit.h"
 #include "harness/console/interrupt.h"
 #include "harness/devices/workers/channel.h"
 #include "harness/devices/workers/environment.h"
@@ -167,8 +168,9 @@ static bool make_channel(struct rg_channel *channel, int theirs[2], char why[RG_
 {
     const int error = rg_channel_create(channel, theirs);
     if (error)
-        snprintf(why, RG_NAMELESS_WHY, "no socket to it (socketpair): %s; %s", strerror(error),
-                 rg_program_mend(error));
+        snprintf(why, RG_NAMELESS_WHY, "no %s: %s; %s",
+                 channel->socket < 0 ? "socket to it (socketpair)" : "page to share with it (mmap)",
+                 strerror(error), rg_program_mend(error));
     return !error;
 }
 
@@ -348,6 +350,12 @@ static void tell_doing(struct rg_worker *worker)
              is_told ? "" : seen.queued);
 }
 
+// Whether it said so: raingauge's own code in it lacked memory, and no driver is at fault.
+static bool ended_lacking(int status)
+{
+    return WIFEXITED(status) && WEXITSTATUS(status) == RG_EXIT_HARNESS;
+}
+
 // What it was doing goes behind how it ended, and then what its process printed last.
 static void tell_end(struct rg_worker *worker, enum verdict verdict, int status, char *why,
                      size_t size)
@@ -368,6 +376,8 @@ static void tell_end(struct rg_worker *worker, enum verdict verdict, int status,
                  "driver may have written over it");
     else if (verdict == NO_ROOM)
         snprintf(line, sizeof(line), "raingauge has no memory for what it replied");
+    else if (ended_lacking(status))
+        snprintf(line, sizeof(line), "its process ended, for it had no memory for a message");
     else if (rg_limits_low(limits))
         snprintf(line, sizeof(line), "its process ended %s", limits);
     else if (WIFSIGNALED(status))
@@ -375,7 +385,7 @@ static void tell_end(struct rg_worker *worker, enum verdict verdict, int status,
     else
         snprintf(line, sizeof(line), "its driver ended the process with status %d",
                  WEXITSTATUS(status));
-    if (verdict == NO_ROOM)
+    if (verdict == NO_ROOM || (verdict == BY_ITSELF && ended_lacking(status)))
         mend = "; ask for a smaller --size, or allow more memory (ulimit -v)";
     else if (verdict == BY_ITSELF && rg_limits_low(limits))
         mend = "; allow more";
@@ -399,11 +409,13 @@ static enum rg_outcome bury(struct rg_worker *worker, enum verdict verdict, char
     char limits[RG_LIMITS_TEXT];
     if (verdict != BY_ITSELF)
         kill(worker->process, SIGKILL);
-    tell_end(worker, verdict, end_process(worker), why, size);
+    const int status = end_process(worker);
+    tell_end(worker, verdict, status, why, size);
     show_report(worker->printed);
     forget_process(worker);
     worker->ended++;
-    const bool is_limited = verdict == BY_ITSELF && rg_limits_low(limits);
+    const bool is_limited =
+        verdict == BY_ITSELF && (ended_lacking(status) || rg_limits_low(limits));
     worker->end = verdict == HANGS                   ? RG_TIMEOUT
                   : is_limited || verdict == NO_ROOM ? RG_LACKING
                                                      : RG_CRASH;
@@ -457,11 +469,10 @@ static bool open_reply(const struct rg_worker *worker, struct rg_message *reply)
 static bool send(struct rg_worker *worker, enum rg_call call, const struct rg_message *request)
 {
     static const struct rg_message nothing;
-    struct rg_message head = {0};
+    char room[sizeof(int64_t)]; // so that it takes no memory, which may be wanting
+    struct rg_message head = {.bytes = room, .room = sizeof(room)};
     rg_put_int(&head, call);
-    const bool sent = rg_channel_send(&worker->channel, &head, request ? request : &nothing);
-    rg_message_free(&head);
-    return sent;
+    return rg_channel_send(&worker->channel, &head, request ? request : &nothing);
 }
 
 // --- coming to life ---

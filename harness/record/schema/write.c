@@ -1,7 +1,6 @@
 // Results as JSON.
 #include <string.h>
 
-#include "core/base/log.h"
 #include "harness/record/schema/schema.h"
 
 static json_t *samples_json(const struct rg_record *record)
@@ -54,19 +53,11 @@ static json_t *measured_json(const struct rg_record *record, bool is_timed)
     return json;
 }
 
-// How work ended; a want of raingauge's own is an error whose fault stands beside it.
-static void set_outcome(json_t *json, enum rg_outcome outcome)
-{
-    json_object_set_new(json, "status", json_string(rg_outcome_name(outcome)));
-    if (outcome == RG_LACKING)
-        json_object_set_new(json, "fault", json_string(rg_fault_name(RG_FAULT_HARNESS)));
-}
-
 static json_t *error_json(const struct rg_truth_error *error)
 {
     if (error->outcome != RG_OK) {
         json_t *json = json_object();
-        set_outcome(json, error->outcome);
+        rg_outcome_set(json, error->outcome);
         json_object_set_new(json, "detail", rg_json_text(error->detail));
         return json;
     }
@@ -82,7 +73,7 @@ static json_t *cell_json(const struct rg_result *result, struct rg_place at)
                              rg_json_text(record->device.name), "variant", record->variant);
     if (*record->work)
         json_object_set_new(json, "work", json_string(record->work));
-    set_outcome(json, record->outcome);
+    rg_outcome_set(json, record->outcome);
     json_object_set_new(json, "published",
                         rg_named_json(record->published, record->published_count));
     json_object_set_new(json, "counters", rg_counts_json(record->counters, record->counter_count));

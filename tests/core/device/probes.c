@@ -1,4 +1,5 @@
 // Every operation of the dialect gives the same bits on every device and every instruction set.
+#include "core/base/log.h"
 #include "core/device/probe.h"
 #include "core/device/scan.h"
 #include "tests/core/device/suite.h"

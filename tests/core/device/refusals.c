@@ -1,4 +1,5 @@
 // Every wrong argument is refused with one line that names the object.
+#include "core/base/log.h"
 #include "kernels/probe/copy_params.h"
 #include "tests/core/device/suite.h"
 #include "tests/kernels/image_copy_params.h"

@@ -1,4 +1,5 @@
 // What every device must do: device_suite DEVICE [PART] runs the same tests on any of them.
+#include "core/base/log.h"
 #include "tests/core/device/suite.h"
 
 #include <stdlib.h>

@@ -80,7 +80,7 @@ ROWS = [
     Fault(PREPARE, "for (int d = 0; «!*shows && d < p->count»; d++)", "!*shows && d < 1 && d < p->count", "a cell that shows no rain is timed on other devices", tests=("command line, long",)),
     Fault("core/image/compare/tiers.c", "shows = «distance(codes + i * 4, background_codes + i * 4) > MASK_CODES»;", "true", "every picture shows rain", tests=("regenerate",)),
     Fault(PREPARE, "p.jobs[d].record->truth_error = p.truth_error;", "", "the distance from the truth is not kept"),
-    Fault(PREPARE, "for (int d = 0; d < p->count; d++)\n        if (p->jobs[d].record->outcome == RG_OK)\n            «rg_record_end(p->jobs[d].record, outcome, why);»", ";", "cells without an image to check them by count as ok"),
+    Fault(PREPARE, "for (int d = 0; d < p->count; d++)\n        if (p->jobs[d].record->outcome == RG_OK)\n            «rg_record_end(p->jobs[d].record, failure.outcome, why);»", ";", "cells without an image to check them by count as ok"),
     Fault(BEGIN, "result->check_frames = table->check_frames ? «table->check_frames» : RG_CHECK_FRAMES;", "RG_CHECK_FRAMES", "each table is checked after ten frames"),
     Fault(BEGIN, "«result->full || !table->quick ? \"\" : table->quick»,", "\"\"", "quick rows are full ones"),
     Fault(BEGIN, "if («rg_table_is_extra(table, c)»)", "true", "keys are told as printed numbers"),

@@ -56,7 +56,7 @@ ROWS = [
     Fault(MUTANTS, "else if («killed == told->run && told->run»)", "told->run", "a mutant that lives passes"),
     Fault(CHECKS, "counts[checks->rows[i].status]++;", "counts[RG_OK]++;", "every check counts as ok"),
     Fault(CHECKS, "const int exit = rg_exit_worse(«checks->exit», rg_exit_of_all(counts));", "RG_EXIT_PASS", "an error that no check tells is forgotten"),
-    Fault(CHECKS, "if («rg_last_error_kind() == RG_ERROR_INPUT»)", "false", "the user's error is a device's"),
+    Fault(CHECKS, "if («failure.fault == RG_FAULT_INPUT»)", "false", "the user's error is a device's"),
     Fault(BLAME, "if («p->hash != q->hash» || p->stages_run", "false", "a stage's contents are not compared"),
     Fault(BLAME, "return a->count == b->count ? -1 : «count»;", "-1", "a run of fewer stages is the same"),
     Fault(BLAME, "blame->x = «(int)(byte % layer / texel % width)»;", "(int)(byte % layer / texel)", "a texel's column is told as its number"),

@@ -92,7 +92,9 @@ bool rg_lines_of(const char *name, const char *text, size_t size, struct rg_line
     *lines = (struct rg_lines){.size = size, .name = strdup(name)};
     lines->raw = rg_alloc(1, size + 1, name);
     lines->texts = rg_alloc(1, size + 1, name);
-    if (!lines->name || !lines->raw || !lines->texts)
+    if (!lines->name)
+        return rg_harness_error("%s: no memory for its name; close other programs", name);
+    if (!lines->raw || !lines->texts)
         return false;
     memcpy(lines->raw, text, size);
     memcpy(lines->texts, text, size);

@@ -1,3 +1,4 @@
+#include "core/base/log.h"
 #include "tests/core/techniques/rigs/scene.h"
 
 #include <setjmp.h>
