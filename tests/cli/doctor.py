@@ -175,7 +175,7 @@ def check_full(runner):
     """a report that does not fit on standard output is an error of its own, also of a device that is not supported"""
     with open("/dev/full", "w") as full:
         result = runner.run("doctor --device vulkan".split(), NO_DRIVERS, stdout=full)
-    if result.returncode != 2 or not re.fullmatch(r"raingauge: .*no Vulkan driver.*\nraingauge: standard output: .*\n", result.stderr):
+    if result.returncode != 71 or not re.fullmatch(r"raingauge: .*no Vulkan driver.*\nraingauge: standard output: .*\n", result.stderr):
         return ["exit status %d, stderr: %s" % (result.returncode, result.stderr)]
     return []
 

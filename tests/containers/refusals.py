@@ -40,12 +40,12 @@ def call(calls, error):
 
 # What comes of each, by command: a status and what the first lines say. A command that is not named does what it does elsewhere.
 CAGE = {name: (77, r"no cage \(seccomp, prctl, capset\).*RG_CAGE=off") for name in READ}
-NO_PROCESS = {name: (77, r"could not be started|no process could be started") for name in COMMANDS}
-NO_SOCKET = {name: (77, r"socketpair") for name in COMMANDS if name != "files"}
-NO_FILES = {name: (77, r"ulimit -n\b") for name in COMMANDS}
-NO_ADDRESSES = {name: (77, r"under ulimit -v 100000; allow more") for name in ("files", "diff", "gate")}
-TOO_LARGE = (2, r"File too large; allow larger files \(ulimit -f\)")
-NO_SIZE = {"render": TOO_LARGE, "clip": TOO_LARGE, "table": (2, r"File too large")}
+NO_PROCESS = {name: (71, r"could not be started|no process could be started") for name in COMMANDS}
+NO_SOCKET = {name: (71, r"socketpair") for name in COMMANDS if name != "files"}
+NO_FILES = {name: (71, r"ulimit -n\b") for name in COMMANDS}
+NO_ADDRESSES = {name: (71, r"under ulimit -v 100000; allow more") for name in ("files", "diff", "gate")}
+TOO_LARGE = (71, r"File too large; allow larger files \(ulimit -f\)")
+NO_SIZE = {"render": TOO_LARGE, "clip": TOO_LARGE, "table": (71, r"File too large")}
 REFUSALS = {
     "no memfd_create": (call("memfd_create", EPERM), {}),
     "an unknown memfd_create": (call("memfd_create", ENOSYS), {}),
@@ -74,10 +74,10 @@ REFUSALS = {
     "no /proc, no memfd_create": (lambda refusing: within("mount -t tmpfs none /proc")(refusing) + call("memfd_create", EPERM)(refusing), {}),
     "kernel.shmmax": (within("echo 4096 >/proc/sys/kernel/shmmax", "-i"), {}),
     "kernel.shmmni": (within("echo 0 >/proc/sys/kernel/shmmni", "-i"), {}),
-    "ulimit -f 0": (shell("ulimit -f 0"), dict(NO_SIZE, diff=(1, r"clBuildProgram.*under ulimit -f 0; allow more"))),
-    "ulimit -f 1": (shell("ulimit -f 1"), dict(NO_SIZE, diff=(1, r"clBuildProgram.*under ulimit -f 1; allow more"))),
+    "ulimit -f 0": (shell("ulimit -f 0"), dict(NO_SIZE, diff=(71, r"clBuildProgram.*under ulimit -f 0; allow more"))),
+    "ulimit -f 1": (shell("ulimit -f 1"), dict(NO_SIZE, diff=(71, r"clBuildProgram.*under ulimit -f 1; allow more"))),
     "ulimit -n 6": (shell("ulimit -n 6"), NO_FILES),
-    "ulimit -v 100000": (shell("ulimit -v 100000"), dict(NO_ADDRESSES, list=(0, r"under ulimit -v 100000; allow more"))),
+    "ulimit -v 100000": (shell("ulimit -v 100000"), dict(NO_ADDRESSES, list=(71, r"under ulimit -v 100000; allow more"))),
     "TMPDIR that takes no files": (shell("export TMPDIR=/proc"), {}),
     "TMPDIR and cache that run no programs": (within(
         "mount -t tmpfs -o noexec none /dev/shm; export TMPDIR=/dev/shm XDG_CACHE_HOME=/dev/shm/c"),

@@ -24,9 +24,6 @@ LACKING = 71
 BLAMES = re.compile(r"its driver|is damaged|damaged;|install|unsupported|[Aa]ssimp crashed|the Debian package")
 CALLS, SAMPLE = 200, 12
 
-# What is wanted, and which commands meet it; the others may do well without.
-ALL, WRITE = tuple(COMMANDS), ("gate", "render")
-
 
 def lib(what, of="", at=0):
     """Raingauge's own calls of a kind fail."""
@@ -38,7 +35,7 @@ def plain(refusing):
 
 
 FULL = "mount -t tmpfs -o size=4k none OUT; head -c 4096 /dev/zero >OUT/full 2>/dev/null"
-# A name: what a shell does before the command, the library's variables.
+# By name: what stands before the command, and the library's variables.
 WANTS = {
     "addresses, 60 MB": (shell("ulimit -v 60000"), {}),
     "addresses, 80 MB": (shell("ulimit -v 80000"), {}),
@@ -46,7 +43,7 @@ WANTS = {
     "addresses, 150 MB": (shell("ulimit -v 150000"), {}),
     "addresses, 200 MB": (shell("ulimit -v 200000"), {}),
     "addresses, 400 MB": (shell("ulimit -v 400000"), {}),
-    "data, 4 MB": (shell("ulimit -d 4000"), {}),
+    "data, 8 MB": (shell("ulimit -d 8000"), {}),
     "data, 16 MB": (shell("ulimit -d 16000"), {}),
     "5 descriptors": (shell("ulimit -n 5"), {}),
     "6 descriptors": (shell("ulimit -n 6"), {}),
@@ -81,6 +78,8 @@ def settled(value):
     """A document without what differs from run to run."""
     if isinstance(value, dict):
         return {name: settled(inner) for name, inner in value.items() if name not in TIMES}
+    if isinstance(value, str):
+        return re.sub(r", \d+ threads?$", "", value)  # a warning says where there are fewer
     return [settled(inner) for inner in value] if isinstance(value, list) else value
 
 
@@ -93,7 +92,8 @@ def told(text):
 
 class Trial:
     def __init__(self, runner, refusing, wanting, folder):
-        self.runner, self.refusing, self.wanting, self.folder, self.well = runner, refusing, os.path.abspath(wanting), folder, {}
+        self.runner, self.refusing, self.wanting, self.folder = runner, refusing, os.path.abspath(wanting), folder
+        self.well, self.lacking = {}, 0  # what each command does without a want; how many had one
         for name in ("a.tif", "a.png"):
             runner.run(("render raster --device cpu " + SMALL + "-o " + os.path.join(folder, name)).split())
         with open(os.path.join(folder, "cells.txt"), "w") as file:
@@ -127,6 +127,7 @@ class Trial:
         if re.match("unshare: |sh: .*mount|mount: ", err) or status in (98, 99, 127):
             return None
         problems = []
+        self.lacking += status == LACKING
         if status not in (self.well[name][0], LACKING):
             problems.append("status %d" % status)
         if status == self.well[name][0] and found != self.well[name][1]:
@@ -154,11 +155,13 @@ def run_calls(trial, commands, numbers):
     """The Nth call for memory fails, in raingauge and then in its workers."""
     for name in commands:
         for of in ("harness", "worker"):
-            problems = []
+            problems, trial.lacking = [], 0
             for number in numbers:
                 found = trial.problems(name, plain, lib("malloc", of, number))
                 problems += ["call %d: %s" % (number, line) for line in found or []]
-            trial.runner.report("want of memory in %s, %s" % (name, of), problems)
+            if not trial.lacking:
+                problems.append("no call failed")
+            trial.runner.report("want of memory in %s, %s: %d of %d" % (name, of, trial.lacking, len(numbers)), problems)
 
 
 def run(runner, refusing, wanting, wants, commands, of_calls, numbers):

@@ -1,5 +1,6 @@
 #include "harness/devices/serving/serving.h"
 
+#include "core/base/log.h"
 #include "harness/devices/serving/services.h"
 #include "harness/devices/workers/fields.h"
 #include "harness/devices/workers/worker.h"
@@ -8,7 +9,7 @@ bool rg_serve_close(struct rg_message *request, struct rg_message *reply)
 {
     (void)request;
     rg_served_sessions_close();
-    const bool is_clean = rg_served_device_close();
+    const bool is_clean = rg_served_device_close() || rg_failure_take().outcome == RG_LACKING;
     rg_put_fields(reply, rg_closed_fields, &is_clean);
     return true;
 }

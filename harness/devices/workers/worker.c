@@ -242,6 +242,13 @@ static int end_process(struct rg_worker *worker)
     return status;
 }
 
+// Whether a process said so by its status: raingauge's own code in it lacked memory, and no driver
+// is at fault.
+static bool ended_lacking(int status)
+{
+    return WIFEXITED(status) && WEXITSTATUS(status) == RG_EXIT_HARNESS;
+}
+
 // A process that was asked to close its device has nothing more to do but to end. False, with one
 // logged line, where it does not do so well.
 static bool end(struct rg_worker *worker)
@@ -251,7 +258,7 @@ static bool end(struct rg_worker *worker)
     const int status = end_process(worker);
     rg_program_last_line(worker->printed, last, sizeof(last));
     const bool well =
-        !worker->is_closed || !status ||
+        !worker->is_closed || !status || ended_lacking(status) ||
         rg_crash_error("device '%s': its process ended with status %d when all was done%s",
                        worker->name, WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
                        last);
@@ -348,12 +355,6 @@ static void tell_doing(struct rg_worker *worker)
     snprintf(worker->doing, sizeof(worker->doing), "%s%s%s%s", *seen.what ? " while " : "",
              seen.what, *seen.queued && !is_told ? "; not known to have ended: " : "",
              is_told ? "" : seen.queued);
-}
-
-// Whether it said so: raingauge's own code in it lacked memory, and no driver is at fault.
-static bool ended_lacking(int status)
-{
-    return WIFEXITED(status) && WEXITSTATUS(status) == RG_EXIT_HARNESS;
 }
 
 // What it was doing goes behind how it ended, and then what its process printed last.
@@ -608,16 +609,19 @@ const struct rg_field rg_closed_fields[] = {
     RG_FIELDS_END,
 };
 
+// For want of memory nothing is closed badly: its process ends, and what was done is whole.
+void rg_worker_closes_badly(struct rg_worker *worker)
+{
+    worker->closed_badly = worker->closed_badly || rg_failure_take().outcome != RG_LACKING;
+}
+
 bool rg_worker_retire(struct rg_worker *worker)
 {
     const bool was_alive = worker->process;
     bool is_clean = true;
     worker->is_closed =
         was_alive && rg_worker_fetch(worker, RG_CALL_CLOSE, NULL, rg_closed_fields, &is_clean);
-    return (worker->is_closed || !was_alive) && is_clean && !worker->closed_badly;
-}
-
-void rg_worker_closes_badly(struct rg_worker *worker)
-{
-    worker->closed_badly = true;
+    if (was_alive && !worker->is_closed)
+        rg_worker_closes_badly(worker);
+    return is_clean && !worker->closed_badly;
 }

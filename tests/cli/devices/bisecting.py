@@ -229,7 +229,7 @@ def check_unprinted(runner):
             args = ["bisect", "--good", "1", "--bad", "9", "--run", "echo {} >>%s/tried; test {} -lt 6" % folder, *more, *"123456789"]
             with open("/dev/full", "w") as full:
                 lost = runner.run(args, {"XDG_STATE_HOME": folder}, stdout=full)
-            if lost.returncode != 2 or not re.fullmatch(told, lost.stderr):
+            if lost.returncode != 71 or not re.fullmatch(told, lost.stderr):
                 problems.append("exit status %d, %s" % (lost.returncode, lost.stderr))
             found = runner.run(args, {"XDG_STATE_HOME": folder})
             with open(os.path.join(folder, "tried")) as file:

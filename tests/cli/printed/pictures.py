@@ -111,12 +111,12 @@ def check_full_stdout(runner):
     for args in ("list techniques", DIFF + "--json"):
         closed = subprocess.run(["sh", "-c", '"$0" "$@" >&-', runner.raingauge, *args.split()], env=runner.variables({}), capture_output=True,
                                 text=True, timeout=60, check=False)
-        if closed.returncode != 2 or not re.fullmatch(r"raingauge: standard output: .*\n", closed.stderr):
+        if closed.returncode != 71 or not re.fullmatch(r"raingauge: standard output: .*\n", closed.stderr):
             problems.append("%s, closed: exit status %d, stderr: %s" % (args, closed.returncode, closed.stderr))
     for args in ("--help", "--version", "render --help", "list techniques", "list params flow --json", STAGES, DIFF + "--json"):
         with open("/dev/full", "w") as full:
             result = runner.run(args.split(), stdout=full)
-        if result.returncode != 2 or not re.fullmatch(r"raingauge: standard output: .*\n", result.stderr):
+        if result.returncode != 71 or not re.fullmatch(r"raingauge: standard output: .*\n", result.stderr):
             problems.append("%s: exit status %d, stderr: %s" % (args, result.returncode, result.stderr))
     return problems
 
