@@ -1,4 +1,4 @@
-// Memory that is asked for in one line.
+// Allocations that log their own failure.
 #ifndef RG_CORE_BASE_ALLOC_H
 #define RG_CORE_BASE_ALLOC_H
 
@@ -8,7 +8,7 @@
 #include "core/base/memory.h"
 
 // Zeroed memory for `count` elements, which the caller frees. NULL, and one logged line that names
-// `what` it was for, when there is none, or more is asked for at once than is allowed (memory.h).
+// `what` it was for, when memory runs out or one call asks for more than is allowed (memory.h).
 static inline void *rg_alloc(size_t count, size_t size, const char *what)
 {
     size_t bytes;

@@ -16,7 +16,8 @@ bool rg_array_fit(void *array, int64_t *room, int64_t count, size_t size, const 
         wanted = count;
     void *memory;
     memcpy(&memory, array, sizeof(memory));
-    // More is refused here, because no object is so large and sanitizers end a program that asks.
+    // realloc must not see more than PTRDIFF_MAX bytes: no object is so large, and sanitizers end a
+    // program that asks.
     const bool fits = (size_t)wanted <= PTRDIFF_MAX / size;
     void *grown = fits ? realloc(memory, (size_t)wanted * size) : NULL;
     if (!grown)

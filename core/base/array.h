@@ -9,7 +9,7 @@
 // Makes room for `count` elements of `size` bytes. `array` is the address of the pointer to them,
 // of any type, which the caller frees; `room` is how many it holds. Both are 0 at first. Elements
 // stay, and room at least doubles, so that growing one by one takes time in proportion. False, and
-// one logged line that names `what` they are, without memory: then nothing has changed.
+// one logged line that names `what` they are, when memory runs out; the array is then unchanged.
 //
 //     if (!rg_array_fit(&list->rows, &list->room, list->count + 1, sizeof(*list->rows), "rows"))
 //         return false;

@@ -38,7 +38,7 @@ static bool ends_with(const char *text, size_t length, const char *end)
     return length >= strlen(end) && !strcmp(text + length - strlen(end), end);
 }
 
-// Those for which there is no room are dots.
+// Kernels that find no room in the text are shown as dots.
 void rg_doing_run(const char *kernel)
 {
     static const char more[] = ", ...";

@@ -1,30 +1,31 @@
-// What this process is doing, where another process can see it: a driver that crashes or hangs
-// takes along whoever called it, and cannot say in what.
+// A page on which this process notes what it is doing, for another process to read: when a driver
+// crashes or hangs, its caller can no longer say so.
 #ifndef RG_CORE_BASE_DOING_H
 #define RG_CORE_BASE_DOING_H
 
 #include <stdatomic.h>
 #include <stdint.h>
 
-// A page that both processes map. It is only ever written by the one that does something.
+// A page that both processes map. Only the process that does the work writes it.
 struct rg_doing {
-    _Atomic uint64_t count;      // of what was begun: it stands still while a driver hangs
+    _Atomic uint64_t count;      // of operations begun; it stands still while a driver hangs
     char what[120];              // "running pass 'flow_blur'"; may be torn while it is written
-    char queued[400];            // "'flow_blur', 'flow_move'": kernels that nobody has waited for
-    _Atomic int64_t taken_bytes; // of memory (core/base/memory.h), after the last call
+    char queued[400];            // "'flow_blur', 'flow_move'": kernels queued since the last wait
+    _Atomic int64_t taken_bytes; // memory counted (core/base/memory.h) after the last call
 };
 
-// From now on rg_doing_begin writes there; NULL: nowhere. The page outlives all such calls.
+// Makes rg_doing_begin and the others write to `page` from now on; NULL: nowhere. The page must
+// outlive all such calls.
 void rg_doing_share(struct rg_doing *page);
 
-// Says what begins: "running pass", and the name of its object, "" for none. It costs two copies of
-// short texts, and nothing where nobody sees it.
+// Notes what begins: "running pass", and the name of its object, "" for none. It costs two copies
+// of short texts, and nothing while no page is shared.
 void rg_doing_begin(const char *what, const char *name);
 
-// Says that a kernel runs. Drivers compile and run it when they like, so that what they do of it
-// may bring them down only where somebody waits: until then it is among those that are queued.
+// Notes that a kernel was queued. Drivers compile and run it when they like, so that it may bring
+// them down only when somebody waits; until then it counts as queued.
 void rg_doing_run(const char *kernel);
-// Says that all that ran has ended.
+// Notes that all queued kernels have ended.
 void rg_doing_waited(void);
 
 #endif

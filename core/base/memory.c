@@ -8,7 +8,7 @@
 #include "core/base/text/cgroup.h"
 #include "core/base/log.h"
 
-// Below this, what is available is not looked up: that takes tens of microseconds.
+// Smaller requests skip the look-up of what is available, which takes tens of microseconds.
 #define SMALL_BYTES ((int64_t)1 << 20)
 
 #define LARGE_BYTES ((int64_t)1 << 26)
@@ -17,7 +17,7 @@ static const char variable[] = "RG_MEMORY_BYTES";
 
 static struct {
     bool is_known;  // the limit has been found
-    bool is_chosen; // it is the user's, rather than what was free
+    bool is_chosen; // the user chose the limit, rather than this file from free memory
     int64_t limit_bytes, taken_bytes;
 } memory;
 
@@ -30,7 +30,7 @@ static FILE *open_in(const char *place, const char *name)
     return fopen(path, "r");
 }
 
-// The number in a file that holds one; -1: there is none.
+// The number in a file that holds one number; -1 if there is none.
 static int64_t number_in(const char *place, const char *name)
 {
     long long number = -1;
@@ -42,7 +42,7 @@ static int64_t number_in(const char *place, const char *name)
     return number;
 }
 
-// The number behind a word at the beginning of a line; 0: there is none.
+// The number after a word at the beginning of a line; 0 if there is none.
 static int64_t number_behind(const char *place, const char *name, const char *word)
 {
     char line[128];
@@ -57,7 +57,7 @@ static int64_t number_behind(const char *place, const char *name, const char *wo
     return number;
 }
 
-// What a group leaves, where that is less than in *least_bytes.
+// Lowers *least_bytes to what a control group still allows, if that is less.
 static void take_least(const char *place, bool is_v2, void *user)
 {
     int64_t *least_bytes = user;
@@ -68,7 +68,7 @@ static void take_least(const char *place, bool is_v2, void *user)
     const int64_t dropped =
         number_behind(place, "memory.stat", is_v2 ? "inactive_file " : "total_inactive_file ");
     const int64_t held = now > dropped ? now - dropped : 0;
-    const int64_t left = most > held ? most - held : 1; // 0 were unknown
+    const int64_t left = most > held ? most - held : 1; // not 0, which means unknown
     if (left < *least_bytes)
         *least_bytes = left;
 }
@@ -95,7 +95,7 @@ static int64_t less_a_tenth(int64_t bytes)
 
 // --- what is allowed ---
 
-// The bytes that the variable names; 0: it is not set, or says something else, which is told.
+// The bytes that the environment variable names; 0 if it is unset or malformed, which is logged.
 static int64_t chosen_bytes(void)
 {
     const char *text = getenv(variable);
@@ -119,7 +119,7 @@ static void find_limit(void)
     memory.is_chosen = chosen > 0;
     memory.limit_bytes = memory.is_chosen ? chosen
                          : available      ? less_a_tenth(available)
-                                          : INT64_MAX / 2; // to which other sizes are added
+                                          : INT64_MAX / 2; // leaves room to add other sizes
 }
 
 void rg_memory_allow(int64_t bytes)
@@ -145,7 +145,8 @@ static int64_t left_of_limit(void)
     return limit > memory.taken_bytes ? limit - memory.taken_bytes : 0;
 }
 
-// What others have taken meanwhile counts as well, unless the user has chosen.
+// Without a choice of the user, memory that other processes have taken meanwhile is also
+// subtracted.
 int64_t rg_memory_left(void)
 {
     const int64_t left = left_of_limit();

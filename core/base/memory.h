@@ -1,8 +1,7 @@
-// How much memory may be taken: what large things ask before they take it.
+// How much memory may be taken; callers ask here before they take large pieces.
 //
-// Devices that run on the CPU count their buffers and images here, as long as they live, and what
-// processes have taken that work for this one is counted with it. What is taken on the host and is
-// gone soon asks without being counted.
+// Devices that run on the CPU count their buffers and images here as long as these live; what
+// worker processes have taken is added. Short-lived memory of the host is checked but not counted.
 #ifndef RG_CORE_BASE_MEMORY_H
 #define RG_CORE_BASE_MEMORY_H
 
@@ -12,42 +11,42 @@
 enum { RG_MEMORY_TEXT = 24 };
 
 // Bytes that this machine can give without swapping (MemAvailable), or that the control groups
-// around the process still allow, where that is less: their limit less what is held in them, but
-// for files that the kernel drops first. 0: unknown.
+// around the process still allow, whichever is less. A group allows its limit less its use, where
+// files that the kernel can drop do not count as use. 0: unknown.
 int64_t rg_memory_available(void);
-// The same of Linux' files below `root`.
+// The same, reading Linux's files below `root`.
 int64_t rg_memory_available_under(const char *root);
 
-// Allows so many bytes, where that is above 0, also to the processes that are started from here on,
-// by the environment variable RG_MEMORY_BYTES. Until then it is what is available, less a tenth.
+// Sets the limit, if `bytes` is above 0, also for processes started from here on (environment
+// variable RG_MEMORY_BYTES). The default limit is what is available, less a tenth.
 void rg_memory_allow(int64_t bytes);
 
-// What a process may take in all that works for this one and has taken `theirs` of what is counted
-// here, in bytes: that and what is left, where the user has chosen how much there is; 0 where it is
-// to find out by itself.
+// The limit in bytes to hand to a worker process that has taken `theirs` of the bytes counted here:
+// `theirs` plus what is left. 0 where the user chose no limit: the worker then finds its own.
 int64_t rg_memory_grant(int64_t theirs);
 
-// Bytes that may be taken in all: by the user's choice, or of what was free at first.
+// The limit in bytes: the user's choice, or what was free at first.
 int64_t rg_memory_limit(void);
 // Bytes that may still be taken: 0 or more.
 int64_t rg_memory_left(void);
-// Whether so many may be taken at once. Cheap for less than a MiB.
+// Whether so many bytes may be taken at once. Cheap for less than a MiB.
 bool rg_memory_allows(int64_t bytes);
-// The same of a piece that the host takes for a while: below 64 MiB nobody asks.
+// The same for a short-lived piece of the host's memory: below 64 MiB it is always allowed.
 bool rg_memory_allows_piece(int64_t bytes);
-// Takes them, or false: then nothing is taken. What was taken is given back with rg_memory_give.
+// Counts so many bytes as taken; false, and nothing counted, if they exceed what is left.
+// rg_memory_give returns them.
 bool rg_memory_take(int64_t bytes);
 void rg_memory_give(int64_t bytes);
-// Counts what another process took, below 0 what it gave back: nobody is asked.
+// Counts what another process took, negative for what it gave back, without a check.
 void rg_memory_count(int64_t bytes);
-// What is counted, in bytes.
+// The bytes counted as taken.
 int64_t rg_memory_taken(void);
 
 // "5.2 GiB", "37 MiB", "64 KiB"
 const char *rg_memory_text(int64_t bytes, char text[RG_MEMORY_TEXT]);
 
-// Logs "BEGIN needs 5.2 GiB, and 3.1 GiB are free; --memory allows more, MEND needs less", or how
-// much is left of what the user allows, and returns false.
+// Logs "BEGIN needs 5.2 GiB, and 3.1 GiB are free; --memory allows more, MEND needs less", or names
+// what the user's limit leaves, and returns false.
 bool rg_memory_refuse(const char *begin, int64_t bytes, const char *mend);
 
 #endif

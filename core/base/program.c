@@ -17,10 +17,11 @@ enum { MAX_FDS = 8, MOST_STARTED = 256, MOST_ACTS = 8 };
 
 typedef void (*act_before_end)(void);
 
-// What was started and has not been waited for; 0: a free place. A handler reads it.
+// Programs that were started and not yet waited for; 0 marks a free place. A signal handler reads
+// it.
 static _Atomic pid_t started[MOST_STARTED];
 static _Atomic(act_before_end) acts[MOST_ACTS];
-static pid_t owner; // a process that is forked has started none of them
+static pid_t owner; // the process that `started` belongs to: a forked child has started nothing
 
 static void remember(pid_t child)
 {
@@ -40,8 +41,8 @@ static void forget(pid_t child)
     }
 }
 
-// The descriptors as the program has them. `moved` are above all numbers that they get, so that
-// none is overwritten before it is copied.
+// Sets up the child's descriptors. `moved` are copies with numbers above all targets, so that no
+// descriptor is overwritten before it is copied.
 static int set_fds(posix_spawn_file_actions_t *actions, const int moved[], int fd_count)
 {
     int error = 0;
@@ -51,7 +52,8 @@ static int set_fds(posix_spawn_file_actions_t *actions, const int moved[], int f
     return error ? error : posix_spawn_file_actions_addclosefrom_np(actions, fd_count);
 }
 
-// A group of its own: a terminal sends Ctrl-C to the whole group of the program that it runs.
+// The child gets a process group of its own, because a terminal sends Ctrl-C to the whole
+// foreground group.
 static int set_signals(posix_spawnattr_t *attributes)
 {
     sigset_t all, none;
@@ -92,7 +94,8 @@ int rg_program_start_in(char *const environment[], const char *const args[], con
         if (fds[count] >= 0 && moved[count] < 0)
             error = errno;
     }
-    // No signal comes between the start of a program and the note of it.
+    // Signals are blocked so that none arrives between the start of a program and its entry in
+    // `started`.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_BLOCK, &all, &before);
@@ -170,7 +173,8 @@ const char *rg_program_self(void)
 void rg_program_folder(char place[PATH_MAX])
 {
     const char *const self = rg_program_self();
-    const ssize_t length = readlink(self, place, PATH_MAX - 1); // also of a file that is gone
+    const ssize_t length = readlink(self, place, PATH_MAX - 1); // also works after the file was
+                                                                // deleted
     if (length < 0)
         snprintf(place, PATH_MAX, "%s", self);
     else

@@ -1,11 +1,11 @@
-// Refusing a call in one line.
+// A check that refuses a call in one line.
 #ifndef RG_CORE_BASE_REQUIRE_H
 #define RG_CORE_BASE_REQUIRE_H
 
 #include "core/base/log.h"
 
-// Returns false, or NULL, from the function that it stands in, with one logged line that names
-// object and number, unless `check` holds.
+// Unless `check` holds, makes the enclosing function return false or NULL and logs one line, which
+// should name object and number.
 #define require(check, ...)                                                                        \
     do {                                                                                           \
         if (!(check))                                                                              \

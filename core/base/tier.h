@@ -1,12 +1,12 @@
-// How closely two pictures of one thing agree: the tiers, from the strictest on. What each asks for
-// is in core/image/compare/tiers.c.
+// The tiers of agreement between two pictures of one thing, the strictest first.
+// core/image/compare/tiers.c has their thresholds.
 #ifndef RG_CORE_BASE_TIER_H
 #define RG_CORE_BASE_TIER_H
 
 enum rg_tier {
     RG_T0, // identical: every bit
-    RG_T1, // arithmetic: what other roundings come to
-    RG_T2, // geometry: the same things in the same places, by another way of drawing
+    RG_T1, // arithmetic: equal up to rounding
+    RG_T2, // geometry: the same things in the same places, drawn in another way
 };
 enum { RG_TIER_COUNT = RG_T2 + 1 };
 

@@ -15,8 +15,8 @@
 #include "core/base/program.h"
 #include "core/base/text/limits.h"
 
-// Where such a program is, seen from the folder of the running one: beside it, installed, or in the
-// build, whose programs and tests lie at several depths.
+// Where caged programs lie, relative to the running program's folder: beside it, installed, or in
+// the build, whose programs and tests lie at several depths.
 static const char *const places[] = {
     "",
     "../lib/raingauge/",
@@ -50,7 +50,7 @@ static int64_t now_ms(void)
 
 // --- its reply ---
 
-// Takes what is there. False: there will be no more, or no more is taken.
+// Reads one piece of the reply. False when the reply has ended or may grow no further.
 static bool take(int from, int64_t most_bytes, size_t *room, struct rg_caged *caged)
 {
     enum { LEAST_BYTES = 1 << 16 };
@@ -71,8 +71,8 @@ static bool take(int from, int64_t most_bytes, size_t *room, struct rg_caged *ca
     return !caged->is_cut;
 }
 
-// Takes its reply until it ends. Not ended: it had to be killed. Its end of the pipe closes when it
-// ends; one that closes it and goes on has as long as any other.
+// Reads the reply until the program closes its end of the pipe, and kills it after `timeout_s`. A
+// program that closes its end and goes on has the same time as any other.
 static void attend(pid_t child, int reply, int timeout_s, int64_t most_bytes,
                    struct rg_caged *caged)
 {
@@ -121,7 +121,7 @@ int rg_caged_run(const char *const args[], int file, int timeout_s, int64_t most
 static enum rg_caged_end refused(const struct rg_caged *caged, const char *library, char *why,
                                  size_t size)
 {
-    enum { NOT_LOADED = 127 }; // of the dynamic loader, as of shells
+    enum { NOT_LOADED = 127 }; // the dynamic loader's exit status, and the shell's
     char limits[RG_LIMITS_TEXT];
     const int status = caged->ended && WIFEXITED(caged->status) ? WEXITSTATUS(caged->status) : -1;
     if (status == RG_CAGE_REFUSED) {

@@ -36,14 +36,14 @@ enum { SLOWNESS = 1, LIMITS_MEMORY = 1 };
 
 // --- limits ---
 
-// The harder limit stays, where it is the lower one.
+// Never raises a hard limit that is lower already.
 static void limit(__rlimit_resource_t resource, int64_t most)
 {
     struct rlimit now;
     if (getrlimit(resource, &now) ||
         (now.rlim_max != RLIM_INFINITY && now.rlim_max <= (rlim_t)most))
         return;
-    now.rlim_cur = (rlim_t)most; // of time: at the soft limit comes SIGXCPU
+    now.rlim_cur = (rlim_t)most; // SIGXCPU comes at the soft limit of time
     setrlimit(resource, &now);
 }
 
@@ -70,14 +70,14 @@ static bool drop_capabilities(void)
 
 // --- system calls ---
 
-// Memory, the descriptors that are there, the time, locks and how its own signals are taken, what a
-// thread that is there already does when it begins, the end.
+// Memory, the open descriptors, the time, locks, the process's own signal handlers, what a thread
+// does when it begins, and the end.
 static const unsigned int allowed[] = {
     SYS_read,         SYS_readv,
     SYS_pread64,      SYS_pwrite64,
     SYS_write,        SYS_writev,
     SYS_lseek,        SYS_fstat,
-    SYS_newfstatat, // what fstat is on many systems
+    SYS_newfstatat, // fstat on many systems
     SYS_ftruncate,    SYS_dup,
     SYS_close,        SYS_mmap,
     SYS_mprotect,     SYS_mremap,
@@ -91,16 +91,16 @@ static const unsigned int allowed[] = {
     SYS_rseq,         SYS_set_robust_list,
     SYS_exit,         SYS_exit_group,
 };
-// All that is asked of a descriptor. With F_SETOWN, F_SETSIG and O_ASYNC the kernel would send any
+// The only operations of fcntl. With F_SETOWN, F_SETSIG and O_ASYNC the kernel would send any
 // signal to any process of the user.
 static const unsigned int asked[] = {F_GETFD, F_SETFD, F_GETFL, F_DUPFD, F_DUPFD_CLOEXEC};
 enum {
     COUNT = sizeof(allowed) / sizeof(allowed[0]),
     ASKED = sizeof(asked) / sizeof(asked[0]),
-    LENGTH = COUNT + (4 + ASKED) + (4 + 1) + 12, // the program below
+    LENGTH = COUNT + (4 + ASKED) + (4 + 1) + 12, // the length of the program below
 };
 
-// Calls that are not allowed fail as not permitted: libraries then say what they could not do.
+// Other calls fail with EPERM, so that libraries can report the failure.
 #define REFUSE (SECCOMP_RET_ERRNO | (EPERM & SECCOMP_RET_DATA))
 #define LOAD(field)                                                                                \
     (struct sock_filter) BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, field))
@@ -110,8 +110,8 @@ enum {
 #define RETURN(value) (struct sock_filter) BPF_STMT(BPF_RET | BPF_K, (value))
 
 #ifdef ARCHITECTURE
-// A call that is allowed with some values of an argument only, of which the kernel, too, takes the
-// lower half alone. Returns how long that is; the number of another call stays loaded.
+// Allows a call with the given values of one argument only, comparing its lower half, which is all
+// that the kernel reads. Returns the instruction count; another call's number stays loaded.
 static int allow_with(struct sock_filter *program, unsigned int call, unsigned int argument_at,
                       const unsigned int *values, int count)
 {
@@ -134,7 +134,7 @@ static bool shut(void)
     program[n++] = LOAD(arch);
     program[n++] = JUMP(BPF_JEQ, ARCHITECTURE, 1, 0);
     program[n++] = RETURN(SECCOMP_RET_KILL_PROCESS);
-    // Memory is never made executable: args[2] is the protection of both calls.
+    // Memory is never made executable: args[2] is the protection in both calls.
     program[n++] = LOAD(nr);
     program[n++] = JUMP(BPF_JEQ, SYS_mmap, 1, 0);
     program[n++] = JUMP(BPF_JEQ, SYS_mprotect, 0, 4);
@@ -142,7 +142,7 @@ static bool shut(void)
     program[n++] = JUMP(BPF_JSET, PROT_EXEC, 0, 1);
     program[n++] = RETURN(REFUSE);
     program[n++] = RETURN(SECCOMP_RET_ALLOW);
-    // abort sends itself a signal, and nothing is sent to others.
+    // abort sends a signal to its own process; no other process may get one.
     const unsigned int own = (unsigned int)getpid();
     n += allow_with(program + n, SYS_tgkill, ARGUMENT(0), &own, 1);
     n += allow_with(program + n, SYS_fcntl, ARGUMENT(1), asked, ASKED);

@@ -21,8 +21,8 @@ static const char *judge(const struct stat *st)
                                   : "is not a regular file";
 }
 
-// Opens a regular file. All else is not even opened, for some devices act as soon as they are; what
-// took its place meanwhile is closed again.
+// Opens regular files only: some devices act as soon as they are opened. A file that was replaced
+// by something else meanwhile is closed again.
 static FILE *stream(const char *path, int flags, const char *mode, const char **why)
 {
     struct stat st;
@@ -77,7 +77,7 @@ FILE *rg_file_open_small(const char *path, const char **why)
 
 // --- in folders that all may write to ---
 
-// The folder in which a path lies, and returns its name there. NULL where it is too long.
+// Splits a path: fills `folder` and returns the name in it. NULL where the path is too long.
 static const char *split(const char *path, char folder[PATH_MAX])
 {
     const char *slash = strrchr(path, '/');
@@ -85,9 +85,9 @@ static const char *split(const char *path, char folder[PATH_MAX])
     return snprintf(folder, PATH_MAX, "%.*s.", length, path) < PATH_MAX ? path + length : NULL;
 }
 
-// Whether what lies there is nobody's who could have put it in the way of this user: it is the
-// user's own, or that of the folder's owner, or the folder is no shared one (sticky, and anybody
-// writes to it). That is the kernel's rule (fs.protected_symlinks and its kin), where it is on.
+// Whether nobody else can have put this file in the user's way: the user or the folder's owner owns
+// it, or the folder is not shared (sticky and writable by all). The kernel has the same rule
+// (fs.protected_symlinks and others), where it is switched on.
 static bool is_trusted(const char *path, const struct stat *st)
 {
     char folder[PATH_MAX];
@@ -97,10 +97,10 @@ static bool is_trusted(const char *path, const struct stat *st)
            (in.st_mode & shared) != shared || st->st_uid == in.st_uid;
 }
 
-// Follows the links that a path ends in.
+// Resolves the links at the end of a path.
 static bool follow(const char *path, char target[PATH_MAX], const char **why)
 {
-    enum { MOST_LINKS = 40 }; // as the kernel has it
+    enum { MOST_LINKS = 40 }; // the kernel's limit
     struct stat st;
     char to[PATH_MAX], folder[PATH_MAX];
     snprintf(target, PATH_MAX, "%s", path);
@@ -128,7 +128,7 @@ bool rg_file_follow(const char *path, char target[PATH_MAX], const char **why)
         return *why = strerror(ENAMETOOLONG), false;
     const size_t length = strlen(folder);
     if (length > 2)
-        folder[length - 2] = 0; // the slash and the dot, behind which no link would be seen
+        folder[length - 2] = 0; // drops "/.", which would hide a link
     return (length <= 2 || follow(folder, target, why)) && follow(path, target, why);
 }
 
@@ -171,7 +171,7 @@ bool rg_file_is_same(const char *a, const char *b)
     char folder_a[PATH_MAX], folder_b[PATH_MAX];
     if (!strcmp(a, b) || lead_to_one(a, b))
         return true;
-    // What is not there has no inode, but its folder has.
+    // A missing file has no inode, so its folder and name are compared.
     const char *name_a = split(a, folder_a), *name_b = split(b, folder_b);
     return name_a && name_b && !strcmp(name_a, name_b) && lead_to_one(folder_a, folder_b);
 }

@@ -1,4 +1,4 @@
-// Files that are read, files that are appended to, and which of two names are one file's.
+// Opening files for reading and appending, and telling whether two names are one file.
 #ifndef RG_CORE_BASE_FILES_FILE_H
 #define RG_CORE_BASE_FILES_FILE_H
 
@@ -11,34 +11,34 @@
 // wrong, without the file's name, and errno the system's, or EINVAL where the file is at fault.
 FILE *rg_file_open(const char *path, const char **why);
 
-// The same of a text, behind its byte order mark, if it has one.
+// The same for a text; reading starts after its byte order mark, if it has one.
 FILE *rg_file_open_text(const char *path, const char **why);
 
-// The same of what users write by hand. A file of more than 256 KiB is refused as well, so that no
-// parser reads one of gigabytes to its end, or keeps many times its size.
+// The same for files that users write by hand: one of more than 256 KiB is refused, so that no
+// parser reads gigabytes or keeps many times their size.
 FILE *rg_file_open_small(const char *path, const char **why);
 
-// The same to append to, behind all that is there; it is made where it is not. In a folder for all
-// one of another user is refused, and a link as below.
+// Opens a file to append to, and makes it if it is missing. In a shared folder, another user's file
+// and links as described below are refused.
 FILE *rg_file_append(const char *path, const char **why);
 
-// The path of a file that is to be written, behind the links that `path` ends in, whether or not it
-// is there. False, and `why`, where that or its folder is another user's link in a folder to which
-// all may write (sticky, as /tmp is) and which is not that user's: whoever put it there would
-// choose what is overwritten.
+// The path of a file to write, after following the links that `path` ends in, whether or not the
+// file exists. False, and `why`, where the path or its folder is another user's link in a folder
+// that all may write to (sticky, as /tmp is) and that is not that user's: the link's owner would
+// choose which file is overwritten.
 bool rg_file_follow(const char *path, char target[PATH_MAX], const char **why);
 
-// Copies a file from its start to where another stands; errno on failure.
+// Copies a file from its start to the other's current offset. False, with errno set, on failure.
 bool rg_file_copy(int from, int to);
 
-// Whether two paths are one file or folder, also one that neither has made yet. A link is what it
-// leads to.
+// Whether two paths name the same file or folder, even one that does not exist yet. Links are
+// followed.
 bool rg_file_is_same(const char *a, const char *b);
-// Whether a file that is written would not replace one that is read; NULL: none is. False, and one
-// logged line.
+// Whether writing `path` leaves the file `read` intact; `read` may be NULL. False, with one logged
+// line, if it would replace it.
 bool rg_file_spares(const char *path, const char *read);
 
-// Whether a path is this folder, or a file that lies in it.
+// Whether a path is this folder or lies directly in it.
 bool rg_file_is_in(const char *path, const char *folder);
 
 #endif

@@ -11,7 +11,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-// A file that has a name for a moment: every file system knows such.
+// Creates a named file and unlinks it, which works on every file system.
 static int open_in(const char *folder)
 {
     char path[PATH_MAX];

@@ -1,4 +1,4 @@
-// Files that no name leads to: they go with the last process that has them open.
+// Files without a name: they vanish with the last process that has them open.
 #ifndef RG_CORE_BASE_FILES_NAMELESS_H
 #define RG_CORE_BASE_FILES_NAMELESS_H
 
@@ -8,7 +8,7 @@ enum { RG_NAMELESS_WHY = 200 };
 
 // An empty file to read, write and map, which is closed by exec: in memory, or in a folder for
 // temporary files where the system refuses that. -1 where neither works; `why` is then a sentence
-// with the mend, and errno says what the folder's file came to.
+// with the mend, and errno is that of the folder's file.
 int rg_file_nameless(char why[RG_NAMELESS_WHY]);
 
 #endif

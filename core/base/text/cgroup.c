@@ -13,7 +13,7 @@ struct walk {
     void *user;
 };
 
-// A group and those around it. Inside a container the group's path may be the host's and lead
+// Visits a group and its ancestors. Inside a container the group's path may be the host's and lead
 // nowhere; the mount point itself is then our group.
 static void visit_upwards(const struct walk *walk, const char *mount, const char *group, bool is_v2)
 {
@@ -29,7 +29,8 @@ static void visit_upwards(const struct walk *walk, const char *mount, const char
     }
 }
 
-// Version 1 mounts a controller by its name, or by the names of all that are mounted with it.
+// Version 1 mounts a controller under its name, or under the names of all controllers mounted
+// together.
 static void visit_version_1(const struct walk *walk, const char *names, const char *controller,
                             const char *group)
 {

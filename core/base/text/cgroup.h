@@ -1,5 +1,4 @@
-// The control groups that this process is in, as Linux tells them: they bound what it gets of a
-// machine.
+// The control groups of Linux that this process is in; they limit its share of the machine.
 #ifndef RG_CORE_BASE_TEXT_CGROUP_H
 #define RG_CORE_BASE_TEXT_CGROUP_H
 
@@ -7,11 +6,11 @@
 
 enum { RG_CGROUP_PATH = 1024 };
 
-// A `place` holds a group's files, of version 1 or 2.
+// `place` is a folder with a group's files, of version 1 or 2.
 typedef void rg_cgroup_visit(const char *place, bool is_v2, void *user);
 
-// Visits the groups that bound what a controller ("cpu", "memory") grants: this process's, those
-// around it, and where several are mounted each. `root` goes before all paths, "" but for tests.
+// Visits the groups that limit what a controller ("cpu", "memory") grants: this process's group and
+// its ancestors, at each mount point. `root` is put before all paths: "" except in tests.
 void rg_cgroups_visit(const char *root, const char *controller, rg_cgroup_visit *visit, void *user);
 
 #endif

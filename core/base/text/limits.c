@@ -7,11 +7,11 @@
 #include <sys/resource.h>
 
 // Drivers compile with LLVM, whose libraries alone take hundreds of megabytes of addresses, and
-// keep what they compile in files of some megabytes.
+// they cache compiled code in files of some megabytes.
 static const struct {
     __rlimit_resource_t resource;
     char option;
-    rlim_t unit, enough; // bytes or pieces
+    rlim_t unit, enough; // bytes, or a plain count
 } limits[] = {
     {RLIMIT_AS, 'v', 1 << 10, (rlim_t)2 << 30},
     {RLIMIT_DATA, 'd', 1 << 10, (rlim_t)1 << 30},

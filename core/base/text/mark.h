@@ -1,11 +1,11 @@
-// The byte order mark that some editors begin a text of UTF-8 with: it is no part of the text.
+// The byte order mark with which some editors begin a UTF-8 text; it is not part of the text.
 #ifndef RG_CORE_BASE_TEXT_MARK_H
 #define RG_CORE_BASE_TEXT_MARK_H
 
 #include <stddef.h>
 #include <string.h>
 
-// How many bytes of the text are its mark: 3, or 0 where there is none.
+// The length in bytes of the text's byte order mark: 3, or 0 where there is none.
 static inline size_t rg_mark_bytes(const void *text, size_t size)
 {
     static const char mark[] = "\xef\xbb\xbf";

@@ -2,12 +2,12 @@
 #ifndef RG_CORE_BASE_TEXT_PLAIN_H
 #define RG_CORE_BASE_TEXT_PLAIN_H
 
-// The code of the control character of ASCII or of Unicode (U+0080 to U+009F) that begins here in
-// UTF-8; -1: none does.
+// The code of the control character of ASCII or Unicode (U+0080 to U+009F) that begins `text`, in
+// UTF-8; -1 where none does.
 int rg_control_at(const char *text);
 
-// Line breaks and tabs become spaces, and other control characters question marks, in place: names
-// from files may not steer a terminal.
+// Replaces line breaks and tabs by spaces and other control characters by question marks, in place:
+// names from files must not steer a terminal.
 void rg_plain(char *text);
 
 #endif

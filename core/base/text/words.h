@@ -1,10 +1,10 @@
-// Words in a text, with a space between two.
+// Lists of words in a text, separated by single spaces.
 #ifndef RG_CORE_BASE_TEXT_WORDS_H
 #define RG_CORE_BASE_TEXT_WORDS_H
 
 #include <stdbool.h>
 
-// Whether a word is among them.
+// Whether `word` is one of `words`.
 bool rg_has_word(const char *words, const char *word);
 
 // Of names that are tried one after the other, the one that takes the fewest letters to insert,
