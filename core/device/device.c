@@ -15,7 +15,7 @@
 #include "core/device/packing.h"
 #include "core/device/shared.h"
 
-// Asks a backend for its devices. It tells of a driver that fails beside others that do not.
+// Asks a backend for its devices, and warns of a driver that fails beside others that work.
 static int list(const struct rg_backend *backend, struct rg_device_info *infos, int max,
                 char why[RG_LIST_WHY_SIZE])
 {
@@ -86,7 +86,7 @@ static int choose(const struct rg_device_info *infos, int count, const char *nam
     return -1;
 }
 
-// Each file that holds some of the driver's functions, once.
+// Lists each file that holds some of the driver's functions, once.
 static void find_libraries(struct rg_device *device)
 {
     enum { MOST_FUNCTIONS = 16 };
@@ -186,8 +186,8 @@ bool rg_device_time(struct rg_device *device, int64_t *time_ns)
     return rg_limits_allow_time(&device->info) && device->backend->time(device, time_ns);
 }
 
-// What takes more is counted first: then making it takes seconds, and counting it is little of
-// that.
+// More memory than this is counted before it is taken: taking it costs seconds, and counting costs
+// little beside that.
 #define MOST_UNCOUNTED_BYTES ((int64_t)1 << 30)
 
 static int64_t smaller(int64_t a, int64_t b)
@@ -205,7 +205,7 @@ void rg_room_begin(struct rg_device *device, enum rg_room room)
         rg_room_count(device);
 }
 
-// What packs primitives outlives those whose primitives it packs: it is made anew.
+// The packing buffers were only counted, not made; drop them so that the next draw makes real ones.
 int64_t rg_room_end(struct rg_device *device, bool *is_taken)
 {
     struct rg_work *work = device->work;

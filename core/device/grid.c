@@ -73,7 +73,7 @@ static bool check_slot(const struct rg_pass *pass, const struct rg_slot_info *sl
     return true;
 }
 
-// An object that a pass writes is bound once, so that no item sees another's writes.
+// A pass may bind an object that it writes only once, so that no item sees another's writes.
 static bool check_aliases(const struct rg_kernel *kernel, const struct rg_run *run)
 {
     for (int i = 0; i < kernel->slot_count; i++) {
@@ -147,7 +147,8 @@ static int smaller(int64_t a, int b)
     return a < b ? (int)a : b;
 }
 
-// Runs what exceeds a device's work groups as several dispatches, each with its own origin.
+// Splits a run that exceeds the device's work groups into several dispatches, each with its own
+// origin.
 static bool run_folded(struct rg_pass *pass, const struct rg_run *run)
 {
     const struct rg_limits *limits = &pass->device->info.limits;

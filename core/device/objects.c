@@ -16,7 +16,7 @@ static bool is_counting(const struct rg_device *device)
     return device->work->room == RG_ROOM_COUNTED;
 }
 
-// Memory of a device with its own is its driver's business.
+// Devices with memory of their own leave limits to their driver.
 static bool take(struct rg_device *device, int64_t bytes)
 {
     return !device->info.software || rg_memory_take(bytes);
@@ -28,8 +28,8 @@ static void give(struct rg_device *device, int64_t bytes)
         rg_memory_give(bytes);
 }
 
-// Takes room for an object, where objects are not counted alone. False, and one logged line, where
-// there is not as much.
+// Takes memory for an object, unless objects are only counted. False, and one logged line, where
+// too little is left.
 static bool make_room(struct rg_device *device, int64_t bytes, const char *noun, const char *name)
 {
     char begin[160];
@@ -43,7 +43,7 @@ static bool make_room(struct rg_device *device, int64_t bytes, const char *noun,
     return rg_memory_refuse(begin, bytes, "a smaller --size or setting");
 }
 
-// Counts an object that has been made, or that is counted alone.
+// Counts an object that was made, or that is only counted.
 static void count_object(struct rg_device *device, int64_t bytes, int64_t *objects)
 {
     struct rg_work *work = device->work;

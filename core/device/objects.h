@@ -11,7 +11,7 @@
 #include "backends/backend.h"
 
 struct rg_buf *rg_buf_create(struct rg_device *device, int64_t size, const char *name);
-// One that holds `size` bytes of `data`.
+// Makes a buffer with `size` bytes of `data`.
 struct rg_buf *rg_buf_create_with(struct rg_device *device, const void *data, int64_t size,
                                   const char *name);
 void rg_buf_destroy(struct rg_buf *buf);
@@ -20,7 +20,8 @@ bool rg_buf_read(struct rg_buf *buf, int64_t offset, void *data, int64_t size);
 
 struct rg_image *rg_image_create(struct rg_device *device, const struct rg_image_desc *desc,
                                  const char *name);
-// One whose texels, of all layers and levels, are all `texel`, packed as its format says.
+// Makes an image whose texels, of all layers and levels, are all `texel`, packed as its format
+// says.
 struct rg_image *rg_image_create_with(struct rg_device *device, const struct rg_image_desc *desc,
                                       const void *texel, const char *name);
 void rg_image_destroy(struct rg_image *image);

@@ -8,16 +8,16 @@
 #include "kernels/dialect/draw/clip.h"
 #include "kernels/packing/params.h"
 
-// Primitives of a batch take no more than this, whatever a device would allow.
+// The most that a batch's primitives take, whatever the device would allow.
 #define MAX_PACKED_BYTES ((int64_t)128 << 20)
 
 enum { MAX_BATCH_CHUNKS = RG_MAX_QUERIES, ARGS = 5 };
 
-// Scratch of a device's packing.
+// A device's scratch buffers for packing.
 struct rg_packing {
     struct rg_buf *prims, *counts, *fates, *before, *args;
     struct rg_scan *scan;
-    // Of draws with queries; NULL before the first.
+    // Only for draws with queries; NULL before the first.
     struct rg_pass *ranges;
     struct rg_buf *query_args;
 };
@@ -120,7 +120,7 @@ int rg_packing_prepare(struct rg_pass *pass, int items, int whole, int *capacity
 
 // --- running ---
 
-// Where each query's primitives begin, as arguments of its draw.
+// Finds where each query's primitives begin, as arguments of its draw.
 static bool find_ranges(const struct rg_packing *packing, int chunks, int corners,
                         int chunks_a_query, int queries)
 {
@@ -155,9 +155,9 @@ static bool draw_packed(struct rg_pass *pass, const struct rg_run *run, const rg
     return rg_dispatch(pass, &packed);
 }
 
-// It goes past the checks, which have been done. They would also refuse the buffer of primitives:
-// programs whose primitives differ in size share it, so that its size is no multiple of each. A
-// batch's chunks are fewer than any device's work groups.
+// These runs skip the checks, which the caller has done and which would refuse the primitives'
+// buffer: programs with primitives of different sizes share it, so that its size is not a multiple
+// of each. A batch has fewer chunks than any device has work groups.
 bool rg_packing_run(struct rg_pass *pass, const struct rg_run *run, const rg_draw_state *state)
 {
     struct rg_device *device = pass->device;

@@ -88,7 +88,7 @@ HOST_FLOAT(min, fminf(a, b))
 HOST_FLOAT(max, fmaxf(a, b))
 HOST_FLOAT(clamp, a < -1.0f ? -1.0f : (a > 1.0f ? 1.0f : a))
 
-// Operations without a row here are composed by the dialect of others: they are held against
+// The dialect composes the operations without a row here from others; they are compared with
 // cpu:reference.
 #define HOST_ROW(name) [OP_##name] = host_##name
 static uint32_t (*const host[RG_PROBE_OP_COUNT])(struct input) = {
@@ -132,7 +132,7 @@ static struct input draw(enum inputs inputs, uint64_t *seed)
         break;
     case WIDE:
         in = (struct input){random_wide(seed), random_wide(seed), random_wide(seed)};
-        // of close magnitude, where sums cancel, for every fourth
+        // Every fourth pair is of close magnitude, where sums cancel.
         if (in.c % 4 == 0)
             in.b = (in.a ^ (in.c & 0x80000000u)) + in.c % 1024;
         break;

@@ -19,7 +19,7 @@ enum {
 
 struct rg_probe_result {
     const char *name;
-    bool builtin;          // the driver's own function, which kernels do not use: it may differ
+    bool builtin;          // the driver's own function, which may differ because no kernel uses it
     int compared;          // inputs
     int different;         // results whose bits differ
     uint32_t largest_ulps; // distance in neighbouring floats, or of integers
@@ -29,8 +29,8 @@ struct rg_probe_result {
 void rg_probe_name(struct rg_probe_result results[RG_PROBE_COUNT]);
 
 // Runs every operation of kernels/probe/list.h on seeded inputs and compares the bits. Plain
-// operations are held against C on the host; builtins, and what the dialect composes of plain
-// operations, against cpu:reference. False, and one logged line, when one of the devices failed.
+// operations are compared with C on the host; builtins, and operations that the dialect composes,
+// with cpu:reference. False, and one logged line, when a device failed.
 bool rg_probe_run(struct rg_device *device, struct rg_probe_result results[RG_PROBE_COUNT]);
 
 #endif

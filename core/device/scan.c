@@ -15,9 +15,9 @@ struct rg_scan {
     struct rg_device *device;
     int max_count;
     struct rg_pass *sum_chunks, *spread, *compact;
-    struct rg_buf *nothing; // one word 0: what lies before the first chunk
-    // Of level l: the sum of each chunk of level l - 1, and the prefix sums of those. Level 0 is
-    // the caller's.
+    struct rg_buf *nothing; // one word 0: the sum before the first chunk
+    // sums[l] holds the sum of each chunk of level l - 1, before[l] their prefix sums. The caller
+    // has those of level 0.
     struct rg_buf *sums[MAX_LEVELS];
     struct rg_buf *before[MAX_LEVELS];
 };
@@ -117,7 +117,7 @@ static bool scan_levels(struct rg_scan *scan, int count)
     return true;
 }
 
-// Refuses a buffer that is too small, which a kernel could not notice.
+// Refuses a buffer that is too small, since a kernel could not notice.
 static bool check_words(const struct rg_buf *buf, int64_t words)
 {
     if ((int64_t)(buf->size / 4) < words)

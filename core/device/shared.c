@@ -27,7 +27,7 @@ static struct rg_shared *entry_make(struct rg_device *device, const char *key,
         free(entry);
         return NULL;
     }
-    // A thing joins the list after those that its making has asked for.
+    // A thing enters the list after the things that its `make` has asked for.
     entry->next = device->shared;
     device->shared = entry;
     return entry;
@@ -47,8 +47,8 @@ void *rg_shared_get(struct rg_device *device, const char *key, const struct rg_s
     return entry->thing;
 }
 
-// It leaves the list before it is destroyed, since destroying it puts back what it holds, which
-// changes the list.
+// Removes it from the list before destroying it, because destroying puts back the things that it
+// holds, which changes the list.
 static void entry_destroy(struct rg_shared **at)
 {
     struct rg_shared *entry = *at;
@@ -73,7 +73,7 @@ void rg_shared_put(struct rg_device *device, void *thing)
 bool rg_shared_close(struct rg_device *device)
 {
     const bool clean = !device->shared;
-    // The latest first, for it may hold earlier ones.
+    // The latest goes first, since it may hold earlier ones.
     while (device->shared) {
         const struct rg_shared *entry = device->shared;
         rg_error("device '%s': closed with %s '%.80s' not put back by %d", device->info.name,

@@ -57,7 +57,7 @@ static bool check_targets(const struct rg_pass *pass, const struct rg_draw *draw
     return true;
 }
 
-// Packing has a place for each chunk of items, where queries can begin.
+// Queries must begin at whole chunks, because packing knows no finer place.
 static bool check_queries(const struct rg_pass *pass, const struct rg_run *run)
 {
     const int items = run->draw->items_a_query;
@@ -93,7 +93,7 @@ static bool check_samples(const struct rg_pass *pass, const struct rg_run *run)
             "kernel '%s': buffer '%s' has %zu counters for %lld %s", kernel, samples->name,
             samples->size / 4, (long long)counters_of(run),
             run->draw->items_a_query ? "queries" : "items");
-    // A count against a depth that changes meanwhile would depend on the order of the pixels.
+    // The depth must not change meanwhile, or the count would depend on the order of the pixels.
     require(run->draw->depth_mode != RG_DEPTH_WRITE,
             "kernel '%s': visible samples are counted against depth that is not written; use "
             "RG_DEPTH_TEST",
@@ -101,7 +101,7 @@ static bool check_samples(const struct rg_pass *pass, const struct rg_run *run)
     return true;
 }
 
-// An image that is drawn to cannot be read in the same run.
+// A run cannot read an image that it draws to.
 static bool check_feedback(const struct rg_pass *pass, const struct rg_run *run)
 {
     const struct rg_draw *draw = run->draw;

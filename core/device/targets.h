@@ -1,16 +1,15 @@
-// What a run of a DRAW pass draws to.
+// The targets of a DRAW pass's run.
 #ifndef RG_CORE_DEVICE_TARGETS_H
 #define RG_CORE_DEVICE_TARGETS_H
 
 #include "backends/backend.h"
 
-// The size in pixels of the level that is drawn to.
+// The size in pixels of the image level that is drawn to.
 void rg_target_size(const struct rg_draw *draw, int *width, int *height);
-// Whether there is no scissor.
+// Whether the draw has no scissor.
 bool rg_target_is_whole(const struct rg_draw *draw);
 
-// Whether a run of a DRAW pass names sound targets, and items that lie along x; else one logged
-// line.
+// Whether a run of a DRAW pass has valid targets and items along x alone; else one logged line.
 bool rg_target_check(const struct rg_pass *pass, const struct rg_run *run);
 
 #endif

@@ -65,7 +65,7 @@ static void count_prim(struct rg_counts *counts, const struct rg_draw_info *draw
     *last_item = head.item;
 }
 
-// Reads them in pieces, without counting the bytes: no technique asked for this reading.
+// Reads the primitives in pieces. These bytes are not counted, because no technique asked for them.
 static bool count_packed(struct rg_counts *counts, const struct rg_pass *pass,
                          const struct rg_run *run)
 {
