@@ -36,9 +36,9 @@ bool rg_picture_halve(struct rg_picture *picture)
 
 // --- a disc ---
 
-// A row of texels that is mirrored again and again: sums of its first ones, for each channel.
+// A row of texels that repeats mirrored without end, as prefix sums for each channel.
 struct mirrored_row {
-    const double *sums; // [texel][channel], one more than there are texels
+    const double *sums; // [texel][channel], one texel more than the row has
     int width, channels;
 };
 
@@ -75,7 +75,7 @@ static int mirrored(int y, int height)
     return at < height ? at : period - 1 - at;
 }
 
-// Adds to a row of the blurred picture what a row of the sharp one brings: a disc's chord.
+// Adds a disc's chord of a row of the sharp picture to a row of the blurred one.
 static void add_chord(const struct mirrored_row *row, double half_chord, double share,
                       double *blurred)
 {
@@ -85,14 +85,14 @@ static void add_chord(const struct mirrored_row *row, double half_chord, double 
                                    integral(row, c, x + 0.5 - half_chord));
 }
 
-// The area of half a disc between its middle and a chord at this height.
+// The area of half a disc between its centre and a chord at this height.
 static double area_up_to(double radius, double height)
 {
     const double y = fmin(fmax(height, -radius), radius);
     return (y * sqrt(radius * radius - y * y) + radius * radius * asin(y / radius)) / 2;
 }
 
-// Half the chord of a disc in row `dy` from its centre: the mean over the row.
+// Half the length of a disc's chord in the row `dy` from its centre, averaged over the row.
 static double chord_of(double radius, int dy)
 {
     return area_up_to(radius, dy + 0.5) - area_up_to(radius, dy - 0.5);

@@ -5,11 +5,12 @@
 #include "core/image/picture.h"
 
 // Replaces a picture by one of half the size, rounded down but at least 1, each texel the mean of
-// four. False, and one logged line, without memory; the picture is as it was then.
+// four. False, and one logged line, when memory runs out; the picture is then unchanged.
 bool rg_picture_halve(struct rg_picture *picture);
 
-// Makes each texel the mean of a disc around it, as a lens out of focus does. Beyond its edges the
-// picture is mirrored. False, and one logged line, without memory; the picture is as it was then.
+// Replaces each texel by the mean of a disc around it, as an unfocused lens does. Beyond its edges
+// the picture is mirrored. False, and one logged line, when memory runs out; the picture is then
+// unchanged.
 bool rg_picture_blur(struct rg_picture *picture, double diameter_px);
 
 #endif

@@ -23,7 +23,7 @@ bool rg_extras_add(char **extras, bool is_applied, const char *name, const char 
     clean(key);
     clean(value);
     const size_t length = *extras ? strlen(*extras) : 0;
-    const size_t more = strlen(key) + strlen(value) + 4; // the mark, the tab, the line's end, the 0
+    const size_t more = strlen(key) + strlen(value) + 4; // the mark, the tab, the newline, the 0
     char *longer = realloc(*extras, length + more);
     if (!longer)
         return false;
@@ -48,7 +48,7 @@ bool rg_extras_next(const char **at, struct rg_extra *extra)
     return true;
 }
 
-// The extra of the same name in another text; without one, `found` has the value "none".
+// Finds the extra of the same name in another text; if there is none, `found` has the value "none".
 static bool find(const char *extras, const struct rg_extra *like, struct rg_extra *found)
 {
     while (rg_extras_next(&extras, found))

@@ -1,11 +1,11 @@
-// Halves, as pictures' files hold them.
+// 16-bit floats (halves), as picture files hold them.
 #ifndef RG_CORE_IMAGE_HALF_H
 #define RG_CORE_IMAGE_HALF_H
 
 #include <stdint.h>
 #include <string.h>
 
-// A half as a float, exact for every half: zeros, subnormals, infinities and NaN too.
+// Converts a half to a float, exactly for every half: zeros, subnormals, infinities and NaN too.
 static inline float rg_float_of_half(uint16_t half)
 {
     uint32_t magnitude = half & 0x7fffu, bits = magnitude << 13;

@@ -10,8 +10,8 @@
 #include "core/base/log.h"
 #include "core/base/memory.h"
 
-// Memory for large pictures comes in huge pages where the system gives them: touching it for the
-// first time is otherwise a tenth of a comparison's time.
+// Large pictures ask for huge pages, because touching their memory for the first time otherwise
+// takes a tenth of a comparison's time.
 static float *allocate_texels(size_t bytes)
 {
     const size_t huge_page = (size_t)2 << 20;
@@ -21,7 +21,7 @@ static float *allocate_texels(size_t bytes)
     float *texels = aligned_alloc(huge_page, rounded);
 #ifdef MADV_HUGEPAGE
     if (texels)
-        madvise(texels, rounded, MADV_HUGEPAGE); // advice: nothing is lost when it is not taken
+        madvise(texels, rounded, MADV_HUGEPAGE); // only advice; ignoring it does no harm
 #endif
     return texels;
 }

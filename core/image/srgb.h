@@ -10,17 +10,17 @@
 enum { RG_SRGB_STEPS = 13 * 128, RG_SRGB_LOWEST_BITS = 114 << 23 };
 
 struct rg_srgb {
-    float linear[256];    // of a code
-    float encoded[256];   // of a code's linear value, by the curve
-    float threshold[257]; // the smallest linear value that rounds to a code, or above it
-    uint8_t code[2048];   // at the start of each step; the rest is never asked for
+    float linear[256];    // linear value of each code
+    float encoded[256];   // encoded value of that linear value, by the curve
+    float threshold[257]; // the smallest linear value that rounds to this code or above
+    uint8_t code[2048];   // the code at the start of each step; the rest is unused
 };
 
-// The tables; made on the first call, from any thread.
+// The tables; the first call, from any thread, makes them.
 const struct rg_srgb *rg_srgb(void);
 
-// What light codes are: a table of as many as there are, which the caller frees. `gamma`: their
-// curve is this power; 0: sRGB's. NULL without memory.
+// A table of the linear light of each of `codes` codes, which the caller frees. `gamma` is the
+// power of their curve; 0: sRGB's curve. NULL when memory runs out.
 float *rg_light_of_codes(int codes, double gamma);
 
 // The curve itself, for one value in 0..1.
@@ -41,8 +41,8 @@ static inline uint8_t rg_srgb_code(const struct rg_srgb *srgb, float linear)
     return (uint8_t)(code + (linear >= srgb->threshold[code + 1]));
 }
 
-// rg_srgb_encode of a linear value as a float: of one that was decoded from 8 bits without the
-// power.
+// rg_srgb_encode for a linear value as a float; values decoded from 8 bits are looked up instead of
+// computed.
 static inline float rg_srgb_encoded(const struct rg_srgb *srgb, float linear)
 {
     const uint8_t code = rg_srgb_code(srgb, linear);

@@ -20,7 +20,7 @@ struct rg_clip {
     const char *path;
     struct rg_clip_options options;
     struct rg_encoder encoder;
-    uint8_t *yuv; // a frame
+    uint8_t *yuv; // one frame
 };
 
 bool rg_clip_is_named(const char *path)
@@ -31,7 +31,8 @@ bool rg_clip_is_named(const char *path)
 
 // --- frames ---
 
-// Y4M. 420jpeg says that a difference of colour stands amid its four pixels, as vpxenc codes it.
+// Y4M header. "420jpeg" says that chroma samples lie in the middle of their four pixels, as vpxenc
+// codes them.
 static bool feed_header(struct rg_clip *clip)
 {
     char header[128];
@@ -80,13 +81,14 @@ bool rg_clip_finish(struct rg_clip *clip)
 
 // --- opening and closing ---
 
-// What a clip takes at least: drawn ones took three times as much.
+// A lower bound of a clip's file size: clips that we drew took three times as much.
 static int64_t least_bytes(const struct rg_clip_options *options)
 {
     return (int64_t)options->width * options->height * options->frames / 100;
 }
 
-// A frame of 1280x720 has half a minute more, one of 3840x2160 four.
+// How long vpxenc may do nothing. A frame of 1280x720 adds half a minute, one of 3840x2160 four
+// minutes.
 static double patience_of(const struct rg_clip_options *options)
 {
     const double slowest_s_a_byte = 2e-5;

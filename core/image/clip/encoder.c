@@ -18,10 +18,10 @@
 enum { FRAMES_FD, CODED_FD, MESSAGES_FD, FDS };
 enum { WAIT_MS = 100 };
 
-// One pass, because frames come once. A constant quality, level 16 of 63: the eye hardly tells a
+// One pass, because frames come once. Constant quality at level 16 of 63: the eye hardly tells a
 // frame from its picture, and rain, which is all edges, takes as many bytes as it needs. -D leaves
-// out the date and the random number that else make two files differ. Each thread codes columns of
-// tiles, whose number follows from the width, so that the machine's cores change no byte.
+// out the date and the random number that would make two files differ. Threads code columns of
+// tiles, whose number follows from the width, so that the number of cores changes no byte.
 static const char *const arguments[] = {
     "vpxenc",
     "--codec=vp9",
@@ -52,7 +52,7 @@ static bool make_room(struct rg_encoder *e)
     return e->messages || rg_harness_error("%s: cannot be made: %s", e->name, why);
 }
 
-// A socket, since a write to a pipe that nobody reads would kill this process.
+// vpxenc reads from a socket, because writing to a pipe that nobody reads would kill this process.
 static bool start(struct rg_encoder *e)
 {
     int ends[2];
@@ -91,7 +91,8 @@ static double now_s(void)
     return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
-// Whether it hangs, which one logged line says: what it has coded is seen by the size of its file.
+// Whether the encoder hangs, with one logged line if so. The size of its file shows whether it
+// still codes.
 static bool hangs(struct rg_encoder *e)
 {
     struct stat st;
@@ -108,13 +109,13 @@ static bool hangs(struct rg_encoder *e)
                e->name, e->patience_s);
 }
 
-// Whether it is no longer waited for.
+// Whether to stop waiting.
 static bool given_up(struct rg_encoder *e)
 {
     return (e->stop && e->stop()) || hangs(e);
 }
 
-// Waits for the encoder's end; false: told to stop, or it hangs.
+// Waits for the encoder's end; false if it was told to stop or hangs.
 static bool wait_for_end(struct rg_encoder *e, int *status)
 {
     const struct timespec pause = {0, 2000000};
@@ -168,7 +169,7 @@ bool rg_encoder_feed(struct rg_encoder *e, const void *data, size_t bytes)
     return true;
 }
 
-// A socket whose other end is closed with bytes unread has an error.
+// A socket whose other end was closed with bytes unread reports an error.
 static bool has_read_all(const struct rg_encoder *e)
 {
     int error = 0;

@@ -2,9 +2,10 @@
 
 #include "core/image/srgb.h"
 
-// What red, green and blue add to the light, in ten-thousandths.
+// The weights of red, green and blue in luma, in ten-thousandths.
 enum { RED = 2126, GREEN = 7152, BLUE = 722, ALL = RED + GREEN + BLUE };
-// The codes that range from black to white, and those of a difference from one end to the other.
+// How many codes luma spans from black to white and chroma from end to end, and the codes of black
+// and of no chroma.
 enum { LIGHT_CODES = 219, DIFFERENCE_CODES = 224, BLACK = 16, GREY = 128, RGB_CODES = 255 };
 
 struct rgb {
@@ -16,7 +17,7 @@ static int64_t light(struct rgb c)
     return RED * c.red + GREEN * c.green + BLUE * c.blue;
 }
 
-// base + value / divisor, to the nearest, halves up; it is above 0.
+// base + value / divisor, rounded half up; the sum is above 0.
 static uint8_t quantize(int base, int64_t value, int64_t divisor)
 {
     return (uint8_t)((2 * (base * divisor + value) + divisor) / (2 * divisor));
@@ -27,8 +28,8 @@ static uint8_t luma(struct rgb c)
     return quantize(BLACK, LIGHT_CODES * light(c), (int64_t)RGB_CODES * ALL);
 }
 
-// How far a colour is from the light, of `count` pixels' sums; its own part of the light is
-// `weight`, so that it is ALL - weight at most.
+// The chroma code of a colour from the sums of `count` pixels. `weight` is the colour's weight in
+// luma, so that the difference is at most ALL - weight.
 static uint8_t chroma(int64_t colour, int weight, struct rgb sums, int count)
 {
     return quantize(GREY, DIFFERENCE_CODES * (ALL * colour - light(sums)),

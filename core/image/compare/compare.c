@@ -41,7 +41,7 @@ static bool same_shape(const struct rg_picture *a, const char *name_a, const str
     return true;
 }
 
-// The planes that a comparison works on, in one allocation: codes of each picture, and the mask.
+// The arrays of a comparison, in one allocation: codes of each picture, and the mask.
 struct planes {
     uint8_t *a, *b, *background, *mask;
 };
@@ -63,7 +63,7 @@ static bool compute(const struct rg_picture *a, const struct rg_picture *b,
                         (int64_t)a->width * a->height, &c->flip);
 }
 
-// What stands beside, of integers and of high dynamic range.
+// Computes the additional metrics: of codes, and HDR-FLIP.
 static bool compute_beside(const struct rg_picture *a, const struct rg_picture *b,
                            const uint8_t *mask, bool wants_hdr, struct rg_comparison *c)
 {

@@ -21,7 +21,7 @@ enum {
 
 typedef float lanes __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
 
-// Half of each 1-D filter: weight[k] belongs to offsets k and -k (slope: minus that at -k).
+// Half of each symmetric 1-D filter: weight[k] belongs to offsets k and -k (slope: negated at -k).
 struct filters {
     int radius;
     float achromatic[MAX_RADIUS + 1];   // contrast sensitivity of Y
@@ -33,13 +33,13 @@ struct filters {
     float curve[MAX_RADIUS + 1];
 };
 
-// A tile of one picture with its border: normalised luminance Y/Yn, X/Xn - Y/Yn and Y/Yn - Z/Zn,
-// which are YCxCz without its constant factors and offset: these cancel around a linear filter.
+// A tile of one picture with its border: normalised luminance Y/Yn, X/Xn - Y/Yn and Y/Yn - Z/Zn.
+// These are YCxCz without its factors and offset, which cancel around a linear filter.
 struct planes {
     float y[ROWS][COLUMNS], cx[ROWS][COLUMNS], cz[ROWS][COLUMNS];
 };
 
-// One row after the vertical filters, and after the horizontal ones too.
+// One row after the vertical filters, and one after the horizontal filters as well.
 struct vertical {
     float achromatic[COLUMNS], red_green[COLUMNS], blue_yellow1[COLUMNS], blue_yellow2[COLUMNS];
     float gauss[COLUMNS], slope[COLUMNS], curve[COLUMNS];
@@ -167,7 +167,8 @@ RG_MULTIVERSION static void filter_columns(const struct planes *planes, const st
 #define AT(row, offset) (*(const lanes *)&in->row[x + r + (offset)])
 #define BOTH(row)       (AT(row, -k) + AT(row, k))
 
-// The colour channels of a row; columns of `in` are shifted by the radius against those of `out`.
+// Filters the colour channels of a row; column i + radius of `in` is the centre of column i of
+// `out`.
 RG_MULTIVERSION static void filter_colours(const struct vertical *in, const struct filters *f,
                                            int width, struct filtered *out)
 {
@@ -189,7 +190,7 @@ RG_MULTIVERSION static void filter_colours(const struct vertical *in, const stru
     }
 }
 
-// The strength of edges and points of a row.
+// Filters a row for the strength of edges and points.
 RG_MULTIVERSION static void filter_features(const struct vertical *in, const struct filters *f,
                                             int width, struct filtered *out)
 {
@@ -229,8 +230,8 @@ static inline int32_t to_bits(float value)
     return bits;
 }
 
-// A third of the exponent and mantissa, then two of Halley's steps, each of which triples the
-// number of good digits.
+// Starts from a third of exponent and mantissa; each of the two Halley steps triples the number of
+// good digits.
 static inline float cube_root(float x)
 {
     float r = from_bits((int32_t)((uint32_t)to_bits(x) / 3u) + 709921077);
@@ -243,7 +244,7 @@ static inline float cube_root(float x)
 // The series of atanh, for a mantissa around 1.
 static inline float log_2(float x)
 {
-    int32_t bits = to_bits(x) - 0x3f3504f3; // of sqrt(1/2)
+    int32_t bits = to_bits(x) - 0x3f3504f3; // minus the bits of sqrt(1/2)
     float exponent = (float)(bits >> 23);
     float mantissa = from_bits((bits & 0x7fffff) + 0x3f3504f3);
     float s = (mantissa - 1.0f) / (mantissa + 1.0f), q = s * s;
@@ -251,10 +252,10 @@ static inline float log_2(float x)
     return exponent + s * (2.8853901f + q * (0.33333333f + q * series) * 2.8853901f);
 }
 
-// For -126 < x < 127: no branch, for the vectoriser's sake.
+// For -126 < x < 127, without a branch, so that loops vectorise.
 static inline float exp_2(float x)
 {
-    int32_t whole = (int32_t)(x + 1024.5f) - 1024; // truncation of a positive value
+    int32_t whole = (int32_t)(x + 1024.5f) - 1024; // truncates a positive value
     float t = (x - (float)whole) * 0.69314718f;
     float series = 1.0f / 24 + t * (1.0f / 120 + t * (1.0f / 720));
     float power = 1.0f + t * (1.0f + t * (0.5f + t * (1.0f / 6 + t * series)));
@@ -296,7 +297,8 @@ static inline struct lab hunt_lab(float r, float g, float b)
     return (struct lab){l, 5.0f * l * (x - y), 2.0f * l * (y - z)};
 }
 
-// Of filtered YCxCz: back to RGB, cut to what a screen shows, then to the uniform colour space.
+// Converts filtered YCxCz back to RGB, clamps it to what a screen shows, and converts it to the
+// uniform colour space.
 static inline struct lab perceived(float y, float cx, float cz)
 {
     float x = y + cx, z = y - cz;
@@ -311,12 +313,13 @@ static inline float hyab(struct lab p, struct lab q)
     return fabsf(p.l - q.l) + sqrtf(a * a + b * b);
 }
 
-// cmax: the largest difference of colours, green to blue, to the power of 0.7.
+// cmax is the largest colour difference, between green and blue, to the power of 0.7.
 RG_MULTIVERSION static void difference_row(const struct filtered *restrict a,
                                            const struct filtered *restrict b, int width, float cmax,
                                            float *restrict map, bool keeps_larger)
 {
-    // Plain pointers: gcc does not vectorise members of a struct that vectors were stored to.
+    // Plain pointers, because gcc does not vectorise members of a struct that vectors were stored
+    // to.
     const float *ay = a->y, *acx = a->cx, *acz = a->cz, *a_edge = a->edge, *a_point = a->point;
     const float *by = b->y, *bcx = b->cx, *bcz = b->cz, *b_edge = b->edge, *b_point = b->point;
     float knee = 0.4f * cmax, below = 0.95f / knee, above = 0.05f / (cmax - knee);
@@ -423,7 +426,7 @@ static void load_planes(const struct job *job, int picture, int x0, int y0, int 
     }
 }
 
-// Whether the tile and its border are the same in both pictures.
+// Whether the tile and its border are equal in both pictures.
 static bool same_tile(const struct job *job, int x0, int y0, int width, int height)
 {
     int r = job->filters.radius;
@@ -468,7 +471,7 @@ static void flip_tile(const struct job *job, int x0, int y0, struct tile_memory 
     }
 }
 
-// Of a job that has its pictures.
+// Makes the map of a job whose pictures are set.
 static bool make_map(struct job job, float pixels_per_degree, float *map)
 {
     if (!(pixels_per_degree >= 1.0f && pixels_per_degree <= 200.0f))
@@ -482,8 +485,7 @@ static bool make_map(struct job job, float pixels_per_degree, float *map)
     int tiles = across * ((height + TILE_HEIGHT - 1) / TILE_HEIGHT), failed = 0;
 #pragma omp parallel reduction(+ : failed)
     {
-        // The columns that round a tile up to whole lanes are read, so they are never left
-        // undefined.
+        // calloc, because the columns that round a tile up to whole lanes are read, too.
         struct tile_memory *memory = calloc(1, sizeof(*memory));
         failed = !memory;
 #pragma omp for schedule(dynamic)

@@ -1,6 +1,6 @@
 // FLIP for high dynamic range: Andersson, Nilsson, Shirley, Akenine-Moeller, "Visualizing Errors in
-// Rendered High Dynamic Range Images", Eurographics 2021. Both pictures are seen at all exposures
-// that show something of the reference, tone-mapped, and the largest difference counts.
+// Rendered High Dynamic Range Images", Eurographics 2021. Both pictures are tone-mapped at all
+// exposures that show something of the reference, and each pixel keeps its largest difference.
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -8,15 +8,15 @@
 #include "core/image/compare/compare.h"
 #include "core/image/compare/multiversion.h"
 
-// The tone mapping: ACES as Narkowicz fits it, before which its own exposure of 0.6 is applied:
-// (k[0] x^2 + k[1] x + k[2]) / (k[3] x^2 + k[4] x + k[5]).
+// The tone mapping: Narkowicz's fit of ACES with its exposure of 0.6 folded in: (k[0] x^2 + k[1] x
+// + k[2]) / (k[3] x^2 + k[4] x + k[5]).
 static const double k[6] = {0.6 * 0.6 * 2.51, 0.6 * 0.03, 0, 0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14};
-// What is mapped to this is bright, and no more shown the brighter.
+// Exposures stop where the tone-mapped value reaches this.
 #define BRIGHT 0.85
-// Larger than anything that tone mapping tells from 1, so that no square overflows.
+// Tone mapping gives 1 from far below this value on; clamping to it keeps squares from overflowing.
 #define LARGEST 1e9f
 
-// Of negative values and NaN, nothing is seen.
+// Negative values and NaN show as black.
 static inline float seen(float texel, float scale)
 {
     const float x = texel * scale;
@@ -39,8 +39,8 @@ RG_MULTIVERSION static void map_tones(float *values, int count, float scale)
 
 // --- the exposures ---
 
-// The value that has a rank among others, none of them NaN, in ascending order; they are moved.
-// Hoare's selection, for all of a large picture need not be sorted.
+// The value of a rank in ascending order; none may be NaN, and the array is reordered. Hoare's
+// selection, because a large picture need not be sorted whole.
 static float value_at_rank(float *values, int64_t count, int64_t rank)
 {
     int64_t first = 0, last = count - 1;
@@ -78,8 +78,8 @@ static void fill_luminances(const struct rg_picture *picture, float *luminances)
     }
 }
 
-// From the exposure at which the reference's brightest pixel is just bright to that at which its
-// median is.
+// Finds the range of exposures: from where the reference's brightest pixel is just bright to where
+// its median is.
 static void find_exposures(const struct rg_picture *reference, float *luminances,
                            struct rg_hdr_flip *hdr)
 {
@@ -110,7 +110,7 @@ bool rg_hdr_flip_map(const struct rg_picture *a, const struct rg_picture *b,
     find_exposures(a, map, hdr);
     memset(map, 0, pixels * sizeof(*map));
     const double step = (hdr->stop_exposure - hdr->start_exposure) / (hdr->exposures - 1);
-    const int shown = is_same(a, b) ? 0 : hdr->exposures; // the same picture differs at none
+    const int shown = is_same(a, b) ? 0 : hdr->exposures; // equal pictures differ at no exposure
     bool good = true;
     for (int i = 0; good && i < shown; i++)
         good = rg_flip_map_shown(a, b, map_tones, (float)exp2(hdr->start_exposure + i * step),

@@ -16,13 +16,13 @@ static inline uint32_t fixed(float flip)
     return (uint32_t)(flip * 2147483648.0f);
 }
 
-// What is looked for: the smallest value at which the running total, of counts or of values, passes
-// a target. Its digits are found from the first on.
+// A value to find: the smallest at which the running total, of counts or of values, passes a
+// target. Its digits are found from the highest on.
 struct wanted {
     bool by_sum;
-    uint64_t target, running; // the total below the digits that are known
-    uint32_t prefix;          // these digits
-    struct histogram digits;  // of the next one, of the pixels that agree so far
+    uint64_t target, running; // running: the total below the digits found so far
+    uint32_t prefix;          // the digits found so far
+    struct histogram digits;  // histogram of the next digit, over the pixels that share the prefix
 };
 enum { MOST_WANTED = 4 };
 
@@ -40,7 +40,7 @@ static void add_histogram(struct histogram *total, const struct histogram *own)
     }
 }
 
-// Of the first digit, of the pixels in the mask, if any. It has one bin more, for the value 1.
+// Counts the first digit of the pixels in the mask, if any. There is one bin more, for the value 1.
 static void count_first(const float *map, const uint8_t *mask, int64_t pixels,
                         struct histogram *total)
 {
@@ -60,8 +60,8 @@ static void count_first(const float *map, const uint8_t *mask, int64_t pixels,
     }
 }
 
-// The digit at `shift` of what agrees with each of the wanted above it: in one walk, of which most
-// pixels drop out by their first digit.
+// Counts the digit at `shift` of the pixels that share a wanted value's prefix, for all wanted
+// values in one pass; the first digit excludes most pixels.
 static void count_next(const float *map, const uint8_t *mask, int64_t pixels, int shift,
                        struct wanted *wanted, int count)
 {
@@ -98,7 +98,7 @@ static void take_digit(struct wanted *wanted, int shift)
     wanted->prefix = shift == FIRST_SHIFT ? bin : wanted->prefix << DIGIT_BITS | bin;
 }
 
-// Finds the values of all that is wanted. `top` is the histogram of the first digit.
+// Finds all wanted values. `top` is the histogram of the first digit.
 static void select_values(const float *map, const uint8_t *mask, int64_t pixels,
                           const struct histogram *top, struct wanted *wanted, int count,
                           double *values)

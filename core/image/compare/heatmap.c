@@ -17,7 +17,7 @@ static const uint8_t magma[33][3] = {
     {253, 226, 163}, {252, 240, 178}, {252, 253, 191},
 };
 
-// A font of the characters that "%.3g" can make: 5 x 7 pixels, a row a byte, the leftmost pixel in
+// A font of the characters that "%.3g" can print: 5 x 7 pixels, a row a byte, the leftmost pixel in
 // bit 4.
 static const struct {
     char character;

@@ -1,4 +1,4 @@
-// Pictures of where two pictures differ, in false colours with a labelled scale beside them.
+// Heat maps of where two pictures differ: false colours with a labelled scale beside them.
 #ifndef RG_CORE_IMAGE_COMPARE_HEATMAP_H
 #define RG_CORE_IMAGE_COMPARE_HEATMAP_H
 
@@ -12,8 +12,8 @@
 bool rg_heatmap_draw(const float *values, int width, int height, float top,
                      struct rg_picture *heat);
 
-// The largest |A - B| of each pixel's values into width * height floats (infinite where only one is
-// finite), and the largest finite one of all into `max`.
+// Puts the largest |A - B| of each pixel's values into width * height floats (infinite where only
+// one is finite), and the largest finite one into `max`.
 void rg_heatmap_difference(const struct rg_picture *a, const struct rg_picture *b, float *values,
                            float *max);
 

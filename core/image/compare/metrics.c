@@ -8,10 +8,11 @@
 
 const float rg_above_thresholds[RG_ABOVE_COUNT] = {1e-6f, 1e-4f, 1e-3f, 1e-2f};
 
-// Sums run in LANES fixed lanes and are added row by row, whatever the vector width and threads.
+// Sums run in LANES fixed lanes and are added row by row, so that vector width and threads change
+// no bit.
 enum { LANES = 16 };
 
-// fmaxf takes care of NaN, which costs a call for each value; this does not.
+// fmaxf handles NaN at the cost of a call for each value; this one does not.
 static inline float larger(float a, float b)
 {
     return a > b ? a : b;
@@ -20,13 +21,13 @@ static inline float larger(float a, float b)
 struct row_metrics {
     double sum, square_sum;
     float max, largest_value;
-    int max_index; // of the value in its row
+    int max_index; // index of the largest difference in its row
     int differing_values, differing_pixels;
     int values_above[RG_ABOVE_COUNT], pixels_above[RG_ABOVE_COUNT];
     int nonfinite_a, nonfinite_b, mismatches;
 };
 
-// The sums of a row of finite values. False: a value is not finite, and nothing is set.
+// Sums up a row of finite values. False, and nothing set, if a value is not finite.
 RG_MULTIVERSION static bool sum_finite_row(const float *a, const float *b, int values,
                                            struct row_metrics *row)
 {
@@ -63,7 +64,7 @@ RG_MULTIVERSION static bool sum_finite_row(const float *a, const float *b, int v
     return true;
 }
 
-// As sum_finite_row, for any values.
+// The same for rows with any values.
 static void sum_any_row(const float *a, const float *b, int values, struct row_metrics *row)
 {
     for (int i = 0; i < values; i++) {
@@ -159,7 +160,7 @@ RG_MULTIVERSION static void count_row(const float *a, const float *b, int width,
     }
 }
 
-// Where a row has its largest difference: the first such value.
+// The first value of a row with its largest difference.
 static int find_max(const float *a, const float *b, int values, float max)
 {
     for (int i = 0; i < values; i++) {
@@ -187,7 +188,7 @@ static void measure_row(const float *a, const float *b, const struct rg_picture 
 static void add_rows(const struct row_metrics *rows, int height, int channels, struct rg_metrics *m)
 {
     double sum = 0, squares = 0;
-    float largest = 1; // so that dark pictures are measured by what white would be
+    float largest = 1; // 1, so that dark pictures are measured relative to white
     for (int y = 0; y < height; y++) {
         const struct row_metrics *row = &rows[y];
         sum += row->sum;
@@ -230,7 +231,7 @@ static void measure_rows(const struct rg_picture *a, const struct rg_picture *b,
         measure_row(row_of(a, y), row_of(b, y), a, &rows[y]);
 }
 
-// The same of rows that are made first. False without memory for them.
+// The same for rows that `make` computes. False when memory for them runs out.
 static bool measure_made_rows(const struct rg_picture *a, const struct rg_picture *b,
                               rg_row_maker *make, struct row_metrics *rows)
 {

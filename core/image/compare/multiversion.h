@@ -1,5 +1,5 @@
-// Functions compiled for several x86-64 levels, the best chosen at start. No contraction is allowed
-// at any level, so all of them give the same bits.
+// Functions compiled for several x86-64 levels, the best chosen at start. No level may fuse
+// multiplications and additions, so that all give the same bits.
 #ifndef RG_CORE_IMAGE_COMPARE_MULTIVERSION_H
 #define RG_CORE_IMAGE_COMPARE_MULTIVERSION_H
 

@@ -13,16 +13,16 @@
 enum {
     MASK_CODES = 1,     // a pixel is rain when a colour is further than this from the background
     T1_MAX_CODES = 2,   // two roundings to a code, one on each side
-    POSITION_CODES = 8, // a colour found a pixel away is the same streak's when this near
+    POSITION_CODES = 8, // a colour found a pixel away belongs to the same streak when this near
     TILE = 16,
 };
 static const double T1_ABOVE_ONE = 0.001, T1_BIAS_CODES = 0.25;
 static const double T2_MATCHED = 0.995, T2_ENERGY_LOW = 0.99, T2_ENERGY_HIGH = 1.01;
 static const double T2_TILE_CODES = 2.0;
-// What the encoding clamps away, below black and above white, is compared as light: a relative
-// difference there counts as the codes that it is at white, which is the slope of sRGB's curve.
+// Values below black and above white, which the encoding clamps, are compared as light: a relative
+// difference is converted to codes by the slope of sRGB's curve at white.
 static const double CODES_AT_WHITE = 255 * 1.055 / 2.4;
-static const double CLAMPED_LOW = 0.99, CLAMPED_HIGH = 1.01; // of light
+static const double CLAMPED_LOW = 0.99, CLAMPED_HIGH = 1.01; // limits of the ratio of light
 
 struct pictures {
     const struct rg_picture *linear_a, *linear_b;
@@ -33,7 +33,7 @@ struct pictures {
     float exposure;
 };
 
-// What one row adds; integers, so that the order of adding does not matter.
+// What one row adds to the totals; integers, so that the order of adding does not matter.
 struct row_sums {
     int64_t mask_pixels, above_one, coverage_mismatches, unmatched_a, unmatched_b;
     int64_t bias[3], energy_a, energy_b;
@@ -83,8 +83,8 @@ static double clamped(double value)
     return value > 1 ? value - 1 : value < 0 ? value : 0;
 }
 
-// By how many codes b's channel is above a's beyond black and white. Values that are not finite
-// fail the tiers by themselves.
+// By how many codes b's channel exceeds a's beyond black and white. Values that are not finite fail
+// the tiers elsewhere.
 static double clamped_codes(const struct pictures *p, const float *a, const float *b, int channel)
 {
     const bool is_colour = channel < rg_picture_colours(p->linear_a);
@@ -272,7 +272,8 @@ static double tile_row_max(const struct pictures *p, int y0)
 }
 
 // Relative differences of linear light, over the mask of one row: sums for the mean, and the
-// largest of a pixel. Values that are not finite are left out; they fail the tiers by themselves.
+// largest of a pixel. Values that are not finite are skipped, because they fail the tiers
+// elsewhere.
 static void relative_row(const struct pictures *p, int y, double sums[2], double *max)
 {
     int channels = p->linear_a->channels, colours = rg_picture_colours(p->linear_a);
@@ -288,7 +289,7 @@ static void relative_row(const struct pictures *p, int y, double sums[2], double
             difference += fabs((double)a[c] - (double)b[c]);
             size += va > vb ? va : vb;
         }
-        if (!isfinite(difference) || size == 0) // the larger of a NaN and a number can be either
+        if (!isfinite(difference) || size == 0) // fmax of a NaN and a number may return either
             continue;
         sums[0] += difference;
         sums[1] += size;
@@ -297,7 +298,7 @@ static void relative_row(const struct pictures *p, int y, double sums[2], double
     }
 }
 
-// What the encoding clamps away in a row.
+// Sums of a row's light that the encoding clamps away.
 struct clamped_sums {
     double max_codes;        // anywhere
     double bias[4];          // over the mask, by channel
@@ -372,7 +373,7 @@ static bool measure_relative(const struct pictures *p, struct rg_tiers *tiers)
 static void fail_tier(struct rg_verdict *verdict, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-// Notes why a tier fails; the first reason stays.
+// Notes why a tier fails, unless a reason is noted already.
 static void fail_tier(struct rg_verdict *verdict, const char *format, ...)
 {
     if (!verdict->holds)

@@ -1,4 +1,4 @@
-// Whether a disk has room for what is to be written, as is found out before the work.
+// Checks that a disk has room for a result before the work begins.
 #ifndef RG_CORE_IMAGE_FILES_DISK_H
 #define RG_CORE_IMAGE_FILES_DISK_H
 
@@ -6,8 +6,8 @@
 
 #include "core/image/files/why.h"
 
-// Whether the file system of the file's folder has so many bytes for this user. It has where it
-// does not say. False, and `why` has both numbers.
+// Whether the file system of the file's folder has so many bytes for this user; true where it does
+// not say. False, and `why` has both numbers.
 bool rg_disk_has_room(const char *path, int64_t bytes, struct rg_why *why);
 
 #endif

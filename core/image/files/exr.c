@@ -7,12 +7,12 @@
 #include "core/image/files/format.h"
 #include "core/image/reader/reply.h"
 
-// What reading one file keeps, for OpenEXRCore's callbacks and the loop over chunks.
+// State of reading one file, for OpenEXRCore's callbacks and the loop over chunks.
 struct exr_job {
     exr_context_t exr;
     struct rg_picture *picture;
     exr_attr_box2i_t window;
-    const char *names[4]; // of the picture's channels, in its order
+    const char *names[4]; // names of the file's channels, in the picture's order
     bool tiled;
     int chunk_width, chunk_height; // pixels
     int across, down;              // chunks
@@ -26,7 +26,8 @@ static void on_error(exr_const_context_t exr, exr_result_t code, const char *mes
     (void)message;
 }
 
-// One sentence for a failed call: the library's own messages name files and come several at a time.
+// One sentence for a failed call, because the library's own messages name files and come several at
+// a time.
 static bool failed(struct rg_why *why, const char *step, exr_result_t code)
 {
     return rg_why_system(why, code == EXR_ERR_OUT_OF_MEMORY ? ENOMEM : EINVAL,
@@ -39,14 +40,13 @@ static exr_context_initializer_t initializer(void)
     with.error_handler_fn = on_error;
     with.max_image_width = RG_PICTURE_MAX_SIDE_PX;
     with.max_image_height = RG_PICTURE_MAX_SIDE_PX;
-    // This level of compression takes a third of the time of the default, and makes a twentieth
-    // more bytes.
+    // Level 2 takes a third of the default's time and makes a twentieth more bytes.
     with.zip_level = 2;
     return with;
 }
 
-// Fills job->names and returns how many: R, G, B and A, or Y and A, or V and A. 0: neither, with
-// `why` set.
+// Fills job->names with the channels to read and returns their number: R, G, B and A, or Y and A,
+// or V and A. 0, with `why` set: none of these.
 static int choose_channels(struct exr_job *job, const exr_attr_chlist_t *list)
 {
     static const char *const sets[][5] = {{"R", "G", "B", "A"}, {"Y", "A"}, {"V", "A"}};
@@ -65,7 +65,7 @@ static int choose_channels(struct exr_job *job, const exr_attr_chlist_t *list)
                       list->num_channels, list->num_channels ? list->entries[0].name.str : "");
 }
 
-// How the part is cut into chunks; false with `why` set.
+// Finds how the part is cut into chunks; false with `why` set.
 static bool find_chunks(struct exr_job *job, int64_t width, int64_t height)
 {
     exr_storage_t storage;
@@ -89,7 +89,7 @@ static bool find_chunks(struct exr_job *job, int64_t width, int64_t height)
     return true;
 }
 
-// What nobody reads here is refused by its name, in whichever part it stands.
+// Refuses, by its name, anything that no reader here can read, in whichever part it stands.
 static bool is_readable(const struct exr_job *job, int part)
 {
     const exr_attr_chlist_t *list;
@@ -126,8 +126,8 @@ static bool is_rec709(const exr_attr_chromaticities_t *c)
            c->white_y == 0.329f;
 }
 
-// Whether the file holds the picture and nothing else, in a way that the library decodes rightly:
-// its routine for B44 (3.1.5) is wrong for floats, and it has none for DWAA and DWAB.
+// Whether the file holds nothing but the picture, in a compression that the library (3.1.5) decodes
+// correctly: its routine for B44 is wrong for floats, and it has none for DWAA and DWAB.
 static bool is_plain(const struct exr_job *job, const exr_attr_chlist_t *list, int channels)
 {
     exr_attr_box2i_t display;
@@ -153,7 +153,7 @@ static bool is_plain(const struct exr_job *job, const exr_attr_chlist_t *list, i
             (colours->type == EXR_ATTR_CHROMATICITIES && is_rec709(colours->chromaticities)));
 }
 
-// Whose it is to read the texels.
+// Which reader takes the texels.
 enum reader { NOBODY, THIS, OPENIMAGEIO };
 
 static enum reader choose_reader(struct exr_job *job, int *channels)
@@ -187,7 +187,7 @@ static bool prepare(struct exr_job *job, int64_t file_bytes, int channels)
     return rg_why_allocate(job->picture, width, height, channels, job->why);
 }
 
-// Tells the pipeline where the picture wants each channel of the chunk whose corner is x, y.
+// Tells the pipeline where to put each channel of the chunk whose corner is x, y.
 static void aim(const struct exr_job *job, exr_decode_pipeline_t *decode, int64_t x, int64_t y)
 {
     const struct rg_picture *picture = job->picture;

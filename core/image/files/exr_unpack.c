@@ -6,7 +6,7 @@
 
 #include "core/image/half.h"
 
-// Converts `count` values of one channel of one line, and spreads them over texels.
+// Converts `count` values of one channel of one line, and writes one into each texel.
 static void convert_line(const uint8_t *from, int type, int count, float *to, int stride)
 {
     enum { PART = 256 };
@@ -29,7 +29,7 @@ static void convert_line(const uint8_t *from, int type, int count, float *to, in
     }
 }
 
-// Takes the place of the library's routine, which reverses the channels of RGBA halves (3.1.5).
+// Replaces the library's routine, which reverses the channels of RGBA halves (3.1.5).
 static exr_result_t unpack(exr_decode_pipeline_t *decode)
 {
     const uint8_t *from = decode->unpacked_buffer, *end = from + decode->chunk.unpacked_size;
@@ -93,7 +93,8 @@ static exr_result_t decompress(exr_decode_pipeline_t *decode)
 
 void rg_exr_take_over(struct rg_exr_unpacker *unpacker, exr_decode_pipeline_t *decode)
 {
-    if (!decode->unpack_and_convert_fn) // it reads floats of one channel right to their place
+    if (!decode->unpack_and_convert_fn) // the library reads floats of one channel directly to their
+                                        // place
         return;
     decode->unpack_and_convert_fn = unpack;
     if (!decode->decompress_fn) // an uncompressed file

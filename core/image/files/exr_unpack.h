@@ -1,5 +1,5 @@
 // Decompressing and unpacking the chunks of an EXR file: faster than the library's own routines,
-// and right where those of version 3.1.5 reverse the channels of RGBA halves.
+// and correct for RGBA halves, whose channels version 3.1.5 reverses.
 #ifndef RG_CORE_IMAGE_FILES_EXR_UNPACK_H
 #define RG_CORE_IMAGE_FILES_EXR_UNPACK_H
 
@@ -9,7 +9,7 @@
 
 #include <openexr.h>
 
-// What a thread keeps between chunks. Zeroed at first; released by rg_exr_unpacker_release.
+// A thread's state between chunks. Zero it at first; rg_exr_unpacker_release frees it.
 struct rg_exr_unpacker {
     struct libdeflate_decompressor *inflater;
     uint8_t *scratch;
@@ -17,8 +17,8 @@ struct rg_exr_unpacker {
     exr_result_t (*decompress)(exr_decode_pipeline_t *); // the library's, for other compressions
 };
 
-// Puts the routines in place of those that exr_decoding_choose_default_routines chose. Channels
-// with a decode_to_ptr are written there as floats, by the strides that are set for them.
+// Replaces the routines that exr_decoding_choose_default_routines chose. Channels with a
+// decode_to_ptr are written there as floats, by the strides set for them.
 void rg_exr_take_over(struct rg_exr_unpacker *unpacker, exr_decode_pipeline_t *decode);
 void rg_exr_unpacker_release(struct rg_exr_unpacker *unpacker);
 

@@ -1,4 +1,5 @@
-// What io.c asks of one file format. Everything here reports into `why` and logs nothing.
+// The readers and writers of each file format, which io.c calls. They put errors into `why` and log
+// nothing.
 #ifndef RG_CORE_IMAGE_FILES_FORMAT_H
 #define RG_CORE_IMAGE_FILES_FORMAT_H
 
@@ -13,19 +14,19 @@ bool rg_exr_write(const char *path, const struct rg_picture *picture,
 
 bool rg_png_read(const char *path, int64_t file_bytes, struct rg_picture *picture,
                  struct rg_why *why);
-// The same of a file that holds no colours: values are codes over the largest code, without a
-// curve.
+// The same for a file without colours: values are codes over the largest code, without a curve.
 bool rg_png_read_codes(const char *path, int64_t file_bytes, struct rg_picture *picture,
                        struct rg_why *why);
 bool rg_png_write(const char *path, const struct rg_picture *picture,
                   const struct rg_write_options *options, struct rg_why *why);
 
-// HDR and TIFF, and EXR that needs it. The writer takes the format from `extension`, since `path`
-// is a temporary name.
+// Reads HDR and TIFF, and EXR files that exr.c cannot read. The writer takes the format from
+// `extension`, since `path` is a temporary name.
 bool rg_oiio_read(const char *path, int64_t file_bytes, struct rg_picture *picture,
                   struct rg_why *why);
-// What the reader's process handed back of a file of so many bytes (core/image/reader/reply.h). The
-// picture may hold texels where the reply turns out to be cut; the caller destroys it either way.
+// Takes the reply of the reader's process for a file of so many bytes (core/image/reader/reply.h).
+// The picture may hold texels even where the reply turns out to be cut; the caller destroys it
+// either way.
 bool rg_oiio_take_reply(const void *reply, size_t bytes, int64_t file_bytes,
                         struct rg_picture *picture, struct rg_why *why);
 bool rg_oiio_write_hdr(const char *path, const struct rg_picture *picture,

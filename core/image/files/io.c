@@ -17,8 +17,8 @@
 
 static const struct {
     const char *extension;
-    double least_pixel_bytes; // of a picture that a technique draws; docs/reliability.md has what
-                              // several took
+    double least_pixel_bytes; // lower bound for pictures that techniques draw; docs/reliability.md
+                              // has measured sizes
     bool (*read)(const char *, int64_t, struct rg_picture *, struct rg_why *);
     bool (*write)(const char *, const struct rg_picture *, const struct rg_write_options *,
                   struct rg_why *);
@@ -71,7 +71,7 @@ static bool read_file(const char *path, struct rg_picture *picture, struct rg_wh
            formats[format].read(path, bytes, picture, why);
 }
 
-// A file that is read twice is warned of once.
+// Whether a path occurs earlier in the list, so that a file that is read twice is warned of once.
 static bool was_named_before(const char *const *paths, int index)
 {
     for (int i = 0; i < index; i++)

@@ -21,7 +21,7 @@ static char load_error[300];
 
 static void load(void)
 {
-    // Found through the executable's run path: beside the build's or the installation's files.
+    // Found by the executable's run path: beside the build's or the installation's files.
     void *module = dlopen("raingauge_oiio.so", RTLD_LAZY | RTLD_LOCAL);
     const struct rg_oiio_functions *(*entry)(void) = NULL;
     if (module) {
@@ -45,7 +45,7 @@ const struct rg_oiio_functions *rg_oiio(char *why, int why_size)
 
 // --- reading, in the reader's process ---
 
-// The extras that follow the texels, as a text.
+// Takes the extras, a text after the texels.
 static bool take_extras(const char *extras, uint32_t bytes, struct rg_picture *picture,
                         struct rg_why *why)
 {
@@ -60,7 +60,7 @@ static bool take_extras(const char *extras, uint32_t bytes, struct rg_picture *p
     return true;
 }
 
-// What follows the header, whose picture has its memory.
+// Takes what follows the header into the picture, whose memory is allocated.
 static bool take_rest(const char *rest, size_t bytes, const struct rg_picture_reply *header,
                       struct rg_picture *picture, struct rg_why *why)
 {

@@ -22,7 +22,8 @@ void say(char *why, size_t size, const std::string &text)
     snprintf(why, size, "%s", text.c_str());
 }
 
-// OpenImageIO does not look whether closing a file wrote its last bytes: so the file is ours.
+// OpenImageIO does not check that closing a file wrote its last bytes, so we open and close the
+// file.
 bool write_to(FILE *file, ImageOutput *output, const char *path, ImageSpec &spec,
               const float *texels)
 {
@@ -45,7 +46,7 @@ try {
         return false;
     }
     ImageSpec spec(width, height, channels, kind == "tiff" ? TypeDesc::HALF : TypeDesc::FLOAT);
-    if (channels == 2) { // of four the last is alpha anyway
+    if (channels == 2) { // with four, the last is alpha by default
         spec.channelnames = {"Y", "A"};
         spec.alpha_channel = 1;
     }

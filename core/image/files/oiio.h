@@ -1,5 +1,5 @@
-// The functions of the OpenImageIO module, plain C, and no exception leaves them. The module is
-// loaded by oiio.c when one is first needed.
+// The functions of the OpenImageIO module: plain C, and no exception leaves them. oiio.c loads the
+// module on first use.
 #ifndef RG_CORE_IMAGE_FILES_OIIO_H
 #define RG_CORE_IMAGE_FILES_OIIO_H
 

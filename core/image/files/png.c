@@ -9,8 +9,8 @@
 #include "core/image/files/png_beside.h"
 #include "core/image/srgb.h"
 
-// Everything that a read or a write holds. libpng reports errors by longjmp, so it lives outside
-// the functions that this leaves.
+// State of one read or write. libpng reports errors by longjmp, so the state lives outside the
+// functions that a jump leaves.
 struct png_job {
     png_structp png;
     png_infop info;
@@ -46,8 +46,8 @@ static void release(struct png_job *job)
     rg_png_beside_release(&job->beside);
 }
 
-// A deflated byte holds at most 1032 others, so a header that promises more is a lie that need not
-// be believed with memory.
+// One deflated byte expands to at most 1032, so that a header that promises more is damaged and
+// gets no memory.
 static bool plausible(int64_t file_bytes, int64_t raw_bytes, struct rg_why *why)
 {
     if (raw_bytes / 1040 <= file_bytes)
@@ -136,7 +136,7 @@ static bool decode(const struct png_job *job, bool wide, struct rg_picture *pict
     return true;
 }
 
-// Codes over the largest code, without a curve.
+// Keeps codes over the largest code, without a curve.
 static void keep_codes(const png_byte *bytes, bool wide, struct rg_picture *picture)
 {
     const uint16_t *codes = (const uint16_t *)(const void *)bytes;
@@ -203,7 +203,7 @@ static bool write_rows(struct png_job *job, const struct rg_picture *picture, fl
     if (setjmp(png_jmpbuf(job->png)))
         return false;
     png_init_io(job->png, job->file);
-    // Level 3 writes four times as fast as the default, for a tenth more bytes.
+    // Level 3 writes four times as fast as the default and makes a tenth more bytes.
     png_set_compression_level(job->png, 3);
     png_set_IHDR(job->png, job->info, (png_uint_32)picture->width, (png_uint_32)picture->height, 8,
                  types[picture->channels], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,

@@ -12,7 +12,7 @@ static const char names[RG_PNG_CHUNKS][5] = {"gAMA", "cHRM", "sRGB", "iCCP",
 
 // --- chunks as they come ---
 
-// A frame's bytes without its number in the sequence, which both kinds of its chunks begin with.
+// Digests a frame's bytes without its sequence number, with which both kinds of frame chunks begin.
 static bool hear_frame(struct rg_png_beside *beside, const png_unknown_chunk *chunk)
 {
     const bool is_head = !memcmp(chunk->name, "fcTL", 5);
@@ -26,8 +26,8 @@ static bool hear_frame(struct rg_png_beside *beside, const png_unknown_chunk *ch
     return true;
 }
 
-// A profile is a name, a zero, how it is compressed, and a stream of zlib's. What cannot be
-// inflated is told as it is.
+// A profile is a name, a zero, a byte for the compression, and a zlib stream. A stream that cannot
+// be inflated is digested as it is.
 static void hear_profile(struct rg_png_beside *beside, const png_unknown_chunk *chunk)
 {
     enum { MOST_BYTES = 16 << 20 };
@@ -69,7 +69,7 @@ void rg_png_beside_hear(struct rg_png_beside *beside, png_structp png)
     png_set_read_user_chunk_fn(png, beside, hear);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, (png_const_bytep)names,
                                 RG_PNG_CHUNKS);
-    // Of a chunk that is damaged nobody knows what it said.
+    // Damaged chunks are dropped, because their content is unknown.
     png_set_crc_action(png, PNG_CRC_DEFAULT, PNG_CRC_ERROR_QUIT);
 }
 
@@ -85,7 +85,7 @@ static bool has(const struct rg_png_beside *beside, enum rg_png_chunk chunk, uin
     return beside->chunks[chunk].is_there && beside->chunks[chunk].size == size;
 }
 
-// Code points of ITU-T H.273, of which powers and sRGB's own curve are undone. False for others.
+// Code points of ITU-T H.273; powers and sRGB's curve are supported. False for others.
 static bool take_cicp(const uint8_t *c, struct rg_picture *picture)
 {
     enum { REC709 = 1, GAMMA_22 = 4, GAMMA_28 = 5, LINEAR = 8, SRGB = 13 };
@@ -95,8 +95,8 @@ static bool take_cicp(const uint8_t *c, struct rg_picture *picture)
     return is;
 }
 
-// 1/2.2, however it is rounded, is what the standard has sRGB's files say to readers that know no
-// sRGB, and what many programs write instead.
+// The standard has sRGB files say 1/2.2 to readers without sRGB, and many programs write it instead
+// of sRGB; so 1/2.2, however rounded, means sRGB.
 static bool tell_gamma(uint32_t gamma, struct rg_picture *picture)
 {
     if (gamma == 0)
@@ -111,7 +111,7 @@ static bool tell_profile(const struct rg_png_beside *beside, struct rg_picture *
                          beside->profile_bytes, (unsigned long long)beside->profile);
 }
 
-// White, red, green and blue of Rec. 709, within what programs round to.
+// Whether white, red, green and blue are those of Rec. 709, within the rounding of programs.
 static bool tell_primaries(const uint8_t *bytes, struct rg_picture *picture)
 {
     static const int srgb[8] = {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000};
@@ -127,7 +127,8 @@ static bool tell_primaries(const uint8_t *bytes, struct rg_picture *picture)
                          p[2] / 1e5, p[3] / 1e5, p[4] / 1e5, p[5] / 1e5, p[6] / 1e5, p[7] / 1e5);
 }
 
-// Of several chunks that say it, the standard has the first of these count that a reader can apply.
+// If several chunks describe the colours, the standard lets the first count that a reader can
+// apply.
 static bool tell_colours(const struct rg_png_beside *beside, struct rg_picture *picture)
 {
     const uint8_t *cicp = beside->chunks[RG_PNG_CICP].bytes;

@@ -17,7 +17,7 @@ enum { MAX_NAMES = 100 };
 
 // --- where it goes ---
 
-// Sets `mode` to that of a file that is there, its type included, and else to 0.
+// Sets `mode` to the existing file's mode, including its type, or to 0 if there is none.
 static bool find_target(const char *path, char target[PATH_MAX], mode_t *mode, struct rg_why *why)
 {
     struct stat st;
@@ -43,7 +43,7 @@ static bool find_target(const char *path, char target[PATH_MAX], mode_t *mode, s
                          strerror(errno));
 }
 
-// A name in the target's folder, which is short, so that it fits where the target's does.
+// Makes a name in the target's folder, short enough to fit wherever the target's name does.
 static void name_beside(const char *target, int attempt, char *name, size_t size)
 {
     const char *slash = strrchr(target, '/');
@@ -53,9 +53,9 @@ static void name_beside(const char *target, int attempt, char *name, size_t size
 
 // --- names that go with the process ---
 
-// Files that have a name while they are written. NULL: a free place.
+// Temporary files that have a name. NULL: a free place.
 static _Atomic(const struct rg_temporary *) named[MAX_NAMES];
-static pid_t owner; // a process that is forked meanwhile leaves them alone
+static pid_t owner; // a forked process leaves its parent's files alone
 
 static void remove_named(void)
 {
@@ -87,7 +87,7 @@ static void forget(const struct rg_temporary *t)
 
 // --- making it ---
 
-// What will have another file's mode is nobody else's before it has it.
+// Until chmod, a temporary file that replaces another is 0600, so that nobody else can read it.
 static mode_t first_mode(const struct rg_temporary *t)
 {
     return t->mode ? S_IRUSR | S_IWUSR : 0666;
@@ -106,7 +106,7 @@ static int open_nameless(struct rg_temporary *t)
     if (!access(t->path, W_OK))
         return 0;
     close(t->fd);
-    return EOPNOTSUPP; // without /proc it could not be written by a path
+    return EOPNOTSUPP; // without /proc it has no path to write it by
 }
 
 static int open_named(struct rg_temporary *t)
@@ -131,7 +131,7 @@ bool rg_temporary_make(const char *path, struct rg_temporary *temporary, struct 
     if (!find_target(path, temporary->target, &temporary->mode, why))
         return false;
     int error = open_nameless(temporary);
-    if (error) // some file systems know no such files, and some containers refuse them
+    if (error) // some file systems lack nameless files, and some containers refuse them
         error = open_named(temporary);
     if (error == ENOTDIR)
         return rg_why_set(why, "cannot be written: %s; name a folder", strerror(error));
@@ -147,13 +147,13 @@ bool rg_temporary_make(const char *path, struct rg_temporary *temporary, struct 
 
 static bool give_mode(const struct rg_temporary *t)
 {
-    if (t->mode) // fails where a file system has no modes: all files are alike there
+    if (t->mode) // fails where a file system has no modes, which does no harm
         fchmod(t->fd, t->mode & 0777);
     return true;
 }
 
-// Copies a file without a name to one that has a name, where the system gives it none (linkat): it
-// is `t` from then on.
+// Copies a nameless file to a named one where the system cannot name it (linkat); the copy then
+// becomes `t`.
 static bool copy_to_name(struct rg_temporary *t)
 {
     const int from = t->fd;
@@ -165,7 +165,8 @@ static bool copy_to_name(struct rg_temporary *t)
     return !error && give_mode(t);
 }
 
-// Only a file that is there already needs a name for a moment: a link replaces none.
+// linkat cannot replace a file, so that only an existing target needs a named temporary for a
+// moment.
 static bool put_in_place(struct rg_temporary *t)
 {
     give_mode(t);

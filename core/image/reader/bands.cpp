@@ -72,8 +72,8 @@ double number_of(const unsigned char *at, TypeDesc type)
     }
 }
 
-// Texels as the file has them, made doubles: OpenImageIO itself would round them to floats. Codes
-// become quotients by the largest code, but those of EXR stay whole numbers.
+// Converts texels to doubles, because OpenImageIO would round them to floats. Codes become
+// quotients by the largest code, except EXR's, which stay whole numbers.
 class Converter
 {
   public:
@@ -97,7 +97,7 @@ class Converter
             }
     }
 
-    bool is_known = true; // every type is
+    bool is_known = true; // every type is known
 
   private:
     static constexpr unsigned number_types =

@@ -11,21 +11,21 @@
 
 #include "core/image/reader/reader.h"
 
-// The largest code of integers, 0 for floats.
+// The largest code of an integer type, 0 for floats.
 double largest_code(OIIO::TypeDesc type);
 
 struct Band {
-    int first_line, lines; // of the data window
-    const double *values;  // of all channels
+    int first_line, lines; // lines of the data window
+    const double *values;  // values of all channels
 };
 
-// Reads a part's texels band by band, from the top. Integers are quotients by the largest code, but
-// those of EXR are whole numbers. False where it is refused.
+// Reads a part's texels band by band, from the top. Integers become quotients by the largest code,
+// except EXR's, which stay whole numbers. False where reading fails.
 bool each_band(Reading &reading, OIIO::ImageInput &input, int part, int level,
                const std::function<void(const Band &)> &take);
 
-// One for each channel, of its values with their places in the display window: the same of a half
-// and of a float, and of a data window that leaves out nothing but zeros.
+// One digest for each channel, of its values and their places in the display window. It is the same
+// for halves and floats, and for data windows that differ only in zeros left out.
 class Digests
 {
   public:

@@ -1,4 +1,4 @@
-// What a file's head says: attributes, and what OpenImageIO (2.4) keeps to itself.
+// Reads a file's header: attributes, and what OpenImageIO (2.4) does not report.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -35,7 +35,7 @@ template <class... Values> std::string printed(const char *format, Values... val
 
 // --- HDR: lines of text, an empty one, and the resolution ---
 
-// "-Y 6 +X 8": the axis that scan lines step along comes first, and - Y begins on top.
+// "-Y 6 +X 8": the axis along which scan lines step comes first, and -Y begins at the top.
 int hdr_orientation(const std::string &line)
 {
     static const struct {
@@ -53,7 +53,7 @@ int hdr_orientation(const std::string &line)
     return 1;
 }
 
-// Numbers that change nothing.
+// Whether a factor is 1 and changes nothing.
 bool is_one(const std::string &text)
 {
     const char *at = text.c_str();
@@ -64,7 +64,7 @@ bool is_one(const std::string &text)
     return end == at && std::string(at).find_first_not_of(" \t\r") == std::string::npos;
 }
 
-// Of several exposures in one file, each multiplied its texels.
+// A file may have several exposures, each of which was multiplied into its texels.
 int read_hdr_head(Reading &reading)
 {
     static const char *const names[] = {"COLORCORR", "PRIMARIES", "PIXASPECT", "GAMMA"};
@@ -95,9 +95,9 @@ int read_hdr_head(Reading &reading)
 
 // --- TIFF: the tags of its first directory ---
 
-// Integers of the file's byte order.
+// Reads integers in the file's byte order.
 struct Tiff {
-    bool is_big_endian, is_big; // big: BigTIFF, of 64-bit offsets
+    bool is_big_endian, is_big; // is_big: BigTIFF, with 64-bit offsets
 
     uint64_t number(const unsigned char *at, int bytes) const
     {
@@ -108,7 +108,7 @@ struct Tiff {
     }
 };
 
-// The values of an entry as they lie in the file: of up to `most` bytes.
+// The values of an entry as they lie in the file, up to `most` bytes.
 std::vector<unsigned char> values_of(const Tiff &tiff, const unsigned char *entry, size_t most)
 {
     static const int sizes[] = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8};
@@ -165,7 +165,7 @@ void take_entry(Reading &reading, const Tiff &tiff, const unsigned char *entry, 
     }
 }
 
-// The entries of a directory, and where the next one lies, 0: nowhere.
+// The entries of a directory, and the offset of the next directory; 0: none.
 std::vector<unsigned char> directory_at(const Tiff &tiff, uint64_t at, uint64_t *next)
 {
     const size_t counted = tiff.is_big ? 8 : 2, entry = tiff.is_big ? 20 : 12;
@@ -183,7 +183,7 @@ std::vector<unsigned char> directory_at(const Tiff &tiff, uint64_t at, uint64_t 
     return entries;
 }
 
-// Directories follow each other, but in some damaged files they lead back.
+// Directories are a list, which in some damaged files is circular.
 void read_tiff_head(Reading &reading)
 {
     enum { MOST_PAGES = 5000 };
@@ -247,7 +247,7 @@ int read_head(Reading &reading, const OIIO::ImageSpec &spec)
 {
     if (reading.extension == "hdr")
         return read_hdr_head(reading);
-    if (reading.is_exr()) // which knows no orientation, whatever attribute has the name
+    if (reading.is_exr()) // EXR knows no orientation, whatever attribute has the name
         return 1;
     read_tiff_head(reading);
     return spec.get_int_attribute("Orientation", 1);

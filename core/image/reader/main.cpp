@@ -1,9 +1,9 @@
-// raingauge_picture_reader: reads one picture with OpenImageIO, and hands back its texels and what
-// the file holds besides (reply.h). HDR and TIFF come here, and what core/image/files/exr.c leaves
-// of EXR.
+// raingauge_picture_reader: reads one picture with OpenImageIO, and returns its texels and what
+// else the file holds (reply.h). It reads HDR and TIFF, and EXR files that core/image/files/exr.c
+// cannot read.
 //
-// OpenImageIO 2.4 writes past its memory with some files, such as a tiled TIFF of signed 8-bit
-// CMYK. In a cage it harms nobody.
+// OpenImageIO 2.4 writes beyond its memory with some files, such as a tiled TIFF of signed 8-bit
+// CMYK; the cage makes that harmless.
 #include <OpenImageIO/filesystem.h>
 
 #include <cstdio>
@@ -27,7 +27,7 @@ using OIIO::TypeDesc;
 namespace
 {
 
-// Time for 20 megabytes of a file in a second, and memory for what it may hold at most: once as
+// A second of time for 20 megabytes of a file, and memory for the most that it may hold: once as
 // texels, once as the file's own values.
 void set_limits(int64_t file_bytes)
 {
@@ -39,7 +39,7 @@ void set_limits(int64_t file_bytes)
     rg_cage_limit(&limits);
 }
 
-// Readers must not fall back to another format's reader, nor start threads.
+// Keeps readers from falling back to another format's reader and from starting threads.
 void set_library()
 {
     OIIO::attribute("try_all_readers", 0);
@@ -54,7 +54,7 @@ try {
     ImageSpec hints;
     hints["oiio:UnassociatedAlpha"] = 1;
     OIIO::Filesystem::IOProxy *source = &proxy;
-    hints.attribute("oiio:ioproxy", TypeDesc::PTR, &source); // some readers look for it only there
+    hints.attribute("oiio:ioproxy", TypeDesc::PTR, &source); // some readers look for it only here
     std::unique_ptr<ImageInput> input =
         ImageInput::open("picture." + reading.extension, &hints, &proxy);
     if (!input)
@@ -103,5 +103,5 @@ int main(int argc, char **argv)
         _exit(RG_CAGE_REFUSED);
     read_file(reading);
     const bool put = put_reply(reading);
-    _exit(put ? 0 : 1); // not exit: destructors of libraries are not part of the work
+    _exit(put ? 0 : 1); // _exit skips the destructors of libraries
 }

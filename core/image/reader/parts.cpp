@@ -1,4 +1,4 @@
-// What is left of a file beside its first picture.
+// Describes the parts of a file other than its first picture.
 #include <cstdio>
 
 #include "core/image/reader/bands.h"
@@ -11,7 +11,7 @@ namespace
 
 enum { MOST_PARTS = 4096 };
 
-// Parts of EXR, pages of TIFF, smaller levels of either.
+// Describes one part of an EXR, page of a TIFF, or smaller level of either.
 bool tell_part(Reading &reading, ImageInput &input, int part, int level)
 {
     const ImageSpec spec = input.spec(part, level);

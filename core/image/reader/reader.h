@@ -1,6 +1,7 @@
-// The parts of raingauge_picture_reader: what a file's pixels are, and what it holds besides.
+// The parts of raingauge_picture_reader: reading a file's pixels, and describing what else it
+// holds.
 //
-// It runs alone in its process, so it leaves memory to the end of the process.
+// The program handles one file and then exits, so it frees no memory.
 #ifndef RG_CORE_IMAGE_READER_READER_H
 #define RG_CORE_IMAGE_READER_READER_H
 
@@ -14,16 +15,16 @@ extern "C" {
 }
 
 struct Reading {
-    std::string extension; // without its dot, in small letters
+    std::string extension; // lower case, without its dot
     int64_t file_bytes;
     rg_picture_reply reply;
-    float *texels;      // NULL: none, as where the reply alone shows that none can be
+    float *texels;      // NULL: none, where the header alone shows that the picture is refused
     std::string extras; // core/image/extras.h
-    int pages;          // of a TIFF, as its directories follow each other; of others 1
+    int pages;          // of a TIFF, in the order of its directories; 1 for other formats
 
-    // Sets the reply's reason, without the file's name; false.
+    // Sets the reply's reason, without the file's name, and returns false.
     bool refuse(const std::string &why);
-    // Adds an extra. `is_applied`: the texels are what they are with it.
+    // Adds an extra. `is_applied`: the texels already include its effect.
     void tell(bool is_applied, const std::string &name, const std::string &value);
     bool is_exr() const
     {
@@ -31,23 +32,23 @@ struct Reading {
     }
 };
 
-// How the texels stand in the file, as Exif numbers it from 1, and what else its head says that
-// OpenImageIO (2.4) does not hand on: of HDR the lines of text, of TIFF the tags of colour.
+// Reads from the header what OpenImageIO (2.4) does not report: HDR's lines of text, TIFF's colour
+// tags. Returns the orientation of the texels, as Exif numbers it from 1.
 int read_head(Reading &reading, const OIIO::ImageSpec &spec);
 
-// Colours, profile and shape of texels, as OpenImageIO names them.
+// Adds colours, profile and shape of texels as extras, by OpenImageIO's names.
 void tell_attributes(Reading &reading, const OIIO::ImageSpec &spec);
 
-// Extras of further parts, pages and levels. False where one is refused.
+// Adds extras for further parts, pages and levels. False where one cannot be read.
 bool tell_parts(Reading &reading, OIIO::ImageInput &input);
 
-// The texels, and extras of further channels, of texels outside the display window, and of what
-// tell_parts tells. Ends the process where there is no memory for the texels.
+// Reads the texels, and adds extras for further channels, texels outside the display window, and
+// what tell_parts finds. Ends the process when memory for the texels runs out.
 bool read_all(Reading &reading, OIIO::ImageInput &input);
 
 // A digest as extras print it.
 std::string digest_text(uint64_t digest);
-// Eight coordinates of colours: white, red, green and blue. Told where they are not Rec. 709's.
+// Adds an extra for the coordinates of white, red, green and blue, unless they are Rec. 709's.
 void tell_primaries(Reading &reading, const double of[8]);
 
 #endif

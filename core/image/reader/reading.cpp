@@ -1,4 +1,4 @@
-// What is known of a file while it is read.
+// State of a file while it is read.
 #include <cstdio>
 
 #include "core/image/reader/reader.h"

@@ -1,11 +1,10 @@
-// What raingauge_picture_reader replies in its cage (core/base/cage/cage.h), and what it is asked.
+// The request to raingauge_picture_reader in its cage (core/base/cage/cage.h), and its reply.
 //
 // Command line: raingauge_picture_reader NAME, of which only the extension counts: the file is the
-// descriptor that it is given. The reply is this header, then the texels as floats, as in
-// picture.h, then the extras (core/image/extras.h), which are no longer than
-// RG_PICTURE_EXTRAS_BYTES. `why` is "" or a sentence that says what is wrong, and then nothing
-// follows; nothing follows either where the header alone shows a picture that cannot be. The
-// receiver trusts none of it.
+// descriptor that the program is given. The reply is this header, then the texels as floats, as in
+// picture.h, then the extras (core/image/extras.h), of at most RG_PICTURE_EXTRAS_BYTES. `why` is ""
+// or a sentence that says what is wrong; then nothing follows. Nothing follows either where the
+// header alone shows an impossible picture. The receiver trusts none of it.
 #ifndef RG_CORE_IMAGE_READER_REPLY_H
 #define RG_CORE_IMAGE_READER_REPLY_H
 
@@ -16,11 +15,11 @@
 
 #define RG_PICTURE_REPLY_MAGIC 0x50524732u // "2GRP"
 
-// A file of a few thousand channels or parts has no more.
+// Enough for a file with a few thousand channels or parts.
 enum { RG_PICTURE_EXTRAS_BYTES = 1 << 18 };
 
-// The display window of an EXR may be larger than what its file has texels for: so such files are
-// believed to have as many bytes at least.
+// An EXR's display window may exceed the texels in its file, so that a small file may hold a
+// picture as large as a file of this size could.
 enum { RG_PICTURE_EXR_BYTES = 1 << 18 };
 
 struct rg_picture_reply {
@@ -30,7 +29,7 @@ struct rg_picture_reply {
     char why[480];
 };
 
-// Whether it is a picture within the limits.
+// Whether the header's picture is within the limits.
 static inline bool rg_picture_reply_is_possible(const struct rg_picture_reply *reply)
 {
     return reply->width > 0 && reply->width <= RG_PICTURE_MAX_SIDE_PX && reply->height > 0 &&
@@ -43,8 +42,8 @@ static inline int64_t rg_picture_reply_values(const struct rg_picture_reply *rep
     return (int64_t)reply->width * reply->height * reply->channels;
 }
 
-// Whether a file of so many bytes can hold the picture: no format but EXR codes more than 1040
-// values in a byte.
+// Whether a file of so many bytes can hold the picture: only EXR codes more than 1040 values in a
+// byte.
 static inline bool rg_picture_reply_fits(const struct rg_picture_reply *reply, int64_t file_bytes)
 {
     return (double)reply->width * reply->height * reply->channels / 1040 <= (double)file_bytes;

@@ -1,4 +1,4 @@
-// The texels of a picture, and digests of what does not come into them.
+// Reads a picture's texels, and digests what is left out of them.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -19,21 +19,21 @@ using OIIO::TypeDesc;
 namespace
 {
 
-// Which of a file's channels is which of the picture's; -1: none of it.
+// Maps the picture's channels to the file's; -1: none.
 struct Picture {
     ImageSpec spec; // of the data window
     std::vector<int> slots;
     int channels = 0, colours = 0, orientation = 1;
-    int x = 0, y = 0, width = 0, height = 0; // of what is shown, as it stands in the file
+    int x = 0, y = 0, width = 0, height = 0; // the region shown, in the file's orientation
     float *texels = nullptr;
-    float *light = nullptr; // of codes of 8 or 16 bits
+    float *light = nullptr; // linear values of 8- or 16-bit codes
     double largest = 0;
-    Digests outside{4}; // of what lies there
+    Digests outside{4}; // digests of texels outside the window
     bool loses = false;
     int64_t values_outside = 0;
 };
 
-// EXR: by names, as core/image/files/exr.c. Others: by place.
+// Chooses EXR's channels by name, as core/image/files/exr.c does, and others by position.
 bool choose_channels(Reading &reading, Picture &p)
 {
     static const char *const sets[][4] = {{"R", "G", "B", "A"}, {"Y", "A"}, {"V", "A"}};
@@ -65,7 +65,7 @@ bool choose_channels(Reading &reading, Picture &p)
     return reading.refuse("has no channels R, G and B, nor Y; rename them");
 }
 
-// What is shown of an EXR is its display window. Others are shown whole, wherever they lie.
+// An EXR shows its display window. Other formats are shown whole, wherever their window lies.
 void choose_window(Reading &reading, Picture &p)
 {
     const ImageSpec &s = p.spec;
@@ -91,18 +91,18 @@ void prepare_codes(Reading &reading, Picture &p)
         p.light = rg_light_of_codes((int)p.largest + 1, 0);
 }
 
-// A value as a texel has it, and whether that is the value.
+// Converts a value to a texel, and notes whether any bit was lost.
 float texel_of(Picture &p, double value, int slot)
 {
     const float nearest = (float)value;
-    if (p.largest == 0 || p.largest > 65535) // less are told apart as floats
+    if (p.largest == 0 || p.largest > 65535) // smaller integers are exact as floats
         p.loses = p.loses || (double)nearest < value || (double)nearest > value;
     if (slot >= p.colours || p.largest == 0)
         return nearest;
     return p.light ? p.light[(size_t)std::rint(value * p.largest)] : (float)rg_srgb_decode(value);
 }
 
-// Where a texel of the file is shown: Exif's orientations, by the corner of the first one.
+// The texel's place in the picture, by Exif's orientation, which tells the corner of the first one.
 size_t place_of(const Picture &p, int x, int y)
 {
     const int o = p.orientation;
@@ -121,7 +121,7 @@ void take_texel(Picture &p, const double *values, int x, int y)
             continue;
         if (is_inside)
             texel[p.slots[c]] = texel_of(p, values[c], p.slots[c]);
-        else if (values[c] != 0) { // of 0 is what lies around a smaller data window, too
+        else if (values[c] != 0) { // zeros also surround a smaller data window
             p.outside.add_value((size_t)p.slots[c], x, y, values[c]);
             p.values_outside++;
         }
@@ -141,7 +141,7 @@ void take_band(Picture &p, const Band &band)
 
 void take_memory(Reading &reading, Picture &p)
 {
-    // Of 0 is what a data window leaves out.
+    // calloc, because texels outside the data window are 0.
     p.texels = static_cast<float *>(
         calloc((size_t)rg_picture_reply_values(&reading.reply), sizeof(float)));
     if (!p.texels)
@@ -198,7 +198,7 @@ bool read_all(Reading &reading, ImageInput &input)
         p.channels > p.colours && !p.spec.get_int_attribute("oiio:UnassociatedAlpha", 0);
     if (!rg_picture_reply_is_possible(&reading.reply) ||
         !rg_picture_reply_fits(&reading.reply, reading.file_bytes))
-        return true; // the receiver says so
+        return true; // the receiver reports it
     take_memory(reading, p);
     return read_picture(reading, input, p) && tell_parts(reading, input);
 }
